@@ -1,0 +1,119 @@
+//! Rigid panels and the hinges between them: what nets, poses and pictures are made from.
+
+use glam::{DAffine3, DVec2, DVec3};
+
+/// Index of a panel in its [`PanelSet`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PanelId(pub usize);
+
+/// Index of a hinge in its [`PanelSet`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct HingeId(pub usize);
+
+/// What a panel is within its component.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum PanelKind {
+    /// Convex polygon at the top, perpendicular to the fold axis.
+    Top,
+    /// Convex polygon at the bottom.
+    Bottom,
+    /// Panel `index` of chain `chain`, counted from the top panel.
+    Side {
+        /// Index of the top panel's edge.
+        chain: usize,
+        /// 0 next to the top panel.
+        index: usize,
+    },
+}
+
+/// One rigid convex panel.
+///
+/// # Guarantees
+/// `outline` is a convex polygon (collinear vertices allowed), counter-clockwise seen from
+/// outside, in the panel's own plane coordinates in mm. `deployed` and `flat` are rigid motions
+/// (rotation and translation) from (x, y, 0) to the component's axes, in which outside is +z of
+/// the panel's coordinates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// What it is.
+    pub kind: PanelKind,
+    /// Corners in plane coordinates, mm.
+    pub outline: Vec<DVec2>,
+    /// Placement in the deployed state.
+    pub deployed: DAffine3,
+    /// Placement in the flat state.
+    pub flat: DAffine3,
+}
+
+impl Panel {
+    /// Corners in the deployed state, in the component's axes.
+    pub fn deployed_outline(&self) -> Vec<DVec3> {
+        self.outline.iter().map(|p| self.deployed.transform_point3(p.extend(0.0))).collect()
+    }
+
+    /// Edge `k` of the outline: from corner k to corner k + 1.
+    pub fn edge(&self, k: usize) -> [DVec2; 2] {
+        [self.outline[k], self.outline[(k + 1) % self.outline.len()]]
+    }
+}
+
+/// One side of a hinge: edge `edge` (from outline corner `edge` to `edge + 1`) of a panel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct HingeSide {
+    /// The panel.
+    pub panel: PanelId,
+    /// The edge of its outline.
+    pub edge: usize,
+}
+
+/// An edge that two panels share, whole, in every pose. The edges run in opposite directions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hinge {
+    /// The side nearer to the top panel, then the other.
+    pub sides: [HingeSide; 2],
+    /// The one hinge of the chain that folds by 180°.
+    pub is_fold: bool,
+    /// Angle by which the paper is folded away from the viewer outside, in radians, when
+    /// deployed: 0 is flat paper; always mountain (>= 0) for convex components.
+    pub deployed_rad: f64,
+    /// The same in the flat state: π for the fold hinge, else 0.
+    pub flat_rad: f64,
+}
+
+/// A component seen as panels joined by hinges.
+///
+/// # Guarantees
+/// Every hinge's two edges have the same length within 1e-9 mm; the graph is connected; every
+/// panel edge belongs to at most one hinge; an edge in no hinge is a slit (a free edge).
+#[derive(Debug, Clone, PartialEq)]
+pub struct PanelSet {
+    panels: Vec<Panel>,
+    hinges: Vec<Hinge>,
+}
+
+impl PanelSet {
+    /// Takes panels and hinges that keep the guarantees above.
+    pub fn new(panels: Vec<Panel>, hinges: Vec<Hinge>) -> Self {
+        let set = Self { panels, hinges };
+        debug_assert!(set.hinges.iter().all(|h| {
+            let [a, b] = h.sides.map(|s| set.panels[s.panel.0].edge(s.edge));
+            ((a[1] - a[0]).length() - (b[1] - b[0]).length()).abs() < 1e-9
+        }));
+        set
+    }
+
+    /// All panels, by id.
+    pub fn panels(&self) -> &[Panel] {
+        &self.panels
+    }
+
+    /// All hinges, by id.
+    pub fn hinges(&self) -> &[Hinge] {
+        &self.hinges
+    }
+
+    /// The panel with an id.
+    pub fn panel(&self, id: PanelId) -> &Panel {
+        &self.panels[id.0]
+    }
+}

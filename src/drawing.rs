@@ -1,0 +1,121 @@
+//! The neutral display list: everything that puts a mark on a page reads a [`Drawing`].
+//!
+//! Coordinates are millimetres, y up, origin at the bottom-left corner of the page; each back end
+//! flips or scales once. Styles are resolved here, so that back ends stay simple.
+
+use glam::DVec2;
+
+/// sRGB colour.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rgb(pub u8, pub u8, pub u8);
+
+/// What a mark means; exporters turn it into groups, layers or pens.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Layer {
+    /// Outlines to cut, tabs included.
+    Cut,
+    /// Free edges between neighbouring chains, cut too.
+    Slit,
+    /// Hinges that fold away from the viewer.
+    Mountain,
+    /// Hinges that fold towards the viewer.
+    Valley,
+    /// The hinge of a chain that folds by 180°.
+    FoldHinge,
+    /// Outline of what is glued here.
+    Glue,
+    /// Labels and names on pieces.
+    Label,
+    /// Scale bar, legend, title: belongs to the page, not to a piece.
+    Furniture,
+    /// Filled faces of pictures.
+    Picture,
+}
+
+/// A stroked line's look.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stroke {
+    /// Line width, mm.
+    pub width_mm: f64,
+    /// Colour.
+    pub colour: Rgb,
+    /// Lengths of dashes and gaps in turn, mm; empty for a solid line.
+    pub dash_mm: Vec<f64>,
+}
+
+/// One polyline.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polyline {
+    /// Corners.
+    pub points: Vec<DVec2>,
+    /// Whether the last corner is joined to the first.
+    pub is_closed: bool,
+}
+
+/// Where the anchor of a text is along its line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Align {
+    /// Anchor at the left end.
+    Start,
+    /// Anchor in the middle.
+    Middle,
+    /// Anchor at the right end.
+    End,
+}
+
+/// One line of text.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Text {
+    /// What it says.
+    pub content: String,
+    /// Anchor on the base line, mm.
+    pub anchor: DVec2,
+    /// Height of a capital letter, mm.
+    pub cap_height_mm: f64,
+    /// Turn about the anchor, counter-clockwise, radians.
+    pub angle_rad: f64,
+    /// Anchor's place on the line.
+    pub align: Align,
+    /// Colour.
+    pub colour: Rgb,
+}
+
+/// One mark.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Shape {
+    /// Lines, stroked and/or filled (even–odd) as one path.
+    Path {
+        /// The path's contours.
+        contours: Vec<Polyline>,
+        /// How it is stroked, if it is.
+        stroke: Option<Stroke>,
+        /// How it is filled, if it is.
+        fill: Option<Rgb>,
+    },
+    /// Text.
+    Text(Text),
+}
+
+/// One mark with its meaning.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mark {
+    /// Meaning.
+    pub layer: Layer,
+    /// Name of the piece that it belongs to, if any.
+    pub piece: Option<String>,
+    /// The mark itself.
+    pub shape: Shape,
+}
+
+/// A page, or a picture.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawing {
+    /// Title of the page.
+    pub title: String,
+    /// Width and height of the page, mm.
+    pub size_mm: DVec2,
+    /// Background; none is transparent.
+    pub ground: Option<Rgb>,
+    /// Marks, in painting order.
+    pub marks: Vec<Mark>,
+}

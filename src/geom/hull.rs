@@ -1,0 +1,383 @@
+use super::{Plane, polygon};
+use chull::{ConvexHull, ConvexHullWrapper};
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// Why there is no hull.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum HullError {
+    /// A coordinate is NaN or infinite.
+    #[error("a point is not finite")]
+    NotFinite,
+    /// Fewer than four points, or all in one plane.
+    #[error("the points lie in one plane")]
+    Flat,
+}
+
+/// One face of a hull: a convex polygon, coplanar triangles merged.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Facet {
+    plane: Plane,
+    outline: Vec<u32>,
+}
+
+impl Facet {
+    /// Plane, normal outwards.
+    pub fn plane(&self) -> &Plane {
+        &self.plane
+    }
+
+    /// Indices into the hull's vertices, counter-clockwise seen from outside.
+    pub fn outline(&self) -> &[u32] {
+        &self.outline
+    }
+}
+
+/// A convex polyhedron with a volume.
+///
+/// # Guarantees
+/// At least four vertices, each on at least three facets; facets are closed convex polygons
+/// facing outwards; no two neighbouring facets are coplanar within 1e-9 of the size. The order
+/// of vertices and facets depends on the input alone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hull {
+    vertices: Vec<DVec3>,
+    facets: Vec<Facet>,
+}
+
+/// Points are snapped to a grid of the longest side over this before the exact hull: fine enough
+/// to be invisible (5e-8 mm on a model of 200 mm), coarse enough to keep its integers short.
+const GRID: f64 = (1u64 << 32) as f64;
+
+/// Facets whose vertices are within this share of the size of one plane are merged.
+const COPLANAR: f64 = 2e-9;
+
+/// With more points than this, those that lie inside the hull of few extreme ones go first.
+const PREFILTER_ABOVE: usize = 120;
+
+impl Hull {
+    /// Convex hull of points, by exact integer quickhull.
+    pub fn of_points(points: &[DVec3]) -> Result<Self, HullError> {
+        if points.iter().any(|p| !p.is_finite()) {
+            return Err(HullError::NotFinite);
+        }
+        let (lo, hi) = points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| {
+            (lo.min(p), hi.max(p))
+        });
+        let size = (hi - lo).max_element();
+        if points.len() < 4 || size <= 0.0 {
+            return Err(HullError::Flat);
+        }
+        let mut points = points.to_vec();
+        points.sort_by(|a, b| a.to_array().partial_cmp(&b.to_array()).unwrap_or(std::cmp::Ordering::Equal));
+        points.dedup();
+        if points.len() > PREFILTER_ABOVE {
+            points = outer_points(points, lo, size)?;
+        }
+        let triangles = triangles_of(&points, lo, size)?;
+        merge_facets(&points, &triangles, size)
+    }
+
+    /// Corners.
+    pub fn vertices(&self) -> &[DVec3] {
+        &self.vertices
+    }
+
+    /// Faces.
+    pub fn facets(&self) -> &[Facet] {
+        &self.facets
+    }
+
+    /// Corners of a facet.
+    pub fn facet_points<'a>(&'a self, facet: &'a Facet) -> impl Iterator<Item = DVec3> + 'a {
+        facet.outline.iter().map(|&v| self.vertices[v as usize])
+    }
+
+    /// Triangles (fans of the facets) as vertex indices, facing outwards.
+    pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
+        self.facets.iter().flat_map(|f| f.outline.windows(2).skip(1).map(|w| [f.outline[0], w[0], w[1]]))
+    }
+
+    /// Enclosed volume.
+    pub fn volume(&self) -> f64 {
+        let o = self.vertices[0];
+        self.triangles()
+            .map(|t| {
+                let [a, b, c] = t.map(|v| self.vertices[v as usize] - o);
+                a.dot(b.cross(c)) / 6.0
+            })
+            .sum()
+    }
+
+    /// Centre of the volume.
+    pub fn centroid(&self) -> DVec3 {
+        let o = self.vertices[0];
+        let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
+        for t in self.triangles() {
+            let [a, b, c] = t.map(|v| self.vertices[v as usize] - o);
+            let w = a.dot(b.cross(c));
+            sum += (a + b + c) * (w / 4.0);
+            weight += w;
+        }
+        o + sum / weight
+    }
+
+    /// Support function: the largest `direction · x` over the hull.
+    pub fn support(&self, direction: DVec3) -> f64 {
+        self.vertices.iter().map(|v| direction.dot(*v)).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// The part behind the plane (`normal · x <= offset`). `None` where no volume is left.
+    pub fn clip(&self, plane: &Plane) -> Option<Self> {
+        if self.support(plane.normal()) <= plane.offset() {
+            return Some(self.clone());
+        }
+        let mut points: Vec<DVec3> =
+            self.vertices.iter().copied().filter(|&v| plane.distance(v) <= 0.0).collect();
+        points.extend(self.section(plane));
+        Self::of_points(&points).ok()
+    }
+
+    /// Corners of the section by a plane, counter-clockwise seen from the side that the normal
+    /// points to; empty where the plane misses the hull.
+    pub fn section(&self, plane: &Plane) -> Vec<DVec3> {
+        let mut cut = Vec::new();
+        for facet in &self.facets {
+            for (k, &a) in facet.outline.iter().enumerate() {
+                let b = facet.outline[(k + 1) % facet.outline.len()];
+                if a > b {
+                    continue;
+                }
+                let (p, q) = (self.vertices[a as usize], self.vertices[b as usize]);
+                let (dp, dq) = (plane.distance(p), plane.distance(q));
+                if (dp <= 0.0) != (dq <= 0.0) {
+                    cut.push(plane.project(p + (q - p) * (dp / (dp - dq))));
+                }
+            }
+        }
+        let (x, y) = plane.basis();
+        let flat: Vec<_> = cut.iter().map(|p| glam::DVec2::new(x.dot(*p), y.dot(*p))).collect();
+        let origin = plane.normal() * plane.offset();
+        polygon::convex_hull(&flat).into_iter().map(|p| origin + x * p.x + y * p.y).collect()
+    }
+}
+
+/// Drops the points that lie inside the hull of the extreme ones in 26 + 64 directions.
+fn outer_points(points: Vec<DVec3>, lo: DVec3, size: f64) -> Result<Vec<DVec3>, HullError> {
+    let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
+    let extreme: std::collections::BTreeSet<usize> = (0..90)
+        .filter_map(|k| {
+            let z = 1.0 - (2.0 * k as f64 + 1.0) / 90.0;
+            let r = (1.0 - z * z).sqrt();
+            let d = DVec3::new(r * (golden * k as f64).cos(), r * (golden * k as f64).sin(), z);
+            (0..points.len()).max_by(|&i, &j| d.dot(points[i]).total_cmp(&d.dot(points[j])).then(j.cmp(&i)))
+        })
+        .collect();
+    let core: Vec<DVec3> = extreme.iter().map(|&i| points[i]).collect();
+    let Ok(triangles) = triangles_of(&core, lo, size) else { return Ok(points) };
+    let planes: Vec<Plane> = triangles
+        .iter()
+        .filter_map(|t| {
+            let [a, b, c] = t.map(|v| core[v]);
+            Plane::through(a, (b - a).cross(c - a))
+        })
+        .collect();
+    let keep = |p: &DVec3| planes.iter().any(|plane| plane.distance(*p) > -COPLANAR * size);
+    Ok(points.into_iter().filter(keep).collect())
+}
+
+/// Outward triangles of the hull, as indices into `points` (which are sorted and distinct).
+fn triangles_of(points: &[DVec3], lo: DVec3, size: f64) -> Result<Vec<[usize; 3]>, HullError> {
+    let mut by_cell = BTreeMap::new();
+    for (i, p) in points.iter().enumerate() {
+        let cell = ((*p - lo) / size * GRID).round();
+        by_cell.entry([cell.x as i64, cell.y as i64, cell.z as i64]).or_insert(i);
+    }
+    let cells: Vec<[i64; 3]> = by_cell.keys().copied().collect();
+    let origin_index: Vec<usize> = by_cell.values().copied().collect();
+    let fast: Vec<Vec<f64>> = cells.iter().map(|c| c.map(|x| x as f64 / GRID).to_vec()).collect();
+    let (corners, indices) = match ConvexHull::try_new(&fast, 1e-13, None) {
+        Ok(hull) if is_closed(&hull.vertices_indices().1) => hull.vertices_indices(),
+        _ => ConvexHullWrapper::try_new(&fast, None).map_err(|_| HullError::Flat)?.vertices_indices(),
+    };
+    let find = |corner: &[f64]| {
+        let cell = [0, 1, 2].map(|k| (corner[k] * GRID).round() as i64);
+        cells.binary_search(&cell).ok().map(|i| origin_index[i])
+    };
+    let map: Option<Vec<usize>> = corners.iter().map(|c| find(c)).collect();
+    let map = map.ok_or(HullError::Flat)?;
+    Ok(indices.chunks_exact(3).map(|t| [map[t[0]], map[t[1]], map[t[2]]]).collect())
+}
+
+/// Whether triangles form a closed surface of Euler characteristic 2.
+fn is_closed(indices: &[usize]) -> bool {
+    let mut edges = std::collections::BTreeSet::new();
+    let mut corners = std::collections::BTreeSet::new();
+    for t in indices.chunks_exact(3) {
+        for k in 0..3 {
+            corners.insert(t[k]);
+            if !edges.insert((t[k], t[(k + 1) % 3])) {
+                return false;
+            }
+        }
+    }
+    let faces = indices.len() / 3;
+    edges.iter().all(|&(a, b)| edges.contains(&(b, a))) && corners.len() + faces == edges.len() / 2 + 2
+}
+
+fn merge_facets(points: &[DVec3], triangles: &[[usize; 3]], size: f64) -> Result<Hull, HullError> {
+    let mut triangles: Vec<[usize; 3]> = triangles
+        .iter()
+        .map(|t| {
+            let first = (0..3).min_by_key(|&k| t[k]).unwrap_or(0);
+            [t[first], t[(first + 1) % 3], t[(first + 2) % 3]]
+        })
+        .collect();
+    triangles.sort_unstable();
+    let corner = |t: &[usize; 3]| t.map(|v| points[v]);
+    let doubled: Vec<DVec3> = triangles
+        .iter()
+        .map(|t| {
+            let [a, b, c] = corner(t);
+            (b - a).cross(c - a)
+        })
+        .collect();
+    let across: BTreeMap<(usize, usize), usize> = triangles
+        .iter()
+        .enumerate()
+        .flat_map(|(i, t)| (0..3).map(move |k| ((t[k], t[(k + 1) % 3]), i)))
+        .collect();
+
+    // Grow each facet from its largest triangle, whose plane is the most trustworthy.
+    let mut order: Vec<usize> = (0..triangles.len()).collect();
+    order.sort_by(|&i, &j| doubled[j].length_squared().total_cmp(&doubled[i].length_squared()).then(i.cmp(&j)));
+    let mut facet_of = vec![usize::MAX; triangles.len()];
+    let mut planes: Vec<Plane> = Vec::new();
+    for seed in order {
+        if facet_of[seed] != usize::MAX {
+            continue;
+        }
+        let Some(plane) = Plane::through(points[triangles[seed][0]], doubled[seed]) else { continue };
+        let id = planes.len();
+        planes.push(plane);
+        facet_of[seed] = id;
+        let mut stack = vec![seed];
+        while let Some(i) = stack.pop() {
+            let t = triangles[i];
+            for k in 0..3 {
+                let Some(&next) = across.get(&(t[(k + 1) % 3], t[k])) else { continue };
+                let fits = || corner(&triangles[next]).iter().all(|&p| plane.distance(p).abs() <= COPLANAR * size);
+                if facet_of[next] == usize::MAX && fits() {
+                    facet_of[next] = id;
+                    stack.push(next);
+                }
+            }
+        }
+    }
+    let mut borders: Vec<BTreeMap<usize, usize>> = vec![BTreeMap::new(); planes.len()];
+    for (i, t) in triangles.iter().enumerate() {
+        for k in 0..3 {
+            let (a, b) = (t[k], t[(k + 1) % 3]);
+            let other = across.get(&(b, a)).map_or(usize::MAX, |&o| facet_of[o]);
+            if facet_of[i] != usize::MAX && other != facet_of[i] {
+                borders[facet_of[i]].insert(a, b);
+            }
+        }
+    }
+    collect_hull(points, &planes, &borders)
+}
+
+/// Joins the border edges of each facet into its outline.
+fn collect_hull(points: &[DVec3], planes: &[Plane], borders: &[BTreeMap<usize, usize>]) -> Result<Hull, HullError> {
+    let mut used = BTreeMap::new();
+    let mut facets = Vec::new();
+    for (plane, next) in planes.iter().zip(borders) {
+        let Some((&start, _)) = next.first_key_value() else { continue };
+        let mut outline = vec![start];
+        let mut at = next[&start];
+        while at != start && outline.len() <= next.len() {
+            outline.push(at);
+            at = *next.get(&at).ok_or(HullError::Flat)?;
+        }
+        if outline.len() >= 3 {
+            let outline = outline
+                .into_iter()
+                .map(|v| {
+                    let fresh = used.len() as u32;
+                    *used.entry(v).or_insert(fresh)
+                })
+                .collect();
+            facets.push(Facet { plane: *plane, outline });
+        }
+    }
+    let mut vertices = vec![DVec3::ZERO; used.len()];
+    for (v, k) in used {
+        vertices[k as usize] = points[v];
+    }
+    if vertices.len() < 4 || facets.len() < 4 {
+        return Err(HullError::Flat);
+    }
+    Ok(Hull { vertices, facets })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DQuat;
+
+    fn grid_cube(n: usize) -> Vec<DVec3> {
+        let turn = DQuat::from_euler(glam::EulerRot::XYZ, 0.4, 0.7, -1.3);
+        let mut points = Vec::new();
+        for i in 0..=n {
+            for j in 0..=n {
+                for k in 0..=n {
+                    if [i, j, k].iter().any(|&x| x == 0 || x == n) {
+                        points.push(turn * (DVec3::new(i as f64, j as f64, k as f64) / n as f64));
+                    }
+                }
+            }
+        }
+        points
+    }
+
+    #[test]
+    fn a_turned_gridded_cube_has_six_facets_and_volume_one() {
+        let hull = Hull::of_points(&grid_cube(8)).unwrap();
+        assert!((hull.volume() - 1.0).abs() < 1e-8, "{}", hull.volume());
+        assert_eq!(hull.facets().len(), 6);
+        assert!(hull.facets().iter().all(|f| hull.facet_points(f).all(|p| f.plane().distance(p).abs() < 1e-8)));
+    }
+
+    #[test]
+    fn flat_and_bad_points_are_refused() {
+        let flat: Vec<DVec3> = (0..10).map(|k| DVec3::new(k as f64, (k * k) as f64, 0.0)).collect();
+        assert_eq!(Hull::of_points(&flat), Err(HullError::Flat));
+        assert_eq!(Hull::of_points(&[DVec3::NAN; 5]), Err(HullError::NotFinite));
+        assert_eq!(Hull::of_points(&[]), Err(HullError::Flat));
+    }
+
+    #[test]
+    fn clipping_halves_a_cube() {
+        let hull = Hull::of_points(&grid_cube(2)).unwrap();
+        let plane = Plane::through(hull.centroid(), DVec3::new(1.0, 2.0, 3.0)).unwrap();
+        let half = hull.clip(&plane).unwrap();
+        assert!((half.volume() - 0.5).abs() < 1e-7);
+        assert!(half.vertices().iter().all(|&v| plane.distance(v) < 1e-7));
+        let section = hull.section(&plane);
+        assert!(section.len() >= 3 && section.iter().all(|&p| plane.distance(p).abs() < 1e-12));
+    }
+
+    #[test]
+    fn all_input_points_are_inside() {
+        let mut state = 1u64;
+        let mut next = || {
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+        };
+        let points: Vec<DVec3> = (0..3000).map(|_| DVec3::new(next(), next(), next()).normalize() * 50.0).collect();
+        let hull = Hull::of_points(&points).unwrap();
+        for f in hull.facets() {
+            assert!(points.iter().all(|&p| f.plane().distance(p) < 1e-6));
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Planes, convex hulls and polygons: the geometry that every stage shares.
+
+pub mod eigen;
+mod hull;
+mod plane;
+pub mod polygon;
+
+pub use hull::{Facet, Hull, HullError};
+pub use plane::Plane;

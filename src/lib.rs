@@ -1,0 +1,26 @@
+//! **tatamu** (畳む, "to fold up flat") turns a 3D mesh into a paper model that folds flat.
+//!
+//! The pipeline, in the order of the data; each stage is a function from one checked type to the
+//! next:
+//!
+//! ```text
+//! mesh -> segment -> hull + joints -> component -> model -> net -> sheet -> drawing -> export
+//! ```
+//!
+//! The method is that of the paper "Semi-Automatic
+//! Conversion of 3D Shape into Flat-Foldable Polygonal Model"; section and equation numbers in these docs are
+//! that paper's. Lengths are millimetres, angles radians, unless a name says otherwise.
+#![warn(clippy::print_stdout, clippy::print_stderr)]
+
+pub mod component;
+pub mod drawing;
+pub mod export;
+pub mod geom;
+pub mod mesh;
+pub mod model;
+pub mod net;
+pub mod progress;
+pub mod render;
+pub mod segment;
+pub mod sheet;
+pub mod units;

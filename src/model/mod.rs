@@ -1,0 +1,1 @@
+//! Joints between components, their tree, and the model's states.

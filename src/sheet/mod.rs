@@ -1,0 +1,1 @@
+//! Pieces placed on sheets of paper, with page furniture.

@@ -1,0 +1,1 @@
+//! Lengths with units, as users write them.
