@@ -83,7 +83,7 @@ impl Task<'_> {
         let clearance = solid.clearance();
         let mut lack_mm = (least - clearance.width_mm).max(0.0) + (least - clearance.length_mm).max(0.0);
         for j in 0..solid.chains.len() {
-            lack_mm += self.room_rows(&solid, j).iter().map(|r| r.1.max(0.0)).sum::<f64>();
+            lack_mm += self.rooms(j).map(|room| (least - room.measure(&solid, j)).max(0.0)).sum::<f64>();
         }
         Fitted { solid, spots: self.spots.clone(), error_mm, lack_mm }
     }
@@ -189,30 +189,26 @@ impl Task<'_> {
                     lp.at_most(terms, width - least);
                 }
             }
-            for (mut terms, excess) in self.room_terms(solid, freedom, j) {
-                terms.push((lack, -1.0));
-                lp.at_most(terms, -excess);
+            let lengths = (0..solid.chains[j].facets.len()).map(Room::Length);
+            for room in lengths.chain(self.rooms(j)) {
+                let now = room.measure(solid, j);
+                if now < least + 6.0 * region {
+                    let mut terms = freedom.of_profile(solid, j, |s| -room.measure(s, j));
+                    terms.push((lack, -1.0));
+                    lp.at_most(terms, now - least);
+                }
             }
             self.fold_row(solid, freedom, j, lp);
         }
     }
 
-    /// What chain j lacks in length and in clear distance of its fold vertex: measure, excess.
-    fn room_rows(&self, solid: &Solid, j: usize) -> Vec<(Room, f64)> {
-        let least = self.target.min_panel_mm * MARGIN;
-        let mut rooms: Vec<Room> = (0..solid.chains[j].facets.len()).map(Room::Length).collect();
-        if let FoldSpot::Inside(i) = self.spots[j] {
-            rooms.extend([Room::Above(i), Room::Below(i)]);
-        }
-        rooms.into_iter().map(|room| (room, least - room.measure(solid, j))).collect()
-    }
-
-    fn room_terms(&self, solid: &Solid, freedom: &Freedom, j: usize) -> Vec<(Terms, f64)> {
-        let row = |(room, excess): (Room, f64)| {
-            let terms = freedom.of_profile(solid, j, |s| -room.measure(s, j));
-            (terms, excess)
+    /// Distances around the fold vertex of chain j that must not be too small.
+    fn rooms(&self, j: usize) -> impl Iterator<Item = Room> + use<> {
+        let clear = match self.spots[j] {
+            FoldSpot::Inside(i) => vec![Room::Above(i), Room::Below(i)],
+            FoldSpot::Bend(_) => Vec::new(),
         };
-        self.room_rows(solid, j).into_iter().map(row).collect()
+        clear.into_iter()
     }
 
     /// A fold vertex at a bend stays the balance point.
@@ -406,13 +402,9 @@ mod tests {
                 let hull = ellipsoid(a);
                 let target = Target { hull: &hull, joints: vec![], top_edges: n, profile_vertices: k, min_panel_mm: 3.0 };
                 let t = std::time::Instant::now();
-                let mut solid = super::super::start::circumscribe(&target, n);
-                let spots = super::super::start::fold_spots(&mut solid);
-                let first = polytope(&solid);
-                let e0 = crate::component::distance::hausdorff(&first, &Polytope::of_hull(&hull));
-                let c0 = solid.clearance();
-                let fitted = fit(&target, solid, spots, 30);
-                println!("{n} {k} {a}: start {e0:.2} {c0:?} end {:.3} lack {:.3} {:?} {:?}", fitted.error_mm, fitted.lack_mm, fitted.solid.clearance(), t.elapsed());
+                let c = crate::component::convert(&target).unwrap();
+                println!("{n} {k} {a}: {:.3} trimmed {:.3} {:?} {:?} {:?} gap {:e}", c.hausdorff_mm(), c.trimmed_mm2(), c.narrowest_panel(), c.lowest_panel(), t.elapsed(),
+                   c.profiles().iter().map(|p| p.gap_mm().abs()/p.mean_segment_mm()).fold(0.0, f64::max));
             }
         }
     }

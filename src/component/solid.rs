@@ -207,6 +207,12 @@ impl Solid {
             .collect()
     }
 
+    /// Where the edge of chain j meets that of the next chain in the section at height v.
+    pub fn corner_at(&self, j: usize, v_mm: f64) -> DVec2 {
+        let (here, there) = (&self.chains[j], &self.chains[self.next(j)]);
+        meeting_point(here, here.u_at(v_mm), there, there.u_at(v_mm))
+    }
+
     /// Width of chain j at height v: the length of its edge of the section there.
     pub fn width_at(&self, j: usize, v_mm: f64) -> f64 {
         let [before, here, after] =
