@@ -50,9 +50,9 @@ pub(super) fn assemble(solid: &Solid, spots: &[FoldSpot]) -> Result<Assembled, A
     }
     let trimmed_mm2 = layer::trim(solid, &mut sides);
     let mut build = Builder { solid, profiles: &profiles, sides, panels: Vec::new(), hinges: Vec::new() };
-    build.match_hinges()?;
+    let spans = build.match_hinges()?;
     build.ends();
-    build.side_panels()?;
+    build.side_panels(&spans)?;
     let panels = PanelSet::new(build.panels, build.hinges);
     Ok(Assembled { profiles, panels, trimmed_mm2 })
 }
@@ -126,9 +126,11 @@ impl Builder<'_> {
         self.profiles[j].points()[i].distance(self.profiles[j].points()[i + 1])
     }
 
-    /// Gives the two panels at each inner hinge the same hinge edge: what both have left of it.
-    fn match_hinges(&mut self) -> Result<(), AssembleError> {
-        for j in 0..self.profiles.len() {
+    /// Gives the two panels at each inner hinge the same hinge edge, what both have left of it, and
+    /// returns these edges by chain.
+    fn match_hinges(&mut self) -> Result<Vec<Vec<Span>>, AssembleError> {
+        let mut spans = vec![Vec::new(); self.profiles.len()];
+        for (j, spans) in spans.iter_mut().enumerate() {
             for i in 1..self.profiles[j].points().len() - 1 {
                 let (above, below) = (self.index(j, i - 1), self.index(j, i));
                 let height = self.length(j, i);
@@ -140,9 +142,10 @@ impl Builder<'_> {
                 }
                 set_span(&mut self.sides[above].outline, 0.0, common);
                 set_span(&mut self.sides[below].outline, height, common);
+                spans.push(common);
             }
         }
-        Ok(())
+        Ok(spans)
     }
 
     /// Top and bottom panel.
@@ -162,7 +165,7 @@ impl Builder<'_> {
         self.panels.push(Panel { kind: PanelKind::Bottom, outline, deployed: turned, flat: turned });
     }
 
-    fn side_panels(&mut self) -> Result<(), AssembleError> {
+    fn side_panels(&mut self, spans: &[Vec<Span>]) -> Result<(), AssembleError> {
         let n = self.solid.chains.len();
         for j in 0..n {
             let count = self.profiles[j].points().len() - 1;
@@ -171,34 +174,24 @@ impl Builder<'_> {
                 let outline = self.sides[self.index(j, i)].outline.clone();
                 self.panels.push(Panel { kind: PanelKind::Side { chain: j, index: i }, outline, deployed, flat });
             }
-            let id = |builder: &Self, i: usize| PanelId(2 + builder.index(j, i));
-            let top_edge = (j + n - 1) % n;
-            self.hinge(PanelId(0), top_edge, id(self, 0), self.length(j, 0), j, false)?;
-            for i in 1..count {
-                let above = id(self, i - 1);
-                let edge = edge_at(&self.panels[above.0].outline, 0.0).ok_or(AssembleError::Vanished(j))?;
-                let is_fold = i == self.profiles[j].fold_vertex();
-                self.hinge(above, edge, id(self, i), self.length(j, i), j, is_fold)?;
+            let first = 2 + self.index(j, 0);
+            let side = |builder: &Self, i: usize, y: f64, wanted: Option<Span>| {
+                let panel = PanelId(first + i);
+                let outline = &builder.panels[panel.0].outline;
+                let edge = wanted.map_or_else(|| edge_at(outline, y), |w| edge_of(outline, y, w));
+                edge.map(|edge| HingeSide { panel, edge }).ok_or(AssembleError::Vanished(j))
+            };
+            let top = HingeSide { panel: PanelId(0), edge: (j + n - 1) % n };
+            self.push_hinge(top, side(self, 0, self.length(j, 0), None)?, false);
+            for (i, &span) in (1..count).zip(&spans[j]) {
+                let above = side(self, i - 1, 0.0, Some(span))?;
+                let below = side(self, i, self.length(j, i), Some(span))?;
+                self.push_hinge(above, below, i == self.profiles[j].fold_vertex());
             }
-            let last = id(self, count - 1);
-            let edge = edge_at(&self.panels[last.0].outline, 0.0).ok_or(AssembleError::Vanished(j))?;
             // The bottom outline is reversed: corner j stands at n − 1 − j.
-            self.push_hinge(HingeSide { panel: last, edge }, HingeSide { panel: PanelId(1), edge: n - 1 - j }, false);
+            let bottom = HingeSide { panel: PanelId(1), edge: n - 1 - j };
+            self.push_hinge(side(self, count - 1, 0.0, None)?, bottom, false);
         }
-        Ok(())
-    }
-
-    fn hinge(
-        &mut self,
-        above: PanelId,
-        edge: usize,
-        below: PanelId,
-        height: f64,
-        chain: usize,
-        is_fold: bool,
-    ) -> Result<(), AssembleError> {
-        let upper = edge_at(&self.panels[below.0].outline, height).ok_or(AssembleError::Vanished(chain))?;
-        self.push_hinge(HingeSide { panel: above, edge }, HingeSide { panel: below, edge: upper }, is_fold);
         Ok(())
     }
 
@@ -242,15 +235,27 @@ fn edge_at(outline: &[DVec2], y: f64) -> Option<usize> {
         })
 }
 
-/// Least and largest x of the outline's edge at height `y`.
-fn span(outline: &[DVec2], y: f64) -> Option<(f64, f64)> {
+/// Corner `k` of exactly the edge `wanted` at height `y`.
+fn edge_of(outline: &[DVec2], y: f64, wanted: Span) -> Option<usize> {
+    let ends = |k: usize| (outline[k], outline[(k + 1) % outline.len()]);
+    (0..outline.len()).find(|&k| {
+        let (a, b) = ends(k);
+        a.y == y && b.y == y && (a.x.min(b.x), a.x.max(b.x)) == wanted
+    })
+}
+
+/// Least and largest x of an edge.
+type Span = (f64, f64);
+
+/// The outline's edge at height `y`.
+fn span(outline: &[DVec2], y: f64) -> Option<Span> {
     let k = edge_at(outline, y)?;
     let (a, b) = (outline[k].x, outline[(k + 1) % outline.len()].x);
     Some((a.min(b), a.max(b)))
 }
 
 /// Makes `wanted` an edge of its own within the outline's edge at height `y`.
-fn set_span(outline: &mut Vec<DVec2>, y: f64, wanted: (f64, f64)) {
+fn set_span(outline: &mut Vec<DVec2>, y: f64, wanted: Span) {
     let Some(k) = edge_at(outline, y) else { return };
     let next = (k + 1) % outline.len();
     let forward = outline[next].x > outline[k].x;

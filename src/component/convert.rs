@@ -5,7 +5,7 @@ use super::assemble::{AssembleError, Assembled, assemble};
 use super::distance::{Polytope, hausdorff};
 use super::fit::{Fitted, fit, polytope};
 use super::panel::{PanelId, PanelKind, PanelSet};
-use super::profile::{Profile, balance};
+use super::profile::{Profile, balance, imbalance};
 use super::solid::{FaceId, Solid};
 use super::start::{circumscribe, fold_spots};
 use super::target::{FoldSpot, JointTarget, Target};
@@ -207,17 +207,24 @@ fn attempts(target: &Target) -> Vec<(usize, usize)> {
     }
 }
 
-/// Panels of a fitted solid whose joint panels are uncreased.
+/// Imbalance up to which a fold vertex at a bend is exact, as a share of the height.
+const EXACT: f64 = 1e-11;
+
+/// Panels of a fitted solid, folded at the balance points, whose joint panels are uncreased.
 fn assemble_unbroken(fitted: &Fitted) -> Result<Assembled, AssembleError> {
-    for (chain, spot) in fitted.spots.iter().enumerate() {
-        if matches!(spot, FoldSpot::Inside(_)) {
-            let at = balance(&fitted.solid.profile(chain));
-            if fitted.solid.chains[chain].facets[at.segment].is_joint {
-                return Err(AssembleError::CreasedJoint(chain));
-            }
+    let solid = &fitted.solid;
+    let size = solid.top_mm - solid.bottom_mm;
+    let spots = fitted.spots.iter().enumerate().map(|(chain, &spot)| {
+        let profile = solid.profile(chain);
+        let at = balance(&profile);
+        match spot {
+            FoldSpot::Bend(i) if imbalance(&profile, i + 1).abs() <= EXACT * size => Ok(spot),
+            _ if solid.chains[chain].facets[at.segment].is_joint => Err(AssembleError::CreasedJoint(chain)),
+            _ => Ok(FoldSpot::Inside(at.segment)),
         }
-    }
-    assemble(&fitted.solid, &fitted.spots)
+    });
+    let spots = spots.collect::<Result<Vec<_>, _>>()?;
+    assemble(solid, &spots)
 }
 
 /// Hull of the extreme points in evenly spread directions.
@@ -235,4 +242,144 @@ fn simplified(hull: &Hull, directions: usize) -> Result<Hull, HullError> {
         })
         .collect();
     Hull::of_points(&points).or_else(|_| Ok(hull.clone()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::component::Seat;
+    use glam::DVec2;
+    use proptest::prelude::*;
+
+    /// Points spread over an ellipsoid: round, needle-like and plate-like hulls.
+    fn blob(axes: DVec3, count: usize) -> Vec<DVec3> {
+        let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
+        (0..count)
+            .map(|k| {
+                let z = 1.0 - (2.0 * k as f64 + 1.0) / count as f64;
+                let r = (1.0 - z * z).sqrt();
+                DVec3::new(r * (golden * k as f64).cos(), r * (golden * k as f64).sin(), z) * axes
+            })
+            .collect()
+    }
+
+    fn target(hull: &Hull, joints: Vec<JointTarget>) -> Target<'_> {
+        Target { hull, joints, top_edges: 6, profile_vertices: 6, min_panel_mm: 3.0 }
+    }
+
+    fn close(a: DVec3, b: DVec3) -> bool {
+        a.distance(b) < 1e-8
+    }
+
+    /// Pairs of panels that overlap in one of the flat layers, which face up and down.
+    fn flat_overlaps(component: &Component) -> usize {
+        let panels = component.panels().panels();
+        let flat = |p: &crate::component::Panel| -> Vec<DVec2> {
+            let mut corners: Vec<DVec2> =
+                p.outline.iter().map(|q| p.flat.transform_point3(q.extend(0.0)).truncate()).collect();
+            if crate::geom::polygon::area(&corners) < 0.0 {
+                corners.reverse();
+            }
+            corners
+        };
+        let faces_up = |p: &crate::component::Panel| p.flat.matrix3.z_axis.z > 0.0;
+        let clash = |a: &crate::component::Panel, b: &crate::component::Panel| {
+            faces_up(a) == faces_up(b) && crate::geom::polygon::convex_overlap(&flat(a), &flat(b), 1e-5)
+        };
+        panels.iter().enumerate().map(|(k, a)| panels[k + 1..].iter().filter(|b| clash(a, b)).count()).sum()
+    }
+
+    /// All that must hold for any component.
+    fn check(component: &Component) {
+        assert_eq!(flat_overlaps(component), 0);
+        for profile in component.profiles() {
+            assert!(profile.gap_mm().abs() <= 1e-9 * profile.mean_segment_mm());
+        }
+        let set = component.panels();
+        for hinge in set.hinges() {
+            for state in [|p: &crate::component::Panel| p.deployed, |p: &crate::component::Panel| p.flat] {
+                let [a, b] = hinge.sides.map(|s| {
+                    let panel = set.panel(s.panel);
+                    panel.edge(s.edge).map(|q| state(panel).transform_point3(q.extend(0.0)))
+                });
+                assert!(close(a[0], b[1]) && close(a[1], b[0]), "hinge torn: {a:?} {b:?}");
+            }
+        }
+        let floor = component.solid().bottom_mm;
+        for panel in set.panels() {
+            assert!(crate::geom::polygon::area(&panel.outline) > 0.0);
+            let flat = panel.outline.iter().map(|q| panel.flat.transform_point3(q.extend(0.0)));
+            assert!(flat.into_iter().all(|q| (q.z - floor).abs() < 1e-9));
+        }
+        for hinge in set.hinges() {
+            let [a, b] = hinge.sides.map(|s| set.panel(s.panel).flat.matrix3.z_axis);
+            assert!((a.dot(b) - hinge.flat_rad.cos()).abs() < 1e-9);
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(10))]
+
+        #[test]
+        fn random_hulls_become_exactly_foldable(
+            axes in (12.0f64..90.0, 12.0f64..90.0, 12.0f64..90.0),
+            count in 12usize..120,
+            joint in prop::option::of((0.0f64..6.2, -0.8f64..0.8, 0.55f64..0.95)),
+        ) {
+            let axes = DVec3::new(axes.0, axes.1, axes.2);
+            let mut hull = Hull::of_points(&blob(axes, count)).unwrap();
+            let mut joints = Vec::new();
+            if let Some((angle_rad, slope_rad, share)) = joint {
+                let normal = (DVec2::from_angle(angle_rad) * slope_rad.cos()).extend(slope_rad.sin());
+                let offset_mm = hull.support(normal) * share;
+                let plane = crate::geom::Plane::through(normal * offset_mm, normal).unwrap();
+                hull = hull.clip(&plane).unwrap();
+                joints.push(JointTarget { seat: Seat::Side { angle_rad, slope_rad, offset_mm }, cover: vec![], within: vec![] });
+            }
+            let target = target(&hull, joints);
+            let component = convert(&target).unwrap();
+            check(&component);
+            for joint in &target.joints {
+                let panel = component.joint_panel(&target, joint).unwrap();
+                let Seat::Side { angle_rad, slope_rad, offset_mm } = joint.seat else { unreachable!() };
+                let normal = (DVec2::from_angle(angle_rad) * slope_rad.cos()).extend(slope_rad.sin());
+                for corner in component.panels().panel(panel).deployed_outline() {
+                    prop_assert!((normal.dot(corner) - offset_mm).abs() < 1e-8);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_box_is_matched_exactly() {
+        let corners: Vec<DVec3> = (0..8)
+            .map(|k| DVec3::new((k & 1) as f64 * 80.0, (k >> 1 & 1) as f64 * 50.0, (k >> 2) as f64 * 40.0) - DVec3::splat(20.0))
+            .collect();
+        let hull = Hull::of_points(&corners).unwrap();
+        let component = convert(&Target { top_edges: 4, ..target(&hull, vec![]) }).unwrap();
+        check(&component);
+        assert!(component.hausdorff_mm() < 0.05, "{}", component.hausdorff_mm());
+        assert_eq!(component.solid().chains.len(), 4);
+    }
+
+    #[test]
+    fn a_tiny_hull_gets_fewer_panels_rather_than_narrow_ones() {
+        let hull = Hull::of_points(&blob(DVec3::new(9.0, 8.0, 8.0), 60)).unwrap();
+        let component = convert(&target(&hull, vec![])).unwrap();
+        check(&component);
+        assert!(component.narrowest_panel().1 >= 3.0 && component.lowest_panel().1 >= 3.0);
+    }
+
+    /// Chains of a flaring bowl overlap when flat and are trimmed back.
+    #[test]
+    fn overlapping_flat_layers_are_trimmed() {
+        let mut points = blob(DVec3::new(60.0, 60.0, 20.0), 200);
+        points.retain(|p| p.z > -1.0);
+        points.extend(blob(DVec3::new(20.0, 80.0, 20.0), 100));
+        let hull = Hull::of_points(&points).unwrap();
+        for edges in [3, 5, 7, 9] {
+            let component = convert(&Target { top_edges: edges, ..target(&hull, vec![]) }).unwrap();
+            check(&component);
+        }
+    }
 }

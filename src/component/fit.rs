@@ -46,19 +46,18 @@ pub(super) fn fit(target: &Target, solid: Solid, spots: Vec<FoldSpot>, steps: us
     let hull = Polytope::of_hull(target.hull);
     let centre = target.hull.centroid();
     let radius_mm = target.hull.vertices().iter().map(|v| v.distance(centre)).fold(0.0, f64::max);
-    let mut task = Task { target, hull, spots, radius_mm };
-    let mut best = task.measure(task.restore(solid.clone()).unwrap_or(solid));
+    let task = Task { target, hull, spots, radius_mm };
+    let mut best = task.measure(task.restore(solid));
     let mut region = FIRST_REGION * radius_mm;
     for _ in 0..steps.min(STEPS) {
         if region < LAST_REGION * radius_mm {
             break;
         }
-        let next = task.step(&best.solid, region).and_then(|s| task.restore(s)).map(|s| task.measure(s));
+        let next = task.step(&best.solid, region).map(|s| task.measure(task.restore(s)));
         match next {
             Some(next) if task.merit(&next) < task.merit(&best) - 1e-6 * radius_mm => best = next,
             _ => region *= 0.4,
         }
-        task.spots.clone_from(&best.spots);
     }
     best
 }
@@ -83,6 +82,9 @@ impl Task<'_> {
         let clearance = solid.clearance();
         let mut lack_mm = (least - clearance.width_mm).max(0.0) + (least - clearance.length_mm).max(0.0);
         for j in 0..solid.chains.len() {
+            if let FoldSpot::Bend(i) = self.spots[j] {
+                lack_mm += imbalance(&solid.profile(j), i + 1).abs();
+            }
             lack_mm += self.rooms(j).map(|room| (least - room.measure(&solid, j)).max(0.0)).sum::<f64>();
         }
         Fitted { solid, spots: self.spots.clone(), error_mm, lack_mm }
@@ -198,7 +200,7 @@ impl Task<'_> {
                     lp.at_most(terms, now - least);
                 }
             }
-            self.fold_row(solid, freedom, j, lp);
+            self.fold_rows(solid, freedom, j, lp, lack);
         }
     }
 
@@ -212,13 +214,13 @@ impl Task<'_> {
     }
 
     /// A fold vertex at a bend stays the balance point.
-    fn fold_row(&self, solid: &Solid, freedom: &Freedom, j: usize, lp: &mut Programme) {
+    fn fold_rows(&self, solid: &Solid, freedom: &Freedom, j: usize, lp: &mut Programme, lack: usize) {
         let FoldSpot::Bend(i) = self.spots[j] else { return };
         let measure = |s: &Solid| imbalance(&s.profile(j), i + 1);
         let terms = freedom.of_profile(solid, j, measure);
         let now = measure(solid);
-        lp.at_most(terms.iter().copied(), -now);
-        lp.at_most(terms.iter().map(|&(k, a)| (k, -a)), now);
+        lp.at_most(terms.iter().copied().chain([(lack, -1.0)]), -now);
+        lp.at_most(terms.iter().map(|&(k, a)| (k, -a)).chain([(lack, -1.0)]), now);
     }
 
     /// Slopes fall from top to bottom, directions turn counter-clockwise.
@@ -283,16 +285,17 @@ impl Task<'_> {
     }
 
     /// Makes fold vertices at bends exact again after a linear step, by moving one plane beside
-    /// each (Newton's method on its offset). `None` where that fails or a panel vanishes.
-    fn restore(&self, mut solid: Solid) -> Option<Solid> {
+    /// each (Newton's method on its offset), where that is a small change.
+    fn restore(&self, mut solid: Solid) -> Solid {
         for j in 0..solid.chains.len() {
             if let FoldSpot::Bend(i) = self.spots[j] {
                 let free = if solid.chains[j].facets[i].is_joint { i + 1 } else { i };
-                exact_bend(&mut solid, j, i, free)?;
+                if let Some(exact) = exact_bend(&solid, j, i, free) {
+                    solid = exact;
+                }
             }
         }
-        let clearance = solid.clearance();
-        (clearance.width_mm > 0.0 && clearance.length_mm > 0.0).then_some(solid)
+        solid
     }
 }
 
@@ -320,26 +323,28 @@ impl Room {
     }
 }
 
-/// Moves facet `free` of chain j until the bend below facet `i` is the balance point.
-fn exact_bend(solid: &mut Solid, j: usize, i: usize, free: usize) -> Option<()> {
+/// The solid with facet `free` of chain j moved until the bend below facet `i` is the balance
+/// point. `None` where that takes more than a small move.
+fn exact_bend(solid: &Solid, j: usize, i: usize, free: usize) -> Option<Solid> {
+    let mut solid = solid.clone();
     let miss = |s: &Solid| imbalance(&s.profile(j), i + 1);
     let size = (solid.top_mm - solid.bottom_mm).abs();
+    let start = solid.chains[j].facets[free].offset_mm;
     let step = 1e-6 * size;
     for _ in 0..20 {
-        let now = miss(solid);
+        let now = miss(&solid);
         if now.abs() <= 1e-13 * size {
-            return Some(());
+            return Some(solid);
         }
         let base = solid.chains[j].facets[free].offset_mm;
         solid.chains[j].facets[free].offset_mm = base + step;
-        let slope = (miss(solid) - now) / step;
-        let next = base - now / slope;
-        if !next.is_finite() || (next - base).abs() > size {
+        let next = base - now * step / (miss(&solid) - now);
+        if !next.is_finite() || (next - start).abs() > 0.2 * size {
             return None;
         }
         solid.chains[j].facets[free].offset_mm = next;
     }
-    (miss(solid).abs() <= 1e-11 * size).then_some(())
+    (miss(&solid).abs() <= 1e-11 * size).then_some(solid)
 }
 
 /// A non-negative error not above `worst`, with a price of its own.
@@ -376,36 +381,4 @@ pub(super) fn polytope(solid: &Solid) -> Polytope {
         let (normal, offset) = solid.plane(face);
         (normal, offset, outline)
     }))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geom::Hull;
-
-    fn ellipsoid(a: DVec3) -> Hull {
-        let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
-        let points: Vec<DVec3> = (0..400)
-            .map(|k| {
-                let z = 1.0 - (2.0 * k as f64 + 1.0) / 400.0;
-                let r = (1.0 - z * z).sqrt();
-                DVec3::new(r * (golden * k as f64).cos(), r * (golden * k as f64).sin(), z) * a
-            })
-            .collect();
-        Hull::of_points(&points).unwrap()
-    }
-
-    #[test]
-    fn trial() {
-        for (n, k) in [(5, 6), (8, 6), (5, 3), (6, 6)] {
-            for a in [DVec3::splat(50.0), DVec3::new(80.0, 50.0, 40.0), DVec3::new(20.0, 90.0, 15.0)] {
-                let hull = ellipsoid(a);
-                let target = Target { hull: &hull, joints: vec![], top_edges: n, profile_vertices: k, min_panel_mm: 3.0 };
-                let t = std::time::Instant::now();
-                let c = crate::component::convert(&target).unwrap();
-                println!("{n} {k} {a}: {:.3} trimmed {:.3} {:?} {:?} {:?} gap {:e}", c.hausdorff_mm(), c.trimmed_mm2(), c.narrowest_panel(), c.lowest_panel(), t.elapsed(),
-                   c.profiles().iter().map(|p| p.gap_mm().abs()/p.mean_segment_mm()).fold(0.0, f64::max));
-            }
-        }
-    }
 }

@@ -23,8 +23,13 @@ pub(super) struct Side {
 }
 
 impl Side {
+    /// Outline in the layer, counter-clockwise (the lower layer's panels face down).
     fn in_layer(&self) -> Vec<DVec2> {
-        self.outline.iter().map(|&p| self.to_layer.transform_point2(p)).collect()
+        let mut outline: Vec<DVec2> = self.outline.iter().map(|&p| self.to_layer.transform_point2(p)).collect();
+        if !self.is_upper {
+            outline.reverse();
+        }
+        outline
     }
 
     /// Outline without what lies beyond the line through `corner` with normal `normal`. The
@@ -43,19 +48,22 @@ const OVERLAP_MM: f64 = 1e-6;
 /// Directions tried for the ray between two overlapping chains.
 const RAYS: usize = 33;
 
-/// Trims panels that overlap when flat. Returns the largest overlap area that was cut away, in
-/// mm² (0 where nothing was).
+/// Trims panels that overlap when flat: first only between the chains concerned, and where that
+/// is not enough at every corner, which always suffices: the rays then part the plane round the
+/// convex polygon. Returns the area that was cut away, mm².
 pub(super) fn trim(solid: &Solid, sides: &mut [Side]) -> f64 {
     let mut trimmed = 0.0;
     for is_upper in [true, false] {
-        let clashes = overlaps(sides, is_upper);
-        let n = solid.chains.len();
-        let is_next = |a: usize, b: usize| solid.next(a) == b || solid.next(b) == a;
-        let all = clashes.iter().any(|&(a, b)| !is_next(a, b));
-        for j in 0..n {
-            let k = solid.next(j);
-            if all || clashes.iter().any(|&(a, b)| (a, b) == (j.min(k), j.max(k))) {
-                trimmed += trim_corner(solid, sides, is_upper, j);
+        for everywhere in [false, true] {
+            let clashes = overlaps(sides, is_upper);
+            if clashes.is_empty() {
+                break;
+            }
+            for j in 0..solid.chains.len() {
+                let k = solid.next(j);
+                if everywhere || clashes.contains(&(j.min(k), j.max(k))) {
+                    trimmed += trim_corner(solid, sides, is_upper, j);
+                }
             }
         }
     }

@@ -145,43 +145,45 @@ fn lower_ends(solid: &mut Solid, min_panel_mm: f64) {
     }
 }
 
-/// Drops planes of chain j until `count` are left: first those outside the heights, then those
-/// whose loss adds the least area to the profile. Joint panels stay.
+/// A plane that keeps the profile from bulging by less than this on average is not worth a crease.
+const WORTH_MM: f64 = 0.05;
+
+/// Drops planes of chain j until `count` are left and all are worth having: first those outside
+/// the heights, then those whose loss adds the least area to the profile. Joint panels stay.
 fn thin_out(solid: &mut Solid, j: usize, count: usize) {
     let (top, bottom) = (solid.top_mm, solid.bottom_mm);
     let facets = &mut solid.chains[j].facets;
     loop {
-        let n = facets.len();
-        let bend = |k: usize| facets[k].meets(&facets[k + 1]);
-        let cost = |k: usize| {
-            let upper = if k == 0 { f64::INFINITY } else { bend(k - 1) };
-            let lower = if k + 1 == n { f64::NEG_INFINITY } else { bend(k) };
-            if lower >= top || upper <= bottom || upper <= lower {
-                return 0.0;
-            }
-            let (upper, lower) = (upper.min(top), lower.max(bottom));
-            // The gap between this plane and the nearer of its neighbours, summed over heights.
-            let steps = 12;
-            (0..steps)
-                .map(|s| {
-                    let v = lower + (upper - lower) * (f64::from(s) + 0.5) / f64::from(steps);
-                    let above = if k > 0 { facets[k - 1].u_at(v) } else { f64::INFINITY };
-                    let below = if k + 1 < n { facets[k + 1].u_at(v) } else { f64::INFINITY };
-                    (above.min(below) - facets[k].u_at(v)).min(1e6) * (upper - lower)
-                })
-                .sum()
-        };
-        let best = (0..n)
+        let best = (0..facets.len())
             .filter(|&k| !facets[k].is_joint)
-            .map(|k| (cost(k), k))
-            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            .map(|k| (bulge(facets, k, top, bottom), k))
+            .min_by(|a, b| a.0.0.total_cmp(&b.0.0).then(a.1.cmp(&b.1)));
         match best {
-            Some((cost, k)) if n > 1 && (n > count || cost <= 0.0) => {
+            Some(((_, mean_mm), k)) if facets.len() > 1 && (facets.len() > count || mean_mm < WORTH_MM) => {
                 facets.remove(k);
             }
             _ => return,
         }
     }
+}
+
+/// Area by which the profile would grow without plane k, mm², and its mean width, mm.
+fn bulge(facets: &[SideFacet], k: usize, top: f64, bottom: f64) -> (f64, f64) {
+    let bend = |k: usize| facets[k].meets(&facets[k + 1]);
+    let upper = if k == 0 { top } else { bend(k - 1).min(top) };
+    let lower = if k + 1 == facets.len() { bottom } else { bend(k).max(bottom) };
+    if upper <= lower {
+        return (0.0, 0.0);
+    }
+    let steps = 12;
+    let gaps = (0..steps).map(|s| {
+        let v = lower + (upper - lower) * (f64::from(s) + 0.5) / f64::from(steps);
+        let above = if k > 0 { facets[k - 1].u_at(v) } else { f64::INFINITY };
+        let below = facets.get(k + 1).map_or(f64::INFINITY, |f| f.u_at(v));
+        (above.min(below) - facets[k].u_at(v)).clamp(0.0, 1e6)
+    });
+    let mean_mm = gaps.sum::<f64>() / f64::from(steps);
+    (mean_mm * (upper - lower), mean_mm)
 }
 
 /// Where each chain's fold vertex should be: in the plane where the balance point lies, or, where
