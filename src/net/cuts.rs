@@ -29,6 +29,8 @@ pub(crate) struct Problem<'a> {
     pub(crate) sheet_mm: DVec2,
     /// Cost of cutting each hinge, by hinge.
     pub(crate) cut_cost: &'a [f64],
+    /// Whether fold hinges may be cut.
+    pub(crate) may_cut_folds: bool,
 }
 
 /// A set of cut hinges with its cost; the lower the better.
@@ -193,7 +195,11 @@ impl<'a> Mode<'a> {
                 self.items.push(Item { outline: placed_outline(set, panel, place), piece });
             }
         }
+        let is_allowed = |hinge: HingeId| {
+            self.problem.may_cut_folds || !set.hinges()[hinge.0].is_fold
+        };
         let mut choices: Vec<Choice> = (0..=count)
+            .filter(|&cut| is_allowed(chain.hinges[cut]))
             .map(|cut| {
                 let items: Vec<usize> =
                     (0..count).map(|i| start + i + if i < cut { 0 } else { count }).collect();

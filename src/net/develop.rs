@@ -4,14 +4,15 @@ use super::chains::Chains;
 use super::contour::cut_lines;
 use super::cuts::{Candidate, Problem, divide};
 use super::labels::Placer;
-use super::layout::{self, Layout, across, best_turn, edge, hinge_length, turn};
-use super::marks::creases;
+use super::layout::{self, Layout, across, best_turn, edge, hinge_length, measured, turn};
+use super::marks::{Crease, creases};
 use super::mesh::{EdgeKind, PieceMesh};
 use super::tabs::{self, Placed, Shapes, USEFUL_WIDTH_MM};
 use super::{JointMark, Net, NetWarning, Piece, PlacedPanel, Tab};
 use crate::component::{HingeId, PanelId, PanelSet};
 use crate::geom::polygon;
 use glam::{DAffine2, DVec2};
+use std::collections::BTreeMap;
 
 /// Hinges shorter than this cost extra to glue.
 const LONG_HINGE_MM: f64 = 15.0;
@@ -21,6 +22,9 @@ const MIDDLE_COST: f64 = 0.4;
 const FOLD_COST: f64 = 30.0;
 /// Cost of a hinge that has no room for a useful tab.
 const NO_TAB_COST: f64 = 10.0;
+
+/// A bounding box may be larger by this factor where the piece then lies straight.
+const NEAT_FACTOR: f64 = 1.12;
 
 /// Why a component has no net.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -85,18 +89,28 @@ pub fn develop(
     check_panels(set, naming.name, options.sheet_mm)?;
     let shapes = tabs::shapes(set, options.tab_width_mm);
     let cut_cost = cut_costs(set, &chains, &shapes, options.tab_width_mm);
-    let problem =
-        Problem { set, chains: &chains, sheet_mm: options.sheet_mm, cut_cost: &cut_cost };
-    let draft = [Problem::one_piece, Problem::two_pieces]
-        .iter()
-        .find_map(|search| best_draft(&problem, search(&problem), &shapes, options))
-        .unwrap_or_else(|| last_resort(&problem, &shapes));
+    let problem = |may_cut_folds| Problem {
+        set,
+        chains: &chains,
+        sheet_mm: options.sheet_mm,
+        cut_cost: &cut_cost,
+        may_cut_folds,
+    };
+    let draft = [false, true]
+        .into_iter()
+        .map(problem)
+        .find_map(|problem| {
+            best_draft(&problem, problem.one_piece(), &shapes, options)
+                .or_else(|| best_draft(&problem, problem.two_pieces(), &shapes, options))
+        })
+        .unwrap_or_else(|| last_resort(&problem(true), &shapes));
     Ok(finish(set, draft, naming, joints, options))
 }
 
 /// Cuts, layouts and tabs, before texts.
 struct Draft {
     layouts: Vec<Layout>,
+    cut: Vec<HingeId>,
     tabs: Vec<Placed>,
 }
 
@@ -152,7 +166,7 @@ fn best_draft(
         let lack = |t: &Placed| 1.0 - t.width_mm() / tabs::widest(&shapes[t.hinge.0]);
         let cost = candidate.cost + tabs.iter().map(lack).sum::<f64>();
         if best.as_ref().is_none_or(|b| cost < b.0) {
-            best = Some((cost, Draft { layouts, tabs }));
+            best = Some((cost, Draft { layouts, cut, tabs }));
         }
     }
     best.map(|b| b.1)
@@ -179,25 +193,31 @@ fn last_resort(problem: &Problem<'_>, shapes: &[Shapes]) -> Draft {
         let layouts = layout::pieces(set, &is_cut);
         let cut = cut_hinges(&is_cut);
         match tabs::place(set, &layouts, problem.sheet_mm, shapes, &cut, least_mm) {
-            Ok(tabs) => return Draft { layouts, tabs },
+            Ok(tabs) => return Draft { layouts, cut, tabs },
             Err(hinge) => {
                 let more = further_cut(problem, &layouts, hinge);
                 match more {
                     Some(hinge) => is_cut[hinge.0] = true,
                     None if least_mm > 0.0 => least_mm = 0.0,
-                    None => return Draft { layouts, tabs: without(problem, shapes, &is_cut) },
+                    None => {
+                        let tabs = where_room(problem, &layouts, shapes, cut.clone());
+                        return Draft { layouts, cut, tabs };
+                    }
                 }
             }
         }
     }
 }
 
-/// Tabs for all hinges that have room, one by one.
-fn without(problem: &Problem<'_>, shapes: &[Shapes], is_cut: &[bool]) -> Vec<Placed> {
-    let mut cut = cut_hinges(is_cut);
-    let layouts = layout::pieces(problem.set, is_cut);
+/// Tabs for all hinges that have room.
+fn where_room(
+    problem: &Problem<'_>,
+    layouts: &[Layout],
+    shapes: &[Shapes],
+    mut cut: Vec<HingeId>,
+) -> Vec<Placed> {
     loop {
-        match tabs::place(problem.set, &layouts, problem.sheet_mm, shapes, &cut, 0.0) {
+        match tabs::place(problem.set, layouts, problem.sheet_mm, shapes, &cut, 0.0) {
             Ok(tabs) => return tabs,
             Err(hinge) => cut.retain(|&h| h != hinge),
         }
@@ -225,12 +245,10 @@ fn finish(
     joints: &[JointMark],
     options: &NetOptions,
 ) -> Net {
-    let Draft { mut layouts, tabs } = draft;
+    let Draft { mut layouts, cut, tabs } = draft;
     layouts.sort_by_key(|l| std::cmp::Reverse(l.panels.len()));
-    let label = |hinge: HingeId| {
-        let number = tabs.iter().position(|t| t.hinge == hinge)?;
-        Some(format!("{}{}", naming.prefix, number + 1))
-    };
+    let labels: BTreeMap<HingeId, String> =
+        cut.iter().zip(1..).map(|(&h, number)| (h, format!("{}{number}", naming.prefix))).collect();
     let count = layouts.len();
     let pieces: Vec<Piece> = layouts
         .into_iter()
@@ -245,11 +263,11 @@ fn finish(
                 .filter(|t| layout.place(set.hinges()[t.hinge.0].sides[t.side].panel).is_some())
                 .cloned()
                 .collect();
-            piece(set, &layout, &own, name, joints, options.sheet_mm, label)
+            piece(set, &layout, &own, name, joints, options.sheet_mm, &labels)
         })
         .collect();
-    let warnings = warnings(set, &tabs, &pieces, label);
-    Net { pieces, warnings }
+    let warnings = warnings(set, &tabs, &pieces, &labels);
+    Net { pieces, warnings, labels }
 }
 
 fn piece(
@@ -259,7 +277,7 @@ fn piece(
     name: String,
     joints: &[JointMark],
     sheet_mm: DVec2,
-    label: impl Fn(HingeId) -> Option<String>,
+    labels: &BTreeMap<HingeId, String>,
 ) -> Piece {
     let on_panel: Vec<(Placed, [DVec2; 4])> = own
         .iter()
@@ -272,7 +290,7 @@ fn piece(
         .collect();
     let mesh = PieceMesh::new(set, layout, &on_panel);
     let points: Vec<DVec2> = mesh.vertices().iter().map(|v| v.at).collect();
-    let upright = to_sheet(&points, sheet_mm);
+    let upright = to_sheet(&points, &creases(set, &mesh), sheet_mm);
     let mesh = mesh.moved(|p| upright.transform_point2(p));
     let tabs: Vec<Tab> = on_panel
         .iter()
@@ -284,7 +302,7 @@ fn piece(
                 side: t.side,
                 outline: outline.map(|p| upright.transform_point2(p)),
                 on_mate: t.shape.outline(edge(set, side)).map(|p| to_mate.transform_point2(p)),
-                label: label(t.hinge).unwrap_or_default(),
+                label: labels.get(&t.hinge).cloned().unwrap_or_default(),
             }
         })
         .collect();
@@ -297,7 +315,7 @@ fn piece(
     let place_of = |id| panels.iter().find(|p| p.panel == id).map(|p| p.place);
     let joints = placer.joints(joints, place_of);
     placer.glued(&tabs, |kind| match kind {
-        EdgeKind::Tab(h) | EdgeKind::Mate(h) => label(*h),
+        EdgeKind::Tab(h) | EdgeKind::Mate(h) => labels.get(h).cloned(),
         _ => None,
     });
     placer.name(&name);
@@ -318,9 +336,18 @@ fn piece(
     }
 }
 
-/// The rigid motion that turns a piece as it fits the sheet best, its bounding box at the origin.
-fn to_sheet(points: &[DVec2], sheet_mm: DVec2) -> DAffine2 {
-    let rotation = turn(best_turn(points, sheet_mm).unit);
+/// The rigid motion that turns a piece as it fits the sheet, its bounding box at the origin: with
+/// a crease upright or level where that costs little, else with the smallest box.
+fn to_sheet(points: &[DVec2], creases: &[Crease], sheet_mm: DVec2) -> DAffine2 {
+    let best = best_turn(points, sheet_mm);
+    let most = best.size_mm.element_product() * NEAT_FACTOR;
+    let neat = creases
+        .iter()
+        .flat_map(|c| [c.direction(), c.direction().perp()])
+        .map(|d| measured(points, DVec2::new(d.x, -d.y), sheet_mm))
+        .filter(|turn| turn.fits() && turn.size_mm.element_product() <= most)
+        .reduce(|a, b| if b.beats(&a) { b } else { a });
+    let rotation = turn(neat.unwrap_or(best).unit);
     let (lo, _) = polygon::bounds(points.iter().map(|&p| rotation * p)).unwrap_or_default();
     DAffine2::from_mat2_translation(rotation, -lo)
 }
@@ -329,16 +356,20 @@ fn warnings(
     set: &PanelSet,
     tabs: &[Placed],
     pieces: &[Piece],
-    label: impl Fn(HingeId) -> Option<String>,
+    labels: &BTreeMap<HingeId, String>,
 ) -> Vec<NetWarning> {
     let mut out = Vec::new();
-    for tab in tabs {
-        let label = label(tab.hinge).unwrap_or_default();
-        if tab.width_mm() < USEFUL_WIDTH_MM {
-            out.push(NetWarning::NarrowTab { label: label.clone(), width_mm: tab.width_mm() });
+    for (&hinge, label) in labels {
+        let label = label.clone();
+        if set.hinges()[hinge.0].is_fold {
+            out.push(NetWarning::CutFoldHinge { label: label.clone() });
         }
-        if set.hinges()[tab.hinge.0].is_fold {
-            out.push(NetWarning::CutFoldHinge { label });
+        match tabs.iter().find(|t| t.hinge == hinge).map(Placed::width_mm) {
+            None => out.push(NetWarning::NoTab { label }),
+            Some(width_mm) if width_mm < USEFUL_WIDTH_MM => {
+                out.push(NetWarning::NarrowTab { label, width_mm });
+            }
+            Some(_) => {}
         }
     }
     for piece in pieces {

@@ -114,7 +114,7 @@ impl BestTurn {
     }
 
     /// Fitting comes first, then the smaller box; where neither fits, the one that nearly does.
-    fn beats(&self, other: &Self) -> bool {
+    pub(crate) fn beats(&self, other: &Self) -> bool {
         if self.fits() && other.fits() {
             self.size_mm.element_product() < other.size_mm.element_product() * (1.0 - 1e-9)
         } else {
@@ -136,16 +136,19 @@ pub(crate) fn best_turn(points: &[DVec2], sheet_mm: DVec2) -> BestTurn {
         .collect();
     let mut best = BestTurn { unit: DVec2::X, scale: 0.0, size_mm: DVec2::ZERO };
     for unit in edges.into_iter().chain(steps) {
-        let turned = hull.iter().map(|&p| unit.rotate(p));
-        let Some((lo, hi)) = polygon::bounds(turned) else { continue };
-        let size_mm = hi - lo;
-        let scale = ((sheet_mm + FIT_TOLERANCE_MM) / size_mm).min_element();
-        let turn = BestTurn { unit, scale, size_mm };
+        let turn = measured(&hull, unit, sheet_mm);
         if turn.beats(&best) {
             best = turn;
         }
     }
     best
+}
+
+/// How points lie on a sheet after one rotation.
+pub(crate) fn measured(points: &[DVec2], unit: DVec2, sheet_mm: DVec2) -> BestTurn {
+    let turned = points.iter().map(|&p| unit.rotate(p));
+    let size_mm = polygon::bounds(turned).map_or(DVec2::ZERO, |(lo, hi)| hi - lo);
+    BestTurn { unit, scale: ((sheet_mm + FIT_TOLERANCE_MM) / size_mm).min_element(), size_mm }
 }
 
 /// Whether two panels of one piece are too close: overlapping where they share a corner, nearer

@@ -14,6 +14,12 @@ pub(crate) struct Crease {
     deployed_rad: f64,
 }
 
+impl Crease {
+    pub(crate) fn direction(&self) -> DVec2 {
+        (self.ends[1] - self.ends[0]).normalize_or(DVec2::X)
+    }
+}
+
 /// The creases of a piece's mesh.
 pub(crate) fn creases(set: &PanelSet, mesh: &super::PieceMesh) -> Vec<Crease> {
     mesh.edges()

@@ -63,7 +63,7 @@ pub enum EdgeKind {
     Hinge(HingeId),
     /// A cut hinge on the side that carries its tab.
     Tab(HingeId),
-    /// A cut hinge on the other side.
+    /// A cut hinge on the other side, or on both sides where it has no tab.
     Mate(HingeId),
 }
 

@@ -24,6 +24,7 @@ pub use mesh::{Corner, Edge, EdgeKind, Face, FaceKind, PieceMesh, Vertex};
 
 use crate::component::{HingeId, PanelId};
 use glam::{DAffine2, DVec2};
+use std::collections::BTreeMap;
 
 /// One panel at its place in the development of a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -191,6 +192,12 @@ pub enum NetWarning {
         /// Its width.
         width_mm: f64,
     },
+    /// A cut hinge has no room for a tab on either side: both edges carry this label, to be joined
+    /// with a strip of paper.
+    NoTab {
+        /// The label.
+        label: String,
+    },
     /// A fold hinge had to be cut and glued.
     CutFoldHinge {
         /// Its label.
@@ -210,6 +217,7 @@ pub enum NetWarning {
 pub struct Net {
     pieces: Vec<Piece>,
     warnings: Vec<NetWarning>,
+    labels: BTreeMap<HingeId, String>,
 }
 
 impl Net {
@@ -223,8 +231,8 @@ impl Net {
         &self.warnings
     }
 
-    /// The label of a cut hinge.
+    /// The label of a cut hinge; none for one that stays joined.
     pub fn label(&self, hinge: HingeId) -> Option<&str> {
-        self.pieces.iter().flat_map(|p| &p.tabs).find(|t| t.hinge == hinge).map(|t| t.label.as_str())
+        self.labels.get(&hinge).map(String::as_str)
     }
 }

@@ -64,7 +64,10 @@ impl Prism {
         let mut left = (total + profile[profile.len() - 1].x - profile[0].x) / 2.0;
         for k in 1..profile.len() {
             let length = profile[k - 1].distance(profile[k]);
-            if left < length {
+            if left < 1e-6 {
+                return (profile.clone(), k - 1);
+            }
+            if left < length - 1e-6 {
                 let mut out = profile.clone();
                 out.insert(k, profile[k - 1].lerp(profile[k], left / length));
                 return (out, k);
