@@ -28,7 +28,7 @@ pub struct Link {
 
 /// Spanning trees of the interface graph, largest interfaces first (Kruskal), each rooted at its
 /// smallest index. Links are ordered so that a parent's own link comes before its children's.
-pub fn link_tree(part_hulls: &[Hull], contacts: &[Contact]) -> Vec<Link> {
+pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact]) -> Vec<Link> {
     let mut order: Vec<&Contact> = contacts.iter().collect();
     order.sort_by(|a, b| b.length_mm.total_cmp(&a.length_mm).then(a.parts.cmp(&b.parts)));
     let mut group: Vec<usize> = (0..part_hulls.len()).collect();
@@ -54,7 +54,7 @@ pub fn link_tree(part_hulls: &[Hull], contacts: &[Contact]) -> Vec<Link> {
             for &(child, contact) in neighbours.get(&parent).map_or(&[][..], Vec::as_slice) {
                 if !seen[child] {
                     seen[child] = true;
-                    let plane = contact_plane(contact, &part_hulls[parent], &part_hulls[child]);
+                    let plane = contact_plane(contact, part_hulls[parent], part_hulls[child]);
                     links.push(Link { parent, child, plane });
                     queue.push_back(child);
                 }
@@ -125,7 +125,7 @@ mod tests {
             Contact { parts: (0, 1), points: face(10.0), length_mm: 40.0 },
             Contact { parts: (0, 2), points: face(15.0), length_mm: 1.0 },
         ];
-        let links = link_tree(&hulls, &contacts);
+        let links = link_tree(&hulls.iter().collect::<Vec<_>>(), &contacts);
         assert_eq!(links.iter().map(|l| (l.parent, l.child)).collect::<Vec<_>>(), [(0, 1), (1, 2)]);
         for (link, x) in links.iter().zip([10.0, 20.0]) {
             assert!((link.plane.normal() - DVec3::X).length() < 1e-9);
