@@ -3,7 +3,8 @@
 //! With chain r uncut, the place of every panel is known beforehand: each other chain is cut at
 //! one hinge, the panels above it hang from the top panel, those below from the bottom panel.
 //! So whether two chains' choices go together can be tabulated, and the search itself only reads
-//! the table. It is exact up to [`NODE_BUDGET`] nodes and [`KEEP`] results.
+//! the table. It is exact up to [`NODE_BUDGET`] nodes and [`KEEP`] results. Where one piece will
+//! not do, all chains are cut (two pieces), or some at two hinges (a strip apart).
 
 use super::chains::{Chain, Chains};
 use super::layout::{self, across, best_turn, clash, placed_outline};
@@ -19,6 +20,8 @@ const DIRECTIONS: usize = 36;
 /// Weight of the bounding box (over the panels' area) against the cost of one cut: a box larger by
 /// the area of all panels is worth three cuts between top and bottom.
 const BOX_WEIGHT: f64 = 1.2;
+/// Cost of a strip that becomes a piece of its own, apart from its two glued hinges.
+const STRIP_COST: f64 = 8.0;
 /// Room between panels that do not share a corner, so that scissors can pass.
 pub(crate) const PANEL_GAP_MM: f64 = 0.5;
 
@@ -44,17 +47,28 @@ impl Problem<'_> {
     /// Cut sets that leave one piece without overlap that fits the sheet (tabs not counted), best
     /// first.
     pub(crate) fn one_piece(&self) -> Vec<Candidate> {
-        let mut best = Vec::new();
-        for uncut in 0..self.chains.chains.len() {
-            Mode::new(self, Some(uncut)).search(&mut best);
-        }
-        best
+        self.with_one_uncut(false)
     }
 
     /// Cut sets that leave two pieces, one round the top panel and one round the bottom panel.
     pub(crate) fn two_pieces(&self) -> Vec<Candidate> {
         let mut best = Vec::new();
-        Mode::new(self, None).search(&mut best);
+        Mode::new(self, None, false).search(&mut best);
+        best
+    }
+
+    /// Cut sets in which chains may also be cut twice, so that their middle is a piece apart.
+    pub(crate) fn with_strips(&self) -> Vec<Candidate> {
+        let mut best = self.with_one_uncut(true);
+        Mode::new(self, None, true).search(&mut best);
+        best
+    }
+
+    fn with_one_uncut(&self, has_strips: bool) -> Vec<Candidate> {
+        let mut best = Vec::new();
+        for uncut in 0..self.chains.chains.len() {
+            Mode::new(self, Some(uncut), has_strips).search(&mut best);
+        }
         best
     }
 
@@ -112,9 +126,15 @@ struct Item {
     piece: usize,
 }
 
+impl Item {
+    fn clashes_with(&self, other: &Self) -> bool {
+        self.piece == other.piece && clash(&self.outline, &other.outline, PANEL_GAP_MM)
+    }
+}
+
 /// One way to cut one chain.
 struct Choice {
-    hinge: HingeId,
+    hinges: Vec<HingeId>,
     cost: f64,
     items: Vec<usize>,
     extent: [Extent; 2],
@@ -144,7 +164,7 @@ struct Walk<'b> {
 }
 
 impl<'a> Mode<'a> {
-    fn new(problem: &'a Problem<'a>, uncut: Option<usize>) -> Self {
+    fn new(problem: &'a Problem<'a>, uncut: Option<usize>, has_strips: bool) -> Self {
         let (set, chains) = (problem.set, problem.chains);
         let mut items = vec![Item { outline: set.panel(chains.top).outline.clone(), piece: 0 }];
         let bottom_place = match uncut {
@@ -176,14 +196,20 @@ impl<'a> Mode<'a> {
             cheapest_from: Vec::new(),
         };
         for j in (0..chains.chains.len()).filter(|&j| Some(j) != uncut) {
-            let choices = mode.chain_choices(j, bottom_place, below);
+            let choices = mode.chain_choices(j, bottom_place, below, has_strips);
             mode.choices.push(choices);
         }
         mode.tabulate();
         mode
     }
 
-    fn chain_choices(&mut self, j: usize, bottom: DAffine2, below: usize) -> Vec<Choice> {
+    fn chain_choices(
+        &mut self,
+        j: usize,
+        bottom: DAffine2,
+        below: usize,
+        has_strips: bool,
+    ) -> Vec<Choice> {
         let set = self.problem.set;
         let chain = self.problem.chain(j);
         let upper = hang(set, chain, DAffine2::IDENTITY, true);
@@ -195,38 +221,45 @@ impl<'a> Mode<'a> {
                 self.items.push(Item { outline: placed_outline(set, panel, place), piece });
             }
         }
-        let is_allowed = |hinge: HingeId| {
-            self.problem.may_cut_folds || !set.hinges()[hinge.0].is_fold
-        };
         let mut choices: Vec<Choice> = (0..=count)
-            .filter(|&cut| is_allowed(chain.hinges[cut]))
-            .map(|cut| {
+            .flat_map(|from| (from..=if has_strips { count } else { from }).map(move |to| (from, to)))
+            .filter(|&(from, to)| self.may_cut(chain, from, to, &upper))
+            .map(|(from, to)| {
                 let items: Vec<usize> =
-                    (0..count).map(|i| start + i + if i < cut { 0 } else { count }).collect();
+                    (0..from).chain(count + to..2 * count).map(|i| start + i).collect();
                 let mut extent = [Extent::empty(), Extent::empty()];
                 for &i in &items {
                     extent[self.items[i].piece].add(&self.items[i].outline);
                 }
-                let hinge = chain.hinges[cut];
-                Choice { hinge, cost: self.problem.cut_cost[hinge.0], items, extent }
+                let mut hinges = vec![chain.hinges[from], chain.hinges[to]];
+                hinges.dedup();
+                let glue: f64 = hinges.iter().map(|h| self.problem.cut_cost[h.0]).sum();
+                let cost = glue + if from < to { STRIP_COST } else { 0.0 };
+                Choice { hinges, cost, items, extent }
             })
             .collect();
         choices.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         choices
     }
 
+    /// Whether a chain may be cut at two hinges (or one, twice): folds spared, the strip between
+    /// fits the sheet.
+    fn may_cut(&self, chain: &Chain, from: usize, to: usize, places: &[DAffine2]) -> bool {
+        let Problem { set, sheet_mm, may_cut_folds, .. } = *self.problem;
+        let is_allowed = |k: usize| may_cut_folds || !set.hinges()[chain.hinges[k].0].is_fold;
+        let strip: Vec<DVec2> = (from..to)
+            .flat_map(|i| placed_outline(set, chain.panels[i], places[i]))
+            .collect();
+        is_allowed(from) && is_allowed(to) && (from == to || best_turn(&strip, sheet_mm).fits())
+    }
+
     /// Which choices go together, and with themselves and the fixed panels.
     fn tabulate(&mut self) {
-        let n = self.items.len();
-        let mut clashes = vec![vec![false; n]; n];
-        for a in 0..n {
-            for b in 0..a {
-                let (p, q) = (&self.items[a], &self.items[b]);
-                clashes[a][b] =
-                    p.piece == q.piece && clash(&p.outline, &q.outline, PANEL_GAP_MM);
-                clashes[b][a] = clashes[a][b];
-            }
-        }
+        let clashes: Vec<Vec<bool>> = self
+            .items
+            .iter()
+            .map(|a| self.items.iter().map(|b| a.clashes_with(b)).collect())
+            .collect();
         let fixed: Vec<usize> = (0..self.fixed_items).collect();
         for choices in &mut self.choices {
             choices.retain(|c| {
@@ -307,8 +340,8 @@ impl<'a> Mode<'a> {
             return;
         }
         let mut is_cut = vec![false; self.problem.set.hinges().len()];
-        for &c in &walk.chosen {
-            is_cut[flat[c].hinge.0] = true;
+        for hinge in walk.chosen.iter().flat_map(|&c| &flat[c].hinges) {
+            is_cut[hinge.0] = true;
         }
         let cost = cost + self.box_cost(extent);
         let at = walk.best.partition_point(|c| c.cost <= cost);

@@ -100,8 +100,9 @@ pub fn develop(
         .into_iter()
         .map(problem)
         .find_map(|problem| {
-            best_draft(&problem, problem.one_piece(), &shapes, options)
-                .or_else(|| best_draft(&problem, problem.two_pieces(), &shapes, options))
+            [Problem::one_piece, Problem::two_pieces, Problem::with_strips]
+                .iter()
+                .find_map(|search| best_draft(&problem, search(&problem), &shapes, options))
         })
         .unwrap_or_else(|| last_resort(&problem(true), &shapes));
     Ok(finish(set, draft, naming, joints, options))
@@ -329,7 +330,7 @@ fn piece(
         joints,
         labels,
         unplaced_labels,
-        crease_angles: creases(set, &mesh),
+        crease_lines: creases(set, &mesh),
         outline: lines.outline,
         slits: lines.slits,
         mesh,

@@ -157,3 +157,41 @@ pub(crate) fn clash(a: &[DVec2], b: &[DVec2], gap_mm: f64) -> bool {
     let touch = a.iter().any(|p| b.iter().any(|q| p.distance_squared(*q) < 1e-12));
     polygon::convex_overlap(a, b, if touch { 1e-6 } else { -gap_mm })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rectangle(width: f64, height: f64, turn_rad: f64) -> Vec<DVec2> {
+        let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
+        corners.iter().map(|&c| DVec2::from_angle(turn_rad).rotate(c.into())).collect()
+    }
+
+    #[test]
+    fn a_turned_rectangle_fits_its_own_size_and_no_less() {
+        let points = rectangle(190.0, 277.0, 0.4321);
+        let sheet_mm = DVec2::new(190.0, 277.0);
+        let best = best_turn(&points, sheet_mm);
+        assert!(best.fits() && best.scale < 1.0 + 1e-6);
+        assert!((best.size_mm - sheet_mm).length() < 1e-9);
+        let small = best_turn(&points, sheet_mm * 0.8);
+        assert!(!small.fits() && (small.scale - 0.8).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_long_strip_fits_along_the_diagonal() {
+        let best = best_turn(&rectangle(300.0, 10.0, 0.0), DVec2::new(190.0, 277.0));
+        assert!(best.fits());
+        assert!(best.size_mm.x <= 190.0 && best.size_mm.y <= 277.0);
+    }
+
+    #[test]
+    fn panels_at_a_corner_may_touch_but_others_need_room() {
+        let square = rectangle(10.0, 10.0, 0.0);
+        let moved = |by: DVec2| square.iter().map(|&p| p + by).collect::<Vec<_>>();
+        assert!(!clash(&square, &moved(DVec2::new(10.0, 0.0)), 0.5));
+        assert!(clash(&square, &moved(DVec2::new(10.0, 3.0)), 0.5));
+        assert!(!clash(&square, &moved(DVec2::new(10.6, 3.0)), 0.5));
+        assert!(clash(&square, &moved(DVec2::new(9.9, 0.0)), 0.5));
+    }
+}

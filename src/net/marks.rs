@@ -18,6 +18,10 @@ impl Crease {
     pub(crate) fn direction(&self) -> DVec2 {
         (self.ends[1] - self.ends[0]).normalize_or(DVec2::X)
     }
+
+    pub(crate) fn length_mm(&self) -> f64 {
+        self.ends[0].distance(self.ends[1])
+    }
 }
 
 /// The creases of a piece's mesh.
@@ -66,7 +70,7 @@ impl Piece {
             marks.push(path(Layer::Glue, vec![closed(&joint.outline)]));
             marks.push(path(Layer::Glue, vec![closed(&joint.key)]));
         }
-        for crease in &self.crease_angles {
+        for crease in &self.crease_lines {
             let layer = if crease.is_fold { Layer::FoldHinge } else { Layer::Mountain };
             if crease.is_fold || crease.deployed_rad >= options.hide_below_rad {
                 let line = Polyline { points: crease.ends.to_vec(), is_closed: false };

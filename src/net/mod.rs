@@ -122,7 +122,7 @@ pub struct Piece {
     labels: Vec<Label>,
     unplaced_labels: Vec<String>,
     mesh: PieceMesh,
-    crease_angles: Vec<marks::Crease>,
+    crease_lines: Vec<marks::Crease>,
     outline: Vec<DVec2>,
     slits: Vec<Vec<DVec2>>,
 }
@@ -176,6 +176,18 @@ impl Piece {
     /// Cuts that lie inside the outline: slits whose two sides touch.
     pub fn slits(&self) -> &[Vec<DVec2>] {
         &self.slits
+    }
+
+    /// Length of everything that is cut, mm.
+    pub fn cut_mm(&self) -> f64 {
+        let outline: f64 = crate::geom::polygon::edges(&self.outline).map(|(a, b)| a.distance(b)).sum();
+        let slits = self.slits.iter().flat_map(|slit| slit.windows(2));
+        outline + slits.map(|w| w[0].distance(w[1])).sum::<f64>()
+    }
+
+    /// Length of everything that is folded, mm: hinges and the bases of tabs.
+    pub fn crease_mm(&self) -> f64 {
+        self.crease_lines.iter().map(marks::Crease::length_mm).sum()
     }
 
     /// Width and height of the bounding box, mm.
