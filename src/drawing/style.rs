@@ -223,7 +223,7 @@ mod tests {
             message.contains(&format!("line {}", line_of("colour = \"#808080\""))),
             "{message}"
         );
-        let message = complaint("[3.0, 1.5]", "[3.0]");
+        let message = complaint("[2.0, 1.0]", "[2.0]");
         assert!(
             message.contains("even number") && message.contains("line "),
             "{message}"

@@ -26,8 +26,8 @@ const TICKS_MM: [f64; 3] = [2.6, 1.9, 1.2];
 const TICK_GAP_MM: f64 = 1.2;
 /// The titles stand beside the bar where they have at least this width.
 const MIN_TITLES_MM: f64 = 35.0;
-/// Length of a line in the legend.
-const SAMPLE_MM: f64 = 11.0;
+/// Length of a line in the full and in the short legend.
+const SAMPLES_MM: [f64; 2] = [11.0, 8.0];
 /// Distance between a line in the legend and its word.
 const WORD_GAP_MM: f64 = 1.5;
 
@@ -81,17 +81,35 @@ fn words(layer: Layer) -> Option<[&'static str; 2]> {
 }
 
 /// One line of the legend with its word.
-type Entry = (Layer, &'static str);
+struct Entry {
+    layer: Layer,
+    word: &'static str,
+    sample_mm: f64,
+}
 
-/// Width that an entry takes.
-fn entry_mm((_, word): &Entry) -> f64 {
-    SAMPLE_MM + WORD_GAP_MM + width_mm(word, CAP_MM)
+impl Entry {
+    fn width_mm(&self) -> f64 {
+        self.sample_mm + WORD_GAP_MM + width_mm(self.word, CAP_MM)
+    }
+}
+
+/// All entries of the full (0) or the short (1) legend.
+fn entries(legend: &[Layer], form: usize) -> Vec<Entry> {
+    let entry = |&layer: &Layer| {
+        let word = words(layer)?[form];
+        Some(Entry {
+            layer,
+            word,
+            sample_mm: SAMPLES_MM[form],
+        })
+    };
+    legend.iter().filter_map(entry).collect()
 }
 
 /// Width of a legend without its gaps, and the number of gaps.
 fn legend_mm(entries: &[Entry]) -> (f64, usize) {
     (
-        entries.iter().map(entry_mm).sum(),
+        entries.iter().map(Entry::width_mm).sum(),
         entries.len().saturating_sub(1),
     )
 }
@@ -111,10 +129,6 @@ struct Strip {
 impl Strip {
     fn new(size_mm: DVec2, margin_mm: f64, legend: &[Layer]) -> Self {
         let width_mm = size_mm.x - 2.0 * margin_mm;
-        let in_words = |length: usize| {
-            let entry = |&layer: &Layer| words(layer).map(|words| (layer, words[length]));
-            legend.iter().filter_map(entry).collect::<Vec<_>>()
-        };
         let fits = |entries: &Vec<Entry>| {
             let (entries_mm, gaps) = legend_mm(entries);
             entries_mm + GAP_MM * gaps as f64 <= width_mm
@@ -123,7 +137,8 @@ impl Strip {
             corner: DVec2::splat(margin_mm),
             width_mm,
             bar_mm: BARS_MM.into_iter().find(|&bar_mm| bar_mm <= width_mm),
-            legend: [in_words(0), in_words(1)]
+            legend: [0, 1]
+                .map(|form| entries(legend, form))
                 .into_iter()
                 .find(fits)
                 .unwrap_or_default(),
@@ -244,10 +259,10 @@ impl Strip {
         let mut marks = Vec::with_capacity(2 * self.legend.len());
         for entry in &self.legend {
             let y = CAP_MM / 2.0;
-            marks.push(self.line([x, y], [x + SAMPLE_MM, y], entry.0, styles));
-            let word_x = x + SAMPLE_MM + WORD_GAP_MM;
-            marks.push(self.text(entry.1.to_owned(), [word_x, 0.0], Align::Start, styles));
-            x += entry_mm(entry) + gap_mm;
+            marks.push(self.line([x, y], [x + entry.sample_mm, y], entry.layer, styles));
+            let word = [x + entry.sample_mm + WORD_GAP_MM, 0.0];
+            marks.push(self.text(entry.word.to_owned(), word, Align::Start, styles));
+            x += entry.width_mm() + gap_mm;
         }
         marks
     }

@@ -98,7 +98,7 @@ fn dashes_are_in_points() {
         .into_iter()
         .filter(|o| o.operator == "d");
     let dashes = dashes.map(|o| numbers(o.operands[0].as_array().expect("array")));
-    let mountain = [3.0, 1.5].map(|mm| mm * PT_PER_MM);
+    let mountain = [2.0, 1.0].map(|mm| mm * PT_PER_MM);
     let is_mountain = |dash: &Vec<f64>| {
         dash.len() == 2
             && (dash[0] - mountain[0]).abs() < 1e-5
