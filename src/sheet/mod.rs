@@ -1,1 +1,3 @@
 //! Pieces placed on sheets of paper, with page furniture.
+
+pub mod furniture;
