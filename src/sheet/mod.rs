@@ -1,1 +1,4 @@
 //! Pieces placed on sheets of paper, with page furniture.
+
+pub mod fit;
+pub mod nest;
