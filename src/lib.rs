@@ -7,9 +7,8 @@
 //! mesh -> segment -> hull + joints -> component -> model -> net -> sheet -> drawing -> export
 //! ```
 //!
-//! The method is that of the paper "Semi-Automatic
-//! Conversion of 3D Shape into Flat-Foldable Polygonal Model"; section and equation numbers in these docs are
-//! that paper's. Lengths are millimetres, angles radians, unless a name says otherwise.
+//! The method is that of the paper "Semi-Automatic Conversion of 3D Shape into Flat-Foldable
+//! Polygonal Model"; section and equation numbers in these docs are that paper's. Lengths are millimetres, angles radians, unless a name says otherwise.
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 pub mod check;
@@ -20,7 +19,9 @@ pub mod geom;
 pub mod mesh;
 pub mod model;
 pub mod net;
+pub mod pipeline;
 pub mod progress;
+pub mod report;
 pub mod render;
 pub mod segment;
 pub mod sheet;

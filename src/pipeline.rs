@@ -303,7 +303,7 @@ fn parts(hulls: Vec<Hull>, options: &Options) -> Result<Vec<Part>, Error> {
 fn contacts(mesh: &Mesh, segmentation: &Segmentation, part_of_segment: &[Option<usize>]) -> Vec<Contact> {
     let part = |s: SegmentId| part_of_segment[s.0 as usize];
     segmentation
-        .interfaces(mesh)
+        .borders(mesh)
         .into_iter()
         .filter_map(|((a, b), interface)| {
             let points = interface.vertices().iter().map(|&v| mesh.positions()[v as usize]).collect();

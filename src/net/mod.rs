@@ -226,6 +226,37 @@ pub enum NetWarning {
     },
 }
 
+impl NetWarning {
+    /// Short constant name, for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            NetWarning::NarrowTab { .. } => "narrow_tab",
+            NetWarning::NoTab { .. } => "no_tab",
+            NetWarning::CutFoldHinge { .. } => "cut_fold_hinge",
+            NetWarning::UnplacedLabel { .. } => "unplaced_label",
+        }
+    }
+}
+
+impl std::fmt::Display for NetWarning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            NetWarning::NarrowTab { label, width_mm } => {
+                write!(f, "tab {label} is only {width_mm:.1} mm wide; glue it with care")
+            }
+            NetWarning::NoTab { label } => {
+                write!(f, "there is no room for a tab at {label}; join its two edges with a strip of paper")
+            }
+            NetWarning::CutFoldHinge { label } => {
+                write!(f, "the hinge at {label} folds flat and had to be cut; join it with tape so that it can move")
+            }
+            NetWarning::UnplacedLabel { piece, text } => {
+                write!(f, "the label {text} has no room on {piece}; it is listed on its sheet")
+            }
+        }
+    }
+}
+
 /// All pieces of one component.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Net {

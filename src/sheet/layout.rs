@@ -137,18 +137,16 @@ impl Layout {
             }
         }
         for (k, page) in pages.iter_mut().enumerate() {
-            page.marks.extend(furniture::marks(
-                &Furniture {
-                    size_mm: self.options.size_mm(),
-                    margin_mm: self.options.margin_mm,
-                    title,
-                    note,
-                    page: k + 1,
-                    pages: self.sheets,
-                    legend: &LEGEND,
-                },
-                styles,
-            ));
+            let strip = Furniture {
+                size_mm: self.options.size_mm(),
+                margin_mm: self.options.margin_mm,
+                title,
+                note,
+                page: k + 1,
+                pages: self.sheets,
+                legend: &LEGEND,
+            };
+            page.marks.extend(strip.marks(styles));
             page.marks.extend(lost_labels(&lost[k], &self.options, styles));
         }
         pages
