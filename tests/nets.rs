@@ -87,7 +87,7 @@ prop_compose! {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 48,
+        cases: 24,
         max_global_rejects: 5000,
         failure_persistence: None,
         ..ProptestConfig::default()

@@ -89,17 +89,13 @@ fn side_shapes(set: &PanelSet, hinge: HingeId, side: usize, tab_width_mm: f64) -
                 let runs_on = (far - near).dot(base[0] - base[1]) > 0.0;
                 let is_inside = [near, far].iter().all(|&p| depth_outside(&mate, p) <= -MATE_INSET_MM);
                 if runs_on && top >= LEAST_TOP_MM && is_inside {
-                    out.push(shape);
+                    out.push(((length + top) / 2.0 * width_mm, shape));
                 }
             }
         }
     }
-    let area = |s: &Shape| {
-        let [p, q, r, t] = s.outline(base);
-        (p.distance(q) + r.distance(t)) / 2.0 * s.width_mm
-    };
-    out.sort_by(|x, y| area(y).total_cmp(&area(x)));
-    out
+    out.sort_by(|x: &(f64, Shape), y| y.0.total_cmp(&x.0));
+    out.into_iter().map(|(_, shape)| shape).collect()
 }
 
 /// Widest tab that a hinge's geometry allows on either side; 0 where none fits.
