@@ -1,7 +1,7 @@
 //! Parts into a model: from the roots outwards, each part gets its fold direction, its joint
 //! planes, its component, and its place on its parent.
 
-use super::interface::Link;
+use super::link::Link;
 use super::seat::{Seating, level_axis, seat_plane, seats, turn_onto};
 use super::{Joint, Model, ModelPart};
 use crate::component::{

@@ -1,11 +1,11 @@
 //! Joints between components, their tree, and the model's two end states.
 
 mod build;
-mod interface;
+mod link;
 mod seat;
 
 pub use build::{ModelError, Part, PartOptions, build};
-pub use interface::{Interface, Link, link_tree};
+pub use link::{Contact, Link, link_tree};
 
 use crate::component::{Component, PanelId};
 use crate::geom::polygon;

@@ -16,10 +16,12 @@ mod labels;
 mod layout;
 mod marks;
 mod mesh;
+mod of_model;
 mod tabs;
 
 pub use develop::{Naming, NetError, NetOptions, develop};
 pub use marks::MarkOptions;
+pub use of_model::{NetsError, develop_model};
 pub use mesh::{Corner, Edge, EdgeKind, Face, FaceKind, PieceMesh, Vertex};
 
 use crate::component::{HingeId, PanelId};

@@ -1,7 +1,11 @@
 //! Which separate bodies are next to each other: the shortest tree of links between them.
 
+use super::patches::Partition;
 use super::surface::Surface;
 use glam::DVec3;
+
+/// Bodies smaller than this share of the area join the nearest body.
+const CRUMB: f64 = 0.02;
 
 const LEAF: usize = 8;
 const MIXED: u32 = u32::MAX;
@@ -106,15 +110,9 @@ pub(super) fn nearest_links(surface: &Surface) -> Vec<[u32; 2]> {
         }
         best.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut root: Vec<u32> = (0..count as u32).collect();
-        let find = |root: &[u32], mut b: u32| {
-            while root[b as usize] != b {
-                b = root[b as usize];
-            }
-            b
-        };
         let before = links.len();
         for (_, pair) in best.into_iter().filter(|b| b.0.is_finite()) {
-            let [a, b] = pair.map(|c| find(&root, body[c as usize]));
+            let [a, b] = pair.map(|c| find(&mut root, body[c as usize]));
             if a != b {
                 root[a.max(b) as usize] = a.min(b);
                 links.push(pair);
@@ -125,9 +123,58 @@ pub(super) fn nearest_links(surface: &Surface) -> Vec<[u32; 2]> {
         }
         let roots: Vec<u32> = (0..count as u32).filter(|&b| root[b as usize] == b).collect();
         for b in &mut body {
-            *b = roots.binary_search(&find(&root, *b)).unwrap_or(0) as u32;
+            *b = roots.binary_search(&find(&mut root, *b)).unwrap_or(0) as u32;
         }
         count = roots.len();
     }
     links
+}
+
+/// Joins each body that is too small for a segment, whole, to the set at the other end of its
+/// shortest link. `links` are those of [`nearest_links`].
+pub(super) fn join_crumbs(
+    surface: &Surface,
+    mut partition: Partition,
+    links: &[[u32; 2]],
+) -> Partition {
+    let (body, count) = surface.components(|_| 0);
+    let least = CRUMB * surface.total_area();
+    let mut areas = Partition { of_cell: body.clone(), count }.areas(surface);
+    let mut root: Vec<u32> = (0..count as u32).collect();
+    // The cell whose set a body joins.
+    let mut host_cell: Vec<Option<u32>> = vec![None; count];
+    let distance = |[a, b]: [u32; 2]| {
+        surface.centres()[a as usize].distance_squared(surface.centres()[b as usize])
+    };
+    let mut links = links.to_vec();
+    links.sort_by(|a, b| distance(*a).total_cmp(&distance(*b)).then(a.cmp(b)));
+    for [a, b] in links {
+        let [ra, rb] = [a, b].map(|c| find(&mut root, body[c as usize]));
+        let (small, host, into) =
+            if areas[ra as usize] > areas[rb as usize] { (rb, ra, a) } else { (ra, rb, b) };
+        if small != host && areas[small as usize] < least {
+            areas[host as usize] += areas[small as usize];
+            root[small as usize] = host;
+            host_cell[small as usize] = Some(into);
+        }
+    }
+    for cell in 0..surface.len() {
+        let mut at = cell;
+        while let Some(into) = host_cell[body[at] as usize] {
+            at = into as usize;
+        }
+        if at != cell {
+            partition.of_cell[cell] = partition.of_cell[at];
+        }
+    }
+    partition.compacted()
+}
+
+/// The root of a body in a forest, with the way to it shortened.
+fn find(root: &mut [u32], mut body: u32) -> u32 {
+    while root[body as usize] != body {
+        root[body as usize] = root[root[body as usize] as usize];
+        body = root[body as usize];
+    }
+    body
 }

@@ -223,12 +223,6 @@ impl Merges {
         self.patches.count - best.unwrap_or(0)
     }
 
-    /// Intersection over union of the hulls' union with the solid at a number of parts.
-    pub fn iou(&self, parts: usize) -> f64 {
-        let step = self.patches.count.saturating_sub(parts).min(self.steps.len());
-        self.iou[step]
-    }
-
     /// The partition into as many parts, or as near to it as there is.
     pub fn parts(&self, count: usize) -> Partition {
         let steps = self.patches.count.saturating_sub(count).min(self.steps.len());

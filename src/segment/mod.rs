@@ -16,9 +16,13 @@ mod patches;
 mod refine;
 mod rough_hull;
 mod sdf;
+#[cfg(test)]
+mod shapes;
 mod smooth;
 mod stage;
 mod surface;
+#[cfg(test)]
+mod tests;
 
 pub use interface::Interface;
 pub use stage::segment;

@@ -62,7 +62,10 @@ pub fn segment(
         }
         Method::Merge => {
             let patches = over_segment(&coarse, diameters.as_deref(), options.parts);
-            let merges = merge(positions, &faces, &coarse, &cell_of_face, patches, progress)?;
+            let gaps = bodies::nearest_links(&coarse);
+            let patches = bodies::join_crumbs(&coarse, patches, &gaps);
+            let ground = Ground { positions, faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
+            let merges = ground.merge(patches, &gaps, progress)?;
             let part_cost = PART_COST / DETAIL_RANGE.powf(options.detail);
             merges.parts(options.parts.unwrap_or_else(|| merges.best_count(part_cost)))
         }
@@ -120,34 +123,50 @@ fn over_segment(surface: &Surface, values: Option<&[f64]>, parts: Option<usize>)
     absorb_small(surface, split_large(surface, &whole, most), least)
 }
 
-fn merge(
-    positions: &[DVec3],
-    faces: &[[u32; 3]],
-    surface: &Surface,
-    cell_of_face: &[u32],
-    patches: Partition,
-    progress: &dyn Progress,
-) -> Result<Merges, SegmentError> {
-    let mut vertices: Vec<Vec<u32>> = vec![Vec::new(); patches.count];
-    for (face, &cell) in faces.iter().zip(cell_of_face) {
-        vertices[patches.of_cell[cell as usize] as usize].extend(face);
+/// What the patches are made of.
+struct Ground<'a> {
+    positions: &'a [DVec3],
+    faces: &'a [[u32; 3]],
+    surface: &'a Surface,
+    cell_of_face: &'a [u32],
+}
+
+impl Ground<'_> {
+    fn merge(
+        &self,
+        patches: Partition,
+        gaps: &[[u32; 2]],
+        progress: &dyn Progress,
+    ) -> Result<Merges, SegmentError> {
+        let (body_of_cell, _) = self.surface.components(|_| 0);
+        let mut body = vec![0; patches.count];
+        for (cell, &p) in patches.of_cell.iter().enumerate() {
+            body[p as usize] = body_of_cell[cell];
+        }
+        let vertices = self.vertices(&patches);
+        let borders = patches.borders(self.surface);
+        let mut neighbours: Vec<[u32; 2]> = borders.into_keys().map(|(a, b)| [a, b]).collect();
+        for cells in gaps {
+            let [a, b] = cells.map(|c| patches.of_cell[c as usize]);
+            if a != b {
+                neighbours.push([a.min(b), a.max(b)]);
+            }
+        }
+        let solid = Solid::of_mesh(self.positions, self.faces);
+        let scene = Scene { positions: self.positions, solid: &solid };
+        Ok(merge_all(&scene, patches, &vertices, &neighbours, &body, progress)?)
     }
-    for v in &mut vertices {
-        v.sort_unstable();
-        v.dedup();
+
+    /// The vertices of each patch.
+    fn vertices(&self, patches: &Partition) -> Vec<Vec<u32>> {
+        let mut vertices: Vec<Vec<u32>> = vec![Vec::new(); patches.count];
+        for (face, &cell) in self.faces.iter().zip(self.cell_of_face) {
+            vertices[patches.of_cell[cell as usize] as usize].extend(face);
+        }
+        for v in &mut vertices {
+            v.sort_unstable();
+            v.dedup();
+        }
+        vertices
     }
-    let (body_of_cell, _) = surface.components(|_| 0);
-    let mut body = vec![0; patches.count];
-    for (cell, &p) in patches.of_cell.iter().enumerate() {
-        body[p as usize] = body_of_cell[cell];
-    }
-    let mut neighbours: Vec<[u32; 2]> =
-        patches.borders(surface).into_keys().map(|(a, b)| [a, b]).collect();
-    for cells in bodies::nearest_links(surface) {
-        let [a, b] = cells.map(|c| patches.of_cell[c as usize]);
-        neighbours.push([a.min(b), a.max(b)]);
-    }
-    let solid = Solid::of_mesh(positions, faces);
-    let scene = Scene { positions, solid: &solid };
-    Ok(merge_all(&scene, patches, &vertices, &neighbours, &body, progress)?)
 }

@@ -1,4 +1,4 @@
-//! Interface planes between neighbouring segments, and the tree of joints (§4.2.1).
+//! Contact planes between neighbouring segments, and the tree of joints (§4.2.1).
 
 use crate::geom::{Hull, Plane};
 use glam::DVec3;
@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 /// A place where two parts touch: candidate for a joint.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Interface {
+pub struct Contact {
     /// The two parts, smaller index first.
     pub parts: (usize, usize),
     /// Positions of the vertices on the border.
@@ -28,18 +28,18 @@ pub struct Link {
 
 /// Spanning trees of the interface graph, largest interfaces first (Kruskal), each rooted at its
 /// smallest index. Links are ordered so that a parent's own link comes before its children's.
-pub fn link_tree(part_hulls: &[Hull], interfaces: &[Interface]) -> Vec<Link> {
-    let mut order: Vec<&Interface> = interfaces.iter().collect();
+pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact]) -> Vec<Link> {
+    let mut order: Vec<&Contact> = contacts.iter().collect();
     order.sort_by(|a, b| b.length_mm.total_cmp(&a.length_mm).then(a.parts.cmp(&b.parts)));
     let mut group: Vec<usize> = (0..part_hulls.len()).collect();
-    let mut neighbours: BTreeMap<usize, Vec<(usize, &Interface)>> = BTreeMap::new();
-    for interface in order {
-        let (a, b) = interface.parts;
+    let mut neighbours: BTreeMap<usize, Vec<(usize, &Contact)>> = BTreeMap::new();
+    for contact in order {
+        let (a, b) = contact.parts;
         let (ga, gb) = (group[a], group[b]);
         if ga != gb {
             group.iter_mut().filter(|g| **g == gb).for_each(|g| *g = ga);
-            neighbours.entry(a).or_default().push((b, interface));
-            neighbours.entry(b).or_default().push((a, interface));
+            neighbours.entry(a).or_default().push((b, contact));
+            neighbours.entry(b).or_default().push((a, contact));
         }
     }
     let mut seen = vec![false; part_hulls.len()];
@@ -51,10 +51,10 @@ pub fn link_tree(part_hulls: &[Hull], interfaces: &[Interface]) -> Vec<Link> {
         seen[root] = true;
         let mut queue = std::collections::VecDeque::from([root]);
         while let Some(parent) = queue.pop_front() {
-            for &(child, interface) in neighbours.get(&parent).map_or(&[][..], Vec::as_slice) {
+            for &(child, contact) in neighbours.get(&parent).map_or(&[][..], Vec::as_slice) {
                 if !seen[child] {
                     seen[child] = true;
-                    let plane = interface_plane(interface, &part_hulls[parent], &part_hulls[child]);
+                    let plane = contact_plane(contact, part_hulls[parent], part_hulls[child]);
                     links.push(Link { parent, child, plane });
                     queue.push_back(child);
                 }
@@ -71,16 +71,16 @@ const SLIDES: usize = 17;
 
 /// The plane between two parts: least squares through the interface, moved along its normal where
 /// it would cut off too much.
-fn interface_plane(interface: &Interface, parent: &Hull, child: &Hull) -> Plane {
+fn contact_plane(contact: &Contact, parent: &Hull, child: &Hull) -> Plane {
     let towards = child.centroid() - parent.centroid();
-    let centre = interface.points.iter().sum::<DVec3>() / interface.points.len().max(1) as f64;
-    let fitted = Plane::fit(&interface.points).map(|(plane, _)| plane);
+    let centre = contact.points.iter().sum::<DVec3>() / contact.points.len().max(1) as f64;
+    let fitted = Plane::fit(&contact.points).map(|(plane, _)| plane);
     let plane = fitted.or_else(|| Plane::through(centre, towards)).unwrap_or_else(|| fallback(centre));
     let plane = if plane.normal().dot(towards) < 0.0 { plane.flipped() } else { plane };
     if cut_off(&plane, parent, child) <= CLIP_SHARE {
         return plane;
     }
-    let heights = interface.points.iter().map(|p| plane.distance(*p));
+    let heights = contact.points.iter().map(|p| plane.distance(*p));
     let (low, high) = heights.fold((0.0f64, 0.0f64), |(l, h), d| (l.min(d), h.max(d)));
     (0..SLIDES)
         .filter_map(|k| {
@@ -120,12 +120,12 @@ mod tests {
         let face = |x: f64| -> Vec<DVec3> {
             [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(y, z)| DVec3::new(x, y, z)).to_vec()
         };
-        let interfaces = [
-            Interface { parts: (1, 2), points: face(20.0), length_mm: 40.0 },
-            Interface { parts: (0, 1), points: face(10.0), length_mm: 40.0 },
-            Interface { parts: (0, 2), points: face(15.0), length_mm: 1.0 },
+        let contacts = [
+            Contact { parts: (1, 2), points: face(20.0), length_mm: 40.0 },
+            Contact { parts: (0, 1), points: face(10.0), length_mm: 40.0 },
+            Contact { parts: (0, 2), points: face(15.0), length_mm: 1.0 },
         ];
-        let links = link_tree(&hulls, &interfaces);
+        let links = link_tree(&hulls.iter().collect::<Vec<_>>(), &contacts);
         assert_eq!(links.iter().map(|l| (l.parent, l.child)).collect::<Vec<_>>(), [(0, 1), (1, 2)]);
         for (link, x) in links.iter().zip([10.0, 20.0]) {
             assert!((link.plane.normal() - DVec3::X).length() < 1e-9);
