@@ -7,16 +7,15 @@
 //! not do, all chains are cut (two pieces), or some at two hinges (a strip apart).
 
 use super::chains::{Chain, Chains};
-use super::layout::{self, across, best_turn, clash, placed_outline};
-use crate::component::{HingeId, PanelId, PanelSet};
+use super::extent::Extent;
+use super::layout::{across, best_turn, clash, placed_outline};
+use crate::component::{HingeId, PanelSet};
 use glam::{DAffine2, DVec2};
 
 /// Nodes visited for one choice of the uncut chain.
 const NODE_BUDGET: usize = 20_000;
 /// Best results that are kept to be tried with tabs.
 const KEEP: usize = 16;
-/// Directions in which partial layouts are measured, over half a turn.
-const DIRECTIONS: usize = 36;
 /// Weight of the bounding box (over the panels' area) against the cost of one cut: a box larger by
 /// the area of all panels is worth three cuts between top and bottom.
 const BOX_WEIGHT: f64 = 1.2;
@@ -77,49 +76,6 @@ impl Problem<'_> {
     }
 }
 
-/// Extent of points in [`DIRECTIONS`] directions.
-#[derive(Clone)]
-struct Extent([(f64, f64); DIRECTIONS]);
-
-impl Extent {
-    fn empty() -> Self {
-        Self([(f64::INFINITY, f64::NEG_INFINITY); DIRECTIONS])
-    }
-
-    fn add(&mut self, points: &[DVec2]) {
-        for (k, (lo, hi)) in self.0.iter_mut().enumerate() {
-            let direction = DVec2::from_angle(k as f64 * std::f64::consts::PI / DIRECTIONS as f64);
-            for p in points {
-                let x = direction.dot(*p);
-                *lo = lo.min(x);
-                *hi = hi.max(x);
-            }
-        }
-    }
-
-    fn join(&mut self, other: &Self) {
-        for (mine, theirs) in self.0.iter_mut().zip(&other.0) {
-            *mine = (mine.0.min(theirs.0), mine.1.max(theirs.1));
-        }
-    }
-
-    fn boxes(&self) -> impl Iterator<Item = DVec2> + '_ {
-        let width = |k: usize| self.0[k].1 - self.0[k].0;
-        (0..DIRECTIONS)
-            .map(move |k| DVec2::new(width(k), width((k + DIRECTIONS / 2) % DIRECTIONS)))
-    }
-
-    fn box_area(&self) -> f64 {
-        self.boxes().map(|b| b.element_product()).fold(f64::INFINITY, f64::min)
-    }
-
-    /// False only where the points surely do not fit: between two directions 5° apart a box
-    /// seems larger than the smallest one by less than 5%.
-    fn may_fit(&self, sheet_mm: DVec2) -> bool {
-        self.boxes().any(|b| b.cmple(sheet_mm * 1.05).all())
-    }
-}
-
 /// One polygon that a choice puts on the paper, in piece 0 or 1.
 struct Item {
     outline: Vec<DVec2>,
@@ -166,12 +122,18 @@ struct Walk<'b> {
 impl<'a> Mode<'a> {
     fn new(problem: &'a Problem<'a>, uncut: Option<usize>, has_strips: bool) -> Self {
         let (set, chains) = (problem.set, problem.chains);
-        let mut items = vec![Item { outline: set.panel(chains.top).outline.clone(), piece: 0 }];
+        let mut items = vec![Item {
+            outline: set.panel(chains.top).outline.clone(),
+            piece: 0,
+        }];
         let bottom_place = match uncut {
             Some(r) => {
                 let places = hang(set, problem.chain(r), DAffine2::IDENTITY, true);
                 for (&panel, &place) in problem.chain(r).panels.iter().zip(&places) {
-                    items.push(Item { outline: placed_outline(set, panel, place), piece: 0 });
+                    items.push(Item {
+                        outline: placed_outline(set, panel, place),
+                        piece: 0,
+                    });
                 }
                 places[places.len() - 1]
             }
@@ -179,7 +141,10 @@ impl<'a> Mode<'a> {
         };
         let below = usize::from(uncut.is_none());
         let outline = placed_outline(set, chains.bottom, bottom_place);
-        items.push(Item { outline, piece: below });
+        items.push(Item {
+            outline,
+            piece: below,
+        });
         let mut fixed = [Extent::empty(), Extent::empty()];
         for item in &items {
             fixed[item.piece].add(&item.outline);
@@ -192,7 +157,11 @@ impl<'a> Mode<'a> {
             fixed,
             fixed_items: items.len(),
             items,
-            area_mm2: set.panels().iter().map(|p| crate::geom::polygon::area(&p.outline)).sum(),
+            area_mm2: set
+                .panels()
+                .iter()
+                .map(|p| crate::geom::polygon::area(&p.outline))
+                .sum(),
             cheapest_from: Vec::new(),
         };
         for j in (0..chains.chains.len()).filter(|&j| Some(j) != uncut) {
@@ -218,15 +187,22 @@ impl<'a> Mode<'a> {
         let start = self.items.len();
         for (places, piece) in [(&upper, 0), (&lower, below)] {
             for (&panel, &place) in chain.panels.iter().zip(places) {
-                self.items.push(Item { outline: placed_outline(set, panel, place), piece });
+                self.items.push(Item {
+                    outline: placed_outline(set, panel, place),
+                    piece,
+                });
             }
         }
         let mut choices: Vec<Choice> = (0..=count)
-            .flat_map(|from| (from..=if has_strips { count } else { from }).map(move |to| (from, to)))
+            .flat_map(|from| {
+                (from..=if has_strips { count } else { from }).map(move |to| (from, to))
+            })
             .filter(|&(from, to)| self.may_cut(chain, from, to, &upper))
             .map(|(from, to)| {
-                let items: Vec<usize> =
-                    (0..from).chain(count + to..2 * count).map(|i| start + i).collect();
+                let items: Vec<usize> = (0..from)
+                    .chain(count + to..2 * count)
+                    .map(|i| start + i)
+                    .collect();
                 let mut extent = [Extent::empty(), Extent::empty()];
                 for &i in &items {
                     extent[self.items[i].piece].add(&self.items[i].outline);
@@ -235,7 +211,12 @@ impl<'a> Mode<'a> {
                 hinges.dedup();
                 let glue: f64 = hinges.iter().map(|h| self.problem.cut_cost[h.0]).sum();
                 let cost = glue + if from < to { STRIP_COST } else { 0.0 };
-                Choice { hinges, cost, items, extent }
+                Choice {
+                    hinges,
+                    cost,
+                    items,
+                    extent,
+                }
             })
             .collect();
         choices.sort_by(|a, b| a.cost.total_cmp(&b.cost));
@@ -245,7 +226,12 @@ impl<'a> Mode<'a> {
     /// Whether a chain may be cut at two hinges (or one, twice): folds spared, the strip between
     /// fits the sheet.
     fn may_cut(&self, chain: &Chain, from: usize, to: usize, places: &[DAffine2]) -> bool {
-        let Problem { set, sheet_mm, may_cut_folds, .. } = *self.problem;
+        let Problem {
+            set,
+            sheet_mm,
+            may_cut_folds,
+            ..
+        } = *self.problem;
         let is_allowed = |k: usize| may_cut_folds || !set.hinges()[chain.hinges[k].0].is_fold;
         let strip: Vec<DVec2> = (from..to)
             .flat_map(|i| placed_outline(set, chain.panels[i], places[i]))
@@ -264,7 +250,9 @@ impl<'a> Mode<'a> {
         for choices in &mut self.choices {
             choices.retain(|c| {
                 let all: Vec<usize> = fixed.iter().chain(&c.items).copied().collect();
-                c.items.iter().all(|&i| all.iter().all(|&k| i == k || !clashes[i][k]))
+                c.items
+                    .iter()
+                    .all(|&i| all.iter().all(|&k| i == k || !clashes[i][k]))
             });
         }
         let flat: Vec<&Choice> = self.choices.iter().flatten().collect();
@@ -272,7 +260,11 @@ impl<'a> Mode<'a> {
             .iter()
             .map(|a| {
                 flat.iter()
-                    .map(|b| a.items.iter().all(|&i| b.items.iter().all(|&k| !clashes[i][k])))
+                    .map(|b| {
+                        a.items
+                            .iter()
+                            .all(|&i| b.items.iter().all(|&k| !clashes[i][k]))
+                    })
                     .collect()
             })
             .collect();
@@ -293,7 +285,11 @@ impl<'a> Mode<'a> {
         if self.choices.iter().any(Vec::is_empty) {
             return;
         }
-        let mut walk = Walk { chosen: Vec::new(), nodes: 0, best };
+        let mut walk = Walk {
+            chosen: Vec::new(),
+            nodes: 0,
+            best,
+        };
         self.descend(&mut walk, &self.fixed, 0.0);
     }
 
@@ -318,7 +314,11 @@ impl<'a> Mode<'a> {
             }
             let bound = cost + choice.cost + self.cheapest_from[level + 1] + self.box_cost(&joined);
             let is_beaten = walk.best.len() == KEEP && bound >= walk.best[KEEP - 1].cost;
-            if is_beaten || !self.pieces(&joined).all(|e| e.may_fit(self.problem.sheet_mm)) {
+            if is_beaten
+                || !self
+                    .pieces(&joined)
+                    .all(|e| e.may_fit(self.problem.sheet_mm))
+            {
                 continue;
             }
             walk.chosen.push(number);
@@ -331,12 +331,18 @@ impl<'a> Mode<'a> {
         let flat: Vec<&Choice> = self.choices.iter().flatten().collect();
         let mut points = [Vec::new(), Vec::new()];
         let fixed = 0..self.fixed_items;
-        let chosen = walk.chosen.iter().flat_map(|&c| flat[c].items.iter().copied());
+        let chosen = walk
+            .chosen
+            .iter()
+            .flat_map(|&c| flat[c].items.iter().copied());
         for item in fixed.chain(chosen).map(|i| &self.items[i]) {
             points[item.piece].extend_from_slice(&item.outline);
         }
         let used = points.iter().filter(|p| !p.is_empty());
-        if !used.clone().all(|p| best_turn(p, self.problem.sheet_mm).fits()) {
+        if !used
+            .clone()
+            .all(|p| best_turn(p, self.problem.sheet_mm).fits())
+        {
             return;
         }
         let mut is_cut = vec![false; self.problem.set.hinges().len()];
@@ -350,7 +356,7 @@ impl<'a> Mode<'a> {
     }
 
     fn pieces<'e>(&self, extent: &'e [Extent; 2]) -> impl Iterator<Item = &'e Extent> {
-        extent.iter().filter(|e| e.0[0].0.is_finite())
+        extent.iter().filter(|e| !e.is_empty())
     }
 
     fn box_cost(&self, extent: &[Extent; 2]) -> f64 {
@@ -369,44 +375,12 @@ fn hang(set: &PanelSet, chain: &Chain, from: DAffine2, is_from_top: bool) -> Vec
     if is_from_top {
         chain.hinges.iter().map(|&h| step(h, 0)).collect()
     } else {
-        let mut places: Vec<DAffine2> =
-            chain.hinges[1..].iter().rev().map(|&h| step(h, 1)).collect();
+        let mut places: Vec<DAffine2> = chain.hinges[1..]
+            .iter()
+            .rev()
+            .map(|&h| step(h, 1))
+            .collect();
         places.reverse();
         places
     }
-}
-
-/// Pieces that result from cutting where a piece is no good: starting with `is_cut`, cuts one
-/// more hinge of each bad piece, the one whose halves are best, until every piece is good or a
-/// single panel.
-pub(crate) fn divide(problem: &Problem<'_>, mut is_cut: Vec<bool>) -> Vec<bool> {
-    while let Some(bad) = layout::pieces(problem.set, &is_cut)
-        .into_iter()
-        .find(|piece| piece.panels.len() > 1 && badness(problem, piece) > 0.0)
-    {
-        let ids: Vec<PanelId> = bad.panels.iter().map(|p| p.0).collect();
-        let cost_of = |hinge: HingeId| {
-            let mut trial = is_cut.clone();
-            trial[hinge.0] = true;
-            let halves = layout::pieces(problem.set, &trial);
-            let halves = halves.iter().filter(|l| l.panels.iter().any(|p| ids.contains(&p.0)));
-            1e3 * halves.map(|l| badness(problem, l)).sum::<f64>() + problem.cut_cost[hinge.0]
-        };
-        let costs: Vec<(f64, HingeId)> = bad.creases.iter().map(|&h| (cost_of(h), h)).collect();
-        let Some((_, hinge)) = costs.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)) else { break };
-        is_cut[hinge.0] = true;
-    }
-    is_cut
-}
-
-/// 0 for a piece without overlap that fits; else the number of overlapping pairs and how much
-/// it is too large.
-fn badness(problem: &Problem<'_>, piece: &layout::Layout) -> f64 {
-    let outlines = piece.outlines(problem.set);
-    let pairs = outlines.iter().enumerate().flat_map(|(k, a)| {
-        outlines[..k].iter().map(move |b| f64::from(u8::from(clash(a, b, PANEL_GAP_MM))))
-    });
-    let points: Vec<DVec2> = outlines.iter().flatten().copied().collect();
-    let scale = best_turn(&points, problem.sheet_mm).scale;
-    pairs.sum::<f64>() + (1.0 / scale - 1.0).max(0.0)
 }

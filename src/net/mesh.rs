@@ -104,22 +104,37 @@ impl PieceMesh {
             .panels
             .iter()
             .zip(vertex_of)
-            .map(|(&(panel, _), vertices)| Face { kind: FaceKind::Panel(panel), vertices })
+            .map(|(&(panel, _), vertices)| Face {
+                kind: FaceKind::Panel(panel),
+                vertices,
+            })
             .collect();
         for (k, (tab, outline)) in tabs.iter().enumerate() {
             let on = set.hinges()[tab.hinge.0].sides[tab.side];
-            let Some(at) = layout.panels.iter().position(|p| p.0 == on.panel) else { continue };
+            let Some(at) = layout.panels.iter().position(|p| p.0 == on.panel) else {
+                continue;
+            };
             let carrier = &faces[at].vertices;
             let base = [carrier[(on.edge + 1) % carrier.len()], carrier[on.edge]];
             let first = vertices.len();
             for corner in [2, 3] {
-                vertices.push(Vertex { at: outline[corner], of: Corner::Tab { tab: k, corner } });
+                vertices.push(Vertex {
+                    at: outline[corner],
+                    of: Corner::Tab { tab: k, corner },
+                });
             }
             let vertices = vec![base[0], base[1], first, first + 1];
-            faces.push(Face { kind: FaceKind::Tab(k), vertices });
+            faces.push(Face {
+                kind: FaceKind::Tab(k),
+                vertices,
+            });
         }
         let edges = edges(set, layout, tabs, &faces);
-        Self { vertices, faces, edges }
+        Self {
+            vertices,
+            faces,
+            edges,
+        }
     }
 
     /// The same mesh with every vertex moved.
@@ -147,7 +162,11 @@ impl PieceMesh {
 
     /// Corners of a face on the piece.
     pub fn outline(&self, face: usize) -> Vec<DVec2> {
-        self.faces[face].vertices.iter().map(|&v| self.vertices[v].at).collect()
+        self.faces[face]
+            .vertices
+            .iter()
+            .map(|&v| self.vertices[v].at)
+            .collect()
     }
 
     /// Both ends of an edge on the piece.
@@ -167,7 +186,9 @@ impl PieceMesh {
             }
         }
         let is_border = |&(a, b): &(usize, usize)| !next.contains_key(&(b, a));
-        let Some(start) = next.keys().copied().find(is_border) else { return Vec::new() };
+        let Some(start) = next.keys().copied().find(is_border) else {
+            return Vec::new();
+        };
         let mut walk = Vec::new();
         let mut at = start;
         loop {
@@ -202,10 +223,14 @@ fn edges(
             None => EdgeKind::Slit,
             Some(h) if layout.creases.contains(h) => EdgeKind::Hinge(*h),
             Some(h) => {
-                let is_tab = tabs.iter().any(|(t, _)| {
-                    t.hinge == *h && set.hinges()[h.0].sides[t.side].panel == panel
-                });
-                if is_tab { EdgeKind::Tab(*h) } else { EdgeKind::Mate(*h) }
+                let is_tab = tabs
+                    .iter()
+                    .any(|(t, _)| t.hinge == *h && set.hinges()[h.0].sides[t.side].panel == panel);
+                if is_tab {
+                    EdgeKind::Tab(*h)
+                } else {
+                    EdgeKind::Mate(*h)
+                }
             }
         },
     };
@@ -219,7 +244,11 @@ fn edges(
                 out[e].faces.push(f);
             } else {
                 known.insert(ends, out.len());
-                out.push(Edge { ends, kind: kind(face, k), faces: vec![f] });
+                out.push(Edge {
+                    ends,
+                    kind: kind(face, k),
+                    faces: vec![f],
+                });
             }
         }
     }
@@ -241,7 +270,10 @@ impl Corners {
             first.insert(panel, (total, count));
             total += count;
         }
-        Self { first, parent: (0..total).collect() }
+        Self {
+            first,
+            parent: (0..total).collect(),
+        }
     }
 
     fn join(&mut self, p: PanelId, corner_p: usize, q: PanelId, corner_q: usize) {
@@ -271,7 +303,10 @@ impl Corners {
                 let root = self.root(running);
                 if number[root] == usize::MAX {
                     number[root] = vertices.len();
-                    vertices.push(Vertex { at, of: Corner::Panel { panel, corner } });
+                    vertices.push(Vertex {
+                        at,
+                        of: Corner::Panel { panel, corner },
+                    });
                 }
                 face.push(number[root]);
                 running += 1;
