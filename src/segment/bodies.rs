@@ -170,6 +170,19 @@ pub(super) fn join_crumbs(
     partition.compacted()
 }
 
+/// The body of each set; bodies that share a set count as one.
+pub(super) fn body_of_sets(surface: &Surface, partition: &Partition) -> Vec<u32> {
+    let (body, count) = surface.components(|_| 0);
+    let mut root: Vec<u32> = (0..count as u32).collect();
+    let mut of_set: Vec<Option<u32>> = vec![None; partition.count];
+    for (cell, &set) in partition.of_cell.iter().enumerate() {
+        let first = *of_set[set as usize].get_or_insert(body[cell]);
+        let (a, b) = (find(&mut root, first), find(&mut root, body[cell]));
+        root[a.max(b) as usize] = a.min(b);
+    }
+    of_set.into_iter().map(|b| find(&mut root, b.unwrap_or(0))).collect()
+}
+
 /// The root of a body in a forest, with the way to it shortened.
 fn find(root: &mut [u32], mut body: u32) -> u32 {
     while root[body as usize] != body {

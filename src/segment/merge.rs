@@ -1,6 +1,7 @@
 //! Greedy merging of patches into nearly convex parts: the pair goes first whose common hull has
 //! the least more volume outside of the solid than their own hulls.
 
+use super::choose::{Node, Tree};
 use super::grid::{Run, Solid};
 use super::patches::Partition;
 use super::rough_hull::Extremes;
@@ -65,17 +66,6 @@ impl PartialOrd for Candidate {
     }
 }
 
-/// All merges in their order.
-pub(super) struct Merges {
-    patches: Partition,
-    steps: Vec<[u32; 2]>,
-    /// Intersection over union of the hulls' union with the solid, before each step and after
-    /// the last one.
-    iou: Vec<f64>,
-    /// Steps that do not bridge a gap between bodies.
-    within_bodies: usize,
-}
-
 /// What surrounds the merging: it reads this and does not change it.
 pub(super) struct Scene<'a> {
     pub positions: &'a [DVec3],
@@ -108,34 +98,6 @@ impl Scene<'_> {
     }
 }
 
-/// How often each cell of the grid is covered by a hull.
-struct Cover<'a> {
-    solid: &'a Solid,
-    times: Vec<u16>,
-    inside: usize,
-    outside: usize,
-}
-
-impl Cover<'_> {
-    fn add(&mut self, runs: &[Run], step: i32) {
-        for &(column, first, end) in runs {
-            for height in first..end {
-                let times = &mut self.times[self.solid.index(column, height)];
-                let now = i32::from(*times) + step;
-                let change = i32::from(now > 0) - i32::from(*times > 0);
-                *times = now.max(0) as u16;
-                let covered =
-                    if self.solid.is_inside(column, height) { &mut self.inside } else { &mut self.outside };
-                *covered = covered.saturating_add_signed(change as isize);
-            }
-        }
-    }
-
-    fn iou(&self) -> f64 {
-        self.inside as f64 / (self.solid.inside() + self.outside).max(1) as f64
-    }
-}
-
 /// Merges patches until one is left, or none are neighbours. `vertices` are those of each patch,
 /// `neighbours` pairs of patches, `body` the body of each patch.
 pub(super) fn merge_all(
@@ -145,7 +107,7 @@ pub(super) fn merge_all(
     neighbours: &[[u32; 2]],
     body: &[u32],
     progress: &dyn Progress,
-) -> Result<Merges, Cancelled> {
+) -> Result<Tree, Cancelled> {
     let mut parts: Vec<Option<Part>> = (0..patches.count)
         .into_par_iter()
         .map(|p| {
@@ -161,12 +123,9 @@ pub(super) fn merge_all(
             }
         }
     }
-    let mut cover = Cover { solid: scene.solid, times: vec![0; scene.solid.len()], inside: 0, outside: 0 };
-    parts.iter().flatten().for_each(|p| cover.add(&p.shape.runs, 1));
     let found: Vec<_> = neighbours.par_iter().map(|&pair| scene.candidate(&parts, pair)).collect();
     let mut heap: BinaryHeap<Candidate> = found.into_iter().flatten().collect();
-    let mut merges =
-        Merges { patches, steps: Vec::new(), iou: vec![cover.iou()], within_bodies: 0 };
+    let mut forest = Forest::of_patches(&parts);
     while let Some(candidate) = heap.pop() {
         progress.check()?;
         let current = |k: usize| {
@@ -176,27 +135,45 @@ pub(super) fn merge_all(
         if !(current(0) && current(1)) {
             continue;
         }
-        merges.steps.push(candidate.parts);
-        if candidate.cost < GAP_COST / 2.0 {
-            merges.within_bodies = merges.steps.len();
-        }
-        let pairs = join(&mut parts, candidate, &mut cover);
-        merges.iou.push(cover.iou());
+        forest.grow(&candidate);
+        let pairs = join(&mut parts, candidate);
         let found: Vec<_> = pairs.par_iter().map(|&pair| scene.candidate(&parts, pair)).collect();
         heap.extend(found.into_iter().flatten());
     }
-    Ok(merges)
+    Ok(Tree { patches, nodes: forest.nodes })
+}
+
+/// The tree while it grows.
+struct Forest {
+    nodes: Vec<Node>,
+    /// The node of each part that is left.
+    of_part: Vec<usize>,
+}
+
+impl Forest {
+    fn of_patches(parts: &[Option<Part>]) -> Self {
+        let runs = |p: &Option<Part>| p.as_ref().map_or(Vec::new(), |p| p.shape.runs.clone());
+        let leaf = |p| Node { runs: runs(p), children: None, over_gap: false };
+        Self { nodes: parts.iter().map(leaf).collect(), of_part: (0..parts.len()).collect() }
+    }
+
+    fn grow(&mut self, merge: &Candidate) {
+        let children = merge.parts.map(|p| self.of_part[p as usize]);
+        self.of_part[merge.parts[0] as usize] = self.nodes.len();
+        self.nodes.push(Node {
+            runs: merge.shape.runs.clone(),
+            children: Some(children),
+            over_gap: merge.cost > GAP_COST / 2.0,
+        });
+    }
 }
 
 /// Makes a merge; the pairs of the new part with its neighbours.
-fn join(parts: &mut [Option<Part>], merge: Candidate, cover: &mut Cover) -> Vec<[u32; 2]> {
+fn join(parts: &mut [Option<Part>], merge: Candidate) -> Vec<[u32; 2]> {
     let [a, b] = merge.parts;
     let (Some(mut kept), Some(gone)) = (parts[a as usize].take(), parts[b as usize].take()) else {
         return Vec::new();
     };
-    cover.add(&kept.shape.runs, -1);
-    cover.add(&gone.shape.runs, -1);
-    cover.add(&merge.shape.runs, 1);
     for &other in &gone.around {
         if let Some(part) = &mut parts[other as usize] {
             part.around.remove(&b);
@@ -212,25 +189,4 @@ fn join(parts: &mut [Option<Part>], merge: Candidate, cover: &mut Cover) -> Vec<
     let pairs = kept.around.iter().map(|&o| [a.min(o), a.max(o)]).collect();
     parts[a as usize] = Some(kept);
     pairs
-}
-
-impl Merges {
-    /// Number of parts that is worth most: each part more has to raise the intersection over
-    /// union by `part_cost`.
-    pub fn best_count(&self, part_cost: f64) -> usize {
-        let worth = |step: &usize| self.iou[*step] - part_cost * (self.patches.count - step) as f64;
-        let best = (0..=self.within_bodies).max_by(|a, b| worth(a).total_cmp(&worth(b)));
-        self.patches.count - best.unwrap_or(0)
-    }
-
-    /// The partition into as many parts, or as near to it as there is.
-    pub fn parts(&self, count: usize) -> Partition {
-        let steps = self.patches.count.saturating_sub(count).min(self.steps.len());
-        let mut into: Vec<u32> = (0..self.patches.count as u32).collect();
-        for &[a, b] in self.steps[..steps].iter().rev() {
-            into[b as usize] = into[a as usize];
-        }
-        let of_cell = self.patches.of_cell.iter().map(|&p| into[p as usize]).collect();
-        Partition { of_cell, count: self.patches.count }.compacted()
-    }
 }

@@ -5,6 +5,7 @@
 //! segment becomes a hull of paper.
 
 mod bodies;
+mod choose;
 mod coarsen;
 mod cut;
 mod gmm;
