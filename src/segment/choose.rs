@@ -1,9 +1,12 @@
 //! Which parts of the tree of merges become segments: from the whole downwards, the split goes
-//! first after which the union of the hulls is nearest to the solid.
+//! first after which the union of the hulls is nearest to the solid, at a short border.
 
 use super::grid::{Run, Solid};
 use super::patches::Partition;
 use crate::progress::{Cancelled, Progress};
+
+/// What the borders between parts cost, against the overlap.
+const BORDER_COST: f64 = 0.03;
 
 /// More parts than this are not found automatically.
 const MOST_AUTOMATIC: usize = 48;
@@ -14,6 +17,8 @@ pub(super) struct Node {
     pub runs: Vec<Run>,
     /// The two that it was merged from, with smaller numbers than its own.
     pub children: Option<[usize; 2]>,
+    /// What it costs to cut along the border of the two.
+    pub border: f64,
     /// Whether the merge bridged a gap between bodies.
     pub over_gap: bool,
 }
@@ -34,7 +39,12 @@ struct Cover<'a> {
 
 impl<'a> Cover<'a> {
     fn new(solid: &'a Solid) -> Self {
-        Self { solid, times: vec![0; solid.len()], inside: 0, outside: 0 }
+        Self {
+            solid,
+            times: vec![0; solid.len()],
+            inside: 0,
+            outside: 0,
+        }
     }
 
     fn add(&mut self, runs: &[Run]) {
@@ -62,7 +72,11 @@ impl<'a> Cover<'a> {
     }
 
     fn count(&mut self, column: u32, height: u16) -> &mut usize {
-        if self.solid.is_inside(column, height) { &mut self.inside } else { &mut self.outside }
+        if self.solid.is_inside(column, height) {
+            &mut self.inside
+        } else {
+            &mut self.outside
+        }
     }
 
     /// Intersection over union of the hulls' union with the solid.
@@ -77,7 +91,9 @@ impl<'a> Cover<'a> {
 
     fn unsplit(&mut self, tree: &Tree, node: usize, children: [usize; 2]) {
         self.add(&tree.nodes[node].runs);
-        children.iter().for_each(|&c| self.remove(&tree.nodes[c].runs));
+        children
+            .iter()
+            .for_each(|&c| self.remove(&tree.nodes[c].runs));
     }
 }
 
@@ -99,7 +115,7 @@ impl Tree {
     }
 
     /// The number of parts that is worth most: each part more has to raise the intersection over
-    /// union by `part_cost`. Separate bodies stay separate.
+    /// union by `part_cost` and what its border costs. Separate bodies stay separate.
     pub fn best_parts(
         &self,
         solid: &Solid,
@@ -113,16 +129,37 @@ impl Tree {
             front.extend(self.nodes[node].children.iter().flatten());
         }
         front.iter().for_each(|&n| cover.add(&self.nodes[n].runs));
-        let worth = |cover: &Cover, parts: usize| cover.iou() - part_cost * parts as f64;
-        let mut best = (worth(&cover, front.len()), front.clone());
+        let worth = |cover: &Cover, parts: &[usize]| {
+            cover.iou() - part_cost * parts.len() as f64 - BORDER_COST * self.borders(parts)
+        };
+        let mut best = (worth(&cover, &front), front.clone());
         while front.len() < MOST_AUTOMATIC && self.split_best(&mut cover, &mut front) {
             progress.check()?;
-            let now = worth(&cover, front.len());
+            let now = worth(&cover, &front);
             if now > best.0 {
                 best = (now, front.clone());
             }
         }
         Ok(self.partition(&best.1))
+    }
+
+    /// What all borders between parts cost.
+    fn borders(&self, front: &[usize]) -> f64 {
+        let mut above = vec![true; self.nodes.len()];
+        front.iter().for_each(|&n| above[n] = false);
+        for n in (0..self.nodes.len()).rev() {
+            if let Some(children) = self.nodes[n].children
+                && !above[n]
+            {
+                children.iter().for_each(|&c| above[c] = false);
+            }
+        }
+        let split = self
+            .nodes
+            .iter()
+            .zip(above)
+            .filter(|(n, above)| *above && n.children.is_some());
+        split.map(|(n, _)| n.border).sum()
     }
 
     fn roots(&self) -> Vec<usize> {
@@ -138,15 +175,19 @@ impl Tree {
     fn split_best(&self, cover: &mut Cover, front: &mut Vec<usize>) -> bool {
         let mut best: Option<(f64, usize, [usize; 2], usize)> = None;
         for (k, &node) in front.iter().enumerate() {
-            let Some(children) = self.nodes[node].children else { continue };
+            let Some(children) = self.nodes[node].children else {
+                continue;
+            };
             cover.split(self, node, children);
-            let iou = cover.iou();
+            let worth = cover.iou() - BORDER_COST * self.nodes[node].border;
             cover.unsplit(self, node, children);
-            if best.is_none_or(|b| iou > b.0 || (iou == b.0 && node > b.1)) {
-                best = Some((iou, node, children, k));
+            if best.is_none_or(|b| worth > b.0 || (worth == b.0 && node > b.1)) {
+                best = Some((worth, node, children, k));
             }
         }
-        let Some((_, node, children, k)) = best else { return false };
+        let Some((_, node, children, k)) = best else {
+            return false;
+        };
         cover.split(self, node, children);
         front.swap_remove(k);
         front.extend(children);
@@ -165,7 +206,16 @@ impl Tree {
                 children.iter().for_each(|&c| of_node[c] = of_node[n]);
             }
         }
-        let of_cell = self.patches.of_cell.iter().map(|&p| of_node[p as usize]).collect();
-        Partition { of_cell, count: front.len() + 1 }.compacted()
+        let of_cell = self
+            .patches
+            .of_cell
+            .iter()
+            .map(|&p| of_node[p as usize])
+            .collect();
+        Partition {
+            of_cell,
+            count: front.len() + 1,
+        }
+        .compacted()
     }
 }

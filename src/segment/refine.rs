@@ -40,10 +40,23 @@ pub(super) fn refine_borders(surface: &Surface, mut partition: Partition) -> Par
         for (pair, links) in along {
             let before = [areas[pair.0 as usize], areas[pair.1 as usize]];
             let smaller = before[0].min(before[1]);
-            let changes = move_border(surface, &partition.of_cell, pair, &links, smaller, &mut place);
+            let changes = move_border(
+                surface,
+                &partition.of_cell,
+                pair,
+                &links,
+                smaller,
+                &mut place,
+            );
             let gain: f64 = changes
                 .iter()
-                .map(|&c| if partition.of_cell[c] == pair.1 { surface.areas()[c] } else { -surface.areas()[c] })
+                .map(|&c| {
+                    if partition.of_cell[c] == pair.1 {
+                        surface.areas()[c]
+                    } else {
+                        -surface.areas()[c]
+                    }
+                })
                 .sum();
             if gain.abs() > MOST_CHANGE * smaller {
                 continue;
@@ -71,13 +84,15 @@ fn move_border(
 ) -> Vec<usize> {
     let length: f64 = links.iter().map(|&l| surface.links()[l].length).sum();
     let reach = (BAND_OF_LENGTH * length).min(BAND_OF_SIZE * smaller_area.sqrt());
-    let seeds = links.iter().flat_map(|&l| surface.links()[l].cells.map(|c| c as usize));
+    let seeds = links
+        .iter()
+        .flat_map(|&l| surface.links()[l].cells.map(|c| c as usize));
     let band = band(surface, of_cell, pair, seeds, reach, place);
     let plane = border_plane(surface, of_cell, pair, links);
     let mut network = Network::new(band.len(), band.len() * 2);
     for (i, &cell) in band.iter().enumerate() {
         for (other, link) in surface.around(cell) {
-            let w = crease_cost(link) * link.length;
+            let w = crease_cost(link.turn_rad) * link.length;
             if place[other] == u32::MAX {
                 // Beyond the band the other cells are fixed; a third segment does not care.
                 let (first, second) = (of_cell[other] == pair.0, of_cell[other] == pair.1);
@@ -95,7 +110,10 @@ fn move_border(
     }
     band.iter().for_each(|&c| place[c] = u32::MAX);
     let sides = band.iter().zip(network.sink_side());
-    sides.filter(|&(&c, second)| (of_cell[c] == pair.1) != second).map(|(&c, _)| c).collect()
+    sides
+        .filter(|&(&c, second)| (of_cell[c] == pair.1) != second)
+        .map(|(&c, _)| c)
+        .collect()
 }
 
 /// The cells of two segments within reach of their border; `place` tells each one's index.
@@ -107,7 +125,12 @@ fn band(
     reach: f64,
     place: &mut [u32],
 ) -> Vec<usize> {
-    let mut heap: BinaryHeap<Nearest> = seeds.map(|cell| Nearest { distance: 0.0, cell }).collect();
+    let mut heap: BinaryHeap<Nearest> = seeds
+        .map(|cell| Nearest {
+            distance: 0.0,
+            cell,
+        })
+        .collect();
     let mut band = Vec::new();
     while let Some(Nearest { distance, cell }) = heap.pop() {
         if place[cell] != u32::MAX {
@@ -119,7 +142,10 @@ fn band(
             let step = distance + surface.centres()[cell].distance(surface.centres()[other]);
             let own = of_cell[other] == pair.0 || of_cell[other] == pair.1;
             if own && place[other] == u32::MAX && step <= reach {
-                heap.push(Nearest { distance: step, cell: other });
+                heap.push(Nearest {
+                    distance: step,
+                    cell: other,
+                });
             }
         }
     }
@@ -137,7 +163,9 @@ fn border_plane(
     let points: Vec<DVec3> = links
         .iter()
         .map(|&l| {
-            let [a, b] = surface.links()[l].cells.map(|c| surface.centres()[c as usize]);
+            let [a, b] = surface.links()[l]
+                .cells
+                .map(|c| surface.centres()[c as usize]);
             (a + b) / 2.0
         })
         .collect();
@@ -154,7 +182,11 @@ fn border_plane(
             if of_cell[a] == pair.0 { step } else { -step }
         })
         .sum();
-    Some(if forward < 0.0 { plane.flipped() } else { plane })
+    Some(if forward < 0.0 {
+        plane.flipped()
+    } else {
+        plane
+    })
 }
 
 /// Gives every piece of a set but the largest to the neighbour with the longest common border,
