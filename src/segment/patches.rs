@@ -34,6 +34,21 @@ impl Partition {
         borders
     }
 
+    /// What it costs to cut along the border of each pair of neighbouring sets: its length, over
+    /// the square root of the whole area, that of concave edges counted less.
+    pub fn border_costs(&self, surface: &Surface) -> BTreeMap<(u32, u32), f64> {
+        let flat = crease_cost(0.0) * surface.total_area().sqrt();
+        let mut costs = BTreeMap::new();
+        for link in surface.links() {
+            let [a, b] = link.cells.map(|c| self.of_cell[c as usize]);
+            if a != b {
+                let cost = crease_cost(link.turn_rad) * link.length / flat;
+                *costs.entry((a.min(b), a.max(b))).or_insert(0.0) += cost;
+            }
+        }
+        costs
+    }
+
     /// Numbers the used sets from 0 in the order of their first cells.
     pub fn compacted(mut self) -> Self {
         let mut number = vec![u32::MAX; self.count];
@@ -68,15 +83,22 @@ pub(super) fn absorb_small(surface: &Surface, partition: Partition, least_area: 
     }
     let mut small: BinaryHeap<Nearest> = (0..partition.count)
         .filter(|&p| areas[p] < least_area)
-        .map(|p| Nearest { distance: areas[p], cell: p })
+        .map(|p| Nearest {
+            distance: areas[p],
+            cell: p,
+        })
         .collect();
     let mut into: Vec<u32> = (0..partition.count as u32).collect();
     while let Some(Nearest { distance, cell: p }) = small.pop() {
         if into[p] != p as u32 || areas[p] != distance {
             continue;
         }
-        let longest = around[p].iter().max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)));
-        let Some(host) = longest.map(|(&h, _)| h) else { continue };
+        let longest = around[p]
+            .iter()
+            .max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)));
+        let Some(host) = longest.map(|(&h, _)| h) else {
+            continue;
+        };
         into[p] = host;
         areas[host as usize] += areas[p];
         for (other, length) in std::mem::take(&mut around[p]) {
@@ -87,7 +109,10 @@ pub(super) fn absorb_small(surface: &Surface, partition: Partition, least_area: 
             }
         }
         if areas[host as usize] < least_area {
-            small.push(Nearest { distance: areas[host as usize], cell: host as usize });
+            small.push(Nearest {
+                distance: areas[host as usize],
+                cell: host as usize,
+            });
         }
     }
     let root = |mut p: u32| {
@@ -97,7 +122,11 @@ pub(super) fn absorb_small(surface: &Surface, partition: Partition, least_area: 
         p
     };
     let of_cell = partition.of_cell.iter().map(|&p| root(p)).collect();
-    Partition { of_cell, count: partition.count }.compacted()
+    Partition {
+        of_cell,
+        count: partition.count,
+    }
+    .compacted()
 }
 
 /// Splits connected sets that are larger than `most_area`, each into the cells nearest to seeds
@@ -128,7 +157,14 @@ pub(super) fn split_large(surface: &Surface, partition: &Partition, most_area: f
                 break;
             }
             let own = |q| q == p as u32 || q >= base;
-            spread_among(surface, seed, &mut of_cell, count as u32, &mut distance, own);
+            spread_among(
+                surface,
+                seed,
+                &mut of_cell,
+                count as u32,
+                &mut distance,
+                own,
+            );
             count += 1;
         }
     }
@@ -154,7 +190,10 @@ fn spread_among(
     distance: &mut [f64],
     allowed: impl Fn(u32) -> bool,
 ) {
-    let mut heap = BinaryHeap::from([Nearest { distance: 0.0, cell: seed }]);
+    let mut heap = BinaryHeap::from([Nearest {
+        distance: 0.0,
+        cell: seed,
+    }]);
     while let Some(Nearest { distance: d, cell }) = heap.pop() {
         if d >= distance[cell] {
             continue;
@@ -164,7 +203,10 @@ fn spread_among(
         for (other, link) in surface.around(cell) {
             let step = d + step_length(surface, cell, other, link);
             if step < distance[other] && allowed(of_cell[other]) {
-                heap.push(Nearest { distance: step, cell: other });
+                heap.push(Nearest {
+                    distance: step,
+                    cell: other,
+                });
             }
         }
     }
@@ -173,8 +215,8 @@ fn spread_among(
 /// Distance of two cells' centres, several times as long across a sharp concave edge.
 fn step_length(surface: &Surface, a: usize, b: usize, link: &Link) -> f64 {
     let centres = surface.centres();
-    let flat = crease_cost(&Link { turn_rad: 0.0, ..*link });
-    centres[a].distance(centres[b]) * (flat / crease_cost(link).max(0.5))
+    let flat = crease_cost(0.0);
+    centres[a].distance(centres[b]) * (flat / crease_cost(link.turn_rad).max(0.5))
 }
 
 /// A heap entry; the nearest is the greatest, of equal ones that with the smaller index.
@@ -188,7 +230,10 @@ impl Eq for Nearest {}
 
 impl Ord for Nearest {
     fn cmp(&self, other: &Self) -> Ordering {
-        other.distance.total_cmp(&self.distance).then(other.cell.cmp(&self.cell))
+        other
+            .distance
+            .total_cmp(&self.distance)
+            .then(other.cell.cmp(&self.cell))
     }
 }
 
