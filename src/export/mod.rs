@@ -1,1 +1,3 @@
 //! File formats, one file each, registered in one list.
+
+pub mod png;
