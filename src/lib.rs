@@ -12,6 +12,7 @@
 //! that paper's. Lengths are millimetres, angles radians, unless a name says otherwise.
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
+pub mod check;
 pub mod component;
 pub mod drawing;
 pub mod export;

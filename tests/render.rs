@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_6};
 
 use glam::{DVec2, DVec3};
-use tatamu::drawing::{Drawing, Layer, Mark, Polyline, Rgb, Shape, Stroke};
+use tatamu::drawing::{Align, Drawing, Layer, Mark, Polyline, Rgb, Shape, Stroke, Text};
 use tatamu::export::png;
 use tatamu::render::{Camera, Edge, Face, Look, Scene, View, light, palette, picture};
 
@@ -162,4 +162,22 @@ fn sizes_that_cannot_be_drawn_are_refused() {
             "{dpi}"
         );
     }
+}
+
+#[test]
+fn letters_are_filled_at_their_place() {
+    let ink = Rgb(10, 20, 30);
+    let text = Text::new("I", DVec2::new(30.0, 10.0), 20.0)
+        .aligned(Align::Middle)
+        .coloured(ink);
+    let mut drawing = Drawing::new("letters", SIZE);
+    drawing.ground = Some(Rgb(255, 255, 255));
+    drawing.marks.push(Mark::text(Layer::Label, text));
+    let pixmap = png::rasterise(&drawing, DPI).unwrap();
+    let at = |x, y| pixel(&pixmap, DVec2::new(x, y)).0;
+    assert_eq!([at(30.0, 10.5), at(30.0, 29.5)], [ink; 2]);
+    assert_eq!(
+        [at(30.0, 9.5), at(30.0, 30.5), at(20.0, 20.0)],
+        [Rgb(255, 255, 255); 3]
+    );
 }

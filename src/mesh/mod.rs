@@ -40,3 +40,12 @@ impl Mesh {
         self.faces[f].map(|v| self.positions[v as usize])
     }
 }
+
+#[cfg(test)]
+impl Mesh {
+    /// A mesh as it is, unchecked, for the tests of other modules.
+    pub(crate) fn for_tests(positions: Vec<DVec3>, faces: Vec<[u32; 3]>) -> Self {
+        let input_face = (0..faces.len() as u32).collect();
+        Self { positions, faces, input_face }
+    }
+}

@@ -6,7 +6,7 @@ use super::bsp::{self, Fragment};
 use super::light;
 use super::scene::{Edge, Scene};
 use super::view::View;
-use crate::drawing::{Drawing, Layer, Mark, Polyline, Rgb, Shape, Stroke};
+use crate::drawing::{Drawing, Layer, Mark, Polyline, Rgb, Stroke};
 
 /// Widths of lines; 0 leaves them out.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,8 +29,8 @@ impl Look {
 }
 
 /// The width of the lines, in their own colour, that close the seams between filled neighbours,
-/// relative to the picture's size: a pixel at 640 pixels. Thinner ones let the ground shine through.
-const SEAM_SHARE: f64 = 1.0 / 640.0;
+/// relative to the picture's size: 1.5 pixels at 640 pixels. Those of 1 pixel let 7% of the ground shine through.
+const SEAM_SHARE: f64 = 1.5 / 640.0;
 
 /// Draws what is to be seen, farthest first, over the marks of `under` (a shadow, say). The ground
 /// is transparent where it is none.
@@ -47,10 +47,9 @@ pub fn picture(
         draw(scene, view, look, seam_mm, &fragment, &mut marks);
     }
     Drawing {
-        title: String::new(),
-        size_mm: view.size_mm(),
         ground,
         marks,
+        ..Drawing::new("", view.size_mm())
     }
 }
 
@@ -86,21 +85,22 @@ fn draw(
         };
         if let Some(weight) = weight(view, edge, fragment.corners[k], is_front) {
             let (a, b) = (points[k], points[(k + 1) % points.len()]);
-            lines[weight as usize].push(Polyline {
-                points: vec![a, b],
-                is_closed: false,
-            });
+            lines[weight as usize].push(Polyline::open(vec![a, b]));
         }
     }
-    let outline = Polyline {
-        points,
-        is_closed: true,
-    };
-    marks.push(mark(vec![outline], stroke(seam_mm, colour), Some(colour)));
+    let outline = Polyline::closed(points);
+    let seam = stroke(seam_mm, colour);
+    marks.push(Mark::path(
+        Layer::Picture,
+        vec![outline],
+        Some(seam),
+        Some(colour),
+    ));
     let line_colour = light::line_on(colour);
     for (contours, width_mm) in lines.into_iter().zip([look.crease_mm, look.outline_mm]) {
         if !contours.is_empty() && width_mm > 0.0 {
-            marks.push(mark(contours, stroke(width_mm, line_colour), None));
+            let line = stroke(width_mm, line_colour);
+            marks.push(Mark::path(Layer::Picture, contours, Some(line), None));
         }
     }
 }
@@ -121,17 +121,5 @@ fn weight(view: &View, edge: Edge, start: DVec3, is_front: bool) -> Option<Weigh
         }
         Edge::Smooth(_) => None,
         Edge::Crease(_) => Some(Weight::Crease),
-    }
-}
-
-fn mark(contours: Vec<Polyline>, stroke: Stroke, fill: Option<Rgb>) -> Mark {
-    Mark {
-        layer: Layer::Picture,
-        piece: None,
-        shape: Shape::Path {
-            contours,
-            stroke: Some(stroke),
-            fill,
-        },
     }
 }

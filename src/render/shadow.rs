@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::light::mixed;
 use super::view::View;
-use crate::drawing::{Layer, Mark, Polyline, Rgb, Shape};
+use crate::drawing::{Layer, Mark, Rgb};
 use crate::geom::polygon::convex_hull;
 
 /// Steps from the ground's colour to the darkest.
@@ -42,18 +42,11 @@ pub fn contact_shadow(points: &[DVec3], view: &View, ground: Rgb) -> Vec<Mark> {
         let size = OUTER + (INNER - OUTER) * share;
         let corner = |p: &DVec2| DVec3::new(middle.x + size * p.x, low.y, middle.z + size * p.y);
         let dark = f64::from(k + 1) / f64::from(STEPS);
-        Mark {
-            layer: Layer::Picture,
-            piece: None,
-            shape: Shape::Path {
-                contours: vec![Polyline {
-                    points: outline.iter().map(|p| view.project(corner(p))).collect(),
-                    is_closed: true,
-                }],
-                stroke: None,
-                fill: Some(mixed(ground, DARKEST, DARKEST_SHARE * dark * dark)),
-            },
-        }
+        Mark::filled(
+            Layer::Picture,
+            outline.iter().map(|p| view.project(corner(p))).collect(),
+            mixed(ground, DARKEST, DARKEST_SHARE * dark * dark),
+        )
     };
     (0..STEPS).map(step).collect()
 }
@@ -61,6 +54,7 @@ pub fn contact_shadow(points: &[DVec3], view: &View, ground: Rgb) -> Vec<Mark> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::Shape;
     use crate::render::Camera;
 
     #[test]
