@@ -29,7 +29,8 @@ impl Look {
 }
 
 /// The width of the lines, in their own colour, that close the seams between filled neighbours,
-/// relative to the picture's size: 1.5 pixels at 640 pixels. Those of 1 pixel let 7% of the ground shine through.
+/// relative to the picture's size: 1.5 pixels at 640 pixels. Those of 1 pixel let 7% of the ground
+/// shine through.
 const SEAM_SHARE: f64 = 1.5 / 640.0;
 
 /// Draws what is to be seen, farthest first, over the marks of `under` (a shadow, say). The ground

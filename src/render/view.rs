@@ -45,7 +45,7 @@ impl Camera {
         if !azimuth_rad.is_finite() {
             return Err(ViewError::Angle("azimuth"));
         }
-        if !(elevation_rad.abs() <= QUARTER) {
+        if !(-QUARTER..=QUARTER).contains(&elevation_rad) {
             return Err(ViewError::Angle("elevation"));
         }
         if !(0.0..=QUARTER).contains(&field_of_view_rad) {
