@@ -8,6 +8,7 @@
 mod fixture;
 pub mod fold;
 mod pdf;
+pub mod png;
 mod svg;
 
 use crate::drawing::{Drawing, Shape, Stroke};
@@ -182,7 +183,7 @@ impl Format {
 }
 
 /// All formats, in the order of help texts.
-pub const FORMATS: &[Format] = &[pdf::FORMAT, svg::FORMAT, FOLD, JSON];
+pub const FORMATS: &[Format] = &[pdf::FORMAT, svg::FORMAT, png::FORMAT, FOLD, JSON];
 
 /// The crease pattern, the deployed and the flat model.
 const FOLD: Format = Format {
