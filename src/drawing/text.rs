@@ -3,7 +3,7 @@
 //! The font is a subset of Inter (Latin letters, digits, a few signs), embedded in the program;
 //! see `font/README.md`. Every back end draws text without kerning, so that all files agree.
 
-use super::Text;
+use super::{Polyline, Text};
 use glam::{DAffine2, DVec2};
 use skrifa::{DrawMemory, Font, PathSink, ScalerFont};
 use std::collections::BTreeMap;
@@ -216,6 +216,45 @@ pub fn outlines(text: &Text) -> Vec<PathCommand> {
     out
 }
 
+/// The outlines as closed polylines, each curve in the given number of straight steps: for
+/// machines that know no curves.
+pub fn contours(text: &Text, steps: usize) -> Vec<Polyline> {
+    let mut out: Vec<Polyline> = Vec::new();
+    for command in outlines(text) {
+        match (command, out.last_mut()) {
+            (PathCommand::MoveTo(p), _) => out.push(Polyline::closed(vec![p])),
+            (PathCommand::Close, _) | (_, None) => {}
+            (curve, Some(contour)) => {
+                let mut points = curve.points();
+                points.insert(0, contour.points[contour.points.len() - 1]);
+                let count = if points.len() == 2 { 1 } else { steps.max(1) };
+                let at = |step: usize| on_curve(&points, step as f64 / count as f64);
+                contour.points.extend((1..=count).map(at));
+            }
+        }
+    }
+    for contour in &mut out {
+        let ends_at_start =
+            contour.points.len() > 1 && contour.points.first() == contour.points.last();
+        if ends_at_start {
+            contour.points.pop();
+        }
+    }
+    out
+}
+
+/// The point at `t` of the Bézier curve with these control points (de Casteljau).
+fn on_curve(control: &[DVec2], t: f64) -> DVec2 {
+    let mut points = control.to_vec();
+    while points.len() > 1 {
+        points = points
+            .windows(2)
+            .map(|pair| pair[0].lerp(pair[1], t))
+            .collect();
+    }
+    points[0]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -270,5 +309,28 @@ mod tests {
         assert!(short.starts_with("arm") && short.ends_with('…'), "{short}");
         assert!(width_mm(&short, 2.0) <= full * 0.7);
         assert_eq!(shortened("armadillo", 2.0, 0.1), "");
+    }
+
+    #[test]
+    fn flattened_letters_keep_their_area() {
+        // An "o" is two rings; the ring between them is what is inked.
+        let text = Text::new("o", DVec2::ZERO, 10.0);
+        let area = |steps| {
+            let rings = contours(&text, steps);
+            assert_eq!(rings.len(), 2);
+            rings
+                .iter()
+                .map(|ring| polygon::area(&ring.points))
+                .sum::<f64>()
+                .abs()
+        };
+        let (coarse, fine) = (area(4), area(64));
+        assert!((coarse - fine).abs() < 0.02 * fine, "{coarse} {fine}");
+        assert_eq!(
+            contours(&Text::new("l", DVec2::ZERO, 10.0), 4)[0]
+                .points
+                .len(),
+            4
+        );
     }
 }

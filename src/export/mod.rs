@@ -4,6 +4,7 @@
 //! that are no drawings (FOLD, the report) come in already serialised. Adding a format is one file
 //! and one line in [`FORMATS`].
 
+mod dxf;
 #[cfg(test)]
 mod fixture;
 pub mod fold;
@@ -51,6 +52,16 @@ pub enum TextMode {
     Text,
 }
 
+/// Version of DXF files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DxfVersion {
+    /// For old programs and machines.
+    R12,
+    /// AutoCAD 2000 and everything since.
+    #[default]
+    R2000,
+}
+
 /// Everything that a format may write.
 ///
 /// # Guarantees
@@ -62,6 +73,7 @@ pub struct ExportInput {
     drawings: Vec<Drawing>,
     documents: Vec<(&'static str, Vec<u8>)>,
     text_mode: TextMode,
+    dxf_version: DxfVersion,
 }
 
 impl ExportInput {
@@ -81,6 +93,7 @@ impl ExportInput {
             drawings,
             documents: Vec::new(),
             text_mode: TextMode::default(),
+            dxf_version: DxfVersion::default(),
         })
     }
 
@@ -95,6 +108,13 @@ impl ExportInput {
     #[must_use]
     pub fn with_text_mode(mut self, text_mode: TextMode) -> Self {
         self.text_mode = text_mode;
+        self
+    }
+
+    /// Chooses the version of DXF files.
+    #[must_use]
+    pub fn with_dxf_version(mut self, dxf_version: DxfVersion) -> Self {
+        self.dxf_version = dxf_version;
         self
     }
 
@@ -129,6 +149,11 @@ impl ExportInput {
     /// How texts are written.
     pub fn text_mode(&self) -> TextMode {
         self.text_mode
+    }
+
+    /// The version of DXF files.
+    pub fn dxf_version(&self) -> DxfVersion {
+        self.dxf_version
     }
 }
 
@@ -183,7 +208,8 @@ impl Format {
 }
 
 /// All formats, in the order of help texts.
-pub const FORMATS: &[Format] = &[pdf::FORMAT, svg::FORMAT, png::FORMAT, FOLD, JSON];
+pub const FORMATS: &[Format] =
+    &[pdf::FORMAT, svg::FORMAT, dxf::FORMAT, png::FORMAT, FOLD, JSON];
 
 /// The crease pattern, the deployed and the flat model.
 const FOLD: Format = Format {
@@ -279,7 +305,7 @@ mod tests {
     #[test]
     fn drawings_need_pages() {
         let input = ExportInput::new("box", Vec::new()).expect("valid");
-        for name in ["pdf", "svg"] {
+        for name in ["pdf", "svg", "dxf"] {
             assert_eq!(
                 format_of(name).expect("registered").write(&input),
                 Err(ExportError::NoPages)
