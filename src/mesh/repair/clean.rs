@@ -1,0 +1,135 @@
+//! Dropping triangles and vertices that a clean mesh does not have.
+
+use super::{Repairs, Triangle};
+use crate::mesh::Edges;
+use glam::DVec3;
+use std::collections::BTreeSet;
+
+/// Drops all but the first of triangles with the same three corners, whichever way they face.
+pub(super) fn drop_duplicates(triangles: &mut Vec<Triangle>, repairs: &mut Repairs) {
+    let mut order: Vec<([u32; 3], u32)> = triangles
+        .iter()
+        .zip(0..)
+        .map(|(t, k)| {
+            let mut corners = t.corners;
+            corners.sort_unstable();
+            (corners, k)
+        })
+        .collect();
+    order.sort_unstable();
+    let mut is_kept = vec![true; triangles.len()];
+    for pair in order.windows(2) {
+        is_kept[pair[1].1 as usize] = pair[0].0 != pair[1].0;
+    }
+    let before = triangles.len();
+    let mut kept = is_kept.iter();
+    triangles.retain(|_| kept.next() == Some(&true));
+    repairs.duplicate_faces += before - triangles.len();
+}
+
+/// Drops triangles lower than `tolerance`. To leave no slit, the neighbour at the longest edge is
+/// cut in two at the third corner, as if the edge between the two were turned; where that cannot
+/// be done, the triangle is dropped alone. Counts the polygons of which nothing is left.
+pub(super) fn drop_flat(
+    positions: &[DVec3],
+    triangles: &mut Vec<Triangle>,
+    tolerance: f64,
+    repairs: &mut Repairs,
+) {
+    /// Such triangles may lie in a row; each round deals with the outermost ones.
+    const ROUNDS: usize = 32;
+    let is_flat = |t: &Triangle| height(positions, t.corners) <= tolerance;
+    let before = polygon_count(triangles);
+    for _ in 0..ROUNDS {
+        let flat: Vec<bool> = triangles.iter().map(is_flat).collect();
+        let turned = if flat.contains(&true) {
+            turn_edges(positions, triangles, &flat)
+        } else {
+            0
+        };
+        if turned == 0 {
+            break;
+        }
+    }
+    triangles.retain(|t| !is_flat(t));
+    repairs.degenerate_faces += before - polygon_count(triangles);
+}
+
+/// Number of different polygons that triangles come from.
+fn polygon_count(triangles: &[Triangle]) -> usize {
+    let mut polygons: Vec<u32> = triangles.iter().map(|t| t.polygon).collect();
+    polygons.sort_unstable();
+    polygons.dedup();
+    polygons.len()
+}
+
+/// Turns the edge between each flat triangle and a neighbour that is not flat, no triangle twice.
+/// Returns the number of turned edges.
+fn turn_edges(positions: &[DVec3], triangles: &mut [Triangle], flat: &[bool]) -> usize {
+    let faces: Vec<[u32; 3]> = triangles.iter().map(|t| t.corners).collect();
+    let edges = Edges::new(&faces);
+    let mut is_touched = vec![false; faces.len()];
+    let mut added: BTreeSet<[u32; 2]> = BTreeSet::new();
+    let mut count = 0;
+    for f in (0..faces.len()).filter(|&f| flat[f]) {
+        let k = longest_side(positions, faces[f]);
+        let Some((other, side)) = edges.opposite(f, k) else {
+            continue;
+        };
+        let middle = faces[f][(k + 2) % 3];
+        let apex = faces[other][(side + 2) % 3];
+        let fresh = [middle.min(apex), middle.max(apex)];
+        if is_touched[f]
+            || is_touched[other]
+            || flat[other]
+            || middle == apex
+            || edges.find(fresh).is_some()
+            || !added.insert(fresh)
+        {
+            continue;
+        }
+        let (start, end) = (faces[other][side], faces[other][(side + 1) % 3]);
+        triangles[other].corners = [start, middle, apex];
+        triangles[f] = Triangle {
+            corners: [middle, end, apex],
+            polygon: triangles[other].polygon,
+        };
+        is_touched[f] = true;
+        is_touched[other] = true;
+        count += 1;
+    }
+    count
+}
+
+/// The side (from corner `k` to the next) that is the longest.
+fn longest_side(positions: &[DVec3], corners: [u32; 3]) -> usize {
+    let p = corners.map(|v| positions[v as usize]);
+    let length = |k: usize| p[k].distance_squared(p[(k + 1) % 3]);
+    (1..3).fold(0, |best, k| if length(k) > length(best) { k } else { best })
+}
+
+/// Height of a triangle over its longest side.
+fn height(positions: &[DVec3], corners: [u32; 3]) -> f64 {
+    let k = longest_side(positions, corners);
+    let [a, b, c] = [0, 1, 2].map(|i| positions[corners[(k + i) % 3] as usize]);
+    let along = (b - a).normalize_or_zero();
+    (c - a).reject_from_normalized(along).length()
+}
+
+/// Drops vertices without a face and numbers the others anew, in their order.
+pub(super) fn drop_unused(positions: &mut Vec<DVec3>, triangles: &mut [Triangle]) {
+    let mut fresh = vec![u32::MAX; positions.len()];
+    for v in triangles.iter().flat_map(|t| t.corners) {
+        fresh[v as usize] = 0;
+    }
+    let mut count = 0;
+    for slot in fresh.iter_mut().filter(|slot| **slot == 0) {
+        *slot = count;
+        count += 1;
+    }
+    let mut slots = fresh.iter();
+    positions.retain(|_| slots.next() != Some(&u32::MAX));
+    for v in triangles.iter_mut().flat_map(|t| &mut t.corners) {
+        *v = fresh[*v as usize];
+    }
+}
