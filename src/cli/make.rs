@@ -1,0 +1,162 @@
+//! `tatamu make`
+
+use super::error::CliError;
+use super::options::ModelArgs;
+use super::progress::TerminalProgress;
+use super::{input, output, terminal};
+use clap::Args;
+use std::path::{Path, PathBuf};
+use tatamu::mesh::Repairs;
+use tatamu::pipeline;
+use tatamu::pipeline::formats::{FORMATS, Format};
+
+/// Makes a model of a mesh, or of a project file.
+///
+/// The mesh is divided into components; each of them becomes a convex solid that folds flat; the
+/// nets of all of them are laid out on sheets of paper.
+#[derive(Debug, Args)]
+#[command(after_help = after_help())]
+pub struct MakeArgs {
+    /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB) or project file (TOML)
+    ///
+    /// What it is shows in its content. What is open, not manifold or in several pieces is
+    /// accepted with a warning.
+    #[arg(value_name = "INPUT")]
+    input: PathBuf,
+
+    #[command(flatten)]
+    model: ModelArgs,
+
+    /// File to write; may be given several times [default: the input's name with .pdf]
+    ///
+    /// The extension chooses the format; the end of this page lists them. An existing file is
+    /// replaced, but only when the new one is complete. Example: -o teddy.pdf -o teddy.json
+    #[arg(short, long = "output", value_name = "FILE")]
+    output: Vec<PathBuf>,
+
+    /// File for the segmentation: one number a line
+    ///
+    /// For each face of the input file, in its order, the index of its component from 0; -1 for
+    /// a face that was dropped in the repair. Example: --segments teddy.seg
+    #[arg(long, value_name = "FILE")]
+    segments: Option<PathBuf>,
+
+    /// No summary and no progress bar; warnings and errors only
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  tatamu make teddy.obj
+  tatamu make teddy.obj --size 30cm --paper a3 -o teddy.pdf -o teddy.json
+  tatamu make bunny.ply --up y --parts 5 --top-edges 8
+  tatamu make teddy.toml --direction head=90";
+
+fn after_help() -> String {
+    let line = |format: &Format| {
+        let extensions = format.extensions.join(", .");
+        format!("  .{extensions:<8} {}\n", format.description)
+    };
+    let lines: String = FORMATS.iter().map(line).collect();
+    format!("Formats of -o, by extension:\n{lines}\n{EXAMPLES}")
+}
+
+/// Runs the command.
+pub fn run(args: &MakeArgs) -> Result<(), CliError> {
+    let paths = match args.output.as_slice() {
+        [] => vec![default_output(&args.input)],
+        paths => paths.to_vec(),
+    };
+    let targets = output::targets(&paths, &[&args.input])?;
+    let input = input::read(&args.input)?;
+    let places: Vec<PathBuf> = paths.iter().chain(&args.segments).cloned().collect();
+    output::check_places(&places, &[&args.input, &input.mesh_path])?;
+    let options = args.model.merge(&input)?;
+    for warning in repair_warnings(&input.repairs) {
+        terminal::complain("warning", &warning);
+    }
+    let progress = TerminalProgress::new(args.quiet);
+    let model = pipeline::run(&input.mesh, &options, &progress)?;
+    let mut files = Vec::new();
+    for target in targets {
+        for file in target.format.write(&model, &input.repairs) {
+            files.push((output::with_suffix(&target.path, &file.suffix), file.bytes));
+        }
+    }
+    if let Some(path) = &args.segments {
+        files.push((path.clone(), segments(&model, &input.repairs)));
+    }
+    output::write(&files)?;
+    progress.finish();
+    if !args.quiet {
+        summarise(&model, &files);
+    }
+    Ok(())
+}
+
+/// The input's name with the first format's extension, in the working directory.
+fn default_output(input: &Path) -> PathBuf {
+    let stem = input.file_stem().unwrap_or("model".as_ref());
+    let mut name = stem.to_owned();
+    name.push(".");
+    name.push(FORMATS[0].extensions[0]);
+    PathBuf::from(name)
+}
+
+/// What the repair found and did, as warnings.
+fn repair_warnings(repairs: &Repairs) -> Vec<String> {
+    let bodies = if repairs.components > 1 {
+        repairs.components
+    } else {
+        0
+    };
+    let counts = [
+        (
+            repairs.boundary_edges,
+            "open edges",
+            "near them the thickness is a guess",
+        ),
+        (
+            repairs.non_manifold_edges,
+            "edges with more than two faces",
+            "components may be divided there",
+        ),
+        (
+            bodies,
+            "separate bodies",
+            "they are joined where they touch, if at all",
+        ),
+        (repairs.degenerate_faces, "faces without area", "dropped"),
+        (repairs.duplicate_faces, "repeated faces", "dropped"),
+        (repairs.flipped_faces, "faces that faced inwards", "turned"),
+    ];
+    counts
+        .iter()
+        .filter(|(count, ..)| *count > 0)
+        .map(|(count, what, effect)| format!("the mesh has {what}: {count} ({effect})"))
+        .collect()
+}
+
+/// One segment index a line for each face of the input file, -1 for a dropped one.
+fn segments(model: &pipeline::Output, repairs: &Repairs) -> Vec<u8> {
+    let of_faces = model.face_segments();
+    let of_input = model.mesh().labels_of_input(&of_faces, repairs.input_faces);
+    let line = |label: Option<u32>| match label {
+        Some(label) => format!("{label}\n"),
+        None => "-1\n".to_owned(),
+    };
+    let text: String = of_input.into_iter().map(line).collect();
+    text.into_bytes()
+}
+
+fn summarise(model: &pipeline::Output, files: &[(PathBuf, Vec<u8>)]) {
+    let (low, high) = model.mesh().bounds();
+    let size = high - low;
+    terminal::say(&format!("{:.0} x {:.0} x {:.0} mm", size.x, size.y, size.z));
+    let names: Vec<String> = model.components().into_iter().map(|c| c.0).collect();
+    terminal::say(&format!("components: {}", names.join(", ")));
+    for (path, _) in files {
+        terminal::say(&format!("wrote {}", path.display()));
+    }
+}
