@@ -12,6 +12,7 @@
 //! that paper's. Lengths are millimetres, angles radians, unless a name says otherwise.
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
+pub mod check;
 pub mod component;
 pub mod drawing;
 pub mod export;
@@ -20,9 +21,11 @@ pub mod mesh;
 pub mod model;
 pub mod net;
 pub mod pipeline;
+pub mod product;
 pub mod progress;
 pub mod project;
 pub mod render;
+pub mod report;
 pub mod segment;
 pub mod sheet;
 pub mod units;

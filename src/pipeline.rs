@@ -1,8 +1,15 @@
-//! The way from a mesh to a model, stage by stage.
+//! The way from a mesh to sheets, stage by stage. Reading [`run`] is reading the program.
 
-use crate::mesh::{Mesh, Repairs, Up};
+use crate::geom::{Hull, HullError};
+use crate::mesh::{Mesh, Up};
+use crate::model::{self, Contact, Model, ModelError, Part, PartOptions};
+use crate::net::{Net, NetOptions, NetsError, develop_model};
 use crate::progress::{Cancelled, Progress};
+use crate::segment::{self, SegmentError, SegmentId, SegmentOptions, Segmentation};
+use crate::sheet::{Layout, LayoutError, SheetOptions};
 use crate::units::Paper;
+use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// What the user chose.
@@ -34,7 +41,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             size_mm: 200.0,
-            up: Up::Z,
+            up: Up::Y,
             parts: None,
             components: BTreeMap::new(),
             top_edges: 6,
@@ -50,6 +57,8 @@ impl Default for Options {
 /// What the user chose for one component.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ComponentOptions {
+    /// Another name.
+    pub rename: Option<String>,
     /// Angle of the fold axis about the hull's first principal axis, radians.
     pub direction_rad: Option<f64>,
     /// Edges of the top panel.
@@ -64,6 +73,26 @@ pub enum Error {
     /// The user stopped the work.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+    /// Segmentation failed.
+    #[error("the mesh could not be divided into parts: {0}")]
+    Segment(#[from] SegmentError),
+    /// No part has a volume.
+    #[error("no part of the mesh has a volume; it is flat, so there is nothing to fold")]
+    NothingSolid,
+    /// A component failed.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A net failed.
+    #[error("{}", too_large(.error, *.size_mm))]
+    Net {
+        /// What went wrong.
+        error: NetsError,
+        /// The size that was asked for.
+        size_mm: f64,
+    },
+    /// The layout failed.
+    #[error(transparent)]
+    Layout(#[from] LayoutError),
     /// Options for a component that does not exist.
     #[error("there is no component \"{name}\"; there are: {known}")]
     NoComponent {
@@ -74,26 +103,88 @@ pub enum Error {
     },
 }
 
+/// The message of a failed net, with the largest size that fits where that is the matter.
+fn too_large(error: &NetsError, size_mm: f64) -> String {
+    match error {
+        NetsError::Net(crate::net::NetError::PanelTooLarge { name, size_mm: panel, sheet_mm, scale, .. }) => {
+            let fits = (size_mm * scale * 0.999).floor();
+            format!(
+                "a panel of \"{name}\" measures {:.0} × {:.0} mm and does not fit the {:.0} × {:.0} mm within the \
+                 sheet's margins; use --size {fits}mm at most, or larger --paper",
+                panel.x, panel.y, sheet_mm.x, sheet_mm.y
+            )
+        }
+        _ => error.to_string(),
+    }
+}
+
+/// Something that the user should know about a model that was made all the same.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    /// Short constant name, for programs.
+    pub code: &'static str,
+    /// A sentence.
+    pub message: String,
+}
+
 /// The result of all stages.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Output {
+    options: Options,
     mesh: Mesh,
+    to_model: DAffine3,
+    face_part: Vec<Option<u32>>,
+    part_faces: Vec<usize>,
+    model: Model,
+    nets: Vec<Net>,
+    layout: Layout,
+    warnings: Vec<Warning>,
 }
 
 impl Output {
+    /// What the run was asked for.
+    pub fn options(&self) -> &Options {
+        &self.options
+    }
+
     /// The mesh at the size of the model.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
     }
 
-    /// The names of the components, with the direction of each fold axis in radians.
-    pub fn components(&self) -> Vec<(String, f64)> {
-        vec![("part-1".to_owned(), 0.0)]
+    /// From the file's coordinates to those of [`Output::mesh`].
+    pub fn to_model(&self) -> &DAffine3 {
+        &self.to_model
     }
 
-    /// The segment of each face of [`Output::mesh`].
-    pub fn face_segments(&self) -> Vec<u32> {
-        vec![0; self.mesh.faces().len()]
+    /// The component of each face of [`Output::mesh`]; none where its segment became none.
+    pub fn face_parts(&self) -> &[Option<u32>] {
+        &self.face_part
+    }
+
+    /// Number of faces of each component's segment.
+    pub fn part_faces(&self) -> &[usize] {
+        &self.part_faces
+    }
+
+    /// The components in their places.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// Their nets, in the same order.
+    pub fn nets(&self) -> &[Net] {
+        &self.nets
+    }
+
+    /// The pieces on their sheets.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// What the user should know.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
     }
 }
 
@@ -102,69 +193,167 @@ impl Output {
 /// # Errors
 /// See [`Error`].
 pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
+    let (mesh, to_model) = mesh.scaled(options.size_mm, options.up);
+
+    progress.stage("segmentation");
+    let wish = SegmentOptions { parts: options.parts, ..SegmentOptions::default() };
+    let segmentation = segment::segment(&mesh, &wish, progress)?;
+
+    progress.stage("hulls");
+    let solid = hulls(&mesh, &segmentation);
+    let parts = parts(solid.hulls, options)?;
+    let contacts = contacts(&mesh, &segmentation, &solid.part_of_segment);
+    let hulls: Vec<&Hull> = parts.iter().map(|p| &p.hull).collect();
+    let links = model::link_tree(&hulls, &contacts);
     progress.check()?;
-    progress.stage("scaling the mesh");
-    let (mesh, _) = mesh.scaled(options.size_mm, options.up);
-    let output = Output { mesh };
-    let known: Vec<String> = output.components().into_iter().map(|c| c.0).collect();
-    if let Some(name) = options.components.keys().find(|name| !known.contains(name)) {
-        return Err(Error::NoComponent {
-            name: name.clone(),
-            known: known.join(", "),
-        });
-    }
-    progress.fraction(1.0);
-    Ok(output)
+
+    progress.stage("components");
+    let model = model::build(&parts, &links, options.min_panel_width_mm, progress)?;
+
+    progress.stage("nets");
+    let sheets = SheetOptions { paper: options.paper, margin_mm: options.margin_mm };
+    let net_options = NetOptions { tab_width_mm: options.tab_width_mm, sheet_mm: sheets.room_mm() };
+    let nets = develop_model(&model, &net_options, progress)
+        .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
+
+    progress.stage("sheets");
+    let layout = Layout::new(&nets, &sheets, progress)?;
+
+    let face_part: Vec<Option<u32>> = segmentation
+        .face_segments()
+        .iter()
+        .map(|s| solid.part_of_segment[s.0 as usize].map(|p| p as u32))
+        .collect();
+    let mut part_faces = vec![0; parts.len()];
+    face_part.iter().flatten().for_each(|&p| part_faces[p as usize] += 1);
+    let warnings = warnings(&model, &nets, &solid.flat, options.min_panel_width_mm);
+    Ok(Output {
+        options: options.clone(),
+        mesh,
+        to_model,
+        face_part,
+        part_faces,
+        model,
+        nets,
+        layout,
+        warnings,
+    })
 }
 
-/// What a run can be written as.
-pub mod formats {
-    use super::{Output, Repairs};
+/// Hulls of the segments that have one.
+struct Solid {
+    hulls: Vec<Hull>,
+    part_of_segment: Vec<Option<usize>>,
+    /// Number of faces of each segment that is flat.
+    flat: Vec<usize>,
+}
 
-    /// One file of an export.
-    pub struct ExportFile {
-        /// What stands between the stem and the extension of the name that the user gave.
-        pub suffix: String,
-        /// Its content.
-        pub bytes: Vec<u8>,
+fn hulls(mesh: &Mesh, segmentation: &Segmentation) -> Solid {
+    let mut points: Vec<Vec<DVec3>> = vec![Vec::new(); segmentation.count()];
+    let mut faces = vec![0usize; segmentation.count()];
+    for (f, s) in segmentation.face_segments().iter().enumerate() {
+        points[s.0 as usize].extend(mesh.corners(f));
+        faces[s.0 as usize] += 1;
     }
-
-    /// One file format.
-    pub struct Format {
-        /// Extensions in small letters, without the dot; the first is the usual one.
-        pub extensions: &'static [&'static str],
-        /// One line for help texts.
-        pub description: &'static str,
-    }
-
-    /// All formats, in the order of help texts; the first is the default.
-    pub const FORMATS: &[Format] = &[Format {
-        extensions: &["json"],
-        description: "report: components, nets, sheets, warnings",
-    }];
-
-    /// The format for an extension, in any case.
-    pub fn format_of(extension: &str) -> Option<&'static Format> {
-        let is = |known: &&str| known.eq_ignore_ascii_case(extension);
-        FORMATS
-            .iter()
-            .find(|format| format.extensions.iter().any(|e| is(e)))
-    }
-
-    impl Format {
-        /// The files of a run in this format.
-        pub fn write(&self, output: &Output, repairs: &Repairs) -> Vec<ExportFile> {
-            let report = serde_json::json!({
-                "schema": 1,
-                "input": {
-                    "faces": repairs.input_faces,
-                    "vertices": output.mesh.positions().len(),
-                    "diagonal_mm": output.mesh.diagonal_mm(),
-                },
-            });
-            let suffix = String::new();
-            let bytes = format!("{report:#}\n").into_bytes();
-            vec![ExportFile { suffix, bytes }]
+    let made: Vec<Result<Hull, HullError>> = points.par_iter().map(|p| Hull::of_points(p)).collect();
+    let mut solid = Solid { hulls: Vec::new(), part_of_segment: Vec::new(), flat: Vec::new() };
+    for (hull, faces) in made.into_iter().zip(faces) {
+        match hull {
+            Ok(hull) => {
+                solid.part_of_segment.push(Some(solid.hulls.len()));
+                solid.hulls.push(hull);
+            }
+            Err(_) => {
+                solid.part_of_segment.push(None);
+                solid.flat.push(faces);
+            }
         }
     }
+    solid
+}
+
+/// Names of components that were not renamed: the first, biggest one is the body.
+fn default_name(index: usize) -> String {
+    if index == 0 { "body".to_owned() } else { format!("part-{}", index + 1) }
+}
+
+fn parts(hulls: Vec<Hull>, options: &Options) -> Result<Vec<Part>, Error> {
+    if hulls.is_empty() {
+        return Err(Error::NothingSolid);
+    }
+    let names: Vec<String> = (0..hulls.len()).map(default_name).collect();
+    if let Some(name) = options.components.keys().find(|name| !names.contains(name)) {
+        return Err(Error::NoComponent { name: name.clone(), known: names.join(", ") });
+    }
+    let part = |(hull, name): (Hull, String)| {
+        let own = options.components.get(&name).cloned().unwrap_or_default();
+        Part {
+            hull,
+            options: PartOptions {
+                name: own.rename.unwrap_or(name),
+                direction_rad: own.direction_rad,
+                top_edges: own.top_edges.unwrap_or(options.top_edges),
+                profile_vertices: own.profile_vertices.unwrap_or(options.profile_vertices),
+            },
+        }
+    };
+    Ok(hulls.into_iter().zip(names).map(part).collect())
+}
+
+fn contacts(mesh: &Mesh, segmentation: &Segmentation, part_of_segment: &[Option<usize>]) -> Vec<Contact> {
+    let part = |s: SegmentId| part_of_segment[s.0 as usize];
+    segmentation
+        .borders(mesh)
+        .into_iter()
+        .filter_map(|((a, b), interface)| {
+            let points = interface.vertices().iter().map(|&v| mesh.positions()[v as usize]).collect();
+            Some(Contact { parts: (part(a)?, part(b)?), points, length_mm: interface.length() })
+        })
+        .collect()
+}
+
+/// Joint panels that carry less than this of their child are worth a warning.
+const GOOD_SUPPORT: f64 = 0.8;
+
+fn warnings(model: &Model, nets: &[Net], flat: &[usize], min_panel_mm: f64) -> Vec<Warning> {
+    let mut out = Vec::new();
+    let mut warn = |code, message| out.push(Warning { code, message });
+    if !flat.is_empty() {
+        let faces: usize = flat.iter().sum();
+        warn("flat_segment", format!("{} flat parts of {faces} faces in all have no volume and were left out", flat.len()));
+    }
+    let roots = model.parts().iter().filter(|p| p.joint.is_none()).count();
+    if roots > 1 {
+        warn("not_joined", format!("the mesh has {roots} bodies that do not touch; each makes a paper model of its own"));
+    }
+    for part in model.parts() {
+        let sizes = [("narrow", "wide", part.component.narrowest_panel()), ("low", "high", part.component.lowest_panel())];
+        for (_, word, (panel, mm)) in sizes.iter().filter(|s| s.2.1 < min_panel_mm - 1e-6) {
+            let what = part.component.panels().panel(*panel).kind;
+            warn(
+                "narrow_panel",
+                format!(
+                    "{}: {what} is only {mm:.2} mm {word}, less than {min_panel_mm} mm; use fewer top edges or \
+                     profile vertices for it, or a larger --size",
+                    part.name
+                ),
+            );
+        }
+        if let Some(joint) = part.joint.as_ref().filter(|j| j.support_ratio < GOOD_SUPPORT) {
+            let parent = &model.parts()[joint.parent].name;
+            warn(
+                "weak_joint",
+                format!(
+                    "{}: only {:.0}% of its joint panel lies on {parent}; try another direction for either of them, \
+                     or more top edges for {parent}",
+                    part.name,
+                    joint.support_ratio * 100.0
+                ),
+            );
+        }
+    }
+    for net in nets {
+        out.extend(net.warnings().iter().map(|w| Warning { code: w.code(), message: w.to_string() }));
+    }
+    out
 }

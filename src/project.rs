@@ -105,6 +105,9 @@ pub struct Component {
     /// The component's name.
     #[serde(deserialize_with = "name")]
     pub name: String,
+    /// Another name for it.
+    #[serde(default, deserialize_with = "new_name")]
+    pub rename: Option<String>,
     /// Angle of the fold axis about the hull's first principal axis, degrees.
     #[serde(default, rename = "direction", deserialize_with = "degrees")]
     pub direction_deg: Option<f64>,
@@ -124,10 +127,12 @@ impl Project {
     pub fn parse(text: &str) -> Result<Self, ProjectError> {
         let project: Self = toml::from_str(text)
             .map_err(|error| ProjectError::Toml(error.to_string().trim_end().to_owned()))?;
-        let mut names = BTreeSet::new();
+        let (mut tables, mut names) = (BTreeSet::new(), BTreeSet::new());
         for component in &project.components {
-            if !names.insert(&component.name) {
-                let name = component.name.clone();
+            let name = component.rename.as_ref().unwrap_or(&component.name);
+            let is_new = tables.insert(&component.name) && names.insert(name);
+            if !is_new {
+                let name = name.clone();
                 return Err(ProjectError::SameName { name });
             }
         }
@@ -282,6 +287,10 @@ fn degrees<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f64>, D::Error> {
     })
 }
 
+fn new_name<'de, D: Deserializer<'de>>(d: D) -> Result<Option<String>, D::Error> {
+    name(d).map(Some)
+}
+
 fn name<'de, D: Deserializer<'de>>(d: D) -> Result<String, D::Error> {
     let name = String::deserialize(d)?;
     let is_usable = !name.trim().is_empty() && !name.contains(char::is_control);
@@ -367,6 +376,7 @@ size = "{paper}"
 margin_mm = {margin}
 
 # One table for each component. What a table leaves out comes from [defaults].
+# rename: another name, which is printed on the pieces.
 # direction: angle of the fold axis about the component's longest axis, in degrees;
 # without it the best direction is searched for.
 "#,
@@ -388,8 +398,8 @@ margin_mm = {margin}
     );
     for component in template.components {
         text += &format!(
-            "\n[[component]]\nname = {}\n{}direction = {:.1}\n# top_edges = {}\n\
-             # profile_vertices = {}\n",
+            "\n[[component]]\nname = {0}\n# rename = {0}\n{1}direction = {2:.1}\n# top_edges = {3}\n\
+             # profile_vertices = {4}\n",
             quoted(&component.name),
             unless(component.is_chosen),
             component.direction_deg,

@@ -245,27 +245,130 @@ fn names_cannot_steer_the_terminal() {
 fn every_cube_is_made_and_segments_have_a_line_for_each_face() {
     for (name, bytes) in cube::all() {
         let folder = folder_with(&[("cube.data", &bytes)]);
-        let arguments = ["make", "cube.data", "-o", "a.json", "--segments", "a.seg"];
+        let outputs = ["-o", "a.json", "--segments", "a.seg"];
+        let arguments = [&["make", "cube.data", "--size", "60"][..], &outputs].concat();
         let result = run(folder.path(), &arguments);
         assert_eq!(result.code, Some(0), "{name}: {}", result.err);
-        assert_eq!(result.err, "", "{name}");
+        assert!(
+            !result.err.contains("the mesh has"),
+            "{name}: {}",
+            result.err
+        );
         assert_eq!(names(&folder), ["a.json", "a.seg", "cube.data"]);
         let segments = std::fs::read_to_string(folder.path().join("a.seg")).unwrap();
-        assert_eq!(segments.lines().count(), 12);
-        let report = std::fs::read(folder.path().join("a.json")).unwrap();
-        let report: serde_json::Value = serde_json::from_slice(&report).unwrap();
-        let diagonal = report["input"]["diagonal_mm"].as_f64().unwrap();
-        assert!((diagonal - 200.0 * 3f64.sqrt()).abs() < 1e-9);
+        assert_eq!(segments, "0\n".repeat(12));
+        let report = report(&folder, "a.json");
+        assert_eq!(report["input"]["path"], "cube.data");
+        assert_near(report["input"]["diagonal_mm"].as_f64(), 60.0 * 3f64.sqrt());
     }
+}
+
+fn report(folder: &TempDir, name: &str) -> serde_json::Value {
+    let bytes = std::fs::read(folder.path().join(name)).unwrap();
+    serde_json::from_slice(&bytes).unwrap()
+}
+
+fn assert_near(found: Option<f64>, expected: f64) {
+    assert!(
+        found.is_some_and(|x| (x - expected).abs() < 1e-9),
+        "{found:?}, not {expected}"
+    );
+}
+
+#[test]
+fn without_o_a_pdf_stands_in_the_working_directory() {
+    let folder = folder_with(&[]);
+    std::fs::create_dir(folder.path().join("meshes")).unwrap();
+    std::fs::write(folder.path().join("meshes/cube.off"), cube::OFF).unwrap();
+    let result = run(folder.path(), &["make", "meshes/cube.off", "--size", "60"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    assert_eq!(names(&folder), ["cube.pdf", "meshes"]);
+    assert!(
+        std::fs::read(folder.path().join("cube.pdf"))
+            .unwrap()
+            .starts_with(b"%PDF")
+    );
+    for words in ["components  1: body", "a4", "written     cube.pdf"] {
+        assert!(
+            result.out.contains(words),
+            "no {words:?} in: {}",
+            result.out
+        );
+    }
+}
+
+#[test]
+fn one_svg_a_sheet() {
+    let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
+    let arguments = [
+        "make", "cube.off", "--size", "60", "-o", "a.svg", "-o", "a.fold",
+    ];
+    let result = run(folder.path(), &arguments);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    assert_eq!(names(&folder), ["a-1.svg", "a.fold", "cube.off"]);
+}
+
+#[test]
+fn what_does_not_fit_the_paper_is_refused_with_a_size_that_fits() {
+    let files: [(&str, &[u8]); 2] = [("cube.off", cube::OFF.as_bytes()), ("cube.pdf", b"old")];
+    let arguments = ["make", "cube.off", "--size", "1m"];
+    assert_refused(&files, &arguments, &["does not fit", "--size"]);
+    let folder = folder_with(&files);
+    let message = run(folder.path(), &arguments).err;
+    let size = message
+        .split("--size ")
+        .nth(1)
+        .unwrap()
+        .split(' ')
+        .next()
+        .unwrap();
+    assert_eq!(
+        std::fs::read(folder.path().join("cube.pdf")).unwrap(),
+        b"old"
+    );
+    let result = run(folder.path(), &["make", "cube.off", "--size", size]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    assert!(
+        std::fs::read(folder.path().join("cube.pdf"))
+            .unwrap()
+            .starts_with(b"%PDF")
+    );
+}
+
+#[test]
+#[cfg(unix)]
+fn ctrl_c_stops_the_work_and_leaves_nothing() {
+    let folder = folder_with(&[]);
+    let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/samples/teddy.obj");
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_tatamu"))
+        .current_dir(folder.path())
+        .args(["make", mesh, "-o", "a.pdf"])
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    let kill = std::process::Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(kill.unwrap().success());
+    let mut message = String::new();
+    let mut stderr = child.stderr.take().unwrap();
+    std::io::Read::read_to_string(&mut stderr, &mut message).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{message}");
+    assert_eq!(message, "tatamu: stopped at your request\n");
+    assert!(names(&folder).is_empty());
 }
 
 #[test]
 fn quiet_says_nothing() {
     let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
-    let result = run(folder.path(), &["make", "cube.off", "-q", "-o", "a.json"]);
+    let arguments = ["make", "cube.off", "-q", "--size", "60", "-o", "a.json"];
+    let result = run(folder.path(), &arguments);
     assert_eq!(
-        (result.code, result.out.as_str(), result.err.as_str()),
-        (Some(0), "", "")
+        (result.code, result.out.as_str()),
+        (Some(0), ""),
+        "{}",
+        result.err
     );
 }
 
@@ -274,11 +377,14 @@ fn what_is_repaired_is_told_with_its_count() {
     let open = TETRAHEDRON.replace("f 2 3 4\n", "f 1 2 3\nf 1 1 2\n");
     let text = format!("{open}v 9 9 9\nv 8 9 9\nv 9 8 9\nv 9 9 8\nf 5 6 7\nf 5 8 6\n");
     let folder = folder_with(&[("a.obj", text.as_bytes())]);
-    let result = run(folder.path(), &["make", "a.obj", "-q", "-o", "a.json"]);
+    let result = run(
+        folder.path(),
+        &["make", "a.obj", "-q", "--size", "100", "-o", "a.json"],
+    );
     assert_eq!(result.code, Some(0), "{}", result.err);
     for words in [
         "open edges: 7",
-        "separate bodies: 2",
+        "bodies besides the first: 1",
         "repeated faces: 1",
         "without area: 1",
     ] {
@@ -295,17 +401,31 @@ fn init_writes_a_project_that_make_honours() {
     let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
     std::fs::create_dir(folder.path().join("projects")).unwrap();
     for project in ["cube.toml", "projects/cube.toml"] {
-        let arguments = [
-            "init", "cube.off", "--size", "100", "--paper", "a3", "-o", project,
+        let flags = [
+            "--size",
+            "50",
+            "--top-edges",
+            "5",
+            "--direction",
+            "body=30",
+            "-o",
+            project,
         ];
-        let result = run(folder.path(), &arguments);
+        let result = run(folder.path(), &[&["init", "cube.off"][..], &flags].concat());
         assert_eq!(result.code, Some(0), "{}", result.err);
+
+        let path = folder.path().join(project);
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.contains("\ndirection = 30.0\n"), "{text}");
+        let text = text.replace("# rename = \"body\"", "rename = \"head\"");
+        std::fs::write(&path, text.replace("top_edges = 5", "top_edges = 4")).unwrap();
         let result = run(folder.path(), &["make", project, "-o", "a.json"]);
         assert_eq!(result.code, Some(0), "{}", result.err);
-        let report = std::fs::read(folder.path().join("a.json")).unwrap();
-        let report: serde_json::Value = serde_json::from_slice(&report).unwrap();
-        let diagonal = report["input"]["diagonal_mm"].as_f64().unwrap();
-        assert!((diagonal - 100.0 * 3f64.sqrt()).abs() < 1e-9);
+        let report = report(&folder, "a.json");
+        assert_near(report["input"]["diagonal_mm"].as_f64(), 50.0 * 3f64.sqrt());
+        assert_eq!(report["components"][0]["name"], "head");
+        assert_eq!(report["components"][0]["top_edges"], 4);
+        assert_near(report["components"][0]["direction_deg"].as_f64(), 30.0);
     }
 }
 
@@ -314,7 +434,10 @@ fn init_keeps_an_existing_file() {
     let files: [(&str, &[u8]); 2] = [("cube.off", cube::OFF.as_bytes()), ("cube.toml", b"mine")];
     assert_refused(&files, &["init", "cube.off"], &["cube.toml", "--force"]);
     let folder = folder_with(&files);
-    let result = run(folder.path(), &["init", "cube.off", "--force", "-q"]);
+    let result = run(
+        folder.path(),
+        &["init", "cube.off", "--force", "-q", "--size", "60"],
+    );
     assert_eq!(result.code, Some(0), "{}", result.err);
     let text = std::fs::read_to_string(folder.path().join("cube.toml")).unwrap();
     assert!(text.contains("mesh = \"cube.off\""));

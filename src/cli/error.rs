@@ -1,8 +1,10 @@
 //! What the user is told when nothing comes of it.
 
 use std::path::PathBuf;
+use tatamu::export::ExportError;
 use tatamu::mesh::{MeshError, ReadError};
 use tatamu::pipeline;
+use tatamu::product::ProductError;
 use tatamu::progress::Cancelled;
 use tatamu::project::ProjectError;
 
@@ -36,6 +38,15 @@ pub enum CliError {
     /// A stage failed.
     #[error("{0}")]
     Pipeline(pipeline::Error),
+    /// A document cannot be made.
+    #[error(transparent)]
+    Product(#[from] ProductError),
+}
+
+impl From<ExportError> for CliError {
+    fn from(error: ExportError) -> Self {
+        Self::Product(error.into())
+    }
 }
 
 impl From<pipeline::Error> for CliError {

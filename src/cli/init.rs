@@ -66,14 +66,16 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
     let input = input::read(&args.mesh)?;
     let options = args.model.merge(&input)?;
     let progress = TerminalProgress::new(args.quiet);
-    let model = pipeline::run(&input.mesh, &options, &progress)?;
-    let components: Vec<TemplateComponent> = model
-        .components()
-        .into_iter()
-        .map(|(name, direction_rad)| TemplateComponent {
-            is_chosen: options.components.contains_key(&name),
-            name,
-            direction_deg: direction_rad.to_degrees(),
+    let result = pipeline::run(&input.mesh, &options, &progress)?;
+    progress.finish();
+    let components: Vec<TemplateComponent> = result
+        .model()
+        .parts()
+        .iter()
+        .map(|part| TemplateComponent {
+            name: part.name.clone(),
+            direction_deg: part.direction_rad.to_degrees(),
+            is_chosen: options.components.contains_key(&part.name),
         })
         .collect();
     let text = to_toml(&Template {
@@ -90,7 +92,6 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         components: &components,
     });
     output::write(&[(path.clone(), text.into_bytes())])?;
-    progress.finish();
     if !args.quiet {
         terminal::say(&format!(
             "wrote {}; edit it, then: tatamu make {0}",

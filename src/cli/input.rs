@@ -2,7 +2,7 @@
 
 use super::error::{CliError, reason};
 use std::path::{Component, Path, PathBuf};
-use tatamu::mesh::{self, Mesh, Repairs, Up};
+use tatamu::mesh::{self, Mesh, Repairs};
 use tatamu::project::Project;
 
 /// A mesh with where it comes from.
@@ -15,8 +15,6 @@ pub struct Input {
     pub mesh: Mesh,
     /// What was done to make it clean.
     pub repairs: Repairs,
-    /// The axis that points up by the rules of the mesh's format.
-    pub up: Up,
 }
 
 /// Reads a mesh or a project file.
@@ -53,7 +51,6 @@ fn read_mesh(path: &Path, bytes: &[u8], project: Option<Project>) -> Result<Inpu
         project,
         mesh,
         repairs,
-        up: soup.up(),
     })
 }
 

@@ -6,9 +6,11 @@ use super::progress::TerminalProgress;
 use super::{input, output, terminal};
 use clap::Args;
 use std::path::{Path, PathBuf};
+use tatamu::export::{FORMATS, Format};
 use tatamu::mesh::Repairs;
-use tatamu::pipeline;
-use tatamu::pipeline::formats::{FORMATS, Format};
+use tatamu::pipeline::{self, Output, Warning};
+use tatamu::product;
+use tatamu::report::Run;
 
 /// Makes a model of a mesh, or of a project file.
 ///
@@ -50,7 +52,7 @@ const EXAMPLES: &str = "\
 Examples:
   tatamu make teddy.obj
   tatamu make teddy.obj --size 30cm --paper a3 -o teddy.pdf -o teddy.json
-  tatamu make bunny.ply --up y --parts 5 --top-edges 8
+  tatamu make bunny.stl --up z --parts 5 --top-edges 8
   tatamu make teddy.toml --direction head=90";
 
 fn after_help() -> String {
@@ -73,24 +75,35 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     let places: Vec<PathBuf> = paths.iter().chain(&args.segments).cloned().collect();
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
     let options = args.model.merge(&input)?;
-    for warning in repair_warnings(&input.repairs) {
-        terminal::complain("warning", &warning);
-    }
+    let warnings = repair_warnings(&input.repairs);
+    warnings.iter().for_each(warn);
+
     let progress = TerminalProgress::new(args.quiet);
-    let model = pipeline::run(&input.mesh, &options, &progress)?;
+    let result = pipeline::run(&input.mesh, &options, &progress)?;
+    let stages = progress.finish();
+    result.warnings().iter().for_each(warn);
+
+    let stem = args.input.file_stem().unwrap_or_default();
+    let run = Run {
+        path: &input.mesh_path.to_string_lossy(),
+        repairs: &input.repairs,
+        stages: &stages,
+        warnings: &warnings,
+    };
+    let title = terminal::printable(&stem.to_string_lossy());
+    let documents = product::export_input(&result, &title, &run)?;
     let mut files = Vec::new();
     for target in targets {
-        for file in target.format.write(&model, &input.repairs) {
+        for file in target.format.write(&documents)? {
             files.push((output::with_suffix(&target.path, &file.suffix), file.bytes));
         }
     }
     if let Some(path) = &args.segments {
-        files.push((path.clone(), segments(&model, &input.repairs)));
+        files.push((path.clone(), segments(&result, &input.repairs)));
     }
     output::write(&files)?;
-    progress.finish();
     if !args.quiet {
-        summarise(&model, &files);
+        summarise(&result, &files);
     }
     Ok(())
 }
@@ -105,43 +118,64 @@ fn default_output(input: &Path) -> PathBuf {
 }
 
 /// What the repair found and did, as warnings.
-fn repair_warnings(repairs: &Repairs) -> Vec<String> {
-    let bodies = if repairs.components > 1 {
-        repairs.components
-    } else {
-        0
-    };
+fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
+    let bodies = repairs.components.saturating_sub(1);
     let counts = [
         (
             repairs.boundary_edges,
+            "open_edges",
             "open edges",
-            "near them the thickness is a guess",
+            "thickness near them is a guess",
         ),
         (
             repairs.non_manifold_edges,
+            "non_manifold_edges",
             "edges with more than two faces",
             "components may be divided there",
         ),
         (
             bodies,
-            "separate bodies",
-            "they are joined where they touch, if at all",
+            "several_bodies",
+            "bodies besides the first",
+            "joined where they touch",
         ),
-        (repairs.degenerate_faces, "faces without area", "dropped"),
-        (repairs.duplicate_faces, "repeated faces", "dropped"),
-        (repairs.flipped_faces, "faces that faced inwards", "turned"),
+        (
+            repairs.degenerate_faces,
+            "degenerate_faces",
+            "faces without area",
+            "dropped",
+        ),
+        (
+            repairs.duplicate_faces,
+            "duplicate_faces",
+            "repeated faces",
+            "dropped",
+        ),
+        (
+            repairs.flipped_faces,
+            "flipped_faces",
+            "faces that faced inwards",
+            "turned",
+        ),
     ];
     counts
         .iter()
         .filter(|(count, ..)| *count > 0)
-        .map(|(count, what, effect)| format!("the mesh has {what}: {count} ({effect})"))
+        .map(|(count, code, what, effect)| Warning {
+            code,
+            message: format!("the mesh has {what}: {count} ({effect})"),
+        })
         .collect()
 }
 
-/// One segment index a line for each face of the input file, -1 for a dropped one.
-fn segments(model: &pipeline::Output, repairs: &Repairs) -> Vec<u8> {
-    let of_faces = model.face_segments();
-    let of_input = model.mesh().labels_of_input(&of_faces, repairs.input_faces);
+fn warn(warning: &Warning) {
+    terminal::complain("warning", &warning.message);
+}
+
+/// One component index a line for each face of the input file, -1 for a dropped one.
+fn segments(result: &Output, repairs: &Repairs) -> Vec<u8> {
+    let mesh = result.mesh();
+    let of_input = mesh.labels_of_input(result.face_parts(), repairs.input_faces);
     let line = |label: Option<u32>| match label {
         Some(label) => format!("{label}\n"),
         None => "-1\n".to_owned(),
@@ -150,13 +184,31 @@ fn segments(model: &pipeline::Output, repairs: &Repairs) -> Vec<u8> {
     text.into_bytes()
 }
 
-fn summarise(model: &pipeline::Output, files: &[(PathBuf, Vec<u8>)]) {
-    let (low, high) = model.mesh().bounds();
-    let size = high - low;
-    terminal::say(&format!("{:.0} x {:.0} x {:.0} mm", size.x, size.y, size.z));
-    let names: Vec<String> = model.components().into_iter().map(|c| c.0).collect();
-    terminal::say(&format!("components: {}", names.join(", ")));
-    for (path, _) in files {
-        terminal::say(&format!("wrote {}", path.display()));
-    }
+fn summarise(result: &Output, files: &[(PathBuf, Vec<u8>)]) {
+    let names: Vec<&str> = result
+        .model()
+        .parts()
+        .iter()
+        .map(|p| p.name.as_str())
+        .collect();
+    let pieces: usize = result.nets().iter().map(|net| net.pieces().len()).sum();
+    let layout = result.layout();
+    let written: Vec<String> = files
+        .iter()
+        .map(|(path, _)| path.display().to_string())
+        .collect();
+    terminal::say(&format!("size        {}", product::size_note(result)));
+    terminal::say(&format!(
+        "components  {}: {}",
+        names.len(),
+        names.join(", ")
+    ));
+    terminal::say(&format!("pieces      {pieces}"));
+    terminal::say(&format!(
+        "sheets      {} of {}, {:.0}% used",
+        layout.sheet_count(),
+        layout.options().paper.name(),
+        100.0 * layout.utilisation()
+    ));
+    terminal::say(&format!("written     {}", written.join(", ")));
 }

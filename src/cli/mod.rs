@@ -51,12 +51,13 @@ pub fn run() -> ExitCode {
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,
+        Err(CliError::Cancelled(cancelled)) => {
+            terminal::complain("tatamu", &cancelled.to_string());
+            ExitCode::from(STOPPED)
+        }
         Err(error) => {
             terminal::complain("error", &error.to_string());
-            match error {
-                CliError::Cancelled(_) => ExitCode::from(STOPPED),
-                _ => ExitCode::FAILURE,
-            }
+            ExitCode::FAILURE
         }
     }
 }

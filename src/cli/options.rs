@@ -11,9 +11,9 @@ use tatamu::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper
 /// Options of the model.
 #[derive(Debug, Clone, Args)]
 pub struct ModelArgs {
-    /// Axis of the mesh that points up: x, y or z [default: z; y for glTF]
+    /// Axis of the mesh that points up: x, y or z [default: y]
     ///
-    /// The model is turned so that this axis points upwards. Example: --up y
+    /// The model is turned so that this axis points upwards. Example: --up z
     #[arg(long, value_name = "AXIS", value_parser = parse_up)]
     up: Option<Up>,
 
@@ -103,10 +103,7 @@ fn direction(text: &str) -> Result<(String, f64), String> {
 impl ModelArgs {
     /// The options for an input.
     pub fn merge(&self, input: &Input) -> Result<Options, CliError> {
-        let mut options = Options {
-            up: input.up,
-            ..Options::default()
-        };
+        let mut options = Options::default();
         self.merge_project(input, &mut options);
         let set = |slot: &mut f64, value: Option<f64>| *slot = value.unwrap_or(*slot);
         set(&mut options.size_mm, self.size);
@@ -152,6 +149,7 @@ impl ModelArgs {
         options.paper = project.paper.size.unwrap_or(options.paper);
         for component in &project.components {
             let choice = ComponentOptions {
+                rename: component.rename.clone(),
                 direction_rad: component.direction_deg.map(f64::to_radians),
                 top_edges: component.top_edges,
                 profile_vertices: component.profile_vertices,

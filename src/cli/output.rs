@@ -4,7 +4,7 @@ use super::error::{CliError, reason};
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use tatamu::pipeline::formats::{FORMATS, Format, format_of};
+use tatamu::export::{FORMATS, Format, format_of};
 use tempfile::NamedTempFile;
 
 /// A file name that the user gave, with its format.

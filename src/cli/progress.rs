@@ -19,7 +19,7 @@ static IS_CANCELLED: AtomicBool = AtomicBool::new(false);
 pub struct TerminalProgress {
     start: Instant,
     is_shown: bool,
-    stage: Mutex<&'static str>,
+    stages: Mutex<Vec<(&'static str, Instant)>>,
     bar: OnceLock<ProgressBar>,
 }
 
@@ -36,16 +36,23 @@ impl TerminalProgress {
         Self {
             start: Instant::now(),
             is_shown: !is_quiet && std::io::stderr().is_terminal(),
-            stage: Mutex::new(""),
+            stages: Mutex::new(Vec::new()),
             bar: OnceLock::new(),
         }
     }
 
-    /// Takes the bar away.
-    pub fn finish(&self) {
+    /// Takes the bar away, and gives the name and duration of each stage, in seconds.
+    pub fn finish(&self) -> Vec<(&'static str, f64)> {
         if let Some(bar) = self.bar.get() {
             bar.finish_and_clear();
         }
+        let mut starts = self.stages.lock().map(|s| s.clone()).unwrap_or_default();
+        starts.push(("", Instant::now()));
+        let seconds = |pair: &[(&'static str, Instant)]| (pair[1].1 - pair[0].1).as_secs_f64();
+        starts
+            .windows(2)
+            .map(|pair| (pair[0].0, seconds(pair)))
+            .collect()
     }
 
     fn bar(&self) -> Option<&ProgressBar> {
@@ -56,7 +63,9 @@ impl TerminalProgress {
                 if let Ok(style) = ProgressStyle::with_template("{spinner} {bar:30} {msg}") {
                     bar.set_style(style);
                 }
-                bar.set_message(self.stage.lock().map_or("", |stage| *stage));
+                let name = self.stages.lock().ok();
+                let name = name.and_then(|stages| stages.last().map(|stage| stage.0));
+                bar.set_message(name.unwrap_or_default());
                 bar.enable_steady_tick(Duration::from_millis(120));
                 bar
             })
@@ -66,8 +75,8 @@ impl TerminalProgress {
 
 impl Progress for TerminalProgress {
     fn stage(&self, name: &'static str) {
-        if let Ok(mut stage) = self.stage.lock() {
-            *stage = name;
+        if let Ok(mut stages) = self.stages.lock() {
+            stages.push((name, Instant::now()));
         }
         if let Some(bar) = self.bar() {
             bar.set_message(name);

@@ -1,5 +1,23 @@
 //! One flat-foldable convex component (§4.2–4.4).
 
+mod assemble;
+mod convert;
+mod direction;
+pub mod distance;
+mod fit;
+mod gradient;
+mod layer;
+mod lp;
 mod panel;
+mod profile;
+mod solid;
+mod start;
+mod target;
 
+pub use assemble::AssembleError;
+pub use convert::{Component, ConvertError, convert, trial};
+pub use direction::PrincipalAxis;
 pub use panel::{Hinge, HingeId, HingeSide, Panel, PanelId, PanelKind, PanelSet};
+pub use profile::{Profile, ProfileError};
+pub use solid::{Chain, Clearance, Corner, FaceId, SideFacet, Solid};
+pub use target::{JointTarget, Seat, Target};

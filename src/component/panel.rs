@@ -26,6 +26,16 @@ pub enum PanelKind {
     },
 }
 
+impl std::fmt::Display for PanelKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            PanelKind::Top => write!(f, "the top panel"),
+            PanelKind::Bottom => write!(f, "the bottom panel"),
+            PanelKind::Side { chain, index } => write!(f, "side panel {} of chain {}", index + 1, chain + 1),
+        }
+    }
+}
+
 /// One rigid convex panel.
 ///
 /// # Guarantees

@@ -127,6 +127,13 @@ impl Hull {
         self.vertices.iter().map(|v| direction.dot(*v)).fold(f64::NEG_INFINITY, f64::max)
     }
 
+    /// The hull after a rigid motion.
+    pub fn moved(&self, motion: &glam::DAffine3) -> Self {
+        let vertices = self.vertices.iter().map(|v| motion.transform_point3(*v)).collect();
+        let facets = self.facets.iter().map(|f| Facet { plane: f.plane.moved(motion), outline: f.outline.clone() });
+        Self { vertices, facets: facets.collect() }
+    }
+
     /// The part behind the plane (`normal · x <= offset`). `None` where no volume is left.
     pub fn clip(&self, plane: &Plane) -> Option<Self> {
         if self.support(plane.normal()) <= plane.offset() {

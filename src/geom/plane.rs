@@ -19,6 +19,18 @@ impl Plane {
         offset.is_finite().then_some(Self { normal, offset })
     }
 
+    /// The plane z = `height`, facing up.
+    pub fn horizontal(height: f64) -> Self {
+        Self { normal: DVec3::Z, offset: height }
+    }
+
+    /// The plane after a rigid motion.
+    pub fn moved(&self, motion: &glam::DAffine3) -> Self {
+        let normal = motion.transform_vector3(self.normal).normalize();
+        let point = motion.transform_point3(self.normal * self.offset);
+        Self { normal, offset: normal.dot(point) }
+    }
+
     /// Least-squares plane of points: the one that minimises the sum of squared distances (§4.2.1),
     /// together with the root mean square distance. `None` for fewer than three distinct points
     /// or points on one line. The sign of the normal is arbitrary but deterministic.

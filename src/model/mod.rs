@@ -1,1 +1,98 @@
-//! Joints between components, their tree, and the model's states.
+//! Joints between components, their tree, and the model's two end states.
+
+mod build;
+mod link;
+mod seat;
+
+pub use build::{ModelError, Part, PartOptions, build};
+pub use link::{Contact, Link, link_tree};
+
+use crate::component::{Component, PanelId};
+use crate::geom::polygon;
+use glam::{DAffine3, DVec2, DVec3};
+
+/// Where a component sits on its parent: one panel of each, glued face to face.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// Index of the parent in the model.
+    pub parent: usize,
+    /// The parent's joint panel.
+    pub parent_panel: PanelId,
+    /// The child's joint panel.
+    pub child_panel: PanelId,
+    /// Share of the child's joint panel that lies on the parent's.
+    pub support_ratio: f64,
+}
+
+/// A component in its place.
+#[derive(Debug, Clone)]
+pub struct ModelPart {
+    /// Name, unique in the model.
+    pub name: String,
+    /// Its shape, in its own axes.
+    pub component: Component,
+    /// From the component's axes to the mesh's scaled axes.
+    pub frame: DAffine3,
+    /// From the mesh's scaled axes to the model: not the identity where the component had to be
+    /// turned to sit flush on its parent.
+    pub placement: DAffine3,
+    /// From the component's axes to the model, when flat.
+    pub flat: DAffine3,
+    /// Angle of the fold axis about the first principal axis, radians.
+    pub direction_rad: f64,
+    /// Its joint, none for a root.
+    pub joint: Option<Joint>,
+}
+
+impl ModelPart {
+    /// From the component's axes to the model, deployed.
+    pub fn deployed(&self) -> DAffine3 {
+        self.placement * self.frame
+    }
+
+    /// Fold axis in the mesh's axes.
+    pub fn fold_axis(&self) -> DVec3 {
+        self.frame.transform_vector3(DVec3::Z)
+    }
+}
+
+/// All components, joined.
+///
+/// # Guarantees
+/// Every joint's parent is another part; following parents ends at a root. In the deployed and
+/// in the flat state the two joint panels of every joint lie in one plane, facing each other.
+#[derive(Debug, Clone)]
+pub struct Model {
+    parts: Vec<ModelPart>,
+}
+
+impl Model {
+    /// The components; the index is the segment's.
+    pub fn parts(&self) -> &[ModelPart] {
+        &self.parts
+    }
+
+    /// Corners of a panel in the deployed model.
+    pub fn deployed_outline(&self, part: usize, panel: PanelId) -> Vec<DVec3> {
+        let part = &self.parts[part];
+        let motion = part.deployed() * part.component.panels().panel(panel).deployed;
+        let outline = &part.component.panels().panel(panel).outline;
+        outline.iter().map(|p| motion.transform_point3(p.extend(0.0))).collect()
+    }
+
+    /// The outline of one side of a joint, in the plane coordinates of the other side's panel:
+    /// `(part, panel)` as seen on `(on_part, on_panel)`.
+    pub fn outline_on(&self, (part, panel): (usize, PanelId), (on_part, on_panel): (usize, PanelId)) -> Vec<DVec2> {
+        let base = &self.parts[on_part];
+        let back = (base.deployed() * base.component.panels().panel(on_panel).deployed).inverse();
+        let mut outline: Vec<DVec2> = self
+            .deployed_outline(part, panel)
+            .into_iter()
+            .map(|p| back.transform_point3(p).truncate())
+            .collect();
+        if polygon::area(&outline) < 0.0 {
+            outline.reverse();
+        }
+        outline
+    }
+}

@@ -1,10 +1,35 @@
 //! Development nets: which hinges are cut, tabs, labels, joint marks.
+//!
+//! ```text
+//! PanelSet -> cuts -> layout -> tabs -> mesh of each piece -> contour, labels -> marks
+//! ```
+//!
+//! Panels are a graph: top panel, chains, bottom panel. A net of one piece is a spanning tree of
+//! it: one chain stays whole, each other chain is cut at one hinge and glued there by a tab.
+
+mod chains;
+pub mod check;
+mod contour;
+mod cuts;
+mod develop;
+mod labels;
+mod layout;
+mod marks;
+mod mesh;
+mod of_model;
+mod tabs;
+
+pub use develop::{Naming, NetError, NetOptions, develop};
+pub use marks::MarkOptions;
+pub use of_model::{NetsError, develop_model};
+pub use mesh::{Corner, Edge, EdgeKind, Face, FaceKind, PieceMesh, Vertex};
 
 use crate::component::{HingeId, PanelId};
 use glam::{DAffine2, DVec2};
+use std::collections::BTreeMap;
 
 /// One panel at its place in the development of a piece.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlacedPanel {
     /// The panel.
     pub panel: PanelId,
@@ -19,8 +44,10 @@ pub struct Tab {
     pub hinge: HingeId,
     /// Which of the hinge's two sides carries the tab (0 or 1); the other panel is its mate.
     pub side: usize,
-    /// Convex outline in the piece's coordinates, counter-clockwise; the first edge is the hinge.
-    pub outline: Vec<DVec2>,
+    /// Trapezoid in the piece's coordinates, counter-clockwise; the first edge is the hinge.
+    pub outline: [DVec2; 4],
+    /// The same in the plane coordinates of the mate, behind which it is glued.
+    pub on_mate: [DVec2; 4],
     /// The label that stands on the tab and inside its mate.
     pub label: String,
 }
@@ -30,26 +57,227 @@ pub struct Tab {
 pub struct JointMark {
     /// The panel that carries the mark.
     pub panel: PanelId,
-    /// Outline of the partner in the panel's plane coordinates.
+    /// Convex outline of the partner in the panel's plane coordinates, counter-clockwise.
     pub outline: Vec<DVec2>,
+    /// The point, in the panel's plane coordinates, to which the orientation mark points. Both
+    /// partners name the same point of the model, off the middle of the outline.
+    pub key: DVec2,
     /// Text: the partner's name.
     pub text: String,
 }
 
+/// A joint mark at its place on a piece.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlacedJoint {
+    /// The panel that carries it.
+    pub panel: PanelId,
+    /// The part of the partner's outline that lies on the panel, in the piece's coordinates.
+    pub outline: Vec<DVec2>,
+    /// Triangle whose first corner points to the key: the two partners' tips meet when glued.
+    pub key: [DVec2; 3],
+}
+
+/// What a label is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LabelKind {
+    /// Of a tab.
+    Tab,
+    /// Of the panel behind which a tab is glued.
+    Mate,
+    /// Name of a joint's partner.
+    Joint,
+    /// Name of the piece.
+    Name,
+}
+
+/// A text on a piece.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Label {
+    /// What it is for.
+    pub kind: LabelKind,
+    /// What it says.
+    pub text: String,
+    /// Middle of the base line, in the piece's coordinates.
+    pub anchor: DVec2,
+    /// Turn, counter-clockwise, radians.
+    pub angle_rad: f64,
+    /// Height of a capital, mm.
+    pub cap_height_mm: f64,
+    /// Length of the text, mm.
+    pub width_mm: f64,
+}
+
 /// One connected cut-out.
+///
+/// # Guarantees
+/// No two faces (panels and tabs) overlap; the bounding box starts at the origin and, as it is,
+/// fits the sheet that the net was made for; the outline is one closed walk.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Piece {
-    /// `head 1/2`
-    pub name: String,
+    name: String,
+    panels: Vec<PlacedPanel>,
+    creases: Vec<HingeId>,
+    tabs: Vec<Tab>,
+    joints: Vec<PlacedJoint>,
+    labels: Vec<Label>,
+    unplaced_labels: Vec<String>,
+    mesh: PieceMesh,
+    crease_lines: Vec<marks::Crease>,
+    outline: Vec<DVec2>,
+    slits: Vec<Vec<DVec2>>,
+}
+
+impl Piece {
+    /// `head 1/2`, or `head` where there is only one.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
     /// Its panels.
-    pub panels: Vec<PlacedPanel>,
+    pub fn panels(&self) -> &[PlacedPanel] {
+        &self.panels
+    }
+
+    /// Hinges that stay joined in it.
+    pub fn creases(&self) -> &[HingeId] {
+        &self.creases
+    }
+
     /// Its tabs.
-    pub tabs: Vec<Tab>,
+    pub fn tabs(&self) -> &[Tab] {
+        &self.tabs
+    }
+
+    /// What is glued on its panels.
+    pub fn joints(&self) -> &[PlacedJoint] {
+        &self.joints
+    }
+
+    /// Texts on it.
+    pub fn labels(&self) -> &[Label] {
+        &self.labels
+    }
+
+    /// Texts that found no place on it; they must be listed on the sheet.
+    pub fn unplaced_labels(&self) -> &[String] {
+        &self.unplaced_labels
+    }
+
+    /// Panels and tabs as faces that share vertices where paper joins them.
+    pub fn mesh(&self) -> &PieceMesh {
+        &self.mesh
+    }
+
+    /// The outer contour of panels and tabs, counter-clockwise: what nesting has to place.
+    pub fn outline(&self) -> &[DVec2] {
+        &self.outline
+    }
+
+    /// Cuts that lie inside the outline: slits whose two sides touch.
+    pub fn slits(&self) -> &[Vec<DVec2>] {
+        &self.slits
+    }
+
+    /// Length of everything that is cut, mm.
+    pub fn cut_mm(&self) -> f64 {
+        let outline: f64 = crate::geom::polygon::edges(&self.outline).map(|(a, b)| a.distance(b)).sum();
+        let slits = self.slits.iter().flat_map(|slit| slit.windows(2));
+        outline + slits.map(|w| w[0].distance(w[1])).sum::<f64>()
+    }
+
+    /// Length of everything that is folded, mm: hinges and the bases of tabs.
+    pub fn crease_mm(&self) -> f64 {
+        self.crease_lines.iter().map(marks::Crease::length_mm).sum()
+    }
+
+    /// Width and height of the bounding box, mm.
+    pub fn size_mm(&self) -> DVec2 {
+        crate::geom::polygon::bounds(self.outline.iter().copied()).map_or(DVec2::ZERO, |(lo, hi)| hi - lo)
+    }
+}
+
+/// Something about a net that its maker should know.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NetWarning {
+    /// A tab is narrower than can be glued well.
+    NarrowTab {
+        /// Its label.
+        label: String,
+        /// Its width.
+        width_mm: f64,
+    },
+    /// A cut hinge has no room for a tab on either side: both edges carry this label, to be joined
+    /// with a strip of paper.
+    NoTab {
+        /// The label.
+        label: String,
+    },
+    /// A fold hinge had to be cut and glued.
+    CutFoldHinge {
+        /// Its label.
+        label: String,
+    },
+    /// A label had no room on its piece.
+    UnplacedLabel {
+        /// The piece.
+        piece: String,
+        /// The text.
+        text: String,
+    },
+}
+
+impl NetWarning {
+    /// Short constant name, for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            NetWarning::NarrowTab { .. } => "narrow_tab",
+            NetWarning::NoTab { .. } => "no_tab",
+            NetWarning::CutFoldHinge { .. } => "cut_fold_hinge",
+            NetWarning::UnplacedLabel { .. } => "unplaced_label",
+        }
+    }
+}
+
+impl std::fmt::Display for NetWarning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            NetWarning::NarrowTab { label, width_mm } => {
+                write!(f, "tab {label} is only {width_mm:.1} mm wide; glue it with care")
+            }
+            NetWarning::NoTab { label } => {
+                write!(f, "there is no room for a tab at {label}; join its two edges with a strip of paper")
+            }
+            NetWarning::CutFoldHinge { label } => {
+                write!(f, "the hinge at {label} folds flat and had to be cut; join it with tape so that it can move")
+            }
+            NetWarning::UnplacedLabel { piece, text } => {
+                write!(f, "the label {text} has no room on {piece}; it is listed on its sheet")
+            }
+        }
+    }
 }
 
 /// All pieces of one component.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Net {
-    /// The pieces, biggest first.
-    pub pieces: Vec<Piece>,
+    pieces: Vec<Piece>,
+    warnings: Vec<NetWarning>,
+    labels: BTreeMap<HingeId, String>,
+}
+
+impl Net {
+    /// The pieces, most panels first.
+    pub fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    /// What to tell the user.
+    pub fn warnings(&self) -> &[NetWarning] {
+        &self.warnings
+    }
+
+    /// The label of a cut hinge; none for one that stays joined.
+    pub fn label(&self, hinge: HingeId) -> Option<&str> {
+        self.labels.get(&hinge).map(String::as_str)
+    }
 }

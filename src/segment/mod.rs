@@ -1,10 +1,123 @@
 //! Segmentation of a mesh into few connected, nearly convex parts (§4.1).
+//!
+//! The shape diameter function of Shapira, Shamir and Cohen-Or (2008) is clustered and cut into
+//! many patches, which are merged as long as their common convex hull leaves the solid least: each
+//! segment becomes a hull of paper.
+
+mod bodies;
+mod coarsen;
+mod cut;
+mod gmm;
+mod grid;
+mod interface;
+mod maxflow;
+mod merge;
+mod patches;
+mod refine;
+mod rough_hull;
+mod sdf;
+#[cfg(test)]
+mod shapes;
+mod smooth;
+mod stage;
+mod surface;
+#[cfg(test)]
+mod tests;
+
+pub use interface::Interface;
+pub use stage::segment;
 
 use crate::mesh::Mesh;
+use crate::progress::Cancelled;
+use std::collections::BTreeMap;
 
 /// A segment, numbered from 0, biggest surface first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SegmentId(pub u32);
+
+/// How segments are found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Method {
+    /// Patches merged by the growth of their hulls.
+    Merge,
+    /// The paper's: every connected component of a label is a segment.
+    Sdf {
+        /// Number of Gaussians, 1 to 32.
+        clusters: usize,
+        /// Weight of the borders, 0 or more.
+        smoothing: f64,
+    },
+}
+
+/// What the user can ask for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SegmentOptions {
+    /// Number of segments; `None` finds it. Only [`Method::Merge`] heeds it.
+    pub parts: Option<usize>,
+    /// Where the number is found: from 0, few parts, to 1, many.
+    pub detail: f64,
+    /// How segments are found.
+    pub method: Method,
+}
+
+impl Default for SegmentOptions {
+    fn default() -> Self {
+        Self { parts: None, detail: 0.5, method: Method::Merge }
+    }
+}
+
+/// Why there is no segmentation.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum SegmentError {
+    /// The mesh has no faces.
+    #[error("the mesh has no faces")]
+    Empty,
+    /// The mesh lies in one plane.
+    #[error("the mesh is flat: all of it lies in one plane, so no solid parts can be made of it")]
+    Flat,
+    /// A number of parts that cannot be.
+    #[error("{0} parts were asked for; ask for 1 to {MOST_PARTS}")]
+    Parts(usize),
+    /// A detail that cannot be.
+    #[error("the detail is {0}; it must be from 0 to 1")]
+    Detail(f64),
+    /// Settings of the method by SDF alone that cannot be.
+    #[error("{clusters} clusters with smoothing {smoothing}; use 1 to {MOST_CLUSTERS} clusters and a smoothing of 0 or more")]
+    Clusters {
+        /// Number of Gaussians.
+        clusters: usize,
+        /// Weight of the borders.
+        smoothing: f64,
+    },
+    /// Stopped by the user.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// More parts than this are not made.
+pub const MOST_PARTS: usize = 200;
+
+/// More clusters than this are not fitted.
+pub const MOST_CLUSTERS: usize = 32;
+
+impl SegmentOptions {
+    fn check(&self) -> Result<(), SegmentError> {
+        if let Some(parts) = self.parts
+            && !(1..=MOST_PARTS).contains(&parts)
+        {
+            return Err(SegmentError::Parts(parts));
+        }
+        if !(0.0..=1.0).contains(&self.detail) {
+            return Err(SegmentError::Detail(self.detail));
+        }
+        if let Method::Sdf { clusters, smoothing } = self.method
+            && !((1..=MOST_CLUSTERS).contains(&clusters) && (0.0..f64::INFINITY).contains(&smoothing))
+        {
+            return Err(SegmentError::Clusters { clusters, smoothing });
+        }
+        Ok(())
+    }
+}
 
 /// A partition of a mesh's faces.
 ///
@@ -17,6 +130,23 @@ pub struct Segmentation {
 }
 
 impl Segmentation {
+    /// Numbers the sets of faces by falling area, sets of equal area by their first face.
+    fn numbered(set_of_face: &[u32], sets: usize, face_areas: &[f64]) -> Self {
+        let mut ranking: Vec<(f64, usize, usize)> = vec![(0.0, usize::MAX, 0); sets];
+        for (f, &s) in set_of_face.iter().enumerate() {
+            let rank = &mut ranking[s as usize];
+            *rank = (rank.0 + face_areas[f], rank.1.min(f), s as usize);
+        }
+        ranking.retain(|r| r.1 != usize::MAX);
+        ranking.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        let mut id = vec![SegmentId(0); sets];
+        for (i, &(_, _, set)) in ranking.iter().enumerate() {
+            id[set] = SegmentId(i as u32);
+        }
+        let face_segment = set_of_face.iter().map(|&s| id[s as usize]).collect();
+        Self { face_segment, count: ranking.len() }
+    }
+
     /// The segment of each face.
     pub fn face_segments(&self) -> &[SegmentId] {
         &self.face_segment
@@ -29,8 +159,12 @@ impl Segmentation {
 
     /// Vertices (indices into `mesh.positions()`) on the interface of each pair of neighbouring
     /// segments, the smaller id first, in ascending order (§4.2.1).
-    pub fn interfaces(&self, mesh: &Mesh) -> std::collections::BTreeMap<(SegmentId, SegmentId), Vec<u32>> {
-        let _ = mesh;
-        todo!()
+    pub fn interfaces(&self, mesh: &Mesh) -> BTreeMap<(SegmentId, SegmentId), Vec<u32>> {
+        self.borders(mesh).into_iter().map(|(pair, i)| (pair, i.vertices().to_vec())).collect()
+    }
+
+    /// The interface of each pair of neighbouring segments with its length and plane.
+    pub fn borders(&self, mesh: &Mesh) -> BTreeMap<(SegmentId, SegmentId), Interface> {
+        interface::interfaces(self, mesh)
     }
 }

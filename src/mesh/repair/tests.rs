@@ -250,7 +250,7 @@ fn labels_go_back_to_the_faces_of_the_file() {
     let mut faces: Vec<Vec<u32>> = CUBE.iter().map(|f| f.to_vec()).collect();
     faces.insert(1, vec![0, 0, 1]);
     let (mesh, repairs) = mesh_of(cube_corners(), faces);
-    let labels: Vec<u32> = mesh.input_faces().iter().map(|&f| 10 + f).collect();
+    let labels: Vec<Option<u32>> = mesh.input_faces().iter().map(|&f| Some(10 + f)).collect();
     let back = mesh.labels_of_input(&labels, repairs.input_faces);
     let expected = [
         Some(10),
@@ -262,7 +262,7 @@ fn labels_go_back_to_the_faces_of_the_file() {
         Some(16),
     ];
     assert_eq!(back, expected);
-    let mixed: Vec<u32> = (0..12).map(|f| 1 - f % 2).collect();
+    let mixed: Vec<Option<u32>> = (0..12).map(|f| Some(1 - f % 2)).collect();
     let back = mesh.labels_of_input(&mixed, repairs.input_faces);
     assert_eq!(back[0], Some(0));
 }

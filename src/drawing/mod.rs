@@ -3,11 +3,24 @@
 //! Coordinates are millimetres, y up, origin at the bottom-left corner of the page; each back end
 //! flips or scales once. Styles are resolved here, so that back ends stay simple.
 
+mod mark;
+mod style;
+pub mod text;
+
+pub use style::{LineStyles, StyleError};
+
 use glam::DVec2;
 
 /// sRGB colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Rgb(pub u8, pub u8, pub u8);
+
+impl Rgb {
+    /// Black.
+    pub const BLACK: Self = Self(0, 0, 0);
+    /// White.
+    pub const WHITE: Self = Self(255, 255, 255);
+}
 
 /// What a mark means; exporters turn it into groups, layers or pens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -30,6 +43,37 @@ pub enum Layer {
     Furniture,
     /// Filled faces of pictures.
     Picture,
+}
+
+impl Layer {
+    /// All layers, in their order.
+    pub const ALL: [Self; 9] = [
+        Self::Cut,
+        Self::Slit,
+        Self::Mountain,
+        Self::Valley,
+        Self::FoldHinge,
+        Self::Glue,
+        Self::Label,
+        Self::Furniture,
+        Self::Picture,
+    ];
+
+    /// Short name in small letters: the name of the layer in every file format, and of its table
+    /// in style files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Cut => "cut",
+            Self::Slit => "slit",
+            Self::Mountain => "mountain",
+            Self::Valley => "valley",
+            Self::FoldHinge => "fold-hinge",
+            Self::Glue => "glue",
+            Self::Label => "label",
+            Self::Furniture => "furniture",
+            Self::Picture => "picture",
+        }
+    }
 }
 
 /// A stroked line's look.

@@ -1,0 +1,385 @@
+//! One hull into one component: first guess, fit, panels; simpler shapes where the limits leave
+//! no room.
+
+use super::assemble::{AssembleError, Assembled, assemble};
+use super::distance::{Polytope, hausdorff};
+use super::fit::{Fitted, fit, polytope};
+use super::panel::{PanelId, PanelKind, PanelSet};
+use super::profile::{Profile, balance, imbalance};
+use super::solid::{FaceId, Solid};
+use super::start::{circumscribe, fold_spots};
+use super::target::{FoldSpot, JointTarget, Target};
+use crate::geom::{Hull, HullError};
+use glam::DVec3;
+
+/// Hulls with more corners are fitted through their extreme points in this many directions.
+const FIT_DIRECTIONS: usize = 320;
+/// Quick fits, to compare directions, use fewer.
+const TRIAL_DIRECTIONS: usize = 60;
+/// Steps of a quick fit.
+const TRIAL_STEPS: usize = 6;
+/// A shape that misses a limit by less is as good as one that keeps it.
+const NEAR_ENOUGH_MM: f64 = 1e-3;
+
+/// Why a hull becomes no component.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum ConvertError {
+    /// The hull has no volume.
+    #[error(transparent)]
+    Hull(#[from] HullError),
+    /// No shape tried gives panels.
+    #[error("no foldable shape was found for it; the last try failed because {0}")]
+    Assemble(#[from] AssembleError),
+}
+
+/// One flat-foldable convex component, in its own axes (v is z).
+///
+/// # Guarantees
+/// Every profile is convex, falls strictly and has gap 0 within rounding; the flat layers do not
+/// overlap; joint panels are single panels on their planes.
+#[derive(Debug, Clone)]
+pub struct Component {
+    solid: Solid,
+    profiles: Vec<Profile>,
+    panels: PanelSet,
+    error_mm: f64,
+    trimmed_mm2: f64,
+}
+
+impl Component {
+    /// The half-spaces.
+    pub fn solid(&self) -> &Solid {
+        &self.solid
+    }
+
+    /// Profile of each chain.
+    pub fn profiles(&self) -> &[Profile] {
+        &self.profiles
+    }
+
+    /// Panels and hinges.
+    pub fn panels(&self) -> &PanelSet {
+        &self.panels
+    }
+
+    /// Hausdorff distance to the hull, mm.
+    pub fn hausdorff_mm(&self) -> f64 {
+        self.error_mm
+    }
+
+    /// Area that was trimmed off slits so that the flat layers do not overlap, mm².
+    pub fn trimmed_mm2(&self) -> f64 {
+        self.trimmed_mm2
+    }
+
+    /// Narrowest width of a side panel at any height, with its id.
+    pub fn narrowest_panel(&self) -> (PanelId, f64) {
+        self.least(|outline| {
+            outline.iter().map(|p| chord(outline, p.y)).fold(f64::INFINITY, f64::min)
+        })
+    }
+
+    /// Least height of a side panel between its hinges, with its id.
+    pub fn lowest_panel(&self) -> (PanelId, f64) {
+        self.least(|outline| {
+            let y = outline.iter().map(|p| p.y);
+            y.clone().fold(f64::NEG_INFINITY, f64::max) - y.fold(f64::INFINITY, f64::min)
+        })
+    }
+
+    fn least(&self, measure: impl Fn(&[glam::DVec2]) -> f64) -> (PanelId, f64) {
+        let sides = self.panels.panels().iter().enumerate().filter(|(_, p)| matches!(p.kind, PanelKind::Side { .. }));
+        sides
+            .map(|(k, p)| (PanelId(k), measure(&p.outline)))
+            .fold((PanelId(0), f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
+    }
+
+    /// The panel that is the joint panel of `joint`.
+    pub fn joint_panel(&self, target: &Target, joint: &JointTarget) -> Option<PanelId> {
+        match target.joint_face(&self.solid, joint)? {
+            FaceId::Top => Some(PanelId(0)),
+            FaceId::Bottom => Some(PanelId(1)),
+            FaceId::Side(chain, facet) => {
+                let profile = &self.profiles[chain];
+                let shape = self.solid.profile(chain);
+                let middle = (shape[facet].y + shape[facet + 1].y) / 2.0;
+                let index = profile.points().windows(2).position(|w| w[1].y < middle)?;
+                let wanted = PanelKind::Side { chain, index };
+                self.panels.panels().iter().position(|p| p.kind == wanted).map(PanelId)
+            }
+        }
+    }
+
+    /// Largest distance of the flat panels from the fold axis: how far it spreads, mm.
+    pub fn flat_radius_mm(&self) -> f64 {
+        let corners = self.panels.panels().iter().flat_map(|p| {
+            p.outline.iter().map(|&q| p.flat.transform_point3(q.extend(0.0)).truncate().length())
+        });
+        corners.fold(0.0, f64::max)
+    }
+}
+
+/// Length of the outline's section at height y.
+fn chord(outline: &[glam::DVec2], y: f64) -> f64 {
+    let mut span = (f64::INFINITY, f64::NEG_INFINITY);
+    for (a, b) in crate::geom::polygon::edges(outline) {
+        if (a.y - y) * (b.y - y) <= 0.0 {
+            let ends = if a.y == b.y { [a.x, b.x] } else { [a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y); 2] };
+            for x in ends {
+                span = (span.0.min(x), span.1.max(x));
+            }
+        }
+    }
+    span.1 - span.0
+}
+
+/// The best component for a hull within the target's limits.
+pub fn convert(target: &Target) -> Result<Component, ConvertError> {
+    let simple = simplified(target.hull, FIT_DIRECTIONS)?;
+    let quick = Target { hull: &simple, ..target.clone() };
+    let mut best: Option<(f64, Fitted, Assembled)> = None;
+    let mut last_error = None;
+    for (edges, vertices) in attempts(target) {
+        let goal = Target { profile_vertices: vertices, ..quick.clone() };
+        let mut solid = circumscribe(&goal, edges);
+        let spots = fold_spots(&mut solid);
+        let fitted = fit(&goal, solid, spots, usize::MAX);
+        match assemble_unbroken(&fitted) {
+            Ok(made) => {
+                let merit = fitted.error_mm + 10.0 * fitted.lack_mm;
+                let is_valid = fitted.lack_mm < NEAR_ENOUGH_MM;
+                if best.as_ref().is_none_or(|b| merit < b.0) {
+                    best = Some((merit, fitted, made));
+                }
+                if is_valid {
+                    break;
+                }
+            }
+            Err(error) => last_error = Some(error),
+        }
+    }
+    let Some((_, fitted, made)) = best else {
+        return Err(last_error.map_or(ConvertError::Hull(HullError::Flat), ConvertError::Assemble));
+    };
+    let error_mm = hausdorff(&polytope(&fitted.solid), &Polytope::of_hull(target.hull));
+    Ok(Component {
+        solid: fitted.solid,
+        profiles: made.profiles,
+        panels: made.panels,
+        error_mm,
+        trimmed_mm2: made.trimmed_mm2,
+    })
+}
+
+/// Error of a quick fit with a price on what is not valid, mm, and the radius when flat: to
+/// compare fold directions.
+pub fn trial(target: &Target) -> Option<(f64, f64)> {
+    let simple = simplified(target.hull, TRIAL_DIRECTIONS).ok()?;
+    let goal = Target { hull: &simple, ..target.clone() };
+    let mut solid = circumscribe(&goal, target.top_edges);
+    let spots = fold_spots(&mut solid);
+    let fitted = fit(&goal, solid, spots, TRIAL_STEPS);
+    let reach = |j: usize| {
+        let profile = fitted.solid.profile(j);
+        let at = balance(&profile);
+        profile[0].x + profile.windows(2).take(at.segment).map(|w| w[0].distance(w[1])).sum::<f64>()
+    };
+    let spread = (0..fitted.solid.chains.len()).map(reach).fold(0.0, f64::max);
+    Some((fitted.error_mm + fitted.lack_mm, spread))
+}
+
+/// Numbers of edges and profile vertices to try: as wished, then simpler until panels have room.
+fn attempts(target: &Target) -> Vec<(usize, usize)> {
+    let least = target.locked_angles().len().max(3);
+    let mut list = Vec::new();
+    let (mut edges, mut vertices) = (target.top_edges.max(least), target.profile_vertices);
+    loop {
+        list.push((edges, vertices));
+        if vertices > 4 {
+            vertices -= if vertices > 6 { 2 } else { 1 };
+        } else if edges > least {
+            edges -= 1;
+        } else if vertices > 3 {
+            vertices = 3;
+        } else {
+            return list;
+        }
+    }
+}
+
+/// Imbalance up to which a fold vertex at a bend is exact, as a share of the height.
+const EXACT: f64 = 1e-11;
+
+/// Panels of a fitted solid, folded at the balance points, whose joint panels are uncreased.
+fn assemble_unbroken(fitted: &Fitted) -> Result<Assembled, AssembleError> {
+    let solid = &fitted.solid;
+    let size = solid.top_mm - solid.bottom_mm;
+    let spots = fitted.spots.iter().enumerate().map(|(chain, &spot)| {
+        let profile = solid.profile(chain);
+        let at = balance(&profile);
+        match spot {
+            FoldSpot::Bend(i) if imbalance(&profile, i + 1).abs() <= EXACT * size => Ok(spot),
+            _ if solid.chains[chain].facets[at.segment].is_joint => Err(AssembleError::CreasedJoint(chain)),
+            _ => Ok(FoldSpot::Inside(at.segment)),
+        }
+    });
+    let spots = spots.collect::<Result<Vec<_>, _>>()?;
+    assemble(solid, &spots)
+}
+
+/// Hull of the extreme points in evenly spread directions.
+fn simplified(hull: &Hull, directions: usize) -> Result<Hull, HullError> {
+    if hull.vertices().len() <= directions {
+        return Ok(hull.clone());
+    }
+    let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
+    let points: Vec<DVec3> = (0..directions)
+        .filter_map(|k| {
+            let z = 1.0 - (2.0 * k as f64 + 1.0) / directions as f64;
+            let r = (1.0 - z * z).sqrt();
+            let d = DVec3::new(r * (golden * k as f64).cos(), r * (golden * k as f64).sin(), z);
+            hull.vertices().iter().copied().max_by(|a, b| d.dot(*a).total_cmp(&d.dot(*b)))
+        })
+        .collect();
+    Hull::of_points(&points).or_else(|_| Ok(hull.clone()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::component::Seat;
+    use glam::DVec2;
+    use proptest::prelude::*;
+
+    /// Points spread over an ellipsoid: round, needle-like and plate-like hulls.
+    fn blob(axes: DVec3, count: usize) -> Vec<DVec3> {
+        let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
+        (0..count)
+            .map(|k| {
+                let z = 1.0 - (2.0 * k as f64 + 1.0) / count as f64;
+                let r = (1.0 - z * z).sqrt();
+                DVec3::new(r * (golden * k as f64).cos(), r * (golden * k as f64).sin(), z) * axes
+            })
+            .collect()
+    }
+
+    fn target(hull: &Hull, joints: Vec<JointTarget>) -> Target<'_> {
+        Target { hull, joints, top_edges: 6, profile_vertices: 6, min_panel_mm: 3.0 }
+    }
+
+    fn close(a: DVec3, b: DVec3) -> bool {
+        a.distance(b) < 1e-8
+    }
+
+    /// Pairs of panels that overlap in one of the flat layers, which face up and down.
+    fn flat_overlaps(component: &Component) -> usize {
+        let panels = component.panels().panels();
+        let flat = |p: &crate::component::Panel| -> Vec<DVec2> {
+            let mut corners: Vec<DVec2> =
+                p.outline.iter().map(|q| p.flat.transform_point3(q.extend(0.0)).truncate()).collect();
+            if crate::geom::polygon::area(&corners) < 0.0 {
+                corners.reverse();
+            }
+            corners
+        };
+        let faces_up = |p: &crate::component::Panel| p.flat.matrix3.z_axis.z > 0.0;
+        let clash = |a: &crate::component::Panel, b: &crate::component::Panel| {
+            faces_up(a) == faces_up(b) && crate::geom::polygon::convex_overlap(&flat(a), &flat(b), 1e-5)
+        };
+        panels.iter().enumerate().map(|(k, a)| panels[k + 1..].iter().filter(|b| clash(a, b)).count()).sum()
+    }
+
+    /// All that must hold for any component.
+    fn check(component: &Component) {
+        assert_eq!(flat_overlaps(component), 0);
+        for profile in component.profiles() {
+            assert!(profile.gap_mm().abs() <= 1e-9 * profile.mean_segment_mm());
+        }
+        let set = component.panels();
+        for hinge in set.hinges() {
+            for state in [|p: &crate::component::Panel| p.deployed, |p: &crate::component::Panel| p.flat] {
+                let [a, b] = hinge.sides.map(|s| {
+                    let panel = set.panel(s.panel);
+                    panel.edge(s.edge).map(|q| state(panel).transform_point3(q.extend(0.0)))
+                });
+                assert!(close(a[0], b[1]) && close(a[1], b[0]), "hinge torn: {a:?} {b:?}");
+            }
+        }
+        let floor = component.solid().bottom_mm;
+        for panel in set.panels() {
+            assert!(crate::geom::polygon::area(&panel.outline) > 0.0);
+            let flat = panel.outline.iter().map(|q| panel.flat.transform_point3(q.extend(0.0)));
+            assert!(flat.into_iter().all(|q| (q.z - floor).abs() < 1e-9));
+        }
+        for hinge in set.hinges() {
+            let [a, b] = hinge.sides.map(|s| set.panel(s.panel).flat.matrix3.z_axis);
+            assert!((a.dot(b) - hinge.flat_rad.cos()).abs() < 1e-9);
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(10))]
+
+        #[test]
+        fn random_hulls_become_exactly_foldable(
+            axes in (12.0f64..90.0, 12.0f64..90.0, 12.0f64..90.0),
+            count in 12usize..120,
+            joint in prop::option::of((0.0f64..6.2, -0.8f64..0.8, 0.55f64..0.95)),
+        ) {
+            let axes = DVec3::new(axes.0, axes.1, axes.2);
+            let mut hull = Hull::of_points(&blob(axes, count)).unwrap();
+            let mut joints = Vec::new();
+            if let Some((angle_rad, slope_rad, share)) = joint {
+                let normal = (DVec2::from_angle(angle_rad) * slope_rad.cos()).extend(slope_rad.sin());
+                let offset_mm = hull.support(normal) * share;
+                let plane = crate::geom::Plane::through(normal * offset_mm, normal).unwrap();
+                hull = hull.clip(&plane).unwrap();
+                joints.push(JointTarget { seat: Seat::Side { angle_rad, slope_rad, offset_mm }, cover: vec![], within: vec![] });
+            }
+            let target = target(&hull, joints);
+            let component = convert(&target).unwrap();
+            check(&component);
+            for joint in &target.joints {
+                let panel = component.joint_panel(&target, joint).unwrap();
+                let Seat::Side { angle_rad, slope_rad, offset_mm } = joint.seat else { unreachable!() };
+                let normal = (DVec2::from_angle(angle_rad) * slope_rad.cos()).extend(slope_rad.sin());
+                for corner in component.panels().panel(panel).deployed_outline() {
+                    prop_assert!((normal.dot(corner) - offset_mm).abs() < 1e-8);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_box_is_matched_exactly() {
+        let corners: Vec<DVec3> = (0..8)
+            .map(|k| DVec3::new((k & 1) as f64 * 80.0, (k >> 1 & 1) as f64 * 50.0, (k >> 2) as f64 * 40.0) - DVec3::splat(20.0))
+            .collect();
+        let hull = Hull::of_points(&corners).unwrap();
+        let component = convert(&Target { top_edges: 4, ..target(&hull, vec![]) }).unwrap();
+        check(&component);
+        assert!(component.hausdorff_mm() < 0.05, "{}", component.hausdorff_mm());
+        assert_eq!(component.solid().chains.len(), 4);
+    }
+
+    #[test]
+    fn a_tiny_hull_gets_fewer_panels_rather_than_narrow_ones() {
+        let hull = Hull::of_points(&blob(DVec3::new(9.0, 8.0, 8.0), 60)).unwrap();
+        let component = convert(&target(&hull, vec![])).unwrap();
+        check(&component);
+        assert!(component.narrowest_panel().1 >= 3.0 && component.lowest_panel().1 >= 3.0);
+    }
+
+    /// Chains of a flaring bowl overlap when flat and are trimmed back.
+    #[test]
+    fn overlapping_flat_layers_are_trimmed() {
+        let mut points = blob(DVec3::new(60.0, 60.0, 20.0), 200);
+        points.retain(|p| p.z > -1.0);
+        points.extend(blob(DVec3::new(20.0, 80.0, 20.0), 100));
+        let hull = Hull::of_points(&points).unwrap();
+        for edges in [3, 5, 7, 9] {
+            let component = convert(&Target { top_edges: edges, ..target(&hull, vec![]) }).unwrap();
+            check(&component);
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! The two layers of a flat component.
+//!
+//! Folded flat, the panels above the fold hinges lie developed round the top panel and the others
+//! round the bottom panel. Panels collide when flat exactly where two chains overlap in one of
+//! these developments. Slits are free edges, so trimming a panel there never breaks foldability:
+//! overlapping chains are cut back to a ray from the corner between their edges.
+
+use super::solid::Solid;
+use crate::geom::polygon;
+use glam::{DAffine2, DVec2};
+
+/// A side panel under construction.
+#[derive(Debug, Clone)]
+pub(super) struct Side {
+    /// Chain.
+    pub(super) chain: usize,
+    /// Outline in the panel's plane: x along the edge, y up the slope from the lower hinge.
+    pub(super) outline: Vec<DVec2>,
+    /// Placement in its layer, seen from above.
+    pub(super) to_layer: DAffine2,
+    /// Whether it lies above the fold hinge.
+    pub(super) is_upper: bool,
+}
+
+impl Side {
+    /// Outline in the layer, counter-clockwise (the lower layer's panels face down).
+    fn in_layer(&self) -> Vec<DVec2> {
+        let mut outline: Vec<DVec2> = self.outline.iter().map(|&p| self.to_layer.transform_point2(p)).collect();
+        if !self.is_upper {
+            outline.reverse();
+        }
+        outline
+    }
+
+    /// Outline without what lies beyond the line through `corner` with normal `normal`. The
+    /// corner itself stays.
+    fn clipped(&self, corner: DVec2, normal: DVec2) -> Vec<DVec2> {
+        let local = self.to_layer.matrix2.transpose() * normal;
+        let offset = normal.dot(corner - self.to_layer.translation);
+        polygon::clip(&self.outline, local, offset + KEEP_CORNER_MM)
+    }
+}
+
+/// Clipping lines pass through corners of the outlines; this keeps rounding from cutting them.
+const KEEP_CORNER_MM: f64 = 1e-9;
+/// Overlaps below this depth are rounding.
+const OVERLAP_MM: f64 = 1e-6;
+/// Directions tried for the ray between two overlapping chains.
+const RAYS: usize = 33;
+
+/// Trims panels that overlap when flat: first only between the chains concerned, and where that
+/// is not enough at every corner, which always suffices: the rays then part the plane round the
+/// convex polygon. Returns the area that was cut away, mm².
+pub(super) fn trim(solid: &Solid, sides: &mut [Side]) -> f64 {
+    let mut trimmed = 0.0;
+    for is_upper in [true, false] {
+        for everywhere in [false, true] {
+            let clashes = overlaps(sides, is_upper);
+            if clashes.is_empty() {
+                break;
+            }
+            for j in 0..solid.chains.len() {
+                let k = solid.next(j);
+                if everywhere || clashes.contains(&(j.min(k), j.max(k))) {
+                    trimmed += trim_corner(solid, sides, is_upper, j);
+                }
+            }
+        }
+    }
+    trimmed
+}
+
+/// Pairs of chains that overlap in a layer, the smaller index first.
+pub(super) fn overlaps(sides: &[Side], is_upper: bool) -> Vec<(usize, usize)> {
+    let placed: Vec<(usize, Vec<DVec2>)> =
+        sides.iter().filter(|s| s.is_upper == is_upper).map(|s| (s.chain, s.in_layer())).collect();
+    let mut pairs = Vec::new();
+    for (k, (a, p)) in placed.iter().enumerate() {
+        for (b, q) in &placed[k + 1..] {
+            if a != b && polygon::convex_overlap(p, q, OVERLAP_MM) {
+                pairs.push((*a.min(b), *a.max(b)));
+            }
+        }
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+/// Cuts chains j and j + 1 back to the ray from their corner that costs the least area.
+fn trim_corner(solid: &Solid, sides: &mut [Side], is_upper: bool, j: usize) -> f64 {
+    let k = solid.next(j);
+    let corner = solid.corner_at(j, if is_upper { solid.top_mm } else { solid.bottom_mm });
+    let from = solid.chains[j].angle_rad;
+    let turn = (solid.chains[k].angle_rad - from).rem_euclid(std::f64::consts::TAU);
+    let normal = |chain: usize, ray: usize| {
+        let direction = DVec2::from_angle(from + turn * ray as f64 / (RAYS - 1) as f64);
+        if chain == j { direction.perp() } else { -direction.perp() }
+    };
+    let concerned = |s: &&mut Side| s.is_upper == is_upper && (s.chain == j || s.chain == k);
+    let cost = |ray: usize, sides: &mut [Side]| -> f64 {
+        sides
+            .iter_mut()
+            .filter(concerned)
+            .map(|s| polygon::area(&s.outline) - polygon::area(&s.clipped(corner, normal(s.chain, ray))))
+            .sum()
+    };
+    let costs: Vec<f64> = (0..RAYS).map(|ray| cost(ray, sides)).collect();
+    let best = (0..RAYS).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(RAYS / 2);
+    for side in sides.iter_mut().filter(concerned) {
+        side.outline = side.clipped(corner, normal(side.chain, best));
+    }
+    costs[best].max(0.0)
+}

@@ -1,0 +1,227 @@
+//! First guess of a component's half-spaces: tangent planes of the hull in well-chosen directions.
+
+use super::profile::Balance;
+use super::solid::{Chain, SideFacet, Solid};
+use super::target::{FoldSpot, Seat, Target};
+use crate::geom::polygon;
+use glam::DVec2;
+use std::f64::consts::{PI, TAU};
+
+/// Angle between neighbouring candidates for top edges and for slopes.
+const STEP_RAD: f64 = PI / 36.0;
+/// Free top edges keep this far from fixed ones and from each other.
+pub(super) const MIN_TURN_RAD: f64 = PI / 10.0;
+/// Neighbouring top edges turn by at most this, so that corners stay well defined.
+pub(super) const MAX_TURN_RAD: f64 = PI * 0.85;
+/// Steepest slope of a side panel: beyond it the panel would be a second top or bottom.
+pub(super) const MAX_SLOPE_RAD: f64 = PI * 80.0 / 180.0;
+/// Neighbouring planes of a profile differ by at least this.
+pub(super) const MIN_BEND_RAD: f64 = PI / 60.0;
+
+/// Circumscribes the hull of `target` with `edges` chains, each with as many planes as the limit
+/// on profile vertices allows.
+pub(super) fn circumscribe(target: &Target, edges: usize) -> Solid {
+    let points = target.hull.vertices();
+    let flat: Vec<DVec2> = points.iter().map(|p| p.truncate()).collect();
+    let heights = points.iter().map(|p| p.z);
+    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
+    let (mut top_mm, mut bottom_mm) = (high, low);
+    let (mut is_top_joint, mut is_bottom_joint) = (false, false);
+    for joint in &target.joints {
+        match joint.seat {
+            Seat::Top { height_mm } => (top_mm, is_top_joint) = (height_mm, true),
+            Seat::Bottom { height_mm } => (bottom_mm, is_bottom_joint) = (height_mm, true),
+            Seat::Side { .. } => {}
+        }
+    }
+    let locked: Vec<f64> = target.locked_angles();
+    let angles = choose_angles(&polygon::convex_hull(&flat), &locked, edges);
+    let chains = angles
+        .iter()
+        .map(|&angle_rad| Chain {
+            angle_rad,
+            is_locked: locked.contains(&angle_rad),
+            facets: tangents(target, angle_rad),
+        })
+        .collect();
+    let mut solid = Solid { chains, top_mm, bottom_mm, is_top_joint, is_bottom_joint };
+    lower_ends(&mut solid, target.min_panel_mm);
+    for j in 0..solid.chains.len() {
+        thin_out(&mut solid, j, target.profile_vertices - 2);
+    }
+    solid
+}
+
+/// Directions of the top edges: all candidates, thinned out where that adds the least area to
+/// the circumscribed polygon (in the spirit of Dyken et al. 2009, §4.2).
+fn choose_angles(outline: &[DVec2], locked: &[f64], edges: usize) -> Vec<f64> {
+    let mut candidates: Vec<f64> = (0..72).map(|k| f64::from(k) * STEP_RAD).collect();
+    let perimeter: f64 = polygon::edges(outline).map(|(a, b)| a.distance(b)).sum();
+    candidates.extend(
+        polygon::edges(outline)
+            .filter(|(a, b)| a.distance(*b) > 0.05 * perimeter)
+            .map(|(a, b)| (-(b - a).perp()).to_angle().rem_euclid(TAU)),
+    );
+    candidates.retain(|&a| locked.iter().all(|&l| turn(a, l).abs() >= MIN_TURN_RAD));
+    candidates.extend_from_slice(locked);
+    candidates.sort_by(f64::total_cmp);
+    candidates.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+    let support = |a: f64| {
+        let n = DVec2::from_angle(a);
+        outline.iter().map(|p| n.dot(*p)).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let mut set: Vec<(f64, f64)> = candidates.into_iter().map(|a| (a, support(a))).collect();
+    loop {
+        let n = set.len();
+        let removable = (0..n).filter(|&k| !locked.contains(&set[k].0)).filter_map(|k| {
+            let (before, after) = (set[(k + n - 1) % n], set[(k + 1) % n]);
+            let gap = (after.0 - before.0).rem_euclid(TAU);
+            let near = (set[k].0 - before.0).rem_euclid(TAU).min((after.0 - set[k].0).rem_euclid(TAU));
+            (gap <= MAX_TURN_RAD && n > 3).then(|| (near >= MIN_TURN_RAD, area_added(before, set[k], after), k))
+        });
+        let best = removable.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+        match best {
+            Some((is_spread, _, k)) if n > edges || !is_spread => set.remove(k),
+            _ => return set.into_iter().map(|s| s.0).collect(),
+        };
+    }
+}
+
+/// Signed difference of two directions, in (−π, π].
+pub(super) fn turn(a: f64, b: f64) -> f64 {
+    let d = (a - b).rem_euclid(TAU);
+    if d > PI { d - TAU } else { d }
+}
+
+/// Area between a line and the corner of its two neighbours, lines given as (angle, support).
+fn area_added(before: (f64, f64), line: (f64, f64), after: (f64, f64)) -> f64 {
+    let meet = |a: (f64, f64), b: (f64, f64)| {
+        let (na, nb) = (DVec2::from_angle(a.0), DVec2::from_angle(b.0));
+        DVec2::new(a.1 * nb.y - b.1 * na.y, na.x * b.1 - nb.x * a.1) / na.perp_dot(nb)
+    };
+    polygon::cross3(meet(before, line), meet(before, after), meet(line, after)).abs() / 2.0
+}
+
+/// Tangent planes of the hull's silhouette in one direction, from steep-up to steep-down, with
+/// the joint panels of that direction among them.
+fn tangents(target: &Target, angle_rad: f64) -> Vec<SideFacet> {
+    let n = DVec2::from_angle(angle_rad);
+    let silhouette: Vec<DVec2> =
+        target.hull.vertices().iter().map(|p| DVec2::new(n.dot(p.truncate()), p.z)).collect();
+    let silhouette = polygon::convex_hull(&silhouette);
+    let mut facets: Vec<SideFacet> = target.side_joints(angle_rad).collect();
+    let length: f64 = polygon::edges(&silhouette).map(|(a, b)| a.distance(b)).sum();
+    let own = polygon::edges(&silhouette)
+        .filter(|(a, b)| a.distance(*b) > 0.04 * length)
+        .map(|(a, b)| (-(b - a).perp()).to_angle());
+    let slopes: Vec<f64> = (-15..=15).map(|k| f64::from(k) * STEP_RAD).chain(own).collect();
+    for slope_rad in slopes {
+        let clear = facets.iter().all(|f| (f.slope_rad - slope_rad).abs() >= MIN_BEND_RAD * 1.2);
+        if clear && slope_rad.abs() < MAX_SLOPE_RAD {
+            let d = DVec2::from_angle(slope_rad);
+            let offset_mm = silhouette.iter().map(|p| d.dot(*p)).fold(f64::NEG_INFINITY, f64::max);
+            facets.push(SideFacet { slope_rad, offset_mm, is_joint: false });
+        }
+    }
+    facets.sort_by(|a, b| b.slope_rad.total_cmp(&a.slope_rad));
+    facets
+}
+
+/// Moves free ends inwards until all side panels there have a useful width.
+fn lower_ends(solid: &mut Solid, min_panel_mm: f64) {
+    let (high, low) = (solid.top_mm, solid.bottom_mm);
+    let height = high - low;
+    let widest = solid.clone();
+    let narrowest =
+        |v: f64| (0..widest.chains.len()).map(|j| widest.width_at(j, v)).fold(f64::INFINITY, f64::min);
+    let useful = narrowest((high + low) / 2.0).min(8.0 * min_panel_mm) * 0.4;
+    for share in [0.0, 0.03, 0.06, 0.1, 0.15, 0.2, 0.25, 0.3] {
+        if !solid.is_top_joint && narrowest(solid.top_mm) < useful {
+            solid.top_mm = high - share * height;
+        }
+        if !solid.is_bottom_joint && narrowest(solid.bottom_mm) < useful {
+            solid.bottom_mm = low + share * height;
+        }
+    }
+}
+
+/// A plane that keeps the profile from bulging by less than this on average is not worth a crease.
+const WORTH_MM: f64 = 0.05;
+
+/// Drops planes of chain j until `count` are left and all are worth having: first those outside
+/// the heights, then those whose loss adds the least area to the profile. Joint panels stay.
+fn thin_out(solid: &mut Solid, j: usize, count: usize) {
+    let (top, bottom) = (solid.top_mm, solid.bottom_mm);
+    let facets = &mut solid.chains[j].facets;
+    loop {
+        let best = (0..facets.len())
+            .filter(|&k| !facets[k].is_joint)
+            .map(|k| (bulge(facets, k, top, bottom), k))
+            .min_by(|a, b| a.0.0.total_cmp(&b.0.0).then(a.1.cmp(&b.1)));
+        match best {
+            Some(((_, mean_mm), k)) if facets.len() > 1 && (facets.len() > count || mean_mm < WORTH_MM) => {
+                facets.remove(k);
+            }
+            _ => return,
+        }
+    }
+}
+
+/// Area by which the profile would grow without plane k, mm², and its mean width, mm.
+fn bulge(facets: &[SideFacet], k: usize, top: f64, bottom: f64) -> (f64, f64) {
+    let bend = |k: usize| facets[k].meets(&facets[k + 1]);
+    let upper = if k == 0 { top } else { bend(k - 1).min(top) };
+    let lower = if k + 1 == facets.len() { bottom } else { bend(k).max(bottom) };
+    if upper <= lower {
+        return (0.0, 0.0);
+    }
+    let steps = 12;
+    let gaps = (0..steps).map(|s| {
+        let v = lower + (upper - lower) * (f64::from(s) + 0.5) / f64::from(steps);
+        let above = if k > 0 { facets[k - 1].u_at(v) } else { f64::INFINITY };
+        let below = facets.get(k + 1).map_or(f64::INFINITY, |f| f.u_at(v));
+        (above.min(below) - facets[k].u_at(v)).clamp(0.0, 1e6)
+    });
+    let mean_mm = gaps.sum::<f64>() / f64::from(steps);
+    (mean_mm * (upper - lower), mean_mm)
+}
+
+/// Where each chain's fold vertex should be: in the plane where the balance point lies, or, where
+/// that is a joint panel, which must stay uncreased, at the end of it. A chain that is nothing but
+/// a joint panel gets a second plane, at whose meeting it can fold.
+pub(super) fn fold_spots(solid: &mut Solid) -> Vec<FoldSpot> {
+    (0..solid.chains.len())
+        .map(|j| {
+            let at = super::profile::balance(&solid.profile(j));
+            let facets = &solid.chains[j].facets;
+            let is_free = |i: usize| facets.get(i).is_some_and(|f| !f.is_joint);
+            if is_free(at.segment) {
+                return FoldSpot::Inside(at.segment);
+            }
+            let above = at.segment > 0 && is_free(at.segment - 1);
+            let below = is_free(at.segment + 1);
+            match (above, below) {
+                (true, false) => FoldSpot::Bend(at.segment - 1),
+                (false, true) => FoldSpot::Bend(at.segment),
+                (true, true) if at.share < 0.5 => FoldSpot::Bend(at.segment - 1),
+                (true, true) => FoldSpot::Bend(at.segment),
+                (false, false) => add_plane(solid, j, at),
+            }
+        })
+        .collect()
+}
+
+/// Bend of a plane added beside a joint panel, on the side where the balance point is nearer.
+const ADDED_BEND_RAD: f64 = PI / 12.0;
+
+fn add_plane(solid: &mut Solid, j: usize, at: Balance) -> FoldSpot {
+    let share = if at.share < 0.5 { 0.3 } else { 0.7 };
+    let v = solid.top_mm + (solid.bottom_mm - solid.top_mm) * share;
+    let facets = &mut solid.chains[j].facets;
+    let joint = facets[at.segment];
+    let slope_rad = joint.slope_rad + if share < 0.5 { ADDED_BEND_RAD } else { -ADDED_BEND_RAD };
+    let offset_mm = DVec2::from_angle(slope_rad).dot(DVec2::new(joint.u_at(v), v));
+    let place = if share < 0.5 { at.segment } else { at.segment + 1 };
+    facets.insert(place, SideFacet { slope_rad, offset_mm, is_joint: false });
+    FoldSpot::Bend(at.segment)
+}

@@ -1,0 +1,274 @@
+//! The one font: metrics and outlines of letters.
+//!
+//! The font is a subset of Inter (Latin letters, digits, a few signs), embedded in the program;
+//! see `font/README.md`. Every back end draws text without kerning, so that all files agree.
+
+use super::Text;
+use glam::{DAffine2, DVec2};
+use skrifa::{DrawMemory, Font, PathSink, ScalerFont};
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+/// The font file, for formats that embed it.
+pub const FONT_FILE: &[u8] = include_bytes!("font/inter-subset.ttf");
+/// PostScript name of the font.
+pub const FONT_NAME: &str = "Inter-Regular";
+/// Family name of the font.
+pub const FONT_FAMILY: &str = "Inter";
+
+/// What stands for a character that the font lacks.
+const REPLACEMENT: char = '?';
+/// Where the font's characters may be: up to the end of arrows and mathematical signs.
+const CHARACTERS: std::ops::Range<char> = ' '..'\u{2400}';
+
+/// A step of an outline, in page coordinates (mm).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PathCommand {
+    /// Begins a contour.
+    MoveTo(DVec2),
+    /// Straight line.
+    LineTo(DVec2),
+    /// Quadratic Bézier curve: control point, end.
+    QuadTo(DVec2, DVec2),
+    /// Cubic Bézier curve: two control points, end.
+    CubicTo(DVec2, DVec2, DVec2),
+    /// Closes the contour.
+    Close,
+}
+
+impl PathCommand {
+    /// Control points and end.
+    pub fn points(&self) -> Vec<DVec2> {
+        match *self {
+            Self::MoveTo(p) | Self::LineTo(p) => vec![p],
+            Self::QuadTo(a, p) => vec![a, p],
+            Self::CubicTo(a, b, p) => vec![a, b, p],
+            Self::Close => Vec::new(),
+        }
+    }
+
+    fn transformed(&self, map: &DAffine2) -> Self {
+        let at = |p: DVec2| map.transform_point2(p);
+        match *self {
+            Self::MoveTo(p) => Self::MoveTo(at(p)),
+            Self::LineTo(p) => Self::LineTo(at(p)),
+            Self::QuadTo(a, p) => Self::QuadTo(at(a), at(p)),
+            Self::CubicTo(a, b, p) => Self::CubicTo(at(a), at(b), at(p)),
+            Self::Close => Self::Close,
+        }
+    }
+}
+
+/// One glyph, in units of the em.
+struct Glyph {
+    advance: f64,
+    outline: Vec<PathCommand>,
+}
+
+/// The font, decoded once.
+struct Typeface {
+    cap_height: f64,
+    glyphs: BTreeMap<char, Glyph>,
+}
+
+static TYPEFACE: LazyLock<Typeface> = LazyLock::new(Typeface::embedded);
+
+impl Typeface {
+    /// Decodes the embedded font. It is part of the program, so a fault in it is a fault of the
+    /// build, which a test catches.
+    fn embedded() -> Self {
+        let font = Font::new(FONT_FILE.to_vec(), 0).expect("the embedded font can be read");
+        let em = f64::from(font.metrics().units_per_em);
+        let charmap = font.charmap();
+        let scaler = ScalerFont::unhinted(font.clone(), None);
+        let metrics = scaler.linear_glyph_metrics();
+        let glyphs = CHARACTERS
+            .filter_map(|c| {
+                let id = charmap.map_unicode(c)?;
+                let mut pen = Pen {
+                    em,
+                    outline: Vec::new(),
+                };
+                if let Some(outline) = scaler.outline(id) {
+                    outline.draw(DrawMemory::Scratch, &mut pen).ok()?;
+                }
+                Some((
+                    c,
+                    Glyph {
+                        advance: f64::from(metrics.h_advance(id)) / em,
+                        outline: pen.outline,
+                    },
+                ))
+            })
+            .collect();
+        let cap_height = scaler
+            .metrics()
+            .cap_height()
+            .expect("the embedded font has capitals");
+        Self {
+            cap_height: f64::from(cap_height) / em,
+            glyphs,
+        }
+    }
+
+    fn glyph(&self, c: char) -> &Glyph {
+        &self.glyphs[&self.available(c)]
+    }
+
+    fn available(&self, c: char) -> char {
+        match c {
+            _ if self.glyphs.contains_key(&c) => c,
+            _ if c.is_whitespace() => ' ',
+            _ => REPLACEMENT,
+        }
+    }
+}
+
+/// Collects an outline in units of the em.
+struct Pen {
+    em: f64,
+    outline: Vec<PathCommand>,
+}
+
+impl Pen {
+    fn at(&self, x: f32, y: f32) -> DVec2 {
+        DVec2::new(f64::from(x), f64::from(y)) / self.em
+    }
+}
+
+impl PathSink for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.outline.push(PathCommand::MoveTo(self.at(x, y)));
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.outline.push(PathCommand::LineTo(self.at(x, y)));
+    }
+
+    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
+        self.outline
+            .push(PathCommand::QuadTo(self.at(cx, cy), self.at(x, y)));
+    }
+
+    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
+        self.outline.push(PathCommand::CubicTo(
+            self.at(ax, ay),
+            self.at(bx, by),
+            self.at(x, y),
+        ));
+    }
+
+    fn close(&mut self) {
+        self.outline.push(PathCommand::Close);
+    }
+}
+
+/// The text as it will be seen: characters that the font lacks become `?`, any white space a
+/// space.
+pub fn printable(content: &str) -> String {
+    content.chars().map(|c| TYPEFACE.available(c)).collect()
+}
+
+/// Size of the em, mm, at which capitals are `cap_height_mm` high: what other programs call the
+/// font size.
+pub fn em_mm(cap_height_mm: f64) -> f64 {
+    cap_height_mm / TYPEFACE.cap_height
+}
+
+/// Length of a line of text, mm.
+pub fn width_mm(content: &str, cap_height_mm: f64) -> f64 {
+    content
+        .chars()
+        .map(|c| TYPEFACE.glyph(c).advance)
+        .sum::<f64>()
+        * em_mm(cap_height_mm)
+}
+
+/// The text, or as much of its beginning as fits in `max_width_mm`, with an ellipsis; empty where
+/// not even that fits.
+pub fn shortened(content: &str, cap_height_mm: f64, max_width_mm: f64) -> String {
+    if width_mm(content, cap_height_mm) <= max_width_mm {
+        return content.to_owned();
+    }
+    let ends = content.char_indices().map(|(at, _)| at).rev();
+    ends.map(|end| format!("{}…", content[..end].trim_end()))
+        .find(|short| width_mm(short, cap_height_mm) <= max_width_mm)
+        .unwrap_or_default()
+}
+
+/// Outlines of the letters at their place on the page, to be filled by the non-zero rule.
+pub fn outlines(text: &Text) -> Vec<PathCommand> {
+    let em = em_mm(text.cap_height_mm);
+    let mut pen = text.start();
+    let along = DVec2::from_angle(text.angle_rad);
+    let mut out = Vec::new();
+    for c in text.content.chars() {
+        let glyph = TYPEFACE.glyph(c);
+        let map = DAffine2::from_scale_angle_translation(DVec2::splat(em), text.angle_rad, pen);
+        out.extend(
+            glyph
+                .outline
+                .iter()
+                .map(|command| command.transformed(&map)),
+        );
+        pen += along * (glyph.advance * em);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::polygon;
+
+    fn bounds(text: &Text) -> (DVec2, DVec2) {
+        let points = outlines(text)
+            .iter()
+            .flat_map(PathCommand::points)
+            .collect::<Vec<_>>();
+        polygon::bounds(points).expect("letters have outlines")
+    }
+
+    #[test]
+    fn the_font_has_what_labels_and_titles_need() {
+        for c in (' '..='~').chain("äöüßéèñçåøÅčśžő°×–—µ·→←±²½…−".chars())
+        {
+            assert!(TYPEFACE.glyphs.contains_key(&c), "{c:?} is missing");
+        }
+        assert!(FONT_FILE.len() <= 60_000);
+    }
+
+    #[test]
+    fn capitals_are_as_high_as_asked() {
+        let (lo, hi) = bounds(&Text::new("H", DVec2::new(20.0, 30.0), 3.0));
+        assert!(
+            (lo.y - 30.0).abs() < 1e-9 && (hi.y - 33.0).abs() < 0.005,
+            "{lo} {hi}"
+        );
+    }
+
+    #[test]
+    fn width_is_the_sum_of_advances() {
+        let one = width_mm("H", 3.0);
+        assert!((width_mm("HHHH", 3.0) - 4.0 * one).abs() < 1e-12);
+        assert!((width_mm("H", 6.0) - 2.0 * one).abs() < 1e-12);
+        let (lo, hi) = bounds(&Text::new("HHHH", DVec2::ZERO, 3.0));
+        assert!(lo.x > 0.0 && hi.x < 4.0 * one && hi.x > 3.5 * one);
+    }
+
+    #[test]
+    fn missing_characters_are_seen_as_question_marks() {
+        assert_eq!(printable("畳 head\t1\u{7}"), "? head 1?");
+        assert_eq!(width_mm("畳", 2.0), width_mm("?", 2.0));
+    }
+
+    #[test]
+    fn shortening_keeps_the_beginning() {
+        let full = width_mm("armadillo", 2.0);
+        assert_eq!(shortened("armadillo", 2.0, full), "armadillo");
+        let short = shortened("armadillo", 2.0, full * 0.7);
+        assert!(short.starts_with("arm") && short.ends_with('…'), "{short}");
+        assert!(width_mm(&short, 2.0) <= full * 0.7);
+        assert_eq!(shortened("armadillo", 2.0, 0.1), "");
+    }
+}

@@ -1,0 +1,327 @@
+//! Parts into a model: from the roots outwards, each part gets its fold direction, its joint
+//! planes, its component, and its place on its parent.
+
+use super::link::Link;
+use super::seat::{Seating, level_axis, seat_plane, seats, turn_onto};
+use super::{Joint, Model, ModelPart};
+use crate::component::{
+    Component, ConvertError, JointTarget, PanelId, PrincipalAxis, Target, convert, trial,
+};
+use crate::geom::{Hull, Plane, polygon};
+use crate::progress::{Cancelled, Progress};
+use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// What the user may set for one part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartOptions {
+    /// Name.
+    pub name: String,
+    /// Angle of the fold axis about the hull's first principal axis; found when not given.
+    pub direction_rad: Option<f64>,
+    /// Number of top edges.
+    pub top_edges: usize,
+    /// Most vertices of a profile.
+    pub profile_vertices: usize,
+}
+
+/// One segment to become a component.
+#[derive(Debug, Clone)]
+pub struct Part {
+    /// Convex hull of the segment, in the mesh's scaled axes.
+    pub hull: Hull,
+    /// The user's wishes.
+    pub options: PartOptions,
+}
+
+/// Why no model could be built.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// A component failed.
+    #[error("component \"{name}\": {error}")]
+    Component {
+        /// Its name.
+        name: String,
+        /// What went wrong.
+        error: ConvertError,
+    },
+    /// A joint panel got lost in the conversion.
+    #[error("component \"{0}\" has no panel for its joint; give it another direction or more top edges")]
+    NoJointPanel(String),
+    /// The user stopped the work.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// Directions tried about the principal axis.
+const DIRECTIONS: usize = 12;
+/// Price of a mm of spread when flat, against a mm of error: directions that fold smaller win
+/// where the error is alike (Figure 8).
+const SPREAD_PRICE: f64 = 0.03;
+/// Price of a mm by which joint planes are moved off their interfaces.
+const PLANE_PRICE: f64 = 0.3;
+/// A joint plane that leaves less than this share of a hull is not used to clip it.
+const LEAST_SHARE: f64 = 0.15;
+
+/// Builds the model; `links` as [`super::link_tree`] gives them.
+pub fn build(
+    parts: &[Part],
+    links: &[Link],
+    min_panel_mm: f64,
+    progress: &dyn Progress,
+) -> Result<Model, ModelError> {
+    let parent_link: Vec<Option<&Link>> =
+        (0..parts.len()).map(|p| links.iter().find(|l| l.child == p)).collect();
+    let mut made: Vec<Option<Made>> = vec![None; parts.len()];
+    let mut level: Vec<usize> = (0..parts.len()).filter(|&p| parent_link[p].is_none()).collect();
+    let done = AtomicUsize::new(0);
+    while !level.is_empty() {
+        let results: Vec<Result<Made, ModelError>> = level
+            .par_iter()
+            .map(|&p| {
+                progress.check()?;
+                let from_parent = parent_link[p].and_then(|l| made[l.parent].as_ref().map(|m| (l, m)));
+                let builder = Builder { parts, links, part: p, from_parent, min_panel_mm };
+                let result = builder.make();
+                let count = done.fetch_add(1, Ordering::Relaxed) + 1;
+                progress.fraction(count as f64 / parts.len() as f64);
+                result
+            })
+            .collect();
+        for (&p, result) in level.iter().zip(results) {
+            made[p] = Some(result?);
+        }
+        level = links.iter().filter(|l| level.contains(&l.parent)).map(|l| l.child).collect();
+    }
+    place(parts, links, made.into_iter().flatten().collect())
+}
+
+/// A part's component before it is placed.
+#[derive(Debug, Clone)]
+struct Made {
+    component: Component,
+    frame: DAffine3,
+    direction_rad: f64,
+    /// Joint planes in the mesh's axes, outwards, and the panels on them: by the other part.
+    joints: Vec<(usize, Plane, PanelId)>,
+}
+
+impl Made {
+    fn joint(&self, other: usize) -> Option<(Plane, PanelId)> {
+        self.joints.iter().find(|j| j.0 == other).map(|j| (j.1, j.2))
+    }
+
+    fn panel_outline(&self, panel: PanelId) -> Vec<DVec3> {
+        let panel = self.component.panels().panel(panel);
+        panel.deployed_outline().into_iter().map(|p| self.frame.transform_point3(p)).collect()
+    }
+}
+
+struct Builder<'a> {
+    parts: &'a [Part],
+    links: &'a [Link],
+    part: usize,
+    from_parent: Option<(&'a Link, &'a Made)>,
+    min_panel_mm: f64,
+}
+
+/// A fold direction with what follows from it.
+struct Candidate {
+    frame: DAffine3,
+    hull: Hull,
+    joints: Vec<(usize, JointTarget)>,
+    plane_shift_mm: f64,
+}
+
+impl Builder<'_> {
+    fn make(&self) -> Result<Made, ModelError> {
+        let part = &self.parts[self.part];
+        let principal = PrincipalAxis::of_hull(&part.hull);
+        let axes: Vec<DVec3> = match part.options.direction_rad {
+            Some(angle) => vec![principal.fold_axis(angle)],
+            None => {
+                let angle = |k: usize| std::f64::consts::PI * k as f64 / DIRECTIONS as f64;
+                (0..DIRECTIONS).map(|k| self.settle(principal.fold_axis(angle(k)))).collect()
+            }
+        };
+        let candidates: Vec<Candidate> = axes.iter().map(|&a| self.candidate(principal.frame(a))).collect();
+        let best = match candidates.len() {
+            1 => 0,
+            _ => self.best_of(&candidates),
+        };
+        let chosen = &candidates[best];
+        let target = self.target(chosen);
+        let fail = |error| ModelError::Component { name: part.options.name.clone(), error };
+        let component = convert(&target).map_err(fail)?;
+        let joints = chosen
+            .joints
+            .iter()
+            .map(|(other, joint)| {
+                let panel = component.joint_panel(&target, joint)?;
+                Some((*other, seat_plane(&joint.seat).moved(&chosen.frame), panel))
+            })
+            .collect::<Option<Vec<_>>>()
+            .ok_or_else(|| ModelError::NoJointPanel(part.options.name.clone()))?;
+        let direction_rad =
+            part.options.direction_rad.unwrap_or_else(|| principal.angle_rad(chosen.frame.transform_vector3(DVec3::Z)));
+        Ok(Made { component, frame: chosen.frame, direction_rad, joints })
+    }
+
+    /// Turns a fold axis that is almost across the parent's joint plane to be exactly across it.
+    fn settle(&self, axis: DVec3) -> DVec3 {
+        match self.parent_plane() {
+            Some(plane) => level_axis(axis, plane.normal()),
+            None => axis,
+        }
+    }
+
+    /// The plane towards the parent, outwards, as the parent's component has it.
+    fn parent_plane(&self) -> Option<Plane> {
+        self.from_parent.and_then(|(_, made)| made.joint(self.part)).map(|(plane, _)| plane.flipped())
+    }
+
+    fn best_of(&self, candidates: &[Candidate]) -> usize {
+        let costs: Vec<f64> = candidates
+            .par_iter()
+            .map(|c| {
+                let fitted = trial(&self.target(c)).unwrap_or((f64::INFINITY, 0.0));
+                fitted.0 + SPREAD_PRICE * fitted.1 + PLANE_PRICE * c.plane_shift_mm
+            })
+            .collect();
+        (0..costs.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(0)
+    }
+
+    fn target<'h>(&self, candidate: &'h Candidate) -> Target<'h> {
+        let options = &self.parts[self.part].options;
+        Target {
+            hull: &candidate.hull,
+            joints: candidate.joints.iter().map(|j| j.1.clone()).collect(),
+            top_edges: options.top_edges,
+            profile_vertices: options.profile_vertices,
+            min_panel_mm: self.min_panel_mm,
+        }
+    }
+
+    /// Seats of all joints in the axes of `frame`, and the hull clipped by them.
+    fn candidate(&self, frame: DAffine3) -> Candidate {
+        let to_local = frame.inverse();
+        let mut others = Vec::new();
+        let mut seatings = Vec::new();
+        if let (Some((link, made)), Some(plane)) = (self.from_parent, self.parent_plane()) {
+            let panel = made.joint(self.part).map(|j| made.panel_outline(j.1)).unwrap_or_default();
+            let centre = panel.iter().sum::<DVec3>() / panel.len().max(1) as f64;
+            others.push(link.parent);
+            seatings.push(seating(&plane, self.centre(link, centre), &to_local, true));
+        }
+        for link in self.links.iter().filter(|l| l.parent == self.part) {
+            others.push(link.child);
+            let centre = self.centre(link, link.plane.normal() * link.plane.offset());
+            seatings.push(seating(&link.plane, centre, &to_local, false));
+        }
+        let seats = seats(&seatings);
+        let mut hull = self.parts[self.part].hull.moved(&to_local);
+        let whole = hull.volume();
+        let mut plane_shift_mm = 0.0;
+        let mut joints = Vec::new();
+        for ((&other, seating), &seat) in others.iter().zip(&seatings).zip(&seats) {
+            let plane = seat_plane(&seat);
+            if let Some(clipped) = hull.clip(&plane).filter(|h| h.volume() > LEAST_SHARE * whole) {
+                hull = clipped;
+            }
+            let (cover, within) = self.partner(other, &plane, &frame, &to_local);
+            plane_shift_mm += shift_mm(&cover, seating);
+            joints.push((other, JointTarget { seat, cover, within }));
+        }
+        Candidate { frame, hull, joints, plane_shift_mm }
+    }
+
+    /// Middle of the place where two parts meet: of the sections of their hulls by the plane.
+    fn centre(&self, link: &Link, fallback: DVec3) -> DVec3 {
+        let sections = [link.parent, link.child].map(|p| self.parts[p].hull.section(&link.plane));
+        let smaller = sections.into_iter().filter(|s| s.len() >= 3).min_by(|a, b| radius(a).total_cmp(&radius(b)));
+        smaller.map_or(fallback, |s| s.iter().sum::<DVec3>() / s.len() as f64)
+    }
+
+    /// What a joint panel should cover (the section of a child's hull) or stay within (the edges
+    /// of the parent's panel), in local axes.
+    fn partner(
+        &self,
+        other: usize,
+        plane: &Plane,
+        frame: &DAffine3,
+        to_local: &DAffine3,
+    ) -> (Vec<DVec3>, Vec<(DVec3, f64)>) {
+        let section = |p: usize| self.parts[p].hull.section(&plane.moved(frame));
+        match self.from_parent {
+            Some((link, made)) if link.parent == other => {
+                let Some((_, panel)) = made.joint(self.part) else { return Default::default() };
+                let outline: Vec<DVec3> =
+                    made.panel_outline(panel).into_iter().map(|p| to_local.transform_point3(p)).collect();
+                let edges = (0..outline.len()).filter_map(|k| {
+                    let (a, b) = (outline[k], outline[(k + 1) % outline.len()]);
+                    let outward = plane.normal().cross(b - a).try_normalize()?;
+                    Some((outward, outward.dot(a)))
+                });
+                (Vec::new(), edges.collect())
+            }
+            _ => (section(other).into_iter().map(|p| to_local.transform_point3(p)).collect(), Vec::new()),
+        }
+    }
+}
+
+fn seating(plane: &Plane, centre: DVec3, to_local: &DAffine3, is_fixed: bool) -> Seating {
+    Seating { plane: plane.moved(to_local), centre: to_local.transform_point3(centre), is_fixed }
+}
+
+fn radius(points: &[DVec3]) -> f64 {
+    let centre = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
+    points.iter().map(|p| p.distance(centre)).fold(0.0, f64::max)
+}
+
+/// How far a joint's points are off its own plane, at most: turning the plane has moved them.
+fn shift_mm(points: &[DVec3], seating: &Seating) -> f64 {
+    points.iter().map(|p| seating.plane.distance(*p).abs()).fold(0.0, f64::max)
+}
+
+/// Places every part on its parent, deployed and flat.
+fn place(parts: &[Part], links: &[Link], made: Vec<Made>) -> Result<Model, ModelError> {
+    let lost = |p: usize| ModelError::NoJointPanel(parts[p].options.name.clone());
+    let mut placed: Vec<ModelPart> = parts
+        .iter()
+        .zip(&made)
+        .map(|(part, m)| ModelPart {
+            name: part.options.name.clone(),
+            component: m.component.clone(),
+            frame: m.frame,
+            placement: DAffine3::IDENTITY,
+            flat: DAffine3::from_translation(DVec3::Z * -m.component.solid().bottom_mm),
+            direction_rad: m.direction_rad,
+            joint: None,
+        })
+        .collect();
+    for link in links {
+        let (up_plane, parent_panel) = made[link.parent].joint(link.child).ok_or_else(|| lost(link.parent))?;
+        let (own_plane, child_panel) = made[link.child].joint(link.parent).ok_or_else(|| lost(link.child))?;
+        let centre = made[link.child].panel_outline(child_panel).iter().sum::<DVec3>()
+            / made[link.child].component.panels().panel(child_panel).outline.len() as f64;
+        let turn = turn_onto(&own_plane, &up_plane.flipped(), centre);
+        let parent = placed[link.parent].clone();
+        let child = &mut placed[link.child];
+        child.placement = parent.placement * turn;
+        let on = |p: &ModelPart, panel: PanelId| p.component.panels().panel(panel).clone();
+        let (above, below) = (on(child, child_panel), on(&parent, parent_panel));
+        let relation = (parent.deployed() * below.deployed).inverse() * child.deployed() * above.deployed;
+        child.flat = parent.flat * below.flat * relation * above.flat.inverse();
+        child.joint = Some(Joint { parent: link.parent, parent_panel, child_panel, support_ratio: 0.0 });
+    }
+    let mut model = Model { parts: placed };
+    for p in 0..model.parts.len() {
+        let Some(joint) = model.parts[p].joint.clone() else { continue };
+        let own = model.outline_on((p, joint.child_panel), (joint.parent, joint.parent_panel));
+        let base = &model.parts[joint.parent].component.panels().panel(joint.parent_panel).outline;
+        let ratio = polygon::area(&polygon::intersect_convex(&own, base)) / polygon::area(&own);
+        model.parts[p].joint = Some(Joint { support_ratio: ratio.clamp(0.0, 1.0), ..joint });
+    }
+    Ok(model)
+}

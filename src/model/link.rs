@@ -1,0 +1,135 @@
+//! Contact planes between neighbouring segments, and the tree of joints (§4.2.1).
+
+use crate::geom::{Hull, Plane};
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// A place where two parts touch: candidate for a joint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contact {
+    /// The two parts, smaller index first.
+    pub parts: (usize, usize),
+    /// Positions of the vertices on the border.
+    pub points: Vec<DVec3>,
+    /// Length of the border, mm: larger interfaces make better joints.
+    pub length_mm: f64,
+}
+
+/// A joint of the tree: `child` sits on `parent`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Link {
+    /// The part that carries the other.
+    pub parent: usize,
+    /// The part that sits on it.
+    pub child: usize,
+    /// The plane between them, normal from parent to child.
+    pub plane: Plane,
+}
+
+/// Spanning trees of the interface graph, largest interfaces first (Kruskal), each rooted at its
+/// smallest index. Links are ordered so that a parent's own link comes before its children's.
+pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact]) -> Vec<Link> {
+    let mut order: Vec<&Contact> = contacts.iter().collect();
+    order.sort_by(|a, b| b.length_mm.total_cmp(&a.length_mm).then(a.parts.cmp(&b.parts)));
+    let mut group: Vec<usize> = (0..part_hulls.len()).collect();
+    let mut neighbours: BTreeMap<usize, Vec<(usize, &Contact)>> = BTreeMap::new();
+    for contact in order {
+        let (a, b) = contact.parts;
+        let (ga, gb) = (group[a], group[b]);
+        if ga != gb {
+            group.iter_mut().filter(|g| **g == gb).for_each(|g| *g = ga);
+            neighbours.entry(a).or_default().push((b, contact));
+            neighbours.entry(b).or_default().push((a, contact));
+        }
+    }
+    let mut seen = vec![false; part_hulls.len()];
+    let mut links = Vec::new();
+    for root in 0..part_hulls.len() {
+        if seen[root] {
+            continue;
+        }
+        seen[root] = true;
+        let mut queue = std::collections::VecDeque::from([root]);
+        while let Some(parent) = queue.pop_front() {
+            for &(child, contact) in neighbours.get(&parent).map_or(&[][..], Vec::as_slice) {
+                if !seen[child] {
+                    seen[child] = true;
+                    let plane = contact_plane(contact, part_hulls[parent], part_hulls[child]);
+                    links.push(Link { parent, child, plane });
+                    queue.push_back(child);
+                }
+            }
+        }
+    }
+    links
+}
+
+/// A least-squares plane may cut off at most this share of a hull before it is moved.
+const CLIP_SHARE: f64 = 0.2;
+/// Places tried for a poor plane.
+const SLIDES: usize = 17;
+
+/// The plane between two parts: least squares through the interface, moved along its normal where
+/// it would cut off too much.
+fn contact_plane(contact: &Contact, parent: &Hull, child: &Hull) -> Plane {
+    let towards = child.centroid() - parent.centroid();
+    let centre = contact.points.iter().sum::<DVec3>() / contact.points.len().max(1) as f64;
+    let fitted = Plane::fit(&contact.points).map(|(plane, _)| plane);
+    let plane = fitted.or_else(|| Plane::through(centre, towards)).unwrap_or_else(|| fallback(centre));
+    let plane = if plane.normal().dot(towards) < 0.0 { plane.flipped() } else { plane };
+    if cut_off(&plane, parent, child) <= CLIP_SHARE {
+        return plane;
+    }
+    let heights = contact.points.iter().map(|p| plane.distance(*p));
+    let (low, high) = heights.fold((0.0f64, 0.0f64), |(l, h), d| (l.min(d), h.max(d)));
+    (0..SLIDES)
+        .filter_map(|k| {
+            let shift = low + (high - low) * k as f64 / (SLIDES - 1) as f64;
+            Plane::through(centre + plane.normal() * shift, plane.normal())
+        })
+        .map(|p| (cut_off(&p, parent, child), p))
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map_or(plane, |best| best.1)
+}
+
+fn fallback(centre: DVec3) -> Plane {
+    let plane = Plane::through(centre, DVec3::Z);
+    plane.unwrap_or_else(|| Plane::horizontal(0.0))
+}
+
+/// The larger share of volume that the plane cuts off either hull.
+fn cut_off(plane: &Plane, parent: &Hull, child: &Hull) -> f64 {
+    let lost = |hull: &Hull, plane: &Plane| 1.0 - hull.clip(plane).map_or(0.0, |h| h.volume()) / hull.volume();
+    lost(parent, plane).max(lost(child, &plane.flipped()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cube(at: DVec3, side: f64) -> Hull {
+        let points: Vec<DVec3> = (0..8)
+            .map(|k| at + DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64) * side)
+            .collect();
+        Hull::of_points(&points).unwrap()
+    }
+
+    #[test]
+    fn three_cubes_in_a_row_make_a_chain() {
+        let hulls: Vec<Hull> = (0..3).map(|k| cube(DVec3::X * 10.0 * f64::from(k), 10.0)).collect();
+        let face = |x: f64| -> Vec<DVec3> {
+            [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(y, z)| DVec3::new(x, y, z)).to_vec()
+        };
+        let contacts = [
+            Contact { parts: (1, 2), points: face(20.0), length_mm: 40.0 },
+            Contact { parts: (0, 1), points: face(10.0), length_mm: 40.0 },
+            Contact { parts: (0, 2), points: face(15.0), length_mm: 1.0 },
+        ];
+        let links = link_tree(&hulls.iter().collect::<Vec<_>>(), &contacts);
+        assert_eq!(links.iter().map(|l| (l.parent, l.child)).collect::<Vec<_>>(), [(0, 1), (1, 2)]);
+        for (link, x) in links.iter().zip([10.0, 20.0]) {
+            assert!((link.plane.normal() - DVec3::X).length() < 1e-9);
+            assert!((link.plane.offset() - x).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! Seats of joint panels on a component: which panel they are, with planes turned where needed.
+//!
+//! On each side of a joint one panel must be parallel to the joint plane. Where the plane is
+//! almost horizontal for the parent it becomes its top or bottom panel and the plane is turned to
+//! be exactly horizontal (the paper does the same, §5.1); else it is a side panel, whose chain has
+//! the direction of the plane's normal. Planes in almost the same direction share a chain.
+
+use crate::component::Seat;
+use crate::geom::Plane;
+use glam::{DAffine3, DVec2, DVec3};
+
+/// A joint plane within this angle of horizontal is made the top or bottom panel.
+const LEVEL_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
+/// Chains of joint panels differ by at least this; closer ones are merged.
+const SHARE_CHAIN_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
+/// Joint panels of one chain differ in slope by at least this; closer ones are merged.
+const SHARE_PANEL_RAD: f64 = 12.0 * std::f64::consts::PI / 180.0;
+
+/// A joint plane to be seated: plane with outward normal in the component's axes, a point where
+/// the joint is, and whether the plane may still be turned.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seating {
+    /// Plane, normal out of the component.
+    pub plane: Plane,
+    /// Centre of the interface.
+    pub centre: DVec3,
+    /// Planes towards the parent are fixed: the parent was made first.
+    pub is_fixed: bool,
+}
+
+impl Seating {
+    fn slope_rad(&self) -> f64 {
+        self.plane.normal().z.clamp(-1.0, 1.0).asin()
+    }
+
+    fn angle_rad(&self) -> f64 {
+        self.plane.normal().truncate().to_angle().rem_euclid(std::f64::consts::TAU)
+    }
+
+    fn is_level(&self) -> bool {
+        self.plane.normal().z.abs() > LEVEL_RAD.cos()
+    }
+}
+
+/// The seat of every joint of a component, in order. A fixed plane that is almost but not exactly
+/// horizontal gets a horizontal seat: the component itself is then turned to sit on it.
+pub fn seats(joints: &[Seating]) -> Vec<Seat> {
+    let mut out: Vec<Option<Seat>> = joints.iter().map(fixed_seat).collect();
+    for up in [true, false] {
+        let level = |k: &usize| joints[*k].is_level() && (joints[*k].plane.normal().z > 0.0) == up;
+        let members: Vec<usize> = (0..joints.len()).filter(level).collect();
+        let fixed = members.iter().find(|&&k| joints[k].is_fixed).map(|&k| joints[k].centre.z);
+        let mean = members.iter().map(|&k| joints[k].centre.z).sum::<f64>() / members.len().max(1) as f64;
+        let height_mm = fixed.unwrap_or(mean);
+        for k in members {
+            out[k] = Some(if up { Seat::Top { height_mm } } else { Seat::Bottom { height_mm } });
+        }
+    }
+    for k in 0..joints.len() {
+        if out[k].is_none() {
+            out[k] = Some(side_seat(&joints[k], &out));
+        }
+    }
+    out.into_iter().flatten().collect()
+}
+
+/// A fixed sloped plane keeps its direction exactly.
+fn fixed_seat(joint: &Seating) -> Option<Seat> {
+    (joint.is_fixed && !joint.is_level()).then(|| Seat::Side {
+        angle_rad: joint.angle_rad(),
+        slope_rad: joint.slope_rad(),
+        offset_mm: joint.plane.offset(),
+    })
+}
+
+/// The side panel of a free joint: its own direction, or that of a seat close to it.
+fn side_seat(joint: &Seating, others: &[Option<Seat>]) -> Seat {
+    let (own_angle, own_slope) = (joint.angle_rad(), joint.slope_rad());
+    let near = |a: f64, b: f64, limit: f64| DVec2::from_angle(a).angle_to(DVec2::from_angle(b)).abs() < limit;
+    let sides = || {
+        others.iter().flatten().filter_map(|seat| match *seat {
+            Seat::Side { angle_rad, slope_rad, .. } => Some((angle_rad, slope_rad, *seat)),
+            _ => None,
+        })
+    };
+    let chain = sides().filter(|s| near(s.0, own_angle, SHARE_CHAIN_RAD));
+    let chain = chain.min_by(|a, b| {
+        let off = |s: &(f64, f64, Seat)| DVec2::from_angle(s.0).angle_to(DVec2::from_angle(own_angle)).abs();
+        off(a).total_cmp(&off(b))
+    });
+    let angle_rad = chain.map_or(own_angle, |c| c.0);
+    if let Some(same) = sides().find(|s| s.0 == angle_rad && near(s.1, own_slope, SHARE_PANEL_RAD)) {
+        return same.2;
+    }
+    let normal = side_normal(angle_rad, own_slope);
+    Seat::Side { angle_rad, slope_rad: own_slope, offset_mm: normal.dot(joint.centre) }
+}
+
+fn side_normal(angle_rad: f64, slope_rad: f64) -> DVec3 {
+    (DVec2::from_angle(angle_rad) * slope_rad.cos()).extend(slope_rad.sin())
+}
+
+/// The plane of a seat, normal out of the component, in the component's axes.
+pub fn seat_plane(seat: &Seat) -> Plane {
+    match *seat {
+        Seat::Top { height_mm } => Plane::horizontal(height_mm),
+        Seat::Bottom { height_mm } => Plane::horizontal(height_mm).flipped(),
+        Seat::Side { angle_rad, slope_rad, offset_mm } => {
+            let normal = side_normal(angle_rad, slope_rad);
+            Plane::through(normal * offset_mm, normal).unwrap_or_else(|| Plane::horizontal(offset_mm))
+        }
+    }
+}
+
+/// Nearest fold axis that makes a fixed plane exactly level, where it almost is.
+pub fn level_axis(axis: DVec3, plane_normal: DVec3) -> DVec3 {
+    if axis.dot(plane_normal).abs() > LEVEL_RAD.cos() {
+        plane_normal * axis.dot(plane_normal).signum()
+    } else {
+        axis
+    }
+}
+
+/// The rigid motion about `centre` that turns plane `from` into plane `to`.
+pub fn turn_onto(from: &Plane, to: &Plane, centre: DVec3) -> DAffine3 {
+    let turn = glam::DQuat::from_rotation_arc(from.normal(), to.normal());
+    let about = DAffine3::from_translation(centre) * DAffine3::from_quat(turn) * DAffine3::from_translation(-centre);
+    let turned = from.moved(&about);
+    DAffine3::from_translation(to.normal() * (to.offset() - turned.offset())) * about
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn seating(normal: DVec3, centre: DVec3, is_fixed: bool) -> Seating {
+        Seating { plane: Plane::through(centre, normal).unwrap(), centre, is_fixed }
+    }
+
+    #[test]
+    fn a_sloped_plane_gets_a_side_panel_exactly_on_it() {
+        let joint = seating(DVec3::new(2.0, 1.0, 0.5), DVec3::new(30.0, 10.0, 5.0), true);
+        let plane = seat_plane(&seats(&[joint])[0]);
+        assert!((plane.normal() - joint.plane.normal()).length() < 1e-12);
+        assert!((plane.offset() - joint.plane.offset()).abs() < 1e-10);
+    }
+
+    #[test]
+    fn an_almost_level_plane_becomes_the_top() {
+        let joint = seating(DVec3::new(0.2, 0.0, 1.0), DVec3::new(0.0, 0.0, 40.0), false);
+        assert_eq!(seats(&[joint]), [Seat::Top { height_mm: 40.0 }]);
+    }
+
+    #[test]
+    fn two_planes_in_almost_one_direction_share_a_chain() {
+        let a = seating(DVec3::new(1.0, 0.0, 0.6), DVec3::new(30.0, 0.0, 20.0), true);
+        let b = seating(DVec3::new(1.0, 0.2, -0.4), DVec3::new(30.0, 2.0, -20.0), false);
+        let seats = seats(&[b, a]);
+        let angle = |s: &Seat| match s {
+            Seat::Side { angle_rad, .. } => *angle_rad,
+            _ => f64::NAN,
+        };
+        assert_eq!(angle(&seats[0]), angle(&seats[1]));
+        assert!(seat_plane(&seats[0]).distance(b.centre).abs() < 1e-9);
+    }
+
+    #[test]
+    fn turning_takes_one_plane_onto_another() {
+        let from = Plane::through(DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.1, 0.2, 1.0)).unwrap();
+        let to = Plane::through(DVec3::new(1.0, 2.0, 3.5), DVec3::new(0.0, -0.1, 1.0)).unwrap();
+        let motion = turn_onto(&from, &to, DVec3::new(1.0, 2.0, 3.0));
+        let moved = from.moved(&motion);
+        assert!((moved.normal() - to.normal()).length() < 1e-12 && (moved.offset() - to.offset()).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,210 @@
+//! The report: what was made, in numbers, as JSON.
+
+use crate::component::PanelId;
+use crate::mesh::Repairs;
+use crate::model::ModelPart;
+use crate::net::Net;
+use crate::pipeline::{Output, Warning};
+use serde::Serialize;
+
+/// Version of the report's structure.
+const SCHEMA: u32 = 1;
+
+/// What the caller knows and the pipeline does not.
+#[derive(Debug, Clone, Copy)]
+pub struct Run<'a> {
+    /// Path of the mesh, as the user gave it.
+    pub path: &'a str,
+    /// What was mended in it.
+    pub repairs: &'a Repairs,
+    /// Name and duration of each stage, seconds.
+    pub stages: &'a [(&'static str, f64)],
+    /// Warnings about the input.
+    pub warnings: &'a [Warning],
+}
+
+#[derive(Serialize)]
+struct Report<'a> {
+    schema: u32,
+    input: Input<'a>,
+    stages: Vec<Stage>,
+    components: Vec<Component<'a>>,
+    nets: Vec<NetNumbers<'a>>,
+    sheets: Sheets,
+    warnings: Vec<WarningText<'a>>,
+}
+
+#[derive(Serialize)]
+struct Input<'a> {
+    path: &'a str,
+    faces: usize,
+    vertices: usize,
+    diagonal_mm: f64,
+    repairs: RepairNumbers,
+}
+
+#[derive(Serialize)]
+struct RepairNumbers {
+    input_faces: usize,
+    welded_vertices: usize,
+    degenerate_faces: usize,
+    duplicate_faces: usize,
+    flipped_faces: usize,
+    components: usize,
+    boundary_edges: usize,
+    non_manifold_edges: usize,
+}
+
+#[derive(Serialize)]
+struct Stage {
+    name: &'static str,
+    seconds: f64,
+}
+
+#[derive(Serialize)]
+struct Component<'a> {
+    name: &'a str,
+    faces: usize,
+    fold_axis: [f64; 3],
+    direction_deg: f64,
+    top_edges: usize,
+    profiles: Vec<Profile>,
+    hausdorff_mm: f64,
+    hausdorff_ratio: f64,
+    min_panel_width_mm: f64,
+    parent: Option<&'a str>,
+    joint: Option<Joint>,
+    placement: [f64; 16],
+}
+
+#[derive(Serialize)]
+struct Profile {
+    vertices: usize,
+    fold_vertex: usize,
+    gap_mm: f64,
+    mean_segment_mm: f64,
+}
+
+#[derive(Serialize)]
+struct Joint {
+    parent_panel: String,
+    child_panel: String,
+    support_ratio: f64,
+}
+
+#[derive(Serialize)]
+struct NetNumbers<'a> {
+    component: &'a str,
+    pieces: usize,
+    panels: usize,
+    tabs: usize,
+    cut_mm: f64,
+    crease_mm: f64,
+}
+
+#[derive(Serialize)]
+struct Sheets {
+    count: usize,
+    paper: String,
+    utilisation: f64,
+}
+
+#[derive(Serialize)]
+struct WarningText<'a> {
+    code: &'a str,
+    message: &'a str,
+}
+
+/// The report of a run.
+///
+/// # Errors
+/// Only what `serde_json` reports; no run is known that brings it about.
+pub fn to_json(output: &Output, run: &Run<'_>) -> Result<Vec<u8>, serde_json::Error> {
+    let diagonal_mm = output.mesh().diagonal_mm();
+    let parts = output.model().parts();
+    let report = Report {
+        schema: SCHEMA,
+        input: Input {
+            path: run.path,
+            faces: output.mesh().faces().len(),
+            vertices: output.mesh().positions().len(),
+            diagonal_mm,
+            repairs: repairs(run.repairs),
+        },
+        stages: run.stages.iter().map(|&(name, seconds)| Stage { name, seconds }).collect(),
+        components: parts.iter().enumerate().map(|(p, part)| component(output, p, part, diagonal_mm)).collect(),
+        nets: parts.iter().zip(output.nets()).map(|(part, net)| numbers(&part.name, net)).collect(),
+        sheets: Sheets {
+            count: output.layout().sheet_count(),
+            paper: output.options().paper.name(),
+            utilisation: output.layout().utilisation(),
+        },
+        warnings: run
+            .warnings
+            .iter()
+            .chain(output.warnings())
+            .map(|w| WarningText { code: w.code, message: &w.message })
+            .collect(),
+    };
+    let mut bytes = serde_json::to_vec_pretty(&report)?;
+    bytes.push(b'\n');
+    Ok(bytes)
+}
+
+fn repairs(repairs: &Repairs) -> RepairNumbers {
+    RepairNumbers {
+        input_faces: repairs.input_faces,
+        welded_vertices: repairs.welded_vertices,
+        degenerate_faces: repairs.degenerate_faces,
+        duplicate_faces: repairs.duplicate_faces,
+        flipped_faces: repairs.flipped_faces,
+        components: repairs.components,
+        boundary_edges: repairs.boundary_edges,
+        non_manifold_edges: repairs.non_manifold_edges,
+    }
+}
+
+fn component<'a>(output: &'a Output, p: usize, part: &'a ModelPart, diagonal_mm: f64) -> Component<'a> {
+    let parts = output.model().parts();
+    let shape = &part.component;
+    let panel_name = |part: &ModelPart, panel: PanelId| part.component.panels().panel(panel).kind.to_string();
+    let joint = part.joint.as_ref();
+    Component {
+        name: &part.name,
+        faces: output.part_faces()[p],
+        fold_axis: part.fold_axis().to_array(),
+        direction_deg: part.direction_rad.to_degrees(),
+        top_edges: shape.profiles().len(),
+        profiles: shape
+            .profiles()
+            .iter()
+            .map(|profile| Profile {
+                vertices: profile.points().len(),
+                fold_vertex: profile.fold_vertex(),
+                gap_mm: profile.gap_mm().abs(),
+                mean_segment_mm: profile.mean_segment_mm(),
+            })
+            .collect(),
+        hausdorff_mm: shape.hausdorff_mm(),
+        hausdorff_ratio: shape.hausdorff_mm() / diagonal_mm,
+        min_panel_width_mm: shape.narrowest_panel().1,
+        parent: joint.map(|j| parts[j.parent].name.as_str()),
+        joint: joint.map(|j| Joint {
+            parent_panel: panel_name(&parts[j.parent], j.parent_panel),
+            child_panel: panel_name(part, j.child_panel),
+            support_ratio: j.support_ratio,
+        }),
+        placement: glam::DMat4::from(part.placement).to_cols_array(),
+    }
+}
+
+fn numbers<'a>(name: &'a str, net: &Net) -> NetNumbers<'a> {
+    NetNumbers {
+        component: name,
+        pieces: net.pieces().len(),
+        panels: net.pieces().iter().map(|p| p.panels().len()).sum(),
+        tabs: net.pieces().iter().map(|p| p.tabs().len()).sum(),
+        cut_mm: net.pieces().iter().map(|p| p.cut_mm()).sum(),
+        crease_mm: net.pieces().iter().map(|p| p.crease_mm()).sum(),
+    }
+}

@@ -1,0 +1,103 @@
+//! Labels by graph cut: α-expansion (Boykov, Veksler and Zabih 2001) of a Potts energy that does
+//! not depend on the resolution.
+
+use super::gmm::Mixture;
+use super::maxflow::Network;
+use super::surface::{Link, Surface};
+
+/// Least probability that is told apart from 0.
+const LEAST_PROBABILITY: f64 = 5e-6;
+
+/// Convex edges count as this share of their angle.
+const CONVEX: f64 = 0.08;
+
+/// At most as many passes over all labels.
+const PASSES: usize = 4;
+
+/// What it costs to cut along a link, for one of mean length: little along sharp concave edges.
+/// The formula is that of the edge term in Shapira et al. 2008 with the angle between normals.
+pub(super) fn crease_cost(link: &Link) -> f64 {
+    let share = if link.turn_rad > 0.0 { link.turn_rad } else { CONVEX * -link.turn_rad };
+    -(share / std::f64::consts::PI).max(LEAST_PROBABILITY).ln()
+}
+
+/// Labels the cells by the mixture's Gaussians. Data terms are weighted by area and borders by
+/// length, each over its mean.
+pub(super) fn soft_labels(
+    surface: &Surface,
+    values: &[f64],
+    mixture: &Mixture,
+    smoothing: f64,
+) -> Vec<u32> {
+    let labels = mixture.len();
+    let mean_area = surface.total_area() / surface.len().max(1) as f64;
+    let mut data = Vec::with_capacity(surface.len() * labels);
+    for (value, area) in values.iter().zip(surface.areas()) {
+        for p in mixture.memberships(*value) {
+            data.push(-p.max(LEAST_PROBABILITY).ln() * area / mean_area);
+        }
+    }
+    let mean_length = surface.mean_length();
+    let weights: Vec<f64> = surface
+        .links()
+        .iter()
+        .map(|l| smoothing * crease_cost(l) * l.length / mean_length)
+        .collect();
+    let cheapest = |cell: usize| {
+        let costs = &data[cell * labels..(cell + 1) * labels];
+        (0..labels).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(0) as u32
+    };
+    let mut label: Vec<u32> = (0..surface.len()).map(cheapest).collect();
+    for _ in 0..PASSES {
+        let mut changed = false;
+        for alpha in 0..labels as u32 {
+            changed |= expand(surface, &data, &weights, labels, &mut label, alpha);
+        }
+        if !changed {
+            break;
+        }
+    }
+    label
+}
+
+/// One expansion move: each cell keeps its label (source) or takes `alpha` (sink).
+fn expand(
+    surface: &Surface,
+    data: &[f64],
+    weights: &[f64],
+    labels: usize,
+    label: &mut [u32],
+    alpha: u32,
+) -> bool {
+    let mut network = Network::new(label.len(), weights.len());
+    for (cell, &own) in label.iter().enumerate() {
+        let cost = |l: u32| data[cell * labels + l as usize];
+        // A cell that has the label already stays.
+        let keep = if own == alpha { f64::MAX.sqrt() } else { cost(own) };
+        network.add_costs(cell, keep, cost(alpha));
+    }
+    for (link, &w) in surface.links().iter().zip(weights) {
+        let [a, b] = link.cells.map(|c| c as usize);
+        let differ = |p: u32, q: u32| if p == q { 0.0 } else { w };
+        let stay = differ(label[a], label[b]);
+        let (only_b, only_a) = (differ(label[a], alpha), differ(alpha, label[b]));
+        // Kolmogorov and Zabih 2004: a pair's energy as terminal costs and one arc.
+        network.add_costs(a, stay, 0.0);
+        let forth = only_b - stay;
+        if forth < 0.0 {
+            network.add_costs(a, forth, 0.0);
+            network.add_costs(b, -forth, 0.0);
+            network.add_arc(a, b, 0.0, forth + only_a);
+        } else {
+            network.add_arc(a, b, forth, only_a);
+        }
+    }
+    let mut changed = false;
+    for (own, takes) in label.iter_mut().zip(network.sink_side()) {
+        if takes && *own != alpha {
+            *own = alpha;
+            changed = true;
+        }
+    }
+    changed
+}

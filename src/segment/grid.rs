@@ -1,0 +1,190 @@
+//! The solid that a mesh bounds, as a grid of cells in columns, and how much of a hull is outside.
+
+use super::rough_hull::RoughHull;
+use glam::{DVec2, DVec3};
+
+/// About as many cells fill the bounding box.
+const CELLS: f64 = 60_000.0;
+
+/// The box is widened to this share of its longest side in each direction.
+const LEAST_SIDE: f64 = 0.02;
+
+/// A run of cells of one column: the column, the first cell, and the cell behind the last.
+pub(super) type Run = (u32, u16, u16);
+
+/// Which cells are inside of the mesh.
+#[derive(Debug, Clone)]
+pub(super) struct Solid {
+    frame: Frame,
+    /// For each column and height, the number of inside cells below.
+    below: Vec<u16>,
+    inside: usize,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Frame {
+    lo: DVec3,
+    cell: f64,
+    count: [usize; 3],
+}
+
+/// A crossing of a column's axis: column, height in cells, whether the surface looks up.
+type Crossing = (usize, f64, bool);
+
+impl Solid {
+    /// Cells whose centre has the surface round it, by the mean winding number along both
+    /// directions of three axes: so a hole matters only to what looks out through it.
+    pub fn of_mesh(positions: &[DVec3], faces: &[[u32; 3]]) -> Self {
+        let frame = Frame::of_points(positions);
+        let [nx, ny, nz] = frame.count;
+        let mut votes = vec![0i32; nx * ny * nz];
+        for axis in 0..3 {
+            frame.vote(positions, faces, axis, &mut votes);
+        }
+        let mut below = Vec::with_capacity(nx * ny * (nz + 1));
+        let mut inside = 0;
+        for column in votes.chunks_exact(nz) {
+            let mut sum = 0u16;
+            below.push(0);
+            for vote in column {
+                sum += u16::from(vote.abs() > 3);
+                below.push(sum);
+            }
+            inside += sum as usize;
+        }
+        Self { frame, below, inside }
+    }
+
+    /// Number of cells inside.
+    pub fn inside(&self) -> usize {
+        self.inside
+    }
+
+    /// Number of cells in all.
+    pub fn len(&self) -> usize {
+        self.frame.count.iter().product()
+    }
+
+    /// Volume of a cell.
+    pub fn cell_volume(&self) -> f64 {
+        self.frame.cell.powi(3)
+    }
+
+    /// Whether cells of a run are inside.
+    pub fn is_inside(&self, column: u32, height: u16) -> bool {
+        let k = column as usize * (self.frame.count[2] + 1) + height as usize;
+        self.below[k + 1] > self.below[k]
+    }
+
+    /// Index of a cell, below `len()`.
+    pub fn index(&self, column: u32, height: u16) -> usize {
+        column as usize * self.frame.count[2] + height as usize
+    }
+
+    /// Number of cells of runs that are outside.
+    pub fn outside(&self, runs: &[Run]) -> usize {
+        let stride = self.frame.count[2] + 1;
+        runs.iter()
+            .map(|&(column, first, end)| {
+                let k = column as usize * stride;
+                let inside = self.below[k + end as usize] - self.below[k + first as usize];
+                (end - first - inside) as usize
+            })
+            .sum()
+    }
+
+    /// The cells whose centre is in a hull.
+    pub fn runs(&self, hull: &RoughHull) -> Vec<Run> {
+        let mut crossings: Vec<Crossing> = Vec::new();
+        for t in hull.triangles() {
+            self.frame.cross(t, 2, &mut |c| crossings.push(c));
+        }
+        crossings.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let top = self.frame.count[2] as f64;
+        crossings
+            .chunk_by(|a, b| a.0 == b.0)
+            .filter_map(|c| {
+                let at = |h: f64| (h - 0.5).ceil().clamp(0.0, top) as u16;
+                let (first, end) = (at(c[0].1), at(c[c.len() - 1].1));
+                (end > first).then_some((c[0].0 as u32, first, end))
+            })
+            .collect()
+    }
+}
+
+impl Frame {
+    fn of_points(positions: &[DVec3]) -> Self {
+        let (lo, hi) = positions
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)));
+        let side = (hi - lo).max(DVec3::splat((hi - lo).max_element() * LEAST_SIDE));
+        let cell = (side.x * side.y * side.z / CELLS).cbrt();
+        let count = (side / cell).ceil().to_array().map(|n| (n as usize).max(1));
+        // Centred, so that cell borders do not coincide with flat sides of the box.
+        let size = DVec3::from_array(count.map(|n| n as f64)) * cell;
+        Self { lo: (lo + hi - size) / 2.0, cell, count }
+    }
+
+    /// Adds 1 for each of the two directions along an axis that winds round a cell.
+    fn vote(&self, positions: &[DVec3], faces: &[[u32; 3]], axis: usize, votes: &mut [i32]) {
+        let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
+        let mut columns: Vec<Vec<(f64, bool)>> = vec![Vec::new(); self.count[u] * self.count[v]];
+        for f in faces {
+            let corners = f.map(|i| positions[i as usize]);
+            self.cross(corners, axis, &mut |(column, height, up)| columns[column].push((height, up)));
+        }
+        let [_, ny, nz] = self.count;
+        let stride = [ny * nz, nz, 1];
+        for (c, crossings) in columns.iter_mut().enumerate() {
+            crossings.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let sign = |up: bool| if up { 1 } else { -1 };
+            let mut above: i32 = crossings.iter().map(|c| sign(c.1)).sum();
+            let (mut below, mut next) = (0, 0);
+            let start = c / self.count[v] * stride[u] + c % self.count[v] * stride[v];
+            for h in 0..self.count[axis] {
+                while next < crossings.len() && crossings[next].0 <= h as f64 + 0.5 {
+                    above -= sign(crossings[next].1);
+                    below -= sign(crossings[next].1);
+                    next += 1;
+                }
+                votes[start + h * stride[axis]] += above + below;
+            }
+        }
+    }
+
+    /// Where the axes of the columns along `axis` cross a triangle. Axes that meet an edge cross
+    /// exactly one of its two triangles.
+    fn cross(&self, corners: [DVec3; 3], axis: usize, found: &mut dyn FnMut(Crossing)) {
+        let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
+        let local = corners.map(|p| (p - self.lo) / self.cell);
+        let flat = local.map(|p| DVec2::new(p[u], p[v]));
+        let doubled = (flat[1] - flat[0]).perp_dot(flat[2] - flat[0]);
+        if doubled == 0.0 {
+            return;
+        }
+        let up = doubled > 0.0;
+        let span = |k: usize, n: usize| {
+            let lo = flat[0][k].min(flat[1][k]).min(flat[2][k]);
+            let hi = flat[0][k].max(flat[1][k]).max(flat[2][k]);
+            ((lo - 0.5).ceil().max(0.0) as usize)..(((hi - 0.5).floor() + 1.0).clamp(0.0, n as f64) as usize)
+        };
+        let slope = (local[1] - local[0]).cross(local[2] - local[0]);
+        for i in span(0, self.count[u]) {
+            for j in span(1, self.count[v]) {
+                let p = DVec2::new(i as f64 + 0.5, j as f64 + 0.5);
+                let inside = (0..3).all(|k| left_of(flat[k], flat[(k + 1) % 3], p) == up);
+                if inside {
+                    let d = (p.x - flat[0].x) * slope[u] + (p.y - flat[0].y) * slope[v];
+                    let height = local[0][axis] - d / slope[axis];
+                    found((i * self.count[v] + j, height, up));
+                }
+            }
+        }
+    }
+}
+
+/// Whether a point is to the left of the line through `a` and `b`; on the line the answer is
+/// opposite for the opposite direction.
+fn left_of(a: DVec2, b: DVec2, p: DVec2) -> bool {
+    if (a.x, a.y) < (b.x, b.y) { (b - a).perp_dot(p - a) > 0.0 } else { (a - b).perp_dot(p - b) <= 0.0 }
+}

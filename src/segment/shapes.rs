@@ -1,0 +1,60 @@
+//! Small closed meshes for the tests of this module.
+
+use crate::mesh::Mesh;
+use glam::DVec3;
+
+/// Positions and faces.
+pub(super) type Shape = (Vec<DVec3>, Vec<[u32; 3]>);
+
+/// Balls in a row along z, as (centre, radius), as one closed surface of revolution.
+pub(super) fn balls_in_a_row(balls: &[(f64, f64)], rings: usize, around: usize) -> Shape {
+    let lo = balls.iter().map(|b| b.0 - b.1).fold(f64::INFINITY, f64::min);
+    let hi = balls.iter().map(|b| b.0 + b.1).fold(f64::NEG_INFINITY, f64::max);
+    let radius = |z: f64| {
+        balls.iter().map(|b| (b.1 * b.1 - (z - b.0).powi(2)).max(0.0).sqrt()).fold(0.0, f64::max)
+    };
+    let mut positions = vec![DVec3::new(0.0, 0.0, lo)];
+    for ring in 1..rings {
+        let t = std::f64::consts::PI * ring as f64 / rings as f64;
+        let z = lo + (hi - lo) * (1.0 - t.cos()) / 2.0;
+        for k in 0..around {
+            let (sin, cos) = (k as f64 / around as f64 * std::f64::consts::TAU).sin_cos();
+            positions.push(DVec3::new(cos * radius(z), sin * radius(z), z));
+        }
+    }
+    positions.push(DVec3::new(0.0, 0.0, hi));
+    let at = |ring: usize, k: usize| (1 + (ring - 1) * around + k % around) as u32;
+    let last = positions.len() as u32 - 1;
+    let mut faces = Vec::new();
+    for k in 0..around {
+        faces.push([0, at(1, k + 1), at(1, k)]);
+        faces.push([last, at(rings - 1, k), at(rings - 1, k + 1)]);
+        for ring in 1..rings - 1 {
+            let [a, b] = [at(ring, k), at(ring, k + 1)];
+            let [c, d] = [at(ring + 1, k), at(ring + 1, k + 1)];
+            faces.extend([[a, b, d], [a, d, c]]);
+        }
+    }
+    (positions, faces)
+}
+
+/// Several bodies in one mesh.
+pub(super) fn together(shapes: &[Shape]) -> Shape {
+    let (mut positions, mut faces) = (Vec::new(), Vec::new());
+    for (p, f) in shapes {
+        let base = positions.len() as u32;
+        positions.extend(p);
+        faces.extend(f.iter().map(|t| t.map(|v| v + base)));
+    }
+    (positions, faces)
+}
+
+/// A shape moved point by point.
+pub(super) fn moved(shape: &Shape, to: impl Fn(DVec3) -> DVec3) -> Shape {
+    (shape.0.iter().map(|&p| to(p)).collect(), shape.1.clone())
+}
+
+/// As a mesh.
+pub(super) fn mesh((positions, faces): &Shape) -> Mesh {
+    Mesh::for_tests(positions.clone(), faces.clone())
+}

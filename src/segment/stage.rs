@@ -1,0 +1,172 @@
+//! The stage as a whole.
+
+use super::coarsen::coarsen;
+use super::cut::soft_labels;
+use super::gmm::Mixture;
+use super::grid::Solid;
+use super::merge::{Merges, Scene, merge_all};
+use super::patches::{Partition, absorb_small, connected, split_large};
+use super::sdf::{Probe, Target};
+use super::surface::{Surface, outward_faces};
+use super::{Method, SegmentError, SegmentOptions, Segmentation};
+use super::{bodies, refine, smooth};
+use crate::mesh::Mesh;
+use crate::progress::Progress;
+use glam::DVec3;
+
+/// Clusters and smoothing of the over-segmentation: many clusters, cheap borders.
+const FINE_CLUSTERS: usize = 8;
+const FINE_SMOOTHING: f64 = 0.08;
+
+/// Patches are at most this share of the area.
+const LARGEST_PATCH: f64 = 0.015;
+
+/// Segments are at least this share of the area.
+const LEAST_SEGMENT: f64 = 0.005;
+
+/// What a part more has to add to the intersection over union, at detail 0, 0.5 and 1: 0.04,
+/// 0.01, 0.0025.
+const PART_COST: f64 = 0.04;
+const DETAIL_RANGE: f64 = 16.0;
+
+/// A mesh thinner than this share of its size is flat.
+const FLAT: f64 = 1e-6;
+
+/// Segments a mesh. The same mesh and options give the same segments, whatever the number of
+/// threads.
+pub fn segment(
+    mesh: &Mesh,
+    options: &SegmentOptions,
+    progress: &dyn Progress,
+) -> Result<Segmentation, SegmentError> {
+    options.check()?;
+    let positions = mesh.positions();
+    if mesh.faces().is_empty() {
+        return Err(SegmentError::Empty);
+    }
+    if is_flat(positions) {
+        return Err(SegmentError::Flat);
+    }
+    progress.stage("segmenting");
+    let (faces, _) = outward_faces(positions, mesh.faces());
+    let fine = Surface::of_faces(positions, &faces);
+    let (coarse, cell_of_face) = coarsen(&fine);
+    progress.check()?;
+    let diameters = shape_diameters(positions, &faces, &fine, &coarse, &cell_of_face);
+    progress.check()?;
+    progress.fraction(0.4);
+    let cells = match options.method {
+        Method::Sdf { clusters, smoothing } => {
+            let label = labels(&coarse, diameters.as_deref(), clusters, smoothing);
+            absorb_small(&coarse, connected(&coarse, &label), LEAST_SEGMENT * coarse.total_area())
+        }
+        Method::Merge => {
+            let patches = over_segment(&coarse, diameters.as_deref(), options.parts);
+            let gaps = bodies::nearest_links(&coarse);
+            let patches = bodies::join_crumbs(&coarse, patches, &gaps);
+            let ground = Ground { positions, faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
+            let merges = ground.merge(patches, &gaps, progress)?;
+            let part_cost = PART_COST / DETAIL_RANGE.powf(options.detail);
+            merges.parts(options.parts.unwrap_or_else(|| merges.best_count(part_cost)))
+        }
+    };
+    progress.fraction(0.9);
+    let of_face = cell_of_face.iter().map(|&c| cells.of_cell[c as usize]).collect();
+    let refined = refine::refine_borders(&fine, Partition { of_cell: of_face, count: cells.count });
+    Ok(Segmentation::numbered(&refined.of_cell, refined.count, fine.areas()))
+}
+
+fn is_flat(positions: &[DVec3]) -> bool {
+    let (values, _) = crate::geom::eigen::symmetric(crate::geom::eigen::covariance(positions));
+    values[0].max(0.0).sqrt() <= FLAT * values[2].max(0.0).sqrt()
+}
+
+/// Smoothed shape diameters of the cells, on a scale from 0 to 1; `None` where no ray meets the
+/// other side of anything.
+fn shape_diameters(
+    positions: &[DVec3],
+    faces: &[[u32; 3]],
+    fine: &Surface,
+    coarse: &Surface,
+    cell_of_face: &[u32],
+) -> Option<Vec<f64>> {
+    let target = Target::new(positions, faces)?;
+    let mut nearest: Vec<(f64, usize)> = vec![(f64::INFINITY, 0); coarse.len()];
+    for (f, &cell) in cell_of_face.iter().enumerate() {
+        let d = fine.centres()[f].distance_squared(coarse.centres()[cell as usize]);
+        if d < nearest[cell as usize].0 {
+            nearest[cell as usize] = (d, f);
+        }
+    }
+    let probes: Vec<Probe> = nearest
+        .iter()
+        .zip(coarse.normals())
+        .map(|(&(_, f), &n)| Probe { face: f as u32, origin: fine.centres()[f], inward: -n })
+        .collect();
+    let filled = smooth::fill(coarse, &target.diameters(&probes))?;
+    Some(smooth::normalise(&smooth::bilateral(coarse, &filled)))
+}
+
+fn labels(surface: &Surface, values: Option<&[f64]>, clusters: usize, smoothing: f64) -> Vec<u32> {
+    let Some(values) = values else { return vec![0; surface.len()] };
+    let mixture = Mixture::fit(values, surface.areas(), clusters);
+    soft_labels(surface, values, &mixture, smoothing)
+}
+
+/// Many small patches, at least about three times as many as parts are asked for.
+fn over_segment(surface: &Surface, values: Option<&[f64]>, parts: Option<usize>) -> Partition {
+    let area = surface.total_area();
+    let least = parts.map_or(LEAST_SEGMENT, |n| LEAST_SEGMENT.min(0.25 / n as f64)) * area;
+    let most = parts.map_or(LARGEST_PATCH, |n| LARGEST_PATCH.min(0.33 / n as f64)) * area;
+    let label = labels(surface, values, FINE_CLUSTERS, FINE_SMOOTHING);
+    let whole = absorb_small(surface, connected(surface, &label), least);
+    absorb_small(surface, split_large(surface, &whole, most), least)
+}
+
+/// What the patches are made of.
+struct Ground<'a> {
+    positions: &'a [DVec3],
+    faces: &'a [[u32; 3]],
+    surface: &'a Surface,
+    cell_of_face: &'a [u32],
+}
+
+impl Ground<'_> {
+    fn merge(
+        &self,
+        patches: Partition,
+        gaps: &[[u32; 2]],
+        progress: &dyn Progress,
+    ) -> Result<Merges, SegmentError> {
+        let (body_of_cell, _) = self.surface.components(|_| 0);
+        let mut body = vec![0; patches.count];
+        for (cell, &p) in patches.of_cell.iter().enumerate() {
+            body[p as usize] = body_of_cell[cell];
+        }
+        let vertices = self.vertices(&patches);
+        let borders = patches.borders(self.surface);
+        let mut neighbours: Vec<[u32; 2]> = borders.into_keys().map(|(a, b)| [a, b]).collect();
+        for cells in gaps {
+            let [a, b] = cells.map(|c| patches.of_cell[c as usize]);
+            if a != b {
+                neighbours.push([a.min(b), a.max(b)]);
+            }
+        }
+        let solid = Solid::of_mesh(self.positions, self.faces);
+        let scene = Scene { positions: self.positions, solid: &solid };
+        Ok(merge_all(&scene, patches, &vertices, &neighbours, &body, progress)?)
+    }
+
+    /// The vertices of each patch.
+    fn vertices(&self, patches: &Partition) -> Vec<Vec<u32>> {
+        let mut vertices: Vec<Vec<u32>> = vec![Vec::new(); patches.count];
+        for (face, &cell) in self.faces.iter().zip(self.cell_of_face) {
+            vertices[patches.of_cell[cell as usize] as usize].extend(face);
+        }
+        for v in &mut vertices {
+            v.sort_unstable();
+            v.dedup();
+        }
+        vertices
+    }
+}

@@ -1,0 +1,223 @@
+//! Properties of the stage as a whole.
+
+use super::shapes::{Shape, balls_in_a_row, mesh, moved, together};
+use super::surface::Surface;
+use super::*;
+use crate::progress::{Progress, Silent};
+use glam::{DQuat, DVec3};
+
+const ROW: [(f64, f64); 3] = [(0.0, 1.0), (1.4, 0.7), (2.3, 0.45)];
+
+fn row() -> Shape {
+    balls_in_a_row(&ROW, 60, 40)
+}
+
+fn run(shape: &Shape) -> Segmentation {
+    segment(&mesh(shape), &SegmentOptions::default(), &Silent).unwrap()
+}
+
+/// Share of face pairs (a fixed sample) that two partitions treat alike.
+fn rand_index(a: &[SegmentId], b: &[SegmentId]) -> f64 {
+    let n = a.len();
+    let alike = |k: usize| {
+        let (i, j) = (k * 7919 % n, k * 104_729 / 3 % n);
+        (a[i] == a[j]) == (b[i] == b[j])
+    };
+    (0..20_000).filter(|&k| alike(k)).count() as f64 / 20_000.0
+}
+
+/// The ball that each face is on.
+fn balls(shape: &Shape, balls: &[(f64, f64)]) -> Vec<SegmentId> {
+    let ball = |f: &[u32; 3]| {
+        let p = f.iter().map(|&v| shape.0[v as usize]).sum::<DVec3>() / 3.0;
+        let off = |k: &usize| (p.distance(DVec3::Z * balls[*k].0) - balls[*k].1).abs();
+        SegmentId((0..balls.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap() as u32)
+    };
+    shape.1.iter().map(ball).collect()
+}
+
+#[test]
+fn balls_in_a_row_are_the_segments_biggest_first() {
+    let shape = row();
+    let found = run(&shape);
+    assert_eq!(found.count(), 3);
+    let expected = balls(&shape, &ROW);
+    let same = found.face_segments().iter().zip(&expected).filter(|(a, b)| a == b).count();
+    assert!(same as f64 > 0.98 * expected.len() as f64, "{same} of {}", expected.len());
+}
+
+#[test]
+fn borders_of_balls_are_single_planar_rings() {
+    let mesh = mesh(&row());
+    let found = segment(&mesh, &SegmentOptions::default(), &Silent).unwrap();
+    let borders = found.borders(&mesh);
+    let pairs: Vec<_> = borders.keys().copied().collect();
+    assert_eq!(pairs, [(SegmentId(0), SegmentId(1)), (SegmentId(1), SegmentId(2))]);
+    for border in borders.values() {
+        let (plane, residual) = border.plane(&mesh).unwrap();
+        assert_eq!(border.pieces(), 1);
+        assert!(plane.normal().z.abs() > 0.999);
+        assert!(residual < 0.01 * border.length());
+    }
+}
+
+#[test]
+fn size_turn_and_order_of_faces_do_not_matter() {
+    let shape = row();
+    let expected = run(&shape);
+    let turn = DQuat::from_euler(glam::EulerRot::XYZ, 0.3, -1.2, 2.1);
+    let other = run(&moved(&shape, |p| turn * p * 250.0 + DVec3::new(1e3, -5.0, 70.0)));
+    assert!(rand_index(expected.face_segments(), other.face_segments()) > 0.98);
+
+    let n = shape.1.len();
+    let order: Vec<usize> = (0..n).map(|i| (i * 1_009) % n).collect();
+    let shuffled = run(&(shape.0.clone(), order.iter().map(|&i| shape.1[i]).collect()));
+    let back: Vec<SegmentId> = order.iter().map(|&i| expected.face_segments()[i]).collect();
+    assert!(rand_index(&back, shuffled.face_segments()) > 0.98);
+}
+
+#[test]
+fn resolution_does_not_matter() {
+    for (rings, around) in [(24, 20), (60, 40), (180, 140)] {
+        let shape = balls_in_a_row(&ROW, rings, around);
+        let found = run(&shape);
+        assert_eq!(found.count(), 3, "{} faces", shape.1.len());
+        assert!(rand_index(&balls(&shape, &ROW), found.face_segments()) > 0.95);
+    }
+}
+
+#[test]
+fn threads_do_not_matter() {
+    let mesh = mesh(&row());
+    let on = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| segment(&mesh, &SegmentOptions::default(), &Silent)).unwrap()
+    };
+    assert_eq!(on(1), on(2));
+}
+
+#[test]
+fn as_many_parts_as_asked_for_each_connected() {
+    let shape = row();
+    let surface = Surface::of_faces(&shape.0, &shape.1);
+    for parts in [1, 2, 3, 5, 9, 20] {
+        let options = SegmentOptions { parts: Some(parts), ..Default::default() };
+        let found = segment(&mesh(&shape), &options, &Silent).unwrap();
+        assert_eq!(found.count(), parts);
+        let ids = found.face_segments();
+        assert_eq!(surface.components(|f| ids[f].0).1, parts);
+        let mut areas = vec![0.0; parts];
+        ids.iter().zip(surface.areas()).for_each(|(id, a)| areas[id.0 as usize] += a);
+        assert!(areas.windows(2).all(|w| w[0] >= w[1]));
+    }
+}
+
+#[test]
+fn detail_gives_more_parts() {
+    let mesh = mesh(&row());
+    let count = |detail| {
+        let options = SegmentOptions { detail, ..Default::default() };
+        segment(&mesh, &options, &Silent).unwrap().count()
+    };
+    assert!(count(0.0) <= count(0.5) && count(0.5) <= count(1.0));
+    assert!(count(0.0) < count(1.0));
+}
+
+#[test]
+fn an_inverted_mesh_gives_the_same_parts() {
+    let shape = row();
+    let inverted = (shape.0.clone(), shape.1.iter().map(|f| [f[0], f[2], f[1]]).collect());
+    assert!(rand_index(run(&shape).face_segments(), run(&inverted).face_segments()) > 0.98);
+}
+
+#[test]
+fn noise_and_holes_change_little() {
+    let shape = row();
+    let size = 3.75;
+    let wave = |p: DVec3| (p * 997.0).to_array().map(|x| x.sin());
+    let noisy = moved(&shape, |p| p + DVec3::from_array(wave(p)) * (0.005 * size / 2.0));
+    assert!(rand_index(run(&shape).face_segments(), run(&noisy).face_segments()) > 0.9);
+
+    let kept: Vec<usize> = (0..shape.1.len()).filter(|i| i * 7919 % 20 != 0).collect();
+    let holed = run(&(shape.0.clone(), kept.iter().map(|&i| shape.1[i]).collect()));
+    let whole = run(&shape);
+    let rest: Vec<SegmentId> = kept.iter().map(|&i| whole.face_segments()[i]).collect();
+    assert!(rand_index(&rest, holed.face_segments()) > 0.9);
+}
+
+#[test]
+fn bodies_are_segments_and_crumbs_join_the_nearest() {
+    let ball = |z, r| balls_in_a_row(&[(z, r)], 24, 24);
+    let mut bodies = vec![ball(0.0, 1.0), ball(3.0, 1.0)];
+    bodies.extend((0..5).map(|k| ball(4.2 + 0.2 * k as f64, 0.05)));
+    let shape = together(&bodies);
+    let found = run(&shape);
+    assert_eq!(found.count(), 2);
+    let per_ball = 24 * 2 * 23;
+    let ids = found.face_segments();
+    assert!(ids[per_ball..].iter().all(|id| *id == ids[per_ball]));
+    assert_ne!(ids[0], ids[per_ball]);
+}
+
+#[test]
+fn what_cannot_be_segmented_is_told() {
+    let sheet = |n: u32| -> Shape {
+        let at = |i: u32, j: u32| i * (n + 1) + j;
+        let grid = (0..=n).flat_map(|i| (0..=n).map(move |j| DVec3::new(i as f64, j as f64, 2.0)));
+        let cells = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+        let faces = cells.flat_map(|(i, j)| {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            [[a, b, c], [a, c, d]]
+        });
+        (grid.collect(), faces.collect())
+    };
+    let with = |shape: &Shape, options| segment(&mesh(shape), &options, &Silent);
+    let auto = SegmentOptions::default();
+    assert_eq!(with(&sheet(8), auto), Err(SegmentError::Flat));
+    assert_eq!(with(&(Vec::new(), Vec::new()), auto), Err(SegmentError::Empty));
+    assert_eq!(with(&row(), SegmentOptions { parts: Some(0), ..auto }), Err(SegmentError::Parts(0)));
+    assert_eq!(with(&row(), SegmentOptions { detail: 1.5, ..auto }), Err(SegmentError::Detail(1.5)));
+    let method = Method::Sdf { clusters: 0, smoothing: 0.3 };
+    assert!(matches!(with(&row(), SegmentOptions { method, ..auto }), Err(SegmentError::Clusters { .. })));
+
+    // A bent sheet encloses nothing and still has parts.
+    let bent = moved(&sheet(20), |p| DVec3::new(p.x, p.y, (p.x * 0.4).sin() * 4.0));
+    assert!(with(&bent, auto).unwrap().count() >= 1);
+}
+
+#[test]
+fn fins_on_one_edge_are_no_obstacle() {
+    let mut shape = row();
+    let [a, b, _] = shape.1[100];
+    for k in 0..3 {
+        shape.0.push(DVec3::new(2.0, 0.1 * k as f64, 1.0));
+        shape.1.push([a, b, shape.0.len() as u32 - 1]);
+    }
+    let found = run(&shape);
+    assert!((2..=6).contains(&found.count()));
+}
+
+#[test]
+fn the_papers_own_method_finds_thick_and_thin() {
+    let shape = balls_in_a_row(&[(0.0, 1.0), (1.05, 0.3), (1.3, 0.3), (1.55, 0.3), (1.8, 0.3)], 80, 40);
+    let method = Method::Sdf { clusters: 2, smoothing: 0.3 };
+    let options = SegmentOptions { method, ..Default::default() };
+    let found = segment(&mesh(&shape), &options, &Silent).unwrap();
+    let top = |f: usize| shape.1[f].iter().all(|&v| shape.0[v as usize].z > 1.2);
+    let bottom = |f: usize| shape.1[f].iter().all(|&v| shape.0[v as usize].z < 0.5);
+    for (f, id) in found.face_segments().iter().enumerate() {
+        assert!(!(top(f) && *id == SegmentId(0)) && !(bottom(f) && *id != SegmentId(0)));
+    }
+}
+
+#[test]
+fn stops_when_asked() {
+    struct Stop;
+    impl Progress for Stop {
+        fn is_cancelled(&self) -> bool {
+            true
+        }
+    }
+    let found = segment(&mesh(&row()), &SegmentOptions::default(), &Stop);
+    assert_eq!(found, Err(SegmentError::Cancelled(Cancelled)));
+}

@@ -1,0 +1,267 @@
+//! Nets of random components: no overlap, every hinge glued once, and they refold.
+
+mod support;
+
+use glam::{DAffine2, DAffine3, DVec2, DVec3};
+use proptest::prelude::*;
+use support::Prism;
+use tatamu::check;
+use tatamu::component::{PanelId, PanelSet};
+use tatamu::drawing::{Layer, Polyline, Rgb, Shape, Stroke};
+use tatamu::export::fold::{self, FoldComponent, FoldModel, PiecePlace};
+use tatamu::geom::polygon;
+use tatamu::net::{
+    EdgeKind, JointMark, MarkOptions, Naming, Net, NetError, NetOptions, check::faults, develop,
+};
+
+const A4: DVec2 = DVec2::new(190.0, 277.0);
+const SMALL: DVec2 = DVec2::new(85.0, 115.0);
+const HUGE: DVec2 = DVec2::new(5e3, 5e3);
+
+fn net_of(set: &PanelSet, sheet_mm: DVec2) -> Result<Net, NetError> {
+    let options = NetOptions { tab_width_mm: 6.0, sheet_mm };
+    develop(set, Naming { name: "body", prefix: "A" }, &[], &options)
+}
+
+/// The FOLD master of one component, its pieces side by side on one sheet each.
+fn master(set: &PanelSet, net: &Net) -> Vec<u8> {
+    let places: Vec<PiecePlace> = (0..net.pieces().len())
+        .map(|sheet| PiecePlace { sheet, place: DAffine2::from_angle(0.3) })
+        .collect();
+    let offsets: Vec<DVec2> = (0..places.len()).map(|k| DVec2::X * (k as f64 * 2e4)).collect();
+    let deployed = DAffine3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7);
+    let component = FoldComponent {
+        name: "body",
+        set,
+        net,
+        pieces: &places,
+        deployed: DAffine3::from_translation(DVec3::new(40.0, -7.0, 3.0)) * deployed,
+        flat: deployed,
+    };
+    let model = FoldModel { title: "test", components: &[component], sheet_offsets: &offsets };
+    fold::write(&model).expect("plain data can be written")
+}
+
+fn assert_good(set: &PanelSet, net: &Net, sheet_mm: DVec2) {
+    let faults = faults(set, net, sheet_mm);
+    assert!(faults.is_empty(), "{faults:#?}");
+    let report = check::fold(&master(set, net)).expect("a master");
+    assert!(report.is_sound(1e-6), "{report:#?}");
+    assert!(report.stretch_mm < 1e-9, "{}", report.stretch_mm);
+}
+
+/// A convex wall: heights and radii of a superellipse, so that every profile is concave in v.
+fn wall(radius: f64, height: f64, bulge: f64, centre: f64, heights: &[f64]) -> Vec<DVec2> {
+    let at = |v: f64| {
+        let x = (v - centre) / 1.05;
+        DVec2::new(radius * (1.0 - bulge + bulge * (1.0 - x * x).max(0.0).sqrt()), v * height)
+    };
+    let mut out: Vec<DVec2> = [1.0].iter().chain(heights).chain(&[0.0]).map(|&v| at(v)).collect();
+    out.sort_by(|a, b| b.y.total_cmp(&a.y));
+    out
+}
+
+prop_compose! {
+    fn prism()(sides in 3usize..=8, vertices in 0usize..=4)(
+        jitter in prop::collection::vec(-0.2..0.2, sides),
+        radii in prop::collection::vec(20.0..45.0, sides),
+        heights in prop::collection::vec(
+            prop::collection::vec(0.1..0.9, vertices), sides),
+        height in 25.0..110.0,
+        bulge in 0.0..1.0,
+        centre in 0.2..0.8,
+    ) -> Prism {
+        let n = radii.len() as f64;
+        let turn = std::f64::consts::TAU / n;
+        let mean = radii.iter().sum::<f64>() / n;
+        Prism {
+            normals_rad: jitter.iter().enumerate().map(|(k, x)| (k as f64 + x) * turn).collect(),
+            profiles: radii
+                .iter()
+                .zip(&heights)
+                .map(|(r, h)| wall((r + mean) / 2.0, height, bulge, centre, h))
+                .collect(),
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 48,
+        max_global_rejects: 5000,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn random_components_refold(prism in prism()) {
+        prop_assume!(prism.least_measure() >= 3.0);
+        let set = prism.panel_set();
+        for sheet in [SMALL, A4, HUGE] {
+            match net_of(&set, sheet) {
+                Ok(net) => assert_good(&set, &net, sheet),
+                Err(NetError::PanelTooLarge { scale, .. }) => prop_assert!(scale < 1.0 && sheet != HUGE),
+                Err(other) => prop_assert!(false, "{other}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_box_is_one_piece_with_three_tabs() {
+    let set = Prism::cuboid(50.0, 40.0, 30.0).panel_set();
+    let net = net_of(&set, A4).expect("a net");
+    assert_good(&set, &net, A4);
+    assert_eq!(net.pieces().len(), 1);
+    let piece = &net.pieces()[0];
+    assert_eq!((piece.panels().len(), piece.tabs().len()), (10, 3));
+    assert!(piece.tabs().iter().all(|t| !set.hinges()[t.hinge.0].is_fold));
+    assert!(net.warnings().is_empty(), "{:?}", net.warnings());
+    // 2 of 12 edges of each kind stay joined at each end; 4 fold hinges.
+    let paper: f64 = polygon::area(piece.outline());
+    let tabs: f64 = piece.tabs().iter().map(|t| polygon::area(&t.outline)).sum();
+    let surface = 2.0 * (50.0 * 40.0 + 50.0 * 30.0 + 40.0 * 30.0);
+    assert!((paper - tabs - surface).abs() < 1e-6, "{paper} {tabs}");
+}
+
+#[test]
+fn a_larger_barrel_makes_more_pieces() {
+    let barrel = |size: f64| {
+        let profile = [(20.0, 90.0), (32.0, 65.0), (35.0, 40.0), (22.0, 0.0)];
+        Prism::regular(6, &profile.map(|(u, v)| (u * size, v * size))).panel_set()
+    };
+    for (size, pieces) in [(0.5, 1), (1.0, 1), (1.5, 2), (1.8, 5)] {
+        let set = barrel(size);
+        let net = net_of(&set, A4).expect("a net");
+        assert_good(&set, &net, A4);
+        assert_eq!(net.pieces().len(), pieces, "at {size}");
+        assert!(net.warnings().is_empty(), "{:?}", net.warnings());
+    }
+}
+
+#[test]
+fn a_panel_larger_than_the_sheet_is_named_with_the_scale_that_fits() {
+    let at = |scale: f64| {
+        let set = Prism::cuboid(400.0 * scale, 300.0 * scale, 60.0 * scale).panel_set();
+        (net_of(&set, A4), set)
+    };
+    let Err(NetError::PanelTooLarge { scale, size_mm, .. }) = at(1.0).0 else {
+        panic!("a panel of 400 × 300 mm on A4");
+    };
+    assert!((scale - 190.0 / 300.0).abs() < 1e-6, "{scale}");
+    assert!((size_mm.max_element() - 400.0).abs() < 1e-6);
+    let (net, set) = at(scale * 0.999_999);
+    assert_good(&set, &net.expect("fits now"), A4);
+}
+
+#[test]
+fn the_same_panels_give_the_same_bytes() {
+    let set = Prism::regular(7, &[(25.0, 60.0), (38.0, 30.0), (20.0, 0.0)]).panel_set();
+    let [a, b] = [(); 2].map(|()| master(&set, &net_of(&set, A4).expect("a net")));
+    assert_eq!(a, b);
+}
+
+#[test]
+fn joint_marks_lie_on_their_panel_with_their_text() {
+    let set = Prism::cuboid(60.0, 60.0, 40.0).panel_set();
+    let square = [(-15.0, -10.0), (40.0, -10.0), (40.0, 10.0), (-15.0, 10.0)];
+    let mark = JointMark {
+        panel: PanelId(0),
+        outline: square.iter().map(|&p| p.into()).collect(),
+        key: DVec2::new(30.0, 0.0),
+        text: "head".into(),
+    };
+    let options = NetOptions { tab_width_mm: 6.0, sheet_mm: A4 };
+    let naming = Naming { name: "body", prefix: "B" };
+    let net = develop(&set, naming, &[mark], &options).expect("a net");
+    assert!(faults(&set, &net, A4).is_empty());
+    let piece = &net.pieces()[0];
+    let joint = &piece.joints()[0];
+    // Cut off at the panel's edge, 30 mm from its middle.
+    assert!((polygon::area(&joint.outline) - 45.0 * 20.0).abs() < 1e-6);
+    let place = piece.panels().iter().find(|p| p.panel == PanelId(0)).expect("on the piece").place;
+    assert!(joint.key[0].distance(place.transform_point2(DVec2::new(30.0, 0.0))) < 1e-9);
+    assert_eq!(piece.labels().iter().filter(|l| l.text == "head").count(), 1);
+    assert!(piece.unplaced_labels().is_empty());
+}
+
+#[test]
+fn every_cut_and_crease_is_drawn_once() {
+    let set = Prism::regular(6, &[(20.0, 60.0), (30.0, 30.0), (20.0, 0.0)]).panel_set();
+    let net = net_of(&set, A4).expect("a net");
+    let piece = &net.pieces()[0];
+    let stroke = |_: Layer| Stroke { width_mm: 0.2, colour: Rgb(0, 0, 0), dash_mm: Vec::new() };
+    let length = |layers: &[Layer]| -> f64 {
+        let marks = piece.marks(MarkOptions::default(), stroke);
+        let paths = marks.iter().filter(|m| layers.contains(&m.layer)).map(|m| &m.shape);
+        paths.map(|shape| if let Shape::Path { contours, .. } = shape { line_mm(&contours[0]) } else { 0.0 }).sum()
+    };
+    let edges = |wanted: fn(&EdgeKind) -> bool| -> f64 {
+        let edges = piece.mesh().edges().iter().filter(|e| wanted(&e.kind));
+        edges.map(|e| piece.mesh().segment(e)).map(|[a, b]| a.distance(b)).sum()
+    };
+    let cut = edges(|k| matches!(k, EdgeKind::Border | EdgeKind::Slit | EdgeKind::Mate(_)));
+    assert!((length(&[Layer::Cut, Layer::Slit]) - cut).abs() < 1e-6);
+    assert!((piece.cut_mm() - cut).abs() < 1e-6);
+    let crease = edges(|k| matches!(k, EdgeKind::Hinge(_) | EdgeKind::Tab(_)));
+    assert!((length(&[Layer::Mountain, Layer::FoldHinge]) - crease).abs() < 1e-6);
+    assert!((piece.crease_mm() - crease).abs() < 1e-6);
+}
+
+fn line_mm(line: &Polyline) -> f64 {
+    let open: f64 = line.points.windows(2).map(|w| w[0].distance(w[1])).sum();
+    let last = line.points[line.points.len() - 1];
+    open + if line.is_closed { last.distance(line.points[0]) } else { 0.0 }
+}
+
+/// What the checker says of a master after `spoil` changed it.
+fn spoilt(spoil: impl Fn(&mut serde_json::Value)) -> check::FoldReport {
+    let set = Prism::regular(5, &[(20.0, 50.0), (32.0, 20.0), (25.0, 0.0)]).panel_set();
+    let bytes = master(&set, &net_of(&set, A4).expect("a net"));
+    let mut file = serde_json::from_slice(&bytes).expect("JSON");
+    spoil(&mut file);
+    check::fold(file.to_string().as_bytes()).expect("still a master")
+}
+
+#[test]
+fn the_checker_finds_what_is_wrong() {
+    assert!(spoilt(|_| ()).is_sound(1e-9));
+    let moved = spoilt(|f| f["file_frames"][0]["vertices_coords"][3][2] = 1e3.into());
+    assert!(moved.stretch_mm > 1.0 && !moved.is_sound(1e-6));
+    let thick = spoilt(|f| {
+        for v in f["file_frames"][1]["vertices_coords"].as_array_mut().expect("a list") {
+            let x = v[0].as_f64().expect("a number");
+            v[2] = (v[2].as_f64().expect("a number") + x * x * 1e-3).into();
+        }
+    });
+    assert!(thick.thickness_mm > 0.01);
+    let label = spoilt(|f| {
+        let labels = f["edges_tatamu:label"].as_array_mut().expect("a list");
+        *labels.iter_mut().find(|l| l.is_string()).expect("a label") = "Z9".into();
+    });
+    assert_eq!(label.unpaired_labels.len(), 2);
+    let clockwise = spoilt(|f| f["faces_vertices"][0].as_array_mut().expect("a list").reverse());
+    assert_eq!(clockwise.clockwise_faces, [0]);
+    let angle = spoilt(|f| f["file_frames"][1]["edges_foldAngle"].as_array_mut().expect("a list").fill(30.into()));
+    assert!(angle.angle_error_rad > 0.5);
+    let overlap = spoilt(|f| {
+        let pattern = f["vertices_coords"].as_array_mut().expect("a list");
+        let last = pattern.len() - 1;
+        pattern[last] = serde_json::json!([0.0, 0.0, 0.0]);
+    });
+    assert!(!overlap.is_sound(1e-6));
+}
+
+#[test]
+fn files_that_are_no_masters_are_refused() {
+    assert!(matches!(check::fold(b"solid"), Err(check::FoldCheckError::Format(_))));
+    let set = Prism::cuboid(50.0, 40.0, 30.0).panel_set();
+    let bytes = master(&set, &net_of(&set, A4).expect("a net"));
+    let mut file: serde_json::Value = serde_json::from_slice(&bytes).expect("JSON");
+    file["faces_vertices"][0][0] = 99_999.into();
+    let found = check::fold(file.to_string().as_bytes());
+    assert!(matches!(found, Err(check::FoldCheckError::Index { index: 99_999, .. })));
+    file["edges_tatamu:kind"].as_array_mut().expect("a list").pop();
+    let found = check::fold(file.to_string().as_bytes());
+    assert!(matches!(found, Err(check::FoldCheckError::Length { .. })));
+}
