@@ -7,9 +7,8 @@
 //! mesh -> segment -> hull + joints -> component -> model -> net -> sheet -> drawing -> export
 //! ```
 //!
-//! The method is that of the paper "Semi-Automatic
-//! Conversion of 3D Shape into Flat-Foldable Polygonal Model"; section and equation numbers in these docs are
-//! that paper's. Lengths are millimetres, angles radians, unless a name says otherwise.
+//! The method is that of the paper "Semi-Automatic Conversion of 3D Shape into Flat-Foldable
+//! Polygonal Model"; section and equation numbers in these docs are that paper's. Lengths are millimetres, angles radians, unless a name says otherwise.
 #![warn(clippy::print_stdout, clippy::print_stderr)]
 
 pub mod check;
