@@ -76,13 +76,14 @@ impl Mesh {
     /// Gives labels of faces to the polygons of the input file: to each the label of most of its
     /// area, the smaller label where two are equal, `None` to a polygon without a face.
     ///
-    /// `labels` has one entry for each face; `input_count` is [`Repairs::input_faces`].
-    pub fn labels_of_input(&self, labels: &[u32], input_count: usize) -> Vec<Option<u32>> {
+    /// `labels` has one entry for each face, which may be `None`; `input_count` is
+    /// [`Repairs::input_faces`].
+    pub fn labels_of_input(&self, labels: &[Option<u32>], input_count: usize) -> Vec<Option<u32>> {
         let area = |f: usize| {
             let [a, b, c] = self.corners(f);
             (b - a).cross(c - a).length()
         };
-        let mut parts: Vec<(u32, u32, f64)> = (0..self.faces.len())
+        let mut parts: Vec<(u32, Option<u32>, f64)> = (0..self.faces.len())
             .zip(labels)
             .map(|(f, &label)| (self.input_face[f], label, area(f)))
             .collect();
@@ -95,7 +96,7 @@ impl Mesh {
             });
             let largest = sums.reduce(|best, next| if next.1 > best.1 { next } else { best });
             if let Some(slot) = best.get_mut(of_input[0].0 as usize) {
-                *slot = largest.map(|(label, _)| label);
+                *slot = largest.and_then(|(label, _)| label);
             }
         }
         best

@@ -1,6 +1,5 @@
 //! Polygons as a file holds them, before any repair.
 
-use super::Up;
 use glam::DVec3;
 
 /// What is wrong with positions and polygons that were to become a [`Soup`].
@@ -42,7 +41,6 @@ pub struct Soup {
     positions: Vec<DVec3>,
     corners: Vec<u32>,
     ends: Vec<u32>,
-    up: Up,
 }
 
 impl Soup {
@@ -75,18 +73,7 @@ impl Soup {
             positions,
             corners,
             ends,
-            up: Up::Z,
         })
-    }
-
-    /// The same polygons, with another axis that points up.
-    pub fn with_up(self, up: Up) -> Self {
-        Self { up, ..self }
-    }
-
-    /// The axis that points up by the rules of the file's format; z where it has none.
-    pub fn up(&self) -> Up {
-        self.up
     }
 
     /// Vertex positions, in the file's units.

@@ -1,7 +1,7 @@
 //! glTF 2.0, as JSON or as GLB: the triangles of the default scene, with the nodes' transforms.
 
 use super::{Format, Place, ReadError, excerpt};
-use crate::mesh::{Soup, Up};
+use crate::mesh::Soup;
 use base64::Engine;
 use base64::alphabet::STANDARD;
 use base64::engine::DecodePaddingMode;
@@ -36,7 +36,6 @@ pub(super) fn read(
     };
     scene.add_nodes(&file)?;
     Soup::new(scene.positions, scene.triangles)
-        .map(|soup| soup.with_up(Up::Y))
         .map_err(|error| ReadError::from_soup(Format::Gltf, &error))
 }
 
@@ -340,7 +339,6 @@ mod tests {
             assert_eq!(soup.positions()[1], DVec3::new(-4.0, 0.0, 0.0));
             let triangles: Vec<&[u32]> = soup.polygons().collect();
             assert_eq!(triangles, [[0, 2, 1], [2, 3, 1]]);
-            assert_eq!(soup.up(), Up::Y);
         }
     }
 

@@ -69,11 +69,11 @@ pub(super) fn read_ascii(text: &[u8]) -> Result<Soup, ReadError> {
     let footer: &[u8] = if is_ended(text) { b"endsolid\n" } else { b"" };
     let mut feed = Feed::new([b"solid x\n", footer], text, rewrite, &at);
     let mesh = stl_io::read_stl(&mut feed).map_err(|error| {
-        if error.kind() == ErrorKind::UnexpectedEof {
+        if error.kind() == ErrorKind::UnexpectedEof || is_last_of_cut(text, at.get()) {
             return ReadError::Size {
                 format: Format::StlAscii,
                 promised: "a line \"endsolid\"".to_owned(),
-                found: format!("none up to the end in line {}", at.get()),
+                found: format!("an end in line {}", at.get()),
             };
         }
         let found = Lines::new(text).find(|line| line.number == at.get());
@@ -112,6 +112,11 @@ fn is_ended(text: &[u8]) -> bool {
     let start = tail.iter().rposition(|b| matches!(b, b'\n' | b'\r'));
     let last = tail[start.map_or(0, |k| k + 1)..].trim_ascii_start();
     last.len() >= 8 && last[..8].eq_ignore_ascii_case(b"endsolid")
+}
+
+/// Whether a line is where a text stops short of its `endsolid`.
+fn is_last_of_cut(text: &[u8], line: usize) -> bool {
+    !is_ended(text) && Lines::new(text.trim_ascii_end()).all(|later| later.number <= line)
 }
 
 /// What stl_io sees of a line: lower case, no begin or end of a solid, no normals, which it would

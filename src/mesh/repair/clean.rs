@@ -21,12 +21,15 @@ pub(super) fn drop_duplicates(triangles: &mut Vec<Triangle>, repairs: &mut Repai
     for pair in order.windows(2) {
         is_kept[pair[1].1 as usize] = pair[0].0 != pair[1].0;
     }
-    repairs.duplicate_faces += retain(triangles, &is_kept);
+    let before = triangles.len();
+    let mut kept = is_kept.iter();
+    triangles.retain(|_| kept.next() == Some(&true));
+    repairs.duplicate_faces += before - triangles.len();
 }
 
 /// Drops triangles lower than `tolerance`. To leave no slit, the neighbour at the longest edge is
 /// cut in two at the third corner, as if the edge between the two were turned; where that cannot
-/// be done, the triangle is dropped alone.
+/// be done, the triangle is dropped alone. Counts the polygons of which nothing is left.
 pub(super) fn drop_flat(
     positions: &[DVec3],
     triangles: &mut Vec<Triangle>,
@@ -36,6 +39,7 @@ pub(super) fn drop_flat(
     /// Such triangles may lie in a row; each round deals with the outermost ones.
     const ROUNDS: usize = 32;
     let is_flat = |t: &Triangle| height(positions, t.corners) <= tolerance;
+    let before = polygon_count(triangles);
     for _ in 0..ROUNDS {
         let flat: Vec<bool> = triangles.iter().map(is_flat).collect();
         let turned = if flat.contains(&true) {
@@ -46,10 +50,17 @@ pub(super) fn drop_flat(
         if turned == 0 {
             break;
         }
-        repairs.degenerate_faces += turned;
     }
-    let is_kept: Vec<bool> = triangles.iter().map(|t| !is_flat(t)).collect();
-    repairs.degenerate_faces += retain(triangles, &is_kept);
+    triangles.retain(|t| !is_flat(t));
+    repairs.degenerate_faces += before - polygon_count(triangles);
+}
+
+/// Number of different polygons that triangles come from.
+fn polygon_count(triangles: &[Triangle]) -> usize {
+    let mut polygons: Vec<u32> = triangles.iter().map(|t| t.polygon).collect();
+    polygons.sort_unstable();
+    polygons.dedup();
+    polygons.len()
 }
 
 /// Turns the edge between each flat triangle and a neighbour that is not flat, no triangle twice.
@@ -103,14 +114,6 @@ fn height(positions: &[DVec3], corners: [u32; 3]) -> f64 {
     let [a, b, c] = [0, 1, 2].map(|i| positions[corners[(k + i) % 3] as usize]);
     let along = (b - a).normalize_or_zero();
     (c - a).reject_from_normalized(along).length()
-}
-
-/// Drops triangles and returns how many.
-fn retain(triangles: &mut Vec<Triangle>, is_kept: &[bool]) -> usize {
-    let before = triangles.len();
-    let mut kept = is_kept.iter();
-    triangles.retain(|_| kept.next() == Some(&true));
-    before - triangles.len()
 }
 
 /// Drops vertices without a face and numbers the others anew, in their order.

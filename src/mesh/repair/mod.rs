@@ -28,7 +28,7 @@ pub struct Repairs {
     pub input_faces: usize,
     /// Vertices that were joined to another one at the same place.
     pub welded_vertices: usize,
-    /// Triangles without area that were dropped, and polygons with fewer than three corners.
+    /// Faces that were dropped because they have no area, or fewer than three corners.
     pub degenerate_faces: usize,
     /// Faces that were dropped because another one has the same corners.
     pub duplicate_faces: usize,

@@ -1,0 +1,107 @@
+//! Reading the input: a mesh, or a project file that names one.
+
+use super::error::{CliError, reason};
+use std::path::{Component, Path, PathBuf};
+use tatamu::mesh::{self, Mesh, Repairs};
+use tatamu::project::Project;
+
+/// A mesh with where it comes from.
+pub struct Input {
+    /// The mesh file.
+    pub mesh_path: PathBuf,
+    /// The project, where the user gave one.
+    pub project: Option<Project>,
+    /// The clean mesh.
+    pub mesh: Mesh,
+    /// What was done to make it clean.
+    pub repairs: Repairs,
+}
+
+/// Reads a mesh or a project file.
+pub fn read(path: &Path) -> Result<Input, CliError> {
+    let bytes = read_file(path)?;
+    if !is_project(path, &bytes) {
+        return read_mesh(path, &bytes, None);
+    }
+    let text = String::from_utf8(bytes).map_err(|_| CliError::Input {
+        path: path.to_owned(),
+        reason: "a project file is text in UTF-8".to_owned(),
+    })?;
+    let project = Project::parse(&text).map_err(|error| CliError::Project {
+        path: path.to_owned(),
+        error,
+    })?;
+    let mesh_path = path.with_file_name(&project.mesh);
+    let bytes = read_file(&mesh_path)?;
+    read_mesh(&mesh_path, &bytes, Some(project))
+}
+
+fn read_mesh(path: &Path, bytes: &[u8], project: Option<Project>) -> Result<Input, CliError> {
+    let sibling = |name: &str| read_sibling(path, name);
+    let soup = mesh::read_with_siblings(bytes, &sibling).map_err(|error| CliError::Read {
+        path: path.to_owned(),
+        error,
+    })?;
+    let (mesh, repairs) = Mesh::from_soup(&soup).map_err(|error| CliError::Mesh {
+        path: path.to_owned(),
+        error,
+    })?;
+    Ok(Input {
+        mesh_path: path.to_owned(),
+        project,
+        mesh,
+        repairs,
+    })
+}
+
+/// The content of a file.
+pub fn read_file(path: &Path) -> Result<Vec<u8>, CliError> {
+    std::fs::read(path).map_err(|error| CliError::Input {
+        path: path.to_owned(),
+        reason: reason(&error),
+    })
+}
+
+/// By its extension, or because a line of it gives a mesh.
+fn is_project(path: &Path, bytes: &[u8]) -> bool {
+    let is_toml = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("toml"));
+    let names_mesh = |line: &[u8]| {
+        let rest = line.trim_ascii_start().strip_prefix(b"mesh");
+        rest.is_some_and(|rest| rest.trim_ascii_start().starts_with(b"="))
+    };
+    is_toml || bytes.split(|&b| b == b'\n').take(100).any(names_mesh)
+}
+
+/// A file that the mesh file refers to: only beside or below it, so that a mesh from elsewhere
+/// cannot have any file read.
+fn read_sibling(mesh_path: &Path, name: &str) -> Result<Vec<u8>, String> {
+    let name = Path::new(name);
+    let is_below = name.components().all(|c| matches!(c, Component::Normal(_)));
+    if !is_below {
+        return Err("it must be in the same folder; move it there".to_owned());
+    }
+    std::fs::read(mesh_path.with_file_name(name)).map_err(|error| reason(&error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_project_shows_in_its_name_or_its_content() {
+        assert!(is_project(Path::new("a.TOML"), b""));
+        assert!(is_project(Path::new("a.txt"), b"# x\n mesh = 'a.obj'\n"));
+        assert!(!is_project(Path::new("a.obj"), b"# mesh = 3\nv 0 0 0\n"));
+        assert!(!is_project(Path::new("a"), b"meshes = 3"));
+    }
+
+    #[test]
+    fn siblings_are_in_the_same_folder() {
+        for name in ["/etc/hostname", "../x.bin", "a/../../x.bin", ""] {
+            let result = read_sibling(Path::new("folder/mesh.gltf"), name);
+            assert!(result.is_err(), "{name}");
+        }
+    }
+}

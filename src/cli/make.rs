@@ -1,0 +1,214 @@
+//! `tatamu make`
+
+use super::error::CliError;
+use super::options::ModelArgs;
+use super::progress::TerminalProgress;
+use super::{input, output, terminal};
+use clap::Args;
+use std::path::{Path, PathBuf};
+use tatamu::export::{FORMATS, Format};
+use tatamu::mesh::Repairs;
+use tatamu::pipeline::{self, Output, Warning};
+use tatamu::product;
+use tatamu::report::Run;
+
+/// Makes a model of a mesh, or of a project file.
+///
+/// The mesh is divided into components; each of them becomes a convex solid that folds flat; the
+/// nets of all of them are laid out on sheets of paper.
+#[derive(Debug, Args)]
+#[command(after_help = after_help())]
+pub struct MakeArgs {
+    /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB) or project file (TOML)
+    ///
+    /// What it is shows in its content. What is open, not manifold or in several pieces is
+    /// accepted with a warning.
+    #[arg(value_name = "INPUT")]
+    input: PathBuf,
+
+    #[command(flatten)]
+    model: ModelArgs,
+
+    /// File to write; may be given several times [default: the input's name with .pdf]
+    ///
+    /// The extension chooses the format; the end of this page lists them. An existing file is
+    /// replaced, but only when the new one is complete. Example: -o teddy.pdf -o teddy.json
+    #[arg(short, long = "output", value_name = "FILE")]
+    output: Vec<PathBuf>,
+
+    /// File for the segmentation: one number a line
+    ///
+    /// For each face of the input file, in its order, the index of its component from 0; -1 for
+    /// a face that was dropped in the repair. Example: --segments teddy.seg
+    #[arg(long, value_name = "FILE")]
+    segments: Option<PathBuf>,
+
+    /// No summary and no progress bar; warnings and errors only
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  tatamu make teddy.obj
+  tatamu make teddy.obj --size 30cm --paper a3 -o teddy.pdf -o teddy.json
+  tatamu make bunny.stl --up z --parts 5 --top-edges 8
+  tatamu make teddy.toml --direction head=90";
+
+fn after_help() -> String {
+    let line = |format: &Format| {
+        let extensions = format.extensions.join(", .");
+        format!("  .{extensions:<8} {}\n", format.description)
+    };
+    let lines: String = FORMATS.iter().map(line).collect();
+    format!("Formats of -o, by extension:\n{lines}\n{EXAMPLES}")
+}
+
+/// Runs the command.
+pub fn run(args: &MakeArgs) -> Result<(), CliError> {
+    let paths = match args.output.as_slice() {
+        [] => vec![default_output(&args.input)],
+        paths => paths.to_vec(),
+    };
+    let targets = output::targets(&paths, &[&args.input])?;
+    let input = input::read(&args.input)?;
+    let places: Vec<PathBuf> = paths.iter().chain(&args.segments).cloned().collect();
+    output::check_places(&places, &[&args.input, &input.mesh_path])?;
+    let options = args.model.merge(&input)?;
+    let warnings = repair_warnings(&input.repairs);
+    warnings.iter().for_each(warn);
+
+    let progress = TerminalProgress::new(args.quiet);
+    let result = pipeline::run(&input.mesh, &options, &progress)?;
+    let stages = progress.finish();
+    result.warnings().iter().for_each(warn);
+
+    let stem = args.input.file_stem().unwrap_or_default();
+    let run = Run {
+        path: &input.mesh_path.to_string_lossy(),
+        repairs: &input.repairs,
+        stages: &stages,
+        warnings: &warnings,
+    };
+    let title = terminal::printable(&stem.to_string_lossy());
+    let documents = product::export_input(&result, &title, &run)?;
+    let mut files = Vec::new();
+    for target in targets {
+        for file in target.format.write(&documents)? {
+            files.push((output::with_suffix(&target.path, &file.suffix), file.bytes));
+        }
+    }
+    if let Some(path) = &args.segments {
+        files.push((path.clone(), segments(&result, &input.repairs)));
+    }
+    output::write(&files)?;
+    if !args.quiet {
+        summarise(&result, &files);
+    }
+    Ok(())
+}
+
+/// The input's name with the first format's extension, in the working directory.
+fn default_output(input: &Path) -> PathBuf {
+    let stem = input.file_stem().unwrap_or("model".as_ref());
+    let mut name = stem.to_owned();
+    name.push(".");
+    name.push(FORMATS[0].extensions[0]);
+    PathBuf::from(name)
+}
+
+/// What the repair found and did, as warnings.
+fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
+    let bodies = repairs.components.saturating_sub(1);
+    let counts = [
+        (
+            repairs.boundary_edges,
+            "open_edges",
+            "open edges",
+            "thickness near them is a guess",
+        ),
+        (
+            repairs.non_manifold_edges,
+            "non_manifold_edges",
+            "edges with more than two faces",
+            "components may be divided there",
+        ),
+        (
+            bodies,
+            "several_bodies",
+            "bodies besides the first",
+            "joined where they touch",
+        ),
+        (
+            repairs.degenerate_faces,
+            "degenerate_faces",
+            "faces without area",
+            "dropped",
+        ),
+        (
+            repairs.duplicate_faces,
+            "duplicate_faces",
+            "repeated faces",
+            "dropped",
+        ),
+        (
+            repairs.flipped_faces,
+            "flipped_faces",
+            "faces that faced inwards",
+            "turned",
+        ),
+    ];
+    counts
+        .iter()
+        .filter(|(count, ..)| *count > 0)
+        .map(|(count, code, what, effect)| Warning {
+            code,
+            message: format!("the mesh has {what}: {count} ({effect})"),
+        })
+        .collect()
+}
+
+fn warn(warning: &Warning) {
+    terminal::complain("warning", &warning.message);
+}
+
+/// One component index a line for each face of the input file, -1 for a dropped one.
+fn segments(result: &Output, repairs: &Repairs) -> Vec<u8> {
+    let mesh = result.mesh();
+    let of_input = mesh.labels_of_input(result.face_parts(), repairs.input_faces);
+    let line = |label: Option<u32>| match label {
+        Some(label) => format!("{label}\n"),
+        None => "-1\n".to_owned(),
+    };
+    let text: String = of_input.into_iter().map(line).collect();
+    text.into_bytes()
+}
+
+fn summarise(result: &Output, files: &[(PathBuf, Vec<u8>)]) {
+    let names: Vec<&str> = result
+        .model()
+        .parts()
+        .iter()
+        .map(|p| p.name.as_str())
+        .collect();
+    let pieces: usize = result.nets().iter().map(|net| net.pieces().len()).sum();
+    let layout = result.layout();
+    let written: Vec<String> = files
+        .iter()
+        .map(|(path, _)| path.display().to_string())
+        .collect();
+    terminal::say(&format!("size        {}", product::size_note(result)));
+    terminal::say(&format!(
+        "components  {}: {}",
+        names.len(),
+        names.join(", ")
+    ));
+    terminal::say(&format!("pieces      {pieces}"));
+    terminal::say(&format!(
+        "sheets      {} of {}, {:.0}% used",
+        layout.sheet_count(),
+        layout.options().paper.name(),
+        100.0 * layout.utilisation()
+    ));
+    terminal::say(&format!("written     {}", written.join(", ")));
+}

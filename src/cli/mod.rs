@@ -1,0 +1,89 @@
+//! The command line: parse, run, report, exit code. One file per subcommand.
+
+mod error;
+mod init;
+mod input;
+mod make;
+mod options;
+mod output;
+mod progress;
+mod terminal;
+
+use clap::{Parser, Subcommand};
+use error::CliError;
+use std::process::ExitCode;
+
+/// Exit code of work that was stopped by Ctrl-C, as shells have it (128 + SIGINT).
+const STOPPED: u8 = 130;
+
+/// Turns a 3D mesh into a paper model that folds flat.
+///
+/// A model consists of convex components that are glued together. Each of them folds flat by
+/// itself, so the finished model can be laid flat and stood up again.
+#[derive(Debug, Parser)]
+#[command(name = "tatamu", version, max_term_width = 100, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Make(make::MakeArgs),
+    Init(init::InitArgs),
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  tatamu make teddy.obj                     teddy.pdf, 200 mm high or wide, on A4
+  tatamu make teddy.obj --size 30cm --paper a3 -o teddy.pdf -o teddy.svg
+  tatamu init teddy.obj                     teddy.toml, a project file to edit
+  tatamu make teddy.toml                    makes what the project file says
+
+\"tatamu make --help\" explains every option.";
+
+/// Runs the program.
+pub fn run() -> ExitCode {
+    let cli = Cli::parse();
+    let result = match &cli.command {
+        Command::Make(args) => make::run(args),
+        Command::Init(args) => init::run(args),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(CliError::Cancelled(cancelled)) => {
+            terminal::complain("tatamu", &cancelled.to_string());
+            ExitCode::from(STOPPED)
+        }
+        Err(error) => {
+            terminal::complain("error", &error.to_string());
+            ExitCode::FAILURE
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_definition_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn every_option_is_explained() {
+        for command in Cli::command().get_subcommands() {
+            for argument in command.get_arguments() {
+                let help = argument.get_help().map(ToString::to_string);
+                let id = argument.get_id();
+                assert!(
+                    help.is_some_and(|h| h.len() > 10),
+                    "{} {id}",
+                    command.get_name()
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,188 @@
+//! The options that shape a model: flags first, then the project file, then the defaults.
+
+use super::error::CliError;
+use super::input::Input;
+use clap::Args;
+use tatamu::mesh::Up;
+use tatamu::pipeline::{ComponentOptions, Options};
+use tatamu::project::{check_count, check_degrees, check_parts, parse_up};
+use tatamu::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};
+
+/// Options of the model.
+#[derive(Debug, Clone, Args)]
+pub struct ModelArgs {
+    /// Axis of the mesh that points up: x, y or z [default: y]
+    ///
+    /// The model is turned so that this axis points upwards. Example: --up z
+    #[arg(long, value_name = "AXIS", value_parser = parse_up)]
+    up: Option<Up>,
+
+    /// Longest side of the model's bounding box [default: 200mm]
+    ///
+    /// A number with mm, cm, m or in; mm without a unit. Example: --size 30cm
+    #[arg(long, value_name = "LENGTH", value_parser = parse_length_mm)]
+    size: Option<f64>,
+
+    /// Number of components to aim at [default: the shape decides]
+    ///
+    /// The mesh is cut where it narrows. A small number gives a rough and quick model.
+    /// Example: --parts 6
+    #[arg(long, value_name = "N", value_parser = parts)]
+    parts: Option<usize>,
+
+    /// Direction in which a component folds, in degrees [default: searched for]
+    ///
+    /// The angle of the fold axis about the component's longest axis. May be given once for each
+    /// component; the summary and the report name the components.
+    /// Example: --direction head=90 --direction body=-15
+    #[arg(long, value_name = "NAME=DEGREES", value_parser = direction)]
+    direction: Vec<(String, f64)>,
+
+    /// Edges of each component's top panel, 3 or more [default: 6]
+    ///
+    /// More edges follow the shape better; fewer fold faster. Example: --top-edges 8
+    #[arg(long, value_name = "N", value_parser = count)]
+    top_edges: Option<usize>,
+
+    /// Vertices of each profile at most, 3 or more [default: 6]
+    ///
+    /// A profile is the outline of a strip of side panels. More vertices follow the shape better;
+    /// fewer fold faster. Example: --profile-vertices 4
+    #[arg(long, value_name = "N", value_parser = count)]
+    profile_vertices: Option<usize>,
+
+    /// Least width and height of a panel [default: 3mm]
+    ///
+    /// What is narrower cannot be folded by hand. Where the shape leaves no choice, a warning
+    /// names the panel. Example: --min-panel-width 4mm
+    #[arg(long, value_name = "LENGTH", value_parser = parse_length_mm)]
+    min_panel_width: Option<f64>,
+
+    /// Width of the glue tabs [default: 6mm]
+    ///
+    /// Tabs become narrower where there is no room. Example: --tab-width 8mm
+    #[arg(long, value_name = "LENGTH", value_parser = parse_length_mm)]
+    tab_width: Option<f64>,
+
+    /// Size of the sheets: a4, a3, a5, letter, legal or WIDTHxHEIGHT [default: a4]
+    ///
+    /// Width and height in mm, or with cm or in. Example: --paper 210x297mm, --paper 12x12in
+    #[arg(long, value_name = "SIZE", value_parser = parse_paper)]
+    paper: Option<Paper>,
+
+    /// Border of each sheet that stays free [default: 10mm]
+    ///
+    /// Most printers cannot print the outermost 5 mm. Example: --margin 5mm
+    #[arg(long, value_name = "LENGTH", value_parser = parse_length_or_zero_mm)]
+    margin: Option<f64>,
+}
+
+fn number(text: &str) -> Result<u64, String> {
+    let message = |_| "this must be a whole number such as 6".to_owned();
+    text.trim().parse().map_err(message)
+}
+
+fn count(text: &str) -> Result<usize, String> {
+    number(text).and_then(check_count)
+}
+
+fn parts(text: &str) -> Result<usize, String> {
+    number(text).and_then(check_parts)
+}
+
+fn direction(text: &str) -> Result<(String, f64), String> {
+    let message = "write the component's name and the angle, such as head=90";
+    let (name, degrees) = text.rsplit_once('=').ok_or(message)?;
+    let degrees = degrees.trim().parse().map_err(|_| message)?;
+    if name.trim().is_empty() {
+        return Err(message.to_owned());
+    }
+    Ok((name.trim().to_owned(), check_degrees(degrees)?))
+}
+
+impl ModelArgs {
+    /// The options for an input.
+    pub fn merge(&self, input: &Input) -> Result<Options, CliError> {
+        let mut options = Options::default();
+        self.merge_project(input, &mut options);
+        let set = |slot: &mut f64, value: Option<f64>| *slot = value.unwrap_or(*slot);
+        set(&mut options.size_mm, self.size);
+        set(&mut options.min_panel_width_mm, self.min_panel_width);
+        set(&mut options.tab_width_mm, self.tab_width);
+        set(&mut options.margin_mm, self.margin);
+        options.up = self.up.unwrap_or(options.up);
+        options.parts = self.parts.or(options.parts);
+        options.top_edges = self.top_edges.unwrap_or(options.top_edges);
+        options.profile_vertices = self.profile_vertices.unwrap_or(options.profile_vertices);
+        options.paper = self.paper.unwrap_or(options.paper);
+        if self.top_edges.is_some() || self.profile_vertices.is_some() {
+            for component in options.components.values_mut() {
+                // A flag holds for all components.
+                component.top_edges = component.top_edges.filter(|_| self.top_edges.is_none());
+                let keeps = self.profile_vertices.is_none();
+                component.profile_vertices = component.profile_vertices.filter(|_| keeps);
+            }
+        }
+        for (name, degrees) in &self.direction {
+            let component = options.components.entry(name.clone()).or_default();
+            component.direction_rad = Some(degrees.to_radians());
+        }
+        check_margin(&options)?;
+        Ok(options)
+    }
+
+    fn merge_project(&self, input: &Input, options: &mut Options) {
+        let Some(project) = &input.project else {
+            return;
+        };
+        let defaults = &project.defaults;
+        let set = |slot: &mut f64, value: Option<f64>| *slot = value.unwrap_or(*slot);
+        set(&mut options.size_mm, project.size_mm);
+        set(&mut options.min_panel_width_mm, defaults.min_panel_width_mm);
+        set(&mut options.tab_width_mm, defaults.tab_width_mm);
+        set(&mut options.margin_mm, project.paper.margin_mm);
+        options.up = project.up.unwrap_or(options.up);
+        options.parts = project.segmentation.parts;
+        options.top_edges = defaults.top_edges.unwrap_or(options.top_edges);
+        let vertices = defaults.profile_vertices;
+        options.profile_vertices = vertices.unwrap_or(options.profile_vertices);
+        options.paper = project.paper.size.unwrap_or(options.paper);
+        for component in &project.components {
+            let choice = ComponentOptions {
+                rename: component.rename.clone(),
+                direction_rad: component.direction_deg.map(f64::to_radians),
+                top_edges: component.top_edges,
+                profile_vertices: component.profile_vertices,
+            };
+            options.components.insert(component.name.clone(), choice);
+        }
+    }
+}
+
+fn check_margin(options: &Options) -> Result<(), CliError> {
+    let paper = options.paper;
+    let shorter_mm = paper.width_mm().min(paper.height_mm());
+    if 2.0 * options.margin_mm < shorter_mm {
+        return Ok(());
+    }
+    Err(CliError::Options(format!(
+        "margins of {} mm leave no room on paper {}; choose less than {} mm",
+        options.margin_mm,
+        paper.name(),
+        shorter_mm / 2.0
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions() {
+        assert_eq!(direction("head=90"), Ok(("head".to_owned(), 90.0)));
+        assert_eq!(direction("a=b = -1.5"), Ok(("a=b".to_owned(), -1.5)));
+        for text in ["head", "=90", "head=", "head=x", "head=nan", "head=1e9"] {
+            assert!(direction(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Writing files: all of them, or none.
+
+use super::error::{CliError, reason};
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use tatamu::export::{FORMATS, Format, format_of};
+use tempfile::NamedTempFile;
+
+/// A file name that the user gave, with its format.
+pub struct Target {
+    /// The name.
+    pub path: PathBuf,
+    /// The format that its extension stands for.
+    pub format: &'static Format,
+}
+
+/// The extensions of all formats, for messages: `.pdf, .svg`.
+pub fn known_extensions() -> String {
+    let extensions = FORMATS.iter().flat_map(|format| format.extensions);
+    let dotted: Vec<String> = extensions.map(|e| format!(".{e}")).collect();
+    dotted.join(", ")
+}
+
+/// Finds the format of each name, and checks before any work that a file can be written there and
+/// that none of `inputs` would be lost.
+pub fn targets(paths: &[PathBuf], inputs: &[&Path]) -> Result<Vec<Target>, CliError> {
+    let target = |path: &PathBuf| -> Result<Target, CliError> {
+        let extension = path.extension().unwrap_or_default().to_string_lossy();
+        let format = format_of(&extension).ok_or_else(|| CliError::Extension {
+            path: path.clone(),
+            known: known_extensions(),
+        })?;
+        Ok(Target {
+            path: path.clone(),
+            format,
+        })
+    };
+    let targets = paths.iter().map(target).collect::<Result<_, _>>()?;
+    check_places(paths, inputs)?;
+    Ok(targets)
+}
+
+/// Checks that files can be written under these names, that no name comes twice, and that none
+/// of `inputs` would be lost.
+pub fn check_places(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), CliError> {
+    let mut seen: BTreeSet<&Path> = BTreeSet::new();
+    for path in paths {
+        let refuse = |reason: &str| CliError::Output {
+            path: path.clone(),
+            reason: reason.to_owned(),
+        };
+        if path.is_dir() {
+            return Err(refuse("it is a folder; add a file name"));
+        }
+        if inputs.iter().any(|input| is_same_file(input, path)) {
+            return Err(refuse("it is the input; choose another name"));
+        }
+        if !seen.insert(path) {
+            return Err(refuse("it is asked for twice; choose another name"));
+        }
+        temporary(path)?;
+    }
+    Ok(())
+}
+
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    }
+}
+
+/// Writes all files to temporary files beside their places, then puts them into place. An error
+/// up to the last step leaves everything as it was.
+pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), CliError> {
+    let mut ready = Vec::with_capacity(files.len());
+    for (path, bytes) in files {
+        let mut file = temporary(path)?;
+        let written = file.write_all(bytes).and_then(|()| file.flush());
+        written.map_err(|error| failed(path, &error))?;
+        ready.push((path, file));
+    }
+    for (path, file) in ready {
+        file.persist(path)
+            .map_err(|error| failed(path, &error.error))?;
+    }
+    Ok(())
+}
+
+/// A temporary file in the folder of `path`; it vanishes unless it is put into place.
+fn temporary(path: &Path) -> Result<NamedTempFile, CliError> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".tatamu-");
+    #[cfg(unix)]
+    {
+        // The permissions of any new file, less what the user's umask takes away.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder
+        .tempfile_in(folder)
+        .map_err(|error| failed(path, &error))
+}
+
+fn failed(path: &Path, error: &std::io::Error) -> CliError {
+    CliError::Output {
+        path: path.to_owned(),
+        reason: reason(error),
+    }
+}
+
+/// A name with something between its stem and its extension: `a.svg` and `-2` give `a-2.svg`.
+pub fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(suffix);
+    if let Some(extension) = path.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    path.with_file_name(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_suffix_stands_before_the_extension() {
+        assert_eq!(
+            with_suffix(Path::new("x/a.b.svg"), "-2"),
+            Path::new("x/a.b-2.svg")
+        );
+        assert_eq!(with_suffix(Path::new("a.svg"), ""), Path::new("a.svg"));
+    }
+
+    #[test]
+    fn all_files_or_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let good = folder.path().join("good.txt");
+        std::fs::write(&good, "old").unwrap();
+        let bad = folder.path().join("missing").join("bad.txt");
+        let files = [(good.clone(), b"new".to_vec()), (bad, Vec::new())];
+        assert!(write(&files).is_err());
+        assert_eq!(std::fs::read(&good).unwrap(), b"old");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        write(&files[..1]).unwrap();
+        assert_eq!(std::fs::read(&good).unwrap(), b"new");
+    }
+}

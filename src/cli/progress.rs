@@ -1,0 +1,102 @@
+//! The progress bar, and Ctrl-C.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::IsTerminal;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, OnceLock};
+use std::time::{Duration, Instant};
+use tatamu::progress::Progress;
+
+/// Work that takes less time shows no bar.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Steps of the bar.
+const STEPS: u64 = 1000;
+
+static IS_CANCELLED: AtomicBool = AtomicBool::new(false);
+
+/// Shows progress on the standard error output, if that is a terminal and the work takes long.
+pub struct TerminalProgress {
+    start: Instant,
+    is_shown: bool,
+    stages: Mutex<Vec<(&'static str, Instant)>>,
+    bar: OnceLock<ProgressBar>,
+}
+
+impl TerminalProgress {
+    /// Begins to listen for Ctrl-C, which from now on asks the work to stop; the second time it
+    /// ends the program at once.
+    pub fn new(is_quiet: bool) -> Self {
+        // Fails only where a handler is set already, which then stays in force.
+        let _ = ctrlc::set_handler(|| {
+            if IS_CANCELLED.swap(true, Ordering::SeqCst) {
+                std::process::exit(i32::from(super::STOPPED));
+            }
+        });
+        Self {
+            start: Instant::now(),
+            is_shown: !is_quiet && std::io::stderr().is_terminal(),
+            stages: Mutex::new(Vec::new()),
+            bar: OnceLock::new(),
+        }
+    }
+
+    /// Takes the bar away, and gives the name and duration of each stage, in seconds.
+    pub fn finish(&self) -> Vec<(&'static str, f64)> {
+        if let Some(bar) = self.bar.get() {
+            bar.finish_and_clear();
+        }
+        let mut starts = self.stages.lock().map(|s| s.clone()).unwrap_or_default();
+        starts.push(("", Instant::now()));
+        let seconds = |pair: &[(&'static str, Instant)]| (pair[1].1 - pair[0].1).as_secs_f64();
+        starts
+            .windows(2)
+            .map(|pair| (pair[0].0, seconds(pair)))
+            .collect()
+    }
+
+    fn bar(&self) -> Option<&ProgressBar> {
+        let is_due = self.is_shown && self.start.elapsed() >= PATIENCE;
+        is_due.then(|| {
+            self.bar.get_or_init(|| {
+                let bar = ProgressBar::new(STEPS);
+                if let Ok(style) = ProgressStyle::with_template("{spinner} {bar:30} {msg}") {
+                    bar.set_style(style);
+                }
+                let name = self.stages.lock().ok();
+                let name = name.and_then(|stages| stages.last().map(|stage| stage.0));
+                bar.set_message(name.unwrap_or_default());
+                bar.enable_steady_tick(Duration::from_millis(120));
+                bar
+            })
+        })
+    }
+}
+
+impl Progress for TerminalProgress {
+    fn stage(&self, name: &'static str) {
+        if let Ok(mut stages) = self.stages.lock() {
+            stages.push((name, Instant::now()));
+        }
+        if let Some(bar) = self.bar() {
+            bar.set_message(name);
+            bar.set_position(0);
+        }
+    }
+
+    fn fraction(&self, done: f64) {
+        if let Some(bar) = self.bar() {
+            bar.set_position((done.clamp(0.0, 1.0) * STEPS as f64) as u64);
+        }
+    }
+
+    fn is_cancelled(&self) -> bool {
+        IS_CANCELLED.load(Ordering::SeqCst)
+    }
+}
+
+impl Drop for TerminalProgress {
+    fn drop(&mut self) {
+        self.finish();
+    }
+}
