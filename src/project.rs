@@ -211,9 +211,7 @@ impl<T> Visitor<'_> for Value<T> {
     }
 
     fn visit_f64<E: Error>(self, value: f64) -> Result<Option<T>, E> {
-        (self.check)(Raw::Number(value))
-            .map(Some)
-            .map_err(E::custom)
+        (self.check)(Raw::Number(value)).map(Some).map_err(E::custom)
     }
 
     fn visit_str<E: Error>(self, value: &str) -> Result<Option<T>, E> {
@@ -295,9 +293,7 @@ fn name<'de, D: Deserializer<'de>>(d: D) -> Result<String, D::Error> {
     let name = String::deserialize(d)?;
     let is_usable = !name.trim().is_empty() && !name.contains(char::is_control);
     let message = "a component's name has at least one letter and no control characters";
-    is_usable
-        .then_some(name)
-        .ok_or_else(|| D::Error::custom(message))
+    is_usable.then_some(name).ok_or_else(|| D::Error::custom(message))
 }
 
 /// What `init` writes into a fresh project file.
@@ -440,10 +436,7 @@ profile_vertices = 4
     #[test]
     fn a_full_file() {
         let project = Project::parse(FULL).unwrap();
-        assert_eq!(
-            (project.mesh.as_str(), project.up),
-            ("teddy.obj", Some(Up::Y))
-        );
+        assert_eq!((project.mesh.as_str(), project.up), ("teddy.obj", Some(Up::Y)));
         assert!((project.size_mm.unwrap() - 203.2).abs() < 1e-9);
         assert_eq!(project.segmentation.parts, Some(6));
         assert_eq!(project.defaults.min_panel_width_mm, Some(2.5));
@@ -464,45 +457,20 @@ profile_vertices = 4
     #[test]
     fn errors_name_line_and_column_and_what_is_accepted() {
         for (from, to, place, word) in [
-            (
-                "parts = 6",
-                "partz = 6",
-                "line 6, column 1",
-                "expected `parts`",
-            ),
+            ("parts = 6", "partz = 6", "line 6, column 1", "expected `parts`"),
             ("size = \"8in\"", "sise = 3", "line 4, column 1", "`size`"),
             ("\"8in\"", "\"8 feet\"", "line 4, column 8", "200mm"),
             ("\"8in\"", "0", "line 4, column 8", "more than 0"),
             ("\"8in\"", "nan", "line 4, column 8", "more than 0"),
             ("\"8in\"", "[1]", "line 4, column 8", "expected a length"),
             ("\"Y\"", "\"w\"", "line 3, column 6", "x, y, z"),
-            (
-                "parts = 6",
-                "parts = 0",
-                "line 6, column 9",
-                "from 1 to 200",
-            ),
-            (
-                "top_edges = 8",
-                "top_edges = 2",
-                "line 8, column 13",
-                "from 3 to 64",
-            ),
-            (
-                "top_edges = 8",
-                "top_edges = 3.5",
-                "line 8, column 13",
-                "whole number",
-            ),
+            ("parts = 6", "parts = 0", "line 6, column 9", "from 1 to 200"),
+            ("top_edges = 8", "top_edges = 2", "line 8, column 13", "from 3 to 64"),
+            ("top_edges = 8", "top_edges = 3.5", "line 8, column 13", "whole number"),
             ("= -30", "= inf", "line 17, column 13", "degrees"),
             ("= -30", "= '30'", "line 17, column 13", "degrees"),
             ("\"letter\"", "\"a9\"", "line 13, column 8", "8.5x11in"),
-            (
-                "margin_mm = 0",
-                "margin_mm = -1",
-                "line 14, column 13",
-                "more than 0",
-            ),
+            ("margin_mm = 0", "margin_mm = -1", "line 14, column 13", "more than 0"),
             ("\"head\"", "\"\"", "line 19, column 8", "name"),
         ] {
             let text = FULL.replacen(from, to, 1);
@@ -510,20 +478,13 @@ profile_vertices = 4
             assert!(message.contains(place), "{to}: {message}");
             assert!(message.contains(word), "{to}: {message}");
         }
-        assert!(
-            Project::parse("size = 3")
-                .unwrap_err()
-                .to_string()
-                .contains("mesh")
-        );
+        assert!(Project::parse("size = 3").unwrap_err().to_string().contains("mesh"));
     }
 
     #[test]
     fn names_are_different() {
         let text = FULL.replace("\"head\"", "\"body\"");
-        let error = ProjectError::SameName {
-            name: "body".to_owned(),
-        };
+        let error = ProjectError::SameName { name: "body".to_owned() };
         assert_eq!(Project::parse(&text), Err(error));
     }
 
@@ -550,22 +511,14 @@ profile_vertices = 4
         };
         let text = to_toml(&template);
         let project = Project::parse(&text).unwrap();
-        assert_eq!(
-            (project.mesh.as_str(), project.up),
-            (template.mesh, Some(Up::X))
-        );
-        assert_eq!(
-            (project.size_mm, project.paper.margin_mm),
-            (Some(123.5), Some(0.0))
-        );
+        assert_eq!((project.mesh.as_str(), project.up), (template.mesh, Some(Up::X)));
+        assert_eq!((project.size_mm, project.paper.margin_mm), (Some(123.5), Some(0.0)));
         assert_eq!(project.paper.size, Some(template.paper));
         assert_eq!(project.defaults.tab_width_mm, Some(6.5));
         assert_eq!(project.components[1].name, "he\"ad");
         assert_eq!(project.components[0].direction_deg, None);
         assert_eq!(project.components[1].direction_deg, Some(12.3));
-        let uncommented = text
-            .replace("# direction =", "direction =")
-            .replace("# parts", "parts");
+        let uncommented = text.replace("# direction =", "direction =").replace("# parts", "parts");
         let project = Project::parse(&uncommented.replace("# top_e", "top_e")).unwrap();
         assert_eq!(project.components[0].direction_deg, Some(12.3));
         assert_eq!(project.components[0].top_edges, Some(7));

@@ -13,11 +13,7 @@ struct Run {
 
 fn run(folder: &Path, arguments: &[&str]) -> Run {
     let mut command = assert_cmd::cargo::cargo_bin_cmd!("tatamu");
-    let result = command
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .unwrap();
+    let result = command.current_dir(folder).args(arguments).output().unwrap();
     Run {
         code: result.status.code(),
         out: String::from_utf8(result.stdout).unwrap(),
@@ -35,9 +31,8 @@ fn folder_with(files: &[(&str, &[u8])]) -> TempDir {
 
 fn names(folder: &TempDir) -> Vec<String> {
     let entries = std::fs::read_dir(folder.path()).unwrap();
-    let mut names: Vec<String> = entries
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
     names
 }
@@ -57,25 +52,16 @@ fn assert_refused(files: &[(&str, &[u8])], arguments: &[&str], words: &[&str]) {
     assert_eq!(names(&folder), before);
 }
 
-const TETRAHEDRON: &str =
-    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
 #[test]
 fn a_missing_file() {
-    assert_refused(
-        &[],
-        &["make", "gone.obj"],
-        &["cannot read gone.obj", "no such file"],
-    );
+    assert_refused(&[], &["make", "gone.obj"], &["cannot read gone.obj", "no such file"]);
 }
 
 #[test]
 fn an_empty_file() {
-    assert_refused(
-        &[("a.obj", b"")],
-        &["make", "a.obj"],
-        &["a.obj", "is empty"],
-    );
+    assert_refused(&[("a.obj", b"")], &["make", "a.obj"], &["a.obj", "is empty"]);
 }
 
 #[test]
@@ -86,11 +72,7 @@ fn a_folder_as_input() {
 #[test]
 fn text_named_stl() {
     let text = b"Dear reader, this is no mesh at all.";
-    assert_refused(
-        &[("a.stl", text)],
-        &["make", "a.stl"],
-        &["a.stl", "Dear reader", "STL"],
-    );
+    assert_refused(&[("a.stl", text)], &["make", "a.stl"], &["a.stl", "Dear reader", "STL"]);
 }
 
 #[test]
@@ -114,17 +96,12 @@ fn coordinates_that_are_no_numbers() {
 fn indices_out_of_range() {
     let text = TETRAHEDRON.replace("f 2 3 4", "f 2 3 5");
     let files: [(&str, &[u8]); 1] = [("a.obj", text.as_bytes())];
-    assert_refused(
-        &files,
-        &["make", "a.obj"],
-        &["line 7", "vertex 5", "4 vertices, 1 to 4"],
-    );
+    assert_refused(&files, &["make", "a.obj"], &["line 7", "vertex 5", "4 vertices, 1 to 4"]);
 }
 
 #[test]
 fn a_planar_mesh() {
-    let text =
-        b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+    let text = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
     assert_refused(&[("a.obj", text)], &["make", "a.obj"], &["a.obj", "flat"]);
 }
 
@@ -156,22 +133,14 @@ fn a_size_of_zero() {
 fn an_unknown_extension_is_refused_before_any_work() {
     let words = ["a.doc", ".json"];
     assert_refused(&[], &["make", "gone.obj", "-o", "a.doc"], &words);
-    assert_refused(
-        &[],
-        &["make", "gone.obj", "-o", "a.json", "-o", "json"],
-        &["json by its"],
-    );
+    assert_refused(&[], &["make", "gone.obj", "-o", "a.json", "-o", "json"], &["json by its"]);
 }
 
 #[test]
 fn places_that_cannot_be_written() {
     let files: [(&str, &[u8]); 1] = [("a.obj", TETRAHEDRON.as_bytes())];
     let make = |output: &str, word: &str| {
-        assert_refused(
-            &files,
-            &["make", "a.obj", "-o", output],
-            &["cannot write", word],
-        );
+        assert_refused(&files, &["make", "a.obj", "-o", output], &["cannot write", word]);
     };
     make("gone/a.json", "no such file or folder");
     assert_refused(
@@ -206,17 +175,9 @@ fn a_wrong_key_in_a_project_file_is_shown_with_its_line() {
     let folder = folder_with(&[("a.obj", TETRAHEDRON.as_bytes()), ("a.toml", project)]);
     let result = run(folder.path(), &["make", "a.toml", "-o", "a.json"]);
     assert_eq!(result.code, Some(1));
-    assert!(
-        result.err.starts_with("error: project file a.toml: "),
-        "{}",
-        result.err
-    );
+    assert!(result.err.starts_with("error: project file a.toml: "), "{}", result.err);
     for words in ["line 4, column 1", "sise = 'a4'", "`size`", "`margin_mm`"] {
-        assert!(
-            result.err.contains(words),
-            "no {words:?} in: {}",
-            result.err
-        );
+        assert!(result.err.contains(words), "no {words:?} in: {}", result.err);
     }
     assert_eq!(result.err.matches("error").count(), 2, "{}", result.err);
     assert_eq!(names(&folder), ["a.obj", "a.toml"]);
@@ -225,19 +186,12 @@ fn a_wrong_key_in_a_project_file_is_shown_with_its_line() {
 #[test]
 fn a_project_whose_mesh_is_missing() {
     let files: [(&str, &[u8]); 1] = [("a.toml", b"mesh = 'gone.obj'")];
-    assert_refused(
-        &files,
-        &["make", "a.toml", "-o", "a.json"],
-        &["gone.obj", "no such file"],
-    );
+    assert_refused(&files, &["make", "a.toml", "-o", "a.json"], &["gone.obj", "no such file"]);
 }
 
 #[test]
 fn names_cannot_steer_the_terminal() {
-    let result = run(
-        tempfile::tempdir().unwrap().path(),
-        &["make", "a\x1b[31m.obj"],
-    );
+    let result = run(tempfile::tempdir().unwrap().path(), &["make", "a\x1b[31m.obj"]);
     assert!(!result.err.contains('\x1b'), "{:?}", result.err);
 }
 
@@ -249,11 +203,7 @@ fn every_cube_is_made_and_segments_have_a_line_for_each_face() {
         let arguments = [&["make", "cube.data", "--size", "60"][..], &outputs].concat();
         let result = run(folder.path(), &arguments);
         assert_eq!(result.code, Some(0), "{name}: {}", result.err);
-        assert!(
-            !result.err.contains("the mesh has"),
-            "{name}: {}",
-            result.err
-        );
+        assert!(!result.err.contains("the mesh has"), "{name}: {}", result.err);
         assert_eq!(names(&folder), ["a.json", "a.seg", "cube.data"]);
         let segments = std::fs::read_to_string(folder.path().join("a.seg")).unwrap();
         assert_eq!(segments, "0\n".repeat(12));
@@ -269,10 +219,7 @@ fn report(folder: &TempDir, name: &str) -> serde_json::Value {
 }
 
 fn assert_near(found: Option<f64>, expected: f64) {
-    assert!(
-        found.is_some_and(|x| (x - expected).abs() < 1e-9),
-        "{found:?}, not {expected}"
-    );
+    assert!(found.is_some_and(|x| (x - expected).abs() < 1e-9), "{found:?}, not {expected}");
 }
 
 #[test]
@@ -283,26 +230,16 @@ fn without_o_a_pdf_stands_in_the_working_directory() {
     let result = run(folder.path(), &["make", "meshes/cube.off", "--size", "60"]);
     assert_eq!(result.code, Some(0), "{}", result.err);
     assert_eq!(names(&folder), ["cube.pdf", "meshes"]);
-    assert!(
-        std::fs::read(folder.path().join("cube.pdf"))
-            .unwrap()
-            .starts_with(b"%PDF")
-    );
+    assert!(std::fs::read(folder.path().join("cube.pdf")).unwrap().starts_with(b"%PDF"));
     for words in ["components  1: body", "a4", "written     cube.pdf"] {
-        assert!(
-            result.out.contains(words),
-            "no {words:?} in: {}",
-            result.out
-        );
+        assert!(result.out.contains(words), "no {words:?} in: {}", result.out);
     }
 }
 
 #[test]
 fn one_svg_a_sheet() {
     let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
-    let arguments = [
-        "make", "cube.off", "--size", "60", "-o", "a.svg", "-o", "a.fold",
-    ];
+    let arguments = ["make", "cube.off", "--size", "60", "-o", "a.svg", "-o", "a.fold"];
     let result = run(folder.path(), &arguments);
     assert_eq!(result.code, Some(0), "{}", result.err);
     assert_eq!(names(&folder), ["a-1.svg", "a.fold", "cube.off"]);
@@ -315,24 +252,11 @@ fn what_does_not_fit_the_paper_is_refused_with_a_size_that_fits() {
     assert_refused(&files, &arguments, &["does not fit", "--size"]);
     let folder = folder_with(&files);
     let message = run(folder.path(), &arguments).err;
-    let size = message
-        .split("--size ")
-        .nth(1)
-        .unwrap()
-        .split(' ')
-        .next()
-        .unwrap();
-    assert_eq!(
-        std::fs::read(folder.path().join("cube.pdf")).unwrap(),
-        b"old"
-    );
+    let size = message.split("--size ").nth(1).unwrap().split(' ').next().unwrap();
+    assert_eq!(std::fs::read(folder.path().join("cube.pdf")).unwrap(), b"old");
     let result = run(folder.path(), &["make", "cube.off", "--size", size]);
     assert_eq!(result.code, Some(0), "{}", result.err);
-    assert!(
-        std::fs::read(folder.path().join("cube.pdf"))
-            .unwrap()
-            .starts_with(b"%PDF")
-    );
+    assert!(std::fs::read(folder.path().join("cube.pdf")).unwrap().starts_with(b"%PDF"));
 }
 
 #[test]
@@ -347,9 +271,7 @@ fn ctrl_c_stops_the_work_and_leaves_nothing() {
         .spawn()
         .unwrap();
     std::thread::sleep(std::time::Duration::from_secs(1));
-    let kill = std::process::Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
+    let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(kill.unwrap().success());
     let mut message = String::new();
     let mut stderr = child.stderr.take().unwrap();
@@ -364,12 +286,7 @@ fn quiet_says_nothing() {
     let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
     let arguments = ["make", "cube.off", "-q", "--size", "60", "-o", "a.json"];
     let result = run(folder.path(), &arguments);
-    assert_eq!(
-        (result.code, result.out.as_str()),
-        (Some(0), ""),
-        "{}",
-        result.err
-    );
+    assert_eq!((result.code, result.out.as_str()), (Some(0), ""), "{}", result.err);
 }
 
 #[test]
@@ -377,22 +294,10 @@ fn what_is_repaired_is_told_with_its_count() {
     let open = TETRAHEDRON.replace("f 2 3 4\n", "f 1 2 3\nf 1 1 2\n");
     let text = format!("{open}v 9 9 9\nv 8 9 9\nv 9 8 9\nv 9 9 8\nf 5 6 7\nf 5 8 6\n");
     let folder = folder_with(&[("a.obj", text.as_bytes())]);
-    let result = run(
-        folder.path(),
-        &["make", "a.obj", "-q", "--size", "100", "-o", "a.json"],
-    );
+    let result = run(folder.path(), &["make", "a.obj", "-q", "--size", "100", "-o", "a.json"]);
     assert_eq!(result.code, Some(0), "{}", result.err);
-    for words in [
-        "open edges: 7",
-        "bodies besides the first: 1",
-        "repeated faces: 1",
-        "without area: 1",
-    ] {
-        assert!(
-            result.err.contains(words),
-            "no {words:?} in: {}",
-            result.err
-        );
+    for words in ["open edges: 7", "bodies besides the first: 1", "repeated faces: 1", "without area: 1"] {
+        assert!(result.err.contains(words), "no {words:?} in: {}", result.err);
     }
 }
 
@@ -401,16 +306,7 @@ fn init_writes_a_project_that_make_honours() {
     let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
     std::fs::create_dir(folder.path().join("projects")).unwrap();
     for project in ["cube.toml", "projects/cube.toml"] {
-        let flags = [
-            "--size",
-            "50",
-            "--top-edges",
-            "5",
-            "--direction",
-            "body=30",
-            "-o",
-            project,
-        ];
+        let flags = ["--size", "50", "--top-edges", "5", "--direction", "body=30", "-o", project];
         let result = run(folder.path(), &[&["init", "cube.off"][..], &flags].concat());
         assert_eq!(result.code, Some(0), "{}", result.err);
 
@@ -434,10 +330,7 @@ fn init_keeps_an_existing_file() {
     let files: [(&str, &[u8]); 2] = [("cube.off", cube::OFF.as_bytes()), ("cube.toml", b"mine")];
     assert_refused(&files, &["init", "cube.off"], &["cube.toml", "--force"]);
     let folder = folder_with(&files);
-    let result = run(
-        folder.path(),
-        &["init", "cube.off", "--force", "-q", "--size", "60"],
-    );
+    let result = run(folder.path(), &["init", "cube.off", "--force", "-q", "--size", "60"]);
     assert_eq!(result.code, Some(0), "{}", result.err);
     let text = std::fs::read_to_string(folder.path().join("cube.toml")).unwrap();
     assert!(text.contains("mesh = \"cube.off\""));
@@ -448,15 +341,7 @@ fn help_is_a_document() {
     let folder = tempfile::tempdir().unwrap();
     let result = run(folder.path(), &["make", "--help"]);
     assert_eq!(result.code, Some(0));
-    for words in [
-        "--up",
-        "--size",
-        "--tab-width",
-        "default: 6mm",
-        "Example:",
-        ".json",
-        "Examples:",
-    ] {
+    for words in ["--up", "--size", "--tab-width", "default: 6mm", "Example:", ".json", "Examples:"] {
         assert!(result.out.contains(words), "no {words:?} in the help");
     }
 }

@@ -19,32 +19,15 @@ const SMALL: DVec2 = DVec2::new(85.0, 115.0);
 const HUGE: DVec2 = DVec2::new(5e3, 5e3);
 
 fn net_of(set: &PanelSet, sheet_mm: DVec2) -> Result<Net, NetError> {
-    let options = NetOptions {
-        tab_width_mm: 6.0,
-        sheet_mm,
-    };
-    develop(
-        set,
-        Naming {
-            name: "body",
-            prefix: "A",
-        },
-        &[],
-        &options,
-    )
+    let options = NetOptions { tab_width_mm: 6.0, sheet_mm };
+    develop(set, Naming { name: "body", prefix: "A" }, &[], &options)
 }
 
 /// The FOLD master of one component, its pieces side by side on one sheet each.
 fn master(set: &PanelSet, net: &Net) -> Vec<u8> {
-    let places: Vec<PiecePlace> = (0..net.pieces().len())
-        .map(|sheet| PiecePlace {
-            sheet,
-            place: DAffine2::from_angle(0.3),
-        })
-        .collect();
-    let offsets: Vec<DVec2> = (0..places.len())
-        .map(|k| DVec2::X * (k as f64 * 2e4))
-        .collect();
+    let places: Vec<PiecePlace> =
+        (0..net.pieces().len()).map(|sheet| PiecePlace { sheet, place: DAffine2::from_angle(0.3) }).collect();
+    let offsets: Vec<DVec2> = (0..places.len()).map(|k| DVec2::X * (k as f64 * 2e4)).collect();
     let deployed = DAffine3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7);
     let component = FoldComponent {
         name: "body",
@@ -54,11 +37,7 @@ fn master(set: &PanelSet, net: &Net) -> Vec<u8> {
         deployed: DAffine3::from_translation(DVec3::new(40.0, -7.0, 3.0)) * deployed,
         flat: deployed,
     };
-    let model = FoldModel {
-        title: "test",
-        components: &[component],
-        sheet_offsets: &offsets,
-    };
+    let model = FoldModel { title: "test", components: &[component], sheet_offsets: &offsets };
     fold::write(&model).expect("plain data can be written")
 }
 
@@ -74,17 +53,9 @@ fn assert_good(set: &PanelSet, net: &Net, sheet_mm: DVec2) {
 fn wall(radius: f64, height: f64, bulge: f64, centre: f64, heights: &[f64]) -> Vec<DVec2> {
     let at = |v: f64| {
         let x = (v - centre) / 1.05;
-        DVec2::new(
-            radius * (1.0 - bulge + bulge * (1.0 - x * x).max(0.0).sqrt()),
-            v * height,
-        )
+        DVec2::new(radius * (1.0 - bulge + bulge * (1.0 - x * x).max(0.0).sqrt()), v * height)
     };
-    let mut out: Vec<DVec2> = [1.0]
-        .iter()
-        .chain(heights)
-        .chain(&[0.0])
-        .map(|&v| at(v))
-        .collect();
+    let mut out: Vec<DVec2> = [1.0].iter().chain(heights).chain(&[0.0]).map(|&v| at(v)).collect();
     out.sort_by(|a, b| b.y.total_cmp(&a.y));
     out
 }
@@ -143,12 +114,7 @@ fn a_box_is_one_piece_with_three_tabs() {
     assert_eq!(net.pieces().len(), 1);
     let piece = &net.pieces()[0];
     assert_eq!((piece.panels().len(), piece.tabs().len()), (10, 3));
-    assert!(
-        piece
-            .tabs()
-            .iter()
-            .all(|t| !set.hinges()[t.hinge.0].is_fold)
-    );
+    assert!(piece.tabs().iter().all(|t| !set.hinges()[t.hinge.0].is_fold));
     assert!(net.warnings().is_empty(), "{:?}", net.warnings());
     // 2 of 12 edges of each kind stay joined at each end; 4 fold hinges.
     let paper: f64 = polygon::area(piece.outline());
@@ -204,31 +170,17 @@ fn joint_marks_lie_on_their_panel_with_their_text() {
         key: DVec2::new(30.0, 0.0),
         text: "head".into(),
     };
-    let options = NetOptions {
-        tab_width_mm: 6.0,
-        sheet_mm: A4,
-    };
-    let naming = Naming {
-        name: "body",
-        prefix: "B",
-    };
+    let options = NetOptions { tab_width_mm: 6.0, sheet_mm: A4 };
+    let naming = Naming { name: "body", prefix: "B" };
     let net = develop(&set, naming, &[mark], &options).expect("a net");
     assert!(faults(&set, &net, A4).is_empty());
     let piece = &net.pieces()[0];
     let joint = &piece.joints()[0];
     // Cut off at the panel's edge, 30 mm from its middle.
     assert!((polygon::area(&joint.outline) - 45.0 * 20.0).abs() < 1e-6);
-    let place = piece
-        .panels()
-        .iter()
-        .find(|p| p.panel == PanelId(0))
-        .expect("on the piece")
-        .place;
+    let place = piece.panels().iter().find(|p| p.panel == PanelId(0)).expect("on the piece").place;
     assert!(joint.key[0].distance(place.transform_point2(DVec2::new(30.0, 0.0))) < 1e-9);
-    assert_eq!(
-        piece.labels().iter().filter(|l| l.text == "head").count(),
-        1
-    );
+    assert_eq!(piece.labels().iter().filter(|l| l.text == "head").count(), 1);
     assert!(piece.unplaced_labels().is_empty());
 }
 
@@ -237,33 +189,17 @@ fn every_cut_and_crease_is_drawn_once() {
     let set = Prism::regular(6, &[(20.0, 60.0), (30.0, 30.0), (20.0, 0.0)]).panel_set();
     let net = net_of(&set, A4).expect("a net");
     let piece = &net.pieces()[0];
-    let stroke = |_: Layer| Stroke {
-        width_mm: 0.2,
-        colour: Rgb(0, 0, 0),
-        dash_mm: Vec::new(),
-    };
+    let stroke = |_: Layer| Stroke { width_mm: 0.2, colour: Rgb(0, 0, 0), dash_mm: Vec::new() };
     let length = |layers: &[Layer]| -> f64 {
         let marks = piece.marks(MarkOptions::default(), stroke);
-        let paths = marks
-            .iter()
-            .filter(|m| layers.contains(&m.layer))
-            .map(|m| &m.shape);
+        let paths = marks.iter().filter(|m| layers.contains(&m.layer)).map(|m| &m.shape);
         paths
-            .map(|shape| {
-                if let Shape::Path { contours, .. } = shape {
-                    line_mm(&contours[0])
-                } else {
-                    0.0
-                }
-            })
+            .map(|shape| if let Shape::Path { contours, .. } = shape { line_mm(&contours[0]) } else { 0.0 })
             .sum()
     };
     let edges = |wanted: fn(&EdgeKind) -> bool| -> f64 {
         let edges = piece.mesh().edges().iter().filter(|e| wanted(&e.kind));
-        edges
-            .map(|e| piece.mesh().segment(e))
-            .map(|[a, b]| a.distance(b))
-            .sum()
+        edges.map(|e| piece.mesh().segment(e)).map(|[a, b]| a.distance(b)).sum()
     };
     let cut = edges(|k| matches!(k, EdgeKind::Border | EdgeKind::Slit | EdgeKind::Mate(_)));
     assert!((length(&[Layer::Cut, Layer::Slit]) - cut).abs() < 1e-6);
@@ -276,11 +212,7 @@ fn every_cut_and_crease_is_drawn_once() {
 fn line_mm(line: &Polyline) -> f64 {
     let open: f64 = line.points.windows(2).map(|w| w[0].distance(w[1])).sum();
     let last = line.points[line.points.len() - 1];
-    open + if line.is_closed {
-        last.distance(line.points[0])
-    } else {
-        0.0
-    }
+    open + if line.is_closed { last.distance(line.points[0]) } else { 0.0 }
 }
 
 /// What the checker says of a master after `spoil` changed it.
@@ -298,10 +230,7 @@ fn the_checker_finds_what_is_wrong() {
     let moved = spoilt(|f| f["file_frames"][0]["vertices_coords"][3][2] = 1e3.into());
     assert!(moved.stretch_mm > 1.0 && !moved.is_sound(1e-6));
     let thick = spoilt(|f| {
-        for v in f["file_frames"][1]["vertices_coords"]
-            .as_array_mut()
-            .expect("a list")
-        {
+        for v in f["file_frames"][1]["vertices_coords"].as_array_mut().expect("a list") {
             let x = v[0].as_f64().expect("a number");
             v[2] = (v[2].as_f64().expect("a number") + x * x * 1e-3).into();
         }
@@ -312,19 +241,10 @@ fn the_checker_finds_what_is_wrong() {
         *labels.iter_mut().find(|l| l.is_string()).expect("a label") = "Z9".into();
     });
     assert_eq!(label.unpaired_labels.len(), 2);
-    let clockwise = spoilt(|f| {
-        f["faces_vertices"][0]
-            .as_array_mut()
-            .expect("a list")
-            .reverse()
-    });
+    let clockwise = spoilt(|f| f["faces_vertices"][0].as_array_mut().expect("a list").reverse());
     assert_eq!(clockwise.clockwise_faces, [0]);
-    let angle = spoilt(|f| {
-        f["file_frames"][1]["edges_foldAngle"]
-            .as_array_mut()
-            .expect("a list")
-            .fill(30.into())
-    });
+    let angle =
+        spoilt(|f| f["file_frames"][1]["edges_foldAngle"].as_array_mut().expect("a list").fill(30.into()));
     assert!(angle.angle_error_rad > 0.5);
     let overlap = spoilt(|f| {
         let pattern = f["vertices_coords"].as_array_mut().expect("a list");
@@ -336,23 +256,14 @@ fn the_checker_finds_what_is_wrong() {
 
 #[test]
 fn files_that_are_no_masters_are_refused() {
-    assert!(matches!(
-        check::fold(b"solid"),
-        Err(check::FoldCheckError::Format(_))
-    ));
+    assert!(matches!(check::fold(b"solid"), Err(check::FoldCheckError::Format(_))));
     let set = Prism::cuboid(50.0, 40.0, 30.0).panel_set();
     let bytes = master(&set, &net_of(&set, A4).expect("a net"));
     let mut file: serde_json::Value = serde_json::from_slice(&bytes).expect("JSON");
     file["faces_vertices"][0][0] = 99_999.into();
     let found = check::fold(file.to_string().as_bytes());
-    assert!(matches!(
-        found,
-        Err(check::FoldCheckError::Index { index: 99_999, .. })
-    ));
-    file["edges_tatamu:kind"]
-        .as_array_mut()
-        .expect("a list")
-        .pop();
+    assert!(matches!(found, Err(check::FoldCheckError::Index { index: 99_999, .. })));
+    file["edges_tatamu:kind"].as_array_mut().expect("a list").pop();
     let found = check::fold(file.to_string().as_bytes());
     assert!(matches!(found, Err(check::FoldCheckError::Length { .. })));
 }

@@ -40,10 +40,7 @@ fn pixel(pixmap: &tiny_skia::Pixmap, at: DVec2) -> (Rgb, u8) {
     let place = at * DPI / 25.4;
     let (x, y) = (place.x as u32, pixmap.height() - 1 - place.y as u32);
     let colour = pixmap.pixel(x, y).expect("inside the picture").demultiply();
-    (
-        Rgb(colour.red(), colour.green(), colour.blue()),
-        colour.alpha(),
-    )
+    (Rgb(colour.red(), colour.green(), colour.blue()), colour.alpha())
 }
 
 #[test]
@@ -57,11 +54,7 @@ fn a_cube_shows_three_faces_in_their_colours() {
         let at = view.project(10.0 * normal);
         assert_eq!(pixel(&pixmap, at), (expected, 255), "face {face}");
     }
-    assert_eq!(
-        pixel(&pixmap, DVec2::new(1.0, 1.0)).1,
-        0,
-        "transparent ground"
-    );
+    assert_eq!(pixel(&pixmap, DVec2::new(1.0, 1.0)).1, 0, "transparent ground");
     let top = light::shaded(palette::colour(3), view.camera().direction(DVec3::Y));
     let Rgb(on_crease, ..) = pixel(&pixmap, view.project(DVec3::new(10.0, 10.0, 0.0))).0;
     assert!(on_crease < top.0, "creases are darker");
@@ -72,18 +65,13 @@ fn no_cracks_show_between_faces() {
     // Without lines, every pixel well inside the outline is opaque.
     let scene = cube();
     let view = view(&scene, 0.6, 0.5);
-    let look = Look {
-        crease_mm: 0.0,
-        outline_mm: 0.0,
-    };
+    let look = Look { crease_mm: 0.0, outline_mm: 0.0 };
     let pixmap = png::rasterise(&picture(&scene, &view, &look, None, Vec::new()), DPI).unwrap();
     for step in 0..=1000 {
         let along = 10.0 - 20.0 * f64::from(step) / 1000.0;
-        for point in [
-            DVec3::new(10.0, 10.0, along),
-            DVec3::new(along, 10.0, 10.0),
-            DVec3::new(10.0, along, 10.0),
-        ] {
+        for point in
+            [DVec3::new(10.0, 10.0, along), DVec3::new(along, 10.0, 10.0), DVec3::new(10.0, along, 10.0)]
+        {
             let inside = point.lerp(DVec3::new(10.0, 10.0, 10.0), 0.05);
             assert!(pixel(&pixmap, view.project(inside)).1 >= 250, "{point}");
         }
@@ -106,30 +94,17 @@ fn the_same_scene_gives_the_same_bytes() {
 #[test]
 fn dashes_and_holes_are_drawn() {
     let square = |low: f64, high: f64| Polyline {
-        points: [(low, low), (high, low), (high, high), (low, high)]
-            .map(DVec2::from)
-            .to_vec(),
+        points: [(low, low), (high, low), (high, high), (low, high)].map(DVec2::from).to_vec(),
         is_closed: true,
     };
     let mark = |contours, stroke, fill| Mark {
         layer: Layer::Cut,
         piece: None,
-        shape: Shape::Path {
-            contours,
-            stroke,
-            fill,
-        },
+        shape: Shape::Path { contours, stroke, fill },
     };
     let red = Rgb(255, 0, 0);
-    let dashed = Stroke {
-        width_mm: 2.0,
-        colour: red,
-        dash_mm: vec![4.0, 6.0],
-    };
-    let line = Polyline {
-        points: vec![DVec2::new(0.0, 40.0), DVec2::new(50.0, 40.0)],
-        is_closed: false,
-    };
+    let dashed = Stroke { width_mm: 2.0, colour: red, dash_mm: vec![4.0, 6.0] };
+    let line = Polyline { points: vec![DVec2::new(0.0, 40.0), DVec2::new(50.0, 40.0)], is_closed: false };
     let drawing = Drawing {
         title: String::new(),
         size_mm: SIZE,
@@ -142,14 +117,8 @@ fn dashes_and_holes_are_drawn() {
     let pixmap = png::rasterise(&drawing, DPI).unwrap();
     let at = |x, y| pixel(&pixmap, DVec2::new(x, y)).0;
     let white = Rgb(255, 255, 255);
-    assert_eq!(
-        [at(7.0, 7.0), at(15.0, 15.0), at(25.0, 25.0)],
-        [red, white, red]
-    );
-    assert_eq!(
-        [at(2.0, 40.0), at(7.0, 40.0), at(12.0, 40.0)],
-        [red, white, red]
-    );
+    assert_eq!([at(7.0, 7.0), at(15.0, 15.0), at(25.0, 25.0)], [red, white, red]);
+    assert_eq!([at(2.0, 40.0), at(7.0, 40.0), at(12.0, 40.0)], [red, white, red]);
     assert_eq!([at(2.0, 40.8), at(2.0, 41.2)], [red, white]);
 }
 
@@ -157,27 +126,19 @@ fn dashes_and_holes_are_drawn() {
 fn sizes_that_cannot_be_drawn_are_refused() {
     let drawing = drawn(&cube(), &view(&cube(), 0.0, 0.0));
     for dpi in [0.0, -96.0, f64::NAN, f64::INFINITY, 1e6] {
-        assert!(
-            matches!(png::render(&drawing, dpi), Err(png::PngError::Size { .. })),
-            "{dpi}"
-        );
+        assert!(matches!(png::render(&drawing, dpi), Err(png::PngError::Size { .. })), "{dpi}");
     }
 }
 
 #[test]
 fn letters_are_filled_at_their_place() {
     let ink = Rgb(10, 20, 30);
-    let text = Text::new("I", DVec2::new(30.0, 10.0), 20.0)
-        .aligned(Align::Middle)
-        .coloured(ink);
+    let text = Text::new("I", DVec2::new(30.0, 10.0), 20.0).aligned(Align::Middle).coloured(ink);
     let mut drawing = Drawing::new("letters", SIZE);
     drawing.ground = Some(Rgb(255, 255, 255));
     drawing.marks.push(Mark::text(Layer::Label, text));
     let pixmap = png::rasterise(&drawing, DPI).unwrap();
     let at = |x, y| pixel(&pixmap, DVec2::new(x, y)).0;
     assert_eq!([at(30.0, 10.5), at(30.0, 29.5)], [ink; 2]);
-    assert_eq!(
-        [at(30.0, 9.5), at(30.0, 30.5), at(20.0, 20.0)],
-        [Rgb(255, 255, 255); 3]
-    );
+    assert_eq!([at(30.0, 9.5), at(30.0, 30.5), at(20.0, 20.0)], [Rgb(255, 255, 255); 3]);
 }

@@ -66,9 +66,7 @@ impl FoldReport {
     /// metre's distance as much.
     pub fn is_sound(&self, tolerance_mm: f64) -> bool {
         self.faces > 0
-            && [self.stretch_mm, self.label_gap_mm, self.thickness_mm]
-                .iter()
-                .all(|x| *x <= tolerance_mm)
+            && [self.stretch_mm, self.label_gap_mm, self.thickness_mm].iter().all(|x| *x <= tolerance_mm)
             && self.angle_error_rad <= tolerance_mm
             && self.unpaired_labels.is_empty()
             && self.clockwise_faces.is_empty()
@@ -116,20 +114,12 @@ pub fn fold(bytes: &[u8]) -> Result<FoldReport, FoldCheckError> {
     let (label_gap_mm, unpaired_labels) = model.labels();
     let mut report = FoldReport {
         faces: model.master.faces_vertices.len(),
-        frames: model
-            .master
-            .file_frames
-            .iter()
-            .map(|f| f.frame_title.clone())
-            .collect(),
+        frames: model.master.file_frames.iter().map(|f| f.frame_title.clone()).collect(),
         stretch_mm: model.stretch(),
         label_gap_mm,
         unpaired_labels,
         overlaps: model.overlaps(),
-        thickness_mm: model
-            .frames
-            .last()
-            .map_or(0.0, |flat| model.thickness(flat)),
+        thickness_mm: model.frames.last().map_or(0.0, |flat| model.thickness(flat)),
         ..FoldReport::default()
     };
     let faces = 0..report.faces;
@@ -146,15 +136,7 @@ impl Model {
         let (edges, faces) = (master.edges_vertices.len(), master.faces_vertices.len());
         let length = |list: &str, found: usize, expected: usize| {
             let list = list.to_owned();
-            if found == expected {
-                Ok(())
-            } else {
-                Err(FoldCheckError::Length {
-                    list,
-                    found,
-                    expected,
-                })
-            }
+            if found == expected { Ok(()) } else { Err(FoldCheckError::Length { list, found, expected }) }
         };
         length("faces_tatamu:component", master.component.len(), faces)?;
         length("edges_tatamu:kind", master.edge_kind.len(), edges)?;
@@ -165,37 +147,21 @@ impl Model {
             length(&of("edges_foldAngle"), frame.fold_angle_deg.len(), edges)?;
         }
         let index = |list: &'static str, mut indices: Box<dyn Iterator<Item = usize> + '_>| {
-            indices.find(|&i| i >= count).map_or(Ok(()), |index| {
-                Err(FoldCheckError::Index { list, index, count })
-            })
+            indices
+                .find(|&i| i >= count)
+                .map_or(Ok(()), |index| Err(FoldCheckError::Index { list, index, count }))
         };
-        index(
-            "edges_vertices",
-            Box::new(master.edges_vertices.iter().flatten().copied()),
-        )?;
-        index(
-            "faces_vertices",
-            Box::new(master.faces_vertices.iter().flatten().copied()),
-        )?;
+        index("edges_vertices", Box::new(master.edges_vertices.iter().flatten().copied()))?;
+        index("faces_vertices", Box::new(master.faces_vertices.iter().flatten().copied()))?;
         let pattern = points(&master.vertices_coords)?;
-        let frames = master
-            .file_frames
-            .iter()
-            .map(|f| points(&f.vertices_coords))
-            .collect::<Result<_, _>>()?;
-        Ok(Self {
-            master,
-            pattern,
-            frames,
-        })
+        let frames =
+            master.file_frames.iter().map(|f| points(&f.vertices_coords)).collect::<Result<_, _>>()?;
+        Ok(Self { master, pattern, frames })
     }
 
     /// Corners of a face in the crease pattern.
     fn polygon(&self, face: usize) -> Vec<DVec2> {
-        self.master.faces_vertices[face]
-            .iter()
-            .map(|&v| self.pattern[v].truncate())
-            .collect()
+        self.master.faces_vertices[face].iter().map(|&v| self.pattern[v].truncate()).collect()
     }
 
     fn stretch(&self) -> f64 {
@@ -222,10 +188,7 @@ impl Model {
         }
         let (mut worst, mut unpaired) = (0.0_f64, Vec::new());
         for (label, pair) in edges {
-            let kinds: BTreeSet<&str> = pair
-                .iter()
-                .map(|&e| self.master.edge_kind[e].as_str())
-                .collect();
+            let kinds: BTreeSet<&str> = pair.iter().map(|&e| self.master.edge_kind[e].as_str()).collect();
             if pair.len() != 2 || kinds != BTreeSet::from(["mate", "tab"]) {
                 unpaired.push(label.to_owned());
                 continue;
@@ -241,23 +204,16 @@ impl Model {
     }
 
     fn overlaps(&self) -> Vec<(usize, usize)> {
-        let polygons: Vec<Vec<DVec2>> = (0..self.master.faces_vertices.len())
-            .map(|f| self.polygon(f))
-            .collect();
+        let polygons: Vec<Vec<DVec2>> =
+            (0..self.master.faces_vertices.len()).map(|f| self.polygon(f)).collect();
         let boxes: Vec<(DVec2, DVec2)> = polygons
             .iter()
-            .map(|p| {
-                p.iter()
-                    .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |b, q| {
-                        (b.0.min(*q), b.1.max(*q))
-                    })
-            })
+            .map(|p| p.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |b, q| (b.0.min(*q), b.1.max(*q))))
             .collect();
         let mut out = Vec::new();
         for a in 0..polygons.len() {
             for b in 0..a {
-                let apart =
-                    boxes[a].0.cmpgt(boxes[b].1).any() || boxes[b].0.cmpgt(boxes[a].1).any();
+                let apart = boxes[a].0.cmpgt(boxes[b].1).any() || boxes[b].0.cmpgt(boxes[a].1).any();
                 if !apart && area(&common(&polygons[a], &polygons[b])).abs() > OVERLAP_MM2 {
                     out.push((b, a));
                 }
@@ -268,12 +224,7 @@ impl Model {
 
     fn thickness(&self, flat: &[DVec3]) -> f64 {
         let mut plane: BTreeMap<&str, (DVec3, DVec3)> = BTreeMap::new();
-        let faces = || {
-            self.master
-                .component
-                .iter()
-                .zip(&self.master.faces_vertices)
-        };
+        let faces = || self.master.component.iter().zip(&self.master.faces_vertices);
         let mut largest: BTreeMap<&str, f64> = BTreeMap::new();
         for (name, face) in faces() {
             let normal = area_vector(face.iter().map(|&v| flat[v]));
@@ -284,13 +235,9 @@ impl Model {
             }
         }
         let height = |name: &String, v: usize| {
-            plane
-                .get(name.as_str())
-                .map_or(0.0, |(at, n)| n.dot(flat[v] - *at).abs())
+            plane.get(name.as_str()).map_or(0.0, |(at, n)| n.dot(flat[v] - *at).abs())
         };
-        faces()
-            .flat_map(|(name, f)| f.iter().map(move |&v| height(name, v)))
-            .fold(0.0, f64::max)
+        faces().flat_map(|(name, f)| f.iter().map(move |&v| height(name, v))).fold(0.0, f64::max)
     }
 
     /// Fold angles by geometry (mountain negative), and whether kinds match what is joined.
@@ -303,13 +250,8 @@ impl Model {
             }
         }
         for (e, &[a, b]) in self.master.edges_vertices.iter().enumerate() {
-            let at = sides
-                .get(&[a.min(b), a.max(b)])
-                .map_or(&[][..], Vec::as_slice);
-            let is_joined = matches!(
-                self.master.edge_kind[e].as_str(),
-                "hinge" | "fold-hinge" | "tab"
-            );
+            let at = sides.get(&[a.min(b), a.max(b)]).map_or(&[][..], Vec::as_slice);
+            let is_joined = matches!(self.master.edge_kind[e].as_str(), "hinge" | "fold-hinge" | "tab");
             if at.len() != if is_joined { 2 } else { 1 } {
                 report.misnamed_edges.push(e);
             } else if let &[p, q] = at {
@@ -331,10 +273,8 @@ impl Model {
             area_vector(self.master.faces_vertices[f].iter().map(|&v| frame[v])).normalize_or_zero()
         };
         let face = &self.master.faces_vertices[p];
-        let is_along =
-            (0..face.len()).any(|k| face[k] == ends[0] && face[(k + 1) % face.len()] == ends[1]);
-        let along = (frame[ends[1]] - frame[ends[0]]).normalize_or_zero()
-            * if is_along { 1.0 } else { -1.0 };
+        let is_along = (0..face.len()).any(|k| face[k] == ends[0] && face[(k + 1) % face.len()] == ends[1]);
+        let along = (frame[ends[1]] - frame[ends[0]]).normalize_or_zero() * if is_along { 1.0 } else { -1.0 };
         let (n, m) = (normal(p), normal(q));
         -along.dot(n.cross(m)).atan2(n.dot(m))
     }
@@ -346,19 +286,13 @@ fn points(coords: &[Vec<f64>]) -> Result<Vec<DVec3>, FoldCheckError> {
         .map(|c| match c[..] {
             [x, y] => Ok(DVec3::new(x, y, 0.0)),
             [x, y, z] => Ok(DVec3::new(x, y, z)),
-            _ => Err(FoldCheckError::Format(format!(
-                "a vertex has {} coordinates",
-                c.len()
-            ))),
+            _ => Err(FoldCheckError::Format(format!("a vertex has {} coordinates", c.len()))),
         })
         .collect()
 }
 
 fn area(polygon: &[DVec2]) -> f64 {
-    (0..polygon.len())
-        .map(|k| polygon[k].perp_dot(polygon[(k + 1) % polygon.len()]))
-        .sum::<f64>()
-        / 2.0
+    (0..polygon.len()).map(|k| polygon[k].perp_dot(polygon[(k + 1) % polygon.len()])).sum::<f64>() / 2.0
 }
 
 /// Normal with the length of the area (Newell).
@@ -367,11 +301,7 @@ fn area_vector(points: impl Iterator<Item = DVec3>) -> DVec3 {
     let Some(&origin) = points.first() else {
         return DVec3::ZERO;
     };
-    points
-        .windows(2)
-        .map(|w| (w[0] - origin).cross(w[1] - origin))
-        .sum::<DVec3>()
-        / 2.0
+    points.windows(2).map(|w| (w[0] - origin).cross(w[1] - origin)).sum::<DVec3>() / 2.0
 }
 
 /// The common part of two convex polygons (Sutherland and Hodgman 1974).

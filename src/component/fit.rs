@@ -85,7 +85,8 @@ impl Task<'_> {
         let heights = solid.heights();
         let lack_of = |j: usize| {
             let narrow = heights.iter().map(|&v| least - solid.width_at(j, v)).fold(0.0, f64::max);
-            let rooms = self.rooms(&solid, j).map(|room| (least - room.measure(&solid, j)).max(0.0)).sum::<f64>();
+            let rooms =
+                self.rooms(&solid, j).map(|room| (least - room.measure(&solid, j)).max(0.0)).sum::<f64>();
             let miss = match self.spots[j] {
                 FoldSpot::Bend(i) => imbalance(&solid.profile(j), i + 1).abs(),
                 FoldSpot::Inside(_) => 0.0,
@@ -159,7 +160,14 @@ impl Task<'_> {
 
     /// Change of the solid's support function in `direction`, whose supporting point is `at`:
     /// the direction is a combination of the normals of the faces that meet there.
-    fn support_terms(&self, solid: &Solid, freedom: &Freedom, at: DVec3, direction: DVec3, fallback: FaceId) -> Terms {
+    fn support_terms(
+        &self,
+        solid: &Solid,
+        freedom: &Freedom,
+        at: DVec3,
+        direction: DVec3,
+        fallback: FaceId,
+    ) -> Terms {
         let touching: Vec<FaceId> = solid
             .faces()
             .into_iter()
@@ -246,7 +254,9 @@ impl Task<'_> {
             let next = solid.next(j);
             let gap = (solid.chains[next].angle_rad - chain.angle_rad).rem_euclid(std::f64::consts::TAU);
             let turn = |sign: f64| {
-                [(freedom.angle(j), sign), (freedom.angle(next), -sign)].into_iter().filter_map(|(k, a)| Some((k?, a)))
+                [(freedom.angle(j), sign), (freedom.angle(next), -sign)]
+                    .into_iter()
+                    .filter_map(|(k, a)| Some((k?, a)))
             };
             lp.at_most(turn(1.0), (gap - MIN_TURN_RAD).max(0.0) * r);
             lp.at_most(turn(-1.0), (MAX_TURN_RAD - gap).max(0.0) * r);
@@ -319,9 +329,7 @@ impl Room {
     fn measure(self, solid: &Solid, j: usize) -> f64 {
         let profile = solid.profile(j);
         match self {
-            Room::Length(i) => {
-                profile[i].distance(profile[i + 1]).copysign(profile[i].y - profile[i + 1].y)
-            }
+            Room::Length(i) => profile[i].distance(profile[i + 1]).copysign(profile[i].y - profile[i + 1].y),
             Room::Above(i) => -imbalance(&profile, i) / 2.0,
             Room::Below(i) => imbalance(&profile, i + 1) / 2.0,
         }

@@ -38,22 +38,14 @@ fn write(input: &ExportInput) -> Result<Vec<ExportFile>, ExportError> {
     let version = input.dxf_version();
     let pages = input.pages()?.iter().enumerate();
     let file = |(index, drawing)| {
-        let bytes = document(drawing, version, input.text_mode()).map_err(|message| {
-            ExportError::Writer {
-                format: FORMAT.name,
-                message,
-            }
-        })?;
+        let bytes = document(drawing, version, input.text_mode())
+            .map_err(|message| ExportError::Writer { format: FORMAT.name, message })?;
         Ok(ExportFile::of_page(index, bytes))
     };
     pages.map(file).collect()
 }
 
-fn document(
-    drawing: &Drawing,
-    version: DxfVersion,
-    text_mode: TextMode,
-) -> Result<Vec<u8>, String> {
+fn document(drawing: &Drawing, version: DxfVersion, text_mode: TextMode) -> Result<Vec<u8>, String> {
     let mut file = dxf::Drawing::new();
     file.header.version = match version {
         DxfVersion::R12 => AcadVersion::R12,
@@ -63,17 +55,10 @@ fn document(
     file.header.maximum_drawing_extents = point(drawing.size_mm);
     file.header.maximum_drawing_limits = point(drawing.size_mm);
     for layer in Layer::ALL {
-        let mut marks = drawing
-            .marks
-            .iter()
-            .filter(|mark| mark.layer == layer)
-            .peekable();
+        let mut marks = drawing.marks.iter().filter(|mark| mark.layer == layer).peekable();
         if let (Some((name, colour)), true) = (layer_name(layer), marks.peek().is_some()) {
             let dash_mm = marks.find_map(|mark| match &mark.shape {
-                Shape::Path {
-                    stroke: Some(stroke),
-                    ..
-                } => Some(stroke.dash_mm.as_slice()),
+                Shape::Path { stroke: Some(stroke), .. } => Some(stroke.dash_mm.as_slice()),
                 _ => None,
             });
             add_layer(&mut file, name, colour, dash_mm.unwrap_or_default());
@@ -106,16 +91,11 @@ fn layer_name(layer: Layer) -> Option<(&'static str, u8)> {
 
 /// Adds a layer and, where its lines are dashed, a line type of the same name.
 fn add_layer(file: &mut dxf::Drawing, name: &str, colour: u8, dash_mm: &[f64]) {
-    let mut layer = DxfLayer {
-        name: name.to_owned(),
-        color: Color::from_index(colour),
-        ..DxfLayer::default()
-    };
+    let mut layer =
+        DxfLayer { name: name.to_owned(), color: Color::from_index(colour), ..DxfLayer::default() };
     if !dash_mm.is_empty() {
         let signed = dash_mm.iter().enumerate();
-        let signed = signed
-            .map(|(i, &mm)| if i % 2 == 0 { mm } else { -mm })
-            .collect();
+        let signed = signed.map(|(i, &mm)| if i % 2 == 0 { mm } else { -mm }).collect();
         file.add_line_type(LineType {
             name: name.to_owned(),
             element_count: dash_mm.len() as i32,
@@ -128,22 +108,9 @@ fn add_layer(file: &mut dxf::Drawing, name: &str, colour: u8, dash_mm: &[f64]) {
     file.add_layer(layer);
 }
 
-fn add_mark(
-    file: &mut dxf::Drawing,
-    layer: &str,
-    mark: &Mark,
-    version: DxfVersion,
-    text_mode: TextMode,
-) {
+fn add_mark(file: &mut dxf::Drawing, layer: &str, mark: &Mark, version: DxfVersion, text_mode: TextMode) {
     let contours = match (&mark.shape, text_mode) {
-        (
-            Shape::Path {
-                contours,
-                stroke: Some(_),
-                ..
-            },
-            _,
-        ) => contours.clone(),
+        (Shape::Path { contours, stroke: Some(_), .. }, _) => contours.clone(),
         (Shape::Path { stroke: None, .. }, _) => Vec::new(),
         (Shape::Text(text), TextMode::Outlines) => text::contours(text, CURVE_STEPS),
         (Shape::Text(text), TextMode::Text) => {
@@ -153,11 +120,9 @@ fn add_mark(
     };
     for contour in &contours {
         let entity = match contour.points[..] {
-            [a, b] if !contour.is_closed => EntityType::Line(Line {
-                p1: point(a),
-                p2: point(b),
-                ..Line::default()
-            }),
+            [a, b] if !contour.is_closed => {
+                EntityType::Line(Line { p1: point(a), p2: point(b), ..Line::default() })
+            }
             _ if version == DxfVersion::R12 => EntityType::Polyline(old_polyline(file, contour)),
             _ => EntityType::LwPolyline(polyline(contour)),
         };
@@ -173,32 +138,15 @@ fn add_entity(file: &mut dxf::Drawing, layer: &str, specific: EntityType) {
 }
 
 fn polyline(contour: &Polyline) -> LwPolyline {
-    let vertex = |p: &DVec2| LwPolylineVertex {
-        x: p.x,
-        y: p.y,
-        ..LwPolylineVertex::default()
-    };
+    let vertex = |p: &DVec2| LwPolylineVertex { x: p.x, y: p.y, ..LwPolylineVertex::default() };
     let vertices = contour.points.iter().map(vertex).collect();
-    LwPolyline {
-        flags: i32::from(contour.is_closed),
-        vertices,
-        ..LwPolyline::default()
-    }
+    LwPolyline { flags: i32::from(contour.is_closed), vertices, ..LwPolyline::default() }
 }
 
 fn old_polyline(file: &mut dxf::Drawing, contour: &Polyline) -> OldPolyline {
-    let mut line = OldPolyline {
-        flags: i32::from(contour.is_closed),
-        ..OldPolyline::default()
-    };
+    let mut line = OldPolyline { flags: i32::from(contour.is_closed), ..OldPolyline::default() };
     for &p in &contour.points {
-        line.add_vertex(
-            file,
-            Vertex {
-                location: point(p),
-                ..Vertex::default()
-            },
-        );
+        line.add_vertex(file, Vertex { location: point(p), ..Vertex::default() });
     }
     line
 }
@@ -228,22 +176,12 @@ fn mended(text: &str, version: DxfVersion) -> String {
     let pairs = pairs.collect::<Vec<_>>();
     let is_handle = |code: &str| matches!(code, "5" | "105");
     let handles = pairs.iter().filter(|(code, _)| is_handle(code));
-    let mut next = 1 + handles
-        .filter_map(|(_, v)| u64::from_str_radix(v, 16).ok())
-        .max()
-        .unwrap_or(0);
+    let mut next = 1 + handles.filter_map(|(_, v)| u64::from_str_radix(v, 16).ok()).max().unwrap_or(0);
     let mut out = Vec::with_capacity(pairs.len() + 64);
     let mut seed_at = None;
     for (index, &(code, value)) in pairs.iter().enumerate() {
-        let before = if index > 0 {
-            pairs[index - 1]
-        } else {
-            ("", "")
-        };
-        let fixed = VARYING
-            .iter()
-            .find(|(name, _)| before == ("9", *name))
-            .map(|(_, fixed)| *fixed);
+        let before = if index > 0 { pairs[index - 1] } else { ("", "") };
+        let fixed = VARYING.iter().find(|(name, _)| before == ("9", *name)).map(|(_, fixed)| *fixed);
         if before == ("9", "$HANDSEED") {
             seed_at = Some(out.len());
         }
@@ -265,9 +203,7 @@ fn mended(text: &str, version: DxfVersion) -> String {
     if let Some(at) = seed_at {
         out[at].1 = format!("{next:X}");
     }
-    out.iter()
-        .map(|(code, value)| format!("{code:>3}\r\n{value}\r\n"))
-        .collect()
+    out.iter().map(|(code, value)| format!("{code:>3}\r\n{value}\r\n")).collect()
 }
 
 #[cfg(test)]

@@ -58,13 +58,7 @@ pub fn write(model: &FoldModel<'_>) -> Result<Vec<u8>, serde_json::Error> {
             graph.add_piece(model, component, piece, *place);
         }
     }
-    let Graph {
-        pattern,
-        edges,
-        faces,
-        deployed,
-        flat,
-    } = graph;
+    let Graph { pattern, edges, faces, deployed, flat } = graph;
     let master = Master {
         file_spec: 1.2,
         file_creator: concat!("tatamu ", env!("CARGO_PKG_VERSION")),
@@ -186,11 +180,7 @@ impl Graph {
     ) {
         let (first_vertex, first_face) = (self.pattern.len(), self.faces.faces_vertices.len());
         let offsets = model.sheet_offsets;
-        let offset = offsets
-            .get(at.sheet)
-            .or(offsets.last())
-            .copied()
-            .unwrap_or_default();
+        let offset = offsets.get(at.sheet).or(offsets.last()).copied().unwrap_or_default();
         for vertex in piece.mesh().vertices() {
             let flat = at.place.transform_point2(vertex.at) + offset;
             self.pattern.push([flat.x, flat.y, 0.0]);
@@ -199,18 +189,12 @@ impl Graph {
             self.flat.coords.push(flat.into());
         }
         for edge in piece.mesh().edges() {
-            self.edges
-                .edges_vertices
-                .push(edge.ends.map(|v| first_vertex + v));
-            self.edges
-                .edges_faces
-                .push(edge.faces.iter().map(|f| first_face + f).collect());
+            self.edges.edges_vertices.push(edge.ends.map(|v| first_vertex + v));
+            self.edges.edges_faces.push(edge.faces.iter().map(|f| first_face + f).collect());
             self.add_edge_kind(component, edge.kind);
         }
         for face in piece.mesh().faces() {
-            self.faces
-                .faces_vertices
-                .push(face.vertices.iter().map(|v| first_vertex + v).collect());
+            self.faces.faces_vertices.push(face.vertices.iter().map(|v| first_vertex + v).collect());
             self.add_face_kind(component, face.kind);
             self.faces.component.push(component.name.to_owned());
             self.faces.sheet.push(at.sheet);
@@ -261,11 +245,7 @@ impl Graph {
 
 /// FOLD's sign: mountain folds are negative; a flat edge is plain 0.
 fn mountain_deg(angle_rad: f64) -> f64 {
-    if angle_rad == 0.0 {
-        0.0
-    } else {
-        -angle_rad.to_degrees()
-    }
+    if angle_rad == 0.0 { 0.0 } else { -angle_rad.to_degrees() }
 }
 
 /// A vertex in the deployed and in the flat state. A tab lies on the inside of its mate.

@@ -45,15 +45,9 @@ pub enum PngError {
 fn write(input: &ExportInput) -> Result<Vec<ExportFile>, ExportError> {
     let pages = input.pages()?;
     let file = |(index, drawing)| {
-        let bytes = render(drawing, SHEET_DOTS_PER_INCH).map_err(|error| ExportError::Writer {
-            format: FORMAT.name,
-            message: error.to_string(),
-        })?;
-        Ok(if pages.len() == 1 {
-            ExportFile::single(bytes)
-        } else {
-            ExportFile::of_page(index, bytes)
-        })
+        let bytes = render(drawing, SHEET_DOTS_PER_INCH)
+            .map_err(|error| ExportError::Writer { format: FORMAT.name, message: error.to_string() })?;
+        Ok(if pages.len() == 1 { ExportFile::single(bytes) } else { ExportFile::of_page(index, bytes) })
     };
     pages.iter().enumerate().map(file).collect()
 }
@@ -68,23 +62,15 @@ pub fn render(drawing: &Drawing, dots_per_inch: f64) -> Result<Vec<u8>, PngError
     let is_opaque = drawing.ground.is_some();
     let pixels: Vec<u8> = if is_opaque {
         let opaque = pixmap.pixels().iter();
-        opaque
-            .flat_map(|p| [p.red(), p.green(), p.blue()])
-            .collect()
+        opaque.flat_map(|p| [p.red(), p.green(), p.blue()]).collect()
     } else {
         let pixels = pixmap.pixels().iter().map(|p| p.demultiply());
-        pixels
-            .flat_map(|p| [p.red(), p.green(), p.blue(), p.alpha()])
-            .collect()
+        pixels.flat_map(|p| [p.red(), p.green(), p.blue(), p.alpha()]).collect()
     };
     let dots_per_metre = (dots_per_inch / MM_PER_INCH * 1000.0).round() as u32;
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, pixmap.width(), pixmap.height());
-    encoder.set_color(if is_opaque {
-        ColorType::Rgb
-    } else {
-        ColorType::Rgba
-    });
+    encoder.set_color(if is_opaque { ColorType::Rgb } else { ColorType::Rgba });
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Fast);
     encoder.set_pixel_dims(Some(PixelDimensions {
@@ -107,10 +93,7 @@ pub fn render(drawing: &Drawing, dots_per_inch: f64) -> Result<Vec<u8>, PngError
 pub fn rasterise(drawing: &Drawing, dots_per_inch: f64) -> Result<Pixmap, PngError> {
     let dots_per_mm = dots_per_inch / MM_PER_INCH;
     let size = (drawing.size_mm * dots_per_mm).round();
-    let bad_size = || PngError::Size {
-        width: size.x,
-        height: size.y,
-    };
+    let bad_size = || PngError::Size { width: size.x, height: size.y };
     if !(size.min_element() >= 1.0 && size.x * size.y <= MAX_PIXELS) {
         return Err(bad_size());
     }
@@ -122,11 +105,7 @@ pub fn rasterise(drawing: &Drawing, dots_per_inch: f64) -> Result<Pixmap, PngErr
     let page = Transform::from_row(scale, 0.0, 0.0, -scale, 0.0, size.y as f32);
     for mark in &drawing.marks {
         match &mark.shape {
-            Shape::Path {
-                contours,
-                stroke,
-                fill,
-            } => {
+            Shape::Path { contours, stroke, fill } => {
                 let Some(path) = path_of(contours) else {
                     continue;
                 };
@@ -167,11 +146,7 @@ fn pen(stroke: &Stroke) -> tiny_skia::Stroke {
     let dash = StrokeDash::new(dashes, 0.0);
     tiny_skia::Stroke {
         width: stroke.width_mm as f32,
-        line_cap: if dash.is_some() {
-            LineCap::Butt
-        } else {
-            LineCap::Round
-        },
+        line_cap: if dash.is_some() { LineCap::Butt } else { LineCap::Round },
         line_join: LineJoin::Round,
         dash,
         ..tiny_skia::Stroke::default()

@@ -29,15 +29,8 @@ impl Chains {
     /// # Errors
     /// [`NetError::NotChains`] where a panel or a hinge of a chain is missing.
     pub(crate) fn of(set: &PanelSet) -> Result<Self, NetError> {
-        let missing = |what: &str| NetError::NotChains {
-            what: what.to_owned(),
-        };
-        let find = |kind| {
-            set.panels()
-                .iter()
-                .position(|p| p.kind == kind)
-                .map(PanelId)
-        };
+        let missing = |what: &str| NetError::NotChains { what: what.to_owned() };
+        let find = |kind| set.panels().iter().position(|p| p.kind == kind).map(PanelId);
         let top = find(PanelKind::Top).ok_or_else(|| missing("a top panel"))?;
         let bottom = find(PanelKind::Bottom).ok_or_else(|| missing("a bottom panel"))?;
         let mut sides: BTreeMap<usize, BTreeMap<usize, PanelId>> = BTreeMap::new();
@@ -49,11 +42,8 @@ impl Chains {
         let mut chains = Vec::with_capacity(sides.len());
         for (number, panels) in sides {
             let panels: Vec<PanelId> = panels.into_values().collect();
-            let stops: Vec<PanelId> = [top]
-                .into_iter()
-                .chain(panels.iter().copied())
-                .chain([bottom])
-                .collect();
+            let stops: Vec<PanelId> =
+                [top].into_iter().chain(panels.iter().copied()).chain([bottom]).collect();
             let hinges = stops
                 .windows(2)
                 .map(|pair| hinge_between(set, pair[0], pair[1]))
@@ -64,26 +54,16 @@ impl Chains {
         if chains.is_empty() {
             return Err(missing("a chain"));
         }
-        Ok(Self {
-            top,
-            bottom,
-            chains,
-        })
+        Ok(Self { top, bottom, chains })
     }
 
     /// The fold hinge's place in a chain, counted from the top.
     pub(crate) fn fold_place(&self, set: &PanelSet, chain: usize) -> usize {
         let hinges = &self.chains[chain].hinges;
-        hinges
-            .iter()
-            .position(|h| set.hinges()[h.0].is_fold)
-            .unwrap_or(hinges.len() / 2)
+        hinges.iter().position(|h| set.hinges()[h.0].is_fold).unwrap_or(hinges.len() / 2)
     }
 }
 
 fn hinge_between(set: &PanelSet, upper: PanelId, lower: PanelId) -> Option<HingeId> {
-    set.hinges()
-        .iter()
-        .position(|h| h.sides[0].panel == upper && h.sides[1].panel == lower)
-        .map(HingeId)
+    set.hinges().iter().position(|h| h.sides[0].panel == upper && h.sides[1].panel == lower).map(HingeId)
 }

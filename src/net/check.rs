@@ -99,9 +99,7 @@ pub fn faults(set: &PanelSet, net: &Net, sheet_mm: DVec2) -> Vec<NetFault> {
         let room = sheet_mm + ROUNDING_MM * 2.0;
         let is_on = |p: &DVec2| p.cmpge(DVec2::splat(-ROUNDING_MM)).all() && p.cmple(room).all();
         if !piece.outline().iter().all(is_on) {
-            out.push(NetFault::OffSheet {
-                piece: piece.name().to_owned(),
-            });
+            out.push(NetFault::OffSheet { piece: piece.name().to_owned() });
         }
     }
     structure(set, net, &mut out);
@@ -118,12 +116,7 @@ fn overlaps(piece: &Piece, out: &mut Vec<NetFault>) {
             let area_mm2 = area(&intersect_convex(&outlines[a], &outlines[b])).abs();
             if area_mm2 > OVERLAP_MM2 {
                 let (a, b) = (faces[b].kind, faces[a].kind);
-                out.push(NetFault::Overlap {
-                    piece: piece.name().to_owned(),
-                    a,
-                    b,
-                    area_mm2,
-                });
+                out.push(NetFault::Overlap { piece: piece.name().to_owned(), a, b, area_mm2 });
             }
         }
     }
@@ -138,18 +131,10 @@ fn structure(set: &PanelSet, net: &Net, out: &mut Vec<NetFault>) {
         }
     }
     for hinge in (0..set.hinges().len()).map(HingeId) {
-        let creases = net
-            .pieces()
-            .iter()
-            .filter(|p| p.creases().contains(&hinge))
-            .count();
+        let creases = net.pieces().iter().filter(|p| p.creases().contains(&hinge)).count();
         let tabs = all_tabs(net).filter(|t| t.hinge == hinge).count();
         if creases + tabs != 1 {
-            out.push(NetFault::Hinge {
-                hinge,
-                creases,
-                tabs,
-            });
+            out.push(NetFault::Hinge { hinge, creases, tabs });
         }
     }
 }
@@ -168,10 +153,7 @@ fn behind(set: &PanelSet, tab: &Tab) -> Vec<DVec2> {
     tab.outline
         .iter()
         .map(|&p| {
-            let (along, out) = (
-                base.dot(p - tab.outline[0]),
-                base.perp_dot(p - tab.outline[0]),
-            );
+            let (along, out) = (base.dot(p - tab.outline[0]), base.perp_dot(p - tab.outline[0]));
             from + mate_along * along + DVec2::from_angle(FRAC_PI_2).rotate(mate_along) * out
         })
         .collect()
@@ -185,16 +167,9 @@ fn tabs(set: &PanelSet, net: &Net, out: &mut Vec<NetFault>) {
         let outline = &set.panel(mate).outline;
         let outside = |p: &DVec2| depth_outside(outline, *p);
         let by_mm = here.iter().map(outside).fold(f64::MIN, f64::max);
-        let moved = here
-            .iter()
-            .zip(&tab.on_mate)
-            .map(|(p, q)| p.distance(*q))
-            .fold(0.0, f64::max);
+        let moved = here.iter().zip(&tab.on_mate).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
         if by_mm.max(moved) > ROUNDING_MM {
-            out.push(NetFault::OutsideMate {
-                label: tab.label.clone(),
-                by_mm: by_mm.max(moved),
-            });
+            out.push(NetFault::OutsideMate { label: tab.label.clone(), by_mm: by_mm.max(moved) });
         }
         let others = behind_panel.entry(mate).or_default();
         for (other, there) in others.iter() {
@@ -208,24 +183,15 @@ fn tabs(set: &PanelSet, net: &Net, out: &mut Vec<NetFault>) {
 }
 
 fn texts(piece: &Piece, out: &mut Vec<NetFault>) {
-    let faces: Vec<Vec<DVec2>> = (0..piece.mesh().faces().len())
-        .map(|f| piece.mesh().outline(f))
-        .collect();
+    let faces: Vec<Vec<DVec2>> = (0..piece.mesh().faces().len()).map(|f| piece.mesh().outline(f)).collect();
     let mut before: Vec<[DVec2; 4]> = Vec::new();
     for label in piece.labels() {
         let along = DVec2::from_angle(label.angle_rad);
-        let (start, up) = (
-            label.anchor - along * label.width_mm / 2.0,
-            along.perp() * label.cap_height_mm,
-        );
+        let (start, up) = (label.anchor - along * label.width_mm / 2.0, along.perp() * label.cap_height_mm);
         let end = start + along * label.width_mm;
         let letters = [start, end, end + up, start + up];
-        let is_on_one = faces
-            .iter()
-            .any(|f| letters.iter().all(|&p| depth_outside(f, p) < ROUNDING_MM));
-        let is_on_text = before
-            .iter()
-            .any(|b| area(&intersect_convex(b, &letters)).abs() > OVERLAP_MM2);
+        let is_on_one = faces.iter().any(|f| letters.iter().all(|&p| depth_outside(f, p) < ROUNDING_MM));
+        let is_on_text = before.iter().any(|b| area(&intersect_convex(b, &letters)).abs() > OVERLAP_MM2);
         let problems = [
             (label.cap_height_mm < LEAST_CAP_MM, "is too small"),
             (!is_on_one, "is not within one panel or tab"),
@@ -234,11 +200,7 @@ fn texts(piece: &Piece, out: &mut Vec<NetFault>) {
         ];
         for (_, problem) in problems.into_iter().filter(|p| p.0) {
             let (piece, text) = (piece.name().to_owned(), label.text.clone());
-            out.push(NetFault::Text {
-                piece,
-                text,
-                problem,
-            });
+            out.push(NetFault::Text { piece, text, problem });
         }
         before.push(letters);
     }
@@ -256,10 +218,7 @@ fn labels(net: &Net, out: &mut Vec<NetFault>) {
     for tab in all_tabs(net) {
         let count = texts.iter().filter(|t| ***t == tab.label).count();
         if count != 2 {
-            out.push(NetFault::Label {
-                label: tab.label.clone(),
-                count,
-            });
+            out.push(NetFault::Label { label: tab.label.clone(), count });
         }
     }
 }

@@ -19,15 +19,8 @@ pub(crate) fn cut_lines(mut walk: Vec<DVec2>) -> CutLines {
     while let Some(tip) = (0..walk.len()).find(|&k| is_spike(&walk, k)) {
         let n = walk.len();
         let (before, at, after) = (walk[(tip + n - 1) % n], walk[tip], walk[(tip + 1) % n]);
-        let mouth = if before.distance(at) < after.distance(at) {
-            before
-        } else {
-            after
-        };
-        match slits
-            .iter_mut()
-            .find(|s| s.last().is_some_and(|p| p.distance(at) < COINCIDENT_MM))
-        {
+        let mouth = if before.distance(at) < after.distance(at) { before } else { after };
+        match slits.iter_mut().find(|s| s.last().is_some_and(|p| p.distance(at) < COINCIDENT_MM)) {
             Some(slit) => slit.push(mouth),
             None => slits.push(vec![at, mouth]),
         }
@@ -37,20 +30,13 @@ pub(crate) fn cut_lines(mut walk: Vec<DVec2>) -> CutLines {
             walk.pop();
         }
     }
-    CutLines {
-        outline: walk,
-        slits,
-    }
+    CutLines { outline: walk, slits }
 }
 
 fn is_spike(walk: &[DVec2], k: usize) -> bool {
     let n = walk.len();
     let (a, b) = (walk[(k + n - 1) % n] - walk[k], walk[(k + 1) % n] - walk[k]);
-    let (short, long) = if a.length() < b.length() {
-        (a, b)
-    } else {
-        (b, a)
-    };
+    let (short, long) = if a.length() < b.length() { (a, b) } else { (b, a) };
     n > 3 && short.dot(long) > 0.0 && short.perp_dot(long.normalize_or_zero()).abs() < COINCIDENT_MM
 }
 
@@ -73,10 +59,7 @@ mod tests {
             at(0.0, 10.0),
         ];
         let lines = cut_lines(walk);
-        assert_eq!(
-            lines.slits,
-            vec![vec![at(4.0, 4.0), at(5.0, 7.0), at(5.0, 10.0)]]
-        );
+        assert_eq!(lines.slits, vec![vec![at(4.0, 4.0), at(5.0, 7.0), at(5.0, 10.0)]]);
         assert_eq!(lines.outline.len(), 5);
         assert_eq!(crate::geom::polygon::area(&lines.outline), 100.0);
     }
@@ -95,8 +78,6 @@ mod tests {
         ];
         let lines = cut_lines(walk);
         assert_eq!(lines.slits, vec![vec![at(5.0, 3.0), at(5.0, 7.0)]]);
-        assert!(
-            (crate::geom::polygon::area(&lines.outline) - (9.0 * 9.0 - 5.0 * 2.0)).abs() < 1e-12
-        );
+        assert!((crate::geom::polygon::area(&lines.outline) - (9.0 * 9.0 - 5.0 * 2.0)).abs() < 1e-12);
     }
 }

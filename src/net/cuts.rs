@@ -122,18 +122,12 @@ struct Walk<'b> {
 impl<'a> Mode<'a> {
     fn new(problem: &'a Problem<'a>, uncut: Option<usize>, has_strips: bool) -> Self {
         let (set, chains) = (problem.set, problem.chains);
-        let mut items = vec![Item {
-            outline: set.panel(chains.top).outline.clone(),
-            piece: 0,
-        }];
+        let mut items = vec![Item { outline: set.panel(chains.top).outline.clone(), piece: 0 }];
         let bottom_place = match uncut {
             Some(r) => {
                 let places = hang(set, problem.chain(r), DAffine2::IDENTITY, true);
                 for (&panel, &place) in problem.chain(r).panels.iter().zip(&places) {
-                    items.push(Item {
-                        outline: placed_outline(set, panel, place),
-                        piece: 0,
-                    });
+                    items.push(Item { outline: placed_outline(set, panel, place), piece: 0 });
                 }
                 places[places.len() - 1]
             }
@@ -141,10 +135,7 @@ impl<'a> Mode<'a> {
         };
         let below = usize::from(uncut.is_none());
         let outline = placed_outline(set, chains.bottom, bottom_place);
-        items.push(Item {
-            outline,
-            piece: below,
-        });
+        items.push(Item { outline, piece: below });
         let mut fixed = [Extent::empty(), Extent::empty()];
         for item in &items {
             fixed[item.piece].add(&item.outline);
@@ -157,11 +148,7 @@ impl<'a> Mode<'a> {
             fixed,
             fixed_items: items.len(),
             items,
-            area_mm2: set
-                .panels()
-                .iter()
-                .map(|p| crate::geom::polygon::area(&p.outline))
-                .sum(),
+            area_mm2: set.panels().iter().map(|p| crate::geom::polygon::area(&p.outline)).sum(),
             cheapest_from: Vec::new(),
         };
         for j in (0..chains.chains.len()).filter(|&j| Some(j) != uncut) {
@@ -172,13 +159,7 @@ impl<'a> Mode<'a> {
         mode
     }
 
-    fn chain_choices(
-        &mut self,
-        j: usize,
-        bottom: DAffine2,
-        below: usize,
-        has_strips: bool,
-    ) -> Vec<Choice> {
+    fn chain_choices(&mut self, j: usize, bottom: DAffine2, below: usize, has_strips: bool) -> Vec<Choice> {
         let set = self.problem.set;
         let chain = self.problem.chain(j);
         let upper = hang(set, chain, DAffine2::IDENTITY, true);
@@ -187,22 +168,14 @@ impl<'a> Mode<'a> {
         let start = self.items.len();
         for (places, piece) in [(&upper, 0), (&lower, below)] {
             for (&panel, &place) in chain.panels.iter().zip(places) {
-                self.items.push(Item {
-                    outline: placed_outline(set, panel, place),
-                    piece,
-                });
+                self.items.push(Item { outline: placed_outline(set, panel, place), piece });
             }
         }
         let mut choices: Vec<Choice> = (0..=count)
-            .flat_map(|from| {
-                (from..=if has_strips { count } else { from }).map(move |to| (from, to))
-            })
+            .flat_map(|from| (from..=if has_strips { count } else { from }).map(move |to| (from, to)))
             .filter(|&(from, to)| self.may_cut(chain, from, to, &upper))
             .map(|(from, to)| {
-                let items: Vec<usize> = (0..from)
-                    .chain(count + to..2 * count)
-                    .map(|i| start + i)
-                    .collect();
+                let items: Vec<usize> = (0..from).chain(count + to..2 * count).map(|i| start + i).collect();
                 let mut extent = [Extent::empty(), Extent::empty()];
                 for &i in &items {
                     extent[self.items[i].piece].add(&self.items[i].outline);
@@ -211,12 +184,7 @@ impl<'a> Mode<'a> {
                 hinges.dedup();
                 let glue: f64 = hinges.iter().map(|h| self.problem.cut_cost[h.0]).sum();
                 let cost = glue + if from < to { STRIP_COST } else { 0.0 };
-                Choice {
-                    hinges,
-                    cost,
-                    items,
-                    extent,
-                }
+                Choice { hinges, cost, items, extent }
             })
             .collect();
         choices.sort_by(|a, b| a.cost.total_cmp(&b.cost));
@@ -226,33 +194,22 @@ impl<'a> Mode<'a> {
     /// Whether a chain may be cut at two hinges (or one, twice): folds spared, the strip between
     /// fits the sheet.
     fn may_cut(&self, chain: &Chain, from: usize, to: usize, places: &[DAffine2]) -> bool {
-        let Problem {
-            set,
-            sheet_mm,
-            may_cut_folds,
-            ..
-        } = *self.problem;
+        let Problem { set, sheet_mm, may_cut_folds, .. } = *self.problem;
         let is_allowed = |k: usize| may_cut_folds || !set.hinges()[chain.hinges[k].0].is_fold;
-        let strip: Vec<DVec2> = (from..to)
-            .flat_map(|i| placed_outline(set, chain.panels[i], places[i]))
-            .collect();
+        let strip: Vec<DVec2> =
+            (from..to).flat_map(|i| placed_outline(set, chain.panels[i], places[i])).collect();
         is_allowed(from) && is_allowed(to) && (from == to || best_turn(&strip, sheet_mm).fits())
     }
 
     /// Which choices go together, and with themselves and the fixed panels.
     fn tabulate(&mut self) {
-        let clashes: Vec<Vec<bool>> = self
-            .items
-            .iter()
-            .map(|a| self.items.iter().map(|b| a.clashes_with(b)).collect())
-            .collect();
+        let clashes: Vec<Vec<bool>> =
+            self.items.iter().map(|a| self.items.iter().map(|b| a.clashes_with(b)).collect()).collect();
         let fixed: Vec<usize> = (0..self.fixed_items).collect();
         for choices in &mut self.choices {
             choices.retain(|c| {
                 let all: Vec<usize> = fixed.iter().chain(&c.items).copied().collect();
-                c.items
-                    .iter()
-                    .all(|&i| all.iter().all(|&k| i == k || !clashes[i][k]))
+                c.items.iter().all(|&i| all.iter().all(|&k| i == k || !clashes[i][k]))
             });
         }
         let flat: Vec<&Choice> = self.choices.iter().flatten().collect();
@@ -260,19 +217,12 @@ impl<'a> Mode<'a> {
             .iter()
             .map(|a| {
                 flat.iter()
-                    .map(|b| {
-                        a.items
-                            .iter()
-                            .all(|&i| b.items.iter().all(|&k| !clashes[i][k]))
-                    })
+                    .map(|b| a.items.iter().all(|&i| b.items.iter().all(|&k| !clashes[i][k])))
                     .collect()
             })
             .collect();
-        self.first_number = self
-            .choices
-            .iter()
-            .scan(0, |sum, c| Some(std::mem::replace(sum, *sum + c.len())))
-            .collect();
+        self.first_number =
+            self.choices.iter().scan(0, |sum, c| Some(std::mem::replace(sum, *sum + c.len()))).collect();
         let mut sum = 0.0;
         self.cheapest_from = vec![0.0; self.choices.len() + 1];
         for j in (0..self.choices.len()).rev() {
@@ -285,11 +235,7 @@ impl<'a> Mode<'a> {
         if self.choices.iter().any(Vec::is_empty) {
             return;
         }
-        let mut walk = Walk {
-            chosen: Vec::new(),
-            nodes: 0,
-            best,
-        };
+        let mut walk = Walk { chosen: Vec::new(), nodes: 0, best };
         self.descend(&mut walk, &self.fixed, 0.0);
     }
 
@@ -314,11 +260,7 @@ impl<'a> Mode<'a> {
             }
             let bound = cost + choice.cost + self.cheapest_from[level + 1] + self.box_cost(&joined);
             let is_beaten = walk.best.len() == KEEP && bound >= walk.best[KEEP - 1].cost;
-            if is_beaten
-                || !self
-                    .pieces(&joined)
-                    .all(|e| e.may_fit(self.problem.sheet_mm))
-            {
+            if is_beaten || !self.pieces(&joined).all(|e| e.may_fit(self.problem.sheet_mm)) {
                 continue;
             }
             walk.chosen.push(number);
@@ -331,18 +273,12 @@ impl<'a> Mode<'a> {
         let flat: Vec<&Choice> = self.choices.iter().flatten().collect();
         let mut points = [Vec::new(), Vec::new()];
         let fixed = 0..self.fixed_items;
-        let chosen = walk
-            .chosen
-            .iter()
-            .flat_map(|&c| flat[c].items.iter().copied());
+        let chosen = walk.chosen.iter().flat_map(|&c| flat[c].items.iter().copied());
         for item in fixed.chain(chosen).map(|i| &self.items[i]) {
             points[item.piece].extend_from_slice(&item.outline);
         }
         let used = points.iter().filter(|p| !p.is_empty());
-        if !used
-            .clone()
-            .all(|p| best_turn(p, self.problem.sheet_mm).fits())
-        {
+        if !used.clone().all(|p| best_turn(p, self.problem.sheet_mm).fits()) {
             return;
         }
         let mut is_cut = vec![false; self.problem.set.hinges().len()];
@@ -375,11 +311,7 @@ fn hang(set: &PanelSet, chain: &Chain, from: DAffine2, is_from_top: bool) -> Vec
     if is_from_top {
         chain.hinges.iter().map(|&h| step(h, 0)).collect()
     } else {
-        let mut places: Vec<DAffine2> = chain.hinges[1..]
-            .iter()
-            .rev()
-            .map(|&h| step(h, 1))
-            .collect();
+        let mut places: Vec<DAffine2> = chain.hinges[1..].iter().rev().map(|&h| step(h, 1)).collect();
         places.reverse();
         places
     }

@@ -93,13 +93,9 @@ pub fn develop(
         .into_iter()
         .map(problem)
         .find_map(|problem| {
-            [
-                Problem::one_piece,
-                Problem::two_pieces,
-                Problem::with_strips,
-            ]
-            .iter()
-            .find_map(|search| best_draft(&problem, search(&problem), &shapes, options))
+            [Problem::one_piece, Problem::two_pieces, Problem::with_strips]
+                .iter()
+                .find_map(|search| best_draft(&problem, search(&problem), &shapes, options))
         })
         .unwrap_or_else(|| last_resort(&problem(true), &shapes));
     Ok(finish(set, draft, naming, joints, options))
@@ -113,11 +109,7 @@ pub(super) struct Draft {
 }
 
 fn check_panels(set: &PanelSet, name: &str, sheet_mm: DVec2) -> Result<(), NetError> {
-    let turns = set
-        .panels()
-        .iter()
-        .map(|p| best_turn(&p.outline, sheet_mm))
-        .enumerate();
+    let turns = set.panels().iter().map(|p| best_turn(&p.outline, sheet_mm)).enumerate();
     match turns.min_by(|a, b| a.1.scale.total_cmp(&b.1.scale)) {
         Some((panel, best)) if !best.fits() => Err(NetError::PanelTooLarge {
             name: name.to_owned(),
@@ -140,17 +132,9 @@ fn cut_costs(set: &PanelSet, chains: &Chains, shapes: &[Shapes], tab_width_mm: f
             costs[hinge.0] = 1.0
                 + short
                 + if is_end { 0.0 } else { MIDDLE_COST }
-                + if set.hinges()[hinge.0].is_fold {
-                    FOLD_COST
-                } else {
-                    0.0
-                }
+                + if set.hinges()[hinge.0].is_fold { FOLD_COST } else { 0.0 }
                 + (1.0 - widest / tab_width_mm).max(0.0)
-                + if widest < USEFUL_WIDTH_MM {
-                    NO_TAB_COST
-                } else {
-                    0.0
-                };
+                + if widest < USEFUL_WIDTH_MM { NO_TAB_COST } else { 0.0 };
         }
     }
     costs
@@ -170,14 +154,7 @@ fn best_draft(
         }
         let layouts = layout::pieces(problem.set, &candidate.is_cut);
         let cut = cut_hinges(&candidate.is_cut);
-        let placed = tabs::place(
-            problem.set,
-            &layouts,
-            options.sheet_mm,
-            shapes,
-            &cut,
-            USEFUL_WIDTH_MM,
-        );
+        let placed = tabs::place(problem.set, &layouts, options.sheet_mm, shapes, &cut, USEFUL_WIDTH_MM);
         let Ok(tabs) = placed else { continue };
         let lack = |t: &Placed| 1.0 - t.width_mm() / tabs::widest(&shapes[t.hinge.0]);
         let cost = candidate.cost + tabs.iter().map(lack).sum::<f64>();
@@ -192,10 +169,7 @@ fn best_draft(
 /// and then whatever is still too large or overlaps.
 fn last_resort(problem: &Problem<'_>, shapes: &[Shapes]) -> Draft {
     let set = problem.set;
-    let unbounded = Problem {
-        sheet_mm: DVec2::INFINITY,
-        ..*problem
-    };
+    let unbounded = Problem { sheet_mm: DVec2::INFINITY, ..*problem };
     let start = unbounded.two_pieces().into_iter().next().map_or_else(
         || {
             let mut is_cut = vec![false; set.hinges().len()];
@@ -254,8 +228,5 @@ fn further_cut(problem: &Problem<'_>, layouts: &[Layout], hinge: HingeId) -> Opt
 }
 
 fn cut_hinges(is_cut: &[bool]) -> Vec<HingeId> {
-    (0..is_cut.len())
-        .filter(|&h| is_cut[h])
-        .map(HingeId)
-        .collect()
+    (0..is_cut.len()).filter(|&h| is_cut[h]).map(HingeId).collect()
 }

@@ -18,9 +18,7 @@ pub(crate) fn divide(problem: &Problem<'_>, mut is_cut: Vec<bool>) -> Vec<bool> 
             let mut trial = is_cut.clone();
             trial[hinge.0] = true;
             let halves = layout::pieces(problem.set, &trial);
-            let halves = halves
-                .iter()
-                .filter(|l| l.panels.iter().any(|p| ids.contains(&p.0)));
+            let halves = halves.iter().filter(|l| l.panels.iter().any(|p| ids.contains(&p.0)));
             1e3 * halves.map(|l| badness(problem, l)).sum::<f64>() + problem.cut_cost[hinge.0]
         };
         let costs: Vec<(f64, HingeId)> = bad.creases.iter().map(|&h| (cost_of(h), h)).collect();
@@ -36,11 +34,10 @@ pub(crate) fn divide(problem: &Problem<'_>, mut is_cut: Vec<bool>) -> Vec<bool> 
 /// it is too large.
 fn badness(problem: &Problem<'_>, piece: &layout::Layout) -> f64 {
     let outlines = piece.outlines(problem.set);
-    let pairs = outlines.iter().enumerate().flat_map(|(k, a)| {
-        outlines[..k]
-            .iter()
-            .map(move |b| f64::from(u8::from(clash(a, b, PANEL_GAP_MM))))
-    });
+    let pairs = outlines
+        .iter()
+        .enumerate()
+        .flat_map(|(k, a)| outlines[..k].iter().map(move |b| f64::from(u8::from(clash(a, b, PANEL_GAP_MM)))));
     let points: Vec<DVec2> = outlines.iter().flatten().copied().collect();
     let scale = best_turn(&points, problem.sheet_mm).scale;
     pairs.sum::<f64>() + (1.0 / scale - 1.0).max(0.0)

@@ -37,9 +37,7 @@ impl Extent {
     }
 
     pub(crate) fn box_area(&self) -> f64 {
-        self.boxes()
-            .map(|b| b.element_product())
-            .fold(f64::INFINITY, f64::min)
+        self.boxes().map(|b| b.element_product()).fold(f64::INFINITY, f64::min)
     }
 
     /// False only where the points surely do not fit: between two directions 5° apart a box

@@ -24,17 +24,10 @@ pub(super) fn finish(
     joints: &[JointMark],
     options: &NetOptions,
 ) -> Net {
-    let Draft {
-        mut layouts,
-        cut,
-        tabs,
-    } = draft;
+    let Draft { mut layouts, cut, tabs } = draft;
     layouts.sort_by_key(|l| std::cmp::Reverse(l.panels.len()));
-    let labels: BTreeMap<HingeId, String> = cut
-        .iter()
-        .zip(1..)
-        .map(|(&h, number)| (h, format!("{}{number}", naming.prefix)))
-        .collect();
+    let labels: BTreeMap<HingeId, String> =
+        cut.iter().zip(1..).map(|(&h, number)| (h, format!("{}{number}", naming.prefix))).collect();
     let count = layouts.len();
     let pieces: Vec<Piece> = layouts
         .into_iter()
@@ -46,22 +39,14 @@ pub(super) fn finish(
             };
             let own: Vec<Placed> = tabs
                 .iter()
-                .filter(|t| {
-                    layout
-                        .place(set.hinges()[t.hinge.0].sides[t.side].panel)
-                        .is_some()
-                })
+                .filter(|t| layout.place(set.hinges()[t.hinge.0].sides[t.side].panel).is_some())
                 .cloned()
                 .collect();
             piece(set, &layout, &own, name, joints, options.sheet_mm, &labels)
         })
         .collect();
     let warnings = warnings(set, &tabs, &pieces, &labels);
-    Net {
-        pieces,
-        warnings,
-        labels,
-    }
+    Net { pieces, warnings, labels }
 }
 
 fn piece(
@@ -95,22 +80,13 @@ fn piece(
                 hinge: t.hinge,
                 side: t.side,
                 outline: outline.map(|p| upright.transform_point2(p)),
-                on_mate: t
-                    .shape
-                    .outline(edge(set, side))
-                    .map(|p| to_mate.transform_point2(p)),
+                on_mate: t.shape.outline(edge(set, side)).map(|p| to_mate.transform_point2(p)),
                 label: labels.get(&t.hinge).cloned().unwrap_or_default(),
             }
         })
         .collect();
-    let panels: Vec<PlacedPanel> = layout
-        .panels
-        .iter()
-        .map(|&(panel, place)| PlacedPanel {
-            panel,
-            place: upright * place,
-        })
-        .collect();
+    let panels: Vec<PlacedPanel> =
+        layout.panels.iter().map(|&(panel, place)| PlacedPanel { panel, place: upright * place }).collect();
     let mut placer = Placer::new(&mesh);
     let place_of = |id| panels.iter().find(|p| p.panel == id).map(|p| p.place);
     let joints = placer.joints(joints, place_of);
@@ -162,9 +138,7 @@ fn warnings(
     for (&hinge, label) in labels {
         let label = label.clone();
         if set.hinges()[hinge.0].is_fold {
-            out.push(NetWarning::CutFoldHinge {
-                label: label.clone(),
-            });
+            out.push(NetWarning::CutFoldHinge { label: label.clone() });
         }
         match tabs.iter().find(|t| t.hinge == hinge).map(Placed::width_mm) {
             None => out.push(NetWarning::NoTab { label }),

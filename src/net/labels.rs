@@ -66,19 +66,14 @@ impl<'a> Placer<'a> {
                 continue;
             };
             let panel = self.mesh.outline(face);
-            let outline: Vec<DVec2> = mark
-                .outline
-                .iter()
-                .map(|&p| place.transform_point2(p))
-                .collect();
+            let outline: Vec<DVec2> = mark.outline.iter().map(|&p| place.transform_point2(p)).collect();
             let inside = intersect_convex(&panel, &outline);
             if inside.is_empty() {
                 self.unplaced.push(mark.text.clone());
                 continue;
             }
             let key = key_triangle(&inside, place.transform_point2(mark.key));
-            self.lines
-                .extend(polygon::edges(&inside).map(|(a, b)| [a, b]));
+            self.lines.extend(polygon::edges(&inside).map(|(a, b)| [a, b]));
             self.lines.extend(polygon::edges(&key).map(|(a, b)| [a, b]));
             let is_placed = [&inside, &panel]
                 .iter()
@@ -87,11 +82,7 @@ impl<'a> Placer<'a> {
                 self.unplaced.push(mark.text.clone());
             }
             self.covered.push(inside.clone());
-            out.push(PlacedJoint {
-                panel: mark.panel,
-                outline: inside,
-                key,
-            });
+            out.push(PlacedJoint { panel: mark.panel, outline: inside, key });
         }
         out
     }
@@ -131,21 +122,16 @@ impl<'a> Placer<'a> {
             .collect();
         panels.sort_by(|a, b| polygon::area(b).total_cmp(&polygon::area(a)));
         self.taken.append(&mut self.covered);
-        let is_placed = NAME_CAPS_MM.iter().any(|cap| {
-            panels
-                .iter()
-                .any(|p| self.in_area(p, name, &[*cap], LabelKind::Name))
-        });
+        let is_placed = NAME_CAPS_MM
+            .iter()
+            .any(|cap| panels.iter().any(|p| self.in_area(p, name, &[*cap], LabelKind::Name)));
         if !is_placed {
             self.unplaced.push(name.to_owned());
         }
     }
 
     fn face_of(&self, panel: PanelId) -> Option<usize> {
-        self.mesh
-            .faces()
-            .iter()
-            .position(|f| f.kind == FaceKind::Panel(panel))
+        self.mesh.faces().iter().position(|f| f.kind == FaceKind::Panel(panel))
     }
 
     fn on_tab(&mut self, tab: &[DVec2], text: &str) -> bool {
@@ -153,11 +139,9 @@ impl<'a> Placer<'a> {
         let inward = base.perp().normalize_or_zero();
         let half_width = inward.dot(tab[2] - tab[0]) / 2.0;
         let middle = |t: f64| tab[0] + base * t + inward * half_width;
-        LABEL_CAPS_MM.iter().any(|&cap| {
-            ALONG
-                .iter()
-                .any(|&t| self.put(tab, middle(t), base, cap, text, LabelKind::Tab))
-        })
+        LABEL_CAPS_MM
+            .iter()
+            .any(|&cap| ALONG.iter().any(|&t| self.put(tab, middle(t), base, cap, text, LabelKind::Tab)))
     }
 
     fn along(&mut self, edge: [DVec2; 2], panel: &[DVec2], text: &str, kind: LabelKind) -> bool {
@@ -185,11 +169,7 @@ impl<'a> Placer<'a> {
             .collect();
         spots.sort_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle)));
         spots.insert(0, middle);
-        caps_mm.iter().any(|&cap| {
-            spots
-                .iter()
-                .any(|&at| self.put(area, at, DVec2::X, cap, content, kind))
-        })
+        caps_mm.iter().any(|&cap| spots.iter().any(|&at| self.put(area, at, DVec2::X, cap, content, kind)))
     }
 
     /// Puts a text with its middle at `centre` if it stays inside `area` and off everything else.
@@ -205,24 +185,11 @@ impl<'a> Placer<'a> {
         let along = upright(direction);
         let half = DVec2::new(text::width_mm(content, cap_height_mm), cap_height_mm) / 2.0;
         let corner = |x: f64, y: f64| centre + along * (half.x * x) + along.perp() * (half.y * y);
-        let letters = [
-            corner(-1.0, -1.0),
-            corner(1.0, -1.0),
-            corner(1.0, 1.0),
-            corner(-1.0, 1.0),
-        ];
-        let is_inside = letters
-            .iter()
-            .all(|&p| depth_outside(area, p) <= -LINE_GAP_MM);
+        let letters = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+        let is_inside = letters.iter().all(|&p| depth_outside(area, p) <= -LINE_GAP_MM);
         let is_free = is_inside
-            && !self
-                .taken
-                .iter()
-                .any(|t| convex_overlap(&letters, t, -TEXT_GAP_MM))
-            && !self
-                .lines
-                .iter()
-                .any(|l| convex_overlap(&letters, l, -LINE_GAP_MM));
+            && !self.taken.iter().any(|t| convex_overlap(&letters, t, -TEXT_GAP_MM))
+            && !self.lines.iter().any(|l| convex_overlap(&letters, l, -LINE_GAP_MM));
         if is_free {
             self.taken.push(letters.to_vec());
             self.labels.push(Label {
@@ -260,9 +227,5 @@ fn key_triangle(area: &[DVec2], key: DVec2) -> [DVec2; 3] {
     let size = KEY_MM.min(reach / 2.0);
     let tip = middle + direction * reach;
     let base = tip - direction * size;
-    [
-        tip,
-        base + direction.perp() * (size / 2.0),
-        base - direction.perp() * (size / 2.0),
-    ]
+    [tip, base + direction.perp() * (size / 2.0), base - direction.perp() * (size / 2.0)]
 }

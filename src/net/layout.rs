@@ -41,11 +41,7 @@ pub(crate) fn hinge_length(set: &PanelSet, hinge: HingeId) -> f64 {
 
 /// A panel's outline at a place.
 pub(crate) fn placed_outline(set: &PanelSet, panel: PanelId, place: DAffine2) -> Vec<DVec2> {
-    set.panel(panel)
-        .outline
-        .iter()
-        .map(|&p| place.transform_point2(p))
-        .collect()
+    set.panel(panel).outline.iter().map(|&p| place.transform_point2(p)).collect()
 }
 
 /// One piece before it has tabs: its panels at their places, and the hinges that stay joined.
@@ -58,18 +54,12 @@ pub(crate) struct Layout {
 impl Layout {
     /// The place of a panel, if it is in this piece.
     pub(crate) fn place(&self, panel: PanelId) -> Option<DAffine2> {
-        self.panels
-            .iter()
-            .find(|(id, _)| *id == panel)
-            .map(|(_, place)| *place)
+        self.panels.iter().find(|(id, _)| *id == panel).map(|(_, place)| *place)
     }
 
     /// Outlines of all panels.
     pub(crate) fn outlines(&self, set: &PanelSet) -> Vec<Vec<DVec2>> {
-        self.panels
-            .iter()
-            .map(|&(id, place)| placed_outline(set, id, place))
-            .collect()
+        self.panels.iter().map(|&(id, place)| placed_outline(set, id, place)).collect()
     }
 }
 
@@ -83,20 +73,12 @@ pub(crate) fn pieces(set: &PanelSet, is_cut: &[bool]) -> Vec<Layout> {
             continue;
         }
         place[root] = Some(DAffine2::IDENTITY);
-        let mut layout = Layout {
-            panels: vec![(PanelId(root), DAffine2::IDENTITY)],
-            creases: Vec::new(),
-        };
+        let mut layout = Layout { panels: vec![(PanelId(root), DAffine2::IDENTITY)], creases: Vec::new() };
         let mut next = 0;
         while next < layout.panels.len() {
             let (from, at) = layout.panels[next];
             next += 1;
-            for (id, hinge) in set
-                .hinges()
-                .iter()
-                .enumerate()
-                .filter(|(id, _)| !is_cut[*id])
-            {
+            for (id, hinge) in set.hinges().iter().enumerate().filter(|(id, _)| !is_cut[*id]) {
                 let Some(side) = hinge.sides.iter().position(|s| s.panel == from) else {
                     continue;
                 };
@@ -153,11 +135,7 @@ pub(crate) fn best_turn(points: &[DVec2], sheet_mm: DVec2) -> BestTurn {
         .flat_map(|d| [d, d.perp()])
         .map(|d| DVec2::new(d.x, -d.y))
         .collect();
-    let mut best = BestTurn {
-        unit: DVec2::X,
-        scale: 0.0,
-        size_mm: DVec2::ZERO,
-    };
+    let mut best = BestTurn { unit: DVec2::X, scale: 0.0, size_mm: DVec2::ZERO };
     for unit in edges.into_iter().chain(steps) {
         let turn = measured(&hull, unit, sheet_mm);
         if turn.beats(&best) {
@@ -171,19 +149,13 @@ pub(crate) fn best_turn(points: &[DVec2], sheet_mm: DVec2) -> BestTurn {
 pub(crate) fn measured(points: &[DVec2], unit: DVec2, sheet_mm: DVec2) -> BestTurn {
     let turned = points.iter().map(|&p| unit.rotate(p));
     let size_mm = polygon::bounds(turned).map_or(DVec2::ZERO, |(lo, hi)| hi - lo);
-    BestTurn {
-        unit,
-        scale: ((sheet_mm + FIT_TOLERANCE_MM) / size_mm).min_element(),
-        size_mm,
-    }
+    BestTurn { unit, scale: ((sheet_mm + FIT_TOLERANCE_MM) / size_mm).min_element(), size_mm }
 }
 
 /// Whether two panels of one piece are too close: overlapping where they share a corner, nearer
 /// than `gap_mm` where they do not.
 pub(crate) fn clash(a: &[DVec2], b: &[DVec2], gap_mm: f64) -> bool {
-    let touch = a
-        .iter()
-        .any(|p| b.iter().any(|q| p.distance_squared(*q) < 1e-12));
+    let touch = a.iter().any(|p| b.iter().any(|q| p.distance_squared(*q) < 1e-12));
     polygon::convex_overlap(a, b, if touch { 1e-6 } else { -gap_mm })
 }
 
@@ -193,10 +165,7 @@ mod tests {
 
     fn rectangle(width: f64, height: f64, turn_rad: f64) -> Vec<DVec2> {
         let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
-        corners
-            .iter()
-            .map(|&c| DVec2::from_angle(turn_rad).rotate(c.into()))
-            .collect()
+        corners.iter().map(|&c| DVec2::from_angle(turn_rad).rotate(c.into())).collect()
     }
 
     #[test]

@@ -51,9 +51,7 @@ pub struct MarkOptions {
 
 impl Default for MarkOptions {
     fn default() -> Self {
-        Self {
-            hide_below_rad: 0.0,
-        }
+        Self { hide_below_rad: 0.0 }
     }
 }
 
@@ -64,49 +62,28 @@ impl Piece {
         let path = |layer: Layer, contours: Vec<Polyline>| Mark {
             layer,
             piece: Some(self.name.clone()),
-            shape: Shape::Path {
-                contours,
-                stroke: Some(stroke_of(layer)),
-                fill: None,
-            },
+            shape: Shape::Path { contours, stroke: Some(stroke_of(layer)), fill: None },
         };
-        let closed = |points: &[DVec2]| Polyline {
-            points: points.to_vec(),
-            is_closed: true,
-        };
+        let closed = |points: &[DVec2]| Polyline { points: points.to_vec(), is_closed: true };
         let mut marks = Vec::new();
         for joint in &self.joints {
             marks.push(path(Layer::Glue, vec![closed(&joint.outline)]));
             marks.push(path(Layer::Glue, vec![closed(&joint.key)]));
         }
         for crease in &self.crease_lines {
-            let layer = if crease.is_fold {
-                Layer::FoldHinge
-            } else {
-                Layer::Mountain
-            };
+            let layer = if crease.is_fold { Layer::FoldHinge } else { Layer::Mountain };
             if crease.is_fold || crease.deployed_rad >= options.hide_below_rad {
-                let line = Polyline {
-                    points: crease.ends.to_vec(),
-                    is_closed: false,
-                };
+                let line = Polyline { points: crease.ends.to_vec(), is_closed: false };
                 marks.push(path(layer, vec![line]));
             }
         }
         for slit in &self.slits {
-            let line = Polyline {
-                points: slit.clone(),
-                is_closed: false,
-            };
+            let line = Polyline { points: slit.clone(), is_closed: false };
             marks.push(path(Layer::Slit, vec![line]));
         }
         marks.push(path(Layer::Cut, vec![closed(&self.outline)]));
         for label in &self.labels {
-            let layer = if label.kind == LabelKind::Joint {
-                Layer::Glue
-            } else {
-                Layer::Label
-            };
+            let layer = if label.kind == LabelKind::Joint { Layer::Glue } else { Layer::Label };
             marks.push(Mark {
                 layer,
                 piece: Some(self.name.clone()),

@@ -104,10 +104,7 @@ impl PieceMesh {
             .panels
             .iter()
             .zip(vertex_of)
-            .map(|(&(panel, _), vertices)| Face {
-                kind: FaceKind::Panel(panel),
-                vertices,
-            })
+            .map(|(&(panel, _), vertices)| Face { kind: FaceKind::Panel(panel), vertices })
             .collect();
         for (k, (tab, outline)) in tabs.iter().enumerate() {
             let on = set.hinges()[tab.hinge.0].sides[tab.side];
@@ -118,23 +115,13 @@ impl PieceMesh {
             let base = [carrier[(on.edge + 1) % carrier.len()], carrier[on.edge]];
             let first = vertices.len();
             for corner in [2, 3] {
-                vertices.push(Vertex {
-                    at: outline[corner],
-                    of: Corner::Tab { tab: k, corner },
-                });
+                vertices.push(Vertex { at: outline[corner], of: Corner::Tab { tab: k, corner } });
             }
             let vertices = vec![base[0], base[1], first, first + 1];
-            faces.push(Face {
-                kind: FaceKind::Tab(k),
-                vertices,
-            });
+            faces.push(Face { kind: FaceKind::Tab(k), vertices });
         }
         let edges = edges(set, layout, tabs, &faces);
-        Self {
-            vertices,
-            faces,
-            edges,
-        }
+        Self { vertices, faces, edges }
     }
 
     /// The same mesh with every vertex moved.
@@ -162,11 +149,7 @@ impl PieceMesh {
 
     /// Corners of a face on the piece.
     pub fn outline(&self, face: usize) -> Vec<DVec2> {
-        self.faces[face]
-            .vertices
-            .iter()
-            .map(|&v| self.vertices[v].at)
-            .collect()
+        self.faces[face].vertices.iter().map(|&v| self.vertices[v].at).collect()
     }
 
     /// Both ends of an edge on the piece.
@@ -205,12 +188,7 @@ impl PieceMesh {
     }
 }
 
-fn edges(
-    set: &PanelSet,
-    layout: &Layout,
-    tabs: &[(Placed, [DVec2; 4])],
-    faces: &[Face],
-) -> Vec<Edge> {
+fn edges(set: &PanelSet, layout: &Layout, tabs: &[(Placed, [DVec2; 4])], faces: &[Face]) -> Vec<Edge> {
     let hinge_at: BTreeMap<(PanelId, usize), HingeId> = set
         .hinges()
         .iter()
@@ -223,14 +201,9 @@ fn edges(
             None => EdgeKind::Slit,
             Some(h) if layout.creases.contains(h) => EdgeKind::Hinge(*h),
             Some(h) => {
-                let is_tab = tabs
-                    .iter()
-                    .any(|(t, _)| t.hinge == *h && set.hinges()[h.0].sides[t.side].panel == panel);
-                if is_tab {
-                    EdgeKind::Tab(*h)
-                } else {
-                    EdgeKind::Mate(*h)
-                }
+                let is_tab =
+                    tabs.iter().any(|(t, _)| t.hinge == *h && set.hinges()[h.0].sides[t.side].panel == panel);
+                if is_tab { EdgeKind::Tab(*h) } else { EdgeKind::Mate(*h) }
             }
         },
     };
@@ -244,11 +217,7 @@ fn edges(
                 out[e].faces.push(f);
             } else {
                 known.insert(ends, out.len());
-                out.push(Edge {
-                    ends,
-                    kind: kind(face, k),
-                    faces: vec![f],
-                });
+                out.push(Edge { ends, kind: kind(face, k), faces: vec![f] });
             }
         }
     }
@@ -270,10 +239,7 @@ impl Corners {
             first.insert(panel, (total, count));
             total += count;
         }
-        Self {
-            first,
-            parent: (0..total).collect(),
-        }
+        Self { first, parent: (0..total).collect() }
     }
 
     fn join(&mut self, p: PanelId, corner_p: usize, q: PanelId, corner_q: usize) {
@@ -303,10 +269,7 @@ impl Corners {
                 let root = self.root(running);
                 if number[root] == usize::MAX {
                     number[root] = vertices.len();
-                    vertices.push(Vertex {
-                        at,
-                        of: Corner::Panel { panel, corner },
-                    });
+                    vertices.push(Vertex { at, of: Corner::Panel { panel, corner } });
                 }
                 face.push(number[root]);
                 running += 1;

@@ -37,21 +37,13 @@ impl Shape {
         let along = (end - start).normalize_or_zero();
         let out = along.perp();
         let [a, b] = self.leans_rad.map(|lean| self.width_mm / lean.tan());
-        [
-            start,
-            end,
-            end - along * b + out * self.width_mm,
-            start + along * a + out * self.width_mm,
-        ]
+        [start, end, end - along * b + out * self.width_mm, start + along * a + out * self.width_mm]
     }
 
     /// The same with steeper sides and a larger width: the tab and the paper that must be free.
     fn with_room(&self) -> Self {
         let leans_rad = self.leans_rad.map(|lean| (lean + TAB_GAP_RAD).min(1.5));
-        Self {
-            width_mm: self.width_mm + TAB_GAP_MM,
-            leans_rad,
-        }
+        Self { width_mm: self.width_mm + TAB_GAP_MM, leans_rad }
     }
 }
 
@@ -91,16 +83,11 @@ fn side_shapes(set: &PanelSet, hinge: HingeId, side: usize, tab_width_mm: f64) -
     for width_mm in (0..steps).map(|k| widest - LEAST_WIDTH_MM * k as f64) {
         for a in LEANS_DEG {
             for b in LEANS_DEG {
-                let shape = Shape {
-                    width_mm,
-                    leans_rad: [a.to_radians(), b.to_radians()],
-                };
+                let shape = Shape { width_mm, leans_rad: [a.to_radians(), b.to_radians()] };
                 let [_, _, far, near] = shape.outline(base);
                 let top = far.distance(near);
                 let runs_on = (far - near).dot(base[0] - base[1]) > 0.0;
-                let is_inside = [near, far]
-                    .iter()
-                    .all(|&p| depth_outside(&mate, p) <= -MATE_INSET_MM);
+                let is_inside = [near, far].iter().all(|&p| depth_outside(&mate, p) <= -MATE_INSET_MM);
                 if runs_on && top >= LEAST_TOP_MM && is_inside {
                     out.push(((length + top) / 2.0 * width_mm, shape));
                 }
@@ -113,11 +100,7 @@ fn side_shapes(set: &PanelSet, hinge: HingeId, side: usize, tab_width_mm: f64) -
 
 /// Widest tab that a hinge's geometry allows on either side; 0 where none fits.
 pub(crate) fn widest(shapes: &Shapes) -> f64 {
-    shapes
-        .iter()
-        .flatten()
-        .map(|s| s.width_mm)
-        .fold(0.0, f64::max)
+    shapes.iter().flatten().map(|s| s.width_mm).fold(0.0, f64::max)
 }
 
 /// The tabs placed so far, with what they must not touch.
@@ -194,13 +177,7 @@ impl<'a> Board<'a> {
         })
     }
 
-    fn best_shape(
-        &self,
-        hinge: HingeId,
-        side: usize,
-        shapes: &[Shape],
-        least_mm: f64,
-    ) -> Option<Shape> {
+    fn best_shape(&self, hinge: HingeId, side: usize, shapes: &[Shape], least_mm: f64) -> Option<Shape> {
         let (piece, own, place) = self.carrier(hinge, side)?;
         let sides = self.set.hinges()[hinge.0].sides;
         let (base, mate) = (edge(self.set, sides[side]), sides[1 - side].panel);
@@ -209,24 +186,15 @@ impl<'a> Board<'a> {
             let moved = |s: &Shape, by: DAffine2| s.outline(base).map(|p| by.transform_point2(p));
             let (tab, wide) = (moved(shape, place), moved(&shape.with_room(), place));
             let behind = (moved(shape, to_mate), moved(&shape.with_room(), to_mate));
-            let panels = self.outlines[piece]
-                .iter()
-                .enumerate()
-                .filter(|(k, _)| *k != own);
+            let panels = self.outlines[piece].iter().enumerate().filter(|(k, _)| *k != own);
             let tabs = self.tabs[piece].iter();
             let mut glued = self.behind.iter().filter(|(p, _)| *p == mate);
-            !panels
-                .map(|(_, o)| o.as_slice())
-                .any(|o| hinders(&tab, &wide, o))
+            !panels.map(|(_, o)| o.as_slice()).any(|o| hinders(&tab, &wide, o))
                 && !tabs.map(|t| t.as_slice()).any(|o| hinders(&tab, &wide, o))
                 && !glued.any(|(_, t)| hinders(&behind.0, &behind.1, t))
                 && self.still_fits(piece, &tab)
         };
-        shapes
-            .iter()
-            .filter(|s| s.width_mm >= least_mm)
-            .find(|s| is_free(s))
-            .copied()
+        shapes.iter().filter(|s| s.width_mm >= least_mm).find(|s| is_free(s)).copied()
     }
 
     fn still_fits(&self, piece: usize, tab: &[DVec2]) -> bool {
@@ -245,22 +213,15 @@ impl<'a> Board<'a> {
         let to_mate = across(self.set, hinge, side).inverse();
         let mate = sides[1 - side].panel;
         self.tabs[piece].push(outline.map(|p| place.transform_point2(p)));
-        self.behind
-            .push((mate, outline.map(|p| to_mate.transform_point2(p))));
+        self.behind.push((mate, outline.map(|p| to_mate.transform_point2(p))));
     }
 }
 
 /// Whether a tab hinders another polygon: they share a corner and meet at too small an angle, or
 /// are nearer than the gap.
 fn hinders(tab: &[DVec2; 4], wide: &[DVec2; 4], other: &[DVec2]) -> bool {
-    let touch = tab
-        .iter()
-        .any(|p| other.iter().any(|q| p.distance_squared(*q) < 1e-12));
-    if touch {
-        convex_overlap(wide, other, 1e-6)
-    } else {
-        convex_overlap(tab, other, -TAB_GAP_MM)
-    }
+    let touch = tab.iter().any(|p| other.iter().any(|q| p.distance_squared(*q) < 1e-12));
+    if touch { convex_overlap(wide, other, 1e-6) } else { convex_overlap(tab, other, -TAB_GAP_MM) }
 }
 
 /// Tabs for all cut hinges, each at least `least_mm` wide (but never below what can be cut). A

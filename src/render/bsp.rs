@@ -41,21 +41,13 @@ struct Plane {
 
 impl Plane {
     fn through(point: DVec3, normal: DVec3, slack: f64) -> Self {
-        Self {
-            normal,
-            offset: normal.dot(point),
-            slack,
-        }
+        Self { normal, offset: normal.dot(point), slack }
     }
 
     /// Height above the plane; 0 within the tolerance.
     fn height(&self, point: DVec3) -> f64 {
         let height = self.normal.dot(point) - self.offset;
-        if height.abs() <= self.slack {
-            0.0
-        } else {
-            height
-        }
+        if height.abs() <= self.slack { 0.0 } else { height }
     }
 
     fn side(&self, fragment: &Fragment) -> Side {
@@ -75,11 +67,7 @@ impl Plane {
 
     /// The parts above and below.
     fn cut(&self, fragment: &Fragment) -> [Fragment; 2] {
-        let empty = || Fragment {
-            face: fragment.face,
-            corners: Vec::new(),
-            edges: Vec::new(),
-        };
+        let empty = || Fragment { face: fragment.face, corners: Vec::new(), edges: Vec::new() };
         let [mut above, mut below] = [empty(), empty()];
         let count = fragment.corners.len();
         for k in 0..count {
@@ -90,8 +78,7 @@ impl Plane {
                 let (from, to) = if is_above { (from, to) } else { (-from, -to) };
                 if from >= 0.0 {
                     part.corners.push(a);
-                    part.edges
-                        .push(if from == 0.0 && to < 0.0 { None } else { edge });
+                    part.edges.push(if from == 0.0 && to < 0.0 { None } else { edge });
                 }
                 if from * to < 0.0 {
                     part.corners.push(a.lerp(b, from / (from - to)));
@@ -131,11 +118,8 @@ pub fn back_to_front(scene: &Scene, view: &View) -> Vec<Fragment> {
         let node: &Node = &nodes[index];
         let foot = node.plane.normal * node.plane.offset;
         let is_seen_from_above = view.towards_eye(foot).dot(node.plane.normal) > 0.0;
-        let (far, near) = if is_seen_from_above {
-            (node.below, node.above)
-        } else {
-            (node.above, node.below)
-        };
+        let (far, near) =
+            if is_seen_from_above { (node.below, node.above) } else { (node.above, node.below) };
         if is_far_done {
             let mut flat: Vec<&Fragment> = node.on_plane.iter().collect();
             flat.sort_by_key(|f| (is_seen_from_front(scene, view, f.face), f.face));
@@ -183,21 +167,12 @@ fn build(scene: &Scene, fragments: Vec<Fragment>) -> Vec<Node> {
         let index = nodes.len();
         if let Some((parent, is_above)) = parent {
             let parent: &mut Node = &mut nodes[parent];
-            let slot = if is_above {
-                &mut parent.above
-            } else {
-                &mut parent.below
-            };
+            let slot = if is_above { &mut parent.above } else { &mut parent.below };
             *slot = Some(index);
         }
         let (plane, own) = choose_plane(scene, &fragments, slack);
         let [on_plane, above, below] = divide(fragments, &plane, own);
-        nodes.push(Node {
-            plane,
-            on_plane,
-            above: None,
-            below: None,
-        });
+        nodes.push(Node { plane, on_plane, above: None, below: None });
         stack.push((above, Some((index, true))));
         stack.push((below, Some((index, false))));
     }
@@ -209,11 +184,7 @@ fn build(scene: &Scene, fragments: Vec<Fragment>) -> Vec<Node> {
 fn divide(fragments: Vec<Fragment>, plane: &Plane, own: Option<usize>) -> [Vec<Fragment>; 3] {
     let [mut on_plane, mut above, mut below] = [Vec::new(), Vec::new(), Vec::new()];
     for (k, fragment) in fragments.into_iter().enumerate() {
-        let side = if own == Some(k) {
-            Side::On
-        } else {
-            plane.side(&fragment)
-        };
+        let side = if own == Some(k) { Side::On } else { plane.side(&fragment) };
         match side {
             Side::On => on_plane.push(fragment),
             Side::Above => above.push(fragment),
@@ -294,9 +265,7 @@ mod tests {
     fn noise(seed: u64) -> impl FnMut() -> f64 {
         let mut state = seed;
         move || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
         }
     }
@@ -363,10 +332,7 @@ mod tests {
             if depths.is_empty() || is_tied || is_near_edge {
                 continue;
             }
-            let painted = sorted
-                .iter()
-                .rev()
-                .find(|f| outside(view, &f.corners, at) < 1e-6);
+            let painted = sorted.iter().rev().find(|f| outside(view, &f.corners, at) < 1e-6);
             assert_eq!(painted.map(|f| f.face), Some(depths[0].1), "at {at}");
             seen += 1;
         }
@@ -378,16 +344,8 @@ mod tests {
         let mut scene = Scene::new();
         for k in 0..3 {
             let turn = glam::DMat3::from_rotation_z(f64::from(k) * std::f64::consts::TAU / 3.0);
-            let bar = [
-                [-10.0, -4.0, -2.0],
-                [10.0, -4.0, 2.0],
-                [10.0, -1.0, 2.0],
-                [-10.0, -1.0, -2.0],
-            ];
-            push(
-                &mut scene,
-                bar.map(|c| turn * DVec3::from_array(c)).to_vec(),
-            );
+            let bar = [[-10.0, -4.0, -2.0], [10.0, -4.0, 2.0], [10.0, -1.0, 2.0], [-10.0, -1.0, -2.0]];
+            push(&mut scene, bar.map(|c| turn * DVec3::from_array(c)).to_vec());
         }
         let view = see(&scene, 0.0, 0.0, 0.0);
         assert!(back_to_front(&scene, &view).len() > 3);
@@ -415,15 +373,11 @@ mod tests {
         let mut scene = Scene::new();
         push(
             &mut scene,
-            [[-4.0, -3.0, 0.0], [4.0, -3.0, 0.0], [0.0, 3.0, 0.0]]
-                .map(DVec3::from_array)
-                .to_vec(),
+            [[-4.0, -3.0, 0.0], [4.0, -3.0, 0.0], [0.0, 3.0, 0.0]].map(DVec3::from_array).to_vec(),
         );
         push(
             &mut scene,
-            [[0.0, -9.0, -5.0], [0.0, 9.0, -5.0], [0.0, 0.0, 9.0]]
-                .map(DVec3::from_array)
-                .to_vec(),
+            [[0.0, -9.0, -5.0], [0.0, 9.0, -5.0], [0.0, 0.0, 9.0]].map(DVec3::from_array).to_vec(),
         );
         let whole = visible(&scene, &see(&scene, 0.3, 0.2, 0.0));
         let plane = Plane::through(DVec3::ZERO, DVec3::X, 1e-9);

@@ -36,11 +36,7 @@ pub fn line_on(colour: Rgb) -> Rgb {
 fn scaled(Rgb(r, g, b): Rgb, light: f64) -> Rgb {
     let channel = |value: u8| {
         let value = f64::from(value);
-        let lit = if light <= 1.0 {
-            value * light
-        } else {
-            value + (255.0 - value) * (light - 1.0).min(1.0)
-        };
+        let lit = if light <= 1.0 { value * light } else { value + (255.0 - value) * (light - 1.0).min(1.0) };
         lit.round() as u8
     };
     Rgb(channel(r), channel(g), channel(b))

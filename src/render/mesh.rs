@@ -39,18 +39,11 @@ impl Scene {
         for (triangle, t) in triangles.iter().enumerate() {
             let edge = |k: usize| match owner_of_edge.get(&[t[(k + 1) % 3], t[k]]) {
                 None => Edge::Border,
-                Some(&other) if colour_of(other) == colour_of(triangle) => {
-                    Edge::Smooth(normals[other])
-                }
+                Some(&other) if colour_of(other) == colour_of(triangle) => Edge::Smooth(normals[other]),
                 Some(&other) => Edge::Crease(normals[other]),
             };
             let corners = t.map(|v| vertices[v as usize]).to_vec();
-            match Face::new(
-                corners,
-                (0..3).map(edge).collect(),
-                colour_of(triangle),
-                back,
-            ) {
+            match Face::new(corners, (0..3).map(edge).collect(), colour_of(triangle), back) {
                 Ok(face) => self.push(face),
                 Err(SceneError::NoArea) => {}
                 Err(error) => return Err(error),

@@ -49,10 +49,7 @@ mod tests {
                 for &b in &COLOURS[..k] {
                     let (p, q) = (seen(a, eye), seen(b, eye));
                     let squared: f64 = (0..3).map(|c| (p[c] - q[c]).powi(2)).sum();
-                    assert!(
-                        squared.sqrt() > 0.12,
-                        "{a:?} and {b:?}, eye {eye}: {squared}"
-                    );
+                    assert!(squared.sqrt() > 0.12, "{a:?} and {b:?}, eye {eye}: {squared}");
                 }
             }
         }

@@ -21,10 +21,7 @@ impl Look {
     /// Lines that suit a picture of this size: about 1 and 1.6 pixels at 640 pixels.
     pub fn for_size(size_mm: DVec2) -> Self {
         let pixel_mm = size_mm.max_element() / 640.0;
-        Self {
-            crease_mm: pixel_mm,
-            outline_mm: 1.6 * pixel_mm,
-        }
+        Self { crease_mm: pixel_mm, outline_mm: 1.6 * pixel_mm }
     }
 }
 
@@ -35,33 +32,16 @@ const SEAM_SHARE: f64 = 1.5 / 640.0;
 
 /// Draws what is to be seen, farthest first, over the marks of `under` (a shadow, say). The ground
 /// is transparent where it is none.
-pub fn picture(
-    scene: &Scene,
-    view: &View,
-    look: &Look,
-    ground: Option<Rgb>,
-    under: Vec<Mark>,
-) -> Drawing {
+pub fn picture(scene: &Scene, view: &View, look: &Look, ground: Option<Rgb>, under: Vec<Mark>) -> Drawing {
     let seam_mm = view.size_mm().max_element() * SEAM_SHARE;
     let mut marks = under;
     for fragment in bsp::back_to_front(scene, view) {
         draw(scene, view, look, seam_mm, &fragment, &mut marks);
     }
-    Drawing {
-        ground,
-        marks,
-        ..Drawing::new("", view.size_mm())
-    }
+    Drawing { ground, marks, ..Drawing::new("", view.size_mm()) }
 }
 
-fn draw(
-    scene: &Scene,
-    view: &View,
-    look: &Look,
-    seam_mm: f64,
-    fragment: &Fragment,
-    marks: &mut Vec<Mark>,
-) {
+fn draw(scene: &Scene, view: &View, look: &Look, seam_mm: f64, fragment: &Fragment, marks: &mut Vec<Mark>) {
     let face = &scene.faces()[fragment.face];
     let is_front = bsp::is_seen_from_front(scene, view, fragment.face);
     let side = if is_front {
@@ -74,11 +54,7 @@ fn draw(
     };
     let colour = light::shaded(colour, view.camera().direction(normal));
     let points: Vec<DVec2> = fragment.corners.iter().map(|&c| view.project(c)).collect();
-    let stroke = |width_mm, colour| Stroke {
-        width_mm,
-        colour,
-        dash_mm: Vec::new(),
-    };
+    let stroke = |width_mm, colour| Stroke { width_mm, colour, dash_mm: Vec::new() };
     let mut lines = [Vec::new(), Vec::new()];
     for (k, edge) in fragment.edges.iter().enumerate() {
         let Some(edge) = edge.map(|e| face.edges()[e]) else {
@@ -91,12 +67,7 @@ fn draw(
     }
     let outline = Polyline::closed(points);
     let seam = stroke(seam_mm, colour);
-    marks.push(Mark::path(
-        Layer::Picture,
-        vec![outline],
-        Some(seam),
-        Some(colour),
-    ));
+    marks.push(Mark::path(Layer::Picture, vec![outline], Some(seam), Some(colour)));
     let line_colour = light::line_on(colour);
     for (contours, width_mm) in lines.into_iter().zip([look.crease_mm, look.outline_mm]) {
         if !contours.is_empty() && width_mm > 0.0 {
@@ -117,9 +88,7 @@ fn weight(view: &View, edge: Edge, start: DVec3, is_front: bool) -> Option<Weigh
     let is_silhouette = |across: DVec3| (view.towards_eye(start).dot(across) > 0.0) != is_front;
     match edge {
         Edge::Border => Some(Weight::Outline),
-        Edge::Smooth(across) | Edge::Crease(across) if is_silhouette(across) => {
-            Some(Weight::Outline)
-        }
+        Edge::Smooth(across) | Edge::Crease(across) if is_silhouette(across) => Some(Weight::Outline),
         Edge::Smooth(_) => None,
         Edge::Crease(_) => Some(Weight::Crease),
     }

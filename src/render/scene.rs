@@ -69,10 +69,7 @@ impl Face {
     ) -> Result<Self, SceneError> {
         let count = corners.len();
         if count < 3 || edges.len() != count {
-            return Err(SceneError::Count {
-                corners: count,
-                edges: edges.len(),
-            });
+            return Err(SceneError::Count { corners: count, edges: edges.len() });
         }
         if let Some(bad) = corners.iter().position(|c| !c.is_finite()) {
             return Err(SceneError::NotFinite(bad));
@@ -81,13 +78,7 @@ impl Face {
         if let Some(bad) = first_dent(&corners, normal) {
             return Err(SceneError::NotConvex(bad));
         }
-        Ok(Self {
-            corners,
-            edges,
-            normal,
-            front,
-            back,
-        })
+        Ok(Self { corners, edges, normal, front, back })
     }
 
     /// Corners, counter-clockwise seen from the front.
@@ -119,20 +110,14 @@ impl Face {
 /// Newell's normal; none where the corners span no area worth the name.
 fn unit_normal(corners: &[DVec3]) -> Option<DVec3> {
     let origin = corners[0];
-    let doubled: DVec3 = corners
-        .windows(2)
-        .map(|pair| (pair[0] - origin).cross(pair[1] - origin))
-        .sum();
+    let doubled: DVec3 = corners.windows(2).map(|pair| (pair[0] - origin).cross(pair[1] - origin)).sum();
     let reach = extent(corners);
     let has_area = doubled.length() > 1e-12 * reach * reach;
     has_area.then(|| doubled.normalize())
 }
 
 fn extent(corners: &[DVec3]) -> f64 {
-    corners
-        .iter()
-        .map(|c| c.distance(corners[0]))
-        .fold(0.0, f64::max)
+    corners.iter().map(|c| c.distance(corners[0])).fold(0.0, f64::max)
 }
 
 fn first_dent(corners: &[DVec3], normal: DVec3) -> Option<usize> {
@@ -188,19 +173,9 @@ mod tests {
 
     #[test]
     fn faces_are_checked() {
-        let square = [
-            [0.0, 0.0, 5.0],
-            [2.0, 0.0, 5.0],
-            [2.0, 2.0, 5.0],
-            [0.0, 2.0, 5.0],
-        ];
+        let square = [[0.0, 0.0, 5.0], [2.0, 0.0, 5.0], [2.0, 2.0, 5.0], [0.0, 2.0, 5.0]];
         assert_eq!(face(&square).map(|f| f.normal()), Ok(DVec3::Z));
-        let dented = [
-            [0.0, 0.0, 0.0],
-            [2.0, 0.0, 0.0],
-            [0.5, 0.5, 0.0],
-            [0.0, 2.0, 0.0],
-        ];
+        let dented = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.5, 0.5, 0.0], [0.0, 2.0, 0.0]];
         assert_eq!(face(&dented), Err(SceneError::NotConvex(2)));
         let mut warped = square;
         warped[2][2] = 5.1;
@@ -209,10 +184,7 @@ mod tests {
         assert_eq!(face(&line), Err(SceneError::NoArea));
         let nan = [[0.0, 0.0, 0.0], [1.0, f64::NAN, 1.0], [3.0, 3.0, 3.0]];
         assert_eq!(face(&nan), Err(SceneError::NotFinite(1)));
-        let expected = SceneError::Count {
-            corners: 2,
-            edges: 2,
-        };
+        let expected = SceneError::Count { corners: 2, edges: 2 };
         assert_eq!(face(&line[..2]), Err(expected));
     }
 }

@@ -59,9 +59,8 @@ mod tests {
 
     #[test]
     fn shadows_darken_inwards_and_need_a_view_from_above() {
-        let points: Vec<DVec3> = (0..8)
-            .map(|k| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)))
-            .collect();
+        let points: Vec<DVec3> =
+            (0..8).map(|k| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2))).collect();
         let see = |elevation| {
             let camera = Camera::new(0.5, elevation, 0.0).unwrap();
             let view = View::fit(camera, points.clone(), DVec2::splat(80.0), 8.0).unwrap();
@@ -78,12 +77,7 @@ mod tests {
             .collect();
         assert_eq!(fills.len(), STEPS as usize);
         assert!(fills.is_sorted_by(|a, b| a >= b) && fills[0] > fills[11] + 30);
-        let nothing = View::fit(
-            Camera::new(0.0, 0.3, 0.0).unwrap(),
-            [DVec3::ZERO],
-            DVec2::splat(80.0),
-            8.0,
-        );
+        let nothing = View::fit(Camera::new(0.0, 0.3, 0.0).unwrap(), [DVec3::ZERO], DVec2::splat(80.0), 8.0);
         assert!(contact_shadow(&[], &nothing.unwrap(), Rgb(255, 255, 255)).is_empty());
     }
 }

@@ -36,11 +36,7 @@ impl Camera {
     ///
     /// # Errors
     /// [`ViewError::Angle`] where a guarantee would not hold.
-    pub fn new(
-        azimuth_rad: f64,
-        elevation_rad: f64,
-        field_of_view_rad: f64,
-    ) -> Result<Self, ViewError> {
+    pub fn new(azimuth_rad: f64, elevation_rad: f64, field_of_view_rad: f64) -> Result<Self, ViewError> {
         const QUARTER: f64 = std::f64::consts::FRAC_PI_2;
         if !azimuth_rad.is_finite() {
             return Err(ViewError::Angle("azimuth"));
@@ -115,9 +111,7 @@ impl View {
             size_mm,
         };
         let flat = points.iter().map(|&p| view.project(p));
-        let (low, high) = flat.fold((DVec2::MAX, DVec2::MIN), |(low, high), p| {
-            (low.min(p), high.max(p))
-        });
+        let (low, high) = flat.fold((DVec2::MAX, DVec2::MIN), |(low, high), p| (low.min(p), high.max(p)));
         let extent = (high - low).max(DVec2::splat(SMALLEST_MM));
         view.scale = (room / extent).min_element();
         view.shift_mm = 0.5 * size_mm - 0.5 * view.scale * (low + high);
@@ -137,9 +131,7 @@ impl View {
     /// Where a point appears in the picture, mm. It must lie before the eye.
     pub fn project(&self, point: DVec3) -> DVec2 {
         let local = self.camera.direction(point - self.centre);
-        let nearness = self
-            .distance
-            .map_or(1.0, |distance| distance / (distance - local.z));
+        let nearness = self.distance.map_or(1.0, |distance| distance / (distance - local.z));
         self.scale * nearness * local.truncate() + self.shift_mm
     }
 
@@ -160,11 +152,7 @@ mod tests {
 
     fn corners() -> impl Iterator<Item = DVec3> {
         (0..8).map(|k| {
-            DVec3::new(
-                f64::from(k & 1) * 30.0,
-                f64::from(k >> 1 & 1) * 20.0,
-                f64::from(k >> 2) * 50.0,
-            )
+            DVec3::new(f64::from(k & 1) * 30.0, f64::from(k >> 1 & 1) * 20.0, f64::from(k >> 2) * 50.0)
         })
     }
 
@@ -182,10 +170,7 @@ mod tests {
                 assert!((size - high).min_element() > 5.0 - 1e-9);
                 assert!((low + high - size).length() < 1e-9, "centred");
                 let room = (high - low) / DVec2::new(90.0, 70.0);
-                assert!(
-                    (room.max_element() - 1.0).abs() < 1e-9,
-                    "fills one direction"
-                );
+                assert!((room.max_element() - 1.0).abs() < 1e-9, "fills one direction");
             }
         }
     }

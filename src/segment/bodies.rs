@@ -30,11 +30,7 @@ struct Tree<'a> {
 
 impl<'a> Tree<'a> {
     fn new(centres: &'a [DVec3]) -> Self {
-        let mut tree = Self {
-            centres,
-            order: (0..centres.len() as u32).collect(),
-            nodes: Vec::new(),
-        };
+        let mut tree = Self { centres, order: (0..centres.len() as u32).collect(), nodes: Vec::new() };
         // (range, the node whose second child this is)
         let mut todo = vec![(0, centres.len(), None)];
         while let Some((first, end, parent)) = todo.pop() {
@@ -46,24 +42,13 @@ impl<'a> Tree<'a> {
             let (lo, hi) = tree.order[first..end]
                 .iter()
                 .map(|&c| centres[c as usize])
-                .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| {
-                    (lo.min(p), hi.max(p))
-                });
-            tree.nodes.push(Node {
-                lo,
-                hi,
-                first,
-                end,
-                second: 0,
-                body: MIXED,
-            });
+                .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)));
+            tree.nodes.push(Node { lo, hi, first, end, second: 0, body: MIXED });
             if end - first > LEAF {
                 let axis = (hi - lo).max_position();
                 let middle = (end - first) / 2;
                 tree.order[first..end].select_nth_unstable_by(middle, |&a, &b| {
-                    centres[a as usize][axis]
-                        .total_cmp(&centres[b as usize][axis])
-                        .then(a.cmp(&b))
+                    centres[a as usize][axis].total_cmp(&centres[b as usize][axis]).then(a.cmp(&b))
                 });
                 todo.push((first + middle, end, Some(index)));
                 todo.push((first, first + middle, None));
@@ -74,15 +59,9 @@ impl<'a> Tree<'a> {
 
     fn mark(&mut self, body: &[u32]) {
         for node in self.nodes.iter_mut().rev() {
-            let mut bodies = self.order[node.first..node.end]
-                .iter()
-                .map(|&c| body[c as usize]);
+            let mut bodies = self.order[node.first..node.end].iter().map(|&c| body[c as usize]);
             let first = bodies.next().unwrap_or(MIXED);
-            node.body = if bodies.all(|b| b == first) {
-                first
-            } else {
-                MIXED
-            };
+            node.body = if bodies.all(|b| b == first) { first } else { MIXED };
         }
     }
 
@@ -142,9 +121,7 @@ pub(super) fn nearest_links(surface: &Surface) -> Vec<[u32; 2]> {
         if links.len() == before {
             break;
         }
-        let roots: Vec<u32> = (0..count as u32)
-            .filter(|&b| root[b as usize] == b)
-            .collect();
+        let roots: Vec<u32> = (0..count as u32).filter(|&b| root[b as usize] == b).collect();
         for b in &mut body {
             *b = roots.binary_search(&find(&mut root, *b)).unwrap_or(0) as u32;
         }
@@ -155,33 +132,21 @@ pub(super) fn nearest_links(surface: &Surface) -> Vec<[u32; 2]> {
 
 /// Joins each body that is too small for a segment, whole, to the set at the other end of its
 /// shortest link. `links` are those of [`nearest_links`].
-pub(super) fn join_crumbs(
-    surface: &Surface,
-    mut partition: Partition,
-    links: &[[u32; 2]],
-) -> Partition {
+pub(super) fn join_crumbs(surface: &Surface, mut partition: Partition, links: &[[u32; 2]]) -> Partition {
     let (body, count) = surface.components(|_| 0);
     let least = CRUMB * surface.total_area();
-    let mut areas = Partition {
-        of_cell: body.clone(),
-        count,
-    }
-    .areas(surface);
+    let mut areas = Partition { of_cell: body.clone(), count }.areas(surface);
     let mut root: Vec<u32> = (0..count as u32).collect();
     // The cell whose set a body joins.
     let mut host_cell: Vec<Option<u32>> = vec![None; count];
-    let distance = |[a, b]: [u32; 2]| {
-        surface.centres()[a as usize].distance_squared(surface.centres()[b as usize])
-    };
+    let distance =
+        |[a, b]: [u32; 2]| surface.centres()[a as usize].distance_squared(surface.centres()[b as usize]);
     let mut links = links.to_vec();
     links.sort_by(|a, b| distance(*a).total_cmp(&distance(*b)).then(a.cmp(b)));
     for [a, b] in links {
         let [ra, rb] = [a, b].map(|c| find(&mut root, body[c as usize]));
-        let (small, host, into) = if areas[ra as usize] > areas[rb as usize] {
-            (rb, ra, a)
-        } else {
-            (ra, rb, b)
-        };
+        let (small, host, into) =
+            if areas[ra as usize] > areas[rb as usize] { (rb, ra, a) } else { (ra, rb, b) };
         if small != host && areas[small as usize] < least {
             areas[host as usize] += areas[small as usize];
             root[small as usize] = host;
@@ -210,10 +175,7 @@ pub(super) fn body_of_sets(surface: &Surface, partition: &Partition) -> Vec<u32>
         let (a, b) = (find(&mut root, first), find(&mut root, body[cell]));
         root[a.max(b) as usize] = a.min(b);
     }
-    of_set
-        .into_iter()
-        .map(|b| find(&mut root, b.unwrap_or(0)))
-        .collect()
+    of_set.into_iter().map(|b| find(&mut root, b.unwrap_or(0))).collect()
 }
 
 /// The root of a body in a forest, with the way to it shortened.

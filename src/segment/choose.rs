@@ -39,12 +39,7 @@ struct Cover<'a> {
 
 impl<'a> Cover<'a> {
     fn new(solid: &'a Solid) -> Self {
-        Self {
-            solid,
-            times: vec![0; solid.len()],
-            inside: 0,
-            outside: 0,
-        }
+        Self { solid, times: vec![0; solid.len()], inside: 0, outside: 0 }
     }
 
     fn add(&mut self, runs: &[Run]) {
@@ -72,11 +67,7 @@ impl<'a> Cover<'a> {
     }
 
     fn count(&mut self, column: u32, height: u16) -> &mut usize {
-        if self.solid.is_inside(column, height) {
-            &mut self.inside
-        } else {
-            &mut self.outside
-        }
+        if self.solid.is_inside(column, height) { &mut self.inside } else { &mut self.outside }
     }
 
     /// Intersection over union of the hulls' union with the solid.
@@ -91,9 +82,7 @@ impl<'a> Cover<'a> {
 
     fn unsplit(&mut self, tree: &Tree, node: usize, children: [usize; 2]) {
         self.add(&tree.nodes[node].runs);
-        children
-            .iter()
-            .for_each(|&c| self.remove(&tree.nodes[c].runs));
+        children.iter().for_each(|&c| self.remove(&tree.nodes[c].runs));
     }
 }
 
@@ -154,11 +143,7 @@ impl Tree {
                 children.iter().for_each(|&c| above[c] = false);
             }
         }
-        let split = self
-            .nodes
-            .iter()
-            .zip(above)
-            .filter(|(n, above)| *above && n.children.is_some());
+        let split = self.nodes.iter().zip(above).filter(|(n, above)| *above && n.children.is_some());
         split.map(|(n, _)| n.border).sum()
     }
 
@@ -206,16 +191,7 @@ impl Tree {
                 children.iter().for_each(|&c| of_node[c] = of_node[n]);
             }
         }
-        let of_cell = self
-            .patches
-            .of_cell
-            .iter()
-            .map(|&p| of_node[p as usize])
-            .collect();
-        Partition {
-            of_cell,
-            count: front.len() + 1,
-        }
-        .compacted()
+        let of_cell = self.patches.of_cell.iter().map(|&p| of_node[p as usize]).collect();
+        Partition { of_cell, count: front.len() + 1 }.compacted()
     }
 }

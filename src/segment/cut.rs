@@ -18,22 +18,13 @@ const PASSES: usize = 4;
 /// where concave): little along sharp concave edges.
 /// The formula is that of the edge term in Shapira et al. 2008.
 pub(super) fn crease_cost(turn_rad: f64) -> f64 {
-    let share = if turn_rad > 0.0 {
-        turn_rad
-    } else {
-        CONVEX * -turn_rad
-    };
+    let share = if turn_rad > 0.0 { turn_rad } else { CONVEX * -turn_rad };
     -(share / std::f64::consts::PI).max(LEAST_PROBABILITY).ln()
 }
 
 /// Labels the cells by the mixture's Gaussians. Data terms are weighted by area and borders by
 /// length, each over its mean.
-pub(super) fn soft_labels(
-    surface: &Surface,
-    values: &[f64],
-    mixture: &Mixture,
-    smoothing: f64,
-) -> Vec<u32> {
+pub(super) fn soft_labels(surface: &Surface, values: &[f64], mixture: &Mixture, smoothing: f64) -> Vec<u32> {
     let labels = mixture.len();
     let mean_area = surface.total_area() / surface.len().max(1) as f64;
     let mut data = Vec::with_capacity(surface.len() * labels);
@@ -50,9 +41,7 @@ pub(super) fn soft_labels(
         .collect();
     let cheapest = |cell: usize| {
         let costs = &data[cell * labels..(cell + 1) * labels];
-        (0..labels)
-            .min_by(|&a, &b| costs[a].total_cmp(&costs[b]))
-            .unwrap_or(0) as u32
+        (0..labels).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(0) as u32
     };
     let mut label: Vec<u32> = (0..surface.len()).map(cheapest).collect();
     for _ in 0..PASSES {
@@ -80,11 +69,7 @@ fn expand(
     for (cell, &own) in label.iter().enumerate() {
         let cost = |l: u32| data[cell * labels + l as usize];
         // A cell that has the label already stays.
-        let keep = if own == alpha {
-            f64::MAX.sqrt()
-        } else {
-            cost(own)
-        };
+        let keep = if own == alpha { f64::MAX.sqrt() } else { cost(own) };
         network.add_costs(cell, keep, cost(alpha));
     }
     for (link, &w) in surface.links().iter().zip(weights) {

@@ -62,17 +62,13 @@ impl Mixture {
         }
         let far = |p: &Gaussian| (x - p.mean).abs();
         let nearest = self.parts.iter().map(far).fold(f64::INFINITY, f64::min);
-        self.parts
-            .iter()
-            .map(|p| if far(p) == nearest { 1.0 } else { 0.0 })
-            .collect()
+        self.parts.iter().map(|p| if far(p) == nearest { 1.0 } else { 0.0 }).collect()
     }
 
     fn log_likelihood(&self, mass: &[f64; BINS]) -> f64 {
         let density = |x: f64| self.parts.iter().map(|p| p.density(x)).sum::<f64>();
         let bins = mass.iter().enumerate().filter(|(_, m)| **m > 0.0);
-        bins.map(|(bin, m)| m * density(bin_centre(bin)).max(f64::MIN_POSITIVE).ln())
-            .sum()
+        bins.map(|(bin, m)| m * density(bin_centre(bin)).max(f64::MIN_POSITIVE).ln()).sum()
     }
 
     fn improve(&mut self, mass: &[f64; BINS]) {
@@ -90,11 +86,7 @@ impl Mixture {
             if w > 1e-12 {
                 let mean = wx / w;
                 let variance = (wxx / w - mean * mean).max(0.0);
-                *part = Gaussian {
-                    share: w,
-                    mean,
-                    deviation: variance.sqrt().max(LEAST_DEVIATION),
-                };
+                *part = Gaussian { share: w, mean, deviation: variance.sqrt().max(LEAST_DEVIATION) };
             }
         }
     }
@@ -110,11 +102,7 @@ fn at_quantiles(mass: &[f64; BINS], count: usize) -> Vec<Gaussian> {
         sum += m;
         while parts.len() < count && sum + 1e-12 >= (parts.len() as f64 + 0.5) / count as f64 {
             let share = 1.0 / count as f64;
-            parts.push(Gaussian {
-                share,
-                mean: bin_centre(bin),
-                deviation: 0.5 / count as f64,
-            });
+            parts.push(Gaussian { share, mean: bin_centre(bin), deviation: 0.5 / count as f64 });
         }
     }
     parts
@@ -126,11 +114,8 @@ fn evenly(mass: &[f64; BINS], count: usize) -> Vec<Gaussian> {
     let hi = bin_centre(mass.iter().rposition(used).unwrap_or(BINS - 1));
     let step = (hi - lo) / count as f64;
     let at = |k: usize| lo + (k as f64 + 0.5) * step;
-    let part = |k| Gaussian {
-        share: 1.0 / count as f64,
-        mean: at(k),
-        deviation: (step / 2.0).max(LEAST_DEVIATION),
-    };
+    let part =
+        |k| Gaussian { share: 1.0 / count as f64, mean: at(k), deviation: (step / 2.0).max(LEAST_DEVIATION) };
     (0..count).map(part).collect()
 }
 

@@ -52,11 +52,7 @@ impl Solid {
             }
             inside += sum as usize;
         }
-        Self {
-            frame,
-            below,
-            inside,
-        }
+        Self { frame, below, inside }
     }
 
     /// Number of cells inside.
@@ -120,19 +116,13 @@ impl Frame {
     fn of_points(positions: &[DVec3]) -> Self {
         let (lo, hi) = positions
             .iter()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| {
-                (lo.min(p), hi.max(p))
-            });
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)));
         let side = (hi - lo).max(DVec3::splat((hi - lo).max_element() * LEAST_SIDE));
         let cell = (side.x * side.y * side.z / CELLS).cbrt();
         let count = (side / cell).ceil().to_array().map(|n| (n as usize).max(1));
         // Centred, so that cell borders do not coincide with flat sides of the box.
         let size = DVec3::from_array(count.map(|n| n as f64)) * cell;
-        Self {
-            lo: (lo + hi - size) / 2.0,
-            cell,
-            count,
-        }
+        Self { lo: (lo + hi - size) / 2.0, cell, count }
     }
 
     /// Adds 1 for each of the two directions along an axis that winds round a cell.
@@ -141,9 +131,7 @@ impl Frame {
         let mut columns: Vec<Vec<(f64, bool)>> = vec![Vec::new(); self.count[u] * self.count[v]];
         for f in faces {
             let corners = f.map(|i| positions[i as usize]);
-            self.cross(corners, axis, &mut |(column, height, up)| {
-                columns[column].push((height, up))
-            });
+            self.cross(corners, axis, &mut |(column, height, up)| columns[column].push((height, up)));
         }
         let [_, ny, nz] = self.count;
         let stride = [ny * nz, nz, 1];
@@ -178,8 +166,7 @@ impl Frame {
         let span = |k: usize, n: usize| {
             let lo = flat[0][k].min(flat[1][k]).min(flat[2][k]);
             let hi = flat[0][k].max(flat[1][k]).max(flat[2][k]);
-            ((lo - 0.5).ceil().max(0.0) as usize)
-                ..(((hi - 0.5).floor() + 1.0).clamp(0.0, n as f64) as usize)
+            ((lo - 0.5).ceil().max(0.0) as usize)..(((hi - 0.5).floor() + 1.0).clamp(0.0, n as f64) as usize)
         };
         let slope = (local[1] - local[0]).cross(local[2] - local[0]);
         for i in span(0, self.count[u]) {
@@ -199,9 +186,5 @@ impl Frame {
 /// Whether a point is to the left of the line through `a` and `b`; on the line the answer is
 /// opposite for the opposite direction.
 fn left_of(a: DVec2, b: DVec2, p: DVec2) -> bool {
-    if (a.x, a.y) < (b.x, b.y) {
-        (b - a).perp_dot(p - a) > 0.0
-    } else {
-        (a - b).perp_dot(p - b) <= 0.0
-    }
+    if (a.x, a.y) < (b.x, b.y) { (b - a).perp_dot(p - a) > 0.0 } else { (a - b).perp_dot(p - b) <= 0.0 }
 }

@@ -33,11 +33,7 @@ impl Interface {
     /// The least-squares plane of the border's vertices and the root mean square of their
     /// distances from it; `None` where the vertices lie on one line.
     pub fn plane(&self, mesh: &Mesh) -> Option<(Plane, f64)> {
-        let points: Vec<DVec3> = self
-            .vertices
-            .iter()
-            .map(|&v| mesh.positions()[v as usize])
-            .collect();
+        let points: Vec<DVec3> = self.vertices.iter().map(|&v| mesh.positions()[v as usize]).collect();
         fit_plane(&points)
     }
 }
@@ -54,10 +50,7 @@ pub(super) fn interfaces(
             edges.entry((a.min(b), a.max(b))).or_default().push(edge);
         }
     }
-    edges
-        .into_iter()
-        .map(|(pair, edges)| (pair, Interface::of_edges(mesh, edges)))
-        .collect()
+    edges.into_iter().map(|(pair, edges)| (pair, Interface::of_edges(mesh, edges))).collect()
 }
 
 impl Interface {
@@ -71,11 +64,7 @@ impl Interface {
             let [a, b] = e.map(|v| mesh.positions()[v as usize]);
             a.distance(b)
         });
-        Self {
-            length: length.sum(),
-            loops: count_pieces(&vertices, &edges),
-            vertices,
-        }
+        Self { length: length.sum(), loops: count_pieces(&vertices, &edges), vertices }
     }
 }
 
@@ -108,15 +97,10 @@ pub(super) fn fit_plane(points: &[DVec3]) -> Option<(Plane, f64)> {
         return None;
     }
     let centre = points.iter().sum::<DVec3>() / points.len() as f64;
-    Some((
-        Plane::through(centre, vectors[0])?,
-        values[0].max(0.0).sqrt(),
-    ))
+    Some((Plane::through(centre, vectors[0])?, values[0].max(0.0).sqrt()))
 }
 
 /// Root mean square distance of points along their second widest direction.
 pub(super) fn spread(points: &[DVec3]) -> f64 {
-    eigen::symmetric(eigen::covariance(points)).0[1]
-        .max(0.0)
-        .sqrt()
+    eigen::symmetric(eigen::covariance(points)).0[1].max(0.0).sqrt()
 }

@@ -77,11 +77,7 @@ impl Network {
         for (tail, head, residual) in [(from, to, capacity), (to, from, reverse)] {
             let index = self.arcs.len() as u32;
             let next = std::mem::replace(&mut self.nodes[tail].first, index);
-            self.arcs.push(Arc {
-                head: head as u32,
-                next,
-                residual,
-            });
+            self.arcs.push(Arc { head: head as u32, next, residual });
         }
     }
 
@@ -91,11 +87,7 @@ impl Network {
         for i in 0..self.nodes.len() {
             let node = &mut self.nodes[i];
             if node.terminal != 0.0 {
-                node.tree = if node.terminal > 0.0 {
-                    Tree::Source
-                } else {
-                    Tree::Sink
-                };
+                node.tree = if node.terminal > 0.0 { Tree::Source } else { Tree::Sink };
                 node.parent = TERMINAL;
                 node.distance = 1;
                 self.activate(i as u32);
@@ -130,13 +122,7 @@ impl Network {
 
     /// Grows the tree at a node; an arc from the source's tree to the sink's once they meet.
     fn grow(&mut self, i: u32) -> Option<u32> {
-        let Node {
-            tree,
-            stamp,
-            distance,
-            first,
-            ..
-        } = self.nodes[i as usize];
+        let Node { tree, stamp, distance, first, .. } = self.nodes[i as usize];
         let mut a = first;
         while a != NONE {
             let Arc { head, next, .. } = self.arcs[a as usize];
@@ -164,10 +150,7 @@ impl Network {
 
     /// Pushes as much as fits along the path through the bridge.
     fn augment(&mut self, bridge: u32) {
-        let ends = [
-            self.arcs[bridge as usize ^ 1].head,
-            self.arcs[bridge as usize].head,
-        ];
+        let ends = [self.arcs[bridge as usize ^ 1].head, self.arcs[bridge as usize].head];
         let mut most = self.arcs[bridge as usize].residual;
         for (side, &end) in ends.iter().enumerate() {
             let mut i = end;
@@ -300,11 +283,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn cost(side: &[bool], terminal: &[(f64, f64)], arcs: &[(usize, usize, f64, f64)]) -> f64 {
-        let own: f64 = terminal
-            .iter()
-            .zip(side)
-            .map(|(t, s)| if *s { t.1 } else { t.0 })
-            .sum();
+        let own: f64 = terminal.iter().zip(side).map(|(t, s)| if *s { t.1 } else { t.0 }).sum();
         let cut: f64 = arcs
             .iter()
             .map(|&(a, b, forth, back)| match (side[a], side[b]) {

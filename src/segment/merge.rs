@@ -62,10 +62,7 @@ impl Eq for Candidate {}
 
 impl Ord for Candidate {
     fn cmp(&self, other: &Self) -> Ordering {
-        other
-            .cost
-            .total_cmp(&self.cost)
-            .then(other.parts.cmp(&self.parts))
+        other.cost.total_cmp(&self.cost).then(other.parts.cmp(&self.parts))
     }
 }
 
@@ -94,11 +91,7 @@ impl Scene<'_> {
         let cells = self.solid_cells();
         let outside = self.solid.outside(&runs) as f64 / cells;
         let volume = hull.volume() / (self.solid.cell_volume() * cells);
-        Shape {
-            runs,
-            volume,
-            outside,
-        }
+        Shape { runs, volume, outside }
     }
 
     fn candidate(&self, parts: &[Option<Part>], pair: [u32; 2]) -> Option<Candidate> {
@@ -111,14 +104,7 @@ impl Scene<'_> {
         let gap = if a.body == b.body { 0.0 } else { GAP_COST };
         let cost = grown + VOLUME_COST * shape.volume - BORDER_GAIN * border + gap;
         let versions = [a.version, b.version];
-        Some(Candidate {
-            cost,
-            border,
-            parts: pair,
-            versions,
-            extremes,
-            shape,
-        })
+        Some(Candidate { cost, border, parts: pair, versions, extremes, shape })
     }
 }
 
@@ -138,13 +124,7 @@ pub(super) fn merge_all(
         .map(|p| {
             let extremes = Extremes::of_vertices(scene.positions, &vertices[p]);
             let shape = scene.shape(&extremes);
-            Some(Part {
-                extremes,
-                shape,
-                around: BTreeMap::new(),
-                body: body[p],
-                version: 0,
-            })
+            Some(Part { extremes, shape, around: BTreeMap::new(), body: body[p], version: 0 })
         })
         .collect();
     for &([a, b], border) in neighbours {
@@ -154,10 +134,7 @@ pub(super) fn merge_all(
             }
         }
     }
-    let found: Vec<_> = neighbours
-        .par_iter()
-        .map(|&(pair, _)| scene.candidate(&parts, pair))
-        .collect();
+    let found: Vec<_> = neighbours.par_iter().map(|&(pair, _)| scene.candidate(&parts, pair)).collect();
     let mut heap: BinaryHeap<Candidate> = found.into_iter().flatten().collect();
     let mut forest = Forest::of_patches(&parts);
     while let Some(candidate) = heap.pop() {
@@ -171,16 +148,10 @@ pub(super) fn merge_all(
         }
         forest.grow(&candidate);
         let pairs = join(&mut parts, candidate);
-        let found: Vec<_> = pairs
-            .par_iter()
-            .map(|&pair| scene.candidate(&parts, pair))
-            .collect();
+        let found: Vec<_> = pairs.par_iter().map(|&pair| scene.candidate(&parts, pair)).collect();
         heap.extend(found.into_iter().flatten());
     }
-    Ok(Tree {
-        patches,
-        nodes: forest.nodes,
-    })
+    Ok(Tree { patches, nodes: forest.nodes })
 }
 
 /// The tree while it grows.
@@ -193,16 +164,8 @@ struct Forest {
 impl Forest {
     fn of_patches(parts: &[Option<Part>]) -> Self {
         let runs = |p: &Option<Part>| p.as_ref().map_or(Vec::new(), |p| p.shape.runs.clone());
-        let leaf = |p| Node {
-            runs: runs(p),
-            children: None,
-            border: 0.0,
-            over_gap: false,
-        };
-        Self {
-            nodes: parts.iter().map(leaf).collect(),
-            of_part: (0..parts.len()).collect(),
-        }
+        let leaf = |p| Node { runs: runs(p), children: None, border: 0.0, over_gap: false };
+        Self { nodes: parts.iter().map(leaf).collect(), of_part: (0..parts.len()).collect() }
     }
 
     fn grow(&mut self, merge: &Candidate) {

@@ -63,11 +63,7 @@ pub struct SegmentOptions {
 
 impl Default for SegmentOptions {
     fn default() -> Self {
-        Self {
-            parts: None,
-            detail: 0.5,
-            method: Method::Merge,
-        }
+        Self { parts: None, detail: 0.5, method: Method::Merge }
     }
 }
 
@@ -117,17 +113,10 @@ impl SegmentOptions {
         if !(0.0..=1.0).contains(&self.detail) {
             return Err(SegmentError::Detail(self.detail));
         }
-        if let Method::Sdf {
-            clusters,
-            smoothing,
-        } = self.method
-            && !((1..=MOST_CLUSTERS).contains(&clusters)
-                && (0.0..f64::INFINITY).contains(&smoothing))
+        if let Method::Sdf { clusters, smoothing } = self.method
+            && !((1..=MOST_CLUSTERS).contains(&clusters) && (0.0..f64::INFINITY).contains(&smoothing))
         {
-            return Err(SegmentError::Clusters {
-                clusters,
-                smoothing,
-            });
+            return Err(SegmentError::Clusters { clusters, smoothing });
         }
         Ok(())
     }
@@ -158,10 +147,7 @@ impl Segmentation {
             id[set] = SegmentId(i as u32);
         }
         let face_segment = set_of_face.iter().map(|&s| id[s as usize]).collect();
-        Self {
-            face_segment,
-            count: ranking.len(),
-        }
+        Self { face_segment, count: ranking.len() }
     }
 
     /// The segment of each face.
@@ -177,10 +163,7 @@ impl Segmentation {
     /// Vertices (indices into `mesh.positions()`) on the interface of each pair of neighbouring
     /// segments, the smaller id first, in ascending order (§4.2.1).
     pub fn interfaces(&self, mesh: &Mesh) -> BTreeMap<(SegmentId, SegmentId), Vec<u32>> {
-        self.borders(mesh)
-            .into_iter()
-            .map(|(pair, i)| (pair, i.vertices().to_vec()))
-            .collect()
+        self.borders(mesh).into_iter().map(|(pair, i)| (pair, i.vertices().to_vec())).collect()
     }
 
     /// The interface of each pair of neighbouring segments with its length and plane.

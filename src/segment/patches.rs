@@ -83,19 +83,14 @@ pub(super) fn absorb_small(surface: &Surface, partition: Partition, least_area: 
     }
     let mut small: BinaryHeap<Nearest> = (0..partition.count)
         .filter(|&p| areas[p] < least_area)
-        .map(|p| Nearest {
-            distance: areas[p],
-            cell: p,
-        })
+        .map(|p| Nearest { distance: areas[p], cell: p })
         .collect();
     let mut into: Vec<u32> = (0..partition.count as u32).collect();
     while let Some(Nearest { distance, cell: p }) = small.pop() {
         if into[p] != p as u32 || areas[p] != distance {
             continue;
         }
-        let longest = around[p]
-            .iter()
-            .max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)));
+        let longest = around[p].iter().max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)));
         let Some(host) = longest.map(|(&h, _)| h) else {
             continue;
         };
@@ -109,10 +104,7 @@ pub(super) fn absorb_small(surface: &Surface, partition: Partition, least_area: 
             }
         }
         if areas[host as usize] < least_area {
-            small.push(Nearest {
-                distance: areas[host as usize],
-                cell: host as usize,
-            });
+            small.push(Nearest { distance: areas[host as usize], cell: host as usize });
         }
     }
     let root = |mut p: u32| {
@@ -122,11 +114,7 @@ pub(super) fn absorb_small(surface: &Surface, partition: Partition, least_area: 
         p
     };
     let of_cell = partition.of_cell.iter().map(|&p| root(p)).collect();
-    Partition {
-        of_cell,
-        count: partition.count,
-    }
-    .compacted()
+    Partition { of_cell, count: partition.count }.compacted()
 }
 
 /// Splits connected sets that are larger than `most_area`, each into the cells nearest to seeds
@@ -157,14 +145,7 @@ pub(super) fn split_large(surface: &Surface, partition: &Partition, most_area: f
                 break;
             }
             let own = |q| q == p as u32 || q >= base;
-            spread_among(
-                surface,
-                seed,
-                &mut of_cell,
-                count as u32,
-                &mut distance,
-                own,
-            );
+            spread_among(surface, seed, &mut of_cell, count as u32, &mut distance, own);
             count += 1;
         }
     }
@@ -190,10 +171,7 @@ fn spread_among(
     distance: &mut [f64],
     allowed: impl Fn(u32) -> bool,
 ) {
-    let mut heap = BinaryHeap::from([Nearest {
-        distance: 0.0,
-        cell: seed,
-    }]);
+    let mut heap = BinaryHeap::from([Nearest { distance: 0.0, cell: seed }]);
     while let Some(Nearest { distance: d, cell }) = heap.pop() {
         if d >= distance[cell] {
             continue;
@@ -203,10 +181,7 @@ fn spread_among(
         for (other, link) in surface.around(cell) {
             let step = d + step_length(surface, cell, other, link);
             if step < distance[other] && allowed(of_cell[other]) {
-                heap.push(Nearest {
-                    distance: step,
-                    cell: other,
-                });
+                heap.push(Nearest { distance: step, cell: other });
             }
         }
     }
@@ -230,10 +205,7 @@ impl Eq for Nearest {}
 
 impl Ord for Nearest {
     fn cmp(&self, other: &Self) -> Ordering {
-        other
-            .distance
-            .total_cmp(&self.distance)
-            .then(other.cell.cmp(&self.cell))
+        other.distance.total_cmp(&self.distance).then(other.cell.cmp(&self.cell))
     }
 }
 

@@ -40,24 +40,14 @@ pub(super) fn refine_borders(surface: &Surface, mut partition: Partition) -> Par
         for (pair, links) in along {
             let before = [areas[pair.0 as usize], areas[pair.1 as usize]];
             let smaller = before[0].min(before[1]);
-            let changes = move_border(
-                surface,
-                &partition.of_cell,
-                pair,
-                &links,
-                smaller,
-                &mut place,
-            );
-            let gain: f64 = changes
-                .iter()
-                .map(|&c| {
-                    if partition.of_cell[c] == pair.1 {
-                        surface.areas()[c]
-                    } else {
-                        -surface.areas()[c]
-                    }
-                })
-                .sum();
+            let changes = move_border(surface, &partition.of_cell, pair, &links, smaller, &mut place);
+            let gain: f64 =
+                changes
+                    .iter()
+                    .map(|&c| {
+                        if partition.of_cell[c] == pair.1 { surface.areas()[c] } else { -surface.areas()[c] }
+                    })
+                    .sum();
             if gain.abs() > MOST_CHANGE * smaller {
                 continue;
             }
@@ -84,9 +74,7 @@ fn move_border(
 ) -> Vec<usize> {
     let length: f64 = links.iter().map(|&l| surface.links()[l].length).sum();
     let reach = (BAND_OF_LENGTH * length).min(BAND_OF_SIZE * smaller_area.sqrt());
-    let seeds = links
-        .iter()
-        .flat_map(|&l| surface.links()[l].cells.map(|c| c as usize));
+    let seeds = links.iter().flat_map(|&l| surface.links()[l].cells.map(|c| c as usize));
     let band = band(surface, of_cell, pair, seeds, reach, place);
     let plane = border_plane(surface, of_cell, pair, links);
     let mut network = Network::new(band.len(), band.len() * 2);
@@ -110,10 +98,7 @@ fn move_border(
     }
     band.iter().for_each(|&c| place[c] = u32::MAX);
     let sides = band.iter().zip(network.sink_side());
-    sides
-        .filter(|&(&c, second)| (of_cell[c] == pair.1) != second)
-        .map(|(&c, _)| c)
-        .collect()
+    sides.filter(|&(&c, second)| (of_cell[c] == pair.1) != second).map(|(&c, _)| c).collect()
 }
 
 /// The cells of two segments within reach of their border; `place` tells each one's index.
@@ -125,12 +110,7 @@ fn band(
     reach: f64,
     place: &mut [u32],
 ) -> Vec<usize> {
-    let mut heap: BinaryHeap<Nearest> = seeds
-        .map(|cell| Nearest {
-            distance: 0.0,
-            cell,
-        })
-        .collect();
+    let mut heap: BinaryHeap<Nearest> = seeds.map(|cell| Nearest { distance: 0.0, cell }).collect();
     let mut band = Vec::new();
     while let Some(Nearest { distance, cell }) = heap.pop() {
         if place[cell] != u32::MAX {
@@ -142,10 +122,7 @@ fn band(
             let step = distance + surface.centres()[cell].distance(surface.centres()[other]);
             let own = of_cell[other] == pair.0 || of_cell[other] == pair.1;
             if own && place[other] == u32::MAX && step <= reach {
-                heap.push(Nearest {
-                    distance: step,
-                    cell: other,
-                });
+                heap.push(Nearest { distance: step, cell: other });
             }
         }
     }
@@ -154,18 +131,11 @@ fn band(
 
 /// The least-squares plane of a border, looking to the second segment; `None` where the border is
 /// not near one.
-fn border_plane(
-    surface: &Surface,
-    of_cell: &[u32],
-    pair: (u32, u32),
-    links: &[usize],
-) -> Option<Plane> {
+fn border_plane(surface: &Surface, of_cell: &[u32], pair: (u32, u32), links: &[usize]) -> Option<Plane> {
     let points: Vec<DVec3> = links
         .iter()
         .map(|&l| {
-            let [a, b] = surface.links()[l]
-                .cells
-                .map(|c| surface.centres()[c as usize]);
+            let [a, b] = surface.links()[l].cells.map(|c| surface.centres()[c as usize]);
             (a + b) / 2.0
         })
         .collect();
@@ -182,11 +152,7 @@ fn border_plane(
             if of_cell[a] == pair.0 { step } else { -step }
         })
         .sum();
-    Some(if forward < 0.0 {
-        plane.flipped()
-    } else {
-        plane
-    })
+    Some(if forward < 0.0 { plane.flipped() } else { plane })
 }
 
 /// Gives every piece of a set but the largest to the neighbour with the longest common border,

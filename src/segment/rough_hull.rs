@@ -25,11 +25,7 @@ fn directions() -> impl Iterator<Item = DVec3> {
     (0..DIRECTIONS).map(move |k| {
         let z = 1.0 - (2.0 * k as f64 + 1.0) / DIRECTIONS as f64;
         let r = (1.0 - z * z).sqrt();
-        DVec3::new(
-            r * (golden_rad * k as f64).cos(),
-            r * (golden_rad * k as f64).sin(),
-            z,
-        )
+        DVec3::new(r * (golden_rad * k as f64).cos(), r * (golden_rad * k as f64).sin(), z)
     })
 }
 
@@ -38,26 +34,14 @@ impl Extremes {
     pub fn of_vertices(positions: &[DVec3], vertices: &[u32]) -> Self {
         let best = directions().map(|d| {
             let reach = |&v: &u32| (d.dot(positions[v as usize]), v);
-            vertices
-                .iter()
-                .map(reach)
-                .fold((f64::NEG_INFINITY, u32::MAX), farther)
+            vertices.iter().map(reach).fold((f64::NEG_INFINITY, u32::MAX), farther)
         });
-        Self {
-            best: best.collect(),
-        }
+        Self { best: best.collect() }
     }
 
     /// The extreme ones of both sets.
     pub fn union(&self, other: &Self) -> Self {
-        Self {
-            best: self
-                .best
-                .iter()
-                .zip(&other.best)
-                .map(|(&a, &b)| farther(a, b))
-                .collect(),
-        }
+        Self { best: self.best.iter().zip(&other.best).map(|(&a, &b)| farther(a, b)).collect() }
     }
 
     /// The hull; `None` where it has no volume.
@@ -71,11 +55,7 @@ impl Extremes {
 
 /// The point that reaches farther; of two equal ones that with the smaller index.
 fn farther(a: (f64, u32), b: (f64, u32)) -> (f64, u32) {
-    if b.0 > a.0 || (b.0 == a.0 && b.1 < a.1) {
-        b
-    } else {
-        a
-    }
+    if b.0 > a.0 || (b.0 == a.0 && b.1 < a.1) { b } else { a }
 }
 
 /// A convex polyhedron as outward triangles.
@@ -88,26 +68,19 @@ pub(super) struct RoughHull {
 impl RoughHull {
     /// Corners of the outward triangles.
     pub fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> + '_ {
-        self.triangles
-            .iter()
-            .map(|t| t.map(|v| self.points[v as usize]))
+        self.triangles.iter().map(|t| t.map(|v| self.points[v as usize]))
     }
 
     /// Enclosed volume.
     pub fn volume(&self) -> f64 {
         let o = self.points[0];
-        self.triangles()
-            .map(|[a, b, c]| (a - o).dot((b - o).cross(c - o)) / 6.0)
-            .sum()
+        self.triangles().map(|[a, b, c]| (a - o).dot((b - o).cross(c - o)) / 6.0).sum()
     }
 
     /// Incremental hull of joggled points: with at most 128 of them plain search is fastest.
     fn of_points(mut points: Vec<DVec3>) -> Option<Self> {
-        let (lo, hi) = points
-            .iter()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| {
-                (lo.min(p), hi.max(p))
-            });
+        let (lo, hi) =
+            points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)));
         let size = (hi - lo).max_element();
         let start = tetrahedron(&points, size)?;
         for (i, p) in points.iter_mut().enumerate() {
@@ -119,12 +92,7 @@ impl RoughHull {
                 build.insert(p);
             }
         }
-        let triangles = build
-            .faces
-            .iter()
-            .filter(|f| f.alive)
-            .map(|f| f.corners)
-            .collect();
+        let triangles = build.faces.iter().filter(|f| f.alive).map(|f| f.corners).collect();
         Some(Self { points, triangles })
     }
 }
@@ -144,9 +112,7 @@ fn joggle(index: u32) -> DVec3 {
 /// from the fourth; `None` where all are in one plane.
 fn tetrahedron(points: &[DVec3], size: f64) -> Option<[u32; 4]> {
     let farthest = |measure: &dyn Fn(DVec3) -> f64| {
-        (0..points.len())
-            .map(|i| (measure(points[i]), i as u32))
-            .fold((-1.0, 0), farther)
+        (0..points.len()).map(|i| (measure(points[i]), i as u32)).fold((-1.0, 0), farther)
     };
     let a = *points.first()?;
     let (_, ib) = farthest(&|p| p.distance_squared(a));
@@ -156,11 +122,7 @@ fn tetrahedron(points: &[DVec3], size: f64) -> Option<[u32; 4]> {
     let c = points[ic as usize];
     let normal = (b - a).cross(c - a).try_normalize()?;
     let (height, id) = farthest(&|p| (p - a).dot(normal).abs());
-    let ordered = if (points[id as usize] - a).dot(normal) > 0.0 {
-        [0, ic, ib, id]
-    } else {
-        [0, ib, ic, id]
-    };
+    let ordered = if (points[id as usize] - a).dot(normal) > 0.0 { [0, ic, ib, id] } else { [0, ib, ic, id] };
     (height > FLAT * size).then_some(ordered)
 }
 
@@ -185,13 +147,7 @@ struct Builder<'a> {
 impl<'a> Builder<'a> {
     fn new(points: &'a [DVec3], [a, b, c, d]: [u32; 4]) -> Self {
         let left = vec![u32::MAX; points.len() * points.len()];
-        let mut build = Self {
-            points,
-            faces: Vec::new(),
-            left,
-            seen: Vec::new(),
-            rim: Vec::new(),
-        };
+        let mut build = Self { points, faces: Vec::new(), left, seen: Vec::new(), rim: Vec::new() };
         for corners in [[a, b, c], [a, d, b], [b, d, c], [c, d, a]] {
             build.add(corners);
         }
@@ -206,12 +162,7 @@ impl<'a> Builder<'a> {
         let [a, b, c] = corners.map(|v| self.points[v as usize]);
         let normal = (b - a).cross(c - a).normalize_or_zero();
         let index = self.faces.len() as u32;
-        self.faces.push(Face {
-            corners,
-            normal,
-            offset: normal.dot(a),
-            alive: true,
-        });
+        self.faces.push(Face { corners, normal, offset: normal.dot(a), alive: true });
         for k in 0..3 {
             let slot = self.slot(corners[k], corners[(k + 1) % 3]);
             self.left[slot] = index;
@@ -270,9 +221,7 @@ mod tests {
 
     fn hull_volume(points: &[DVec3]) -> Option<f64> {
         let all: Vec<u32> = (0..points.len() as u32).collect();
-        Extremes::of_vertices(points, &all)
-            .hull(points)
-            .map(|h| h.volume())
+        Extremes::of_vertices(points, &all).hull(points).map(|h| h.volume())
     }
 
     #[test]
@@ -302,9 +251,8 @@ mod tests {
 
     #[test]
     fn a_sheet_has_no_hull() {
-        let points: Vec<DVec3> = (0..100)
-            .map(|i| DVec3::new((i % 10) as f64, (i / 10) as f64, 0.0))
-            .collect();
+        let points: Vec<DVec3> =
+            (0..100).map(|i| DVec3::new((i % 10) as f64, (i / 10) as f64, 0.0)).collect();
         assert_eq!(hull_volume(&points), None);
     }
 }

@@ -47,19 +47,15 @@ impl Target {
     pub fn new(positions: &[DVec3], faces: &[[u32; 3]]) -> Option<Self> {
         let (lo, hi) = positions
             .iter()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| {
-                (lo.min(p), hi.max(p))
-            });
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)));
         let size = (hi - lo).max_element();
         if faces.is_empty() || !size.is_finite() || size <= 0.0 {
             return None;
         }
         // The tree is single precision: in the unit cube its error is known.
         let (origin, scale) = ((lo + hi) / 2.0, 1.0 / size);
-        let triangles: Vec<[DVec3; 3]> = faces
-            .iter()
-            .map(|f| f.map(|v| (positions[v as usize] - origin) * scale))
-            .collect();
+        let triangles: Vec<[DVec3; 3]> =
+            faces.iter().map(|f| f.map(|v| (positions[v as usize] - origin) * scale)).collect();
         let bounds: Vec<Bounds> = triangles
             .iter()
             .map(|t| {
@@ -69,53 +65,36 @@ impl Target {
                 Bounds(aabb)
             })
             .collect();
-        let bvh = build_cwbvh(
-            &bounds,
-            BvhBuildParams::very_fast_build(),
-            &mut Default::default(),
-        );
-        Some(Self {
-            bvh,
-            triangles,
-            origin,
-            scale,
-        })
+        let bvh = build_cwbvh(&bounds, BvhBuildParams::very_fast_build(), &mut Default::default());
+        Some(Self { bvh, triangles, origin, scale })
     }
 
     /// Distance to the nearest face that the ray leaves the solid through.
     fn exit(&self, probe: &Probe, direction: DVec3) -> Option<f64> {
         let start = (probe.origin - self.origin) * self.scale;
         let mut hit = RayHit::none();
-        let found = self.bvh.ray_traverse(
-            Ray::new_inf(start.as_vec3a(), direction.as_vec3a()),
-            &mut hit,
-            |_, id| {
+        let found =
+            self.bvh.ray_traverse(Ray::new_inf(start.as_vec3a(), direction.as_vec3a()), &mut hit, |_, id| {
                 let face = self.bvh.primitive_indices[id];
                 if face == probe.face {
                     return f32::INFINITY;
                 }
                 exit_distance(&self.triangles[face as usize], start, direction)
                     .map_or(f32::INFINITY, |t| t as f32)
-            },
-        );
+            });
         found.then(|| hit.t as f64 / self.scale)
     }
 
     /// The shape diameter at each probe; `None` where no ray meets the other side.
     pub fn diameters(&self, probes: &[Probe]) -> Vec<Option<f64>> {
-        probes
-            .par_iter()
-            .map(|probe| self.diameter(probe))
-            .collect()
+        probes.par_iter().map(|probe| self.diameter(probe)).collect()
     }
 
     fn diameter(&self, probe: &Probe) -> Option<f64> {
         if probe.inward == DVec3::ZERO {
             return None;
         }
-        let mut distances: Vec<f64> = cone(probe.inward)
-            .filter_map(|d| self.exit(probe, d))
-            .collect();
+        let mut distances: Vec<f64> = cone(probe.inward).filter_map(|d| self.exit(probe, d)).collect();
         robust_mean(&mut distances)
     }
 }
@@ -156,11 +135,7 @@ fn robust_mean(values: &mut [f64]) -> Option<f64> {
     let spread = median(&mut deviations)? * OUTLIER_DEVIATIONS;
     let near = values.iter().filter(|v| (*v - middle).abs() <= spread);
     let (sum, count) = near.fold((0.0, 0), |(s, n), v| (s + v, n + 1));
-    Some(if count == 0 {
-        middle
-    } else {
-        sum / count as f64
-    })
+    Some(if count == 0 { middle } else { sum / count as f64 })
 }
 
 fn median(values: &mut [f64]) -> Option<f64> {

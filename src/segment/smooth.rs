@@ -47,20 +47,12 @@ pub(super) fn bilateral(surface: &Surface, values: &[f64]) -> Vec<f64> {
         let (mut sum, mut weight) = (0.0, 0.0);
         for c in &near {
             let d = centres[*c].distance_squared(centres[cell]) / (reach * reach / 2.0);
-            let r = if spread > 0.0 {
-                square(c) / (2.0 * spread * spread)
-            } else {
-                0.0
-            };
+            let r = if spread > 0.0 { square(c) / (2.0 * spread * spread) } else { 0.0 };
             let w = surface.areas()[*c] * (-d - r).exp();
             sum += w * values[*c];
             weight += w;
         }
-        out.push(if weight > 0.0 {
-            sum / weight
-        } else {
-            values[cell]
-        });
+        out.push(if weight > 0.0 { sum / weight } else { values[cell] });
     }
     out
 }
@@ -91,8 +83,5 @@ pub(super) fn normalise(values: &[f64]) -> Vec<f64> {
     let lo = values.iter().copied().fold(f64::INFINITY, f64::min);
     let hi = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let span = if hi > lo { hi - lo } else { 1.0 };
-    values
-        .iter()
-        .map(|v| (ALPHA * (v - lo) / span).ln_1p() / ALPHA.ln_1p())
-        .collect()
+    values.iter().map(|v| (ALPHA * (v - lo) / span).ln_1p() / ALPHA.ln_1p()).collect()
 }

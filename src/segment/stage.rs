@@ -57,27 +57,15 @@ pub fn segment(
     progress.check()?;
     progress.fraction(0.4);
     let cells = match options.method {
-        Method::Sdf {
-            clusters,
-            smoothing,
-        } => {
+        Method::Sdf { clusters, smoothing } => {
             let label = labels(&coarse, diameters.as_deref(), clusters, smoothing);
-            absorb_small(
-                &coarse,
-                connected(&coarse, &label),
-                LEAST_SEGMENT * coarse.total_area(),
-            )
+            absorb_small(&coarse, connected(&coarse, &label), LEAST_SEGMENT * coarse.total_area())
         }
         Method::Merge => {
             let patches = over_segment(&coarse, diameters.as_deref(), options.parts);
             let gaps = bodies::nearest_links(&coarse);
             let patches = bodies::join_crumbs(&coarse, patches, &gaps);
-            let ground = Ground {
-                positions,
-                faces: &faces,
-                surface: &coarse,
-                cell_of_face: &cell_of_face,
-            };
+            let ground = Ground { positions, faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
             let solid = Solid::of_mesh(positions, &faces);
             let tree = ground.merge(&solid, patches, &gaps, progress)?;
             let part_cost = PART_COST / DETAIL_RANGE.powf(options.detail);
@@ -88,27 +76,14 @@ pub fn segment(
         }
     };
     progress.fraction(0.9);
-    let of_face = cell_of_face
-        .iter()
-        .map(|&c| cells.of_cell[c as usize])
-        .collect();
-    let refined = refine::refine_borders(
-        &fine,
-        Partition {
-            of_cell: of_face,
-            count: cells.count,
-        },
-    );
+    let of_face = cell_of_face.iter().map(|&c| cells.of_cell[c as usize]).collect();
+    let refined = refine::refine_borders(&fine, Partition { of_cell: of_face, count: cells.count });
     // Borders that moved may have left slivers; a number that was asked for stands.
     let refined = match options.parts {
         None => absorb_small(&fine, refined, LEAST_SEGMENT * fine.total_area()),
         Some(_) => refined,
     };
-    Ok(Segmentation::numbered(
-        &refined.of_cell,
-        refined.count,
-        fine.areas(),
-    ))
+    Ok(Segmentation::numbered(&refined.of_cell, refined.count, fine.areas()))
 }
 
 fn is_flat(positions: &[DVec3]) -> bool {
@@ -136,11 +111,7 @@ fn shape_diameters(
     let probes: Vec<Probe> = nearest
         .iter()
         .zip(coarse.normals())
-        .map(|(&(_, f), &n)| Probe {
-            face: f as u32,
-            origin: fine.centres()[f],
-            inward: -n,
-        })
+        .map(|(&(_, f), &n)| Probe { face: f as u32, origin: fine.centres()[f], inward: -n })
         .collect();
     let filled = smooth::fill(coarse, &target.diameters(&probes))?;
     Some(smooth::normalise(&smooth::bilateral(coarse, &filled)))
@@ -183,20 +154,15 @@ impl Ground<'_> {
         let body = bodies::body_of_sets(self.surface, &patches);
         let vertices = self.vertices(&patches);
         let borders = patches.border_costs(self.surface);
-        let mut neighbours: Vec<([u32; 2], f64)> = borders
-            .into_iter()
-            .map(|((a, b), cost)| ([a, b], cost))
-            .collect();
+        let mut neighbours: Vec<([u32; 2], f64)> =
+            borders.into_iter().map(|((a, b), cost)| ([a, b], cost)).collect();
         for cells in gaps {
             let [a, b] = cells.map(|c| patches.of_cell[c as usize]);
             if a != b {
                 neighbours.push(([a.min(b), a.max(b)], 0.0));
             }
         }
-        let scene = Scene {
-            positions: self.positions,
-            solid,
-        };
+        let scene = Scene { positions: self.positions, solid };
         merge_all(&scene, patches, &vertices, &neighbours, &body, progress)
     }
 

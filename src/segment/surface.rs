@@ -40,12 +40,9 @@ impl Surface {
             centre.push((a + b + c) / 3.0);
             normal.push(doubled.normalize_or_zero());
         }
-        let borders = edge_pairs(faces).into_iter().map(|(cells, [u, v])| {
-            (
-                cells,
-                (positions[u as usize] - positions[v as usize]).length(),
-            )
-        });
+        let borders = edge_pairs(faces)
+            .into_iter()
+            .map(|(cells, [u, v])| (cells, (positions[u as usize] - positions[v as usize]).length()));
         Self::new(area, centre, normal, borders.collect())
     }
 
@@ -82,30 +79,16 @@ impl Surface {
         for (cells, length) in borders {
             match links.last_mut() {
                 Some(last) if last.cells == cells => last.length += length,
-                _ => links.push(Link {
-                    cells,
-                    length,
-                    turn_rad: 0.0,
-                }),
+                _ => links.push(Link { cells, length, turn_rad: 0.0 }),
             }
         }
         for link in &mut links {
             let [a, b] = link.cells.map(|c| c as usize);
-            let angle = normal[a]
-                .cross(normal[b])
-                .length()
-                .atan2(normal[a].dot(normal[b]));
+            let angle = normal[a].cross(normal[b]).length().atan2(normal[a].dot(normal[b]));
             let opens = (normal[b] - normal[a]).dot(centre[b] - centre[a]) >= 0.0;
             link.turn_rad = if opens { -angle } else { angle };
         }
-        let mut surface = Self {
-            area,
-            centre,
-            normal,
-            links,
-            first: Vec::new(),
-            around: Vec::new(),
-        };
+        let mut surface = Self { area, centre, normal, links, first: Vec::new(), around: Vec::new() };
         surface.index_links();
         surface
     }
@@ -234,12 +217,7 @@ pub(super) fn outward_faces(positions: &[DVec3], faces: &[[u32; 3]]) -> (Vec<[u3
         let [p, q, r] = faces[f].map(|v| positions[v as usize] - o);
         volume[b as usize] += p.dot(q.cross(r));
     }
-    let turned = faces.iter().zip(&body).map(|(f, &b)| {
-        if volume[b as usize] < 0.0 {
-            [f[0], f[2], f[1]]
-        } else {
-            *f
-        }
-    });
+    let turned =
+        faces.iter().zip(&body).map(|(f, &b)| if volume[b as usize] < 0.0 { [f[0], f[2], f[1]] } else { *f });
     (turned.collect(), body)
 }

@@ -31,11 +31,7 @@ fn balls(shape: &Shape, balls: &[(f64, f64)]) -> Vec<SegmentId> {
     let ball = |f: &[u32; 3]| {
         let p = f.iter().map(|&v| shape.0[v as usize]).sum::<DVec3>() / 3.0;
         let off = |k: &usize| (p.distance(DVec3::Z * balls[*k].0) - balls[*k].1).abs();
-        SegmentId(
-            (0..balls.len())
-                .min_by(|a, b| off(a).total_cmp(&off(b)))
-                .unwrap() as u32,
-        )
+        SegmentId((0..balls.len()).min_by(|a, b| off(a).total_cmp(&off(b))).unwrap() as u32)
     };
     shape.1.iter().map(ball).collect()
 }
@@ -46,17 +42,8 @@ fn balls_in_a_row_are_the_segments_biggest_first() {
     let found = run(&shape);
     assert_eq!(found.count(), 3);
     let expected = balls(&shape, &ROW);
-    let same = found
-        .face_segments()
-        .iter()
-        .zip(&expected)
-        .filter(|(a, b)| a == b)
-        .count();
-    assert!(
-        same as f64 > 0.98 * expected.len() as f64,
-        "{same} of {}",
-        expected.len()
-    );
+    let same = found.face_segments().iter().zip(&expected).filter(|(a, b)| a == b).count();
+    assert!(same as f64 > 0.98 * expected.len() as f64, "{same} of {}", expected.len());
 }
 
 #[test]
@@ -65,10 +52,7 @@ fn borders_of_balls_are_single_planar_rings() {
     let found = segment(&mesh, &SegmentOptions::default(), &Silent).unwrap();
     let borders = found.borders(&mesh);
     let pairs: Vec<_> = borders.keys().copied().collect();
-    assert_eq!(
-        pairs,
-        [(SegmentId(0), SegmentId(1)), (SegmentId(1), SegmentId(2))]
-    );
+    assert_eq!(pairs, [(SegmentId(0), SegmentId(1)), (SegmentId(1), SegmentId(2))]);
     for border in borders.values() {
         let (plane, residual) = border.plane(&mesh).unwrap();
         assert_eq!(border.pieces(), 1);
@@ -82,9 +66,7 @@ fn size_turn_and_order_of_faces_do_not_matter() {
     let shape = row();
     let expected = run(&shape);
     let turn = DQuat::from_euler(glam::EulerRot::XYZ, 0.3, -1.2, 2.1);
-    let other = run(&moved(&shape, |p| {
-        turn * p * 250.0 + DVec3::new(1e3, -5.0, 70.0)
-    }));
+    let other = run(&moved(&shape, |p| turn * p * 250.0 + DVec3::new(1e3, -5.0, 70.0)));
     assert!(rand_index(expected.face_segments(), other.face_segments()) > 0.98);
 
     let n = shape.1.len();
@@ -108,12 +90,8 @@ fn resolution_does_not_matter() {
 fn threads_do_not_matter() {
     let mesh = mesh(&row());
     let on = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
-        pool.install(|| segment(&mesh, &SegmentOptions::default(), &Silent))
-            .unwrap()
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| segment(&mesh, &SegmentOptions::default(), &Silent)).unwrap()
     };
     assert_eq!(on(1), on(2));
 }
@@ -123,34 +101,22 @@ fn as_many_parts_as_asked_for_each_connected() {
     let shape = row();
     let surface = Surface::of_faces(&shape.0, &shape.1);
     for parts in [1, 2, 3, 5, 9, 20] {
-        let options = SegmentOptions {
-            parts: Some(parts),
-            ..Default::default()
-        };
+        let options = SegmentOptions { parts: Some(parts), ..Default::default() };
         let found = segment(&mesh(&shape), &options, &Silent).unwrap();
         assert_eq!(found.count(), parts);
         let ids = found.face_segments();
         assert_eq!(surface.components(|f| ids[f].0).1, parts);
         let mut areas = vec![0.0; parts];
-        ids.iter()
-            .zip(surface.areas())
-            .for_each(|(id, a)| areas[id.0 as usize] += a);
+        ids.iter().zip(surface.areas()).for_each(|(id, a)| areas[id.0 as usize] += a);
         assert!(areas.windows(2).all(|w| w[0] >= w[1]));
     }
 }
 
 #[test]
 fn detail_gives_more_parts() {
-    let mesh = mesh(&balls_in_a_row(
-        &[(0.0, 1.0), (1.4, 0.7), (2.3, 0.45)],
-        60,
-        40,
-    ));
+    let mesh = mesh(&balls_in_a_row(&[(0.0, 1.0), (1.4, 0.7), (2.3, 0.45)], 60, 40));
     let count = |detail| {
-        let options = SegmentOptions {
-            detail,
-            ..Default::default()
-        };
+        let options = SegmentOptions { detail, ..Default::default() };
         segment(&mesh, &options, &Silent).unwrap().count()
     };
     assert!(count(0.0) <= count(0.5) && count(0.5) <= count(1.0));
@@ -160,10 +126,7 @@ fn detail_gives_more_parts() {
 #[test]
 fn an_inverted_mesh_gives_the_same_parts() {
     let shape = row();
-    let inverted = (
-        shape.0.clone(),
-        shape.1.iter().map(|f| [f[0], f[2], f[1]]).collect(),
-    );
+    let inverted = (shape.0.clone(), shape.1.iter().map(|f| [f[0], f[2], f[1]]).collect());
     assert!(rand_index(run(&shape).face_segments(), run(&inverted).face_segments()) > 0.98);
 }
 
@@ -172,15 +135,11 @@ fn noise_and_holes_change_little() {
     let shape = row();
     let size = 4.25;
     let wave = |p: DVec3| (p * 997.0).to_array().map(|x| x.sin());
-    let noisy = moved(&shape, |p| {
-        p + DVec3::from_array(wave(p)) * (0.005 * size / 2.0)
-    });
+    let noisy = moved(&shape, |p| p + DVec3::from_array(wave(p)) * (0.005 * size / 2.0));
     assert!(rand_index(run(&shape).face_segments(), run(&noisy).face_segments()) > 0.9);
 
     let hash = |i: usize| (i as f64 * 12.9898).sin() * 43_758.545;
-    let kept: Vec<usize> = (0..shape.1.len())
-        .filter(|&i| hash(i).rem_euclid(1.0) > 0.05)
-        .collect();
+    let kept: Vec<usize> = (0..shape.1.len()).filter(|&i| hash(i).rem_euclid(1.0) > 0.05).collect();
     let holed = run(&(shape.0.clone(), kept.iter().map(|&i| shape.1[i]).collect()));
     let whole = run(&shape);
     let rest: Vec<SegmentId> = kept.iter().map(|&i| whole.face_segments()[i]).collect();
@@ -219,43 +178,14 @@ fn what_cannot_be_segmented_is_told() {
     let with = |shape: &Shape, options| segment(&mesh(shape), &options, &Silent);
     let auto = SegmentOptions::default();
     assert_eq!(with(&sheet(8), auto), Err(SegmentError::Flat));
-    assert_eq!(
-        with(&(Vec::new(), Vec::new()), auto),
-        Err(SegmentError::Empty)
-    );
-    assert_eq!(
-        with(
-            &row(),
-            SegmentOptions {
-                parts: Some(0),
-                ..auto
-            }
-        ),
-        Err(SegmentError::Parts(0))
-    );
-    assert_eq!(
-        with(
-            &row(),
-            SegmentOptions {
-                detail: 1.5,
-                ..auto
-            }
-        ),
-        Err(SegmentError::Detail(1.5))
-    );
-    let method = Method::Sdf {
-        clusters: 0,
-        smoothing: 0.3,
-    };
-    assert!(matches!(
-        with(&row(), SegmentOptions { method, ..auto }),
-        Err(SegmentError::Clusters { .. })
-    ));
+    assert_eq!(with(&(Vec::new(), Vec::new()), auto), Err(SegmentError::Empty));
+    assert_eq!(with(&row(), SegmentOptions { parts: Some(0), ..auto }), Err(SegmentError::Parts(0)));
+    assert_eq!(with(&row(), SegmentOptions { detail: 1.5, ..auto }), Err(SegmentError::Detail(1.5)));
+    let method = Method::Sdf { clusters: 0, smoothing: 0.3 };
+    assert!(matches!(with(&row(), SegmentOptions { method, ..auto }), Err(SegmentError::Clusters { .. })));
 
     // A bent sheet encloses nothing and still has parts.
-    let bent = moved(&sheet(20), |p| {
-        DVec3::new(p.x, p.y, (p.x * 0.4).sin() * 4.0)
-    });
+    let bent = moved(&sheet(20), |p| DVec3::new(p.x, p.y, (p.x * 0.4).sin() * 4.0));
     assert!(with(&bent, auto).unwrap().count() >= 1);
 }
 
@@ -273,19 +203,9 @@ fn fins_on_one_edge_are_no_obstacle() {
 
 #[test]
 fn the_papers_own_method_finds_thick_and_thin() {
-    let shape = balls_in_a_row(
-        &[(0.0, 1.0), (1.05, 0.3), (1.3, 0.3), (1.55, 0.3), (1.8, 0.3)],
-        80,
-        40,
-    );
-    let method = Method::Sdf {
-        clusters: 2,
-        smoothing: 0.3,
-    };
-    let options = SegmentOptions {
-        method,
-        ..Default::default()
-    };
+    let shape = balls_in_a_row(&[(0.0, 1.0), (1.05, 0.3), (1.3, 0.3), (1.55, 0.3), (1.8, 0.3)], 80, 40);
+    let method = Method::Sdf { clusters: 2, smoothing: 0.3 };
+    let options = SegmentOptions { method, ..Default::default() };
     let found = segment(&mesh(&shape), &options, &Silent).unwrap();
     let top = |f: usize| shape.1[f].iter().all(|&v| shape.0[v as usize].z > 1.2);
     let bottom = |f: usize| shape.1[f].iter().all(|&v| shape.0[v as usize].z < 0.5);

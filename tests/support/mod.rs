@@ -28,9 +28,7 @@ impl Prism {
         let quarter = std::f64::consts::FRAC_PI_2;
         Self {
             normals_rad: (0..4).map(|j| f64::from(j) * quarter).collect(),
-            profiles: (0..4)
-                .map(|j| wall(if j % 2 == 0 { width } else { depth } / 2.0))
-                .collect(),
+            profiles: (0..4).map(|j| wall(if j % 2 == 0 { width } else { depth } / 2.0)).collect(),
         }
     }
 
@@ -40,9 +38,7 @@ impl Prism {
 
     fn offset(&self, j: usize, v: f64) -> f64 {
         let profile = &self.profiles[j];
-        let k = (1..profile.len() - 1)
-            .find(|&k| profile[k].y <= v)
-            .unwrap_or(profile.len() - 1);
+        let k = (1..profile.len() - 1).find(|&k| profile[k].y <= v).unwrap_or(profile.len() - 1);
         let (a, b) = (profile[k - 1], profile[k]);
         a.x + (b.x - a.x) * (a.y - v) / (a.y - b.y)
     }
@@ -58,9 +54,7 @@ impl Prism {
     /// Length of edge j at height v; negative where the edge has vanished.
     fn edge_length(&self, j: usize, v: f64) -> f64 {
         let before = (j + self.normals_rad.len() - 1) % self.normals_rad.len();
-        self.normal(j)
-            .perp()
-            .dot(self.corner(j, v) - self.corner(before, v))
+        self.normal(j).perp().dot(self.corner(j, v) - self.corner(before, v))
     }
 
     /// Every chain's profile with the fold vertex put in (design: balance point), and its index.
@@ -86,17 +80,12 @@ impl Prism {
     /// The narrowest or lowest panel measure; a component needs a few millimetres.
     pub fn least_measure(&self) -> f64 {
         let n = self.normals_rad.len();
-        let heights: Vec<f64> = (0..n)
-            .flat_map(|j| self.folded(j).0.into_iter().map(|p| p.y))
-            .collect();
-        let widths = (0..n)
-            .flat_map(|j| heights.iter().map(move |&v| (j, v)))
-            .map(|(j, v)| self.edge_length(j, v));
+        let heights: Vec<f64> = (0..n).flat_map(|j| self.folded(j).0.into_iter().map(|p| p.y)).collect();
+        let widths =
+            (0..n).flat_map(|j| heights.iter().map(move |&v| (j, v))).map(|(j, v)| self.edge_length(j, v));
         let panels = (0..n).flat_map(|j| {
             let profile = self.folded(j).0;
-            (1..profile.len())
-                .map(|k| profile[k].distance(profile[k - 1]))
-                .collect::<Vec<_>>()
+            (1..profile.len()).map(|k| profile[k].distance(profile[k - 1])).collect::<Vec<_>>()
         });
         widths.chain(panels).fold(f64::INFINITY, f64::min)
     }
@@ -108,20 +97,12 @@ impl Prism {
             let p = &self.profiles[0];
             (p[0].y, p[p.len() - 1].y)
         };
-        let ring = |v: f64| {
-            (0..n)
-                .map(|j| self.corner((j + n - 1) % n, v))
-                .collect::<Vec<DVec2>>()
-        };
+        let ring = |v: f64| (0..n).map(|j| self.corner((j + n - 1) % n, v)).collect::<Vec<DVec2>>();
         let at = |v: f64, flip: f64| {
             let turn = DMat3::from_cols(DVec3::X, DVec3::Y * flip, DVec3::Z * flip);
             DAffine3::from_mat3_translation(turn, DVec3::Z * v)
         };
-        let bottom: Vec<DVec2> = ring(bottom_v)
-            .into_iter()
-            .rev()
-            .map(|p| DVec2::new(p.x, -p.y))
-            .collect();
+        let bottom: Vec<DVec2> = ring(bottom_v).into_iter().rev().map(|p| DVec2::new(p.x, -p.y)).collect();
         let mut panels = vec![
             Panel {
                 kind: PanelKind::Top,
@@ -146,16 +127,10 @@ impl Prism {
     fn add_chain(&self, j: usize, panels: &mut Vec<Panel>, hinges: &mut Vec<Hinge>) {
         let n = self.normals_rad.len();
         let (profile, fold) = self.folded(j);
-        let mut above = HingeSide {
-            panel: PanelId(0),
-            edge: j,
-        };
+        let mut above = HingeSide { panel: PanelId(0), edge: j };
         let mut slope_rad = 0.0;
         let mut arc = 0.0;
-        let fold_arc: f64 = profile[..=fold]
-            .windows(2)
-            .map(|w| w[0].distance(w[1]))
-            .sum();
+        let fold_arc: f64 = profile[..=fold].windows(2).map(|w| w[0].distance(w[1])).sum();
         for i in 0..profile.len() - 1 {
             let (upper, lower) = (profile[i], profile[i + 1]);
             let id = PanelId(panels.len());
@@ -166,22 +141,12 @@ impl Prism {
                 kind: PanelKind::Side { chain: j, index: i },
                 outline,
                 deployed: self.place(j, up, upper + up * arc),
-                flat: self.place(
-                    j,
-                    if i < fold { -DVec2::X } else { DVec2::X },
-                    DVec2::X * start,
-                ),
+                flat: self.place(j, if i < fold { -DVec2::X } else { DVec2::X }, DVec2::X * start),
             });
             let down = lower - upper;
             let new_slope = (-down.y).atan2(down.x);
             hinges.push(Hinge {
-                sides: [
-                    above,
-                    HingeSide {
-                        panel: id,
-                        edge: top_edge,
-                    },
-                ],
+                sides: [above, HingeSide { panel: id, edge: top_edge }],
                 is_fold: i == fold,
                 deployed_rad: new_slope - slope_rad,
                 flat_rad: if i == fold { std::f64::consts::PI } else { 0.0 },
@@ -191,10 +156,7 @@ impl Prism {
             arc += upper.distance(lower);
         }
         // Bottom corner k is ring corner n - 1 - k, so its edge k is edge n - 2 - k of the ring.
-        let bottom = HingeSide {
-            panel: PanelId(1),
-            edge: (2 * n - 2 - j) % n,
-        };
+        let bottom = HingeSide { panel: PanelId(1), edge: (2 * n - 2 - j) % n };
         hinges.push(Hinge {
             sides: [above, bottom],
             is_fold: false,
@@ -221,19 +183,11 @@ impl Prism {
         let before = (j + n - 1) % n;
         let along = self.normal(j).perp();
         let slope = upper.distance(lower) / (upper.y - lower.y);
-        let local = |chain: usize, v: f64| {
-            DVec2::new(
-                along.dot(self.corner(chain, v)),
-                -arc - slope * (upper.y - v),
-            )
-        };
+        let local =
+            |chain: usize, v: f64| DVec2::new(along.dot(self.corner(chain, v)), -arc - slope * (upper.y - v));
         let bends = |chain: usize| {
             let between = |v: &f64| *v < upper.y - 1e-9 && *v > lower.y + 1e-9;
-            self.folded(chain)
-                .0
-                .into_iter()
-                .map(|p| p.y)
-                .filter(between)
+            self.folded(chain).0.into_iter().map(|p| p.y).filter(between)
         };
         let mut rising: Vec<f64> = bends((j + 1) % n).collect();
         rising.reverse();
