@@ -39,7 +39,8 @@ pub struct MakeArgs {
     /// File for the segmentation: one number a line
     ///
     /// For each face of the input file, in its order, the index of its component from 0; -1 for
-    /// a face that was dropped in the repair. Example: --segments teddy.seg
+    /// a face that was dropped in the repair, or whose part has no volume.
+    /// Example: --segments teddy.seg
     #[arg(long, value_name = "FILE")]
     segments: Option<PathBuf>,
 

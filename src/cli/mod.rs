@@ -21,7 +21,7 @@ const STOPPED: u8 = 130;
 /// A model consists of convex components that are glued together. Each of them folds flat by
 /// itself, so the finished model can be laid flat and stood up again.
 #[derive(Debug, Parser)]
-#[command(name = "tatamu", version, max_term_width = 100, after_help = EXAMPLES)]
+#[command(name = "tatamu", version, after_help = EXAMPLES)]
 struct Cli {
     #[command(subcommand)]
     command: Command,

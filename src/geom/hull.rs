@@ -252,7 +252,8 @@ impl Clip<'_> {
         let (x, y) = plane.basis();
         let flat = |v: u32| glam::DVec2::new(x.dot(self.points[v as usize]), y.dot(self.points[v as usize]));
         let middle = ring.iter().map(|&v| flat(v)).sum::<glam::DVec2>() / ring.len().max(1) as f64;
-        let mut ring: Vec<(f64, u32)> = ring.into_iter().map(|v| ((flat(v) - middle).to_angle(), v)).collect();
+        let mut ring: Vec<(f64, u32)> =
+            ring.into_iter().map(|v| ((flat(v) - middle).to_angle(), v)).collect();
         ring.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         ring.into_iter().map(|r| r.1).collect()
     }

@@ -1,79 +1,16 @@
 //! Stanford PLY, in text and in both binary byte orders.
 
+mod elements;
+
 use super::lines::{Feed, Line, Lines, number};
 use super::{Format, Place, ReadError, excerpt};
 use crate::mesh::Soup;
+use elements::{FACE_LISTS, Face, Other, Vertex};
 use glam::DVec3;
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{
-    ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType, ScalarType,
-};
+use ply_rs_bw::ply::{ElementDef, Encoding, Header, PropertyType, ScalarType};
 use std::cell::Cell;
 use std::io::{BufRead, BufReader, ErrorKind};
-
-const FACE_LISTS: [&str; 2] = ["vertex_indices", "vertex_index"];
-
-struct Vertex([f64; 3]);
-
-impl PropertyAccess for Vertex {
-    fn new() -> Self {
-        Self([0.0; 3])
-    }
-
-    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        let Some(axis) = ["x", "y", "z"].iter().position(|&axis| axis == name) else {
-            return PropertyAccessResult::Ignored;
-        };
-        self.0[axis] = match property {
-            Property::Double(x) => x,
-            Property::Float(x) => f64::from(x),
-            Property::Char(x) => f64::from(x),
-            Property::UChar(x) => f64::from(x),
-            Property::Short(x) => f64::from(x),
-            Property::UShort(x) => f64::from(x),
-            Property::Int(x) => f64::from(x),
-            Property::UInt(x) => f64::from(x),
-            _ => return PropertyAccessResult::UnsupportedType,
-        };
-        PropertyAccessResult::Set
-    }
-}
-
-struct Face(Vec<i64>);
-
-impl PropertyAccess for Face {
-    fn new() -> Self {
-        Self(Vec::new())
-    }
-
-    fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
-        fn wide<T: Into<i64>>(list: Vec<T>) -> Vec<i64> {
-            list.into_iter().map(Into::into).collect()
-        }
-        if !FACE_LISTS.contains(&name) {
-            return PropertyAccessResult::Ignored;
-        }
-        self.0 = match property {
-            Property::ListInt(list) => wide(list),
-            Property::ListUInt(list) => wide(list),
-            Property::ListShort(list) => wide(list),
-            Property::ListUShort(list) => wide(list),
-            Property::ListChar(list) => wide(list),
-            Property::ListUChar(list) => wide(list),
-            _ => return PropertyAccessResult::UnsupportedType,
-        };
-        PropertyAccessResult::Set
-    }
-}
-
-/// An element that is passed over.
-struct Other;
-
-impl PropertyAccess for Other {
-    fn new() -> Self {
-        Self
-    }
-}
 
 pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
     let mut reader = Reader::new(bytes);

@@ -1,0 +1,219 @@
+//! The project file: everything that `make` can be told, as TOML.
+//!
+//! The structs here are the file's; they are checked while they are read, so that an error names
+//! the line and column of the value that is wrong.
+
+mod fields;
+mod template;
+
+pub use fields::{LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_count, check_degrees, check_parts, parse_up};
+pub use template::{Template, TemplateComponent, to_toml};
+
+use crate::mesh::Up;
+use crate::units::Paper;
+use serde::Deserialize;
+use std::collections::BTreeSet;
+
+/// Why a project file cannot be used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ProjectError {
+    /// Not TOML, an unknown key, or a value that is not accepted. The message quotes the line.
+    #[error("{0}")]
+    Toml(String),
+    /// Two components of one name.
+    #[error("two components have the name \"{name}\"; give each its own")]
+    SameName {
+        /// The name.
+        name: String,
+    },
+}
+
+/// A project file.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Project {
+    /// The mesh file, relative to the project file.
+    pub mesh: String,
+    /// The axis of the mesh that points up.
+    #[serde(default, deserialize_with = "fields::up")]
+    pub up: Option<Up>,
+    /// Longest side of the model, mm.
+    #[serde(default, rename = "size", deserialize_with = "fields::length")]
+    pub size_mm: Option<f64>,
+    /// How the mesh is divided.
+    #[serde(default)]
+    pub segmentation: Segmentation,
+    /// What holds for components that do not say otherwise.
+    #[serde(default)]
+    pub defaults: Defaults,
+    /// The sheets.
+    #[serde(default)]
+    pub paper: PaperTable,
+    /// What differs for single components.
+    #[serde(default, rename = "component")]
+    pub components: Vec<Component>,
+}
+
+/// The table `[segmentation]`.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Segmentation {
+    /// Number of components to aim at.
+    #[serde(default, deserialize_with = "fields::parts")]
+    pub parts: Option<usize>,
+}
+
+/// The table `[defaults]`.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Defaults {
+    /// Edges of top panels.
+    #[serde(default, deserialize_with = "fields::count")]
+    pub top_edges: Option<usize>,
+    /// Vertices of profiles.
+    #[serde(default, deserialize_with = "fields::count")]
+    pub profile_vertices: Option<usize>,
+    /// Least width and height of panels, mm.
+    #[serde(default, deserialize_with = "fields::length")]
+    pub min_panel_width_mm: Option<f64>,
+    /// Width of glue tabs, mm.
+    #[serde(default, deserialize_with = "fields::length")]
+    pub tab_width_mm: Option<f64>,
+}
+
+/// The table `[paper]`.
+#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PaperTable {
+    /// Size of the sheets.
+    #[serde(default, deserialize_with = "fields::paper")]
+    pub size: Option<Paper>,
+    /// Border that stays free, mm.
+    #[serde(default, deserialize_with = "fields::length_or_zero")]
+    pub margin_mm: Option<f64>,
+}
+
+/// A table `[[component]]`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Component {
+    /// The component's name.
+    #[serde(deserialize_with = "fields::name")]
+    pub name: String,
+    /// Another name for it.
+    #[serde(default, deserialize_with = "fields::new_name")]
+    pub rename: Option<String>,
+    /// Angle of the fold axis about the hull's first principal axis, degrees.
+    #[serde(default, rename = "direction", deserialize_with = "fields::degrees")]
+    pub direction_deg: Option<f64>,
+    /// Edges of the top panel.
+    #[serde(default, deserialize_with = "fields::count")]
+    pub top_edges: Option<usize>,
+    /// Vertices of profiles.
+    #[serde(default, deserialize_with = "fields::count")]
+    pub profile_vertices: Option<usize>,
+}
+
+impl Project {
+    /// Reads a project file.
+    ///
+    /// # Errors
+    /// See [`ProjectError`].
+    pub fn parse(text: &str) -> Result<Self, ProjectError> {
+        let project: Self = toml::from_str(text)
+            .map_err(|error| ProjectError::Toml(error.to_string().trim_end().to_owned()))?;
+        let (mut tables, mut names) = (BTreeSet::new(), BTreeSet::new());
+        for component in &project.components {
+            let name = component.rename.as_ref().unwrap_or(&component.name);
+            let is_new = tables.insert(&component.name) && names.insert(name);
+            if !is_new {
+                let name = name.clone();
+                return Err(ProjectError::SameName { name });
+            }
+        }
+        Ok(project)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FULL: &str = r#"
+mesh = "teddy.obj"
+up = "Y"
+size = "8in"
+[segmentation]
+parts = 6
+[defaults]
+top_edges = 8
+profile_vertices = 5
+min_panel_width_mm = 2.5
+tab_width_mm = "0.5cm"
+[paper]
+size = "letter"
+margin_mm = 0
+[[component]]
+name = "body"
+direction = -30
+[[component]]
+name = "head"
+top_edges = 5
+profile_vertices = 4
+"#;
+
+    #[test]
+    fn a_full_file() {
+        let project = Project::parse(FULL).unwrap();
+        assert_eq!((project.mesh.as_str(), project.up), ("teddy.obj", Some(Up::Y)));
+        assert!((project.size_mm.unwrap() - 203.2).abs() < 1e-9);
+        assert_eq!(project.segmentation.parts, Some(6));
+        assert_eq!(project.defaults.min_panel_width_mm, Some(2.5));
+        assert_eq!(project.defaults.tab_width_mm, Some(5.0));
+        assert_eq!(project.paper.size.unwrap().name(), "letter");
+        assert_eq!(project.paper.margin_mm, Some(0.0));
+        assert_eq!(project.components[0].direction_deg, Some(-30.0));
+        assert_eq!(project.components[1].top_edges, Some(5));
+    }
+
+    #[test]
+    fn a_short_file() {
+        let project = Project::parse("mesh = 'x.stl'\nsize = 150\n").unwrap();
+        assert_eq!((project.size_mm, project.up), (Some(150.0), None));
+        assert!(project.components.is_empty());
+    }
+
+    #[test]
+    fn errors_name_line_and_column_and_what_is_accepted() {
+        for (from, to, place, word) in [
+            ("parts = 6", "partz = 6", "line 6, column 1", "expected `parts`"),
+            ("size = \"8in\"", "sise = 3", "line 4, column 1", "`size`"),
+            ("\"8in\"", "\"8 feet\"", "line 4, column 8", "200mm"),
+            ("\"8in\"", "0", "line 4, column 8", "more than 0"),
+            ("\"8in\"", "nan", "line 4, column 8", "more than 0"),
+            ("\"8in\"", "[1]", "line 4, column 8", "expected a length"),
+            ("\"Y\"", "\"w\"", "line 3, column 6", "x, y, z"),
+            ("parts = 6", "parts = 0", "line 6, column 9", "from 1 to 200"),
+            ("top_edges = 8", "top_edges = 2", "line 8, column 13", "from 3 to 64"),
+            ("top_edges = 8", "top_edges = 3.5", "line 8, column 13", "whole number"),
+            ("= -30", "= inf", "line 17, column 13", "degrees"),
+            ("= -30", "= '30'", "line 17, column 13", "degrees"),
+            ("\"letter\"", "\"a9\"", "line 13, column 8", "8.5x11in"),
+            ("margin_mm = 0", "margin_mm = -1", "line 14, column 13", "more than 0"),
+            ("\"head\"", "\"\"", "line 19, column 8", "name"),
+        ] {
+            let text = FULL.replacen(from, to, 1);
+            let message = Project::parse(&text).unwrap_err().to_string();
+            assert!(message.contains(place), "{to}: {message}");
+            assert!(message.contains(word), "{to}: {message}");
+        }
+        assert!(Project::parse("size = 3").unwrap_err().to_string().contains("mesh"));
+    }
+
+    #[test]
+    fn names_are_different() {
+        let text = FULL.replace("\"head\"", "\"body\"");
+        let error = ProjectError::SameName { name: "body".to_owned() };
+        assert_eq!(Project::parse(&text), Err(error));
+    }
+}

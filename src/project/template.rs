@@ -1,0 +1,159 @@
+//! A fresh project file, with comments.
+
+use super::LEAST_COUNT;
+use crate::mesh::Up;
+use crate::units::Paper;
+
+/// What `init` writes into a fresh project file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Template<'a> {
+    /// The mesh file, relative to the project file.
+    pub mesh: &'a str,
+    /// The axis of the mesh that points up.
+    pub up: Up,
+    /// Longest side of the model, mm.
+    pub size_mm: f64,
+    /// Edges of top panels.
+    pub top_edges: usize,
+    /// Vertices of profiles.
+    pub profile_vertices: usize,
+    /// Least width and height of panels, mm.
+    pub min_panel_width_mm: f64,
+    /// Width of glue tabs, mm.
+    pub tab_width_mm: f64,
+    /// Size of the sheets.
+    pub paper: Paper,
+    /// Border that stays free, mm.
+    pub margin_mm: f64,
+    /// Number of components to aim at, if it was chosen.
+    pub parts: Option<usize>,
+    /// The components.
+    pub components: &'a [TemplateComponent],
+}
+
+/// A component in a fresh project file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TemplateComponent {
+    /// Its name.
+    pub name: String,
+    /// Angle of its fold axis, degrees.
+    pub direction_deg: f64,
+    /// Whether the angle was chosen by the user; else it stands in a comment.
+    pub is_chosen: bool,
+}
+
+/// A project file with comments that explain each key.
+pub fn to_toml(template: &Template) -> String {
+    let quoted = |text: &str| toml::Value::from(text).to_string();
+    let unless = |is_chosen: bool| if is_chosen { "" } else { "# " };
+    let mut text = format!(
+        r#"# A tatamu project. Change it and run "tatamu make" on this file.
+# Lengths are millimetres, or texts with a unit: "200mm", "20cm", "8in".
+
+# The mesh, relative to this file: OBJ, STL, PLY, OFF, glTF or GLB.
+mesh = {mesh}
+
+# The axis of the mesh that points up: "x", "y" or "z".
+up = "{up}"
+
+# The longest side of the finished model.
+size = "{size}mm"
+
+[segmentation]
+# How many components to aim at; without this line the shape decides.
+{parts_comment}parts = {parts}
+
+[defaults]
+# Edges of each component's top panel, {LEAST_COUNT} or more: more follow the shape better, fewer fold faster.
+top_edges = {top_edges}
+# Vertices of each profile at most, {LEAST_COUNT} or more: more follow the shape better, fewer fold faster.
+profile_vertices = {profile_vertices}
+# No panel is narrower or lower than this; what cannot be kept is a warning.
+min_panel_width_mm = {min_panel_width}
+# Width of the glue tabs.
+tab_width_mm = {tab_width}
+
+[paper]
+# "a4", "a3", "a5", "letter", "legal", or width and height such as "210x297mm".
+size = "{paper}"
+# Border of each sheet that stays free.
+margin_mm = {margin}
+
+# One table for each component. What a table leaves out comes from [defaults].
+# rename: another name, which is printed on the pieces.
+# direction: angle of the fold axis about the component's longest axis, in degrees;
+# without it the best direction is searched for.
+"#,
+        mesh = quoted(template.mesh),
+        up = match template.up {
+            Up::X => "x",
+            Up::Y => "y",
+            Up::Z => "z",
+        },
+        size = template.size_mm,
+        parts_comment = unless(template.parts.is_some()),
+        parts = template.parts.unwrap_or(template.components.len().max(1)),
+        top_edges = template.top_edges,
+        profile_vertices = template.profile_vertices,
+        min_panel_width = template.min_panel_width_mm,
+        tab_width = template.tab_width_mm,
+        paper = template.paper.name(),
+        margin = template.margin_mm,
+    );
+    for component in template.components {
+        text += &format!(
+            "\n[[component]]\nname = {0}\n# rename = {0}\n{1}direction = {2:.1}\n# top_edges = {3}\n\
+             # profile_vertices = {4}\n",
+            quoted(&component.name),
+            unless(component.is_chosen),
+            component.direction_deg,
+            template.top_edges,
+            template.profile_vertices
+        );
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::project::Project;
+    use crate::units::parse_paper;
+
+    #[test]
+    fn the_template_reads_back() {
+        let component = |name: &str, is_chosen| TemplateComponent {
+            name: name.to_owned(),
+            direction_deg: 12.3,
+            is_chosen,
+        };
+        let components = [component("body", false), component("he\"ad", true)];
+        let template = Template {
+            mesh: "a \"b\"\\c.obj",
+            up: Up::X,
+            size_mm: 123.5,
+            top_edges: 7,
+            profile_vertices: 4,
+            min_panel_width_mm: 3.0,
+            tab_width_mm: 6.5,
+            paper: parse_paper("100x150").unwrap(),
+            margin_mm: 0.0,
+            parts: None,
+            components: &components,
+        };
+        let text = to_toml(&template);
+        let project = Project::parse(&text).unwrap();
+        assert_eq!((project.mesh.as_str(), project.up), (template.mesh, Some(Up::X)));
+        assert_eq!((project.size_mm, project.paper.margin_mm), (Some(123.5), Some(0.0)));
+        assert_eq!(project.paper.size, Some(template.paper));
+        assert_eq!(project.defaults.tab_width_mm, Some(6.5));
+        assert_eq!(project.components[1].name, "he\"ad");
+        assert_eq!(project.components[0].direction_deg, None);
+        assert_eq!(project.components[1].direction_deg, Some(12.3));
+        let uncommented = text.replace("# direction =", "direction =").replace("# parts", "parts");
+        let project = Project::parse(&uncommented.replace("# top_e", "top_e")).unwrap();
+        assert_eq!(project.components[0].direction_deg, Some(12.3));
+        assert_eq!(project.components[0].top_edges, Some(7));
+        assert_eq!(project.segmentation.parts, Some(2));
+    }
+}

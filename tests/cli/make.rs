@@ -1,0 +1,96 @@
+//! What `tatamu make` writes and says.
+
+use super::*;
+
+#[test]
+fn every_cube_is_made_and_segments_have_a_line_for_each_face() {
+    for (name, bytes) in cube::all() {
+        let folder = folder_with(&[("cube.data", &bytes)]);
+        let outputs = ["-o", "a.json", "--segments", "a.seg"];
+        let arguments = [&["make", "cube.data", "--size", "60"][..], &outputs].concat();
+        let result = run(folder.path(), &arguments);
+        assert_eq!(result.code, Some(0), "{name}: {}", result.err);
+        assert!(!result.err.contains("the mesh has"), "{name}: {}", result.err);
+        assert_eq!(names(&folder), ["a.json", "a.seg", "cube.data"]);
+        let segments = std::fs::read_to_string(folder.path().join("a.seg")).unwrap();
+        assert_eq!(segments, "0\n".repeat(12));
+        let report = report(&folder, "a.json");
+        assert_eq!(report["input"]["path"], "cube.data");
+        assert_near(report["input"]["diagonal_mm"].as_f64(), 60.0 * 3f64.sqrt());
+    }
+}
+
+#[test]
+fn without_o_a_pdf_stands_in_the_working_directory() {
+    let folder = folder_with(&[]);
+    std::fs::create_dir(folder.path().join("meshes")).unwrap();
+    std::fs::write(folder.path().join("meshes/cube.off"), cube::OFF).unwrap();
+    let result = run(folder.path(), &["make", "meshes/cube.off", "--size", "60"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    assert_eq!(names(&folder), ["cube.pdf", "meshes"]);
+    assert!(std::fs::read(folder.path().join("cube.pdf")).unwrap().starts_with(b"%PDF"));
+    for words in ["components  1: body", "a4", "written     cube.pdf"] {
+        assert!(result.out.contains(words), "no {words:?} in: {}", result.out);
+    }
+}
+
+#[test]
+fn one_svg_a_sheet() {
+    let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
+    let arguments = ["make", "cube.off", "--size", "60", "-o", "a.svg", "-o", "a.fold"];
+    let result = run(folder.path(), &arguments);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    assert_eq!(names(&folder), ["a-1.svg", "a.fold", "cube.off"]);
+}
+
+#[test]
+#[cfg(unix)]
+fn ctrl_c_stops_the_work_and_leaves_nothing() {
+    let folder = folder_with(&[]);
+    let mesh = concat!(env!("CARGO_MANIFEST_DIR"), "/samples/teddy.obj");
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_tatamu"))
+        .current_dir(folder.path())
+        .args(["make", mesh, "-o", "a.pdf"])
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(1));
+    let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    let mut message = String::new();
+    let mut stderr = child.stderr.take().unwrap();
+    std::io::Read::read_to_string(&mut stderr, &mut message).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{message}");
+    assert_eq!(message, "tatamu: stopped at your request\n");
+    assert!(names(&folder).is_empty());
+}
+
+#[test]
+fn quiet_says_nothing() {
+    let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
+    let arguments = ["make", "cube.off", "-q", "--size", "60", "-o", "a.json"];
+    let result = run(folder.path(), &arguments);
+    assert_eq!((result.code, result.out.as_str()), (Some(0), ""), "{}", result.err);
+}
+
+#[test]
+fn what_is_repaired_is_told_with_its_count() {
+    let open = TETRAHEDRON.replace("f 2 3 4\n", "f 1 2 3\nf 1 1 2\n");
+    let text = format!("{open}v 9 9 9\nv 8 9 9\nv 9 8 9\nv 9 9 8\nf 5 6 7\nf 5 8 6\n");
+    let folder = folder_with(&[("a.obj", text.as_bytes())]);
+    let result = run(folder.path(), &["make", "a.obj", "-q", "--size", "100", "-o", "a.json"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    for words in ["open edges: 7", "bodies besides the first: 1", "repeated faces: 1", "without area: 1"] {
+        assert!(result.err.contains(words), "no {words:?} in: {}", result.err);
+    }
+}
+
+#[test]
+fn help_is_a_document() {
+    let folder = tempfile::tempdir().unwrap();
+    let result = run(folder.path(), &["make", "--help"]);
+    assert_eq!(result.code, Some(0));
+    for words in ["--up", "--size", "--tab-width", "default: 6mm", "Example:", ".json", "Examples:"] {
+        assert!(result.out.contains(words), "no {words:?} in the help");
+    }
+}

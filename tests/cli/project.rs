@@ -1,0 +1,58 @@
+//! Project files, and `tatamu init`.
+
+use super::*;
+
+#[test]
+fn a_wrong_key_in_a_project_file_is_shown_with_its_line() {
+    let project = b"mesh = 'a.obj'\n\n[paper]\nsise = 'a4'\n";
+    let folder = folder_with(&[("a.obj", TETRAHEDRON.as_bytes()), ("a.toml", project)]);
+    let result = run(folder.path(), &["make", "a.toml", "-o", "a.json"]);
+    assert_eq!(result.code, Some(1));
+    assert!(result.err.starts_with("error: project file a.toml: "), "{}", result.err);
+    for words in ["line 4, column 1", "sise = 'a4'", "`size`", "`margin_mm`"] {
+        assert!(result.err.contains(words), "no {words:?} in: {}", result.err);
+    }
+    assert_eq!(result.err.matches("error").count(), 2, "{}", result.err);
+    assert_eq!(names(&folder), ["a.obj", "a.toml"]);
+}
+
+#[test]
+fn a_project_whose_mesh_is_missing() {
+    let files: [(&str, &[u8]); 1] = [("a.toml", b"mesh = 'gone.obj'")];
+    assert_refused(&files, &["make", "a.toml", "-o", "a.json"], &["gone.obj", "no such file"]);
+}
+
+#[test]
+fn init_writes_a_project_that_make_honours() {
+    let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
+    std::fs::create_dir(folder.path().join("projects")).unwrap();
+    for project in ["cube.toml", "projects/cube.toml"] {
+        let flags = ["--size", "50", "--top-edges", "5", "--direction", "body=30", "-o", project];
+        let result = run(folder.path(), &[&["init", "cube.off"][..], &flags].concat());
+        assert_eq!(result.code, Some(0), "{}", result.err);
+
+        let path = folder.path().join(project);
+        let text = std::fs::read_to_string(&path).unwrap();
+        assert!(text.contains("\ndirection = 30.0\n"), "{text}");
+        let text = text.replace("# rename = \"body\"", "rename = \"head\"");
+        std::fs::write(&path, text.replace("top_edges = 5", "top_edges = 4")).unwrap();
+        let result = run(folder.path(), &["make", project, "-o", "a.json"]);
+        assert_eq!(result.code, Some(0), "{}", result.err);
+        let report = report(&folder, "a.json");
+        assert_near(report["input"]["diagonal_mm"].as_f64(), 50.0 * 3f64.sqrt());
+        assert_eq!(report["components"][0]["name"], "head");
+        assert_eq!(report["components"][0]["top_edges"], 4);
+        assert_near(report["components"][0]["direction_deg"].as_f64(), 30.0);
+    }
+}
+
+#[test]
+fn init_keeps_an_existing_file() {
+    let files: [(&str, &[u8]); 2] = [("cube.off", cube::OFF.as_bytes()), ("cube.toml", b"mine")];
+    assert_refused(&files, &["init", "cube.off"], &["cube.toml", "--force"]);
+    let folder = folder_with(&files);
+    let result = run(folder.path(), &["init", "cube.off", "--force", "-q", "--size", "60"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    let text = std::fs::read_to_string(folder.path().join("cube.toml")).unwrap();
+    assert!(text.contains("mesh = \"cube.off\""));
+}
