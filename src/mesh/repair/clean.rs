@@ -115,10 +115,8 @@ pub(super) fn drop_unused(positions: &mut Vec<DVec3>, triangles: &mut [Triangle]
     for v in triangles.iter().flat_map(|t| t.corners) {
         fresh[v as usize] = 0;
     }
-    let mut count = 0;
-    for slot in fresh.iter_mut().filter(|slot| **slot == 0) {
-        *slot = count;
-        count += 1;
+    for (slot, number) in fresh.iter_mut().filter(|slot| **slot == 0).zip(0..) {
+        *slot = number;
     }
     let mut slots = fresh.iter();
     positions.retain(|_| slots.next() != Some(&u32::MAX));
