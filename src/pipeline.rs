@@ -10,7 +10,7 @@ use crate::sheet::{Layout, LayoutError, SheetOptions};
 use crate::units::Paper;
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What the user chose.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,6 +93,9 @@ pub enum Error {
     /// The layout failed.
     #[error(transparent)]
     Layout(#[from] LayoutError),
+    /// Two components were given the same name.
+    #[error("two components are named \"{0}\"; give each a name of its own")]
+    SameName(String),
     /// Options for a component that does not exist.
     #[error("there is no component \"{name}\"; there are: {known}")]
     NoComponent {
@@ -197,7 +200,6 @@ impl Output {
 pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
     let (mesh, to_model) = mesh.scaled(options.size_mm, options.up);
 
-    progress.stage("segmentation");
     let wish = SegmentOptions { parts: options.parts, ..SegmentOptions::default() };
     let segmentation = segment::segment(&mesh, &wish, progress)?;
 
@@ -306,7 +308,12 @@ fn parts(hulls: Vec<Hull>, options: &Options) -> Result<Vec<Part>, Error> {
             },
         }
     };
-    Ok(hulls.into_iter().zip(names).map(part).collect())
+    let parts: Vec<Part> = hulls.into_iter().zip(names).map(part).collect();
+    let mut seen = BTreeSet::new();
+    match parts.iter().find(|part| !seen.insert(part.options.name.as_str())) {
+        Some(part) => Err(Error::SameName(part.options.name.clone())),
+        None => Ok(parts),
+    }
 }
 
 fn contacts(mesh: &Mesh, segmentation: &Segmentation, part_of_segment: &[Option<usize>]) -> Vec<Contact> {

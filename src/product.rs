@@ -1,7 +1,7 @@
 //! A finished run as documents: pages, FOLD and report, ready for every format.
 
 use crate::drawing::LineStyles;
-use crate::export::fold::{self, FoldComponent, FoldModel, PiecePlace};
+use crate::export::fold::{self, FoldComponent, FoldModel};
 use crate::export::{ExportError, ExportInput};
 use crate::pipeline::Output;
 use crate::report::{self, Run};
@@ -48,21 +48,15 @@ pub fn size_note(output: &Output) -> String {
 pub fn fold_master(output: &Output, title: &str) -> Result<Vec<u8>, serde_json::Error> {
     let layout = output.layout();
     let parts = output.model().parts();
-    let places: Vec<Vec<PiecePlace>> = (0..parts.len())
-        .map(|n| {
-            let places = layout.places(n).iter();
-            places.map(|at| PiecePlace { sheet: at.sheet, place: at.place }).collect()
-        })
-        .collect();
     let components: Vec<FoldComponent> = parts
         .iter()
         .zip(output.nets())
-        .zip(&places)
-        .map(|((part, net), pieces)| FoldComponent {
+        .enumerate()
+        .map(|(n, (part, net))| FoldComponent {
             name: &part.name,
             set: part.component.panels(),
             net,
-            pieces,
+            pieces: layout.places(n),
             deployed: part.deployed(),
             flat: part.flat,
         })

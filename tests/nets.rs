@@ -8,11 +8,12 @@ use support::Prism;
 use tatamu::check;
 use tatamu::component::{PanelId, PanelSet};
 use tatamu::drawing::{Layer, Polyline, Rgb, Shape, Stroke};
-use tatamu::export::fold::{self, FoldComponent, FoldModel, PiecePlace};
+use tatamu::export::fold::{self, FoldComponent, FoldModel};
 use tatamu::geom::polygon;
 use tatamu::net::{
     EdgeKind, JointMark, MarkOptions, Naming, Net, NetError, NetOptions, check::faults, develop,
 };
+use tatamu::sheet::PiecePlace;
 
 const A4: DVec2 = DVec2::new(190.0, 277.0);
 const SMALL: DVec2 = DVec2::new(85.0, 115.0);

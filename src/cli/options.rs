@@ -124,7 +124,10 @@ impl ModelArgs {
             }
         }
         for (name, degrees) in &self.direction {
-            let component = options.components.entry(name.clone()).or_default();
+            // The project may have renamed the component that the flag means.
+            let renamed = options.components.iter().find(|(_, c)| c.rename.as_ref() == Some(name));
+            let key = renamed.map_or(name, |(key, _)| key).clone();
+            let component = options.components.entry(key).or_default();
             component.direction_rad = Some(degrees.to_radians());
         }
         check_margin(&options)?;

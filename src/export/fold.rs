@@ -6,17 +6,9 @@
 
 use crate::component::{HingeId, PanelKind, PanelSet};
 use crate::net::{Corner, EdgeKind, FaceKind, Net, Piece};
-use glam::{DAffine2, DAffine3, DVec2, DVec3};
+use crate::sheet::PiecePlace;
+use glam::{DAffine3, DVec2, DVec3};
 use serde::Serialize;
-
-/// Where a piece lies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PiecePlace {
-    /// The sheet, counted from 0.
-    pub sheet: usize,
-    /// Rigid motion from the piece's coordinates to the sheet's, mm.
-    pub place: DAffine2,
-}
 
 /// One component with its net.
 #[derive(Debug, Clone, Copy)]

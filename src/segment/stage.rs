@@ -48,7 +48,7 @@ pub fn segment(
     if is_flat(positions) {
         return Err(SegmentError::Flat);
     }
-    progress.stage("segmenting");
+    progress.stage("segmentation");
     let (faces, _) = outward_faces(positions, mesh.faces());
     let fine = Surface::of_faces(positions, &faces);
     let (coarse, cell_of_face) = coarsen(&fine);
