@@ -23,7 +23,10 @@ pub enum CliError {
     /// The project file is wrong.
     #[error("project file {path}: {error}")]
     Project { path: PathBuf, error: ProjectError },
-    /// Options contradict each other.
+    /// The mesh that a project file names cannot be read.
+    #[error("cannot read {path}, the mesh of project file {project}: {reason}")]
+    ProjectMesh { path: PathBuf, project: PathBuf, reason: String },
+    /// Options contradict each other, or the command has no use for its input.
     #[error("{0}")]
     Options(String),
     /// An output has no known extension.

@@ -56,11 +56,17 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
             PathBuf::from(name)
         }
     };
+    output::check_places(std::slice::from_ref(&path), &[&args.mesh])?;
     if path.is_file() && !args.force {
         return Err(CliError::Output { path, reason: "it exists; add --force to replace it".to_owned() });
     }
-    output::check_places(std::slice::from_ref(&path), &[&args.mesh])?;
     let input = input::read(&args.mesh)?;
+    if input.project.is_some() {
+        return Err(CliError::Options(format!(
+            "{0} is a project file already; edit it, then: tatamu make {0}",
+            args.mesh.display()
+        )));
+    }
     let options = args.model.merge(&input)?;
     let progress = TerminalProgress::new(args.quiet);
     let result = pipeline::run(&input.mesh, &options, &progress)?;

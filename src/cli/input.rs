@@ -30,7 +30,11 @@ pub fn read(path: &Path) -> Result<Input, CliError> {
     let project =
         Project::parse(&text).map_err(|error| CliError::Project { path: path.to_owned(), error })?;
     let mesh_path = path.with_file_name(&project.mesh);
-    let bytes = read_file(&mesh_path)?;
+    let bytes = std::fs::read(&mesh_path).map_err(|error| CliError::ProjectMesh {
+        path: mesh_path.clone(),
+        project: path.to_owned(),
+        reason: reason(&error),
+    })?;
     read_mesh(&mesh_path, &bytes, Some(project))
 }
 

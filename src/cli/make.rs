@@ -5,6 +5,7 @@ use super::options::ModelArgs;
 use super::progress::TerminalProgress;
 use super::{input, output, terminal};
 use clap::Args;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use tatamu::export::{FORMATS, Format};
 use tatamu::mesh::Repairs;
@@ -21,8 +22,8 @@ use tatamu::report::Run;
 pub struct MakeArgs {
     /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB) or project file (TOML)
     ///
-    /// What it is shows in its content. What is open, not manifold or in several pieces is
-    /// accepted with a warning.
+    /// The format is found from the content, whatever the file's name. Open borders, edges of more
+    /// than two faces and several bodies are accepted with a warning.
     #[arg(value_name = "INPUT")]
     input: PathBuf,
 
@@ -48,6 +49,9 @@ pub struct MakeArgs {
     #[arg(short, long)]
     quiet: bool,
 }
+
+/// So many warnings of one kind are shown; a small model with many labels has dozens.
+const MOST_OF_A_KIND: usize = 4;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -82,7 +86,7 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     let progress = TerminalProgress::new(args.quiet);
     let result = pipeline::run(&input.mesh, &options, &progress)?;
     let stages = progress.finish();
-    result.warnings().iter().for_each(warn);
+    warn_by_kind(result.warnings());
 
     let stem = args.input.file_stem().unwrap_or_default();
     let run = Run {
@@ -146,6 +150,25 @@ fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
 
 fn warn(warning: &Warning) {
     terminal::complain("warning", &warning.message);
+}
+
+/// Shows the first few warnings of each kind, and counts the others.
+fn warn_by_kind(warnings: &[Warning]) {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for warning in warnings {
+        let count = counts.entry(warning.code).or_default();
+        *count += 1;
+        if *count <= MOST_OF_A_KIND {
+            warn(warning);
+        }
+    }
+    for (code, count) in counts.into_iter().filter(|(_, count)| *count > MOST_OF_A_KIND) {
+        let more = count - MOST_OF_A_KIND;
+        terminal::complain(
+            "warning",
+            &format!("{more} more like these ({code}); -o FILE.json writes a report with all of them"),
+        );
+    }
 }
 
 /// One component index a line for each face of the input file, -1 for a dropped one.

@@ -51,6 +51,10 @@ pub fn check_places(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), CliError>
         if !seen.insert(path) {
             return Err(refuse("it is asked for twice; choose another name"));
         }
+        let folder = folder(path);
+        if !folder.is_dir() {
+            return Err(refuse(&format!("there is no folder {}; make it first", folder.display())));
+        }
         temporary(path)?;
     }
     Ok(())
@@ -79,12 +83,16 @@ pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), CliError> {
     Ok(())
 }
 
-/// A temporary file in the folder of `path`; it vanishes unless it is put into place.
-fn temporary(path: &Path) -> Result<NamedTempFile, CliError> {
-    let folder = match path.parent() {
+/// The folder that a file of this name is in.
+fn folder(path: &Path) -> &Path {
+    match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
-    };
+    }
+}
+
+/// A temporary file in the folder of `path`; it vanishes unless it is put into place.
+fn temporary(path: &Path) -> Result<NamedTempFile, CliError> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".tatamu-");
     #[cfg(unix)]
@@ -93,7 +101,7 @@ fn temporary(path: &Path) -> Result<NamedTempFile, CliError> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(folder).map_err(|error| failed(path, &error))
+    builder.tempfile_in(folder(path)).map_err(|error| failed(path, &error))
 }
 
 fn failed(path: &Path, error: &std::io::Error) -> CliError {
