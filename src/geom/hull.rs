@@ -1,5 +1,4 @@
-use super::{Plane, polygon};
-use chull::{ConvexHull, ConvexHullWrapper};
+use super::{Plane, polygon, quickhull};
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -46,8 +45,8 @@ pub struct Hull {
     facets: Vec<Facet>,
 }
 
-/// Points are snapped to a grid of the longest side over this before the exact hull: fine enough
-/// to be invisible (5e-8 mm on a model of 200 mm), coarse enough to keep its integers short.
+/// Points are snapped to a grid of the longest side over this before the exact hull, so that those
+/// which differ by rounding alone become one: 5e-8 mm on a model of 200 mm.
 const GRID: f64 = (1u64 << 32) as f64;
 
 /// Facets whose vertices are within this share of the size of one plane are merged.
@@ -57,7 +56,7 @@ const COPLANAR: f64 = 2e-9;
 const PREFILTER_ABOVE: usize = 120;
 
 impl Hull {
-    /// Convex hull of points, by exact integer quickhull.
+    /// Convex hull of points, by exact quickhull.
     pub fn of_points(points: &[DVec3]) -> Result<Self, HullError> {
         if points.iter().any(|p| !p.is_finite()) {
             return Err(HullError::NotFinite);
@@ -290,36 +289,11 @@ fn triangles_of(points: &[DVec3], lo: DVec3, size: f64) -> Result<Vec<[usize; 3]
         let cell = ((*p - lo) / size * GRID).round();
         by_cell.entry([cell.x as i64, cell.y as i64, cell.z as i64]).or_insert(i);
     }
-    let cells: Vec<[i64; 3]> = by_cell.keys().copied().collect();
-    let origin_index: Vec<usize> = by_cell.values().copied().collect();
-    let fast: Vec<Vec<f64>> = cells.iter().map(|c| c.map(|x| x as f64 / GRID).to_vec()).collect();
-    let (corners, indices) = match ConvexHull::try_new(&fast, 1e-13, None) {
-        Ok(hull) if is_closed(&hull.vertices_indices().1) => hull.vertices_indices(),
-        _ => ConvexHullWrapper::try_new(&fast, None).map_err(|_| HullError::Flat)?.vertices_indices(),
-    };
-    let find = |corner: &[f64]| {
-        let cell = [0, 1, 2].map(|k| (corner[k] * GRID).round() as i64);
-        cells.binary_search(&cell).ok().map(|i| origin_index[i])
-    };
-    let map: Option<Vec<usize>> = corners.iter().map(|c| find(c)).collect();
-    let map = map.ok_or(HullError::Flat)?;
-    Ok(indices.chunks_exact(3).map(|t| [map[t[0]], map[t[1]], map[t[2]]]).collect())
-}
-
-/// Whether triangles form a closed surface of Euler characteristic 2.
-fn is_closed(indices: &[usize]) -> bool {
-    let mut edges = std::collections::BTreeSet::new();
-    let mut corners = std::collections::BTreeSet::new();
-    for t in indices.chunks_exact(3) {
-        for k in 0..3 {
-            corners.insert(t[k]);
-            if !edges.insert((t[k], t[(k + 1) % 3])) {
-                return false;
-            }
-        }
-    }
-    let faces = indices.len() / 3;
-    edges.iter().all(|&(a, b)| edges.contains(&(b, a))) && corners.len() + faces == edges.len() / 2 + 2
+    let snapped: Vec<DVec3> =
+        by_cell.keys().map(|cell| DVec3::from_array(cell.map(|x| x as f64 / GRID))).collect();
+    let origin_index: Vec<usize> = by_cell.into_values().collect();
+    let triangles = quickhull::triangles(&snapped, COPLANAR).ok_or(HullError::Flat)?;
+    Ok(triangles.into_iter().map(|t| t.map(|v| origin_index[v])).collect())
 }
 
 fn merge_facets(points: &[DVec3], triangles: &[[usize; 3]], size: f64) -> Result<Hull, HullError> {
@@ -460,6 +434,15 @@ mod tests {
         assert_eq!(Hull::of_points(&flat), Err(HullError::Flat));
         assert_eq!(Hull::of_points(&[DVec3::NAN; 5]), Err(HullError::NotFinite));
         assert_eq!(Hull::of_points(&[]), Err(HullError::Flat));
+    }
+
+    /// The order of the input must not matter; that of equal inputs cannot.
+    #[test]
+    fn the_hull_depends_on_the_set_of_points_alone() {
+        let mut points = grid_cube(6);
+        let hull = Hull::of_points(&points).unwrap();
+        fastrand::Rng::with_seed(3).shuffle(&mut points);
+        assert_eq!(Hull::of_points(&points).unwrap(), hull);
     }
 
     #[test]

@@ -4,6 +4,7 @@ pub mod eigen;
 mod hull;
 mod plane;
 pub mod polygon;
+mod quickhull;
 
 pub use hull::{Facet, Hull, HullError};
 pub use plane::Plane;

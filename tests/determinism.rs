@@ -1,0 +1,43 @@
+//! The same mesh gives the same bytes, in every run and on any number of threads.
+
+use tatamu::export::format_of;
+use tatamu::mesh::{self, Mesh};
+use tatamu::pipeline::{self, Options};
+use tatamu::product;
+use tatamu::progress::Silent;
+use tatamu::report::Run;
+
+/// A sample with a joint, made with few edges so that it is quick.
+const SAMPLE: &[u8] = include_bytes!("../samples/bottle.obj");
+const FORMATS: [&str; 5] = ["pdf", "svg", "dxf", "fold", "json"];
+
+/// Every file of every format, made on so many threads.
+fn files(threads: usize) -> Vec<(&'static str, Vec<u8>)> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+    pool.install(|| {
+        let (mesh, repairs) = Mesh::from_soup(&mesh::read(SAMPLE).expect("OBJ")).expect("a mesh");
+        let options = Options { parts: Some(2), top_edges: 4, profile_vertices: 4, ..Options::default() };
+        let output = pipeline::run(&mesh, &options, &Silent).expect("a model");
+        assert_eq!(output.model().parts().len(), 2);
+        let run = Run { path: "bottle.obj", repairs: &repairs, stages: &[], warnings: &[] };
+        let documents = product::export_input(&output, "bottle", &run).expect("documents");
+        let written = FORMATS.into_iter().flat_map(|name| {
+            let files = format_of(name).expect("registered").write(&documents).expect("files");
+            files.into_iter().map(move |file| (name, file.bytes))
+        });
+        written.collect()
+    })
+}
+
+#[test]
+fn runs_and_threads_make_no_difference() {
+    let first = files(1);
+    assert!(first.len() >= FORMATS.len());
+    for threads in [1, 2] {
+        let other = files(threads);
+        assert_eq!(other.len(), first.len());
+        for ((name, a), (_, b)) in first.iter().zip(&other) {
+            assert!(a == b, "{name} differs on {threads} threads");
+        }
+    }
+}
