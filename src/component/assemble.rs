@@ -165,7 +165,7 @@ impl Builder<'_> {
 
     fn side_panels(&mut self, spans: &[Vec<Span>]) -> Result<(), AssembleError> {
         let n = self.solid.chains.len();
-        for j in 0..n {
+        for (j, spans) in spans.iter().enumerate() {
             let count = self.profiles[j].points().len() - 1;
             for i in 0..count {
                 let (deployed, flat) = self.placements(j, i);
@@ -186,7 +186,7 @@ impl Builder<'_> {
             };
             let top = HingeSide { panel: PanelId(0), edge: (j + n - 1) % n };
             self.push_hinge(top, side(self, 0, self.length(j, 0), None)?, false);
-            for (i, &span) in (1..count).zip(&spans[j]) {
+            for (i, &span) in (1..count).zip(spans) {
                 let above = side(self, i - 1, 0.0, Some(span))?;
                 let below = side(self, i, self.length(j, i), Some(span))?;
                 self.push_hinge(above, below, i == self.profiles[j].fold_vertex());
