@@ -106,13 +106,16 @@ pub enum Error {
     },
 }
 
+/// A model scaled to fit exactly would miss by a little: least panel sizes do not shrink with it.
+const FITS: f64 = 0.985;
+
 /// The message of a failed net, with the largest size that fits where that is the matter.
 fn too_large(error: &NetsError, size_mm: f64) -> String {
     match error {
         NetsError::Net(crate::net::NetError::PanelTooLarge {
             name, size_mm: panel, sheet_mm, scale, ..
         }) => {
-            let fits = (size_mm * scale * 0.999).floor();
+            let fits = (size_mm * scale * FITS).floor();
             format!(
                 "a panel of \"{name}\" measures {:.0} × {:.0} mm and does not fit the {:.0} × {:.0} mm within the \
                  sheet's margins; use --size {fits}mm at most, or larger --paper",

@@ -30,7 +30,7 @@ const SIZE_PRICE: f64 = 20.0;
 /// Weight of the mean error beside the largest one: without it all but the worst place are free.
 const MEAN_WEIGHT: f64 = 0.3;
 /// Weight of the mean distance by which joint panels miss their partners.
-const JOINT_WEIGHT: f64 = 0.5;
+const JOINT_WEIGHT: f64 = 0.15;
 /// Aim a little above the limits, so that rounding does not fall below them.
 const MARGIN: f64 = 1.02;
 
