@@ -106,7 +106,9 @@ pub enum Error {
 /// The message of a failed net, with the largest size that fits where that is the matter.
 fn too_large(error: &NetsError, size_mm: f64) -> String {
     match error {
-        NetsError::Net(crate::net::NetError::PanelTooLarge { name, size_mm: panel, sheet_mm, scale, .. }) => {
+        NetsError::Net(crate::net::NetError::PanelTooLarge {
+            name, size_mm: panel, sheet_mm, scale, ..
+        }) => {
             let fits = (size_mm * scale * 0.999).floor();
             format!(
                 "a panel of \"{name}\" measures {:.0} × {:.0} mm and does not fit the {:.0} × {:.0} mm within the \
@@ -320,14 +322,23 @@ fn warnings(model: &Model, nets: &[Net], flat: &[usize], min_panel_mm: f64) -> V
     let mut warn = |code, message| out.push(Warning { code, message });
     if !flat.is_empty() {
         let faces: usize = flat.iter().sum();
-        warn("flat_segment", format!("{} flat parts of {faces} faces in all have no volume and were left out", flat.len()));
+        warn(
+            "flat_segment",
+            format!("{} flat parts of {faces} faces in all have no volume and were left out", flat.len()),
+        );
     }
     let roots = model.parts().iter().filter(|p| p.joint.is_none()).count();
     if roots > 1 {
-        warn("not_joined", format!("the mesh has {roots} bodies that do not touch; each makes a paper model of its own"));
+        warn(
+            "not_joined",
+            format!("the mesh has {roots} bodies that do not touch; each makes a paper model of its own"),
+        );
     }
     for part in model.parts() {
-        let sizes = [("narrow", "wide", part.component.narrowest_panel()), ("low", "high", part.component.lowest_panel())];
+        let sizes = [
+            ("narrow", "wide", part.component.narrowest_panel()),
+            ("low", "high", part.component.lowest_panel()),
+        ];
         for (_, word, (panel, mm)) in sizes.iter().filter(|s| s.2.1 < min_panel_mm - 1e-6) {
             let what = part.component.panels().panel(*panel).kind;
             warn(

@@ -25,11 +25,7 @@ pub enum ProductError {
 ///
 /// # Errors
 /// See [`ProductError`]; no run is known that brings one about.
-pub fn export_input(
-    output: &Output,
-    title: &str,
-    run: &Run<'_>,
-) -> Result<ExportInput, ProductError> {
+pub fn export_input(output: &Output, title: &str, run: &Run<'_>) -> Result<ExportInput, ProductError> {
     let styles = LineStyles::standard();
     let note = size_note(output);
     let pages = output.layout().pages(output.nets(), title, &note, &styles);
@@ -55,12 +51,7 @@ pub fn fold_master(output: &Output, title: &str) -> Result<Vec<u8>, serde_json::
     let places: Vec<Vec<PiecePlace>> = (0..parts.len())
         .map(|n| {
             let places = layout.places(n).iter();
-            places
-                .map(|at| PiecePlace {
-                    sheet: at.sheet,
-                    place: at.place,
-                })
-                .collect()
+            places.map(|at| PiecePlace { sheet: at.sheet, place: at.place }).collect()
         })
         .collect();
     let components: Vec<FoldComponent> = parts
@@ -77,12 +68,7 @@ pub fn fold_master(output: &Output, title: &str) -> Result<Vec<u8>, serde_json::
         })
         .collect();
     let step_mm = layout.options().paper.width_mm() + SHEET_GAP_MM;
-    let sheet_offsets: Vec<DVec2> = (0..layout.sheet_count())
-        .map(|k| DVec2::X * (step_mm * k as f64))
-        .collect();
-    fold::write(&FoldModel {
-        title,
-        components: &components,
-        sheet_offsets: &sheet_offsets,
-    })
+    let sheet_offsets: Vec<DVec2> =
+        (0..layout.sheet_count()).map(|k| DVec2::X * (step_mm * k as f64)).collect();
+    fold::write(&FoldModel { title, components: &components, sheet_offsets: &sheet_offsets })
 }

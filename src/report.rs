@@ -132,7 +132,11 @@ pub fn to_json(output: &Output, run: &Run<'_>) -> Result<Vec<u8>, serde_json::Er
             repairs: repairs(run.repairs),
         },
         stages: run.stages.iter().map(|&(name, seconds)| Stage { name, seconds }).collect(),
-        components: parts.iter().enumerate().map(|(p, part)| component(output, p, part, diagonal_mm)).collect(),
+        components: parts
+            .iter()
+            .enumerate()
+            .map(|(p, part)| component(output, p, part, diagonal_mm))
+            .collect(),
         nets: parts.iter().zip(output.nets()).map(|(part, net)| numbers(&part.name, net)).collect(),
         sheets: Sheets {
             count: output.layout().sheet_count(),

@@ -89,10 +89,7 @@ impl Default for Paper {
     /// A4.
     fn default() -> Self {
         let [width_mm, height_mm] = PAPERS[0].1;
-        Self {
-            width_mm,
-            height_mm,
-        }
+        Self { width_mm, height_mm }
     }
 }
 
@@ -103,11 +100,7 @@ impl Default for Paper {
 pub fn parse_length_mm(text: &str) -> Result<f64, UnitsError> {
     let length_mm = parse_any_length_mm(text)?;
     let is_usable = length_mm > 0.0 && length_mm <= LONGEST_MM;
-    is_usable
-        .then_some(length_mm)
-        .ok_or_else(|| UnitsError::OutOfRange {
-            found: printable(text),
-        })
+    is_usable.then_some(length_mm).ok_or_else(|| UnitsError::OutOfRange { found: printable(text) })
 }
 
 /// Like [`parse_length_mm`], but 0 is accepted too, as for a margin.
@@ -128,11 +121,7 @@ fn parse_any_length_mm(text: &str) -> Result<f64, UnitsError> {
         let number: f64 = number.parse().ok()?;
         Some(number * mm)
     });
-    with_unit
-        .or_else(|| lower.parse().ok())
-        .ok_or_else(|| UnitsError::NotALength {
-            found: printable(text),
-        })
+    with_unit.or_else(|| lower.parse().ok()).ok_or_else(|| UnitsError::NotALength { found: printable(text) })
 }
 
 /// Reads a paper size: a name (a4, a3, a5, letter, legal) or width and height such as
@@ -143,18 +132,10 @@ fn parse_any_length_mm(text: &str) -> Result<f64, UnitsError> {
 pub fn parse_paper(text: &str) -> Result<Paper, UnitsError> {
     let lower = text.trim().to_ascii_lowercase();
     if let Some(&(_, [width_mm, height_mm])) = PAPERS.iter().find(|(name, _)| *name == lower) {
-        return Ok(Paper {
-            width_mm,
-            height_mm,
-        });
+        return Ok(Paper { width_mm, height_mm });
     }
-    let not_a_paper = |_| UnitsError::NotAPaper {
-        found: printable(text),
-    };
-    let (width, height) = lower
-        .split_once(['x', '×'])
-        .ok_or(())
-        .map_err(not_a_paper)?;
+    let not_a_paper = |_| UnitsError::NotAPaper { found: printable(text) };
+    let (width, height) = lower.split_once(['x', '×']).ok_or(()).map_err(not_a_paper)?;
     let unit = height.trim_start_matches(|c: char| !c.is_alphabetic() && c != '"');
     let width = match width.trim().parse::<f64>() {
         Ok(_) => format!("{width}{unit}"),
@@ -164,10 +145,7 @@ pub fn parse_paper(text: &str) -> Result<Paper, UnitsError> {
         Err(UnitsError::NotALength { .. }) => Err(not_a_paper(())),
         other => other,
     };
-    Ok(Paper {
-        width_mm: side(&width)?,
-        height_mm: side(height)?,
-    })
+    Ok(Paper { width_mm: side(&width)?, height_mm: side(height)? })
 }
 
 /// A text for an error message, without control characters.
@@ -199,18 +177,10 @@ mod tests {
     #[test]
     fn what_is_no_length() {
         for text in ["", "mm", "20 km", "twenty", "20,5", "1 2", "0x10", "20 mmm"] {
-            assert!(
-                matches!(parse_length_mm(text), Err(UnitsError::NotALength { .. })),
-                "{text}"
-            );
+            assert!(matches!(parse_length_mm(text), Err(UnitsError::NotALength { .. })), "{text}");
         }
-        for text in [
-            "0", "0mm", "-1", "-0", "nan", "inf", "1e999mm", "101m", "NaN cm",
-        ] {
-            assert!(
-                matches!(parse_length_mm(text), Err(UnitsError::OutOfRange { .. })),
-                "{text}"
-            );
+        for text in ["0", "0mm", "-1", "-0", "nan", "inf", "1e999mm", "101m", "NaN cm"] {
+            assert!(matches!(parse_length_mm(text), Err(UnitsError::OutOfRange { .. })), "{text}");
         }
         assert_eq!(parse_length_or_zero_mm("0mm"), Ok(0.0));
         assert!(parse_length_or_zero_mm("-1mm").is_err());
@@ -238,18 +208,9 @@ mod tests {
     #[test]
     fn what_is_no_paper() {
         for text in ["", "a9", "210", "210x", "x297", "210x297x3", "210xabc"] {
-            assert!(
-                matches!(parse_paper(text), Err(UnitsError::NotAPaper { .. })),
-                "{text}"
-            );
+            assert!(matches!(parse_paper(text), Err(UnitsError::NotAPaper { .. })), "{text}");
         }
-        assert!(matches!(
-            parse_paper("0x297mm"),
-            Err(UnitsError::OutOfRange { .. })
-        ));
-        assert!(matches!(
-            parse_paper("210x-1mm"),
-            Err(UnitsError::OutOfRange { .. })
-        ));
+        assert!(matches!(parse_paper("0x297mm"), Err(UnitsError::OutOfRange { .. })));
+        assert!(matches!(parse_paper("210x-1mm"), Err(UnitsError::OutOfRange { .. })));
     }
 }

@@ -34,11 +34,7 @@ fn check(name: &str) {
         assert!((b - a).cross(c - a).dot(outward) > 0.0);
     }
     assert_eq!(mesh.input_faces(), (0..12).collect::<Vec<u32>>());
-    let expected = Repairs {
-        input_faces: 12,
-        components: 1,
-        ..Repairs::default()
-    };
+    let expected = Repairs { input_faces: 12, components: 1, ..Repairs::default() };
     assert_eq!(repairs, expected);
 }
 

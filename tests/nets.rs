@@ -25,9 +25,8 @@ fn net_of(set: &PanelSet, sheet_mm: DVec2) -> Result<Net, NetError> {
 
 /// The FOLD master of one component, its pieces side by side on one sheet each.
 fn master(set: &PanelSet, net: &Net) -> Vec<u8> {
-    let places: Vec<PiecePlace> = (0..net.pieces().len())
-        .map(|sheet| PiecePlace { sheet, place: DAffine2::from_angle(0.3) })
-        .collect();
+    let places: Vec<PiecePlace> =
+        (0..net.pieces().len()).map(|sheet| PiecePlace { sheet, place: DAffine2::from_angle(0.3) }).collect();
     let offsets: Vec<DVec2> = (0..places.len()).map(|k| DVec2::X * (k as f64 * 2e4)).collect();
     let deployed = DAffine3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7);
     let component = FoldComponent {
@@ -87,7 +86,7 @@ prop_compose! {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 48,
+        cases: 24,
         max_global_rejects: 5000,
         failure_persistence: None,
         ..ProptestConfig::default()
@@ -194,7 +193,9 @@ fn every_cut_and_crease_is_drawn_once() {
     let length = |layers: &[Layer]| -> f64 {
         let marks = piece.marks(MarkOptions::default(), stroke);
         let paths = marks.iter().filter(|m| layers.contains(&m.layer)).map(|m| &m.shape);
-        paths.map(|shape| if let Shape::Path { contours, .. } = shape { line_mm(&contours[0]) } else { 0.0 }).sum()
+        paths
+            .map(|shape| if let Shape::Path { contours, .. } = shape { line_mm(&contours[0]) } else { 0.0 })
+            .sum()
     };
     let edges = |wanted: fn(&EdgeKind) -> bool| -> f64 {
         let edges = piece.mesh().edges().iter().filter(|e| wanted(&e.kind));
@@ -242,7 +243,8 @@ fn the_checker_finds_what_is_wrong() {
     assert_eq!(label.unpaired_labels.len(), 2);
     let clockwise = spoilt(|f| f["faces_vertices"][0].as_array_mut().expect("a list").reverse());
     assert_eq!(clockwise.clockwise_faces, [0]);
-    let angle = spoilt(|f| f["file_frames"][1]["edges_foldAngle"].as_array_mut().expect("a list").fill(30.into()));
+    let angle =
+        spoilt(|f| f["file_frames"][1]["edges_foldAngle"].as_array_mut().expect("a list").fill(30.into()));
     assert!(angle.angle_error_rad > 0.5);
     let overlap = spoilt(|f| {
         let pattern = f["vertices_coords"].as_array_mut().expect("a list");

@@ -14,30 +14,17 @@ struct Obj {
 }
 
 fn committed(name: &str) -> String {
-    let path: PathBuf = [
-        env!("CARGO_MANIFEST_DIR"),
-        "samples",
-        &format!("{name}.obj"),
-    ]
-    .iter()
-    .collect();
+    let path: PathBuf = [env!("CARGO_MANIFEST_DIR"), "samples", &format!("{name}.obj")].iter().collect();
     std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
 fn parsed(text: &str) -> Obj {
-    let mut obj = Obj {
-        vertices: Vec::new(),
-        faces: Vec::new(),
-    };
+    let mut obj = Obj { vertices: Vec::new(), faces: Vec::new() };
     for line in text.lines() {
         let words: Vec<&str> = line.split_whitespace().collect();
         match words[..] {
-            ["v", x, y, z] => obj
-                .vertices
-                .push(DVec3::from_array([x, y, z].map(|w| w.parse().unwrap()))),
-            ["f", a, b, c] => obj
-                .faces
-                .push([a, b, c].map(|w| w.parse::<usize>().unwrap() - 1)),
+            ["v", x, y, z] => obj.vertices.push(DVec3::from_array([x, y, z].map(|w| w.parse().unwrap()))),
+            ["f", a, b, c] => obj.faces.push([a, b, c].map(|w| w.parse::<usize>().unwrap() - 1)),
             ["#" | "o", ..] => {}
             _ => panic!("unexpected line {line:?}"),
         }
@@ -93,10 +80,7 @@ fn edges_join_two_faces_each() {
     for (name, obj) in samples() {
         let face_of_edge = face_of_edge(name, &obj);
         for [a, b] in face_of_edge.keys() {
-            assert!(
-                face_of_edge.contains_key(&[*b, *a]),
-                "{name}: open at {a}-{b}"
-            );
+            assert!(face_of_edge.contains_key(&[*b, *a]), "{name}: open at {a}-{b}");
         }
     }
 }
@@ -158,10 +142,7 @@ fn faces_look_outwards() {
         let low = obj.vertices.iter().copied().reduce(DVec3::min).unwrap();
         let high = obj.vertices.iter().copied().reduce(DVec3::max).unwrap();
         let bounds = (high - low).element_product();
-        assert!(
-            volume > 0.15 * bounds && volume <= bounds * (1.0 + 1e-9),
-            "{name}: {volume}"
-        );
+        assert!(volume > 0.15 * bounds && volume <= bounds * (1.0 + 1e-9), "{name}: {volume}");
         if name == "box" {
             assert!((volume - 160.0 * 110.0 * 70.0).abs() < 1e-3);
         }

@@ -15,17 +15,9 @@ pub fn block(cells: I64Vec3, cell: f64) -> Mesh {
     for k in 0..3 {
         let (along, first, second) = (axes[k], axes[(k + 1) % 3], axes[(k + 2) % 3]);
         for (is_far, base) in [(false, I64Vec3::ZERO), (true, along * cells)] {
-            for (i, j) in
-                (0..cells.dot(first)).flat_map(|i| (0..cells.dot(second)).map(move |j| (i, j)))
-            {
+            for (i, j) in (0..cells.dot(first)).flat_map(|i| (0..cells.dot(second)).map(move |j| (i, j))) {
                 let corner = base + i * first + j * second;
-                let mut quad = [
-                    corner,
-                    corner + first,
-                    corner + first + second,
-                    corner + second,
-                ]
-                .map(|at| {
+                let mut quad = [corner, corner + first, corner + first + second, corner + second].map(|at| {
                     *numbers.entry(at.to_array()).or_insert_with(|| {
                         vertices.push(cell * (at.as_dvec3() - 0.5 * cells.as_dvec3()));
                         vertices.len() - 1
@@ -39,8 +31,5 @@ pub fn block(cells: I64Vec3, cell: f64) -> Mesh {
             }
         }
     }
-    Mesh {
-        vertices: vertices as Vec<DVec3>,
-        faces,
-    }
+    Mesh { vertices: vertices as Vec<DVec3>, faces }
 }

@@ -59,12 +59,7 @@ impl Part {
 
     /// A tube through points with radii, each given as [x, y, z, radius].
     pub fn tube(points: &[[f64; 4]]) -> Self {
-        Self::new(Shape::Tube(
-            points
-                .iter()
-                .map(|&[x, y, z, r]| (DVec3::new(x, y, z), r))
-                .collect(),
-        ))
+        Self::new(Shape::Tube(points.iter().map(|&[x, y, z, r]| (DVec3::new(x, y, z), r)).collect()))
     }
 
     /// Makes the part thinner along its own z axis; its field is then no distance any more, but
@@ -99,28 +94,18 @@ impl Part {
     }
 
     fn distance(&self, point: DVec3) -> f64 {
-        let side = if self.is_mirrored {
-            DVec3::new(point.x.abs(), point.y, point.z)
-        } else {
-            point
-        };
+        let side = if self.is_mirrored { DVec3::new(point.x.abs(), point.y, point.z) } else { point };
         let mut local = self.to_local * (side - self.place);
         local.z /= self.flatness;
         match &self.shape {
             Shape::Ellipsoid(radii) => ellipsoid(local, *radii),
-            Shape::Drum {
-                height,
-                bottom,
-                top,
-                rounding,
-            } => {
+            Shape::Drum { height, bottom, top, rounding } => {
                 let half = 0.5 * height - rounding;
                 frustum(local, half, bottom - rounding, top - rounding) - rounding
             }
-            Shape::Tube(balls) => balls
-                .windows(2)
-                .map(|pair| round_cone(local, pair[0], pair[1]))
-                .fold(f64::MAX, f64::min),
+            Shape::Tube(balls) => {
+                balls.windows(2).map(|pair| round_cone(local, pair[0], pair[1])).fold(f64::MAX, f64::min)
+            }
         }
     }
 }
@@ -131,9 +116,7 @@ pub struct Solid(pub Vec<Part>);
 impl Solid {
     /// About the distance to the surface, negative inside.
     pub fn distance(&self, point: DVec3) -> f64 {
-        self.0.iter().fold(f64::MAX, |whole, part| {
-            smooth_min(whole, part.distance(point), part.blend)
-        })
+        self.0.iter().fold(f64::MAX, |whole, part| smooth_min(whole, part.distance(point), part.blend))
     }
 
     /// Gradient of [`Solid::distance`], from differences at the corners of a small tetrahedron.
@@ -145,10 +128,8 @@ impl Solid {
             DVec3::new(-1.0, 1.0, -1.0),
             DVec3::new(1.0, 1.0, 1.0),
         ];
-        let sum: DVec3 = corners
-            .into_iter()
-            .map(|corner| corner * self.distance(point + corner * STEP_MM))
-            .sum();
+        let sum: DVec3 =
+            corners.into_iter().map(|corner| corner * self.distance(point + corner * STEP_MM)).sum();
         sum / (4.0 * STEP_MM)
     }
 }

@@ -15,11 +15,7 @@ pub fn turn(outline: &[DVec2], steps: usize) -> Mesh {
     for (ring, point) in inner.iter().enumerate() {
         for step in 0..steps {
             let turn = (step as f64 + 0.5 * (ring % 2) as f64) / steps as f64 * TAU;
-            vertices.push(DVec3::new(
-                point.x * turn.sin(),
-                point.y,
-                point.x * turn.cos(),
-            ));
+            vertices.push(DVec3::new(point.x * turn.sin(), point.y, point.x * turn.cos()));
         }
     }
     let top = vertices.len();

@@ -27,9 +27,6 @@ pub fn all() -> Vec<Sample> {
         ("teddy", figures::teddy()),
     ]
     .into_iter()
-    .map(|(name, mesh)| Sample {
-        name,
-        obj: mesh.to_obj(name),
-    })
+    .map(|(name, mesh)| Sample { name, obj: mesh.to_obj(name) })
     .collect()
 }

@@ -34,10 +34,7 @@ pub fn mesh(solid: &Solid, low: DVec3, high: DVec3, cell: f64) -> Mesh {
             *vertex -= to_surface(solid, *vertex, solid.gradient(*vertex), reach);
         }
     }
-    let faces = quads
-        .iter()
-        .flat_map(|&quad| split(solid, &vertices, quad))
-        .collect();
+    let faces = quads.iter().flat_map(|&quad| split(solid, &vertices, quad)).collect();
     Mesh { vertices, faces }
 }
 
@@ -62,12 +59,7 @@ impl Grid {
                 }
             }
         }
-        Self {
-            low,
-            cell,
-            size,
-            values,
-        }
+        Self { low, cell, size, values }
     }
 
     fn value(&self, at: I64Vec3) -> f64 {
@@ -89,13 +81,12 @@ impl Grid {
                         if is_inside == (self.value(at + along) < 0.0) {
                             continue;
                         }
-                        let mut quad =
-                            [at - first - second, at - second, at, at - first].map(|c| {
-                                *numbers.entry(c.to_array()).or_insert_with(|| {
-                                    vertices.push(self.crossing_mean(c));
-                                    vertices.len() - 1
-                                })
-                            });
+                        let mut quad = [at - first - second, at - second, at, at - first].map(|c| {
+                            *numbers.entry(c.to_array()).or_insert_with(|| {
+                                vertices.push(self.crossing_mean(c));
+                                vertices.len() - 1
+                            })
+                        });
                         if !is_inside {
                             quad.reverse();
                         }
@@ -169,9 +160,5 @@ fn split(solid: &Solid, vertices: &[DVec3], [a, b, c, d]: [usize; 4]) -> [[usize
         let (p, q) = (vertices[i], vertices[j]);
         p.distance(q) + OFF_SURFACE_WEIGHT * solid.distance(0.5 * (p + q)).abs()
     };
-    if cost(a, c) <= cost(b, d) + TIE_MM {
-        [[a, b, c], [a, c, d]]
-    } else {
-        [[a, b, d], [b, c, d]]
-    }
+    if cost(a, c) <= cost(b, d) + TIE_MM { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] }
 }

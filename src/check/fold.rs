@@ -66,9 +66,7 @@ impl FoldReport {
     /// metre's distance as much.
     pub fn is_sound(&self, tolerance_mm: f64) -> bool {
         self.faces > 0
-            && [self.stretch_mm, self.label_gap_mm, self.thickness_mm]
-                .iter()
-                .all(|x| *x <= tolerance_mm)
+            && [self.stretch_mm, self.label_gap_mm, self.thickness_mm].iter().all(|x| *x <= tolerance_mm)
             && self.angle_error_rad <= tolerance_mm
             && self.unpaired_labels.is_empty()
             && self.clockwise_faces.is_empty()
@@ -149,16 +147,15 @@ impl Model {
             length(&of("edges_foldAngle"), frame.fold_angle_deg.len(), edges)?;
         }
         let index = |list: &'static str, mut indices: Box<dyn Iterator<Item = usize> + '_>| {
-            indices.find(|&i| i >= count).map_or(Ok(()), |index| Err(FoldCheckError::Index { list, index, count }))
+            indices
+                .find(|&i| i >= count)
+                .map_or(Ok(()), |index| Err(FoldCheckError::Index { list, index, count }))
         };
         index("edges_vertices", Box::new(master.edges_vertices.iter().flatten().copied()))?;
         index("faces_vertices", Box::new(master.faces_vertices.iter().flatten().copied()))?;
         let pattern = points(&master.vertices_coords)?;
-        let frames = master
-            .file_frames
-            .iter()
-            .map(|f| points(&f.vertices_coords))
-            .collect::<Result<_, _>>()?;
+        let frames =
+            master.file_frames.iter().map(|f| points(&f.vertices_coords)).collect::<Result<_, _>>()?;
         Ok(Self { master, pattern, frames })
     }
 
@@ -191,8 +188,7 @@ impl Model {
         }
         let (mut worst, mut unpaired) = (0.0_f64, Vec::new());
         for (label, pair) in edges {
-            let kinds: BTreeSet<&str> =
-                pair.iter().map(|&e| self.master.edge_kind[e].as_str()).collect();
+            let kinds: BTreeSet<&str> = pair.iter().map(|&e| self.master.edge_kind[e].as_str()).collect();
             if pair.len() != 2 || kinds != BTreeSet::from(["mate", "tab"]) {
                 unpaired.push(label.to_owned());
                 continue;
@@ -302,7 +298,9 @@ fn area(polygon: &[DVec2]) -> f64 {
 /// Normal with the length of the area (Newell).
 fn area_vector(points: impl Iterator<Item = DVec3>) -> DVec3 {
     let points: Vec<DVec3> = points.collect();
-    let Some(&origin) = points.first() else { return DVec3::ZERO };
+    let Some(&origin) = points.first() else {
+        return DVec3::ZERO;
+    };
     points.windows(2).map(|w| (w[0] - origin).cross(w[1] - origin)).sum::<DVec3>() / 2.0
 }
 

@@ -57,10 +57,7 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         }
     };
     if path.is_file() && !args.force {
-        return Err(CliError::Output {
-            path,
-            reason: "it exists; add --force to replace it".to_owned(),
-        });
+        return Err(CliError::Output { path, reason: "it exists; add --force to replace it".to_owned() });
     }
     output::check_places(std::slice::from_ref(&path), &[&args.mesh])?;
     let input = input::read(&args.mesh)?;
@@ -93,10 +90,7 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
     });
     output::write(&[(path.clone(), text.into_bytes())])?;
     if !args.quiet {
-        terminal::say(&format!(
-            "wrote {}; edit it, then: tatamu make {0}",
-            path.display()
-        ));
+        terminal::say(&format!("wrote {}; edit it, then: tatamu make {0}", path.display()));
     }
     Ok(())
 }
@@ -105,10 +99,8 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
 /// above the mesh's folder, else absolute.
 fn mesh_from(project: &Path, mesh: &Path) -> Result<String, CliError> {
     let full = |path: &Path| {
-        std::path::absolute(path).map_err(|error| CliError::Input {
-            path: path.to_owned(),
-            reason: super::error::reason(&error),
-        })
+        std::path::absolute(path)
+            .map_err(|error| CliError::Input { path: path.to_owned(), reason: super::error::reason(&error) })
     };
     let (project, mesh) = (full(project)?, full(mesh)?);
     let folder = project.parent().unwrap_or(&project);
@@ -126,8 +118,7 @@ mod tests {
 
     #[test]
     fn the_mesh_is_named_from_the_project_file() {
-        let name =
-            |project: &str, mesh: &str| mesh_from(Path::new(project), Path::new(mesh)).unwrap();
+        let name = |project: &str, mesh: &str| mesh_from(Path::new(project), Path::new(mesh)).unwrap();
         assert_eq!(name("a.toml", "b.obj"), "b.obj");
         assert_eq!(name("/x/a.toml", "/x/y/b.obj"), "y/b.obj");
         assert_eq!(name("/x/z/a.toml", "/x/y/b.obj"), "/x/y/b.obj");

@@ -27,10 +27,8 @@ pub fn read(path: &Path) -> Result<Input, CliError> {
         path: path.to_owned(),
         reason: "a project file is text in UTF-8".to_owned(),
     })?;
-    let project = Project::parse(&text).map_err(|error| CliError::Project {
-        path: path.to_owned(),
-        error,
-    })?;
+    let project =
+        Project::parse(&text).map_err(|error| CliError::Project { path: path.to_owned(), error })?;
     let mesh_path = path.with_file_name(&project.mesh);
     let bytes = read_file(&mesh_path)?;
     read_mesh(&mesh_path, &bytes, Some(project))
@@ -38,35 +36,21 @@ pub fn read(path: &Path) -> Result<Input, CliError> {
 
 fn read_mesh(path: &Path, bytes: &[u8], project: Option<Project>) -> Result<Input, CliError> {
     let sibling = |name: &str| read_sibling(path, name);
-    let soup = mesh::read_with_siblings(bytes, &sibling).map_err(|error| CliError::Read {
-        path: path.to_owned(),
-        error,
-    })?;
-    let (mesh, repairs) = Mesh::from_soup(&soup).map_err(|error| CliError::Mesh {
-        path: path.to_owned(),
-        error,
-    })?;
-    Ok(Input {
-        mesh_path: path.to_owned(),
-        project,
-        mesh,
-        repairs,
-    })
+    let soup = mesh::read_with_siblings(bytes, &sibling)
+        .map_err(|error| CliError::Read { path: path.to_owned(), error })?;
+    let (mesh, repairs) =
+        Mesh::from_soup(&soup).map_err(|error| CliError::Mesh { path: path.to_owned(), error })?;
+    Ok(Input { mesh_path: path.to_owned(), project, mesh, repairs })
 }
 
 /// The content of a file.
 pub fn read_file(path: &Path) -> Result<Vec<u8>, CliError> {
-    std::fs::read(path).map_err(|error| CliError::Input {
-        path: path.to_owned(),
-        reason: reason(&error),
-    })
+    std::fs::read(path).map_err(|error| CliError::Input { path: path.to_owned(), reason: reason(&error) })
 }
 
 /// By its extension, or because a line of it gives a mesh.
 fn is_project(path: &Path, bytes: &[u8]) -> bool {
-    let is_toml = path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("toml"));
+    let is_toml = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
     let names_mesh = |line: &[u8]| {
         let rest = line.trim_ascii_start().strip_prefix(b"mesh");
         rest.is_some_and(|rest| rest.trim_ascii_start().starts_with(b"="))

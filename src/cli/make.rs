@@ -122,42 +122,17 @@ fn default_output(input: &Path) -> PathBuf {
 fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
     let bodies = repairs.components.saturating_sub(1);
     let counts = [
-        (
-            repairs.boundary_edges,
-            "open_edges",
-            "open edges",
-            "thickness near them is a guess",
-        ),
+        (repairs.boundary_edges, "open_edges", "open edges", "thickness near them is a guess"),
         (
             repairs.non_manifold_edges,
             "non_manifold_edges",
             "edges with more than two faces",
             "components may be divided there",
         ),
-        (
-            bodies,
-            "several_bodies",
-            "bodies besides the first",
-            "joined where they touch",
-        ),
-        (
-            repairs.degenerate_faces,
-            "degenerate_faces",
-            "faces without area",
-            "dropped",
-        ),
-        (
-            repairs.duplicate_faces,
-            "duplicate_faces",
-            "repeated faces",
-            "dropped",
-        ),
-        (
-            repairs.flipped_faces,
-            "flipped_faces",
-            "faces that faced inwards",
-            "turned",
-        ),
+        (bodies, "several_bodies", "bodies besides the first", "joined where they touch"),
+        (repairs.degenerate_faces, "degenerate_faces", "faces without area", "dropped"),
+        (repairs.duplicate_faces, "duplicate_faces", "repeated faces", "dropped"),
+        (repairs.flipped_faces, "flipped_faces", "faces that faced inwards", "turned"),
     ];
     counts
         .iter()
@@ -186,24 +161,12 @@ fn segments(result: &Output, repairs: &Repairs) -> Vec<u8> {
 }
 
 fn summarise(result: &Output, files: &[(PathBuf, Vec<u8>)]) {
-    let names: Vec<&str> = result
-        .model()
-        .parts()
-        .iter()
-        .map(|p| p.name.as_str())
-        .collect();
+    let names: Vec<&str> = result.model().parts().iter().map(|p| p.name.as_str()).collect();
     let pieces: usize = result.nets().iter().map(|net| net.pieces().len()).sum();
     let layout = result.layout();
-    let written: Vec<String> = files
-        .iter()
-        .map(|(path, _)| path.display().to_string())
-        .collect();
+    let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
     terminal::say(&format!("size        {}", product::size_note(result)));
-    terminal::say(&format!(
-        "components  {}: {}",
-        names.len(),
-        names.join(", ")
-    ));
+    terminal::say(&format!("components  {}: {}", names.len(), names.join(", ")));
     terminal::say(&format!("pieces      {pieces}"));
     terminal::say(&format!(
         "sheets      {} of {}, {:.0}% used",

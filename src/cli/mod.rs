@@ -78,11 +78,7 @@ mod tests {
             for argument in command.get_arguments() {
                 let help = argument.get_help().map(ToString::to_string);
                 let id = argument.get_id();
-                assert!(
-                    help.is_some_and(|h| h.len() > 10),
-                    "{} {id}",
-                    command.get_name()
-                );
+                assert!(help.is_some_and(|h| h.len() > 10), "{} {id}", command.get_name());
             }
         }
     }

@@ -27,14 +27,9 @@ pub fn known_extensions() -> String {
 pub fn targets(paths: &[PathBuf], inputs: &[&Path]) -> Result<Vec<Target>, CliError> {
     let target = |path: &PathBuf| -> Result<Target, CliError> {
         let extension = path.extension().unwrap_or_default().to_string_lossy();
-        let format = format_of(&extension).ok_or_else(|| CliError::Extension {
-            path: path.clone(),
-            known: known_extensions(),
-        })?;
-        Ok(Target {
-            path: path.clone(),
-            format,
-        })
+        let format = format_of(&extension)
+            .ok_or_else(|| CliError::Extension { path: path.clone(), known: known_extensions() })?;
+        Ok(Target { path: path.clone(), format })
     };
     let targets = paths.iter().map(target).collect::<Result<_, _>>()?;
     check_places(paths, inputs)?;
@@ -46,10 +41,7 @@ pub fn targets(paths: &[PathBuf], inputs: &[&Path]) -> Result<Vec<Target>, CliEr
 pub fn check_places(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), CliError> {
     let mut seen: BTreeSet<&Path> = BTreeSet::new();
     for path in paths {
-        let refuse = |reason: &str| CliError::Output {
-            path: path.clone(),
-            reason: reason.to_owned(),
-        };
+        let refuse = |reason: &str| CliError::Output { path: path.clone(), reason: reason.to_owned() };
         if path.is_dir() {
             return Err(refuse("it is a folder; add a file name"));
         }
@@ -82,8 +74,7 @@ pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), CliError> {
         ready.push((path, file));
     }
     for (path, file) in ready {
-        file.persist(path)
-            .map_err(|error| failed(path, &error.error))?;
+        file.persist(path).map_err(|error| failed(path, &error.error))?;
     }
     Ok(())
 }
@@ -102,16 +93,11 @@ fn temporary(path: &Path) -> Result<NamedTempFile, CliError> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    builder
-        .tempfile_in(folder)
-        .map_err(|error| failed(path, &error))
+    builder.tempfile_in(folder).map_err(|error| failed(path, &error))
 }
 
 fn failed(path: &Path, error: &std::io::Error) -> CliError {
-    CliError::Output {
-        path: path.to_owned(),
-        reason: reason(error),
-    }
+    CliError::Output { path: path.to_owned(), reason: reason(error) }
 }
 
 /// A name with something between its stem and its extension: `a.svg` and `-2` give `a-2.svg`.
@@ -131,10 +117,7 @@ mod tests {
 
     #[test]
     fn a_suffix_stands_before_the_extension() {
-        assert_eq!(
-            with_suffix(Path::new("x/a.b.svg"), "-2"),
-            Path::new("x/a.b-2.svg")
-        );
+        assert_eq!(with_suffix(Path::new("x/a.b.svg"), "-2"), Path::new("x/a.b-2.svg"));
         assert_eq!(with_suffix(Path::new("a.svg"), ""), Path::new("a.svg"));
     }
 

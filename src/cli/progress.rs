@@ -49,10 +49,7 @@ impl TerminalProgress {
         let mut starts = self.stages.lock().map(|s| s.clone()).unwrap_or_default();
         starts.push(("", Instant::now()));
         let seconds = |pair: &[(&'static str, Instant)]| (pair[1].1 - pair[0].1).as_secs_f64();
-        starts
-            .windows(2)
-            .map(|pair| (pair[0].0, seconds(pair)))
-            .collect()
+        starts.windows(2).map(|pair| (pair[0].0, seconds(pair))).collect()
     }
 
     fn bar(&self) -> Option<&ProgressBar> {

@@ -5,9 +5,7 @@ use std::io::Write;
 /// A text without control characters other than line ends, so that no name in a file can steer
 /// the terminal.
 pub fn printable(text: &str) -> String {
-    text.chars()
-        .filter(|&c| c == '\n' || !c.is_control())
-        .collect()
+    text.chars().filter(|&c| c == '\n' || !c.is_control()).collect()
 }
 
 /// Prints a line on the standard output. A closed pipe there is no error.

@@ -84,10 +84,7 @@ fn side(solid: &Solid, j: usize, profile: &Profile, i: usize) -> Side {
         solid.chains[neighbour].bends().filter(inside).collect::<Vec<f64>>()
     };
     let (left, right) = (solid.previous(j), j);
-    let mut outline = vec![
-        DVec2::new(at(left, lower.y).x, 0.0),
-        DVec2::new(at(right, lower.y).x, 0.0),
-    ];
+    let mut outline = vec![DVec2::new(at(left, lower.y).x, 0.0), DVec2::new(at(right, lower.y).x, 0.0)];
     outline.extend(between(solid.next(j)).into_iter().rev().map(|v| at(right, v)));
     outline.extend([DVec2::new(at(right, upper.y).x, length), DVec2::new(at(left, upper.y).x, length)]);
     outline.extend(between(left).into_iter().map(|v| at(left, v)));
@@ -159,7 +156,8 @@ impl Builder<'_> {
             deployed: lift(solid.top_mm),
             flat: lift(solid.bottom_mm),
         });
-        let turned = lift(solid.bottom_mm) * DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, -1.0, -1.0)));
+        let turned =
+            lift(solid.bottom_mm) * DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, -1.0, -1.0)));
         let mut outline: Vec<DVec2> = ring(solid.bottom_mm).map(|p| DVec2::new(p.x, -p.y)).collect();
         outline.reverse();
         self.panels.push(Panel { kind: PanelKind::Bottom, outline, deployed: turned, flat: turned });
@@ -172,7 +170,12 @@ impl Builder<'_> {
             for i in 0..count {
                 let (deployed, flat) = self.placements(j, i);
                 let outline = self.sides[self.index(j, i)].outline.clone();
-                self.panels.push(Panel { kind: PanelKind::Side { chain: j, index: i }, outline, deployed, flat });
+                self.panels.push(Panel {
+                    kind: PanelKind::Side { chain: j, index: i },
+                    outline,
+                    deployed,
+                    flat,
+                });
             }
             let first = 2 + self.index(j, 0);
             let side = |builder: &Self, i: usize, y: f64, wanted: Option<Span>| {
@@ -206,7 +209,8 @@ impl Builder<'_> {
     fn placements(&self, j: usize, i: usize) -> (DAffine3, DAffine3) {
         let points = self.profiles[j].points();
         let (upper, lower) = (points[i], points[i + 1]);
-        let (normal, tangent) = (self.solid.chains[j].normal().extend(0.0), self.solid.chains[j].tangent().extend(0.0));
+        let (normal, tangent) =
+            (self.solid.chains[j].normal().extend(0.0), self.solid.chains[j].tangent().extend(0.0));
         let up = (upper - lower).normalize();
         let slope = normal * up.x + DVec3::Z * up.y;
         let deployed = DAffine3::from_mat3_translation(
@@ -227,12 +231,10 @@ impl Builder<'_> {
 fn edge_at(outline: &[DVec2], y: f64) -> Option<usize> {
     let n = outline.len();
     let on = |k: usize| outline[k % n].y == y;
-    (0..n)
-        .filter(|&k| on(k) && on(k + 1))
-        .max_by(|&a, &b| {
-            let length = |k: usize| outline[k].distance(outline[(k + 1) % n]);
-            length(a).total_cmp(&length(b))
-        })
+    (0..n).filter(|&k| on(k) && on(k + 1)).max_by(|&a, &b| {
+        let length = |k: usize| outline[k].distance(outline[(k + 1) % n]);
+        length(a).total_cmp(&length(b))
+    })
 }
 
 /// Corner `k` of exactly the edge `wanted` at height `y`.

@@ -74,9 +74,7 @@ impl Component {
 
     /// Narrowest width of a side panel at any height, with its id.
     pub fn narrowest_panel(&self) -> (PanelId, f64) {
-        self.least(|outline| {
-            outline.iter().map(|p| chord(outline, p.y)).fold(f64::INFINITY, f64::min)
-        })
+        self.least(|outline| outline.iter().map(|p| chord(outline, p.y)).fold(f64::INFINITY, f64::min))
     }
 
     /// Least height of a side panel between its hinges, with its id.
@@ -88,7 +86,8 @@ impl Component {
     }
 
     fn least(&self, measure: impl Fn(&[glam::DVec2]) -> f64) -> (PanelId, f64) {
-        let sides = self.panels.panels().iter().enumerate().filter(|(_, p)| matches!(p.kind, PanelKind::Side { .. }));
+        let sides =
+            self.panels.panels().iter().enumerate().filter(|(_, p)| matches!(p.kind, PanelKind::Side { .. }));
         sides
             .map(|(k, p)| (PanelId(k), measure(&p.outline)))
             .fold((PanelId(0), f64::INFINITY), |best, next| if next.1 < best.1 { next } else { best })
@@ -353,7 +352,10 @@ mod tests {
     #[test]
     fn a_box_is_matched_exactly() {
         let corners: Vec<DVec3> = (0..8)
-            .map(|k| DVec3::new((k & 1) as f64 * 80.0, (k >> 1 & 1) as f64 * 50.0, (k >> 2) as f64 * 40.0) - DVec3::splat(20.0))
+            .map(|k| {
+                DVec3::new((k & 1) as f64 * 80.0, (k >> 1 & 1) as f64 * 50.0, (k >> 2) as f64 * 40.0)
+                    - DVec3::splat(20.0)
+            })
             .collect();
         let hull = Hull::of_points(&corners).unwrap();
         let component = convert(&Target { top_edges: 4, ..target(&hull, vec![]) }).unwrap();

@@ -118,7 +118,12 @@ mod tests {
     #[test]
     fn nearest_point_on_face_edge_and_corner() {
         let c = hull(&cube(1.0));
-        for (p, d) in [((0.5, 0.5, 3.0), 2.0), ((0.5, 2.0, 2.0), 2f64.sqrt()), ((2.0, 2.0, 2.0), 3f64.sqrt()), ((0.5, 0.5, 0.5), 0.0)] {
+        for (p, d) in [
+            ((0.5, 0.5, 3.0), 2.0),
+            ((0.5, 2.0, 2.0), 2f64.sqrt()),
+            ((2.0, 2.0, 2.0), 3f64.sqrt()),
+            ((0.5, 0.5, 0.5), 0.0),
+        ] {
             assert!((c.distance(DVec3::new(p.0, p.1, p.2)) - d).abs() < 1e-8);
         }
     }

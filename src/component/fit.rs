@@ -15,9 +15,9 @@ use super::target::{FoldSpot, Target};
 use glam::{DMat3, DVec3};
 
 /// Steps of the fit at most.
-const STEPS: usize = 30;
+const STEPS: usize = 40;
 /// First size of the trust region, as a share of the hull's radius.
-const FIRST_REGION: f64 = 0.08;
+const FIRST_REGION: f64 = 0.12;
 /// Size of the trust region at which the fit ends.
 const LAST_REGION: f64 = 0.0015;
 /// Price of a millimetre by which a panel is too small, or the balance point out of its place,
@@ -55,7 +55,10 @@ pub(super) fn fit(target: &Target, solid: Solid, spots: Vec<FoldSpot>, steps: us
         }
         let next = task.step(&best.solid, region).map(|s| task.measure(task.restore(s)));
         match next {
-            Some(next) if task.merit(&next) < task.merit(&best) - 1e-6 * radius_mm => best = next,
+            Some(next) if task.merit(&next) < task.merit(&best) - 1e-6 * radius_mm => {
+                best = next;
+                region = (region * 1.5).min(FIRST_REGION * radius_mm);
+            }
             _ => region *= 0.4,
         }
     }
@@ -79,14 +82,18 @@ impl Task<'_> {
         let own = polytope(&solid);
         let error_mm = super::distance::hausdorff(&own, &self.hull);
         let least = self.target.min_panel_mm;
-        let clearance = solid.clearance();
-        let mut lack_mm = (least - clearance.width_mm).max(0.0) + (least - clearance.length_mm).max(0.0);
-        for j in 0..solid.chains.len() {
-            if let FoldSpot::Bend(i) = self.spots[j] {
-                lack_mm += imbalance(&solid.profile(j), i + 1).abs();
-            }
-            lack_mm += self.rooms(j).map(|room| (least - room.measure(&solid, j)).max(0.0)).sum::<f64>();
-        }
+        let heights = solid.heights();
+        let lack_of = |j: usize| {
+            let narrow = heights.iter().map(|&v| least - solid.width_at(j, v)).fold(0.0, f64::max);
+            let rooms =
+                self.rooms(&solid, j).map(|room| (least - room.measure(&solid, j)).max(0.0)).sum::<f64>();
+            let miss = match self.spots[j] {
+                FoldSpot::Bend(i) => imbalance(&solid.profile(j), i + 1).abs(),
+                FoldSpot::Inside(_) => 0.0,
+            };
+            narrow + rooms + miss
+        };
+        let lack_mm = (0..solid.chains.len()).map(lack_of).sum();
         Fitted { solid, spots: self.spots.clone(), error_mm, lack_mm }
     }
 
@@ -153,7 +160,14 @@ impl Task<'_> {
 
     /// Change of the solid's support function in `direction`, whose supporting point is `at`:
     /// the direction is a combination of the normals of the faces that meet there.
-    fn support_terms(&self, solid: &Solid, freedom: &Freedom, at: DVec3, direction: DVec3, fallback: FaceId) -> Terms {
+    fn support_terms(
+        &self,
+        solid: &Solid,
+        freedom: &Freedom,
+        at: DVec3,
+        direction: DVec3,
+        fallback: FaceId,
+    ) -> Terms {
         let touching: Vec<FaceId> = solid
             .faces()
             .into_iter()
@@ -178,10 +192,9 @@ impl Task<'_> {
     /// Panels stay wide and long enough, balance points in their places.
     fn size_rows(&self, solid: &Solid, freedom: &Freedom, lp: &mut Programme, region: f64) {
         let least = self.target.min_panel_mm * MARGIN;
-        let lack = lp.variable(SIZE_PRICE, 0.0);
-        lp.at_most([(lack, -1.0)], 0.0);
         let heights = solid.heights();
         for j in 0..solid.chains.len() {
+            let lack = lack_variable(lp);
             for &v in &heights {
                 let width = solid.width_at(j, v);
                 if width < least + 12.0 * region {
@@ -191,34 +204,34 @@ impl Task<'_> {
                     lp.at_most(terms, width - least);
                 }
             }
-            let lengths = (0..solid.chains[j].facets.len()).map(Room::Length);
-            for room in lengths.chain(self.rooms(j)) {
+            for room in self.rooms(solid, j) {
                 let now = room.measure(solid, j);
                 if now < least + 6.0 * region {
                     let mut terms = freedom.of_profile(solid, j, |s| -room.measure(s, j));
-                    terms.push((lack, -1.0));
+                    terms.push((lack_variable(lp), -1.0));
                     lp.at_most(terms, now - least);
                 }
             }
-            self.fold_rows(solid, freedom, j, lp, lack);
+            self.fold_rows(solid, freedom, j, lp);
         }
     }
 
-    /// Distances around the fold vertex of chain j that must not be too small.
-    fn rooms(&self, j: usize) -> impl Iterator<Item = Room> + use<> {
-        let clear = match self.spots[j] {
+    /// Lengths of chain j that must not be too small: of its panels, and about its fold vertex.
+    fn rooms(&self, solid: &Solid, j: usize) -> impl Iterator<Item = Room> + use<> {
+        let about_fold = match self.spots[j] {
             FoldSpot::Inside(i) => vec![Room::Above(i), Room::Below(i)],
             FoldSpot::Bend(_) => Vec::new(),
         };
-        clear.into_iter()
+        (0..solid.chains[j].facets.len()).map(Room::Length).chain(about_fold)
     }
 
     /// A fold vertex at a bend stays the balance point.
-    fn fold_rows(&self, solid: &Solid, freedom: &Freedom, j: usize, lp: &mut Programme, lack: usize) {
+    fn fold_rows(&self, solid: &Solid, freedom: &Freedom, j: usize, lp: &mut Programme) {
         let FoldSpot::Bend(i) = self.spots[j] else { return };
         let measure = |s: &Solid| imbalance(&s.profile(j), i + 1);
         let terms = freedom.of_profile(solid, j, measure);
         let now = measure(solid);
+        let lack = lack_variable(lp);
         lp.at_most(terms.iter().copied().chain([(lack, -1.0)]), -now);
         lp.at_most(terms.iter().map(|&(k, a)| (k, -a)).chain([(lack, -1.0)]), now);
     }
@@ -241,7 +254,9 @@ impl Task<'_> {
             let next = solid.next(j);
             let gap = (solid.chains[next].angle_rad - chain.angle_rad).rem_euclid(std::f64::consts::TAU);
             let turn = |sign: f64| {
-                [(freedom.angle(j), sign), (freedom.angle(next), -sign)].into_iter().filter_map(|(k, a)| Some((k?, a)))
+                [(freedom.angle(j), sign), (freedom.angle(next), -sign)]
+                    .into_iter()
+                    .filter_map(|(k, a)| Some((k?, a)))
             };
             lp.at_most(turn(1.0), (gap - MIN_TURN_RAD).max(0.0) * r);
             lp.at_most(turn(-1.0), (MAX_TURN_RAD - gap).max(0.0) * r);
@@ -314,9 +329,7 @@ impl Room {
     fn measure(self, solid: &Solid, j: usize) -> f64 {
         let profile = solid.profile(j);
         match self {
-            Room::Length(i) => {
-                profile[i].distance(profile[i + 1]).copysign(profile[i].y - profile[i + 1].y)
-            }
+            Room::Length(i) => profile[i].distance(profile[i + 1]).copysign(profile[i].y - profile[i + 1].y),
             Room::Above(i) => -imbalance(&profile, i) / 2.0,
             Room::Below(i) => imbalance(&profile, i + 1) / 2.0,
         }
@@ -345,6 +358,13 @@ fn exact_bend(solid: &Solid, j: usize, i: usize, free: usize) -> Option<Solid> {
         solid.chains[j].facets[free].offset_mm = next;
     }
     (miss(&solid).abs() <= 1e-11 * size).then_some(solid)
+}
+
+/// What a solid lacks to be valid, at its price.
+fn lack_variable(lp: &mut Programme) -> usize {
+    let lack = lp.variable(SIZE_PRICE, 0.0);
+    lp.at_most([(lack, -1.0)], 0.0);
+    lack
 }
 
 /// A non-negative error not above `worst`, with a price of its own.

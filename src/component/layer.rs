@@ -25,7 +25,8 @@ pub(super) struct Side {
 impl Side {
     /// Outline in the layer, counter-clockwise (the lower layer's panels face down).
     fn in_layer(&self) -> Vec<DVec2> {
-        let mut outline: Vec<DVec2> = self.outline.iter().map(|&p| self.to_layer.transform_point2(p)).collect();
+        let mut outline: Vec<DVec2> =
+            self.outline.iter().map(|&p| self.to_layer.transform_point2(p)).collect();
         if !self.is_upper {
             outline.reverse();
         }

@@ -68,7 +68,10 @@ impl Programme {
         solver.solve();
         let usable = matches!(
             solver.solution.status,
-            SolverStatus::Solved | SolverStatus::AlmostSolved | SolverStatus::MaxIterations | SolverStatus::InsufficientProgress
+            SolverStatus::Solved
+                | SolverStatus::AlmostSolved
+                | SolverStatus::MaxIterations
+                | SolverStatus::InsufficientProgress
         );
         (usable && solver.solution.x.iter().all(|x| x.is_finite())).then(|| solver.solution.x.clone())
     }

@@ -157,7 +157,10 @@ mod tests {
     fn bad_profiles_are_refused() {
         let p = |list: &[(f64, f64)]| list.iter().map(|&(u, v)| DVec2::new(u, v)).collect::<Vec<_>>();
         assert_eq!(Profile::new(p(&[(0.0, 1.0), (0.0, 0.0)]), 0), Err(ProfileError::TooShort));
-        assert_eq!(Profile::new(p(&[(0.0, 2.0), (0.0, 2.0), (0.0, 0.0)]), 1), Err(ProfileError::NotFalling(1)));
+        assert_eq!(
+            Profile::new(p(&[(0.0, 2.0), (0.0, 2.0), (0.0, 0.0)]), 1),
+            Err(ProfileError::NotFalling(1))
+        );
         assert_eq!(Profile::new(p(&[(5.0, 2.0), (4.0, 1.0), (5.0, 0.0)]), 1), Err(ProfileError::Reflex(1)));
     }
 }

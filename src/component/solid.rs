@@ -246,7 +246,10 @@ impl Solid {
         let length_mm = chains
             .flat_map(|j| {
                 let profile = self.profile(j);
-                profile.windows(2).map(|w| (w[1] - w[0]).length().copysign(w[0].y - w[1].y)).collect::<Vec<_>>()
+                profile
+                    .windows(2)
+                    .map(|w| (w[1] - w[0]).length().copysign(w[0].y - w[1].y))
+                    .collect::<Vec<_>>()
             })
             .fold(f64::INFINITY, f64::min);
         Clearance { width_mm, length_mm }
@@ -276,7 +279,13 @@ pub(crate) mod tests {
             is_locked: false,
             facets: facets.to_vec(),
         });
-        Solid { chains: chains.collect(), top_mm: 0.8 * r, bottom_mm: -0.8 * r, is_top_joint: false, is_bottom_joint: false }
+        Solid {
+            chains: chains.collect(),
+            top_mm: 0.8 * r,
+            bottom_mm: -0.8 * r,
+            is_top_joint: false,
+            is_bottom_joint: false,
+        }
     }
 
     #[test]
@@ -300,15 +309,18 @@ pub(crate) mod tests {
         let mut volume = 0.0;
         for (face, outline) in solid.outlines() {
             let (n, c) = solid.plane(face);
-            let twice: DVec3 = (0..outline.len()).map(|k| outline[k].cross(outline[(k + 1) % outline.len()])).sum();
+            let twice: DVec3 =
+                (0..outline.len()).map(|k| outline[k].cross(outline[(k + 1) % outline.len()])).sum();
             assert!(twice.dot(n) > 0.0, "{face:?} faces outwards");
             volume += twice.dot(n) / 2.0 * c / 3.0;
         }
         // Simpson's rule is exact for prismatoids: between bends the section area is quadratic in v.
         let area = |v: f64| 6.0 * (TAU / 12.0).tan() * solid.chains[0].u_at(v).powi(2);
         let heights = solid.heights();
-        let expected: f64 =
-            heights.windows(2).map(|w| (w[0] - w[1]) / 6.0 * (area(w[0]) + 4.0 * area((w[0] + w[1]) / 2.0) + area(w[1]))).sum();
+        let expected: f64 = heights
+            .windows(2)
+            .map(|w| (w[0] - w[1]) / 6.0 * (area(w[0]) + 4.0 * area((w[0] + w[1]) / 2.0) + area(w[1])))
+            .sum();
         assert!((volume - expected).abs() < 1e-8 * expected, "{volume} {expected}");
     }
 

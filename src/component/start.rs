@@ -77,7 +77,8 @@ fn choose_angles(outline: &[DVec2], locked: &[f64], edges: usize) -> Vec<f64> {
             let (before, after) = (set[(k + n - 1) % n], set[(k + 1) % n]);
             let gap = (after.0 - before.0).rem_euclid(TAU);
             let near = (set[k].0 - before.0).rem_euclid(TAU).min((after.0 - set[k].0).rem_euclid(TAU));
-            (gap <= MAX_TURN_RAD && n > 3).then(|| (near >= MIN_TURN_RAD, area_added(before, set[k], after), k))
+            (gap <= MAX_TURN_RAD && n > 3)
+                .then(|| (near >= MIN_TURN_RAD, area_added(before, set[k], after), k))
         });
         let best = removable.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
         match best {

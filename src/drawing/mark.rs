@@ -11,18 +11,12 @@ const RIGID_TOLERANCE: f64 = 1e-9;
 impl Polyline {
     /// An open polyline.
     pub fn open(points: Vec<DVec2>) -> Self {
-        Self {
-            points,
-            is_closed: false,
-        }
+        Self { points, is_closed: false }
     }
 
     /// A closed ring; the first corner is not repeated.
     pub fn closed(points: Vec<DVec2>) -> Self {
-        Self {
-            points,
-            is_closed: true,
-        }
+        Self { points, is_closed: true }
     }
 }
 
@@ -80,22 +74,12 @@ impl Mark {
 
     /// A stroked open polyline.
     pub fn polyline(layer: Layer, points: Vec<DVec2>, stroke: &Stroke) -> Self {
-        Self::path(
-            layer,
-            vec![Polyline::open(points)],
-            Some(stroke.clone()),
-            None,
-        )
+        Self::path(layer, vec![Polyline::open(points)], Some(stroke.clone()), None)
     }
 
     /// A stroked closed ring.
     pub fn polygon(layer: Layer, points: Vec<DVec2>, stroke: &Stroke) -> Self {
-        Self::path(
-            layer,
-            vec![Polyline::closed(points)],
-            Some(stroke.clone()),
-            None,
-        )
+        Self::path(layer, vec![Polyline::closed(points)], Some(stroke.clone()), None)
     }
 
     /// A filled ring without an outline.
@@ -104,30 +88,13 @@ impl Mark {
     }
 
     /// Contours stroked and/or filled as one path.
-    pub fn path(
-        layer: Layer,
-        contours: Vec<Polyline>,
-        stroke: Option<Stroke>,
-        fill: Option<Rgb>,
-    ) -> Self {
-        Self {
-            layer,
-            piece: None,
-            shape: Shape::Path {
-                contours,
-                stroke,
-                fill,
-            },
-        }
+    pub fn path(layer: Layer, contours: Vec<Polyline>, stroke: Option<Stroke>, fill: Option<Rgb>) -> Self {
+        Self { layer, piece: None, shape: Shape::Path { contours, stroke, fill } }
     }
 
     /// A line of text.
     pub fn text(layer: Layer, text: Text) -> Self {
-        Self {
-            layer,
-            piece: None,
-            shape: Shape::Text(text),
-        }
+        Self { layer, piece: None, shape: Shape::Text(text) }
     }
 
     /// The same mark as a part of the piece with this name.
@@ -167,9 +134,7 @@ impl Mark {
             Shape::Path { contours, .. } => {
                 polygon::bounds(contours.iter().flat_map(|c| c.points.iter().copied()))
             }
-            Shape::Text(text) => {
-                polygon::bounds(text::outlines(text).iter().flat_map(PathCommand::points))
-            }
+            Shape::Text(text) => polygon::bounds(text::outlines(text).iter().flat_map(PathCommand::points)),
         }
     }
 }
@@ -177,28 +142,17 @@ impl Mark {
 impl Drawing {
     /// An empty page without a background.
     pub fn new(title: impl Into<String>, size_mm: DVec2) -> Self {
-        Self {
-            title: title.into(),
-            size_mm,
-            ground: None,
-            marks: Vec::new(),
-        }
+        Self { title: title.into(), size_mm, ground: None, marks: Vec::new() }
     }
 
     /// Adds a group of marks after a rigid motion: a piece at its place on the sheet.
     pub fn place(&mut self, marks: impl IntoIterator<Item = Mark>, place: DAffine2) {
-        self.marks
-            .extend(marks.into_iter().map(|mark| mark.placed(place)));
+        self.marks.extend(marks.into_iter().map(|mark| mark.placed(place)));
     }
 
     /// Bounds of all marks, as in [`Mark::bounds`].
     pub fn bounds(&self) -> Option<(DVec2, DVec2)> {
-        polygon::bounds(
-            self.marks
-                .iter()
-                .filter_map(Mark::bounds)
-                .flat_map(|(lo, hi)| [lo, hi]),
-        )
+        polygon::bounds(self.marks.iter().filter_map(Mark::bounds).flat_map(|(lo, hi)| [lo, hi]))
     }
 }
 
@@ -208,11 +162,7 @@ mod tests {
     use std::f64::consts::FRAC_PI_2;
 
     fn stroke() -> Stroke {
-        Stroke {
-            width_mm: 0.25,
-            colour: Rgb::BLACK,
-            dash_mm: Vec::new(),
-        }
+        Stroke { width_mm: 0.25, colour: Rgb::BLACK, dash_mm: Vec::new() }
     }
 
     #[test]
@@ -222,10 +172,7 @@ mod tests {
         let mark = Mark::text(Layer::Label, text).placed(place);
         let (lo, hi) = mark.bounds().expect("H has an outline");
         // The letter stands on the vertical line x = 5 and rises to the left.
-        assert!(
-            (hi.x - 5.0).abs() < 1e-9 && (lo.x - 2.0).abs() < 0.01,
-            "{lo} {hi}"
-        );
+        assert!((hi.x - 5.0).abs() < 1e-9 && (lo.x - 2.0).abs() < 0.01, "{lo} {hi}");
         assert!(lo.y > 15.0 && hi.y < 15.0 + text::width_mm("H", 3.0));
     }
 
@@ -233,21 +180,9 @@ mod tests {
     fn placing_keeps_lengths() {
         let place = DAffine2::from_angle_translation(0.3, DVec2::new(-4.0, 7.0));
         let mut page = Drawing::new("page", DVec2::new(100.0, 100.0));
-        page.place(
-            [Mark::line(
-                Layer::Cut,
-                DVec2::ZERO,
-                DVec2::new(3.0, 4.0),
-                &stroke(),
-            )],
-            place,
-        );
-        let Shape::Path { contours, .. } = &page.marks[0].shape else {
-            panic!("not a path")
-        };
-        let [a, b] = contours[0].points[..] else {
-            panic!("not a segment")
-        };
+        page.place([Mark::line(Layer::Cut, DVec2::ZERO, DVec2::new(3.0, 4.0), &stroke())], place);
+        let Shape::Path { contours, .. } = &page.marks[0].shape else { panic!("not a path") };
+        let [a, b] = contours[0].points[..] else { panic!("not a segment") };
         assert!(((b - a).length() - 5.0).abs() < 1e-12);
         assert_eq!(a, DVec2::new(-4.0, 7.0));
     }
@@ -267,17 +202,8 @@ mod tests {
     fn bounds_cover_all_marks() {
         let mut page = Drawing::new("page", DVec2::new(100.0, 100.0));
         assert_eq!(page.bounds(), None);
-        page.marks.push(Mark::line(
-            Layer::Cut,
-            DVec2::new(1.0, 8.0),
-            DVec2::new(3.0, 4.0),
-            &stroke(),
-        ));
-        page.marks.push(Mark::polygon(
-            Layer::Cut,
-            vec![DVec2::ZERO, DVec2::X, DVec2::Y],
-            &stroke(),
-        ));
+        page.marks.push(Mark::line(Layer::Cut, DVec2::new(1.0, 8.0), DVec2::new(3.0, 4.0), &stroke()));
+        page.marks.push(Mark::polygon(Layer::Cut, vec![DVec2::ZERO, DVec2::X, DVec2::Y], &stroke()));
         assert_eq!(page.bounds(), Some((DVec2::ZERO, DVec2::new(3.0, 8.0))));
     }
 }

@@ -97,11 +97,7 @@ struct StyleTable {
 
 impl StyleTable {
     fn stroke(&self) -> Stroke {
-        Stroke {
-            width_mm: self.width_mm.0,
-            colour: self.colour.0,
-            dash_mm: self.dash_mm.0.clone(),
-        }
+        Stroke { width_mm: self.width_mm.0, colour: self.colour.0, dash_mm: self.dash_mm.0.clone() }
     }
 }
 
@@ -117,9 +113,7 @@ impl TryFrom<f64> for Width {
         if mm > 0.0 && mm <= MAX_WIDTH_MM {
             Ok(Self(mm))
         } else {
-            Err(format!(
-                "a line is {mm} mm wide; give a width above 0 and at most {MAX_WIDTH_MM} mm"
-            ))
+            Err(format!("a line is {mm} mm wide; give a width above 0 and at most {MAX_WIDTH_MM} mm"))
         }
     }
 }
@@ -132,9 +126,8 @@ impl TryFrom<String> for Colour {
     type Error = String;
 
     fn try_from(text: String) -> Result<Self, String> {
-        let digits = text
-            .strip_prefix('#')
-            .filter(|d| d.len() == 6 && d.chars().all(|c| c.is_ascii_hexdigit()));
+        let digits =
+            text.strip_prefix('#').filter(|d| d.len() == 6 && d.chars().all(|c| c.is_ascii_hexdigit()));
         let value = digits.and_then(|d| u32::from_str_radix(d, 16).ok());
         let Some(value) = value else {
             return Err(format!("{text:?} is not a colour; write it as \"#rrggbb\""));
@@ -153,18 +146,12 @@ impl TryFrom<Vec<f64>> for Dash {
 
     fn try_from(lengths: Vec<f64>) -> Result<Self, String> {
         if lengths.len() % 2 == 1 {
-            return Err(format!(
-                "{} lengths; a dash needs its gap, so give an even number",
-                lengths.len()
-            ));
+            return Err(format!("{} lengths; a dash needs its gap, so give an even number", lengths.len()));
         }
-        match lengths
-            .iter()
-            .find(|mm| !(**mm > 0.0 && **mm <= MAX_DASH_MM))
-        {
-            Some(mm) => Err(format!(
-                "a dash or gap of {mm} mm; give lengths above 0 and at most {MAX_DASH_MM} mm"
-            )),
+        match lengths.iter().find(|mm| !(**mm > 0.0 && **mm <= MAX_DASH_MM)) {
+            Some(mm) => {
+                Err(format!("a dash or gap of {mm} mm; give lengths above 0 and at most {MAX_DASH_MM} mm"))
+            }
             None => Ok(Self(lengths)),
         }
     }
@@ -179,20 +166,13 @@ mod tests {
     /// Replaces `from` once and returns the complaint.
     fn complaint(from: &str, to: &str) -> String {
         assert!(STANDARD.contains(from));
-        LineStyles::parse(&STANDARD.replacen(from, to, 1))
-            .expect_err("must be refused")
-            .to_string()
+        LineStyles::parse(&STANDARD.replacen(from, to, 1)).expect_err("must be refused").to_string()
     }
 
     #[test]
     fn the_standard_lines_differ_without_colour() {
         let styles = LineStyles::standard();
-        let folds = [
-            Layer::Mountain,
-            Layer::Valley,
-            Layer::FoldHinge,
-            Layer::Glue,
-        ];
+        let folds = [Layer::Mountain, Layer::Valley, Layer::FoldHinge, Layer::Glue];
         for (i, &a) in folds.iter().enumerate() {
             assert!(!styles.stroke(a).dash_mm.is_empty());
             for &b in &folds[i + 1..] {
@@ -207,32 +187,16 @@ mod tests {
     #[test]
     fn mistakes_are_shown_with_their_line() {
         let line_of = |needle: &str| {
-            STANDARD
-                .lines()
-                .position(|line| line.starts_with(needle))
-                .expect("in the file")
-                + 1
+            STANDARD.lines().position(|line| line.starts_with(needle)).expect("in the file") + 1
         };
         let message = complaint("width_mm = 0.25", "width_mm = 0.0");
-        assert!(
-            message.contains(&format!("line {}", line_of("width_mm = 0.25"))),
-            "{message}"
-        );
+        assert!(message.contains(&format!("line {}", line_of("width_mm = 0.25"))), "{message}");
         let message = complaint("\"#808080\"", "\"grey\"");
-        assert!(
-            message.contains(&format!("line {}", line_of("colour = \"#808080\""))),
-            "{message}"
-        );
+        assert!(message.contains(&format!("line {}", line_of("colour = \"#808080\""))), "{message}");
         let message = complaint("[2.0, 1.0]", "[2.0]");
-        assert!(
-            message.contains("even number") && message.contains("line "),
-            "{message}"
-        );
+        assert!(message.contains("even number") && message.contains("line "), "{message}");
         let message = complaint("[glue]", "[glu]");
-        assert!(
-            message.contains("glu") && message.contains("line "),
-            "{message}"
-        );
+        assert!(message.contains("glu") && message.contains("line "), "{message}");
         let message = complaint("[0.3, 0.9]", "[0.3, nan]");
         assert!(message.contains("NaN"), "{message}");
     }

@@ -3,7 +3,7 @@
 //! The font is a subset of Inter (Latin letters, digits, a few signs), embedded in the program;
 //! see `font/README.md`. Every back end draws text without kerning, so that all files agree.
 
-use super::Text;
+use super::{Polyline, Text};
 use glam::{DAffine2, DVec2};
 use skrifa::{DrawMemory, Font, PathSink, ScalerFont};
 use std::collections::BTreeMap;
@@ -85,30 +85,15 @@ impl Typeface {
         let glyphs = CHARACTERS
             .filter_map(|c| {
                 let id = charmap.map_unicode(c)?;
-                let mut pen = Pen {
-                    em,
-                    outline: Vec::new(),
-                };
+                let mut pen = Pen { em, outline: Vec::new() };
                 if let Some(outline) = scaler.outline(id) {
                     outline.draw(DrawMemory::Scratch, &mut pen).ok()?;
                 }
-                Some((
-                    c,
-                    Glyph {
-                        advance: f64::from(metrics.h_advance(id)) / em,
-                        outline: pen.outline,
-                    },
-                ))
+                Some((c, Glyph { advance: f64::from(metrics.h_advance(id)) / em, outline: pen.outline }))
             })
             .collect();
-        let cap_height = scaler
-            .metrics()
-            .cap_height()
-            .expect("the embedded font has capitals");
-        Self {
-            cap_height: f64::from(cap_height) / em,
-            glyphs,
-        }
+        let cap_height = scaler.metrics().cap_height().expect("the embedded font has capitals");
+        Self { cap_height: f64::from(cap_height) / em, glyphs }
     }
 
     fn glyph(&self, c: char) -> &Glyph {
@@ -146,16 +131,11 @@ impl PathSink for Pen {
     }
 
     fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        self.outline
-            .push(PathCommand::QuadTo(self.at(cx, cy), self.at(x, y)));
+        self.outline.push(PathCommand::QuadTo(self.at(cx, cy), self.at(x, y)));
     }
 
     fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
-        self.outline.push(PathCommand::CubicTo(
-            self.at(ax, ay),
-            self.at(bx, by),
-            self.at(x, y),
-        ));
+        self.outline.push(PathCommand::CubicTo(self.at(ax, ay), self.at(bx, by), self.at(x, y)));
     }
 
     fn close(&mut self) {
@@ -177,11 +157,7 @@ pub fn em_mm(cap_height_mm: f64) -> f64 {
 
 /// Length of a line of text, mm.
 pub fn width_mm(content: &str, cap_height_mm: f64) -> f64 {
-    content
-        .chars()
-        .map(|c| TYPEFACE.glyph(c).advance)
-        .sum::<f64>()
-        * em_mm(cap_height_mm)
+    content.chars().map(|c| TYPEFACE.glyph(c).advance).sum::<f64>() * em_mm(cap_height_mm)
 }
 
 /// The text, or as much of its beginning as fits in `max_width_mm`, with an ellipsis; empty where
@@ -205,15 +181,45 @@ pub fn outlines(text: &Text) -> Vec<PathCommand> {
     for c in text.content.chars() {
         let glyph = TYPEFACE.glyph(c);
         let map = DAffine2::from_scale_angle_translation(DVec2::splat(em), text.angle_rad, pen);
-        out.extend(
-            glyph
-                .outline
-                .iter()
-                .map(|command| command.transformed(&map)),
-        );
+        out.extend(glyph.outline.iter().map(|command| command.transformed(&map)));
         pen += along * (glyph.advance * em);
     }
     out
+}
+
+/// The outlines as closed polylines, each curve in the given number of straight steps: for
+/// machines that know no curves.
+pub fn contours(text: &Text, steps: usize) -> Vec<Polyline> {
+    let mut out: Vec<Polyline> = Vec::new();
+    for command in outlines(text) {
+        match (command, out.last_mut()) {
+            (PathCommand::MoveTo(p), _) => out.push(Polyline::closed(vec![p])),
+            (PathCommand::Close, _) | (_, None) => {}
+            (curve, Some(contour)) => {
+                let mut points = curve.points();
+                points.insert(0, contour.points[contour.points.len() - 1]);
+                let count = if points.len() == 2 { 1 } else { steps.max(1) };
+                let at = |step: usize| on_curve(&points, step as f64 / count as f64);
+                contour.points.extend((1..=count).map(at));
+            }
+        }
+    }
+    for contour in &mut out {
+        let ends_at_start = contour.points.len() > 1 && contour.points.first() == contour.points.last();
+        if ends_at_start {
+            contour.points.pop();
+        }
+    }
+    out
+}
+
+/// The point at `t` of the Bézier curve with these control points (de Casteljau).
+fn on_curve(control: &[DVec2], t: f64) -> DVec2 {
+    let mut points = control.to_vec();
+    while points.len() > 1 {
+        points = points.windows(2).map(|pair| pair[0].lerp(pair[1], t)).collect();
+    }
+    points[0]
 }
 
 #[cfg(test)]
@@ -222,17 +228,13 @@ mod tests {
     use crate::geom::polygon;
 
     fn bounds(text: &Text) -> (DVec2, DVec2) {
-        let points = outlines(text)
-            .iter()
-            .flat_map(PathCommand::points)
-            .collect::<Vec<_>>();
+        let points = outlines(text).iter().flat_map(PathCommand::points).collect::<Vec<_>>();
         polygon::bounds(points).expect("letters have outlines")
     }
 
     #[test]
     fn the_font_has_what_labels_and_titles_need() {
-        for c in (' '..='~').chain("äöüßéèñçåøÅčśžő°×–—µ·→←±²½…−".chars())
-        {
+        for c in (' '..='~').chain("äöüßéèñçåøÅčśžő°×–—µ·→←±²½…−".chars()) {
             assert!(TYPEFACE.glyphs.contains_key(&c), "{c:?} is missing");
         }
         assert!(FONT_FILE.len() <= 60_000);
@@ -241,10 +243,7 @@ mod tests {
     #[test]
     fn capitals_are_as_high_as_asked() {
         let (lo, hi) = bounds(&Text::new("H", DVec2::new(20.0, 30.0), 3.0));
-        assert!(
-            (lo.y - 30.0).abs() < 1e-9 && (hi.y - 33.0).abs() < 0.005,
-            "{lo} {hi}"
-        );
+        assert!((lo.y - 30.0).abs() < 1e-9 && (hi.y - 33.0).abs() < 0.005, "{lo} {hi}");
     }
 
     #[test]
@@ -270,5 +269,19 @@ mod tests {
         assert!(short.starts_with("arm") && short.ends_with('…'), "{short}");
         assert!(width_mm(&short, 2.0) <= full * 0.7);
         assert_eq!(shortened("armadillo", 2.0, 0.1), "");
+    }
+
+    #[test]
+    fn flattened_letters_keep_their_area() {
+        // An "o" is two rings; the ring between them is what is inked.
+        let text = Text::new("o", DVec2::ZERO, 10.0);
+        let area = |steps| {
+            let rings = contours(&text, steps);
+            assert_eq!(rings.len(), 2);
+            rings.iter().map(|ring| polygon::area(&ring.points)).sum::<f64>().abs()
+        };
+        let (coarse, fine) = (area(4), area(64));
+        assert!((coarse - fine).abs() < 0.02 * fine, "{coarse} {fine}");
+        assert_eq!(contours(&Text::new("l", DVec2::ZERO, 10.0), 4)[0].points.len(), 4);
     }
 }

@@ -6,13 +6,7 @@ use crate::sheet::furniture::Furniture;
 use glam::{DAffine2, DVec2};
 
 /// The sheets' kinds of lines.
-pub const LEGEND: [Layer; 5] = [
-    Layer::Cut,
-    Layer::Slit,
-    Layer::Mountain,
-    Layer::FoldHinge,
-    Layer::Glue,
-];
+pub const LEGEND: [Layer; 5] = [Layer::Cut, Layer::Slit, Layer::Mountain, Layer::FoldHinge, Layer::Glue];
 /// A4, upright.
 pub const A4_MM: DVec2 = DVec2::new(210.0, 297.0);
 
@@ -36,10 +30,7 @@ pub fn sheet(size_mm: DVec2, page: usize, pages: usize) -> Drawing {
     };
     let mut drawing = Drawing::new(format!("teddy <3> {page}/{pages}"), size_mm);
     drawing.marks = furniture.marks(&styles);
-    for (name, angle_rad, corner) in [
-        ("head 1/2", 0.0, [20.0, 40.0]),
-        ("head 2/2", 0.4, [60.0, 90.0]),
-    ] {
+    for (name, angle_rad, corner) in [("head 1/2", 0.0, [20.0, 40.0]), ("head 2/2", 0.4, [60.0, 90.0])] {
         let place = DAffine2::from_angle_translation(angle_rad, DVec2::from(corner));
         drawing.place(piece(name, &styles), place);
     }
@@ -48,32 +39,13 @@ pub fn sheet(size_mm: DVec2, page: usize, pages: usize) -> Drawing {
 
 /// A square ring of 30 mm with a hole, creases, a glue mark and a label.
 fn piece(name: &str, styles: &LineStyles) -> Vec<Mark> {
-    let square = |lo: f64, hi: f64| {
-        [[lo, lo], [hi, lo], [hi, hi], [lo, hi]]
-            .map(DVec2::from)
-            .to_vec()
-    };
-    let ring = vec![
-        Polyline::closed(square(0.0, 30.0)),
-        Polyline::closed(square(12.0, 18.0)),
-    ];
-    let crease = |layer, y| {
-        Mark::line(
-            layer,
-            DVec2::new(0.0, y),
-            DVec2::new(30.0, y),
-            styles.stroke(layer),
-        )
-    };
+    let square = |lo: f64, hi: f64| [[lo, lo], [hi, lo], [hi, hi], [lo, hi]].map(DVec2::from).to_vec();
+    let ring = vec![Polyline::closed(square(0.0, 30.0)), Polyline::closed(square(12.0, 18.0))];
+    let crease = |layer, y| Mark::line(layer, DVec2::new(0.0, y), DVec2::new(30.0, y), styles.stroke(layer));
     let label = Text::new("A → 12", DVec2::new(15.0, 25.0), 2.5).aligned(Align::Middle);
     let marks = [
         Mark::path(Layer::Picture, ring.clone(), None, Some(Rgb(250, 240, 220))),
-        Mark::path(
-            Layer::Cut,
-            ring,
-            Some(styles.stroke(Layer::Cut).clone()),
-            None,
-        ),
+        Mark::path(Layer::Cut, ring, Some(styles.stroke(Layer::Cut).clone()), None),
         crease(Layer::Slit, 4.0),
         crease(Layer::Mountain, 8.0),
         crease(Layer::Valley, 10.0),

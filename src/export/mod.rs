@@ -4,10 +4,12 @@
 //! that are no drawings (FOLD, the report) come in already serialised. Adding a format is one file
 //! and one line in [`FORMATS`].
 
+mod dxf;
 #[cfg(test)]
 mod fixture;
 pub mod fold;
 mod pdf;
+pub mod png;
 mod svg;
 
 use crate::drawing::{Drawing, Shape, Stroke};
@@ -50,6 +52,16 @@ pub enum TextMode {
     Text,
 }
 
+/// Version of DXF files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DxfVersion {
+    /// For old programs and machines.
+    R12,
+    /// AutoCAD 2000 and everything since.
+    #[default]
+    R2000,
+}
+
 /// Everything that a format may write.
 ///
 /// # Guarantees
@@ -61,6 +73,7 @@ pub struct ExportInput {
     drawings: Vec<Drawing>,
     documents: Vec<(&'static str, Vec<u8>)>,
     text_mode: TextMode,
+    dxf_version: DxfVersion,
 }
 
 impl ExportInput {
@@ -70,16 +83,14 @@ impl ExportInput {
     /// [`ExportError::BadNumber`] where a drawing breaks the guarantees above.
     pub fn new(title: impl Into<String>, drawings: Vec<Drawing>) -> Result<Self, ExportError> {
         for (index, drawing) in drawings.iter().enumerate() {
-            check(drawing).map_err(|what| ExportError::BadNumber {
-                page: index + 1,
-                what,
-            })?;
+            check(drawing).map_err(|what| ExportError::BadNumber { page: index + 1, what })?;
         }
         Ok(Self {
             title: title.into(),
             drawings,
             documents: Vec::new(),
             text_mode: TextMode::default(),
+            dxf_version: DxfVersion::default(),
         })
     }
 
@@ -97,6 +108,13 @@ impl ExportInput {
         self
     }
 
+    /// Chooses the version of DXF files.
+    #[must_use]
+    pub fn with_dxf_version(mut self, dxf_version: DxfVersion) -> Self {
+        self.dxf_version = dxf_version;
+        self
+    }
+
     /// The model's title.
     pub fn title(&self) -> &str {
         &self.title
@@ -107,11 +125,7 @@ impl ExportInput {
     /// # Errors
     /// [`ExportError::NoPages`] where there is none.
     pub fn pages(&self) -> Result<&[Drawing], ExportError> {
-        if self.drawings.is_empty() {
-            Err(ExportError::NoPages)
-        } else {
-            Ok(&self.drawings)
-        }
+        if self.drawings.is_empty() { Err(ExportError::NoPages) } else { Ok(&self.drawings) }
     }
 
     /// The serialised document for a format.
@@ -120,14 +134,17 @@ impl ExportInput {
     /// [`ExportError::NoDocument`] where it was not handed over.
     pub fn document(&self, format: &'static str) -> Result<&[u8], ExportError> {
         let found = self.documents.iter().find(|(name, _)| *name == format);
-        found
-            .map(|(_, bytes)| bytes.as_slice())
-            .ok_or(ExportError::NoDocument(format))
+        found.map(|(_, bytes)| bytes.as_slice()).ok_or(ExportError::NoDocument(format))
     }
 
     /// How texts are written.
     pub fn text_mode(&self) -> TextMode {
         self.text_mode
+    }
+
+    /// The version of DXF files.
+    pub fn dxf_version(&self) -> DxfVersion {
+        self.dxf_version
     }
 }
 
@@ -144,18 +161,12 @@ pub struct ExportFile {
 impl ExportFile {
     /// The only file of an export.
     pub fn single(bytes: Vec<u8>) -> Self {
-        Self {
-            suffix: String::new(),
-            bytes,
-        }
+        Self { suffix: String::new(), bytes }
     }
 
     /// The file of one page of several, by its index from 0.
     pub fn of_page(index: usize, bytes: Vec<u8>) -> Self {
-        Self {
-            suffix: format!("-{}", index + 1),
-            bytes,
-        }
+        Self { suffix: format!("-{}", index + 1), bytes }
     }
 }
 
@@ -182,7 +193,7 @@ impl Format {
 }
 
 /// All formats, in the order of help texts.
-pub const FORMATS: &[Format] = &[pdf::FORMAT, svg::FORMAT, FOLD, JSON];
+pub const FORMATS: &[Format] = &[pdf::FORMAT, svg::FORMAT, dxf::FORMAT, png::FORMAT, FOLD, JSON];
 
 /// The crease pattern, the deployed and the flat model.
 const FOLD: Format = Format {
@@ -203,36 +214,23 @@ const JSON: Format = Format {
 /// The format for a file name's extension (without the dot, in any case).
 pub fn format_of(extension: &str) -> Option<&'static Format> {
     let extension = extension.to_ascii_lowercase();
-    FORMATS
-        .iter()
-        .find(|format| format.extensions.contains(&extension.as_str()))
+    FORMATS.iter().find(|format| format.extensions.contains(&extension.as_str()))
 }
 
 /// `Err` with what is wrong in a drawing.
 fn check(drawing: &Drawing) -> Result<(), &'static str> {
     let is_size = |mm: f64| mm.is_finite() && mm > 0.0;
     let ensure = |holds: bool, what| if holds { Ok(()) } else { Err(what) };
-    ensure(
-        is_size(drawing.size_mm.x) && is_size(drawing.size_mm.y),
-        "the size of the page",
-    )?;
+    ensure(is_size(drawing.size_mm.x) && is_size(drawing.size_mm.y), "the size of the page")?;
     for mark in &drawing.marks {
         match &mark.shape {
-            Shape::Path {
-                contours, stroke, ..
-            } => {
+            Shape::Path { contours, stroke, .. } => {
                 let mut points = contours.iter().flat_map(|c| &c.points);
                 ensure(points.all(|p: &DVec2| p.is_finite()), "a corner of a line")?;
-                ensure(
-                    stroke.as_ref().is_none_or(is_drawable),
-                    "the width or dash of a line",
-                )?;
+                ensure(stroke.as_ref().is_none_or(is_drawable), "the width or dash of a line")?;
             }
             Shape::Text(text) => {
-                ensure(
-                    text.anchor.is_finite() && text.angle_rad.is_finite(),
-                    "the place of a text",
-                )?;
+                ensure(text.anchor.is_finite() && text.angle_rad.is_finite(), "the place of a text")?;
                 ensure(is_size(text.cap_height_mm), "the size of a text")?;
             }
         }
@@ -242,9 +240,7 @@ fn check(drawing: &Drawing) -> Result<(), &'static str> {
 
 fn is_drawable(stroke: &Stroke) -> bool {
     let mut dashes = stroke.dash_mm.iter();
-    stroke.width_mm.is_finite()
-        && stroke.width_mm >= 0.0
-        && dashes.all(|mm| mm.is_finite() && *mm > 0.0)
+    stroke.width_mm.is_finite() && stroke.width_mm >= 0.0 && dashes.all(|mm| mm.is_finite() && *mm > 0.0)
 }
 
 #[cfg(test)]
@@ -255,10 +251,7 @@ mod tests {
 
     #[test]
     fn extensions_lead_to_one_format_each() {
-        let all = FORMATS
-            .iter()
-            .flat_map(|f| f.extensions)
-            .collect::<Vec<_>>();
+        let all = FORMATS.iter().flat_map(|f| f.extensions).collect::<Vec<_>>();
         assert_eq!(all.iter().collect::<BTreeSet<_>>().len(), all.len());
         assert_eq!(format_of("PDF").map(|f| f.name), Some("pdf"));
         assert_eq!(format_of("svg").map(|f| f.name), Some("svg"));
@@ -278,11 +271,8 @@ mod tests {
     #[test]
     fn drawings_need_pages() {
         let input = ExportInput::new("box", Vec::new()).expect("valid");
-        for name in ["pdf", "svg"] {
-            assert_eq!(
-                format_of(name).expect("registered").write(&input),
-                Err(ExportError::NoPages)
-            );
+        for name in ["pdf", "svg", "dxf"] {
+            assert_eq!(format_of(name).expect("registered").write(&input), Err(ExportError::NoPages));
         }
     }
 
@@ -291,20 +281,9 @@ mod tests {
         let good = Drawing::new("page", DVec2::new(210.0, 297.0));
         let mut bad = good.clone();
         let stroke = LineStyles::standard().stroke(Layer::Cut).clone();
-        bad.marks.push(Mark::line(
-            Layer::Cut,
-            DVec2::ZERO,
-            DVec2::new(1.0, f64::NAN),
-            &stroke,
-        ));
+        bad.marks.push(Mark::line(Layer::Cut, DVec2::ZERO, DVec2::new(1.0, f64::NAN), &stroke));
         let error = ExportInput::new("box", vec![good, bad]).expect_err("NaN");
-        assert_eq!(
-            error,
-            ExportError::BadNumber {
-                page: 2,
-                what: "a corner of a line"
-            }
-        );
+        assert_eq!(error, ExportError::BadNumber { page: 2, what: "a corner of a line" });
         let empty = Drawing::new("page", DVec2::new(210.0, 0.0));
         assert!(ExportInput::new("box", vec![empty]).is_err());
     }

@@ -10,8 +10,8 @@ use glam::DVec2;
 use lopdf::{Dictionary, Document, Object};
 use printpdf::{
     Color, FontId, Greyscale, LayerInternalId, Line, LineDashPattern, LineJoinStyle, LinePoint, Op,
-    PaintMode, ParsedFont, PdfDocument, PdfFont, PdfFontHandle, PdfPage, PdfSaveOptions, Point,
-    Polygon, PolygonRing, Pt, Rect, TextItem, TextMatrix, WindingOrder,
+    PaintMode, ParsedFont, PdfDocument, PdfFont, PdfFontHandle, PdfPage, PdfSaveOptions, Point, Polygon,
+    PolygonRing, Pt, Rect, TextItem, TextMatrix, WindingOrder,
 };
 
 /// The registry's entry.
@@ -27,21 +27,11 @@ const PT_PER_MM: f64 = 72.0 / 25.4;
 /// Layers need 1.5, `PrintScaling` 1.6.
 const PDF_VERSION: &str = "1.6";
 /// Entries of the document information that vary, or that claim what is not so.
-const UNWANTED_INFO: [&[u8]; 7] = [
-    b"CreationDate",
-    b"ModDate",
-    b"GTS_PDFXVersion",
-    b"Identifier",
-    b"Trapped",
-    b"Author",
-    b"Keywords",
-];
+const UNWANTED_INFO: [&[u8]; 7] =
+    [b"CreationDate", b"ModDate", b"GTS_PDFXVersion", b"Identifier", b"Trapped", b"Author", b"Keywords"];
 
 fn write(input: &ExportInput) -> Result<Vec<ExportFile>, ExportError> {
-    let failed = |message: String| ExportError::Writer {
-        format: FORMAT.name,
-        message,
-    };
+    let failed = |message: String| ExportError::Writer { format: FORMAT.name, message };
     let mut pdf = PdfDocument::new(input.title());
     let producer = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
     pdf.metadata.info.creator = producer.to_owned();
@@ -49,26 +39,17 @@ fn write(input: &ExportInput) -> Result<Vec<ExportFile>, ExportError> {
     let mut font = ParsedFont::from_bytes(FONT_FILE, 0, &mut Vec::new())
         .ok_or_else(|| failed("the embedded font cannot be read".to_owned()))?;
     font.font_name = Some(FONT_NAME.to_owned());
-    pdf.resources
-        .fonts
-        .map
-        .insert(font_id(), PdfFont::new(font));
+    pdf.resources.fonts.map.insert(font_id(), PdfFont::new(font));
     for drawing in input.pages()? {
         for mark in &drawing.marks {
-            pdf.resources
-                .layers
-                .map
-                .entry(layer_id(mark.layer))
-                .or_insert_with(|| group(mark.layer));
+            pdf.resources.layers.map.entry(layer_id(mark.layer)).or_insert_with(|| group(mark.layer));
         }
         pdf.pages.push(page(drawing));
     }
     let mut document = pdf.to_lopdf_document(&PdfSaveOptions::default(), &mut Vec::new());
     settle(&mut document).map_err(|error| failed(error.to_string()))?;
     let mut bytes = Vec::new();
-    document
-        .save_to(&mut bytes)
-        .map_err(|error| failed(error.to_string()))?;
+    document.save_to(&mut bytes).map_err(|error| failed(error.to_string()))?;
     Ok(vec![ExportFile::single(bytes)])
 }
 
@@ -77,9 +58,7 @@ fn settle(document: &mut Document) -> Result<(), lopdf::Error> {
     document.version = PDF_VERSION.to_owned();
     document.trailer.remove(b"ID");
     let preferences = Dictionary::from_iter([("PrintScaling", Object::from("None"))]);
-    document
-        .catalog_mut()?
-        .set("ViewerPreferences", preferences);
+    document.catalog_mut()?.set("ViewerPreferences", preferences);
     let info = document.trailer.get(b"Info")?.as_reference()?;
     let info = document.get_object_mut(info)?.as_dict_mut()?;
     for key in UNWANTED_INFO {
@@ -107,40 +86,22 @@ fn group(layer: Layer) -> printpdf::Layer {
 fn page(drawing: &Drawing) -> PdfPage {
     let size = drawing.size_mm;
     let sheet = Rect::from_wh(pt(size.x), pt(size.y));
-    let mut ops = vec![Op::SetLineJoinStyle {
-        join: LineJoinStyle::Round,
-    }];
+    let mut ops = vec![Op::SetLineJoinStyle { join: LineJoinStyle::Round }];
     if let Some(ground) = drawing.ground {
-        let corners = vec![
-            DVec2::ZERO,
-            DVec2::new(size.x, 0.0),
-            size,
-            DVec2::new(0.0, size.y),
-        ];
+        let corners = vec![DVec2::ZERO, DVec2::new(size.x, 0.0), size, DVec2::new(0.0, size.y)];
         push_fill(&mut ops, &[Polyline::closed(corners)], ground);
     }
     for run in drawing.marks.chunk_by(|a, b| a.layer == b.layer) {
-        ops.push(Op::BeginLayer {
-            layer_id: layer_id(run[0].layer),
-        });
+        ops.push(Op::BeginLayer { layer_id: layer_id(run[0].layer) });
         run.iter().for_each(|mark| push_mark(&mut ops, mark));
         ops.push(Op::EndLayer);
     }
-    PdfPage {
-        media_box: sheet.clone(),
-        trim_box: sheet.clone(),
-        crop_box: sheet,
-        ops,
-    }
+    PdfPage { media_box: sheet.clone(), trim_box: sheet.clone(), crop_box: sheet, ops }
 }
 
 fn push_mark(ops: &mut Vec<Op>, mark: &Mark) {
     match &mark.shape {
-        Shape::Path {
-            contours,
-            stroke,
-            fill,
-        } => {
+        Shape::Path { contours, stroke, fill } => {
             if let Some(fill) = fill {
                 push_fill(ops, contours, *fill);
             }
@@ -153,42 +114,20 @@ fn push_mark(ops: &mut Vec<Op>, mark: &Mark) {
 }
 
 fn push_fill(ops: &mut Vec<Op>, contours: &[Polyline], fill: Rgb) {
-    let rings = contours
-        .iter()
-        .map(|c| PolygonRing {
-            points: line_points(&c.points),
-        })
-        .collect();
-    let polygon = Polygon {
-        rings,
-        mode: PaintMode::Fill,
-        winding_order: WindingOrder::EvenOdd,
-    };
+    let rings = contours.iter().map(|c| PolygonRing { points: line_points(&c.points) }).collect();
+    let polygon = Polygon { rings, mode: PaintMode::Fill, winding_order: WindingOrder::EvenOdd };
     ops.push(Op::SetFillColor { col: colour(fill) });
     ops.push(Op::DrawPolygon { polygon });
 }
 
 /// One `DrawLine` a contour, since `DrawPolygon` closes only its last ring when it strokes.
 fn push_stroke(ops: &mut Vec<Op>, contours: &[Polyline], stroke: &Stroke) {
-    let dash = stroke
-        .dash_mm
-        .iter()
-        .map(|&mm| pt(mm).0)
-        .collect::<Vec<_>>();
-    ops.push(Op::SetOutlineColor {
-        col: colour(stroke.colour),
-    });
-    ops.push(Op::SetOutlineThickness {
-        pt: pt(stroke.width_mm),
-    });
-    ops.push(Op::SetLineDashPattern {
-        dash: LineDashPattern::new(0.0, &dash),
-    });
+    let dash = stroke.dash_mm.iter().map(|&mm| pt(mm).0).collect::<Vec<_>>();
+    ops.push(Op::SetOutlineColor { col: colour(stroke.colour) });
+    ops.push(Op::SetOutlineThickness { pt: pt(stroke.width_mm) });
+    ops.push(Op::SetLineDashPattern { dash: LineDashPattern::new(0.0, &dash) });
     for contour in contours {
-        let line = Line {
-            points: line_points(&contour.points),
-            is_closed: contour.is_closed,
-        };
+        let line = Line { points: line_points(&contour.points), is_closed: contour.is_closed };
         ops.push(Op::DrawLine { line });
     }
 }
@@ -201,18 +140,11 @@ fn push_text(ops: &mut Vec<Op>, text: &Text) {
     let size = pt(text::em_mm(text.cap_height_mm));
     let content = text::printable(&text.content);
     ops.extend([
-        Op::SetFillColor {
-            col: colour(text.colour),
-        },
+        Op::SetFillColor { col: colour(text.colour) },
         Op::StartTextSection,
-        Op::SetFont {
-            font: PdfFontHandle::External(font_id()),
-            size,
-        },
+        Op::SetFont { font: PdfFontHandle::External(font_id()), size },
         Op::SetTextMatrix { matrix },
-        Op::ShowText {
-            items: vec![TextItem::Text(content)],
-        },
+        Op::ShowText { items: vec![TextItem::Text(content)] },
         Op::EndTextSection,
     ]);
 }
@@ -221,17 +153,9 @@ fn push_text(ops: &mut Vec<Op>, text: &Text) {
 fn colour(Rgb(red, green, blue): Rgb) -> Color {
     let [r, g, b] = [red, green, blue].map(|part| f32::from(part) / 255.0);
     if red == green && green == blue {
-        Color::Greyscale(Greyscale {
-            percent: r,
-            icc_profile: None,
-        })
+        Color::Greyscale(Greyscale { percent: r, icc_profile: None })
     } else {
-        Color::Rgb(printpdf::Rgb {
-            r,
-            g,
-            b,
-            icc_profile: None,
-        })
+        Color::Rgb(printpdf::Rgb { r, g, b, icc_profile: None })
     }
 }
 
@@ -241,20 +165,11 @@ fn pt(mm: f64) -> Pt {
 }
 
 fn point(p: DVec2) -> Point {
-    Point {
-        x: pt(p.x),
-        y: pt(p.y),
-    }
+    Point { x: pt(p.x), y: pt(p.y) }
 }
 
 fn line_points(points: &[DVec2]) -> Vec<LinePoint> {
-    points
-        .iter()
-        .map(|&p| LinePoint {
-            p: point(p),
-            bezier: false,
-        })
-        .collect()
+    points.iter().map(|&p| LinePoint { p: point(p), bezier: false }).collect()
 }
 
 #[cfg(test)]

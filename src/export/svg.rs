@@ -26,15 +26,8 @@ const DECIMALS: usize = 4;
 fn write(input: &ExportInput) -> Result<Vec<ExportFile>, ExportError> {
     let pages = input.pages()?.iter().enumerate();
     let file = |(index, drawing)| {
-        let page = Page {
-            drawing,
-            text_mode: input.text_mode(),
-            ids: BTreeSet::new(),
-        };
-        let svg = format!(
-            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}\n",
-            page.document()
-        );
+        let page = Page { drawing, text_mode: input.text_mode(), ids: BTreeSet::new() };
+        let svg = format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}\n", page.document());
         ExportFile::of_page(index, svg.into_bytes())
     };
     Ok(pages.map(file).collect())
@@ -55,10 +48,7 @@ impl Page<'_> {
             .set("width", format!("{width}mm"))
             .set("height", format!("{height}mm"))
             .set("viewBox", format!("0 0 {width} {height}"))
-            .set(
-                "xmlns:inkscape",
-                "http://www.inkscape.org/namespaces/inkscape",
-            )
+            .set("xmlns:inkscape", "http://www.inkscape.org/namespaces/inkscape")
             .add(Title::new(xml_text(&self.drawing.title)));
         if let Some(ground) = self.drawing.ground {
             let sheet = Rectangle::new().set("width", width).set("height", height);
@@ -83,11 +73,7 @@ impl Page<'_> {
             .set("inkscape:groupmode", "layer")
             .set("inkscape:label", layer.name());
         let drawing = self.drawing;
-        let marks = drawing
-            .marks
-            .iter()
-            .filter(|mark| mark.layer == layer)
-            .collect::<Vec<_>>();
+        let marks = drawing.marks.iter().filter(|mark| mark.layer == layer).collect::<Vec<_>>();
         for run in marks.chunk_by(|a, b| a.piece == b.piece) {
             let nodes = run.iter().map(|mark| self.mark(mark));
             match &run[0].piece {
@@ -104,11 +90,7 @@ impl Page<'_> {
 
     fn mark(&self, mark: &Mark) -> Box<dyn Node> {
         match &mark.shape {
-            Shape::Path {
-                contours,
-                stroke,
-                fill,
-            } => Box::new(self.path(contours, stroke, *fill)),
+            Shape::Path { contours, stroke, fill } => Box::new(self.path(contours, stroke, *fill)),
             Shape::Text(text) => match self.text_mode {
                 TextMode::Outlines => Box::new(self.outlined(text)),
                 TextMode::Text => Box::new(self.written(text)),
@@ -139,11 +121,7 @@ impl Page<'_> {
         if stroke.dash_mm.is_empty() {
             return path;
         }
-        let dash = stroke
-            .dash_mm
-            .iter()
-            .map(|&mm| number(mm))
-            .collect::<Vec<_>>();
+        let dash = stroke.dash_mm.iter().map(|&mm| number(mm)).collect::<Vec<_>>();
         path.set("stroke-dasharray", dash.join(" "))
     }
 
@@ -198,10 +176,7 @@ impl Page<'_> {
 
     /// An id made from a name: letters and digits stay, and a number is added where it is taken.
     fn new_id(&mut self, name: &str) -> String {
-        let slug = name
-            .chars()
-            .map(|c| if c.is_alphanumeric() { c } else { '-' })
-            .collect::<String>();
+        let slug = name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect::<String>();
         let mut id = slug.clone();
         let mut count = 1;
         while !self.ids.insert(id.clone()) {
@@ -214,10 +189,7 @@ impl Page<'_> {
 
 /// Without the control characters that XML forbids.
 fn xml_text(content: &str) -> String {
-    content
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect()
+    content.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 fn colour(Rgb(red, green, blue): Rgb) -> String {
@@ -228,11 +200,7 @@ fn colour(Rgb(red, green, blue): Rgb) -> String {
 fn number(value: f64) -> String {
     let text = format!("{value:.DECIMALS$}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" {
-        "0".to_owned()
-    } else {
-        text.to_owned()
-    }
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
 #[cfg(test)]
@@ -245,10 +213,7 @@ mod tests {
 
     fn written(pages: usize, text_mode: TextMode) -> Vec<String> {
         let files = write(&model(pages).with_text_mode(text_mode)).expect("can be written");
-        files
-            .into_iter()
-            .map(|file| String::from_utf8(file.bytes).expect("UTF-8"))
-            .collect()
+        files.into_iter().map(|file| String::from_utf8(file.bytes).expect("UTF-8")).collect()
     }
 
     fn groups<'a>(xml: &'a Xml) -> Vec<XmlNode<'a, 'a>> {
@@ -269,23 +234,16 @@ mod tests {
     #[test]
     fn one_file_a_sheet_in_millimetres() {
         let files = write(&model(2)).expect("can be written");
-        assert_eq!(
-            files.iter().map(|f| f.suffix.as_str()).collect::<Vec<_>>(),
-            ["-1", "-2"]
-        );
+        assert_eq!(files.iter().map(|f| f.suffix.as_str()).collect::<Vec<_>>(), ["-1", "-2"]);
         let text = &written(1, TextMode::Outlines)[0];
         let xml = Xml::parse(text).expect("valid XML");
         let root = xml.root_element();
         assert_eq!(root.attribute("width"), Some("210mm"));
         assert_eq!(root.attribute("height"), Some("297mm"));
         assert_eq!(root.attribute("viewBox"), Some("0 0 210 297"));
-        let title = xml
-            .descendants()
-            .find(|n| n.has_tag_name((root.tag_name().namespace().unwrap_or(""), "title")));
-        assert_eq!(
-            title.and_then(|t| t.text()).map(str::trim),
-            Some("teddy <3> 1/1")
-        );
+        let title =
+            xml.descendants().find(|n| n.has_tag_name((root.tag_name().namespace().unwrap_or(""), "title")));
+        assert_eq!(title.and_then(|t| t.text()).map(str::trim), Some("teddy <3> 1/1"));
     }
 
     #[test]
@@ -298,15 +256,9 @@ mod tests {
             .collect::<BTreeSet<_>>();
         let all = Layer::ALL.map(|layer| layer.name().to_owned());
         assert_eq!(labels, BTreeSet::from(all));
-        let ids = xml
-            .descendants()
-            .filter_map(|n| n.attribute("id"))
-            .collect::<Vec<_>>();
+        let ids = xml.descendants().filter_map(|n| n.attribute("id")).collect::<Vec<_>>();
         assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len());
-        assert!(
-            ids.contains(&"cut-head-1-2") && ids.contains(&"cut-head-2-2"),
-            "{ids:?}"
-        );
+        assert!(ids.contains(&"cut-head-1-2") && ids.contains(&"cut-head-2-2"), "{ids:?}");
     }
 
     #[test]
@@ -314,23 +266,14 @@ mod tests {
         let text = &written(1, TextMode::Outlines)[0];
         let xml = Xml::parse(text).expect("valid XML");
         let path = |id: &str| {
-            let group = xml
-                .descendants()
-                .find(|n| n.attribute("id") == Some(id))
-                .expect("group");
-            group
-                .descendants()
-                .find_map(|n| n.attribute("d"))
-                .expect("path")
-                .to_owned()
+            let group = xml.descendants().find(|n| n.attribute("id") == Some(id)).expect("group");
+            group.descendants().find_map(|n| n.attribute("d")).expect("path").to_owned()
         };
         // The first piece stands at (20, 40) from the bottom.
         assert_eq!(path("mountain-head-1-2"), "M20,249L50,249");
         assert!(path("cut-head-1-2").starts_with("M20,257L50,257L50,227L20,227ZM32,245"));
         // The second is turned, and keeps its length.
-        let [a, b] = points(&path("mountain-head-2-2"))[..] else {
-            panic!("not a segment")
-        };
+        let [a, b] = points(&path("mountain-head-2-2"))[..] else { panic!("not a segment") };
         assert!(((b - a).length() - 30.0).abs() < 2e-4);
         let bar = points(&path("furniture"));
         assert_eq!(bar[1] - bar[0], DVec2::new(100.0, 0.0));
@@ -346,12 +289,7 @@ mod tests {
                 let content = n.attribute("aria-label").or(n.text()).unwrap_or("").trim();
                 content == "A → 12"
             };
-            assert_eq!(
-                xml.descendants()
-                    .filter(|n| n.is_element() && says(n))
-                    .count(),
-                2
-            );
+            assert_eq!(xml.descendants().filter(|n| n.is_element() && says(n)).count(), 2);
             let has_text = xml.descendants().any(|n| n.tag_name().name() == "text");
             assert_eq!(has_text, text_mode == TextMode::Text);
         }
@@ -367,9 +305,6 @@ mod tests {
 
     #[test]
     fn the_same_input_gives_the_same_bytes() {
-        assert_eq!(
-            written(2, TextMode::Outlines),
-            written(2, TextMode::Outlines)
-        );
+        assert_eq!(written(2, TextMode::Outlines), written(2, TextMode::Outlines));
     }
 }

@@ -61,9 +61,8 @@ impl Hull {
         if points.iter().any(|p| !p.is_finite()) {
             return Err(HullError::NotFinite);
         }
-        let (lo, hi) = points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| {
-            (lo.min(p), hi.max(p))
-        });
+        let (lo, hi) =
+            points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)));
         let size = (hi - lo).max_element();
         if points.len() < 4 || size <= 0.0 {
             return Err(HullError::Flat);
@@ -130,7 +129,8 @@ impl Hull {
     /// The hull after a rigid motion.
     pub fn moved(&self, motion: &glam::DAffine3) -> Self {
         let vertices = self.vertices.iter().map(|v| motion.transform_point3(*v)).collect();
-        let facets = self.facets.iter().map(|f| Facet { plane: f.plane.moved(motion), outline: f.outline.clone() });
+        let facets =
+            self.facets.iter().map(|f| Facet { plane: f.plane.moved(motion), outline: f.outline.clone() });
         Self { vertices, facets: facets.collect() }
     }
 
@@ -257,7 +257,9 @@ fn merge_facets(points: &[DVec3], triangles: &[[usize; 3]], size: f64) -> Result
 
     // Grow each facet from its largest triangle, whose plane is the most trustworthy.
     let mut order: Vec<usize> = (0..triangles.len()).collect();
-    order.sort_by(|&i, &j| doubled[j].length_squared().total_cmp(&doubled[i].length_squared()).then(i.cmp(&j)));
+    order.sort_by(|&i, &j| {
+        doubled[j].length_squared().total_cmp(&doubled[i].length_squared()).then(i.cmp(&j))
+    });
     let mut facet_of = vec![usize::MAX; triangles.len()];
     let mut planes: Vec<Plane> = Vec::new();
     for seed in order {
@@ -273,7 +275,8 @@ fn merge_facets(points: &[DVec3], triangles: &[[usize; 3]], size: f64) -> Result
             let t = triangles[i];
             for k in 0..3 {
                 let Some(&next) = across.get(&(t[(k + 1) % 3], t[k])) else { continue };
-                let fits = || corner(&triangles[next]).iter().all(|&p| plane.distance(p).abs() <= COPLANAR * size);
+                let fits =
+                    || corner(&triangles[next]).iter().all(|&p| plane.distance(p).abs() <= COPLANAR * size);
                 if facet_of[next] == usize::MAX && fits() {
                     facet_of[next] = id;
                     stack.push(next);
@@ -295,7 +298,11 @@ fn merge_facets(points: &[DVec3], triangles: &[[usize; 3]], size: f64) -> Result
 }
 
 /// Joins the border edges of each facet into its outline.
-fn collect_hull(points: &[DVec3], planes: &[Plane], borders: &[BTreeMap<usize, usize>]) -> Result<Hull, HullError> {
+fn collect_hull(
+    points: &[DVec3],
+    planes: &[Plane],
+    borders: &[BTreeMap<usize, usize>],
+) -> Result<Hull, HullError> {
     let mut used = BTreeMap::new();
     let mut facets = Vec::new();
     for (plane, next) in planes.iter().zip(borders) {
@@ -352,7 +359,9 @@ mod tests {
         let hull = Hull::of_points(&grid_cube(8)).unwrap();
         assert!((hull.volume() - 1.0).abs() < 1e-8, "{}", hull.volume());
         assert_eq!(hull.facets().len(), 6);
-        assert!(hull.facets().iter().all(|f| hull.facet_points(f).all(|p| f.plane().distance(p).abs() < 1e-8)));
+        assert!(
+            hull.facets().iter().all(|f| hull.facet_points(f).all(|p| f.plane().distance(p).abs() < 1e-8))
+        );
     }
 
     #[test]
@@ -381,7 +390,8 @@ mod tests {
             state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
         };
-        let points: Vec<DVec3> = (0..3000).map(|_| DVec3::new(next(), next(), next()).normalize() * 50.0).collect();
+        let points: Vec<DVec3> =
+            (0..3000).map(|_| DVec3::new(next(), next(), next()).normalize() * 50.0).collect();
         let hull = Hull::of_points(&points).unwrap();
         for f in hull.facets() {
             assert!(points.iter().all(|&p| f.plane().distance(p) < 1e-6));

@@ -92,8 +92,7 @@ pub fn convex_overlap(a: &[DVec2], b: &[DVec2], tolerance_mm: f64) -> bool {
     let separated = |p: &[DVec2], q: &[DVec2]| {
         edges(p).any(|(s, e)| {
             let outward = -(e - s).perp().normalize_or_zero();
-            outward != DVec2::ZERO
-                && q.iter().all(|&x| outward.dot(x - s) >= -tolerance_mm)
+            outward != DVec2::ZERO && q.iter().all(|&x| outward.dot(x - s) >= -tolerance_mm)
         })
     };
     !a.is_empty() && !b.is_empty() && !separated(a, b) && !separated(b, a)

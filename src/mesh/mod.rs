@@ -108,19 +108,14 @@ impl Mesh {
         let (low, high) = self.bounds();
         let centre = low.midpoint(high);
         let six = |[a, b, c]: [DVec3; 3]| (a - centre).dot((b - centre).cross(c - centre));
-        (0..self.faces.len())
-            .map(|f| six(self.corners(f)))
-            .sum::<f64>()
-            / 6.0
+        (0..self.faces.len()).map(|f| six(self.corners(f))).sum::<f64>() / 6.0
     }
 }
 
 /// Smallest and largest coordinates of points.
 fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
     let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    points
-        .iter()
-        .fold(start, |(low, high), &p| (low.min(p), high.max(p)))
+    points.iter().fold(start, |(low, high), &p| (low.min(p), high.max(p)))
 }
 
 #[cfg(test)]
@@ -128,10 +123,6 @@ impl Mesh {
     /// A mesh as it is, unchecked, for the tests of other modules.
     pub(crate) fn for_tests(positions: Vec<DVec3>, faces: Vec<[u32; 3]>) -> Self {
         let input_face = (0..faces.len() as u32).collect();
-        Self {
-            positions,
-            faces,
-            input_face,
-        }
+        Self { positions, faces, input_face }
     }
 }

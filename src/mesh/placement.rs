@@ -40,16 +40,8 @@ impl Mesh {
         let centre = p.midpoint(q);
         let foot = DVec3::new(centre.x, centre.y, p.z.min(q.z));
         let transform = DAffine3::from_mat3_translation(linear, -foot);
-        let positions = self
-            .positions
-            .iter()
-            .map(|&p| transform.transform_point3(p))
-            .collect();
-        let scaled = Self {
-            positions,
-            faces: self.faces.clone(),
-            input_face: self.input_face.clone(),
-        };
+        let positions = self.positions.iter().map(|&p| transform.transform_point3(p)).collect();
+        let scaled = Self { positions, faces: self.faces.clone(), input_face: self.input_face.clone() };
         (scaled, transform)
     }
 }
@@ -60,21 +52,9 @@ mod tests {
     use crate::mesh::Soup;
 
     fn box_mesh() -> Mesh {
-        let corner = |k: u32| {
-            DVec3::new(
-                f64::from(k & 1),
-                f64::from(k >> 1 & 1) * 2.0,
-                f64::from(k >> 2) * 4.0,
-            )
-        };
-        let sides = [
-            [0, 2, 3, 1],
-            [4, 5, 7, 6],
-            [0, 1, 5, 4],
-            [2, 6, 7, 3],
-            [0, 4, 6, 2],
-            [1, 3, 7, 5],
-        ];
+        let corner =
+            |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1) * 2.0, f64::from(k >> 2) * 4.0);
+        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         let soup = Soup::new((0..8).map(corner).collect(), sides).unwrap();
         Mesh::from_soup(&soup).unwrap().0
     }
@@ -88,10 +68,7 @@ mod tests {
             assert!((high.z - height).abs() < 1e-12 && low.z.abs() < 1e-12);
             assert!((low + high).truncate().length() < 1e-12);
             assert!(((high - low).max_element() - 100.0).abs() < 1e-12);
-            assert!(
-                (scaled.volume() - 8.0 * 25.0f64.powi(3)).abs() < 1e-6,
-                "a mirror"
-            );
+            assert!((scaled.volume() - 8.0 * 25.0f64.powi(3)).abs() < 1e-6, "a mirror");
             for (p, q) in mesh.positions().iter().zip(scaled.positions()) {
                 assert_eq!(transform.transform_point3(*p), *q);
             }

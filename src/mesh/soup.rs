@@ -69,11 +69,7 @@ impl Soup {
             corners.extend_from_slice(polygon);
             ends.push(u32::try_from(corners.len()).map_err(|_| SoupError::TooLarge)?);
         }
-        Ok(Self {
-            positions,
-            corners,
-            ends,
-        })
+        Ok(Self { positions, corners, ends })
     }
 
     /// Vertex positions, in the file's units.
@@ -110,18 +106,8 @@ mod tests {
     #[test]
     fn bad_input_is_refused() {
         let index = Soup::new(vec![DVec3::ZERO; 2], [[0, 1, 2]]);
-        assert_eq!(
-            index,
-            Err(SoupError::Index {
-                face: 0,
-                index: 2,
-                count: 2
-            })
-        );
-        let nan = Soup::new(
-            vec![DVec3::ZERO, DVec3::new(0.0, f64::NAN, 0.0)],
-            [[0, 1, 1]],
-        );
+        assert_eq!(index, Err(SoupError::Index { face: 0, index: 2, count: 2 }));
+        let nan = Soup::new(vec![DVec3::ZERO, DVec3::new(0.0, f64::NAN, 0.0)], [[0, 1, 1]]);
         assert!(matches!(nan, Err(SoupError::NotFinite { vertex: 1, .. })));
     }
 }

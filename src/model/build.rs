@@ -163,8 +163,10 @@ impl Builder<'_> {
             })
             .collect::<Option<Vec<_>>>()
             .ok_or_else(|| ModelError::NoJointPanel(part.options.name.clone()))?;
-        let direction_rad =
-            part.options.direction_rad.unwrap_or_else(|| principal.angle_rad(chosen.frame.transform_vector3(DVec3::Z)));
+        let direction_rad = part
+            .options
+            .direction_rad
+            .unwrap_or_else(|| principal.angle_rad(chosen.frame.transform_vector3(DVec3::Z)));
         Ok(Made { component, frame: chosen.frame, direction_rad, joints })
     }
 
@@ -239,7 +241,8 @@ impl Builder<'_> {
     /// Middle of the place where two parts meet: of the sections of their hulls by the plane.
     fn centre(&self, link: &Link, fallback: DVec3) -> DVec3 {
         let sections = [link.parent, link.child].map(|p| self.parts[p].hull.section(&link.plane));
-        let smaller = sections.into_iter().filter(|s| s.len() >= 3).min_by(|a, b| radius(a).total_cmp(&radius(b)));
+        let smaller =
+            sections.into_iter().filter(|s| s.len() >= 3).min_by(|a, b| radius(a).total_cmp(&radius(b)));
         smaller.map_or(fallback, |s| s.iter().sum::<DVec3>() / s.len() as f64)
     }
 
@@ -301,7 +304,8 @@ fn place(parts: &[Part], links: &[Link], made: Vec<Made>) -> Result<Model, Model
         })
         .collect();
     for link in links {
-        let (up_plane, parent_panel) = made[link.parent].joint(link.child).ok_or_else(|| lost(link.parent))?;
+        let (up_plane, parent_panel) =
+            made[link.parent].joint(link.child).ok_or_else(|| lost(link.parent))?;
         let (own_plane, child_panel) = made[link.child].joint(link.parent).ok_or_else(|| lost(link.child))?;
         let centre = made[link.child].panel_outline(child_panel).iter().sum::<DVec3>()
             / made[link.child].component.panels().panel(child_panel).outline.len() as f64;

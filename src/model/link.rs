@@ -99,7 +99,8 @@ fn fallback(centre: DVec3) -> Plane {
 
 /// The larger share of volume that the plane cuts off either hull.
 fn cut_off(plane: &Plane, parent: &Hull, child: &Hull) -> f64 {
-    let lost = |hull: &Hull, plane: &Plane| 1.0 - hull.clip(plane).map_or(0.0, |h| h.volume()) / hull.volume();
+    let lost =
+        |hull: &Hull, plane: &Plane| 1.0 - hull.clip(plane).map_or(0.0, |h| h.volume()) / hull.volume();
     lost(parent, plane).max(lost(child, &plane.flipped()))
 }
 

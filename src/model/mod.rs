@@ -82,7 +82,11 @@ impl Model {
 
     /// The outline of one side of a joint, in the plane coordinates of the other side's panel:
     /// `(part, panel)` as seen on `(on_part, on_panel)`.
-    pub fn outline_on(&self, (part, panel): (usize, PanelId), (on_part, on_panel): (usize, PanelId)) -> Vec<DVec2> {
+    pub fn outline_on(
+        &self,
+        (part, panel): (usize, PanelId),
+        (on_part, on_panel): (usize, PanelId),
+    ) -> Vec<DVec2> {
         let base = &self.parts[on_part];
         let back = (base.deployed() * base.component.panels().panel(on_panel).deployed).inverse();
         let mut outline: Vec<DVec2> = self

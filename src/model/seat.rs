@@ -124,7 +124,8 @@ pub fn level_axis(axis: DVec3, plane_normal: DVec3) -> DVec3 {
 /// The rigid motion about `centre` that turns plane `from` into plane `to`.
 pub fn turn_onto(from: &Plane, to: &Plane, centre: DVec3) -> DAffine3 {
     let turn = glam::DQuat::from_rotation_arc(from.normal(), to.normal());
-    let about = DAffine3::from_translation(centre) * DAffine3::from_quat(turn) * DAffine3::from_translation(-centre);
+    let about =
+        DAffine3::from_translation(centre) * DAffine3::from_quat(turn) * DAffine3::from_translation(-centre);
     let turned = from.moved(&about);
     DAffine3::from_translation(to.normal() * (to.offset() - turned.offset())) * about
 }
@@ -170,6 +171,8 @@ mod tests {
         let to = Plane::through(DVec3::new(1.0, 2.0, 3.5), DVec3::new(0.0, -0.1, 1.0)).unwrap();
         let motion = turn_onto(&from, &to, DVec3::new(1.0, 2.0, 3.0));
         let moved = from.moved(&motion);
-        assert!((moved.normal() - to.normal()).length() < 1e-12 && (moved.offset() - to.offset()).abs() < 1e-12);
+        assert!(
+            (moved.normal() - to.normal()).length() < 1e-12 && (moved.offset() - to.offset()).abs() < 1e-12
+        );
     }
 }

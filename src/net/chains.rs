@@ -65,8 +65,5 @@ impl Chains {
 }
 
 fn hinge_between(set: &PanelSet, upper: PanelId, lower: PanelId) -> Option<HingeId> {
-    set.hinges()
-        .iter()
-        .position(|h| h.sides[0].panel == upper && h.sides[1].panel == lower)
-        .map(HingeId)
+    set.hinges().iter().position(|h| h.sides[0].panel == upper && h.sides[1].panel == lower).map(HingeId)
 }

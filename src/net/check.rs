@@ -183,19 +183,15 @@ fn tabs(set: &PanelSet, net: &Net, out: &mut Vec<NetFault>) {
 }
 
 fn texts(piece: &Piece, out: &mut Vec<NetFault>) {
-    let faces: Vec<Vec<DVec2>> =
-        (0..piece.mesh().faces().len()).map(|f| piece.mesh().outline(f)).collect();
+    let faces: Vec<Vec<DVec2>> = (0..piece.mesh().faces().len()).map(|f| piece.mesh().outline(f)).collect();
     let mut before: Vec<[DVec2; 4]> = Vec::new();
     for label in piece.labels() {
         let along = DVec2::from_angle(label.angle_rad);
-        let (start, up) =
-            (label.anchor - along * label.width_mm / 2.0, along.perp() * label.cap_height_mm);
+        let (start, up) = (label.anchor - along * label.width_mm / 2.0, along.perp() * label.cap_height_mm);
         let end = start + along * label.width_mm;
         let letters = [start, end, end + up, start + up];
-        let is_on_one =
-            faces.iter().any(|f| letters.iter().all(|&p| depth_outside(f, p) < ROUNDING_MM));
-        let is_on_text =
-            before.iter().any(|b| area(&intersect_convex(b, &letters)).abs() > OVERLAP_MM2);
+        let is_on_one = faces.iter().any(|f| letters.iter().all(|&p| depth_outside(f, p) < ROUNDING_MM));
+        let is_on_text = before.iter().any(|b| area(&intersect_convex(b, &letters)).abs() > OVERLAP_MM2);
         let problems = [
             (label.cap_height_mm < LEAST_CAP_MM, "is too small"),
             (!is_on_one, "is not within one panel or tab"),

@@ -67,7 +67,15 @@ mod tests {
     #[test]
     fn sides_of_different_length_leave_the_rest() {
         let at = |x: f64, y: f64| DVec2::new(x, y);
-        let walk = vec![at(0.0, 0.0), at(9.0, 0.0), at(9.0, 9.0), at(5.0, 9.0), at(5.0, 3.0), at(5.0, 7.0), at(0.0, 7.0)];
+        let walk = vec![
+            at(0.0, 0.0),
+            at(9.0, 0.0),
+            at(9.0, 9.0),
+            at(5.0, 9.0),
+            at(5.0, 3.0),
+            at(5.0, 7.0),
+            at(0.0, 7.0),
+        ];
         let lines = cut_lines(walk);
         assert_eq!(lines.slits, vec![vec![at(5.0, 3.0), at(5.0, 7.0)]]);
         assert!((crate::geom::polygon::area(&lines.outline) - (9.0 * 9.0 - 5.0 * 2.0)).abs() < 1e-12);

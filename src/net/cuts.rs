@@ -7,16 +7,15 @@
 //! not do, all chains are cut (two pieces), or some at two hinges (a strip apart).
 
 use super::chains::{Chain, Chains};
-use super::layout::{self, across, best_turn, clash, placed_outline};
-use crate::component::{HingeId, PanelId, PanelSet};
+use super::extent::Extent;
+use super::layout::{across, best_turn, clash, placed_outline};
+use crate::component::{HingeId, PanelSet};
 use glam::{DAffine2, DVec2};
 
 /// Nodes visited for one choice of the uncut chain.
 const NODE_BUDGET: usize = 20_000;
 /// Best results that are kept to be tried with tabs.
 const KEEP: usize = 16;
-/// Directions in which partial layouts are measured, over half a turn.
-const DIRECTIONS: usize = 36;
 /// Weight of the bounding box (over the panels' area) against the cost of one cut: a box larger by
 /// the area of all panels is worth three cuts between top and bottom.
 const BOX_WEIGHT: f64 = 1.2;
@@ -74,49 +73,6 @@ impl Problem<'_> {
 
     fn chain(&self, j: usize) -> &Chain {
         &self.chains.chains[j]
-    }
-}
-
-/// Extent of points in [`DIRECTIONS`] directions.
-#[derive(Clone)]
-struct Extent([(f64, f64); DIRECTIONS]);
-
-impl Extent {
-    fn empty() -> Self {
-        Self([(f64::INFINITY, f64::NEG_INFINITY); DIRECTIONS])
-    }
-
-    fn add(&mut self, points: &[DVec2]) {
-        for (k, (lo, hi)) in self.0.iter_mut().enumerate() {
-            let direction = DVec2::from_angle(k as f64 * std::f64::consts::PI / DIRECTIONS as f64);
-            for p in points {
-                let x = direction.dot(*p);
-                *lo = lo.min(x);
-                *hi = hi.max(x);
-            }
-        }
-    }
-
-    fn join(&mut self, other: &Self) {
-        for (mine, theirs) in self.0.iter_mut().zip(&other.0) {
-            *mine = (mine.0.min(theirs.0), mine.1.max(theirs.1));
-        }
-    }
-
-    fn boxes(&self) -> impl Iterator<Item = DVec2> + '_ {
-        let width = |k: usize| self.0[k].1 - self.0[k].0;
-        (0..DIRECTIONS)
-            .map(move |k| DVec2::new(width(k), width((k + DIRECTIONS / 2) % DIRECTIONS)))
-    }
-
-    fn box_area(&self) -> f64 {
-        self.boxes().map(|b| b.element_product()).fold(f64::INFINITY, f64::min)
-    }
-
-    /// False only where the points surely do not fit: between two directions 5° apart a box
-    /// seems larger than the smallest one by less than 5%.
-    fn may_fit(&self, sheet_mm: DVec2) -> bool {
-        self.boxes().any(|b| b.cmple(sheet_mm * 1.05).all())
     }
 }
 
@@ -203,13 +159,7 @@ impl<'a> Mode<'a> {
         mode
     }
 
-    fn chain_choices(
-        &mut self,
-        j: usize,
-        bottom: DAffine2,
-        below: usize,
-        has_strips: bool,
-    ) -> Vec<Choice> {
+    fn chain_choices(&mut self, j: usize, bottom: DAffine2, below: usize, has_strips: bool) -> Vec<Choice> {
         let set = self.problem.set;
         let chain = self.problem.chain(j);
         let upper = hang(set, chain, DAffine2::IDENTITY, true);
@@ -225,8 +175,7 @@ impl<'a> Mode<'a> {
             .flat_map(|from| (from..=if has_strips { count } else { from }).map(move |to| (from, to)))
             .filter(|&(from, to)| self.may_cut(chain, from, to, &upper))
             .map(|(from, to)| {
-                let items: Vec<usize> =
-                    (0..from).chain(count + to..2 * count).map(|i| start + i).collect();
+                let items: Vec<usize> = (0..from).chain(count + to..2 * count).map(|i| start + i).collect();
                 let mut extent = [Extent::empty(), Extent::empty()];
                 for &i in &items {
                     extent[self.items[i].piece].add(&self.items[i].outline);
@@ -247,19 +196,15 @@ impl<'a> Mode<'a> {
     fn may_cut(&self, chain: &Chain, from: usize, to: usize, places: &[DAffine2]) -> bool {
         let Problem { set, sheet_mm, may_cut_folds, .. } = *self.problem;
         let is_allowed = |k: usize| may_cut_folds || !set.hinges()[chain.hinges[k].0].is_fold;
-        let strip: Vec<DVec2> = (from..to)
-            .flat_map(|i| placed_outline(set, chain.panels[i], places[i]))
-            .collect();
+        let strip: Vec<DVec2> =
+            (from..to).flat_map(|i| placed_outline(set, chain.panels[i], places[i])).collect();
         is_allowed(from) && is_allowed(to) && (from == to || best_turn(&strip, sheet_mm).fits())
     }
 
     /// Which choices go together, and with themselves and the fixed panels.
     fn tabulate(&mut self) {
-        let clashes: Vec<Vec<bool>> = self
-            .items
-            .iter()
-            .map(|a| self.items.iter().map(|b| a.clashes_with(b)).collect())
-            .collect();
+        let clashes: Vec<Vec<bool>> =
+            self.items.iter().map(|a| self.items.iter().map(|b| a.clashes_with(b)).collect()).collect();
         let fixed: Vec<usize> = (0..self.fixed_items).collect();
         for choices in &mut self.choices {
             choices.retain(|c| {
@@ -276,11 +221,8 @@ impl<'a> Mode<'a> {
                     .collect()
             })
             .collect();
-        self.first_number = self
-            .choices
-            .iter()
-            .scan(0, |sum, c| Some(std::mem::replace(sum, *sum + c.len())))
-            .collect();
+        self.first_number =
+            self.choices.iter().scan(0, |sum, c| Some(std::mem::replace(sum, *sum + c.len()))).collect();
         let mut sum = 0.0;
         self.cheapest_from = vec![0.0; self.choices.len() + 1];
         for j in (0..self.choices.len()).rev() {
@@ -350,7 +292,7 @@ impl<'a> Mode<'a> {
     }
 
     fn pieces<'e>(&self, extent: &'e [Extent; 2]) -> impl Iterator<Item = &'e Extent> {
-        extent.iter().filter(|e| e.0[0].0.is_finite())
+        extent.iter().filter(|e| !e.is_empty())
     }
 
     fn box_cost(&self, extent: &[Extent; 2]) -> f64 {
@@ -369,44 +311,8 @@ fn hang(set: &PanelSet, chain: &Chain, from: DAffine2, is_from_top: bool) -> Vec
     if is_from_top {
         chain.hinges.iter().map(|&h| step(h, 0)).collect()
     } else {
-        let mut places: Vec<DAffine2> =
-            chain.hinges[1..].iter().rev().map(|&h| step(h, 1)).collect();
+        let mut places: Vec<DAffine2> = chain.hinges[1..].iter().rev().map(|&h| step(h, 1)).collect();
         places.reverse();
         places
     }
-}
-
-/// Pieces that result from cutting where a piece is no good: starting with `is_cut`, cuts one
-/// more hinge of each bad piece, the one whose halves are best, until every piece is good or a
-/// single panel.
-pub(crate) fn divide(problem: &Problem<'_>, mut is_cut: Vec<bool>) -> Vec<bool> {
-    while let Some(bad) = layout::pieces(problem.set, &is_cut)
-        .into_iter()
-        .find(|piece| piece.panels.len() > 1 && badness(problem, piece) > 0.0)
-    {
-        let ids: Vec<PanelId> = bad.panels.iter().map(|p| p.0).collect();
-        let cost_of = |hinge: HingeId| {
-            let mut trial = is_cut.clone();
-            trial[hinge.0] = true;
-            let halves = layout::pieces(problem.set, &trial);
-            let halves = halves.iter().filter(|l| l.panels.iter().any(|p| ids.contains(&p.0)));
-            1e3 * halves.map(|l| badness(problem, l)).sum::<f64>() + problem.cut_cost[hinge.0]
-        };
-        let costs: Vec<(f64, HingeId)> = bad.creases.iter().map(|&h| (cost_of(h), h)).collect();
-        let Some((_, hinge)) = costs.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)) else { break };
-        is_cut[hinge.0] = true;
-    }
-    is_cut
-}
-
-/// 0 for a piece without overlap that fits; else the number of overlapping pairs and how much
-/// it is too large.
-fn badness(problem: &Problem<'_>, piece: &layout::Layout) -> f64 {
-    let outlines = piece.outlines(problem.set);
-    let pairs = outlines.iter().enumerate().flat_map(|(k, a)| {
-        outlines[..k].iter().map(move |b| f64::from(u8::from(clash(a, b, PANEL_GAP_MM))))
-    });
-    let points: Vec<DVec2> = outlines.iter().flatten().copied().collect();
-    let scale = best_turn(&points, problem.sheet_mm).scale;
-    pairs.sum::<f64>() + (1.0 / scale - 1.0).max(0.0)
 }

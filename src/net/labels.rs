@@ -3,6 +3,7 @@
 use super::mesh::{EdgeKind, FaceKind, PieceMesh};
 use super::{JointMark, Label, LabelKind, PlacedJoint, Tab};
 use crate::component::PanelId;
+use crate::drawing::text;
 use crate::geom::polygon::{self, convex_overlap, depth_outside, intersect_convex};
 use glam::{DAffine2, DVec2};
 
@@ -26,7 +27,9 @@ const GRID: usize = 12;
 /// Puts texts on a piece, keeping them off lines and each other.
 pub(crate) struct Placer<'a> {
     mesh: &'a PieceMesh,
-    taken: Vec<[DVec2; 4]>,
+    taken: Vec<Vec<DVec2>>,
+    /// What is glued on: only labels of the edges in it and its own text go there.
+    covered: Vec<Vec<DVec2>>,
     /// Lines within panels that no text may cross.
     lines: Vec<[DVec2; 2]>,
     labels: Vec<Label>,
@@ -35,7 +38,14 @@ pub(crate) struct Placer<'a> {
 
 impl<'a> Placer<'a> {
     pub(crate) fn new(mesh: &'a PieceMesh) -> Self {
-        Self { mesh, taken: Vec::new(), lines: Vec::new(), labels: Vec::new(), unplaced: Vec::new() }
+        Self {
+            mesh,
+            taken: Vec::new(),
+            covered: Vec::new(),
+            lines: Vec::new(),
+            labels: Vec::new(),
+            unplaced: Vec::new(),
+        }
     }
 
     /// Labels that found a place, and texts that did not.
@@ -56,8 +66,7 @@ impl<'a> Placer<'a> {
                 continue;
             };
             let panel = self.mesh.outline(face);
-            let outline: Vec<DVec2> =
-                mark.outline.iter().map(|&p| place.transform_point2(p)).collect();
+            let outline: Vec<DVec2> = mark.outline.iter().map(|&p| place.transform_point2(p)).collect();
             let inside = intersect_convex(&panel, &outline);
             if inside.is_empty() {
                 self.unplaced.push(mark.text.clone());
@@ -66,10 +75,13 @@ impl<'a> Placer<'a> {
             let key = key_triangle(&inside, place.transform_point2(mark.key));
             self.lines.extend(polygon::edges(&inside).map(|(a, b)| [a, b]));
             self.lines.extend(polygon::edges(&key).map(|(a, b)| [a, b]));
-            let faces = [inside.clone(), panel];
-            if !self.in_area(&faces, &mark.text, LabelKind::Joint) {
+            let is_placed = [&inside, &panel]
+                .iter()
+                .any(|area| self.in_area(area, &mark.text, &NAME_CAPS_MM, LabelKind::Joint));
+            if !is_placed {
                 self.unplaced.push(mark.text.clone());
             }
+            self.covered.push(inside.clone());
             out.push(PlacedJoint { panel: mark.panel, outline: inside, key });
         }
         out
@@ -79,7 +91,9 @@ impl<'a> Placer<'a> {
     /// edge. `label_of` gives the label of a cut hinge.
     pub(crate) fn glued(&mut self, tabs: &[Tab], label_of: impl Fn(&EdgeKind) -> Option<String>) {
         for edge in self.mesh.edges() {
-            let Some(text) = label_of(&edge.kind) else { continue };
+            let Some(text) = label_of(&edge.kind) else {
+                continue;
+            };
             let [a, b] = self.mesh.segment(edge);
             let panel = self.mesh.outline(edge.faces[0]);
             let is_placed = match edge.kind {
@@ -107,7 +121,11 @@ impl<'a> Placer<'a> {
             .map(|(k, _)| self.mesh.outline(k))
             .collect();
         panels.sort_by(|a, b| polygon::area(b).total_cmp(&polygon::area(a)));
-        if !self.in_area(&panels, name, LabelKind::Name) {
+        self.taken.append(&mut self.covered);
+        let is_placed = NAME_CAPS_MM
+            .iter()
+            .any(|cap| panels.iter().any(|p| self.in_area(p, name, &[*cap], LabelKind::Name)));
+        if !is_placed {
             self.unplaced.push(name.to_owned());
         }
     }
@@ -121,9 +139,9 @@ impl<'a> Placer<'a> {
         let inward = base.perp().normalize_or_zero();
         let half_width = inward.dot(tab[2] - tab[0]) / 2.0;
         let middle = |t: f64| tab[0] + base * t + inward * half_width;
-        LABEL_CAPS_MM.iter().any(|&cap| {
-            ALONG.iter().any(|&t| self.put(tab, middle(t), base, cap, text, LabelKind::Tab))
-        })
+        LABEL_CAPS_MM
+            .iter()
+            .any(|&cap| ALONG.iter().any(|&t| self.put(tab, middle(t), base, cap, text, LabelKind::Tab)))
     }
 
     fn along(&mut self, edge: [DVec2; 2], panel: &[DVec2], text: &str, kind: LabelKind) -> bool {
@@ -139,20 +157,19 @@ impl<'a> Placer<'a> {
         })
     }
 
-    /// Tries the areas in order, upright, from their middle outwards, then with smaller letters.
-    fn in_area(&mut self, areas: &[Vec<DVec2>], text: &str, kind: LabelKind) -> bool {
-        NAME_CAPS_MM.iter().any(|&cap| {
-            areas.iter().any(|area| {
-                let Some((lo, hi)) = polygon::bounds(area.iter().copied()) else { return false };
-                let middle = polygon::centroid(area);
-                let mut spots: Vec<DVec2> = (0..=GRID * GRID)
-                    .map(|k| DVec2::new((k % GRID) as f64 + 0.5, (k / GRID) as f64 + 0.5))
-                    .map(|k| lo + (hi - lo) * k / GRID as f64)
-                    .collect();
-                spots.sort_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle)));
-                [middle].iter().chain(&spots).any(|&at| self.put(area, at, DVec2::X, cap, text, kind))
-            })
-        })
+    /// Tries an area from its middle outwards, with each height of `caps_mm` in turn.
+    fn in_area(&mut self, area: &[DVec2], content: &str, caps_mm: &[f64], kind: LabelKind) -> bool {
+        let Some((lo, hi)) = polygon::bounds(area.iter().copied()) else {
+            return false;
+        };
+        let middle = polygon::centroid(area);
+        let mut spots: Vec<DVec2> = (0..GRID * GRID)
+            .map(|k| DVec2::new((k % GRID) as f64 + 0.5, (k / GRID) as f64 + 0.5))
+            .map(|k| lo + (hi - lo) * k / GRID as f64)
+            .collect();
+        spots.sort_by(|a, b| a.distance(middle).total_cmp(&b.distance(middle)));
+        spots.insert(0, middle);
+        caps_mm.iter().any(|&cap| spots.iter().any(|&at| self.put(area, at, DVec2::X, cap, content, kind)))
     }
 
     /// Puts a text with its middle at `centre` if it stays inside `area` and off everything else.
@@ -162,11 +179,11 @@ impl<'a> Placer<'a> {
         centre: DVec2,
         direction: DVec2,
         cap_height_mm: f64,
-        text: &str,
+        content: &str,
         kind: LabelKind,
     ) -> bool {
         let along = upright(direction);
-        let half = DVec2::new(text_width_mm(text, cap_height_mm), cap_height_mm) / 2.0;
+        let half = DVec2::new(text::width_mm(content, cap_height_mm), cap_height_mm) / 2.0;
         let corner = |x: f64, y: f64| centre + along * (half.x * x) + along.perp() * (half.y * y);
         let letters = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
         let is_inside = letters.iter().all(|&p| depth_outside(area, p) <= -LINE_GAP_MM);
@@ -174,10 +191,10 @@ impl<'a> Placer<'a> {
             && !self.taken.iter().any(|t| convex_overlap(&letters, t, -TEXT_GAP_MM))
             && !self.lines.iter().any(|l| convex_overlap(&letters, l, -LINE_GAP_MM));
         if is_free {
-            self.taken.push(letters);
+            self.taken.push(letters.to_vec());
             self.labels.push(Label {
                 kind,
-                text: text.to_owned(),
+                text: content.to_owned(),
                 anchor: centre - along.perp() * half.y,
                 angle_rad: along.to_angle(),
                 cap_height_mm,
@@ -211,8 +228,4 @@ fn key_triangle(area: &[DVec2], key: DVec2) -> [DVec2; 3] {
     let tip = middle + direction * reach;
     let base = tip - direction * size;
     [tip, base + direction.perp() * (size / 2.0), base - direction.perp() * (size / 2.0)]
-}
-
-fn text_width_mm(text: &str, cap_height_mm: f64) -> f64 {
-    text.chars().count() as f64 * cap_height_mm * 0.92
 }

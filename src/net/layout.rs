@@ -73,14 +73,15 @@ pub(crate) fn pieces(set: &PanelSet, is_cut: &[bool]) -> Vec<Layout> {
             continue;
         }
         place[root] = Some(DAffine2::IDENTITY);
-        let mut layout =
-            Layout { panels: vec![(PanelId(root), DAffine2::IDENTITY)], creases: Vec::new() };
+        let mut layout = Layout { panels: vec![(PanelId(root), DAffine2::IDENTITY)], creases: Vec::new() };
         let mut next = 0;
         while next < layout.panels.len() {
             let (from, at) = layout.panels[next];
             next += 1;
             for (id, hinge) in set.hinges().iter().enumerate().filter(|(id, _)| !is_cut[*id]) {
-                let Some(side) = hinge.sides.iter().position(|s| s.panel == from) else { continue };
+                let Some(side) = hinge.sides.iter().position(|s| s.panel == from) else {
+                    continue;
+                };
                 let to = hinge.sides[1 - side].panel;
                 if place[to.0].is_none() {
                     let there = at * across(set, HingeId(id), side);

@@ -108,7 +108,9 @@ impl PieceMesh {
             .collect();
         for (k, (tab, outline)) in tabs.iter().enumerate() {
             let on = set.hinges()[tab.hinge.0].sides[tab.side];
-            let Some(at) = layout.panels.iter().position(|p| p.0 == on.panel) else { continue };
+            let Some(at) = layout.panels.iter().position(|p| p.0 == on.panel) else {
+                continue;
+            };
             let carrier = &faces[at].vertices;
             let base = [carrier[(on.edge + 1) % carrier.len()], carrier[on.edge]];
             let first = vertices.len();
@@ -167,7 +169,9 @@ impl PieceMesh {
             }
         }
         let is_border = |&(a, b): &(usize, usize)| !next.contains_key(&(b, a));
-        let Some(start) = next.keys().copied().find(is_border) else { return Vec::new() };
+        let Some(start) = next.keys().copied().find(is_border) else {
+            return Vec::new();
+        };
         let mut walk = Vec::new();
         let mut at = start;
         loop {
@@ -184,12 +188,7 @@ impl PieceMesh {
     }
 }
 
-fn edges(
-    set: &PanelSet,
-    layout: &Layout,
-    tabs: &[(Placed, [DVec2; 4])],
-    faces: &[Face],
-) -> Vec<Edge> {
+fn edges(set: &PanelSet, layout: &Layout, tabs: &[(Placed, [DVec2; 4])], faces: &[Face]) -> Vec<Edge> {
     let hinge_at: BTreeMap<(PanelId, usize), HingeId> = set
         .hinges()
         .iter()
@@ -202,9 +201,8 @@ fn edges(
             None => EdgeKind::Slit,
             Some(h) if layout.creases.contains(h) => EdgeKind::Hinge(*h),
             Some(h) => {
-                let is_tab = tabs.iter().any(|(t, _)| {
-                    t.hinge == *h && set.hinges()[h.0].sides[t.side].panel == panel
-                });
+                let is_tab =
+                    tabs.iter().any(|(t, _)| t.hinge == *h && set.hinges()[h.0].sides[t.side].panel == panel);
                 if is_tab { EdgeKind::Tab(*h) } else { EdgeKind::Mate(*h) }
             }
         },

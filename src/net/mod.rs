@@ -12,6 +12,9 @@ pub mod check;
 mod contour;
 mod cuts;
 mod develop;
+mod divide;
+mod extent;
+mod finish;
 mod labels;
 mod layout;
 mod marks;
@@ -21,8 +24,8 @@ mod tabs;
 
 pub use develop::{Naming, NetError, NetOptions, develop};
 pub use marks::MarkOptions;
-pub use of_model::{NetsError, develop_model};
 pub use mesh::{Corner, Edge, EdgeKind, Face, FaceKind, PieceMesh, Vertex};
+pub use of_model::{NetsError, develop_model};
 
 use crate::component::{HingeId, PanelId};
 use glam::{DAffine2, DVec2};
@@ -248,7 +251,10 @@ impl std::fmt::Display for NetWarning {
                 write!(f, "there is no room for a tab at {label}; join its two edges with a strip of paper")
             }
             NetWarning::CutFoldHinge { label } => {
-                write!(f, "the hinge at {label} folds flat and had to be cut; join it with tape so that it can move")
+                write!(
+                    f,
+                    "the hinge at {label} folds flat and had to be cut; join it with tape so that it can move"
+                )
             }
             NetWarning::UnplacedLabel { piece, text } => {
                 write!(f, "the label {text} has no room on {piece}; it is listed on its sheet")

@@ -23,7 +23,11 @@ pub enum NetsError {
 ///
 /// # Errors
 /// The first component's error; of panels that are too large, the one that is the most so.
-pub fn develop_model(model: &Model, options: &NetOptions, progress: &dyn Progress) -> Result<Vec<Net>, NetsError> {
+pub fn develop_model(
+    model: &Model,
+    options: &NetOptions,
+    progress: &dyn Progress,
+) -> Result<Vec<Net>, NetsError> {
     let nets: Vec<Result<Net, NetsError>> = (0..model.parts().len())
         .into_par_iter()
         .map(|p| {

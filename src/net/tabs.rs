@@ -89,17 +89,13 @@ fn side_shapes(set: &PanelSet, hinge: HingeId, side: usize, tab_width_mm: f64) -
                 let runs_on = (far - near).dot(base[0] - base[1]) > 0.0;
                 let is_inside = [near, far].iter().all(|&p| depth_outside(&mate, p) <= -MATE_INSET_MM);
                 if runs_on && top >= LEAST_TOP_MM && is_inside {
-                    out.push(shape);
+                    out.push(((length + top) / 2.0 * width_mm, shape));
                 }
             }
         }
     }
-    let area = |s: &Shape| {
-        let [p, q, r, t] = s.outline(base);
-        (p.distance(q) + r.distance(t)) / 2.0 * s.width_mm
-    };
-    out.sort_by(|x, y| area(y).total_cmp(&area(x)));
-    out
+    out.sort_by(|x: &(f64, Shape), y| y.0.total_cmp(&x.0));
+    out.into_iter().map(|(_, shape)| shape).collect()
 }
 
 /// Widest tab that a hinge's geometry allows on either side; 0 where none fits.
@@ -150,7 +146,9 @@ impl<'a> Board<'a> {
                     Some((shape.width_mm + self.ease(hinge, side), side, shape))
                 })
                 .reduce(|a, b| if b.0 > a.0 { b } else { a });
-            let Some((_, side, shape)) = best else { return Err(hinge) };
+            let Some((_, side, shape)) = best else {
+                return Err(hinge);
+            };
             self.put(hinge, side, shape);
             out.push(Placed { hinge, side, shape });
         }
@@ -179,13 +177,7 @@ impl<'a> Board<'a> {
         })
     }
 
-    fn best_shape(
-        &self,
-        hinge: HingeId,
-        side: usize,
-        shapes: &[Shape],
-        least_mm: f64,
-    ) -> Option<Shape> {
+    fn best_shape(&self, hinge: HingeId, side: usize, shapes: &[Shape], least_mm: f64) -> Option<Shape> {
         let (piece, own, place) = self.carrier(hinge, side)?;
         let sides = self.set.hinges()[hinge.0].sides;
         let (base, mate) = (edge(self.set, sides[side]), sides[1 - side].panel);
@@ -213,7 +205,9 @@ impl<'a> Board<'a> {
     }
 
     fn put(&mut self, hinge: HingeId, side: usize, shape: Shape) {
-        let Some((piece, _, place)) = self.carrier(hinge, side) else { return };
+        let Some((piece, _, place)) = self.carrier(hinge, side) else {
+            return;
+        };
         let sides = self.set.hinges()[hinge.0].sides;
         let outline = shape.outline(edge(self.set, sides[side]));
         let to_mate = across(self.set, hinge, side).inverse();

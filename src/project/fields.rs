@@ -86,9 +86,7 @@ impl<T> Visitor<'_> for Value<T> {
     }
 
     fn visit_f64<E: Error>(self, value: f64) -> Result<Option<T>, E> {
-        (self.check)(Raw::Number(value))
-            .map(Some)
-            .map_err(E::custom)
+        (self.check)(Raw::Number(value)).map(Some).map_err(E::custom)
     }
 
     fn visit_str<E: Error>(self, value: &str) -> Result<Option<T>, E> {
@@ -170,7 +168,5 @@ pub(super) fn name<'de, D: Deserializer<'de>>(d: D) -> Result<String, D::Error> 
     let name = String::deserialize(d)?;
     let is_usable = !name.trim().is_empty() && !name.contains(char::is_control);
     let message = "a component's name has at least one letter and no control characters";
-    is_usable
-        .then_some(name)
-        .ok_or_else(|| D::Error::custom(message))
+    is_usable.then_some(name).ok_or_else(|| D::Error::custom(message))
 }

@@ -6,9 +6,7 @@
 mod fields;
 mod template;
 
-pub use fields::{
-    LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_count, check_degrees, check_parts, parse_up,
-};
+pub use fields::{LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_count, check_degrees, check_parts, parse_up};
 pub use template::{Template, TemplateComponent, to_toml};
 
 use crate::mesh::Up;
@@ -167,10 +165,7 @@ profile_vertices = 4
     #[test]
     fn a_full_file() {
         let project = Project::parse(FULL).unwrap();
-        assert_eq!(
-            (project.mesh.as_str(), project.up),
-            ("teddy.obj", Some(Up::Y))
-        );
+        assert_eq!((project.mesh.as_str(), project.up), ("teddy.obj", Some(Up::Y)));
         assert!((project.size_mm.unwrap() - 203.2).abs() < 1e-9);
         assert_eq!(project.segmentation.parts, Some(6));
         assert_eq!(project.defaults.min_panel_width_mm, Some(2.5));
@@ -191,45 +186,20 @@ profile_vertices = 4
     #[test]
     fn errors_name_line_and_column_and_what_is_accepted() {
         for (from, to, place, word) in [
-            (
-                "parts = 6",
-                "partz = 6",
-                "line 6, column 1",
-                "expected `parts`",
-            ),
+            ("parts = 6", "partz = 6", "line 6, column 1", "expected `parts`"),
             ("size = \"8in\"", "sise = 3", "line 4, column 1", "`size`"),
             ("\"8in\"", "\"8 feet\"", "line 4, column 8", "200mm"),
             ("\"8in\"", "0", "line 4, column 8", "more than 0"),
             ("\"8in\"", "nan", "line 4, column 8", "more than 0"),
             ("\"8in\"", "[1]", "line 4, column 8", "expected a length"),
             ("\"Y\"", "\"w\"", "line 3, column 6", "x, y, z"),
-            (
-                "parts = 6",
-                "parts = 0",
-                "line 6, column 9",
-                "from 1 to 200",
-            ),
-            (
-                "top_edges = 8",
-                "top_edges = 2",
-                "line 8, column 13",
-                "from 3 to 64",
-            ),
-            (
-                "top_edges = 8",
-                "top_edges = 3.5",
-                "line 8, column 13",
-                "whole number",
-            ),
+            ("parts = 6", "parts = 0", "line 6, column 9", "from 1 to 200"),
+            ("top_edges = 8", "top_edges = 2", "line 8, column 13", "from 3 to 64"),
+            ("top_edges = 8", "top_edges = 3.5", "line 8, column 13", "whole number"),
             ("= -30", "= inf", "line 17, column 13", "degrees"),
             ("= -30", "= '30'", "line 17, column 13", "degrees"),
             ("\"letter\"", "\"a9\"", "line 13, column 8", "8.5x11in"),
-            (
-                "margin_mm = 0",
-                "margin_mm = -1",
-                "line 14, column 13",
-                "more than 0",
-            ),
+            ("margin_mm = 0", "margin_mm = -1", "line 14, column 13", "more than 0"),
             ("\"head\"", "\"\"", "line 19, column 8", "name"),
         ] {
             let text = FULL.replacen(from, to, 1);
@@ -237,20 +207,13 @@ profile_vertices = 4
             assert!(message.contains(place), "{to}: {message}");
             assert!(message.contains(word), "{to}: {message}");
         }
-        assert!(
-            Project::parse("size = 3")
-                .unwrap_err()
-                .to_string()
-                .contains("mesh")
-        );
+        assert!(Project::parse("size = 3").unwrap_err().to_string().contains("mesh"));
     }
 
     #[test]
     fn names_are_different() {
         let text = FULL.replace("\"head\"", "\"body\"");
-        let error = ProjectError::SameName {
-            name: "body".to_owned(),
-        };
+        let error = ProjectError::SameName { name: "body".to_owned() };
         assert_eq!(Project::parse(&text), Err(error));
     }
 }

@@ -143,22 +143,14 @@ mod tests {
         };
         let text = to_toml(&template);
         let project = Project::parse(&text).unwrap();
-        assert_eq!(
-            (project.mesh.as_str(), project.up),
-            (template.mesh, Some(Up::X))
-        );
-        assert_eq!(
-            (project.size_mm, project.paper.margin_mm),
-            (Some(123.5), Some(0.0))
-        );
+        assert_eq!((project.mesh.as_str(), project.up), (template.mesh, Some(Up::X)));
+        assert_eq!((project.size_mm, project.paper.margin_mm), (Some(123.5), Some(0.0)));
         assert_eq!(project.paper.size, Some(template.paper));
         assert_eq!(project.defaults.tab_width_mm, Some(6.5));
         assert_eq!(project.components[1].name, "he\"ad");
         assert_eq!(project.components[0].direction_deg, None);
         assert_eq!(project.components[1].direction_deg, Some(12.3));
-        let uncommented = text
-            .replace("# direction =", "direction =")
-            .replace("# parts", "parts");
+        let uncommented = text.replace("# direction =", "direction =").replace("# parts", "parts");
         let project = Project::parse(&uncommented.replace("# top_e", "top_e")).unwrap();
         assert_eq!(project.components[0].direction_deg, Some(12.3));
         assert_eq!(project.components[0].top_edges, Some(7));

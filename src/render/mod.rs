@@ -1,1 +1,20 @@
-//! Pictures of 3D scenes as drawings.
+//! A small 3D renderer: flat polygons in space become a [`Drawing`](crate::drawing::Drawing), so
+//! that every back end shows the same picture.
+//!
+//! A [`Scene`] holds convex planar faces, a [`View`] says from where they are seen and how large.
+//! What hides what is exact: faces are sorted, and where need be cut, by a BSP tree. The model's y
+//! axis points up in the picture.
+
+mod bsp;
+pub mod light;
+mod mesh;
+pub mod palette;
+mod picture;
+mod scene;
+mod shadow;
+mod view;
+
+pub use picture::{Look, picture};
+pub use scene::{Edge, Face, Scene, SceneError};
+pub use shadow::contact_shadow;
+pub use view::{Camera, View, ViewError};

@@ -132,20 +132,15 @@ pub(super) fn nearest_links(surface: &Surface) -> Vec<[u32; 2]> {
 
 /// Joins each body that is too small for a segment, whole, to the set at the other end of its
 /// shortest link. `links` are those of [`nearest_links`].
-pub(super) fn join_crumbs(
-    surface: &Surface,
-    mut partition: Partition,
-    links: &[[u32; 2]],
-) -> Partition {
+pub(super) fn join_crumbs(surface: &Surface, mut partition: Partition, links: &[[u32; 2]]) -> Partition {
     let (body, count) = surface.components(|_| 0);
     let least = CRUMB * surface.total_area();
     let mut areas = Partition { of_cell: body.clone(), count }.areas(surface);
     let mut root: Vec<u32> = (0..count as u32).collect();
     // The cell whose set a body joins.
     let mut host_cell: Vec<Option<u32>> = vec![None; count];
-    let distance = |[a, b]: [u32; 2]| {
-        surface.centres()[a as usize].distance_squared(surface.centres()[b as usize])
-    };
+    let distance =
+        |[a, b]: [u32; 2]| surface.centres()[a as usize].distance_squared(surface.centres()[b as usize]);
     let mut links = links.to_vec();
     links.sort_by(|a, b| distance(*a).total_cmp(&distance(*b)).then(a.cmp(b)));
     for [a, b] in links {
@@ -168,6 +163,19 @@ pub(super) fn join_crumbs(
         }
     }
     partition.compacted()
+}
+
+/// The body of each set; bodies that share a set count as one.
+pub(super) fn body_of_sets(surface: &Surface, partition: &Partition) -> Vec<u32> {
+    let (body, count) = surface.components(|_| 0);
+    let mut root: Vec<u32> = (0..count as u32).collect();
+    let mut of_set: Vec<Option<u32>> = vec![None; partition.count];
+    for (cell, &set) in partition.of_cell.iter().enumerate() {
+        let first = *of_set[set as usize].get_or_insert(body[cell]);
+        let (a, b) = (find(&mut root, first), find(&mut root, body[cell]));
+        root[a.max(b) as usize] = a.min(b);
+    }
+    of_set.into_iter().map(|b| find(&mut root, b.unwrap_or(0))).collect()
 }
 
 /// The root of a body in a forest, with the way to it shortened.

@@ -4,7 +4,7 @@
 use super::surface::Surface;
 
 /// More cells than this are grouped.
-const MOST_CELLS: usize = 20_000;
+const MOST_CELLS: usize = 12_000;
 
 /// A round that removes a smaller share than this is the last one.
 const LEAST_PROGRESS: f64 = 0.05;

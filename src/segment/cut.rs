@@ -3,7 +3,7 @@
 
 use super::gmm::Mixture;
 use super::maxflow::Network;
-use super::surface::{Link, Surface};
+use super::surface::Surface;
 
 /// Least probability that is told apart from 0.
 const LEAST_PROBABILITY: f64 = 5e-6;
@@ -14,21 +14,17 @@ const CONVEX: f64 = 0.08;
 /// At most as many passes over all labels.
 const PASSES: usize = 4;
 
-/// What it costs to cut along a link, for one of mean length: little along sharp concave edges.
-/// The formula is that of the edge term in Shapira et al. 2008 with the angle between normals.
-pub(super) fn crease_cost(link: &Link) -> f64 {
-    let share = if link.turn_rad > 0.0 { link.turn_rad } else { CONVEX * -link.turn_rad };
+/// What it costs to cut along an edge of mean length, by the angle between the normals (positive
+/// where concave): little along sharp concave edges.
+/// The formula is that of the edge term in Shapira et al. 2008.
+pub(super) fn crease_cost(turn_rad: f64) -> f64 {
+    let share = if turn_rad > 0.0 { turn_rad } else { CONVEX * -turn_rad };
     -(share / std::f64::consts::PI).max(LEAST_PROBABILITY).ln()
 }
 
 /// Labels the cells by the mixture's Gaussians. Data terms are weighted by area and borders by
 /// length, each over its mean.
-pub(super) fn soft_labels(
-    surface: &Surface,
-    values: &[f64],
-    mixture: &Mixture,
-    smoothing: f64,
-) -> Vec<u32> {
+pub(super) fn soft_labels(surface: &Surface, values: &[f64], mixture: &Mixture, smoothing: f64) -> Vec<u32> {
     let labels = mixture.len();
     let mean_area = surface.total_area() / surface.len().max(1) as f64;
     let mut data = Vec::with_capacity(surface.len() * labels);
@@ -41,7 +37,7 @@ pub(super) fn soft_labels(
     let weights: Vec<f64> = surface
         .links()
         .iter()
-        .map(|l| smoothing * crease_cost(l) * l.length / mean_length)
+        .map(|l| smoothing * crease_cost(l.turn_rad) * l.length / mean_length)
         .collect();
     let cheapest = |cell: usize| {
         let costs = &data[cell * labels..(cell + 1) * labels];

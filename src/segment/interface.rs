@@ -33,8 +33,7 @@ impl Interface {
     /// The least-squares plane of the border's vertices and the root mean square of their
     /// distances from it; `None` where the vertices lie on one line.
     pub fn plane(&self, mesh: &Mesh) -> Option<(Plane, f64)> {
-        let points: Vec<DVec3> =
-            self.vertices.iter().map(|&v| mesh.positions()[v as usize]).collect();
+        let points: Vec<DVec3> = self.vertices.iter().map(|&v| mesh.positions()[v as usize]).collect();
         fit_plane(&points)
     }
 }

@@ -5,6 +5,7 @@
 //! segment becomes a hull of paper.
 
 mod bodies;
+mod choose;
 mod coarsen;
 mod cut;
 mod gmm;
@@ -82,7 +83,9 @@ pub enum SegmentError {
     #[error("the detail is {0}; it must be from 0 to 1")]
     Detail(f64),
     /// Settings of the method by SDF alone that cannot be.
-    #[error("{clusters} clusters with smoothing {smoothing}; use 1 to {MOST_CLUSTERS} clusters and a smoothing of 0 or more")]
+    #[error(
+        "{clusters} clusters with smoothing {smoothing}; use 1 to {MOST_CLUSTERS} clusters and a smoothing of 0 or more"
+    )]
     Clusters {
         /// Number of Gaussians.
         clusters: usize,

@@ -34,6 +34,21 @@ impl Partition {
         borders
     }
 
+    /// What it costs to cut along the border of each pair of neighbouring sets: its length, over
+    /// the square root of the whole area, that of concave edges counted less.
+    pub fn border_costs(&self, surface: &Surface) -> BTreeMap<(u32, u32), f64> {
+        let flat = crease_cost(0.0) * surface.total_area().sqrt();
+        let mut costs = BTreeMap::new();
+        for link in surface.links() {
+            let [a, b] = link.cells.map(|c| self.of_cell[c as usize]);
+            if a != b {
+                let cost = crease_cost(link.turn_rad) * link.length / flat;
+                *costs.entry((a.min(b), a.max(b))).or_insert(0.0) += cost;
+            }
+        }
+        costs
+    }
+
     /// Numbers the used sets from 0 in the order of their first cells.
     pub fn compacted(mut self) -> Self {
         let mut number = vec![u32::MAX; self.count];
@@ -76,7 +91,9 @@ pub(super) fn absorb_small(surface: &Surface, partition: Partition, least_area: 
             continue;
         }
         let longest = around[p].iter().max_by(|a, b| a.1.total_cmp(b.1).then(b.0.cmp(a.0)));
-        let Some(host) = longest.map(|(&h, _)| h) else { continue };
+        let Some(host) = longest.map(|(&h, _)| h) else {
+            continue;
+        };
         into[p] = host;
         areas[host as usize] += areas[p];
         for (other, length) in std::mem::take(&mut around[p]) {
@@ -173,8 +190,8 @@ fn spread_among(
 /// Distance of two cells' centres, several times as long across a sharp concave edge.
 fn step_length(surface: &Surface, a: usize, b: usize, link: &Link) -> f64 {
     let centres = surface.centres();
-    let flat = crease_cost(&Link { turn_rad: 0.0, ..*link });
-    centres[a].distance(centres[b]) * (flat / crease_cost(link).max(0.5))
+    let flat = crease_cost(0.0);
+    centres[a].distance(centres[b]) * (flat / crease_cost(link.turn_rad).max(0.5))
 }
 
 /// A heap entry; the nearest is the greatest, of equal ones that with the smaller index.

@@ -19,6 +19,9 @@ const BAND_OF_SIZE: f64 = 0.25;
 /// deep, against one border of the same area over that width.
 const PLANE_PULL: f64 = 2.0;
 
+/// A border that would take a larger share of the smaller segment stays where it is.
+const MOST_CHANGE: f64 = 0.4;
+
 /// Rounds over all borders.
 const ROUNDS: usize = 2;
 
@@ -32,25 +35,43 @@ pub(super) fn refine_borders(surface: &Surface, mut partition: Partition) -> Par
                 along.entry((a.min(b), a.max(b))).or_default().push(l);
             }
         }
-        let areas = partition.areas(surface);
+        let mut areas = partition.areas(surface);
         let mut place = vec![u32::MAX; surface.len()];
         for (pair, links) in along {
-            let smaller = areas[pair.0 as usize].min(areas[pair.1 as usize]);
-            move_border(surface, &mut partition.of_cell, pair, &links, smaller, &mut place);
+            let before = [areas[pair.0 as usize], areas[pair.1 as usize]];
+            let smaller = before[0].min(before[1]);
+            let changes = move_border(surface, &partition.of_cell, pair, &links, smaller, &mut place);
+            let gain: f64 =
+                changes
+                    .iter()
+                    .map(|&c| {
+                        if partition.of_cell[c] == pair.1 { surface.areas()[c] } else { -surface.areas()[c] }
+                    })
+                    .sum();
+            if gain.abs() > MOST_CHANGE * smaller {
+                continue;
+            }
+            areas[pair.0 as usize] += gain;
+            areas[pair.1 as usize] -= gain;
+            for cell in changes {
+                let own = &mut partition.of_cell[cell];
+                *own = if *own == pair.0 { pair.1 } else { pair.0 };
+            }
         }
     }
     join_strays(surface, partition)
 }
 
-/// Moves one border to the minimum cut of its band. `place` is scratch, all `u32::MAX`.
+/// The cells that change sides when a border moves to the minimum cut of its band. `place` is
+/// scratch, all `u32::MAX`.
 fn move_border(
     surface: &Surface,
-    of_cell: &mut [u32],
+    of_cell: &[u32],
     pair: (u32, u32),
     links: &[usize],
     smaller_area: f64,
     place: &mut [u32],
-) {
+) -> Vec<usize> {
     let length: f64 = links.iter().map(|&l| surface.links()[l].length).sum();
     let reach = (BAND_OF_LENGTH * length).min(BAND_OF_SIZE * smaller_area.sqrt());
     let seeds = links.iter().flat_map(|&l| surface.links()[l].cells.map(|c| c as usize));
@@ -59,7 +80,7 @@ fn move_border(
     let mut network = Network::new(band.len(), band.len() * 2);
     for (i, &cell) in band.iter().enumerate() {
         for (other, link) in surface.around(cell) {
-            let w = crease_cost(link) * link.length;
+            let w = crease_cost(link.turn_rad) * link.length;
             if place[other] == u32::MAX {
                 // Beyond the band the other cells are fixed; a third segment does not care.
                 let (first, second) = (of_cell[other] == pair.0, of_cell[other] == pair.1);
@@ -75,10 +96,9 @@ fn move_border(
             network.add_costs(i, pull.max(0.0), (-pull).max(0.0));
         }
     }
-    for (&cell, on_second) in band.iter().zip(network.sink_side()) {
-        of_cell[cell] = if on_second { pair.1 } else { pair.0 };
-    }
     band.iter().for_each(|&c| place[c] = u32::MAX);
+    let sides = band.iter().zip(network.sink_side());
+    sides.filter(|&(&c, second)| (of_cell[c] == pair.1) != second).map(|(&c, _)| c).collect()
 }
 
 /// The cells of two segments within reach of their border; `place` tells each one's index.
@@ -111,12 +131,7 @@ fn band(
 
 /// The least-squares plane of a border, looking to the second segment; `None` where the border is
 /// not near one.
-fn border_plane(
-    surface: &Surface,
-    of_cell: &[u32],
-    pair: (u32, u32),
-    links: &[usize],
-) -> Option<Plane> {
+fn border_plane(surface: &Surface, of_cell: &[u32], pair: (u32, u32), links: &[usize]) -> Option<Plane> {
     let points: Vec<DVec3> = links
         .iter()
         .map(|&l| {

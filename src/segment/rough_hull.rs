@@ -79,9 +79,8 @@ impl RoughHull {
 
     /// Incremental hull of joggled points: with at most 128 of them plain search is fastest.
     fn of_points(mut points: Vec<DVec3>) -> Option<Self> {
-        let (lo, hi) = points
-            .iter()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)));
+        let (lo, hi) =
+            points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)));
         let size = (hi - lo).max_element();
         let start = tetrahedron(&points, size)?;
         for (i, p) in points.iter_mut().enumerate() {
@@ -191,10 +190,7 @@ impl<'a> Builder<'a> {
                 }
             }
         }
-        // A disk of triangles has two edges on its rim more than it has triangles, less its inner
-        // corners; a fan that keeps Euler's formula is what the checks below accept.
-        let simple = self.rim.len() >= 3 && self.is_loop();
-        if !simple {
+        if self.rim.len() < 3 || !self.is_loop() {
             for &i in &self.seen {
                 self.faces[i as usize].alive = true;
             }

@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
 use obvhs::ray::{Ray, RayHit};
-use obvhs::{BvhBuildParams, Boundable};
+use obvhs::{Boundable, BvhBuildParams};
 use rayon::prelude::*;
 
 /// Rays of one cone. On 38 benchmark meshes 6, 12 and 25 rays score alike.
@@ -73,18 +73,15 @@ impl Target {
     fn exit(&self, probe: &Probe, direction: DVec3) -> Option<f64> {
         let start = (probe.origin - self.origin) * self.scale;
         let mut hit = RayHit::none();
-        let found = self.bvh.ray_traverse(
-            Ray::new_inf(start.as_vec3a(), direction.as_vec3a()),
-            &mut hit,
-            |_, id| {
+        let found =
+            self.bvh.ray_traverse(Ray::new_inf(start.as_vec3a(), direction.as_vec3a()), &mut hit, |_, id| {
                 let face = self.bvh.primitive_indices[id];
                 if face == probe.face {
                     return f32::INFINITY;
                 }
                 exit_distance(&self.triangles[face as usize], start, direction)
                     .map_or(f32::INFINITY, |t| t as f32)
-            },
-        );
+            });
         found.then(|| hit.t as f64 / self.scale)
     }
 
@@ -97,8 +94,7 @@ impl Target {
         if probe.inward == DVec3::ZERO {
             return None;
         }
-        let mut distances: Vec<f64> =
-            cone(probe.inward).filter_map(|d| self.exit(probe, d)).collect();
+        let mut distances: Vec<f64> = cone(probe.inward).filter_map(|d| self.exit(probe, d)).collect();
         robust_mean(&mut distances)
     }
 }

@@ -10,9 +10,8 @@ pub(super) type Shape = (Vec<DVec3>, Vec<[u32; 3]>);
 pub(super) fn balls_in_a_row(balls: &[(f64, f64)], rings: usize, around: usize) -> Shape {
     let lo = balls.iter().map(|b| b.0 - b.1).fold(f64::INFINITY, f64::min);
     let hi = balls.iter().map(|b| b.0 + b.1).fold(f64::NEG_INFINITY, f64::max);
-    let radius = |z: f64| {
-        balls.iter().map(|b| (b.1 * b.1 - (z - b.0).powi(2)).max(0.0).sqrt()).fold(0.0, f64::max)
-    };
+    let radius =
+        |z: f64| balls.iter().map(|b| (b.1 * b.1 - (z - b.0).powi(2)).max(0.0).sqrt()).fold(0.0, f64::max);
     let mut positions = vec![DVec3::new(0.0, 0.0, lo)];
     for ring in 1..rings {
         let t = std::f64::consts::PI * ring as f64 / rings as f64;

@@ -1,17 +1,18 @@
 //! The stage as a whole.
 
+use super::choose::Tree;
 use super::coarsen::coarsen;
 use super::cut::soft_labels;
 use super::gmm::Mixture;
 use super::grid::Solid;
-use super::merge::{Merges, Scene, merge_all};
+use super::merge::{Scene, merge_all};
 use super::patches::{Partition, absorb_small, connected, split_large};
 use super::sdf::{Probe, Target};
 use super::surface::{Surface, outward_faces};
 use super::{Method, SegmentError, SegmentOptions, Segmentation};
 use super::{bodies, refine, smooth};
 use crate::mesh::Mesh;
-use crate::progress::Progress;
+use crate::progress::{Cancelled, Progress};
 use glam::DVec3;
 
 /// Clusters and smoothing of the over-segmentation: many clusters, cheap borders.
@@ -22,7 +23,7 @@ const FINE_SMOOTHING: f64 = 0.08;
 const LARGEST_PATCH: f64 = 0.015;
 
 /// Segments are at least this share of the area.
-const LEAST_SEGMENT: f64 = 0.005;
+const LEAST_SEGMENT: f64 = 0.0035;
 
 /// What a part more has to add to the intersection over union, at detail 0, 0.5 and 1: 0.04,
 /// 0.01, 0.0025.
@@ -65,14 +66,23 @@ pub fn segment(
             let gaps = bodies::nearest_links(&coarse);
             let patches = bodies::join_crumbs(&coarse, patches, &gaps);
             let ground = Ground { positions, faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
-            let merges = ground.merge(patches, &gaps, progress)?;
+            let solid = Solid::of_mesh(positions, &faces);
+            let tree = ground.merge(&solid, patches, &gaps, progress)?;
             let part_cost = PART_COST / DETAIL_RANGE.powf(options.detail);
-            merges.parts(options.parts.unwrap_or_else(|| merges.best_count(part_cost)))
+            match options.parts {
+                Some(count) => tree.parts(&solid, count, progress)?,
+                None => tree.best_parts(&solid, part_cost, progress)?,
+            }
         }
     };
     progress.fraction(0.9);
     let of_face = cell_of_face.iter().map(|&c| cells.of_cell[c as usize]).collect();
     let refined = refine::refine_borders(&fine, Partition { of_cell: of_face, count: cells.count });
+    // Borders that moved may have left slivers; a number that was asked for stands.
+    let refined = match options.parts {
+        None => absorb_small(&fine, refined, LEAST_SEGMENT * fine.total_area()),
+        Some(_) => refined,
+    };
     Ok(Segmentation::numbered(&refined.of_cell, refined.count, fine.areas()))
 }
 
@@ -108,7 +118,9 @@ fn shape_diameters(
 }
 
 fn labels(surface: &Surface, values: Option<&[f64]>, clusters: usize, smoothing: f64) -> Vec<u32> {
-    let Some(values) = values else { return vec![0; surface.len()] };
+    let Some(values) = values else {
+        return vec![0; surface.len()];
+    };
     let mixture = Mixture::fit(values, surface.areas(), clusters);
     soft_labels(surface, values, &mixture, smoothing)
 }
@@ -134,27 +146,24 @@ struct Ground<'a> {
 impl Ground<'_> {
     fn merge(
         &self,
+        solid: &Solid,
         patches: Partition,
         gaps: &[[u32; 2]],
         progress: &dyn Progress,
-    ) -> Result<Merges, SegmentError> {
-        let (body_of_cell, _) = self.surface.components(|_| 0);
-        let mut body = vec![0; patches.count];
-        for (cell, &p) in patches.of_cell.iter().enumerate() {
-            body[p as usize] = body_of_cell[cell];
-        }
+    ) -> Result<Tree, Cancelled> {
+        let body = bodies::body_of_sets(self.surface, &patches);
         let vertices = self.vertices(&patches);
-        let borders = patches.borders(self.surface);
-        let mut neighbours: Vec<[u32; 2]> = borders.into_keys().map(|(a, b)| [a, b]).collect();
+        let borders = patches.border_costs(self.surface);
+        let mut neighbours: Vec<([u32; 2], f64)> =
+            borders.into_iter().map(|((a, b), cost)| ([a, b], cost)).collect();
         for cells in gaps {
             let [a, b] = cells.map(|c| patches.of_cell[c as usize]);
             if a != b {
-                neighbours.push([a.min(b), a.max(b)]);
+                neighbours.push(([a.min(b), a.max(b)], 0.0));
             }
         }
-        let solid = Solid::of_mesh(self.positions, self.faces);
-        let scene = Scene { positions: self.positions, solid: &solid };
-        Ok(merge_all(&scene, patches, &vertices, &neighbours, &body, progress)?)
+        let scene = Scene { positions: self.positions, solid };
+        merge_all(&scene, patches, &vertices, &neighbours, &body, progress)
     }
 
     /// The vertices of each patch.

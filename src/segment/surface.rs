@@ -217,8 +217,7 @@ pub(super) fn outward_faces(positions: &[DVec3], faces: &[[u32; 3]]) -> (Vec<[u3
         let [p, q, r] = faces[f].map(|v| positions[v as usize] - o);
         volume[b as usize] += p.dot(q.cross(r));
     }
-    let turned = faces.iter().zip(&body).map(|(f, &b)| {
-        if volume[b as usize] < 0.0 { [f[0], f[2], f[1]] } else { *f }
-    });
+    let turned =
+        faces.iter().zip(&body).map(|(f, &b)| if volume[b as usize] < 0.0 { [f[0], f[2], f[1]] } else { *f });
     (turned.collect(), body)
 }

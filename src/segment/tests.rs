@@ -6,10 +6,10 @@ use super::*;
 use crate::progress::{Progress, Silent};
 use glam::{DQuat, DVec3};
 
-const ROW: [(f64, f64); 3] = [(0.0, 1.0), (1.4, 0.7), (2.3, 0.45)];
+const ROW: [(f64, f64); 3] = [(0.0, 1.0), (1.5, 0.75), (2.65, 0.6)];
 
 fn row() -> Shape {
-    balls_in_a_row(&ROW, 60, 40)
+    balls_in_a_row(&ROW, 36, 24)
 }
 
 fn run(shape: &Shape) -> Segmentation {
@@ -78,7 +78,7 @@ fn size_turn_and_order_of_faces_do_not_matter() {
 
 #[test]
 fn resolution_does_not_matter() {
-    for (rings, around) in [(24, 20), (60, 40), (180, 140)] {
+    for (rings, around) in [(24, 20), (60, 40), (110, 70)] {
         let shape = balls_in_a_row(&ROW, rings, around);
         let found = run(&shape);
         assert_eq!(found.count(), 3, "{} faces", shape.1.len());
@@ -114,7 +114,7 @@ fn as_many_parts_as_asked_for_each_connected() {
 
 #[test]
 fn detail_gives_more_parts() {
-    let mesh = mesh(&row());
+    let mesh = mesh(&balls_in_a_row(&[(0.0, 1.0), (1.4, 0.7), (2.3, 0.45)], 60, 40));
     let count = |detail| {
         let options = SegmentOptions { detail, ..Default::default() };
         segment(&mesh, &options, &Silent).unwrap().count()
@@ -133,12 +133,13 @@ fn an_inverted_mesh_gives_the_same_parts() {
 #[test]
 fn noise_and_holes_change_little() {
     let shape = row();
-    let size = 3.75;
+    let size = 4.25;
     let wave = |p: DVec3| (p * 997.0).to_array().map(|x| x.sin());
     let noisy = moved(&shape, |p| p + DVec3::from_array(wave(p)) * (0.005 * size / 2.0));
     assert!(rand_index(run(&shape).face_segments(), run(&noisy).face_segments()) > 0.9);
 
-    let kept: Vec<usize> = (0..shape.1.len()).filter(|i| i * 7919 % 20 != 0).collect();
+    let hash = |i: usize| (i as f64 * 12.9898).sin() * 43_758.545;
+    let kept: Vec<usize> = (0..shape.1.len()).filter(|&i| hash(i).rem_euclid(1.0) > 0.05).collect();
     let holed = run(&(shape.0.clone(), kept.iter().map(|&i| shape.1[i]).collect()));
     let whole = run(&shape);
     let rest: Vec<SegmentId> = kept.iter().map(|&i| whole.face_segments()[i]).collect();
@@ -149,7 +150,10 @@ fn noise_and_holes_change_little() {
 fn bodies_are_segments_and_crumbs_join_the_nearest() {
     let ball = |z, r| balls_in_a_row(&[(z, r)], 24, 24);
     let mut bodies = vec![ball(0.0, 1.0), ball(3.0, 1.0)];
-    bodies.extend((0..5).map(|k| ball(4.2 + 0.2 * k as f64, 0.05)));
+    bodies.extend((0..5).map(|k| {
+        let (sin, cos) = f64::from(k).sin_cos();
+        moved(&ball(3.0, 0.05), |p| p + DVec3::new(cos, sin, 0.0) * 1.06)
+    }));
     let shape = together(&bodies);
     let found = run(&shape);
     assert_eq!(found.count(), 2);
@@ -206,7 +210,7 @@ fn the_papers_own_method_finds_thick_and_thin() {
     let top = |f: usize| shape.1[f].iter().all(|&v| shape.0[v as usize].z > 1.2);
     let bottom = |f: usize| shape.1[f].iter().all(|&v| shape.0[v as usize].z < 0.5);
     for (f, id) in found.face_segments().iter().enumerate() {
-        assert!(!(top(f) && *id == SegmentId(0)) && !(bottom(f) && *id != SegmentId(0)));
+        assert!(!(top(f) && *id == SegmentId(0) || bottom(f) && *id != SegmentId(0)));
     }
 }
 

@@ -41,18 +41,11 @@ pub fn best_fit(outline: &[DVec2], width_mm: f64, height_mm: f64, rotation: Rota
         Rotation::Free => free_angles(&hull, sheet),
         Rotation::QuarterTurns => vec![0.0, FRAC_PI_2],
     };
-    let start = Fit {
-        angle_rad: 0.0,
-        scale: 0.0,
-    };
+    let start = Fit { angle_rad: 0.0, scale: 0.0 };
     candidates.into_iter().fold(start, |best, angle_rad| {
         let scale = (sheet / extent(&hull, angle_rad)).min_element();
         // The margin prefers the first of equal angles, whatever the rounding.
-        if scale > best.scale * (1.0 + ROUNDING) {
-            Fit { angle_rad, scale }
-        } else {
-            best
-        }
+        if scale > best.scale * (1.0 + ROUNDING) { Fit { angle_rad, scale } } else { best }
     })
 }
 
@@ -76,11 +69,7 @@ pub fn least_rectangle(outline: &[DVec2]) -> (f64, DVec2) {
         }
     }
     let (angle, size) = best;
-    if size.y > size.x {
-        (angle + FRAC_PI_2, DVec2::new(size.y, size.x))
-    } else {
-        best
-    }
+    if size.y > size.x { (angle + FRAC_PI_2, DVec2::new(size.y, size.x)) } else { best }
 }
 
 /// Width and height of the bounding box of points turned by an angle.
@@ -98,9 +87,8 @@ pub(super) fn is_within(extent: DVec2, width_mm: f64, height_mm: f64) -> bool {
 
 /// All angles in [0, π) at which the share of the sheet can be least.
 fn free_angles(hull: &[DVec2], sheet: DVec2) -> Vec<f64> {
-    let mut critical: Vec<f64> = polygon::edges(hull)
-        .map(|(a, b)| (-(b - a).to_angle()).rem_euclid(FRAC_PI_2))
-        .collect();
+    let mut critical: Vec<f64> =
+        polygon::edges(hull).map(|(a, b)| (-(b - a).to_angle()).rem_euclid(FRAC_PI_2)).collect();
     critical.extend(critical.clone().iter().map(|a| a + FRAC_PI_2));
     critical.sort_by(f64::total_cmp);
     let mut angles = critical.clone();
@@ -139,19 +127,14 @@ mod tests {
     use proptest::prelude::*;
 
     fn rectangle(width: f64, height: f64) -> Vec<DVec2> {
-        [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
-            .map(DVec2::from)
-            .to_vec()
+        [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)].map(DVec2::from).to_vec()
     }
 
     #[test]
     fn a_rectangle_of_the_sheets_size_fits_in_any_pose() {
         for angle in [0.0, 0.3, 1.0, 2.0, 4.5] {
             let turn = DVec2::from_angle(angle);
-            let piece: Vec<_> = rectangle(277.0, 190.0)
-                .into_iter()
-                .map(|p| turn.rotate(p))
-                .collect();
+            let piece: Vec<_> = rectangle(277.0, 190.0).into_iter().map(|p| turn.rotate(p)).collect();
             let found = fits(&piece, 190.0, 277.0, Rotation::Free).unwrap();
             let size = extent(&piece, found);
             assert!((size - DVec2::new(190.0, 277.0)).abs().max_element() < 1e-9);
@@ -186,10 +169,7 @@ mod tests {
     #[test]
     fn the_least_rectangle_of_a_turned_bar_is_the_bar() {
         let turn = DVec2::from_angle(0.7);
-        let bar: Vec<_> = rectangle(30.0, 80.0)
-            .into_iter()
-            .map(|p| turn.rotate(p))
-            .collect();
+        let bar: Vec<_> = rectangle(30.0, 80.0).into_iter().map(|p| turn.rotate(p)).collect();
         let (angle, size) = least_rectangle(&bar);
         assert!((size - DVec2::new(80.0, 30.0)).abs().max_element() < 1e-9);
         assert!((extent(&bar, angle) - size).abs().max_element() < 1e-9);

@@ -97,21 +97,14 @@ impl Entry {
 fn entries(legend: &[Layer], form: usize) -> Vec<Entry> {
     let entry = |&layer: &Layer| {
         let word = words(layer)?[form];
-        Some(Entry {
-            layer,
-            word,
-            sample_mm: SAMPLES_MM[form],
-        })
+        Some(Entry { layer, word, sample_mm: SAMPLES_MM[form] })
     };
     legend.iter().filter_map(entry).collect()
 }
 
 /// Width of a legend without its gaps, and the number of gaps.
 fn legend_mm(entries: &[Entry]) -> (f64, usize) {
-    (
-        entries.iter().map(Entry::width_mm).sum(),
-        entries.len().saturating_sub(1),
-    )
+    (entries.iter().map(Entry::width_mm).sum(), entries.len().saturating_sub(1))
 }
 
 /// The strip's arrangement on one size of sheet. From the bottom: the legend; the scale bar with
@@ -137,11 +130,7 @@ impl Strip {
             corner: DVec2::splat(margin_mm),
             width_mm,
             bar_mm: BARS_MM.into_iter().find(|&bar_mm| bar_mm <= width_mm),
-            legend: [0, 1]
-                .map(|form| entries(legend, form))
-                .into_iter()
-                .find(fits)
-                .unwrap_or_default(),
+            legend: [0, 1].map(|form| entries(legend, form)).into_iter().find(fits).unwrap_or_default(),
         }
     }
 
@@ -165,11 +154,7 @@ impl Strip {
     }
 
     fn top_mm(&self) -> f64 {
-        let titles_mm = if self.has_titles_beside() {
-            0.0
-        } else {
-            LINE_MM
-        };
+        let titles_mm = if self.has_titles_beside() { 0.0 } else { LINE_MM };
         self.words_base_mm() + titles_mm + CAP_MM
     }
 
@@ -180,10 +165,7 @@ impl Strip {
 
     fn text(&self, content: String, at: [f64; 2], align: Align, styles: &LineStyles) -> Mark {
         let text = Text::new(content, self.corner + DVec2::from(at), CAP_MM).aligned(align);
-        Mark::text(
-            Layer::Furniture,
-            text.coloured(styles.colour(Layer::Furniture)),
-        )
+        Mark::text(Layer::Furniture, text.coloured(styles.colour(Layer::Furniture)))
     }
 
     /// The bar between the middles of its end ticks, a tick at every centimetre, and its words.
@@ -203,16 +185,8 @@ impl Strip {
             let x = 10.0 * tick as f64;
             marks.push(self.line([x, y], [x, y + height_mm], Layer::Furniture, styles));
         }
-        let room_mm = if self.has_titles_beside() {
-            bar_mm
-        } else {
-            self.width_mm
-        };
-        let words = [
-            "mm: print at 100 % (actual size)",
-            "mm: print at 100 %",
-            "mm",
-        ];
+        let room_mm = if self.has_titles_beside() { bar_mm } else { self.width_mm };
+        let words = ["mm: print at 100 % (actual size)", "mm: print at 100 %", "mm"];
         let words = words.map(|words| format!("{bar_mm} {words}"));
         if let Some(words) = words.into_iter().find(|w| width_mm(w, CAP_MM) <= room_mm) {
             marks.push(self.text(words, [0.0, self.words_base_mm()], Align::Start, styles));
@@ -228,11 +202,7 @@ impl Strip {
             (self.room_mm(), self.words_base_mm(), self.bar_base_mm())
         } else {
             let base_mm = self.words_base_mm() + LINE_MM;
-            (
-                self.width_mm - width_mm(&page, CAP_MM) - GAP_MM,
-                base_mm,
-                base_mm,
-            )
+            (self.width_mm - width_mm(&page, CAP_MM) - GAP_MM, base_mm, base_mm)
         };
         let full = format!("{} · {}", furniture.title, furniture.note);
         let title = if !furniture.note.is_empty() && width_mm(&full, CAP_MM) <= room_mm {
@@ -240,11 +210,8 @@ impl Strip {
         } else {
             shortened(furniture.title, CAP_MM, room_mm)
         };
-        let (title_x, title_align) = if self.has_titles_beside() {
-            (self.width_mm, Align::End)
-        } else {
-            (0.0, Align::Start)
-        };
+        let (title_x, title_align) =
+            if self.has_titles_beside() { (self.width_mm, Align::End) } else { (0.0, Align::Start) };
         [
             self.text(title, [title_x, title_base_mm], title_align, styles),
             self.text(page, [self.width_mm, page_base_mm], Align::End, styles),
@@ -273,32 +240,13 @@ mod tests {
     use super::*;
     use crate::drawing::Shape;
 
-    const LEGEND: [Layer; 5] = [
-        Layer::Cut,
-        Layer::Slit,
-        Layer::Mountain,
-        Layer::FoldHinge,
-        Layer::Glue,
-    ];
-    const SHEETS: [[f64; 2]; 6] = [
-        [210.0, 297.0],
-        [215.9, 279.4],
-        [297.0, 210.0],
-        [148.0, 210.0],
-        [100.0, 150.0],
-        [50.0, 50.0],
-    ];
+    const LEGEND: [Layer; 5] = [Layer::Cut, Layer::Slit, Layer::Mountain, Layer::FoldHinge, Layer::Glue];
+    const SHEETS: [[f64; 2]; 6] =
+        [[210.0, 297.0], [215.9, 279.4], [297.0, 210.0], [148.0, 210.0], [100.0, 150.0], [50.0, 50.0]];
 
     fn strip_on(size_mm: DVec2, margin_mm: f64, title: &str) -> Vec<Mark> {
-        let furniture = Furniture {
-            size_mm,
-            margin_mm,
-            title,
-            note: "200 mm",
-            page: 12,
-            pages: 34,
-            legend: &LEGEND,
-        };
+        let furniture =
+            Furniture { size_mm, margin_mm, title, note: "200 mm", page: 12, pages: 34, legend: &LEGEND };
         furniture.marks(&LineStyles::standard())
     }
 
@@ -314,23 +262,13 @@ mod tests {
     fn everything_stays_inside_the_margin_and_the_declared_height() {
         for size in SHEETS.map(DVec2::from) {
             let top_mm = 10.0 + height_mm(size, 10.0, &LEGEND) - CLEARANCE_MM;
-            for mark in strip_on(
-                size,
-                10.0,
-                "a model with quite a long name, to be shortened",
-            ) {
+            for mark in strip_on(size, 10.0, "a model with quite a long name, to be shortened") {
                 let Some((lo, hi)) = mark.bounds() else {
                     continue;
                 };
                 // Descenders and overshoots of letters reach below the base line.
-                assert!(
-                    lo.x >= 10.0 - 1e-9 && lo.y >= 10.0 - 0.3 * CAP_MM,
-                    "{size} {mark:?}"
-                );
-                assert!(
-                    hi.x <= size.x - 10.0 + 1e-9 && hi.y <= top_mm + 0.15 * CAP_MM,
-                    "{size} {mark:?}"
-                );
+                assert!(lo.x >= 10.0 - 1e-9 && lo.y >= 10.0 - 0.3 * CAP_MM, "{size} {mark:?}");
+                assert!(hi.x <= size.x - 10.0 + 1e-9 && hi.y <= top_mm + 0.15 * CAP_MM, "{size} {mark:?}");
             }
         }
     }
@@ -339,12 +277,8 @@ mod tests {
     fn the_bar_is_exactly_100_mm_where_it_fits() {
         for size in [DVec2::new(210.0, 297.0), DVec2::new(120.0, 120.0)] {
             let marks = strip_on(size, 10.0, "teddy");
-            let Shape::Path { contours, .. } = &marks[0].shape else {
-                panic!("not a line")
-            };
-            let [a, b] = contours[0].points[..] else {
-                panic!("not a segment")
-            };
+            let Shape::Path { contours, .. } = &marks[0].shape else { panic!("not a line") };
+            let [a, b] = contours[0].points[..] else { panic!("not a segment") };
             assert!((b - a - DVec2::new(100.0, 0.0)).length() < 1e-12);
             assert!(texts(&marks).contains(&"100 mm: print at 100 % (actual size)".to_owned()));
         }
@@ -353,11 +287,7 @@ mod tests {
     #[test]
     fn texts_do_not_overlap() {
         for size in SHEETS.map(DVec2::from) {
-            let marks = strip_on(
-                size,
-                10.0,
-                "a model with quite a long name, to be shortened",
-            );
+            let marks = strip_on(size, 10.0, "a model with quite a long name, to be shortened");
             let boxes = marks.iter().filter_map(|m| match m.shape {
                 Shape::Text(_) => m.bounds(),
                 Shape::Path { .. } => None,
@@ -379,10 +309,7 @@ mod tests {
         assert!(on_a4.contains(&"teddy · 200 mm".to_owned()));
         let tiny = texts(&strip_on(DVec2::new(100.0, 150.0), 10.0, "teddy"));
         assert!(!tiny.iter().any(|t| t.contains("mountain")));
-        assert!(
-            tiny.iter().any(|t| t.starts_with("50 mm: print")),
-            "{tiny:?}"
-        );
+        assert!(tiny.iter().any(|t| t.starts_with("50 mm: print")), "{tiny:?}");
         assert!(tiny.contains(&"page 12 of 34".to_owned()));
     }
 }

@@ -55,7 +55,9 @@ pub struct PiecePlace {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LayoutError {
     /// Margins and strip leave no room.
-    #[error("a sheet of {width_mm:.0} × {height_mm:.0} mm with a margin of {margin_mm} mm leaves no room for pieces; use larger --paper or a smaller --margin")]
+    #[error(
+        "a sheet of {width_mm:.0} × {height_mm:.0} mm with a margin of {margin_mm} mm leaves no room for pieces; use larger --paper or a smaller --margin"
+    )]
     NoRoom {
         /// Width of the sheet.
         width_mm: f64,
@@ -87,7 +89,11 @@ impl Layout {
         let room = options.room_mm();
         if room.min_element() <= 0.0 {
             let size = options.size_mm();
-            return Err(LayoutError::NoRoom { width_mm: size.x, height_mm: size.y, margin_mm: options.margin_mm });
+            return Err(LayoutError::NoRoom {
+                width_mm: size.x,
+                height_mm: size.y,
+                margin_mm: options.margin_mm,
+            });
         }
         let pieces = || nets.iter().enumerate().flat_map(|(n, net)| net.pieces().iter().map(move |p| (n, p)));
         let shapes: Vec<Shape> = pieces().filter_map(|(n, p)| Shape::new(p.outline().to_vec(), n)).collect();
@@ -133,7 +139,8 @@ impl Layout {
             for (piece, at) in net.pieces().iter().zip(places) {
                 let marks = piece.marks(MarkOptions::default(), |layer| styles.stroke(layer).clone());
                 pages[at.sheet].place(marks, at.place);
-                lost[at.sheet].extend(piece.unplaced_labels().iter().map(|l| format!("{}: {l}", piece.name())));
+                lost[at.sheet]
+                    .extend(piece.unplaced_labels().iter().map(|l| format!("{}: {l}", piece.name())));
             }
         }
         for (k, page) in pages.iter_mut().enumerate() {

@@ -84,33 +84,16 @@ const DEFAULT_EFFORT: usize = 1500;
 impl NestOptions {
     /// Free rotation, 2 mm apart, default effort.
     pub fn new(width_mm: f64, height_mm: f64) -> Self {
-        Self {
-            width_mm,
-            height_mm,
-            spacing_mm: 2.0,
-            rotation: Rotation::Free,
-            effort: DEFAULT_EFFORT,
-        }
+        Self { width_mm, height_mm, spacing_mm: 2.0, rotation: Rotation::Free, effort: DEFAULT_EFFORT }
     }
 
     fn check(&self) -> Result<(), NestError> {
-        let &Self {
-            width_mm,
-            height_mm,
-            spacing_mm,
-            ..
-        } = self;
-        let has_area = [width_mm, height_mm]
-            .iter()
-            .all(|&x| x.is_finite() && x > 0.0);
+        let &Self { width_mm, height_mm, spacing_mm, .. } = self;
+        let has_area = [width_mm, height_mm].iter().all(|&x| x.is_finite() && x > 0.0);
         if has_area && spacing_mm.is_finite() && spacing_mm >= 0.0 {
             Ok(())
         } else {
-            Err(NestError::BadSheet {
-                width_mm,
-                height_mm,
-                spacing_mm,
-            })
+            Err(NestError::BadSheet { width_mm, height_mm, spacing_mm })
         }
     }
 }
@@ -137,9 +120,7 @@ impl Placement {
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum NestError {
     /// The sheet has no area, or a number is not finite, or the spacing is negative.
-    #[error(
-        "a sheet of {width_mm} × {height_mm} mm with {spacing_mm} mm between pieces cannot be used"
-    )]
+    #[error("a sheet of {width_mm} × {height_mm} mm with {spacing_mm} mm between pieces cannot be used")]
     BadSheet {
         /// As given.
         width_mm: f64,
@@ -222,18 +203,9 @@ impl Frame {
         let best = fit::best_fit(&piece.outline, x, y, options.rotation);
         let (least_angle, least) = fit::least_rectangle(&piece.outline);
         let mut poses = Vec::new();
-        for angle in angles(
-            &piece.outline,
-            &[best.angle_rad, least_angle],
-            options.rotation,
-        ) {
+        for angle in angles(&piece.outline, &[best.angle_rad, least_angle], options.rotation) {
             if fit::is_within(fit::extent(&piece.outline, angle), x, y) {
-                poses.push(Pose::new(
-                    &piece.outline,
-                    angle,
-                    options.spacing_mm,
-                    &self.grid,
-                ));
+                poses.push(Pose::new(&piece.outline, angle, options.spacing_mm, &self.grid));
             }
         }
         if poses.is_empty() {
@@ -244,21 +216,12 @@ impl Frame {
                 scale: best.scale,
             });
         }
-        Ok(Item {
-            poses,
-            group: piece.group,
-            area_mm2: polygon::area(&piece.outline),
-            longest_mm: least.x,
-        })
+        Ok(Item { poses, group: piece.group, area_mm2: polygon::area(&piece.outline), longest_mm: least.x })
     }
 
     fn placement(&self, sheet: usize, angle_rad: f64, at: DVec2) -> Placement {
         match self.turned_mm {
-            None => Placement {
-                sheet,
-                rotation_rad: angle_rad,
-                translation: at,
-            },
+            None => Placement { sheet, rotation_rad: angle_rad, translation: at },
             Some(height) => Placement {
                 sheet,
                 rotation_rad: angle_rad + FRAC_PI_2,

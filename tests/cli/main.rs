@@ -17,11 +17,7 @@ struct Run {
 
 fn run(folder: &Path, arguments: &[&str]) -> Run {
     let mut command = assert_cmd::cargo::cargo_bin_cmd!("tatamu");
-    let result = command
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .unwrap();
+    let result = command.current_dir(folder).args(arguments).output().unwrap();
     Run {
         code: result.status.code(),
         out: String::from_utf8(result.stdout).unwrap(),
@@ -39,9 +35,8 @@ fn folder_with(files: &[(&str, &[u8])]) -> TempDir {
 
 fn names(folder: &TempDir) -> Vec<String> {
     let entries = std::fs::read_dir(folder.path()).unwrap();
-    let mut names: Vec<String> = entries
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
     names.sort();
     names
 }
@@ -61,8 +56,7 @@ fn assert_refused(files: &[(&str, &[u8])], arguments: &[&str], words: &[&str]) {
     assert_eq!(names(&folder), before);
 }
 
-const TETRAHEDRON: &str =
-    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+const TETRAHEDRON: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
 fn report(folder: &TempDir, name: &str) -> serde_json::Value {
     let bytes = std::fs::read(folder.path().join(name)).unwrap();
@@ -70,8 +64,5 @@ fn report(folder: &TempDir, name: &str) -> serde_json::Value {
 }
 
 fn assert_near(found: Option<f64>, expected: f64) {
-    assert!(
-        found.is_some_and(|x| (x - expected).abs() < 1e-9),
-        "{found:?}, not {expected}"
-    );
+    assert!(found.is_some_and(|x| (x - expected).abs() < 1e-9), "{found:?}, not {expected}");
 }

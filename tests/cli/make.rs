@@ -10,11 +10,7 @@ fn every_cube_is_made_and_segments_have_a_line_for_each_face() {
         let arguments = [&["make", "cube.data", "--size", "60"][..], &outputs].concat();
         let result = run(folder.path(), &arguments);
         assert_eq!(result.code, Some(0), "{name}: {}", result.err);
-        assert!(
-            !result.err.contains("the mesh has"),
-            "{name}: {}",
-            result.err
-        );
+        assert!(!result.err.contains("the mesh has"), "{name}: {}", result.err);
         assert_eq!(names(&folder), ["a.json", "a.seg", "cube.data"]);
         let segments = std::fs::read_to_string(folder.path().join("a.seg")).unwrap();
         assert_eq!(segments, "0\n".repeat(12));
@@ -32,26 +28,16 @@ fn without_o_a_pdf_stands_in_the_working_directory() {
     let result = run(folder.path(), &["make", "meshes/cube.off", "--size", "60"]);
     assert_eq!(result.code, Some(0), "{}", result.err);
     assert_eq!(names(&folder), ["cube.pdf", "meshes"]);
-    assert!(
-        std::fs::read(folder.path().join("cube.pdf"))
-            .unwrap()
-            .starts_with(b"%PDF")
-    );
+    assert!(std::fs::read(folder.path().join("cube.pdf")).unwrap().starts_with(b"%PDF"));
     for words in ["components  1: body", "a4", "written     cube.pdf"] {
-        assert!(
-            result.out.contains(words),
-            "no {words:?} in: {}",
-            result.out
-        );
+        assert!(result.out.contains(words), "no {words:?} in: {}", result.out);
     }
 }
 
 #[test]
 fn one_svg_a_sheet() {
     let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
-    let arguments = [
-        "make", "cube.off", "--size", "60", "-o", "a.svg", "-o", "a.fold",
-    ];
+    let arguments = ["make", "cube.off", "--size", "60", "-o", "a.svg", "-o", "a.fold"];
     let result = run(folder.path(), &arguments);
     assert_eq!(result.code, Some(0), "{}", result.err);
     assert_eq!(names(&folder), ["a-1.svg", "a.fold", "cube.off"]);
@@ -69,9 +55,7 @@ fn ctrl_c_stops_the_work_and_leaves_nothing() {
         .spawn()
         .unwrap();
     std::thread::sleep(std::time::Duration::from_secs(1));
-    let kill = std::process::Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
+    let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(kill.unwrap().success());
     let mut message = String::new();
     let mut stderr = child.stderr.take().unwrap();
@@ -86,12 +70,7 @@ fn quiet_says_nothing() {
     let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
     let arguments = ["make", "cube.off", "-q", "--size", "60", "-o", "a.json"];
     let result = run(folder.path(), &arguments);
-    assert_eq!(
-        (result.code, result.out.as_str()),
-        (Some(0), ""),
-        "{}",
-        result.err
-    );
+    assert_eq!((result.code, result.out.as_str()), (Some(0), ""), "{}", result.err);
 }
 
 #[test]
@@ -99,22 +78,10 @@ fn what_is_repaired_is_told_with_its_count() {
     let open = TETRAHEDRON.replace("f 2 3 4\n", "f 1 2 3\nf 1 1 2\n");
     let text = format!("{open}v 9 9 9\nv 8 9 9\nv 9 8 9\nv 9 9 8\nf 5 6 7\nf 5 8 6\n");
     let folder = folder_with(&[("a.obj", text.as_bytes())]);
-    let result = run(
-        folder.path(),
-        &["make", "a.obj", "-q", "--size", "100", "-o", "a.json"],
-    );
+    let result = run(folder.path(), &["make", "a.obj", "-q", "--size", "100", "-o", "a.json"]);
     assert_eq!(result.code, Some(0), "{}", result.err);
-    for words in [
-        "open edges: 7",
-        "bodies besides the first: 1",
-        "repeated faces: 1",
-        "without area: 1",
-    ] {
-        assert!(
-            result.err.contains(words),
-            "no {words:?} in: {}",
-            result.err
-        );
+    for words in ["open edges: 7", "bodies besides the first: 1", "repeated faces: 1", "without area: 1"] {
+        assert!(result.err.contains(words), "no {words:?} in: {}", result.err);
     }
 }
 
@@ -123,15 +90,7 @@ fn help_is_a_document() {
     let folder = tempfile::tempdir().unwrap();
     let result = run(folder.path(), &["make", "--help"]);
     assert_eq!(result.code, Some(0));
-    for words in [
-        "--up",
-        "--size",
-        "--tab-width",
-        "default: 6mm",
-        "Example:",
-        ".json",
-        "Examples:",
-    ] {
+    for words in ["--up", "--size", "--tab-width", "default: 6mm", "Example:", ".json", "Examples:"] {
         assert!(result.out.contains(words), "no {words:?} in the help");
     }
 }

@@ -8,17 +8,9 @@ fn a_wrong_key_in_a_project_file_is_shown_with_its_line() {
     let folder = folder_with(&[("a.obj", TETRAHEDRON.as_bytes()), ("a.toml", project)]);
     let result = run(folder.path(), &["make", "a.toml", "-o", "a.json"]);
     assert_eq!(result.code, Some(1));
-    assert!(
-        result.err.starts_with("error: project file a.toml: "),
-        "{}",
-        result.err
-    );
+    assert!(result.err.starts_with("error: project file a.toml: "), "{}", result.err);
     for words in ["line 4, column 1", "sise = 'a4'", "`size`", "`margin_mm`"] {
-        assert!(
-            result.err.contains(words),
-            "no {words:?} in: {}",
-            result.err
-        );
+        assert!(result.err.contains(words), "no {words:?} in: {}", result.err);
     }
     assert_eq!(result.err.matches("error").count(), 2, "{}", result.err);
     assert_eq!(names(&folder), ["a.obj", "a.toml"]);
@@ -27,11 +19,7 @@ fn a_wrong_key_in_a_project_file_is_shown_with_its_line() {
 #[test]
 fn a_project_whose_mesh_is_missing() {
     let files: [(&str, &[u8]); 1] = [("a.toml", b"mesh = 'gone.obj'")];
-    assert_refused(
-        &files,
-        &["make", "a.toml", "-o", "a.json"],
-        &["gone.obj", "no such file"],
-    );
+    assert_refused(&files, &["make", "a.toml", "-o", "a.json"], &["gone.obj", "no such file"]);
 }
 
 #[test]
@@ -39,16 +27,7 @@ fn init_writes_a_project_that_make_honours() {
     let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
     std::fs::create_dir(folder.path().join("projects")).unwrap();
     for project in ["cube.toml", "projects/cube.toml"] {
-        let flags = [
-            "--size",
-            "50",
-            "--top-edges",
-            "5",
-            "--direction",
-            "body=30",
-            "-o",
-            project,
-        ];
+        let flags = ["--size", "50", "--top-edges", "5", "--direction", "body=30", "-o", project];
         let result = run(folder.path(), &[&["init", "cube.off"][..], &flags].concat());
         assert_eq!(result.code, Some(0), "{}", result.err);
 
@@ -72,10 +51,7 @@ fn init_keeps_an_existing_file() {
     let files: [(&str, &[u8]); 2] = [("cube.off", cube::OFF.as_bytes()), ("cube.toml", b"mine")];
     assert_refused(&files, &["init", "cube.off"], &["cube.toml", "--force"]);
     let folder = folder_with(&files);
-    let result = run(
-        folder.path(),
-        &["init", "cube.off", "--force", "-q", "--size", "60"],
-    );
+    let result = run(folder.path(), &["init", "cube.off", "--force", "-q", "--size", "60"]);
     assert_eq!(result.code, Some(0), "{}", result.err);
     let text = std::fs::read_to_string(folder.path().join("cube.toml")).unwrap();
     assert!(text.contains("mesh = \"cube.off\""));

@@ -4,20 +4,12 @@ use super::*;
 
 #[test]
 fn a_missing_file() {
-    assert_refused(
-        &[],
-        &["make", "gone.obj"],
-        &["cannot read gone.obj", "no such file"],
-    );
+    assert_refused(&[], &["make", "gone.obj"], &["cannot read gone.obj", "no such file"]);
 }
 
 #[test]
 fn an_empty_file() {
-    assert_refused(
-        &[("a.obj", b"")],
-        &["make", "a.obj"],
-        &["a.obj", "is empty"],
-    );
+    assert_refused(&[("a.obj", b"")], &["make", "a.obj"], &["a.obj", "is empty"]);
 }
 
 #[test]
@@ -28,11 +20,7 @@ fn a_folder_as_input() {
 #[test]
 fn text_named_stl() {
     let text = b"Dear reader, this is no mesh at all.";
-    assert_refused(
-        &[("a.stl", text)],
-        &["make", "a.stl"],
-        &["a.stl", "Dear reader", "STL"],
-    );
+    assert_refused(&[("a.stl", text)], &["make", "a.stl"], &["a.stl", "Dear reader", "STL"]);
 }
 
 #[test]
@@ -56,17 +44,12 @@ fn coordinates_that_are_no_numbers() {
 fn indices_out_of_range() {
     let text = TETRAHEDRON.replace("f 2 3 4", "f 2 3 5");
     let files: [(&str, &[u8]); 1] = [("a.obj", text.as_bytes())];
-    assert_refused(
-        &files,
-        &["make", "a.obj"],
-        &["line 7", "vertex 5", "4 vertices, 1 to 4"],
-    );
+    assert_refused(&files, &["make", "a.obj"], &["line 7", "vertex 5", "4 vertices, 1 to 4"]);
 }
 
 #[test]
 fn a_planar_mesh() {
-    let text =
-        b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+    let text = b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
     assert_refused(&[("a.obj", text)], &["make", "a.obj"], &["a.obj", "flat"]);
 }
 
@@ -98,22 +81,14 @@ fn a_size_of_zero() {
 fn an_unknown_extension_is_refused_before_any_work() {
     let words = ["a.doc", ".json"];
     assert_refused(&[], &["make", "gone.obj", "-o", "a.doc"], &words);
-    assert_refused(
-        &[],
-        &["make", "gone.obj", "-o", "a.json", "-o", "json"],
-        &["json by its"],
-    );
+    assert_refused(&[], &["make", "gone.obj", "-o", "a.json", "-o", "json"], &["json by its"]);
 }
 
 #[test]
 fn places_that_cannot_be_written() {
     let files: [(&str, &[u8]); 1] = [("a.obj", TETRAHEDRON.as_bytes())];
     let make = |output: &str, word: &str| {
-        assert_refused(
-            &files,
-            &["make", "a.obj", "-o", output],
-            &["cannot write", word],
-        );
+        assert_refused(&files, &["make", "a.obj", "-o", output], &["cannot write", word]);
     };
     make("gone/a.json", "no such file or folder");
     assert_refused(
@@ -144,10 +119,7 @@ fn an_unknown_component() {
 
 #[test]
 fn names_cannot_steer_the_terminal() {
-    let result = run(
-        tempfile::tempdir().unwrap().path(),
-        &["make", "a\x1b[31m.obj"],
-    );
+    let result = run(tempfile::tempdir().unwrap().path(), &["make", "a\x1b[31m.obj"]);
     assert!(!result.err.contains('\x1b'), "{:?}", result.err);
 }
 
@@ -158,22 +130,9 @@ fn what_does_not_fit_the_paper_is_refused_with_a_size_that_fits() {
     assert_refused(&files, &arguments, &["does not fit", "--size"]);
     let folder = folder_with(&files);
     let message = run(folder.path(), &arguments).err;
-    let size = message
-        .split("--size ")
-        .nth(1)
-        .unwrap()
-        .split(' ')
-        .next()
-        .unwrap();
-    assert_eq!(
-        std::fs::read(folder.path().join("cube.pdf")).unwrap(),
-        b"old"
-    );
+    let size = message.split("--size ").nth(1).unwrap().split(' ').next().unwrap();
+    assert_eq!(std::fs::read(folder.path().join("cube.pdf")).unwrap(), b"old");
     let result = run(folder.path(), &["make", "cube.off", "--size", size]);
     assert_eq!(result.code, Some(0), "{}", result.err);
-    assert!(
-        std::fs::read(folder.path().join("cube.pdf"))
-            .unwrap()
-            .starts_with(b"%PDF")
-    );
+    assert!(std::fs::read(folder.path().join("cube.pdf")).unwrap().starts_with(b"%PDF"));
 }

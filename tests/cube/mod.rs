@@ -87,10 +87,7 @@ property list uchar int vertex_indices
 end_header
 ";
 
-fn bytes_of<const N: usize, T>(
-    items: impl IntoIterator<Item = T>,
-    to: fn(T) -> [u8; N],
-) -> Vec<u8> {
+fn bytes_of<const N: usize, T>(items: impl IntoIterator<Item = T>, to: fn(T) -> [u8; N]) -> Vec<u8> {
     items.into_iter().flat_map(to).collect()
 }
 
@@ -113,16 +110,8 @@ pub fn ply_ascii() -> Vec<u8> {
 pub fn ply_binary(is_big: bool) -> Vec<u8> {
     let order = if is_big { "big" } else { "little" };
     let mut bytes = format!("ply\nformat binary_{order}_endian 1.0\n{PLY_ELEMENTS}").into_bytes();
-    let float = if is_big {
-        f32::to_be_bytes
-    } else {
-        f32::to_le_bytes
-    };
-    let whole = if is_big {
-        u32::to_be_bytes
-    } else {
-        u32::to_le_bytes
-    };
+    let float = if is_big { f32::to_be_bytes } else { f32::to_le_bytes };
+    let whole = if is_big { u32::to_be_bytes } else { u32::to_le_bytes };
     bytes.extend(bytes_of(corners().into_iter().flatten(), float));
     for t in TRIANGLES {
         bytes.push(3);
@@ -149,10 +138,7 @@ pub fn stl_binary(header: &[u8]) -> Vec<u8> {
     bytes.extend(12u32.to_le_bytes());
     for t in TRIANGLES {
         bytes.extend([0; 12]);
-        bytes.extend(bytes_of(
-            t.iter().flat_map(|&v| corners()[v as usize]),
-            f32::to_le_bytes,
-        ));
+        bytes.extend(bytes_of(t.iter().flat_map(|&v| corners()[v as usize]), f32::to_le_bytes));
         bytes.extend([0; 2]);
     }
     bytes
@@ -171,10 +157,7 @@ pub fn glb() -> Vec<u8> {
         "buffers":[{"byteLength":240}]}"#;
     let mut json = json.as_bytes().to_vec();
     json.resize(json.len().next_multiple_of(4), b' ');
-    let mut data = bytes_of(
-        corners().into_iter().flatten().map(|x| x / 2.0),
-        f32::to_le_bytes,
-    );
+    let mut data = bytes_of(corners().into_iter().flatten().map(|x| x / 2.0), f32::to_le_bytes);
     data.extend(bytes_of(TRIANGLES.into_iter().flatten(), u32::to_le_bytes));
     let mut bytes = b"glTF\x02\0\0\0".to_vec();
     bytes.extend(((12 + 8 + json.len() + 8 + data.len()) as u32).to_le_bytes());
@@ -196,10 +179,7 @@ pub fn all() -> Vec<(&'static str, Vec<u8>)> {
         ("PLY, little-endian", ply_binary(false)),
         ("STL in text", stl_ascii()),
         ("binary STL", stl_binary(b"made by hand")),
-        (
-            "binary STL that begins like text",
-            stl_binary(b"solid cube\nfacet"),
-        ),
+        ("binary STL that begins like text", stl_binary(b"solid cube\nfacet")),
         ("GLB", glb()),
     ]
 }

@@ -80,8 +80,7 @@ impl Prism {
     /// The narrowest or lowest panel measure; a component needs a few millimetres.
     pub fn least_measure(&self) -> f64 {
         let n = self.normals_rad.len();
-        let heights: Vec<f64> =
-            (0..n).flat_map(|j| self.folded(j).0.into_iter().map(|p| p.y)).collect();
+        let heights: Vec<f64> = (0..n).flat_map(|j| self.folded(j).0.into_iter().map(|p| p.y)).collect();
         let widths =
             (0..n).flat_map(|j| heights.iter().map(move |&v| (j, v))).map(|(j, v)| self.edge_length(j, v));
         let panels = (0..n).flat_map(|j| {
@@ -103,11 +102,20 @@ impl Prism {
             let turn = DMat3::from_cols(DVec3::X, DVec3::Y * flip, DVec3::Z * flip);
             DAffine3::from_mat3_translation(turn, DVec3::Z * v)
         };
-        let bottom: Vec<DVec2> =
-            ring(bottom_v).into_iter().rev().map(|p| DVec2::new(p.x, -p.y)).collect();
+        let bottom: Vec<DVec2> = ring(bottom_v).into_iter().rev().map(|p| DVec2::new(p.x, -p.y)).collect();
         let mut panels = vec![
-            Panel { kind: PanelKind::Top, outline: ring(top_v), deployed: at(top_v, 1.0), flat: at(0.0, 1.0) },
-            Panel { kind: PanelKind::Bottom, outline: bottom, deployed: at(bottom_v, -1.0), flat: at(0.0, -1.0) },
+            Panel {
+                kind: PanelKind::Top,
+                outline: ring(top_v),
+                deployed: at(top_v, 1.0),
+                flat: at(0.0, 1.0),
+            },
+            Panel {
+                kind: PanelKind::Bottom,
+                outline: bottom,
+                deployed: at(bottom_v, -1.0),
+                flat: at(0.0, -1.0),
+            },
         ];
         let mut hinges = Vec::new();
         for j in 0..n {

@@ -23,20 +23,33 @@ pub(super) fn read(
     if bytes.starts_with(b"glTF") {
         check_glb(bytes)?;
     }
-    let file = Gltf::from_slice(bytes).map_err(|error| ReadError::Syntax {
+    let file = parse(bytes)?;
+    let mut scene =
+        Scene { buffers: load_buffers(&file, sibling)?, positions: Vec::new(), triangles: Vec::new() };
+    scene.add_nodes(&file)?;
+    Soup::new(scene.positions, scene.triangles).map_err(|error| ReadError::from_soup(Format::Gltf, &error))
+}
+
+/// Parses and validates the structure.
+fn parse(bytes: &[u8]) -> Result<Gltf, ReadError> {
+    let invalid = |error: gltf::Error| ReadError::Syntax {
         format: Format::Gltf,
         place: Place::Part("structure".to_owned()),
         found: format!("a fault ({})", shorten(&error.to_string())),
         expected: "valid glTF 2.0 without compression or other required extensions".to_owned(),
-    })?;
-    let mut scene = Scene {
-        buffers: load_buffers(&file, sibling)?,
-        positions: Vec::new(),
-        triangles: Vec::new(),
     };
-    scene.add_nodes(&file)?;
-    Soup::new(scene.positions, scene.triangles)
-        .map_err(|error| ReadError::from_soup(Format::Gltf, &error))
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(invalid)?;
+    let root = document.into_json();
+    // The validation of gltf-json 1.4 panics where a position accessor does not exist.
+    let position = gltf::json::validation::Checked::Valid(Semantic::Positions);
+    let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let mut accessors = primitives.filter_map(|primitive| primitive.attributes.get(&position));
+    if let Some(bad) = accessors.find(|accessor| accessor.value() >= root.accessors.len()) {
+        let found = format!("a reference to accessor {} of {}", bad.value(), root.accessors.len());
+        return Err(fault("structure", found, "accessors that exist"));
+    }
+    let document = gltf::Document::from_json(root).map_err(invalid)?;
+    Ok(Gltf { document, blob })
 }
 
 /// Compares the lengths in a GLB header with the length of the file.
@@ -82,10 +95,7 @@ fn load_buffers<'a>(
             Some(data) => decode(buffer.index(), data).map(Cow::Owned),
             None => sibling(uri)
                 .map(Cow::Owned)
-                .map_err(|reason| ReadError::Sibling {
-                    name: excerpt(uri.as_bytes()),
-                    reason,
-                }),
+                .map_err(|reason| ReadError::Sibling { name: excerpt(uri.as_bytes()), reason }),
         },
     };
     file.buffers().map(load).collect()
@@ -128,10 +138,7 @@ impl Scene<'_> {
                 let place = format!("node {}", node.index());
                 return Err(fault(&place, "a second parent", "a tree of nodes"));
             }
-            let own = node
-                .transform()
-                .matrix()
-                .map(|column| column.map(f64::from));
+            let own = node.transform().matrix().map(|column| column.map(f64::from));
             let matrix = parent * DMat4::from_cols_array_2d(&own);
             if let Some(mesh) = node.mesh() {
                 for primitive in mesh.primitives() {
@@ -174,13 +181,11 @@ impl Scene<'_> {
         }
         let is_mirror = matrix.determinant() < 0.0;
         let triangles = split(primitive.mode(), &indices);
-        self.triangles
-            .extend(triangles.into_iter().map(|[a, b, c]| {
-                let (b, c) = if is_mirror { (c, b) } else { (b, c) };
-                [base + a, base + b, base + c]
-            }));
-        self.positions
-            .extend(points.iter().map(|&p| matrix.transform_point3(p)));
+        self.triangles.extend(triangles.into_iter().map(|[a, b, c]| {
+            let (b, c) = if is_mirror { (c, b) } else { (b, c) };
+            [base + a, base + b, base + c]
+        }));
+        self.positions.extend(points.iter().map(|&p| matrix.transform_point3(p)));
         Ok(())
     }
 
@@ -200,19 +205,12 @@ impl Scene<'_> {
     }
 
     fn read_indices(&self, accessor: &Accessor) -> Result<Vec<u32>, ReadError> {
-        let is_whole = matches!(
-            accessor.data_type(),
-            DataType::U8 | DataType::U16 | DataType::U32
-        );
+        let is_whole = matches!(accessor.data_type(), DataType::U8 | DataType::U16 | DataType::U32);
         if !is_whole || accessor.dimensions() != Dimensions::Scalar {
             let place = format!("accessor {}", accessor.index());
             return Err(fault(&place, "other numbers", "unsigned whole indices"));
         }
-        let little = |item: &[u8]| {
-            item.iter()
-                .rev()
-                .fold(0, |sum, &byte| (sum << 8) | u32::from(byte))
-        };
+        let little = |item: &[u8]| item.iter().rev().fold(0, |sum, &byte| (sum << 8) | u32::from(byte));
         Ok(self.items(accessor)?.map(little).collect())
     }
 
@@ -244,9 +242,7 @@ impl Scene<'_> {
             .ok_or_else(missing)?;
         let needed = match count {
             0 => Some(0),
-            n => (n - 1)
-                .checked_mul(stride)
-                .and_then(|k| k.checked_add(size)),
+            n => (n - 1).checked_mul(stride).and_then(|k| k.checked_add(size)),
         };
         if stride < size || needed.is_none_or(|n| n > bytes.len()) {
             return Err(missing());
@@ -262,20 +258,9 @@ fn split(mode: Mode, v: &[u32]) -> Vec<[u32; 3]> {
         Mode::TriangleStrip => v
             .windows(3)
             .enumerate()
-            .map(|(k, w)| {
-                if k % 2 == 0 {
-                    [w[0], w[1], w[2]]
-                } else {
-                    [w[1], w[0], w[2]]
-                }
-            })
+            .map(|(k, w)| if k % 2 == 0 { [w[0], w[1], w[2]] } else { [w[1], w[0], w[2]] })
             .collect(),
-        Mode::TriangleFan => v
-            .get(1..)
-            .unwrap_or_default()
-            .windows(2)
-            .map(|w| [v[0], w[0], w[1]])
-            .collect(),
+        Mode::TriangleFan => v.get(1..).unwrap_or_default().windows(2).map(|w| [v[0], w[0], w[1]]).collect(),
         _ => Vec::new(),
     }
 }
@@ -287,9 +272,7 @@ mod tests {
 
     fn data() -> Vec<u8> {
         let mut bytes = Vec::new();
-        for x in [
-            0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0,
-        ] {
+        for x in [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0] {
             bytes.extend(x.to_le_bytes());
         }
         bytes.extend([0u16, 1, 2, 3].iter().flat_map(|v| v.to_le_bytes()));
@@ -331,10 +314,7 @@ mod tests {
     #[test]
     fn nodes_are_placed_and_mirrors_turned() {
         let nodes = r#"{"children":[1],"scale":[-2,2,2]},{"mesh":0,"translation":[1,0,0]}"#;
-        for bytes in [
-            json(&embedded(), nodes, 5, 4).into_bytes(),
-            glb(&json("", nodes, 5, 4), &data()),
-        ] {
+        for bytes in [json(&embedded(), nodes, 5, 4).into_bytes(), glb(&json("", nodes, 5, 4), &data())] {
             let soup = super::super::read(&bytes).unwrap();
             assert_eq!(soup.positions()[1], DVec3::new(-4.0, 0.0, 0.0));
             let triangles: Vec<&[u32]> = soup.polygons().collect();
@@ -344,10 +324,7 @@ mod tests {
 
     #[test]
     fn fans_and_lists() {
-        assert_eq!(
-            split(Mode::TriangleFan, &[5, 6, 7, 8]),
-            [[5, 6, 7], [5, 7, 8]]
-        );
+        assert_eq!(split(Mode::TriangleFan, &[5, 6, 7, 8]), [[5, 6, 7], [5, 7, 8]]);
         assert_eq!(split(Mode::Triangles, &[0, 1, 2, 3]), [[0, 1, 2]]);
         assert!(split(Mode::TriangleFan, &[]).is_empty());
         assert!(split(Mode::Lines, &[0, 1]).is_empty());
@@ -375,6 +352,8 @@ mod tests {
         let whole = glb(&json("", r#"{"mesh":0}"#, 5, 4), &data());
         assert!(message(&whole[..whole.len() - 9]).contains("promises"));
         assert!(message(b"glTF\x02\0\0\0\x01\0\0\0").contains("promises 1 bytes"));
+        let missing = json(&embedded(), r#"{"mesh":0}"#, 5, 4).replace("POSITION\":0", "POSITION\":7");
+        assert!(message(missing.as_bytes()).contains("accessor 7 of 2"));
         assert!(message(b"{\"hello\": 1}").contains("valid glTF"));
         let mut bad = data();
         bad[52] = 9;

@@ -21,10 +21,7 @@ pub(super) struct Line<'a> {
 
 impl<'a> Lines<'a> {
     pub fn new(text: &'a [u8]) -> Self {
-        Self {
-            rest: text,
-            number: 0,
-        }
+        Self { rest: text, number: 0 }
     }
 
     /// The next line as it stands; `\n`, `\r\n` and `\r` end lines.
@@ -36,11 +33,7 @@ impl<'a> Lines<'a> {
         let end = self.rest.iter().position(|b| matches!(b, b'\n' | b'\r'));
         let end = end.unwrap_or(self.rest.len());
         let line = &self.rest[..end];
-        let step = if self.rest[end..].starts_with(b"\r\n") {
-            2
-        } else {
-            1
-        };
+        let step = if self.rest[end..].starts_with(b"\r\n") { 2 } else { 1 };
         self.rest = self.rest.get(end + step..).unwrap_or_default();
         Some(line)
     }
@@ -51,11 +44,8 @@ impl<'a> Iterator for Lines<'a> {
 
     fn next(&mut self) -> Option<Line<'a>> {
         let mut part = self.raw()?;
-        let mut line = Line {
-            number: self.number,
-            first: part.strip_suffix(b"\\").unwrap_or(part),
-            more: Vec::new(),
-        };
+        let mut line =
+            Line { number: self.number, first: part.strip_suffix(b"\\").unwrap_or(part), more: Vec::new() };
         while part.ends_with(b"\\")
             && let Some(next) = self.raw()
         {
@@ -160,12 +150,7 @@ impl Seek for Feed<'_> {
         if to != SeekFrom::Start(0) {
             return Err(io::ErrorKind::Unsupported.into());
         }
-        *self = Feed::new(
-            [self.header, self.footer],
-            self.text,
-            self.rewrite,
-            self.line,
-        );
+        *self = Feed::new([self.header, self.footer], self.text, self.rewrite, self.line);
         Ok(0)
     }
 }
@@ -205,9 +190,6 @@ mod tests {
             seen.push((line.get(), buffer[..n].to_vec()));
         }
         let expected = [(0, "head\n"), (1, "one\n"), (3, "two\n"), (3, "foot\n")];
-        assert_eq!(
-            seen,
-            expected.map(|(n, text)| (n, text.as_bytes().to_vec()))
-        );
+        assert_eq!(seen, expected.map(|(n, text)| (n, text.as_bytes().to_vec())));
     }
 }

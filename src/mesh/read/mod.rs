@@ -173,18 +173,12 @@ impl ReadError {
     /// An error of [`Soup::new`] on vertices and faces in the order of the file.
     fn from_soup(format: Format, error: &SoupError) -> Self {
         match *error {
-            SoupError::NotFinite { vertex, position } => Self::NotFinite {
-                format,
-                place: Place::Vertex(vertex),
-                found: position.to_string(),
-            },
-            SoupError::Index { face, index, count } => Self::Index {
-                format,
-                place: Place::Face(face),
-                index: i64::from(index),
-                count,
-                first: 0,
-            },
+            SoupError::NotFinite { vertex, position } => {
+                Self::NotFinite { format, place: Place::Vertex(vertex), found: position.to_string() }
+            }
+            SoupError::Index { face, index, count } => {
+                Self::Index { format, place: Place::Face(face), index: i64::from(index), count, first: 0 }
+            }
             SoupError::TooLarge => Self::Unsupported {
                 format,
                 what: error.to_string(),
@@ -262,11 +256,7 @@ fn excerpt(bytes: &[u8]) -> String {
     const LENGTH: usize = 32;
     let text = String::from_utf8_lossy(bytes);
     let text = text.trim();
-    let mut short: String = text
-        .chars()
-        .take(LENGTH)
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
+    let mut short: String = text.chars().take(LENGTH).map(|c| if c.is_control() { ' ' } else { c }).collect();
     if text.chars().nth(LENGTH).is_some() {
         short.push('…');
     }
@@ -282,18 +272,10 @@ mod tests {
         let error = read(b"Dear reader,\nthis is no mesh.\x1b[31m").unwrap_err();
         assert_eq!(
             error,
-            ReadError::Unrecognised {
-                start: "\"Dear reader, this is no mesh. [3…\"".to_owned()
-            }
+            ReadError::Unrecognised { start: "\"Dear reader, this is no mesh. [3…\"".to_owned() }
         );
-        assert!(matches!(
-            read(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"),
-            Err(ReadError::Unrecognised { .. })
-        ));
-        assert!(matches!(
-            read(b"solid waste is a problem"),
-            Err(ReadError::Unrecognised { .. })
-        ));
+        assert!(matches!(read(b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR"), Err(ReadError::Unrecognised { .. })));
+        assert!(matches!(read(b"solid waste is a problem"), Err(ReadError::Unrecognised { .. })));
     }
 
     #[test]

@@ -32,9 +32,7 @@ fn split_header(word: &[u8]) -> Option<(bool, &[u8])> {
 pub(super) fn has_header(bytes: &[u8]) -> bool {
     let start = &bytes[..bytes.len().min(4096)];
     let mut words = Lines::new(start).filter_map(|line| line.words().next());
-    words
-        .next()
-        .is_some_and(|word| split_header(word).is_some())
+    words.next().is_some_and(|word| split_header(word).is_some())
 }
 
 pub(super) fn read(text: &[u8]) -> Result<Soup, ReadError> {
@@ -42,24 +40,18 @@ pub(super) fn read(text: &[u8]) -> Result<Soup, ReadError> {
     let (vertex_count, face_count) = read_counts(&mut lines)?;
     let mut positions = Vec::with_capacity(vertex_count.min(text.len() / 6));
     for k in 0..vertex_count {
-        let line = lines
-            .next()
-            .ok_or_else(|| ends_at("vertices", vertex_count, k))?;
+        let line = lines.next().ok_or_else(|| ends_at("vertices", vertex_count, k))?;
         positions.push(read_position(&line)?);
     }
     let mut polygons = Vec::with_capacity(face_count.min(text.len() / 4));
     for k in 0..face_count {
-        let line = lines
-            .next()
-            .ok_or_else(|| ends_at("faces", face_count, k))?;
+        let line = lines.next().ok_or_else(|| ends_at("faces", face_count, k))?;
         polygons.push(read_face(&line, vertex_count)?);
     }
     Soup::new(positions, polygons).map_err(|error| ReadError::from_soup(Format::Off, &error))
 }
 
-fn read_counts<'a>(
-    lines: &mut impl Iterator<Item = Line<'a>>,
-) -> Result<(usize, usize), ReadError> {
+fn read_counts<'a>(lines: &mut impl Iterator<Item = Line<'a>>) -> Result<(usize, usize), ReadError> {
     let unsupported = |what: &str| ReadError::Unsupported {
         format: Format::Off,
         what: what.to_owned(),
@@ -109,11 +101,7 @@ fn read_position(line: &Line) -> Result<DVec3, ReadError> {
     })?;
     let position = DVec3::new(x, y, z);
     if !position.is_finite() {
-        return Err(ReadError::NotFinite {
-            format: Format::Off,
-            place,
-            found: line.excerpt(),
-        });
+        return Err(ReadError::NotFinite { format: Format::Off, place, found: line.excerpt() });
     }
     Ok(position)
 }
@@ -185,10 +173,7 @@ mod tests {
     #[test]
     fn colours_after_vertices_are_passed_over() {
         let text = b"COFF\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 255 0 0 255\n0 1 0.5 0.1 0.2 0.3\n3 0 1 2\n";
-        assert_eq!(
-            read(text).unwrap().positions()[2],
-            DVec3::new(0.0, 1.0, 0.5)
-        );
+        assert_eq!(read(text).unwrap().positions()[2], DVec3::new(0.0, 1.0, 0.5));
     }
 
     #[test]

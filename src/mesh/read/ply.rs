@@ -14,17 +14,13 @@ use std::io::{BufRead, BufReader, ErrorKind};
 
 pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
     let mut reader = Reader::new(bytes);
-    let header = Parser::<Other>::new()
-        .read_header(&mut reader)
-        .map_err(|error| in_header(bytes, &error))?;
+    let header = Parser::<Other>::new().read_header(&mut reader).map_err(|error| in_header(bytes, &error))?;
     let header_lines = reader.line() - 1;
     let body = reader.into_inner();
     check_header(&header, body.len())?;
     if header.encoding != Encoding::Ascii {
         let mut reader = Reader::new(body);
-        return read_elements(&mut reader, &header, &|element, error| {
-            in_binary(body.len(), element, error)
-        });
+        return read_elements(&mut reader, &header, &|element, error| in_binary(body.len(), element, error));
     }
     let at = Cell::new(0);
     let feed = Feed::new([b"", b""], body, rewrite, &at);
@@ -38,10 +34,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
 fn check_header(header: &Header, size: usize) -> Result<(), ReadError> {
     let has = |element: &str, names: &[&str]| {
         let properties = header.elements.get(element).map(|e| &e.properties);
-        names
-            .iter()
-            .filter(|&&name| properties.is_some_and(|p| p.contains_key(name)))
-            .count()
+        names.iter().filter(|&&name| properties.is_some_and(|p| p.contains_key(name))).count()
     };
     let missing = |what: &str, found: String| ReadError::Syntax {
         format: Format::Ply,
@@ -126,24 +119,15 @@ fn read_elements<R: BufRead>(
         }
     }
     let count = positions.len();
-    let polygons = faces
-        .iter()
-        .enumerate()
-        .map(|(k, face)| narrow(k, &face.0, count))
-        .collect::<Result<Vec<_>, _>>()?;
+    let polygons =
+        faces.iter().enumerate().map(|(k, face)| narrow(k, &face.0, count)).collect::<Result<Vec<_>, _>>()?;
     Soup::new(positions, polygons).map_err(|error| ReadError::from_soup(Format::Ply, &error))
 }
 
 fn narrow(face: usize, indices: &[i64], count: usize) -> Result<Vec<u32>, ReadError> {
     let narrow = |&index: &i64| match u32::try_from(index) {
         Ok(v) if (v as usize) < count => Ok(v),
-        _ => Err(ReadError::Index {
-            format: Format::Ply,
-            place: Place::Face(face),
-            index,
-            count,
-            first: 0,
-        }),
+        _ => Err(ReadError::Index { format: Format::Ply, place: Place::Face(face), index, count, first: 0 }),
     };
     indices.iter().map(narrow).collect()
 }
@@ -153,9 +137,7 @@ fn rewrite(line: &Line, out: &mut Vec<u8>) {
     let start = out.len();
     for word in line.words() {
         let has_bare_point = word.contains(&b'.')
-            && !word
-                .windows(3)
-                .any(|w| w[1] == b'.' && w[0].is_ascii_digit() && w[2].is_ascii_digit());
+            && !word.windows(3).any(|w| w[1] == b'.' && w[0].is_ascii_digit() && w[2].is_ascii_digit());
         match number(word) {
             Some(x) if has_bare_point => out.extend_from_slice(x.to_string().as_bytes()),
             _ => out.extend_from_slice(word),
@@ -211,15 +193,9 @@ fn in_text(
     let line = Lines::new(body).find(|line| line.number == at);
     let is_not_finite = |line: &Line| line.words().filter_map(number).any(|x| !x.is_finite());
     let place = Place::Line(header_lines + at);
-    let found = line
-        .as_ref()
-        .map_or_else(|| "the end".to_owned(), Line::excerpt);
+    let found = line.as_ref().map_or_else(|| "the end".to_owned(), Line::excerpt);
     if element.name == "vertex" && line.as_ref().is_some_and(is_not_finite) {
-        return ReadError::NotFinite {
-            format: Format::Ply,
-            place,
-            found,
-        };
+        return ReadError::NotFinite { format: Format::Ply, place, found };
     }
     let names: Vec<&str> = element.properties.keys().map(String::as_str).collect();
     ReadError::Syntax {
@@ -255,33 +231,18 @@ mod tests {
     #[test]
     fn errors_in_text_name_the_place() {
         let message = |bytes: &[u8]| read(bytes).unwrap_err().to_string();
-        assert!(
-            message(&text("3 0 1 2\n3 0 1 4\n"))
-                .contains("face 1 (counted from 0): refers to vertex 4")
-        );
+        assert!(message(&text("3 0 1 2\n3 0 1 4\n")).contains("face 1 (counted from 0): refers to vertex 4"));
         assert!(message(&text("3 0 1 2\n3 0 1 -1\n")).contains("vertex -1"));
         assert!(message(&text("3 0 1 2\n3 0 1\n")).contains("line 18: found \"3 0 1\""));
         assert!(message(&text("3 0 1 2\n")).contains("promises 2 times \"face\""));
         let whole = String::from_utf8(text("3 0 1 2\n3 0 1 2\n")).unwrap();
         let nan = whole.replace("0 .5", "0 nan");
         let error = read(nan.as_bytes()).unwrap_err();
-        assert!(
-            matches!(
-                error,
-                ReadError::NotFinite {
-                    place: Place::Line(15),
-                    ..
-                }
-            ),
-            "{error}"
-        );
-        assert!(
-            message(whole.replace("element face", "lement face").as_bytes()).contains("line 9")
-        );
+        assert!(matches!(error, ReadError::NotFinite { place: Place::Line(15), .. }), "{error}");
+        assert!(message(whole.replace("element face", "lement face").as_bytes()).contains("line 9"));
         assert!(message(whole.replace("float x", "float s").as_bytes()).contains("x, y and z"));
         assert!(
-            message(whole.replace("int vertex_indices", "int strip").as_bytes())
-                .contains("vertex_indices")
+            message(whole.replace("int vertex_indices", "int strip").as_bytes()).contains("vertex_indices")
         );
     }
 
@@ -294,19 +255,11 @@ mod tests {
         )
         .into_bytes();
         for x in [0.0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0] {
-            bytes.extend(if big {
-                x.to_be_bytes()
-            } else {
-                x.to_le_bytes()
-            });
+            bytes.extend(if big { x.to_be_bytes() } else { x.to_le_bytes() });
         }
         bytes.push(3);
         for v in 0..3u32 {
-            bytes.extend(if big {
-                v.to_be_bytes()
-            } else {
-                v.to_le_bytes()
-            });
+            bytes.extend(if big { v.to_be_bytes() } else { v.to_le_bytes() });
         }
         bytes
     }
@@ -326,17 +279,10 @@ mod tests {
             binary("big", 4_000_000_000, "1"),
             binary("little", 3, "18446744073709551615"),
             binary("little", 3, "2"),
-            binary(
-                "little",
-                3,
-                "1\r\nelement nothing 4000000000\r\nelement x 1",
-            ),
+            binary("little", 3, "1\r\nelement nothing 4000000000\r\nelement x 1"),
         ] {
             let error = read(&bytes).unwrap_err();
-            assert!(
-                matches!(error, ReadError::Size { .. } | ReadError::Syntax { .. }),
-                "{error}"
-            );
+            assert!(matches!(error, ReadError::Size { .. } | ReadError::Syntax { .. }), "{error}");
         }
     }
 }

@@ -19,9 +19,8 @@ fn binary_counts(bytes: &[u8]) -> Option<(usize, usize)> {
 
 /// Whether the length is just what the count in the file promises.
 pub(super) fn is_exact_binary(bytes: &[u8]) -> bool {
-    binary_counts(bytes).is_some_and(|(promised, _)| {
-        promised > 0 && HEADER + 4 + TRIANGLE * promised == bytes.len()
-    })
+    binary_counts(bytes)
+        .is_some_and(|(promised, _)| promised > 0 && HEADER + 4 + TRIANGLE * promised == bytes.len())
 }
 
 /// Whether bytes that are no text can be meant as STL: the count is not far from what there is.
@@ -90,11 +89,7 @@ fn explain(at: usize, line: Option<&Line>) -> ReadError {
         numbers().all(|x| x.is_some()) && numbers().flatten().any(|x| !(x as f32).is_finite())
     };
     if line.is_some_and(is_not_finite) {
-        return ReadError::NotFinite {
-            format: Format::StlAscii,
-            place,
-            found,
-        };
+        return ReadError::NotFinite { format: Format::StlAscii, place, found };
     }
     ReadError::Syntax {
         format: Format::StlAscii,
@@ -185,10 +180,7 @@ mod tests {
         for promised in [3, 1] {
             let bytes = binary(b"", promised, &[FLAT, FLAT]);
             let error = super::super::read(&bytes).unwrap_err().to_string();
-            assert!(
-                error.contains(&format!("promises {promised} triangles")),
-                "{error}"
-            );
+            assert!(error.contains(&format!("promises {promised} triangles")), "{error}");
         }
     }
 
@@ -197,13 +189,7 @@ mod tests {
         let mut bad = FLAT;
         bad[4] = f32::NAN;
         let error = super::super::read(&binary(b"", 2, &[FLAT, bad])).unwrap_err();
-        assert!(matches!(
-            error,
-            ReadError::NotFinite {
-                place: Place::Face(1),
-                ..
-            }
-        ));
+        assert!(matches!(error, ReadError::NotFinite { place: Place::Face(1), .. }));
     }
 
     const FACET: &str = "facet normal nan nan nan\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n \
@@ -213,10 +199,7 @@ mod tests {
     fn text_in_capitals_with_several_solids() {
         let text = format!("solid\n{FACET}endsolid\n\nsolid two words\n{FACET}\nendsolid two\n");
         for text in [text.clone(), text.to_uppercase()] {
-            assert_eq!(
-                super::super::read(text.as_bytes()).unwrap().polygon_count(),
-                2
-            );
+            assert_eq!(super::super::read(text.as_bytes()).unwrap().polygon_count(), 2);
         }
     }
 
@@ -225,31 +208,10 @@ mod tests {
         let error = |text: &str| super::super::read(text.as_bytes()).unwrap_err();
         let whole = format!("solid x\n{FACET}{FACET}endsolid x\n");
         let broken = error(&whole.replacen("vertex 1 0 0", "vertex 1 zero 0", 1));
-        assert!(
-            matches!(
-                broken,
-                ReadError::Syntax {
-                    place: Place::Line(5),
-                    ..
-                }
-            ),
-            "{broken}"
-        );
+        assert!(matches!(broken, ReadError::Syntax { place: Place::Line(5), .. }), "{broken}");
         let infinite = error(&whole.replacen("vertex 1 0 0", "vertex 1 1e99 0", 1));
-        assert!(matches!(
-            infinite,
-            ReadError::NotFinite {
-                place: Place::Line(5),
-                ..
-            }
-        ));
-        assert!(matches!(
-            error(&whole[..whole.len() - 40]),
-            ReadError::Size { .. }
-        ));
-        assert!(matches!(
-            error("solid x\nendsolid x\n"),
-            ReadError::NoFaces { .. }
-        ));
+        assert!(matches!(infinite, ReadError::NotFinite { place: Place::Line(5), .. }));
+        assert!(matches!(error(&whole[..whole.len() - 40]), ReadError::Size { .. }));
+        assert!(matches!(error("solid x\nendsolid x\n"), ReadError::NoFaces { .. }));
     }
 }

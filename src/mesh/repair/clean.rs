@@ -42,11 +42,7 @@ pub(super) fn drop_flat(
     let before = polygon_count(triangles);
     for _ in 0..ROUNDS {
         let flat: Vec<bool> = triangles.iter().map(is_flat).collect();
-        let turned = if flat.contains(&true) {
-            turn_edges(positions, triangles, &flat)
-        } else {
-            0
-        };
+        let turned = if flat.contains(&true) { turn_edges(positions, triangles, &flat) } else { 0 };
         if turned == 0 {
             break;
         }
@@ -90,10 +86,7 @@ fn turn_edges(positions: &[DVec3], triangles: &mut [Triangle], flat: &[bool]) ->
         }
         let (start, end) = (faces[other][side], faces[other][(side + 1) % 3]);
         triangles[other].corners = [start, middle, apex];
-        triangles[f] = Triangle {
-            corners: [middle, end, apex],
-            polygon: triangles[other].polygon,
-        };
+        triangles[f] = Triangle { corners: [middle, end, apex], polygon: triangles[other].polygon };
         is_touched[f] = true;
         is_touched[other] = true;
         count += 1;

@@ -91,10 +91,7 @@ impl Mesh {
     pub fn from_soup(soup: &Soup) -> Result<(Self, Repairs), MeshError> {
         let is_used = used_vertices(soup);
         let tolerance = WELD * checked_diagonal(soup, &is_used)?;
-        let mut repairs = Repairs {
-            input_faces: soup.polygon_count(),
-            ..Repairs::default()
-        };
+        let mut repairs = Repairs { input_faces: soup.polygon_count(), ..Repairs::default() };
         let (mut positions, of_input) = weld::weld(soup.positions(), &is_used, tolerance);
         let used_count = is_used.iter().filter(|&&used| used).count();
         repairs.welded_vertices = used_count - positions.len();
@@ -102,10 +99,7 @@ impl Mesh {
         clean::drop_duplicates(&mut triangles, &mut repairs);
         clean::drop_flat(&positions, &mut triangles, tolerance, &mut repairs);
         if triangles.len() < 4 {
-            return Err(MeshError::TooFewFaces {
-                faces: triangles.len(),
-                input: repairs.input_faces,
-            });
+            return Err(MeshError::TooFewFaces { faces: triangles.len(), input: repairs.input_faces });
         }
         clean::drop_unused(&mut positions, &mut triangles);
         if is_planar(&positions) {
@@ -117,11 +111,7 @@ impl Mesh {
         let uses = |e: usize| edges.sides(e).len();
         repairs.boundary_edges = (0..edges.count()).filter(|&e| uses(e) == 1).count();
         repairs.non_manifold_edges = (0..edges.count()).filter(|&e| uses(e) > 2).count();
-        let mesh = Self {
-            positions,
-            faces,
-            input_face: triangles.iter().map(|t| t.polygon).collect(),
-        };
+        let mesh = Self { positions, faces, input_face: triangles.iter().map(|t| t.polygon).collect() };
         Ok((mesh, repairs))
     }
 }
@@ -137,12 +127,8 @@ fn used_vertices(soup: &Soup) -> Vec<bool> {
 
 /// The diagonal of the bounding box of all used vertices.
 fn checked_diagonal(soup: &Soup, is_used: &[bool]) -> Result<f64, MeshError> {
-    let used: Vec<DVec3> = soup
-        .positions()
-        .iter()
-        .zip(is_used)
-        .filter_map(|(&p, &used)| used.then_some(p))
-        .collect();
+    let used: Vec<DVec3> =
+        soup.positions().iter().zip(is_used).filter_map(|(&p, &used)| used.then_some(p)).collect();
     let (low, high) = bounds(&used);
     let diagonal = (high - low).length();
     if used.is_empty() || low == high {

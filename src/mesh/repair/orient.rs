@@ -18,12 +18,7 @@ const CURVED: f64 = 0.01;
 /// together over manifold edges), then turns each patch outwards: by its volume where it is
 /// closed or clearly curved round the middle of its component, else as most of its faces were.
 /// Counts turned faces and components.
-pub(super) fn orient(
-    positions: &[DVec3],
-    faces: &mut [[u32; 3]],
-    edges: &Edges,
-    repairs: &mut Repairs,
-) {
+pub(super) fn orient(positions: &[DVec3], faces: &mut [[u32; 3]], edges: &Edges, repairs: &mut Repairs) {
     let (component_of, component_count) = components(faces.len(), edges);
     repairs.components = component_count;
     let centroids = centroids(positions, faces, &component_of, component_count);
@@ -84,12 +79,7 @@ fn components(face_count: usize, edges: &Edges) -> (Vec<u32>, usize) {
 }
 
 /// The centroid of each component's surface.
-fn centroids(
-    positions: &[DVec3],
-    faces: &[[u32; 3]],
-    component_of: &[u32],
-    count: usize,
-) -> Vec<DVec3> {
+fn centroids(positions: &[DVec3], faces: &[[u32; 3]], component_of: &[u32], count: usize) -> Vec<DVec3> {
     let mut sums = vec![(DVec3::ZERO, 0.0); count];
     for (face, &component) in faces.iter().zip(component_of) {
         let [a, b, c] = face.map(|v| positions[v as usize]);
@@ -103,13 +93,7 @@ fn centroids(
 
 /// Collects the patch of `seed`, and which of its faces must be turned to agree with `seed`.
 /// Where the surface is one-sided, the first way to reach a face decides.
-fn grow(
-    seed: usize,
-    faces: &[[u32; 3]],
-    edges: &Edges,
-    turned: &mut [Option<bool>],
-    patch: &mut Vec<usize>,
-) {
+fn grow(seed: usize, faces: &[[u32; 3]], edges: &Edges, turned: &mut [Option<bool>], patch: &mut Vec<usize>) {
     patch.clear();
     patch.push(seed);
     turned[seed] = Some(false);

@@ -3,19 +3,11 @@ use glam::DQuat;
 
 /// Corner k of the unit cube has the bits of k as coordinates.
 fn cube_corners() -> Vec<DVec3> {
-    (0..8)
-        .map(|k| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)))
-        .collect()
+    (0..8).map(|k| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2))).collect()
 }
 
-const CUBE: [[u32; 4]; 6] = [
-    [0, 2, 3, 1],
-    [4, 5, 7, 6],
-    [0, 1, 5, 4],
-    [2, 6, 7, 3],
-    [0, 4, 6, 2],
-    [1, 3, 7, 5],
-];
+const CUBE: [[u32; 4]; 6] =
+    [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
 
 fn mesh_of<P: AsRef<[u32]>>(positions: Vec<DVec3>, faces: Vec<P>) -> (Mesh, Repairs) {
     Mesh::from_soup(&Soup::new(positions, faces).unwrap()).unwrap()
@@ -46,11 +38,7 @@ fn a_plain_cube_needs_no_repair() {
     assert_clean(&mesh);
     assert!((mesh.volume() - 1.0).abs() < 1e-12);
     assert_eq!(mesh.input_faces(), [0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5]);
-    let expected = Repairs {
-        input_faces: 6,
-        components: 1,
-        ..Repairs::default()
-    };
+    let expected = Repairs { input_faces: 6, components: 1, ..Repairs::default() };
     assert_eq!(repairs, expected);
 }
 
@@ -113,10 +101,8 @@ fn an_open_box_faces_outwards() {
 fn a_wavy_sheet_keeps_the_side_of_most_faces() {
     let at = |i: u32, j: u32| DVec3::new(f64::from(i), f64::from(j), f64::from((i + j) % 2) * 0.1);
     let positions = (0..25).map(|k| at(k / 5, k % 5)).collect();
-    let mut faces: Vec<[u32; 4]> = (0..16)
-        .map(|k| k / 4 * 5 + k % 4)
-        .map(|v| [v, v + 5, v + 6, v + 1])
-        .collect();
+    let mut faces: Vec<[u32; 4]> =
+        (0..16).map(|k| k / 4 * 5 + k % 4).map(|v| [v, v + 5, v + 6, v + 1]).collect();
     faces[0].reverse();
     faces[7].reverse();
     let (mesh, repairs) = mesh_of(positions, faces);
@@ -130,11 +116,7 @@ fn a_wavy_sheet_keeps_the_side_of_most_faces() {
 #[test]
 fn two_cubes_that_share_an_edge_face_outwards_and_are_counted() {
     let mut positions = cube_corners();
-    positions.extend(
-        cube_corners()
-            .iter()
-            .map(|&p| p + DVec3::new(1.0, 1.0, 0.0)),
-    );
+    positions.extend(cube_corners().iter().map(|&p| p + DVec3::new(1.0, 1.0, 0.0)));
     let mut faces = CUBE.to_vec();
     faces.extend(CUBE.map(|f| f.map(|v| v + 8)));
     for face in &mut faces[6..] {
@@ -166,10 +148,7 @@ fn triangles_without_area_leave_no_slit() {
     let mut faces: Vec<Vec<u32>> = CUBE.iter().map(|f| f.to_vec()).collect();
     faces[2] = vec![0, 8, 9, 10, 1, 5, 4];
     faces.extend([vec![0, 9, 8], vec![0, 10, 9], vec![0, 1, 10]]);
-    for turn in [
-        DQuat::IDENTITY,
-        DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 0.5, 0.7),
-    ] {
+    for turn in [DQuat::IDENTITY, DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 0.5, 0.7)] {
         let positions = positions.iter().map(|&p| turn * p).collect();
         let (mesh, repairs) = mesh_of(positions, faces.clone());
         assert_clean(&mesh);
@@ -186,24 +165,12 @@ fn what_is_no_solid_is_refused() {
     let one = error_of(cube_corners(), vec![[0, 1, 2]]);
     assert_eq!(one, MeshError::TooFewFaces { faces: 1, input: 1 });
     assert!(one.to_string().contains("in the mesh: 1, from 1 faces"));
-    assert_eq!(
-        error_of(vec![DVec3::ONE; 4], vec![[0, 1, 2]]),
-        MeshError::OnePoint
-    );
+    assert_eq!(error_of(vec![DVec3::ONE; 4], vec![[0, 1, 2]]), MeshError::OnePoint);
     assert_eq!(error_of(cube_corners(), vec![[0; 0]]), MeshError::OnePoint);
     let huge = cube_corners().iter().map(|&p| p * 1e200).collect();
-    assert!(matches!(
-        error_of(huge, CUBE.to_vec()),
-        MeshError::Extent { .. }
-    ));
-    let huge = cube_corners()
-        .iter()
-        .map(|&p| (p - 0.5) * 1.7e308 * 2.0)
-        .collect();
-    assert!(matches!(
-        error_of(huge, CUBE.to_vec()),
-        MeshError::Extent { .. }
-    ));
+    assert!(matches!(error_of(huge, CUBE.to_vec()), MeshError::Extent { .. }));
+    let huge = cube_corners().iter().map(|&p| (p - 0.5) * 1.7e308 * 2.0).collect();
+    assert!(matches!(error_of(huge, CUBE.to_vec()), MeshError::Extent { .. }));
     let line = (0..9).map(|k| DVec3::splat(f64::from(k))).collect();
     let error = error_of(line, vec![[0, 1, 2], [1, 2, 3], [2, 3, 4], [3, 4, 5]]);
     assert_eq!(error, MeshError::TooFewFaces { faces: 0, input: 4 });
@@ -213,13 +180,8 @@ fn what_is_no_solid_is_refused() {
 fn a_flat_mesh_is_refused_wherever_it_lies() {
     let turn = DQuat::from_euler(glam::EulerRot::XYZ, 1.0, 0.4, -2.0);
     let grid = |k: u32| turn * DVec3::new(f64::from(k / 4) + 1e3, f64::from(k % 4), 5.0);
-    let faces: Vec<[u32; 4]> = [0, 1, 2, 4, 5, 6]
-        .map(|v| [v, v + 4, v + 5, v + 1])
-        .to_vec();
-    assert_eq!(
-        error_of((0..16).map(grid).collect(), faces),
-        MeshError::Planar
-    );
+    let faces: Vec<[u32; 4]> = [0, 1, 2, 4, 5, 6].map(|v| [v, v + 4, v + 5, v + 1]).to_vec();
+    assert_eq!(error_of((0..16).map(grid).collect(), faces), MeshError::Planar);
 }
 
 #[test]
@@ -238,10 +200,7 @@ fn the_size_and_place_of_the_input_do_not_matter() {
         let (low, high) = mesh.bounds();
         let side = (high - low).x;
         assert_eq!(repairs.flipped_faces, 12);
-        assert!(
-            (mesh.volume() / side.powi(3) - 1.0).abs() < 1e-9,
-            "{scale} {offset}"
-        );
+        assert!((mesh.volume() / side.powi(3) - 1.0).abs() < 1e-9, "{scale} {offset}");
     }
 }
 
@@ -252,15 +211,7 @@ fn labels_go_back_to_the_faces_of_the_file() {
     let (mesh, repairs) = mesh_of(cube_corners(), faces);
     let labels: Vec<Option<u32>> = mesh.input_faces().iter().map(|&f| Some(10 + f)).collect();
     let back = mesh.labels_of_input(&labels, repairs.input_faces);
-    let expected = [
-        Some(10),
-        None,
-        Some(12),
-        Some(13),
-        Some(14),
-        Some(15),
-        Some(16),
-    ];
+    let expected = [Some(10), None, Some(12), Some(13), Some(14), Some(15), Some(16)];
     assert_eq!(back, expected);
     let mixed: Vec<Option<u32>> = (0..12).map(|f| Some(1 - f % 2)).collect();
     let back = mesh.labels_of_input(&mixed, repairs.input_faces);

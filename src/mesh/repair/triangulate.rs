@@ -57,10 +57,8 @@ fn cut(positions: &[DVec3], outline: &[u32]) -> Vec<[u32; 3]> {
         return Vec::new();
     };
     let (a, b) = plane.basis();
-    let flat: Vec<DVec2> = corners
-        .iter()
-        .map(|&p| DVec2::new(a.dot(p - corners[0]), b.dot(p - corners[0])))
-        .collect();
+    let flat: Vec<DVec2> =
+        corners.iter().map(|&p| DVec2::new(a.dot(p - corners[0]), b.dot(p - corners[0]))).collect();
     let ring: LineString = flat.iter().map(|p| (p.x, p.y)).collect();
     let ears = Polygon::new(ring, Vec::new()).earcut_triangles_raw();
     let (ears, _) = ears.triangle_indices.as_chunks::<3>();
@@ -79,17 +77,10 @@ fn cut(positions: &[DVec3], outline: &[u32]) -> Vec<[u32; 3]> {
 /// divided by the square of the polygon's size so that it keeps clear of underflow.
 fn newell(corners: &[DVec3]) -> DVec3 {
     let start = corners[0];
-    let size = corners
-        .iter()
-        .map(|p| p.distance(start))
-        .fold(0.0, f64::max);
+    let size = corners.iter().map(|p| p.distance(start)).fold(0.0, f64::max);
     let unit = |p: DVec3| (p - start) / size;
     let next = corners.iter().cycle().skip(1);
-    corners
-        .iter()
-        .zip(next)
-        .map(|(&p, &q)| unit(p).cross(unit(q)))
-        .sum()
+    corners.iter().zip(next).map(|(&p, &q)| unit(p).cross(unit(q))).sum()
 }
 
 #[cfg(test)]
@@ -125,10 +116,7 @@ mod tests {
             let (sum, absolute) = area_vector(&positions, &triangles);
             let expected = turn * DVec3::Z * if outline[0] == 4 { -10.0 } else { 10.0 };
             assert!((sum - expected).length() < 1e-12, "{outline:?}: {sum}");
-            assert!(
-                (absolute - 10.0).abs() < 1e-12,
-                "{outline:?} overlaps itself"
-            );
+            assert!((absolute - 10.0).abs() < 1e-12, "{outline:?} overlaps itself");
         }
     }
 
@@ -146,20 +134,9 @@ mod tests {
     #[test]
     fn what_has_no_area_is_counted() {
         let positions = [0.0, 1.0, 2.0, 3.0].map(|x| DVec3::new(x, x, 0.0));
-        for outline in [
-            &[0, 1, 2, 3][..],
-            &[0, 1],
-            &[2],
-            &[],
-            &[0, 1, 1, 0, 0],
-            &[1, 1, 1],
-        ] {
+        for outline in [&[0, 1, 2, 3][..], &[0, 1], &[2], &[], &[0, 1, 1, 0, 0], &[1, 1, 1]] {
             let (triangles, repairs) = run(&positions, outline);
-            assert_eq!(
-                (triangles.len(), repairs.degenerate_faces),
-                (0, 1),
-                "{outline:?}"
-            );
+            assert_eq!((triangles.len(), repairs.degenerate_faces), (0, 1), "{outline:?}");
         }
     }
 }

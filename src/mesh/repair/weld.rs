@@ -55,12 +55,7 @@ impl Grid {
     fn new(points: &[DVec3], is_used: &[bool], tolerance: f64) -> Self {
         let used = points.iter().zip(is_used).filter(|(_, used)| **used);
         let origin = used.fold(DVec3::INFINITY, |low, (&p, _)| low.min(p));
-        Self {
-            origin,
-            tolerance,
-            newest: HashMap::with_capacity(points.len()),
-            older: Vec::new(),
-        }
+        Self { origin, tolerance, newest: HashMap::with_capacity(points.len()), older: Vec::new() }
     }
 
     fn cell(&self, p: DVec3) -> [i64; 3] {
@@ -116,14 +111,10 @@ mod tests {
     fn no_two_kept_points_are_within_the_tolerance() {
         let mut state = 7u64;
         let mut random = || {
-            state = state
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (state >> 40) as f64 / 16_777_216.0 - 0.5
         };
-        let points: Vec<DVec3> = (0..2000)
-            .map(|_| DVec3::new(random(), random(), random()) * 20.0)
-            .collect();
+        let points: Vec<DVec3> = (0..2000).map(|_| DVec3::new(random(), random(), random()) * 20.0).collect();
         let (kept, of_input) = weld(&points, &vec![true; points.len()], 1.0);
         assert!(kept.len() < 2000);
         for (k, p) in kept.iter().enumerate() {

@@ -29,19 +29,13 @@ impl Probe {
     pub fn of_body(body: &[Run], layer: usize) -> Vec<Self> {
         let size = 1 << layer;
         let block = |cell: i32| (cell.max(0) as usize).div_ceil(size);
-        let rows = body
-            .iter()
-            .filter(|r| r.row >= 0 && r.row % size as i32 == 0);
+        let rows = body.iter().filter(|r| r.row >= 0 && r.row % size as i32 == 0);
         let mut probes: Vec<Self> = rows
             .filter(|r| block(r.start) < block(r.end))
             .map(|r| {
                 let (start, end) = (block(r.start), block(r.end).min(COLUMNS));
                 let level = (end - start).ilog2() as usize;
-                Self {
-                    row: r.row as usize / size,
-                    level,
-                    starts: [start, end - (1 << level)],
-                }
+                Self { row: r.row as usize / size, level, starts: [start, end - (1 << level)] }
             })
             .collect();
         // Rows far apart first: they find a clash sooner than neighbours do.
@@ -58,9 +52,7 @@ pub(super) struct Layer {
 
 impl Layer {
     pub fn new(rows: usize) -> Self {
-        Self {
-            levels: std::array::from_fn(|_| vec![[0; 2 * WORDS]; rows]),
-        }
+        Self { levels: std::array::from_fn(|_| vec![[0; 2 * WORDS]; rows]) }
     }
 
     pub fn rows(&self) -> usize {
@@ -75,8 +67,7 @@ impl Layer {
                 break;
             }
             let taken = &self.levels[probe.level][row + probe.row];
-            free &=
-                !(shifted(taken, probe.starts[0], word) | shifted(taken, probe.starts[1], word));
+            free &= !(shifted(taken, probe.starts[0], word) | shifted(taken, probe.starts[1], word));
         }
         free
     }
@@ -195,9 +186,9 @@ mod tests {
             let probes = Probe::of_body(&body, 0);
             for row in 0..5 {
                 for column in 0..COLUMNS - 130 {
-                    let clash = body.iter().any(|r| {
-                        (r.start..r.end).any(|c| taken[row + r.row as usize][column + c as usize])
-                    });
+                    let clash = body
+                        .iter()
+                        .any(|r| (r.start..r.end).any(|c| taken[row + r.row as usize][column + c as usize]));
                     let word = layer.free(&probes, row, column / 64, u64::MAX);
                     assert_eq!(word >> (column % 64) & 1 == 0, clash);
                 }

@@ -45,16 +45,10 @@ pub fn check(
     tolerance_mm: f64,
 ) -> Result<(), NestFault> {
     if pieces.len() != placements.len() {
-        return Err(NestFault::Count {
-            expected: pieces.len(),
-            found: placements.len(),
-        });
+        return Err(NestFault::Count { expected: pieces.len(), found: placements.len() });
     }
-    let placed: Vec<geo::Polygon> = pieces
-        .iter()
-        .zip(placements)
-        .map(|(piece, placement)| placed_polygon(piece, placement))
-        .collect();
+    let placed: Vec<geo::Polygon> =
+        pieces.iter().zip(placements).map(|(piece, placement)| placed_polygon(piece, placement)).collect();
     let sheet = DVec2::new(options.width_mm, options.height_mm);
     for (index, polygon) in placed.iter().enumerate() {
         let over = polygon.exterior().coords().map(|c| {
@@ -73,11 +67,7 @@ pub fn check(
             }
             let pair = [&placed[first], &placed[second]];
             if let Some(distance_mm) = nearness(pair, options.spacing_mm, tolerance_mm) {
-                return Err(NestFault::TooNear {
-                    first,
-                    second,
-                    distance_mm,
-                });
+                return Err(NestFault::TooNear { first, second, distance_mm });
             }
         }
     }
@@ -100,11 +90,8 @@ fn nearness(pair: [&geo::Polygon; 2], spacing_mm: f64, tolerance_mm: f64) -> Opt
             return None;
         }
         let shared = pair[0].intersection(pair[1]).unsigned_area();
-        let around: f64 = pair[0]
-            .exterior()
-            .lines()
-            .map(|l| (l.end - l.start).x.hypot((l.end - l.start).y))
-            .sum();
+        let around: f64 =
+            pair[0].exterior().lines().map(|l| (l.end - l.start).x.hypot((l.end - l.start).y)).sum();
         return (shared > tolerance_mm * around).then_some(distance);
     }
     Some(distance)

@@ -91,13 +91,8 @@ impl Occupancy {
     /// The cheapest free position of a pose, if it costs less than `limit`. The cost is `pull` ·
     /// centre of the bounding box in mm; both parts of `pull` are at least 0.
     pub fn best_spot(&self, pose: &Pose, pull: DVec2, limit: f64) -> Option<Spot> {
-        let mut query = Query {
-            pose,
-            fixed: pull.dot(pose.extent) / 2.0,
-            step: pull * self.cell_mm,
-            limit,
-            best: None,
-        };
+        let mut query =
+            Query { pose, fixed: pull.dot(pose.extent) / 2.0, step: pull * self.cell_mm, limit, best: None };
         let top = LAYERS - 1;
         for row in 0..pose.rows.div_ceil(1 << top) {
             self.visit(&mut query, top, row, &[u64::MAX; WORDS]);
@@ -198,9 +193,7 @@ mod tests {
         let grid = Grid::new(DVec2::new(100.0, 130.0));
         let mut star = |radius: f64| -> Vec<DVec2> {
             let corner = |k: i32| DVec2::from_angle(f64::from(k) * 0.78) * radius;
-            (0..8)
-                .map(|k| corner(k) * (0.3 + 0.7 * rng.f64()))
-                .collect()
+            (0..8).map(|k| corner(k) * (0.3 + 0.7 * rng.f64())).collect()
         };
         let mut sheet = Occupancy::new(&grid);
         for k in 0..9 {
@@ -225,9 +218,6 @@ mod tests {
             assert!((spot.cost - naive).abs() < 1e-9);
             sheet.place(&pose, &spot);
         }
-        assert!(
-            sheet.free < grid.rows() * COLUMNS / 2,
-            "the sheet was to be well filled"
-        );
+        assert!(sheet.free < grid.rows() * COLUMNS / 2, "the sheet was to be well filled");
     }
 }

@@ -109,11 +109,7 @@ fn span_in_band(a: DVec2, b: DVec2, band: (f64, f64)) -> Option<(f64, f64)> {
         return None;
     }
     let at = |y: f64| {
-        let t = if b.y > a.y {
-            (y - a.y) / (b.y - a.y)
-        } else {
-            0.0
-        };
+        let t = if b.y > a.y { (y - a.y) / (b.y - a.y) } else { 0.0 };
         a.x + (b.x - a.x) * t.clamp(0.0, 1.0)
     };
     let lower = if a.y >= band.0 { a.x } else { at(band.0) };
@@ -150,8 +146,7 @@ mod tests {
 
     fn contains(runs: &[Run], p: DVec2, cell_mm: f64) -> bool {
         let cell = (p / cell_mm).floor().as_ivec2();
-        runs.iter()
-            .any(|r| r.row == cell.y && (r.start..r.end).contains(&cell.x))
+        runs.iter().any(|r| r.row == cell.y && (r.start..r.end).contains(&cell.x))
     }
 
     proptest! {

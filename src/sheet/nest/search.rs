@@ -116,10 +116,8 @@ pub(super) fn search(
         progress.check()?;
         progress.fraction(1.0 - left as f64 / orders.max(1) as f64);
         let most = best.as_ref().map_or(usize::MAX, |b| b.sheets.len());
-        let found: Vec<Option<Layout>> = batch
-            .into_par_iter()
-            .map(|plan| lay_out(items, grid, plan, most))
-            .collect();
+        let found: Vec<Option<Layout>> =
+            batch.into_par_iter().map(|plan| lay_out(items, grid, plan, most)).collect();
         pool.extend(found.into_iter().flatten());
         pool.sort_by(Layout::promise);
         best = pool.iter().chain(&best).min_by(|a, b| a.merit(b)).cloned();
@@ -145,18 +143,11 @@ fn standard_plans(items: &[Item]) -> Vec<Plan> {
         });
         order
     };
-    let orders = [
-        sorted(|i| (0, i.area_mm2)),
-        sorted(|i| (i.group, i.area_mm2)),
-        sorted(|i| (0, i.longest_mm)),
-    ];
+    let orders =
+        [sorted(|i| (0, i.area_mm2)), sorted(|i| (i.group, i.area_mm2)), sorted(|i| (0, i.longest_mm))];
     let pulls = [(0.1, 1.0), (1.0, 0.1), (1.0, 1.0)].map(DVec2::from);
-    let plans = pulls.iter().flat_map(|&pull| {
-        orders.iter().map(move |order| Plan {
-            order: order.clone(),
-            pull,
-        })
-    });
+    let plans =
+        pulls.iter().flat_map(|&pull| orders.iter().map(move |order| Plan { order: order.clone(), pull }));
     plans.collect()
 }
 

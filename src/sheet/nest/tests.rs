@@ -9,10 +9,7 @@ fn piece(corners: &[(f64, f64)], group: usize) -> Shape {
 }
 
 fn rectangle(width: f64, height: f64, group: usize) -> Shape {
-    piece(
-        &[(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)],
-        group,
-    )
+    piece(&[(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)], group)
 }
 
 fn sheet_count(placements: &[Placement]) -> usize {
@@ -32,12 +29,7 @@ fn sound_nest(pieces: &[Shape], options: &NestOptions) -> Vec<Placement> {
 fn star() -> impl Strategy<Value = Shape> {
     let corner = (0.1..0.9_f64, 0.15..1.0_f64);
     let centre = (-40.0..40.0_f64, -40.0..40.0_f64);
-    let parts = (
-        prop::collection::vec(corner, 5..16),
-        8.0..60.0_f64,
-        centre,
-        0..3_usize,
-    );
+    let parts = (prop::collection::vec(corner, 5..16), 8.0..60.0_f64, centre, 0..3_usize);
     parts.prop_map(|(corners, radius, centre, group)| {
         let step = std::f64::consts::TAU / corners.len() as f64;
         let outline = corners.iter().enumerate().map(|(k, (turn, reach))| {
@@ -74,20 +66,13 @@ fn threads_do_not_change_the_result() {
     let mut rng = fastrand::Rng::with_seed(3);
     let pieces: Vec<Shape> = (0..14)
         .map(|k| {
-            let outline =
-                (0..9).map(|i| DVec2::from_angle(f64::from(i) * 0.69) * (12.0 + 35.0 * rng.f64()));
+            let outline = (0..9).map(|i| DVec2::from_angle(f64::from(i) * 0.69) * (12.0 + 35.0 * rng.f64()));
             Shape::new(outline.collect(), k / 4).unwrap()
         })
         .collect();
-    let options = NestOptions {
-        effort: 300,
-        ..NestOptions::new(150.0, 130.0)
-    };
+    let options = NestOptions { effort: 300, ..NestOptions::new(150.0, 130.0) };
     let with_threads = |count: usize| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(count)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
         pool.install(|| sound_nest(&pieces, &options))
     };
     let one = with_threads(1);
@@ -119,10 +104,7 @@ fn a_needle_longer_than_the_sheet_goes_along_the_diagonal() {
     assert_eq!(sheet_count(&sound_nest(&needles, &options)), 1);
     options.rotation = Rotation::QuarterTurns;
     let refused = nest(&needles, &options, &Silent);
-    assert!(
-        matches!(refused, Err(NestError::TooLarge { index: 0, .. })),
-        "{refused:?}"
-    );
+    assert!(matches!(refused, Err(NestError::TooLarge { index: 0, .. })), "{refused:?}");
 }
 
 #[test]
@@ -130,11 +112,7 @@ fn a_piece_of_exactly_the_sheets_size_fits_at_any_angle() {
     for (width, height) in [(190.0, 277.0), (277.0, 190.0)] {
         for angle in [0.0, 0.3, 1.9] {
             let turn = DVec2::from_angle(angle);
-            let corners = rectangle(190.0, 277.0, 0)
-                .outline()
-                .iter()
-                .map(|&p| turn.rotate(p))
-                .collect();
+            let corners = rectangle(190.0, 277.0, 0).outline().iter().map(|&p| turn.rotate(p)).collect();
             let pieces = [Shape::new(corners, 0).unwrap()];
             sound_nest(&pieces, &NestOptions::new(width, height));
         }
@@ -145,13 +123,7 @@ fn a_piece_of_exactly_the_sheets_size_fits_at_any_angle() {
 fn a_too_large_piece_is_named_with_its_size() {
     let pieces = [rectangle(10.0, 10.0, 0), rectangle(250.0, 200.0, 0)];
     let error = nest(&pieces, &NestOptions::new(190.0, 277.0), &Silent).unwrap_err();
-    let NestError::TooLarge {
-        index,
-        long_mm,
-        short_mm,
-        scale,
-    } = error
-    else {
+    let NestError::TooLarge { index, long_mm, short_mm, scale } = error else {
         panic!("{error}");
     };
     assert_eq!(index, 1);
@@ -162,19 +134,12 @@ fn a_too_large_piece_is_named_with_its_size() {
 
 #[test]
 fn sheets_that_cannot_be_are_refused() {
-    for (width, height, spacing_mm) in [(0.0, 10.0, 1.0), (10.0, f64::NAN, 1.0), (10.0, 10.0, -1.0)]
-    {
-        let options = NestOptions {
-            spacing_mm,
-            ..NestOptions::new(width, height)
-        };
+    for (width, height, spacing_mm) in [(0.0, 10.0, 1.0), (10.0, f64::NAN, 1.0), (10.0, 10.0, -1.0)] {
+        let options = NestOptions { spacing_mm, ..NestOptions::new(width, height) };
         let found = nest(&[], &options, &Silent);
         assert!(matches!(found, Err(NestError::BadSheet { .. })));
     }
-    assert_eq!(
-        nest(&[], &NestOptions::new(10.0, 10.0), &Silent),
-        Ok(Vec::new())
-    );
+    assert_eq!(nest(&[], &NestOptions::new(10.0, 10.0), &Silent), Ok(Vec::new()));
 }
 
 #[test]
@@ -193,8 +158,7 @@ fn true_shapes_need_at_most_four_fifths_of_the_sheets_of_their_rectangles() {
     // Crosses with arms of unequal length: much like the net of a box.
     let pieces: Vec<Shape> = (0..24)
         .map(|k| {
-            let (right, up, left, down) =
-                (arm() + 12.0, arm() + 12.0, -arm() - 12.0, -arm() - 12.0);
+            let (right, up, left, down) = (arm() + 12.0, arm() + 12.0, -arm() - 12.0, -arm() - 12.0);
             let cross = [
                 (12.0, -12.0),
                 (right, -12.0),
@@ -222,44 +186,22 @@ fn true_shapes_need_at_most_four_fifths_of_the_sheets_of_their_rectangles() {
     let options = NestOptions::new(190.0, 277.0);
     let count = |shapes: &[Shape]| sheet_count(&sound_nest(shapes, &options));
     let (shapes, boxes) = (count(&pieces), count(&rectangles));
-    assert!(
-        shapes as f64 <= 0.8 * boxes as f64,
-        "{shapes} sheets against {boxes}"
-    );
+    assert!(shapes as f64 <= 0.8 * boxes as f64, "{shapes} sheets against {boxes}");
 }
 
 #[test]
 fn the_check_finds_what_is_wrong() {
     let pieces = [rectangle(10.0, 10.0, 0), rectangle(10.0, 10.0, 0)];
     let options = NestOptions::new(100.0, 100.0);
-    let at = |x: f64, sheet: usize| Placement {
-        sheet,
-        rotation_rad: 0.0,
-        translation: DVec2::new(x, 0.0),
-    };
+    let at = |x: f64, sheet: usize| Placement { sheet, rotation_rad: 0.0, translation: DVec2::new(x, 0.0) };
     let verdict = |a, b| check(&pieces, &[a, b], &options, TOLERANCE_MM);
     assert_eq!(verdict(at(0.0, 0), at(12.0, 0)), Ok(()));
     assert_eq!(verdict(at(0.0, 0), at(0.0, 1)), Ok(()));
-    assert!(matches!(
-        verdict(at(0.0, 0), at(11.9, 0)),
-        Err(NestFault::TooNear { .. })
-    ));
-    assert!(matches!(
-        verdict(at(0.0, 0), at(0.0, 0)),
-        Err(NestFault::TooNear { .. })
-    ));
-    assert!(matches!(
-        verdict(at(0.0, 0), at(90.1, 0)),
-        Err(NestFault::Outside { index: 1, .. })
-    ));
-    assert!(matches!(
-        check(&pieces, &[], &options, TOLERANCE_MM),
-        Err(NestFault::Count { .. })
-    ));
-    let touching = NestOptions {
-        spacing_mm: 0.0,
-        ..options
-    };
+    assert!(matches!(verdict(at(0.0, 0), at(11.9, 0)), Err(NestFault::TooNear { .. })));
+    assert!(matches!(verdict(at(0.0, 0), at(0.0, 0)), Err(NestFault::TooNear { .. })));
+    assert!(matches!(verdict(at(0.0, 0), at(90.1, 0)), Err(NestFault::Outside { index: 1, .. })));
+    assert!(matches!(check(&pieces, &[], &options, TOLERANCE_MM), Err(NestFault::Count { .. })));
+    let touching = NestOptions { spacing_mm: 0.0, ..options };
     let two = |x| check(&pieces, &[at(0.0, 0), at(x, 0)], &touching, TOLERANCE_MM);
     assert_eq!(two(10.0), Ok(()));
     assert!(two(9.999).is_err());

@@ -1,0 +1,144 @@
+//! Pictures: what is seen where, by pixels.
+
+use std::f64::consts::{FRAC_PI_4, FRAC_PI_6};
+
+use glam::{DVec2, DVec3};
+use tatamu::drawing::{Align, Drawing, Layer, Mark, Polyline, Rgb, Shape, Stroke, Text};
+use tatamu::export::png;
+use tatamu::render::{Camera, Edge, Face, Look, Scene, View, light, palette, picture};
+
+const SIZE: DVec2 = DVec2::new(60.0, 50.0);
+const DPI: f64 = 254.0;
+
+/// A cube whose faces have a colour each, in the order −x, +x, −y, +y, −z, +z.
+fn cube() -> Scene {
+    let axes = [DVec3::X, DVec3::Y, DVec3::Z];
+    let mut scene = Scene::new();
+    for k in 0..6 {
+        let sign = if k % 2 == 0 { -1.0 } else { 1.0 };
+        let (out, right) = (sign * axes[k / 2], axes[(k / 2 + 1) % 3]);
+        let up = out.cross(right);
+        let turns = [-right - up, right - up, right + up, up - right];
+        let corners = turns.map(|t| 10.0 * (out + t)).to_vec();
+        let edges = [-up, right, up, -right].map(Edge::Crease).to_vec();
+        scene.push(Face::new(corners, edges, palette::colour(k), None).unwrap());
+    }
+    scene
+}
+
+fn view(scene: &Scene, azimuth: f64, elevation: f64) -> View {
+    let camera = Camera::new(azimuth, elevation, 0.2).unwrap();
+    View::fit(camera, scene.points(), SIZE, 4.0).unwrap()
+}
+
+fn drawn(scene: &Scene, view: &View) -> Drawing {
+    picture(scene, view, &Look::for_size(SIZE), None, Vec::new())
+}
+
+/// Red, green, blue and opacity at a place, mm from the lower left corner.
+fn pixel(pixmap: &tiny_skia::Pixmap, at: DVec2) -> (Rgb, u8) {
+    let place = at * DPI / 25.4;
+    let (x, y) = (place.x as u32, pixmap.height() - 1 - place.y as u32);
+    let colour = pixmap.pixel(x, y).expect("inside the picture").demultiply();
+    (Rgb(colour.red(), colour.green(), colour.blue()), colour.alpha())
+}
+
+#[test]
+fn a_cube_shows_three_faces_in_their_colours() {
+    let scene = cube();
+    let view = view(&scene, FRAC_PI_4, FRAC_PI_6);
+    let pixmap = png::rasterise(&drawn(&scene, &view), DPI).unwrap();
+    assert_eq!((pixmap.width(), pixmap.height()), (600, 500));
+    for (face, normal) in [(1, DVec3::X), (3, DVec3::Y), (5, DVec3::Z)] {
+        let expected = light::shaded(palette::colour(face), view.camera().direction(normal));
+        let at = view.project(10.0 * normal);
+        assert_eq!(pixel(&pixmap, at), (expected, 255), "face {face}");
+    }
+    assert_eq!(pixel(&pixmap, DVec2::new(1.0, 1.0)).1, 0, "transparent ground");
+    let top = light::shaded(palette::colour(3), view.camera().direction(DVec3::Y));
+    let Rgb(on_crease, ..) = pixel(&pixmap, view.project(DVec3::new(10.0, 10.0, 0.0))).0;
+    assert!(on_crease < top.0, "creases are darker");
+}
+
+#[test]
+fn no_cracks_show_between_faces() {
+    // Without lines, every pixel well inside the outline is opaque.
+    let scene = cube();
+    let view = view(&scene, 0.6, 0.5);
+    let look = Look { crease_mm: 0.0, outline_mm: 0.0 };
+    let pixmap = png::rasterise(&picture(&scene, &view, &look, None, Vec::new()), DPI).unwrap();
+    for step in 0..=1000 {
+        let along = 10.0 - 20.0 * f64::from(step) / 1000.0;
+        for point in
+            [DVec3::new(10.0, 10.0, along), DVec3::new(along, 10.0, 10.0), DVec3::new(10.0, along, 10.0)]
+        {
+            let inside = point.lerp(DVec3::new(10.0, 10.0, 10.0), 0.05);
+            assert!(pixel(&pixmap, view.project(inside)).1 >= 250, "{point}");
+        }
+    }
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bytes() {
+    let make = || {
+        let scene = cube();
+        let view = view(&scene, 1.0, 0.3);
+        png::render(&drawn(&scene, &view), 96.0).unwrap()
+    };
+    let bytes = make();
+    assert_eq!(bytes, make());
+    let decoded = tiny_skia::Pixmap::decode_png(&bytes).unwrap();
+    assert_eq!((decoded.width(), decoded.height()), (227, 189));
+}
+
+#[test]
+fn dashes_and_holes_are_drawn() {
+    let square = |low: f64, high: f64| Polyline {
+        points: [(low, low), (high, low), (high, high), (low, high)].map(DVec2::from).to_vec(),
+        is_closed: true,
+    };
+    let mark = |contours, stroke, fill| Mark {
+        layer: Layer::Cut,
+        piece: None,
+        shape: Shape::Path { contours, stroke, fill },
+    };
+    let red = Rgb(255, 0, 0);
+    let dashed = Stroke { width_mm: 2.0, colour: red, dash_mm: vec![4.0, 6.0] };
+    let line = Polyline { points: vec![DVec2::new(0.0, 40.0), DVec2::new(50.0, 40.0)], is_closed: false };
+    let drawing = Drawing {
+        title: String::new(),
+        size_mm: SIZE,
+        ground: Some(Rgb(255, 255, 255)),
+        marks: vec![
+            mark(vec![square(5.0, 30.0), square(10.0, 20.0)], None, Some(red)),
+            mark(vec![line], Some(dashed), None),
+        ],
+    };
+    let pixmap = png::rasterise(&drawing, DPI).unwrap();
+    let at = |x, y| pixel(&pixmap, DVec2::new(x, y)).0;
+    let white = Rgb(255, 255, 255);
+    assert_eq!([at(7.0, 7.0), at(15.0, 15.0), at(25.0, 25.0)], [red, white, red]);
+    assert_eq!([at(2.0, 40.0), at(7.0, 40.0), at(12.0, 40.0)], [red, white, red]);
+    assert_eq!([at(2.0, 40.8), at(2.0, 41.2)], [red, white]);
+}
+
+#[test]
+fn sizes_that_cannot_be_drawn_are_refused() {
+    let drawing = drawn(&cube(), &view(&cube(), 0.0, 0.0));
+    for dpi in [0.0, -96.0, f64::NAN, f64::INFINITY, 1e6] {
+        assert!(matches!(png::render(&drawing, dpi), Err(png::PngError::Size { .. })), "{dpi}");
+    }
+}
+
+#[test]
+fn letters_are_filled_at_their_place() {
+    let ink = Rgb(10, 20, 30);
+    let text = Text::new("I", DVec2::new(30.0, 10.0), 20.0).aligned(Align::Middle).coloured(ink);
+    let mut drawing = Drawing::new("letters", SIZE);
+    drawing.ground = Some(Rgb(255, 255, 255));
+    drawing.marks.push(Mark::text(Layer::Label, text));
+    let pixmap = png::rasterise(&drawing, DPI).unwrap();
+    let at = |x, y| pixel(&pixmap, DVec2::new(x, y)).0;
+    assert_eq!([at(30.0, 10.5), at(30.0, 29.5)], [ink; 2]);
+    assert_eq!([at(30.0, 9.5), at(30.0, 30.5), at(20.0, 20.0)], [Rgb(255, 255, 255); 3]);
+}
