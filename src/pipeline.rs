@@ -274,6 +274,10 @@ fn hulls(mesh: &Mesh, segmentation: &Segmentation) -> Solid {
     solid
 }
 
+/// Panels are comfortable from this many times the least width; a component whose numbers the user
+/// has set gets them down to the least width.
+const COMFORTABLE: f64 = 1.5;
+
 /// Names of components that were not renamed: the first, biggest one is the body.
 fn default_name(index: usize) -> String {
     if index == 0 { "body".to_owned() } else { format!("part-{}", index + 1) }
@@ -289,6 +293,8 @@ fn parts(hulls: Vec<Hull>, options: &Options) -> Result<Vec<Part>, Error> {
     }
     let part = |(hull, name): (Hull, String)| {
         let own = options.components.get(&name).cloned().unwrap_or_default();
+        let is_set = own.top_edges.is_some() || own.profile_vertices.is_some();
+        let comfortable_mm = options.min_panel_width_mm * if is_set { 1.0 } else { COMFORTABLE };
         Part {
             hull,
             options: PartOptions {
@@ -296,6 +302,7 @@ fn parts(hulls: Vec<Hull>, options: &Options) -> Result<Vec<Part>, Error> {
                 direction_rad: own.direction_rad,
                 top_edges: own.top_edges.unwrap_or(options.top_edges),
                 profile_vertices: own.profile_vertices.unwrap_or(options.profile_vertices),
+                comfortable_mm,
             },
         }
     };

@@ -9,7 +9,7 @@ use super::profile::{Profile, balance, imbalance};
 use super::solid::{FaceId, Solid};
 use super::start::{circumscribe, fold_spots};
 use super::target::{FoldSpot, JointTarget, Target};
-use crate::geom::{Hull, HullError};
+use crate::geom::{Hull, HullError, polygon};
 use glam::DVec3;
 
 /// Hulls with more corners are fitted through their extreme points in this many directions.
@@ -17,7 +17,9 @@ const FIT_DIRECTIONS: usize = 320;
 /// Quick fits, to compare directions, use fewer.
 const TRIAL_DIRECTIONS: usize = 60;
 /// Steps of a quick fit.
-const TRIAL_STEPS: usize = 6;
+const TRIAL_STEPS: usize = 5;
+/// Quick fits use no more profile vertices than this.
+const TRIAL_VERTICES: usize = 4;
 /// A shape that misses a limit by less is as good as one that keeps it.
 const NEAR_ENOUGH_MM: f64 = 1e-3;
 
@@ -121,7 +123,7 @@ impl Component {
 /// Length of the outline's section at height y.
 fn chord(outline: &[glam::DVec2], y: f64) -> f64 {
     let mut span = (f64::INFINITY, f64::NEG_INFINITY);
-    for (a, b) in crate::geom::polygon::edges(outline) {
+    for (a, b) in polygon::edges(outline) {
         if (a.y - y) * (b.y - y) <= 0.0 {
             let ends = if a.y == b.y { [a.x, b.x] } else { [a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y); 2] };
             for x in ends {
@@ -138,9 +140,10 @@ pub fn convert(target: &Target) -> Result<Component, ConvertError> {
     let quick = Target { hull: &simple, ..target.clone() };
     let mut best: Option<(f64, Fitted, Assembled)> = None;
     let mut last_error = None;
-    for (edges, vertices) in attempts(target) {
-        let goal = Target { profile_vertices: vertices, ..quick.clone() };
-        let mut solid = circumscribe(&goal, edges);
+    for attempt in attempts(target) {
+        let goal =
+            Target { profile_vertices: attempt.vertices, min_panel_mm: attempt.least_mm, ..quick.clone() };
+        let mut solid = circumscribe(&goal, attempt.edges);
         let spots = fold_spots(&mut solid);
         let fitted = fit(&goal, solid, spots, usize::MAX);
         match assemble_unbroken(&fitted) {
@@ -174,7 +177,8 @@ pub fn convert(target: &Target) -> Result<Component, ConvertError> {
 /// compare fold directions.
 pub fn trial(target: &Target) -> Option<(f64, f64)> {
     let simple = simplified(target.hull, TRIAL_DIRECTIONS).ok()?;
-    let goal = Target { hull: &simple, ..target.clone() };
+    let profile_vertices = target.profile_vertices.min(TRIAL_VERTICES);
+    let goal = Target { hull: &simple, profile_vertices, ..target.clone() };
     let mut solid = circumscribe(&goal, target.top_edges);
     let spots = fold_spots(&mut solid);
     let fitted = fit(&goal, solid, spots, TRIAL_STEPS);
@@ -187,23 +191,44 @@ pub fn trial(target: &Target) -> Option<(f64, f64)> {
     Some((fitted.error_mm + fitted.lack_mm, spread))
 }
 
-/// Numbers of edges and profile vertices to try: as wished, then simpler until panels have room.
-fn attempts(target: &Target) -> Vec<(usize, usize)> {
-    let least = target.locked_angles().len().max(3);
+/// One shape to try.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Attempt {
+    edges: usize,
+    vertices: usize,
+    least_mm: f64,
+}
+
+/// Shapes to try: as wished, but with no more panels than can be handled comfortably at the hull's
+/// size, then simpler ones until panels have room, at last with panels at the least size allowed.
+fn attempts(target: &Target) -> Vec<Attempt> {
+    let least_edges = target.locked_angles().len().max(3);
+    let (girth, height) = girth_and_height(target.hull);
+    let at_most = |length: f64| (length / target.comfortable_mm.max(1e-9)) as usize;
+    let mut edges = target.top_edges.min(at_most(0.5 * girth)).max(least_edges);
+    let mut vertices = target.profile_vertices.min(1 + at_most(0.7 * height)).max(3);
     let mut list = Vec::new();
-    let (mut edges, mut vertices) = (target.top_edges.max(least), target.profile_vertices);
     loop {
-        list.push((edges, vertices));
+        list.push(Attempt { edges, vertices, least_mm: target.comfortable_mm });
         if vertices > 4 {
-            vertices -= if vertices > 6 { 2 } else { 1 };
-        } else if edges > least {
+            vertices -= 1;
+        } else if edges > least_edges {
             edges -= 1;
         } else if vertices > 3 {
-            vertices = 3;
+            vertices -= 1;
         } else {
+            list.push(Attempt { edges, vertices, least_mm: target.min_panel_mm });
             return list;
         }
     }
+}
+
+/// Length round the hull, seen along the fold axis, and the height along it.
+fn girth_and_height(hull: &Hull) -> (f64, f64) {
+    let flat: Vec<glam::DVec2> = hull.vertices().iter().map(|v| v.truncate()).collect();
+    let outline = polygon::convex_hull(&flat);
+    let girth = polygon::edges(&outline).map(|(a, b)| a.distance(b)).sum();
+    (girth, hull.support(DVec3::Z) + hull.support(-DVec3::Z))
 }
 
 /// Imbalance up to which a fold vertex at a bend is exact, as a share of the height.
@@ -263,7 +288,7 @@ mod tests {
     }
 
     fn target(hull: &Hull, joints: Vec<JointTarget>) -> Target<'_> {
-        Target { hull, joints, top_edges: 6, profile_vertices: 6, min_panel_mm: 3.0 }
+        Target { hull, joints, top_edges: 6, profile_vertices: 6, min_panel_mm: 3.0, comfortable_mm: 6.0 }
     }
 
     fn close(a: DVec3, b: DVec3) -> bool {
@@ -276,14 +301,14 @@ mod tests {
         let flat = |p: &crate::component::Panel| -> Vec<DVec2> {
             let mut corners: Vec<DVec2> =
                 p.outline.iter().map(|q| p.flat.transform_point3(q.extend(0.0)).truncate()).collect();
-            if crate::geom::polygon::area(&corners) < 0.0 {
+            if polygon::area(&corners) < 0.0 {
                 corners.reverse();
             }
             corners
         };
         let faces_up = |p: &crate::component::Panel| p.flat.matrix3.z_axis.z > 0.0;
         let clash = |a: &crate::component::Panel, b: &crate::component::Panel| {
-            faces_up(a) == faces_up(b) && crate::geom::polygon::convex_overlap(&flat(a), &flat(b), 1e-5)
+            faces_up(a) == faces_up(b) && polygon::convex_overlap(&flat(a), &flat(b), 1e-5)
         };
         panels.iter().enumerate().map(|(k, a)| panels[k + 1..].iter().filter(|b| clash(a, b)).count()).sum()
     }
@@ -306,7 +331,7 @@ mod tests {
         }
         let floor = component.solid().bottom_mm;
         for panel in set.panels() {
-            assert!(crate::geom::polygon::area(&panel.outline) > 0.0);
+            assert!(polygon::area(&panel.outline) > 0.0);
             let flat = panel.outline.iter().map(|q| panel.flat.transform_point3(q.extend(0.0)));
             assert!(flat.into_iter().all(|q| (q.z - floor).abs() < 1e-9));
         }

@@ -15,11 +15,15 @@ use super::target::{FoldSpot, Target};
 use glam::{DMat3, DVec3};
 
 /// Steps of the fit at most.
-const STEPS: usize = 40;
+const STEPS: usize = 25;
 /// First size of the trust region, as a share of the hull's radius.
 const FIRST_REGION: f64 = 0.12;
 /// Size of the trust region at which the fit ends.
 const LAST_REGION: f64 = 0.0015;
+/// Steps that gain less than this share of the merit are slow; the fit ends after a few in a row.
+const SLOW_GAIN: f64 = 0.01;
+/// So many slow steps.
+const SLOW_STEPS: usize = 3;
 /// Price of a millimetre by which a panel is too small, or the balance point out of its place,
 /// against a millimetre of error.
 const SIZE_PRICE: f64 = 20.0;
@@ -49,13 +53,16 @@ pub(super) fn fit(target: &Target, solid: Solid, spots: Vec<FoldSpot>, steps: us
     let task = Task { target, hull, spots, radius_mm };
     let mut best = task.measure(task.restore(solid));
     let mut region = FIRST_REGION * radius_mm;
+    let mut slow = 0;
     for _ in 0..steps.min(STEPS) {
-        if region < LAST_REGION * radius_mm {
+        if region < LAST_REGION * radius_mm || slow == SLOW_STEPS {
             break;
         }
         let next = task.step(&best.solid, region).map(|s| task.measure(task.restore(s)));
+        let gain = |next: &Fitted| task.merit(&best) - task.merit(next);
         match next {
-            Some(next) if task.merit(&next) < task.merit(&best) - 1e-6 * radius_mm => {
+            Some(next) if gain(&next) > 1e-6 * radius_mm => {
+                slow = if gain(&next) < SLOW_GAIN * task.merit(&best) { slow + 1 } else { 0 };
                 best = next;
                 region = (region * 1.5).min(FIRST_REGION * radius_mm);
             }

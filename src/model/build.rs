@@ -24,6 +24,8 @@ pub struct PartOptions {
     pub top_edges: usize,
     /// Most vertices of a profile.
     pub profile_vertices: usize,
+    /// Size below which panels are made fewer rather than smaller, mm.
+    pub comfortable_mm: f64,
 }
 
 /// One segment to become a component.
@@ -202,6 +204,7 @@ impl Builder<'_> {
             top_edges: options.top_edges,
             profile_vertices: options.profile_vertices,
             min_panel_mm: self.min_panel_mm,
+            comfortable_mm: options.comfortable_mm,
         }
     }
 

@@ -169,12 +169,12 @@ mod tests {
         for _ in 0..50 {
             let mut layer = Layer::new(8);
             let mut taken = [[false; COLUMNS]; 8];
-            for row in 0..8 {
+            for (row, is_taken) in taken.iter_mut().enumerate() {
                 let start = rng.usize(..COLUMNS);
                 let end = (start + rng.usize(..90)).min(COLUMNS);
                 layer.take(row, start, end);
                 layer.finish(row);
-                taken[row][start..end].fill(true);
+                is_taken[start..end].fill(true);
             }
             let body: Vec<Run> = (0..4)
                 .map(|row| {

@@ -143,6 +143,7 @@ mod tests {
     use super::*;
     use crate::geom::polygon::cross3;
     use proptest::prelude::*;
+    use std::f64::consts::TAU;
 
     fn contains(runs: &[Run], p: DVec2, cell_mm: f64) -> bool {
         let cell = (p / cell_mm).floor().as_ivec2();
@@ -154,7 +155,7 @@ mod tests {
         #[test]
         fn runs_cover_all_points(
             corners in prop::array::uniform3((0.0..40.0_f64, 0.0..40.0_f64)),
-            weights in prop::collection::vec((0.0..1.0_f64, 0.0..1.0_f64, 0.0..6.28_f64, 0.0..0.999_f64), 50),
+            weights in prop::collection::vec((0.0..1.0_f64, 0.0..1.0_f64, 0.0..TAU, 0.0..0.999_f64), 50),
             grow in 0.1..5.0_f64,
         ) {
             let mut t = corners.map(DVec2::from);
