@@ -5,7 +5,7 @@ use tatamu::export::ExportError;
 use tatamu::mesh::{MeshError, ReadError};
 use tatamu::pipeline;
 use tatamu::product::ProductError;
-use tatamu::progress::Cancelled;
+use tatamu::progress::{Cancelled, Progress};
 use tatamu::project::ProjectError;
 
 /// Why a command failed.
@@ -37,7 +37,7 @@ pub enum CliError {
     Output { path: PathBuf, reason: String },
     /// Ctrl-C.
     #[error(transparent)]
-    Cancelled(#[from] Cancelled),
+    Cancelled(Cancelled),
     /// A stage failed.
     #[error("{0}")]
     Pipeline(pipeline::Error),
@@ -52,11 +52,13 @@ impl From<ExportError> for CliError {
     }
 }
 
-impl From<pipeline::Error> for CliError {
-    fn from(error: pipeline::Error) -> Self {
-        match error {
-            pipeline::Error::Cancelled(cancelled) => Self::Cancelled(cancelled),
-            other => Self::Pipeline(other),
+impl CliError {
+    /// What became of a run that did not end well: stages wrap an interruption in errors of their
+    /// own, so the user's wish is asked for first.
+    pub fn of_run(error: pipeline::Error, progress: &dyn Progress) -> Self {
+        match progress.check() {
+            Err(cancelled) => Self::Cancelled(cancelled),
+            Ok(()) => Self::Pipeline(error),
         }
     }
 }

@@ -69,7 +69,8 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
     }
     let options = args.model.merge(&input)?;
     let progress = TerminalProgress::new(args.quiet);
-    let result = pipeline::run(&input.mesh, &options, &progress)?;
+    let result = pipeline::run(&input.mesh, &options, &progress)
+        .map_err(|error| CliError::of_run(error, &progress))?;
     progress.finish();
     let components: Vec<TemplateComponent> = result
         .model()

@@ -84,7 +84,8 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     warnings.iter().for_each(warn);
 
     let progress = TerminalProgress::new(args.quiet);
-    let result = pipeline::run(&input.mesh, &options, &progress)?;
+    let result = pipeline::run(&input.mesh, &options, &progress)
+        .map_err(|error| CliError::of_run(error, &progress))?;
     let stages = progress.finish();
     warn_by_kind(result.warnings());
 

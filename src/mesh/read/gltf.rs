@@ -23,16 +23,33 @@ pub(super) fn read(
     if bytes.starts_with(b"glTF") {
         check_glb(bytes)?;
     }
-    let file = Gltf::from_slice(bytes).map_err(|error| ReadError::Syntax {
-        format: Format::Gltf,
-        place: Place::Part("structure".to_owned()),
-        found: format!("a fault ({})", shorten(&error.to_string())),
-        expected: "valid glTF 2.0 without compression or other required extensions".to_owned(),
-    })?;
+    let file = parse(bytes)?;
     let mut scene =
         Scene { buffers: load_buffers(&file, sibling)?, positions: Vec::new(), triangles: Vec::new() };
     scene.add_nodes(&file)?;
     Soup::new(scene.positions, scene.triangles).map_err(|error| ReadError::from_soup(Format::Gltf, &error))
+}
+
+/// Parses and validates the structure.
+fn parse(bytes: &[u8]) -> Result<Gltf, ReadError> {
+    let invalid = |error: gltf::Error| ReadError::Syntax {
+        format: Format::Gltf,
+        place: Place::Part("structure".to_owned()),
+        found: format!("a fault ({})", shorten(&error.to_string())),
+        expected: "valid glTF 2.0 without compression or other required extensions".to_owned(),
+    };
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(invalid)?;
+    let root = document.into_json();
+    // The validation of gltf-json 1.4 panics where a position accessor does not exist.
+    let position = gltf::json::validation::Checked::Valid(Semantic::Positions);
+    let primitives = root.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let mut accessors = primitives.filter_map(|primitive| primitive.attributes.get(&position));
+    if let Some(bad) = accessors.find(|accessor| accessor.value() >= root.accessors.len()) {
+        let found = format!("a reference to accessor {} of {}", bad.value(), root.accessors.len());
+        return Err(fault("structure", found, "accessors that exist"));
+    }
+    let document = gltf::Document::from_json(root).map_err(invalid)?;
+    Ok(Gltf { document, blob })
 }
 
 /// Compares the lengths in a GLB header with the length of the file.
@@ -335,6 +352,8 @@ mod tests {
         let whole = glb(&json("", r#"{"mesh":0}"#, 5, 4), &data());
         assert!(message(&whole[..whole.len() - 9]).contains("promises"));
         assert!(message(b"glTF\x02\0\0\0\x01\0\0\0").contains("promises 1 bytes"));
+        let missing = json(&embedded(), r#"{"mesh":0}"#, 5, 4).replace("POSITION\":0", "POSITION\":7");
+        assert!(message(missing.as_bytes()).contains("accessor 7 of 2"));
         assert!(message(b"{\"hello\": 1}").contains("valid glTF"));
         let mut bad = data();
         bad[52] = 9;
