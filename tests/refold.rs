@@ -232,7 +232,8 @@ fn every_page_has_a_bar_of_100_mm() {
         assert_eq!(pages.len(), output.layout().sheet_count(), "{name}");
         for (number, id) in pages {
             let words = document.extract_text(&[number]).expect("text");
-            for wanted in [name, "100 mm", &format!("page {number} of {}", output.layout().sheet_count())] {
+            let page = format!("page {number} of {}", output.layout().sheet_count());
+            for wanted in [name, "100 mm", &page] {
                 assert!(words.contains(wanted), "{name}: no {wanted:?} on page {number}");
             }
             assert!(document.get_dictionary(id).is_ok_and(|page| !page.has(b"UserUnit")), "{name}");
