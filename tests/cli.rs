@@ -142,7 +142,7 @@ fn places_that_cannot_be_written() {
     let make = |output: &str, word: &str| {
         assert_refused(&files, &["make", "a.obj", "-o", output], &["cannot write", word]);
     };
-    make("gone/a.json", "no such file or folder");
+    make("gone/a.json", "there is no folder gone");
     assert_refused(
         &files,
         &["make", "a.obj", "-o", "a.json", "-o", "a.json"],
