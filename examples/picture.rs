@@ -12,10 +12,10 @@ use tatamu::pipeline::{self, Options, Output};
 use tatamu::progress::Silent;
 use tatamu::render::{Camera, Edge, Face, Look, Scene, View, contact_shadow, palette, picture};
 
-/// One picture of the three, about 420 pixels wide and high.
+/// One picture of the three, about 380 pixels wide and high.
 const SIZE_MM: DVec2 = DVec2::splat(110.0);
 const MARGIN_MM: f64 = 5.0;
-const DOTS_PER_INCH: f64 = 96.0;
+const DOTS_PER_INCH: f64 = 88.0;
 const WITHOUT_COMPONENT: Rgb = Rgb(200, 200, 200);
 /// Height of a folded component in the flat picture: enough to tell what lies on what.
 const FLAT_HEIGHT_MM: f64 = 0.02;
