@@ -52,6 +52,9 @@ pub(super) fn circumscribe(target: &Target, edges: usize) -> Solid {
     solid
 }
 
+/// A top edge whose loss adds less than this share of the area is not worth a chain: a box has four.
+const WORTH_SHARE: f64 = 0.002;
+
 /// Directions of the top edges: all candidates, thinned out where that adds the least area to
 /// the circumscribed polygon (in the spirit of Dyken et al. 2009, §4.2).
 fn choose_angles(outline: &[DVec2], locked: &[f64], edges: usize) -> Vec<f64> {
@@ -66,6 +69,7 @@ fn choose_angles(outline: &[DVec2], locked: &[f64], edges: usize) -> Vec<f64> {
     candidates.extend_from_slice(locked);
     candidates.sort_by(f64::total_cmp);
     candidates.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+    let whole = polygon::area(outline);
     let support = |a: f64| {
         let n = DVec2::from_angle(a);
         outline.iter().map(|p| n.dot(*p)).fold(f64::NEG_INFINITY, f64::max)
@@ -82,7 +86,9 @@ fn choose_angles(outline: &[DVec2], locked: &[f64], edges: usize) -> Vec<f64> {
         });
         let best = removable.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
         match best {
-            Some((is_spread, _, k)) if n > edges || !is_spread => set.remove(k),
+            Some((is_spread, area, k)) if n > edges || !is_spread || area < WORTH_SHARE * whole => {
+                set.remove(k)
+            }
             _ => return set.into_iter().map(|s| s.0).collect(),
         };
     }

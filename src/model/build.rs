@@ -328,7 +328,7 @@ fn place(parts: &[Part], links: &[Link], made: Vec<Made>) -> Result<Model, Model
         let own = model.outline_on((p, joint.child_panel), (joint.parent, joint.parent_panel));
         let base = &model.parts[joint.parent].component.panels().panel(joint.parent_panel).outline;
         let ratio = polygon::area(&polygon::intersect_convex(&own, base)) / polygon::area(&own);
-        model.parts[p].joint = Some(Joint { support_ratio: ratio.clamp(0.0, 1.0), ..joint });
+        model.parts[p].joint = Some(Joint { support_ratio: ratio.abs().min(1.0), ..joint });
     }
     Ok(model)
 }

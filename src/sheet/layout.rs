@@ -2,7 +2,7 @@
 
 use super::furniture::{self, Furniture};
 use super::nest::{NestError, NestOptions, Shape, nest};
-use crate::drawing::{Drawing, Layer, LineStyles, Mark, Text};
+use crate::drawing::{Drawing, Layer, LineStyles, Mark, Text, text};
 use crate::geom::polygon;
 use crate::net::{MarkOptions, Net};
 use crate::progress::Progress;
@@ -160,11 +160,15 @@ impl Layout {
     }
 }
 
+/// Height of capitals in the list of labels without a place.
+const LOST_CAP_MM: f64 = 2.0;
+
 /// A line at the top of the sheet that lists labels without a place on their piece.
 fn lost_labels(labels: &[String], options: &SheetOptions, styles: &LineStyles) -> Option<Mark> {
     let size = options.size_mm();
     let anchor = DVec2::new(options.margin_mm, size.y - options.margin_mm * 0.6);
     let content = format!("no room on the piece for: {}", labels.join("; "));
-    let text = Text::new(content, anchor, 2.0).coloured(styles.colour(Layer::Label));
+    let content = text::shortened(&content, LOST_CAP_MM, size.x - 2.0 * options.margin_mm);
+    let text = Text::new(content, anchor, LOST_CAP_MM).coloured(styles.colour(Layer::Label));
     (!labels.is_empty()).then(|| Mark::text(Layer::Furniture, text))
 }
