@@ -1,4 +1,4 @@
-//! Some samples, made once, with their files, for all tests.
+//! The samples, made once, with their files, for all tests.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -11,7 +11,7 @@ use tatamu::product;
 use tatamu::progress::Silent;
 use tatamu::report::Run;
 
-const NAMES: [&str; 3] = ["teapot", "bottle", "box"];
+const NAMES: [&str; 6] = ["teddy", "snowman", "rabbit", "teapot", "bottle", "box"];
 
 /// A sample and what the program makes of it.
 pub struct Made {
