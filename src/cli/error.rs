@@ -3,10 +3,15 @@
 use std::path::PathBuf;
 use tatamu::export::ExportError;
 use tatamu::mesh::{MeshError, ReadError};
+use tatamu::model::ModelError;
+use tatamu::net::NetsError;
 use tatamu::pipeline;
 use tatamu::product::ProductError;
 use tatamu::progress::Cancelled;
 use tatamu::project::ProjectError;
+use tatamu::segment::SegmentError;
+use tatamu::sheet::LayoutError;
+use tatamu::sheet::nest::NestError;
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
@@ -50,9 +55,16 @@ impl From<ExportError> for CliError {
 }
 
 impl From<pipeline::Error> for CliError {
+    /// Whichever stage was stopped, it is no failure.
     fn from(error: pipeline::Error) -> Self {
         match error {
-            pipeline::Error::Cancelled(cancelled) => Self::Cancelled(cancelled),
+            pipeline::Error::Cancelled(cancelled)
+            | pipeline::Error::Segment(SegmentError::Cancelled(cancelled))
+            | pipeline::Error::Model(ModelError::Cancelled(cancelled))
+            | pipeline::Error::Net { error: NetsError::Cancelled(cancelled), .. }
+            | pipeline::Error::Layout(LayoutError::Nest(NestError::Cancelled(cancelled))) => {
+                Self::Cancelled(cancelled)
+            }
             other => Self::Pipeline(other),
         }
     }
