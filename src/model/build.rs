@@ -148,13 +148,22 @@ impl Builder<'_> {
             }
         };
         let candidates: Vec<Candidate> = axes.iter().map(|&a| self.candidate(principal.frame(a))).collect();
-        let best = match candidates.len() {
-            1 => 0,
-            _ => self.best_of(&candidates),
-        };
-        let chosen = &candidates[best];
+        let ranking = if candidates.len() > 1 { self.ranked(&candidates) } else { vec![0] };
+        let mut failure = None;
+        for k in ranking {
+            match self.finish(&candidates[k], &principal) {
+                Ok(made) => return Ok(made),
+                Err(error) => failure = failure.or(Some(error)),
+            }
+        }
+        Err(failure.unwrap_or_else(|| ModelError::NoJointPanel(part.options.name.clone())))
+    }
+
+    /// The component for one fold direction.
+    fn finish(&self, chosen: &Candidate, principal: &PrincipalAxis) -> Result<Made, ModelError> {
+        let options = &self.parts[self.part].options;
         let target = self.target(chosen);
-        let fail = |error| ModelError::Component { name: part.options.name.clone(), error };
+        let fail = |error| ModelError::Component { name: options.name.clone(), error };
         let component = convert(&target).map_err(fail)?;
         let joints = chosen
             .joints
@@ -164,11 +173,9 @@ impl Builder<'_> {
                 Some((*other, seat_plane(&joint.seat).moved(&chosen.frame), panel))
             })
             .collect::<Option<Vec<_>>>()
-            .ok_or_else(|| ModelError::NoJointPanel(part.options.name.clone()))?;
-        let direction_rad = part
-            .options
-            .direction_rad
-            .unwrap_or_else(|| principal.angle_rad(chosen.frame.transform_vector3(DVec3::Z)));
+            .ok_or_else(|| ModelError::NoJointPanel(options.name.clone()))?;
+        let found = || principal.angle_rad(chosen.frame.transform_vector3(DVec3::Z));
+        let direction_rad = options.direction_rad.unwrap_or_else(found);
         Ok(Made { component, frame: chosen.frame, direction_rad, joints })
     }
 
@@ -185,7 +192,8 @@ impl Builder<'_> {
         self.from_parent.and_then(|(_, made)| made.joint(self.part)).map(|(plane, _)| plane.flipped())
     }
 
-    fn best_of(&self, candidates: &[Candidate]) -> usize {
+    /// The candidates, the most promising first.
+    fn ranked(&self, candidates: &[Candidate]) -> Vec<usize> {
         let costs: Vec<f64> = candidates
             .par_iter()
             .map(|c| {
@@ -193,7 +201,9 @@ impl Builder<'_> {
                 fitted.0 + SPREAD_PRICE * fitted.1 + PLANE_PRICE * c.plane_shift_mm
             })
             .collect();
-        (0..costs.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(0)
+        let mut order: Vec<usize> = (0..costs.len()).collect();
+        order.sort_by(|&a, &b| costs[a].total_cmp(&costs[b]));
+        order
     }
 
     fn target<'h>(&self, candidate: &'h Candidate) -> Target<'h> {
