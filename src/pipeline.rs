@@ -344,11 +344,17 @@ fn warnings(model: &Model, nets: &[Net], flat: &[usize], min_panel_mm: f64) -> V
             format!("{} flat parts of {faces} faces in all have no volume and were left out", flat.len()),
         );
     }
-    let roots = model.parts().iter().filter(|p| p.joint.is_none()).count();
-    if roots > 1 {
+    let roots: Vec<&str> =
+        model.parts().iter().filter(|p| p.joint.is_none()).map(|p| p.name.as_str()).collect();
+    if roots.len() > 1 {
         warn(
             "not_joined",
-            format!("the mesh has {roots} bodies that do not touch; each makes a paper model of its own"),
+            format!(
+                "the model is in {} groups that are not joined to one another, because they do not touch or no \
+                 joint has room; they begin with {}",
+                roots.len(),
+                roots.join(", ")
+            ),
         );
     }
     for part in model.parts() {

@@ -234,10 +234,17 @@ fn girth_and_height(hull: &Hull) -> (f64, f64) {
 /// Imbalance up to which a fold vertex at a bend is exact, as a share of the height.
 const EXACT: f64 = 1e-11;
 
+/// Panels narrower or lower than this are none.
+const SLIVER_MM: f64 = 0.1;
+
 /// Panels of a fitted solid, folded at the balance points, whose joint panels are uncreased.
 fn assemble_unbroken(fitted: &Fitted) -> Result<Assembled, AssembleError> {
     let solid = &fitted.solid;
     let size = solid.top_mm - solid.bottom_mm;
+    let clearance = solid.clearance();
+    if clearance.width_mm.min(clearance.length_mm) <= SLIVER_MM {
+        return Err(AssembleError::NoRoom);
+    }
     let spots = fitted.spots.iter().enumerate().map(|(chain, &spot)| {
         let profile = solid.profile(chain);
         let at = balance(&profile);

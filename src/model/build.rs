@@ -58,6 +58,8 @@ pub enum ModelError {
 
 /// Directions tried about the principal axis.
 const DIRECTIONS: usize = 12;
+/// So many of them, the most promising, are fitted in full until one gives a component.
+const DIRECTIONS_FITTED: usize = 3;
 /// Price of a mm of spread when flat, against a mm of error: directions that fold smaller win
 /// where the error is alike (Figure 8).
 const SPREAD_PRICE: f64 = 0.03;
@@ -73,30 +75,57 @@ pub fn build(
     min_panel_mm: f64,
     progress: &dyn Progress,
 ) -> Result<Model, ModelError> {
-    let parent_link: Vec<Option<&Link>> =
-        (0..parts.len()).map(|p| links.iter().find(|l| l.child == p)).collect();
+    let mut links = links.to_vec();
     let mut made: Vec<Option<Made>> = vec![None; parts.len()];
-    let mut level: Vec<usize> = (0..parts.len()).filter(|&p| parent_link[p].is_none()).collect();
+    let mut level: Vec<usize> = (0..parts.len()).filter(|&p| links.iter().all(|l| l.child != p)).collect();
     let done = AtomicUsize::new(0);
     while !level.is_empty() {
-        let results: Vec<Result<Made, ModelError>> = level
+        let results: Vec<Result<(Made, Vec<usize>), ModelError>> = level
             .par_iter()
             .map(|&p| {
-                progress.check()?;
-                let from_parent = parent_link[p].and_then(|l| made[l.parent].as_ref().map(|m| (l, m)));
-                let builder = Builder { parts, links, part: p, from_parent, min_panel_mm };
-                let result = builder.make();
+                let result = make_joined(parts, &links, p, &made, min_panel_mm, progress);
                 let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                 progress.fraction(count as f64 / parts.len() as f64);
                 result
             })
             .collect();
+        let mut next = Vec::new();
         for (&p, result) in level.iter().zip(results) {
-            made[p] = Some(result?);
+            let (part, loose) = result?;
+            made[p] = Some(part);
+            links.retain(|l| !loose.contains(&l.child));
+            next.extend(loose);
+            next.extend(links.iter().filter(|l| l.parent == p).map(|l| l.child));
         }
-        level = links.iter().filter(|l| level.contains(&l.parent)).map(|l| l.child).collect();
+        level = next;
     }
-    place(parts, links, made.into_iter().flatten().collect())
+    place(parts, &links, made.into_iter().flatten().collect())
+}
+
+/// Makes one part. Where no shape has room for all its joints, the children with the smallest
+/// interfaces are let go, one by one, to stand for themselves; they are returned.
+fn make_joined(
+    parts: &[Part],
+    links: &[Link],
+    part: usize,
+    made: &[Option<Made>],
+    min_panel_mm: f64,
+    progress: &dyn Progress,
+) -> Result<(Made, Vec<usize>), ModelError> {
+    let mut links = links.to_vec();
+    let mut loose = Vec::new();
+    loop {
+        progress.check()?;
+        let to_parent = links.iter().find(|l| l.child == part);
+        let from_parent = to_parent.and_then(|l| made[l.parent].as_ref().map(|m| (l, m)));
+        let error = match (Builder { parts, links: &links, part, from_parent, min_panel_mm }).make() {
+            Ok(done) => return Ok((done, loose)),
+            Err(error) => error,
+        };
+        // A part's links come longest interface first.
+        let Some(smallest) = links.iter().rposition(|l| l.parent == part) else { return Err(error) };
+        loose.push(links.remove(smallest).child);
+    }
 }
 
 /// A part's component before it is placed.
@@ -150,7 +179,7 @@ impl Builder<'_> {
         let candidates: Vec<Candidate> = axes.iter().map(|&a| self.candidate(principal.frame(a))).collect();
         let ranking = if candidates.len() > 1 { self.ranked(&candidates) } else { vec![0] };
         let mut failure = None;
-        for k in ranking {
+        for k in ranking.into_iter().take(DIRECTIONS_FITTED) {
             match self.finish(&candidates[k], &principal) {
                 Ok(made) => return Ok(made),
                 Err(error) => failure = failure.or(Some(error)),
