@@ -163,11 +163,10 @@ pub fn nest(
 ) -> Result<Vec<Placement>, NestError> {
     options.check()?;
     let frame = Frame::new(options);
-    let items = pieces
-        .par_iter()
-        .enumerate()
-        .map(|(index, piece)| frame.item(index, piece, options))
-        .collect::<Result<Vec<_>, _>>()?;
+    // Collected before the first error is taken, so that which piece is named depends on no thread.
+    let items: Vec<Result<Item, NestError>> =
+        pieces.par_iter().enumerate().map(|(index, piece)| frame.item(index, piece, options)).collect();
+    let items = items.into_iter().collect::<Result<Vec<_>, _>>()?;
     let orders = options.effort / pieces.len().max(1);
     let sheets = search::search(&items, &frame.grid, orders, progress)?;
     let mut placements = vec![None; pieces.len()];
