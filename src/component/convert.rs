@@ -9,7 +9,7 @@ use super::profile::{Profile, balance, imbalance};
 use super::solid::{FaceId, Solid};
 use super::start::{circumscribe, fold_spots};
 use super::target::{FoldSpot, JointTarget, Target};
-use crate::geom::{Hull, HullError, polygon};
+use crate::geom::{self, Hull, HullError, polygon};
 use glam::DVec3;
 
 /// Hulls with more corners are fitted through their extreme points in this many directions.
@@ -263,14 +263,8 @@ fn simplified(hull: &Hull, directions: usize) -> Result<Hull, HullError> {
     if hull.vertices().len() <= directions {
         return Ok(hull.clone());
     }
-    let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
-    let points: Vec<DVec3> = (0..directions)
-        .filter_map(|k| {
-            let z = 1.0 - (2.0 * k as f64 + 1.0) / directions as f64;
-            let r = (1.0 - z * z).sqrt();
-            let d = DVec3::new(r * (golden * k as f64).cos(), r * (golden * k as f64).sin(), z);
-            hull.vertices().iter().copied().max_by(|a, b| d.dot(*a).total_cmp(&d.dot(*b)))
-        })
+    let points: Vec<DVec3> = geom::directions(directions)
+        .filter_map(|d| hull.vertices().iter().copied().max_by(|a, b| d.dot(*a).total_cmp(&d.dot(*b))))
         .collect();
     Hull::of_points(&points).or_else(|_| Ok(hull.clone()))
 }
@@ -284,14 +278,7 @@ mod tests {
 
     /// Points spread over an ellipsoid: round, needle-like and plate-like hulls.
     fn blob(axes: DVec3, count: usize) -> Vec<DVec3> {
-        let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
-        (0..count)
-            .map(|k| {
-                let z = 1.0 - (2.0 * k as f64 + 1.0) / count as f64;
-                let r = (1.0 - z * z).sqrt();
-                DVec3::new(r * (golden * k as f64).cos(), r * (golden * k as f64).sin(), z) * axes
-            })
-            .collect()
+        geom::directions(count).map(|d| d * axes).collect()
     }
 
     fn target(hull: &Hull, joints: Vec<JointTarget>) -> Target<'_> {

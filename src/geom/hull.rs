@@ -1,4 +1,4 @@
-use super::{Plane, polygon, quickhull};
+use super::{Plane, directions, polygon, quickhull};
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -258,14 +258,13 @@ impl Clip<'_> {
     }
 }
 
-/// Drops the points that lie inside the hull of the extreme ones in 26 + 64 directions.
+/// Directions whose extreme points make the hull for dropping inner points.
+const PREFILTER_DIRECTIONS: usize = 90;
+
+/// Drops the points that lie inside the hull of the extreme ones in a few directions.
 fn outer_points(points: Vec<DVec3>, lo: DVec3, size: f64) -> Result<Vec<DVec3>, HullError> {
-    let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
-    let extreme: std::collections::BTreeSet<usize> = (0..90)
-        .filter_map(|k| {
-            let z = 1.0 - (2.0 * k as f64 + 1.0) / 90.0;
-            let r = (1.0 - z * z).sqrt();
-            let d = DVec3::new(r * (golden * k as f64).cos(), r * (golden * k as f64).sin(), z);
+    let extreme: std::collections::BTreeSet<usize> = directions(PREFILTER_DIRECTIONS)
+        .filter_map(|d| {
             (0..points.len()).max_by(|&i, &j| d.dot(points[i]).total_cmp(&d.dot(points[j])).then(j.cmp(&i)))
         })
         .collect();

@@ -5,6 +5,8 @@ mod hull;
 mod plane;
 pub mod polygon;
 mod quickhull;
+mod sphere;
 
 pub use hull::{Facet, Hull, HullError};
 pub use plane::Plane;
+pub use sphere::directions;

@@ -1,6 +1,7 @@
 //! A quick inner approximation of a convex hull, by the extreme points in fixed directions. It is
 //! good for ranking: the hulls that become components are the exact ones of `geom::Hull`.
 
+use crate::geom::directions;
 use glam::DVec3;
 
 /// Directions of support. A sphere's hull over 128 extreme points has 96% of its volume.
@@ -19,20 +20,10 @@ pub(super) struct Extremes {
     best: Vec<(f64, u32)>,
 }
 
-/// Evenly spread unit vectors.
-fn directions() -> impl Iterator<Item = DVec3> {
-    let golden_rad = std::f64::consts::PI * (3.0 - 5f64.sqrt());
-    (0..DIRECTIONS).map(move |k| {
-        let z = 1.0 - (2.0 * k as f64 + 1.0) / DIRECTIONS as f64;
-        let r = (1.0 - z * z).sqrt();
-        DVec3::new(r * (golden_rad * k as f64).cos(), r * (golden_rad * k as f64).sin(), z)
-    })
-}
-
 impl Extremes {
     /// The extreme ones of vertices; there is at least one.
     pub fn of_vertices(positions: &[DVec3], vertices: &[u32]) -> Self {
-        let best = directions().map(|d| {
+        let best = directions(DIRECTIONS).map(|d| {
             let reach = |&v: &u32| (d.dot(positions[v as usize]), v);
             vertices.iter().map(reach).fold((f64::NEG_INFINITY, u32::MAX), farther)
         });
