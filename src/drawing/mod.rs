@@ -5,6 +5,7 @@
 
 mod mark;
 mod pages;
+pub mod strokes;
 mod style;
 pub mod text;
 
