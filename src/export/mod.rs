@@ -14,10 +14,11 @@ mod pdf;
 pub mod png;
 mod svg;
 
-pub use dxf::{DxfOptions, DxfVersion};
+pub use dxf::{DxfOptions, DxfSheets, DxfVersion};
 pub use options::{FormatOptions, TextMode};
+pub use pdf::{PdfOptions, Timestamp};
 pub use png::PngOptions;
-pub use svg::SvgOptions;
+pub use svg::{SvgOptions, SvgStroke};
 
 use crate::drawing::{Pages, PagesError};
 use crate::product::Product;
@@ -65,9 +66,11 @@ impl ExportFile {
         Self { suffix: String::new(), bytes }
     }
 
-    /// The file of one page of several, by its index from 0.
-    pub fn of_page(index: usize, bytes: Vec<u8>) -> Self {
-        Self { suffix: format!("-{}", index + 1), bytes }
+    /// The files of all pages, numbered where there are several.
+    pub fn of_pages(pages: Vec<Vec<u8>>) -> Vec<Self> {
+        let is_one = pages.len() == 1;
+        let suffix = |k: usize| if is_one { String::new() } else { format!("-{}", k + 1) };
+        pages.into_iter().enumerate().map(|(k, bytes)| Self { suffix: suffix(k), bytes }).collect()
     }
 }
 

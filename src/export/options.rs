@@ -1,6 +1,7 @@
 //! What the user may choose about files; each format reads its own part.
 
 use super::dxf::DxfOptions;
+use super::pdf::PdfOptions;
 use super::png::PngOptions;
 use super::svg::SvgOptions;
 
@@ -9,6 +10,8 @@ use super::svg::SvgOptions;
 pub struct FormatOptions {
     /// For DXF.
     pub dxf: DxfOptions,
+    /// For PDF.
+    pub pdf: PdfOptions,
     /// For PNG.
     pub png: PngOptions,
     /// For SVG.
@@ -16,11 +19,25 @@ pub struct FormatOptions {
 }
 
 /// How texts are written where a format leaves the choice.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextMode {
     /// As outlines of letters: looks the same everywhere.
-    #[default]
     Outlines,
-    /// As text, which needs the font where it is read.
+    /// As single lines, for pens and for scoring.
+    Strokes,
+    /// As text, which needs a font where it is read.
     Text,
+}
+
+impl std::str::FromStr for TextMode {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "outlines" => Ok(Self::Outlines),
+            "strokes" => Ok(Self::Strokes),
+            "text" => Ok(Self::Text),
+            _ => Err("texts are one of outlines, strokes, text".to_owned()),
+        }
+    }
 }

@@ -3,7 +3,10 @@ use crate::export::fixture::model;
 use std::collections::BTreeSet;
 
 fn written(version: DxfVersion, text_mode: TextMode) -> String {
-    let options = FormatOptions { dxf: DxfOptions { version, text: text_mode }, ..FormatOptions::default() };
+    let options = FormatOptions {
+        dxf: DxfOptions { version, text: text_mode, ..DxfOptions::default() },
+        ..FormatOptions::default()
+    };
     let files = write(&model(2), &options).expect("can be written");
     assert_eq!(files.iter().map(|f| f.suffix.as_str()).collect::<Vec<_>>(), ["-1", "-2"]);
     String::from_utf8(files[0].bytes.clone()).expect("ASCII")
