@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_6};
 
 use glam::{DVec2, DVec3};
-use tatamu::drawing::{Align, Drawing, Layer, Mark, Polyline, Rgb, Shape, Stroke, Text};
+use tatamu::drawing::{Align, Drawing, Layer, Mark, Polyline, Rgb, Stroke, Text};
 use tatamu::export::png;
 use tatamu::render::{Camera, Edge, Face, Look, Scene, View, light, palette, picture};
 

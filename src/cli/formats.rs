@@ -62,6 +62,13 @@ pub struct FileArgs {
     /// to lay them on one another. Example: --paper a2 --tile a4
     #[arg(long, value_name = "SIZE", value_parser = parse_paper)]
     tile: Option<Paper>,
+
+    /// Each piece in a FOLD file of its own, besides the whole model
+    ///
+    /// With the angles of the flat state, for Flat-Folder and Origami Simulator.
+    /// Example: --fold-pieces -o teddy.fold
+    #[arg(long)]
+    fold_pieces: bool,
 }
 
 fn dpi(text: &str) -> Result<PngOptions, String> {
@@ -90,6 +97,7 @@ impl FileArgs {
         formats.dxf.version = self.dxf_version.or(table.dxf_version).unwrap_or(formats.dxf.version);
         formats.dxf.sheets = self.dxf_sheets.or(table.dxf_sheets).unwrap_or(formats.dxf.sheets);
         formats.png = self.dpi.or(table.dpi).unwrap_or(formats.png);
+        formats.fold.pieces = self.fold_pieces || table.fold_pieces;
         let pdf = formats.pdf.with_created(source_date()?);
         formats.pdf = pdf.with_tile(self.tile.or(table.tile)).map_err(CliError::Options)?;
         let styles = match (&self.style, &table.style) {

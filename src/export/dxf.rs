@@ -21,6 +21,9 @@ pub const FORMAT: Format = Format {
 
 /// Straight pieces in the place of each curve of a letter.
 const CURVE_STEPS: usize = 4;
+/// Names of line types that every file has.
+const BY_LAYER_TYPE: &str = "BYLAYER";
+const CONTINUOUS: &str = "CONTINUOUS";
 /// Line weight "by layer".
 const BY_LAYER: i16 = -1;
 /// Header variables that hold times or random ids, with what is written instead.
@@ -177,10 +180,13 @@ fn add_mark(file: &mut dxf::Drawing, layer: &str, mark: &Mark, options: DxfOptio
         (Shape::Text(text), TextMode::Outlines) => text::contours(text, CURVE_STEPS),
         (Shape::Text(text), TextMode::Strokes) => strokes::polylines(text),
         (Shape::Text(text), TextMode::Text) => {
-            add_entity(file, layer, EntityType::Text(written(text)));
+            add_entity(file, layer, BY_LAYER_TYPE, EntityType::Text(written(text)));
             Vec::new()
         }
     };
+    // Letters are not dashed, whatever their layer is.
+    let is_text = matches!(mark.shape, Shape::Text(_));
+    let line_type = if is_text { CONTINUOUS } else { BY_LAYER_TYPE };
     for contour in &contours {
         let entity = match contour.points[..] {
             [a, b] if !contour.is_closed => {
@@ -189,13 +195,14 @@ fn add_mark(file: &mut dxf::Drawing, layer: &str, mark: &Mark, options: DxfOptio
             _ if options.version == DxfVersion::R12 => EntityType::Polyline(old_polyline(file, contour)),
             _ => EntityType::LwPolyline(polyline(contour)),
         };
-        add_entity(file, layer, entity);
+        add_entity(file, layer, line_type, entity);
     }
 }
 
-fn add_entity(file: &mut dxf::Drawing, layer: &str, specific: EntityType) {
+fn add_entity(file: &mut dxf::Drawing, layer: &str, line_type: &str, specific: EntityType) {
     let mut entity = Entity::new(specific);
     entity.common.layer = layer.to_owned();
+    entity.common.line_type_name = line_type.to_owned();
     entity.common.lineweight_enum_value = BY_LAYER;
     file.add_entity(entity);
 }

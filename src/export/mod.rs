@@ -8,14 +8,17 @@ mod dxf;
 #[cfg(test)]
 mod fixture;
 pub mod fold;
+pub mod glb;
 pub mod gltf;
 mod json;
+mod obj;
 mod options;
 mod pdf;
 pub mod png;
 mod svg;
 
 pub use dxf::{DxfOptions, DxfSheets, DxfVersion};
+pub use fold::FoldOptions;
 pub use options::{FormatOptions, TextMode};
 pub use pdf::{PdfOptions, Timestamp};
 pub use png::PngOptions;
@@ -25,8 +28,16 @@ use crate::drawing::{Pages, PagesError};
 use crate::product::Product;
 
 /// All formats, in the order of help texts.
-pub const FORMATS: &[Format] =
-    &[pdf::FORMAT, svg::FORMAT, dxf::FORMAT, png::FORMAT, fold::FORMAT, json::FORMAT];
+pub const FORMATS: &[Format] = &[
+    pdf::FORMAT,
+    svg::FORMAT,
+    dxf::FORMAT,
+    png::FORMAT,
+    fold::FORMAT,
+    glb::FORMAT,
+    obj::FORMAT,
+    json::FORMAT,
+];
 
 /// What cannot be exported.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -65,6 +76,12 @@ impl ExportFile {
     /// The only file of an export.
     pub fn single(bytes: Vec<u8>) -> Self {
         Self { suffix: String::new(), bytes }
+    }
+
+    /// The file of a part with a name, of which letters and digits stay.
+    pub fn named(name: &str, bytes: Vec<u8>) -> Self {
+        let slug: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+        Self { suffix: format!("-{slug}"), bytes }
     }
 
     /// The files of all pages, numbered where there are several.

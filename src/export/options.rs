@@ -1,6 +1,7 @@
 //! What the user may choose about files; each format reads its own part.
 
 use super::dxf::DxfOptions;
+use super::fold::FoldOptions;
 use super::pdf::PdfOptions;
 use super::png::PngOptions;
 use super::svg::SvgOptions;
@@ -10,6 +11,8 @@ use super::svg::SvgOptions;
 pub struct FormatOptions {
     /// For DXF.
     pub dxf: DxfOptions,
+    /// For FOLD.
+    pub fold: FoldOptions,
     /// For PDF.
     pub pdf: PdfOptions,
     /// For PNG.

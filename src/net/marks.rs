@@ -2,7 +2,7 @@
 
 use super::mesh::EdgeKind;
 use super::{FaceKind, LabelKind, Piece};
-use crate::component::{PanelKind, PanelSet};
+use crate::component::PanelSet;
 use crate::drawing::{Align, Layer, Mark, Polyline, Stroke, Text};
 use glam::DVec2;
 
@@ -48,19 +48,10 @@ pub(crate) fn creases(set: &PanelSet, mesh: &super::PieceMesh) -> Vec<Crease> {
 /// The faces at an edge, in short: `chain2.1 chain2.2`.
 fn between(set: &PanelSet, mesh: &super::PieceMesh, faces: &[usize]) -> String {
     let name = |&face: &usize| match mesh.faces()[face].kind {
-        FaceKind::Panel(panel) => short_name(set.panel(panel).kind),
+        FaceKind::Panel(panel) => set.panel(panel).kind.short_name(),
         FaceKind::Tab(_) => "tab".to_owned(),
     };
     faces.iter().map(name).collect::<Vec<_>>().join(" ")
-}
-
-/// A panel's name within its component, for names in files.
-fn short_name(kind: PanelKind) -> String {
-    match kind {
-        PanelKind::Top => "top".to_owned(),
-        PanelKind::Bottom => "bottom".to_owned(),
-        PanelKind::Side { chain, index } => format!("chain{}.{}", chain + 1, index + 1),
-    }
 }
 
 /// What is drawn of a piece.
@@ -87,7 +78,7 @@ impl Piece {
         let mut marks = Vec::new();
         for joint in &self.joints {
             let panel = self.panels.iter().find(|p| p.panel == joint.panel);
-            let panel = panel.map_or_else(String::new, |p| short_name(p.kind));
+            let panel = panel.map_or_else(String::new, |p| p.kind.short_name());
             marks.push(path(Layer::Glue, closed(&joint.outline), panel.clone()));
             marks.push(path(Layer::Glue, closed(&joint.key), format!("{panel} key")));
         }

@@ -29,6 +29,8 @@ pub struct ExportTable {
     /// Paper on which a PDF divides larger sheets.
     #[serde(deserialize_with = "fields::paper")]
     pub tile: Option<Paper>,
+    /// Whether each piece is written to a FOLD file of its own.
+    pub fold_pieces: bool,
 }
 
 /// The table in a fresh project file: everything in comments, with the defaults.
@@ -47,6 +49,8 @@ pub(super) const TEMPLATE: &str = r#"
 # dpi = 150
 # Paper on which a PDF divides sheets that are larger.
 # tile = "a4"
+# Each piece in a FOLD file of its own, besides the whole model.
+# fold_pieces = true
 "#;
 
 #[cfg(test)]
@@ -68,6 +72,7 @@ mod tests {
             dxf_sheets: Some(DxfSheets::Files),
             dpi: Some(PngOptions::default()),
             tile: Some(Paper::default()),
+            fold_pieces: true,
         };
         assert_eq!(export, expected);
     }
