@@ -3,7 +3,7 @@
 
 use super::assemble::{AssembleError, Assembled, assemble};
 use super::distance::{Polytope, hausdorff};
-use super::fit::{Fitted, fit, polytope};
+use super::fit::{Fit, Fitted};
 use super::panel::{PanelId, PanelKind, PanelSet};
 use super::profile::{Profile, balance, imbalance};
 use super::solid::{FaceId, Solid};
@@ -16,6 +16,8 @@ use glam::DVec3;
 const FIT_DIRECTIONS: usize = 320;
 /// Quick fits, to compare directions, use fewer.
 const TRIAL_DIRECTIONS: usize = 60;
+/// Steps of a fit at most.
+const STEPS: usize = 40;
 /// Steps of a quick fit.
 const TRIAL_STEPS: usize = 5;
 /// Quick fits use no more profile vertices than this.
@@ -145,7 +147,7 @@ pub fn convert(target: &Target) -> Result<Component, ConvertError> {
             Target { profile_vertices: attempt.vertices, min_panel_mm: attempt.least_mm, ..quick.clone() };
         let mut solid = circumscribe(&goal, attempt.edges);
         let spots = fold_spots(&mut solid);
-        let fitted = fit(&goal, solid, spots, usize::MAX);
+        let fitted = Fit::new(&goal, solid, spots).run(STEPS).into_best();
         match assemble_unbroken(&fitted) {
             Ok(made) => {
                 let merit = fitted.error_mm + 10.0 * fitted.lack_mm;
@@ -163,9 +165,9 @@ pub fn convert(target: &Target) -> Result<Component, ConvertError> {
     let Some((_, fitted, made)) = best else {
         return Err(last_error.map_or(ConvertError::Hull(HullError::Flat), ConvertError::Assemble));
     };
-    let error_mm = hausdorff(&polytope(&fitted.solid), &Polytope::of_hull(target.hull));
+    let error_mm = hausdorff(&fitted.shape.polytope, &Polytope::of_hull(target.hull));
     Ok(Component {
-        solid: fitted.solid,
+        solid: fitted.shape.solid,
         profiles: made.profiles,
         panels: made.panels,
         error_mm,
@@ -181,13 +183,13 @@ pub fn trial(target: &Target) -> Option<(f64, f64)> {
     let goal = Target { hull: &simple, profile_vertices, ..target.clone() };
     let mut solid = circumscribe(&goal, target.top_edges);
     let spots = fold_spots(&mut solid);
-    let fitted = fit(&goal, solid, spots, TRIAL_STEPS);
+    let fitted = Fit::new(&goal, solid, spots).run(TRIAL_STEPS).into_best();
     let reach = |j: usize| {
-        let profile = fitted.solid.profile(j);
-        let at = balance(&profile);
+        let profile = &fitted.shape.chains[j].profile;
+        let at = balance(profile);
         profile[0].x + profile.windows(2).take(at.segment).map(|w| w[0].distance(w[1])).sum::<f64>()
     };
-    let spread = (0..fitted.solid.chains.len()).map(reach).fold(0.0, f64::max);
+    let spread = (0..fitted.shape.chains.len()).map(reach).fold(0.0, f64::max);
     Some((fitted.error_mm + fitted.lack_mm, spread))
 }
 
@@ -239,7 +241,7 @@ const SLIVER_MM: f64 = 0.1;
 
 /// Panels of a fitted solid, folded at the balance points, whose joint panels are uncreased.
 fn assemble_unbroken(fitted: &Fitted) -> Result<Assembled, AssembleError> {
-    let solid = &fitted.solid;
+    let solid = &fitted.shape.solid;
     let size = solid.top_mm - solid.bottom_mm;
     let clearance = solid.clearance();
     if clearance.width_mm.min(clearance.length_mm) <= SLIVER_MM {
@@ -352,7 +354,7 @@ mod tests {
                 let offset_mm = hull.support(normal) * share;
                 let plane = crate::geom::Plane::through(normal * offset_mm, normal).unwrap();
                 hull = hull.clip(&plane).unwrap();
-                joints.push(JointTarget { seat: Seat::Side { angle_rad, slope_rad, offset_mm }, cover: vec![], within: vec![] });
+                joints.push(JointTarget { seat: Seat::Side { angle_rad, slope_rad, offset_mm }, cover: vec![], within: vec![], price: 0.3 });
             }
             let target = target(&hull, joints);
             let component = convert(&target).unwrap();

@@ -65,6 +65,8 @@ const DIRECTIONS_FITTED: usize = 3;
 const SPREAD_PRICE: f64 = 0.03;
 /// Price of a mm by which joint planes are moved off their interfaces.
 const PLANE_PRICE: f64 = 0.3;
+/// Price of a mm by which a joint panel misses its partner.
+const JOINT_PRICE: f64 = 0.3;
 /// A joint plane that leaves less than this share of a hull is not used to clip it.
 const LEAST_SHARE: f64 = 0.15;
 
@@ -275,7 +277,7 @@ impl Builder<'_> {
             }
             let (cover, within) = self.partner(other, &plane, &frame, &to_local);
             plane_shift_mm += shift_mm(&cover, seating);
-            joints.push((other, JointTarget { seat, cover, within }));
+            joints.push((other, JointTarget { seat, cover, within, price: JOINT_PRICE }));
         }
         Candidate { frame, hull, joints, plane_shift_mm }
     }
