@@ -71,7 +71,7 @@ pub(super) struct Fit<'a> {
 
 impl<'a> Fit<'a> {
     /// A fit that starts from `solid`.
-    pub(super) fn new(target: &'a Target, solid: Solid, spots: Vec<FoldSpot>) -> Self {
+    pub(super) fn new(target: Target<'a>, solid: Solid, spots: Vec<FoldSpot>) -> Self {
         let hull = Polytope::of_hull(target.hull);
         let centre = target.hull.centroid();
         let radius_mm = target.hull.vertices().iter().map(|v| v.distance(centre)).fold(0.0, f64::max);
@@ -83,6 +83,11 @@ impl<'a> Fit<'a> {
     /// The best solid so far.
     pub(super) fn best(&self) -> &Fitted {
         &self.best
+    }
+
+    /// What the solid is fitted to.
+    pub(super) fn target(&self) -> &Target<'a> {
+        &self.task.target
     }
 
     /// The best solid.
@@ -115,7 +120,7 @@ impl<'a> Fit<'a> {
 /// What a solid is fitted to.
 #[derive(Debug, Clone)]
 pub(super) struct Task<'a> {
-    pub(super) target: &'a Target<'a>,
+    pub(super) target: Target<'a>,
     pub(super) hull: Polytope,
     pub(super) radius_mm: f64,
 }
@@ -142,7 +147,7 @@ impl Task<'_> {
         let spread_mm = squares / (2.0 * count as f64 * self.mean_scale_mm());
         let lack_mm = self.lack_mm(&shape, &spots);
         let joints = self.target.joints.iter();
-        let miss_mm = joints.map(|j| j.price * miss_mm(&shape, self.target, j)).sum();
+        let miss_mm = joints.map(|j| j.price * miss_mm(&shape, &self.target, j)).sum();
         let is_finite = shape.corners.iter().all(|c| c.point.is_finite());
         let error_mm = if is_finite { error_mm } else { f64::INFINITY };
         Fitted { shape, spots, error_mm, lack_mm, miss_mm, spread_mm, own, hulls }

@@ -11,13 +11,14 @@ mod panel;
 mod profile;
 mod qp;
 mod rows;
+mod search;
 mod shape;
 mod solid;
 mod start;
 mod target;
 
 pub use assemble::AssembleError;
-pub use convert::{Component, ConvertError, convert, trial};
+pub use convert::{Component, ConvertError, choose, convert};
 pub use direction::PrincipalAxis;
 pub use panel::{Hinge, HingeId, HingeSide, Panel, PanelId, PanelKind, PanelSet};
 pub use profile::{Profile, ProfileError};
