@@ -1,8 +1,10 @@
 //! A finished run, from which every format takes what it needs when it is asked for.
 
 use crate::drawing::{Chapter, LineStyles, Pages, PagesError};
+use crate::mesh::painting::Painting;
 use crate::model::ModelPart;
 use crate::net::Net;
+use crate::paint;
 use crate::pipeline::Output;
 use crate::report::Run;
 use std::cell::OnceCell;
@@ -15,19 +17,27 @@ pub struct Product<'a> {
     title: &'a str,
     run: Run<'a>,
     styles: LineStyles,
+    painting: Option<&'a Painting>,
     pages: OnceCell<Result<Pages, PagesError>>,
 }
 
 impl<'a> Product<'a> {
     /// A run with the standard line styles.
     pub fn new(output: &'a Output, title: &'a str, run: Run<'a>) -> Self {
-        Self { output, title, run, styles: LineStyles::standard(), pages: OnceCell::new() }
+        let styles = LineStyles::standard();
+        Self { output, title, run, styles, painting: None, pages: OnceCell::new() }
     }
 
     /// The same with another look.
     #[must_use]
     pub fn with_styles(self, styles: LineStyles) -> Self {
         Self { styles, pages: OnceCell::new(), ..self }
+    }
+
+    /// The same with panels in the mesh's colours.
+    #[must_use]
+    pub fn with_painting(self, painting: Option<&'a Painting>) -> Self {
+        Self { painting, pages: OnceCell::new(), ..self }
     }
 
     /// The results of all stages.
@@ -53,7 +63,13 @@ impl<'a> Product<'a> {
         let draw = || {
             let note = size_note(self.output);
             let layout = self.output.layout();
-            let drawings = layout.pages(self.output.nets(), self.title, &note, &self.styles);
+            let mut drawings = layout.pages(self.output.nets(), self.title, &note, &self.styles);
+            if let Some(painting) = self.painting {
+                // Lines and letters are drawn over them.
+                for (sheet, picture) in paint::pictures(self.output, painting).into_iter().rev() {
+                    drawings[sheet].marks.insert(0, picture);
+                }
+            }
             let pages = Pages::new(self.title, drawings, self.styles.clone())?;
             Ok(pages.with_chapters(chapters(self.output)))
         };

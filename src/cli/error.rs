@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use tatamu::drawing::StyleError;
 use tatamu::export::ExportError;
-use tatamu::mesh::{MeshError, ReadError};
+use tatamu::mesh::{ColourError, MeshError, ReadError};
 use tatamu::pipeline;
 use tatamu::progress::{Cancelled, Progress};
 use tatamu::project::ProjectError;
@@ -23,6 +23,9 @@ pub enum CliError {
     /// The project file is wrong.
     #[error("project file {path}: {error}")]
     Project { path: PathBuf, error: ProjectError },
+    /// The mesh has no colours that can be used.
+    #[error("{path}: {error}; or leave --color out")]
+    Colour { path: PathBuf, error: ColourError },
     /// A style file is wrong.
     #[error("style file {path}: {error}")]
     Style { path: PathBuf, error: StyleError },

@@ -80,6 +80,7 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
     let options = args.model.merge(&input)?;
     let choice = args.files.merge(input.project.as_ref().map(|p| &p.export), &args.input)?;
+    let painting = choice.is_coloured.then(|| input::read_painting(&input)).transpose()?;
     let warnings = repair_warnings(&input.repairs);
     warnings.iter().for_each(warn);
 
@@ -97,7 +98,8 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
         warnings: &warnings,
     };
     let title = terminal::printable(&stem.to_string_lossy());
-    let product = Product::new(&result, &title, run).with_styles(choice.styles);
+    let product =
+        Product::new(&result, &title, run).with_styles(choice.styles).with_painting(painting.as_ref());
     let mut files = Vec::new();
     for target in targets {
         for file in target.format.write(&product, &choice.formats)? {

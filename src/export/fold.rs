@@ -10,7 +10,7 @@ pub use pieces::write_piece;
 
 use super::{ExportError, ExportFile, Format, FormatOptions, Source};
 use crate::component::{HingeId, PanelKind, PanelSet};
-use crate::net::{Corner, EdgeKind, FaceKind, Net, Piece};
+use crate::net::{Corner, EdgeKind, FaceKind, Net, Piece, PieceMesh};
 use crate::product::Product;
 use crate::sheet::PiecePlace;
 use glam::{DAffine3, DVec2, DVec3};
@@ -27,6 +27,8 @@ pub const FORMAT: Format = Format {
 /// Version of the format.
 const SPEC: f64 = 1.2;
 const CREATOR: &str = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
+/// Shorter edges are points.
+const SHORTEST_MM: f64 = 1e-6;
 /// Distance between sheets in the crease pattern, mm.
 const SHEET_GAP_MM: f64 = 20.0;
 
@@ -231,23 +233,35 @@ impl Graph {
         piece: &Piece,
         at: PiecePlace,
     ) {
-        let (first_vertex, first_face) = (self.pattern.len(), self.faces.faces_vertices.len());
+        let first_face = self.faces.faces_vertices.len();
         let offsets = model.sheet_offsets;
         let offset = offsets.get(at.sheet).or(offsets.last()).copied().unwrap_or_default();
-        for vertex in piece.mesh().vertices() {
+        let kept = without_short_edges(piece.mesh());
+        let mut number = vec![0; kept.len()];
+        for (v, vertex) in piece.mesh().vertices().iter().enumerate() {
+            if kept[v] != v {
+                number[v] = number[kept[v]];
+                continue;
+            }
+            number[v] = self.pattern.len();
             let flat = at.place.transform_point2(vertex.at) + offset;
             self.pattern.push([flat.x, flat.y, 0.0]);
             let (deployed, flat) = folded(component, piece, vertex.of);
             self.deployed.coords.push(deployed.into());
             self.flat.coords.push(flat.into());
         }
-        for edge in piece.mesh().edges() {
-            self.edges.edges_vertices.push(edge.ends.map(|v| first_vertex + v));
+        for edge in piece.mesh().edges().iter().filter(|edge| kept[edge.ends[0]] != kept[edge.ends[1]]) {
+            self.edges.edges_vertices.push(edge.ends.map(|v| number[v]));
             self.edges.edges_faces.push(edge.faces.iter().map(|f| first_face + f).collect());
             self.add_edge_kind(component, edge.kind);
         }
         for face in piece.mesh().faces() {
-            self.faces.faces_vertices.push(face.vertices.iter().map(|v| first_vertex + v).collect());
+            let mut corners: Vec<usize> = face.vertices.iter().map(|&v| number[v]).collect();
+            corners.dedup();
+            if corners.len() > 1 && corners.first() == corners.last() {
+                corners.pop();
+            }
+            self.faces.faces_vertices.push(corners);
             self.add_face_kind(component, face.kind);
             self.faces.component.push(component.name.to_owned());
             self.faces.sheet.push(at.sheet);
@@ -294,6 +308,21 @@ impl Graph {
         self.faces.chain.push(chain);
         self.faces.panel.push(panel);
     }
+}
+
+/// For each vertex the first one that edges without length lead to: panels may have corners at the
+/// same place, and readers sort edges by their directions.
+fn without_short_edges(mesh: &PieceMesh) -> Vec<usize> {
+    let mut kept: Vec<usize> = (0..mesh.vertices().len()).collect();
+    for edge in mesh.edges() {
+        let [a, b] = mesh.segment(edge);
+        if a.distance(b) < SHORTEST_MM {
+            let ends = edge.ends.map(|v| kept[v]);
+            let (first, last) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+            kept.iter_mut().filter(|k| **k == last).for_each(|k| *k = first);
+        }
+    }
+    kept
 }
 
 /// FOLD's sign: mountain folds are negative; a flat edge is plain 0.
