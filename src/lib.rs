@@ -15,6 +15,7 @@ pub mod check;
 pub mod component;
 pub mod drawing;
 pub mod export;
+pub mod fold;
 pub mod geom;
 pub mod mesh;
 pub mod model;
