@@ -8,6 +8,7 @@ mod dxf;
 #[cfg(test)]
 mod fixture;
 pub mod fold;
+pub mod gltf;
 mod pdf;
 pub mod png;
 mod svg;
