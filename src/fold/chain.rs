@@ -88,20 +88,27 @@ impl ChainMotion {
 
     /// The pose in which the chain spans a height, which is cut off at 0 and at the deployed one.
     pub fn at_height(&self, height_mm: f64) -> Shares {
+        let share = height_mm / self.height_mm();
+        self.at_height_near(height_mm, Shares { above: share, below: share })
+    }
+
+    /// The same, found faster from a pose that is near.
+    pub fn at_height_near(&self, height_mm: f64, near: Shares) -> Shares {
         if height_mm >= self.height_mm() {
             return Shares::DEPLOYED;
         }
         if height_mm <= 0.0 {
             return Shares::FLAT;
         }
-        let above = increasing_root(height_mm / self.height_mm(), |s| {
-            let shares = self.closed(s);
+        let ratio = if near.above > 0.0 { near.below / near.above } else { 1.0 };
+        let above = increasing_root(near.above, |s| {
+            let shares = self.closed(s, ratio * s);
             let (upper, lower) = (rise(&self.links[..self.fold], s), rise(self.below(), shares.below));
             let d_sag = sag(&self.links[..self.fold], s).1 * self.balance;
             let d_below = d_sag / sag(self.below(), shares.below).1.max(f64::MIN_POSITIVE);
             (upper.0 + lower.0 - height_mm, upper.1 + lower.1 * d_below)
         });
-        self.closed(above)
+        self.closed(above, ratio * above)
     }
 
     /// Deployed and posed vertices of link i: upper, then lower.
@@ -151,13 +158,13 @@ impl ChainMotion {
         carried + reach_mm * self.links[link].angle_rad
     }
 
-    /// The pose that closes, by its upper share.
-    fn closed(&self, above: f64) -> Shares {
+    /// The pose that closes, by its upper share and a guess of the lower one.
+    fn closed(&self, above: f64, guess: f64) -> Shares {
         if above <= 0.0 {
             return Shares::FLAT;
         }
         let wanted = (self.balance * sag(&self.links[..self.fold], above).0).sqrt();
-        let below = increasing_root(above, |r| {
+        let below = increasing_root(guess, |r| {
             let (sag, slope) = sag(self.below(), r);
             let root = sag.max(f64::MIN_POSITIVE).sqrt();
             (root - wanted, 0.5 * slope / root)

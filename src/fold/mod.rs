@@ -2,10 +2,21 @@
 //! in which order they fold.
 
 mod chain;
+mod check;
+pub mod contact;
 mod motion;
+mod order;
+mod pose;
+mod stack;
+mod sweep;
+mod track;
 
 pub use chain::{ChainMotion, Shares};
+pub use check::{Clash, Overlap};
 pub use motion::{ComponentMotion, ComponentPose};
+pub use order::FoldPlan;
+pub use pose::{ModelMotion, ModelPose, PartPose, ancestors, root_of};
+pub use stack::Stack;
 
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,7 @@
 //! height alone decides the pose.
 
 use super::chain::{ChainMotion, Shares};
-use crate::component::{Component, PanelKind, Profile};
+use crate::component::{Component, PanelId, PanelKind, Profile};
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 use std::f64::consts::FRAC_PI_2;
 
@@ -56,25 +56,88 @@ impl ComponentMotion {
         self.height_mm
     }
 
+    /// Number of panels.
+    pub fn panel_count(&self) -> usize {
+        self.panels.len()
+    }
+
     /// The linkage of chain j.
     pub fn chain(&self, j: usize) -> &ChainMotion {
         &self.chains[j].motion
     }
 
-    /// The pose at `folded`, from 0 (deployed) to 1 (flat). The height falls as the cosine of a
-    /// quarter turn: a straight wall then bends evenly, although its height hardly changes at
-    /// first.
+    /// Height of the top panel over the bottom panel at `folded`, from 0 (deployed) to 1 (flat). It
+    /// falls as the cosine of a quarter turn: a straight wall then bends evenly, although its height
+    /// hardly changes at first.
+    pub fn height_at_mm(&self, folded: f64) -> f64 {
+        if folded >= 1.0 { 0.0 } else { self.height_mm * (FRAC_PI_2 * folded).cos() }
+    }
+
+    /// How far each chain is at `folded`.
+    pub fn shares(&self, folded: f64) -> Vec<Shares> {
+        let height_mm = self.height_at_mm(folded);
+        self.chains.iter().map(|c| c.motion.at_height(height_mm)).collect()
+    }
+
+    /// The same, found faster from a moment that is near.
+    pub(super) fn shares_near(&self, folded: f64, near: &[Shares]) -> Vec<Shares> {
+        let height_mm = self.height_at_mm(folded);
+        self.chains.iter().zip(near).map(|(c, near)| c.motion.at_height_near(height_mm, *near)).collect()
+    }
+
+    /// The pose at `folded`.
     pub fn pose(&self, folded: f64) -> ComponentPose {
-        let height_mm = if folded >= 1.0 { 0.0 } else { self.height_mm * (FRAC_PI_2 * folded).cos() };
-        let shares: Vec<Shares> = self.chains.iter().map(|c| c.motion.at_height(height_mm)).collect();
-        let drop = DAffine3::from_translation(DVec3::Z * (height_mm - self.height_mm));
-        let place = |&(kind, deployed): &(PanelKind, DAffine3)| match kind {
-            PanelKind::Top => drop * deployed,
-            PanelKind::Bottom => deployed,
-            PanelKind::Side { chain, index } => self.chains[chain].move_link(index, shares[chain], deployed),
+        let shares = self.shares(folded);
+        let height_mm = self.height_at_mm(folded);
+        let place = |(k, (_, deployed)): (usize, &(PanelKind, DAffine3))| {
+            self.moved(PanelId(k), height_mm, &shares) * *deployed
         };
-        let placements = self.panels.iter().map(place).collect();
+        let placements = self.panels.iter().enumerate().map(place).collect();
         ComponentPose { placements, height_mm, shares }
+    }
+
+    /// How a panel has moved from where it is when deployed, in the component's axes.
+    pub(super) fn moved(&self, panel: PanelId, height_mm: f64, shares: &[Shares]) -> DAffine3 {
+        match self.panels[panel.0].0 {
+            PanelKind::Top => DAffine3::from_translation(DVec3::Z * (height_mm - self.height_mm)),
+            PanelKind::Bottom => DAffine3::IDENTITY,
+            PanelKind::Side { chain, index } => self.chains[chain].move_link(index, shares[chain]),
+        }
+    }
+}
+
+/// From which end of its component a panel hangs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum End {
+    /// The top panel, by this chain; none for the top panel itself.
+    Top(Option<usize>),
+    /// The bottom panel.
+    Bottom(Option<usize>),
+}
+
+impl ComponentMotion {
+    /// The end that a panel hangs from.
+    pub(super) fn end_of(&self, panel: PanelId) -> End {
+        match self.panels[panel.0].0 {
+            PanelKind::Top => End::Top(None),
+            PanelKind::Bottom => End::Bottom(None),
+            PanelKind::Side { chain, index } if self.chains[chain].motion.is_above(index) => {
+                End::Top(Some(chain))
+            }
+            PanelKind::Side { chain, .. } => End::Bottom(Some(chain)),
+        }
+    }
+
+    /// How far points that ride on a panel move against the panel's end of the component, at most,
+    /// for a change of the chain's share by 1. The points are given as they lie when deployed.
+    pub(super) fn sway_mm(&self, panel: PanelId, points: &[DVec3]) -> f64 {
+        let PanelKind::Side { chain, index } = self.panels[panel.0].0 else { return 0.0 };
+        let chain = &self.chains[chain];
+        let [ends, _] = chain.motion.link_ends(index, Shares::DEPLOYED);
+        let pivot = ends[if chain.motion.is_above(index) { 0 } else { 1 }];
+        let in_plane = |p: &DVec3| DVec2::new(chain.outward.dot(p.truncate()), p.z);
+        let reach = points.iter().map(|p| in_plane(p).distance(pivot)).fold(0.0, f64::max);
+        chain.motion.sway_mm(index, reach)
     }
 }
 
@@ -83,8 +146,8 @@ impl Chain {
         (self.outward * point.x).extend(point.y)
     }
 
-    /// The placement of a link's panel after the motion.
-    fn move_link(&self, link: usize, shares: Shares, deployed: DAffine3) -> DAffine3 {
+    /// How a link has moved from where it is when deployed.
+    fn move_link(&self, link: usize, shares: Shares) -> DAffine3 {
         let [before, after] = self.motion.link_ends(link, shares);
         let tangent = self.outward.perp().extend(0.0);
         let turn = DQuat::from_axis_angle(-tangent, self.motion.turn_rad(link, shares));
@@ -92,6 +155,5 @@ impl Chain {
         DAffine3::from_translation(self.in_space(after[pivot]))
             * DAffine3::from_mat3(DMat3::from_quat(turn))
             * DAffine3::from_translation(-self.in_space(before[pivot]))
-            * deployed
     }
 }
