@@ -3,7 +3,7 @@
 //! Whether two components meet depends on the states of those between them and the one that moves,
 //! not on the rest. Answers are kept by these states, so that a search asks for each only once.
 
-use super::contact::{Sheet, gap_mm};
+use super::contact::{Sheet, gap};
 use super::pose::{ModelMotion, ancestors, root_of};
 use super::sweep::{Body, Contact, SheetId, Sweep};
 use super::track::Track;
@@ -314,7 +314,7 @@ pub(super) fn overlaps(motion: &ModelMotion<'_>, tolerance_mm: f64) -> Vec<Overl
                 continue;
             }
             let pairs = sheets[a].iter().flat_map(|p| sheets[b].iter().map(move |q| (p, q)));
-            let depth_mm = pairs.map(|(p, q)| -gap_mm(p, q, -tolerance_mm)).fold(0.0, f64::max);
+            let depth_mm = pairs.map(|(p, q)| -gap(p, q, -tolerance_mm, 0).mm).fold(0.0, f64::max);
             if depth_mm > tolerance_mm {
                 overlaps.push(Overlap { parts: [a, b], depth_mm });
             }

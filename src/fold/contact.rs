@@ -20,41 +20,63 @@ pub struct Sheet {
     pub normal: DVec3,
 }
 
-/// The signed gap: where positive, the polygons are at least so far apart; where negative, they
-/// cut through each other and a shift by so much parts them. Sheets that touch have 0. The search
-/// ends as soon as the gap is known to be above `enough_mm`.
-pub fn gap_mm(a: &Sheet, b: &Sheet, enough_mm: f64) -> f64 {
-    let mut gap = f64::NEG_INFINITY;
-    let mut is_enough = |axis: DVec3| {
-        gap = gap.max(gap_along(a, b, axis));
-        gap > enough_mm
-    };
-    let between = (centre(b) - centre(a)).normalize_or(a.normal);
-    if is_enough(between) || is_enough(a.normal) || is_enough(b.normal) {
-        return gap;
-    }
-    for sheet in [a, b] {
-        for edge in edges(sheet) {
-            if is_enough(sheet.normal.cross(edge).normalize_or(between)) {
-                return gap;
-            }
+/// A signed gap between two polygons, and the direction in which it was found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gap {
+    /// Where positive, the polygons are at least so far apart; where negative, they cut through
+    /// each other and a shift by so much parts them. Sheets that touch have 0.
+    pub mm: f64,
+    /// Which of the directions it was, to begin with when the two are looked at again.
+    pub axis: usize,
+}
+
+/// The signed gap. The search begins with direction `first` and ends as soon as the gap is known
+/// to be above `enough_mm`.
+pub fn gap(a: &Sheet, b: &Sheet, enough_mm: f64, first: usize) -> Gap {
+    let count = 3 + a.corners.len() + b.corners.len() + a.corners.len() * b.corners.len();
+    let mut best = Gap { mm: f64::NEG_INFINITY, axis: 0 };
+    for index in std::iter::once(first.min(count - 1)).chain(0..count) {
+        let Some(axis) = direction(a, b, index) else { continue };
+        let mm = gap_along(a, b, axis);
+        if mm > best.mm {
+            best = Gap { mm, axis: index };
+        }
+        if mm > enough_mm {
+            break;
         }
     }
-    for e in edges(a) {
-        for f in edges(b) {
+    best
+}
+
+/// The directions in which a gap is looked for: from middle to middle, across each sheet, in its
+/// plane across each of its edges, and across each pair of edges. None where two are parallel.
+fn direction(a: &Sheet, b: &Sheet, index: usize) -> Option<DVec3> {
+    let (m, n) = (a.corners.len(), b.corners.len());
+    let across = match index {
+        0 => centre(b) - centre(a),
+        1 => return Some(a.normal),
+        2 => return Some(b.normal),
+        k if k < 3 + m => a.normal.cross(edge(a, k - 3)),
+        k if k < 3 + m + n => b.normal.cross(edge(b, k - 3 - m)),
+        k => {
+            let k = k - 3 - m - n;
+            let (e, f) = (edge(a, k / n), edge(b, k % n));
             let across = e.cross(f);
-            let length = across.length();
-            if length > PARALLEL * e.length() * f.length() && is_enough(across / length) {
-                return gap;
-            }
+            let is_clear =
+                across.length_squared() > PARALLEL * PARALLEL * e.length_squared() * f.length_squared();
+            return is_clear.then(|| across.normalize());
         }
-    }
-    gap
+    };
+    across.try_normalize()
+}
+
+fn edge(sheet: &Sheet, k: usize) -> DVec3 {
+    let next = if k + 1 == sheet.corners.len() { 0 } else { k + 1 };
+    sheet.corners[next] - sheet.corners[k]
 }
 
 fn edges(sheet: &Sheet) -> impl Iterator<Item = DVec3> + '_ {
-    let corners = &sheet.corners;
-    (0..corners.len()).map(|k| corners[(k + 1) % corners.len()] - corners[k])
+    (0..sheet.corners.len()).map(|k| edge(sheet, k))
 }
 
 fn centre(sheet: &Sheet) -> DVec3 {
@@ -90,6 +112,10 @@ mod tests {
     use super::*;
     use glam::{DMat3, DVec2};
     use proptest::prelude::*;
+
+    fn gap_mm(a: &Sheet, b: &Sheet) -> f64 {
+        gap(a, b, f64::INFINITY, 7).mm
+    }
 
     fn sheet(corners: Vec<DVec3>) -> Sheet {
         let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
@@ -128,14 +154,14 @@ mod tests {
     proptest! {
         #[test]
         fn gaps_are_negative_where_triangles_intersect(a in triangle(), b in triangle()) {
-            let gap = gap_mm(&sheet(a.to_vec()), &sheet(b.to_vec()), f64::INFINITY);
+            let gap = gap_mm(&sheet(a.to_vec()), &sheet(b.to_vec()));
             prop_assert_eq!(gap < 0.0, intersect(a, b), "gap {}", gap);
         }
 
         #[test]
         fn a_shift_by_the_depth_parts_and_a_shorter_one_does_not(a in triangle(), b in triangle(), to in (-1.0f64..1.0, -1.0f64..1.0, -1.0f64..1.0)) {
             let (p, q) = (sheet(a.to_vec()), sheet(b.to_vec()));
-            let depth = -gap_mm(&p, &q, f64::INFINITY);
+            let depth = -gap_mm(&p, &q);
             prop_assume!(depth > 1e-3);
             let shift = DVec3::from(to).normalize_or(DVec3::X) * depth * 0.999;
             prop_assert!(intersect(a.map(|c| c + shift), b), "parted by less than {}", depth);
@@ -147,7 +173,7 @@ mod tests {
                 let w = if w.0 + w.1 > 1.0 { DVec2::ONE - DVec2::from(w) } else { DVec2::from(w) };
                 t[0] + w.x * (t[1] - t[0]) + w.y * (t[2] - t[0])
             };
-            let gap = gap_mm(&sheet(a.to_vec()), &sheet(b.to_vec()), f64::INFINITY);
+            let gap = gap_mm(&sheet(a.to_vec()), &sheet(b.to_vec()));
             prop_assert!(gap <= at(a, u).distance(at(b, v)) + 1e-12);
         }
     }
@@ -159,7 +185,7 @@ mod tests {
         let over = square(DVec3::X, DMat3::IDENTITY);
         let upright = square(DVec3::new(0.0, 0.0, 1.0), DMat3::from_rotation_x(std::f64::consts::FRAC_PI_2));
         for other in [beside, over, upright] {
-            assert!(gap_mm(&flat, &other, f64::INFINITY).abs() < 1e-12);
+            assert!(gap_mm(&flat, &other).abs() < 1e-12);
         }
     }
 

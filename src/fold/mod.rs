@@ -4,9 +4,11 @@
 mod chain;
 mod check;
 pub mod contact;
+mod ground;
 mod motion;
 mod order;
 mod pose;
+mod sequence;
 mod stack;
 mod sweep;
 mod track;
@@ -16,6 +18,7 @@ pub use check::{Clash, Overlap};
 pub use motion::{ComponentMotion, ComponentPose};
 pub use order::FoldPlan;
 pub use pose::{ModelMotion, ModelPose, PartPose, ancestors, root_of};
+pub use sequence::Sequence;
 pub use stack::Stack;
 
 #[cfg(test)]

@@ -4,7 +4,7 @@
 use super::motion::{ComponentMotion, ComponentPose};
 use crate::component::PanelId;
 use crate::model::{Model, ModelPart};
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
 /// How a model moves.
 #[derive(Debug, Clone)]
@@ -76,13 +76,15 @@ impl<'a> ModelMotion<'a> {
     /// The pose in which component p is folded by `folded[p]`. The bottom panels of roots stay
     /// where they are when deployed.
     pub fn pose(&self, folded: &[f64]) -> ModelPose {
-        self.pose_from(folded, |part, _| self.model.parts()[part].deployed())
+        self.pose_from(folded, 0.0, |part, _| self.model.parts()[part].deployed())
     }
 
-    /// The same with roots placed by the caller, given the root's index and pose.
+    /// The same with roots placed by the caller, given the root's index and pose. Components are
+    /// lifted off the panels that carry them, by `lift_mm` when flat.
     pub fn pose_from(
         &self,
         folded: &[f64],
+        lift_mm: f64,
         place_root: impl Fn(usize, &ComponentPose) -> DAffine3,
     ) -> ModelPose {
         let poses = self.motions.iter().zip(folded).map(|(motion, &folded)| motion.pose(folded));
@@ -93,7 +95,11 @@ impl<'a> ModelMotion<'a> {
                 None => place_root(p, &parts[p].pose),
                 Some(joint) => {
                     let carrier = parts[joint.parent].panel(joint.parent_panel);
-                    carrier * self.relations[p] * parts[p].pose.placements[joint.child_panel.0].inverse()
+                    let lift = DAffine3::from_translation(DVec3::Z * (lift_mm * folded[p]));
+                    carrier
+                        * lift
+                        * self.relations[p]
+                        * parts[p].pose.placements[joint.child_panel.0].inverse()
                 }
             };
         }

@@ -10,7 +10,7 @@
 //! The broad phase is a tree of balls of two levels, over the sheets of a component and over each
 //! sheet.
 
-use super::contact::{Sheet, facing_mm, gap_mm};
+use super::contact::{Sheet, facing_mm, gap};
 use super::motion::{ComponentMotion, End};
 use super::track::{Moment, Track};
 use crate::component::PanelId;
@@ -25,7 +25,7 @@ const MOST_HALVINGS: usize = 16;
 const SAME_PLANE_MM: f64 = 1e-6;
 /// Gaps are computed for spans in which sheets move less than this share of their size: in longer
 /// ones they are hardly ever wide enough.
-const SHORT: f64 = 0.5;
+const SHORT: f64 = 0.3;
 
 /// A ball with what is needed to bound its motion.
 #[derive(Debug, Clone, Copy)]
@@ -117,6 +117,8 @@ pub(super) struct Sweep<'a> {
 struct Pair<T> {
     members: [T; 2],
     list: usize,
+    /// The direction in which the gap was largest when it was last looked for.
+    axis: usize,
 }
 
 impl<'a> Sweep<'a> {
@@ -130,7 +132,7 @@ impl<'a> Sweep<'a> {
         let pairs: Vec<Pair<usize>> = lists
             .iter()
             .enumerate()
-            .flat_map(|(list, members)| members.iter().map(move |&members| Pair { members, list }))
+            .flat_map(|(list, members)| members.iter().map(move |&members| Pair { members, list, axis: 0 }))
             .collect();
         let mut run = Run {
             sweep: self,
@@ -151,7 +153,7 @@ impl<'a> Sweep<'a> {
     pub(super) fn depth_mm(&self, sheets: [SheetId; 2], folded: f64) -> f64 {
         let mut scratch = Default::default();
         self.pose(sheets, &self.track.at(folded), &mut scratch);
-        -gap_mm(&scratch[0], &scratch[1], f64::INFINITY)
+        -gap(&scratch[0], &scratch[1], f64::INFINITY, 0).mm
     }
 
     fn pose(&self, sheets: [SheetId; 2], at: &Moment<'_>, scratch: &mut [Sheet; 2]) {
@@ -204,9 +206,7 @@ impl Run<'_> {
         let span = [from, &middle, to];
         let (mut bodies_left, mut sheets_left) = (Vec::new(), Vec::new());
         for pair in sheets {
-            if self.stays(pair, span, halvings) {
-                sheets_left.push(*pair);
-            }
+            sheets_left.extend(self.unsettled(*pair, span, halvings));
         }
         for pair in bodies {
             if self.found[pair.list].is_some() {
@@ -225,10 +225,8 @@ impl Run<'_> {
             for k in 0..both[0].sheets.len() {
                 for l in 0..both[1].sheets.len() {
                     let members = [(pair.members[0], k), (pair.members[1], l)];
-                    let pair = Pair { members, list: pair.list };
-                    if self.stays(&pair, span, halvings) {
-                        sheets_left.push(pair);
-                    }
+                    let pair = Pair { members, list: pair.list, axis: 0 };
+                    sheets_left.extend(self.unsettled(pair, span, halvings));
                 }
             }
         }
@@ -238,10 +236,15 @@ impl Run<'_> {
         }
     }
 
-    /// Whether a span must be halved to know about two sheets.
-    fn stays(&mut self, pair: &Pair<SheetId>, span: [&Moment<'_>; 3], halvings: usize) -> bool {
+    /// Two sheets, if the span must be halved to know about them.
+    fn unsettled(
+        &mut self,
+        mut pair: Pair<SheetId>,
+        span: [&Moment<'_>; 3],
+        halvings: usize,
+    ) -> Option<Pair<SheetId>> {
         if self.found[pair.list].is_some() {
-            return false;
+            return None;
         }
         let sweep = self.sweep;
         let balls = pair.members.map(|(body, sheet)| {
@@ -251,31 +254,29 @@ impl Run<'_> {
         let way = sweep.way_mm(balls, span);
         if are_far(balls, span[1], way) {
             self.sides.remove(&pair.members);
-            return false;
+            return None;
         }
         if way > SHORT * (balls[0].1.radius_mm + balls[1].1.radius_mm) && halvings < MOST_HALVINGS {
-            return true;
+            return Some(pair);
         }
         sweep.pose(pair.members, span[1], &mut self.scratch);
-        let gap = gap_mm(&self.scratch[0], &self.scratch[1], way);
-        if gap > way {
-            self.sides.remove(&pair.members);
-            return false;
-        }
-        let allowed = sweep.allowed_mm;
-        if gap < -allowed {
+        let enough = way - sweep.allowed_mm;
+        let gap = gap(&self.scratch[0], &self.scratch[1], enough, pair.axis);
+        pair.axis = gap.axis;
+        let is_settled = gap.mm > enough || halvings == MOST_HALVINGS;
+        if gap.mm < -sweep.allowed_mm || (is_settled && self.has_changed_sides(&pair, gap.mm <= way)) {
             self.found[pair.list] = Some(Contact { sheets: pair.members, folded: span[1].folded });
-            return false;
+            return None;
         }
-        let is_settled = gap - way >= -allowed || halvings == MOST_HALVINGS;
-        if is_settled && self.has_changed_sides(pair) {
-            self.found[pair.list] = Some(Contact { sheets: pair.members, folded: span[1].folded });
-        }
-        !is_settled
+        (!is_settled).then_some(pair)
     }
 
     /// Whether the sheets in `scratch` have gone through each other since they were seen last.
-    fn has_changed_sides(&mut self, pair: &Pair<SheetId>) -> bool {
+    fn has_changed_sides(&mut self, pair: &Pair<SheetId>, is_near: bool) -> bool {
+        if !is_near {
+            self.sides.remove(&pair.members);
+            return false;
+        }
         match facing_mm(&self.scratch[0], &self.scratch[1], self.sweep.allowed_mm) {
             Some(height_mm) if height_mm.abs() < SAME_PLANE_MM => false,
             Some(height_mm) => {
