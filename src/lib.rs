@@ -28,4 +28,5 @@ pub mod render;
 pub mod report;
 pub mod segment;
 pub mod sheet;
+pub mod show;
 pub mod units;

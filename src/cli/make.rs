@@ -1,6 +1,7 @@
 //! `tatamu make`
 
 use super::error::CliError;
+use super::film::FilmArgs;
 use super::options::ModelArgs;
 use super::progress::TerminalProgress;
 use super::{input, output, terminal};
@@ -8,6 +9,7 @@ use clap::Args;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use tatamu::export::{FORMATS, Format, FormatOptions};
+use tatamu::fold::Stack;
 use tatamu::mesh::Repairs;
 use tatamu::pipeline::{self, Output, Warning};
 use tatamu::product::{self, Product};
@@ -36,6 +38,9 @@ pub struct MakeArgs {
     /// replaced, but only when the new one is complete. Example: -o teddy.pdf -o teddy.json
     #[arg(short, long = "output", value_name = "FILE")]
     output: Vec<PathBuf>,
+
+    #[command(flatten)]
+    film: FilmArgs,
 
     /// File for the segmentation: one number a line
     ///
@@ -98,7 +103,7 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     };
     let title = terminal::printable(&stem.to_string_lossy());
     let product = Product::new(&result, &title, run);
-    let formats = FormatOptions::default();
+    let formats = args.film.choose(FormatOptions::default())?;
     let mut files = Vec::new();
     for target in targets {
         for file in target.format.write(&product, &formats)? {
@@ -185,6 +190,16 @@ fn segments(result: &Output, repairs: &Repairs) -> Vec<u8> {
     text.into_bytes()
 }
 
+/// The flat model, and the order of folding.
+fn folding(result: &Output) -> String {
+    let plan = result.fold_plan();
+    let parts = result.model().parts();
+    let order: Vec<&str> = plan.order().iter().map(|&p| parts[p].name.as_str()).collect();
+    let flat = |s: &Stack| format!("{:.0} × {:.0} mm, {} layers", s.size_mm.x, s.size_mm.y, s.layers);
+    let sizes: Vec<String> = plan.stacks().iter().map(flat).collect();
+    format!("to {}, in the order {}", sizes.join(" and "), order.join(", "))
+}
+
 fn summarise(result: &Output, files: &[(PathBuf, Vec<u8>)]) {
     let names: Vec<&str> = result.model().parts().iter().map(|p| p.name.as_str()).collect();
     let pieces: usize = result.nets().iter().map(|net| net.pieces().len()).sum();
@@ -192,6 +207,7 @@ fn summarise(result: &Output, files: &[(PathBuf, Vec<u8>)]) {
     let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
     terminal::say(&format!("size        {}", product::size_note(result)));
     terminal::say(&format!("components  {}: {}", names.len(), names.join(", ")));
+    terminal::say(&format!("folds       {}", folding(result)));
     terminal::say(&format!("pieces      {pieces}"));
     terminal::say(&format!(
         "sheets      {} of {}, {:.0}% used",

@@ -4,10 +4,13 @@
 //! Nothing is computed for a format that is not asked for. Adding a format is one file and one line
 //! in [`FORMATS`]; one with choices of its own adds their type to [`FormatOptions`].
 
+mod apng;
 mod dxf;
 #[cfg(test)]
 mod fixture;
 pub mod fold;
+mod gif;
+pub mod glb;
 pub mod gltf;
 mod json;
 mod options;
@@ -16,6 +19,7 @@ pub mod png;
 mod svg;
 
 pub use dxf::{DxfOptions, DxfVersion};
+pub use fold::FoldOptions;
 pub use options::{FormatOptions, TextMode};
 pub use png::PngOptions;
 pub use svg::SvgOptions;
@@ -24,8 +28,17 @@ use crate::drawing::{Pages, PagesError};
 use crate::product::Product;
 
 /// All formats, in the order of help texts.
-pub const FORMATS: &[Format] =
-    &[pdf::FORMAT, svg::FORMAT, dxf::FORMAT, png::FORMAT, fold::FORMAT, json::FORMAT];
+pub const FORMATS: &[Format] = &[
+    pdf::FORMAT,
+    svg::FORMAT,
+    dxf::FORMAT,
+    png::FORMAT,
+    gif::FORMAT,
+    apng::FORMAT,
+    glb::FORMAT,
+    fold::FORMAT,
+    json::FORMAT,
+];
 
 /// What cannot be exported.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

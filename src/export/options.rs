@@ -1,14 +1,20 @@
 //! What the user may choose about files; each format reads its own part.
 
 use super::dxf::DxfOptions;
+use super::fold::FoldOptions;
 use super::png::PngOptions;
 use super::svg::SvgOptions;
+use crate::show::FilmOptions;
 
 /// The choices for all formats, one checked type a format that has any.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FormatOptions {
     /// For DXF.
     pub dxf: DxfOptions,
+    /// For animations.
+    pub film: FilmOptions,
+    /// For FOLD.
+    pub fold: FoldOptions,
     /// For PNG.
     pub png: PngOptions,
     /// For SVG.

@@ -1,6 +1,7 @@
 //! Folding: how components move between deployed and flat, whether they bump into one another, and
 //! in which order they fold.
 
+mod advice;
 mod chain;
 mod check;
 pub mod contact;
@@ -13,6 +14,7 @@ mod stack;
 mod sweep;
 mod track;
 
+pub use advice::Advice;
 pub use chain::{ChainMotion, Shares};
 pub use check::{Clash, Overlap};
 pub use motion::{ComponentMotion, ComponentPose};
