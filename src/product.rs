@@ -1,6 +1,8 @@
 //! A finished run, from which every format takes what it needs when it is asked for.
 
-use crate::drawing::{LineStyles, Pages, PagesError};
+use crate::drawing::{Chapter, LineStyles, Pages, PagesError};
+use crate::model::ModelPart;
+use crate::net::Net;
 use crate::pipeline::Output;
 use crate::report::Run;
 use std::cell::OnceCell;
@@ -52,10 +54,20 @@ impl<'a> Product<'a> {
             let note = size_note(self.output);
             let layout = self.output.layout();
             let drawings = layout.pages(self.output.nets(), self.title, &note, &self.styles);
-            Pages::new(self.title, drawings)
+            let pages = Pages::new(self.title, drawings, self.styles.clone())?;
+            Ok(pages.with_chapters(chapters(self.output)))
         };
         self.pages.get_or_init(draw).as_ref().map_err(Clone::clone)
     }
+}
+
+fn chapters(output: &Output) -> Vec<Chapter> {
+    let parts = output.model().parts().iter().zip(output.nets());
+    let chapter = |(part, net): (&ModelPart, &Net)| Chapter {
+        name: part.name.clone(),
+        pieces: net.pieces().iter().map(|piece| piece.name().to_owned()).collect(),
+    };
+    parts.map(chapter).collect()
 }
 
 /// Width, depth and height of the model in words.

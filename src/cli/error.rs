@@ -1,6 +1,7 @@
 //! What the user is told when nothing comes of it.
 
 use std::path::PathBuf;
+use tatamu::drawing::StyleError;
 use tatamu::export::ExportError;
 use tatamu::mesh::{MeshError, ReadError};
 use tatamu::pipeline;
@@ -23,6 +24,9 @@ pub enum CliError {
     /// The project file is wrong.
     #[error("project file {path}: {error}")]
     Project { path: PathBuf, error: ProjectError },
+    /// A style file is wrong.
+    #[error("style file {path}: {error}")]
+    Style { path: PathBuf, error: StyleError },
     /// The mesh that a project file names cannot be read.
     #[error("cannot read {path}, the mesh of project file {project}: {reason}")]
     ProjectMesh { path: PathBuf, project: PathBuf, reason: String },

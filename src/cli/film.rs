@@ -2,7 +2,7 @@
 
 use super::error::CliError;
 use clap::Args;
-use tatamu::export::{FoldOptions, FormatOptions};
+use tatamu::export::{FoldOptions, FormatOptions, PoseCount};
 use tatamu::show::{FilmOptions, ViewAngle};
 
 /// Options of animations and of poses.
@@ -33,7 +33,7 @@ pub struct FilmArgs {
     ///
     /// Example: -o teddy.fold --fold-frames 20
     #[arg(long, value_name = "N", value_parser = poses)]
-    fold_frames: Option<FoldOptions>,
+    fold_frames: Option<PoseCount>,
 }
 
 fn frames(text: &str) -> Result<usize, String> {
@@ -47,9 +47,9 @@ pub fn size_px(text: &str) -> Result<u32, String> {
     FilmOptions::default().with_size_px(size_px).map(|_| size_px)
 }
 
-fn poses(text: &str) -> Result<FoldOptions, String> {
+fn poses(text: &str) -> Result<PoseCount, String> {
     let poses = text.trim().parse().map_err(|_| "this must be a whole number such as 20".to_owned())?;
-    FoldOptions::new(poses)
+    PoseCount::new(poses)
 }
 
 impl FilmArgs {
@@ -62,7 +62,8 @@ impl FilmArgs {
         if let Some(size_px) = self.size_px {
             film = film.with_size_px(size_px).map_err(CliError::Options)?;
         }
-        let fold = self.fold_frames.unwrap_or(options.fold);
+        let poses = self.fold_frames.unwrap_or(options.fold.poses);
+        let fold = FoldOptions { poses, ..options.fold };
         Ok(FormatOptions { film, fold, ..options })
     }
 }

@@ -2,13 +2,14 @@
 
 use super::error::CliError;
 use super::film::FilmArgs;
+use super::formats::{self, FileArgs};
 use super::options::ModelArgs;
 use super::progress::TerminalProgress;
 use super::{input, output, terminal};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use tatamu::export::{FORMATS, Format, FormatOptions};
+use tatamu::export::FORMATS;
 use tatamu::fold::Stack;
 use tatamu::mesh::Repairs;
 use tatamu::pipeline::{self, Output, Warning};
@@ -50,6 +51,9 @@ pub struct MakeArgs {
     #[arg(long, value_name = "FILE")]
     segments: Option<PathBuf>,
 
+    #[command(flatten)]
+    files: FileArgs,
+
     /// No summary and no progress bar; warnings and errors only
     #[arg(short, long)]
     quiet: bool,
@@ -66,12 +70,7 @@ Examples:
   tatamu make teddy.toml --direction head=90";
 
 fn after_help() -> String {
-    let line = |format: &Format| {
-        let extensions = format.extensions.join(", .");
-        format!("  .{extensions:<8} {}\n", format.description)
-    };
-    let lines: String = FORMATS.iter().map(line).collect();
-    format!("Formats of -o, by extension:\n{lines}\n{EXAMPLES}")
+    format!("{}\n{EXAMPLES}", formats::list())
 }
 
 /// Runs the command.
@@ -85,6 +84,7 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     let places: Vec<PathBuf> = paths.iter().chain(&args.segments).cloned().collect();
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
     let options = args.model.merge(&input)?;
+    let choice = args.files.merge(input.project.as_ref().map(|p| &p.export), &args.input)?;
     let warnings = repair_warnings(&input.repairs);
     warnings.iter().for_each(warn);
 
@@ -102,8 +102,8 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
         warnings: &warnings,
     };
     let title = terminal::printable(&stem.to_string_lossy());
-    let product = Product::new(&result, &title, run);
-    let formats = args.film.choose(FormatOptions::default())?;
+    let product = Product::new(&result, &title, run).with_styles(choice.styles);
+    let formats = args.film.choose(choice.formats)?;
     let mut files = Vec::new();
     for target in targets {
         for file in target.format.write(&product, &formats)? {

@@ -2,6 +2,7 @@
 
 mod error;
 mod film;
+mod formats;
 mod init;
 mod input;
 mod make;
@@ -34,6 +35,7 @@ enum Command {
     Make(make::MakeArgs),
     Init(init::InitArgs),
     Show(show::ShowArgs),
+    Formats(formats::FormatsArgs),
 }
 
 const EXAMPLES: &str = "\
@@ -54,6 +56,10 @@ pub fn run() -> ExitCode {
         Command::Make(args) => make::run(args),
         Command::Init(args) => init::run(args),
         Command::Show(args) => show::run(args),
+        Command::Formats(args) => {
+            formats::run(args);
+            Ok(())
+        }
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -7,7 +7,7 @@ use super::progress::TerminalProgress;
 use super::{input, output, terminal};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use tatamu::drawing::{Pages, Rgb};
+use tatamu::drawing::{LineStyles, Pages, Rgb};
 use tatamu::export::{FORMATS, FormatOptions, Source, png};
 use tatamu::pipeline::{self, Output};
 use tatamu::render::Scene;
@@ -162,7 +162,8 @@ fn format_of(path: &std::path::Path, input: &std::path::Path) -> Result<Writer, 
             // A picture is measured in pixels, whatever the resolution of sheets.
             return Ok(png::render(&drawing, Still::dots_per_inch()).map_err(ShowError::from)?);
         }
-        let pages = Pages::new(title, vec![drawing]).map_err(tatamu::export::ExportError::from)?;
+        let pages = Pages::new(title, vec![drawing], LineStyles::standard())
+            .map_err(tatamu::export::ExportError::from)?;
         let files = write(&pages, &FormatOptions::default())?;
         Ok(files.into_iter().next().map(|file| file.bytes).unwrap_or_default())
     }))

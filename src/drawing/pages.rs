@@ -1,6 +1,6 @@
 //! The pages of a model, checked once for all formats.
 
-use super::{Drawing, Shape, Stroke};
+use super::{Drawing, LineStyles, Shape, Stroke};
 use glam::DVec2;
 
 /// Why drawings are no pages.
@@ -19,6 +19,15 @@ pub enum PagesError {
     },
 }
 
+/// One component in a table of contents.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Chapter {
+    /// The component's name.
+    pub name: String,
+    /// Names of its pieces, as marks bear them.
+    pub pieces: Vec<String>,
+}
+
 /// The pages of a model.
 ///
 /// # Guarantees
@@ -28,21 +37,38 @@ pub enum PagesError {
 pub struct Pages {
     title: String,
     drawings: Vec<Drawing>,
+    styles: LineStyles,
+    chapters: Vec<Chapter>,
 }
 
 impl Pages {
-    /// Takes the model's title and its pages.
+    /// Takes the model's title, its pages, and the style that they are drawn in.
     ///
     /// # Errors
     /// [`PagesError`] where the guarantees above do not hold.
-    pub fn new(title: impl Into<String>, drawings: Vec<Drawing>) -> Result<Self, PagesError> {
+    pub fn new(
+        title: impl Into<String>,
+        drawings: Vec<Drawing>,
+        styles: LineStyles,
+    ) -> Result<Self, PagesError> {
         if drawings.is_empty() {
             return Err(PagesError::None);
         }
         for (index, drawing) in drawings.iter().enumerate() {
             check(drawing).map_err(|what| PagesError::BadNumber { page: index + 1, what })?;
         }
-        Ok(Self { title: title.into(), drawings })
+        Ok(Self { title: title.into(), drawings, styles, chapters: Vec::new() })
+    }
+
+    /// The same with a table of contents.
+    #[must_use]
+    pub fn with_chapters(self, chapters: Vec<Chapter>) -> Self {
+        Self { chapters, ..self }
+    }
+
+    /// The table of contents; may be empty.
+    pub fn chapters(&self) -> &[Chapter] {
+        &self.chapters
     }
 
     /// The model's title.
@@ -53,6 +79,11 @@ impl Pages {
     /// The drawings, one a page.
     pub fn drawings(&self) -> &[Drawing] {
         &self.drawings
+    }
+
+    /// The style of their lines, which names the layers.
+    pub fn styles(&self) -> &LineStyles {
+        &self.styles
     }
 }
 
@@ -72,6 +103,11 @@ fn check(drawing: &Drawing) -> Result<(), &'static str> {
                 ensure(text.anchor.is_finite() && text.angle_rad.is_finite(), "the place of a text")?;
                 ensure(is_size(text.cap_height_mm), "the size of a text")?;
             }
+            Shape::Image(image) => {
+                let mut points = image.clip.points.iter();
+                let is_placed = image.place.is_finite() && points.all(|p| p.is_finite());
+                ensure(is_placed, "the place of a picture")?;
+            }
         }
     }
     Ok(())
@@ -85,7 +121,11 @@ fn is_drawable(stroke: &Stroke) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{Layer, LineStyles, Mark};
+    use crate::drawing::{Layer, Mark};
+
+    fn pages(drawings: Vec<Drawing>) -> Result<Pages, PagesError> {
+        Pages::new("box", drawings, LineStyles::standard())
+    }
 
     #[test]
     fn numbers_that_cannot_be_drawn_are_refused_with_their_page() {
@@ -93,10 +133,9 @@ mod tests {
         let mut bad = good.clone();
         let stroke = LineStyles::standard().stroke(Layer::Cut).clone();
         bad.marks.push(Mark::line(Layer::Cut, DVec2::ZERO, DVec2::new(1.0, f64::NAN), &stroke));
-        let error = Pages::new("box", vec![good, bad]).expect_err("NaN");
+        let error = pages(vec![good, bad]).expect_err("NaN");
         assert_eq!(error, PagesError::BadNumber { page: 2, what: "a corner of a line" });
-        let empty = Drawing::new("page", DVec2::new(210.0, 0.0));
-        assert!(Pages::new("box", vec![empty]).is_err());
-        assert_eq!(Pages::new("box", Vec::new()), Err(PagesError::None));
+        assert!(pages(vec![Drawing::new("page", DVec2::new(210.0, 0.0))]).is_err());
+        assert_eq!(pages(Vec::new()), Err(PagesError::None));
     }
 }

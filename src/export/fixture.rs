@@ -12,7 +12,7 @@ pub const A4_MM: DVec2 = DVec2::new(210.0, 297.0);
 /// A model of as many sheets as `pages`.
 pub fn model(pages: usize) -> Pages {
     let sheets = (1..=pages).map(|page| sheet(A4_MM, page, pages)).collect();
-    Pages::new("teddy <3> \"ÿ\"", sheets).expect("the fixture can be drawn")
+    Pages::new("teddy <3> \"ÿ\"", sheets, LineStyles::standard()).expect("the fixture can be drawn")
 }
 
 /// One sheet with two pieces and its furniture.

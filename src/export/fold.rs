@@ -6,6 +6,10 @@
 //! they are when deployed. Coordinates are written with as many
 //! digits as they have, so every face is congruent in all frames within rounding.
 
+mod pieces;
+
+pub use pieces::write_piece;
+
 use super::{ExportError, ExportFile, Format, FormatOptions, Source};
 use crate::component::{HingeId, PanelId, PanelKind, PanelSet};
 use crate::fold::{ModelMotion, PartPose, Sequence};
@@ -20,38 +24,48 @@ use serde::Serialize;
 pub const FORMAT: Format = Format {
     name: "fold",
     extensions: &["fold"],
-    description: "FOLD 1.2: crease pattern, deployed and flat model in one file",
+    description: "FOLD 1.2: crease pattern, standing and flat model; each piece by --fold-pieces",
     source: Source::Model(files),
 };
 
+/// Version of the format.
+const SPEC: f64 = 1.2;
+const CREATOR: &str = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
 /// Distance between sheets in the crease pattern, mm.
 const SHEET_GAP_MM: f64 = 20.0;
 
 /// Most poses between deployed and flat.
 const MOST_POSES: usize = 1000;
 
-/// Choices for FOLD files.
+/// A number of poses between deployed and flat.
 ///
 /// # Guarantees
-/// There are at most 1000 poses.
+/// It is at most 1000.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct FoldOptions {
-    poses: usize,
-}
+pub struct PoseCount(usize);
 
-impl FoldOptions {
-    /// Chooses the number of poses between deployed and flat.
+impl PoseCount {
+    /// Takes the number.
     ///
     /// # Errors
     /// A message for too many.
     pub fn new(poses: usize) -> Result<Self, String> {
         let message = || format!("the number of poses must be at most {MOST_POSES}");
-        (poses <= MOST_POSES).then_some(Self { poses }).ok_or_else(message)
+        (poses <= MOST_POSES).then_some(Self(poses)).ok_or_else(message)
     }
 }
 
+/// Choices for FOLD files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct FoldOptions {
+    /// Whether each piece is written to a file of its own, besides the master.
+    pub pieces: bool,
+    /// Poses in the master between deployed and flat.
+    pub poses: PoseCount,
+}
+
 /// The panels of all components in evenly spread poses between deployed and flat.
-fn poses_between(output: &Output, count: usize) -> Vec<Vec<Vec<DAffine3>>> {
+fn poses_between(output: &Output, PoseCount(count): PoseCount) -> Vec<Vec<Vec<DAffine3>>> {
     let motion = ModelMotion::new(output.model());
     let sequence = Sequence::new(output.fold_plan().order());
     let poses: Vec<_> =
@@ -63,7 +77,7 @@ fn poses_between(output: &Output, count: usize) -> Vec<Vec<Vec<DAffine3>>> {
     parts.map(|p| poses.iter().map(|pose| panels(&pose.parts[p])).collect()).collect()
 }
 
-/// The master of a model, with its sheets side by side.
+/// The master of a model, with its sheets side by side, and the pieces.
 fn files(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
     let output = product.output();
     let between = poses_between(output, options.fold.poses);
@@ -87,9 +101,16 @@ fn files(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFil
     let step_mm = layout.options().paper.width_mm() + SHEET_GAP_MM;
     let sheet_offsets: Vec<DVec2> =
         (0..layout.sheet_count()).map(|k| DVec2::X * (step_mm * k as f64)).collect();
-    let model = FoldModel { title: product.title(), components: &components, sheet_offsets: &sheet_offsets };
-    let bytes = write(&model).map_err(|error| ExportError::writer(&FORMAT, error))?;
-    Ok(vec![ExportFile::single(bytes)])
+    let title = product.title();
+    let model = FoldModel { title, components: &components, sheet_offsets: &sheet_offsets };
+    let failed = |error| ExportError::writer(&FORMAT, error);
+    let mut files = vec![ExportFile::single(write(&model).map_err(failed)?)];
+    let pieces = components.iter().flat_map(|c| c.net.pieces().iter().map(move |piece| (c, piece)));
+    for (component, piece) in pieces.filter(|_| options.fold.pieces) {
+        let bytes = write_piece(title, component, piece).map_err(failed)?;
+        files.push(ExportFile::named(piece.name(), bytes));
+    }
+    Ok(files)
 }
 
 /// One component with its net.
@@ -129,9 +150,8 @@ pub struct FoldModel<'a> {
 /// # Errors
 /// Only what `serde_json` reports; no input is known that brings it about.
 pub fn write(model: &FoldModel<'_>) -> Result<Vec<u8>, serde_json::Error> {
-    let mut graph = Graph::default();
     let between = model.components.iter().map(|c| c.between.len()).min().unwrap_or(0);
-    graph.states.resize_with(between + 2, State::default);
+    let mut graph = Graph::with_poses(between);
     for component in model.components {
         for (piece, place) in component.net.pieces().iter().zip(component.pieces) {
             graph.add_piece(model, component, piece, *place);
@@ -145,8 +165,8 @@ pub fn write(model: &FoldModel<'_>) -> Result<Vec<u8>, serde_json::Error> {
     };
     let frame = |(k, state): (usize, State)| Frame::folded(title(k), state.coords, state.angles_deg);
     let master = Master {
-        file_spec: 1.2,
-        file_creator: concat!("tatamu ", env!("CARGO_PKG_VERSION")),
+        file_spec: SPEC,
+        file_creator: CREATOR,
         file_title: model.title,
         file_classes: ["singleModel"],
         frame_title: "crease pattern",
@@ -253,6 +273,13 @@ struct Graph {
 }
 
 impl Graph {
+    /// An empty master with so many poses between deployed and flat.
+    fn with_poses(between: usize) -> Self {
+        let mut graph = Self::default();
+        graph.states.resize_with(between + 2, State::default);
+        graph
+    }
+
     fn add_piece(
         &mut self,
         model: &FoldModel<'_>,

@@ -13,16 +13,18 @@ mod gif;
 pub mod glb;
 pub mod gltf;
 mod json;
+mod obj;
 mod options;
 mod pdf;
 pub mod png;
 mod svg;
 
-pub use dxf::{DxfOptions, DxfVersion};
-pub use fold::FoldOptions;
+pub use dxf::{DxfOptions, DxfSheets, DxfVersion};
+pub use fold::{FoldOptions, PoseCount};
 pub use options::{FormatOptions, TextMode};
+pub use pdf::{PdfOptions, Timestamp};
 pub use png::PngOptions;
-pub use svg::SvgOptions;
+pub use svg::{SvgOptions, SvgStroke};
 
 use crate::drawing::{Pages, PagesError};
 use crate::product::Product;
@@ -36,6 +38,7 @@ pub const FORMATS: &[Format] = &[
     gif::FORMAT,
     apng::FORMAT,
     glb::FORMAT,
+    obj::FORMAT,
     fold::FORMAT,
     json::FORMAT,
 ];
@@ -79,9 +82,17 @@ impl ExportFile {
         Self { suffix: String::new(), bytes }
     }
 
-    /// The file of one page of several, by its index from 0.
-    pub fn of_page(index: usize, bytes: Vec<u8>) -> Self {
-        Self { suffix: format!("-{}", index + 1), bytes }
+    /// The file of a part with a name, of which letters and digits stay.
+    pub fn named(name: &str, bytes: Vec<u8>) -> Self {
+        let slug: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+        Self { suffix: format!("-{slug}"), bytes }
+    }
+
+    /// The files of all pages, numbered where there are several.
+    pub fn of_pages(pages: Vec<Vec<u8>>) -> Vec<Self> {
+        let is_one = pages.len() == 1;
+        let suffix = |k: usize| if is_one { String::new() } else { format!("-{}", k + 1) };
+        pages.into_iter().enumerate().map(|(k, bytes)| Self { suffix: suffix(k), bytes }).collect()
     }
 }
 

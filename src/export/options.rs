@@ -2,6 +2,7 @@
 
 use super::dxf::DxfOptions;
 use super::fold::FoldOptions;
+use super::pdf::PdfOptions;
 use super::png::PngOptions;
 use super::svg::SvgOptions;
 use crate::show::FilmOptions;
@@ -15,6 +16,8 @@ pub struct FormatOptions {
     pub film: FilmOptions,
     /// For FOLD.
     pub fold: FoldOptions,
+    /// For PDF.
+    pub pdf: PdfOptions,
     /// For PNG.
     pub png: PngOptions,
     /// For SVG.
@@ -22,11 +25,25 @@ pub struct FormatOptions {
 }
 
 /// How texts are written where a format leaves the choice.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TextMode {
     /// As outlines of letters: looks the same everywhere.
-    #[default]
     Outlines,
-    /// As text, which needs the font where it is read.
+    /// As single lines, for pens and for scoring.
+    Strokes,
+    /// As text, which needs a font where it is read.
     Text,
+}
+
+impl std::str::FromStr for TextMode {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "outlines" => Ok(Self::Outlines),
+            "strokes" => Ok(Self::Strokes),
+            "text" => Ok(Self::Text),
+            _ => Err("texts are one of outlines, strokes, text".to_owned()),
+        }
+    }
 }

@@ -82,7 +82,7 @@ size = "{paper}"
 margin_mm = {margin}
 # Thickness, for the check of the folding.
 thickness_mm = {thickness}
-
+{export}
 # One table for each component. What a table leaves out comes from [defaults].
 # rename: another name, which is printed on the pieces.
 # direction: angle of the fold axis about the component's longest axis, in degrees;
@@ -104,6 +104,7 @@ thickness_mm = {thickness}
         paper = template.paper.name(),
         margin = template.margin_mm,
         thickness = template.thickness_mm,
+        export = super::export::TEMPLATE,
     );
     for component in template.components {
         text += &format!(
