@@ -1,5 +1,6 @@
 //! The way from a mesh to sheets, stage by stage. Reading [`run`] is reading the program.
 
+use crate::fold::{FoldPlan, ModelMotion};
 use crate::geom::{Hull, HullError};
 use crate::mesh::{Mesh, Up};
 use crate::model::{self, Contact, Link, Model, ModelError, Part, PartOptions};
@@ -35,6 +36,8 @@ pub struct Options {
     pub paper: Paper,
     /// Border of the sheets that stays free, mm.
     pub margin_mm: f64,
+    /// Thickness of the paper, mm.
+    pub thickness_mm: f64,
 }
 
 impl Default for Options {
@@ -50,6 +53,7 @@ impl Default for Options {
             tab_width_mm: 6.0,
             paper: Paper::default(),
             margin_mm: 10.0,
+            thickness_mm: 0.25,
         }
     }
 }
@@ -144,6 +148,7 @@ pub struct Output {
     face_part: Vec<Option<u32>>,
     part_faces: Vec<usize>,
     model: Model,
+    fold_plan: FoldPlan,
     nets: Vec<Net>,
     layout: Layout,
     warnings: Vec<Warning>,
@@ -180,6 +185,11 @@ impl Output {
         &self.model
     }
 
+    /// How the model folds.
+    pub fn fold_plan(&self) -> &FoldPlan {
+        &self.fold_plan
+    }
+
     /// Their nets, in the same order.
     pub fn nets(&self) -> &[Net] {
         &self.nets
@@ -207,6 +217,9 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     progress.stage("components");
     let model = model::build(&parts, &links, options.min_panel_width_mm, progress)?;
 
+    progress.stage("folding");
+    let fold_plan = FoldPlan::new(&ModelMotion::new(&model), options.thickness_mm, progress)?;
+
     progress.stage("nets");
     let sheets = SheetOptions { paper: options.paper, margin_mm: options.margin_mm };
     let net_options = NetOptions { tab_width_mm: options.tab_width_mm, sheet_mm: sheets.room_mm() };
@@ -223,7 +236,9 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
         .collect();
     let mut part_faces = vec![0; parts.len()];
     face_part.iter().flatten().for_each(|&p| part_faces[p as usize] += 1);
-    let warnings = warnings(&model, &nets, &solid.flat, options.min_panel_width_mm);
+    let mut warnings = warnings(&model, &nets, &solid.flat, options.min_panel_width_mm);
+    let advice = fold_plan.advice(&model).into_iter();
+    warnings.extend(advice.map(|(code, message)| Warning { code, message }));
     Ok(Output {
         options: options.clone(),
         mesh,
@@ -231,6 +246,7 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
         face_part,
         part_faces,
         model,
+        fold_plan,
         nets,
         layout,
         warnings,

@@ -31,6 +31,7 @@ fn master(set: &PanelSet, net: &Net) -> Vec<u8> {
     let offsets: Vec<DVec2> = (0..places.len()).map(|k| DVec2::X * (k as f64 * 2e4)).collect();
     let deployed = DAffine3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7);
     let component = FoldComponent {
+        between: &[],
         name: "body",
         set,
         net,

@@ -7,6 +7,7 @@ use tatamu::mesh::{ColourError, MeshError, ReadError};
 use tatamu::pipeline;
 use tatamu::progress::{Cancelled, Progress};
 use tatamu::project::ProjectError;
+use tatamu::show::ShowError;
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
@@ -47,6 +48,9 @@ pub enum CliError {
     /// A stage failed.
     #[error("{0}")]
     Pipeline(pipeline::Error),
+    /// A picture cannot be made.
+    #[error("the picture could not be made: {0}")]
+    Show(#[from] ShowError),
     /// A document cannot be made.
     #[error(transparent)]
     Export(#[from] ExportError),

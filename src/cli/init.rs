@@ -93,6 +93,7 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         tab_width_mm: options.tab_width_mm,
         paper: options.paper,
         margin_mm: options.margin_mm,
+        thickness_mm: options.thickness_mm,
         components: &components,
     });
     output::write(&[(path.clone(), text.into_bytes())])?;

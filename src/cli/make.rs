@@ -1,6 +1,7 @@
 //! `tatamu make`
 
 use super::error::CliError;
+use super::film::FilmArgs;
 use super::formats::{self, FileArgs};
 use super::options::ModelArgs;
 use super::progress::TerminalProgress;
@@ -9,6 +10,7 @@ use clap::Args;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use tatamu::export::FORMATS;
+use tatamu::fold::Stack;
 use tatamu::mesh::Repairs;
 use tatamu::pipeline::{self, Output, Warning};
 use tatamu::product::{self, Product};
@@ -37,6 +39,9 @@ pub struct MakeArgs {
     /// replaced, but only when the new one is complete. Example: -o teddy.pdf -o teddy.json
     #[arg(short, long = "output", value_name = "FILE")]
     output: Vec<PathBuf>,
+
+    #[command(flatten)]
+    film: FilmArgs,
 
     /// File for the segmentation: one number a line
     ///
@@ -100,9 +105,10 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     let title = terminal::printable(&stem.to_string_lossy());
     let product =
         Product::new(&result, &title, run).with_styles(choice.styles).with_painting(painting.as_ref());
+    let formats = args.film.choose(choice.formats)?;
     let mut files = Vec::new();
     for target in targets {
-        for file in target.format.write(&product, &choice.formats)? {
+        for file in target.format.write(&product, &formats)? {
             files.push((output::with_suffix(&target.path, &file.suffix), file.bytes));
         }
     }
@@ -186,6 +192,16 @@ fn segments(result: &Output, repairs: &Repairs) -> Vec<u8> {
     text.into_bytes()
 }
 
+/// The flat model, and the order of folding.
+fn folding(result: &Output) -> String {
+    let plan = result.fold_plan();
+    let parts = result.model().parts();
+    let order: Vec<&str> = plan.order().iter().map(|&p| parts[p].name.as_str()).collect();
+    let flat = |s: &Stack| format!("{:.0} × {:.0} mm, {} layers", s.size_mm.x, s.size_mm.y, s.layers);
+    let sizes: Vec<String> = plan.stacks().iter().map(flat).collect();
+    format!("to {}, in the order {}", sizes.join(" and "), order.join(", "))
+}
+
 fn summarise(result: &Output, files: &[(PathBuf, Vec<u8>)]) {
     let names: Vec<&str> = result.model().parts().iter().map(|p| p.name.as_str()).collect();
     let pieces: usize = result.nets().iter().map(|net| net.pieces().len()).sum();
@@ -193,6 +209,7 @@ fn summarise(result: &Output, files: &[(PathBuf, Vec<u8>)]) {
     let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
     terminal::say(&format!("size        {}", product::size_note(result)));
     terminal::say(&format!("components  {}: {}", names.len(), names.join(", ")));
+    terminal::say(&format!("folds       {}", folding(result)));
     terminal::say(&format!("pieces      {pieces}"));
     terminal::say(&format!(
         "sheets      {} of {}, {:.0}% used",

@@ -1,6 +1,7 @@
 //! The command line: parse, run, report, exit code. One file per subcommand.
 
 mod error;
+mod film;
 mod formats;
 mod init;
 mod input;
@@ -8,6 +9,7 @@ mod make;
 mod options;
 mod output;
 mod progress;
+mod show;
 mod terminal;
 
 use clap::{Parser, Subcommand};
@@ -32,6 +34,7 @@ struct Cli {
 enum Command {
     Make(make::MakeArgs),
     Init(init::InitArgs),
+    Show(show::ShowArgs),
     Formats(formats::FormatsArgs),
 }
 
@@ -41,6 +44,8 @@ Examples:
   tatamu make teddy.obj --size 30cm --paper a3 -o teddy.pdf -o teddy.svg
   tatamu init teddy.obj                     teddy.toml, a project file to edit
   tatamu make teddy.toml                    makes what the project file says
+  tatamu make teddy.obj -o teddy.gif        an animation of its folding
+  tatamu show teddy.obj -o half.png --pose 0.5
 
 \"tatamu make --help\" explains every option.";
 
@@ -50,6 +55,7 @@ pub fn run() -> ExitCode {
     let result = match &cli.command {
         Command::Make(args) => make::run(args),
         Command::Init(args) => init::run(args),
+        Command::Show(args) => show::run(args),
         Command::Formats(args) => {
             formats::run(args);
             Ok(())

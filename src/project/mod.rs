@@ -8,7 +8,10 @@ mod fields;
 mod template;
 
 pub use export::ExportTable;
-pub use fields::{LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_count, check_degrees, check_parts, parse_up};
+pub use fields::{
+    LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_count, check_degrees, check_parts, parse_thickness_mm,
+    parse_up,
+};
 pub use template::{Template, TemplateComponent, to_toml};
 
 use crate::mesh::Up;
@@ -96,6 +99,9 @@ pub struct PaperTable {
     /// Border that stays free, mm.
     #[serde(default, deserialize_with = "fields::length_or_zero")]
     pub margin_mm: Option<f64>,
+    /// Thickness, mm.
+    #[serde(default, deserialize_with = "fields::thickness")]
+    pub thickness_mm: Option<f64>,
 }
 
 /// A table `[[component]]`.

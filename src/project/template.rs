@@ -25,6 +25,8 @@ pub struct Template<'a> {
     pub paper: Paper,
     /// Border that stays free, mm.
     pub margin_mm: f64,
+    /// Thickness of the paper.
+    pub thickness_mm: f64,
     /// Number of components to aim at, if it was chosen.
     pub parts: Option<usize>,
     /// The components.
@@ -78,6 +80,8 @@ tab_width_mm = {tab_width}
 size = "{paper}"
 # Border of each sheet that stays free.
 margin_mm = {margin}
+# Thickness, for the check of the folding.
+thickness_mm = {thickness}
 {export}
 # One table for each component. What a table leaves out comes from [defaults].
 # rename: another name, which is printed on the pieces.
@@ -99,6 +103,7 @@ margin_mm = {margin}
         tab_width = template.tab_width_mm,
         paper = template.paper.name(),
         margin = template.margin_mm,
+        thickness = template.thickness_mm,
         export = super::export::TEMPLATE,
     );
     for component in template.components {
@@ -139,6 +144,7 @@ mod tests {
             tab_width_mm: 6.5,
             paper: parse_paper("100x150").unwrap(),
             margin_mm: 0.0,
+            thickness_mm: 0.25,
             parts: None,
             components: &components,
         };
