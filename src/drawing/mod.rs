@@ -4,6 +4,7 @@
 //! flips or scales once. Styles are resolved here, so that back ends stay simple.
 
 mod mark;
+pub mod strokes;
 mod style;
 pub mod text;
 
