@@ -27,4 +27,5 @@ pub mod render;
 pub mod report;
 pub mod segment;
 pub mod sheet;
+pub mod toolpath;
 pub mod units;
