@@ -20,6 +20,7 @@ pub mod mesh;
 pub mod model;
 pub mod net;
 pub mod pipeline;
+pub mod plotter;
 pub mod product;
 pub mod progress;
 pub mod project;
