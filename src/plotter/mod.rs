@@ -15,9 +15,12 @@ mod frame;
 mod job;
 mod plan;
 pub mod profile;
+pub mod session;
+mod virtual_plotter;
 
 pub use encode::{Placement, encode};
 pub use frame::{Direction, Frame, OffBed, Origin, Point, Ratio};
 pub use job::{Command, Job, JobError, Motion};
 pub use plan::{Plan, PlanError, test_cut, toolset};
 pub use profile::{Cutter, Media, ProfileError};
+pub use virtual_plotter::{Faults, VirtualOptions, VirtualPlotter};
