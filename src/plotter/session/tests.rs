@@ -157,8 +157,9 @@ fn a_megabyte_arrives_whole_by_every_handshake_at_two_speeds() {
             assert_eq!(outcome.is_confirmed, answers);
             let busy = bench.busy.as_secs_f64() / (bench.busy + bench.idle).as_secs_f64();
             println!("{:8} {baud:6} baud: line busy {:.1} %", handshake.name(), 100.0 * busy);
-            // Time alone leaves the plotter idle where it is quicker than is assumed.
-            let least = if handshake == Handshake::Paced { 0.5 } else { 0.95 };
+            // Time alone knows no more than what the motion is sure to have taken.
+            let is_line_the_limit = handshake != Handshake::Paced || baud == 9600;
+            let least = if is_line_the_limit { 0.95 } else { 0.1 };
             assert!(busy >= least, "{handshake:?} {baud}: {busy}");
         }
     }
@@ -231,16 +232,20 @@ fn a_stopped_job_goes_on_where_it_was() {
 
 #[test]
 fn a_pause_lifts_the_pen_and_sets_it_down_at_the_same_place() {
-    let job = small_job();
+    let job = &long_job(3000);
     let cutter = cutter("generic-hpgl", 9600, true);
     let mut bench = Bench::new(job, &cutter, Handshake::EscB, VirtualOptions::default());
-    while bench.session.next < 6 {
+    for _ in 0..2000 {
         if let Step::Send(bytes) = bench.session.step(bench.now, bench.port.len()) {
             bench.port.extend(bytes);
-            bench.session.pause();
+        }
+        if bench.session.next > 30 {
+            break;
         }
         bench.pass(LOOK, false);
     }
+    assert!(bench.session.is_down && bench.session.next < 100);
+    bench.session.pause();
     for _ in 0..5000 {
         if let Step::Send(bytes) = bench.session.step(bench.now, bench.port.len()) {
             bench.port.extend(bytes);
