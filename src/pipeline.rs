@@ -2,7 +2,7 @@
 
 use crate::geom::{Hull, HullError};
 use crate::mesh::{Mesh, Up};
-use crate::model::{self, Contact, Model, ModelError, Part, PartOptions};
+use crate::model::{self, Contact, Link, Model, ModelError, Part, PartOptions};
 use crate::net::{Net, NetOptions, NetsError, develop_model};
 use crate::progress::{Cancelled, Progress};
 use crate::segment::{self, SegmentError, SegmentId, SegmentOptions, Segmentation};
@@ -202,17 +202,7 @@ impl Output {
 /// See [`Error`].
 pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
     let (mesh, to_model) = mesh.scaled(options.size_mm, options.up);
-
-    let wish = SegmentOptions { parts: options.parts, ..SegmentOptions::default() };
-    let segmentation = segment::segment(&mesh, &wish, progress)?;
-
-    progress.stage("hulls");
-    let solid = hulls(&mesh, &segmentation);
-    let parts = parts(solid.hulls, options)?;
-    let contacts = contacts(&mesh, &segmentation, &solid.part_of_segment);
-    let hulls: Vec<&Hull> = parts.iter().map(|p| &p.hull).collect();
-    let links = model::link_tree(&hulls, &contacts);
-    progress.check()?;
+    let Bodies { segmentation, solid, parts, links } = divide(&mesh, options, progress)?;
 
     progress.stage("components");
     let model = model::build(&parts, &links, options.min_panel_width_mm, progress)?;
@@ -247,7 +237,47 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     })
 }
 
+/// A mesh divided into parts, with the joints between them: what the components are made from.
+#[derive(Debug, Clone)]
+pub struct Bodies {
+    segmentation: Segmentation,
+    solid: Solid,
+    parts: Vec<Part>,
+    links: Vec<Link>,
+}
+
+impl Bodies {
+    /// The parts; a component is made of each.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The tree of joints between them.
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+}
+
+/// The first stages of [`run`]: segments, their hulls and joints. `mesh` has the model's size.
+///
+/// # Errors
+/// See [`Error`].
+pub fn divide(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Bodies, Error> {
+    let wish = SegmentOptions { parts: options.parts, ..SegmentOptions::default() };
+    let segmentation = segment::segment(mesh, &wish, progress)?;
+
+    progress.stage("hulls");
+    let mut solid = hulls(mesh, &segmentation);
+    let parts = parts(std::mem::take(&mut solid.hulls), options)?;
+    let contacts = contacts(mesh, &segmentation, &solid.part_of_segment);
+    let hulls: Vec<&Hull> = parts.iter().map(|p| &p.hull).collect();
+    let links = model::link_tree(&hulls, &contacts);
+    progress.check()?;
+    Ok(Bodies { segmentation, solid, parts, links })
+}
+
 /// Hulls of the segments that have one.
+#[derive(Debug, Clone)]
 struct Solid {
     hulls: Vec<Hull>,
     part_of_segment: Vec<Option<usize>>,

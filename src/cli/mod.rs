@@ -1,6 +1,7 @@
 //! The command line: parse, run, report, exit code. One file per subcommand.
 
 mod error;
+mod formats;
 mod init;
 mod input;
 mod make;
@@ -31,6 +32,7 @@ struct Cli {
 enum Command {
     Make(make::MakeArgs),
     Init(init::InitArgs),
+    Formats(formats::FormatsArgs),
 }
 
 const EXAMPLES: &str = "\
@@ -48,6 +50,10 @@ pub fn run() -> ExitCode {
     let result = match &cli.command {
         Command::Make(args) => make::run(args),
         Command::Init(args) => init::run(args),
+        Command::Formats(args) => {
+            formats::run(args);
+            Ok(())
+        }
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -30,6 +30,11 @@ impl Placement {
         Self { sheet_mm, is_turned: false }
     }
 
+    /// Size of the sheet as it is drawn, mm.
+    pub fn sheet_mm(&self) -> DVec2 {
+        self.sheet_mm
+    }
+
     /// Whether the sheet has to be turned by 90° to the left.
     pub fn is_turned(&self) -> bool {
         self.is_turned

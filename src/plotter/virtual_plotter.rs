@@ -171,8 +171,8 @@ impl VirtualPlotter {
 
     /// Whether it has nothing left to do.
     pub fn is_idle(&self) -> bool {
-        self.busy_until <= self.now
-            && self.dialect.first(&self.buffer.iter().copied().collect::<Vec<_>>()).is_none()
+        let bytes: Vec<u8> = self.buffer.iter().copied().collect();
+        self.busy_until <= self.now && self.dialect.first(&bytes).is_none_or(|n| n == 0)
     }
 
     /// Whether it told the host to be silent.

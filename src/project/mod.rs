@@ -3,9 +3,11 @@
 //! The structs here are the file's; they are checked while they are read, so that an error names
 //! the line and column of the value that is wrong.
 
+mod export;
 mod fields;
 mod template;
 
+pub use export::ExportTable;
 pub use fields::{LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_count, check_degrees, check_parts, parse_up};
 pub use template::{Template, TemplateComponent, to_toml};
 
@@ -49,6 +51,9 @@ pub struct Project {
     /// The sheets.
     #[serde(default)]
     pub paper: PaperTable,
+    /// The files.
+    #[serde(default)]
+    pub export: ExportTable,
     /// What differs for single components.
     #[serde(default, rename = "component")]
     pub components: Vec<Component>,

@@ -185,6 +185,7 @@ impl MachineTool {
 /// What its parts guarantee; at least one tool.
 #[derive(Debug, Clone)]
 pub struct Cutter {
+    text: String,
     name: String,
     description: String,
     unverified: Vec<String>,
@@ -208,6 +209,7 @@ impl Cutter {
         check_unverified(text, &file.unverified)?;
         let tools = file.tools;
         Ok(Self {
+            text: text.to_owned(),
             name: file.name,
             description: file.description,
             unverified: file.unverified,
@@ -220,6 +222,11 @@ impl Cutter {
             speed: file.speed,
             tools: [tools.pen, tools.crease, tools.fold_hinge, Some(tools.cut)],
         })
+    }
+
+    /// The profile as it was read.
+    pub fn text(&self) -> &str {
+        &self.text
     }
 
     /// Name for people.
@@ -300,6 +307,12 @@ impl Cutter {
     /// The tool for an operation; none where the machine leaves it out.
     pub fn tool(&self, operation: Operation) -> Option<&MachineTool> {
         self.tools[operation as usize].as_ref()
+    }
+}
+
+impl PartialEq for Cutter {
+    fn eq(&self, other: &Self) -> bool {
+        self.text == other.text
     }
 }
 

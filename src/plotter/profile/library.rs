@@ -1,5 +1,7 @@
 //! The profiles that come with the program.
 
+use super::{Cutter, Media};
+
 /// A profile as a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Profile {
@@ -28,10 +30,30 @@ pub const CUTTERS: &[Profile] = profiles!["cutters":
 pub const MEDIA: &[Profile] =
     profiles!["media": "paper-120", "cardstock-200", "cardstock-300", "vinyl", "pen"];
 
+impl Cutter {
+    /// The first of [`CUTTERS`]: what most cutters understand.
+    pub fn generic() -> Self {
+        Self::parse(CUTTERS[0].text).expect("the built-in profiles are valid, which a test checks")
+    }
+}
+
+impl Media {
+    /// The usual card for paper models.
+    pub fn usual() -> Self {
+        Self::parse(MEDIA[1].text).expect("the built-in profiles are valid, which a test checks")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plotter::{Cutter, Media, ProfileError};
+    use crate::plotter::ProfileError;
+
+    #[test]
+    fn the_usual_ones() {
+        assert_eq!((Cutter::generic().name(), CUTTERS[0].name), ("Generic HP-GL cutter", "generic-hpgl"));
+        assert_eq!((Media::usual().name(), MEDIA[1].name), ("Cardstock, 200 g/m²", "cardstock-200"));
+    }
 
     #[test]
     fn all_profiles_can_be_read_and_say_what_is_unverified() {
