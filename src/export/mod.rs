@@ -16,6 +16,7 @@ mod json;
 mod obj;
 mod options;
 mod pdf;
+mod plt;
 pub mod png;
 mod svg;
 
@@ -23,6 +24,7 @@ pub use dxf::{DxfOptions, DxfSheets, DxfVersion};
 pub use fold::{FoldOptions, PoseCount};
 pub use options::{FormatOptions, TextMode};
 pub use pdf::{PdfOptions, Timestamp};
+pub use plt::PltOptions;
 pub use png::PngOptions;
 pub use svg::{SvgOptions, SvgStroke};
 
@@ -35,6 +37,7 @@ pub const FORMATS: &[Format] = &[
     svg::FORMAT,
     dxf::FORMAT,
     png::FORMAT,
+    plt::FORMAT,
     gif::FORMAT,
     apng::FORMAT,
     glb::FORMAT,

@@ -3,6 +3,7 @@
 use super::dxf::DxfOptions;
 use super::fold::FoldOptions;
 use super::pdf::PdfOptions;
+use super::plt::PltOptions;
 use super::png::PngOptions;
 use super::svg::SvgOptions;
 use crate::show::FilmOptions;
@@ -18,6 +19,8 @@ pub struct FormatOptions {
     pub fold: FoldOptions,
     /// For PDF.
     pub pdf: PdfOptions,
+    /// For PLT.
+    pub plt: PltOptions,
     /// For PNG.
     pub png: PngOptions,
     /// For SVG.
