@@ -1,6 +1,7 @@
 //! What the user is told when nothing comes of it.
 
 use std::path::PathBuf;
+use tatamu::check::FoldCheckError;
 use tatamu::export::ExportError;
 use tatamu::mesh::{MeshError, ReadError};
 use tatamu::pipeline;
@@ -26,6 +27,9 @@ pub enum CliError {
     /// The mesh that a project file names cannot be read.
     #[error("cannot read {path}, the mesh of project file {project}: {reason}")]
     ProjectMesh { path: PathBuf, project: PathBuf, reason: String },
+    /// The file is no FOLD master.
+    #[error("{path}: {error}")]
+    Check { path: PathBuf, error: FoldCheckError },
     /// Options contradict each other, or the command has no use for its input.
     #[error("{0}")]
     Options(String),

@@ -1,5 +1,6 @@
 //! The command line: parse, run, report, exit code. One file per subcommand.
 
+mod check;
 mod error;
 mod init;
 mod input;
@@ -31,6 +32,7 @@ struct Cli {
 enum Command {
     Make(make::MakeArgs),
     Init(init::InitArgs),
+    Check(check::CheckArgs),
 }
 
 const EXAMPLES: &str = "\
@@ -39,6 +41,7 @@ Examples:
   tatamu make teddy.obj --size 30cm --paper a3 -o teddy.pdf -o teddy.svg
   tatamu init teddy.obj                     teddy.toml, a project file to edit
   tatamu make teddy.toml                    makes what the project file says
+  tatamu check teddy.fold                   verifies a FOLD file
 
 \"tatamu make --help\" explains every option.";
 
@@ -46,11 +49,12 @@ Examples:
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let result = match &cli.command {
-        Command::Make(args) => make::run(args),
-        Command::Init(args) => init::run(args),
+        Command::Make(args) => make::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Init(args) => init::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Check(args) => check::run(args),
     };
     match result {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(CliError::Cancelled(cancelled)) => {
             terminal::complain("tatamu", &cancelled.to_string());
             ExitCode::from(STOPPED)
