@@ -28,6 +28,9 @@ pub struct Options {
     pub top_edges: usize,
     /// Vertices of profiles, at least 3.
     pub profile_vertices: usize,
+    /// Distance between component and hull that is close enough, mm: then as few edges and
+    /// vertices are used as reach it, and the two numbers above are the most.
+    pub tolerance_mm: Option<f64>,
     /// Least width and height of panels, mm.
     pub min_panel_width_mm: f64,
     /// Width of glue tabs, mm.
@@ -49,6 +52,7 @@ impl Default for Options {
             components: BTreeMap::new(),
             top_edges: 6,
             profile_vertices: 6,
+            tolerance_mm: None,
             min_panel_width_mm: 3.0,
             tab_width_mm: 6.0,
             paper: Paper::default(),
@@ -236,7 +240,7 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
         .collect();
     let mut part_faces = vec![0; parts.len()];
     face_part.iter().flatten().for_each(|&p| part_faces[p as usize] += 1);
-    let mut warnings = warnings(&model, &nets, &solid.flat, options.min_panel_width_mm);
+    let mut warnings = warnings(&model, &nets, &solid.flat, options);
     let advice = fold_plan.advice(&model).into_iter();
     warnings.extend(advice.map(|(code, message)| Warning { code, message }));
     Ok(Output {
@@ -353,6 +357,7 @@ fn parts(hulls: Vec<Hull>, options: &Options) -> Result<Vec<Part>, Error> {
                 direction_rad: own.direction_rad,
                 top_edges: own.top_edges.unwrap_or(options.top_edges),
                 profile_vertices: own.profile_vertices.unwrap_or(options.profile_vertices),
+                tolerance_mm: options.tolerance_mm,
                 comfortable_mm,
             },
         }
@@ -380,7 +385,8 @@ fn contacts(mesh: &Mesh, segmentation: &Segmentation, part_of_segment: &[Option<
 /// Joint panels that carry less than this of their child are worth a warning.
 const GOOD_SUPPORT: f64 = 0.8;
 
-fn warnings(model: &Model, nets: &[Net], flat: &[usize], min_panel_mm: f64) -> Vec<Warning> {
+fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Options) -> Vec<Warning> {
+    let min_panel_mm = options.min_panel_width_mm;
     let mut out = Vec::new();
     let mut warn = |code, message| out.push(Warning { code, message });
     if !flat.is_empty() {
@@ -415,6 +421,17 @@ fn warnings(model: &Model, nets: &[Net], flat: &[usize], min_panel_mm: f64) -> V
                 format!(
                     "{}: {what} is only {mm:.2} mm {word}, less than {min_panel_mm} mm; use fewer top edges or \
                      profile vertices for it, or a larger --size",
+                    part.name
+                ),
+            );
+        }
+        let error_mm = part.component.hausdorff_mm();
+        if let Some(tolerance_mm) = options.tolerance_mm.filter(|t| error_mm > *t) {
+            warn(
+                "tolerance_missed",
+                format!(
+                    "{}: it comes within {error_mm:.1} mm of its shape, not within {tolerance_mm} mm; allow more top \
+                     edges or profile vertices, or narrower panels",
                     part.name
                 ),
             );

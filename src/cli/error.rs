@@ -1,6 +1,7 @@
 //! What the user is told when nothing comes of it.
 
 use std::path::PathBuf;
+use tatamu::check::FoldCheckError;
 use tatamu::drawing::StyleError;
 use tatamu::export::ExportError;
 use tatamu::mesh::{ColourError, MeshError, ReadError};
@@ -33,6 +34,9 @@ pub enum CliError {
     /// The mesh that a project file names cannot be read.
     #[error("cannot read {path}, the mesh of project file {project}: {reason}")]
     ProjectMesh { path: PathBuf, project: PathBuf, reason: String },
+    /// The file is no FOLD master.
+    #[error("{path}: {error}")]
+    Check { path: PathBuf, error: FoldCheckError },
     /// Options contradict each other, or the command has no use for its input.
     #[error("{0}")]
     Options(String),

@@ -89,6 +89,7 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         parts: options.parts,
         top_edges: options.top_edges,
         profile_vertices: options.profile_vertices,
+        tolerance_mm: options.tolerance_mm,
         min_panel_width_mm: options.min_panel_width_mm,
         tab_width_mm: options.tab_width_mm,
         paper: options.paper,

@@ -1,5 +1,6 @@
 //! The command line: parse, run, report, exit code. One file per subcommand.
 
+mod check;
 mod error;
 mod film;
 mod formats;
@@ -36,6 +37,7 @@ enum Command {
     Init(init::InitArgs),
     Show(show::ShowArgs),
     Formats(formats::FormatsArgs),
+    Check(check::CheckArgs),
 }
 
 const EXAMPLES: &str = "\
@@ -46,6 +48,7 @@ Examples:
   tatamu make teddy.toml                    makes what the project file says
   tatamu make teddy.obj -o teddy.gif        an animation of its folding
   tatamu show teddy.obj -o half.png --pose 0.5
+  tatamu check teddy.fold                   verifies a FOLD file
 
 \"tatamu make --help\" explains every option.";
 
@@ -53,16 +56,17 @@ Examples:
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let result = match &cli.command {
-        Command::Make(args) => make::run(args),
-        Command::Init(args) => init::run(args),
-        Command::Show(args) => show::run(args),
+        Command::Make(args) => make::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Init(args) => init::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Show(args) => show::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Check(args) => check::run(args),
         Command::Formats(args) => {
             formats::run(args);
-            Ok(())
+            Ok(ExitCode::SUCCESS)
         }
     };
     match result {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(CliError::Cancelled(cancelled)) => {
             terminal::complain("tatamu", &cancelled.to_string());
             ExitCode::from(STOPPED)

@@ -5,7 +5,7 @@ use super::input::Input;
 use clap::Args;
 use tatamu::mesh::Up;
 use tatamu::pipeline::{ComponentOptions, Options};
-use tatamu::project::{check_count, check_degrees, check_parts, parse_thickness_mm, parse_up};
+use tatamu::project::{Defaults, check_count, check_degrees, check_parts, parse_thickness_mm, parse_up};
 use tatamu::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};
 
 /// Options of the model.
@@ -51,6 +51,13 @@ pub struct ModelArgs {
     #[arg(long, value_name = "N", value_parser = count)]
     profile_vertices: Option<usize>,
 
+    /// How close each component must come to its shape, instead of numbers of edges and vertices
+    ///
+    /// As few top edges and profile vertices are used as reach it, at most those of --top-edges and
+    /// --profile-vertices, or 12 and 10. Example: --tolerance 2mm
+    #[arg(long, value_name = "LENGTH", value_parser = parse_length_mm)]
+    tolerance: Option<f64>,
+
     /// Least width and height of a panel [default: 3mm]
     ///
     /// What is narrower cannot be folded by hand. Where the shape leaves no choice, a warning
@@ -83,6 +90,10 @@ pub struct ModelArgs {
     #[arg(long, value_name = "LENGTH", value_parser = parse_thickness_mm)]
     thickness: Option<f64>,
 }
+
+/// With a tolerance, the most top edges and profile vertices of a component that says nothing else.
+const MOST_EDGES: usize = 12;
+const MOST_VERTICES: usize = 10;
 
 fn number(text: &str) -> Result<u64, String> {
     let message = |_| "this must be a whole number such as 6".to_owned();
@@ -120,6 +131,17 @@ impl ModelArgs {
         set(&mut options.thickness_mm, self.thickness);
         options.up = self.up.unwrap_or(options.up);
         options.parts = self.parts.or(options.parts);
+        options.tolerance_mm = self.tolerance.or(options.tolerance_mm);
+        if options.tolerance_mm.is_some() {
+            let defaults = input.project.as_ref().map(|project| &project.defaults);
+            let is_default = |of: fn(&Defaults) -> Option<usize>| defaults.and_then(of).is_none();
+            if is_default(|d| d.top_edges) {
+                options.top_edges = MOST_EDGES;
+            }
+            if is_default(|d| d.profile_vertices) {
+                options.profile_vertices = MOST_VERTICES;
+            }
+        }
         options.top_edges = self.top_edges.unwrap_or(options.top_edges);
         options.profile_vertices = self.profile_vertices.unwrap_or(options.profile_vertices);
         options.paper = self.paper.unwrap_or(options.paper);
@@ -153,6 +175,7 @@ impl ModelArgs {
         set(&mut options.tab_width_mm, defaults.tab_width_mm);
         set(&mut options.margin_mm, project.paper.margin_mm);
         set(&mut options.thickness_mm, project.paper.thickness_mm);
+        options.tolerance_mm = defaults.tolerance_mm;
         options.up = project.up.unwrap_or(options.up);
         options.parts = project.segmentation.parts;
         options.top_edges = defaults.top_edges.unwrap_or(options.top_edges);

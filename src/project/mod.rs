@@ -81,6 +81,9 @@ pub struct Defaults {
     /// Vertices of profiles.
     #[serde(default, deserialize_with = "fields::count")]
     pub profile_vertices: Option<usize>,
+    /// How close components must come to their shapes, mm; the numbers above are then the most.
+    #[serde(default, rename = "tolerance", deserialize_with = "fields::length")]
+    pub tolerance_mm: Option<f64>,
     /// Least width and height of panels, mm.
     #[serde(default, deserialize_with = "fields::length")]
     pub min_panel_width_mm: Option<f64>,

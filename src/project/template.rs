@@ -17,6 +17,8 @@ pub struct Template<'a> {
     pub top_edges: usize,
     /// Vertices of profiles.
     pub profile_vertices: usize,
+    /// How close components must come to their shapes, mm, if it was chosen.
+    pub tolerance_mm: Option<f64>,
     /// Least width and height of panels, mm.
     pub min_panel_width_mm: f64,
     /// Width of glue tabs, mm.
@@ -70,6 +72,9 @@ size = "{size}mm"
 top_edges = {top_edges}
 # Vertices of each profile at most, {LEAST_COUNT} or more: more follow the shape better, fewer fold faster.
 profile_vertices = {profile_vertices}
+# How close each component must come to its shape: then as few edges and vertices are used as reach
+# it, and the two numbers above are the most.
+{tolerance_comment}tolerance = "{tolerance}mm"
 # No panel is narrower or lower than this; what cannot be kept is a warning.
 min_panel_width_mm = {min_panel_width}
 # Width of the glue tabs.
@@ -99,6 +104,8 @@ thickness_mm = {thickness}
         parts = template.parts.unwrap_or(template.components.len().max(1)),
         top_edges = template.top_edges,
         profile_vertices = template.profile_vertices,
+        tolerance_comment = unless(template.tolerance_mm.is_some()),
+        tolerance = template.tolerance_mm.unwrap_or(2.0),
         min_panel_width = template.min_panel_width_mm,
         tab_width = template.tab_width_mm,
         paper = template.paper.name(),
@@ -140,6 +147,7 @@ mod tests {
             size_mm: 123.5,
             top_edges: 7,
             profile_vertices: 4,
+            tolerance_mm: Some(1.5),
             min_panel_width_mm: 3.0,
             tab_width_mm: 6.5,
             paper: parse_paper("100x150").unwrap(),
