@@ -219,7 +219,7 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
 
     progress.stage("nets");
     let sheets = SheetOptions { paper: options.paper, margin_mm: options.margin_mm };
-    let net_options = NetOptions { tab_width_mm: options.tab_width_mm, sheet_mm: sheets.room_mm() };
+    let net_options = NetOptions::new(options.tab_width_mm, sheets.room_mm());
     let nets = develop_model(&model, &net_options, progress)
         .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
 

@@ -4,7 +4,7 @@ use super::furniture::{self, Furniture};
 use super::nest::{NestError, NestOptions, Shape, nest};
 use crate::drawing::{Drawing, Layer, LineStyles, Mark, Text, text};
 use crate::geom::polygon;
-use crate::net::{MarkOptions, Net};
+use crate::net::{Net, Side};
 use crate::progress::Progress;
 use crate::units::Paper;
 use glam::{DAffine2, DVec2};
@@ -137,7 +137,7 @@ impl Layout {
         let mut lost: Vec<Vec<String>> = vec![Vec::new(); self.sheets];
         for (net, places) in nets.iter().zip(&self.places) {
             for (piece, at) in net.pieces().iter().zip(places) {
-                let marks = piece.marks(MarkOptions::default(), |layer| styles.stroke(layer).clone());
+                let marks = piece.marks(Side::default(), |layer| styles.stroke(layer).clone());
                 pages[at.sheet].place(marks, at.place);
                 lost[at.sheet]
                     .extend(piece.unplaced_labels().iter().map(|l| format!("{}: {l}", piece.name())));
