@@ -4,7 +4,6 @@ use std::path::PathBuf;
 use tatamu::export::ExportError;
 use tatamu::mesh::{MeshError, ReadError};
 use tatamu::pipeline;
-use tatamu::product::ProductError;
 use tatamu::progress::{Cancelled, Progress};
 use tatamu::project::ProjectError;
 
@@ -43,13 +42,7 @@ pub enum CliError {
     Pipeline(pipeline::Error),
     /// A document cannot be made.
     #[error(transparent)]
-    Product(#[from] ProductError),
-}
-
-impl From<ExportError> for CliError {
-    fn from(error: ExportError) -> Self {
-        Self::Product(error.into())
-    }
+    Export(#[from] ExportError),
 }
 
 impl CliError {

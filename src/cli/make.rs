@@ -7,10 +7,10 @@ use super::{input, output, terminal};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use tatamu::export::{FORMATS, Format};
+use tatamu::export::{FORMATS, Format, FormatOptions};
 use tatamu::mesh::Repairs;
 use tatamu::pipeline::{self, Output, Warning};
-use tatamu::product;
+use tatamu::product::{self, Product};
 use tatamu::report::Run;
 
 /// Makes a model of a mesh, or of a project file.
@@ -97,10 +97,11 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
         warnings: &warnings,
     };
     let title = terminal::printable(&stem.to_string_lossy());
-    let documents = product::export_input(&result, &title, &run)?;
+    let product = Product::new(&result, &title, run);
+    let formats = FormatOptions::default();
     let mut files = Vec::new();
     for target in targets {
-        for file in target.format.write(&documents)? {
+        for file in target.format.write(&product, &formats)? {
             files.push((output::with_suffix(&target.path, &file.suffix), file.bytes));
         }
     }

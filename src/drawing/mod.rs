@@ -4,9 +4,12 @@
 //! flips or scales once. Styles are resolved here, so that back ends stay simple.
 
 mod mark;
+mod pages;
+pub mod strokes;
 mod style;
 pub mod text;
 
+pub use pages::{Pages, PagesError};
 pub use style::{LineStyles, StyleError};
 
 use glam::DVec2;

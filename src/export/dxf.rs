@@ -3,9 +3,9 @@
 //! Furniture and pictures are left out: a cutter would cut them. The crate's output is mended
 //! afterwards, see [`mended`].
 
-use super::{DxfVersion, ExportError, ExportFile, ExportInput, Format, TextMode};
+use super::{ExportError, ExportFile, Format, FormatOptions, Source, TextMode};
 use crate::drawing::text;
-use crate::drawing::{Drawing, Layer, Mark, Polyline, Shape, Text};
+use crate::drawing::{Drawing, Layer, Mark, Pages, Polyline, Shape, Text};
 use dxf::entities::{Entity, EntityType, Line, LwPolyline, Polyline as OldPolyline, Vertex};
 use dxf::enums::{AcadVersion, Units};
 use dxf::tables::{Layer as DxfLayer, LineType};
@@ -17,7 +17,7 @@ pub const FORMAT: Format = Format {
     name: "dxf",
     extensions: &["dxf"],
     description: "DXF in millimetres, one file a sheet, for cutters and CAD programs",
-    write,
+    source: Source::Pages(write),
 };
 
 /// Straight pieces in the place of each curve of a letter.
@@ -34,18 +34,35 @@ const VARYING: [(&str, &str); 6] = [
     ("$VERSIONGUID", "{00000000-0000-0000-0000-000000000000}"),
 ];
 
-fn write(input: &ExportInput) -> Result<Vec<ExportFile>, ExportError> {
-    let version = input.dxf_version();
-    let pages = input.pages()?.iter().enumerate();
-    let file = |(index, drawing)| {
-        let bytes = document(drawing, version, input.text_mode())
-            .map_err(|message| ExportError::Writer { format: FORMAT.name, message })?;
-        Ok(ExportFile::of_page(index, bytes))
-    };
-    pages.map(file).collect()
+/// Version of DXF files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DxfVersion {
+    /// For old programs and machines.
+    R12,
+    /// AutoCAD 2000 and everything since.
+    #[default]
+    R2000,
 }
 
-fn document(drawing: &Drawing, version: DxfVersion, text_mode: TextMode) -> Result<Vec<u8>, String> {
+/// Choices for DXF files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct DxfOptions {
+    /// The version.
+    pub version: DxfVersion,
+    /// How texts are written.
+    pub text: TextMode,
+}
+
+fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
+    let file = |(index, drawing)| {
+        let bytes = document(drawing, options.dxf).map_err(|error| ExportError::writer(&FORMAT, error))?;
+        Ok(ExportFile::of_page(index, bytes))
+    };
+    pages.drawings().iter().enumerate().map(file).collect()
+}
+
+fn document(drawing: &Drawing, options: DxfOptions) -> Result<Vec<u8>, String> {
+    let DxfOptions { version, text: text_mode } = options;
     let mut file = dxf::Drawing::new();
     file.header.version = match version {
         DxfVersion::R12 => AcadVersion::R12,

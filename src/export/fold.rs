@@ -4,11 +4,51 @@
 //! the deployed and the flat state of the same vertices. Coordinates are written with as many
 //! digits as they have, so every face is congruent in all frames within rounding.
 
+use super::{ExportError, ExportFile, Format, FormatOptions, Source};
 use crate::component::{HingeId, PanelKind, PanelSet};
 use crate::net::{Corner, EdgeKind, FaceKind, Net, Piece};
+use crate::product::Product;
 use crate::sheet::PiecePlace;
 use glam::{DAffine3, DVec2, DVec3};
 use serde::Serialize;
+
+/// The registry's entry.
+pub const FORMAT: Format = Format {
+    name: "fold",
+    extensions: &["fold"],
+    description: "FOLD 1.2: crease pattern, deployed and flat model in one file",
+    source: Source::Model(files),
+};
+
+/// Distance between sheets in the crease pattern, mm.
+const SHEET_GAP_MM: f64 = 20.0;
+
+/// The master of a model, with its sheets side by side.
+fn files(product: &Product<'_>, _: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
+    let output = product.output();
+    let layout = output.layout();
+    let components: Vec<FoldComponent> = output
+        .model()
+        .parts()
+        .iter()
+        .zip(output.nets())
+        .enumerate()
+        .map(|(n, (part, net))| FoldComponent {
+            name: &part.name,
+            set: part.component.panels(),
+            net,
+            pieces: layout.places(n),
+            deployed: part.deployed(),
+            flat: part.flat,
+        })
+        .collect();
+    let step_mm = layout.options().paper.width_mm() + SHEET_GAP_MM;
+    let sheet_offsets: Vec<DVec2> =
+        (0..layout.sheet_count()).map(|k| DVec2::X * (step_mm * k as f64)).collect();
+    let model = FoldModel { title: product.title(), components: &components, sheet_offsets: &sheet_offsets };
+    let bytes = write(&model).map_err(|error| ExportError::writer(&FORMAT, error))?;
+    Ok(vec![ExportFile::single(bytes)])
+}
 
 /// One component with its net.
 #[derive(Debug, Clone, Copy)]

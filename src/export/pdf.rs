@@ -3,9 +3,9 @@
 //! What `printpdf` does not offer is set on the finished document: no scaling by the print dialog,
 //! and nothing in it that varies (`printpdf` numbers its ids by a counter of the process).
 
-use super::{ExportError, ExportFile, ExportInput, Format};
+use super::{ExportError, ExportFile, Format, FormatOptions, Source};
 use crate::drawing::text::{self, FONT_FILE, FONT_NAME};
-use crate::drawing::{Drawing, Layer, Mark, Polyline, Rgb, Shape, Stroke, Text};
+use crate::drawing::{Drawing, Layer, Mark, Pages, Polyline, Rgb, Shape, Stroke, Text};
 use glam::DVec2;
 use lopdf::{Dictionary, Document, Object};
 use printpdf::{
@@ -19,7 +19,7 @@ pub const FORMAT: Format = Format {
     name: "pdf",
     extensions: &["pdf"],
     description: "PDF at exactly 1:1, one page a sheet, for printing",
-    write,
+    source: Source::Pages(write),
 };
 
 /// Points in a millimetre.
@@ -30,9 +30,9 @@ const PDF_VERSION: &str = "1.6";
 const UNWANTED_INFO: [&[u8]; 7] =
     [b"CreationDate", b"ModDate", b"GTS_PDFXVersion", b"Identifier", b"Trapped", b"Author", b"Keywords"];
 
-fn write(input: &ExportInput) -> Result<Vec<ExportFile>, ExportError> {
-    let failed = |message: String| ExportError::Writer { format: FORMAT.name, message };
-    let mut pdf = PdfDocument::new(input.title());
+fn write(pages: &Pages, _: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
+    let failed = |message: String| ExportError::writer(&FORMAT, message);
+    let mut pdf = PdfDocument::new(pages.title());
     let producer = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
     pdf.metadata.info.creator = producer.to_owned();
     pdf.metadata.info.producer = producer.to_owned();
@@ -40,7 +40,7 @@ fn write(input: &ExportInput) -> Result<Vec<ExportFile>, ExportError> {
         .ok_or_else(|| failed("the embedded font cannot be read".to_owned()))?;
     font.font_name = Some(FONT_NAME.to_owned());
     pdf.resources.fonts.map.insert(font_id(), PdfFont::new(font));
-    for drawing in input.pages()? {
+    for drawing in pages.drawings() {
         for mark in &drawing.marks {
             pdf.resources.layers.map.entry(layer_id(mark.layer)).or_insert_with(|| group(mark.layer));
         }

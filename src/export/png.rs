@@ -6,22 +6,52 @@ use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, StrokeDash, Transform,
 };
 
-use super::{ExportError, ExportFile, ExportInput, Format};
+use super::{ExportError, ExportFile, Format, FormatOptions, Source};
 use crate::drawing::text::{self, PathCommand};
-use crate::drawing::{Drawing, Polyline, Rgb, Shape, Stroke};
+use crate::drawing::{Drawing, Pages, Polyline, Rgb, Shape, Stroke};
 
 /// The registry's entry.
 pub const FORMAT: Format = Format {
     name: "png",
     extensions: &["png"],
-    description: "PNG pictures of 150 dots per inch, one file a sheet, to look at",
-    write,
+    description: "PNG pictures, one file a sheet, to look at",
+    source: Source::Pages(write),
 };
 
 const MM_PER_INCH: f64 = 25.4;
 
-/// Resolution of sheets: their small letters can be read.
-const SHEET_DOTS_PER_INCH: f64 = 150.0;
+/// Resolutions that may be asked for.
+const DOTS_PER_INCH: std::ops::RangeInclusive<f64> = 10.0..=2400.0;
+
+/// Choices for PNG files of sheets.
+///
+/// # Guarantees
+/// The resolution is from 10 to 2400 dots per inch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PngOptions {
+    dots_per_inch: f64,
+}
+
+impl PngOptions {
+    /// Chooses the resolution.
+    ///
+    /// # Errors
+    /// A message for one out of range.
+    pub fn new(dots_per_inch: f64) -> Result<Self, String> {
+        if DOTS_PER_INCH.contains(&dots_per_inch) {
+            return Ok(Self { dots_per_inch });
+        }
+        let (least, most) = (DOTS_PER_INCH.start(), DOTS_PER_INCH.end());
+        Err(format!("the resolution must be from {least} to {most} dots per inch"))
+    }
+}
+
+/// Small letters can be read.
+impl Default for PngOptions {
+    fn default() -> Self {
+        Self { dots_per_inch: 150.0 }
+    }
+}
 
 /// Most pixels of a picture: an A0 sheet at 300 dots per inch.
 const MAX_PIXELS: f64 = 140e6;
@@ -42,14 +72,14 @@ pub enum PngError {
     Encoder(String),
 }
 
-fn write(input: &ExportInput) -> Result<Vec<ExportFile>, ExportError> {
-    let pages = input.pages()?;
+fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
+    let drawings = pages.drawings();
     let file = |(index, drawing)| {
-        let bytes = render(drawing, SHEET_DOTS_PER_INCH)
-            .map_err(|error| ExportError::Writer { format: FORMAT.name, message: error.to_string() })?;
-        Ok(if pages.len() == 1 { ExportFile::single(bytes) } else { ExportFile::of_page(index, bytes) })
+        let bytes = render(drawing, options.png.dots_per_inch)
+            .map_err(|error| ExportError::writer(&FORMAT, error))?;
+        Ok(if drawings.len() == 1 { ExportFile::single(bytes) } else { ExportFile::of_page(index, bytes) })
     };
-    pages.iter().enumerate().map(file).collect()
+    drawings.iter().enumerate().map(file).collect()
 }
 
 /// The drawing at a resolution, as the bytes of a PNG file that states its size in metres. Without

@@ -3,9 +3,9 @@
 //! Layers are painted in the order in which they first occur. Path data is written here, since the
 //! crate's own is `f32`.
 
-use super::{ExportError, ExportFile, ExportInput, Format, TextMode};
+use super::{ExportError, ExportFile, Format, FormatOptions, Source, TextMode};
 use crate::drawing::text::{self, FONT_FAMILY, PathCommand};
-use crate::drawing::{Drawing, Layer, Mark, Polyline, Rgb, Shape, Stroke, Text};
+use crate::drawing::{Drawing, Layer, Mark, Pages, Polyline, Rgb, Shape, Stroke, Text};
 use glam::DVec2;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -17,20 +17,26 @@ pub const FORMAT: Format = Format {
     name: "svg",
     extensions: &["svg"],
     description: "SVG in millimetres, one file a sheet, one group a kind of line",
-    write,
+    source: Source::Pages(write),
 };
 
 /// Digits after the point: a tenth of a micrometre.
 const DECIMALS: usize = 4;
 
-fn write(input: &ExportInput) -> Result<Vec<ExportFile>, ExportError> {
-    let pages = input.pages()?.iter().enumerate();
+/// Choices for SVG files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct SvgOptions {
+    /// How texts are written.
+    pub text: TextMode,
+}
+
+fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
     let file = |(index, drawing)| {
-        let page = Page { drawing, text_mode: input.text_mode(), ids: BTreeSet::new() };
+        let page = Page { drawing, text_mode: options.svg.text, ids: BTreeSet::new() };
         let svg = format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}\n", page.document());
         ExportFile::of_page(index, svg.into_bytes())
     };
-    Ok(pages.map(file).collect())
+    Ok(pages.drawings().iter().enumerate().map(file).collect())
 }
 
 /// One drawing on its way to SVG.
@@ -212,7 +218,8 @@ mod tests {
     const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 
     fn written(pages: usize, text_mode: TextMode) -> Vec<String> {
-        let files = write(&model(pages).with_text_mode(text_mode)).expect("can be written");
+        let options = FormatOptions { svg: SvgOptions { text: text_mode }, ..FormatOptions::default() };
+        let files = write(&model(pages), &options).expect("can be written");
         files.into_iter().map(|file| String::from_utf8(file.bytes).expect("UTF-8")).collect()
     }
 
@@ -233,7 +240,7 @@ mod tests {
 
     #[test]
     fn one_file_a_sheet_in_millimetres() {
-        let files = write(&model(2)).expect("can be written");
+        let files = write(&model(2), &FormatOptions::default()).expect("can be written");
         assert_eq!(files.iter().map(|f| f.suffix.as_str()).collect::<Vec<_>>(), ["-1", "-2"]);
         let text = &written(1, TextMode::Outlines)[0];
         let xml = Xml::parse(text).expect("valid XML");

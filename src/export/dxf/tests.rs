@@ -3,8 +3,8 @@ use crate::export::fixture::model;
 use std::collections::BTreeSet;
 
 fn written(version: DxfVersion, text_mode: TextMode) -> String {
-    let input = model(2).with_dxf_version(version).with_text_mode(text_mode);
-    let files = write(&input).expect("can be written");
+    let options = FormatOptions { dxf: DxfOptions { version, text: text_mode }, ..FormatOptions::default() };
+    let files = write(&model(2), &options).expect("can be written");
     assert_eq!(files.iter().map(|f| f.suffix.as_str()).collect::<Vec<_>>(), ["-1", "-2"]);
     String::from_utf8(files[0].bytes.clone()).expect("ASCII")
 }

@@ -5,7 +5,7 @@ use lopdf::content::{Content, Operation};
 const MM_PER_PT: f64 = 25.4 / 72.0;
 
 fn written(pages: usize) -> Vec<u8> {
-    let mut files = write(&model(pages)).expect("the fixture can be written");
+    let mut files = write(&model(pages), &FormatOptions::default()).expect("the fixture can be written");
     assert_eq!(files.len(), 1);
     files.remove(0).bytes
 }
