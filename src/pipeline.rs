@@ -3,10 +3,10 @@
 use crate::geom::{Hull, HullError};
 use crate::mesh::{Mesh, Up};
 use crate::model::{self, Contact, Model, ModelError, Part, PartOptions};
-use crate::net::{Net, NetOptions, NetsError, develop_model};
+use crate::net::{Net, NetChoices, NetOptions, NetsError, develop_model};
 use crate::progress::{Cancelled, Progress};
 use crate::segment::{self, SegmentError, SegmentId, SegmentOptions, Segmentation};
-use crate::sheet::{Layout, LayoutError, SheetOptions};
+use crate::sheet::{Layout, LayoutError, SheetChoices, SheetOptions};
 use crate::units::Paper;
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
@@ -35,6 +35,10 @@ pub struct Options {
     pub paper: Paper,
     /// Border of the sheets that stays free, mm.
     pub margin_mm: f64,
+    /// What else is chosen about nets.
+    pub nets: NetChoices,
+    /// What else is chosen about sheets.
+    pub sheets: SheetChoices,
 }
 
 impl Default for Options {
@@ -50,6 +54,8 @@ impl Default for Options {
             tab_width_mm: 6.0,
             paper: Paper::default(),
             margin_mm: 10.0,
+            nets: NetChoices::default(),
+            sheets: SheetChoices::default(),
         }
     }
 }
@@ -118,7 +124,7 @@ fn too_large(error: &NetsError, size_mm: f64) -> String {
             let fits = (size_mm * scale * FITS).floor();
             format!(
                 "a panel of \"{name}\" measures {:.0} × {:.0} mm and does not fit the {:.0} × {:.0} mm within the \
-                 sheet's margins; use --size {fits}mm at most, or larger --paper",
+                 sheet's margins; use --size {fits}mm at most, or larger --paper, or do without --no-split",
                 panel.x, panel.y, sheet_mm.x, sheet_mm.y
             )
         }
@@ -218,8 +224,13 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     let model = model::build(&parts, &links, options.min_panel_width_mm, progress)?;
 
     progress.stage("nets");
-    let sheets = SheetOptions { paper: options.paper, margin_mm: options.margin_mm };
-    let net_options = NetOptions::new(options.tab_width_mm, sheets.room_mm());
+    let sheets =
+        SheetOptions { paper: options.paper, margin_mm: options.margin_mm, choices: options.sheets };
+    let net_options = NetOptions {
+        tab_width_mm: options.tab_width_mm,
+        sheet_mm: sheets.room_mm(),
+        choices: options.nets,
+    };
     let nets = develop_model(&model, &net_options, progress)
         .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
 

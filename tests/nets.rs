@@ -20,7 +20,8 @@ const SMALL: DVec2 = DVec2::new(85.0, 115.0);
 const HUGE: DVec2 = DVec2::new(5e3, 5e3);
 
 fn net_of(set: &PanelSet, sheet_mm: DVec2) -> Result<Net, NetError> {
-    let options = NetOptions { may_split: false, ..NetOptions::new(6.0, sheet_mm) };
+    let mut options = NetOptions::new(6.0, sheet_mm);
+    options.choices.may_split = false;
     develop(set, Naming { name: "body", prefix: "A" }, &[], &options)
 }
 

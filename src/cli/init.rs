@@ -93,6 +93,8 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         tab_width_mm: options.tab_width_mm,
         paper: options.paper,
         margin_mm: options.margin_mm,
+        nets: options.nets,
+        sheets: options.sheets,
         components: &components,
     });
     output::write(&[(path.clone(), text.into_bytes())])?;

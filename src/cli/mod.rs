@@ -4,9 +4,11 @@ mod error;
 mod init;
 mod input;
 mod make;
+mod net_args;
 mod options;
 mod output;
 mod progress;
+mod sheet_args;
 mod terminal;
 
 use clap::{Parser, Subcommand};

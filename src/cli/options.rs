@@ -2,6 +2,8 @@
 
 use super::error::CliError;
 use super::input::Input;
+use super::net_args::NetArgs;
+use super::sheet_args::SheetArgs;
 use clap::Args;
 use tatamu::mesh::Up;
 use tatamu::pipeline::{ComponentOptions, Options};
@@ -75,6 +77,12 @@ pub struct ModelArgs {
     /// Most printers cannot print the outermost 5 mm. Example: --margin 5mm
     #[arg(long, value_name = "LENGTH", value_parser = parse_length_or_zero_mm)]
     margin: Option<f64>,
+
+    #[command(flatten)]
+    nets: NetArgs,
+
+    #[command(flatten)]
+    sheets: SheetArgs,
 }
 
 fn number(text: &str) -> Result<u64, String> {
@@ -110,6 +118,8 @@ impl ModelArgs {
         set(&mut options.min_panel_width_mm, self.min_panel_width);
         set(&mut options.tab_width_mm, self.tab_width);
         set(&mut options.margin_mm, self.margin);
+        self.nets.merge(input.project.as_ref().map(|p| &p.nets), &mut options.nets);
+        self.sheets.merge(input.project.as_ref().map(|p| &p.sheets), &mut options.sheets);
         options.up = self.up.unwrap_or(options.up);
         options.parts = self.parts.or(options.parts);
         options.top_edges = self.top_edges.unwrap_or(options.top_edges);

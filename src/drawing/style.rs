@@ -68,6 +68,7 @@ struct StyleFile {
     glue: StyleTable,
     label: StyleTable,
     furniture: StyleTable,
+    registration: StyleTable,
     picture: StyleTable,
 }
 
@@ -82,6 +83,7 @@ impl StyleFile {
             Layer::Glue => &self.glue,
             Layer::Label => &self.label,
             Layer::Furniture => &self.furniture,
+            Layer::Registration => &self.registration,
             Layer::Picture => &self.picture,
         }
     }

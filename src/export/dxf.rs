@@ -102,7 +102,7 @@ fn layer_name(layer: Layer) -> Option<(&'static str, u8)> {
         Layer::FoldHinge => Some(("FOLD180", 6)),
         Layer::Glue => Some(("GLUE", 8)),
         Layer::Label => Some(("LABEL", 4)),
-        Layer::Furniture | Layer::Picture => None,
+        Layer::Furniture | Layer::Registration | Layer::Picture => None,
     }
 }
 

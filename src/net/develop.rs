@@ -9,7 +9,7 @@ use super::grow::grow;
 use super::layout::{self, Layout, best_turn, hinge_length};
 use super::split::{Split, split};
 use super::tabs::{self, Placed, Shapes, USEFUL_WIDTH_MM};
-use super::{JointMark, MarkOptions, Net};
+use super::{JointMark, Net};
 use crate::component::{Hinge, HingeId, PanelId, PanelKind, PanelSet};
 use glam::DVec2;
 
@@ -58,16 +58,34 @@ pub struct NetOptions {
     pub tab_width_mm: f64,
     /// Room for pieces on a sheet: width and height within the margins, mm.
     pub sheet_mm: DVec2,
+    /// What else is chosen.
+    pub choices: NetChoices,
+}
+
+/// What the user may choose about nets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NetChoices {
     /// Whether a panel larger than the sheet may be split.
     pub may_split: bool,
-    /// What is drawn on pieces.
-    pub marks: MarkOptions,
+    /// Whether the place of each tab behind its mate is drawn.
+    pub glue_marks: bool,
+    /// Whether the angle of each crease is written beside it.
+    pub angles: bool,
+    /// Creases that are folded by less, when deployed, are not drawn; fold hinges always are.
+    pub hide_below_rad: f64,
+}
+
+impl Default for NetChoices {
+    /// Panels may be split, and nothing is drawn but what must be.
+    fn default() -> Self {
+        Self { may_split: true, glue_marks: false, angles: false, hide_below_rad: 0.0 }
+    }
 }
 
 impl NetOptions {
-    /// Panels may be split, and nothing is drawn but what must be.
+    /// The standard choices.
     pub fn new(tab_width_mm: f64, sheet_mm: DVec2) -> Self {
-        Self { tab_width_mm, sheet_mm, may_split: true, marks: MarkOptions::default() }
+        Self { tab_width_mm, sheet_mm, choices: NetChoices::default() }
     }
 }
 
@@ -98,7 +116,7 @@ pub fn develop(
         let draft = draft_of_chains(set, &chains, options);
         return Ok(finish(Split { set: set.clone(), source }, draft, naming, joints, options));
     };
-    let split = if options.may_split { split(set, options.sheet_mm, options.tab_width_mm) } else { None };
+    let split = if options.choices.may_split { split(set, options.sheet_mm, options.tab_width_mm) } else { None };
     let split = split.ok_or(error)?;
     let shapes = tabs::shapes(&split.set, options.tab_width_mm);
     let cut_cost = cut_costs(&split.set, &shapes, options.tab_width_mm);

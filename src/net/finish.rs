@@ -78,7 +78,7 @@ impl Finisher<'_> {
         let Self { set, options, .. } = *self;
         let own = self.own_tabs(layout);
         let mesh = PieceMesh::new(set, layout, &own);
-        let hide_below_rad = options.marks.hide_below_rad;
+        let hide_below_rad = options.choices.hide_below_rad;
         let points: Vec<DVec2> = mesh.vertices().iter().map(|v| v.at).collect();
         let upright = to_sheet(&points, &creases(set, &mesh, hide_below_rad), options.sheet_mm);
         let at = |p: DVec2| upright.transform_point2(p);
@@ -87,7 +87,7 @@ impl Finisher<'_> {
         let place = |&(panel, place): &(PanelId, DAffine2)| PlacedPanel { panel, place: upright * place };
         let panels: Vec<PlacedPanel> = layout.panels.iter().map(place).collect();
         let mut glue_areas = glue::areas(set, layout, &self.draft.tapes);
-        if options.marks.glue_marks {
+        if options.choices.glue_marks {
             glue_areas.extend(glue::areas(set, layout, &self.draft.tabs));
         }
         glue_areas.iter_mut().for_each(|area| area.outline = area.outline.map(at));
@@ -101,7 +101,7 @@ impl Finisher<'_> {
         });
         placer.name(&name);
         placer.lead();
-        if options.marks.angles {
+        if options.choices.angles {
             placer.angles(|kind| self.angle(kind));
         }
         let Texts { labels, leaders, unplaced } = placer.finish();
@@ -150,7 +150,7 @@ impl Finisher<'_> {
     fn angle(&self, kind: &EdgeKind) -> Option<String> {
         let EdgeKind::Hinge(h) = kind else { return None };
         let hinge = self.set.hinges()[h.0];
-        let is_drawn = hinge.is_fold || hinge.deployed_rad >= self.options.marks.hide_below_rad;
+        let is_drawn = hinge.is_fold || hinge.deployed_rad >= self.options.choices.hide_below_rad;
         is_drawn.then(|| format!("{:.0}°", hinge.deployed_rad.to_degrees()))
     }
 }

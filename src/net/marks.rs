@@ -58,17 +58,6 @@ pub(crate) fn creases(set: &PanelSet, mesh: &super::PieceMesh, hide_below_rad: f
         .collect()
 }
 
-/// What is drawn on pieces besides what must be.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct MarkOptions {
-    /// Whether the place of each tab behind its mate is drawn.
-    pub glue_marks: bool,
-    /// Whether the angle of each crease is written beside it.
-    pub angles: bool,
-    /// Creases that are folded by less, when deployed, are not drawn; fold hinges always are.
-    pub hide_below_rad: f64,
-}
-
 /// The side of the paper that is printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Side {

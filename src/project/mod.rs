@@ -4,9 +4,11 @@
 //! the line and column of the value that is wrong.
 
 mod fields;
+mod sheet_fields;
 mod template;
 
 pub use fields::{LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_count, check_degrees, check_parts, parse_up};
+pub use sheet_fields::{Nets, Sheets, check_effort, check_hidden_degrees, parse_marks, parse_side};
 pub use template::{Template, TemplateComponent, to_toml};
 
 use crate::mesh::Up;
@@ -49,6 +51,12 @@ pub struct Project {
     /// The sheets.
     #[serde(default)]
     pub paper: PaperTable,
+    /// The pieces.
+    #[serde(default)]
+    pub nets: Nets,
+    /// How the sheets are filled and printed.
+    #[serde(default)]
+    pub sheets: Sheets,
     /// What differs for single components.
     #[serde(default, rename = "component")]
     pub components: Vec<Component>,

@@ -79,12 +79,14 @@ pub struct NestOptions {
 }
 
 /// 25 orders of 60 pieces, 150 of 10.
-const DEFAULT_EFFORT: usize = 1500;
+pub const DEFAULT_EFFORT: usize = 1500;
+/// Scissors pass between pieces.
+pub const DEFAULT_SPACING_MM: f64 = 2.0;
 
 impl NestOptions {
     /// Free rotation, 2 mm apart, default effort.
     pub fn new(width_mm: f64, height_mm: f64) -> Self {
-        Self { width_mm, height_mm, spacing_mm: 2.0, rotation: Rotation::Free, effort: DEFAULT_EFFORT }
+        Self { width_mm, height_mm, spacing_mm: DEFAULT_SPACING_MM, rotation: Rotation::Free, effort: DEFAULT_EFFORT }
     }
 
     fn check(&self) -> Result<(), NestError> {

@@ -23,6 +23,9 @@ const NAME_CAPS_MM: [f64; 5] = [4.0, 3.5, 3.0, 2.5, 2.0];
 const LINE_GAP_MM: f64 = 0.4;
 /// Paper between two texts.
 const TEXT_GAP_MM: f64 = 0.6;
+/// Letters that reach below the base line, and how far, as a share of a capital's height.
+const DESCENDING: &str = "gjpqy,;()/Q_";
+const DESCENT: f64 = 0.3;
 /// Places across a panel, each way, that are tried for its name.
 const GRID: usize = 12;
 
@@ -153,12 +156,15 @@ impl<'a> Placer<'a> {
     }
 }
 
-/// Corners of a text's box, counter-clockwise from the beginning of its base line.
+/// Corners of a text's box, counter-clockwise from the beginning of its base line, or from below it
+/// where letters reach there. `centre` is the middle of its capitals.
 fn text_box(centre: DVec2, direction: DVec2, wanted: Wanted) -> [DVec2; 4] {
     let along = upright(direction);
     let half = DVec2::new(text::width_mm(wanted.text, wanted.cap_mm), wanted.cap_mm) / 2.0;
+    let reaches_below = wanted.text.contains(|c: char| DESCENDING.contains(c));
+    let low = if reaches_below { 1.0 + 2.0 * DESCENT } else { 1.0 };
     let corner = |x: f64, y: f64| centre + along * (half.x * x) + along.perp() * (half.y * y);
-    [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)]
+    [corner(-1.0, -low), corner(1.0, -low), corner(1.0, 1.0), corner(-1.0, 1.0)]
 }
 
 /// Points all over an area, its middle first and then from there outwards.
