@@ -35,7 +35,7 @@ fn files(product: &Product<'_>, _: &FormatOptions) -> Result<Vec<ExportFile>, Ex
         .enumerate()
         .map(|(n, (part, net))| FoldComponent {
             name: &part.name,
-            set: part.component.panels(),
+            set: net.panels(),
             net,
             pieces: layout.places(n),
             deployed: part.deployed(),
@@ -55,7 +55,7 @@ fn files(product: &Product<'_>, _: &FormatOptions) -> Result<Vec<ExportFile>, Ex
 pub struct FoldComponent<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Its panels.
+    /// The panels that the net was made of: [`Net::panels`].
     pub set: &'a PanelSet,
     /// Its net, made from `set`.
     pub net: &'a Net,

@@ -60,7 +60,14 @@ pub struct NetOptions {
     pub sheet_mm: DVec2,
     /// What else is chosen.
     pub choices: NetChoices,
+    /// Weight of a piece's bounding box (over its panels' area) against the cost of one cut: with
+    /// 1, a box larger by the area of all panels is worth two cuts between top and bottom.
+    pub compactness: f64,
 }
+
+/// The values of [`NetOptions::compactness`] that are worth trying: pieces that lie well on a
+/// sheet of their own, and pieces that many of go on one sheet.
+pub const COMPACTNESSES: [f64; 2] = [3.0, 15.0];
 
 /// What the user may choose about nets.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,7 +92,7 @@ impl Default for NetChoices {
 impl NetOptions {
     /// The standard choices.
     pub fn new(tab_width_mm: f64, sheet_mm: DVec2) -> Self {
-        Self { tab_width_mm, sheet_mm, choices: NetChoices::default() }
+        Self { tab_width_mm, sheet_mm, choices: NetChoices::default(), compactness: COMPACTNESSES[0] }
     }
 }
 
@@ -134,6 +141,7 @@ fn draft_of_chains(set: &PanelSet, chains: &Chains, options: &NetOptions) -> Dra
         sheet_mm: options.sheet_mm,
         cut_cost: &cut_cost,
         may_cut_folds,
+        compactness: options.compactness,
     };
     [false, true]
         .into_iter()

@@ -235,6 +235,9 @@ impl Frame {
 /// Edges of the hull that a piece is laid on, beside the special angles.
 const EDGES: usize = 5;
 
+/// Angles in steps of a right angle by this number, tried beside those.
+const STEPS: usize = 18;
+
 /// Angles nearer than this are tried once.
 const SAME_RAD: f64 = 0.02;
 
@@ -257,6 +260,7 @@ fn angles(outline: &[DVec2], special: &[f64], rotation: Rotation) -> Vec<f64> {
                 base.push(angle);
             }
         }
+        base.extend((0..STEPS).map(|k| FRAC_PI_2 * (k as f64 + 0.5) / STEPS as f64));
     } else {
         base.push(0.0);
     }
