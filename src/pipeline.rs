@@ -4,10 +4,10 @@ use crate::fold::{FoldPlan, ModelMotion};
 use crate::geom::{Hull, HullError};
 use crate::mesh::{Mesh, Up};
 use crate::model::{self, Contact, Link, Model, ModelError, Part, PartOptions};
-use crate::net::{Net, NetOptions, NetsError, develop_model};
+use crate::net::{COMPACTNESSES, Net, NetChoices, NetOptions, NetsError, develop_model};
 use crate::progress::{Cancelled, Progress};
 use crate::segment::{self, SegmentError, SegmentId, SegmentOptions, Segmentation};
-use crate::sheet::{Layout, LayoutError, SheetOptions};
+use crate::sheet::{Layout, LayoutError, SheetChoices, SheetOptions};
 use crate::units::Paper;
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
@@ -41,6 +41,10 @@ pub struct Options {
     pub margin_mm: f64,
     /// Thickness of the paper, mm.
     pub thickness_mm: f64,
+    /// What else is chosen about nets.
+    pub nets: NetChoices,
+    /// What else is chosen about sheets.
+    pub sheets: SheetChoices,
 }
 
 impl Default for Options {
@@ -58,6 +62,8 @@ impl Default for Options {
             paper: Paper::default(),
             margin_mm: 10.0,
             thickness_mm: 0.25,
+            nets: NetChoices::default(),
+            sheets: SheetChoices::default(),
         }
     }
 }
@@ -126,7 +132,7 @@ fn too_large(error: &NetsError, size_mm: f64) -> String {
             let fits = (size_mm * scale * FITS).floor();
             format!(
                 "a panel of \"{name}\" measures {:.0} × {:.0} mm and does not fit the {:.0} × {:.0} mm within the \
-                 sheet's margins; use --size {fits}mm at most, or larger --paper",
+                 sheet's margins; use --size {fits}mm at most, or larger --paper, or do without --no-split",
                 panel.x, panel.y, sheet_mm.x, sheet_mm.y
             )
         }
@@ -225,13 +231,9 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     let fold_plan = FoldPlan::new(&ModelMotion::new(&model), options.thickness_mm, progress)?;
 
     progress.stage("nets");
-    let sheets = SheetOptions { paper: options.paper, margin_mm: options.margin_mm };
-    let net_options = NetOptions { tab_width_mm: options.tab_width_mm, sheet_mm: sheets.room_mm() };
-    let nets = develop_model(&model, &net_options, progress)
-        .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
-
-    progress.stage("sheets");
-    let layout = Layout::new(&nets, &sheets, progress)?;
+    let sheets =
+        SheetOptions { paper: options.paper, margin_mm: options.margin_mm, choices: options.sheets };
+    let (nets, layout) = sheets_of(&model, options, &sheets, progress)?;
 
     let face_part: Vec<Option<u32>> = segmentation
         .face_segments()
@@ -294,6 +296,38 @@ pub fn divide(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
     let links = model::link_tree(&hulls, &contacts);
     progress.check()?;
     Ok(Bodies { segmentation, solid, parts, links })
+}
+
+/// Nets and their layout on sheets: of nets made in several ways, those that need the fewest
+/// sheets.
+fn sheets_of(
+    model: &Model,
+    options: &Options,
+    sheets: &SheetOptions,
+    progress: &dyn Progress,
+) -> Result<(Vec<Net>, Layout), Error> {
+    let mut best: Option<(Vec<Net>, Layout)> = None;
+    for compactness in COMPACTNESSES {
+        let net_options = NetOptions {
+            tab_width_mm: options.tab_width_mm,
+            sheet_mm: sheets.room_mm(),
+            choices: options.nets,
+            compactness,
+        };
+        progress.stage("nets");
+        let nets = develop_model(model, &net_options, progress)
+            .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
+        progress.stage("sheets");
+        let most = best.as_ref().map(|b| b.1.sheet_count());
+        let layout = Layout::new(&nets, sheets, progress)?;
+        if most.is_none_or(|most| layout.sheet_count() < most) {
+            best = Some((nets, layout));
+        }
+        if best.as_ref().is_some_and(|b| b.1.is_least()) {
+            break;
+        }
+    }
+    best.ok_or(Error::NothingSolid)
 }
 
 /// Hulls of the segments that have one.

@@ -95,6 +95,8 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         paper: options.paper,
         margin_mm: options.margin_mm,
         thickness_mm: options.thickness_mm,
+        nets: options.nets,
+        sheets: options.sheets,
         components: &components,
     });
     output::write(&[(path.clone(), text.into_bytes())])?;

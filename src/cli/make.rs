@@ -9,11 +9,11 @@ use super::{input, output, terminal};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use tatamu::export::FORMATS;
+use tatamu::export::{FORMATS, Source};
 use tatamu::fold::Stack;
 use tatamu::mesh::Repairs;
 use tatamu::pipeline::{self, Output, Warning};
-use tatamu::product::{self, Product};
+use tatamu::product::{self, Content, Product};
 use tatamu::report::Run;
 
 /// Makes a model of a mesh, or of a project file.
@@ -42,6 +42,14 @@ pub struct MakeArgs {
 
     #[command(flatten)]
     film: FilmArgs,
+
+    /// Writes what is printed and what is cut into two files, NAME-print and NAME-cut
+    ///
+    /// Both have the same pages with the same origin. NAME-cut holds contours, slits and creases;
+    /// NAME-print holds labels, glue marks, scale bars and registration marks. Formats that are
+    /// no pages are written once. Example: --print-and-cut --marks silhouette -o teddy.svg
+    #[arg(long)]
+    print_and_cut: bool,
 
     /// File for the segmentation: one number a line
     ///
@@ -103,13 +111,26 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
         warnings: &warnings,
     };
     let title = terminal::printable(&stem.to_string_lossy());
-    let product =
-        Product::new(&result, &title, run).with_styles(choice.styles).with_painting(painting.as_ref());
+    let product = |content| {
+        Product::new(&result, &title, run)
+            .with_styles(choice.styles.clone())
+            .with_painting(painting.as_ref())
+            .with_content(content)
+    };
+    let products = match args.print_and_cut {
+        false => vec![("", product(Content::All))],
+        true => vec![("-print", product(Content::Print)), ("-cut", product(Content::Cut))],
+    };
     let formats = args.film.choose(choice.formats)?;
     let mut files = Vec::new();
     for target in targets {
-        for file in target.format.write(&product, &formats)? {
-            files.push((output::with_suffix(&target.path, &file.suffix), file.bytes));
+        let is_paged = matches!(target.format.source, Source::Pages(_));
+        for (name, product) in if is_paged { &products[..] } else { &products[..1] } {
+            let name = if is_paged { name } else { "" };
+            for file in target.format.write(product, &formats)? {
+                let suffix = format!("{name}{}", file.suffix);
+                files.push((output::with_suffix(&target.path, &suffix), file.bytes));
+            }
         }
     }
     if let Some(path) = &args.segments {

@@ -7,9 +7,11 @@ mod formats;
 mod init;
 mod input;
 mod make;
+mod net_args;
 mod options;
 mod output;
 mod progress;
+mod sheet_args;
 mod show;
 mod terminal;
 

@@ -2,6 +2,8 @@
 
 use super::error::CliError;
 use super::input::Input;
+use super::net_args::NetArgs;
+use super::sheet_args::SheetArgs;
 use clap::Args;
 use tatamu::mesh::Up;
 use tatamu::pipeline::{ComponentOptions, Options};
@@ -89,6 +91,11 @@ pub struct ModelArgs {
     /// is a warning. Card of 200 g/m² has 0.25 mm. Example: --thickness 0.4mm
     #[arg(long, value_name = "LENGTH", value_parser = parse_thickness_mm)]
     thickness: Option<f64>,
+    #[command(flatten)]
+    nets: NetArgs,
+
+    #[command(flatten)]
+    sheets: SheetArgs,
 }
 
 /// With a tolerance, the most top edges and profile vertices of a component that says nothing else.
@@ -129,6 +136,8 @@ impl ModelArgs {
         set(&mut options.tab_width_mm, self.tab_width);
         set(&mut options.margin_mm, self.margin);
         set(&mut options.thickness_mm, self.thickness);
+        self.nets.merge(input.project.as_ref().map(|p| &p.nets), &mut options.nets);
+        self.sheets.merge(input.project.as_ref().map(|p| &p.sheets), &mut options.sheets);
         options.up = self.up.unwrap_or(options.up);
         options.parts = self.parts.or(options.parts);
         options.tolerance_mm = self.tolerance.or(options.tolerance_mm);

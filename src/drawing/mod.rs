@@ -47,13 +47,15 @@ pub enum Layer {
     Label,
     /// Scale bar, legend, title: belongs to the page, not to a piece.
     Furniture,
+    /// Marks by which a cutter finds the page.
+    Registration,
     /// Filled faces of pictures.
     Picture,
 }
 
 impl Layer {
     /// All layers, in their order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Cut,
         Self::Slit,
         Self::Mountain,
@@ -62,6 +64,7 @@ impl Layer {
         Self::Glue,
         Self::Label,
         Self::Furniture,
+        Self::Registration,
         Self::Picture,
     ];
 
@@ -77,7 +80,16 @@ impl Layer {
             Self::Glue => "glue",
             Self::Label => "label",
             Self::Furniture => "furniture",
+            Self::Registration => "registration",
             Self::Picture => "picture",
+        }
+    }
+
+    /// Whether a cutter works on these lines: cuts and creases. All else is printed only.
+    pub fn is_worked(self) -> bool {
+        match self {
+            Self::Cut | Self::Slit | Self::Mountain | Self::Valley | Self::FoldHinge => true,
+            Self::Glue | Self::Label | Self::Furniture | Self::Registration | Self::Picture => false,
         }
     }
 }

@@ -92,7 +92,7 @@ fn files(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFil
         .enumerate()
         .map(|(n, (part, net))| FoldComponent {
             name: &part.name,
-            set: part.component.panels(),
+            set: net.panels(),
             net,
             pieces: layout.places(n),
             deployed: part.deployed(),
@@ -120,7 +120,7 @@ fn files(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFil
 pub struct FoldComponent<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Its panels.
+    /// The panels that the net was made of: [`Net::panels`].
     pub set: &'a PanelSet,
     /// Its net, made from `set`.
     pub net: &'a Net,

@@ -5,6 +5,7 @@
 
 mod export;
 mod fields;
+mod sheet_fields;
 mod template;
 
 pub use export::ExportTable;
@@ -12,6 +13,7 @@ pub use fields::{
     LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_count, check_degrees, check_parts, parse_thickness_mm,
     parse_up,
 };
+pub use sheet_fields::{Nets, Sheets, check_effort, check_hidden_degrees, parse_marks, parse_side};
 pub use template::{Template, TemplateComponent, to_toml};
 
 use crate::mesh::Up;
@@ -57,6 +59,12 @@ pub struct Project {
     /// The files.
     #[serde(default)]
     pub export: ExportTable,
+    /// The pieces.
+    #[serde(default)]
+    pub nets: Nets,
+    /// How the sheets are filled and printed.
+    #[serde(default)]
+    pub sheets: Sheets,
     /// What differs for single components.
     #[serde(default, rename = "component")]
     pub components: Vec<Component>,

@@ -2,6 +2,9 @@
 
 use super::LEAST_COUNT;
 use crate::mesh::Up;
+use crate::net::{NetChoices, Side};
+use crate::sheet::fit::Rotation;
+use crate::sheet::{Registration, SheetChoices};
 use crate::units::Paper;
 
 /// What `init` writes into a fresh project file.
@@ -29,6 +32,10 @@ pub struct Template<'a> {
     pub margin_mm: f64,
     /// Thickness of the paper.
     pub thickness_mm: f64,
+    /// What else is chosen about nets.
+    pub nets: NetChoices,
+    /// What else is chosen about sheets.
+    pub sheets: SheetChoices,
     /// Number of components to aim at, if it was chosen.
     pub parts: Option<usize>,
     /// The components.
@@ -87,8 +94,10 @@ size = "{paper}"
 margin_mm = {margin}
 # Thickness, for the check of the folding.
 thickness_mm = {thickness}
-{export}
-# One table for each component. What a table leaves out comes from [defaults].
+
+{nets}
+{sheets}
+{export}# One table for each component. What a table leaves out comes from [defaults].
 # rename: another name, which is printed on the pieces.
 # direction: angle of the fold axis about the component's longest axis, in degrees;
 # without it the best direction is searched for.
@@ -112,6 +121,8 @@ thickness_mm = {thickness}
         margin = template.margin_mm,
         thickness = template.thickness_mm,
         export = super::export::TEMPLATE,
+        nets = nets_table(&template.nets),
+        sheets = sheets_table(&template.sheets),
     );
     for component in template.components {
         text += &format!(
@@ -125,6 +136,53 @@ thickness_mm = {thickness}
         );
     }
     text
+}
+
+fn nets_table(nets: &NetChoices) -> String {
+    format!(
+        "[nets]
+# Whether a panel larger than the sheet is made of parts; else it is refused.
+split = {}
+# Whether the place of each tab behind its mate is drawn.
+glue_marks = {}
+# Whether the angle of each crease is written beside it.
+angles = {}
+# Creases that are folded by less than this, in degrees, are not drawn.
+hide_below = {}
+",
+        nets.may_split,
+        nets.glue_marks,
+        nets.angles,
+        nets.hide_below_rad.to_degrees()
+    )
+}
+
+fn sheets_table(sheets: &SheetChoices) -> String {
+    let side = match sheets.side {
+        Side::Outside => "outside",
+        Side::Inside => "inside",
+    };
+    format!(
+        "[sheets]
+# Printed side of the paper: \"outside\" or \"inside\".
+side = \"{side}\"
+# Whether pieces are turned by multiples of 90 degrees only, for paper with a grain.
+grain = {}
+# Least distance between pieces.
+spacing_mm = {}
+# How long to look for fewer sheets: pieces placed in trials.
+effort = {}
+# Registration marks for a cutter: \"none\", \"silhouette\" or \"corners\".
+marks = \"{}\"
+# Measured lengths of the level and of the upright bar of 100 mm.
+calibrate = \"{}\"
+",
+        sheets.rotation == Rotation::QuarterTurns,
+        sheets.spacing_mm,
+        sheets.effort,
+        sheets.registration.map_or("none", Registration::name),
+        sheets.calibration.text()
+    )
 }
 
 #[cfg(test)]
@@ -153,6 +211,8 @@ mod tests {
             paper: parse_paper("100x150").unwrap(),
             margin_mm: 0.0,
             thickness_mm: 0.25,
+            nets: NetChoices { angles: true, ..NetChoices::default() },
+            sheets: SheetChoices { registration: Some(Registration::Silhouette), ..SheetChoices::default() },
             parts: None,
             components: &components,
         };
@@ -162,6 +222,9 @@ mod tests {
         assert_eq!((project.size_mm, project.paper.margin_mm), (Some(123.5), Some(0.0)));
         assert_eq!(project.paper.size, Some(template.paper));
         assert_eq!(project.defaults.tab_width_mm, Some(6.5));
+        assert_eq!((project.nets.split, project.nets.angles), (Some(true), Some(true)));
+        assert_eq!(project.sheets.marks, Some(Some(Registration::Silhouette)));
+        assert_eq!(project.sheets.calibrate, Some(template.sheets.calibration));
         assert_eq!(project.components[1].name, "he\"ad");
         assert_eq!(project.components[0].direction_deg, None);
         assert_eq!(project.components[1].direction_deg, Some(12.3));
