@@ -19,6 +19,7 @@ pub mod geom;
 pub mod mesh;
 pub mod model;
 pub mod net;
+pub mod parts_report;
 pub mod pipeline;
 pub mod product;
 pub mod progress;

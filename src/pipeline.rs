@@ -1,15 +1,14 @@
 //! The way from a mesh to sheets, stage by stage. Reading [`run`] is reading the program.
 
-use crate::geom::{Hull, HullError};
+use crate::geom::Hull;
 use crate::mesh::{Mesh, Up};
 use crate::model::{self, Contact, Model, ModelError, Part, PartOptions};
 use crate::net::{Net, NetOptions, NetsError, develop_model};
 use crate::progress::{Cancelled, Progress};
-use crate::segment::{self, SegmentError, SegmentId, SegmentOptions, Segmentation};
+use crate::segment::{self, Edit, EditError, Parts, SegmentError, SegmentId, SegmentOptions, Segmentation};
 use crate::sheet::{Layout, LayoutError, SheetOptions};
 use crate::units::Paper;
-use glam::{DAffine3, DVec3};
-use rayon::prelude::*;
+use glam::DAffine3;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the user chose.
@@ -19,8 +18,12 @@ pub struct Options {
     pub size_mm: f64,
     /// The axis of the mesh that points up.
     pub up: Up,
-    /// Number of components to aim at; without it the shape decides.
-    pub parts: Option<usize>,
+    /// How the mesh is divided.
+    pub segmentation: SegmentOptions,
+    /// Changes to the parts by hand, in the coordinates of the mesh as it was read.
+    pub edits: Vec<Edit>,
+    /// The part that all others hang on; without it the biggest.
+    pub root: Option<String>,
     /// What differs for components of these names.
     pub components: BTreeMap<String, ComponentOptions>,
     /// Edges of top panels, at least 3.
@@ -42,7 +45,9 @@ impl Default for Options {
         Self {
             size_mm: 200.0,
             up: Up::Y,
-            parts: None,
+            segmentation: SegmentOptions::default(),
+            edits: Vec::new(),
+            root: None,
             components: BTreeMap::new(),
             top_edges: 6,
             profile_vertices: 6,
@@ -76,6 +81,9 @@ pub enum Error {
     /// Segmentation failed.
     #[error("the mesh could not be divided into parts: {0}")]
     Segment(#[from] SegmentError),
+    /// A change to the parts cannot be made.
+    #[error(transparent)]
+    Edit(#[from] EditError),
     /// No part has a volume.
     #[error("no part of the mesh has a volume; it is flat, so there is nothing to fold")]
     NothingSolid,
@@ -201,15 +209,14 @@ impl Output {
 /// # Errors
 /// See [`Error`].
 pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
-    let (mesh, to_model) = mesh.scaled(options.size_mm, options.up);
-
-    let wish = SegmentOptions { parts: options.parts, ..SegmentOptions::default() };
-    let segmentation = segment::segment(&mesh, &wish, progress)?;
+    let (divided, to_model) = divide(mesh, options, progress)?;
+    let (mesh, segmentation) = (divided.mesh(), divided.segmentation());
 
     progress.stage("hulls");
-    let solid = hulls(&mesh, &segmentation);
-    let parts = parts(solid.hulls, options)?;
-    let contacts = contacts(&mesh, &segmentation, &solid.part_of_segment);
+    let solid = hulls(&divided);
+    let names = solid.names(divided.names());
+    let parts = parts(solid.hulls, &names, options)?;
+    let contacts = contacts(mesh, segmentation, &solid.part_of_segment);
     let hulls: Vec<&Hull> = parts.iter().map(|p| &p.hull).collect();
     let links = model::link_tree(&hulls, &contacts);
     progress.check()?;
@@ -236,7 +243,7 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     let warnings = warnings(&model, &nets, &solid.flat, options.min_panel_width_mm);
     Ok(Output {
         options: options.clone(),
-        mesh,
+        mesh: mesh.clone(),
         to_model,
         face_part,
         part_faces,
@@ -247,6 +254,24 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     })
 }
 
+/// Divides a mesh at the model's size into parts; also gives the transform from the coordinates of
+/// the mesh as it was read.
+///
+/// # Errors
+/// [`Error::Segment`], [`Error::Edit`], [`Error::Cancelled`].
+pub fn divide(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<(Parts, DAffine3), Error> {
+    let (mesh, to_model) = mesh.scaled(options.size_mm, options.up);
+    let segmentation = segment::segment(&mesh, &options.segmentation, progress)?;
+    let mut parts = Parts::new(mesh, segmentation);
+    for edit in &options.edits {
+        parts = parts.edited(&edit.moved(&to_model))?;
+    }
+    if let Some(root) = &options.root {
+        parts = parts.with_root(root)?;
+    }
+    Ok((parts, to_model))
+}
+
 /// Hulls of the segments that have one.
 struct Solid {
     hulls: Vec<Hull>,
@@ -255,16 +280,17 @@ struct Solid {
     flat: Vec<usize>,
 }
 
-fn hulls(mesh: &Mesh, segmentation: &Segmentation) -> Solid {
-    let mut points: Vec<Vec<DVec3>> = vec![Vec::new(); segmentation.count()];
-    let mut faces = vec![0usize; segmentation.count()];
-    for (f, s) in segmentation.face_segments().iter().enumerate() {
-        points[s.0 as usize].extend(mesh.corners(f));
-        faces[s.0 as usize] += 1;
+impl Solid {
+    /// The names of the segments that have a hull.
+    fn names(&self, of_segment: &[String]) -> Vec<String> {
+        let has_hull = self.part_of_segment.iter().zip(of_segment);
+        has_hull.filter(|(part, _)| part.is_some()).map(|(_, name)| name.clone()).collect()
     }
-    let made: Vec<Result<Hull, HullError>> = points.par_iter().map(|p| Hull::of_points(p)).collect();
+}
+
+fn hulls(parts: &Parts) -> Solid {
     let mut solid = Solid { hulls: Vec::new(), part_of_segment: Vec::new(), flat: Vec::new() };
-    for (hull, faces) in made.into_iter().zip(faces) {
+    for (hull, faces) in parts.hulls().into_iter().zip(parts.face_counts()) {
         match hull {
             Ok(hull) => {
                 solid.part_of_segment.push(Some(solid.hulls.len()));
@@ -283,27 +309,21 @@ fn hulls(mesh: &Mesh, segmentation: &Segmentation) -> Solid {
 /// has set gets them down to the least width.
 const COMFORTABLE: f64 = 1.5;
 
-/// Names of components that were not renamed: the first, biggest one is the body.
-fn default_name(index: usize) -> String {
-    if index == 0 { "body".to_owned() } else { format!("part-{}", index + 1) }
-}
-
-fn parts(hulls: Vec<Hull>, options: &Options) -> Result<Vec<Part>, Error> {
+fn parts(hulls: Vec<Hull>, names: &[String], options: &Options) -> Result<Vec<Part>, Error> {
     if hulls.is_empty() {
         return Err(Error::NothingSolid);
     }
-    let names: Vec<String> = (0..hulls.len()).map(default_name).collect();
     if let Some(name) = options.components.keys().find(|name| !names.contains(name)) {
         return Err(Error::NoComponent { name: name.clone(), known: names.join(", ") });
     }
-    let part = |(hull, name): (Hull, String)| {
-        let own = options.components.get(&name).cloned().unwrap_or_default();
+    let part = |(hull, name): (Hull, &String)| {
+        let own = options.components.get(name).cloned().unwrap_or_default();
         let is_set = own.top_edges.is_some() || own.profile_vertices.is_some();
         let comfortable_mm = options.min_panel_width_mm * if is_set { 1.0 } else { COMFORTABLE };
         Part {
             hull,
             options: PartOptions {
-                name: own.rename.unwrap_or(name),
+                name: own.rename.unwrap_or_else(|| name.clone()),
                 direction_rad: own.direction_rad,
                 top_edges: own.top_edges.unwrap_or(options.top_edges),
                 profile_vertices: own.profile_vertices.unwrap_or(options.profile_vertices),

@@ -7,6 +7,8 @@ mod make;
 mod options;
 mod output;
 mod progress;
+mod segment;
+mod segment_args;
 mod terminal;
 
 use clap::{Parser, Subcommand};
@@ -31,6 +33,7 @@ struct Cli {
 enum Command {
     Make(make::MakeArgs),
     Init(init::InitArgs),
+    Segment(segment::SegmentCommand),
 }
 
 const EXAMPLES: &str = "\
@@ -38,6 +41,7 @@ Examples:
   tatamu make teddy.obj                     teddy.pdf, 200 mm high or wide, on A4
   tatamu make teddy.obj --size 30cm --paper a3 -o teddy.pdf -o teddy.svg
   tatamu init teddy.obj                     teddy.toml, a project file to edit
+  tatamu segment teddy.obj -o parts.png     shows the parts without making a model
   tatamu make teddy.toml                    makes what the project file says
 
 \"tatamu make --help\" explains every option.";
@@ -48,6 +52,7 @@ pub fn run() -> ExitCode {
     let result = match &cli.command {
         Command::Make(args) => make::run(args),
         Command::Init(args) => init::run(args),
+        Command::Segment(args) => segment::run(args),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -2,6 +2,7 @@
 
 use super::error::CliError;
 use super::input::Input;
+use super::segment_args::SegmentArgs;
 use clap::Args;
 use tatamu::mesh::Up;
 use tatamu::pipeline::{ComponentOptions, Options};
@@ -9,7 +10,7 @@ use tatamu::project::{check_count, check_degrees, check_parts, parse_up};
 use tatamu::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};
 
 /// Options of the model.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, Default, Args)]
 pub struct ModelArgs {
     /// Axis of the mesh that points up: x, y or z [default: y]
     ///
@@ -23,12 +24,8 @@ pub struct ModelArgs {
     #[arg(long, value_name = "LENGTH", value_parser = parse_length_mm)]
     size: Option<f64>,
 
-    /// Number of components to aim at [default: the shape decides]
-    ///
-    /// The mesh is cut where it narrows. A small number gives a rough and quick model.
-    /// Example: --parts 6
-    #[arg(long, value_name = "N", value_parser = parts)]
-    parts: Option<usize>,
+    #[command(flatten)]
+    segmentation: SegmentArgs,
 
     /// Direction in which a component folds, in degrees [default: searched for]
     ///
@@ -77,7 +74,8 @@ pub struct ModelArgs {
     margin: Option<f64>,
 }
 
-fn number(text: &str) -> Result<u64, String> {
+/// Reads a whole number.
+pub fn number(text: &str) -> Result<u64, String> {
     let message = |_| "this must be a whole number such as 6".to_owned();
     text.trim().parse().map_err(message)
 }
@@ -86,7 +84,8 @@ fn count(text: &str) -> Result<usize, String> {
     number(text).and_then(check_count)
 }
 
-fn parts(text: &str) -> Result<usize, String> {
+/// Reads a number of components.
+pub fn parts(text: &str) -> Result<usize, String> {
     number(text).and_then(check_parts)
 }
 
@@ -101,6 +100,11 @@ fn direction(text: &str) -> Result<(String, f64), String> {
 }
 
 impl ModelArgs {
+    /// Those of a command that only divides the mesh.
+    pub fn of_segmentation(up: Option<Up>, segmentation: SegmentArgs) -> Self {
+        Self { up, segmentation, ..Self::default() }
+    }
+
     /// The options for an input.
     pub fn merge(&self, input: &Input) -> Result<Options, CliError> {
         let mut options = Options::default();
@@ -111,7 +115,7 @@ impl ModelArgs {
         set(&mut options.tab_width_mm, self.tab_width);
         set(&mut options.margin_mm, self.margin);
         options.up = self.up.unwrap_or(options.up);
-        options.parts = self.parts.or(options.parts);
+        options.segmentation = self.segmentation.merge(input.project.as_ref())?;
         options.top_edges = self.top_edges.unwrap_or(options.top_edges);
         options.profile_vertices = self.profile_vertices.unwrap_or(options.profile_vertices);
         options.paper = self.paper.unwrap_or(options.paper);
@@ -145,7 +149,8 @@ impl ModelArgs {
         set(&mut options.tab_width_mm, defaults.tab_width_mm);
         set(&mut options.margin_mm, project.paper.margin_mm);
         options.up = project.up.unwrap_or(options.up);
-        options.parts = project.segmentation.parts;
+        options.edits = project.edits.iter().map(|edit| edit.change().clone()).collect();
+        options.root = project.segmentation.root.clone();
         options.top_edges = defaults.top_edges.unwrap_or(options.top_edges);
         let vertices = defaults.profile_vertices;
         options.profile_vertices = vertices.unwrap_or(options.profile_vertices);

@@ -4,6 +4,7 @@
 //! bytes -> read -> Soup (polygons as in the file) -> Mesh::from_soup -> Mesh -> Mesh::scaled
 //! ```
 
+mod cut;
 mod edges;
 mod placement;
 mod read;

@@ -3,10 +3,15 @@
 //! The structs here are the file's; they are checked while they are read, so that an error names
 //! the line and column of the value that is wrong.
 
+mod edit;
 mod fields;
 mod template;
 
-pub use fields::{LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_count, check_degrees, check_parts, parse_up};
+pub use edit::Edit;
+pub use fields::{
+    LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_clusters, check_count, check_degrees, check_detail,
+    check_parts, check_smoothing, parse_method, parse_up,
+};
 pub use template::{Template, TemplateComponent, to_toml};
 
 use crate::mesh::Up;
@@ -49,6 +54,9 @@ pub struct Project {
     /// The sheets.
     #[serde(default)]
     pub paper: PaperTable,
+    /// Changes to the parts by hand, one after the other.
+    #[serde(default, rename = "edit")]
+    pub edits: Vec<Edit>,
     /// What differs for single components.
     #[serde(default, rename = "component")]
     pub components: Vec<Component>,
@@ -61,6 +69,30 @@ pub struct Segmentation {
     /// Number of components to aim at.
     #[serde(default, deserialize_with = "fields::parts")]
     pub parts: Option<usize>,
+    /// From 0, few components, to 1, many.
+    #[serde(default, deserialize_with = "fields::detail")]
+    pub detail: Option<f64>,
+    /// Whether the paper's own method is used.
+    #[serde(default, deserialize_with = "fields::method")]
+    pub method: Option<MethodName>,
+    /// Clusters of the paper's own method.
+    #[serde(default, deserialize_with = "fields::clusters")]
+    pub clusters: Option<usize>,
+    /// Smoothing of the paper's own method.
+    #[serde(default, deserialize_with = "fields::smoothing")]
+    pub smoothing: Option<f64>,
+    /// The component that all others hang on.
+    #[serde(default, deserialize_with = "fields::new_name")]
+    pub root: Option<String>,
+}
+
+/// How segments are found, by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MethodName {
+    /// Patches merged by the growth of their hulls.
+    Merge,
+    /// The paper's own: shape diameters, clustering, graph cut.
+    Sdf,
 }
 
 /// The table `[defaults]`.

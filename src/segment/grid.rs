@@ -1,10 +1,9 @@
 //! The solid that a mesh bounds, as a grid of cells in columns, and how much of a hull is outside.
 
-use super::rough_hull::RoughHull;
 use glam::{DVec2, DVec3};
 
-/// About as many cells fill the bounding box.
-const CELLS: f64 = 60_000.0;
+/// About as many cells fill the bounding box while parts are searched for.
+pub(super) const CELLS: f64 = 60_000.0;
 
 /// The box is widened to this share of its longest side in each direction.
 const LEAST_SIDE: f64 = 0.02;
@@ -34,8 +33,9 @@ type Crossing = (usize, f64, bool);
 impl Solid {
     /// Cells whose centre has the surface round it, by the mean winding number along both
     /// directions of three axes: so a hole matters only to what looks out through it.
-    pub fn of_mesh(positions: &[DVec3], faces: &[[u32; 3]]) -> Self {
-        let frame = Frame::of_points(positions);
+    /// About `cells` cells fill the bounding box.
+    pub fn of_mesh(positions: &[DVec3], faces: &[[u32; 3]], cells: f64) -> Self {
+        let frame = Frame::of_points(positions, cells);
         let [nx, ny, nz] = frame.count;
         let mut votes = vec![0i32; nx * ny * nz];
         for axis in 0..3 {
@@ -93,10 +93,10 @@ impl Solid {
             .sum()
     }
 
-    /// The cells whose centre is in a hull.
-    pub fn runs(&self, hull: &RoughHull) -> Vec<Run> {
+    /// The cells whose centre is in a convex polyhedron, given by its triangles.
+    pub fn runs(&self, triangles: impl Iterator<Item = [DVec3; 3]>) -> Vec<Run> {
         let mut crossings: Vec<Crossing> = Vec::new();
-        for t in hull.triangles() {
+        for t in triangles {
             self.frame.cross(t, 2, &mut |c| crossings.push(c));
         }
         crossings.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
@@ -113,12 +113,12 @@ impl Solid {
 }
 
 impl Frame {
-    fn of_points(positions: &[DVec3]) -> Self {
+    fn of_points(positions: &[DVec3], cells: f64) -> Self {
         let (lo, hi) = positions
             .iter()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)));
         let side = (hi - lo).max(DVec3::splat((hi - lo).max_element() * LEAST_SIDE));
-        let cell = (side.x * side.y * side.z / CELLS).cbrt();
+        let cell = (side.x * side.y * side.z / cells).cbrt();
         let count = (side / cell).ceil().to_array().map(|n| (n as usize).max(1));
         // Centred, so that cell borders do not coincide with flat sides of the box.
         let size = DVec3::from_array(count.map(|n| n as f64)) * cell;
