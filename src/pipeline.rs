@@ -8,7 +8,7 @@ use crate::progress::{Cancelled, Progress};
 use crate::segment::{self, Edit, EditError, Parts, SegmentError, SegmentId, SegmentOptions, Segmentation};
 use crate::sheet::{Layout, LayoutError, SheetOptions};
 use crate::units::Paper;
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the user chose.
@@ -341,14 +341,30 @@ fn parts(hulls: Vec<Hull>, names: &[String], options: &Options) -> Result<Vec<Pa
 
 fn contacts(mesh: &Mesh, segmentation: &Segmentation, part_of_segment: &[Option<usize>]) -> Vec<Contact> {
     let part = |s: SegmentId| part_of_segment[s.0 as usize];
-    segmentation
-        .borders(mesh)
-        .into_iter()
-        .filter_map(|((a, b), interface)| {
-            let points = interface.vertices().iter().map(|&v| mesh.positions()[v as usize]).collect();
-            Some(Contact { parts: (part(a)?, part(b)?), points, length_mm: interface.length() })
+    let borders = segmentation.borders(mesh);
+    let near = segment::near_contacts(mesh, segmentation);
+    let touching = near.into_iter().filter(|(pair, _)| !borders.contains_key(pair)).map(|(pair, points)| {
+        let length_mm = rim_mm(&points);
+        (pair, points, length_mm)
+    });
+    let bordering = borders.iter().map(|(&pair, interface)| {
+        let points = interface.vertices().iter().map(|&v| mesh.positions()[v as usize]).collect();
+        (pair, points, interface.length())
+    });
+    bordering
+        .chain(touching)
+        .filter_map(|((a, b), points, length_mm)| {
+            Some(Contact { parts: (part(a)?, part(b)?), points, length_mm })
         })
         .collect()
+}
+
+/// Length of the circle whose points are as far from their centre as these, on the whole.
+fn rim_mm(points: &[DVec3]) -> f64 {
+    let n = points.len().max(1) as f64;
+    let centre = points.iter().sum::<DVec3>() / n;
+    let square = points.iter().map(|p| p.distance_squared(centre)).sum::<f64>() / n;
+    std::f64::consts::TAU * square.sqrt()
 }
 
 /// Joint panels that carry less than this of their child are worth a warning.

@@ -7,10 +7,12 @@
 mod bodies;
 mod choose;
 mod coarsen;
+mod contact;
 mod cut;
 mod edit;
 mod gmm;
 mod grid;
+mod hollow;
 mod interface;
 mod maxflow;
 mod merge;
@@ -28,6 +30,7 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
+pub use contact::near_contacts;
 pub use edit::{Edit, EditError};
 pub use interface::Interface;
 pub use overlap::{Overlap, overlap};

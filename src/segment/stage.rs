@@ -67,7 +67,7 @@ pub fn segment(
             let patches = bodies::join_crumbs(&coarse, patches, &gaps);
             progress.stage("parts");
             let ground = Ground { positions, faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
-            let solid = Solid::of_mesh(positions, &faces, grid::CELLS);
+            let solid = Solid::filled(positions, &faces, grid::CELLS);
             let tree = ground.merge(&solid, patches, &gaps, progress)?;
             let part_cost = PART_COST / DETAIL_RANGE.powf(options.detail);
             match options.parts {
