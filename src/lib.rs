@@ -21,6 +21,7 @@ pub mod mesh;
 pub mod model;
 pub mod net;
 pub mod paint;
+pub mod parts_report;
 pub mod pipeline;
 pub mod plotter;
 pub mod product;

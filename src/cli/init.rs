@@ -86,7 +86,7 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         mesh: &mesh_from(&path, &input.mesh_path)?,
         up: options.up,
         size_mm: options.size_mm,
-        parts: options.parts,
+        segmentation: options.segmentation,
         top_edges: options.top_edges,
         profile_vertices: options.profile_vertices,
         tolerance_mm: options.tolerance_mm,

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use tatamu::export::{FORMATS, Source};
 use tatamu::fold::Stack;
-use tatamu::mesh::Repairs;
+use tatamu::mesh::{Mesh, Repairs};
 use tatamu::pipeline::{self, Output, Warning};
 use tatamu::product::{self, Content, Product};
 use tatamu::report::Run;
@@ -134,7 +134,7 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
         }
     }
     if let Some(path) = &args.segments {
-        files.push((path.clone(), segments(&result, &input.repairs)));
+        files.push((path.clone(), segments(result.mesh(), result.face_parts(), &input.repairs)));
     }
     output::write(&files)?;
     if !args.quiet {
@@ -153,7 +153,7 @@ fn default_output(input: &Path) -> PathBuf {
 }
 
 /// What the repair found and did, as warnings.
-fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
+pub fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
     let bodies = repairs.components.saturating_sub(1);
     let counts = [
         (repairs.boundary_edges, "open_edges", "open edges", "thickness near them is a guess"),
@@ -178,7 +178,8 @@ fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
         .collect()
 }
 
-fn warn(warning: &Warning) {
+/// Shows a warning.
+pub fn warn(warning: &Warning) {
     terminal::complain("warning", &warning.message);
 }
 
@@ -202,9 +203,8 @@ fn warn_by_kind(warnings: &[Warning]) {
 }
 
 /// One component index a line for each face of the input file, -1 for a dropped one.
-fn segments(result: &Output, repairs: &Repairs) -> Vec<u8> {
-    let mesh = result.mesh();
-    let of_input = mesh.labels_of_input(result.face_parts(), repairs.input_faces);
+pub fn segments(mesh: &Mesh, part_of_face: &[Option<u32>], repairs: &Repairs) -> Vec<u8> {
+    let of_input = mesh.labels_of_input(part_of_face, repairs.input_faces);
     let line = |label: Option<u32>| match label {
         Some(label) => format!("{label}\n"),
         None => "-1\n".to_owned(),

@@ -11,6 +11,8 @@ mod net_args;
 mod options;
 mod output;
 mod progress;
+mod segment;
+mod segment_args;
 mod sheet_args;
 mod show;
 mod terminal;
@@ -40,6 +42,7 @@ enum Command {
     Show(show::ShowArgs),
     Formats(formats::FormatsArgs),
     Check(check::CheckArgs),
+    Segment(segment::SegmentCommand),
 }
 
 const EXAMPLES: &str = "\
@@ -47,6 +50,7 @@ Examples:
   tatamu make teddy.obj                     teddy.pdf, 200 mm high or wide, on A4
   tatamu make teddy.obj --size 30cm --paper a3 -o teddy.pdf -o teddy.svg
   tatamu init teddy.obj                     teddy.toml, a project file to edit
+  tatamu segment teddy.obj -o parts.png     shows the parts without making a model
   tatamu make teddy.toml                    makes what the project file says
   tatamu make teddy.obj -o teddy.gif        an animation of its folding
   tatamu show teddy.obj -o half.png --pose 0.5
@@ -61,6 +65,7 @@ pub fn run() -> ExitCode {
         Command::Make(args) => make::run(args).map(|()| ExitCode::SUCCESS),
         Command::Init(args) => init::run(args).map(|()| ExitCode::SUCCESS),
         Command::Show(args) => show::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Segment(args) => segment::run(args).map(|()| ExitCode::SUCCESS),
         Command::Check(args) => check::run(args),
         Command::Formats(args) => {
             formats::run(args);

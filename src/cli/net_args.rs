@@ -5,7 +5,7 @@ use tatamu::net::NetChoices;
 use tatamu::project::{Nets, check_hidden_degrees};
 
 /// What is drawn on pieces, and whether large ones are split.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Pieces")]
 pub struct NetArgs {
     /// Refuses panels that are larger than the sheet, rather than split them

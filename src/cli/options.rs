@@ -4,6 +4,7 @@ use super::error::CliError;
 use super::input::Input;
 use super::net_args::NetArgs;
 use super::sheet_args::SheetArgs;
+use super::segment_args::SegmentArgs;
 use clap::Args;
 use tatamu::mesh::Up;
 use tatamu::pipeline::{ComponentOptions, Options};
@@ -11,7 +12,7 @@ use tatamu::project::{Defaults, check_count, check_degrees, check_parts, parse_t
 use tatamu::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};
 
 /// Options of the model.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, Default, Args)]
 pub struct ModelArgs {
     /// Axis of the mesh that points up: x, y or z [default: y]
     ///
@@ -25,12 +26,8 @@ pub struct ModelArgs {
     #[arg(long, value_name = "LENGTH", value_parser = parse_length_mm)]
     size: Option<f64>,
 
-    /// Number of components to aim at [default: the shape decides]
-    ///
-    /// The mesh is cut where it narrows. A small number gives a rough and quick model.
-    /// Example: --parts 6
-    #[arg(long, value_name = "N", value_parser = parts)]
-    parts: Option<usize>,
+    #[command(flatten)]
+    segmentation: SegmentArgs,
 
     /// Direction in which a component folds, in degrees [default: searched for]
     ///
@@ -102,7 +99,8 @@ pub struct ModelArgs {
 const MOST_EDGES: usize = 12;
 const MOST_VERTICES: usize = 10;
 
-fn number(text: &str) -> Result<u64, String> {
+/// Reads a whole number.
+pub fn number(text: &str) -> Result<u64, String> {
     let message = |_| "this must be a whole number such as 6".to_owned();
     text.trim().parse().map_err(message)
 }
@@ -111,7 +109,8 @@ fn count(text: &str) -> Result<usize, String> {
     number(text).and_then(check_count)
 }
 
-fn parts(text: &str) -> Result<usize, String> {
+/// Reads a number of components.
+pub fn parts(text: &str) -> Result<usize, String> {
     number(text).and_then(check_parts)
 }
 
@@ -126,6 +125,11 @@ fn direction(text: &str) -> Result<(String, f64), String> {
 }
 
 impl ModelArgs {
+    /// Those of a command that only divides the mesh.
+    pub fn of_segmentation(up: Option<Up>, segmentation: SegmentArgs) -> Self {
+        Self { up, segmentation, ..Self::default() }
+    }
+
     /// The options for an input.
     pub fn merge(&self, input: &Input) -> Result<Options, CliError> {
         let mut options = Options::default();
@@ -139,7 +143,7 @@ impl ModelArgs {
         self.nets.merge(input.project.as_ref().map(|p| &p.nets), &mut options.nets);
         self.sheets.merge(input.project.as_ref().map(|p| &p.sheets), &mut options.sheets);
         options.up = self.up.unwrap_or(options.up);
-        options.parts = self.parts.or(options.parts);
+        options.segmentation = self.segmentation.merge(input.project.as_ref())?;
         options.tolerance_mm = self.tolerance.or(options.tolerance_mm);
         if options.tolerance_mm.is_some() {
             let defaults = input.project.as_ref().map(|project| &project.defaults);
@@ -186,7 +190,8 @@ impl ModelArgs {
         set(&mut options.thickness_mm, project.paper.thickness_mm);
         options.tolerance_mm = defaults.tolerance_mm;
         options.up = project.up.unwrap_or(options.up);
-        options.parts = project.segmentation.parts;
+        options.edits = project.edits.iter().map(|edit| edit.change().clone()).collect();
+        options.root = project.segmentation.root.clone();
         options.top_edges = defaults.top_edges.unwrap_or(options.top_edges);
         let vertices = defaults.profile_vertices;
         options.profile_vertices = vertices.unwrap_or(options.profile_vertices);

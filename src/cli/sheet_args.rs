@@ -8,7 +8,7 @@ use tatamu::sheet::{Calibration, Registration, SheetChoices};
 use tatamu::units::parse_length_or_zero_mm;
 
 /// How sheets are filled and printed.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Sheets")]
 pub struct SheetArgs {
     /// Printed side of the paper: outside or inside [default: outside]

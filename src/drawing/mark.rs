@@ -169,6 +169,11 @@ impl Mark {
                 text.angle_rad = -text.angle_rad;
                 text.anchor += middle - text.middle();
             }
+            Shape::Image(image) => {
+                let flip = DAffine2::from_cols(-DVec2::X, DVec2::Y, DVec2::X * (2.0 * x_mm));
+                image.place = flip * image.place;
+                image.clip.points.iter_mut().for_each(|p| *p = mirror(*p));
+            }
         }
         self
     }
@@ -196,6 +201,11 @@ impl Mark {
                 contours.iter_mut().flat_map(|c| &mut c.points).for_each(|p| *p = moved(*p));
             }
             Shape::Text(text) => text.anchor += moved(text.middle()) - text.middle(),
+            Shape::Image(image) => {
+                let scale = DAffine2::from_scale_angle_translation(factor, 0.0, middle - middle * factor);
+                image.place = scale * image.place;
+                image.clip.points.iter_mut().for_each(|p| *p = moved(*p));
+            }
         }
     }
 

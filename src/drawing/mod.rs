@@ -147,7 +147,8 @@ pub struct Text {
 pub struct Image {
     /// The pixels.
     pub raster: Arc<Raster>,
-    /// Rigid motion to the page, from mm along the raster's lower and left edge.
+    /// To the page, from mm along the raster's lower and left edge: a rigid motion, but for a mirror
+    /// and a printer's scale.
     pub place: DAffine2,
     /// Closed contour on the page; nothing is seen outside.
     pub clip: Polyline,

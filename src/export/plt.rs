@@ -33,8 +33,8 @@ fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, Expo
     let file = |(index, drawing)| {
         let plan = Plan::new(drawing, cutter, media);
         let plan = plan.map_err(|error| ExportError::writer(&FORMAT, format!("sheet {}: {error}", index + 1)))?;
-        let bytes = plan.bytes().to_vec();
-        Ok(if drawings.len() == 1 { ExportFile::single(bytes) } else { ExportFile::of_page(index, bytes) })
+        Ok(plan.bytes().to_vec())
     };
-    drawings.iter().enumerate().map(file).collect()
+    let files: Result<_, ExportError> = drawings.iter().enumerate().map(file).collect();
+    Ok(ExportFile::of_pages(files?))
 }

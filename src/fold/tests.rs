@@ -23,7 +23,7 @@ pub(super) fn components() -> impl Strategy<Value = Component> {
                 let offset_mm = hull.support(normal) * share;
                 hull = hull.clip(&Plane::through(normal * offset_mm, normal)?)?;
                 let seat = Seat::Side { angle_rad, slope_rad, offset_mm };
-                joints.push(JointTarget { seat, cover: vec![], within: vec![] });
+                joints.push(JointTarget { seat, cover: vec![], within: vec![], price: 0.15 });
             }
             let limits = (3.0, 4.5);
             convert(&Target {

@@ -2,6 +2,7 @@
 
 use super::LEAST_COUNT;
 use crate::mesh::Up;
+use crate::segment::{Method, SegmentOptions};
 use crate::net::{NetChoices, Side};
 use crate::sheet::fit::Rotation;
 use crate::sheet::{Registration, SheetChoices};
@@ -36,8 +37,8 @@ pub struct Template<'a> {
     pub nets: NetChoices,
     /// What else is chosen about sheets.
     pub sheets: SheetChoices,
-    /// Number of components to aim at, if it was chosen.
-    pub parts: Option<usize>,
+    /// How the mesh is divided.
+    pub segmentation: SegmentOptions,
     /// The components.
     pub components: &'a [TemplateComponent],
 }
@@ -57,6 +58,10 @@ pub struct TemplateComponent {
 pub fn to_toml(template: &Template) -> String {
     let quoted = |text: &str| toml::Value::from(text).to_string();
     let unless = |is_chosen: bool| if is_chosen { "" } else { "# " };
+    let (method, clusters, smoothing) = match template.segmentation.method {
+        Method::Merge => ("merge", Method::CLUSTERS, Method::SMOOTHING),
+        Method::Sdf { clusters, smoothing } => ("sdf", clusters, smoothing),
+    };
     let mut text = format!(
         r#"# A tatamu project. Change it and run "tatamu make" on this file.
 # Lengths are millimetres, or texts with a unit: "200mm", "20cm", "8in".
@@ -73,6 +78,25 @@ size = "{size}mm"
 [segmentation]
 # How many components to aim at; without this line the shape decides.
 {parts_comment}parts = {parts}
+# Where the shape decides: from 0, few components, to 1, many.
+{detail_comment}detail = {detail}
+# "merge", or "sdf": the method of the paper, with its classes of thickness and cost of borders.
+{method_comment}method = "{method}"
+{method_comment}clusters = {clusters}
+{method_comment}smoothing = {smoothing}
+# The component that all others hang on; without this line the biggest.
+# root = "body"
+
+# Changes by hand, made in their order; "tatamu segment" shows the names in a picture.
+# A merge keeps the first name. A split cuts along a plane, in the mesh file's coordinates; what is
+# on the side that the normal points to gets the name after front.
+# [[edit]]
+# merge = ["part-2", "part-3"]
+# [[edit]]
+# split = "body"
+# point = [0, 0, 0]
+# normal = [0, 1, 0]
+# front = "chest"
 
 [defaults]
 # Edges of each component's top panel, {LEAST_COUNT} or more: more follow the shape better, fewer fold faster.
@@ -109,8 +133,11 @@ thickness_mm = {thickness}
             Up::Z => "z",
         },
         size = template.size_mm,
-        parts_comment = unless(template.parts.is_some()),
-        parts = template.parts.unwrap_or(template.components.len().max(1)),
+        parts_comment = unless(template.segmentation.parts.is_some()),
+        parts = template.segmentation.parts.unwrap_or(template.components.len().max(1)),
+        detail_comment = unless(template.segmentation.detail != SegmentOptions::default().detail),
+        detail = template.segmentation.detail,
+        method_comment = unless(template.segmentation.method != Method::Merge),
         top_edges = template.top_edges,
         profile_vertices = template.profile_vertices,
         tolerance_comment = unless(template.tolerance_mm.is_some()),
@@ -213,7 +240,7 @@ mod tests {
             thickness_mm: 0.25,
             nets: NetChoices { angles: true, ..NetChoices::default() },
             sheets: SheetChoices { registration: Some(Registration::Silhouette), ..SheetChoices::default() },
-            parts: None,
+            segmentation: SegmentOptions { detail: 0.25, ..Default::default() },
             components: &components,
         };
         let text = to_toml(&template);
@@ -225,6 +252,8 @@ mod tests {
         assert_eq!((project.nets.split, project.nets.angles), (Some(true), Some(true)));
         assert_eq!(project.sheets.marks, Some(Some(Registration::Silhouette)));
         assert_eq!(project.sheets.calibrate, Some(template.sheets.calibration));
+        assert_eq!((project.segmentation.detail, project.segmentation.parts), (Some(0.25), None));
+        assert_eq!((project.segmentation.method, project.edits.len()), (None, 0));
         assert_eq!(project.components[1].name, "he\"ad");
         assert_eq!(project.components[0].direction_deg, None);
         assert_eq!(project.components[1].direction_deg, Some(12.3));
@@ -233,5 +262,10 @@ mod tests {
         assert_eq!(project.components[0].direction_deg, Some(12.3));
         assert_eq!(project.components[0].top_edges, Some(7));
         assert_eq!(project.segmentation.parts, Some(2));
+        // The edits in comments are in the right form.
+        let edits = text.split("\n").skip_while(|l| *l != "# [[edit]]").take(7);
+        let edits: Vec<&str> = edits.filter_map(|line| line.strip_prefix("# ")).collect();
+        let text = format!("mesh = 'a'\n{}", edits.join("\n"));
+        assert_eq!(Project::parse(&text).unwrap().edits.len(), 2);
     }
 }

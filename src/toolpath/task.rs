@@ -41,7 +41,7 @@ impl Operation {
             Layer::Mountain | Layer::Valley => Some(Self::Crease),
             Layer::FoldHinge => Some(Self::FoldHinge),
             Layer::Cut | Layer::Slit => Some(Self::Cut),
-            Layer::Furniture | Layer::Picture => None,
+            Layer::Furniture | Layer::Registration | Layer::Picture => None,
         }
     }
 }
@@ -140,7 +140,7 @@ pub fn tasks(drawing: &Drawing, wanted: &[Operation]) -> Vec<Task> {
             Shape::Path { contours, stroke: Some(_), .. } => {
                 out.extend(contours.iter().filter_map(|line| Task::new(operation, line)));
             }
-            Shape::Path { stroke: None, .. } => {}
+            Shape::Path { stroke: None, .. } | Shape::Image(_) => {}
             Shape::Text(text) => {
                 out.extend(strokes::polylines(text).iter().filter_map(|line| Task::new(operation, line)));
             }
