@@ -4,7 +4,7 @@ use crate::fold::{FoldPlan, ModelMotion};
 use crate::geom::Hull;
 use crate::mesh::{Mesh, Up};
 use crate::model::{self, Contact, Link, Model, ModelError, Part, PartOptions};
-use crate::net::{COMPACTNESSES, Net, NetChoices, NetOptions, NetsError, develop_model};
+use crate::net::{Net, NetChoices, NetOptions, NetsError, develop_model};
 use crate::progress::{Cancelled, Progress};
 use crate::segment::{self, Edit, EditError, Parts, SegmentError, SegmentId, SegmentOptions, Segmentation};
 use crate::sheet::{Layout, LayoutError, SheetChoices, SheetOptions};
@@ -243,9 +243,14 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     let fold_plan = FoldPlan::new(&ModelMotion::new(&model), options.thickness_mm, progress)?;
 
     progress.stage("nets");
-    let sheets =
-        SheetOptions { paper: options.paper, margin_mm: options.margin_mm, choices: options.sheets };
-    let (nets, layout) = sheets_of(&model, options, &sheets, progress)?;
+    let sheets = SheetOptions { paper: options.paper, margin_mm: options.margin_mm, choices: options.sheets };
+    let net_options =
+        NetOptions { tab_width_mm: options.tab_width_mm, sheet_mm: sheets.room_mm(), choices: options.nets };
+    let nets = develop_model(&model, &net_options, progress)
+        .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
+
+    progress.stage("sheets");
+    let layout = Layout::new(&nets, &sheets, progress)?;
 
     let face_part: Vec<Option<u32>> = segmentation
         .face_segments()
@@ -323,38 +328,6 @@ impl Bodies {
     pub fn links(&self) -> &[Link] {
         &self.links
     }
-}
-
-/// Nets and their layout on sheets: of nets made in several ways, those that need the fewest
-/// sheets.
-fn sheets_of(
-    model: &Model,
-    options: &Options,
-    sheets: &SheetOptions,
-    progress: &dyn Progress,
-) -> Result<(Vec<Net>, Layout), Error> {
-    let mut best: Option<(Vec<Net>, Layout)> = None;
-    for compactness in COMPACTNESSES {
-        let net_options = NetOptions {
-            tab_width_mm: options.tab_width_mm,
-            sheet_mm: sheets.room_mm(),
-            choices: options.nets,
-            compactness,
-        };
-        progress.stage("nets");
-        let nets = develop_model(model, &net_options, progress)
-            .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
-        progress.stage("sheets");
-        let most = best.as_ref().map(|b| b.1.sheet_count());
-        let layout = Layout::new(&nets, sheets, progress)?;
-        if most.is_none_or(|most| layout.sheet_count() < most) {
-            best = Some((nets, layout));
-        }
-        if best.as_ref().is_some_and(|b| b.1.is_least()) {
-            break;
-        }
-    }
-    best.ok_or(Error::NothingSolid)
 }
 
 /// Hulls of the segments that have one.

@@ -10,9 +10,7 @@ use tatamu::component::{PanelId, PanelSet};
 use tatamu::drawing::{Layer, Polyline, Rgb, Shape, Stroke};
 use tatamu::export::fold::{self, FoldComponent, FoldModel};
 use tatamu::geom::polygon;
-use tatamu::net::{
-    EdgeKind, JointMark, Naming, Net, NetError, NetOptions, Side, check::faults, develop,
-};
+use tatamu::net::{EdgeKind, JointMark, Naming, Net, NetError, NetOptions, Side, check::faults, develop};
 use tatamu::sheet::PiecePlace;
 
 const A4: DVec2 = DVec2::new(190.0, 277.0);

@@ -60,14 +60,7 @@ pub struct NetOptions {
     pub sheet_mm: DVec2,
     /// What else is chosen.
     pub choices: NetChoices,
-    /// Weight of a piece's bounding box (over its panels' area) against the cost of one cut: with
-    /// 1, a box larger by the area of all panels is worth two cuts between top and bottom.
-    pub compactness: f64,
 }
-
-/// The values of [`NetOptions::compactness`] that are worth trying: pieces that lie well on a
-/// sheet of their own, and pieces that many of go on one sheet.
-pub const COMPACTNESSES: [f64; 2] = [3.0, 15.0];
 
 /// What the user may choose about nets.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -92,7 +85,7 @@ impl Default for NetChoices {
 impl NetOptions {
     /// The standard choices.
     pub fn new(tab_width_mm: f64, sheet_mm: DVec2) -> Self {
-        Self { tab_width_mm, sheet_mm, choices: NetChoices::default(), compactness: COMPACTNESSES[0] }
+        Self { tab_width_mm, sheet_mm, choices: NetChoices::default() }
     }
 }
 
@@ -123,7 +116,8 @@ pub fn develop(
         let draft = draft_of_chains(set, &chains, options);
         return Ok(finish(Split { set: set.clone(), source }, draft, naming, joints, options));
     };
-    let split = if options.choices.may_split { split(set, options.sheet_mm, options.tab_width_mm) } else { None };
+    let split =
+        if options.choices.may_split { split(set, options.sheet_mm, options.tab_width_mm) } else { None };
     let split = split.ok_or(error)?;
     let shapes = tabs::shapes(&split.set, options.tab_width_mm);
     let cut_cost = cut_costs(&split.set, &shapes, options.tab_width_mm);
@@ -141,7 +135,6 @@ fn draft_of_chains(set: &PanelSet, chains: &Chains, options: &NetOptions) -> Dra
         sheet_mm: options.sheet_mm,
         cut_cost: &cut_cost,
         may_cut_folds,
-        compactness: options.compactness,
     };
     [false, true]
         .into_iter()

@@ -19,7 +19,8 @@ pub(crate) fn divide(problem: &Problem<'_>, mut is_cut: Vec<bool>) -> Vec<bool> 
             trial[hinge.0] = true;
             let halves = layout::pieces(problem.set, &trial);
             let halves = halves.iter().filter(|l| l.panels.iter().any(|p| ids.contains(&p.0)));
-            1e3 * halves.map(|l| badness(problem.set, problem.sheet_mm, l)).sum::<f64>() + problem.cut_cost[hinge.0]
+            1e3 * halves.map(|l| badness(problem.set, problem.sheet_mm, l)).sum::<f64>()
+                + problem.cut_cost[hinge.0]
         };
         let costs: Vec<(f64, HingeId)> = bad.creases.iter().map(|&h| (cost_of(h), h)).collect();
         let Some((_, hinge)) = costs.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)) else {

@@ -5,7 +5,7 @@
 //! two, and the panel on its other side gets a corner between them.
 
 use super::layout::best_turn;
-use crate::component::{Hinge, HingeId, HingeSide, PanelId, PanelSet, Panel};
+use crate::component::{Hinge, HingeId, HingeSide, Panel, PanelId, PanelSet};
 use crate::geom::polygon;
 use glam::DVec2;
 
@@ -224,7 +224,8 @@ mod tests {
             assert!((a[0].distance(a[1]) - b[0].distance(b[1])).abs() < 1e-9);
         }
         let folds = split.set.hinges().iter().filter(|h| h.is_fold).map(|h| h.sides[0]);
-        let length: f64 = folds.map(|s| split.set.panel(s.panel).edge(s.edge)).map(|[a, b]| a.distance(b)).sum();
+        let length: f64 =
+            folds.map(|s| split.set.panel(s.panel).edge(s.edge)).map(|[a, b]| a.distance(b)).sum();
         assert!((length - 300.0).abs() < 1e-9);
     }
 

@@ -74,7 +74,8 @@ impl Furniture<'_> {
         let at = |x: f64, y: f64| DVec2::splat(self.margin_mm) + DVec2::new(x - SIDE_BAR_MM, y);
         let line = |from, to| Mark::line(Layer::Furniture, from, to, styles.stroke(Layer::Furniture));
         let ticks = [0.0, bar_mm].map(|y| line(at(0.0, y), at(TICKS_MM[2], y)));
-        let text = Text::new(format!("{bar_mm}"), at(0.0, bar_mm + TICK_GAP_MM), CAP_MM);
+        let end = at(TICKS_MM[2], bar_mm + TICK_GAP_MM);
+        let text = Text::new(format!("{bar_mm}"), end, CAP_MM).aligned(Align::End);
         let text = Mark::text(Layer::Furniture, text.coloured(styles.colour(Layer::Furniture)));
         [line(at(0.0, 0.0), at(0.0, bar_mm)), text].into_iter().chain(ticks).collect()
     }

@@ -85,11 +85,6 @@ impl Layout {
         self.sheets
     }
 
-    /// Whether the area of the pieces allows no fewer sheets.
-    pub fn is_least(&self) -> bool {
-        self.utilisation * self.sheets as f64 > self.sheets as f64 - 1.0
-    }
-
     /// What the sheets are like.
     pub fn options(&self) -> &SheetOptions {
         &self.options

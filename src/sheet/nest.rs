@@ -86,7 +86,13 @@ pub const DEFAULT_SPACING_MM: f64 = 2.0;
 impl NestOptions {
     /// Free rotation, 2 mm apart, default effort.
     pub fn new(width_mm: f64, height_mm: f64) -> Self {
-        Self { width_mm, height_mm, spacing_mm: DEFAULT_SPACING_MM, rotation: Rotation::Free, effort: DEFAULT_EFFORT }
+        Self {
+            width_mm,
+            height_mm,
+            spacing_mm: DEFAULT_SPACING_MM,
+            rotation: Rotation::Free,
+            effort: DEFAULT_EFFORT,
+        }
     }
 
     fn check(&self) -> Result<(), NestError> {

@@ -36,7 +36,12 @@ impl Layout {
             let room_mm = options.border_mm() - LOST_LINE_MM;
             if lines.len() as f64 * LOST_LINE_MM <= room_mm {
                 let top_mm = LOST_LINE_MM * (lines.len() as f64 + 0.4);
-                page.marks.extend(list(&lines, options, styles, options.size_mm().y - options.border_mm() + top_mm));
+                page.marks.extend(list(
+                    &lines,
+                    options,
+                    styles,
+                    options.size_mm().y - options.border_mm() + top_mm,
+                ));
             } else {
                 rest.push(format!("sheet {}", k + 1));
                 rest.extend(lines);
@@ -56,7 +61,8 @@ impl Layout {
             };
             page.marks.extend(furniture.marks(styles));
             page.marks.extend(furniture.side_bar(styles));
-            page.marks.extend(options.choices.registration.iter().flat_map(|r| r.marks(page.size_mm, styles)));
+            page.marks
+                .extend(options.choices.registration.iter().flat_map(|r| r.marks(page.size_mm, styles)));
         }
         pages
     }
