@@ -2,7 +2,7 @@
 
 use crate::geom::Hull;
 use crate::mesh::{Mesh, Up};
-use crate::model::{self, Contact, Model, ModelError, Part, PartOptions};
+use crate::model::{self, Contact, Link, Model, ModelError, Part, PartOptions};
 use crate::net::{Net, NetOptions, NetsError, develop_model};
 use crate::progress::{Cancelled, Progress};
 use crate::segment::{self, Edit, EditError, Parts, SegmentError, SegmentId, SegmentOptions, Segmentation};
@@ -209,17 +209,9 @@ impl Output {
 /// # Errors
 /// See [`Error`].
 pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
-    let (divided, to_model) = divide(mesh, options, progress)?;
-    let (mesh, segmentation) = (divided.mesh(), divided.segmentation());
-
-    progress.stage("hulls");
-    let solid = hulls(&divided);
-    let names = solid.names(divided.names());
-    let parts = parts(solid.hulls, &names, options)?;
-    let contacts = contacts(mesh, segmentation, &solid.part_of_segment);
-    let hulls: Vec<&Hull> = parts.iter().map(|p| &p.hull).collect();
-    let links = model::link_tree(&hulls, &contacts);
-    progress.check()?;
+    let (found, to_model) = find_parts(mesh, options, progress)?;
+    let (mesh, segmentation) = (found.mesh(), found.segmentation());
+    let Bodies { solid, parts, links } = divide(&found, options, progress)?;
 
     progress.stage("components");
     let model = model::build(&parts, &links, options.min_panel_width_mm, progress)?;
@@ -254,12 +246,16 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     })
 }
 
-/// Divides a mesh at the model's size into parts; also gives the transform from the coordinates of
-/// the mesh as it was read.
+/// Finds the parts of a mesh at the model's size, and makes the changes by hand; also gives the
+/// transform from the coordinates of the mesh as it was read.
 ///
 /// # Errors
 /// [`Error::Segment`], [`Error::Edit`], [`Error::Cancelled`].
-pub fn divide(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<(Parts, DAffine3), Error> {
+pub fn find_parts(
+    mesh: &Mesh,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<(Parts, DAffine3), Error> {
     let (mesh, to_model) = mesh.scaled(options.size_mm, options.up);
     let segmentation = segment::segment(&mesh, &options.segmentation, progress)?;
     let mut parts = Parts::new(mesh, segmentation);
@@ -272,7 +268,44 @@ pub fn divide(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result
     Ok((parts, to_model))
 }
 
+/// A mesh divided into parts, with the joints between them: what the components are made from.
+#[derive(Debug, Clone)]
+pub struct Bodies {
+    solid: Solid,
+    parts: Vec<Part>,
+    links: Vec<Link>,
+}
+
+impl Bodies {
+    /// The parts; a component is made of each.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The tree of joints between them.
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+}
+
+/// The hulls of parts, and the joints between them.
+///
+/// # Errors
+/// See [`Error`].
+pub fn divide(found: &Parts, options: &Options, progress: &dyn Progress) -> Result<Bodies, Error> {
+    progress.stage("hulls");
+    let mut solid = hulls(found);
+    let names = solid.names(found.names());
+    let parts = parts(std::mem::take(&mut solid.hulls), &names, options)?;
+    let contacts = contacts(found.mesh(), found.segmentation(), &solid.part_of_segment);
+    let hulls: Vec<&Hull> = parts.iter().map(|p| &p.hull).collect();
+    let links = model::link_tree(&hulls, &contacts);
+    progress.check()?;
+    Ok(Bodies { solid, parts, links })
+}
+
 /// Hulls of the segments that have one.
+#[derive(Debug, Clone)]
 struct Solid {
     hulls: Vec<Hull>,
     part_of_segment: Vec<Option<usize>>,

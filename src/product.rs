@@ -1,37 +1,73 @@
-//! A finished run as documents: pages, FOLD and report, ready for every format.
+//! A finished run, from which every format takes what it needs when it is asked for.
 
-use crate::drawing::LineStyles;
-use crate::export::fold::{self, FoldComponent, FoldModel};
-use crate::export::{ExportError, ExportInput};
+use crate::drawing::{Chapter, LineStyles, Pages, PagesError};
+use crate::model::ModelPart;
+use crate::net::Net;
 use crate::pipeline::Output;
-use crate::report::{self, Run};
-use glam::DVec2;
+use crate::report::Run;
+use std::cell::OnceCell;
 
-/// Distance between sheets in the crease pattern, mm.
-const SHEET_GAP_MM: f64 = 20.0;
-
-/// Why a run cannot be turned into documents.
-#[derive(Debug, thiserror::Error)]
-pub enum ProductError {
-    /// A drawing is not fit to be exported.
-    #[error(transparent)]
-    Export(#[from] ExportError),
-    /// JSON could not be written.
-    #[error("a document could not be written as JSON: {0}")]
-    Json(#[from] serde_json::Error),
+/// A finished run with its title and the look of its sheets. The sheets are drawn when a format
+/// first asks for them.
+#[derive(Debug)]
+pub struct Product<'a> {
+    output: &'a Output,
+    title: &'a str,
+    run: Run<'a>,
+    styles: LineStyles,
+    pages: OnceCell<Result<Pages, PagesError>>,
 }
 
-/// All that the formats may write of a run.
-///
-/// # Errors
-/// See [`ProductError`]; no run is known that brings one about.
-pub fn export_input(output: &Output, title: &str, run: &Run<'_>) -> Result<ExportInput, ProductError> {
-    let styles = LineStyles::standard();
-    let note = size_note(output);
-    let pages = output.layout().pages(output.nets(), title, &note, &styles);
-    Ok(ExportInput::new(title, pages)?
-        .with_document("fold", fold_master(output, title)?)
-        .with_document("json", report::to_json(output, run)?))
+impl<'a> Product<'a> {
+    /// A run with the standard line styles.
+    pub fn new(output: &'a Output, title: &'a str, run: Run<'a>) -> Self {
+        Self { output, title, run, styles: LineStyles::standard(), pages: OnceCell::new() }
+    }
+
+    /// The same with another look.
+    #[must_use]
+    pub fn with_styles(self, styles: LineStyles) -> Self {
+        Self { styles, pages: OnceCell::new(), ..self }
+    }
+
+    /// The results of all stages.
+    pub fn output(&self) -> &'a Output {
+        self.output
+    }
+
+    /// The model's title.
+    pub fn title(&self) -> &'a str {
+        self.title
+    }
+
+    /// What the caller knows about the run.
+    pub fn run(&self) -> &Run<'a> {
+        &self.run
+    }
+
+    /// The sheets as drawings.
+    ///
+    /// # Errors
+    /// See [`PagesError`]; no run is known that brings one about.
+    pub fn pages(&self) -> Result<&Pages, PagesError> {
+        let draw = || {
+            let note = size_note(self.output);
+            let layout = self.output.layout();
+            let drawings = layout.pages(self.output.nets(), self.title, &note, &self.styles);
+            let pages = Pages::new(self.title, drawings, self.styles.clone())?;
+            Ok(pages.with_chapters(chapters(self.output)))
+        };
+        self.pages.get_or_init(draw).as_ref().map_err(Clone::clone)
+    }
+}
+
+fn chapters(output: &Output) -> Vec<Chapter> {
+    let parts = output.model().parts().iter().zip(output.nets());
+    let chapter = |(part, net): (&ModelPart, &Net)| Chapter {
+        name: part.name.clone(),
+        pieces: net.pieces().iter().map(|piece| piece.name().to_owned()).collect(),
+    };
+    parts.map(chapter).collect()
 }
 
 /// Width, depth and height of the model in words.
@@ -39,30 +75,4 @@ pub fn size_note(output: &Output) -> String {
     let (low, high) = output.mesh().bounds();
     let size = high - low;
     format!("{:.0} × {:.0} × {:.0} mm", size.x, size.y, size.z)
-}
-
-/// The FOLD master: crease pattern with the sheets side by side, deployed and flat model.
-///
-/// # Errors
-/// Only what `serde_json` reports.
-pub fn fold_master(output: &Output, title: &str) -> Result<Vec<u8>, serde_json::Error> {
-    let layout = output.layout();
-    let parts = output.model().parts();
-    let components: Vec<FoldComponent> = parts
-        .iter()
-        .zip(output.nets())
-        .enumerate()
-        .map(|(n, (part, net))| FoldComponent {
-            name: &part.name,
-            set: part.component.panels(),
-            net,
-            pieces: layout.places(n),
-            deployed: part.deployed(),
-            flat: part.flat,
-        })
-        .collect();
-    let step_mm = layout.options().paper.width_mm() + SHEET_GAP_MM;
-    let sheet_offsets: Vec<DVec2> =
-        (0..layout.sheet_count()).map(|k| DVec2::X * (step_mm * k as f64)).collect();
-    fold::write(&FoldModel { title, components: &components, sheet_offsets: &sheet_offsets })
 }

@@ -1,10 +1,12 @@
 //! The report: what was made, in numbers, as JSON.
 
 use crate::component::PanelId;
+use crate::geom::polygon;
 use crate::mesh::Repairs;
 use crate::model::ModelPart;
-use crate::net::Net;
+use crate::net::{Net, Piece};
 use crate::pipeline::{Output, Warning};
+use glam::DAffine2;
 use serde::Serialize;
 
 /// Version of the report's structure.
@@ -107,6 +109,16 @@ struct Sheets {
     count: usize,
     paper: String,
     utilisation: f64,
+    pages: Vec<Page>,
+}
+
+/// What is cut and folded on one sheet.
+#[derive(Serialize)]
+struct Page {
+    cut_mm: f64,
+    crease_mm: f64,
+    /// Least x and y, largest x and y of all outlines, from the sheet's lower left corner.
+    bounds_mm: [f64; 4],
 }
 
 #[derive(Serialize)]
@@ -142,6 +154,7 @@ pub fn to_json(output: &Output, run: &Run<'_>) -> Result<Vec<u8>, serde_json::Er
             count: output.layout().sheet_count(),
             paper: output.options().paper.name(),
             utilisation: output.layout().utilisation(),
+            pages: (0..output.layout().sheet_count()).map(|sheet| page(output, sheet)).collect(),
         },
         warnings: run
             .warnings
@@ -199,6 +212,25 @@ fn component<'a>(output: &'a Output, p: usize, part: &'a ModelPart, diagonal_mm:
             support_ratio: j.support_ratio,
         }),
         placement: glam::DMat4::from(part.placement).to_cols_array(),
+    }
+}
+
+fn page(output: &Output, sheet: usize) -> Page {
+    let layout = output.layout();
+    let nets = output.nets().iter().enumerate();
+    let pieces: Vec<(&Piece, DAffine2)> = nets
+        .flat_map(|(n, net)| net.pieces().iter().zip(layout.places(n)))
+        .filter(|(_, at)| at.sheet == sheet)
+        .map(|(piece, at)| (piece, at.place))
+        .collect();
+    let corners = pieces
+        .iter()
+        .flat_map(|(piece, place)| piece.outline().iter().map(|&corner| place.transform_point2(corner)));
+    let (low, high) = polygon::bounds(corners).unwrap_or_default();
+    Page {
+        cut_mm: pieces.iter().map(|(piece, _)| piece.cut_mm()).sum(),
+        crease_mm: pieces.iter().map(|(piece, _)| piece.crease_mm()).sum(),
+        bounds_mm: [low.x, low.y, high.x, high.y],
     }
 }
 

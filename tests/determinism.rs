@@ -1,16 +1,15 @@
 //! The same mesh gives the same bytes, in every run and on any number of threads.
 
-use tatamu::export::format_of;
+use tatamu::export::{FORMATS, FormatOptions};
 use tatamu::mesh::{self, Mesh};
 use tatamu::pipeline::{self, Options};
-use tatamu::product;
+use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::report::Run;
 use tatamu::segment::SegmentOptions;
 
 /// A sample with a joint, made with few edges so that it is quick.
 const SAMPLE: &[u8] = include_bytes!("../samples/bottle.obj");
-const FORMATS: [&str; 5] = ["pdf", "svg", "dxf", "fold", "json"];
 
 /// Every file of every format, made on so many threads.
 fn files(threads: usize) -> Vec<(&'static str, Vec<u8>)> {
@@ -26,10 +25,10 @@ fn files(threads: usize) -> Vec<(&'static str, Vec<u8>)> {
         let output = pipeline::run(&mesh, &options, &Silent).expect("a model");
         assert_eq!(output.model().parts().len(), 2);
         let run = Run { path: "bottle.obj", repairs: &repairs, stages: &[], warnings: &[] };
-        let documents = product::export_input(&output, "bottle", &run).expect("documents");
-        let written = FORMATS.into_iter().flat_map(|name| {
-            let files = format_of(name).expect("registered").write(&documents).expect("files");
-            files.into_iter().map(move |file| (name, file.bytes))
+        let product = Product::new(&output, "bottle", run);
+        let written = FORMATS.iter().flat_map(|format| {
+            let files = format.write(&product, &FormatOptions::default()).expect("files");
+            files.into_iter().map(|file| (format.name, file.bytes))
         });
         written.collect()
     })

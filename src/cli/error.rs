@@ -1,10 +1,10 @@
 //! What the user is told when nothing comes of it.
 
 use std::path::PathBuf;
+use tatamu::drawing::StyleError;
 use tatamu::export::ExportError;
 use tatamu::mesh::{MeshError, ReadError};
 use tatamu::pipeline;
-use tatamu::product::ProductError;
 use tatamu::progress::{Cancelled, Progress};
 use tatamu::project::ProjectError;
 
@@ -23,6 +23,9 @@ pub enum CliError {
     /// The project file is wrong.
     #[error("project file {path}: {error}")]
     Project { path: PathBuf, error: ProjectError },
+    /// A style file is wrong.
+    #[error("style file {path}: {error}")]
+    Style { path: PathBuf, error: StyleError },
     /// The mesh that a project file names cannot be read.
     #[error("cannot read {path}, the mesh of project file {project}: {reason}")]
     ProjectMesh { path: PathBuf, project: PathBuf, reason: String },
@@ -43,13 +46,7 @@ pub enum CliError {
     Pipeline(pipeline::Error),
     /// A document cannot be made.
     #[error(transparent)]
-    Product(#[from] ProductError),
-}
-
-impl From<ExportError> for CliError {
-    fn from(error: ExportError) -> Self {
-        Self::Product(error.into())
-    }
+    Export(#[from] ExportError),
 }
 
 impl CliError {

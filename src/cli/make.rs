@@ -1,16 +1,17 @@
 //! `tatamu make`
 
 use super::error::CliError;
+use super::formats::{self, FileArgs};
 use super::options::ModelArgs;
 use super::progress::TerminalProgress;
 use super::{input, output, terminal};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use tatamu::export::{FORMATS, Format};
+use tatamu::export::FORMATS;
 use tatamu::mesh::{Mesh, Repairs};
 use tatamu::pipeline::{self, Output, Warning};
-use tatamu::product;
+use tatamu::product::{self, Product};
 use tatamu::report::Run;
 
 /// Makes a model of a mesh, or of a project file.
@@ -45,6 +46,9 @@ pub struct MakeArgs {
     #[arg(long, value_name = "FILE")]
     segments: Option<PathBuf>,
 
+    #[command(flatten)]
+    files: FileArgs,
+
     /// No summary and no progress bar; warnings and errors only
     #[arg(short, long)]
     quiet: bool,
@@ -61,12 +65,7 @@ Examples:
   tatamu make teddy.toml --direction head=90";
 
 fn after_help() -> String {
-    let line = |format: &Format| {
-        let extensions = format.extensions.join(", .");
-        format!("  .{extensions:<8} {}\n", format.description)
-    };
-    let lines: String = FORMATS.iter().map(line).collect();
-    format!("Formats of -o, by extension:\n{lines}\n{EXAMPLES}")
+    format!("{}\n{EXAMPLES}", formats::list())
 }
 
 /// Runs the command.
@@ -80,6 +79,7 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     let places: Vec<PathBuf> = paths.iter().chain(&args.segments).cloned().collect();
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
     let options = args.model.merge(&input)?;
+    let choice = args.files.merge(input.project.as_ref().map(|p| &p.export), &args.input)?;
     let warnings = repair_warnings(&input.repairs);
     warnings.iter().for_each(warn);
 
@@ -97,10 +97,10 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
         warnings: &warnings,
     };
     let title = terminal::printable(&stem.to_string_lossy());
-    let documents = product::export_input(&result, &title, &run)?;
+    let product = Product::new(&result, &title, run).with_styles(choice.styles);
     let mut files = Vec::new();
     for target in targets {
-        for file in target.format.write(&documents)? {
+        for file in target.format.write(&product, &choice.formats)? {
             files.push((output::with_suffix(&target.path, &file.suffix), file.bytes));
         }
     }

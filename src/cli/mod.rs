@@ -1,6 +1,7 @@
 //! The command line: parse, run, report, exit code. One file per subcommand.
 
 mod error;
+mod formats;
 mod init;
 mod input;
 mod make;
@@ -34,6 +35,7 @@ enum Command {
     Make(make::MakeArgs),
     Init(init::InitArgs),
     Segment(segment::SegmentCommand),
+    Formats(formats::FormatsArgs),
 }
 
 const EXAMPLES: &str = "\
@@ -53,6 +55,10 @@ pub fn run() -> ExitCode {
         Command::Make(args) => make::run(args),
         Command::Init(args) => init::run(args),
         Command::Segment(args) => segment::run(args),
+        Command::Formats(args) => {
+            formats::run(args);
+            Ok(())
+        }
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

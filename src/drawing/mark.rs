@@ -1,7 +1,7 @@
 //! Making marks, moving them and measuring them.
 
 use super::text::{self, PathCommand};
-use super::{Align, Drawing, Layer, Mark, Polyline, Rgb, Shape, Stroke, Text};
+use super::{Align, Drawing, Image, Layer, Mark, Polyline, Rgb, Shape, Stroke, Text};
 use crate::geom::polygon;
 use glam::{DAffine2, DVec2};
 
@@ -89,18 +89,30 @@ impl Mark {
 
     /// Contours stroked and/or filled as one path.
     pub fn path(layer: Layer, contours: Vec<Polyline>, stroke: Option<Stroke>, fill: Option<Rgb>) -> Self {
-        Self { layer, piece: None, shape: Shape::Path { contours, stroke, fill } }
+        Self { layer, piece: None, part: None, shape: Shape::Path { contours, stroke, fill } }
     }
 
     /// A line of text.
     pub fn text(layer: Layer, text: Text) -> Self {
-        Self { layer, piece: None, shape: Shape::Text(text) }
+        Self { layer, piece: None, part: None, shape: Shape::Text(text) }
+    }
+
+    /// Pixels inside a contour.
+    pub fn image(layer: Layer, image: Image) -> Self {
+        Self { layer, piece: None, part: None, shape: Shape::Image(image) }
     }
 
     /// The same mark as a part of the piece with this name.
     #[must_use]
     pub fn of_piece(mut self, piece: impl Into<String>) -> Self {
         self.piece = Some(piece.into());
+        self
+    }
+
+    /// The same mark, named as this part of its piece.
+    #[must_use]
+    pub fn of_part(mut self, part: impl Into<String>) -> Self {
+        self.part = Some(part.into());
         self
     }
 
@@ -122,6 +134,12 @@ impl Mark {
                 text.anchor = place.transform_point2(text.anchor);
                 text.angle_rad += x.to_angle();
             }
+            Shape::Image(image) => {
+                image.place = place * image.place;
+                for point in &mut image.clip.points {
+                    *point = place.transform_point2(*point);
+                }
+            }
         }
         self
     }
@@ -135,6 +153,7 @@ impl Mark {
                 polygon::bounds(contours.iter().flat_map(|c| c.points.iter().copied()))
             }
             Shape::Text(text) => polygon::bounds(text::outlines(text).iter().flat_map(PathCommand::points)),
+            Shape::Image(image) => polygon::bounds(image.clip.points.iter().copied()),
         }
     }
 }

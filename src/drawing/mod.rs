@@ -4,12 +4,18 @@
 //! flips or scales once. Styles are resolved here, so that back ends stay simple.
 
 mod mark;
+mod pages;
+mod raster;
+pub mod strokes;
 mod style;
 pub mod text;
 
+pub use pages::{Chapter, Pages, PagesError};
+pub use raster::{Raster, RasterError};
 pub use style::{LineStyles, StyleError};
 
-use glam::DVec2;
+use glam::{DAffine2, DVec2};
+use std::sync::Arc;
 
 /// sRGB colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -124,6 +130,17 @@ pub struct Text {
     pub colour: Rgb,
 }
 
+/// Pixels at a place, seen inside a contour.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Image {
+    /// The pixels.
+    pub raster: Arc<Raster>,
+    /// Rigid motion to the page, from mm along the raster's lower and left edge.
+    pub place: DAffine2,
+    /// Closed contour on the page; nothing is seen outside.
+    pub clip: Polyline,
+}
+
 /// One mark.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
@@ -138,6 +155,8 @@ pub enum Shape {
     },
     /// Text.
     Text(Text),
+    /// Pixels.
+    Image(Image),
 }
 
 /// One mark with its meaning.
@@ -147,6 +166,8 @@ pub struct Mark {
     pub layer: Layer,
     /// Name of the piece that it belongs to, if any.
     pub piece: Option<String>,
+    /// What it is on that piece, such as the panels that a crease lies between.
+    pub part: Option<String>,
     /// The mark itself.
     pub shape: Shape,
 }

@@ -4,11 +4,72 @@
 //! the deployed and the flat state of the same vertices. Coordinates are written with as many
 //! digits as they have, so every face is congruent in all frames within rounding.
 
+mod pieces;
+
+pub use pieces::write_piece;
+
+use super::{ExportError, ExportFile, Format, FormatOptions, Source};
 use crate::component::{HingeId, PanelKind, PanelSet};
 use crate::net::{Corner, EdgeKind, FaceKind, Net, Piece};
+use crate::product::Product;
 use crate::sheet::PiecePlace;
 use glam::{DAffine3, DVec2, DVec3};
 use serde::Serialize;
+
+/// The registry's entry.
+pub const FORMAT: Format = Format {
+    name: "fold",
+    extensions: &["fold"],
+    description: "FOLD 1.2: crease pattern, standing and flat model; each piece by --fold-pieces",
+    source: Source::Model(files),
+};
+
+/// Version of the format.
+const SPEC: f64 = 1.2;
+const CREATOR: &str = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
+/// Distance between sheets in the crease pattern, mm.
+const SHEET_GAP_MM: f64 = 20.0;
+
+/// Choices for FOLD files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct FoldOptions {
+    /// Whether each piece is written to a file of its own, besides the master.
+    pub pieces: bool,
+}
+
+/// The master of a model, with its sheets side by side, and the pieces.
+fn files(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
+    let output = product.output();
+    let layout = output.layout();
+    let components: Vec<FoldComponent> = output
+        .model()
+        .parts()
+        .iter()
+        .zip(output.nets())
+        .enumerate()
+        .map(|(n, (part, net))| FoldComponent {
+            name: &part.name,
+            set: part.component.panels(),
+            net,
+            pieces: layout.places(n),
+            deployed: part.deployed(),
+            flat: part.flat,
+        })
+        .collect();
+    let step_mm = layout.options().paper.width_mm() + SHEET_GAP_MM;
+    let sheet_offsets: Vec<DVec2> =
+        (0..layout.sheet_count()).map(|k| DVec2::X * (step_mm * k as f64)).collect();
+    let title = product.title();
+    let model = FoldModel { title, components: &components, sheet_offsets: &sheet_offsets };
+    let failed = |error| ExportError::writer(&FORMAT, error);
+    let mut files = vec![ExportFile::single(write(&model).map_err(failed)?)];
+    let pieces = components.iter().flat_map(|c| c.net.pieces().iter().map(move |piece| (c, piece)));
+    for (component, piece) in pieces.filter(|_| options.fold.pieces) {
+        let bytes = write_piece(title, component, piece).map_err(failed)?;
+        files.push(ExportFile::named(piece.name(), bytes));
+    }
+    Ok(files)
+}
 
 /// One component with its net.
 #[derive(Debug, Clone, Copy)]
@@ -52,8 +113,8 @@ pub fn write(model: &FoldModel<'_>) -> Result<Vec<u8>, serde_json::Error> {
     }
     let Graph { pattern, edges, faces, deployed, flat } = graph;
     let master = Master {
-        file_spec: 1.2,
-        file_creator: concat!("tatamu ", env!("CARGO_PKG_VERSION")),
+        file_spec: SPEC,
+        file_creator: CREATOR,
         file_title: model.title,
         file_classes: ["singleModel"],
         frame_title: "crease pattern",

@@ -85,8 +85,11 @@ fn piece(
             }
         })
         .collect();
-    let panels: Vec<PlacedPanel> =
-        layout.panels.iter().map(|&(panel, place)| PlacedPanel { panel, place: upright * place }).collect();
+    let panels: Vec<PlacedPanel> = layout
+        .panels
+        .iter()
+        .map(|&(panel, place)| PlacedPanel { panel, kind: set.panel(panel).kind, place: upright * place })
+        .collect();
     let mut placer = Placer::new(&mesh);
     let place_of = |id| panels.iter().find(|p| p.panel == id).map(|p| p.place);
     let joints = placer.joints(joints, place_of);

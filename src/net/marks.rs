@@ -1,9 +1,9 @@
 //! What a piece looks like on paper.
 
 use super::mesh::EdgeKind;
-use super::{LabelKind, Piece};
+use super::{FaceKind, LabelKind, Piece};
 use crate::component::PanelSet;
-use crate::drawing::{Align, Layer, Mark, Polyline, Shape, Stroke, Text};
+use crate::drawing::{Align, Layer, Mark, Polyline, Stroke, Text};
 use glam::DVec2;
 
 /// A crease to draw: a hinge that stays joined, or the base of a tab.
@@ -12,6 +12,8 @@ pub(crate) struct Crease {
     ends: [DVec2; 2],
     is_fold: bool,
     deployed_rad: f64,
+    /// The panels on both sides, in short.
+    between: String,
 }
 
 impl Crease {
@@ -35,11 +37,21 @@ pub(crate) fn creases(set: &PanelSet, mesh: &super::PieceMesh) -> Vec<Crease> {
                     ends: mesh.segment(edge),
                     is_fold: hinge.is_fold,
                     deployed_rad: hinge.deployed_rad,
+                    between: between(set, mesh, &edge.faces),
                 })
             }
             _ => None,
         })
         .collect()
+}
+
+/// The faces at an edge, in short: `chain2.1 chain2.2`.
+fn between(set: &PanelSet, mesh: &super::PieceMesh, faces: &[usize]) -> String {
+    let name = |&face: &usize| match mesh.faces()[face].kind {
+        FaceKind::Panel(panel) => set.panel(panel).kind.short_name(),
+        FaceKind::Tab(_) => "tab".to_owned(),
+    };
+    faces.iter().map(name).collect::<Vec<_>>().join(" ")
 }
 
 /// What is drawn of a piece.
@@ -59,43 +71,34 @@ impl Piece {
     /// The piece's marks in its own coordinates: the contour as one closed path, every cut line
     /// once, creases, joint outlines, texts. `stroke_of` gives the look of each layer.
     pub fn marks(&self, options: MarkOptions, stroke_of: impl Fn(Layer) -> Stroke) -> Vec<Mark> {
-        let path = |layer: Layer, contours: Vec<Polyline>| Mark {
-            layer,
-            piece: Some(self.name.clone()),
-            shape: Shape::Path { contours, stroke: Some(stroke_of(layer)), fill: None },
+        let path = |layer: Layer, contour: Polyline, part: String| {
+            Mark::path(layer, vec![contour], Some(stroke_of(layer)), None).of_piece(&*self.name).of_part(part)
         };
-        let closed = |points: &[DVec2]| Polyline { points: points.to_vec(), is_closed: true };
+        let closed = |points: &[DVec2]| Polyline::closed(points.to_vec());
         let mut marks = Vec::new();
         for joint in &self.joints {
-            marks.push(path(Layer::Glue, vec![closed(&joint.outline)]));
-            marks.push(path(Layer::Glue, vec![closed(&joint.key)]));
+            let panel = self.panels.iter().find(|p| p.panel == joint.panel);
+            let panel = panel.map_or_else(String::new, |p| p.kind.short_name());
+            marks.push(path(Layer::Glue, closed(&joint.outline), panel.clone()));
+            marks.push(path(Layer::Glue, closed(&joint.key), format!("{panel} key")));
         }
         for crease in &self.crease_lines {
             let layer = if crease.is_fold { Layer::FoldHinge } else { Layer::Mountain };
             if crease.is_fold || crease.deployed_rad >= options.hide_below_rad {
-                let line = Polyline { points: crease.ends.to_vec(), is_closed: false };
-                marks.push(path(layer, vec![line]));
+                marks.push(path(layer, Polyline::open(crease.ends.to_vec()), crease.between.clone()));
             }
         }
         for slit in &self.slits {
-            let line = Polyline { points: slit.clone(), is_closed: false };
-            marks.push(path(Layer::Slit, vec![line]));
+            marks.push(path(Layer::Slit, Polyline::open(slit.clone()), "inside".to_owned()));
         }
-        marks.push(path(Layer::Cut, vec![closed(&self.outline)]));
+        marks.push(path(Layer::Cut, closed(&self.outline), "outline".to_owned()));
         for label in &self.labels {
             let layer = if label.kind == LabelKind::Joint { Layer::Glue } else { Layer::Label };
-            marks.push(Mark {
-                layer,
-                piece: Some(self.name.clone()),
-                shape: Shape::Text(Text {
-                    content: label.text.clone(),
-                    anchor: label.anchor,
-                    cap_height_mm: label.cap_height_mm,
-                    angle_rad: label.angle_rad,
-                    align: Align::Middle,
-                    colour: stroke_of(layer).colour,
-                }),
-            });
+            let text = Text::new(&*label.text, label.anchor, label.cap_height_mm)
+                .aligned(Align::Middle)
+                .turned(label.angle_rad)
+                .coloured(stroke_of(layer).colour);
+            marks.push(Mark::text(layer, text).of_piece(&*self.name).of_part(&*label.text));
         }
         marks
     }

@@ -27,7 +27,7 @@ pub use marks::MarkOptions;
 pub use mesh::{Corner, Edge, EdgeKind, Face, FaceKind, PieceMesh, Vertex};
 pub use of_model::{NetsError, develop_model};
 
-use crate::component::{HingeId, PanelId};
+use crate::component::{HingeId, PanelId, PanelKind};
 use glam::{DAffine2, DVec2};
 use std::collections::BTreeMap;
 
@@ -36,6 +36,8 @@ use std::collections::BTreeMap;
 pub struct PlacedPanel {
     /// The panel.
     pub panel: PanelId,
+    /// What it is.
+    pub kind: PanelKind,
     /// Rigid motion (no mirror) from the panel's plane coordinates to the piece's.
     pub place: DAffine2,
 }

@@ -1,12 +1,14 @@
 //! Single values of a project file, checked while they are read so that an error has their place.
 
 use super::MethodName;
+use crate::export::PngOptions;
 use crate::mesh::Up;
 use crate::segment::MOST_CLUSTERS;
 use crate::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, Visitor};
 use std::fmt;
+use std::str::FromStr;
 
 /// The fewest top edges of a component, and the fewest vertices of a profile.
 pub const LEAST_COUNT: usize = 3;
@@ -223,6 +225,23 @@ pub(super) fn degrees<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f64>, D:
     visit(d, "a number of degrees", |raw| match raw {
         Raw::Number(x) => check_degrees(x),
         Raw::Text(text) => Err(format!("write degrees as a number instead of \"{text}\"")),
+    })
+}
+
+/// One of several names, as the type reads them.
+pub(super) fn named<'de, D: Deserializer<'de>, T: FromStr<Err = String>>(
+    d: D,
+) -> Result<Option<T>, D::Error> {
+    visit(d, "a text", |raw| match raw {
+        Raw::Number(x) => Err(format!("write a text instead of {x}")),
+        Raw::Text(text) => text.parse(),
+    })
+}
+
+pub(super) fn dpi<'de, D: Deserializer<'de>>(d: D) -> Result<Option<PngOptions>, D::Error> {
+    visit(d, "a number of dots per inch", |raw| match raw {
+        Raw::Number(x) => PngOptions::new(x),
+        Raw::Text(text) => Err(format!("write the resolution as a number instead of \"{text}\"")),
     })
 }
 

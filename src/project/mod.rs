@@ -4,10 +4,12 @@
 //! the line and column of the value that is wrong.
 
 mod edit;
+mod export;
 mod fields;
 mod template;
 
 pub use edit::Edit;
+pub use export::ExportTable;
 pub use fields::{
     LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_clusters, check_count, check_degrees, check_detail,
     check_parts, check_smoothing, parse_method, parse_up,
@@ -57,6 +59,9 @@ pub struct Project {
     /// Changes to the parts by hand, one after the other.
     #[serde(default, rename = "edit")]
     pub edits: Vec<Edit>,
+    /// The files.
+    #[serde(default)]
+    pub export: ExportTable,
     /// What differs for single components.
     #[serde(default, rename = "component")]
     pub components: Vec<Component>,
@@ -218,7 +223,7 @@ profile_vertices = 4
     #[test]
     fn errors_name_line_and_column_and_what_is_accepted() {
         for (from, to, place, word) in [
-            ("parts = 6", "partz = 6", "line 6, column 1", "expected `parts`"),
+            ("parts = 6", "partz = 6", "line 6, column 1", "`parts`"),
             ("size = \"8in\"", "sise = 3", "line 4, column 1", "`size`"),
             ("\"8in\"", "\"8 feet\"", "line 4, column 8", "200mm"),
             ("\"8in\"", "0", "line 4, column 8", "more than 0"),

@@ -102,7 +102,7 @@ tab_width_mm = {tab_width}
 size = "{paper}"
 # Border of each sheet that stays free.
 margin_mm = {margin}
-
+{export}
 # One table for each component. What a table leaves out comes from [defaults].
 # rename: another name, which is printed on the pieces.
 # direction: angle of the fold axis about the component's longest axis, in degrees;
@@ -126,6 +126,7 @@ margin_mm = {margin}
         tab_width = template.tab_width_mm,
         paper = template.paper.name(),
         margin = template.margin_mm,
+        export = super::export::TEMPLATE,
     );
     for component in template.components {
         text += &format!(

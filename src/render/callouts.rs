@@ -101,7 +101,7 @@ mod tests {
             .iter()
             .filter_map(|m| match &m.shape {
                 Shape::Text(text) => Some((text.align, text.anchor.y, text.cap_height_mm)),
-                Shape::Path { .. } => None,
+                Shape::Path { .. } | Shape::Image(_) => None,
             })
             .collect();
         assert_eq!(lines.len(), 30);

@@ -253,7 +253,7 @@ mod tests {
     fn texts(marks: &[Mark]) -> Vec<String> {
         let content = |mark: &Mark| match &mark.shape {
             Shape::Text(text) => Some(text.content.clone()),
-            Shape::Path { .. } => None,
+            Shape::Path { .. } | Shape::Image(_) => None,
         };
         marks.iter().filter_map(content).collect()
     }
@@ -290,7 +290,7 @@ mod tests {
             let marks = strip_on(size, 10.0, "a model with quite a long name, to be shortened");
             let boxes = marks.iter().filter_map(|m| match m.shape {
                 Shape::Text(_) => m.bounds(),
-                Shape::Path { .. } => None,
+                Shape::Path { .. } | Shape::Image(_) => None,
             });
             let boxes = boxes.collect::<Vec<_>>();
             for (i, a) in boxes.iter().enumerate() {

@@ -35,12 +35,12 @@ fn without_o_a_pdf_stands_in_the_working_directory() {
 }
 
 #[test]
-fn one_svg_a_sheet() {
+fn a_single_sheet_has_the_name_that_was_given() {
     let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
     let arguments = ["make", "cube.off", "--size", "60", "-o", "a.svg", "-o", "a.fold"];
     let result = run(folder.path(), &arguments);
     assert_eq!(result.code, Some(0), "{}", result.err);
-    assert_eq!(names(&folder), ["a-1.svg", "a.fold", "cube.off"]);
+    assert_eq!(names(&folder), ["a.fold", "a.svg", "cube.off"]);
 }
 
 #[test]
