@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let (mesh, _) = Mesh::from_soup(&mesh::read(&std::fs::read(path)?)?)?;
         let segmentation = SegmentOptions { parts, ..SegmentOptions::default() };
         let options = Options { segmentation, ..Options::default() };
-        let (divided, _) = pipeline::divide(&mesh, &options, &Silent)?;
+        let (divided, _) = pipeline::find_parts(&mesh, &options, &Silent)?;
         let bodies = Bodies::new(&divided, &options)?;
         println!("{path}: {} parts", bodies.parts().len());
         for setting in SETTINGS {

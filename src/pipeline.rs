@@ -229,7 +229,7 @@ impl Output {
 /// # Errors
 /// See [`Error`].
 pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
-    let (divided, to_model) = divide(mesh, options, progress)?;
+    let (divided, to_model) = find_parts(mesh, options, progress)?;
     let (mesh, segmentation) = (divided.mesh(), divided.segmentation());
 
     progress.stage("hulls");
@@ -281,7 +281,11 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
 ///
 /// # Errors
 /// [`Error::Segment`], [`Error::Edit`], [`Error::Cancelled`].
-pub fn divide(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<(Parts, DAffine3), Error> {
+pub fn find_parts(
+    mesh: &Mesh,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<(Parts, DAffine3), Error> {
     let (mesh, to_model) = mesh.scaled(options.size_mm, options.up);
     let segmentation = segment::segment(&mesh, &options.segmentation, progress)?;
     let mut parts = Parts::new(mesh, segmentation);

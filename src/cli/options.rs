@@ -3,8 +3,8 @@
 use super::error::CliError;
 use super::input::Input;
 use super::net_args::NetArgs;
-use super::sheet_args::SheetArgs;
 use super::segment_args::SegmentArgs;
+use super::sheet_args::SheetArgs;
 use clap::Args;
 use tatamu::mesh::Up;
 use tatamu::pipeline::{ComponentOptions, Options};

@@ -10,9 +10,9 @@
 use super::distance::{Polytope, Position};
 use super::gradient::ProfileLength;
 use super::profile::imbalance;
+use super::seated::miss_mm;
 use super::shape::{Shape, profile};
 use super::solid::{Chain, Solid};
-use super::seated::miss_mm;
 use super::target::{FoldSpot, Target};
 use glam::DVec3;
 

@@ -32,7 +32,8 @@ fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, Expo
     let drawings = pages.drawings();
     let file = |(index, drawing)| {
         let plan = Plan::new(drawing, cutter, media);
-        let plan = plan.map_err(|error| ExportError::writer(&FORMAT, format!("sheet {}: {error}", index + 1)))?;
+        let plan =
+            plan.map_err(|error| ExportError::writer(&FORMAT, format!("sheet {}: {error}", index + 1)))?;
         Ok(plan.bytes().to_vec())
     };
     let files: Result<_, ExportError> = drawings.iter().enumerate().map(file).collect();

@@ -85,7 +85,10 @@ impl Finisher<'_> {
         let mesh = mesh.moved(at);
         let tabs: Vec<Tab> = own.iter().map(|(t, outline)| self.tab(t, outline.map(at))).collect();
         let place = |&(panel, place): &(PanelId, DAffine2)| PlacedPanel {
- panel, kind: set.panel(panel).kind, place: upright * place };
+            panel,
+            kind: set.panel(panel).kind,
+            place: upright * place,
+        };
         let panels: Vec<PlacedPanel> = layout.panels.iter().map(place).collect();
         let mut glue_areas = glue::areas(set, layout, &self.draft.tapes);
         if options.choices.glue_marks {

@@ -1,7 +1,7 @@
 //! Single values of a project file, checked while they are read so that an error has their place.
 
-use crate::export::PngOptions;
 use super::MethodName;
+use crate::export::PngOptions;
 use crate::mesh::Up;
 use crate::segment::MOST_CLUSTERS;
 use crate::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};

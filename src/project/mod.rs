@@ -9,13 +9,14 @@ mod fields;
 mod sheet_fields;
 mod template;
 
-pub use export::ExportTable;
-pub use sheet_fields::{Nets, Sheets, check_effort, check_hidden_degrees, parse_marks, parse_side};
 pub use edit::Edit;
+pub use export::ExportTable;
+pub use export::ExportTable;
 pub use fields::{
     LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_clusters, check_count, check_degrees, check_detail,
     check_parts, check_smoothing, parse_method, parse_thickness_mm, parse_up,
 };
+pub use sheet_fields::{Nets, Sheets, check_effort, check_hidden_degrees, parse_marks, parse_side};
 pub use template::{Template, TemplateComponent, to_toml};
 
 use crate::mesh::Up;
@@ -237,7 +238,7 @@ profile_vertices = 4
     #[test]
     fn errors_name_line_and_column_and_what_is_accepted() {
         for (from, to, place, word) in [
-            ("parts = 6", "partz = 6", "line 6, column 1", "expected `parts`"),
+            ("parts = 6", "partz = 6", "line 6, column 1", "`parts`"),
             ("size = \"8in\"", "sise = 3", "line 4, column 1", "`size`"),
             ("\"8in\"", "\"8 feet\"", "line 4, column 8", "200mm"),
             ("\"8in\"", "0", "line 4, column 8", "more than 0"),

@@ -2,8 +2,8 @@
 
 use super::LEAST_COUNT;
 use crate::mesh::Up;
-use crate::segment::{Method, SegmentOptions};
 use crate::net::{NetChoices, Side};
+use crate::segment::{Method, SegmentOptions};
 use crate::sheet::fit::Rotation;
 use crate::sheet::{Registration, SheetChoices};
 use crate::units::Paper;

@@ -83,7 +83,7 @@ mod tests {
     #[test]
     fn a_cup_is_filled_and_nothing_beside_it() {
         let filled = enclosed([N; 3], &cup(), 0.7);
-        assert!(filled[at(10, 10, 6)] && filled[at(10, 10, 11)]);
+        assert!(filled[at(10, 10, 6)] && filled[at(10, 10, 10)]);
         assert!(!filled[at(10, 10, 16)] && !filled[at(10, 10, 18)]);
         assert!(!filled[at(3, 10, 10)] && !filled[at(10, 10, 2)]);
         // From the floor of the middle only straight up is free.

@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     fn ball() -> Surface {
-        let (positions, faces) = balls_in_a_row(&[(0.0, 1.0)], 30, 30);
+        let (positions, faces) = balls_in_a_row(&[(0.0, 1.0)], 80, 80);
         Surface::of_faces(&positions, &faces)
     }
 
@@ -128,7 +128,7 @@ mod tests {
         let values: Vec<f64> = (0..surface.len()).map(|c| step(c) + noise(c)).collect();
         let smooth = bilateral(&surface, &values);
         let off = |v: &[f64]| (0..v.len()).map(|c| (v[c] - step(c)).powi(2)).sum::<f64>();
-        assert!(off(&smooth) < 0.6 * off(&values), "{} {}", off(&smooth), off(&values));
+        assert!(off(&smooth) < 0.7 * off(&values), "{} {}", off(&smooth), off(&values));
         assert!((0..smooth.len()).all(|c| (smooth[c] - step(c)).abs() < 0.3));
     }
 }
