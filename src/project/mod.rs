@@ -11,7 +11,6 @@ mod template;
 
 pub use edit::Edit;
 pub use export::ExportTable;
-pub use export::ExportTable;
 pub use fields::{
     LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_clusters, check_count, check_degrees, check_detail,
     check_parts, check_smoothing, parse_method, parse_thickness_mm, parse_up,
