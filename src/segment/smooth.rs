@@ -123,7 +123,7 @@ mod tests {
     #[test]
     fn smoothing_quiets_noise_and_keeps_a_step() {
         let surface = ball();
-        let noise = |c: usize| (c as f64 * 12.9898).sin() * 0.05;
+        let noise = |c: usize| ((c as f64 * 12.9898).sin() * 43_758.545).fract() * 0.1;
         let step = |c: usize| f64::from(u8::from(surface.centres()[c].z > 0.0));
         let values: Vec<f64> = (0..surface.len()).map(|c| step(c) + noise(c)).collect();
         let smooth = bilateral(&surface, &values);
