@@ -41,9 +41,9 @@ fn of_clash(model: &Model, clash: &Clash) -> Advice {
     }
     let mover = &model.parts()[clash.mover].name;
     let message = format!(
-        "{} and {} bump into each other in whatever order the components fold: {} of {} and {} of {} get {depth_mm:.1} \
-         mm into each other when {mover} is {percent:.0}% folded; try another --direction for one of them, or another \
-         number of --parts",
+        "{} and {} bump into each other, and no order of folding was found that avoids it: {} of {} and {} of {} get \
+         {depth_mm:.1} mm into each other when {mover} is {percent:.0}% folded; try another --direction for one of \
+         them, or another number of --parts",
         names[0], names[1], kinds[0], names[0], kinds[1], names[1]
     );
     ("fold_clash", message)

@@ -35,39 +35,66 @@ pub struct Gap {
 pub fn gap(a: &Sheet, b: &Sheet, enough_mm: f64, first: usize) -> Gap {
     let count = 3 + a.corners.len() + b.corners.len() + a.corners.len() * b.corners.len();
     let mut best = Gap { mm: f64::NEG_INFINITY, axis: 0 };
-    for index in std::iter::once(first.min(count - 1)).chain(0..count) {
-        let Some(axis) = direction(a, b, index) else { continue };
-        let mm = gap_along(a, b, axis);
-        if mm > best.mm {
-            best = Gap { mm, axis: index };
-        }
-        if mm > enough_mm {
-            break;
+    for axis in std::iter::once(first.min(count - 1)).chain(0..count) {
+        if let Some(mm) = gap_in(a, b, axis).filter(|mm| *mm > best.mm) {
+            best = Gap { mm, axis };
+            if mm > enough_mm {
+                break;
+            }
         }
     }
     best
 }
 
-/// The directions in which a gap is looked for: from middle to middle, across each sheet, in its
-/// plane across each of its edges, and across each pair of edges. None where two are parallel.
-fn direction(a: &Sheet, b: &Sheet, index: usize) -> Option<DVec3> {
+/// The gap in one direction: from middle to middle, across each sheet, in its plane outwards of
+/// each of its edges, and across each pair of edges. None where that is no direction, or where the
+/// two edges are not what the sheets have nearest to each other in it.
+fn gap_in(a: &Sheet, b: &Sheet, index: usize) -> Option<f64> {
     let (m, n) = (a.corners.len(), b.corners.len());
-    let across = match index {
-        0 => centre(b) - centre(a),
-        1 => return Some(a.normal),
-        2 => return Some(b.normal),
-        k if k < 3 + m => a.normal.cross(edge(a, k - 3)),
-        k if k < 3 + m + n => b.normal.cross(edge(b, k - 3 - m)),
+    match index {
+        0 => (centre(b) - centre(a)).try_normalize().map(|axis| gap_along(a, b, axis)),
+        1 => Some(gap_across(a, b)),
+        2 => Some(gap_across(b, a)),
+        k if k < 3 + m => gap_beside(a, k - 3, b),
+        k if k < 3 + m + n => gap_beside(b, k - 3 - m, a),
         k => {
             let k = k - 3 - m - n;
-            let (e, f) = (edge(a, k / n), edge(b, k % n));
-            let across = e.cross(f);
-            let is_clear =
-                across.length_squared() > PARALLEL * PARALLEL * e.length_squared() * f.length_squared();
-            return is_clear.then(|| across.normalize());
+            gap_between_edges(a, k / n, b, k % n)
         }
-    };
-    across.try_normalize()
+    }
+}
+
+/// The gap across the plane of `a`.
+fn gap_across(a: &Sheet, b: &Sheet) -> f64 {
+    let (from, to) = spread(b, a.normal);
+    let level = a.normal.dot(a.corners[0]);
+    (from - level).max(level - to)
+}
+
+/// The gap in the plane of `a` beyond one of its edges.
+fn gap_beside(a: &Sheet, k: usize, b: &Sheet) -> Option<f64> {
+    let outward = edge(a, k).cross(a.normal).try_normalize()?;
+    let nearest = b.corners.iter().map(|c| outward.dot(*c)).fold(f64::INFINITY, f64::min);
+    Some(nearest - outward.dot(a.corners[k]))
+}
+
+/// The gap across two edges. A convex sheet lies on one side of each of its edges, so that the
+/// edges are ends of the two in this direction, and face each other or not.
+fn gap_between_edges(a: &Sheet, k: usize, b: &Sheet, l: usize) -> Option<f64> {
+    let (e, f) = (edge(a, k), edge(b, l));
+    let across = e.cross(f);
+    let length = across.length();
+    if length <= PARALLEL * (e.length_squared() * f.length_squared()).sqrt() {
+        return None;
+    }
+    let (into_a, into_b) = (across.dot(a.normal.cross(e)), across.dot(b.normal.cross(f)));
+    let way = across.dot(b.corners[l] - a.corners[k]) / length;
+    match (into_a <= 0.0 && into_b >= 0.0, into_a >= 0.0 && into_b <= 0.0) {
+        (true, true) => Some(way.abs()),
+        (true, false) => Some(way),
+        (false, true) => Some(-way),
+        (false, false) => None,
+    }
 }
 
 fn edge(sheet: &Sheet, k: usize) -> DVec3 {
