@@ -403,7 +403,8 @@ fn placed(component: &FoldComponent<'_>, panel: PanelId, state: usize, last: usi
     match state {
         0 => component.deployed * component.set.panel(panel).deployed,
         k if k == last => component.flat * component.set.panel(panel).flat,
-        k => component.between[k - 1][panel.0],
+        // A part of a split panel moves with it.
+        k => component.between[k - 1][component.net.source(panel).0],
     }
 }
 

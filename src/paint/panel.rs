@@ -1,6 +1,7 @@
 //! Pictures of panels at their places on the sheets.
 
 use super::nearest::Tree;
+use crate::component::PanelSet;
 use crate::drawing::{Image, Layer, Mark, Polyline, Raster, Rgb};
 use crate::geom::polygon;
 use crate::mesh::painting::Painting;
@@ -22,6 +23,7 @@ const SEEN_MM: f64 = BLEED_MM + 3.0 * PIXEL_MM;
 struct Place<'a> {
     part: &'a ModelPart,
     piece: &'a Piece,
+    set: &'a PanelSet,
     panel: &'a PlacedPanel,
     sheet: usize,
     on_sheet: DAffine2,
@@ -38,6 +40,7 @@ pub fn pictures(output: &Output, painting: &Painting) -> Vec<(usize, Mark)> {
                 piece.panels().iter().map(move |panel| Place {
                     part,
                     piece,
+                    set: net.panels(),
                     panel,
                     sheet: at.sheet,
                     on_sheet: at.place,
@@ -57,8 +60,7 @@ impl Place<'_> {
         let (low, high) = polygon::bounds(clip.iter().map(|&p| to_panel.transform_point2(p)))?;
         let low = low - PIXEL_MM;
         let [width, height] = ((high - low) / PIXEL_MM).ceil().to_array().map(|n| n as u32 + 1);
-        let set = self.part.component.panels();
-        let panel = set.panel(self.panel.panel);
+        let panel = self.set.panel(self.panel.panel);
         let to_mesh = self.part.frame * panel.deployed;
         let mut guess = 0;
         let mut pixels = Vec::with_capacity(width as usize * height as usize);
@@ -84,7 +86,7 @@ impl Place<'_> {
 
     /// The panel's outline on its piece, and a strip of each of its tabs.
     fn clip(&self) -> Vec<DVec2> {
-        let set = self.part.component.panels();
+        let set = self.set;
         let panel = set.panel(self.panel.panel);
         let tab_at = |edge: usize| {
             self.piece.tabs().iter().find(|tab| {
