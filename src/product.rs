@@ -65,10 +65,7 @@ impl<'a> Product<'a> {
             let layout = self.output.layout();
             let mut drawings = layout.pages(self.output.nets(), self.title, &note, &self.styles);
             if let Some(painting) = self.painting {
-                // Lines and letters are drawn over them.
-                for (sheet, picture) in paint::pictures(self.output, painting).into_iter().rev() {
-                    drawings[sheet].marks.insert(0, picture);
-                }
+                paint::colour(self.output, painting, &mut drawings);
             }
             let pages = Pages::new(self.title, drawings, self.styles.clone())?;
             Ok(pages.with_chapters(chapters(self.output)))
