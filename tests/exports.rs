@@ -1,12 +1,10 @@
 //! Exports of whole models, read back.
 
-mod cube;
-
 use glam::{DVec2, DVec3};
 use std::collections::BTreeSet;
 use tatamu::component::PanelId;
 use tatamu::drawing::{Layer, Rgb, Shape};
-use tatamu::export::{ExportFile, FoldOptions, FormatOptions, format_of};
+use tatamu::export::{ExportFile, FoldOptions, FormatOptions, GlbOptions, format_of};
 use tatamu::geom::polygon;
 use tatamu::mesh::painting::Painting;
 use tatamu::mesh::{self, Mesh};
@@ -14,6 +12,10 @@ use tatamu::pipeline::{self, Options, Output};
 use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::report::Run;
+
+/// Each two triangles are a side.
+const CUBE: &str = "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 2 2 0\nv 0 0 2\nv 2 0 2\nv 0 2 2\nv 2 2 2\n\
+    f 1 3 4\nf 1 4 2\nf 5 6 8\nf 5 8 7\nf 1 2 6\nf 1 6 5\nf 3 7 8\nf 3 8 4\nf 1 5 7\nf 1 7 3\nf 2 4 8\nf 2 8 6\n";
 
 /// A cube of 60 mm with four chains.
 fn output(bytes: &[u8]) -> (Output, tatamu::mesh::Repairs) {
@@ -44,13 +46,16 @@ fn standing(output: &Output) -> Vec<Vec<DVec3>> {
 }
 
 fn area(corners: &[DVec3]) -> f64 {
-    (2..corners.len()).map(|k| (corners[k - 1] - corners[0]).cross(corners[k] - corners[0])).sum::<DVec3>().length()
+    (2..corners.len())
+        .map(|k| (corners[k - 1] - corners[0]).cross(corners[k] - corners[0]))
+        .sum::<DVec3>()
+        .length()
         / 2.0
 }
 
 #[test]
 fn an_obj_holds_the_standing_panels() {
-    with_product(cube::OBJ.as_bytes(), None, |product| {
+    with_product(CUBE.as_bytes(), None, |product| {
         let written = &files(product, "obj", &FormatOptions::default())[0].bytes;
         let soup = mesh::read(written).expect("OBJ");
         let panels = standing(product.output());
@@ -68,14 +73,23 @@ fn an_obj_holds_the_standing_panels() {
 }
 
 #[test]
-fn a_glb_has_the_area_of_the_standing_panels_in_metres() {
-    with_product(cube::OBJ.as_bytes(), None, |product| {
-        let written = &files(product, "glb", &FormatOptions::default())[0].bytes;
+fn a_static_glb_stands_still_and_has_the_area_of_the_panels_in_metres() {
+    with_product(CUBE.as_bytes(), None, |product| {
+        let options = FormatOptions { glb: GlbOptions { is_static: true }, ..FormatOptions::default() };
+        let written = &files(product, "glb", &options)[0].bytes;
+        assert_eq!(gltf::Gltf::from_slice(written).expect("valid").animations().count(), 0);
         let soup = mesh::read(written).expect("GLB");
-        let corners = |polygon: &[u32]| polygon.iter().map(|&v| soup.positions()[v as usize]).collect::<Vec<_>>();
+        let (mesh, _) = Mesh::from_soup(&soup).expect("a solid");
+        let (low, high) = mesh.bounds();
+        let corners =
+            |polygon: &[u32]| polygon.iter().map(|&v| soup.positions()[v as usize]).collect::<Vec<_>>();
         let found: f64 = soup.polygons().map(|polygon| area(&corners(polygon))).sum();
-        let expected: f64 = standing(product.output()).iter().map(|panel| area(panel)).sum();
+        let panels = standing(product.output());
+        let expected: f64 = panels.iter().map(|panel| area(panel)).sum();
         assert!((found * 1e6 / expected - 1.0).abs() < 1e-5, "{found} m², {expected} mm²");
+        let bounds = |pick: fn(DVec3, DVec3) -> DVec3| panels.iter().flatten().copied().reduce(pick);
+        let size = bounds(DVec3::max).expect("corners") - bounds(DVec3::min).expect("corners");
+        assert!(((high - low) * 1e3).distance(size) < 1e-3, "{high} {low} {size}");
     });
 }
 
@@ -141,8 +155,11 @@ impl Sheet {
 
 #[test]
 fn each_piece_folds_flat_by_itself_as_in_the_master() {
-    with_product(cube::OBJ.as_bytes(), None, |product| {
-        let options = FormatOptions { fold: FoldOptions { pieces: true }, ..FormatOptions::default() };
+    with_product(CUBE.as_bytes(), None, |product| {
+        let options = FormatOptions {
+            fold: FoldOptions { pieces: true, ..FoldOptions::default() },
+            ..FormatOptions::default()
+        };
         let files = files(product, "fold", &options);
         let pieces: usize = product.output().nets().iter().map(|net| net.pieces().len()).sum();
         assert_eq!(files.len(), 1 + pieces);
@@ -170,8 +187,7 @@ fn painted_cube() -> (String, String) {
     let mut obj = "mtllib cube.mtl\n".to_owned();
     let mut mtl = String::new();
     let mut side = 0;
-    let whole = cube::OBJ.replace("\\\n", "");
-    for line in whole.lines().filter(|line| !line.starts_with("mtllib") && !line.starts_with("usemtl")) {
+    for line in CUBE.lines() {
         if line.starts_with('f') {
             if side % 2 == 0 {
                 let k = side / 2;
@@ -201,8 +217,8 @@ fn panels_have_the_colours_of_the_sides_that_they_stand_for() {
             // The picture covers its clip.
             let size = DVec2::new(f64::from(image.raster.width()), f64::from(image.raster.height()));
             let back = image.place.inverse();
-            let (low, high) =
-                polygon::bounds(image.clip.points.iter().map(|&p| back.transform_point2(p))).expect("corners");
+            let (low, high) = polygon::bounds(image.clip.points.iter().map(|&p| back.transform_point2(p)))
+                .expect("corners");
             assert!(low.min_element() >= 0.0 && high.cmple(size * image.raster.pixel_mm()).all());
             // Most of a panel is one side.
             let bytes = image.raster.rgb_bytes();
@@ -210,7 +226,8 @@ fn panels_have_the_colours_of_the_sides_that_they_stand_for() {
             bytes.chunks_exact(3).for_each(|p| *counts.entry(p.to_vec()).or_insert(0) += 1);
             seen.insert(counts.into_iter().max_by_key(|c| c.1).expect("pixels").0);
         }
-        let panels: usize = product.output().nets().iter().flat_map(|n| n.pieces()).map(|p| p.panels().len()).sum();
+        let panels: usize =
+            product.output().nets().iter().flat_map(|n| n.pieces()).map(|p| p.panels().len()).sum();
         assert_eq!(pictures, panels);
         assert_eq!(seen.len(), 6, "{seen:?}");
         for extension in ["pdf", "svg", "png"] {

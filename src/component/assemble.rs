@@ -22,6 +22,9 @@ pub enum AssembleError {
     /// The fold hinge would cut through a joint panel.
     #[error("the fold hinge of chain {0} lies in a joint panel")]
     CreasedJoint(usize),
+    /// A chain does not close when folded.
+    #[error("chain {0} cannot be made to fold flat at one of its bends")]
+    OutOfBalance(usize),
     /// Some panel has no width or height at some place.
     #[error("not all of its panels have room")]
     NoRoom,

@@ -1,27 +1,14 @@
 //! One hull into one component: first guess, fit, panels; simpler shapes where the limits leave
 //! no room.
 
-use super::assemble::{AssembleError, Assembled, assemble};
+use super::assemble::AssembleError;
 use super::distance::{Polytope, hausdorff};
-use super::fit::{Fitted, fit, polytope};
 use super::panel::{PanelId, PanelKind, PanelSet};
-use super::profile::{Profile, balance, imbalance};
+use super::profile::Profile;
+use super::search;
 use super::solid::{FaceId, Solid};
-use super::start::{circumscribe, fold_spots};
-use super::target::{FoldSpot, JointTarget, Target};
-use crate::geom::{self, Hull, HullError, polygon};
-use glam::DVec3;
-
-/// Hulls with more corners are fitted through their extreme points in this many directions.
-const FIT_DIRECTIONS: usize = 320;
-/// Quick fits, to compare directions, use fewer.
-const TRIAL_DIRECTIONS: usize = 60;
-/// Steps of a quick fit.
-const TRIAL_STEPS: usize = 5;
-/// Quick fits use no more profile vertices than this.
-const TRIAL_VERTICES: usize = 4;
-/// A shape that misses a limit by less is as good as one that keeps it.
-const NEAR_ENOUGH_MM: f64 = 1e-3;
+use super::target::{JointTarget, Target};
+use crate::geom::{HullError, polygon};
 
 /// Why a hull becomes no component.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -135,145 +122,37 @@ fn chord(outline: &[glam::DVec2], y: f64) -> f64 {
 }
 
 /// The best component for a hull within the target's limits.
+///
+/// # Errors
+/// Hulls without volume, and targets for which no shape tried has room for all panels and joints.
 pub fn convert(target: &Target) -> Result<Component, ConvertError> {
-    let simple = simplified(target.hull, FIT_DIRECTIONS)?;
-    let quick = Target { hull: &simple, ..target.clone() };
-    let mut best: Option<(f64, Fitted, Assembled)> = None;
-    let mut last_error = None;
-    for attempt in attempts(target) {
-        let goal =
-            Target { profile_vertices: attempt.vertices, min_panel_mm: attempt.least_mm, ..quick.clone() };
-        let mut solid = circumscribe(&goal, attempt.edges);
-        let spots = fold_spots(&mut solid);
-        let fitted = fit(&goal, solid, spots, usize::MAX);
-        match assemble_unbroken(&fitted) {
-            Ok(made) => {
-                let merit = fitted.error_mm + 10.0 * fitted.lack_mm;
-                let is_valid = fitted.lack_mm < NEAR_ENOUGH_MM;
-                if best.as_ref().is_none_or(|b| merit < b.0) {
-                    best = Some((merit, fitted, made));
-                }
-                if is_valid {
-                    break;
-                }
-            }
-            Err(error) => last_error = Some(error),
-        }
-    }
-    let Some((_, fitted, made)) = best else {
-        return Err(last_error.map_or(ConvertError::Hull(HullError::Flat), ConvertError::Assemble));
-    };
-    let error_mm = hausdorff(&polytope(&fitted.solid), &Polytope::of_hull(target.hull));
-    Ok(Component {
-        solid: fitted.solid,
+    choose(&[(target.clone(), 0.0)]).map(|best| best.1)
+}
+
+/// The best component for the best of several targets, which are one body in several axes, each
+/// with a cost of its own in mm of error; with its index.
+///
+/// # Errors
+/// As [`convert`], where no target gives a component.
+pub fn choose(targets: &[(Target, f64)]) -> Result<(usize, Component), ConvertError> {
+    let (k, fitted, made) = search::best(targets)?;
+    let error_mm = hausdorff(&fitted.shape.polytope, &Polytope::of_hull(targets[k].0.hull));
+    let component = Component {
+        solid: fitted.shape.solid,
         profiles: made.profiles,
         panels: made.panels,
         error_mm,
         trimmed_mm2: made.trimmed_mm2,
-    })
-}
-
-/// Error of a quick fit with a price on what is not valid, mm, and the radius when flat: to
-/// compare fold directions.
-pub fn trial(target: &Target) -> Option<(f64, f64)> {
-    let simple = simplified(target.hull, TRIAL_DIRECTIONS).ok()?;
-    let profile_vertices = target.profile_vertices.min(TRIAL_VERTICES);
-    let goal = Target { hull: &simple, profile_vertices, ..target.clone() };
-    let mut solid = circumscribe(&goal, target.top_edges);
-    let spots = fold_spots(&mut solid);
-    let fitted = fit(&goal, solid, spots, TRIAL_STEPS);
-    let reach = |j: usize| {
-        let profile = fitted.solid.profile(j);
-        let at = balance(&profile);
-        profile[0].x + profile.windows(2).take(at.segment).map(|w| w[0].distance(w[1])).sum::<f64>()
     };
-    let spread = (0..fitted.solid.chains.len()).map(reach).fold(0.0, f64::max);
-    Some((fitted.error_mm + fitted.lack_mm, spread))
-}
-
-/// One shape to try.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Attempt {
-    edges: usize,
-    vertices: usize,
-    least_mm: f64,
-}
-
-/// Shapes to try: as wished, but with no more panels than can be handled comfortably at the hull's
-/// size, then simpler ones until panels have room, at last with panels at the least size allowed.
-fn attempts(target: &Target) -> Vec<Attempt> {
-    let least_edges = target.locked_angles().len().max(3);
-    let (girth, height) = girth_and_height(target.hull);
-    let at_most = |length: f64| (length / target.comfortable_mm.max(1e-9)) as usize;
-    let mut edges = target.top_edges.min(at_most(0.5 * girth)).max(least_edges);
-    let mut vertices = target.profile_vertices.min(1 + at_most(0.7 * height)).max(3);
-    let mut list = Vec::new();
-    loop {
-        list.push(Attempt { edges, vertices, least_mm: target.comfortable_mm });
-        if vertices > 4 {
-            vertices -= 1;
-        } else if edges > least_edges {
-            edges -= 1;
-        } else if vertices > 3 {
-            vertices -= 1;
-        } else {
-            list.push(Attempt { edges, vertices, least_mm: target.min_panel_mm });
-            return list;
-        }
-    }
-}
-
-/// Length round the hull, seen along the fold axis, and the height along it.
-fn girth_and_height(hull: &Hull) -> (f64, f64) {
-    let flat: Vec<glam::DVec2> = hull.vertices().iter().map(|v| v.truncate()).collect();
-    let outline = polygon::convex_hull(&flat);
-    let girth = polygon::edges(&outline).map(|(a, b)| a.distance(b)).sum();
-    (girth, hull.support(DVec3::Z) + hull.support(-DVec3::Z))
-}
-
-/// Imbalance up to which a fold vertex at a bend is exact, as a share of the height.
-const EXACT: f64 = 1e-11;
-
-/// Panels narrower or lower than this are none.
-const SLIVER_MM: f64 = 0.1;
-
-/// Panels of a fitted solid, folded at the balance points, whose joint panels are uncreased.
-fn assemble_unbroken(fitted: &Fitted) -> Result<Assembled, AssembleError> {
-    let solid = &fitted.solid;
-    let size = solid.top_mm - solid.bottom_mm;
-    let clearance = solid.clearance();
-    if clearance.width_mm.min(clearance.length_mm) <= SLIVER_MM {
-        return Err(AssembleError::NoRoom);
-    }
-    let spots = fitted.spots.iter().enumerate().map(|(chain, &spot)| {
-        let profile = solid.profile(chain);
-        let at = balance(&profile);
-        match spot {
-            FoldSpot::Bend(i) if imbalance(&profile, i + 1).abs() <= EXACT * size => Ok(spot),
-            _ if solid.chains[chain].facets[at.segment].is_joint => Err(AssembleError::CreasedJoint(chain)),
-            _ => Ok(FoldSpot::Inside(at.segment)),
-        }
-    });
-    let spots = spots.collect::<Result<Vec<_>, _>>()?;
-    assemble(solid, &spots)
-}
-
-/// Hull of the extreme points in evenly spread directions.
-fn simplified(hull: &Hull, directions: usize) -> Result<Hull, HullError> {
-    if hull.vertices().len() <= directions {
-        return Ok(hull.clone());
-    }
-    let points: Vec<DVec3> = geom::directions(directions)
-        .filter_map(|d| hull.vertices().iter().copied().max_by(|a, b| d.dot(*a).total_cmp(&d.dot(*b))))
-        .collect();
-    Hull::of_points(&points).or_else(|_| Ok(hull.clone()))
+    Ok((k, component))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::component::Seat;
-    use glam::DVec2;
+    use crate::geom::{self, Hull};
+    use glam::{DVec2, DVec3};
     use proptest::prelude::*;
 
     /// Points spread over an ellipsoid: round, needle-like and plate-like hulls.
@@ -352,7 +231,7 @@ mod tests {
                 let offset_mm = hull.support(normal) * share;
                 let plane = crate::geom::Plane::through(normal * offset_mm, normal).unwrap();
                 hull = hull.clip(&plane).unwrap();
-                joints.push(JointTarget { seat: Seat::Side { angle_rad, slope_rad, offset_mm }, cover: vec![], within: vec![] });
+                joints.push(JointTarget { seat: Seat::Side { angle_rad, slope_rad, offset_mm }, cover: vec![], within: vec![], price: 0.3 });
             }
             let target = target(&hull, joints);
             let component = convert(&target).unwrap();

@@ -5,43 +5,89 @@
 use crate::geom::Hull;
 use glam::DVec3;
 
-/// A convex polyhedron as its faces: outward unit normal, offset, outline.
+/// A convex polyhedron: corners, and faces as outward planes with outlines.
 #[derive(Debug, Clone)]
 pub struct Polytope {
+    corners: Vec<DVec3>,
     faces: Vec<Face>,
+    outlines: Vec<u32>,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Copy)]
 struct Face {
     normal: DVec3,
     offset: f64,
-    outline: Vec<DVec3>,
+    /// Where its outline begins and ends in the list of all outlines.
+    start: u32,
+    end: u32,
+}
+
+/// The part of a polytope that a point outside is nearest to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Feature {
+    /// The inside of a face.
+    Face(usize),
+    /// The edge between two corners.
+    Edge(usize, usize),
+    /// A corner.
+    Corner(usize),
+}
+
+/// Where a point stands to a polytope.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Position {
+    /// Signed distance to the face plane that is farthest below the point: inside, minus the
+    /// distance to the surface.
+    pub depth_mm: f64,
+    /// That face.
+    pub face: usize,
+    /// For points outside, the nearest point and where it lies.
+    pub nearest: Option<(DVec3, Feature)>,
 }
 
 impl Polytope {
-    /// A polytope from faces `(outward unit normal, offset, outline)`.
-    pub fn new(faces: impl IntoIterator<Item = (DVec3, f64, Vec<DVec3>)>) -> Self {
-        let faces = faces.into_iter().map(|(normal, offset, outline)| Face { normal, offset, outline });
-        Self { faces: faces.collect() }
+    /// A polytope from its corners and faces `(outward unit normal, offset, outline)`; outlines
+    /// are counter-clockwise indices of corners.
+    pub fn new<O: IntoIterator<Item = u32>>(
+        corners: Vec<DVec3>,
+        faces: impl IntoIterator<Item = (DVec3, f64, O)>,
+    ) -> Self {
+        let mut outlines: Vec<u32> = Vec::new();
+        let faces = faces.into_iter().map(|(normal, offset, outline)| {
+            let start = outlines.len() as u32;
+            outlines.extend(outline);
+            Face { normal, offset, start, end: outlines.len() as u32 }
+        });
+        let faces = faces.collect();
+        Self { corners, faces, outlines }
     }
 
     /// The faces of a hull.
     pub fn of_hull(hull: &Hull) -> Self {
-        let face = |f| hull.facet_points(f).collect();
-        Self::new(hull.facets().iter().map(|f| (f.plane().normal(), f.plane().offset(), face(f))))
+        let faces = hull.facets().iter();
+        let faces = faces.map(|f| (f.plane().normal(), f.plane().offset(), f.outline().iter().copied()));
+        Self::new(hull.vertices().to_vec(), faces)
     }
 
-    /// Signed distance to the face plane that is farthest below the point, with that face's
-    /// index: for points inside, minus the distance to the surface.
-    pub fn deepest_plane(&self, point: DVec3) -> (f64, usize) {
-        let mut best = (f64::NEG_INFINITY, 0);
-        for (k, face) in self.faces.iter().enumerate() {
-            let d = face.normal.dot(point) - face.offset;
-            if d > best.0 {
-                best = (d, k);
-            }
-        }
-        best
+    /// Corners.
+    pub fn corners(&self) -> &[DVec3] {
+        &self.corners
+    }
+
+    /// Number of faces.
+    pub fn face_count(&self) -> usize {
+        self.faces.len()
+    }
+
+    /// Corners of face `k`, counter-clockwise.
+    pub fn outline(&self, k: usize) -> impl Iterator<Item = DVec3> + '_ {
+        let face = &self.faces[k];
+        self.outlines[face.start as usize..face.end as usize].iter().map(|&c| self.corners[c as usize])
+    }
+
+    /// Outward normal and offset of face `k`.
+    pub fn plane(&self, k: usize) -> (DVec3, f64) {
+        (self.faces[k].normal, self.faces[k].offset)
     }
 
     /// Outward normal of face `k`.
@@ -49,51 +95,79 @@ impl Polytope {
         self.faces[k].normal
     }
 
-    /// The nearest point of the polytope, which is the point itself when inside.
-    pub fn nearest(&self, point: DVec3) -> DVec3 {
-        let visible = self.faces.iter().filter(|f| f.normal.dot(point) > f.offset);
-        visible
-            .map(|f| f.nearest(point))
-            .min_by(|a, b| a.distance_squared(point).total_cmp(&b.distance_squared(point)))
-            .unwrap_or(point)
+    /// Where a point stands.
+    pub fn position(&self, point: DVec3) -> Position {
+        let (mut depth_mm, mut face) = (f64::NEG_INFINITY, 0);
+        for (k, f) in self.faces.iter().enumerate() {
+            let d = f.normal.dot(point) - f.offset;
+            if d > depth_mm {
+                (depth_mm, face) = (d, k);
+            }
+        }
+        let nearest = (depth_mm > 0.0).then(|| self.nearest(point, face));
+        Position { depth_mm, face, nearest }
+    }
+
+    /// The nearest point to one outside, which is at least as far as from its `deepest` face.
+    fn nearest(&self, point: DVec3, deepest: usize) -> (DVec3, Feature) {
+        let (foot, feature) = self.nearest_on(deepest, point);
+        if feature == Feature::Face(deepest) {
+            return (foot, feature);
+        }
+        let mut best = (foot.distance_squared(point), foot, feature);
+        for (k, f) in self.faces.iter().enumerate() {
+            let d = f.normal.dot(point) - f.offset;
+            if d > 0.0 && d * d < best.0 && k != deepest {
+                let (foot, feature) = self.nearest_on(k, point);
+                let distance = foot.distance_squared(point);
+                if distance < best.0 {
+                    best = (distance, foot, feature);
+                }
+            }
+        }
+        (best.1, best.2)
+    }
+
+    fn nearest_on(&self, k: usize, point: DVec3) -> (DVec3, Feature) {
+        let face = &self.faces[k];
+        let outline = &self.outlines[face.start as usize..face.end as usize];
+        let foot = point - face.normal * (face.normal.dot(point) - face.offset);
+        let mut best = (f64::INFINITY, foot, Feature::Face(k));
+        let mut is_inside = true;
+        let mut from = outline.last().map_or(0, |&v| v as usize);
+        for &to in outline {
+            let (a, b) = (self.corners[from], self.corners[to as usize]);
+            let edge = b - a;
+            if edge.cross(foot - a).dot(face.normal) < 0.0 {
+                is_inside = false;
+                let t = edge.dot(foot - a) / edge.length_squared();
+                let (on_edge, feature) = if t >= 1.0 {
+                    (b, Feature::Corner(to as usize))
+                } else if t > 0.0 {
+                    (a + edge * t, Feature::Edge(from, to as usize))
+                } else {
+                    (a, Feature::Corner(from))
+                };
+                let d = on_edge.distance_squared(foot);
+                if d < best.0 {
+                    best = (d, on_edge, feature);
+                }
+            }
+            from = to as usize;
+        }
+        if is_inside { (foot, Feature::Face(k)) } else { (best.1, best.2) }
     }
 
     /// Distance from a point, 0 inside.
     pub fn distance(&self, point: DVec3) -> f64 {
-        self.nearest(point).distance(point)
-    }
-
-    /// Corners of all faces (each as often as faces meet there).
-    pub fn corners(&self) -> impl Iterator<Item = DVec3> + '_ {
-        self.faces.iter().flat_map(|f| f.outline.iter().copied())
-    }
-}
-
-impl Face {
-    fn nearest(&self, point: DVec3) -> DVec3 {
-        let foot = point - self.normal * (self.normal.dot(point) - self.offset);
-        let mut best = (f64::INFINITY, foot);
-        let mut is_inside = true;
-        for (k, &a) in self.outline.iter().enumerate() {
-            let b = self.outline[(k + 1) % self.outline.len()];
-            let edge = b - a;
-            if edge.cross(foot - a).dot(self.normal) < 0.0 {
-                is_inside = false;
-                let t = (edge.dot(foot - a) / edge.length_squared()).clamp(0.0, 1.0);
-                let on_edge = if t.is_finite() { a + edge * t } else { a };
-                let d = on_edge.distance_squared(foot);
-                if d < best.0 {
-                    best = (d, on_edge);
-                }
-            }
-        }
-        if is_inside { foot } else { best.1 }
+        self.position(point).nearest.map_or(0.0, |n| n.0.distance(point))
     }
 }
 
 /// Hausdorff distance of two convex polyhedra.
 pub fn hausdorff(a: &Polytope, b: &Polytope) -> f64 {
-    let one_way = |from: &Polytope, to: &Polytope| from.corners().map(|p| to.distance(p)).fold(0.0, f64::max);
+    let one_way =
+        |from: &Polytope, to: &Polytope| from.corners.iter().map(|p| to.distance(*p)).fold(0.0, f64::max);
     one_way(a, b).max(one_way(b, a))
 }
 

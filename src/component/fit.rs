@@ -1,411 +1,233 @@
-//! Fits a solid to a hull: sequential linear programming over every free parameter.
+//! Fits a solid to a hull: a prox-linear method over every free parameter.
 //!
 //! The paper optimises eight parameters of the top panel, then each profile alone, by gradient
 //! descent (§4.2.2, §4.3.1). Here all directions, heights and planes move together, to minimise
 //! the exact Hausdorff distance. Around the present solid every measure is linear in the
-//! parameters, so each step is a small linear programme within a trust region.
+//! parameters, so each step is a small quadratic programme: the largest of the linear measures,
+//! plus the square of the step (Drusvyatskiy and Lewis, "Error bounds, quadratic growth, and linear
+//! convergence of proximal methods", 2018).
 
-use super::distance::Polytope;
-use super::gradient::{Freedom, Terms};
-use super::lp::Programme;
+use super::distance::{Polytope, Position};
+use super::gradient::ProfileLength;
 use super::profile::imbalance;
-use super::solid::{FaceId, Solid};
-use super::start::{MAX_SLOPE_RAD, MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD};
+use super::seated::miss_mm;
+use super::shape::{Shape, profile};
+use super::solid::{Chain, Solid};
 use super::target::{FoldSpot, Target};
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
-/// Steps of the fit at most.
-const STEPS: usize = 25;
-/// First size of the trust region, as a share of the hull's radius.
-const FIRST_REGION: f64 = 0.12;
-/// Size of the trust region at which the fit ends.
-const LAST_REGION: f64 = 0.0015;
+/// First length of steps, as a share of the hull's radius.
+const FIRST_STEP: f64 = 0.1;
+/// Longest steps.
+const LONGEST_STEP: f64 = 0.4;
+/// Length of steps at which the fit ends.
+const LAST_STEP: f64 = 0.002;
 /// Steps that gain less than this share of the merit are slow; the fit ends after a few in a row.
 const SLOW_GAIN: f64 = 0.01;
 /// So many slow steps.
 const SLOW_STEPS: usize = 3;
 /// Price of a millimetre by which a panel is too small, or the balance point out of its place,
 /// against a millimetre of error.
-const SIZE_PRICE: f64 = 20.0;
+pub(super) const SIZE_PRICE: f64 = 20.0;
 /// Weight of the mean error beside the largest one: without it all but the worst place are free.
-const MEAN_WEIGHT: f64 = 0.3;
-/// Weight of the mean distance by which joint panels miss their partners.
-const JOINT_WEIGHT: f64 = 0.15;
+pub(super) const MEAN_WEIGHT: f64 = 0.3;
+/// The mean is of squares; errors of this share of the radius count as in a mean of errors.
+const MEAN_SCALE: f64 = 0.03;
 /// Aim a little above the limits, so that rounding does not fall below them.
-const MARGIN: f64 = 1.02;
+pub(super) const MARGIN: f64 = 1.02;
 
-/// A fitted solid with where each chain folds.
+/// A solid with its measures.
 #[derive(Debug, Clone)]
 pub(super) struct Fitted {
-    pub(super) solid: Solid,
+    pub(super) shape: Shape,
     pub(super) spots: Vec<FoldSpot>,
     /// Hausdorff distance to the hull (to its simplification during the fit), mm.
     pub(super) error_mm: f64,
     /// Sum of what the solid lacks to be valid, mm; 0 when valid.
     pub(super) lack_mm: f64,
+    /// How far joint panels miss their partners, weighted.
+    pub(super) miss_mm: f64,
+    /// The mean of squared distances, as a length.
+    spread_mm: f64,
+    /// Where the solid's corners stand to the hull, and the hull's to the solid.
+    pub(super) own: Vec<Position>,
+    pub(super) hulls: Vec<Position>,
 }
 
-/// Improves `solid` until the trust region has shrunk.
-pub(super) fn fit(target: &Target, solid: Solid, spots: Vec<FoldSpot>, steps: usize) -> Fitted {
-    let hull = Polytope::of_hull(target.hull);
-    let centre = target.hull.centroid();
-    let radius_mm = target.hull.vertices().iter().map(|v| v.distance(centre)).fold(0.0, f64::max);
-    let task = Task { target, hull, spots, radius_mm };
-    let mut best = task.measure(task.restore(solid));
-    let mut region = FIRST_REGION * radius_mm;
-    let mut slow = 0;
-    for _ in 0..steps.min(STEPS) {
-        if region < LAST_REGION * radius_mm || slow == SLOW_STEPS {
-            break;
-        }
-        let next = task.step(&best.solid, region).map(|s| task.measure(task.restore(s)));
-        let gain = |next: &Fitted| task.merit(&best) - task.merit(next);
-        match next {
-            Some(next) if gain(&next) > 1e-6 * radius_mm => {
-                slow = if gain(&next) < SLOW_GAIN * task.merit(&best) { slow + 1 } else { 0 };
-                best = next;
-                region = (region * 1.5).min(FIRST_REGION * radius_mm);
-            }
-            _ => region *= 0.4,
-        }
+impl Fitted {
+    /// What the fit minimises.
+    pub(super) fn merit(&self) -> f64 {
+        self.error_mm + MEAN_WEIGHT * self.spread_mm + SIZE_PRICE * self.lack_mm + self.miss_mm
     }
-    best
 }
 
-struct Task<'a> {
-    target: &'a Target<'a>,
-    hull: Polytope,
-    spots: Vec<FoldSpot>,
-    radius_mm: f64,
+/// A fit that can be gone on with.
+#[derive(Debug, Clone)]
+pub(super) struct Fit<'a> {
+    task: Task<'a>,
+    best: Fitted,
+    step_mm: f64,
+    slow: usize,
+}
+
+impl<'a> Fit<'a> {
+    /// A fit that starts from `solid`.
+    pub(super) fn new(target: Target<'a>, solid: Solid, spots: Vec<FoldSpot>) -> Self {
+        let hull = Polytope::of_hull(target.hull);
+        let centre = target.hull.centroid();
+        let radius_mm = target.hull.vertices().iter().map(|v| v.distance(centre)).fold(0.0, f64::max);
+        let task = Task { target, hull, radius_mm };
+        let best = task.measure(restored(solid, &spots), spots);
+        Self { task, best, step_mm: FIRST_STEP * radius_mm, slow: 0 }
+    }
+
+    /// The best solid so far.
+    pub(super) fn best(&self) -> &Fitted {
+        &self.best
+    }
+
+    /// What the solid is fitted to.
+    pub(super) fn target(&self) -> &Target<'a> {
+        &self.task.target
+    }
+
+    /// The best solid.
+    pub(super) fn into_best(self) -> Fitted {
+        self.best
+    }
+
+    /// Improves the solid by at most `steps` steps, fewer where it cannot be improved much.
+    pub(super) fn run(mut self, steps: usize) -> Self {
+        let radius_mm = self.task.radius_mm;
+        for _ in 0..steps {
+            if self.step_mm < LAST_STEP * radius_mm || self.slow == SLOW_STEPS {
+                break;
+            }
+            let next = self.task.step(&self.best, self.step_mm);
+            let next =
+                next.map(|s| self.task.measure(restored(s, &self.best.spots), self.best.spots.clone()));
+            match next.map(|n| (self.best.merit() - n.merit(), n)) {
+                Some((gain, next)) if gain > 1e-6 * radius_mm => {
+                    self.slow = if gain < SLOW_GAIN * self.best.merit() { self.slow + 1 } else { 0 };
+                    self.best = next;
+                    self.step_mm = (self.step_mm * 1.6).min(LONGEST_STEP * radius_mm);
+                }
+                _ => self.step_mm *= 0.35,
+            }
+        }
+        self
+    }
+}
+
+/// What a solid is fitted to.
+#[derive(Debug, Clone)]
+pub(super) struct Task<'a> {
+    pub(super) target: Target<'a>,
+    pub(super) hull: Polytope,
+    pub(super) radius_mm: f64,
 }
 
 impl Task<'_> {
-    fn merit(&self, fitted: &Fitted) -> f64 {
-        fitted.error_mm + SIZE_PRICE * fitted.lack_mm
+    /// Length at which errors count in the mean of squares as in a mean.
+    pub(super) fn mean_scale_mm(&self) -> f64 {
+        MEAN_SCALE * self.radius_mm
     }
 
-    /// Error and lack of a solid.
-    fn measure(&self, solid: Solid) -> Fitted {
-        let own = polytope(&solid);
-        let error_mm = super::distance::hausdorff(&own, &self.hull);
+    fn measure(&self, solid: Solid, spots: Vec<FoldSpot>) -> Fitted {
+        let shape = Shape::of(solid);
+        let own: Vec<Position> = shape.corners.iter().map(|c| self.hull.position(c.point)).collect();
+        let hulls: Vec<Position> = self.hull.corners().iter().map(|p| shape.polytope.position(*p)).collect();
+        let away = |p: &Position, at: DVec3| p.nearest.map_or(0.0, |n| n.0.distance(at));
+        let (mut error_mm, mut squares) = (0.0f64, 0.0);
+        let mut add = |d: f64| {
+            error_mm = error_mm.max(d);
+            squares += d * d;
+        };
+        own.iter().zip(&shape.corners).for_each(|(p, c)| add(away(p, c.point)));
+        hulls.iter().zip(self.hull.corners()).for_each(|(p, c)| add(away(p, *c)));
+        let count = own.len() + hulls.len();
+        let spread_mm = squares / (2.0 * count as f64 * self.mean_scale_mm());
+        let lack_mm = self.lack_mm(&shape, &spots);
+        let joints = self.target.joints.iter();
+        let miss_mm = joints.map(|j| j.price * miss_mm(&shape, &self.target, j)).sum();
+        let is_finite = shape.corners.iter().all(|c| c.point.is_finite());
+        let error_mm = if is_finite { error_mm } else { f64::INFINITY };
+        Fitted { shape, spots, error_mm, lack_mm, miss_mm, spread_mm, own, hulls }
+    }
+
+    fn lack_mm(&self, shape: &Shape, spots: &[FoldSpot]) -> f64 {
         let least = self.target.min_panel_mm;
-        let heights = solid.heights();
         let lack_of = |j: usize| {
-            let narrow = heights.iter().map(|&v| least - solid.width_at(j, v)).fold(0.0, f64::max);
-            let rooms =
-                self.rooms(&solid, j).map(|room| (least - room.measure(&solid, j)).max(0.0)).sum::<f64>();
-            let miss = match self.spots[j] {
-                FoldSpot::Bend(i) => imbalance(&solid.profile(j), i + 1).abs(),
+            let widths = shape.heights_about(j).map(|v| least - shape.width_at(j, v));
+            let profile = &shape.chains[j].profile;
+            let rooms = rooms(shape, spots, j).map(|room| (least - room.value(profile)).max(0.0));
+            let miss = match spots[j] {
+                FoldSpot::Bend(i) => imbalance(profile, i + 1).abs() / 2.0,
                 FoldSpot::Inside(_) => 0.0,
             };
-            narrow + rooms + miss
+            widths.fold(0.0, f64::max) + rooms.sum::<f64>() + miss
         };
-        let lack_mm = (0..solid.chains.len()).map(lack_of).sum();
-        Fitted { solid, spots: self.spots.clone(), error_mm, lack_mm }
-    }
-
-    /// One step: the best solid within the trust region, by the linear model.
-    fn step(&self, solid: &Solid, region: f64) -> Option<Solid> {
-        let freedom = Freedom::of(solid, self.radius_mm);
-        let mut lp = Programme::new();
-        for _ in 0..freedom.count() {
-            let k = lp.variable(0.0, 1e-3 / self.radius_mm);
-            lp.between(k, -region, region);
-        }
-        let worst = lp.variable(1.0, 0.0);
-        lp.at_most([(worst, -1.0)], 0.0);
-        self.error_rows(solid, &freedom, &mut lp, worst, region);
-        self.size_rows(solid, &freedom, &mut lp, region);
-        self.order_rows(solid, &freedom, &mut lp);
-        self.joint_rows(solid, &freedom, &mut lp);
-        let change = lp.solve()?;
-        Some(freedom.apply(solid, &change[..freedom.count()]))
-    }
-
-    /// Distances of corners from the hull, and of the hull's corners from the solid.
-    fn error_rows(&self, solid: &Solid, freedom: &Freedom, lp: &mut Programme, worst: usize, region: f64) {
-        let faces = solid.faces();
-        let corners: Vec<_> = (0..solid.chains.len()).flat_map(|j| solid.corners(j)).collect();
-        let weight = MEAN_WEIGHT / (corners.len() + faces.len()) as f64;
-        let reach = 2.0 * region;
-        for corner in &corners {
-            let (depth, plane) = self.hull.deepest_plane(corner.point);
-            if depth < -reach {
-                continue;
-            }
-            let nearest = self.hull.nearest(corner.point);
-            let away = corner.point - nearest;
-            let (d, direction) = if away.length() > 1e-6 * self.radius_mm {
-                (away.length(), away.normalize())
-            } else {
-                (depth, self.hull.normal(plane))
-            };
-            let e = error_variable(lp, worst, weight);
-            let mut terms = freedom.corner(solid, corner, direction);
-            terms.push((e, -1.0));
-            lp.at_most(terms, -d);
-        }
-        let own = polytope(solid);
-        let errors: Vec<usize> = faces.iter().map(|_| error_variable(lp, worst, weight)).collect();
-        for &vertex in self.target.hull.vertices() {
-            let (depth, face) = own.deepest_plane(vertex);
-            if depth < -reach {
-                continue;
-            }
-            let nearest = own.nearest(vertex);
-            let away = vertex - nearest;
-            let mut terms = if away.length() > 1e-6 * self.radius_mm {
-                self.support_terms(solid, freedom, nearest, away.normalize(), faces[face])
-            } else {
-                freedom.plane(solid, faces[face], vertex)
-            };
-            terms.iter_mut().for_each(|t| t.1 = -t.1);
-            terms.push((errors[face], -1.0));
-            lp.at_most(terms, -depth.max(away.length()));
-        }
-    }
-
-    /// Change of the solid's support function in `direction`, whose supporting point is `at`:
-    /// the direction is a combination of the normals of the faces that meet there.
-    fn support_terms(
-        &self,
-        solid: &Solid,
-        freedom: &Freedom,
-        at: DVec3,
-        direction: DVec3,
-        fallback: FaceId,
-    ) -> Terms {
-        let touching: Vec<FaceId> = solid
-            .faces()
-            .into_iter()
-            .filter(|&f| {
-                let (n, c) = solid.plane(f);
-                (n.dot(at) - c).abs() < 1e-7 * self.radius_mm
-            })
-            .collect();
-        for (a, &f) in touching.iter().enumerate() {
-            for (b, &g) in touching.iter().enumerate().skip(a) {
-                for &h in touching.iter().skip(b) {
-                    if let Some(weights) = cone_weights([f, g, h].map(|f| solid.plane(f).0), direction) {
-                        let planes = [f, g, h].map(|f| freedom.plane(solid, f, at));
-                        return super::gradient::sum((0..3).map(|k| (weights[k], &planes[k])));
-                    }
-                }
-            }
-        }
-        freedom.plane(solid, fallback, at)
-    }
-
-    /// Panels stay wide and long enough, balance points in their places.
-    fn size_rows(&self, solid: &Solid, freedom: &Freedom, lp: &mut Programme, region: f64) {
-        let least = self.target.min_panel_mm * MARGIN;
-        let heights = solid.heights();
-        for j in 0..solid.chains.len() {
-            let lack = lack_variable(lp);
-            for &v in &heights {
-                let width = solid.width_at(j, v);
-                if width < least + 12.0 * region {
-                    let mut terms: Terms =
-                        freedom.width(solid, j, v).into_iter().map(|(k, a)| (k, -a)).collect();
-                    terms.push((lack, -1.0));
-                    lp.at_most(terms, width - least);
-                }
-            }
-            for room in self.rooms(solid, j) {
-                let now = room.measure(solid, j);
-                if now < least + 6.0 * region {
-                    let mut terms = freedom.of_profile(solid, j, |s| -room.measure(s, j));
-                    terms.push((lack_variable(lp), -1.0));
-                    lp.at_most(terms, now - least);
-                }
-            }
-            self.fold_rows(solid, freedom, j, lp);
-        }
-    }
-
-    /// Lengths of chain j that must not be too small: of its panels, and about its fold vertex.
-    fn rooms(&self, solid: &Solid, j: usize) -> impl Iterator<Item = Room> + use<> {
-        let about_fold = match self.spots[j] {
-            FoldSpot::Inside(i) => vec![Room::Above(i), Room::Below(i)],
-            FoldSpot::Bend(_) => Vec::new(),
-        };
-        (0..solid.chains[j].facets.len()).map(Room::Length).chain(about_fold)
-    }
-
-    /// A fold vertex at a bend stays the balance point.
-    fn fold_rows(&self, solid: &Solid, freedom: &Freedom, j: usize, lp: &mut Programme) {
-        let FoldSpot::Bend(i) = self.spots[j] else { return };
-        let measure = |s: &Solid| imbalance(&s.profile(j), i + 1);
-        let terms = freedom.of_profile(solid, j, measure);
-        let now = measure(solid);
-        let lack = lack_variable(lp);
-        lp.at_most(terms.iter().copied().chain([(lack, -1.0)]), -now);
-        lp.at_most(terms.iter().map(|&(k, a)| (k, -a)).chain([(lack, -1.0)]), now);
-    }
-
-    /// Slopes fall from top to bottom, directions turn counter-clockwise.
-    fn order_rows(&self, solid: &Solid, freedom: &Freedom, lp: &mut Programme) {
-        let r = freedom.radius_mm();
-        for (j, chain) in solid.chains.iter().enumerate() {
-            for (i, w) in chain.facets.windows(2).enumerate() {
-                let bend = (w[0].slope_rad - w[1].slope_rad - MIN_BEND_RAD).max(0.0) * r;
-                let terms = [(freedom.slope(j, i), -1.0), (freedom.slope(j, i + 1), 1.0)];
-                lp.at_most(terms.into_iter().filter_map(|(k, a)| Some((k?, a))), bend);
-            }
-            for (i, facet) in chain.facets.iter().enumerate() {
-                if let Some(k) = freedom.slope(j, i) {
-                    lp.at_most([(k, 1.0)], (MAX_SLOPE_RAD - facet.slope_rad).max(0.0) * r);
-                    lp.at_most([(k, -1.0)], (MAX_SLOPE_RAD + facet.slope_rad).max(0.0) * r);
-                }
-            }
-            let next = solid.next(j);
-            let gap = (solid.chains[next].angle_rad - chain.angle_rad).rem_euclid(std::f64::consts::TAU);
-            let turn = |sign: f64| {
-                [(freedom.angle(j), sign), (freedom.angle(next), -sign)]
-                    .into_iter()
-                    .filter_map(|(k, a)| Some((k?, a)))
-            };
-            lp.at_most(turn(1.0), (gap - MIN_TURN_RAD).max(0.0) * r);
-            lp.at_most(turn(-1.0), (MAX_TURN_RAD - gap).max(0.0) * r);
-        }
-    }
-
-    /// Joint panels should cover what is glued on them, or stay within what they are glued on.
-    fn joint_rows(&self, solid: &Solid, freedom: &Freedom, lp: &mut Programme) {
-        for joint in &self.target.joints {
-            let Some(face) = self.target.joint_face(solid, joint) else { continue };
-            let neighbours: Vec<FaceId> = solid.faces().into_iter().filter(|&f| f != face).collect();
-            let weight = JOINT_WEIGHT / (joint.cover.len() + joint.within.len()).max(1) as f64;
-            for &point in &joint.cover {
-                let miss = lp.variable(weight, 0.0);
-                lp.at_most([(miss, -1.0)], 0.0);
-                for &f in &neighbours {
-                    let (n, c) = solid.plane(f);
-                    let inside = c - n.dot(point);
-                    if inside < 0.3 * self.radius_mm {
-                        let mut terms: Terms =
-                            freedom.plane(solid, f, point).into_iter().map(|(k, a)| (k, -a)).collect();
-                        terms.push((miss, -1.0));
-                        lp.at_most(terms, inside);
-                    }
-                }
-            }
-            let corners: Vec<_> = (0..solid.chains.len())
-                .flat_map(|j| solid.corners(j))
-                .filter(|c| c.faces.contains(&face))
-                .collect();
-            for &(n, c) in &joint.within {
-                let miss = lp.variable(weight, 0.0);
-                lp.at_most([(miss, -1.0)], 0.0);
-                for corner in &corners {
-                    let mut terms = freedom.corner(solid, corner, n);
-                    terms.push((miss, -1.0));
-                    lp.at_most(terms, c - n.dot(corner.point));
-                }
-            }
-        }
-    }
-
-    /// Makes fold vertices at bends exact again after a linear step, by moving one plane beside
-    /// each (Newton's method on its offset), where that is a small change.
-    fn restore(&self, mut solid: Solid) -> Solid {
-        for j in 0..solid.chains.len() {
-            if let FoldSpot::Bend(i) = self.spots[j] {
-                let free = if solid.chains[j].facets[i].is_joint { i + 1 } else { i };
-                if let Some(exact) = exact_bend(&solid, j, i, free) {
-                    solid = exact;
-                }
-            }
-        }
-        solid
+        (0..shape.chains.len()).map(lack_of).sum()
     }
 }
 
-/// A distance that must not fall below the least panel size.
-#[derive(Debug, Clone, Copy)]
-enum Room {
-    /// Length of facet i of the profile.
-    Length(usize),
-    /// From the upper end of facet i down to the balance point in it.
-    Above(usize),
-    /// From the balance point down to the lower end of facet i.
-    Below(usize),
+/// Lengths of chain j that must not be too small: of its panels, and about its fold vertex.
+pub(super) fn rooms<'s>(
+    shape: &'s Shape,
+    spots: &[FoldSpot],
+    j: usize,
+) -> impl Iterator<Item = ProfileLength> + use<'s> {
+    let chain = &shape.chains[j];
+    let spot = spots[j];
+    let about_fold = match spot {
+        FoldSpot::Inside(i) => vec![
+            ProfileLength::beyond_balance(chain, i).reversed(),
+            ProfileLength::beyond_balance(chain, i + 1),
+        ],
+        FoldSpot::Bend(_) => Vec::new(),
+    };
+    // The two parts about the fold vertex are shorter than their plane.
+    let whole = (0..chain.lines.len()).filter(move |&i| spot != FoldSpot::Inside(i));
+    whole.map(|i| ProfileLength::of_segment(chain, i)).chain(about_fold)
 }
 
-impl Room {
-    fn measure(self, solid: &Solid, j: usize) -> f64 {
-        let profile = solid.profile(j);
-        match self {
-            Room::Length(i) => profile[i].distance(profile[i + 1]).copysign(profile[i].y - profile[i + 1].y),
-            Room::Above(i) => -imbalance(&profile, i) / 2.0,
-            Room::Below(i) => imbalance(&profile, i + 1) / 2.0,
+/// Makes fold vertices at bends exact again after a linear step, by moving one plane beside each
+/// (Newton's method on its offset), where that is a small change.
+fn restored(mut solid: Solid, spots: &[FoldSpot]) -> Solid {
+    let (top, bottom) = (solid.top_mm, solid.bottom_mm);
+    for (chain, spot) in solid.chains.iter_mut().zip(spots) {
+        if let FoldSpot::Bend(i) = *spot {
+            let free = if chain.facets[i].is_joint { i + 1 } else { i };
+            if let Some(offset_mm) = exact_bend(chain, top, bottom, i, free) {
+                chain.facets[free].offset_mm = offset_mm;
+            }
         }
     }
+    solid
 }
 
-/// The solid with facet `free` of chain j moved until the bend below facet `i` is the balance
-/// point. `None` where that takes more than a small move.
-fn exact_bend(solid: &Solid, j: usize, i: usize, free: usize) -> Option<Solid> {
-    let mut solid = solid.clone();
-    let miss = |s: &Solid| imbalance(&s.profile(j), i + 1);
-    let size = (solid.top_mm - solid.bottom_mm).abs();
-    let start = solid.chains[j].facets[free].offset_mm;
+/// The offset of facet `free` at which the bend below facet `i` is the balance point. `None` where
+/// that takes more than a small move.
+fn exact_bend(chain: &Chain, top: f64, bottom: f64, i: usize, free: usize) -> Option<f64> {
+    let mut lines = super::shape::lines(chain);
+    let size = (top - bottom).abs();
+    let start = lines[free].offset;
+    let mut miss = |offset: f64| {
+        lines[free].offset = offset;
+        imbalance(&profile(&lines, top, bottom), i + 1)
+    };
     let step = 1e-6 * size;
+    let mut at = start;
     for _ in 0..20 {
-        let now = miss(&solid);
+        let now = miss(at);
         if now.abs() <= 1e-13 * size {
-            return Some(solid);
+            return Some(at);
         }
-        let base = solid.chains[j].facets[free].offset_mm;
-        solid.chains[j].facets[free].offset_mm = base + step;
-        let next = base - now * step / (miss(&solid) - now);
+        let next = at - now * step / (miss(at + step) - now);
         if !next.is_finite() || (next - start).abs() > 0.2 * size {
             return None;
         }
-        solid.chains[j].facets[free].offset_mm = next;
+        at = next;
     }
-    (miss(&solid).abs() <= 1e-11 * size).then_some(solid)
-}
-
-/// What a solid lacks to be valid, at its price.
-fn lack_variable(lp: &mut Programme) -> usize {
-    let lack = lp.variable(SIZE_PRICE, 0.0);
-    lp.at_most([(lack, -1.0)], 0.0);
-    lack
-}
-
-/// A non-negative error not above `worst`, with a price of its own.
-fn error_variable(lp: &mut Programme, worst: usize, weight: f64) -> usize {
-    let e = lp.variable(weight, 0.0);
-    lp.at_most([(e, 1.0), (worst, -1.0)], 0.0);
-    lp.at_most([(e, -1.0)], 0.0);
-    e
-}
-
-/// Non-negative weights with `Σ w n = direction`, if there are any; repeated normals stand for
-/// one or two faces.
-fn cone_weights(n: [DVec3; 3], direction: DVec3) -> Option<[f64; 3]> {
-    let close = |w: DVec3| {
-        let rest = (n[0] * w.x + n[1] * w.y + n[2] * w.z - direction).length();
-        (rest < 1e-6 && w.min_element() > -1e-9).then(|| w.to_array())
-    };
-    if n[0] == n[1] && n[1] == n[2] {
-        return close(DVec3::new(direction.dot(n[0]), 0.0, 0.0));
-    }
-    if n[0] == n[1] || n[1] == n[2] {
-        let (a, b) = (n[0], n[2]);
-        let (ab, da, db) = (a.dot(b), direction.dot(a), direction.dot(b));
-        let det = 1.0 - ab * ab;
-        return close(DVec3::new((da - ab * db) / det, 0.0, (db - ab * da) / det));
-    }
-    let m = DMat3::from_cols(n[0], n[1], n[2]);
-    (m.determinant().abs() > 1e-9).then(|| m.inverse() * direction).and_then(close)
-}
-
-/// The solid as a polytope, faces in the order of [`Solid::faces`].
-pub(super) fn polytope(solid: &Solid) -> Polytope {
-    Polytope::new(solid.outlines().into_iter().map(|(face, outline)| {
-        let (normal, offset) = solid.plane(face);
-        (normal, offset, outline)
-    }))
+    (miss(at).abs() <= 1e-11 * size).then_some(at)
 }

@@ -1,7 +1,8 @@
 //! First-order change of a solid's measures with its free parameters.
 
+use super::shape::{ChainShape, Line, Shape};
 use super::solid::{Corner, FaceId, Solid};
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec2, DVec3};
 
 /// Which parameters of a solid are free, and where they stand in the vector of changes.
 ///
@@ -74,14 +75,14 @@ impl Freedom {
     }
 
     /// Change of `offset − normal · point` of a face, for a fixed point on it.
-    pub(super) fn plane(&self, solid: &Solid, face: FaceId, point: DVec3) -> Terms {
+    pub(super) fn plane(&self, shape: &Shape, face: FaceId, point: DVec3) -> Terms {
         match face {
             FaceId::Top => self.top.map(|k| (k, 1.0)).into_iter().collect(),
             FaceId::Bottom => self.bottom.map(|k| (k, -1.0)).into_iter().collect(),
             FaceId::Side(j, i) => {
-                let chain = &solid.chains[j];
-                let (sin, cos) = chain.facets[i].slope_rad.sin_cos();
-                let (u, t) = (chain.normal().dot(point.truncate()), chain.tangent().dot(point.truncate()));
+                let chain = &shape.chains[j];
+                let Line { sin, cos, .. } = chain.lines[i];
+                let (u, t) = (chain.normal.dot(point.truncate()), chain.tangent().dot(point.truncate()));
                 let mut terms = Terms::new();
                 if let Some(k) = self.facets[j][i] {
                     terms.push((k, (sin * u - cos * point.z) / self.radius_mm));
@@ -97,24 +98,34 @@ impl Freedom {
 
     /// Change of `direction · corner`: the direction is written in the normals of the corner's
     /// three faces, each of which moves it by its own plane's change.
-    pub(super) fn corner(&self, solid: &Solid, corner: &Corner, direction: DVec3) -> Terms {
-        let normals = corner.faces.map(|f| solid.plane(f).0);
+    pub(super) fn corner(&self, shape: &Shape, corner: &Corner, direction: DVec3) -> Terms {
+        let normals = corner.faces.map(|f| shape.polytope.normal(shape.index(f)));
         let weights = DMat3::from_cols(normals[0], normals[1], normals[2]).inverse() * direction;
-        let planes = corner.faces.map(|f| self.plane(solid, f, corner.point));
+        let planes = corner.faces.map(|f| self.plane(shape, f, corner.point));
         sum((0..3).map(|k| (weights[k], &planes[k])))
     }
 
+    /// Change of the distance from a fixed point outside to the edge that two faces share at `at`,
+    /// in the direction from there to the point, sign reversed: the edge's reach in it.
+    pub(super) fn edge(&self, shape: &Shape, faces: [FaceId; 2], at: DVec3, direction: DVec3) -> Terms {
+        let [a, b] = faces.map(|f| shape.polytope.normal(shape.index(f)));
+        let (ab, da, db) = (a.dot(b), direction.dot(a), direction.dot(b));
+        let det = (1.0 - ab * ab).max(1e-12);
+        let planes = faces.map(|f| self.plane(shape, f, at));
+        sum([((da - ab * db) / det, &planes[0]), ((db - ab * da) / det, &planes[1])])
+    }
+
     /// Change of the width of chain j at height v (see [`Solid::width_at`]), for fixed v.
-    pub(super) fn width(&self, solid: &Solid, j: usize, v_mm: f64) -> Terms {
-        let here = &solid.chains[j];
+    pub(super) fn width(&self, shape: &Shape, j: usize, v_mm: f64) -> Terms {
+        let here = &shape.chains[j];
         let u_here = here.u_at(v_mm);
         let mut parts: Vec<(f64, Terms)> = Vec::new();
-        for (k, sign) in [(solid.previous(j), -1.0), (solid.next(j), 1.0)] {
-            let other = &solid.chains[k];
-            let (sin, cos) = (other.angle_rad - here.angle_rad).sin_cos();
-            let (sin, u_other) = (sin.abs(), other.u_at(v_mm));
-            parts.push((1.0 / sin, self.reach(solid, k, v_mm)));
-            parts.push((-cos / sin, self.reach(solid, j, v_mm)));
+        for (k, sign) in [(shape.solid.previous(j), -1.0), (shape.solid.next(j), 1.0)] {
+            let other = &shape.chains[k];
+            let (sin, cos) = (here.normal.perp_dot(other.normal).abs(), here.normal.dot(other.normal));
+            let u_other = other.u_at(v_mm);
+            parts.push((1.0 / sin, self.reach(shape, k, v_mm)));
+            parts.push((-cos / sin, self.reach(shape, j, v_mm)));
             let turn = (u_here - u_other * cos) / (sin * sin) * sign / self.radius_mm;
             parts.push((turn, self.angles[k].map(|a| (a, 1.0)).into_iter().collect()));
             parts.push((-turn, self.angles[j].map(|a| (a, 1.0)).into_iter().collect()));
@@ -123,17 +134,16 @@ impl Freedom {
     }
 
     /// Change of chain j's u at height v; where v is an end of the solid, its change too.
-    fn reach(&self, solid: &Solid, j: usize, v_mm: f64) -> Terms {
-        let chain = &solid.chains[j];
-        let at_or_above = chain.facets.windows(2).take_while(|w| w[0].meets(&w[1]) > v_mm).count();
-        let facet = chain.facets[at_or_above];
-        let (sin, cos) = facet.slope_rad.sin_cos();
+    fn reach(&self, shape: &Shape, j: usize, v_mm: f64) -> Terms {
+        let chain = &shape.chains[j];
+        let i = chain.facet_at(v_mm);
+        let Line { sin, cos, offset } = chain.lines[i];
         let mut terms = Terms::new();
-        if let Some(k) = self.facets[j][at_or_above] {
-            terms.push((k, (facet.offset_mm * sin - v_mm) / (cos * cos) / self.radius_mm));
+        if let Some(k) = self.facets[j][i] {
+            terms.push((k, (offset * sin - v_mm) / (cos * cos) / self.radius_mm));
             terms.push((k + 1, 1.0 / cos));
         }
-        for (end, variable) in [(solid.top_mm, self.top), (solid.bottom_mm, self.bottom)] {
+        for (end, variable) in [(shape.solid.top_mm, self.top), (shape.solid.bottom_mm, self.bottom)] {
             if let Some(k) = variable.filter(|_| end == v_mm) {
                 terms.push((k, -sin / cos));
             }
@@ -141,22 +151,94 @@ impl Freedom {
         terms
     }
 
-    /// Change of any measure of chain j's profile, by central differences.
-    pub(super) fn of_profile(&self, solid: &Solid, j: usize, measure: impl Fn(&Solid) -> f64) -> Terms {
-        let facets = self.facets[j].iter().flatten().flat_map(|&k| [k, k + 1]);
-        let variables = facets.chain(self.top).chain(self.bottom);
-        let step = 1e-5 * self.radius_mm;
-        let mut change = vec![0.0; self.count];
-        variables
-            .map(|k| {
-                change[k] = step;
-                let up = measure(&self.apply(solid, &change));
-                change[k] = -step;
-                let down = measure(&self.apply(solid, &change));
-                change[k] = 0.0;
-                (k, (up - down) / (2.0 * step))
-            })
-            .collect()
+    /// Change of a length of chain j's profile.
+    pub(super) fn length(&self, shape: &Shape, j: usize, length: &ProfileLength) -> Terms {
+        let chain = &shape.chains[j];
+        let pull = length.pull(&chain.profile);
+        let mut terms = Terms::new();
+        let mut push = |variable: Option<usize>, change: f64| {
+            if let Some(k) = variable.filter(|_| change != 0.0) {
+                terms.push((k, change));
+            }
+        };
+        let last = chain.lines.len();
+        for (m, (&at, &pull)) in chain.profile.iter().zip(&pull).enumerate() {
+            let above = (m > 0).then(|| m - 1);
+            let below = (m < last).then_some(m);
+            let end = if m == 0 { self.top } else { self.bottom };
+            // The point lies on two lines; the pull on it is shared out to their normals.
+            let (first, second) = match (above, below) {
+                (Some(a), Some(b)) => (a, Some(b)),
+                (a, b) => (a.or(b).unwrap_or(0), None),
+            };
+            let Line { sin, cos, .. } = chain.lines[first];
+            let (second_normal, det) = second.map_or((DVec2::Y, cos), |b| {
+                let line = chain.lines[b];
+                (DVec2::new(line.cos, line.sin), cos * line.sin - sin * line.cos)
+            });
+            let first_share = pull.perp_dot(second_normal) / det;
+            let second_share = DVec2::new(cos, sin).perp_dot(pull) / det;
+            let mut of_line = |i: usize, share: f64| {
+                let Line { sin, cos, .. } = chain.lines[i];
+                let slope = self.facets[j][i];
+                push(slope, -share * (cos * at.y - sin * at.x) / self.radius_mm);
+                push(slope.map(|k| k + 1), share);
+            };
+            of_line(first, first_share);
+            match second {
+                Some(b) => of_line(b, second_share),
+                None => push(end, second_share),
+            }
+        }
+        sum([(1.0, &terms)])
+    }
+}
+
+/// A weighted sum of a profile's segment lengths, and of its spread u_last − u_0.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct ProfileLength {
+    segments: Vec<f64>,
+    spread: f64,
+}
+
+impl ProfileLength {
+    /// Length of segment i.
+    pub(super) fn of_segment(chain: &ChainShape, i: usize) -> Self {
+        Self { segments: (0..chain.lines.len()).map(|k| f64::from(k == i)).collect(), spread: 0.0 }
+    }
+
+    /// How far down the profile vertex i is beyond the balance point, along the profile: half of
+    /// the imbalance there.
+    pub(super) fn beyond_balance(chain: &ChainShape, i: usize) -> Self {
+        let sign = |k: usize| if k < i { 0.5 } else { -0.5 };
+        Self { segments: (0..chain.lines.len()).map(sign).collect(), spread: -0.5 }
+    }
+
+    /// The same with the other sign.
+    pub(super) fn reversed(mut self) -> Self {
+        self.segments.iter_mut().for_each(|s| *s = -*s);
+        self.spread = -self.spread;
+        self
+    }
+
+    /// Its value; segments that run upwards count negative.
+    pub(super) fn value(&self, profile: &[DVec2]) -> f64 {
+        let lengths = profile.windows(2).map(|w| (w[1] - w[0]).length().copysign(w[0].y - w[1].y));
+        let sum: f64 = lengths.zip(&self.segments).map(|(l, s)| l * s).sum();
+        sum + self.spread * (profile[profile.len() - 1].x - profile[0].x)
+    }
+
+    /// Its gradient at each vertex.
+    fn pull(&self, profile: &[DVec2]) -> Vec<DVec2> {
+        let mut out = vec![DVec2::ZERO; profile.len()];
+        for (i, (w, s)) in profile.windows(2).zip(&self.segments).enumerate() {
+            let along = (w[1] - w[0]).normalize_or_zero() * s.copysign(s * (w[0].y - w[1].y));
+            out[i] -= along;
+            out[i + 1] += along;
+        }
+        out[0].x -= self.spread;
+        out[profile.len() - 1].x += self.spread;
+        out
     }
 }
 
@@ -176,11 +258,11 @@ pub(super) fn sum<'a>(parts: impl IntoIterator<Item = (f64, &'a Terms)>) -> Term
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::component::solid::tests::barrel;
 
-    fn skewed() -> Solid {
+    pub(crate) fn skewed() -> Solid {
         let mut solid = barrel(5, 40.0);
         for (j, chain) in solid.chains.iter_mut().enumerate() {
             chain.angle_rad += 0.05 * (j as f64).sin();
@@ -208,24 +290,63 @@ mod tests {
 
     #[test]
     fn corners_move_as_their_derivatives_say() {
-        let solid = skewed();
-        let freedom = Freedom::of(&solid, 40.0);
+        let shape = Shape::of(skewed());
+        let freedom = Freedom::of(&shape.solid, 40.0);
         let direction = DVec3::new(0.3, -0.5, 0.8);
         for j in 0..5 {
-            for (k, corner) in solid.corners(j).iter().enumerate() {
-                let terms = freedom.corner(&solid, corner, direction);
-                check(&terms, &freedom, &solid, |s| direction.dot(s.corners(j)[k].point));
+            for (k, corner) in shape.solid.corners(j).iter().enumerate() {
+                let terms = freedom.corner(&shape, corner, direction);
+                check(&terms, &freedom, &shape.solid, |s| direction.dot(s.corners(j)[k].point));
             }
         }
     }
 
     #[test]
     fn widths_change_as_their_derivatives_say() {
-        let solid = skewed();
-        let freedom = Freedom::of(&solid, 40.0);
+        let shape = Shape::of(skewed());
+        let solid = &shape.solid;
+        let freedom = Freedom::of(solid, 40.0);
         for j in 0..5 {
-            check(&freedom.width(&solid, j, 3.0), &freedom, &solid, |s| s.width_at(j, 3.0));
-            check(&freedom.width(&solid, j, solid.top_mm), &freedom, &solid, |s| s.width_at(j, s.top_mm));
+            check(&freedom.width(&shape, j, 3.0), &freedom, solid, |s| s.width_at(j, 3.0));
+            check(&freedom.width(&shape, j, solid.top_mm), &freedom, solid, |s| s.width_at(j, s.top_mm));
         }
+    }
+
+    #[test]
+    fn lengths_change_as_their_derivatives_say() {
+        let shape = Shape::of(skewed());
+        let freedom = Freedom::of(&shape.solid, 40.0);
+        for j in 0..5 {
+            let chain = &shape.chains[j];
+            for i in 0..3 {
+                let lengths = [
+                    ProfileLength::of_segment(chain, i),
+                    ProfileLength::beyond_balance(chain, i + 1).reversed(),
+                ];
+                for length in lengths {
+                    let terms = freedom.length(&shape, j, &length);
+                    check(&terms, &freedom, &shape.solid, |s| length.value(&s.profile(j)));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn distances_to_edges_change_as_their_derivatives_say() {
+        let shape = Shape::of(skewed());
+        let freedom = Freedom::of(&shape.solid, 40.0);
+        let mut edges = 0;
+        for d in crate::geom::directions(200) {
+            let point = d * 70.0;
+            let (at, feature) = shape.polytope.position(point).nearest.unwrap();
+            let super::super::distance::Feature::Edge(a, b) = feature else { continue };
+            let [a, b] = [a, b].map(|c| shape.corners[c].faces);
+            let shared: Vec<FaceId> = a.into_iter().filter(|f| b.contains(f)).collect();
+            let terms = freedom.edge(&shape, [shared[0], shared[1]], at, (point - at).normalize());
+            let terms: Terms = terms.into_iter().map(|(k, a)| (k, -a)).collect();
+            check(&terms, &freedom, &shape.solid, |s| Shape::of(s.clone()).polytope.distance(point));
+            edges += 1;
+        }
+        assert!(edges > 20, "{edges}");
     }
 }

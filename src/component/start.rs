@@ -1,6 +1,7 @@
 //! First guess of a component's half-spaces: tangent planes of the hull in well-chosen directions.
 
-use super::profile::Balance;
+use super::fit::{Fitted, rooms};
+use super::profile::{Balance, balance, imbalance};
 use super::solid::{Chain, SideFacet, Solid};
 use super::target::{FoldSpot, Seat, Target};
 use crate::geom::polygon;
@@ -47,7 +48,7 @@ pub(super) fn circumscribe(target: &Target, edges: usize) -> Solid {
     let mut solid = Solid { chains, top_mm, bottom_mm, is_top_joint, is_bottom_joint };
     lower_ends(&mut solid, target.min_panel_mm);
     for j in 0..solid.chains.len() {
-        thin_out(&mut solid, j, target.profile_vertices - 2);
+        thin_out(&mut solid, j, target.profile_vertices - 1);
     }
     solid
 }
@@ -193,27 +194,25 @@ fn bulge(facets: &[SideFacet], k: usize, top: f64, bottom: f64) -> (f64, f64) {
     (mean_mm * (upper - lower), mean_mm)
 }
 
-/// Where each chain's fold vertex should be: in the plane where the balance point lies, or, where
-/// that is a joint panel, which must stay uncreased, at the end of it. A chain that is nothing but
-/// a joint panel gets a second plane, at whose meeting it can fold.
-pub(super) fn fold_spots(solid: &mut Solid) -> Vec<FoldSpot> {
+/// Where each chain's fold vertex should be. With fewer planes than `vertices` allows it is in the
+/// plane where the balance point lies; else, or where that is a joint panel, which must stay
+/// uncreased, it is at the nearest bend. A chain that is nothing but a joint panel gets a second
+/// plane, at whose meeting it can fold.
+pub(super) fn fold_spots(solid: &mut Solid, vertices: usize) -> Vec<FoldSpot> {
     (0..solid.chains.len())
         .map(|j| {
-            let at = super::profile::balance(&solid.profile(j));
+            let profile = solid.profile(j);
+            let at = balance(&profile);
             let facets = &solid.chains[j].facets;
-            let is_free = |i: usize| facets.get(i).is_some_and(|f| !f.is_joint);
-            if is_free(at.segment) {
+            let is_full = facets.len() + 2 > vertices;
+            if !is_full && !facets[at.segment].is_joint {
                 return FoldSpot::Inside(at.segment);
             }
-            let above = at.segment > 0 && is_free(at.segment - 1);
-            let below = is_free(at.segment + 1);
-            match (above, below) {
-                (true, false) => FoldSpot::Bend(at.segment - 1),
-                (false, true) => FoldSpot::Bend(at.segment),
-                (true, true) if at.share < 0.5 => FoldSpot::Bend(at.segment - 1),
-                (true, true) => FoldSpot::Bend(at.segment),
-                (false, false) => add_plane(solid, j, at),
-            }
+            let can_fold = |i: &usize| !(facets[*i].is_joint && facets[i + 1].is_joint);
+            let distance = |i: usize| imbalance(&profile, i + 1).abs();
+            let nearest =
+                (0..facets.len() - 1).filter(can_fold).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+            nearest.map_or_else(|| add_plane(solid, j, at), FoldSpot::Bend)
         })
         .collect()
 }
@@ -231,4 +230,56 @@ fn add_plane(solid: &mut Solid, j: usize, at: Balance) -> FoldSpot {
     let place = if share < 0.5 { at.segment } else { at.segment + 1 };
     facets.insert(place, SideFacet { slope_rad, offset_mm, is_joint: false });
     FoldSpot::Bend(at.segment)
+}
+
+/// A shape with one panel or chain less in a place where panels are too small; `None` where nothing
+/// can be spared.
+pub(super) fn simplify(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<FoldSpot>)> {
+    let shape = &fitted.shape;
+    let solid = &shape.solid;
+    let least = target.min_panel_mm;
+    let tight = |lack: f64| lack > 0.0;
+    let narrow = |j: usize| shape.heights_about(j).map(|v| least - shape.width_at(j, v)).fold(0.0, f64::max);
+    let low = |j: usize| {
+        let rooms =
+            rooms(shape, &fitted.spots, j).map(|r| (least - r.value(&shape.chains[j].profile)).max(0.0));
+        let off = match fitted.spots[j] {
+            FoldSpot::Bend(i) => imbalance(&shape.chains[j].profile, i + 1).abs(),
+            FoldSpot::Inside(_) => 0.0,
+        };
+        rooms.sum::<f64>() + off
+    };
+    let worst = |measure: &dyn Fn(usize) -> f64, may: &dyn Fn(usize) -> bool| {
+        let chains = (0..solid.chains.len()).filter(|&j| may(j)).map(|j| (measure(j), j));
+        chains.filter(|c| tight(c.0)).max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))).map(|c| c.1)
+    };
+    let mut simpler = solid.clone();
+    let spare = |j: usize| {
+        let facets = &solid.chains[j].facets;
+        let free = (0..facets.len()).filter(|&k| facets.len() > 1 && !facets[k].is_joint);
+        free.min_by(|&a, &b| {
+            let area = |k: usize| bulge(facets, k, solid.top_mm, solid.bottom_mm).0;
+            area(a).total_cmp(&area(b))
+        })
+    };
+    if let Some(j) = worst(&low, &|j| spare(j).is_some()) {
+        simpler.chains[j].facets.remove(spare(j)?);
+    } else if let Some(j) = worst(&narrow, &|j| can_go(solid, j)) {
+        simpler.chains.remove(j);
+    } else if let Some(j) = (0..solid.chains.len()).find(|&j| fitted.lack_mm > 0.0 && spare(j).is_some()) {
+        simpler.chains[j].facets.remove(spare(j)?);
+    } else if let Some(j) = (0..solid.chains.len()).find(|&j| fitted.lack_mm > 0.0 && can_go(solid, j)) {
+        simpler.chains.remove(j);
+    } else {
+        return None;
+    }
+    let spots = fold_spots(&mut simpler, target.profile_vertices);
+    Some((simpler, spots))
+}
+
+/// Whether a solid stays closed without chain j.
+fn can_go(solid: &Solid, j: usize) -> bool {
+    let (before, after) = (&solid.chains[solid.previous(j)], &solid.chains[solid.next(j)]);
+    let gap = (after.angle_rad - before.angle_rad).rem_euclid(TAU);
+    solid.chains.len() > 3 && !solid.chains[j].is_locked && gap <= MAX_TURN_RAD
 }

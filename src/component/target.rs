@@ -38,6 +38,9 @@ pub struct JointTarget {
     /// Half-spaces `n·x <= c` that the joint panel's corners should stay within (the edges of
     /// the partner's panel).
     pub within: Vec<(DVec3, f64)>,
+    /// Price of a millimetre by which the joint panel misses its partner, against a millimetre of
+    /// error.
+    pub price: f64,
 }
 
 /// All that a fit needs, in the component's axes.

@@ -4,6 +4,7 @@
 //! bytes -> read -> Soup (polygons as in the file) -> Mesh::from_soup -> Mesh -> Mesh::scaled
 //! ```
 
+mod cut;
 mod edges;
 pub mod painting;
 mod placement;

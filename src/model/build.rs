@@ -5,7 +5,7 @@ use super::link::Link;
 use super::seat::{Seating, level_axis, seat_plane, seats, turn_onto};
 use super::{Joint, Model, ModelPart};
 use crate::component::{
-    Component, ConvertError, JointTarget, PanelId, PrincipalAxis, Target, convert, trial,
+    Component, ConvertError, JointTarget, PanelId, PrincipalAxis, Target, choose, fewest,
 };
 use crate::geom::{Hull, Plane, polygon};
 use crate::progress::{Cancelled, Progress};
@@ -24,6 +24,9 @@ pub struct PartOptions {
     pub top_edges: usize,
     /// Most vertices of a profile.
     pub profile_vertices: usize,
+    /// Distance from the hull that is close enough; then the two numbers above are the most that
+    /// is used, and as few are used as will do.
+    pub tolerance_mm: Option<f64>,
     /// Size below which panels are made fewer rather than smaller, mm.
     pub comfortable_mm: f64,
 }
@@ -58,13 +61,10 @@ pub enum ModelError {
 
 /// Directions tried about the principal axis.
 const DIRECTIONS: usize = 12;
-/// So many of them, the most promising, are fitted in full until one gives a component.
-const DIRECTIONS_FITTED: usize = 3;
-/// Price of a mm of spread when flat, against a mm of error: directions that fold smaller win
-/// where the error is alike (Figure 8).
-const SPREAD_PRICE: f64 = 0.03;
 /// Price of a mm by which joint planes are moved off their interfaces.
 const PLANE_PRICE: f64 = 0.3;
+/// Price of a mm by which a joint panel misses its partner.
+const JOINT_PRICE: f64 = 0.3;
 /// A joint plane that leaves less than this share of a hull is not used to clip it.
 const LEAST_SHARE: f64 = 0.15;
 
@@ -176,35 +176,28 @@ impl Builder<'_> {
                 (0..DIRECTIONS).map(|k| self.settle(principal.fold_axis(angle(k)))).collect()
             }
         };
-        let candidates: Vec<Candidate> = axes.iter().map(|&a| self.candidate(principal.frame(a))).collect();
-        let ranking = if candidates.len() > 1 { self.ranked(&candidates) } else { vec![0] };
-        let mut failure = None;
-        for k in ranking.into_iter().take(DIRECTIONS_FITTED) {
-            match self.finish(&candidates[k], &principal) {
-                Ok(made) => return Ok(made),
-                Err(error) => failure = failure.or(Some(error)),
-            }
-        }
-        Err(failure.unwrap_or_else(|| ModelError::NoJointPanel(part.options.name.clone())))
-    }
-
-    /// The component for one fold direction.
-    fn finish(&self, chosen: &Candidate, principal: &PrincipalAxis) -> Result<Made, ModelError> {
-        let options = &self.parts[self.part].options;
-        let target = self.target(chosen);
-        let fail = |error| ModelError::Component { name: options.name.clone(), error };
-        let component = convert(&target).map_err(fail)?;
+        let candidates: Vec<Candidate> =
+            axes.par_iter().map(|&a| self.candidate(principal.frame(a))).collect();
+        let targets: Vec<(Target, f64)> =
+            candidates.iter().map(|c| (self.target(c), PLANE_PRICE * c.plane_shift_mm)).collect();
+        let fail = |error| ModelError::Component { name: part.options.name.clone(), error };
+        let found = match part.options.tolerance_mm {
+            Some(tolerance_mm) => fewest(&targets, tolerance_mm),
+            None => choose(&targets),
+        };
+        let (best, component) = found.map_err(fail)?;
+        let (chosen, target) = (&candidates[best], &targets[best].0);
         let joints = chosen
             .joints
             .iter()
             .map(|(other, joint)| {
-                let panel = component.joint_panel(&target, joint)?;
+                let panel = component.joint_panel(target, joint)?;
                 Some((*other, seat_plane(&joint.seat).moved(&chosen.frame), panel))
             })
             .collect::<Option<Vec<_>>>()
-            .ok_or_else(|| ModelError::NoJointPanel(options.name.clone()))?;
+            .ok_or_else(|| ModelError::NoJointPanel(part.options.name.clone()))?;
         let found = || principal.angle_rad(chosen.frame.transform_vector3(DVec3::Z));
-        let direction_rad = options.direction_rad.unwrap_or_else(found);
+        let direction_rad = part.options.direction_rad.unwrap_or_else(found);
         Ok(Made { component, frame: chosen.frame, direction_rad, joints })
     }
 
@@ -219,20 +212,6 @@ impl Builder<'_> {
     /// The plane towards the parent, outwards, as the parent's component has it.
     fn parent_plane(&self) -> Option<Plane> {
         self.from_parent.and_then(|(_, made)| made.joint(self.part)).map(|(plane, _)| plane.flipped())
-    }
-
-    /// The candidates, the most promising first.
-    fn ranked(&self, candidates: &[Candidate]) -> Vec<usize> {
-        let costs: Vec<f64> = candidates
-            .par_iter()
-            .map(|c| {
-                let fitted = trial(&self.target(c)).unwrap_or((f64::INFINITY, 0.0));
-                fitted.0 + SPREAD_PRICE * fitted.1 + PLANE_PRICE * c.plane_shift_mm
-            })
-            .collect();
-        let mut order: Vec<usize> = (0..costs.len()).collect();
-        order.sort_by(|&a, &b| costs[a].total_cmp(&costs[b]));
-        order
     }
 
     fn target<'h>(&self, candidate: &'h Candidate) -> Target<'h> {
@@ -275,7 +254,7 @@ impl Builder<'_> {
             }
             let (cover, within) = self.partner(other, &plane, &frame, &to_local);
             plane_shift_mm += shift_mm(&cover, seating);
-            joints.push((other, JointTarget { seat, cover, within }));
+            joints.push((other, JointTarget { seat, cover, within, price: JOINT_PRICE }));
         }
         Candidate { frame, hull, joints, plane_shift_mm }
     }

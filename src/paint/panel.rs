@@ -1,6 +1,7 @@
 //! Pictures of panels at their places on the sheets.
 
 use super::nearest::Tree;
+use crate::component::PanelSet;
 use crate::drawing::{Image, Layer, Mark, Polyline, Raster, Rgb};
 use crate::geom::polygon;
 use crate::mesh::painting::Painting;
@@ -21,6 +22,8 @@ const SEEN_MM: f64 = BLEED_MM + 3.0 * PIXEL_MM;
 /// A panel with its place on a sheet.
 struct Place<'a> {
     part: &'a ModelPart,
+    /// The panels as they are cut: large ones are in several parts.
+    set: &'a PanelSet,
     piece: &'a Piece,
     panel: &'a PlacedPanel,
     sheet: usize,
@@ -37,6 +40,7 @@ pub fn pictures(output: &Output, painting: &Painting) -> Vec<(usize, Mark)> {
             pieces.flat_map(move |(piece, at)| {
                 piece.panels().iter().map(move |panel| Place {
                     part,
+                    set: net.panels(),
                     piece,
                     panel,
                     sheet: at.sheet,
@@ -57,8 +61,7 @@ impl Place<'_> {
         let (low, high) = polygon::bounds(clip.iter().map(|&p| to_panel.transform_point2(p)))?;
         let low = low - PIXEL_MM;
         let [width, height] = ((high - low) / PIXEL_MM).ceil().to_array().map(|n| n as u32 + 1);
-        let set = self.part.component.panels();
-        let panel = set.panel(self.panel.panel);
+        let panel = self.set.panel(self.panel.panel);
         let to_mesh = self.part.frame * panel.deployed;
         let mut guess = 0;
         let mut pixels = Vec::with_capacity(width as usize * height as usize);
@@ -84,7 +87,7 @@ impl Place<'_> {
 
     /// The panel's outline on its piece, and a strip of each of its tabs.
     fn clip(&self) -> Vec<DVec2> {
-        let set = self.part.component.panels();
+        let set = self.set;
         let panel = set.panel(self.panel.panel);
         let tab_at = |edge: usize| {
             self.piece.tabs().iter().find(|tab| {

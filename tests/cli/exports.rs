@@ -61,7 +61,8 @@ fn a_project_chooses_style_and_files() {
     let result = run(folder.path(), &["make", "cube.toml", "-o", "a.svg"]);
     assert_eq!(result.code, Some(0), "{}", result.err);
     let text = std::fs::read_to_string(folder.path().join("a.svg")).unwrap();
-    for words in ["id=\"knife\"", "inkscape:label=\"KNIFE\"", "stroke=\"#123456\"", "stroke-width=\"0.0945\""] {
+    for words in ["id=\"knife\"", "inkscape:label=\"KNIFE\"", "stroke=\"#123456\"", "stroke-width=\"0.0945\""]
+    {
         assert!(text.contains(words), "no {words:?}");
     }
     assert!(!text.contains("stroke-width=\"0.9449\""));

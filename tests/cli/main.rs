@@ -6,6 +6,7 @@ mod exports;
 mod make;
 mod project;
 mod refusals;
+mod segment;
 
 use std::path::Path;
 use tempfile::TempDir;

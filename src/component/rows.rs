@@ -1,0 +1,222 @@
+//! One step of the fit: the quadratic programme around the present solid.
+
+use super::distance::{Feature, Position};
+use super::fit::{Fitted, MARGIN, MEAN_WEIGHT, SIZE_PRICE, Task, rooms};
+use super::gradient::{Freedom, ProfileLength, Terms};
+use super::qp::Programme;
+use super::seated;
+use super::shape::Shape;
+use super::solid::Solid;
+use super::start::{MAX_SLOPE_RAD, MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD};
+use super::target::FoldSpot;
+use glam::DVec3;
+use std::f64::consts::TAU;
+
+/// Places that are less far out than the worst one by more than so many steps cannot become the
+/// worst within a step.
+const REACH: f64 = 6.0;
+/// Places farther than this share of the radius inside a joint panel cannot leave it within a step.
+const NEAR_JOINT: f64 = 0.3;
+/// Curvature of the variables that bound others, over the radius: the programme needs some.
+const BOUND_CURVATURE: f64 = 0.02;
+/// No parameter changes by more than this many times the length of the step.
+const LONGEST: f64 = 3.0;
+
+/// A programme about to be filled, with the variables beside the solid's parameters.
+struct Model<'a> {
+    task: &'a Task<'a>,
+    at: &'a Fitted,
+    freedom: Freedom,
+    programme: Programme,
+    /// The largest distance.
+    worst: usize,
+    /// The share of what is lacking that may go on lacking: with 1 nothing need change, so that
+    /// there is always a solution.
+    lack: usize,
+    /// For each joint, how far its panel misses its partner.
+    first_miss: usize,
+}
+
+impl Task<'_> {
+    /// The best solid near the present one, by the linear model.
+    pub(super) fn step(&self, at: &Fitted, step_mm: f64) -> Option<Solid> {
+        let freedom = Freedom::of(&at.shape.solid, self.radius_mm);
+        let count = freedom.count();
+        let size = count + 2 + self.target.joints.len();
+        let mut model = Model {
+            task: self,
+            at,
+            freedom,
+            programme: Programme::new(size),
+            worst: count,
+            lack: count + 1,
+            first_miss: count + 2,
+        };
+        model.prices(step_mm);
+        model.error_rows(step_mm);
+        model.size_rows(step_mm);
+        model.order_rows();
+        for (k, joint) in self.target.joints.iter().enumerate() {
+            let shape = (&at.shape, &model.freedom);
+            let near_mm = NEAR_JOINT * self.radius_mm;
+            seated::rows(shape, (&self.target, joint), near_mm, count + 2 + k, &mut model.programme);
+        }
+        let change = model.programme.solve()?;
+        Some(model.freedom.apply(&at.shape.solid, &change[..count]))
+    }
+}
+
+impl Model<'_> {
+    fn shape(&self) -> &Shape {
+        &self.at.shape
+    }
+
+    fn prices(&mut self, step_mm: f64) {
+        let longest = LONGEST * step_mm;
+        for k in 0..self.freedom.count() {
+            self.programme.add_cost(k, 0.0, 1.0 / step_mm);
+            self.programme.at_most([(k, 1.0)], longest);
+            self.programme.at_most([(k, -1.0)], longest);
+        }
+        let curvature = BOUND_CURVATURE / self.task.radius_mm;
+        self.bound(self.worst, 1.0, curvature);
+        let lack_price = SIZE_PRICE * self.at.lack_mm.max(1e-3);
+        self.bound(self.lack, lack_price, lack_price * 0.1);
+        for k in 0..self.task.target.joints.len() {
+            let price = self.task.target.joints[k].price.max(1e-6);
+            self.bound(self.first_miss + k, price, price * curvature);
+        }
+    }
+
+    /// A variable that is not negative.
+    fn bound(&mut self, variable: usize, price: f64, curvature: f64) {
+        self.programme.add_cost(variable, price, curvature);
+        self.programme.at_most([(variable, -1.0)], 0.0);
+    }
+
+    /// Distances of corners from the hull, and of the hull's corners from the solid.
+    fn error_rows(&mut self, step_mm: f64) {
+        let lowest = self.at.error_mm - REACH * step_mm;
+        let (at, task) = (self.at, self.task);
+        let corners = task.hull.corners();
+        let count = (at.own.len() + at.hulls.len()) as f64;
+        let weight = MEAN_WEIGHT / (count * task.mean_scale_mm());
+        for (corner, position) in at.shape.corners.iter().zip(&at.own) {
+            if position.depth_mm > lowest {
+                let (distance, direction) =
+                    self.distance(position, corner.point, |face| task.hull.normal(face));
+                let terms = self.freedom.corner(&at.shape, corner, direction);
+                self.error_row(terms, distance, weight);
+            }
+        }
+        for (&corner, position) in corners.iter().zip(&at.hulls) {
+            if position.depth_mm > lowest {
+                let (distance, direction) =
+                    self.distance(position, corner, |face| at.shape.polytope.normal(face));
+                let mut terms = self.reach(position, corner, direction);
+                terms.iter_mut().for_each(|t| t.1 = -t.1);
+                self.error_row(terms, distance, weight);
+            }
+        }
+    }
+
+    /// Signed distance and direction in which it grows.
+    fn distance(&self, position: &Position, point: DVec3, normal: impl Fn(usize) -> DVec3) -> (f64, DVec3) {
+        match position.nearest {
+            Some((nearest, _)) if nearest.distance(point) > 1e-6 * self.task.radius_mm => {
+                (nearest.distance(point), (point - nearest).normalize())
+            }
+            _ => (position.depth_mm, normal(position.face)),
+        }
+    }
+
+    fn error_row(&mut self, mut terms: Terms, distance: f64, weight: f64) {
+        if distance > 0.0 {
+            self.programme.add_square(&terms, distance, weight);
+        }
+        terms.push((self.worst, -1.0));
+        self.programme.at_most(terms, -distance);
+    }
+
+    /// Change of the solid's reach in a direction at the place nearest to a point.
+    fn reach(&self, position: &Position, point: DVec3, direction: DVec3) -> Terms {
+        let (shape, freedom) = (self.shape(), &self.freedom);
+        let by_face = |face: usize, at: DVec3| freedom.plane(shape, shape.face(face), at);
+        match position.nearest {
+            Some((_, Feature::Corner(c))) => freedom.corner(shape, &shape.corners[c], direction),
+            Some((at, Feature::Edge(a, b))) => {
+                let [a, b] = [a, b].map(|c| shape.corners[c].faces);
+                let mut shared = a.into_iter().filter(|f| b.contains(f));
+                match (shared.next(), shared.next()) {
+                    (Some(f), Some(g)) => freedom.edge(shape, [f, g], at, direction),
+                    _ => by_face(position.face, point),
+                }
+            }
+            Some((at, Feature::Face(face))) => by_face(face, at),
+            None => by_face(position.face, point),
+        }
+    }
+
+    /// Panels stay wide and long enough, balance points in their places.
+    fn size_rows(&mut self, step_mm: f64) {
+        let least = self.task.target.min_panel_mm * MARGIN;
+        let at = self.at;
+        let shape = &at.shape;
+        for j in 0..shape.chains.len() {
+            for v in shape.heights_about(j) {
+                let width = shape.width_at(j, v);
+                if width < least + 12.0 * step_mm {
+                    let terms = self.freedom.width(shape, j, v);
+                    self.at_least(terms, width, least);
+                }
+            }
+            for room in rooms(shape, &at.spots, j) {
+                let now = room.value(&shape.chains[j].profile);
+                if now < least + 6.0 * step_mm {
+                    let terms = self.freedom.length(shape, j, &room);
+                    self.at_least(terms, now, least);
+                }
+            }
+            if let FoldSpot::Bend(i) = at.spots[j] {
+                let beyond = ProfileLength::beyond_balance(&shape.chains[j], i + 1);
+                for length in [beyond.clone().reversed(), beyond] {
+                    let now = length.value(&shape.chains[j].profile);
+                    let terms = self.freedom.length(shape, j, &length);
+                    self.at_least(terms, now, 0.0);
+                }
+            }
+        }
+    }
+
+    /// A measure does not fall below `least`, or lacks no more of it than now.
+    fn at_least(&mut self, terms: Terms, now: f64, least: f64) {
+        let lacking = (least - now).max(0.0);
+        let terms = terms.into_iter().map(|(k, a)| (k, -a)).chain([(self.lack, -lacking)]);
+        self.programme.at_most(terms, now - least);
+    }
+
+    /// Slopes fall from top to bottom, directions turn counter-clockwise.
+    fn order_rows(&mut self) {
+        let r = self.freedom.radius_mm();
+        let solid = &self.at.shape.solid;
+        let (freedom, programme) = (&self.freedom, &mut self.programme);
+        let mut difference = |a: Option<usize>, b: Option<usize>, room: f64| {
+            let terms = [(a, 1.0), (b, -1.0)];
+            programme.at_most(terms.into_iter().filter_map(|(k, a)| Some((k?, a))), room.max(0.0) * r);
+        };
+        for (j, chain) in solid.chains.iter().enumerate() {
+            for (i, w) in chain.facets.windows(2).enumerate() {
+                let bend = w[0].slope_rad - w[1].slope_rad - MIN_BEND_RAD;
+                difference(freedom.slope(j, i + 1), freedom.slope(j, i), bend);
+            }
+            for (i, facet) in chain.facets.iter().enumerate() {
+                difference(freedom.slope(j, i), None, MAX_SLOPE_RAD - facet.slope_rad);
+                difference(None, freedom.slope(j, i), MAX_SLOPE_RAD + facet.slope_rad);
+            }
+            let next = solid.next(j);
+            let gap = (solid.chains[next].angle_rad - chain.angle_rad).rem_euclid(TAU);
+            difference(freedom.angle(j), freedom.angle(next), gap - MIN_TURN_RAD);
+            difference(freedom.angle(next), freedom.angle(j), MAX_TURN_RAD - gap);
+        }
+    }
+}

@@ -1,0 +1,216 @@
+//! The search for the best component: several starts, of which the promising ones are gone on with;
+//! simpler shapes where the limits leave no room.
+
+use super::assemble::{AssembleError, Assembled, assemble};
+use super::convert::ConvertError;
+use super::fit::{Fit, Fitted};
+use super::profile::{balance, imbalance};
+use super::seated::support;
+use super::start::{circumscribe, fold_spots, simplify};
+use super::target::{FoldSpot, Target};
+use crate::geom::{self, Hull, HullError, polygon};
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// Hulls with more corners are fitted through their extreme points in this many directions.
+const FIT_DIRECTIONS: usize = 320;
+/// While directions are compared, in so many.
+const ROUGH_DIRECTIONS: usize = 110;
+/// Joints that carry less than this get a higher price, this many times the last, so many times.
+const GOOD_SUPPORT: f64 = 0.85;
+const PRICE_RISE: f64 = 4.0;
+const PRICE_RISES: usize = 2;
+/// A better supported joint may cost this share of the hull's height in error.
+const SUPPORT_WORTH: f64 = 0.04;
+/// The search narrows down: after so many steps each, so many starts are left.
+const ROUNDS: [(usize, usize); 3] = [(4, 5), (6, 3), (8, 2)];
+/// Steps of a fit at most.
+const STEPS: usize = 24;
+/// Steps after a panel was dropped.
+const REPAIR_STEPS: usize = 8;
+/// A shape that misses a limit by less is as good as one that keeps it.
+const NEAR_ENOUGH_MM: f64 = 1e-3;
+/// Price of a mm of spread when flat, against a mm of error: directions that fold smaller win
+/// where the error is alike (Figure 8).
+const SPREAD_PRICE: f64 = 0.03;
+/// Price of a mm that a shape lacks to be valid, while directions are compared.
+const LACK_PRICE: f64 = 2.0;
+
+/// The best component: index of its target, solid and panels.
+pub(super) fn best(targets: &[(Target, f64)]) -> Result<(usize, Fitted, Assembled), ConvertError> {
+    let hulls: Vec<Hull> =
+        targets.par_iter().map(|t| simplified(t.0.hull, ROUGH_DIRECTIONS)).collect::<Vec<_>>();
+    let goals: Vec<Target> = targets.iter().zip(&hulls).map(|(t, hull)| goal(&t.0, hull)).collect();
+    let mut runs: Vec<(usize, Fit)> =
+        goals.par_iter().enumerate().map(|(k, goal)| (k, start(goal))).collect();
+    for (steps, left) in ROUNDS {
+        if runs.len() <= 1 {
+            break;
+        }
+        let gone_on: Vec<(usize, Fit)> = runs.into_par_iter().map(|(k, fit)| (k, fit.run(steps))).collect();
+        let mut ranked: Vec<(f64, (usize, Fit))> =
+            gone_on.into_iter().map(|run| (cost(run.1.best()) + targets[run.0].1, run)).collect();
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.0.cmp(&b.1.0)));
+        ranked.truncate(left);
+        runs = ranked.into_iter().map(|r| r.1).collect();
+    }
+    let results: Vec<(usize, Result<(Fitted, Assembled), AssembleError>)> =
+        runs.into_par_iter().map(|(k, fit)| (k, finish(&targets[k].0, fit))).collect();
+    let mut failure = ConvertError::Hull(HullError::Flat);
+    let mut best: Option<(f64, (usize, Fitted, Assembled))> = None;
+    for (k, result) in results {
+        match result {
+            Ok((fitted, made)) => {
+                let cost = cost(&fitted) + targets[k].1;
+                if best.as_ref().is_none_or(|b| cost < b.0) {
+                    best = Some((cost, (k, fitted, made)));
+                }
+            }
+            Err(error) => failure = ConvertError::Assemble(error),
+        }
+    }
+    best.map(|b| b.1).ok_or(failure)
+}
+
+/// What directions are compared by.
+fn cost(fitted: &Fitted) -> f64 {
+    let reach = fitted.shape.chains.iter().map(|chain| {
+        let profile = &chain.profile;
+        let at = balance(profile);
+        profile[0].x + profile.windows(2).take(at.segment).map(|w| w[0].distance(w[1])).sum::<f64>()
+    });
+    let spread = reach.fold(0.0, f64::max);
+    fitted.error_mm + LACK_PRICE * fitted.lack_mm + fitted.miss_mm + SPREAD_PRICE * spread
+}
+
+/// The target for a simplified hull, with no more panels than can be handled comfortably at the
+/// hull's size.
+fn goal<'h>(target: &Target, hull: &'h Hull) -> Target<'h> {
+    let (girth, height) = girth_and_height(hull);
+    let at_most = |length: f64| (length / target.comfortable_mm.max(1e-9)) as usize;
+    Target {
+        hull,
+        joints: target.joints.clone(),
+        top_edges: target.top_edges.min(at_most(0.5 * girth)).max(target.locked_angles().len().max(3)),
+        profile_vertices: target.profile_vertices.min(1 + at_most(0.7 * height)).max(3),
+        min_panel_mm: target.comfortable_mm,
+        comfortable_mm: target.comfortable_mm,
+    }
+}
+
+fn start<'h>(goal: &Target<'h>) -> Fit<'h> {
+    let mut solid = circumscribe(goal, goal.top_edges);
+    let spots = fold_spots(&mut solid, goal.profile_vertices);
+    Fit::new(goal.clone(), solid, spots)
+}
+
+/// Fits to the end, and again with a higher price on joints that are not well supported.
+fn finish(target: &Target, fit: Fit) -> Result<(Fitted, Assembled), AssembleError> {
+    let hull = simplified(target.hull, FIT_DIRECTIONS);
+    let mut goal = Target { hull: &hull, ..fit.target().clone() };
+    let Fitted { shape, spots, .. } = fit.into_best();
+    let mut best = settle(target, Fit::new(goal.clone(), shape.solid, spots))?;
+    let height = hull.support(DVec3::Z) + hull.support(-DVec3::Z);
+    for _ in 0..PRICE_RISES {
+        let supports = |fitted: &Fitted| -> Vec<f64> {
+            target.joints.iter().map(|joint| support(&fitted.shape, target, joint)).collect()
+        };
+        let before = supports(&best.0);
+        if before.iter().all(|s| *s >= GOOD_SUPPORT) {
+            break;
+        }
+        for (joint, support) in goal.joints.iter_mut().zip(&before) {
+            joint.price *= if *support < GOOD_SUPPORT { PRICE_RISE } else { 1.0 };
+        }
+        let next = Fit::new(goal.clone(), best.0.shape.solid.clone(), best.0.spots.clone());
+        let Ok(next) = settle(target, next) else { break };
+        let lacking = |s: &[f64]| s.iter().map(|s| (GOOD_SUPPORT - s).max(0.0)).sum::<f64>();
+        if lacking(&supports(&next.0)) < lacking(&before)
+            && next.0.error_mm < best.0.error_mm + SUPPORT_WORTH * height
+        {
+            best = next;
+        }
+    }
+    Ok(best)
+}
+
+/// Fits to the end; drops panels that have no room, one by one; at last accepts smaller ones.
+fn settle(target: &Target, fit: Fit) -> Result<(Fitted, Assembled), AssembleError> {
+    let mut fit = fit.run(STEPS);
+    let mut is_least = false;
+    let mut best: Option<(f64, Fitted, Assembled)> = None;
+    let mut failure = AssembleError::NoRoom;
+    loop {
+        let is_valid = fit.best().lack_mm < NEAR_ENOUGH_MM;
+        match assemble_unbroken(fit.best()) {
+            Ok(made) => {
+                let merit = fit.best().error_mm + 10.0 * fit.best().lack_mm;
+                if best.as_ref().is_none_or(|b| merit < b.0) {
+                    best = Some((merit, fit.best().clone(), made));
+                }
+                if is_valid {
+                    break;
+                }
+            }
+            Err(error) => failure = error,
+        }
+        fit = match simplify(fit.best(), fit.target()) {
+            Some((solid, spots)) => Fit::new(fit.target().clone(), solid, spots).run(REPAIR_STEPS),
+            None if !is_least => {
+                is_least = true;
+                let goal = Target { min_panel_mm: target.min_panel_mm, ..fit.target().clone() };
+                let Fitted { shape, spots, .. } = fit.into_best();
+                Fit::new(goal, shape.solid, spots).run(STEPS)
+            }
+            None => break,
+        };
+    }
+    best.map(|b| (b.1, b.2)).ok_or(failure)
+}
+
+/// Length round the hull, seen along the fold axis, and the height along it.
+fn girth_and_height(hull: &Hull) -> (f64, f64) {
+    let flat: Vec<glam::DVec2> = hull.vertices().iter().map(|v| v.truncate()).collect();
+    let outline = polygon::convex_hull(&flat);
+    let girth = polygon::edges(&outline).map(|(a, b)| a.distance(b)).sum();
+    (girth, hull.support(DVec3::Z) + hull.support(-DVec3::Z))
+}
+
+/// Imbalance up to which a fold vertex at a bend is exact, as a share of the height.
+const EXACT: f64 = 1e-11;
+
+/// Panels narrower or lower than this are none.
+const SLIVER_MM: f64 = 0.1;
+
+/// Panels of a fitted solid, folded at the balance points, whose joint panels are uncreased.
+fn assemble_unbroken(fitted: &Fitted) -> Result<Assembled, AssembleError> {
+    let solid = &fitted.shape.solid;
+    let size = solid.top_mm - solid.bottom_mm;
+    let clearance = solid.clearance();
+    if clearance.width_mm.min(clearance.length_mm) <= SLIVER_MM {
+        return Err(AssembleError::NoRoom);
+    }
+    let spots = fitted.spots.iter().enumerate().map(|(chain, &spot)| {
+        let profile = solid.profile(chain);
+        let at = balance(&profile);
+        match spot {
+            FoldSpot::Bend(i) if imbalance(&profile, i + 1).abs() <= EXACT * size => Ok(spot),
+            FoldSpot::Bend(_) => Err(AssembleError::OutOfBalance(chain)),
+            _ if solid.chains[chain].facets[at.segment].is_joint => Err(AssembleError::CreasedJoint(chain)),
+            _ => Ok(FoldSpot::Inside(at.segment)),
+        }
+    });
+    let spots = spots.collect::<Result<Vec<_>, _>>()?;
+    assemble(solid, &spots)
+}
+
+/// Hull of the extreme points in evenly spread directions.
+fn simplified(hull: &Hull, directions: usize) -> Hull {
+    if hull.vertices().len() <= directions {
+        return hull.clone();
+    }
+    let points: Vec<DVec3> = geom::directions(directions)
+        .filter_map(|d| hull.vertices().iter().copied().max_by(|a, b| d.dot(*a).total_cmp(&d.dot(*b))))
+        .collect();
+    Hull::of_points(&points).unwrap_or_else(|_| hull.clone())
+}

@@ -1,0 +1,264 @@
+//! A solid with its corners, profiles and faces worked out: what the fit measures.
+
+use super::distance::Polytope;
+use super::solid::{Chain, Corner, FaceId, SideFacet, Solid};
+use glam::{DVec2, DVec3};
+
+/// One side plane with the sine and cosine of its slope.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Line {
+    pub(super) cos: f64,
+    pub(super) sin: f64,
+    pub(super) offset: f64,
+}
+
+impl Line {
+    pub(super) fn u_at(&self, v: f64) -> f64 {
+        (self.offset - v * self.sin) / self.cos
+    }
+
+    fn meets(&self, below: &Line) -> f64 {
+        (self.offset * below.cos - below.offset * self.cos) / (self.sin * below.cos - self.cos * below.sin)
+    }
+}
+
+/// A chain of a [`Shape`].
+#[derive(Debug, Clone)]
+pub(super) struct ChainShape {
+    pub(super) normal: DVec2,
+    pub(super) lines: Vec<Line>,
+    /// Ends and bends, from top to bottom, (u, v).
+    pub(super) profile: Vec<DVec2>,
+    /// Index of its first plane among all faces.
+    first_face: usize,
+}
+
+impl ChainShape {
+    pub(super) fn tangent(&self) -> DVec2 {
+        self.normal.perp()
+    }
+
+    /// Index of the plane at height v.
+    pub(super) fn facet_at(&self, v: f64) -> usize {
+        self.profile[1..self.lines.len()].iter().take_while(|p| p.y > v).count()
+    }
+
+    pub(super) fn u_at(&self, v: f64) -> f64 {
+        self.lines[self.facet_at(v)].u_at(v)
+    }
+}
+
+/// A solid and what follows from it.
+#[derive(Debug, Clone)]
+pub(super) struct Shape {
+    pub(super) solid: Solid,
+    pub(super) chains: Vec<ChainShape>,
+    /// Corners of each chain with the next, from top to bottom, one after another.
+    pub(super) corners: Vec<Corner>,
+    /// Its corners are those of `corners`; faces as [`Solid::faces`] orders them.
+    pub(super) polytope: Polytope,
+}
+
+impl Shape {
+    pub(super) fn of(solid: Solid) -> Self {
+        let mut first_face = 2;
+        let chains: Vec<ChainShape> = solid
+            .chains
+            .iter()
+            .map(|chain| {
+                let lines = lines(chain);
+                first_face += lines.len();
+                ChainShape {
+                    normal: chain.normal(),
+                    profile: profile(&lines, solid.top_mm, solid.bottom_mm),
+                    first_face: first_face - lines.len(),
+                    lines,
+                }
+            })
+            .collect();
+        let mut corners = Vec::with_capacity(2 * first_face);
+        let mut starts = vec![0];
+        for j in 0..chains.len() {
+            push_corners(&solid, &chains, j, &mut corners);
+            starts.push(corners.len());
+        }
+        let polytope = polytope(&solid, &chains, &corners, &starts);
+        Self { solid, chains, corners, polytope }
+    }
+
+    /// Index of a face in [`Solid::faces`].
+    pub(super) fn index(&self, face: FaceId) -> usize {
+        face_index(&self.chains, face)
+    }
+
+    /// The face of an index.
+    pub(super) fn face(&self, index: usize) -> FaceId {
+        match index {
+            0 => FaceId::Top,
+            1 => FaceId::Bottom,
+            _ => {
+                let j = self.chains.partition_point(|c| c.first_face <= index) - 1;
+                FaceId::Side(j, index - self.chains[j].first_face)
+            }
+        }
+    }
+
+    /// Heights at which the width of chain j may be least: its own bends, its neighbours', and
+    /// both ends, in this order.
+    pub(super) fn heights_about(&self, j: usize) -> impl Iterator<Item = f64> + '_ {
+        let chains = [self.solid.previous(j), j, self.solid.next(j)];
+        let (top, bottom) = (self.solid.top_mm, self.solid.bottom_mm);
+        let inner = chains.into_iter().flat_map(|c| {
+            let profile = &self.chains[c].profile;
+            profile[1..profile.len() - 1].iter().map(|p| p.y)
+        });
+        inner.chain([top, bottom])
+    }
+
+    /// Width of chain j at height v (as [`Solid::width_at`]).
+    pub(super) fn width_at(&self, j: usize, v: f64) -> f64 {
+        let here = &self.chains[j];
+        let u = here.u_at(v);
+        let side = |other: usize| {
+            let other = &self.chains[other];
+            let (sin, cos) = (here.normal.perp_dot(other.normal), here.normal.dot(other.normal));
+            (other.u_at(v) - u * cos) / sin.abs()
+        };
+        side(self.solid.previous(j)) + side(self.solid.next(j))
+    }
+}
+
+fn face_index(chains: &[ChainShape], face: FaceId) -> usize {
+    match face {
+        FaceId::Top => 0,
+        FaceId::Bottom => 1,
+        FaceId::Side(j, i) => chains[j].first_face + i,
+    }
+}
+
+/// The planes of a chain.
+pub(super) fn lines(chain: &Chain) -> Vec<Line> {
+    let line = |f: &SideFacet| {
+        let (sin, cos) = f.slope_rad.sin_cos();
+        Line { cos, sin, offset: f.offset_mm }
+    };
+    chain.facets.iter().map(line).collect()
+}
+
+/// Ends and bends of a chain with these planes, (u, v) from top to bottom.
+pub(super) fn profile(lines: &[Line], top: f64, bottom: f64) -> Vec<DVec2> {
+    let mut points = Vec::with_capacity(lines.len() + 1);
+    points.push(DVec2::new(lines[0].u_at(top), top));
+    for w in lines.windows(2) {
+        let v = w[0].meets(&w[1]);
+        points.push(DVec2::new(w[0].u_at(v), v));
+    }
+    points.push(DVec2::new(lines[lines.len() - 1].u_at(bottom), bottom));
+    points
+}
+
+/// Corners between chain j and the next, from top to bottom.
+fn push_corners(solid: &Solid, chains: &[ChainShape], j: usize, out: &mut Vec<Corner>) {
+    let k = solid.next(j);
+    let (here, there) = (&chains[j], &chains[k]);
+    let turn = here.normal.perp_dot(there.normal);
+    let bends = |c: &ChainShape| c.profile.len() - 2;
+    let (mut a, mut b) = (0, 0);
+    let mut push = |v: f64, a: usize, b: usize, third: FaceId| {
+        let (ua, ub) = (here.lines[a].u_at(v), there.lines[b].u_at(v));
+        let (na, nb) = (here.normal, there.normal);
+        let xy = DVec2::new(ua * nb.y - ub * na.y, na.x * ub - nb.x * ua) / turn;
+        out.push(Corner { point: xy.extend(v), faces: [FaceId::Side(j, a), FaceId::Side(k, b), third] });
+    };
+    push(solid.top_mm, 0, 0, FaceId::Top);
+    loop {
+        let va = (a < bends(here)).then(|| here.profile[a + 1].y);
+        let vb = (b < bends(there)).then(|| there.profile[b + 1].y);
+        match (va, vb) {
+            (Some(va), other) if other.is_none_or(|vb| va >= vb) => {
+                push(va, a, b, FaceId::Side(j, a + 1));
+                a += 1;
+            }
+            (_, Some(vb)) => {
+                push(vb, a, b, FaceId::Side(k, b + 1));
+                b += 1;
+            }
+            _ => break,
+        }
+    }
+    push(solid.bottom_mm, a, b, FaceId::Bottom);
+}
+
+fn polytope(solid: &Solid, chains: &[ChainShape], corners: &[Corner], starts: &[usize]) -> Polytope {
+    let n = chains.len();
+    let mut left: Vec<Vec<u32>> = vec![Vec::new(); 2 + chains.iter().map(|c| c.lines.len()).sum::<usize>()];
+    let mut right = left.clone();
+    for j in 0..n {
+        for c in starts[j]..starts[j + 1] {
+            for face in corners[c].faces {
+                let list = match face {
+                    FaceId::Side(chain, _) if chain == j => &mut right,
+                    _ => &mut left,
+                };
+                list[face_index(chains, face)].push(c as u32);
+            }
+        }
+    }
+    left[1].reverse();
+    let sides = chains
+        .iter()
+        .flat_map(|chain| chain.lines.iter().map(|l| ((chain.normal * l.cos).extend(l.sin), l.offset)));
+    let planes = [(DVec3::Z, solid.top_mm), (-DVec3::Z, -solid.bottom_mm)].into_iter().chain(sides);
+    let faces = planes.zip(left.into_iter().zip(right)).map(|((normal, offset), (left, right))| {
+        (normal, offset, left.into_iter().chain(right.into_iter().rev()))
+    });
+    Polytope::new(corners.iter().map(|c| c.point).collect(), faces)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::component::gradient::tests::skewed;
+
+    /// Everything worked out at once against the solid's own, slower methods.
+    #[test]
+    fn agrees_with_the_solid() {
+        let solid = skewed();
+        let shape = Shape::of(solid.clone());
+        let corners: Vec<Corner> = (0..5).flat_map(|j| solid.corners(j)).collect();
+        assert_eq!(shape.corners.len(), corners.len());
+        for (a, b) in shape.corners.iter().zip(&corners) {
+            assert_eq!(a.faces, b.faces);
+            assert!(a.point.distance(b.point) < 1e-9);
+        }
+        for j in 0..5 {
+            assert!(shape.chains[j].profile.iter().zip(solid.profile(j)).all(|(a, b)| a.distance(b) < 1e-9));
+            for v in shape.heights_about(j) {
+                assert!((shape.width_at(j, v) - solid.width_at(j, v)).abs() < 1e-9);
+            }
+        }
+        for (k, face) in solid.faces().into_iter().enumerate() {
+            assert_eq!((shape.index(face), shape.face(k)), (k, face));
+            assert!(shape.polytope.normal(k).distance(solid.plane(face).0) < 1e-12);
+        }
+    }
+
+    /// A point outside a solid is at least as far from it as from each of its planes, and its
+    /// nearest point is in all half-spaces.
+    #[test]
+    fn nearest_points_are_in_the_solid() {
+        let solid = skewed();
+        let shape = Shape::of(solid.clone());
+        for d in crate::geom::directions(500) {
+            let point = d * 80.0;
+            let (nearest, _) = shape.polytope.position(point).nearest.unwrap();
+            for face in solid.faces() {
+                let (n, c) = solid.plane(face);
+                assert!(n.dot(nearest) - c < 1e-8, "{face:?}");
+            }
+            // The plane through the nearest point, across the way to it, supports the solid.
+            let away = (point - nearest).normalize();
+            assert!(shape.corners.iter().all(|c| away.dot(c.point - nearest) < 1e-8));
+        }
+    }
+}
