@@ -16,7 +16,8 @@ from collections import defaultdict
 INKSCAPE = "{http://www.inkscape.org/namespaces/inkscape}"
 TOLERANCE_MM = 2e-3
 LENGTH_MM = 5e-3
-CREASES = ("mountain", "valley", "fold-hinge")
+MM_PER_PX = 25.4 / 96
+CREASES = ("MOUNTAIN", "VALLEY", "FOLD180")
 LABEL = re.compile(r"^[A-Z]+[0-9]+$")
 
 faults = []
@@ -29,10 +30,10 @@ def require(holds, fault):
 
 
 def contours(data):
-    """The corners of each contour of a path, curves by their control points, and whether it is closed."""
+    """The corners in mm of each contour of a path, curves by their control points, and whether it is closed."""
     found = []
     for command, numbers in re.findall(r"([MLQCZ])([^MLQCZ]*)", data):
-        values = [float(x) for x in re.findall(r"-?[0-9.]+", numbers)]
+        values = [float(x) * MM_PER_PX for x in re.findall(r"-?[0-9.]+", numbers)]
         points = list(zip(values[::2], values[1::2]))
         if command == "M":
             found.append([points, False])
@@ -57,18 +58,18 @@ class Piece:
     def read(self, layer, path):
         parts = contours(path.get("d", ""))
         text = path.get("aria-label")
-        if layer == "cut":
+        if layer == "CUT":
             for points, is_closed in parts:
                 require(is_closed, f"{self.name}: a contour is open")
                 self.outline.append(points)
-        elif layer == "slit":
+        elif layer == "SLIT":
             self.lines += [points for points, _ in parts]
         elif layer in CREASES:
             self.creases += [points for points, _ in parts]
-        elif layer == "label" and text:
+        elif layer == "LABEL" and text:
             every = [p for points, _ in parts for p in points]
             self.texts.append((text, middle(every), every))
-        elif layer == "label" and path.get("fill") == "none":
+        elif layer == "LABEL" and path.get("fill") == "none":
             self.leaders += [points for points, _ in parts]
 
 

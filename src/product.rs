@@ -3,7 +3,7 @@
 use crate::drawing::{Chapter, Drawing, LineStyles, Pages, PagesError};
 use crate::mesh::painting::Painting;
 use crate::model::ModelPart;
-use crate::net::{Net, Side};
+use crate::net::Net;
 use crate::paint;
 use crate::pipeline::Output;
 use crate::report::Run;
@@ -84,13 +84,8 @@ impl<'a> Product<'a> {
             let note = size_note(self.output);
             let layout = self.output.layout();
             let mut drawings = layout.pages(self.output.nets(), self.title, &note, &self.styles);
-            // Colours belong on the outside.
-            let is_outside = layout.options().choices.side == Side::Outside;
-            if let Some(painting) = self.painting.filter(|_| is_outside) {
-                // Lines and letters are drawn over them.
-                for (sheet, picture) in paint::pictures(self.output, painting).into_iter().rev() {
-                    drawings[sheet].marks.insert(0, picture);
-                }
+            if let Some(painting) = self.painting {
+                paint::colour(self.output, painting, &mut drawings);
             }
             let pages = Pages::new(self.title, self.reduced(drawings), self.styles.clone())?;
             Ok(pages.with_chapters(chapters(self.output)))

@@ -70,6 +70,12 @@ pub struct FileArgs {
     #[arg(long, visible_alias = "colour")]
     color: bool,
 
+    /// GLB files without the animation of the folding
+    ///
+    /// The model stands still, for programs that want no animation. Example: --static -o bear.glb
+    #[arg(long = "static")]
+    is_static: bool,
+
     /// Each piece in a FOLD file of its own, besides the whole model
     ///
     /// With the angles of the flat state, for Flat-Folder and Origami Simulator.
@@ -106,6 +112,7 @@ impl FileArgs {
         formats.dxf.version = self.dxf_version.or(table.dxf_version).unwrap_or(formats.dxf.version);
         formats.dxf.sheets = self.dxf_sheets.or(table.dxf_sheets).unwrap_or(formats.dxf.sheets);
         formats.png = self.dpi.or(table.dpi).unwrap_or(formats.png);
+        formats.glb.is_static = self.is_static || table.is_static;
         formats.fold.pieces = self.fold_pieces || table.fold_pieces;
         let pdf = formats.pdf.with_created(source_date()?);
         formats.pdf = pdf.with_tile(self.tile.or(table.tile)).map_err(CliError::Options)?;

@@ -12,6 +12,7 @@ use std::path::{Path, PathBuf};
 use tatamu::export::{FORMATS, Source};
 use tatamu::fold::Stack;
 use tatamu::mesh::{Mesh, Repairs};
+use tatamu::net::Side;
 use tatamu::pipeline::{self, Output, Warning};
 use tatamu::product::{self, Content, Product};
 use tatamu::report::Run;
@@ -93,6 +94,10 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
     let options = args.model.merge(&input)?;
     let choice = args.files.merge(input.project.as_ref().map(|p| &p.export), &args.input)?;
+    if choice.is_coloured && options.sheets.side == Side::Inside {
+        let reason = "--color is for the outside of the paper; leave out --side inside, or --color";
+        return Err(CliError::Options(reason.to_owned()));
+    }
     let painting = choice.is_coloured.then(|| input::read_painting(&input)).transpose()?;
     let warnings = repair_warnings(&input.repairs);
     warnings.iter().for_each(warn);

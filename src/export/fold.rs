@@ -6,8 +6,10 @@
 //! they are when deployed. Coordinates are written with as many
 //! digits as they have, so every face is congruent in all frames within rounding.
 
+mod options;
 mod pieces;
 
+pub use options::{FoldOptions, PoseCount};
 pub use pieces::write_piece;
 
 use super::{ExportError, ExportFile, Format, FormatOptions, Source};
@@ -35,36 +37,6 @@ const CREATOR: &str = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
 const SHORTEST_MM: f64 = 1e-6;
 /// Distance between sheets in the crease pattern, mm.
 const SHEET_GAP_MM: f64 = 20.0;
-
-/// Most poses between deployed and flat.
-const MOST_POSES: usize = 1000;
-
-/// A number of poses between deployed and flat.
-///
-/// # Guarantees
-/// It is at most 1000.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct PoseCount(usize);
-
-impl PoseCount {
-    /// Takes the number.
-    ///
-    /// # Errors
-    /// A message for too many.
-    pub fn new(poses: usize) -> Result<Self, String> {
-        let message = || format!("the number of poses must be at most {MOST_POSES}");
-        (poses <= MOST_POSES).then_some(Self(poses)).ok_or_else(message)
-    }
-}
-
-/// Choices for FOLD files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct FoldOptions {
-    /// Whether each piece is written to a file of its own, besides the master.
-    pub pieces: bool,
-    /// Poses in the master between deployed and flat.
-    pub poses: PoseCount,
-}
 
 /// The panels of all components in evenly spread poses between deployed and flat.
 fn poses_between(output: &Output, PoseCount(count): PoseCount) -> Vec<Vec<Vec<DAffine3>>> {

@@ -22,6 +22,7 @@ mod svg;
 
 pub use dxf::{DxfOptions, DxfSheets, DxfVersion};
 pub use fold::{FoldOptions, PoseCount};
+pub use glb::GlbOptions;
 pub use options::{FormatOptions, TextMode};
 pub use pdf::{PdfOptions, Timestamp};
 pub use plt::PltOptions;

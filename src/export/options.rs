@@ -2,6 +2,7 @@
 
 use super::dxf::DxfOptions;
 use super::fold::FoldOptions;
+use super::glb::GlbOptions;
 use super::pdf::PdfOptions;
 use super::plt::PltOptions;
 use super::png::PngOptions;
@@ -17,6 +18,8 @@ pub struct FormatOptions {
     pub film: FilmOptions,
     /// For FOLD.
     pub fold: FoldOptions,
+    /// For GLB.
+    pub glb: GlbOptions,
     /// For PDF.
     pub pdf: PdfOptions,
     /// For PLT.

@@ -22,6 +22,8 @@ const SEEN_MM: f64 = BLEED_MM + 3.0 * PIXEL_MM;
 /// A panel with its place on a sheet.
 struct Place<'a> {
     part: &'a ModelPart,
+    /// The panels as they are cut: large ones are in several parts.
+    set: &'a PanelSet,
     piece: &'a Piece,
     set: &'a PanelSet,
     panel: &'a PlacedPanel,
@@ -39,6 +41,7 @@ pub fn pictures(output: &Output, painting: &Painting) -> Vec<(usize, Mark)> {
             pieces.flat_map(move |(piece, at)| {
                 piece.panels().iter().map(move |panel| Place {
                     part,
+                    set: net.panels(),
                     piece,
                     set: net.panels(),
                     panel,

@@ -31,6 +31,9 @@ pub struct ExportTable {
     pub tile: Option<Paper>,
     /// Whether panels have the mesh's own colours.
     pub color: bool,
+    /// Whether GLB files are without animation.
+    #[serde(rename = "static")]
+    pub is_static: bool,
     /// Whether each piece is written to a FOLD file of its own.
     pub fold_pieces: bool,
 }
@@ -53,6 +56,8 @@ pub(super) const TEMPLATE: &str = r#"
 # tile = "a4"
 # Panels in the mesh's own colours.
 # color = true
+# GLB files without the animation of the folding.
+# static = true
 # Each piece in a FOLD file of its own, besides the whole model.
 # fold_pieces = true
 "#;
@@ -77,6 +82,7 @@ mod tests {
             dpi: Some(PngOptions::default()),
             tile: Some(Paper::default()),
             color: true,
+            is_static: true,
             fold_pieces: true,
         };
         assert_eq!(export, expected);

@@ -2,6 +2,7 @@
 
 #[path = "../cube/mod.rs"]
 mod cube;
+mod exports;
 mod film;
 mod make;
 mod project;
