@@ -1,5 +1,6 @@
 //! `tatamu make`
 
+use super::cutters::CutterArgs;
 use super::error::CliError;
 use super::formats::{self, FileArgs};
 use super::options::ModelArgs;
@@ -49,6 +50,9 @@ pub struct MakeArgs {
     #[command(flatten)]
     files: FileArgs,
 
+    #[command(flatten)]
+    cutter: CutterArgs,
+
     /// No summary and no progress bar; warnings and errors only
     #[arg(short, long)]
     quiet: bool,
@@ -79,7 +83,8 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     let places: Vec<PathBuf> = paths.iter().chain(&args.segments).cloned().collect();
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
     let options = args.model.merge(&input)?;
-    let choice = args.files.merge(input.project.as_ref().map(|p| &p.export), &args.input)?;
+    let mut choice = args.files.merge(input.project.as_ref().map(|p| &p.export), &args.input)?;
+    choice.formats.plt = args.cutter.choice()?;
     let warnings = repair_warnings(&input.repairs);
     warnings.iter().for_each(warn);
 
@@ -124,7 +129,7 @@ fn default_output(input: &Path) -> PathBuf {
 }
 
 /// What the repair found and did, as warnings.
-fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
+pub(super) fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
     let bodies = repairs.components.saturating_sub(1);
     let counts = [
         (repairs.boundary_edges, "open_edges", "open edges", "thickness near them is a guess"),
@@ -149,12 +154,12 @@ fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
         .collect()
 }
 
-fn warn(warning: &Warning) {
+pub(super) fn warn(warning: &Warning) {
     terminal::complain("warning", &warning.message);
 }
 
 /// Shows the first few warnings of each kind, and counts the others.
-fn warn_by_kind(warnings: &[Warning]) {
+pub(super) fn warn_by_kind(warnings: &[Warning]) {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for warning in warnings {
         let count = counts.entry(warning.code).or_default();

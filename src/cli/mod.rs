@@ -1,5 +1,6 @@
 //! The command line: parse, run, report, exit code. One file per subcommand.
 
+mod cutters;
 mod error;
 mod formats;
 mod init;
@@ -7,8 +8,12 @@ mod input;
 mod make;
 mod options;
 mod output;
+mod plot;
+mod ports;
 mod progress;
 mod terminal;
+#[cfg(unix)]
+mod virtual_plotter;
 
 use clap::{Parser, Subcommand};
 use error::CliError;
@@ -33,6 +38,11 @@ enum Command {
     Make(make::MakeArgs),
     Init(init::InitArgs),
     Formats(formats::FormatsArgs),
+    Plot(Box<plot::PlotArgs>),
+    Ports(ports::PortsArgs),
+    Profiles(cutters::ProfilesArgs),
+    #[cfg(unix)]
+    VirtualPlotter(virtual_plotter::VirtualPlotterArgs),
 }
 
 const EXAMPLES: &str = "\
@@ -41,6 +51,7 @@ Examples:
   tatamu make teddy.obj --size 30cm --paper a3 -o teddy.pdf -o teddy.svg
   tatamu init teddy.obj                     teddy.toml, a project file to edit
   tatamu make teddy.toml                    makes what the project file says
+  tatamu plot teddy.obj --cutter generic-hpgl --port /dev/ttyUSB0
 
 \"tatamu make --help\" explains every option.";
 
@@ -50,6 +61,11 @@ pub fn run() -> ExitCode {
     let result = match &cli.command {
         Command::Make(args) => make::run(args),
         Command::Init(args) => init::run(args),
+        Command::Plot(args) => plot::run(args),
+        Command::Ports(args) => ports::run(args),
+        Command::Profiles(args) => cutters::run(args),
+        #[cfg(unix)]
+        Command::VirtualPlotter(args) => virtual_plotter::run(args),
         Command::Formats(args) => {
             formats::run(args);
             Ok(())

@@ -103,7 +103,8 @@ impl<'a> Fit<'a> {
                 break;
             }
             let next = self.task.step(&self.best, self.step_mm);
-            let next = next.map(|s| self.task.measure(restored(s, &self.best.spots), self.best.spots.clone()));
+            let next =
+                next.map(|s| self.task.measure(restored(s, &self.best.spots), self.best.spots.clone()));
             match next.map(|n| (self.best.merit() - n.merit(), n)) {
                 Some((gain, next)) if gain > 1e-6 * radius_mm => {
                     self.slow = if gain < SLOW_GAIN * self.best.merit() { self.slow + 1 } else { 0 };
@@ -256,4 +257,3 @@ fn exact_bend(chain: &Chain, top: f64, bottom: f64, i: usize, free: usize) -> Op
     }
     (miss(at).abs() <= 1e-11 * size).then_some(at)
 }
-

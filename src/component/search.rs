@@ -38,8 +38,7 @@ pub(super) fn best(targets: &[(Target, f64)]) -> Result<(usize, Fitted, Assemble
         if runs.len() <= 1 {
             break;
         }
-        let gone_on: Vec<(usize, Fit)> =
-            runs.into_par_iter().map(|(k, fit)| (k, fit.run(steps))).collect();
+        let gone_on: Vec<(usize, Fit)> = runs.into_par_iter().map(|(k, fit)| (k, fit.run(steps))).collect();
         let mut ranked: Vec<(f64, (usize, Fit))> =
             gone_on.into_iter().map(|run| (cost(run.1.best()) + targets[run.0].1, run)).collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.0.cmp(&b.1.0)));

@@ -210,7 +210,8 @@ pub(super) fn fold_spots(solid: &mut Solid, vertices: usize) -> Vec<FoldSpot> {
             }
             let can_fold = |i: &usize| !(facets[*i].is_joint && facets[i + 1].is_joint);
             let distance = |i: usize| imbalance(&profile, i + 1).abs();
-            let nearest = (0..facets.len() - 1).filter(can_fold).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+            let nearest =
+                (0..facets.len() - 1).filter(can_fold).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
             nearest.map_or_else(|| add_plane(solid, j, at), FoldSpot::Bend)
         })
         .collect()
@@ -240,7 +241,8 @@ pub(super) fn simplify(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<F
     let tight = |lack: f64| lack > 0.0;
     let narrow = |j: usize| shape.heights_about(j).map(|v| least - shape.width_at(j, v)).fold(0.0, f64::max);
     let low = |j: usize| {
-        let rooms = rooms(shape, &fitted.spots, j).map(|r| (least - r.value(&shape.chains[j].profile)).max(0.0));
+        let rooms =
+            rooms(shape, &fitted.spots, j).map(|r| (least - r.value(&shape.chains[j].profile)).max(0.0));
         let off = match fitted.spots[j] {
             FoldSpot::Bend(i) => imbalance(&shape.chains[j].profile, i + 1).abs(),
             FoldSpot::Inside(_) => 0.0,

@@ -29,12 +29,12 @@ impl Default for PltOptions {
 
 fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
     let PltOptions { cutter, media } = &options.plt;
-    let drawings = pages.drawings();
     let file = |(index, drawing)| {
         let plan = Plan::new(drawing, cutter, media);
-        let plan = plan.map_err(|error| ExportError::writer(&FORMAT, format!("sheet {}: {error}", index + 1)))?;
-        let bytes = plan.bytes().to_vec();
-        Ok(if drawings.len() == 1 { ExportFile::single(bytes) } else { ExportFile::of_page(index, bytes) })
+        let plan =
+            plan.map_err(|error| ExportError::writer(&FORMAT, format!("sheet {}: {error}", index + 1)))?;
+        Ok(plan.bytes().to_vec())
     };
-    drawings.iter().enumerate().map(file).collect()
+    let files: Result<Vec<Vec<u8>>, ExportError> = pages.drawings().iter().enumerate().map(file).collect();
+    files.map(ExportFile::of_pages)
 }

@@ -4,9 +4,7 @@
 use super::link::Link;
 use super::seat::{Seating, level_axis, seat_plane, seats, turn_onto};
 use super::{Joint, Model, ModelPart};
-use crate::component::{
-    Component, ConvertError, JointTarget, PanelId, PrincipalAxis, Target, choose,
-};
+use crate::component::{Component, ConvertError, JointTarget, PanelId, PrincipalAxis, Target, choose};
 use crate::geom::{Hull, Plane, polygon};
 use crate::progress::{Cancelled, Progress};
 use glam::{DAffine3, DVec3};
@@ -173,7 +171,8 @@ impl Builder<'_> {
                 (0..DIRECTIONS).map(|k| self.settle(principal.fold_axis(angle(k)))).collect()
             }
         };
-        let candidates: Vec<Candidate> = axes.par_iter().map(|&a| self.candidate(principal.frame(a))).collect();
+        let candidates: Vec<Candidate> =
+            axes.par_iter().map(|&a| self.candidate(principal.frame(a))).collect();
         let targets: Vec<(Target, f64)> =
             candidates.iter().map(|c| (self.target(c), PLANE_PRICE * c.plane_shift_mm)).collect();
         let fail = |error| ModelError::Component { name: part.options.name.clone(), error };

@@ -31,7 +31,8 @@ pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
     let corners = [DVec2::ZERO, DVec2::new(sheet_mm.x, 0.0), sheet_mm, DVec2::new(0.0, sheet_mm.y)];
     picture.marks.push(Mark::polygon(Layer::Picture, corners.map(|p| p + shift).to_vec(), &line(0.3, SHEET)));
     let runs = runs(job);
-    let travel = runs.iter().filter(|run| !run.is_down).map(|run| run.points.iter().map(|&p| at(p)).collect());
+    let travel =
+        runs.iter().filter(|run| !run.is_down).map(|run| run.points.iter().map(|&p| at(p)).collect());
     let travel = travel.map(Polyline::open).collect();
     picture.marks.push(Mark::path(Layer::Picture, travel, Some(line(0.08, TRAVEL)), None));
     let strokes: Vec<Vec<DVec2>> = runs

@@ -140,7 +140,7 @@ pub fn tasks(drawing: &Drawing, wanted: &[Operation]) -> Vec<Task> {
             Shape::Path { contours, stroke: Some(_), .. } => {
                 out.extend(contours.iter().filter_map(|line| Task::new(operation, line)));
             }
-            Shape::Path { stroke: None, .. } => {}
+            Shape::Path { stroke: None, .. } | Shape::Image(_) => {}
             Shape::Text(text) => {
                 out.extend(strokes::polylines(text).iter().filter_map(|line| Task::new(operation, line)));
             }
