@@ -6,6 +6,7 @@ use tatamu::drawing::StyleError;
 use tatamu::export::ExportError;
 use tatamu::mesh::{ColourError, MeshError, ReadError};
 use tatamu::pipeline;
+use tatamu::plotter::ProfileError;
 use tatamu::progress::{Cancelled, Progress};
 use tatamu::project::ProjectError;
 use tatamu::show::ShowError;
@@ -31,6 +32,18 @@ pub enum CliError {
     /// A style file is wrong.
     #[error("style file {path}: {error}")]
     Style { path: PathBuf, error: StyleError },
+    /// A profile of a cutter or a medium is wrong.
+    #[error("profile {name}: {error}")]
+    Profile { name: String, error: ProfileError },
+    /// A sheet cannot be worked on by a machine.
+    #[error("{sheet}: {reason}")]
+    Sheet { sheet: String, reason: String },
+    /// The port cannot be used.
+    #[error("cannot use the port {port}: {reason}")]
+    Port { port: String, reason: String },
+    /// The machine stopped the job.
+    #[error("{0}")]
+    Machine(String),
     /// The mesh that a project file names cannot be read.
     #[error("cannot read {path}, the mesh of project file {project}: {reason}")]
     ProjectMesh { path: PathBuf, project: PathBuf, reason: String },

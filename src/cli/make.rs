@@ -1,5 +1,6 @@
 //! `tatamu make`
 
+use super::cutters::CutterArgs;
 use super::error::CliError;
 use super::film::FilmArgs;
 use super::formats::{self, FileArgs};
@@ -63,6 +64,9 @@ pub struct MakeArgs {
     #[command(flatten)]
     files: FileArgs,
 
+    #[command(flatten)]
+    cutter: CutterArgs,
+
     /// No summary and no progress bar; warnings and errors only
     #[arg(short, long)]
     quiet: bool,
@@ -93,12 +97,13 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     let places: Vec<PathBuf> = paths.iter().chain(&args.segments).cloned().collect();
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
     let options = args.model.merge(&input)?;
-    let choice = args.files.merge(input.project.as_ref().map(|p| &p.export), &args.input)?;
+    let mut choice = args.files.merge(input.project.as_ref().map(|p| &p.export), &args.input)?;
     if choice.is_coloured && options.sheets.side == Side::Inside {
         let reason = "--color is for the outside of the paper; leave out --side inside, or --color";
         return Err(CliError::Options(reason.to_owned()));
     }
     let painting = choice.is_coloured.then(|| input::read_painting(&input)).transpose()?;
+    choice.formats.plt = args.cutter.choice()?;
     let warnings = repair_warnings(&input.repairs);
     warnings.iter().for_each(warn);
 
@@ -189,7 +194,7 @@ pub fn warn(warning: &Warning) {
 }
 
 /// Shows the first few warnings of each kind, and counts the others.
-fn warn_by_kind(warnings: &[Warning]) {
+pub(super) fn warn_by_kind(warnings: &[Warning]) {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for warning in warnings {
         let count = counts.entry(warning.code).or_default();

@@ -1,6 +1,7 @@
 //! The command line: parse, run, report, exit code. One file per subcommand.
 
 mod check;
+mod cutters;
 mod error;
 mod film;
 mod formats;
@@ -10,12 +11,16 @@ mod make;
 mod net_args;
 mod options;
 mod output;
+mod plot;
+mod ports;
 mod progress;
 mod segment;
 mod segment_args;
 mod sheet_args;
 mod show;
 mod terminal;
+#[cfg(unix)]
+mod virtual_plotter;
 
 use clap::{Parser, Subcommand};
 use error::CliError;
@@ -43,6 +48,11 @@ enum Command {
     Formats(formats::FormatsArgs),
     Check(check::CheckArgs),
     Segment(segment::SegmentCommand),
+    Plot(Box<plot::PlotArgs>),
+    Ports(ports::PortsArgs),
+    Profiles(cutters::ProfilesArgs),
+    #[cfg(unix)]
+    VirtualPlotter(virtual_plotter::VirtualPlotterArgs),
 }
 
 const EXAMPLES: &str = "\
@@ -55,6 +65,7 @@ Examples:
   tatamu make teddy.obj -o teddy.gif        an animation of its folding
   tatamu show teddy.obj -o half.png --pose 0.5
   tatamu check teddy.fold                   verifies a FOLD file
+  tatamu plot teddy.obj --cutter generic-hpgl --port /dev/ttyUSB0
 
 \"tatamu make --help\" explains every option.";
 
@@ -67,6 +78,11 @@ pub fn run() -> ExitCode {
         Command::Show(args) => show::run(args).map(|()| ExitCode::SUCCESS),
         Command::Segment(args) => segment::run(args).map(|()| ExitCode::SUCCESS),
         Command::Check(args) => check::run(args),
+        Command::Plot(args) => plot::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Ports(args) => ports::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Profiles(args) => cutters::run(args).map(|()| ExitCode::SUCCESS),
+        #[cfg(unix)]
+        Command::VirtualPlotter(args) => virtual_plotter::run(args).map(|()| ExitCode::SUCCESS),
         Command::Formats(args) => {
             formats::run(args);
             Ok(ExitCode::SUCCESS)

@@ -29,13 +29,12 @@ impl Default for PltOptions {
 
 fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
     let PltOptions { cutter, media } = &options.plt;
-    let drawings = pages.drawings();
     let file = |(index, drawing)| {
         let plan = Plan::new(drawing, cutter, media);
         let plan =
             plan.map_err(|error| ExportError::writer(&FORMAT, format!("sheet {}: {error}", index + 1)))?;
         Ok(plan.bytes().to_vec())
     };
-    let files: Result<_, ExportError> = drawings.iter().enumerate().map(file).collect();
-    Ok(ExportFile::of_pages(files?))
+    let files: Result<Vec<Vec<u8>>, ExportError> = pages.drawings().iter().enumerate().map(file).collect();
+    files.map(ExportFile::of_pages)
 }

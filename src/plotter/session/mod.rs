@@ -193,6 +193,17 @@ impl Session {
         self.wants_pause = false;
     }
 
+    /// Whether the user wants the tool lifted.
+    pub fn is_pausing(&self) -> bool {
+        self.wants_pause
+    }
+
+    /// The port has another speed than the machine's profile.
+    pub fn set_baud(&mut self, baud: u32) {
+        self.serial.baud = baud.max(1);
+        self.line = Line::new(self.serial.byte_s());
+    }
+
     /// The port is gone.
     pub fn port_lost(&mut self) {
         self.end(End::PortLost, false);
