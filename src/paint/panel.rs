@@ -25,7 +25,6 @@ struct Place<'a> {
     /// The panels as they are cut: large ones are in several parts.
     set: &'a PanelSet,
     piece: &'a Piece,
-    set: &'a PanelSet,
     panel: &'a PlacedPanel,
     sheet: usize,
     on_sheet: DAffine2,
@@ -43,7 +42,6 @@ pub fn pictures(output: &Output, painting: &Painting) -> Vec<(usize, Mark)> {
                     part,
                     set: net.panels(),
                     piece,
-                    set: net.panels(),
                     panel,
                     sheet: at.sheet,
                     on_sheet: at.place,
