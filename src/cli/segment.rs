@@ -12,7 +12,6 @@ use tatamu::geom::Hull;
 use tatamu::mesh::Up;
 use tatamu::parts_report::{self, PartsRun};
 use tatamu::pipeline;
-use tatamu::product::ProductError;
 use tatamu::progress::Progress;
 use tatamu::project::parse_up;
 use tatamu::render::parts_picture;
@@ -107,7 +106,9 @@ pub fn run(args: &SegmentCommand) -> Result<(), CliError> {
     if let Some(path) = &args.report {
         let mesh_path = input.mesh_path.to_string_lossy();
         let run = PartsRun { path: &mesh_path, hulls: &hulls, overlap, stages: &stages };
-        files.push((path.clone(), parts_report::to_json(&parts, &run).map_err(ProductError::from)?));
+        let bytes = parts_report::to_json(&parts, &run)
+            .map_err(|error| CliError::Output { path: path.clone(), reason: error.to_string() })?;
+        files.push((path.clone(), bytes));
     }
     output::write(&files)?;
     if !args.quiet {
