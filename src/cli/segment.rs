@@ -7,7 +7,7 @@ use super::segment_args::SegmentArgs;
 use super::{input, make, output, terminal};
 use clap::Args;
 use std::path::{Path, PathBuf};
-use tatamu::export::{ExportError, png};
+use tatamu::export::png;
 use tatamu::geom::Hull;
 use tatamu::mesh::Up;
 use tatamu::parts_report::{self, PartsRun};
@@ -106,9 +106,9 @@ pub fn run(args: &SegmentCommand) -> Result<(), CliError> {
     if let Some(path) = &args.report {
         let mesh_path = input.mesh_path.to_string_lossy();
         let run = PartsRun { path: &mesh_path, hulls: &hulls, overlap, stages: &stages };
-        let report = parts_report::to_json(&parts, &run)
-            .map_err(|error| ExportError::Writer { format: "json", message: error.to_string() })?;
-        files.push((path.clone(), report));
+        let bytes = parts_report::to_json(&parts, &run)
+            .map_err(|error| CliError::Output { path: path.clone(), reason: error.to_string() })?;
+        files.push((path.clone(), bytes));
     }
     output::write(&files)?;
     if !args.quiet {

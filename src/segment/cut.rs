@@ -108,7 +108,7 @@ mod tests {
     fn creases_cost_what_the_formula_gives_by_hand() {
         for (turn_rad, by_hand) in [
             (0.0, 12.206_073),      // −ln 5e-6
-            (PI / 2.0, 0.693_147),  // −ln ½
+            (PI / 4.0, 1.386_294),  // −ln ¼
             (-PI / 2.0, 3.218_876), // −ln 0.04
             (PI / 3.0, 1.098_612),  // −ln ⅓
             (-PI, 2.525_729),       // −ln 0.08
