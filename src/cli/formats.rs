@@ -63,6 +63,13 @@ pub struct FileArgs {
     #[arg(long, value_name = "SIZE", value_parser = parse_paper)]
     tile: Option<Paper>,
 
+    /// Panels in the mesh's own colours, in PDF, SVG and PNG
+    ///
+    /// From materials and textures (OBJ, glTF) and colours of vertices and faces (OBJ, PLY, OFF,
+    /// glTF). Leave it out for files that are cut and not printed. Example: --color -o bear.pdf
+    #[arg(long, visible_alias = "colour")]
+    color: bool,
+
     /// Each piece in a FOLD file of its own, besides the whole model
     ///
     /// With the angles of the flat state, for Flat-Folder and Origami Simulator.
@@ -82,6 +89,8 @@ pub struct FileChoice {
     pub formats: FormatOptions,
     /// Look of the lines.
     pub styles: LineStyles,
+    /// Whether panels have the mesh's colours.
+    pub is_coloured: bool,
 }
 
 impl FileArgs {
@@ -105,7 +114,7 @@ impl FileArgs {
             (None, Some(name)) => styles(Path::new(name), &input_path.with_file_name(name))?,
             (None, None) => LineStyles::standard(),
         };
-        Ok(FileChoice { formats, styles })
+        Ok(FileChoice { formats, styles, is_coloured: self.color || table.color })
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::cutters::CutterArgs;
 use super::error::CliError;
+use super::film::FilmArgs;
 use super::formats::{self, FileArgs};
 use super::options::ModelArgs;
 use super::progress::TerminalProgress;
@@ -9,10 +10,11 @@ use super::{input, output, terminal};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use tatamu::export::FORMATS;
-use tatamu::mesh::Repairs;
+use tatamu::export::{FORMATS, Source};
+use tatamu::fold::Stack;
+use tatamu::mesh::{Mesh, Repairs};
 use tatamu::pipeline::{self, Output, Warning};
-use tatamu::product::{self, Product};
+use tatamu::product::{self, Content, Product};
 use tatamu::report::Run;
 
 /// Makes a model of a mesh, or of a project file.
@@ -38,6 +40,17 @@ pub struct MakeArgs {
     /// replaced, but only when the new one is complete. Example: -o teddy.pdf -o teddy.json
     #[arg(short, long = "output", value_name = "FILE")]
     output: Vec<PathBuf>,
+
+    #[command(flatten)]
+    film: FilmArgs,
+
+    /// Writes what is printed and what is cut into two files, NAME-print and NAME-cut
+    ///
+    /// Both have the same pages with the same origin. NAME-cut holds contours, slits and creases;
+    /// NAME-print holds labels, glue marks, scale bars and registration marks. Formats that are
+    /// no pages are written once. Example: --print-and-cut --marks silhouette -o teddy.svg
+    #[arg(long)]
+    print_and_cut: bool,
 
     /// File for the segmentation: one number a line
     ///
@@ -85,6 +98,7 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     let options = args.model.merge(&input)?;
     let mut choice = args.files.merge(input.project.as_ref().map(|p| &p.export), &args.input)?;
     choice.formats.plt = args.cutter.choice()?;
+    let painting = choice.is_coloured.then(|| input::read_painting(&input)).transpose()?;
     let warnings = repair_warnings(&input.repairs);
     warnings.iter().for_each(warn);
 
@@ -102,15 +116,30 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
         warnings: &warnings,
     };
     let title = terminal::printable(&stem.to_string_lossy());
-    let product = Product::new(&result, &title, run).with_styles(choice.styles);
+    let product = |content| {
+        Product::new(&result, &title, run)
+            .with_styles(choice.styles.clone())
+            .with_painting(painting.as_ref())
+            .with_content(content)
+    };
+    let products = match args.print_and_cut {
+        false => vec![("", product(Content::All))],
+        true => vec![("-print", product(Content::Print)), ("-cut", product(Content::Cut))],
+    };
+    let formats = args.film.choose(choice.formats)?;
     let mut files = Vec::new();
     for target in targets {
-        for file in target.format.write(&product, &choice.formats)? {
-            files.push((output::with_suffix(&target.path, &file.suffix), file.bytes));
+        let is_paged = matches!(target.format.source, Source::Pages(_));
+        for (name, product) in if is_paged { &products[..] } else { &products[..1] } {
+            let name = if is_paged { name } else { "" };
+            for file in target.format.write(product, &formats)? {
+                let suffix = format!("{name}{}", file.suffix);
+                files.push((output::with_suffix(&target.path, &suffix), file.bytes));
+            }
         }
     }
     if let Some(path) = &args.segments {
-        files.push((path.clone(), segments(&result, &input.repairs)));
+        files.push((path.clone(), segments(result.mesh(), result.face_parts(), &input.repairs)));
     }
     output::write(&files)?;
     if !args.quiet {
@@ -129,7 +158,7 @@ fn default_output(input: &Path) -> PathBuf {
 }
 
 /// What the repair found and did, as warnings.
-pub(super) fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
+pub fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
     let bodies = repairs.components.saturating_sub(1);
     let counts = [
         (repairs.boundary_edges, "open_edges", "open edges", "thickness near them is a guess"),
@@ -154,12 +183,13 @@ pub(super) fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
         .collect()
 }
 
-pub(super) fn warn(warning: &Warning) {
+/// Shows a warning.
+pub fn warn(warning: &Warning) {
     terminal::complain("warning", &warning.message);
 }
 
 /// Shows the first few warnings of each kind, and counts the others.
-pub(super) fn warn_by_kind(warnings: &[Warning]) {
+pub fn warn_by_kind(warnings: &[Warning]) {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for warning in warnings {
         let count = counts.entry(warning.code).or_default();
@@ -178,15 +208,24 @@ pub(super) fn warn_by_kind(warnings: &[Warning]) {
 }
 
 /// One component index a line for each face of the input file, -1 for a dropped one.
-fn segments(result: &Output, repairs: &Repairs) -> Vec<u8> {
-    let mesh = result.mesh();
-    let of_input = mesh.labels_of_input(result.face_parts(), repairs.input_faces);
+pub fn segments(mesh: &Mesh, part_of_face: &[Option<u32>], repairs: &Repairs) -> Vec<u8> {
+    let of_input = mesh.labels_of_input(part_of_face, repairs.input_faces);
     let line = |label: Option<u32>| match label {
         Some(label) => format!("{label}\n"),
         None => "-1\n".to_owned(),
     };
     let text: String = of_input.into_iter().map(line).collect();
     text.into_bytes()
+}
+
+/// The flat model, and the order of folding.
+fn folding(result: &Output) -> String {
+    let plan = result.fold_plan();
+    let parts = result.model().parts();
+    let order: Vec<&str> = plan.order().iter().map(|&p| parts[p].name.as_str()).collect();
+    let flat = |s: &Stack| format!("{:.0} × {:.0} mm, {} layers", s.size_mm.x, s.size_mm.y, s.layers);
+    let sizes: Vec<String> = plan.stacks().iter().map(flat).collect();
+    format!("to {}, in the order {}", sizes.join(" and "), order.join(", "))
 }
 
 fn summarise(result: &Output, files: &[(PathBuf, Vec<u8>)]) {
@@ -196,6 +235,7 @@ fn summarise(result: &Output, files: &[(PathBuf, Vec<u8>)]) {
     let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
     terminal::say(&format!("size        {}", product::size_note(result)));
     terminal::say(&format!("components  {}: {}", names.len(), names.join(", ")));
+    terminal::say(&format!("folds       {}", folding(result)));
     terminal::say(&format!("pieces      {pieces}"));
     terminal::say(&format!(
         "sheets      {} of {}, {:.0}% used",

@@ -4,10 +4,12 @@
 //! Nothing is computed for a format that is not asked for. Adding a format is one file and one line
 //! in [`FORMATS`]; one with choices of its own adds their type to [`FormatOptions`].
 
+mod apng;
 mod dxf;
 #[cfg(test)]
 mod fixture;
 pub mod fold;
+mod gif;
 pub mod glb;
 pub mod gltf;
 mod json;
@@ -19,7 +21,7 @@ pub mod png;
 mod svg;
 
 pub use dxf::{DxfOptions, DxfSheets, DxfVersion};
-pub use fold::FoldOptions;
+pub use fold::{FoldOptions, PoseCount};
 pub use options::{FormatOptions, TextMode};
 pub use pdf::{PdfOptions, Timestamp};
 pub use plt::PltOptions;
@@ -36,9 +38,11 @@ pub const FORMATS: &[Format] = &[
     dxf::FORMAT,
     png::FORMAT,
     plt::FORMAT,
-    fold::FORMAT,
+    gif::FORMAT,
+    apng::FORMAT,
     glb::FORMAT,
     obj::FORMAT,
+    fold::FORMAT,
     json::FORMAT,
 ];
 

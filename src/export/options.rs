@@ -6,12 +6,15 @@ use super::pdf::PdfOptions;
 use super::plt::PltOptions;
 use super::png::PngOptions;
 use super::svg::SvgOptions;
+use crate::show::FilmOptions;
 
 /// The choices for all formats, one checked type a format that has any.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FormatOptions {
     /// For DXF.
     pub dxf: DxfOptions,
+    /// For animations.
+    pub film: FilmOptions,
     /// For FOLD.
     pub fold: FoldOptions,
     /// For PDF.

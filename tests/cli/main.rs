@@ -5,6 +5,7 @@ mod cube;
 mod make;
 mod project;
 mod refusals;
+mod segment;
 
 use std::path::Path;
 use tempfile::TempDir;
