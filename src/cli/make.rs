@@ -194,7 +194,7 @@ pub fn warn(warning: &Warning) {
 }
 
 /// Shows the first few warnings of each kind, and counts the others.
-pub(super) fn warn_by_kind(warnings: &[Warning]) {
+pub fn warn_by_kind(warnings: &[Warning]) {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for warning in warnings {
         let count = counts.entry(warning.code).or_default();

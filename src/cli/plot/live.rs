@@ -7,7 +7,7 @@ use crate::cli::error::{CliError, reason};
 use crate::cli::{output, ports, progress, terminal};
 use indicatif::{ProgressBar, ProgressStyle};
 use serialport::{ClearBuffer, DataBits, FlowControl, SerialPort, StopBits};
-use std::io::{ErrorKind, IsTerminal, Read, Write};
+use std::io::{ErrorKind, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tatamu::plotter::profile::{Handshake, Parity};
