@@ -8,6 +8,7 @@ use tatamu::mesh::{self, Mesh};
 use tatamu::model::{self, Model, Part};
 use tatamu::pipeline::{self, Bodies, Options};
 use tatamu::progress::Silent;
+use tatamu::segment::SegmentOptions;
 
 /// Edges of top panels and vertices of profiles: the five settings of the paper's Table 2, then the
 /// defaults.
@@ -22,12 +23,13 @@ fn main() -> Result<(), Box<dyn Error>> {
             None => (argument.as_str(), None),
         };
         let (mesh, _) = Mesh::from_soup(&mesh::read(&std::fs::read(path)?)?)?;
-        let options = Options { parts, ..Options::default() };
-        let (mesh, _) = mesh.scaled(options.size_mm, options.up);
-        let bodies = pipeline::divide(&mesh, &options, &Silent)?;
+        let segmentation = SegmentOptions { parts, ..SegmentOptions::default() };
+        let options = Options { segmentation, ..Options::default() };
+        let (divided, _) = pipeline::find_parts(&mesh, &options, &Silent)?;
+        let bodies = Bodies::new(&divided, &options)?;
         println!("{path}: {} parts", bodies.parts().len());
         for setting in SETTINGS {
-            measure(&bodies, setting, mesh.diagonal_mm(), options.min_panel_width_mm)?;
+            measure(&bodies, setting, divided.mesh().diagonal_mm(), options.min_panel_width_mm)?;
         }
     }
     Ok(())

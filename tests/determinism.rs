@@ -6,6 +6,7 @@ use tatamu::pipeline::{self, Options};
 use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::report::Run;
+use tatamu::segment::SegmentOptions;
 
 /// A sample with a joint, made with few edges so that it is quick.
 const SAMPLE: &[u8] = include_bytes!("../samples/bottle.obj");
@@ -15,7 +16,12 @@ fn files(threads: usize) -> Vec<(&'static str, Vec<u8>)> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     pool.install(|| {
         let (mesh, repairs) = Mesh::from_soup(&mesh::read(SAMPLE).expect("OBJ")).expect("a mesh");
-        let options = Options { parts: Some(2), top_edges: 4, profile_vertices: 4, ..Options::default() };
+        let options = Options {
+            segmentation: SegmentOptions { parts: Some(2), ..Default::default() },
+            top_edges: 4,
+            profile_vertices: 4,
+            ..Options::default()
+        };
         let output = pipeline::run(&mesh, &options, &Silent).expect("a model");
         assert_eq!(output.model().parts().len(), 2);
         let run = Run { path: "bottle.obj", repairs: &repairs, stages: &[], warnings: &[] };

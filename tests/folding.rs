@@ -19,6 +19,7 @@ fn cuboid(name: &str, low: DVec3, size: DVec3) -> Part {
         direction_rad: Some(0.0),
         top_edges: 4,
         profile_vertices: 3,
+        tolerance_mm: None,
         comfortable_mm: 3.0,
     };
     Part { hull: Hull::of_points(&corners).unwrap(), options }

@@ -6,14 +6,16 @@
 //! they are when deployed. Coordinates are written with as many
 //! digits as they have, so every face is congruent in all frames within rounding.
 
+mod options;
 mod pieces;
 
+pub use options::{FoldOptions, PoseCount};
 pub use pieces::write_piece;
 
 use super::{ExportError, ExportFile, Format, FormatOptions, Source};
 use crate::component::{HingeId, PanelId, PanelKind, PanelSet};
 use crate::fold::{ModelMotion, PartPose, Sequence};
-use crate::net::{Corner, EdgeKind, FaceKind, Net, Piece};
+use crate::net::{Corner, EdgeKind, FaceKind, Net, Piece, PieceMesh};
 use crate::pipeline::Output;
 use crate::product::Product;
 use crate::sheet::PiecePlace;
@@ -31,38 +33,10 @@ pub const FORMAT: Format = Format {
 /// Version of the format.
 const SPEC: f64 = 1.2;
 const CREATOR: &str = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
+/// Shorter edges are points.
+const SHORTEST_MM: f64 = 1e-6;
 /// Distance between sheets in the crease pattern, mm.
 const SHEET_GAP_MM: f64 = 20.0;
-
-/// Most poses between deployed and flat.
-const MOST_POSES: usize = 1000;
-
-/// A number of poses between deployed and flat.
-///
-/// # Guarantees
-/// It is at most 1000.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct PoseCount(usize);
-
-impl PoseCount {
-    /// Takes the number.
-    ///
-    /// # Errors
-    /// A message for too many.
-    pub fn new(poses: usize) -> Result<Self, String> {
-        let message = || format!("the number of poses must be at most {MOST_POSES}");
-        (poses <= MOST_POSES).then_some(Self(poses)).ok_or_else(message)
-    }
-}
-
-/// Choices for FOLD files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct FoldOptions {
-    /// Whether each piece is written to a file of its own, besides the master.
-    pub pieces: bool,
-    /// Poses in the master between deployed and flat.
-    pub poses: PoseCount,
-}
 
 /// The panels of all components in evenly spread poses between deployed and flat.
 fn poses_between(output: &Output, PoseCount(count): PoseCount) -> Vec<Vec<Vec<DAffine3>>> {
@@ -90,7 +64,7 @@ fn files(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFil
         .enumerate()
         .map(|(n, (part, net))| FoldComponent {
             name: &part.name,
-            set: part.component.panels(),
+            set: net.panels(),
             net,
             pieces: layout.places(n),
             deployed: part.deployed(),
@@ -118,7 +92,7 @@ fn files(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFil
 pub struct FoldComponent<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Its panels.
+    /// The panels that the net was made of: [`Net::panels`].
     pub set: &'a PanelSet,
     /// Its net, made from `set`.
     pub net: &'a Net,
@@ -287,10 +261,17 @@ impl Graph {
         piece: &Piece,
         at: PiecePlace,
     ) {
-        let (first_vertex, first_face) = (self.pattern.len(), self.faces.faces_vertices.len());
+        let first_face = self.faces.faces_vertices.len();
         let offsets = model.sheet_offsets;
         let offset = offsets.get(at.sheet).or(offsets.last()).copied().unwrap_or_default();
-        for vertex in piece.mesh().vertices() {
+        let kept = without_short_edges(piece.mesh());
+        let mut number = vec![0; kept.len()];
+        for (v, vertex) in piece.mesh().vertices().iter().enumerate() {
+            if kept[v] != v {
+                number[v] = number[kept[v]];
+                continue;
+            }
+            number[v] = self.pattern.len();
             let flat = at.place.transform_point2(vertex.at) + offset;
             self.pattern.push([flat.x, flat.y, 0.0]);
             let last = self.states.len() - 1;
@@ -298,13 +279,18 @@ impl Graph {
                 state.coords.push(folded(component, piece, vertex.of, k, last).into());
             }
         }
-        for edge in piece.mesh().edges() {
-            self.edges.edges_vertices.push(edge.ends.map(|v| first_vertex + v));
+        for edge in piece.mesh().edges().iter().filter(|edge| kept[edge.ends[0]] != kept[edge.ends[1]]) {
+            self.edges.edges_vertices.push(edge.ends.map(|v| number[v]));
             self.edges.edges_faces.push(edge.faces.iter().map(|f| first_face + f).collect());
             self.add_edge_kind(component, edge.kind);
         }
         for face in piece.mesh().faces() {
-            self.faces.faces_vertices.push(face.vertices.iter().map(|v| first_vertex + v).collect());
+            let mut corners: Vec<usize> = face.vertices.iter().map(|&v| number[v]).collect();
+            corners.dedup();
+            if corners.len() > 1 && corners.first() == corners.last() {
+                corners.pop();
+            }
+            self.faces.faces_vertices.push(corners);
             self.add_face_kind(component, face.kind);
             self.faces.component.push(component.name.to_owned());
             self.faces.sheet.push(at.sheet);
@@ -364,6 +350,21 @@ impl Graph {
     }
 }
 
+/// For each vertex the first one that edges without length lead to: panels may have corners at the
+/// same place, and readers sort edges by their directions.
+fn without_short_edges(mesh: &PieceMesh) -> Vec<usize> {
+    let mut kept: Vec<usize> = (0..mesh.vertices().len()).collect();
+    for edge in mesh.edges() {
+        let [a, b] = mesh.segment(edge);
+        if a.distance(b) < SHORTEST_MM {
+            let ends = edge.ends.map(|v| kept[v]);
+            let (first, last) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+            kept.iter_mut().filter(|k| **k == last).for_each(|k| *k = first);
+        }
+    }
+    kept
+}
+
 /// FOLD's sign: mountain folds are negative; a flat edge is plain 0.
 fn mountain_deg(angle_rad: f64) -> f64 {
     if angle_rad == 0.0 { 0.0 } else { -angle_rad.to_degrees() }
@@ -374,7 +375,8 @@ fn placed(component: &FoldComponent<'_>, panel: PanelId, state: usize, last: usi
     match state {
         0 => component.deployed * component.set.panel(panel).deployed,
         k if k == last => component.flat * component.set.panel(panel).flat,
-        k => component.between[k - 1][panel.0],
+        // A part of a split panel moves with it.
+        k => component.between[k - 1][component.net.source(panel).0],
     }
 }
 

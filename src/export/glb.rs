@@ -19,7 +19,7 @@ use glam::{DAffine3, DQuat, DVec2, DVec3};
 pub const FORMAT: Format = Format {
     name: "glb",
     extensions: &["glb"],
-    description: "glTF 2.0: the model in 3D with the animation of its folding",
+    description: "glTF 2.0: the model in 3D with the animation of its folding, or --static",
     source: Source::Model(write),
 };
 
@@ -31,9 +31,20 @@ const REST_S: f64 = 1.0;
 /// Flat components lie so far off their parents that viewers tell them apart.
 const LIFT_MM: f64 = 0.3;
 
-fn write(product: &Product<'_>, _: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
+/// Choices for GLB files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct GlbOptions {
+    /// Whether the model stands still.
+    pub is_static: bool,
+}
+
+fn write(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
     let output = product.output();
-    let scene = animated(output.model(), output.fold_plan().order(), product.title());
+    let mut scene = animated(output.model(), output.fold_plan().order(), product.title());
+    if options.glb.is_static {
+        // Nodes stand where they do when deployed.
+        scene.tracks.clear();
+    }
     let bytes = gltf::write(&scene).map_err(|error| ExportError::writer(&FORMAT, error))?;
     Ok(vec![ExportFile::single(bytes)])
 }

@@ -16,13 +16,16 @@ mod json;
 mod obj;
 mod options;
 mod pdf;
+mod plt;
 pub mod png;
 mod svg;
 
 pub use dxf::{DxfOptions, DxfSheets, DxfVersion};
 pub use fold::{FoldOptions, PoseCount};
+pub use glb::GlbOptions;
 pub use options::{FormatOptions, TextMode};
 pub use pdf::{PdfOptions, Timestamp};
+pub use plt::PltOptions;
 pub use png::PngOptions;
 pub use svg::{SvgOptions, SvgStroke};
 
@@ -35,6 +38,7 @@ pub const FORMATS: &[Format] = &[
     svg::FORMAT,
     dxf::FORMAT,
     png::FORMAT,
+    plt::FORMAT,
     gif::FORMAT,
     apng::FORMAT,
     glb::FORMAT,

@@ -2,7 +2,9 @@
 
 use super::dxf::DxfOptions;
 use super::fold::FoldOptions;
+use super::glb::GlbOptions;
 use super::pdf::PdfOptions;
+use super::plt::PltOptions;
 use super::png::PngOptions;
 use super::svg::SvgOptions;
 use crate::show::FilmOptions;
@@ -16,8 +18,12 @@ pub struct FormatOptions {
     pub film: FilmOptions,
     /// For FOLD.
     pub fold: FoldOptions,
+    /// For GLB.
+    pub glb: GlbOptions,
     /// For PDF.
     pub pdf: PdfOptions,
+    /// For PLT.
+    pub plt: PltOptions,
     /// For PNG.
     pub png: PngOptions,
     /// For SVG.

@@ -1,7 +1,9 @@
 //! Single values of a project file, checked while they are read so that an error has their place.
 
+use super::MethodName;
 use crate::export::PngOptions;
 use crate::mesh::Up;
+use crate::segment::MOST_CLUSTERS;
 use crate::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, Visitor};
@@ -57,6 +59,44 @@ pub fn check_count(count: u64) -> Result<usize, String> {
 /// A message for numbers out of range.
 pub fn check_parts(count: u64) -> Result<usize, String> {
     in_range(count, 1, MOST_PARTS)
+}
+
+/// Checks how many components are wanted, from 0 to 1.
+///
+/// # Errors
+/// A message for numbers out of range.
+pub fn check_detail(detail: f64) -> Result<f64, String> {
+    let message = || "the detail must be from 0, few components, to 1, many".to_owned();
+    (0.0..=1.0).contains(&detail).then_some(detail).ok_or_else(message)
+}
+
+/// Checks a number of clusters.
+///
+/// # Errors
+/// A message for numbers out of range.
+pub fn check_clusters(count: u64) -> Result<usize, String> {
+    in_range(count, 1, MOST_CLUSTERS)
+}
+
+/// Checks a weight of borders.
+///
+/// # Errors
+/// A message for numbers out of range.
+pub fn check_smoothing(smoothing: f64) -> Result<f64, String> {
+    let message = || "the smoothing must be from 0 to 100; 0.3 suits most meshes".to_owned();
+    (0.0..=100.0).contains(&smoothing).then_some(smoothing).ok_or_else(message)
+}
+
+/// Reads the name of a method of segmentation.
+///
+/// # Errors
+/// A message for other texts than `merge` and `sdf`.
+pub fn parse_method(text: &str) -> Result<MethodName, String> {
+    match text.to_ascii_lowercase().as_str() {
+        "merge" => Ok(MethodName::Merge),
+        "sdf" => Ok(MethodName::Sdf),
+        _ => Err("the method is merge or sdf".to_owned()),
+    }
 }
 
 fn in_range(count: u64, least: usize, most: usize) -> Result<usize, String> {
@@ -167,12 +207,38 @@ fn whole(raw: &Raw) -> Result<u64, String> {
     }
 }
 
+fn real(raw: &Raw) -> Result<f64, String> {
+    match raw {
+        Raw::Number(x) => Ok(*x),
+        Raw::Text(text) => Err(format!("write a number instead of the text \"{text}\"")),
+    }
+}
+
 pub(super) fn count<'de, D: Deserializer<'de>>(d: D) -> Result<Option<usize>, D::Error> {
     visit(d, "a whole number", |raw| whole(&raw).and_then(check_count))
 }
 
 pub(super) fn parts<'de, D: Deserializer<'de>>(d: D) -> Result<Option<usize>, D::Error> {
     visit(d, "a whole number", |raw| whole(&raw).and_then(check_parts))
+}
+
+pub(super) fn detail<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f64>, D::Error> {
+    visit(d, "a number from 0 to 1", |raw| real(&raw).and_then(check_detail))
+}
+
+pub(super) fn method<'de, D: Deserializer<'de>>(d: D) -> Result<Option<MethodName>, D::Error> {
+    visit(d, "\"merge\" or \"sdf\"", |raw| match raw {
+        Raw::Number(x) => parse_method(&x.to_string()),
+        Raw::Text(text) => parse_method(text),
+    })
+}
+
+pub(super) fn clusters<'de, D: Deserializer<'de>>(d: D) -> Result<Option<usize>, D::Error> {
+    visit(d, "a whole number", |raw| whole(&raw).and_then(check_clusters))
+}
+
+pub(super) fn smoothing<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f64>, D::Error> {
+    visit(d, "a number such as 0.3", |raw| real(&raw).and_then(check_smoothing))
 }
 
 pub(super) fn degrees<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f64>, D::Error> {

@@ -2,10 +2,12 @@
 
 #[path = "../cube/mod.rs"]
 mod cube;
+mod exports;
 mod film;
 mod make;
 mod project;
 mod refusals;
+mod segment;
 
 use std::path::Path;
 use tempfile::TempDir;
