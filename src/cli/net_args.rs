@@ -6,30 +6,29 @@ use tatamu::project::{Nets, check_hidden_degrees};
 
 /// What is drawn on pieces, and whether large ones are split.
 #[derive(Debug, Clone, Default, Args)]
-#[command(next_help_heading = "Pieces")]
 pub struct NetArgs {
     /// Refuses panels that are larger than the sheet, rather than split them
     ///
     /// The message names the largest --size that needs no splitting. Without it such a panel is
     /// made of parts with tabs and labels, to be glued together first.
-    #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true", require_equals = true)]
+    #[arg(long, help_heading = "Pieces", value_name = "BOOL", num_args = 0..=1, default_missing_value = "true", require_equals = true)]
     no_split: Option<bool>,
 
     /// Draws where each tab comes to lie behind its mate
-    #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true", require_equals = true)]
+    #[arg(long, help_heading = "Pieces", value_name = "BOOL", num_args = 0..=1, default_missing_value = "true", require_equals = true)]
     glue_marks: Option<bool>,
 
     /// Writes beside each crease, where there is room, by how many degrees it is folded
     ///
     /// The angle is that of the standing model; 0° is flat paper.
-    #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true", require_equals = true)]
+    #[arg(long, help_heading = "Pieces", value_name = "BOOL", num_args = 0..=1, default_missing_value = "true", require_equals = true)]
     angles: Option<bool>,
 
     /// Leaves out creases that are folded by less, in degrees [default: 0]
     ///
     /// The angle is that of the standing model. Creases that fold flat are always drawn.
     /// Example: --hide-below 3
-    #[arg(long, value_name = "DEGREES", value_parser = degrees)]
+    #[arg(long, help_heading = "Pieces", value_name = "DEGREES", value_parser = degrees)]
     hide_below: Option<f64>,
 }
 

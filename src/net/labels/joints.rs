@@ -33,10 +33,7 @@ impl Placer<'_> {
             let key = key_triangle(&inside, place.transform_point2(mark.key));
             self.avoid(polygon::edges(&inside).map(|(a, b)| [a, b]));
             self.avoid(polygon::edges(&key).map(|(a, b)| [a, b]));
-            let is_placed = [&inside, &panel]
-                .iter()
-                .any(|area| self.in_area(area, &mark.text, &NAME_CAPS_MM, LabelKind::Joint));
-            if !is_placed {
+            if !self.in_area(&inside, &mark.text, &NAME_CAPS_MM, LabelKind::Joint) {
                 let targets = vec![polygon::centroid(&inside)];
                 self.waiting.push(Waiting { text: mark.text.clone(), kind: LabelKind::Joint, targets });
             }

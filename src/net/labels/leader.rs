@@ -1,7 +1,7 @@
 //! Leader lines: a text that has no room where it belongs stands elsewhere on the piece, with a
 //! line to its place.
 
-use super::{LINE_GAP_MM, LabelKind, Leader, Placer, Wanted, longest_edge, spots, text_box};
+use super::{LINE_GAP_MM, LabelKind, Leader, NAME_CAPS_MM, Placer, Wanted, longest_edge, spots, text_box};
 use crate::geom::polygon::{convex_overlap, depth_outside};
 use glam::DVec2;
 
@@ -33,10 +33,20 @@ impl Placer<'_> {
     /// possible.
     pub(crate) fn lead(&mut self) {
         for waiting in std::mem::take(&mut self.waiting) {
-            if !self.lead_one(&waiting) {
+            if !self.lead_one(&waiting) && !self.beside_target(&waiting) {
                 self.unplaced.push(waiting.text);
             }
         }
+    }
+
+    /// A joint's text anywhere in the panel of the joint, where no line can lead to it.
+    fn beside_target(&mut self, waiting: &Waiting) -> bool {
+        let Some(&target) = waiting.targets.first().filter(|_| waiting.kind == LabelKind::Joint) else {
+            return false;
+        };
+        let mut outlines = self.panels().map(|f| self.mesh.outline(f));
+        let panel = outlines.find(|o| depth_outside(o, target) <= 0.0);
+        panel.is_some_and(|p| self.in_area(&p, &waiting.text, &NAME_CAPS_MM, waiting.kind))
     }
 
     fn lead_one(&mut self, waiting: &Waiting) -> bool {
