@@ -68,13 +68,14 @@ fn said(output: &Output) -> String {
 
 #[test]
 fn a_job_arrives_whole_by_every_handshake() {
-    for (handshake, arguments) in [
-        ("auto", &["--cutter", "generic-hpgl"][..]),
-        ("escb", &["--cutter", "generic-hpgl"]),
-        ("xonxoff", &["--cutter", "generic-hpgl", "--mute", "--xoff-below", "256"]),
-        ("paced", &["--cutter", "generic-hpgl", "--mute"]),
+    // Time alone takes the time that the profile says.
+    for (handshake, strokes, arguments) in [
+        ("auto", 30, &["--cutter", "generic-hpgl"][..]),
+        ("escb", 30, &["--cutter", "generic-hpgl"]),
+        ("xonxoff", 30, &["--cutter", "generic-hpgl"]),
+        ("paced", 4, &["--cutter", "generic-hpgl", "--mute"]),
     ] {
-        let folder = folder(30);
+        let folder = folder(strokes);
         let speeds = ["--baud", "115200", "--speedup", "8"];
         let machine = Machine::start(folder.path(), &[arguments, &speeds, &["-o", "drawn.svg"]].concat());
         let options = ["--cutter", "generic-hpgl", "--baud", "115200", "--yes", "--handshake", handshake];
@@ -82,8 +83,8 @@ fn a_job_arrives_whole_by_every_handshake() {
         let output = plot.args(["plot", "a.plt", "--port", &machine.port]).args(options).output().unwrap();
         assert!(output.status.success(), "{handshake}: {}", said(&output));
         let report = machine.report();
-        let expected = "lost 0, broken commands 0, lines drawn 1200, pen up";
-        assert!(report.contains(expected), "{handshake}: {report}");
+        let expected = format!("lost 0, broken commands 0, lines drawn {}, pen up", 40 * strokes);
+        assert!(report.contains(&expected), "{handshake}: {report}");
         assert!(!folder.path().join("a.tatamu-job").exists(), "{handshake}");
         assert!(std::fs::read_to_string(folder.path().join("drawn.svg")).unwrap().contains("<path"));
     }
@@ -91,44 +92,49 @@ fn a_job_arrives_whole_by_every_handshake() {
 
 #[test]
 fn ctrl_c_lifts_the_pen_and_the_job_goes_on_later() {
-    for presses in [1, 2] {
-        let folder = folder(400);
-        let speeds = ["--baud", "38400", "--speedup", "8"];
-        let machine = Machine::start(folder.path(), &speeds);
-        let options = ["--cutter", "generic-hpgl", "--baud", "38400", "--yes"];
-        let child = tatamu(folder.path())
-            .args(["plot", "a.plt", "--port", &machine.port])
-            .args(options)
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        std::thread::sleep(std::time::Duration::from_millis(3000));
-        for _ in 0..presses {
-            let id = child.id().to_string();
-            assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
-        }
-        let output = child.wait_with_output().unwrap();
-        assert_eq!(output.status.code(), Some(130), "{}", said(&output));
-        assert!(said(&output).contains("--resume a.tatamu-job"), "{}", said(&output));
-        let report = machine.report();
-        assert!(report.contains("lost 0, broken commands 0") && report.contains("pen up"), "{report}");
-        let first = lines_drawn(&report);
-        assert!((1..16_000).contains(&first), "{report}");
+    stop_and_go_on(1);
+}
 
-        let machine = Machine::start(folder.path(), &["--baud", "115200", "--speedup", "100"]);
-        let mut plot = tatamu(folder.path());
-        let resume =
-            ["plot", "--resume", "a.tatamu-job", "--yes", "--baud", "115200", "--port", &machine.port];
-        let output = plot.args(resume).output().unwrap();
-        assert!(output.status.success(), "{}", said(&output));
-        let report = machine.report();
-        assert!(report.contains("lost 0, broken commands 0") && report.contains("pen up"), "{report}");
-        // Nothing is left out, and only what was not certainly done is drawn again.
-        let both = first + lines_drawn(&report);
-        assert!((16_000..16_000 + 60 * 40).contains(&both), "{first} and then {report}");
-        assert!(!folder.path().join("a.tatamu-job").exists());
+#[test]
+fn ctrl_c_twice_lifts_the_pen_too() {
+    stop_and_go_on(2);
+}
+
+/// Stops a job of 150 strokes in the middle by pressing Ctrl-C, and goes on with it.
+fn stop_and_go_on(presses: usize) {
+    let folder = folder(150);
+    let machine = Machine::start(folder.path(), &["--baud", "38400", "--speedup", "8"]);
+    let child = tatamu(folder.path())
+        .args(["plot", "a.plt", "--port", &machine.port])
+        .args(["--cutter", "generic-hpgl", "--baud", "38400", "--yes"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(3));
+    for _ in 0..presses {
+        let id = child.id().to_string();
+        assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
     }
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", said(&output));
+    assert!(said(&output).contains("--resume a.tatamu-job"), "{}", said(&output));
+    let report = machine.report();
+    assert!(report.contains("lost 0, broken commands 0") && report.contains("pen up"), "{report}");
+    let first = lines_drawn(&report);
+    assert!((1..6000).contains(&first), "{report}");
+
+    let machine = Machine::start(folder.path(), &["--baud", "115200", "--speedup", "100"]);
+    let mut plot = tatamu(folder.path());
+    let resume = ["plot", "--resume", "a.tatamu-job", "--yes", "--baud", "115200", "--port", &machine.port];
+    let output = plot.args(resume).output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    let report = machine.report();
+    assert!(report.contains("lost 0, broken commands 0") && report.contains("pen up"), "{report}");
+    // Nothing is left out, and only what was not certainly done is drawn again.
+    let both = first + lines_drawn(&report);
+    assert!((6000..6000 + 10 * 40).contains(&both), "{first} and then {report}");
+    assert!(!folder.path().join("a.tatamu-job").exists());
 }
 
 fn lines_drawn(report: &str) -> usize {

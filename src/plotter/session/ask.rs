@@ -148,13 +148,13 @@ impl Session {
 
     /// Begins to send by a handshake; `auto` means that the machine did not answer.
     fn begin(&mut self, handshake: Handshake, now: Duration) -> Step {
-        // What a machine does with questions that it does not know is anybody's guess.
-        self.serial.answers &= handshake != Handshake::Auto;
         let fallback = match self.serial.fallback {
             Handshake::RtsCts if self.has_clear_to_send != Some(true) => Handshake::Paced,
             other => other,
         };
         self.handshake = if handshake == Handshake::Auto { fallback } else { handshake };
+        // What a machine does with questions that it does not know is anybody's guess.
+        self.serial.answers &= handshake != Handshake::Auto && self.handshake != Handshake::Paced;
         let why = match self.handshake {
             Handshake::EscB => format!("asking for free bytes (ESC.B), {} of them in all", self.ask.size),
             Handshake::RtsCts => "the line CTS".to_owned(),
