@@ -119,7 +119,9 @@ pub fn fold(bytes: &[u8]) -> Result<FoldReport, FoldCheckError> {
         stretch_mm: model.stretch(),
         label_gap_mm,
         unpaired_labels,
-        overlaps: overlapping(&(0..model.master.faces_vertices.len()).map(|f| model.polygon(f)).collect::<Vec<_>>()),
+        overlaps: overlapping(
+            &(0..model.master.faces_vertices.len()).map(|f| model.polygon(f)).collect::<Vec<_>>(),
+        ),
         thickness_mm: model.frames.last().map_or(0.0, |flat| model.thickness(flat)),
         ..FoldReport::default()
     };

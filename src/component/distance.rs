@@ -65,8 +65,7 @@ impl Polytope {
     /// The faces of a hull.
     pub fn of_hull(hull: &Hull) -> Self {
         let faces = hull.facets().iter();
-        let faces =
-            faces.map(|f| (f.plane().normal(), f.plane().offset(), f.outline().iter().copied()));
+        let faces = faces.map(|f| (f.plane().normal(), f.plane().offset(), f.outline().iter().copied()));
         Self::new(hull.vertices().to_vec(), faces)
     }
 
@@ -167,9 +166,8 @@ impl Polytope {
 
 /// Hausdorff distance of two convex polyhedra.
 pub fn hausdorff(a: &Polytope, b: &Polytope) -> f64 {
-    let one_way = |from: &Polytope, to: &Polytope| {
-        from.corners.iter().map(|p| to.distance(*p)).fold(0.0, f64::max)
-    };
+    let one_way =
+        |from: &Polytope, to: &Polytope| from.corners.iter().map(|p| to.distance(*p)).fold(0.0, f64::max);
     one_way(a, b).max(one_way(b, a))
 }
 

@@ -10,9 +10,9 @@
 use super::distance::{Polytope, Position};
 use super::gradient::ProfileLength;
 use super::profile::imbalance;
+use super::seated::miss_mm;
 use super::shape::{Shape, profile};
 use super::solid::{Chain, Solid};
-use super::seated::miss_mm;
 use super::target::{FoldSpot, Target};
 use glam::DVec3;
 
@@ -104,7 +104,8 @@ impl<'a> Fit<'a> {
                 break;
             }
             let next = self.task.step(&self.best, self.step_mm);
-            let next = next.map(|s| self.task.measure(restored(s, &self.best.spots), self.best.spots.clone()));
+            let next =
+                next.map(|s| self.task.measure(restored(s, &self.best.spots), self.best.spots.clone()));
             match next.map(|n| (self.best.merit() - n.merit(), n)) {
                 Some((gain, next)) if gain > 1e-6 * radius_mm => {
                     self.slow = if gain < SLOW_GAIN * self.best.merit() { self.slow + 1 } else { 0 };
@@ -230,4 +231,3 @@ fn exact_bend(chain: &Chain, top: f64, bottom: f64, i: usize, free: usize) -> Op
     }
     (miss(at).abs() <= 1e-11 * size).then_some(at)
 }
-

@@ -319,8 +319,10 @@ pub(crate) mod tests {
         for j in 0..5 {
             let chain = &shape.chains[j];
             for i in 0..3 {
-                let lengths =
-                    [ProfileLength::of_segment(chain, i), ProfileLength::beyond_balance(chain, i + 1).reversed()];
+                let lengths = [
+                    ProfileLength::of_segment(chain, i),
+                    ProfileLength::beyond_balance(chain, i + 1).reversed(),
+                ];
                 for length in lengths {
                     let terms = freedom.length(&shape, j, &length);
                     check(&terms, &freedom, &shape.solid, |s| length.value(&s.profile(j)));

@@ -305,9 +305,8 @@ mod tests {
                 let terms: Vec<_> = (0..n).map(|k| (k, random.f64() - 0.5)).collect();
                 programme.add_square(&terms, random.f64() - 0.5, 1.0);
             }
-            let rows: Vec<(Vec<f64>, f64)> = (0..m)
-                .map(|_| ((0..n).map(|_| random.f64() - 0.5).collect(), random.f64() * 0.2))
-                .collect();
+            let rows: Vec<(Vec<f64>, f64)> =
+                (0..m).map(|_| ((0..n).map(|_| random.f64() - 0.5).collect(), random.f64() * 0.2)).collect();
             rows.iter().for_each(|(a, b)| programme.at_most(a.iter().copied().enumerate(), *b));
             let x = programme.solve().unwrap();
             let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();

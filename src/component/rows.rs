@@ -103,7 +103,8 @@ impl Model<'_> {
         let weight = MEAN_WEIGHT / (count * task.mean_scale_mm());
         for (corner, position) in at.shape.corners.iter().zip(&at.own) {
             if position.depth_mm > lowest {
-                let (distance, direction) = self.distance(position, corner.point, |face| task.hull.normal(face));
+                let (distance, direction) =
+                    self.distance(position, corner.point, |face| task.hull.normal(face));
                 let terms = self.freedom.corner(&at.shape, corner, direction);
                 self.error_row(terms, distance, weight);
             }

@@ -17,7 +17,7 @@ impl Line {
         (self.offset - v * self.sin) / self.cos
     }
 
-    fn meets(&self, below: &Line) -> f64 {
+    pub(super) fn meets(&self, below: &Line) -> f64 {
         (self.offset * below.cos - below.offset * self.cos) / (self.sin * below.cos - self.cos * below.sin)
     }
 }
@@ -205,9 +205,9 @@ fn polytope(solid: &Solid, chains: &[ChainShape], corners: &[Corner], starts: &[
         }
     }
     left[1].reverse();
-    let sides = chains.iter().flat_map(|chain| {
-        chain.lines.iter().map(|l| ((chain.normal * l.cos).extend(l.sin), l.offset))
-    });
+    let sides = chains
+        .iter()
+        .flat_map(|chain| chain.lines.iter().map(|l| ((chain.normal * l.cos).extend(l.sin), l.offset)));
     let planes = [(DVec3::Z, solid.top_mm), (-DVec3::Z, -solid.bottom_mm)].into_iter().chain(sides);
     let faces = planes.zip(left.into_iter().zip(right)).map(|((normal, offset), (left, right))| {
         (normal, offset, left.into_iter().chain(right.into_iter().rev()))

@@ -17,7 +17,8 @@ pub fn fewest(targets: &[(Target, f64)], tolerance_mm: f64) -> Result<(usize, Co
     let most = most.fold((LEAST, LEAST), |m, t| (m.0.max(t.0), m.1.max(t.1)));
     let at = |counts: Counts| {
         let (top_edges, profile_vertices) = counts;
-        let with_counts = targets.iter().map(|t| (Target { top_edges, profile_vertices, ..t.0.clone() }, t.1));
+        let with_counts =
+            targets.iter().map(|t| (Target { top_edges, profile_vertices, ..t.0.clone() }, t.1));
         choose(&with_counts.collect::<Vec<_>>())
     };
     let reaches = |found: &(usize, Component)| found.1.hausdorff_mm() <= tolerance_mm;

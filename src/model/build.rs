@@ -176,7 +176,8 @@ impl Builder<'_> {
                 (0..DIRECTIONS).map(|k| self.settle(principal.fold_axis(angle(k)))).collect()
             }
         };
-        let candidates: Vec<Candidate> = axes.par_iter().map(|&a| self.candidate(principal.frame(a))).collect();
+        let candidates: Vec<Candidate> =
+            axes.par_iter().map(|&a| self.candidate(principal.frame(a))).collect();
         let targets: Vec<(Target, f64)> =
             candidates.iter().map(|c| (self.target(c), PLANE_PRICE * c.plane_shift_mm)).collect();
         let fail = |error| ModelError::Component { name: part.options.name.clone(), error };
