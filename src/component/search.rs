@@ -6,7 +6,7 @@ use super::convert::ConvertError;
 use super::fit::{Fit, Fitted};
 use super::profile::{balance, imbalance};
 use super::seated::support;
-use super::start::{circumscribe, fold_spots, simplify};
+use super::start::{boxed, circumscribe, fold_spots, simplify};
 use super::target::{FoldSpot, Target};
 use crate::geom::{self, Hull, HullError, polygon};
 use glam::DVec3;
@@ -15,7 +15,7 @@ use rayon::prelude::*;
 /// Hulls with more corners are fitted through their extreme points in this many directions.
 const FIT_DIRECTIONS: usize = 320;
 /// While directions are compared, in so many.
-const ROUGH_DIRECTIONS: usize = 110;
+const ROUGH_DIRECTIONS: usize = 140;
 /// Joints that carry less than this get a higher price, this many times the last, so many times.
 const GOOD_SUPPORT: f64 = 0.85;
 const PRICE_RISE: f64 = 4.0;
@@ -23,7 +23,7 @@ const PRICE_RISES: usize = 2;
 /// A better supported joint may cost this share of the hull's height in error.
 const SUPPORT_WORTH: f64 = 0.04;
 /// The search narrows down: after so many steps each, so many starts are left.
-const ROUNDS: [(usize, usize); 3] = [(4, 5), (6, 3), (8, 2)];
+const ROUNDS: [(usize, usize); 2] = [(4, 5), (6, 3)];
 /// Steps of a fit at most.
 const STEPS: usize = 24;
 /// Steps after a panel was dropped.
@@ -69,7 +69,24 @@ pub(super) fn best(targets: &[(Target, f64)]) -> Result<(usize, Fitted, Assemble
             Err(error) => failure = ConvertError::Assemble(error),
         }
     }
-    best.map(|b| b.1).ok_or(failure)
+    let best = best.map(|b| b.1).ok_or(failure);
+    let k = best.as_ref().map_or(0, |b| b.0);
+    match as_box(&targets[k].0) {
+        Some((fitted, made)) if best.as_ref().map_or(true, |b| fitted.error_mm < b.1.error_mm) => {
+            Ok((k, fitted, made))
+        }
+        _ => best,
+    }
+}
+
+/// The box round the hull, for bodies that nothing else comes as close to; `None` where it has no
+/// room either, or joints at its sides.
+fn as_box(target: &Target) -> Option<(Fitted, Assembled)> {
+    let mut solid = boxed(target)?;
+    let spots = fold_spots(&mut solid, target.profile_vertices);
+    let fitted = Fit::new(target.clone(), solid, spots).into_best();
+    let made = assemble_unbroken(&fitted).ok()?;
+    (fitted.lack_mm < NEAR_ENOUGH_MM).then_some((fitted, made))
 }
 
 /// What directions are compared by.

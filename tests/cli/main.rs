@@ -1,5 +1,6 @@
 //! The program as its users meet it.
 
+mod check;
 #[path = "../cube/mod.rs"]
 mod cube;
 mod exports;
