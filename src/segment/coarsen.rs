@@ -2,6 +2,7 @@
 //! the number of faces.
 
 use super::surface::Surface;
+use rayon::prelude::*;
 
 /// More cells than this are grouped.
 const MOST_CELLS: usize = 12_000;
@@ -34,7 +35,7 @@ fn pairs(surface: &Surface) -> (Vec<u32>, usize) {
     const FREE: u32 = u32::MAX;
     let area = surface.areas();
     let mut order: Vec<usize> = (0..surface.len()).collect();
-    order.sort_by(|&a, &b| area[a].total_cmp(&area[b]).then(a.cmp(&b)));
+    order.par_sort_unstable_by(|&a, &b| area[a].total_cmp(&area[b]).then(a.cmp(&b)));
     let mut group = vec![FREE; surface.len()];
     let mut count = 0;
     for cell in order {

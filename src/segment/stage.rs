@@ -49,8 +49,7 @@ pub fn segment(
         return Err(SegmentError::Flat);
     }
     progress.stage("thickness");
-    let (faces, _) = outward_faces(positions, mesh.faces());
-    let fine = Surface::of_faces(positions, &faces);
+    let (faces, fine) = outward_faces(positions, mesh.faces());
     let (coarse, cell_of_face) = coarsen(&fine);
     progress.check()?;
     let diameters = shape_diameters(positions, &faces, &fine, &coarse, &cell_of_face);

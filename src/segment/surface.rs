@@ -1,6 +1,7 @@
 //! The surface as a graph: cells (faces, or groups of faces on large meshes) linked across edges.
 
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// A border between two cells.
 #[derive(Debug, Clone, Copy)]
@@ -83,7 +84,7 @@ impl Surface {
         normal: Vec<DVec3>,
         mut borders: Vec<([u32; 2], f64)>,
     ) -> Self {
-        borders.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        borders.par_sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let mut links: Vec<Link> = Vec::with_capacity(borders.len());
         for (cells, length) in borders {
             match links.last_mut() {
@@ -201,7 +202,7 @@ pub(super) fn edge_pairs(faces: &[[u32; 3]]) -> Vec<([u32; 2], [u32; 2])> {
             edges.push(([u.min(v), u.max(v)], f as u32));
         }
     }
-    edges.sort_unstable();
+    edges.par_sort_unstable();
     edges
         .windows(2)
         .filter(|w| w[0].0 == w[1].0 && w[0].1 != w[1].1)
@@ -210,8 +211,8 @@ pub(super) fn edge_pairs(faces: &[[u32; 3]]) -> Vec<([u32; 2], [u32; 2])> {
 }
 
 /// The faces with each connected body turned so that its signed volume (seen from its own
-/// centre) is positive, and the body of each face.
-pub(super) fn outward_faces(positions: &[DVec3], faces: &[[u32; 3]]) -> (Vec<[u32; 3]>, Vec<u32>) {
+/// centre) is positive, and their surface.
+pub(super) fn outward_faces(positions: &[DVec3], faces: &[[u32; 3]]) -> (Vec<[u32; 3]>, Surface) {
     let surface = Surface::of_faces(positions, faces);
     let (body, bodies) = surface.components(|_| 0);
     let mut centre = vec![DVec3::ZERO; bodies];
@@ -226,7 +227,14 @@ pub(super) fn outward_faces(positions: &[DVec3], faces: &[[u32; 3]]) -> (Vec<[u3
         let [p, q, r] = faces[f].map(|v| positions[v as usize] - o);
         volume[b as usize] += p.dot(q.cross(r));
     }
-    let turned =
-        faces.iter().zip(&body).map(|(f, &b)| if volume[b as usize] < 0.0 { [f[0], f[2], f[1]] } else { *f });
-    (turned.collect(), body)
+    if volume.iter().all(|v| *v >= 0.0) {
+        return (faces.to_vec(), surface);
+    }
+    let turned: Vec<[u32; 3]> = faces
+        .iter()
+        .zip(&body)
+        .map(|(f, &b)| if volume[b as usize] < 0.0 { [f[0], f[2], f[1]] } else { *f })
+        .collect();
+    let surface = Surface::of_faces(positions, &turned);
+    (turned, surface)
 }
