@@ -9,6 +9,7 @@ use tatamu::mesh::{self, Mesh};
 use tatamu::model::{self, Model, Part};
 use tatamu::pipeline::{self, Bodies, Options};
 use tatamu::progress::Silent;
+use tatamu::segment::SegmentOptions;
 
 /// Edges of top panels and vertices of profiles, with the average and the worst Hausdorff ratio that
 /// the paper has for the bunny, where it tells.
@@ -30,13 +31,14 @@ fn main() -> Result<(), Box<dyn Error>> {
             None => (argument.as_str(), None),
         };
         let (mesh, _) = Mesh::from_soup(&mesh::read(&std::fs::read(path)?)?)?;
-        let options = Options { parts, ..Options::default() };
-        let (mesh, _) = mesh.scaled(options.size_mm, options.up);
-        let bodies = pipeline::divide(&mesh, &options, &Silent)?;
+        let segmentation = SegmentOptions { parts, ..SegmentOptions::default() };
+        let options = Options { segmentation, ..Options::default() };
+        let (divided, _) = pipeline::find_parts(&mesh, &options, &Silent)?;
+        let bodies = Bodies::new(&divided, &options)?;
         println!("{path}: {} components, thousandths of the diagonal", bodies.parts().len());
         println!("  edges vertices    mean  worst      time  each component | support of each joint, %");
         for setting in SETTINGS {
-            measure(&bodies, setting, mesh.diagonal_mm(), options.min_panel_width_mm)?;
+            measure(&bodies, setting, divided.mesh().diagonal_mm(), options.min_panel_width_mm)?;
         }
     }
     Ok(())

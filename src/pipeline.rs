@@ -1,15 +1,15 @@
 //! The way from a mesh to sheets, stage by stage. Reading [`run`] is reading the program.
 
-use crate::geom::{Hull, HullError};
+use crate::fold::{FoldPlan, ModelMotion};
+use crate::geom::Hull;
 use crate::mesh::{Mesh, Up};
 use crate::model::{self, Contact, Link, Model, ModelError, Part, PartOptions};
-use crate::net::{Net, NetOptions, NetsError, develop_model};
+use crate::net::{Net, NetChoices, NetOptions, NetsError, develop_model};
 use crate::progress::{Cancelled, Progress};
-use crate::segment::{self, SegmentError, SegmentId, SegmentOptions, Segmentation};
-use crate::sheet::{Layout, LayoutError, SheetOptions};
+use crate::segment::{self, Edit, EditError, Parts, SegmentError, SegmentId, SegmentOptions, Segmentation};
+use crate::sheet::{Layout, LayoutError, SheetChoices, SheetOptions};
 use crate::units::Paper;
 use glam::{DAffine3, DVec3};
-use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What the user chose.
@@ -19,8 +19,12 @@ pub struct Options {
     pub size_mm: f64,
     /// The axis of the mesh that points up.
     pub up: Up,
-    /// Number of components to aim at; without it the shape decides.
-    pub parts: Option<usize>,
+    /// How the mesh is divided.
+    pub segmentation: SegmentOptions,
+    /// Changes to the parts by hand, in the coordinates of the mesh as it was read.
+    pub edits: Vec<Edit>,
+    /// The part that all others hang on; without it the biggest.
+    pub root: Option<String>,
     /// What differs for components of these names.
     pub components: BTreeMap<String, ComponentOptions>,
     /// Edges of top panels, at least 3.
@@ -38,6 +42,12 @@ pub struct Options {
     pub paper: Paper,
     /// Border of the sheets that stays free, mm.
     pub margin_mm: f64,
+    /// Thickness of the paper, mm.
+    pub thickness_mm: f64,
+    /// What else is chosen about nets.
+    pub nets: NetChoices,
+    /// What else is chosen about sheets.
+    pub sheets: SheetChoices,
 }
 
 impl Default for Options {
@@ -45,7 +55,9 @@ impl Default for Options {
         Self {
             size_mm: 200.0,
             up: Up::Y,
-            parts: None,
+            segmentation: SegmentOptions::default(),
+            edits: Vec::new(),
+            root: None,
             components: BTreeMap::new(),
             top_edges: 6,
             profile_vertices: 6,
@@ -54,6 +66,9 @@ impl Default for Options {
             tab_width_mm: 6.0,
             paper: Paper::default(),
             margin_mm: 10.0,
+            thickness_mm: 0.25,
+            nets: NetChoices::default(),
+            sheets: SheetChoices::default(),
         }
     }
 }
@@ -80,6 +95,9 @@ pub enum Error {
     /// Segmentation failed.
     #[error("the mesh could not be divided into parts: {0}")]
     Segment(#[from] SegmentError),
+    /// A change to the parts cannot be made.
+    #[error(transparent)]
+    Edit(#[from] EditError),
     /// No part has a volume.
     #[error("no part of the mesh has a volume; it is flat, so there is nothing to fold")]
     NothingSolid,
@@ -122,7 +140,7 @@ fn too_large(error: &NetsError, size_mm: f64) -> String {
             let fits = (size_mm * scale * FITS).floor();
             format!(
                 "a panel of \"{name}\" measures {:.0} × {:.0} mm and does not fit the {:.0} × {:.0} mm within the \
-                 sheet's margins; use --size {fits}mm at most, or larger --paper",
+                 sheet's margins; use --size {fits}mm at most, or larger --paper, or do without --no-split",
                 panel.x, panel.y, sheet_mm.x, sheet_mm.y
             )
         }
@@ -148,6 +166,7 @@ pub struct Output {
     face_part: Vec<Option<u32>>,
     part_faces: Vec<usize>,
     model: Model,
+    fold_plan: FoldPlan,
     nets: Vec<Net>,
     layout: Layout,
     warnings: Vec<Warning>,
@@ -184,6 +203,11 @@ impl Output {
         &self.model
     }
 
+    /// How the model folds.
+    pub fn fold_plan(&self) -> &FoldPlan {
+        &self.fold_plan
+    }
+
     /// Their nets, in the same order.
     pub fn nets(&self) -> &[Net] {
         &self.nets
@@ -205,15 +229,23 @@ impl Output {
 /// # Errors
 /// See [`Error`].
 pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
-    let (mesh, to_model) = mesh.scaled(options.size_mm, options.up);
-    let Bodies { segmentation, solid, parts, links } = divide(&mesh, options, progress)?;
+    let (divided, to_model) = find_parts(mesh, options, progress)?;
+    let (mesh, segmentation) = (divided.mesh(), divided.segmentation());
+
+    progress.stage("hulls");
+    let Bodies { parts, links, part_of_segment, flat } = Bodies::new(&divided, options)?;
+    progress.check()?;
 
     progress.stage("components");
     let model = model::build(&parts, &links, options.min_panel_width_mm, progress)?;
 
+    progress.stage("folding");
+    let fold_plan = FoldPlan::new(&ModelMotion::new(&model), options.thickness_mm, progress)?;
+
     progress.stage("nets");
-    let sheets = SheetOptions { paper: options.paper, margin_mm: options.margin_mm };
-    let net_options = NetOptions { tab_width_mm: options.tab_width_mm, sheet_mm: sheets.room_mm() };
+    let sheets = SheetOptions { paper: options.paper, margin_mm: options.margin_mm, choices: options.sheets };
+    let net_options =
+        NetOptions { tab_width_mm: options.tab_width_mm, sheet_mm: sheets.room_mm(), choices: options.nets };
     let nets = develop_model(&model, &net_options, progress)
         .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
 
@@ -223,34 +255,74 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     let face_part: Vec<Option<u32>> = segmentation
         .face_segments()
         .iter()
-        .map(|s| solid.part_of_segment[s.0 as usize].map(|p| p as u32))
+        .map(|s| part_of_segment[s.0 as usize].map(|p| p as u32))
         .collect();
     let mut part_faces = vec![0; parts.len()];
     face_part.iter().flatten().for_each(|&p| part_faces[p as usize] += 1);
-    let warnings = warnings(&model, &nets, &solid.flat, options);
+    let mut warnings = warnings(&model, &nets, &flat, options);
+    let advice = fold_plan.advice(&model).into_iter();
+    warnings.extend(advice.map(|(code, message)| Warning { code, message }));
     Ok(Output {
         options: options.clone(),
-        mesh,
+        mesh: mesh.clone(),
         to_model,
         face_part,
         part_faces,
         model,
+        fold_plan,
         nets,
         layout,
         warnings,
     })
 }
 
-/// A mesh divided into parts, with the joints between them: what the components are made from.
+/// Divides a mesh at the model's size into parts; also gives the transform from the coordinates of
+/// the mesh as it was read.
+///
+/// # Errors
+/// [`Error::Segment`], [`Error::Edit`], [`Error::Cancelled`].
+pub fn find_parts(
+    mesh: &Mesh,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<(Parts, DAffine3), Error> {
+    let (mesh, to_model) = mesh.scaled(options.size_mm, options.up);
+    let segmentation = segment::segment(&mesh, &options.segmentation, progress)?;
+    let mut parts = Parts::new(mesh, segmentation);
+    for edit in &options.edits {
+        parts = parts.edited(&edit.moved(&to_model))?;
+    }
+    if let Some(root) = &options.root {
+        parts = parts.with_root(root)?;
+    }
+    Ok((parts, to_model))
+}
+
+/// Hulls of the parts of a mesh, with the joints between them: what the components are made from.
 #[derive(Debug, Clone)]
 pub struct Bodies {
-    segmentation: Segmentation,
-    solid: Solid,
     parts: Vec<Part>,
     links: Vec<Link>,
+    part_of_segment: Vec<Option<usize>>,
+    /// Number of faces of each segment that is flat.
+    flat: Vec<usize>,
 }
 
 impl Bodies {
+    /// The hulls of `divided`, with what `options` says of each.
+    ///
+    /// # Errors
+    /// [`Error::NothingSolid`], [`Error::NoComponent`], [`Error::SameName`].
+    pub fn new(divided: &Parts, options: &Options) -> Result<Self, Error> {
+        let solid = hulls(divided);
+        let names = solid.names(divided.names());
+        let parts = parts(solid.hulls, &names, options)?;
+        let contacts = contacts(divided.mesh(), divided.segmentation(), &solid.part_of_segment);
+        let hulls: Vec<&Hull> = parts.iter().map(|p| &p.hull).collect();
+        let links = model::link_tree(&hulls, &contacts);
+        Ok(Self { parts, links, part_of_segment: solid.part_of_segment, flat: solid.flat })
+    }
+
     /// The parts; a component is made of each.
     pub fn parts(&self) -> &[Part] {
         &self.parts
@@ -262,24 +334,6 @@ impl Bodies {
     }
 }
 
-/// The first stages of [`run`]: segments, their hulls and joints. `mesh` has the model's size.
-///
-/// # Errors
-/// See [`Error`].
-pub fn divide(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Bodies, Error> {
-    let wish = SegmentOptions { parts: options.parts, ..SegmentOptions::default() };
-    let segmentation = segment::segment(mesh, &wish, progress)?;
-
-    progress.stage("hulls");
-    let mut solid = hulls(mesh, &segmentation);
-    let parts = parts(std::mem::take(&mut solid.hulls), options)?;
-    let contacts = contacts(mesh, &segmentation, &solid.part_of_segment);
-    let hulls: Vec<&Hull> = parts.iter().map(|p| &p.hull).collect();
-    let links = model::link_tree(&hulls, &contacts);
-    progress.check()?;
-    Ok(Bodies { segmentation, solid, parts, links })
-}
-
 /// Hulls of the segments that have one.
 #[derive(Debug, Clone)]
 struct Solid {
@@ -289,16 +343,17 @@ struct Solid {
     flat: Vec<usize>,
 }
 
-fn hulls(mesh: &Mesh, segmentation: &Segmentation) -> Solid {
-    let mut points: Vec<Vec<DVec3>> = vec![Vec::new(); segmentation.count()];
-    let mut faces = vec![0usize; segmentation.count()];
-    for (f, s) in segmentation.face_segments().iter().enumerate() {
-        points[s.0 as usize].extend(mesh.corners(f));
-        faces[s.0 as usize] += 1;
+impl Solid {
+    /// The names of the segments that have a hull.
+    fn names(&self, of_segment: &[String]) -> Vec<String> {
+        let has_hull = self.part_of_segment.iter().zip(of_segment);
+        has_hull.filter(|(part, _)| part.is_some()).map(|(_, name)| name.clone()).collect()
     }
-    let made: Vec<Result<Hull, HullError>> = points.par_iter().map(|p| Hull::of_points(p)).collect();
+}
+
+fn hulls(parts: &Parts) -> Solid {
     let mut solid = Solid { hulls: Vec::new(), part_of_segment: Vec::new(), flat: Vec::new() };
-    for (hull, faces) in made.into_iter().zip(faces) {
+    for (hull, faces) in parts.hulls().into_iter().zip(parts.face_counts()) {
         match hull {
             Ok(hull) => {
                 solid.part_of_segment.push(Some(solid.hulls.len()));
@@ -317,27 +372,21 @@ fn hulls(mesh: &Mesh, segmentation: &Segmentation) -> Solid {
 /// has set gets them down to the least width.
 const COMFORTABLE: f64 = 1.5;
 
-/// Names of components that were not renamed: the first, biggest one is the body.
-fn default_name(index: usize) -> String {
-    if index == 0 { "body".to_owned() } else { format!("part-{}", index + 1) }
-}
-
-fn parts(hulls: Vec<Hull>, options: &Options) -> Result<Vec<Part>, Error> {
+fn parts(hulls: Vec<Hull>, names: &[String], options: &Options) -> Result<Vec<Part>, Error> {
     if hulls.is_empty() {
         return Err(Error::NothingSolid);
     }
-    let names: Vec<String> = (0..hulls.len()).map(default_name).collect();
     if let Some(name) = options.components.keys().find(|name| !names.contains(name)) {
         return Err(Error::NoComponent { name: name.clone(), known: names.join(", ") });
     }
-    let part = |(hull, name): (Hull, String)| {
-        let own = options.components.get(&name).cloned().unwrap_or_default();
+    let part = |(hull, name): (Hull, &String)| {
+        let own = options.components.get(name).cloned().unwrap_or_default();
         let is_set = own.top_edges.is_some() || own.profile_vertices.is_some();
         let comfortable_mm = options.min_panel_width_mm * if is_set { 1.0 } else { COMFORTABLE };
         Part {
             hull,
             options: PartOptions {
-                name: own.rename.unwrap_or(name),
+                name: own.rename.unwrap_or_else(|| name.clone()),
                 direction_rad: own.direction_rad,
                 top_edges: own.top_edges.unwrap_or(options.top_edges),
                 profile_vertices: own.profile_vertices.unwrap_or(options.profile_vertices),
@@ -356,14 +405,30 @@ fn parts(hulls: Vec<Hull>, options: &Options) -> Result<Vec<Part>, Error> {
 
 fn contacts(mesh: &Mesh, segmentation: &Segmentation, part_of_segment: &[Option<usize>]) -> Vec<Contact> {
     let part = |s: SegmentId| part_of_segment[s.0 as usize];
-    segmentation
-        .borders(mesh)
-        .into_iter()
-        .filter_map(|((a, b), interface)| {
-            let points = interface.vertices().iter().map(|&v| mesh.positions()[v as usize]).collect();
-            Some(Contact { parts: (part(a)?, part(b)?), points, length_mm: interface.length() })
+    let borders = segmentation.borders(mesh);
+    let near = segment::near_contacts(mesh, segmentation);
+    let touching = near.into_iter().filter(|(pair, _)| !borders.contains_key(pair)).map(|(pair, points)| {
+        let length_mm = rim_mm(&points);
+        (pair, points, length_mm)
+    });
+    let bordering = borders.iter().map(|(&pair, interface)| {
+        let points = interface.vertices().iter().map(|&v| mesh.positions()[v as usize]).collect();
+        (pair, points, interface.length())
+    });
+    bordering
+        .chain(touching)
+        .filter_map(|((a, b), points, length_mm)| {
+            Some(Contact { parts: (part(a)?, part(b)?), points, length_mm })
         })
         .collect()
+}
+
+/// Length of the circle whose points are as far from their centre as these, on the whole.
+fn rim_mm(points: &[DVec3]) -> f64 {
+    let n = points.len().max(1) as f64;
+    let centre = points.iter().sum::<DVec3>() / n;
+    let square = points.iter().map(|p| p.distance_squared(centre)).sum::<f64>() / n;
+    std::f64::consts::TAU * square.sqrt()
 }
 
 /// Joint panels that carry less than this of their child are worth a warning.

@@ -1,10 +1,13 @@
 //! The report: what was made, in numbers, as JSON.
 
 use crate::component::PanelId;
+use crate::fold::{Clash, Overlap, Stack};
+use crate::geom::polygon;
 use crate::mesh::Repairs;
 use crate::model::ModelPart;
-use crate::net::Net;
+use crate::net::{Net, Piece};
 use crate::pipeline::{Output, Warning};
+use glam::DAffine2;
 use serde::Serialize;
 
 /// Version of the report's structure.
@@ -29,6 +32,7 @@ struct Report<'a> {
     input: Input<'a>,
     stages: Vec<Stage>,
     components: Vec<Component<'a>>,
+    fold: Fold<'a>,
     nets: Vec<NetNumbers<'a>>,
     sheets: Sheets,
     warnings: Vec<WarningText<'a>>,
@@ -92,6 +96,39 @@ struct Joint {
     support_ratio: f64,
 }
 
+/// How the model folds.
+#[derive(Serialize)]
+struct Fold<'a> {
+    thickness_mm: f64,
+    order: Vec<&'a str>,
+    clashes: Vec<FoldClash<'a>>,
+    deployed_overlaps: Vec<DeployedOverlap<'a>>,
+    flat: Vec<Flat<'a>>,
+}
+
+#[derive(Serialize)]
+struct FoldClash<'a> {
+    components: [&'a str; 2],
+    panels: [String; 2],
+    folding: &'a str,
+    folded: f64,
+    depth_mm: f64,
+}
+
+#[derive(Serialize)]
+struct DeployedOverlap<'a> {
+    components: [&'a str; 2],
+    depth_mm: f64,
+}
+
+#[derive(Serialize)]
+struct Flat<'a> {
+    root: &'a str,
+    size_mm: [f64; 2],
+    layers: usize,
+    stack_mm: f64,
+}
+
 #[derive(Serialize)]
 struct NetNumbers<'a> {
     component: &'a str,
@@ -107,6 +144,16 @@ struct Sheets {
     count: usize,
     paper: String,
     utilisation: f64,
+    pages: Vec<Page>,
+}
+
+/// What is cut and folded on one sheet.
+#[derive(Serialize)]
+struct Page {
+    cut_mm: f64,
+    crease_mm: f64,
+    /// Least x and y, largest x and y of all outlines, from the sheet's lower left corner.
+    bounds_mm: [f64; 4],
 }
 
 #[derive(Serialize)]
@@ -137,11 +184,13 @@ pub fn to_json(output: &Output, run: &Run<'_>) -> Result<Vec<u8>, serde_json::Er
             .enumerate()
             .map(|(p, part)| component(output, p, part, diagonal_mm))
             .collect(),
+        fold: fold(output),
         nets: parts.iter().zip(output.nets()).map(|(part, net)| numbers(&part.name, net)).collect(),
         sheets: Sheets {
             count: output.layout().sheet_count(),
             paper: output.options().paper.name(),
             utilisation: output.layout().utilisation(),
+            pages: (0..output.layout().sheet_count()).map(|sheet| page(output, sheet)).collect(),
         },
         warnings: run
             .warnings
@@ -165,6 +214,36 @@ fn repairs(repairs: &Repairs) -> RepairNumbers {
         components: repairs.components,
         boundary_edges: repairs.boundary_edges,
         non_manifold_edges: repairs.non_manifold_edges,
+    }
+}
+
+fn fold(output: &Output) -> Fold<'_> {
+    let (parts, plan) = (output.model().parts(), output.fold_plan());
+    let name = |part: usize| parts[part].name.as_str();
+    let panel = |part: usize, panel: PanelId| parts[part].component.panels().panel(panel).kind.to_string();
+    let clash = |clash: &Clash| FoldClash {
+        components: clash.parts.map(name),
+        panels: [0, 1].map(|k| panel(clash.parts[k], clash.panels[k])),
+        folding: name(clash.mover),
+        folded: clash.folded,
+        depth_mm: clash.depth_mm,
+    };
+    let overlap = |overlap: &Overlap| DeployedOverlap {
+        components: overlap.parts.map(name),
+        depth_mm: overlap.depth_mm,
+    };
+    let flat = |stack: &Stack| Flat {
+        root: name(stack.root),
+        size_mm: stack.size_mm.to_array(),
+        layers: stack.layers,
+        stack_mm: stack.height_mm,
+    };
+    Fold {
+        thickness_mm: plan.thickness_mm(),
+        order: plan.order().iter().map(|&p| name(p)).collect(),
+        clashes: plan.clashes().iter().map(clash).collect(),
+        deployed_overlaps: plan.overlaps().iter().map(overlap).collect(),
+        flat: plan.stacks().iter().map(flat).collect(),
     }
 }
 
@@ -199,6 +278,25 @@ fn component<'a>(output: &'a Output, p: usize, part: &'a ModelPart, diagonal_mm:
             support_ratio: j.support_ratio,
         }),
         placement: glam::DMat4::from(part.placement).to_cols_array(),
+    }
+}
+
+fn page(output: &Output, sheet: usize) -> Page {
+    let layout = output.layout();
+    let nets = output.nets().iter().enumerate();
+    let pieces: Vec<(&Piece, DAffine2)> = nets
+        .flat_map(|(n, net)| net.pieces().iter().zip(layout.places(n)))
+        .filter(|(_, at)| at.sheet == sheet)
+        .map(|(piece, at)| (piece, at.place))
+        .collect();
+    let corners = pieces
+        .iter()
+        .flat_map(|(piece, place)| piece.outline().iter().map(|&corner| place.transform_point2(corner)));
+    let (low, high) = polygon::bounds(corners).unwrap_or_default();
+    Page {
+        cut_mm: pieces.iter().map(|(piece, _)| piece.cut_mm()).sum(),
+        crease_mm: pieces.iter().map(|(piece, _)| piece.crease_mm()).sum(),
+        bounds_mm: [low.x, low.y, high.x, high.y],
     }
 }
 

@@ -1,29 +1,34 @@
 //! The same mesh gives the same bytes, in every run and on any number of threads.
 
-use tatamu::export::format_of;
+use tatamu::export::{FORMATS, FormatOptions};
 use tatamu::mesh::{self, Mesh};
 use tatamu::pipeline::{self, Options};
-use tatamu::product;
+use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::report::Run;
+use tatamu::segment::SegmentOptions;
 
 /// A sample with a joint, made with few edges so that it is quick.
 const SAMPLE: &[u8] = include_bytes!("../samples/bottle.obj");
-const FORMATS: [&str; 5] = ["pdf", "svg", "dxf", "fold", "json"];
 
 /// Every file of every format, made on so many threads.
 fn files(threads: usize) -> Vec<(&'static str, Vec<u8>)> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     pool.install(|| {
         let (mesh, repairs) = Mesh::from_soup(&mesh::read(SAMPLE).expect("OBJ")).expect("a mesh");
-        let options = Options { parts: Some(2), top_edges: 4, profile_vertices: 4, ..Options::default() };
+        let options = Options {
+            segmentation: SegmentOptions { parts: Some(2), ..Default::default() },
+            top_edges: 4,
+            profile_vertices: 4,
+            ..Options::default()
+        };
         let output = pipeline::run(&mesh, &options, &Silent).expect("a model");
         assert_eq!(output.model().parts().len(), 2);
         let run = Run { path: "bottle.obj", repairs: &repairs, stages: &[], warnings: &[] };
-        let documents = product::export_input(&output, "bottle", &run).expect("documents");
-        let written = FORMATS.into_iter().flat_map(|name| {
-            let files = format_of(name).expect("registered").write(&documents).expect("files");
-            files.into_iter().map(move |file| (name, file.bytes))
+        let product = Product::new(&output, "bottle", run);
+        let written = FORMATS.iter().flat_map(|format| {
+            let files = format.write(&product, &FormatOptions::default()).expect("files");
+            files.into_iter().map(|file| (format.name, file.bytes))
         });
         written.collect()
     })

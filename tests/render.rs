@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_6};
 
 use glam::{DVec2, DVec3};
-use tatamu::drawing::{Align, Drawing, Layer, Mark, Polyline, Rgb, Shape, Stroke, Text};
+use tatamu::drawing::{Align, Drawing, Layer, Mark, Polyline, Rgb, Stroke, Text};
 use tatamu::export::png;
 use tatamu::render::{Camera, Edge, Face, Look, Scene, View, light, palette, picture};
 
@@ -97,11 +97,7 @@ fn dashes_and_holes_are_drawn() {
         points: [(low, low), (high, low), (high, high), (low, high)].map(DVec2::from).to_vec(),
         is_closed: true,
     };
-    let mark = |contours, stroke, fill| Mark {
-        layer: Layer::Cut,
-        piece: None,
-        shape: Shape::Path { contours, stroke, fill },
-    };
+    let mark = |contours, stroke, fill| Mark::path(Layer::Cut, contours, stroke, fill);
     let red = Rgb(255, 0, 0);
     let dashed = Stroke { width_mm: 2.0, colour: red, dash_mm: vec![4.0, 6.0] };
     let line = Polyline { points: vec![DVec2::new(0.0, 40.0), DVec2::new(50.0, 40.0)], is_closed: false };

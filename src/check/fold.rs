@@ -46,7 +46,8 @@ pub struct FoldReport {
     pub stretch_mm: f64,
     /// Largest distance between two edges of the same label, in any folded frame, mm.
     pub label_gap_mm: f64,
-    /// Labels that are not on exactly one tab edge and one mate edge.
+    /// Labels that are not on exactly one tab edge and one mate edge, or on two mate edges, which
+    /// tape joins.
     pub unpaired_labels: Vec<String>,
     /// Faces that are not counter-clockwise in the crease pattern.
     pub clockwise_faces: Vec<usize>,
@@ -197,7 +198,9 @@ impl Model {
         let (mut worst, mut unpaired) = (0.0_f64, Vec::new());
         for (label, pair) in edges {
             let kinds: BTreeSet<&str> = pair.iter().map(|&e| self.master.edge_kind[e].as_str()).collect();
-            if pair.len() != 2 || kinds != BTreeSet::from(["mate", "tab"]) {
+            let is_glued = kinds == BTreeSet::from(["mate", "tab"]);
+            let is_taped = kinds == BTreeSet::from(["mate"]);
+            if pair.len() != 2 || !(is_glued || is_taped) {
                 unpaired.push(label.to_owned());
                 continue;
             }

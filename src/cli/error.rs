@@ -2,12 +2,14 @@
 
 use std::path::PathBuf;
 use tatamu::check::FoldCheckError;
+use tatamu::drawing::StyleError;
 use tatamu::export::ExportError;
-use tatamu::mesh::{MeshError, ReadError};
+use tatamu::mesh::{ColourError, MeshError, ReadError};
 use tatamu::pipeline;
-use tatamu::product::ProductError;
+use tatamu::plotter::ProfileError;
 use tatamu::progress::{Cancelled, Progress};
 use tatamu::project::ProjectError;
+use tatamu::show::ShowError;
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
@@ -24,6 +26,24 @@ pub enum CliError {
     /// The project file is wrong.
     #[error("project file {path}: {error}")]
     Project { path: PathBuf, error: ProjectError },
+    /// The mesh has no colours that can be used.
+    #[error("{path}: {error}; or leave --color out")]
+    Colour { path: PathBuf, error: ColourError },
+    /// A style file is wrong.
+    #[error("style file {path}: {error}")]
+    Style { path: PathBuf, error: StyleError },
+    /// A profile of a cutter or a medium is wrong.
+    #[error("profile {name}: {error}")]
+    Profile { name: String, error: ProfileError },
+    /// A sheet cannot be worked on by a machine.
+    #[error("{sheet}: {reason}")]
+    Sheet { sheet: String, reason: String },
+    /// The port cannot be used.
+    #[error("cannot use the port {port}: {reason}")]
+    Port { port: String, reason: String },
+    /// The machine stopped the job.
+    #[error("{0}")]
+    Machine(String),
     /// The mesh that a project file names cannot be read.
     #[error("cannot read {path}, the mesh of project file {project}: {reason}")]
     ProjectMesh { path: PathBuf, project: PathBuf, reason: String },
@@ -45,15 +65,12 @@ pub enum CliError {
     /// A stage failed.
     #[error("{0}")]
     Pipeline(pipeline::Error),
+    /// A picture cannot be made.
+    #[error("the picture could not be made: {0}")]
+    Show(#[from] ShowError),
     /// A document cannot be made.
     #[error(transparent)]
-    Product(#[from] ProductError),
-}
-
-impl From<ExportError> for CliError {
-    fn from(error: ExportError) -> Self {
-        Self::Product(error.into())
-    }
+    Export(#[from] ExportError),
 }
 
 impl CliError {

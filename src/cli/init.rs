@@ -86,7 +86,7 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         mesh: &mesh_from(&path, &input.mesh_path)?,
         up: options.up,
         size_mm: options.size_mm,
-        parts: options.parts,
+        segmentation: options.segmentation,
         top_edges: options.top_edges,
         profile_vertices: options.profile_vertices,
         tolerance_mm: options.tolerance_mm,
@@ -94,6 +94,9 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         tab_width_mm: options.tab_width_mm,
         paper: options.paper,
         margin_mm: options.margin_mm,
+        thickness_mm: options.thickness_mm,
+        nets: options.nets,
+        sheets: options.sheets,
         components: &components,
     });
     output::write(&[(path.clone(), text.into_bytes())])?;

@@ -2,14 +2,17 @@
 
 use super::error::CliError;
 use super::input::Input;
+use super::net_args::NetArgs;
+use super::segment_args::SegmentArgs;
+use super::sheet_args::SheetArgs;
 use clap::Args;
 use tatamu::mesh::Up;
 use tatamu::pipeline::{ComponentOptions, Options};
-use tatamu::project::{Defaults, check_count, check_degrees, check_parts, parse_up};
+use tatamu::project::{Defaults, check_count, check_degrees, check_parts, parse_thickness_mm, parse_up};
 use tatamu::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};
 
 /// Options of the model.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, Default, Args)]
 pub struct ModelArgs {
     /// Axis of the mesh that points up: x, y or z [default: y]
     ///
@@ -23,12 +26,8 @@ pub struct ModelArgs {
     #[arg(long, value_name = "LENGTH", value_parser = parse_length_mm)]
     size: Option<f64>,
 
-    /// Number of components to aim at [default: the shape decides]
-    ///
-    /// The mesh is cut where it narrows. A small number gives a rough and quick model.
-    /// Example: --parts 6
-    #[arg(long, value_name = "N", value_parser = parts)]
-    parts: Option<usize>,
+    #[command(flatten)]
+    segmentation: SegmentArgs,
 
     /// Direction in which a component folds, in degrees [default: searched for]
     ///
@@ -82,13 +81,26 @@ pub struct ModelArgs {
     /// Most printers cannot print the outermost 5 mm. Example: --margin 5mm
     #[arg(long, value_name = "LENGTH", value_parser = parse_length_or_zero_mm)]
     margin: Option<f64>,
+
+    /// Thickness of the paper, 0.02mm to 5mm [default: 0.25mm]
+    ///
+    /// Panels that come into each other by up to half of it while the model folds only rub; more
+    /// is a warning. Card of 200 g/m² has 0.25 mm. Example: --thickness 0.4mm
+    #[arg(long, value_name = "LENGTH", value_parser = parse_thickness_mm)]
+    thickness: Option<f64>,
+    #[command(flatten)]
+    nets: NetArgs,
+
+    #[command(flatten)]
+    sheets: SheetArgs,
 }
 
 /// With a tolerance, the most top edges and profile vertices of a component that says nothing else.
 const MOST_EDGES: usize = 12;
 const MOST_VERTICES: usize = 10;
 
-fn number(text: &str) -> Result<u64, String> {
+/// Reads a whole number.
+pub fn number(text: &str) -> Result<u64, String> {
     let message = |_| "this must be a whole number such as 6".to_owned();
     text.trim().parse().map_err(message)
 }
@@ -97,7 +109,8 @@ fn count(text: &str) -> Result<usize, String> {
     number(text).and_then(check_count)
 }
 
-fn parts(text: &str) -> Result<usize, String> {
+/// Reads a number of components.
+pub fn parts(text: &str) -> Result<usize, String> {
     number(text).and_then(check_parts)
 }
 
@@ -112,6 +125,11 @@ fn direction(text: &str) -> Result<(String, f64), String> {
 }
 
 impl ModelArgs {
+    /// Those of a command that only divides the mesh.
+    pub fn of_segmentation(up: Option<Up>, segmentation: SegmentArgs) -> Self {
+        Self { up, segmentation, ..Self::default() }
+    }
+
     /// The options for an input.
     pub fn merge(&self, input: &Input) -> Result<Options, CliError> {
         let mut options = Options::default();
@@ -121,8 +139,11 @@ impl ModelArgs {
         set(&mut options.min_panel_width_mm, self.min_panel_width);
         set(&mut options.tab_width_mm, self.tab_width);
         set(&mut options.margin_mm, self.margin);
+        set(&mut options.thickness_mm, self.thickness);
+        self.nets.merge(input.project.as_ref().map(|p| &p.nets), &mut options.nets);
+        self.sheets.merge(input.project.as_ref().map(|p| &p.sheets), &mut options.sheets);
         options.up = self.up.unwrap_or(options.up);
-        options.parts = self.parts.or(options.parts);
+        options.segmentation = self.segmentation.merge(input.project.as_ref())?;
         options.tolerance_mm = self.tolerance.or(options.tolerance_mm);
         if options.tolerance_mm.is_some() {
             let defaults = input.project.as_ref().map(|project| &project.defaults);
@@ -166,9 +187,11 @@ impl ModelArgs {
         set(&mut options.min_panel_width_mm, defaults.min_panel_width_mm);
         set(&mut options.tab_width_mm, defaults.tab_width_mm);
         set(&mut options.margin_mm, project.paper.margin_mm);
+        set(&mut options.thickness_mm, project.paper.thickness_mm);
         options.tolerance_mm = defaults.tolerance_mm;
         options.up = project.up.unwrap_or(options.up);
-        options.parts = project.segmentation.parts;
+        options.edits = project.edits.iter().map(|edit| edit.change().clone()).collect();
+        options.root = project.segmentation.root.clone();
         options.top_edges = defaults.top_edges.unwrap_or(options.top_edges);
         let vertices = defaults.profile_vertices;
         options.profile_vertices = vertices.unwrap_or(options.profile_vertices);

@@ -26,6 +26,17 @@ pub enum PanelKind {
     },
 }
 
+impl PanelKind {
+    /// The panel's name within its component, for names in files: `top`, `chain2.1`.
+    pub fn short_name(self) -> String {
+        match self {
+            PanelKind::Top => "top".to_owned(),
+            PanelKind::Bottom => "bottom".to_owned(),
+            PanelKind::Side { chain, index } => format!("chain{}.{}", chain + 1, index + 1),
+        }
+    }
+}
+
 impl std::fmt::Display for PanelKind {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {

@@ -1,12 +1,14 @@
 //! Making marks, moving them and measuring them.
 
 use super::text::{self, PathCommand};
-use super::{Align, Drawing, Layer, Mark, Polyline, Rgb, Shape, Stroke, Text};
+use super::{Align, Drawing, Image, Layer, Mark, Polyline, Rgb, Shape, Stroke, Text};
 use crate::geom::polygon;
 use glam::{DAffine2, DVec2};
 
 /// How far the matrix of a placement may be from a rotation.
 const RIGID_TOLERANCE: f64 = 1e-9;
+/// A text this near to upright counts as upright; it then reads from below.
+const UPRIGHT: f64 = 1e-9;
 
 impl Polyline {
     /// An open polyline.
@@ -66,6 +68,15 @@ impl Text {
     }
 }
 
+impl Text {
+    /// Middle of its capitals.
+    pub fn middle(&self) -> DVec2 {
+        let along = DVec2::from_angle(self.angle_rad);
+        let width_mm = text::width_mm(&self.content, self.cap_height_mm);
+        self.start() + along * (width_mm / 2.0) + along.perp() * (self.cap_height_mm / 2.0)
+    }
+}
+
 impl Mark {
     /// A stroked segment.
     pub fn line(layer: Layer, from: DVec2, to: DVec2, stroke: &Stroke) -> Self {
@@ -89,18 +100,30 @@ impl Mark {
 
     /// Contours stroked and/or filled as one path.
     pub fn path(layer: Layer, contours: Vec<Polyline>, stroke: Option<Stroke>, fill: Option<Rgb>) -> Self {
-        Self { layer, piece: None, shape: Shape::Path { contours, stroke, fill } }
+        Self { layer, piece: None, part: None, shape: Shape::Path { contours, stroke, fill } }
     }
 
     /// A line of text.
     pub fn text(layer: Layer, text: Text) -> Self {
-        Self { layer, piece: None, shape: Shape::Text(text) }
+        Self { layer, piece: None, part: None, shape: Shape::Text(text) }
+    }
+
+    /// Pixels inside a contour.
+    pub fn image(layer: Layer, image: Image) -> Self {
+        Self { layer, piece: None, part: None, shape: Shape::Image(image) }
     }
 
     /// The same mark as a part of the piece with this name.
     #[must_use]
     pub fn of_piece(mut self, piece: impl Into<String>) -> Self {
         self.piece = Some(piece.into());
+        self
+    }
+
+    /// The same mark, named as this part of its piece.
+    #[must_use]
+    pub fn of_part(mut self, part: impl Into<String>) -> Self {
+        self.part = Some(part.into());
         self
     }
 
@@ -122,8 +145,68 @@ impl Mark {
                 text.anchor = place.transform_point2(text.anchor);
                 text.angle_rad += x.to_angle();
             }
+            Shape::Image(image) => {
+                image.place = place * image.place;
+                for point in &mut image.clip.points {
+                    *point = place.transform_point2(*point);
+                }
+            }
         }
         self
+    }
+
+    /// The same mark seen from behind: mirrored in the upright line at `x_mm`. Letters are not
+    /// mirrored; a text stands in the mirrored place of its box.
+    #[must_use]
+    pub fn mirrored(mut self, x_mm: f64) -> Self {
+        let mirror = |p: DVec2| DVec2::new(2.0 * x_mm - p.x, p.y);
+        match &mut self.shape {
+            Shape::Path { contours, .. } => {
+                contours.iter_mut().flat_map(|c| &mut c.points).for_each(|p| *p = mirror(*p));
+            }
+            Shape::Text(text) => {
+                let middle = mirror(text.middle());
+                text.angle_rad = -text.angle_rad;
+                text.anchor += middle - text.middle();
+            }
+            Shape::Image(image) => {
+                let flip = DAffine2::from_cols(-DVec2::X, DVec2::Y, DVec2::X * (2.0 * x_mm));
+                image.place = flip * image.place;
+                image.clip.points.iter_mut().for_each(|p| *p = mirror(*p));
+            }
+        }
+        self
+    }
+
+    /// The same mark; a text that is upside down is turned about its middle.
+    #[must_use]
+    pub fn righted(mut self) -> Self {
+        if let Shape::Text(text) = &mut self.shape {
+            let along = DVec2::from_angle(text.angle_rad);
+            if along.x < -UPRIGHT || (along.x.abs() <= UPRIGHT && along.y < 0.0) {
+                let middle = text.middle();
+                text.angle_rad += std::f64::consts::PI;
+                text.anchor += middle - text.middle();
+            }
+        }
+        self
+    }
+
+    /// Moves the mark's points away from `middle` by a factor across and one along the page;
+    /// letters keep their size.
+    pub fn stretch(&mut self, middle: DVec2, factor: DVec2) {
+        let moved = |p: DVec2| middle + (p - middle) * factor;
+        match &mut self.shape {
+            Shape::Path { contours, .. } => {
+                contours.iter_mut().flat_map(|c| &mut c.points).for_each(|p| *p = moved(*p));
+            }
+            Shape::Text(text) => text.anchor += moved(text.middle()) - text.middle(),
+            Shape::Image(image) => {
+                let scale = DAffine2::from_scale_angle_translation(factor, 0.0, middle - middle * factor);
+                image.place = scale * image.place;
+                image.clip.points.iter_mut().for_each(|p| *p = moved(*p));
+            }
+        }
     }
 
     /// Smallest and largest coordinates of the mark's geometry, mm: half the width of strokes is
@@ -135,6 +218,7 @@ impl Mark {
                 polygon::bounds(contours.iter().flat_map(|c| c.points.iter().copied()))
             }
             Shape::Text(text) => polygon::bounds(text::outlines(text).iter().flat_map(PathCommand::points)),
+            Shape::Image(image) => polygon::bounds(image.clip.points.iter().copied()),
         }
     }
 }

@@ -4,12 +4,18 @@
 //! flips or scales once. Styles are resolved here, so that back ends stay simple.
 
 mod mark;
+mod pages;
+mod raster;
+pub mod strokes;
 mod style;
 pub mod text;
 
+pub use pages::{Chapter, Pages, PagesError};
+pub use raster::{Raster, RasterError};
 pub use style::{LineStyles, StyleError};
 
-use glam::DVec2;
+use glam::{DAffine2, DVec2};
+use std::sync::Arc;
 
 /// sRGB colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,13 +47,15 @@ pub enum Layer {
     Label,
     /// Scale bar, legend, title: belongs to the page, not to a piece.
     Furniture,
+    /// Marks by which a cutter finds the page.
+    Registration,
     /// Filled faces of pictures.
     Picture,
 }
 
 impl Layer {
     /// All layers, in their order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Cut,
         Self::Slit,
         Self::Mountain,
@@ -56,6 +64,7 @@ impl Layer {
         Self::Glue,
         Self::Label,
         Self::Furniture,
+        Self::Registration,
         Self::Picture,
     ];
 
@@ -71,7 +80,16 @@ impl Layer {
             Self::Glue => "glue",
             Self::Label => "label",
             Self::Furniture => "furniture",
+            Self::Registration => "registration",
             Self::Picture => "picture",
+        }
+    }
+
+    /// Whether a cutter works on these lines: cuts and creases. All else is printed only.
+    pub fn is_worked(self) -> bool {
+        match self {
+            Self::Cut | Self::Slit | Self::Mountain | Self::Valley | Self::FoldHinge => true,
+            Self::Glue | Self::Label | Self::Furniture | Self::Registration | Self::Picture => false,
         }
     }
 }
@@ -124,6 +142,18 @@ pub struct Text {
     pub colour: Rgb,
 }
 
+/// Pixels at a place, seen inside a contour.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Image {
+    /// The pixels.
+    pub raster: Arc<Raster>,
+    /// To the page, from mm along the raster's lower and left edge: a rigid motion, but for a mirror
+    /// and a printer's scale.
+    pub place: DAffine2,
+    /// Closed contour on the page; nothing is seen outside.
+    pub clip: Polyline,
+}
+
 /// One mark.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
@@ -138,6 +168,8 @@ pub enum Shape {
     },
     /// Text.
     Text(Text),
+    /// Pixels.
+    Image(Image),
 }
 
 /// One mark with its meaning.
@@ -147,6 +179,8 @@ pub struct Mark {
     pub layer: Layer,
     /// Name of the piece that it belongs to, if any.
     pub piece: Option<String>,
+    /// What it is on that piece, such as the panels that a crease lies between.
+    pub part: Option<String>,
     /// The mark itself.
     pub shape: Shape,
 }

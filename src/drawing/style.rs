@@ -1,52 +1,131 @@
-//! The table of line styles, read from a style file.
+//! The look of each kind of line, read from style files.
 
 use super::{Layer, Rgb, Stroke};
 use serde::Deserialize;
+use toml::Spanned;
 
 /// Widest line that a style file may ask for.
 const MAX_WIDTH_MM: f64 = 5.0;
 /// Longest dash or gap that a style file may ask for.
 const MAX_DASH_MM: f64 = 100.0;
+/// Longest name of a layer: what DXF R12 allows.
+const MAX_NAME: usize = 31;
 
 /// A style file that cannot be used. The message shows the line of the mistake.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("the style file cannot be used: {0}")]
-pub struct StyleError(#[from] toml::de::Error);
+pub enum StyleError {
+    /// Not TOML, an unknown key, or a value that is not accepted.
+    #[error("{0}")]
+    Toml(#[from] toml::de::Error),
+    /// Two operations share a layer and look different there.
+    #[error(
+        "line {line}: [{operation}] is on layer \"{layer}\" like [{other}], but does not look the same; \
+         give it the same width, colours and dashes, or a layer of its own"
+    )]
+    SharedLayer {
+        /// Line of the second operation's layer, from 1.
+        line: usize,
+        /// The layer's name.
+        layer: String,
+        /// The second operation.
+        operation: &'static str,
+        /// The first one on the layer.
+        other: &'static str,
+    },
+}
 
-/// How the lines of each layer look.
+/// The look of one operation.
+#[derive(Debug, Clone, PartialEq)]
+struct Look {
+    stroke: Stroke,
+    layer: String,
+    dxf_colour: u8,
+}
+
+/// How the lines of each layer look, and what the layer is called in files.
 ///
 /// # Guarantees
 /// Widths are above 0 and at most 5 mm; dashes are above 0, at most 100 mm, and even in number.
+/// Layers' names have 1 to 31 letters, digits, `_` and `-`. Operations that share a name look the
+/// same.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineStyles {
-    strokes: [Stroke; Layer::ALL.len()],
+    looks: [Look; Layer::ALL.len()],
 }
 
 impl LineStyles {
-    /// The style file that comes with the program: black and white, for printed sheets.
+    /// The style files that come with the program, by name.
+    pub const BUILT_IN: [(&str, &str); 3] = [
+        ("standard", include_str!("../../profiles/styles/standard.toml")),
+        ("laser", include_str!("../../profiles/styles/laser.toml")),
+        ("bw", include_str!("../../profiles/styles/bw.toml")),
+    ];
+
+    /// The first built-in style: black and grey, for printed sheets.
     pub fn standard() -> Self {
-        Self::parse(include_str!("../../profiles/papers/standard.toml"))
+        Self::over(&Self::plain(), Self::BUILT_IN[0].1)
             .expect("the built-in style file is valid, which a test checks")
     }
 
-    /// Reads a style file: one table for each [`Layer`], by its name.
+    /// The built-in style of this name.
+    pub fn built_in(name: &str) -> Option<Self> {
+        let (_, toml) = Self::BUILT_IN.iter().find(|(known, _)| *known == name)?;
+        Self::parse(toml).ok()
+    }
+
+    /// Reads a style file: a table for each [`Layer`], by its name. What it leaves out is as in the
+    /// standard style.
     ///
     /// # Errors
-    /// Text that is not TOML, a missing or unknown table or key, a value out of range.
+    /// See [`StyleError`].
     pub fn parse(toml: &str) -> Result<Self, StyleError> {
+        Self::over(&Self::standard(), toml)
+    }
+
+    fn plain() -> Self {
+        let stroke = Stroke { width_mm: 0.2, colour: Rgb::BLACK, dash_mm: Vec::new() };
+        let layer = |layer: Layer| layer.name().to_ascii_uppercase();
+        let looks = Layer::ALL.map(|kind| Look { stroke: stroke.clone(), layer: layer(kind), dxf_colour: 7 });
+        Self { looks }
+    }
+
+    fn over(base: &Self, toml: &str) -> Result<Self, StyleError> {
         let file: StyleFile = toml::from_str(toml)?;
-        let strokes = Layer::ALL.map(|layer| file.table(layer).stroke());
-        Ok(Self { strokes })
+        let looks = Layer::ALL.map(|kind| file.table(kind).over(&base.looks[kind as usize]));
+        for (k, look) in looks.iter().enumerate() {
+            let first = looks[..k].iter().position(|other| other.layer == look.layer);
+            if let Some(other) = first.filter(|&other| looks[other] != *look) {
+                let place = [k, other].into_iter().find_map(|k| file.table(Layer::ALL[k]).layer.as_ref());
+                let before = place.map_or("", |place| &toml[..place.span().start]);
+                return Err(StyleError::SharedLayer {
+                    line: before.lines().count().max(1),
+                    layer: look.layer.clone(),
+                    operation: Layer::ALL[k].name(),
+                    other: Layer::ALL[other].name(),
+                });
+            }
+        }
+        Ok(Self { looks })
     }
 
     /// The look of a layer's lines.
     pub fn stroke(&self, layer: Layer) -> &Stroke {
-        &self.strokes[layer as usize]
+        &self.looks[layer as usize].stroke
     }
 
     /// The colour of a layer's lines, and of its texts.
     pub fn colour(&self, layer: Layer) -> Rgb {
         self.stroke(layer).colour
+    }
+
+    /// What the layer is called in files.
+    pub fn layer_name(&self, layer: Layer) -> &str {
+        &self.looks[layer as usize].layer
+    }
+
+    /// The layer's colour in DXF files: AutoCAD's index, from 1 to 255.
+    pub fn dxf_colour(&self, layer: Layer) -> u8 {
+        self.looks[layer as usize].dxf_colour
     }
 }
 
@@ -58,7 +137,8 @@ impl Default for LineStyles {
 
 /// The style file as it is written.
 #[derive(Deserialize)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+#[derive(Default)]
 struct StyleFile {
     cut: StyleTable,
     slit: StyleTable,
@@ -68,6 +148,7 @@ struct StyleFile {
     glue: StyleTable,
     label: StyleTable,
     furniture: StyleTable,
+    registration: StyleTable,
     picture: StyleTable,
 }
 
@@ -82,26 +163,38 @@ impl StyleFile {
             Layer::Glue => &self.glue,
             Layer::Label => &self.label,
             Layer::Furniture => &self.furniture,
+            Layer::Registration => &self.registration,
             Layer::Picture => &self.picture,
         }
     }
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
 struct StyleTable {
-    width_mm: Width,
-    colour: Colour,
-    dash_mm: Dash,
+    width_mm: Option<Width>,
+    colour: Option<Colour>,
+    dash_mm: Option<Dash>,
+    layer: Option<Spanned<LayerName>>,
+    dxf_colour: Option<DxfColour>,
 }
 
 impl StyleTable {
-    fn stroke(&self) -> Stroke {
-        Stroke { width_mm: self.width_mm.0, colour: self.colour.0, dash_mm: self.dash_mm.0.clone() }
+    /// What the table says, and the base where it says nothing.
+    fn over(&self, base: &Look) -> Look {
+        let stroke = &base.stroke;
+        Look {
+            stroke: Stroke {
+                width_mm: self.width_mm.as_ref().map_or(stroke.width_mm, |width| width.0),
+                colour: self.colour.as_ref().map_or(stroke.colour, |colour| colour.0),
+                dash_mm: self.dash_mm.as_ref().map_or(&stroke.dash_mm, |dash| &dash.0).clone(),
+            },
+            layer: self.layer.as_ref().map_or(&base.layer, |name| &name.get_ref().0).clone(),
+            dxf_colour: self.dxf_colour.as_ref().map_or(base.dxf_colour, |colour| colour.0),
+        }
     }
 }
 
-/// Checked while it is read, so that the message shows the line.
 #[derive(Deserialize)]
 #[serde(try_from = "f64")]
 struct Width(f64);
@@ -113,7 +206,7 @@ impl TryFrom<f64> for Width {
         if mm > 0.0 && mm <= MAX_WIDTH_MM {
             Ok(Self(mm))
         } else {
-            Err(format!("a line is {mm} mm wide; give a width above 0 and at most {MAX_WIDTH_MM} mm"))
+            Err(format!("a width of {mm} mm; give a width above 0 and at most {MAX_WIDTH_MM} mm"))
         }
     }
 }
@@ -157,55 +250,35 @@ impl TryFrom<Vec<f64>> for Dash {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+#[derive(Deserialize)]
+#[serde(try_from = "String")]
+struct LayerName(String);
 
-    const STANDARD: &str = include_str!("../../profiles/papers/standard.toml");
+impl TryFrom<String> for LayerName {
+    type Error = String;
 
-    /// Replaces `from` once and returns the complaint.
-    fn complaint(from: &str, to: &str) -> String {
-        assert!(STANDARD.contains(from));
-        LineStyles::parse(&STANDARD.replacen(from, to, 1)).expect_err("must be refused").to_string()
-    }
-
-    #[test]
-    fn the_standard_lines_differ_without_colour() {
-        let styles = LineStyles::standard();
-        let folds = [Layer::Mountain, Layer::Valley, Layer::FoldHinge, Layer::Glue];
-        for (i, &a) in folds.iter().enumerate() {
-            assert!(!styles.stroke(a).dash_mm.is_empty());
-            for &b in &folds[i + 1..] {
-                assert_ne!(styles.stroke(a).dash_mm, styles.stroke(b).dash_mm);
-            }
+    fn try_from(name: String) -> Result<Self, String> {
+        let is_usable = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
+        if (1..=MAX_NAME).contains(&name.len()) && name.chars().all(is_usable) {
+            return Ok(Self(name));
         }
-        assert!(styles.stroke(Layer::Cut).dash_mm.is_empty());
-        assert_eq!(styles.stroke(Layer::Cut).width_mm, 0.25);
-        assert_eq!(styles.colour(Layer::Glue), Rgb(0x80, 0x80, 0x80));
-    }
-
-    #[test]
-    fn mistakes_are_shown_with_their_line() {
-        let line_of = |needle: &str| {
-            STANDARD.lines().position(|line| line.starts_with(needle)).expect("in the file") + 1
-        };
-        let message = complaint("width_mm = 0.25", "width_mm = 0.0");
-        assert!(message.contains(&format!("line {}", line_of("width_mm = 0.25"))), "{message}");
-        let message = complaint("\"#808080\"", "\"grey\"");
-        assert!(message.contains(&format!("line {}", line_of("colour = \"#808080\""))), "{message}");
-        let message = complaint("[2.0, 1.0]", "[2.0]");
-        assert!(message.contains("even number") && message.contains("line "), "{message}");
-        let message = complaint("[glue]", "[glu]");
-        assert!(message.contains("glu") && message.contains("line "), "{message}");
-        let message = complaint("[0.3, 0.9]", "[0.3, nan]");
-        assert!(message.contains("NaN"), "{message}");
-    }
-
-    #[test]
-    fn every_layer_has_its_table() {
-        for layer in Layer::ALL {
-            let table = format!("[{}]", layer.name());
-            assert!(complaint(&table, "[other]").contains("unknown field `other`"));
-        }
+        Err(format!("{name:?} cannot be a layer's name; use 1 to {MAX_NAME} letters, digits, _ and -"))
     }
 }
+
+#[derive(Deserialize)]
+#[serde(try_from = "i64")]
+struct DxfColour(u8);
+
+impl TryFrom<i64> for DxfColour {
+    type Error = String;
+
+    fn try_from(index: i64) -> Result<Self, String> {
+        let index = u8::try_from(index).ok().filter(|&index| index > 0).ok_or(index);
+        let message = |index| format!("{index} is no index of a DXF colour; give a number from 1 to 255");
+        index.map(Self).map_err(message)
+    }
+}
+
+#[cfg(test)]
+mod tests;

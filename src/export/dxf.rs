@@ -1,27 +1,29 @@
-//! DXF by the crate `dxf`: R2000 or R12, one file a drawing, for cutters and CAD programs.
+//! DXF by the crate `dxf`: R2000 or R12, for cutters and CAD programs.
 //!
 //! Furniture and pictures are left out: a cutter would cut them. The crate's output is mended
 //! afterwards, see [`mended`].
 
-use super::{DxfVersion, ExportError, ExportFile, ExportInput, Format, TextMode};
-use crate::drawing::text;
-use crate::drawing::{Drawing, Layer, Mark, Polyline, Shape, Text};
+use super::{ExportError, ExportFile, Format, FormatOptions, Source, TextMode};
+use crate::drawing::{Drawing, Layer, LineStyles, Mark, Pages, Polyline, Shape, Text, strokes, text};
 use dxf::entities::{Entity, EntityType, Line, LwPolyline, Polyline as OldPolyline, Vertex};
 use dxf::enums::{AcadVersion, Units};
 use dxf::tables::{Layer as DxfLayer, LineType};
 use dxf::{Color, LwPolylineVertex, Point};
-use glam::DVec2;
+use glam::{DAffine2, DVec2};
 
 /// The registry's entry.
 pub const FORMAT: Format = Format {
     name: "dxf",
     extensions: &["dxf"],
-    description: "DXF in millimetres, one file a sheet, for cutters and CAD programs",
-    write,
+    description: "DXF in millimetres, one file a sheet or all in one, for cutters and CAD programs",
+    source: Source::Pages(write),
 };
 
 /// Straight pieces in the place of each curve of a letter.
 const CURVE_STEPS: usize = 4;
+/// Names of line types that every file has.
+const BY_LAYER_TYPE: &str = "BYLAYER";
+const CONTINUOUS: &str = "CONTINUOUS";
 /// Line weight "by layer".
 const BY_LAYER: i16 = -1;
 /// Header variables that hold times or random ids, with what is written instead.
@@ -34,59 +36,122 @@ const VARYING: [(&str, &str); 6] = [
     ("$VERSIONGUID", "{00000000-0000-0000-0000-000000000000}"),
 ];
 
-fn write(input: &ExportInput) -> Result<Vec<ExportFile>, ExportError> {
-    let version = input.dxf_version();
-    let pages = input.pages()?.iter().enumerate();
-    let file = |(index, drawing)| {
-        let bytes = document(drawing, version, input.text_mode())
-            .map_err(|message| ExportError::Writer { format: FORMAT.name, message })?;
-        Ok(ExportFile::of_page(index, bytes))
-    };
-    pages.map(file).collect()
+/// Distance between sheets side by side, mm.
+const SHEET_GAP_MM: f64 = 20.0;
+
+/// Version of DXF files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DxfVersion {
+    /// For old programs and machines.
+    R12,
+    /// AutoCAD 2000 and everything since.
+    #[default]
+    R2000,
 }
 
-fn document(drawing: &Drawing, version: DxfVersion, text_mode: TextMode) -> Result<Vec<u8>, String> {
+impl std::str::FromStr for DxfVersion {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.to_ascii_lowercase().as_str() {
+            "r12" => Ok(Self::R12),
+            "r2000" => Ok(Self::R2000),
+            _ => Err("the version is one of r12, r2000".to_owned()),
+        }
+    }
+}
+
+/// How sheets are divided among files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum DxfSheets {
+    /// Each in a file of its own.
+    #[default]
+    Files,
+    /// All in one file, side by side.
+    Row,
+}
+
+impl std::str::FromStr for DxfSheets {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "files" => Ok(Self::Files),
+            "row" => Ok(Self::Row),
+            _ => Err("sheets are one of files, row".to_owned()),
+        }
+    }
+}
+
+/// Choices for DXF files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DxfOptions {
+    /// The version.
+    pub version: DxfVersion,
+    /// How texts are written.
+    pub text: TextMode,
+    /// How sheets are divided among files.
+    pub sheets: DxfSheets,
+}
+
+/// Texts are single lines, which a pen or a blade can follow.
+impl Default for DxfOptions {
+    fn default() -> Self {
+        Self { version: DxfVersion::default(), text: TextMode::Strokes, sheets: DxfSheets::default() }
+    }
+}
+
+fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
+    let drawings = match options.dxf.sheets {
+        DxfSheets::Files => pages.drawings().to_vec(),
+        DxfSheets::Row => vec![row(pages)],
+    };
+    let file = |drawing| document(drawing, pages.styles(), options.dxf);
+    let files = drawings.iter().map(file).collect::<Result<Vec<_>, String>>();
+    files.map(ExportFile::of_pages).map_err(|error| ExportError::writer(&FORMAT, error))
+}
+
+/// All pages on one, side by side.
+fn row(pages: &Pages) -> Drawing {
+    let mut all = Drawing::new(pages.title(), DVec2::ZERO);
+    for page in pages.drawings() {
+        let gap_mm = if all.size_mm.x > 0.0 { SHEET_GAP_MM } else { 0.0 };
+        let left_mm = all.size_mm.x + gap_mm;
+        all.place(page.marks.iter().cloned(), DAffine2::from_translation(DVec2::X * left_mm));
+        all.size_mm = DVec2::new(left_mm + page.size_mm.x, all.size_mm.y.max(page.size_mm.y));
+    }
+    all
+}
+
+fn document(drawing: &Drawing, styles: &LineStyles, options: DxfOptions) -> Result<Vec<u8>, String> {
     let mut file = dxf::Drawing::new();
-    file.header.version = match version {
+    file.header.version = match options.version {
         DxfVersion::R12 => AcadVersion::R12,
         DxfVersion::R2000 => AcadVersion::R2000,
     };
     file.header.default_drawing_units = Units::Millimeters;
     file.header.maximum_drawing_extents = point(drawing.size_mm);
     file.header.maximum_drawing_limits = point(drawing.size_mm);
-    for layer in Layer::ALL {
-        let mut marks = drawing.marks.iter().filter(|mark| mark.layer == layer).peekable();
-        if let (Some((name, colour)), true) = (layer_name(layer), marks.peek().is_some()) {
-            let dash_mm = marks.find_map(|mark| match &mark.shape {
-                Shape::Path { stroke: Some(stroke), .. } => Some(stroke.dash_mm.as_slice()),
-                _ => None,
-            });
-            add_layer(&mut file, name, colour, dash_mm.unwrap_or_default());
+    let mut names: Vec<&str> = Vec::new();
+    for layer in Layer::ALL.into_iter().filter(|&layer| is_for_cutters(layer)) {
+        let name = styles.layer_name(layer);
+        if drawing.marks.iter().any(|mark| mark.layer == layer) && !names.contains(&name) {
+            names.push(name);
+            add_layer(&mut file, name, styles.dxf_colour(layer), &styles.stroke(layer).dash_mm);
         }
     }
-    for mark in &drawing.marks {
-        if let Some((name, _)) = layer_name(mark.layer) {
-            add_mark(&mut file, name, mark, version, text_mode);
-        }
+    for mark in drawing.marks.iter().filter(|mark| is_for_cutters(mark.layer)) {
+        add_mark(&mut file, styles.layer_name(mark.layer), mark, options);
     }
     let mut bytes = Vec::new();
     file.save(&mut bytes).map_err(|error| error.to_string())?;
     let text = String::from_utf8(bytes).map_err(|error| error.to_string())?;
-    Ok(mended(&text, version).into_bytes())
+    Ok(mended(&text, options.version).into_bytes())
 }
 
-/// Name and colour (AutoCAD's index) of a layer; none for what is not for the cutter.
-fn layer_name(layer: Layer) -> Option<(&'static str, u8)> {
-    match layer {
-        Layer::Cut => Some(("CUT", 7)),
-        Layer::Slit => Some(("SLIT", 3)),
-        Layer::Mountain => Some(("MOUNTAIN", 1)),
-        Layer::Valley => Some(("VALLEY", 5)),
-        Layer::FoldHinge => Some(("FOLD180", 6)),
-        Layer::Glue => Some(("GLUE", 8)),
-        Layer::Label => Some(("LABEL", 4)),
-        Layer::Furniture | Layer::Picture => None,
-    }
+/// A cutter would cut a scale bar.
+fn is_for_cutters(layer: Layer) -> bool {
+    !matches!(layer, Layer::Furniture | Layer::Registration | Layer::Picture)
 }
 
 /// Adds a layer and, where its lines are dashed, a line type of the same name.
@@ -108,31 +173,36 @@ fn add_layer(file: &mut dxf::Drawing, name: &str, colour: u8, dash_mm: &[f64]) {
     file.add_layer(layer);
 }
 
-fn add_mark(file: &mut dxf::Drawing, layer: &str, mark: &Mark, version: DxfVersion, text_mode: TextMode) {
-    let contours = match (&mark.shape, text_mode) {
+fn add_mark(file: &mut dxf::Drawing, layer: &str, mark: &Mark, options: DxfOptions) {
+    let contours = match (&mark.shape, options.text) {
         (Shape::Path { contours, stroke: Some(_), .. }, _) => contours.clone(),
-        (Shape::Path { stroke: None, .. }, _) => Vec::new(),
+        (Shape::Path { stroke: None, .. } | Shape::Image(_), _) => Vec::new(),
         (Shape::Text(text), TextMode::Outlines) => text::contours(text, CURVE_STEPS),
+        (Shape::Text(text), TextMode::Strokes) => strokes::polylines(text),
         (Shape::Text(text), TextMode::Text) => {
-            add_entity(file, layer, EntityType::Text(written(text)));
+            add_entity(file, layer, BY_LAYER_TYPE, EntityType::Text(written(text)));
             Vec::new()
         }
     };
+    // Letters are not dashed, whatever their layer is.
+    let is_text = matches!(mark.shape, Shape::Text(_));
+    let line_type = if is_text { CONTINUOUS } else { BY_LAYER_TYPE };
     for contour in &contours {
         let entity = match contour.points[..] {
             [a, b] if !contour.is_closed => {
                 EntityType::Line(Line { p1: point(a), p2: point(b), ..Line::default() })
             }
-            _ if version == DxfVersion::R12 => EntityType::Polyline(old_polyline(file, contour)),
+            _ if options.version == DxfVersion::R12 => EntityType::Polyline(old_polyline(file, contour)),
             _ => EntityType::LwPolyline(polyline(contour)),
         };
-        add_entity(file, layer, entity);
+        add_entity(file, layer, line_type, entity);
     }
 }
 
-fn add_entity(file: &mut dxf::Drawing, layer: &str, specific: EntityType) {
+fn add_entity(file: &mut dxf::Drawing, layer: &str, line_type: &str, specific: EntityType) {
     let mut entity = Entity::new(specific);
     entity.common.layer = layer.to_owned();
+    entity.common.line_type_name = line_type.to_owned();
     entity.common.lineweight_enum_value = BY_LAYER;
     file.add_entity(entity);
 }

@@ -1,7 +1,6 @@
 //! A small sheet with every kind of mark, for the tests of the formats.
 
-use super::ExportInput;
-use crate::drawing::{Align, Drawing, Layer, LineStyles, Mark, Polyline, Rgb, Text};
+use crate::drawing::{Align, Drawing, Layer, LineStyles, Mark, Pages, Polyline, Rgb, Text};
 use crate::sheet::furniture::Furniture;
 use glam::{DAffine2, DVec2};
 
@@ -11,9 +10,9 @@ pub const LEGEND: [Layer; 5] = [Layer::Cut, Layer::Slit, Layer::Mountain, Layer:
 pub const A4_MM: DVec2 = DVec2::new(210.0, 297.0);
 
 /// A model of as many sheets as `pages`.
-pub fn model(pages: usize) -> ExportInput {
+pub fn model(pages: usize) -> Pages {
     let sheets = (1..=pages).map(|page| sheet(A4_MM, page, pages)).collect();
-    ExportInput::new("teddy <3> \"ÿ\"", sheets).expect("the fixture can be drawn")
+    Pages::new("teddy <3> \"ÿ\"", sheets, LineStyles::standard()).expect("the fixture can be drawn")
 }
 
 /// One sheet with two pieces and its furniture.

@@ -1,60 +1,141 @@
-//! PDF by `printpdf`: vector at exactly 1:1, one page a drawing, the font embedded.
+//! PDF by `printpdf`: vector at exactly 1:1, one page a drawing or a tile of it, the font embedded.
 //!
 //! What `printpdf` does not offer is set on the finished document: no scaling by the print dialog,
-//! and nothing in it that varies (`printpdf` numbers its ids by a counter of the process).
+//! bookmarks, and nothing in it that varies (`printpdf` numbers its ids by a counter of the
+//! process).
 
-use super::{ExportError, ExportFile, ExportInput, Format};
-use crate::drawing::text::{self, FONT_FILE, FONT_NAME};
-use crate::drawing::{Drawing, Layer, Mark, Polyline, Rgb, Shape, Stroke, Text};
+mod bookmarks;
+mod date;
+mod page;
+mod tile;
+
+pub use date::Timestamp;
+
+use super::{ExportError, ExportFile, Format, FormatOptions, Source};
+use crate::drawing::text::{FONT_FILE, FONT_NAME};
+use crate::drawing::{Layer, LineStyles, Pages};
+use crate::units::Paper;
 use glam::DVec2;
-use lopdf::{Dictionary, Document, Object};
-use printpdf::{
-    Color, FontId, Greyscale, LayerInternalId, Line, LineDashPattern, LineJoinStyle, LinePoint, Op,
-    PaintMode, ParsedFont, PdfDocument, PdfFont, PdfFontHandle, PdfPage, PdfSaveOptions, Point, Polygon,
-    PolygonRing, Pt, Rect, TextItem, TextMatrix, WindingOrder,
-};
+use lopdf::{Dictionary, Document, Object, ObjectId};
+use page::Builder;
+use printpdf::{FontId, LayerInternalId, ParsedFont, PdfDocument, PdfFont, PdfSaveOptions};
+use tile::{Grid, Tile};
 
 /// The registry's entry.
 pub const FORMAT: Format = Format {
     name: "pdf",
     extensions: &["pdf"],
     description: "PDF at exactly 1:1, one page a sheet, for printing",
-    write,
+    source: Source::Pages(write),
 };
 
-/// Points in a millimetre.
-const PT_PER_MM: f64 = 72.0 / 25.4;
 /// Layers need 1.5, `PrintScaling` 1.6.
 const PDF_VERSION: &str = "1.6";
 /// Entries of the document information that vary, or that claim what is not so.
 const UNWANTED_INFO: [&[u8]; 7] =
     [b"CreationDate", b"ModDate", b"GTS_PDFXVersion", b"Identifier", b"Trapped", b"Author", b"Keywords"];
+/// Marks the font as a subset, as the format wants it: six letters and a plus sign.
+const SUBSET_TAG: &str = "TATAMU+";
 
-fn write(input: &ExportInput) -> Result<Vec<ExportFile>, ExportError> {
-    let failed = |message: String| ExportError::Writer { format: FORMAT.name, message };
-    let mut pdf = PdfDocument::new(input.title());
+/// Choices for PDF files.
+///
+/// # Guarantees
+/// Tiles have room for more than their overlap.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PdfOptions {
+    created: Option<Timestamp>,
+    tile: Option<Paper>,
+}
+
+impl PdfOptions {
+    /// The same with a date of creation; without one, none is written.
+    #[must_use]
+    pub fn with_created(self, created: Option<Timestamp>) -> Self {
+        Self { created, ..self }
+    }
+
+    /// The same with sheets that are larger than `tile` divided among pages of that size.
+    ///
+    /// # Errors
+    /// A message for paper on which there is no room beside margins and overlap.
+    pub fn with_tile(self, tile: Option<Paper>) -> Result<Self, String> {
+        match tile {
+            Some(paper) => tile::check(paper).map(|()| Self { tile, ..self }),
+            None => Ok(Self { tile, ..self }),
+        }
+    }
+}
+
+/// A page of the document: a drawing, or a part of it.
+struct Leaf {
+    /// Index of the drawing.
+    drawing: usize,
+    tile: Option<Tile>,
+}
+
+impl Leaf {
+    /// From the drawing's coordinates to the page's, mm.
+    fn shift_mm(&self) -> DVec2 {
+        self.tile.as_ref().map_or(DVec2::ZERO, |tile| tile.shift_mm)
+    }
+
+    /// Whether a point of the drawing is on the page.
+    fn holds(&self, point: DVec2) -> bool {
+        self.tile.as_ref().is_none_or(|tile| tile.holds(point))
+    }
+}
+
+fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
+    let failed = |message: String| ExportError::writer(&FORMAT, message);
+    let mut pdf = PdfDocument::new(pages.title());
     let producer = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
     pdf.metadata.info.creator = producer.to_owned();
     pdf.metadata.info.producer = producer.to_owned();
     let mut font = ParsedFont::from_bytes(FONT_FILE, 0, &mut Vec::new())
         .ok_or_else(|| failed("the embedded font cannot be read".to_owned()))?;
-    font.font_name = Some(FONT_NAME.to_owned());
+    font.font_name = Some(format!("{SUBSET_TAG}{FONT_NAME}"));
     pdf.resources.fonts.map.insert(font_id(), PdfFont::new(font));
-    for drawing in input.pages()? {
-        for mark in &drawing.marks {
-            pdf.resources.layers.map.entry(layer_id(mark.layer)).or_insert_with(|| group(mark.layer));
-        }
-        pdf.pages.push(page(drawing));
+    let styles = pages.styles();
+    for mark in pages.drawings().iter().flat_map(|drawing| &drawing.marks) {
+        let id = layer_id(styles, mark.layer);
+        pdf.resources.layers.map.entry(id).or_insert_with(|| group(styles, mark.layer));
+    }
+    let leaves = leaves(pages, options.pdf);
+    for leaf in &leaves {
+        let mut builder = Builder::new(styles, &mut pdf.resources.xobjects);
+        let drawing = &pages.drawings()[leaf.drawing];
+        pdf.pages.push(match &leaf.tile {
+            None => builder.whole(drawing),
+            Some(tile) => builder.tile(drawing, tile, leaf.drawing + 1, pages),
+        });
     }
     let mut document = pdf.to_lopdf_document(&PdfSaveOptions::default(), &mut Vec::new());
-    settle(&mut document).map_err(|error| failed(error.to_string()))?;
+    let ids: Vec<ObjectId> = document.get_pages().into_values().collect();
+    bookmarks::add(&mut document, pages, &leaves, &ids).map_err(|error| failed(error.to_string()))?;
+    settle(&mut document, options.pdf.created).map_err(|error| failed(error.to_string()))?;
     let mut bytes = Vec::new();
     document.save_to(&mut bytes).map_err(|error| failed(error.to_string()))?;
     Ok(vec![ExportFile::single(bytes)])
 }
 
-/// Forbids scaling by the print dialog and takes out what varies.
-fn settle(document: &mut Document) -> Result<(), lopdf::Error> {
+/// Every drawing on a page, or on those of its tiles on which there is something.
+fn leaves(pages: &Pages, options: PdfOptions) -> Vec<Leaf> {
+    let mut out = Vec::new();
+    for (index, drawing) in pages.drawings().iter().enumerate() {
+        let grid = options.tile.and_then(|paper| Grid::new(drawing.size_mm, paper));
+        match grid {
+            None => out.push(Leaf { drawing: index, tile: None }),
+            Some(grid) => {
+                let tiles = grid.tiles().into_iter().filter(|tile| tile.has_marks(drawing));
+                out.extend(tiles.map(|tile| Leaf { drawing: index, tile: Some(tile) }));
+            }
+        }
+    }
+    out
+}
+
+/// Forbids scaling by the print dialog, and takes out what varies.
+fn settle(document: &mut Document, created: Option<Timestamp>) -> Result<(), lopdf::Error> {
     document.version = PDF_VERSION.to_owned();
     document.trailer.remove(b"ID");
     let preferences = Dictionary::from_iter([("PrintScaling", Object::from("None"))]);
@@ -63,6 +144,9 @@ fn settle(document: &mut Document) -> Result<(), lopdf::Error> {
     let info = document.get_object_mut(info)?.as_dict_mut()?;
     for key in UNWANTED_INFO {
         info.remove(key);
+    }
+    if let Some(created) = created {
+        info.set("CreationDate", Object::string_literal(created.to_pdf()));
     }
     document.compress();
     Ok(())
@@ -73,103 +157,16 @@ fn font_id() -> FontId {
 }
 
 /// Optional-content group of a layer. Its id sorts in the order of the layers.
-fn layer_id(layer: Layer) -> LayerInternalId {
-    LayerInternalId(format!("L{}-{}", layer as usize + 1, layer.name()))
+fn layer_id(styles: &LineStyles, layer: Layer) -> LayerInternalId {
+    let name = styles.layer_name(layer);
+    let first = Layer::ALL.iter().position(|&other| styles.layer_name(other) == name);
+    LayerInternalId(format!("L{}-{name}", first.unwrap_or_default() + 1))
 }
 
-fn group(layer: Layer) -> printpdf::Layer {
-    let mut group = printpdf::Layer::new(layer.name());
+fn group(styles: &LineStyles, layer: Layer) -> printpdf::Layer {
+    let mut group = printpdf::Layer::new(styles.layer_name(layer));
     group.creator = "tatamu".to_owned();
     group
-}
-
-fn page(drawing: &Drawing) -> PdfPage {
-    let size = drawing.size_mm;
-    let sheet = Rect::from_wh(pt(size.x), pt(size.y));
-    let mut ops = vec![Op::SetLineJoinStyle { join: LineJoinStyle::Round }];
-    if let Some(ground) = drawing.ground {
-        let corners = vec![DVec2::ZERO, DVec2::new(size.x, 0.0), size, DVec2::new(0.0, size.y)];
-        push_fill(&mut ops, &[Polyline::closed(corners)], ground);
-    }
-    for run in drawing.marks.chunk_by(|a, b| a.layer == b.layer) {
-        ops.push(Op::BeginLayer { layer_id: layer_id(run[0].layer) });
-        run.iter().for_each(|mark| push_mark(&mut ops, mark));
-        ops.push(Op::EndLayer);
-    }
-    PdfPage { media_box: sheet.clone(), trim_box: sheet.clone(), crop_box: sheet, ops }
-}
-
-fn push_mark(ops: &mut Vec<Op>, mark: &Mark) {
-    match &mark.shape {
-        Shape::Path { contours, stroke, fill } => {
-            if let Some(fill) = fill {
-                push_fill(ops, contours, *fill);
-            }
-            if let Some(stroke) = stroke {
-                push_stroke(ops, contours, stroke);
-            }
-        }
-        Shape::Text(text) => push_text(ops, text),
-    }
-}
-
-fn push_fill(ops: &mut Vec<Op>, contours: &[Polyline], fill: Rgb) {
-    let rings = contours.iter().map(|c| PolygonRing { points: line_points(&c.points) }).collect();
-    let polygon = Polygon { rings, mode: PaintMode::Fill, winding_order: WindingOrder::EvenOdd };
-    ops.push(Op::SetFillColor { col: colour(fill) });
-    ops.push(Op::DrawPolygon { polygon });
-}
-
-/// One `DrawLine` a contour, since `DrawPolygon` closes only its last ring when it strokes.
-fn push_stroke(ops: &mut Vec<Op>, contours: &[Polyline], stroke: &Stroke) {
-    let dash = stroke.dash_mm.iter().map(|&mm| pt(mm).0).collect::<Vec<_>>();
-    ops.push(Op::SetOutlineColor { col: colour(stroke.colour) });
-    ops.push(Op::SetOutlineThickness { pt: pt(stroke.width_mm) });
-    ops.push(Op::SetLineDashPattern { dash: LineDashPattern::new(0.0, &dash) });
-    for contour in contours {
-        let line = Line { points: line_points(&contour.points), is_closed: contour.is_closed };
-        ops.push(Op::DrawLine { line });
-    }
-}
-
-fn push_text(ops: &mut Vec<Op>, text: &Text) {
-    let start = point(text.start());
-    let along = DVec2::from_angle(text.angle_rad);
-    let (cos, sin) = (along.x as f32, along.y as f32);
-    let matrix = TextMatrix::Raw([cos, sin, -sin, cos, start.x.0, start.y.0]);
-    let size = pt(text::em_mm(text.cap_height_mm));
-    let content = text::printable(&text.content);
-    ops.extend([
-        Op::SetFillColor { col: colour(text.colour) },
-        Op::StartTextSection,
-        Op::SetFont { font: PdfFontHandle::External(font_id()), size },
-        Op::SetTextMatrix { matrix },
-        Op::ShowText { items: vec![TextItem::Text(content)] },
-        Op::EndTextSection,
-    ]);
-}
-
-/// Grey is written as such, so that printers use black ink alone.
-fn colour(Rgb(red, green, blue): Rgb) -> Color {
-    let [r, g, b] = [red, green, blue].map(|part| f32::from(part) / 255.0);
-    if red == green && green == blue {
-        Color::Greyscale(Greyscale { percent: r, icc_profile: None })
-    } else {
-        Color::Rgb(printpdf::Rgb { r, g, b, icc_profile: None })
-    }
-}
-
-/// Converted in `f64`; PDF numbers of this library are `f32`, within 1e-5 mm on an A3 sheet.
-fn pt(mm: f64) -> Pt {
-    Pt((mm * PT_PER_MM) as f32)
-}
-
-fn point(p: DVec2) -> Point {
-    Point { x: pt(p.x), y: pt(p.y) }
-}
-
-fn line_points(points: &[DVec2]) -> Vec<LinePoint> {
-    points.iter().map(|&p| LinePoint { p: point(p), bezier: false }).collect()
 }
 
 #[cfg(test)]

@@ -3,25 +3,56 @@
 use glam::DVec2;
 use png::{BitDepth, ColorType, Compression, Encoder, PixelDimensions, Unit};
 use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, StrokeDash, Transform,
+    Color, FillRule, FilterQuality, LineCap, LineJoin, Paint, Path, PathBuilder, Pattern, Pixmap, SpreadMode,
+    StrokeDash, Transform,
 };
 
-use super::{ExportError, ExportFile, ExportInput, Format};
+use super::{ExportError, ExportFile, Format, FormatOptions, Source};
 use crate::drawing::text::{self, PathCommand};
-use crate::drawing::{Drawing, Polyline, Rgb, Shape, Stroke};
+use crate::drawing::{Drawing, Image, Pages, Polyline, Raster, Rgb, Shape, Stroke};
 
 /// The registry's entry.
 pub const FORMAT: Format = Format {
     name: "png",
     extensions: &["png"],
-    description: "PNG pictures of 150 dots per inch, one file a sheet, to look at",
-    write,
+    description: "PNG pictures, one file a sheet, to look at",
+    source: Source::Pages(write),
 };
 
 const MM_PER_INCH: f64 = 25.4;
 
-/// Resolution of sheets: their small letters can be read.
-const SHEET_DOTS_PER_INCH: f64 = 150.0;
+/// Resolutions that may be asked for.
+const DOTS_PER_INCH: std::ops::RangeInclusive<f64> = 10.0..=2400.0;
+
+/// Choices for PNG files of sheets.
+///
+/// # Guarantees
+/// The resolution is from 10 to 2400 dots per inch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PngOptions {
+    dots_per_inch: f64,
+}
+
+impl PngOptions {
+    /// Chooses the resolution.
+    ///
+    /// # Errors
+    /// A message for one out of range.
+    pub fn new(dots_per_inch: f64) -> Result<Self, String> {
+        if DOTS_PER_INCH.contains(&dots_per_inch) {
+            return Ok(Self { dots_per_inch });
+        }
+        let (least, most) = (DOTS_PER_INCH.start(), DOTS_PER_INCH.end());
+        Err(format!("the resolution must be from {least} to {most} dots per inch"))
+    }
+}
+
+/// Small letters can be read.
+impl Default for PngOptions {
+    fn default() -> Self {
+        Self { dots_per_inch: 150.0 }
+    }
+}
 
 /// Most pixels of a picture: an A0 sheet at 300 dots per inch.
 const MAX_PIXELS: f64 = 140e6;
@@ -42,14 +73,10 @@ pub enum PngError {
     Encoder(String),
 }
 
-fn write(input: &ExportInput) -> Result<Vec<ExportFile>, ExportError> {
-    let pages = input.pages()?;
-    let file = |(index, drawing)| {
-        let bytes = render(drawing, SHEET_DOTS_PER_INCH)
-            .map_err(|error| ExportError::Writer { format: FORMAT.name, message: error.to_string() })?;
-        Ok(if pages.len() == 1 { ExportFile::single(bytes) } else { ExportFile::of_page(index, bytes) })
-    };
-    pages.iter().enumerate().map(file).collect()
+fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
+    let file = |drawing| render(drawing, options.png.dots_per_inch);
+    let files = pages.drawings().iter().map(file).collect::<Result<Vec<_>, _>>();
+    files.map(ExportFile::of_pages).map_err(|error| ExportError::writer(&FORMAT, error))
 }
 
 /// The drawing at a resolution, as the bytes of a PNG file that states its size in metres. Without
@@ -68,9 +95,28 @@ pub fn render(drawing: &Drawing, dots_per_inch: f64) -> Result<Vec<u8>, PngError
         pixels.flat_map(|p| [p.red(), p.green(), p.blue(), p.alpha()]).collect()
     };
     let dots_per_metre = (dots_per_inch / MM_PER_INCH * 1000.0).round() as u32;
+    let colour_type = if is_opaque { ColorType::Rgb } else { ColorType::Rgba };
+    encode([pixmap.width(), pixmap.height()], colour_type, dots_per_metre, &pixels)
+}
+
+/// A raster as the bytes of a PNG file.
+///
+/// # Errors
+/// [`PngError::Encoder`]; no raster is known that brings it about.
+pub fn of_raster(raster: &Raster) -> Result<Vec<u8>, PngError> {
+    let dots_per_metre = (1000.0 / raster.pixel_mm()).round() as u32;
+    encode([raster.width(), raster.height()], ColorType::Rgb, dots_per_metre, &raster.rgb_bytes())
+}
+
+fn encode(
+    [width, height]: [u32; 2],
+    colour_type: ColorType,
+    dots_per_metre: u32,
+    pixels: &[u8],
+) -> Result<Vec<u8>, PngError> {
     let mut bytes = Vec::new();
-    let mut encoder = Encoder::new(&mut bytes, pixmap.width(), pixmap.height());
-    encoder.set_color(if is_opaque { ColorType::Rgb } else { ColorType::Rgba });
+    let mut encoder = Encoder::new(&mut bytes, width, height);
+    encoder.set_color(colour_type);
     encoder.set_depth(BitDepth::Eight);
     encoder.set_compression(Compression::Fast);
     encoder.set_pixel_dims(Some(PixelDimensions {
@@ -79,7 +125,7 @@ pub fn render(drawing: &Drawing, dots_per_inch: f64) -> Result<Vec<u8>, PngError
         unit: Unit::Meter,
     }));
     let written = encoder.write_header().and_then(|mut writer| {
-        writer.write_image_data(&pixels)?;
+        writer.write_image_data(pixels)?;
         writer.finish()
     });
     written.map_err(|error| PngError::Encoder(error.to_string()))?;
@@ -124,9 +170,31 @@ pub fn rasterise(drawing: &Drawing, dots_per_inch: f64) -> Result<Pixmap, PngErr
                     pixmap.fill_path(&path, &paint(text.colour), rule, page, None);
                 }
             }
+            Shape::Image(image) => draw_image(&mut pixmap, image, page),
         }
     }
     Ok(pixmap)
+}
+
+/// The clip's area filled with the pixels.
+fn draw_image(pixmap: &mut Pixmap, image: &Image, page: Transform) {
+    let raster = &image.raster;
+    let clip = path_of(std::slice::from_ref(&image.clip));
+    let (Some(mut source), Some(clip)) = (Pixmap::new(raster.width(), raster.height()), clip) else {
+        return;
+    };
+    for (target, rgb) in source.data_mut().chunks_exact_mut(4).zip(raster.rgb_bytes().chunks_exact(3)) {
+        target[..3].copy_from_slice(rgb);
+        target[3] = u8::MAX;
+    }
+    let scale = raster.pixel_mm();
+    let top_left = image.place.transform_point2(DVec2::Y * f64::from(raster.height()) * scale);
+    let [right, down] = [image.place.matrix2.x_axis * scale, image.place.matrix2.y_axis * -scale];
+    let [a, b, c, d] = [right.x, right.y, down.x, down.y].map(|value| value as f32);
+    let place = Transform::from_row(a, b, c, d, top_left.x as f32, top_left.y as f32);
+    let shader = Pattern::new(source.as_ref(), SpreadMode::Pad, FilterQuality::Bilinear, 1.0, place);
+    let paint = Paint { shader, anti_alias: true, ..Paint::default() };
+    pixmap.fill_path(&clip, &paint, FillRule::Winding, page, None);
 }
 
 fn paint(Rgb(r, g, b): Rgb) -> Paint<'static> {

@@ -1,132 +1,228 @@
-//! SVG by the crate `svg`: one document a drawing, one unit a millimetre, one group a layer.
+//! SVG by the crate `svg`: one document a drawing, one Inkscape layer for each layer of the style.
 //!
-//! Layers are painted in the order in which they first occur. Path data is written here, since the
-//! crate's own is `f32`.
+//! Programs for cutters disagree on what they read of `width`, `height` and `viewBox`. So the size
+//! is written in mm, and the user unit is a pixel of 1/96 inch: a program that ignores any of the
+//! three still reads the right size. Nothing but pictures is transformed. Layers are painted in the
+//! order in which they first occur. Path data is written here, since the crate's own is `f32`.
 
-use super::{ExportError, ExportFile, ExportInput, Format, TextMode};
+use super::{ExportError, ExportFile, Format, FormatOptions, Source, TextMode, png};
 use crate::drawing::text::{self, FONT_FAMILY, PathCommand};
-use crate::drawing::{Drawing, Layer, Mark, Polyline, Rgb, Shape, Stroke, Text};
+use crate::drawing::{Drawing, Image, LineStyles, Mark, Pages, Polyline, Rgb, Shape, Stroke, Text, strokes};
+use crate::units::MM_PER_INCH;
+use base64::Engine;
 use glam::DVec2;
 use std::collections::BTreeSet;
 use std::fmt::Write;
-use svg::node::element::{self, Group, Path, Rectangle, Title};
+use svg::node::element::{self, ClipPath, Element, Group, Path, Rectangle, Title};
 use svg::{Document, Node};
 
 /// The registry's entry.
 pub const FORMAT: Format = Format {
     name: "svg",
     extensions: &["svg"],
-    description: "SVG in millimetres, one file a sheet, one group a kind of line",
-    write,
+    description: "SVG in millimetres, one file a sheet, one layer a kind of line",
+    source: Source::Pages(write),
 };
 
-/// Digits after the point: a tenth of a micrometre.
+/// Digits after the point: less than a tenth of a micrometre.
 const DECIMALS: usize = 4;
+/// Pixels of CSS, which are the user unit, in a millimetre.
+const PX_PER_MM: f64 = 96.0 / MM_PER_INCH;
+/// Lines up to 0.001 inch are vectors to follow for the drivers of laser cutters.
+const HAIRLINE_MM: f64 = 0.025;
 
-fn write(input: &ExportInput) -> Result<Vec<ExportFile>, ExportError> {
-    let pages = input.pages()?.iter().enumerate();
-    let file = |(index, drawing)| {
-        let page = Page { drawing, text_mode: input.text_mode(), ids: BTreeSet::new() };
-        let svg = format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}\n", page.document());
-        ExportFile::of_page(index, svg.into_bytes())
+/// How wide lines are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum SvgStroke {
+    /// As the style says.
+    #[default]
+    Styled,
+    /// As thin as laser cutters want them.
+    Hairline,
+}
+
+impl std::str::FromStr for SvgStroke {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "styled" => Ok(Self::Styled),
+            "hairline" => Ok(Self::Hairline),
+            _ => Err("lines are one of styled, hairline".to_owned()),
+        }
+    }
+}
+
+/// Choices for SVG files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SvgOptions {
+    /// How texts are written.
+    pub text: TextMode,
+    /// How wide lines are.
+    pub stroke: SvgStroke,
+}
+
+/// Letters are outlines, since cutters' programs drop fonts.
+impl Default for SvgOptions {
+    fn default() -> Self {
+        Self { text: TextMode::Outlines, stroke: SvgStroke::default() }
+    }
+}
+
+fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
+    let file = |drawing| {
+        let page = Page { drawing, styles: pages.styles(), options: options.svg, ids: BTreeSet::new() };
+        let document = page.document()?;
+        Ok(format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{document}\n").into_bytes())
     };
-    Ok(pages.map(file).collect())
+    let files = pages.drawings().iter().map(file).collect::<Result<Vec<_>, ExportError>>()?;
+    Ok(ExportFile::of_pages(files))
 }
 
 /// One drawing on its way to SVG.
 struct Page<'a> {
     drawing: &'a Drawing,
-    text_mode: TextMode,
+    styles: &'a LineStyles,
+    options: SvgOptions,
     ids: BTreeSet<String>,
 }
 
-impl Page<'_> {
-    fn document(mut self) -> Document {
+impl<'a> Page<'a> {
+    fn document(mut self) -> Result<Document, ExportError> {
         let size = self.drawing.size_mm;
-        let (width, height) = (number(size.x), number(size.y));
+        let [width, height] = [px(size.x), px(size.y)];
+        let mut view = Element::new("sodipodi:namedview");
+        view.assign("inkscape:document-units", "mm");
         let mut document = Document::new()
-            .set("width", format!("{width}mm"))
-            .set("height", format!("{height}mm"))
+            .set("width", format!("{}mm", number(size.x)))
+            .set("height", format!("{}mm", number(size.y)))
             .set("viewBox", format!("0 0 {width} {height}"))
             .set("xmlns:inkscape", "http://www.inkscape.org/namespaces/inkscape")
-            .add(Title::new(xml_text(&self.drawing.title)));
+            .set("xmlns:sodipodi", "http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd")
+            .add(Title::new(xml_text(&self.drawing.title)))
+            .add(view);
         if let Some(ground) = self.drawing.ground {
             let sheet = Rectangle::new().set("width", width).set("height", height);
             document.append(sheet.set("fill", colour(ground)));
         }
-        let mut layers = Vec::new();
+        let mut names: Vec<&str> = Vec::new();
         for mark in &self.drawing.marks {
-            if !layers.contains(&mark.layer) {
-                layers.push(mark.layer);
+            let name = self.styles.layer_name(mark.layer);
+            if !names.contains(&name) {
+                names.push(name);
             }
         }
-        for layer in layers {
-            document.append(self.layer(layer));
+        for name in names {
+            document.append(self.layer(name)?);
         }
-        document
+        Ok(document)
     }
 
     /// All marks of a layer; those of a piece that follow each other are grouped.
-    fn layer(&mut self, layer: Layer) -> Group {
+    fn layer(&mut self, name: &'a str) -> Result<Group, ExportError> {
+        let id = name.to_ascii_lowercase();
         let mut group = Group::new()
-            .set("id", self.new_id(layer.name()))
+            .set("id", self.new_id(&id))
             .set("inkscape:groupmode", "layer")
-            .set("inkscape:label", layer.name());
-        let drawing = self.drawing;
-        let marks = drawing.marks.iter().filter(|mark| mark.layer == layer).collect::<Vec<_>>();
-        for run in marks.chunk_by(|a, b| a.piece == b.piece) {
-            let nodes = run.iter().map(|mark| self.mark(mark));
-            match &run[0].piece {
-                Some(piece) => {
-                    let mut part = Group::new().set("inkscape:label", xml_text(piece));
-                    nodes.for_each(|node| part.append(node));
-                    group.append(part.set("id", self.new_id(&format!("{}-{piece}", layer.name()))));
+            .set("inkscape:label", name);
+        let (drawing, styles) = (self.drawing, self.styles);
+        let marks = drawing.marks.iter().filter(|mark| styles.layer_name(mark.layer) == name);
+        for run in marks.collect::<Vec<_>>().chunk_by(|a, b| a.piece == b.piece) {
+            let Some(piece) = &run[0].piece else {
+                for mark in run {
+                    self.mark(mark)?.into_iter().for_each(|node| group.append(node));
                 }
-                None => nodes.for_each(|node| group.append(node)),
+                continue;
+            };
+            let part = Group::new().set("inkscape:label", xml_text(piece));
+            let mut part = part.set("id", self.new_id(&format!("{id}-{piece}")));
+            for mark in run {
+                self.mark(mark)?.into_iter().for_each(|node| part.append(node));
             }
+            group.append(part);
         }
-        group
+        Ok(group)
     }
 
-    fn mark(&self, mark: &Mark) -> Box<dyn Node> {
-        match &mark.shape {
-            Shape::Path { contours, stroke, fill } => Box::new(self.path(contours, stroke, *fill)),
-            Shape::Text(text) => match self.text_mode {
-                TextMode::Outlines => Box::new(self.outlined(text)),
-                TextMode::Text => Box::new(self.written(text)),
-            },
-        }
-    }
-
-    fn path(&self, contours: &[Polyline], stroke: &Option<Stroke>, fill: Option<Rgb>) -> Path {
-        let mut data = String::new();
-        for contour in contours {
-            for (index, &point) in contour.points.iter().enumerate() {
-                self.push(&mut data, if index == 0 { 'M' } else { 'L' }, &[point]);
-            }
-            if contour.is_closed {
-                data.push('Z');
-            }
-        }
-        let mut path = Path::new().set("d", data);
-        path = match fill {
-            Some(fill) => path.set("fill", colour(fill)).set("fill-rule", "evenodd"),
-            None => path.set("fill", "none"),
+    /// The elements of a mark. Those of a piece have an id of its role, piece and part.
+    fn mark(&mut self, mark: &Mark) -> Result<Vec<Element>, ExportError> {
+        let mut elements: Vec<Element> = match &mark.shape {
+            Shape::Path { contours, stroke, fill } => self.paths(contours, stroke.as_ref(), *fill),
+            Shape::Text(text) => vec![self.text(text, self.styles.stroke(mark.layer).width_mm)],
+            Shape::Image(image) => self.image(image)?,
         };
-        let Some(stroke) = stroke else { return path };
-        path = path
+        if let (Some(piece), Some(part)) = (&mark.piece, &mark.part) {
+            let name = format!("{}-{piece}-{part}", mark.layer.name());
+            for element in elements.iter_mut().filter(|element| !element.get_attributes().contains_key("id"))
+            {
+                let id = self.new_id(&name);
+                element.assign("id", id);
+            }
+        }
+        Ok(elements)
+    }
+
+    /// One path for each contour that is stroked, so that a cutter follows it in one go; those that
+    /// are filled make one path together.
+    fn paths(&self, contours: &[Polyline], stroke: Option<&Stroke>, fill: Option<Rgb>) -> Vec<Element> {
+        let data: Vec<String> = contours.iter().map(|contour| self.contour(contour)).collect();
+        if let Some(fill) = fill {
+            let path = Path::new().set("d", data.concat()).set("fill", colour(fill));
+            let path = path.set("fill-rule", "evenodd");
+            return vec![stroke.map_or(path.clone(), |stroke| self.stroked(path, stroke)).into()];
+        }
+        let Some(stroke) = stroke else { return Vec::new() };
+        let path = |data| self.stroked(Path::new().set("d", data).set("fill", "none"), stroke).into();
+        data.into_iter().map(path).collect()
+    }
+
+    fn contour(&self, contour: &Polyline) -> String {
+        let mut data = String::new();
+        for (index, &point) in contour.points.iter().enumerate() {
+            self.push(&mut data, if index == 0 { 'M' } else { 'L' }, &[point]);
+        }
+        if contour.is_closed {
+            data.push('Z');
+        }
+        data
+    }
+
+    fn stroked(&self, path: Path, stroke: &Stroke) -> Path {
+        let width_mm = match self.options.stroke {
+            SvgStroke::Styled => stroke.width_mm,
+            SvgStroke::Hairline => HAIRLINE_MM,
+        };
+        let path = path
             .set("stroke", colour(stroke.colour))
-            .set("stroke-width", number(stroke.width_mm))
+            .set("stroke-width", px(width_mm))
             .set("stroke-linejoin", "round");
         if stroke.dash_mm.is_empty() {
-            return path;
+            return path.set("stroke-linecap", "round");
         }
-        let dash = stroke.dash_mm.iter().map(|&mm| number(mm)).collect::<Vec<_>>();
+        let dash = stroke.dash_mm.iter().map(|&mm| px(mm)).collect::<Vec<_>>();
         path.set("stroke-dasharray", dash.join(" "))
     }
 
-    /// Text as the outlines of its letters; the words stay searchable as the path's label.
-    fn outlined(&self, text: &Text) -> Path {
+    /// A text; where it becomes a path, its words stay searchable as the path's label.
+    fn text(&self, text: &Text, pen_mm: f64) -> Element {
+        let words = text::printable(&text.content);
+        match self.options.text {
+            TextMode::Outlines => {
+                let path = Path::new().set("d", self.letters(text)).set("fill", colour(text.colour));
+                path.set("aria-label", words).into()
+            }
+            TextMode::Strokes => {
+                let stroke = Stroke { width_mm: pen_mm, colour: text.colour, dash_mm: Vec::new() };
+                let lines = strokes::polylines(text);
+                let data: String = lines.iter().map(|line| self.contour(line)).collect();
+                let path = self.stroked(Path::new().set("d", data).set("fill", "none"), &stroke);
+                path.set("aria-label", words).into()
+            }
+            TextMode::Text => self.written(text, words).into(),
+        }
+    }
+
+    fn letters(&self, text: &Text) -> String {
         let mut data = String::new();
         for command in text::outlines(text) {
             let letter = match command {
@@ -138,26 +234,41 @@ impl Page<'_> {
             };
             self.push(&mut data, letter, &command.points());
         }
-        Path::new()
-            .set("d", data)
-            .set("fill", colour(text.colour))
-            .set("aria-label", text::printable(&text.content))
+        data
     }
 
-    fn written(&self, text: &Text) -> element::Text {
+    fn written(&self, text: &Text, words: String) -> element::Text {
         let start = self.flip(text.start());
-        let turn = format!(
-            "translate({} {}) rotate({})",
-            number(start.x),
-            number(start.y),
-            number(-text.angle_rad.to_degrees())
-        );
-        element::Text::new(text::printable(&text.content))
-            .set("transform", turn)
+        let turn = number(-text.angle_rad.to_degrees());
+        let place = format!("translate({} {}) rotate({turn})", px(start.x), px(start.y));
+        element::Text::new(words)
+            .set("transform", place)
             .set("font-family", format!("{FONT_FAMILY}, sans-serif"))
-            .set("font-size", number(text::em_mm(text.cap_height_mm)))
+            .set("font-size", px(text::em_mm(text.cap_height_mm)))
             .set("font-kerning", "none")
             .set("fill", colour(text.colour))
+    }
+
+    /// The clip's definition, and a group that it holds for: inside it the pixels are turned.
+    fn image(&mut self, image: &Image) -> Result<Vec<Element>, ExportError> {
+        let raster = &image.raster;
+        let bytes = png::of_raster(raster).map_err(|error| ExportError::writer(&FORMAT, error))?;
+        let bytes = base64::engine::general_purpose::STANDARD.encode(bytes);
+        let clip = self.new_id("clip");
+        let outline = Path::new().set("d", self.contour(&image.clip));
+        let top_left =
+            image.place.transform_point2(DVec2::Y * f64::from(raster.height()) * raster.pixel_mm());
+        let top_left = self.flip(top_left) * PX_PER_MM;
+        let along = image.place.matrix2.x_axis * (raster.pixel_mm() * PX_PER_MM);
+        let numbers = [along.x, -along.y, along.y, along.x, top_left.x, top_left.y].map(number);
+        let pixels = element::Image::new()
+            .set("width", raster.width())
+            .set("height", raster.height())
+            .set("preserveAspectRatio", "none")
+            .set("transform", format!("matrix({})", numbers.join(" ")))
+            .set("href", format!("data:image/png;base64,{bytes}"));
+        let shown = Group::new().set("clip-path", format!("url(#{clip})")).add(pixels);
+        Ok(vec![ClipPath::new().set("id", clip).add(outline).into(), shown.into()])
     }
 
     fn push(&self, data: &mut String, letter: char, points: &[DVec2]) {
@@ -165,11 +276,11 @@ impl Page<'_> {
         for (index, &point) in points.iter().enumerate() {
             let p = self.flip(point);
             let gap = if index == 0 { "" } else { " " };
-            let _ = write!(data, "{gap}{},{}", number(p.x), number(p.y));
+            let _ = write!(data, "{gap}{},{}", px(p.x), px(p.y));
         }
     }
 
-    /// From y up to y down.
+    /// From y up to y down, in mm.
     fn flip(&self, p: DVec2) -> DVec2 {
         DVec2::new(p.x, self.drawing.size_mm.y - p.y)
     }
@@ -196,6 +307,11 @@ fn colour(Rgb(red, green, blue): Rgb) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
+/// A length in user units.
+fn px(mm: f64) -> String {
+    number(mm * PX_PER_MM)
+}
+
 /// A number with at most [`DECIMALS`] digits after the point, never `-0`.
 fn number(value: f64) -> String {
     let text = format!("{value:.DECIMALS$}");
@@ -204,107 +320,4 @@ fn number(value: f64) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::export::fixture::{A4_MM, model};
-    use roxmltree::{Document as Xml, Node as XmlNode};
-
-    const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
-
-    fn written(pages: usize, text_mode: TextMode) -> Vec<String> {
-        let files = write(&model(pages).with_text_mode(text_mode)).expect("can be written");
-        files.into_iter().map(|file| String::from_utf8(file.bytes).expect("UTF-8")).collect()
-    }
-
-    fn groups<'a>(xml: &'a Xml) -> Vec<XmlNode<'a, 'a>> {
-        let is_layer = |n: &XmlNode| n.attribute((INKSCAPE, "groupmode")) == Some("layer");
-        xml.descendants().filter(is_layer).collect()
-    }
-
-    /// The coordinates of a path without curves.
-    fn points(data: &str) -> Vec<DVec2> {
-        let pairs = data.split(['M', 'L', 'Z']).filter(|pair| !pair.is_empty());
-        let pair = |pair: &str| {
-            let (x, y) = pair.split_once(',').expect("x,y");
-            DVec2::new(x.parse().expect("x"), y.parse().expect("y"))
-        };
-        pairs.map(pair).collect()
-    }
-
-    #[test]
-    fn one_file_a_sheet_in_millimetres() {
-        let files = write(&model(2)).expect("can be written");
-        assert_eq!(files.iter().map(|f| f.suffix.as_str()).collect::<Vec<_>>(), ["-1", "-2"]);
-        let text = &written(1, TextMode::Outlines)[0];
-        let xml = Xml::parse(text).expect("valid XML");
-        let root = xml.root_element();
-        assert_eq!(root.attribute("width"), Some("210mm"));
-        assert_eq!(root.attribute("height"), Some("297mm"));
-        assert_eq!(root.attribute("viewBox"), Some("0 0 210 297"));
-        let title =
-            xml.descendants().find(|n| n.has_tag_name((root.tag_name().namespace().unwrap_or(""), "title")));
-        assert_eq!(title.and_then(|t| t.text()).map(str::trim), Some("teddy <3> 1/1"));
-    }
-
-    #[test]
-    fn each_kind_of_line_has_its_layer_and_ids_are_unique() {
-        let text = &written(1, TextMode::Outlines)[0];
-        let xml = Xml::parse(text).expect("valid XML");
-        let labels = groups(&xml)
-            .iter()
-            .map(|g| g.attribute((INKSCAPE, "label")).unwrap_or("").to_owned())
-            .collect::<BTreeSet<_>>();
-        let all = Layer::ALL.map(|layer| layer.name().to_owned());
-        assert_eq!(labels, BTreeSet::from(all));
-        let ids = xml.descendants().filter_map(|n| n.attribute("id")).collect::<Vec<_>>();
-        assert_eq!(ids.iter().collect::<BTreeSet<_>>().len(), ids.len());
-        assert!(ids.contains(&"cut-head-1-2") && ids.contains(&"cut-head-2-2"), "{ids:?}");
-    }
-
-    #[test]
-    fn coordinates_are_exact_and_flipped_once() {
-        let text = &written(1, TextMode::Outlines)[0];
-        let xml = Xml::parse(text).expect("valid XML");
-        let path = |id: &str| {
-            let group = xml.descendants().find(|n| n.attribute("id") == Some(id)).expect("group");
-            group.descendants().find_map(|n| n.attribute("d")).expect("path").to_owned()
-        };
-        // The first piece stands at (20, 40) from the bottom.
-        assert_eq!(path("mountain-head-1-2"), "M20,249L50,249");
-        assert!(path("cut-head-1-2").starts_with("M20,257L50,257L50,227L20,227ZM32,245"));
-        // The second is turned, and keeps its length.
-        let [a, b] = points(&path("mountain-head-2-2"))[..] else { panic!("not a segment") };
-        assert!(((b - a).length() - 30.0).abs() < 2e-4);
-        let bar = points(&path("furniture"));
-        assert_eq!(bar[1] - bar[0], DVec2::new(100.0, 0.0));
-        assert!(bar[0].y < A4_MM.y - 10.0 + 1e-9);
-    }
-
-    #[test]
-    fn words_can_be_found_in_both_modes() {
-        for text_mode in [TextMode::Outlines, TextMode::Text] {
-            let text = &written(1, text_mode)[0];
-            let xml = Xml::parse(text).expect("valid XML");
-            let says = |n: &XmlNode| {
-                let content = n.attribute("aria-label").or(n.text()).unwrap_or("").trim();
-                content == "A → 12"
-            };
-            assert_eq!(xml.descendants().filter(|n| n.is_element() && says(n)).count(), 2);
-            let has_text = xml.descendants().any(|n| n.tag_name().name() == "text");
-            assert_eq!(has_text, text_mode == TextMode::Text);
-        }
-    }
-
-    #[test]
-    fn numbers_are_short_and_never_minus_zero() {
-        assert_eq!(number(-0.000_01), "0");
-        assert_eq!(number(100.0), "100");
-        assert_eq!(number(0.123_46), "0.1235");
-        assert_eq!(number(-12.5), "-12.5");
-    }
-
-    #[test]
-    fn the_same_input_gives_the_same_bytes() {
-        assert_eq!(written(2, TextMode::Outlines), written(2, TextMode::Outlines));
-    }
-}
+mod tests;

@@ -1,17 +1,32 @@
 //! What a piece looks like on paper.
 
 use super::mesh::EdgeKind;
-use super::{LabelKind, Piece};
+use super::split::is_seam;
+use super::{FaceKind, Label, LabelKind, Piece};
 use crate::component::PanelSet;
-use crate::drawing::{Align, Layer, Mark, Polyline, Shape, Stroke, Text};
+use crate::drawing::{Align, Layer, Mark, Polyline, Stroke, Text};
 use glam::DVec2;
+use std::f64::consts::FRAC_PI_4;
+
+/// How a crease is folded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Fold {
+    /// Away from the viewer outside, and back.
+    Back,
+    /// By 180°.
+    Flat,
+    /// Not at all: the seam of a split panel, behind which its other part is glued.
+    Seam,
+}
 
 /// A crease to draw: a hinge that stays joined, or the base of a tab.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Crease {
     ends: [DVec2; 2],
-    is_fold: bool,
-    deployed_rad: f64,
+    fold: Fold,
+    is_drawn: bool,
+    /// The panels on both sides, in short.
+    between: String,
 }
 
 impl Crease {
@@ -24,79 +39,106 @@ impl Crease {
     }
 }
 
-/// The creases of a piece's mesh.
-pub(crate) fn creases(set: &PanelSet, mesh: &super::PieceMesh) -> Vec<Crease> {
+/// The creases of a piece's mesh. Those that fold by less than `hide_below_rad` when deployed are
+/// not drawn.
+pub(crate) fn creases(set: &PanelSet, mesh: &super::PieceMesh, hide_below_rad: f64) -> Vec<Crease> {
     mesh.edges()
         .iter()
         .filter_map(|edge| match edge.kind {
             EdgeKind::Hinge(h) | EdgeKind::Tab(h) => {
                 let hinge = set.hinges()[h.0];
-                Some(Crease {
-                    ends: mesh.segment(edge),
-                    is_fold: hinge.is_fold,
-                    deployed_rad: hinge.deployed_rad,
-                })
+                let fold = match hinge {
+                    _ if hinge.is_fold => Fold::Flat,
+                    _ if is_seam(set, h) => Fold::Seam,
+                    _ => Fold::Back,
+                };
+                let is_drawn = fold != Fold::Back || hinge.deployed_rad >= hide_below_rad;
+                let between = between(set, mesh, &edge.faces);
+                Some(Crease { ends: mesh.segment(edge), fold, is_drawn, between })
             }
             _ => None,
         })
         .collect()
 }
 
-/// What is drawn of a piece.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MarkOptions {
-    /// Creases that are folded by less, when deployed, are not drawn; fold hinges always are.
-    pub hide_below_rad: f64,
+/// The faces at an edge, in short: `chain2.1 chain2.2`.
+fn between(set: &PanelSet, mesh: &super::PieceMesh, faces: &[usize]) -> String {
+    let name = |&face: &usize| match mesh.faces()[face].kind {
+        FaceKind::Panel(panel) => set.panel(panel).kind.short_name(),
+        FaceKind::Tab(_) => "tab".to_owned(),
+    };
+    faces.iter().map(name).collect::<Vec<_>>().join(" ")
 }
 
-impl Default for MarkOptions {
-    fn default() -> Self {
-        Self { hide_below_rad: 0.0 }
-    }
+/// The side of the paper that is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Side {
+    /// What can be seen of the model.
+    #[default]
+    Outside,
+    /// What cannot: pieces are mirrored and creases fold towards the viewer.
+    Inside,
 }
+
+/// Size of the dot at the end of a leader line, mm.
+const DOT_MM: f64 = 0.35;
 
 impl Piece {
-    /// The piece's marks in its own coordinates: the contour as one closed path, every cut line
-    /// once, creases, joint outlines, texts. `stroke_of` gives the look of each layer.
-    pub fn marks(&self, options: MarkOptions, stroke_of: impl Fn(Layer) -> Stroke) -> Vec<Mark> {
-        let path = |layer: Layer, contours: Vec<Polyline>| Mark {
-            layer,
-            piece: Some(self.name.clone()),
-            shape: Shape::Path { contours, stroke: Some(stroke_of(layer)), fill: None },
+    /// The piece's marks in its own coordinates, seen from outside: the contour as one closed
+    /// path, every cut line once, creases, joint outlines, texts. `stroke_of` gives the look of
+    /// each layer, `side` the layer of creases.
+    pub fn marks(&self, side: Side, stroke_of: impl Fn(Layer) -> Stroke) -> Vec<Mark> {
+        let path = |layer: Layer, contour: Polyline, part: String| {
+            Mark::path(layer, vec![contour], Some(stroke_of(layer)), None).of_part(part)
         };
-        let closed = |points: &[DVec2]| Polyline { points: points.to_vec(), is_closed: true };
+        let closed = |points: &[DVec2]| Polyline::closed(points.to_vec());
         let mut marks = Vec::new();
         for joint in &self.joints {
-            marks.push(path(Layer::Glue, vec![closed(&joint.outline)]));
-            marks.push(path(Layer::Glue, vec![closed(&joint.key)]));
+            let panel = self.panels.iter().find(|p| p.panel == joint.panel);
+            let panel = panel.map_or_else(String::new, |p| p.kind.short_name());
+            marks.push(path(Layer::Glue, closed(&joint.outline), panel.clone()));
+            marks.push(path(Layer::Glue, closed(&joint.key), format!("{panel} key")));
         }
-        for crease in &self.crease_lines {
-            let layer = if crease.is_fold { Layer::FoldHinge } else { Layer::Mountain };
-            if crease.is_fold || crease.deployed_rad >= options.hide_below_rad {
-                let line = Polyline { points: crease.ends.to_vec(), is_closed: false };
-                marks.push(path(layer, vec![line]));
-            }
+        for area in &self.glue_areas {
+            let [start, end, far, near] = area.outline;
+            marks.push(path(Layer::Glue, Polyline::open(vec![end, far, near, start]), "tab".to_owned()));
+        }
+        for crease in self.crease_lines.iter().filter(|c| c.is_drawn) {
+            let line = Polyline::open(crease.ends.to_vec());
+            marks.push(path(crease.layer(side), line, crease.between.clone()));
         }
         for slit in &self.slits {
-            let line = Polyline { points: slit.clone(), is_closed: false };
-            marks.push(path(Layer::Slit, vec![line]));
+            marks.push(path(Layer::Slit, Polyline::open(slit.clone()), "inside".to_owned()));
         }
-        marks.push(path(Layer::Cut, vec![closed(&self.outline)]));
-        for label in &self.labels {
-            let layer = if label.kind == LabelKind::Joint { Layer::Glue } else { Layer::Label };
-            marks.push(Mark {
-                layer,
-                piece: Some(self.name.clone()),
-                shape: Shape::Text(Text {
-                    content: label.text.clone(),
-                    anchor: label.anchor,
-                    cap_height_mm: label.cap_height_mm,
-                    angle_rad: label.angle_rad,
-                    align: Align::Middle,
-                    colour: stroke_of(layer).colour,
-                }),
-            });
+        marks.push(path(Layer::Cut, closed(&self.outline), "outline".to_owned()));
+        for leader in &self.leaders {
+            let line = Polyline::open(vec![leader.from, leader.to]);
+            marks.push(path(Layer::Label, line, "leader".to_owned()));
+            let dot = (0..8).map(|k| leader.to + DVec2::from_angle(f64::from(k) * FRAC_PI_4) * DOT_MM);
+            let dot = Mark::filled(Layer::Label, dot.collect(), stroke_of(Layer::Label).colour);
+            marks.push(dot.of_part("leader"));
         }
-        marks
+        marks.extend(self.labels.iter().map(|label| label_mark(label, &stroke_of)));
+        marks.into_iter().map(|mark| mark.of_piece(&*self.name)).collect()
     }
+}
+
+impl Crease {
+    fn layer(&self, side: Side) -> Layer {
+        match (self.fold, side) {
+            (Fold::Flat, _) => Layer::FoldHinge,
+            (Fold::Seam, _) => Layer::Glue,
+            (Fold::Back, Side::Outside) => Layer::Mountain,
+            (Fold::Back, Side::Inside) => Layer::Valley,
+        }
+    }
+}
+
+fn label_mark(label: &Label, stroke_of: &impl Fn(Layer) -> Stroke) -> Mark {
+    let layer = if label.kind == LabelKind::Joint { Layer::Glue } else { Layer::Label };
+    let text = Text::new(&label.text, label.anchor, label.cap_height_mm)
+        .aligned(Align::Middle)
+        .turned(label.angle_rad)
+        .coloured(stroke_of(layer).colour);
+    Mark::text(layer, text).of_part(&*label.text)
 }

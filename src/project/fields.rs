@@ -1,10 +1,14 @@
 //! Single values of a project file, checked while they are read so that an error has their place.
 
+use super::MethodName;
+use crate::export::PngOptions;
 use crate::mesh::Up;
+use crate::segment::MOST_CLUSTERS;
 use crate::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, Visitor};
 use std::fmt;
+use std::str::FromStr;
 
 /// The fewest top edges of a component, and the fewest vertices of a profile.
 pub const LEAST_COUNT: usize = 3;
@@ -28,6 +32,19 @@ pub fn parse_up(text: &str) -> Result<Up, String> {
     }
 }
 
+/// Thinnest and thickest paper that is believed, mm.
+const THICKNESSES_MM: std::ops::RangeInclusive<f64> = 0.02..=5.0;
+
+/// Reads the thickness of paper, in mm.
+///
+/// # Errors
+/// A message for what is no length or out of range.
+pub fn parse_thickness_mm(text: &str) -> Result<f64, String> {
+    let mm = parse_length_mm(text).map_err(|error| error.to_string())?;
+    let message = || format!("paper is from {} to {} mm thick", THICKNESSES_MM.start(), THICKNESSES_MM.end());
+    THICKNESSES_MM.contains(&mm).then_some(mm).ok_or_else(message)
+}
+
 /// Checks a number of top edges or profile vertices.
 ///
 /// # Errors
@@ -42,6 +59,44 @@ pub fn check_count(count: u64) -> Result<usize, String> {
 /// A message for numbers out of range.
 pub fn check_parts(count: u64) -> Result<usize, String> {
     in_range(count, 1, MOST_PARTS)
+}
+
+/// Checks how many components are wanted, from 0 to 1.
+///
+/// # Errors
+/// A message for numbers out of range.
+pub fn check_detail(detail: f64) -> Result<f64, String> {
+    let message = || "the detail must be from 0, few components, to 1, many".to_owned();
+    (0.0..=1.0).contains(&detail).then_some(detail).ok_or_else(message)
+}
+
+/// Checks a number of clusters.
+///
+/// # Errors
+/// A message for numbers out of range.
+pub fn check_clusters(count: u64) -> Result<usize, String> {
+    in_range(count, 1, MOST_CLUSTERS)
+}
+
+/// Checks a weight of borders.
+///
+/// # Errors
+/// A message for numbers out of range.
+pub fn check_smoothing(smoothing: f64) -> Result<f64, String> {
+    let message = || "the smoothing must be from 0 to 100; 0.3 suits most meshes".to_owned();
+    (0.0..=100.0).contains(&smoothing).then_some(smoothing).ok_or_else(message)
+}
+
+/// Reads the name of a method of segmentation.
+///
+/// # Errors
+/// A message for other texts than `merge` and `sdf`.
+pub fn parse_method(text: &str) -> Result<MethodName, String> {
+    match text.to_ascii_lowercase().as_str() {
+        "merge" => Ok(MethodName::Merge),
+        "sdf" => Ok(MethodName::Sdf),
+        _ => Err("the method is merge or sdf".to_owned()),
+    }
 }
 
 fn in_range(count: u64, least: usize, most: usize) -> Result<usize, String> {
@@ -122,6 +177,13 @@ pub(super) fn length_or_zero<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f
     })
 }
 
+pub(super) fn thickness<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f64>, D::Error> {
+    visit(d, "a thickness such as \"0.25mm\", or mm", |raw| match raw {
+        Raw::Number(mm) => parse_thickness_mm(&mm.to_string()),
+        Raw::Text(text) => parse_thickness_mm(text),
+    })
+}
+
 pub(super) fn paper<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Paper>, D::Error> {
     visit(d, "a paper size such as \"a4\"", |raw| match raw {
         Raw::Number(x) => parse_paper(&x.to_string()).map_err(|error| error.to_string()),
@@ -145,6 +207,13 @@ fn whole(raw: &Raw) -> Result<u64, String> {
     }
 }
 
+fn real(raw: &Raw) -> Result<f64, String> {
+    match raw {
+        Raw::Number(x) => Ok(*x),
+        Raw::Text(text) => Err(format!("write a number instead of the text \"{text}\"")),
+    }
+}
+
 pub(super) fn count<'de, D: Deserializer<'de>>(d: D) -> Result<Option<usize>, D::Error> {
     visit(d, "a whole number", |raw| whole(&raw).and_then(check_count))
 }
@@ -153,10 +222,46 @@ pub(super) fn parts<'de, D: Deserializer<'de>>(d: D) -> Result<Option<usize>, D:
     visit(d, "a whole number", |raw| whole(&raw).and_then(check_parts))
 }
 
+pub(super) fn detail<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f64>, D::Error> {
+    visit(d, "a number from 0 to 1", |raw| real(&raw).and_then(check_detail))
+}
+
+pub(super) fn method<'de, D: Deserializer<'de>>(d: D) -> Result<Option<MethodName>, D::Error> {
+    visit(d, "\"merge\" or \"sdf\"", |raw| match raw {
+        Raw::Number(x) => parse_method(&x.to_string()),
+        Raw::Text(text) => parse_method(text),
+    })
+}
+
+pub(super) fn clusters<'de, D: Deserializer<'de>>(d: D) -> Result<Option<usize>, D::Error> {
+    visit(d, "a whole number", |raw| whole(&raw).and_then(check_clusters))
+}
+
+pub(super) fn smoothing<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f64>, D::Error> {
+    visit(d, "a number such as 0.3", |raw| real(&raw).and_then(check_smoothing))
+}
+
 pub(super) fn degrees<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f64>, D::Error> {
     visit(d, "a number of degrees", |raw| match raw {
         Raw::Number(x) => check_degrees(x),
         Raw::Text(text) => Err(format!("write degrees as a number instead of \"{text}\"")),
+    })
+}
+
+/// One of several names, as the type reads them.
+pub(super) fn named<'de, D: Deserializer<'de>, T: FromStr<Err = String>>(
+    d: D,
+) -> Result<Option<T>, D::Error> {
+    visit(d, "a text", |raw| match raw {
+        Raw::Number(x) => Err(format!("write a text instead of {x}")),
+        Raw::Text(text) => text.parse(),
+    })
+}
+
+pub(super) fn dpi<'de, D: Deserializer<'de>>(d: D) -> Result<Option<PngOptions>, D::Error> {
+    visit(d, "a number of dots per inch", |raw| match raw {
+        Raw::Number(x) => PngOptions::new(x),
+        Raw::Text(text) => Err(format!("write the resolution as a number instead of \"{text}\"")),
     })
 }
 

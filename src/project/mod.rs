@@ -3,10 +3,19 @@
 //! The structs here are the file's; they are checked while they are read, so that an error names
 //! the line and column of the value that is wrong.
 
+mod edit;
+mod export;
 mod fields;
+mod sheet_fields;
 mod template;
 
-pub use fields::{LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_count, check_degrees, check_parts, parse_up};
+pub use edit::Edit;
+pub use export::ExportTable;
+pub use fields::{
+    LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_clusters, check_count, check_degrees, check_detail,
+    check_parts, check_smoothing, parse_method, parse_thickness_mm, parse_up,
+};
+pub use sheet_fields::{Nets, Sheets, check_effort, check_hidden_degrees, parse_marks, parse_side};
 pub use template::{Template, TemplateComponent, to_toml};
 
 use crate::mesh::Up;
@@ -49,6 +58,18 @@ pub struct Project {
     /// The sheets.
     #[serde(default)]
     pub paper: PaperTable,
+    /// The files.
+    #[serde(default)]
+    pub export: ExportTable,
+    /// The pieces.
+    #[serde(default)]
+    pub nets: Nets,
+    /// How the sheets are filled and printed.
+    #[serde(default)]
+    pub sheets: Sheets,
+    /// Changes to the parts by hand, one after the other.
+    #[serde(default, rename = "edit")]
+    pub edits: Vec<Edit>,
     /// What differs for single components.
     #[serde(default, rename = "component")]
     pub components: Vec<Component>,
@@ -61,6 +82,30 @@ pub struct Segmentation {
     /// Number of components to aim at.
     #[serde(default, deserialize_with = "fields::parts")]
     pub parts: Option<usize>,
+    /// From 0, few components, to 1, many.
+    #[serde(default, deserialize_with = "fields::detail")]
+    pub detail: Option<f64>,
+    /// Whether the paper's own method is used.
+    #[serde(default, deserialize_with = "fields::method")]
+    pub method: Option<MethodName>,
+    /// Clusters of the paper's own method.
+    #[serde(default, deserialize_with = "fields::clusters")]
+    pub clusters: Option<usize>,
+    /// Smoothing of the paper's own method.
+    #[serde(default, deserialize_with = "fields::smoothing")]
+    pub smoothing: Option<f64>,
+    /// The component that all others hang on.
+    #[serde(default, deserialize_with = "fields::new_name")]
+    pub root: Option<String>,
+}
+
+/// How segments are found, by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MethodName {
+    /// Patches merged by the growth of their hulls.
+    Merge,
+    /// The paper's own: shape diameters, clustering, graph cut.
+    Sdf,
 }
 
 /// The table `[defaults]`.
@@ -94,6 +139,9 @@ pub struct PaperTable {
     /// Border that stays free, mm.
     #[serde(default, deserialize_with = "fields::length_or_zero")]
     pub margin_mm: Option<f64>,
+    /// Thickness, mm.
+    #[serde(default, deserialize_with = "fields::thickness")]
+    pub thickness_mm: Option<f64>,
 }
 
 /// A table `[[component]]`.
@@ -189,7 +237,7 @@ profile_vertices = 4
     #[test]
     fn errors_name_line_and_column_and_what_is_accepted() {
         for (from, to, place, word) in [
-            ("parts = 6", "partz = 6", "line 6, column 1", "expected `parts`"),
+            ("parts = 6", "partz = 6", "line 6, column 1", "`parts`"),
             ("size = \"8in\"", "sise = 3", "line 4, column 1", "`size`"),
             ("\"8in\"", "\"8 feet\"", "line 4, column 8", "200mm"),
             ("\"8in\"", "0", "line 4, column 8", "more than 0"),

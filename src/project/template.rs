@@ -2,6 +2,10 @@
 
 use super::LEAST_COUNT;
 use crate::mesh::Up;
+use crate::net::{NetChoices, Side};
+use crate::segment::{Method, SegmentOptions};
+use crate::sheet::fit::Rotation;
+use crate::sheet::{Registration, SheetChoices};
 use crate::units::Paper;
 
 /// What `init` writes into a fresh project file.
@@ -27,8 +31,14 @@ pub struct Template<'a> {
     pub paper: Paper,
     /// Border that stays free, mm.
     pub margin_mm: f64,
-    /// Number of components to aim at, if it was chosen.
-    pub parts: Option<usize>,
+    /// Thickness of the paper.
+    pub thickness_mm: f64,
+    /// What else is chosen about nets.
+    pub nets: NetChoices,
+    /// What else is chosen about sheets.
+    pub sheets: SheetChoices,
+    /// How the mesh is divided.
+    pub segmentation: SegmentOptions,
     /// The components.
     pub components: &'a [TemplateComponent],
 }
@@ -48,6 +58,10 @@ pub struct TemplateComponent {
 pub fn to_toml(template: &Template) -> String {
     let quoted = |text: &str| toml::Value::from(text).to_string();
     let unless = |is_chosen: bool| if is_chosen { "" } else { "# " };
+    let (method, clusters, smoothing) = match template.segmentation.method {
+        Method::Merge => ("merge", Method::CLUSTERS, Method::SMOOTHING),
+        Method::Sdf { clusters, smoothing } => ("sdf", clusters, smoothing),
+    };
     let mut text = format!(
         r#"# A tatamu project. Change it and run "tatamu make" on this file.
 # Lengths are millimetres, or texts with a unit: "200mm", "20cm", "8in".
@@ -64,6 +78,25 @@ size = "{size}mm"
 [segmentation]
 # How many components to aim at; without this line the shape decides.
 {parts_comment}parts = {parts}
+# Where the shape decides: from 0, few components, to 1, many.
+{detail_comment}detail = {detail}
+# "merge", or "sdf": the method of the paper, with its classes of thickness and cost of borders.
+{method_comment}method = "{method}"
+{method_comment}clusters = {clusters}
+{method_comment}smoothing = {smoothing}
+# The component that all others hang on; without this line the biggest.
+# root = "body"
+
+# Changes by hand, made in their order; "tatamu segment" shows the names in a picture.
+# A merge keeps the first name. A split cuts along a plane, in the mesh file's coordinates; what is
+# on the side that the normal points to gets the name after front.
+# [[edit]]
+# merge = ["part-2", "part-3"]
+# [[edit]]
+# split = "body"
+# point = [0, 0, 0]
+# normal = [0, 1, 0]
+# front = "chest"
 
 [defaults]
 # Edges of each component's top panel, {LEAST_COUNT} or more: more follow the shape better, fewer fold faster.
@@ -83,8 +116,12 @@ tab_width_mm = {tab_width}
 size = "{paper}"
 # Border of each sheet that stays free.
 margin_mm = {margin}
+# Thickness, for the check of the folding.
+thickness_mm = {thickness}
 
-# One table for each component. What a table leaves out comes from [defaults].
+{nets}
+{sheets}
+{export}# One table for each component. What a table leaves out comes from [defaults].
 # rename: another name, which is printed on the pieces.
 # direction: angle of the fold axis about the component's longest axis, in degrees;
 # without it the best direction is searched for.
@@ -96,8 +133,11 @@ margin_mm = {margin}
             Up::Z => "z",
         },
         size = template.size_mm,
-        parts_comment = unless(template.parts.is_some()),
-        parts = template.parts.unwrap_or(template.components.len().max(1)),
+        parts_comment = unless(template.segmentation.parts.is_some()),
+        parts = template.segmentation.parts.unwrap_or(template.components.len().max(1)),
+        detail_comment = unless(template.segmentation.detail != SegmentOptions::default().detail),
+        detail = template.segmentation.detail,
+        method_comment = unless(template.segmentation.method != Method::Merge),
         top_edges = template.top_edges,
         profile_vertices = template.profile_vertices,
         tolerance_comment = unless(template.tolerance_mm.is_some()),
@@ -106,6 +146,10 @@ margin_mm = {margin}
         tab_width = template.tab_width_mm,
         paper = template.paper.name(),
         margin = template.margin_mm,
+        thickness = template.thickness_mm,
+        export = super::export::TEMPLATE,
+        nets = nets_table(&template.nets),
+        sheets = sheets_table(&template.sheets),
     );
     for component in template.components {
         text += &format!(
@@ -119,6 +163,53 @@ margin_mm = {margin}
         );
     }
     text
+}
+
+fn nets_table(nets: &NetChoices) -> String {
+    format!(
+        "[nets]
+# Whether a panel larger than the sheet is made of parts; else it is refused.
+split = {}
+# Whether the place of each tab behind its mate is drawn.
+glue_marks = {}
+# Whether the angle of each crease is written beside it.
+angles = {}
+# Creases that are folded by less than this, in degrees, are not drawn.
+hide_below = {}
+",
+        nets.may_split,
+        nets.glue_marks,
+        nets.angles,
+        nets.hide_below_rad.to_degrees()
+    )
+}
+
+fn sheets_table(sheets: &SheetChoices) -> String {
+    let side = match sheets.side {
+        Side::Outside => "outside",
+        Side::Inside => "inside",
+    };
+    format!(
+        "[sheets]
+# Printed side of the paper: \"outside\" or \"inside\".
+side = \"{side}\"
+# Whether pieces are turned by multiples of 90 degrees only, for paper with a grain.
+grain = {}
+# Least distance between pieces.
+spacing_mm = {}
+# How long to look for fewer sheets: pieces placed in trials.
+effort = {}
+# Registration marks for a cutter: \"none\", \"silhouette\" or \"corners\".
+marks = \"{}\"
+# Measured lengths of the level and of the upright bar of 100 mm.
+calibrate = \"{}\"
+",
+        sheets.rotation == Rotation::QuarterTurns,
+        sheets.spacing_mm,
+        sheets.effort,
+        sheets.registration.map_or("none", Registration::name),
+        sheets.calibration.text()
+    )
 }
 
 #[cfg(test)]
@@ -146,7 +237,10 @@ mod tests {
             tab_width_mm: 6.5,
             paper: parse_paper("100x150").unwrap(),
             margin_mm: 0.0,
-            parts: None,
+            thickness_mm: 0.25,
+            nets: NetChoices { angles: true, ..NetChoices::default() },
+            sheets: SheetChoices { registration: Some(Registration::Silhouette), ..SheetChoices::default() },
+            segmentation: SegmentOptions { detail: 0.25, ..Default::default() },
             components: &components,
         };
         let text = to_toml(&template);
@@ -155,6 +249,11 @@ mod tests {
         assert_eq!((project.size_mm, project.paper.margin_mm), (Some(123.5), Some(0.0)));
         assert_eq!(project.paper.size, Some(template.paper));
         assert_eq!(project.defaults.tab_width_mm, Some(6.5));
+        assert_eq!((project.nets.split, project.nets.angles), (Some(true), Some(true)));
+        assert_eq!(project.sheets.marks, Some(Some(Registration::Silhouette)));
+        assert_eq!(project.sheets.calibrate, Some(template.sheets.calibration));
+        assert_eq!((project.segmentation.detail, project.segmentation.parts), (Some(0.25), None));
+        assert_eq!((project.segmentation.method, project.edits.len()), (None, 0));
         assert_eq!(project.components[1].name, "he\"ad");
         assert_eq!(project.components[0].direction_deg, None);
         assert_eq!(project.components[1].direction_deg, Some(12.3));
@@ -163,5 +262,10 @@ mod tests {
         assert_eq!(project.components[0].direction_deg, Some(12.3));
         assert_eq!(project.components[0].top_edges, Some(7));
         assert_eq!(project.segmentation.parts, Some(2));
+        // The edits in comments are in the right form.
+        let edits = text.split("\n").skip_while(|l| *l != "# [[edit]]").take(7);
+        let edits: Vec<&str> = edits.filter_map(|line| line.strip_prefix("# ")).collect();
+        let text = format!("mesh = 'a'\n{}", edits.join("\n"));
+        assert_eq!(Project::parse(&text).unwrap().edits.len(), 2);
     }
 }

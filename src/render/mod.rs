@@ -6,15 +6,21 @@
 //! axis points up in the picture.
 
 mod bsp;
+mod callouts;
 pub mod light;
 mod mesh;
 pub mod palette;
+mod parts;
 mod picture;
+mod proxy;
 mod scene;
 mod shadow;
 mod view;
 
+pub use callouts::{Callout, callouts};
+pub use parts::{PartsPictureError, parts_picture};
 pub use picture::{Look, picture};
+pub use proxy::{Proxy, proxy};
 pub use scene::{Edge, Face, Scene, SceneError};
 pub use shadow::contact_shadow;
 pub use view::{Camera, View, ViewError};

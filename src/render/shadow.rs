@@ -72,7 +72,7 @@ mod tests {
             .iter()
             .filter_map(|m| match &m.shape {
                 Shape::Path { fill, .. } => fill.map(|f| f.1),
-                Shape::Text(_) => None,
+                Shape::Text(_) | Shape::Image(_) => None,
             })
             .collect();
         assert_eq!(fills.len(), STEPS as usize);

@@ -97,3 +97,65 @@ fn expand(
     }
     changed
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+    use std::f64::consts::PI;
+
+    #[test]
+    fn creases_cost_what_the_formula_gives_by_hand() {
+        for (turn_rad, by_hand) in [
+            (0.0, 12.206_073),      // −ln 5e-6
+            (PI / 4.0, 1.386_294),  // −ln ¼
+            (-PI / 2.0, 3.218_876), // −ln 0.04
+            (PI / 3.0, 1.098_612),  // −ln ⅓
+            (-PI, 2.525_729),       // −ln 0.08
+        ] {
+            assert!((crease_cost(turn_rad) - by_hand).abs() < 1e-6, "{turn_rad}");
+        }
+    }
+
+    /// A folded strip of 12 triangles.
+    fn strip() -> Surface {
+        let positions: Vec<DVec3> = (0..7)
+            .flat_map(|i| {
+                let x = f64::from(i);
+                let z = if i > 3 { x - 3.0 } else { 0.0 };
+                [DVec3::new(x, 0.0, z), DVec3::new(x, 1.0 + 0.1 * x, z)]
+            })
+            .collect();
+        let faces: Vec<[u32; 3]> =
+            (0..6).flat_map(|i| [[2 * i, 2 * i + 2, 2 * i + 1], [2 * i + 1, 2 * i + 2, 2 * i + 3]]).collect();
+        Surface::of_faces(&positions, &faces)
+    }
+
+    /// The energy as it is defined, term by term.
+    fn energy(surface: &Surface, values: &[f64], mixture: &Mixture, smoothing: f64, label: &[u32]) -> f64 {
+        let mean_area = surface.total_area() / surface.len() as f64;
+        let data = (0..surface.len()).map(|c| {
+            let p = mixture.memberships(values[c])[label[c] as usize];
+            -p.max(5e-6).ln() * surface.areas()[c] / mean_area
+        });
+        let borders =
+            surface.links().iter().filter(|l| label[l.cells[0] as usize] != label[l.cells[1] as usize]);
+        let borders = borders.map(|l| smoothing * crease_cost(l.turn_rad) * l.length / surface.mean_length());
+        data.sum::<f64>() + borders.sum::<f64>()
+    }
+
+    #[test]
+    fn two_labels_are_cut_at_the_least_energy_of_all() {
+        let surface = strip();
+        let values = [0.1, 0.2, 0.15, 0.6, 0.1, 0.5, 0.7, 0.8, 0.3, 0.9, 0.85, 0.2];
+        let mixture = Mixture::fit(&values, surface.areas(), 2);
+        for smoothing in [0.0, 0.02, 0.1, 0.5, 3.0] {
+            let value = |label: &[u32]| energy(&surface, &values, &mixture, smoothing, label);
+            let least = (0..1u32 << 12)
+                .map(|bits| value(&(0..12).map(|c| bits >> c & 1).collect::<Vec<_>>()))
+                .fold(f64::INFINITY, f64::min);
+            let found = value(&soft_labels(&surface, &values, &mixture, smoothing));
+            assert!((found - least).abs() < 1e-9, "{smoothing}: {found}, not {least}");
+        }
+    }
+}

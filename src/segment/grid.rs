@@ -1,10 +1,15 @@
 //! The solid that a mesh bounds, as a grid of cells in columns, and how much of a hull is outside.
 
-use super::rough_hull::RoughHull;
+use super::hollow::enclosed;
 use glam::{DVec2, DVec3};
 
-/// About as many cells fill the bounding box.
-const CELLS: f64 = 60_000.0;
+/// About as many cells fill the bounding box while parts are searched for.
+pub(super) const CELLS: f64 = 60_000.0;
+
+/// Cells from which this share of directions meets the surface count as hollow. On 15 cups of the
+/// benchmark 1 − Rand index is 23% without this, 12% at 0.8 and 10% at 0.7; at 0.6 the space between
+/// limbs counts, and the overlap of the sample meshes at 8 parts falls from 0.880 to 0.876.
+const HOLLOW: f64 = 0.7;
 
 /// The box is widened to this share of its longest side in each direction.
 const LEAST_SIDE: f64 = 0.02;
@@ -34,25 +39,55 @@ type Crossing = (usize, f64, bool);
 impl Solid {
     /// Cells whose centre has the surface round it, by the mean winding number along both
     /// directions of three axes: so a hole matters only to what looks out through it.
-    pub fn of_mesh(positions: &[DVec3], faces: &[[u32; 3]]) -> Self {
-        let frame = Frame::of_points(positions);
+    /// About `cells` cells fill the bounding box.
+    pub fn of_mesh(positions: &[DVec3], faces: &[[u32; 3]], cells: f64) -> Self {
+        Self::with_surface(positions, faces, cells).0
+    }
+
+    /// The same, and which cells the surface passes through.
+    fn with_surface(positions: &[DVec3], faces: &[[u32; 3]], cells: f64) -> (Self, Vec<bool>) {
+        let frame = Frame::of_points(positions, cells);
         let [nx, ny, nz] = frame.count;
         let mut votes = vec![0i32; nx * ny * nz];
+        let mut is_surface = vec![false; nx * ny * nz];
         for axis in 0..3 {
-            frame.vote(positions, faces, axis, &mut votes);
+            frame.vote(positions, faces, axis, &mut votes, &mut is_surface);
         }
-        let mut below = Vec::with_capacity(nx * ny * (nz + 1));
-        let mut inside = 0;
-        for column in votes.chunks_exact(nz) {
+        let is_inside: Vec<bool> = votes.iter().map(|vote| vote.abs() > 3).collect();
+        let mut solid = Self { frame, below: Vec::new(), inside: 0 };
+        solid.set(&is_inside);
+        (solid, is_surface)
+    }
+
+    /// The solid with its hollows.
+    pub fn filled(positions: &[DVec3], faces: &[[u32; 3]], cells: f64) -> Self {
+        let (mut solid, is_surface) = Self::with_surface(positions, faces, cells);
+        let [_, _, nz] = solid.frame.count;
+        let is_inside: Vec<bool> =
+            (0..solid.len()).map(|cell| solid.is_inside((cell / nz) as u32, (cell % nz) as u16)).collect();
+        let is_occupied: Vec<bool> = is_inside.iter().zip(&is_surface).map(|(a, b)| *a || *b).collect();
+        let is_enclosed = enclosed(solid.frame.count, &is_occupied, HOLLOW);
+        // The surface's own cells are inside or not as they were.
+        let filled: Vec<bool> = (0..solid.len())
+            .map(|cell| is_inside[cell] || (is_enclosed[cell] && !is_surface[cell]))
+            .collect();
+        solid.set(&filled);
+        solid
+    }
+
+    fn set(&mut self, is_inside: &[bool]) {
+        let nz = self.frame.count[2];
+        self.below = Vec::with_capacity(is_inside.len() / nz * (nz + 1));
+        self.inside = 0;
+        for column in is_inside.chunks_exact(nz) {
             let mut sum = 0u16;
-            below.push(0);
-            for vote in column {
-                sum += u16::from(vote.abs() > 3);
-                below.push(sum);
+            self.below.push(0);
+            for inside in column {
+                sum += u16::from(*inside);
+                self.below.push(sum);
             }
-            inside += sum as usize;
+            self.inside += sum as usize;
         }
-        Self { frame, below, inside }
     }
 
     /// Number of cells inside.
@@ -93,10 +128,10 @@ impl Solid {
             .sum()
     }
 
-    /// The cells whose centre is in a hull.
-    pub fn runs(&self, hull: &RoughHull) -> Vec<Run> {
+    /// The cells whose centre is in a convex polyhedron, given by its triangles.
+    pub fn runs(&self, triangles: impl Iterator<Item = [DVec3; 3]>) -> Vec<Run> {
         let mut crossings: Vec<Crossing> = Vec::new();
-        for t in hull.triangles() {
+        for t in triangles {
             self.frame.cross(t, 2, &mut |c| crossings.push(c));
         }
         crossings.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
@@ -113,12 +148,12 @@ impl Solid {
 }
 
 impl Frame {
-    fn of_points(positions: &[DVec3]) -> Self {
+    fn of_points(positions: &[DVec3], cells: f64) -> Self {
         let (lo, hi) = positions
             .iter()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)));
         let side = (hi - lo).max(DVec3::splat((hi - lo).max_element() * LEAST_SIDE));
-        let cell = (side.x * side.y * side.z / CELLS).cbrt();
+        let cell = (side.x * side.y * side.z / cells).cbrt();
         let count = (side / cell).ceil().to_array().map(|n| (n as usize).max(1));
         // Centred, so that cell borders do not coincide with flat sides of the box.
         let size = DVec3::from_array(count.map(|n| n as f64)) * cell;
@@ -126,7 +161,14 @@ impl Frame {
     }
 
     /// Adds 1 for each of the two directions along an axis that winds round a cell.
-    fn vote(&self, positions: &[DVec3], faces: &[[u32; 3]], axis: usize, votes: &mut [i32]) {
+    fn vote(
+        &self,
+        positions: &[DVec3],
+        faces: &[[u32; 3]],
+        axis: usize,
+        votes: &mut [i32],
+        is_surface: &mut [bool],
+    ) {
         let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
         let mut columns: Vec<Vec<(f64, bool)>> = vec![Vec::new(); self.count[u] * self.count[v]];
         for f in faces {
@@ -141,6 +183,10 @@ impl Frame {
             let mut above: i32 = crossings.iter().map(|c| sign(c.1)).sum();
             let (mut below, mut next) = (0, 0);
             let start = c / self.count[v] * stride[u] + c % self.count[v] * stride[v];
+            for (height, _) in crossings.iter() {
+                let h = (height.max(0.0) as usize).min(self.count[axis] - 1);
+                is_surface[start + h * stride[axis]] = true;
+            }
             for h in 0..self.count[axis] {
                 while next < crossings.len() && crossings[next].0 <= h as f64 + 0.5 {
                     above -= sign(crossings[next].1);

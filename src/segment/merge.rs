@@ -87,7 +87,7 @@ impl Scene<'_> {
         let Some(hull) = extremes.hull(self.positions) else {
             return Shape::default();
         };
-        let runs = self.solid.runs(&hull);
+        let runs = self.solid.runs(hull.triangles());
         let cells = self.solid_cells();
         let outside = self.solid.outside(&runs) as f64 / cells;
         let volume = hull.volume() / (self.solid.cell_volume() * cells);

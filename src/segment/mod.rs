@@ -7,12 +7,17 @@
 mod bodies;
 mod choose;
 mod coarsen;
+mod contact;
 mod cut;
+mod edit;
 mod gmm;
 mod grid;
+mod hollow;
 mod interface;
 mod maxflow;
 mod merge;
+mod overlap;
+mod parts;
 mod patches;
 mod refine;
 mod rough_hull;
@@ -25,14 +30,18 @@ mod surface;
 #[cfg(test)]
 mod tests;
 
+pub use contact::near_contacts;
+pub use edit::{Edit, EditError};
 pub use interface::Interface;
+pub use overlap::{Overlap, overlap};
+pub use parts::{Parts, default_name};
 pub use stage::segment;
 
 use crate::mesh::Mesh;
 use crate::progress::Cancelled;
 use std::collections::BTreeMap;
 
-/// A segment, numbered from 0, biggest surface first.
+/// A segment, numbered from 0; [`segment`] gives the biggest surface the first number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SegmentId(pub u32);
 
@@ -48,6 +57,13 @@ pub enum Method {
         /// Weight of the borders, 0 or more.
         smoothing: f64,
     },
+}
+
+impl Method {
+    /// Clusters of the paper's own method that do well on most meshes.
+    pub const CLUSTERS: usize = 5;
+    /// Smoothing of the paper's own method that does well on most meshes.
+    pub const SMOOTHING: f64 = 0.3;
 }
 
 /// What the user can ask for.

@@ -16,8 +16,9 @@ const BAND_OF_LENGTH: f64 = 0.06;
 const BAND_OF_SIZE: f64 = 0.25;
 
 /// What it costs that a face is on the wrong side of the border's plane, a band's half width
-/// deep, against one border of the same area over that width.
-const PLANE_PULL: f64 = 2.0;
+/// deep, against one border of the same area over that width. With 4 the overlap is better than
+/// with 2 on the teapot (0.964, 0.959) and the bunny (0.900, 0.887), and alike elsewhere.
+const PLANE_PULL: f64 = 4.0;
 
 /// A border that would take a larger share of the smaller segment stays where it is.
 const MOST_CHANGE: f64 = 0.4;

@@ -143,3 +143,54 @@ fn median(values: &mut [f64]) -> Option<f64> {
     let n = values.len();
     (n > 0).then(|| (values[(n - 1) / 2] + values[n / 2]) / 2.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A box of 200 × 200 × `thickness`, and its bottom's face nearest to the middle.
+    fn slab(thickness: f64) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        let corner = |k: u32| {
+            DVec3::new(f64::from(k & 1) - 0.5, f64::from(k >> 1 & 1) - 0.5, 0.0) * 200.0
+                + DVec3::Z * f64::from(k >> 2) * thickness
+        };
+        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let faces = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        ((0..8).map(corner).collect(), faces)
+    }
+
+    /// Worked out by hand: ray i leaves at tan θ = (i + ½)/8 · sin 60°/cos 60°, so it goes √(1 + tan²)
+    /// thicknesses: 1.00585, 1.05142, 1.13706, 1.25472, 1.39614, 1.55500, 1.72638, 1.90706. The
+    /// median is 1.32543, the median deviation 0.25184; the last two are farther away than 1.5 times
+    /// that, and the mean of the others is 1.23337.
+    #[test]
+    fn a_wide_slab_has_the_diameter_worked_out_by_hand() {
+        for thickness in [1.0, 3.0] {
+            let (positions, faces) = slab(thickness);
+            let target = Target::new(&positions, &faces).unwrap();
+            let probe = Probe { face: 0, origin: DVec3::new(-3.0, -5.0, 0.0), inward: DVec3::Z };
+            let found = target.diameters(&[probe])[0].unwrap();
+            assert!((found - 1.23337 * thickness).abs() < 1e-4 * thickness, "{found}");
+        }
+    }
+
+    #[test]
+    fn faces_met_from_outside_do_not_count() {
+        let (positions, faces) = slab(1.0);
+        let target = Target::new(&positions, &faces).unwrap();
+        let probe = Probe { face: 99, origin: DVec3::new(0.1, 0.2, -2.0), inward: DVec3::Z };
+        // Through the bottom from outside, out through the top: about three times as far.
+        let found = target.diameters(&[probe])[0].unwrap();
+        assert!((found - 3.0 * 1.23337).abs() < 1e-3, "{found}");
+        let away = Probe { inward: -DVec3::Z, ..probe };
+        assert_eq!(target.diameters(&[away]), [None]);
+    }
+
+    #[test]
+    fn values_far_from_the_median_are_dropped() {
+        // Median 3, median deviation 1: 100 is farther than 1.5 away, and so are 1 and 5.
+        assert_eq!(robust_mean(&mut [1.0, 2.0, 3.0, 4.0, 100.0]), Some(3.0));
+        assert_eq!(robust_mean(&mut [2.0, 2.0, 2.0, 50.0]), Some(2.0));
+        assert_eq!(robust_mean(&mut []), None);
+    }
+}

@@ -85,3 +85,50 @@ pub(super) fn normalise(values: &[f64]) -> Vec<f64> {
     let span = if hi > lo { hi - lo } else { 1.0 };
     values.iter().map(|v| (ALPHA * (v - lo) / span).ln_1p() / ALPHA.ln_1p()).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::shapes::balls_in_a_row;
+    use super::*;
+
+    fn ball() -> Surface {
+        let (positions, faces) = balls_in_a_row(&[(0.0, 1.0)], 80, 80);
+        Surface::of_faces(&positions, &faces)
+    }
+
+    #[test]
+    fn the_scale_is_that_of_the_formula_by_hand() {
+        // ln(4 · x + 1)/ln 5 at x = 0, ½, 1.
+        let found = normalise(&[3.0, 5.0, 7.0]);
+        for (found, by_hand) in found.iter().zip([0.0, 0.682_606, 1.0]) {
+            assert!((found - by_hand).abs() < 1e-6, "{found}");
+        }
+        assert_eq!(normalise(&[2.0, 2.0]), [0.0, 0.0]);
+    }
+
+    #[test]
+    fn missing_values_are_filled_from_their_neighbours() {
+        let surface = ball();
+        let known = |c: usize| c.is_multiple_of(7);
+        let values: Vec<Option<f64>> =
+            (0..surface.len()).map(|c| known(c).then(|| surface.centres()[c].z)).collect();
+        let filled = fill(&surface, &values).unwrap();
+        for (c, value) in filled.iter().enumerate() {
+            assert!((value - surface.centres()[c].z).abs() < 0.5, "{c}: {value}");
+            assert!(!known(c) || *value == surface.centres()[c].z);
+        }
+        assert_eq!(fill(&surface, &vec![None; surface.len()]), None);
+    }
+
+    #[test]
+    fn smoothing_quiets_noise_and_keeps_a_step() {
+        let surface = ball();
+        let noise = |c: usize| ((c as f64 * 12.9898).sin() * 43_758.545).fract() * 0.1;
+        let step = |c: usize| f64::from(u8::from(surface.centres()[c].z > 0.0));
+        let values: Vec<f64> = (0..surface.len()).map(|c| step(c) + noise(c)).collect();
+        let smooth = bilateral(&surface, &values);
+        let off = |v: &[f64]| (0..v.len()).map(|c| (v[c] - step(c)).powi(2)).sum::<f64>();
+        assert!(off(&smooth) < 0.7 * off(&values), "{} {}", off(&smooth), off(&values));
+        assert!((0..smooth.len()).all(|c| (smooth[c] - step(c)).abs() < 0.3));
+    }
+}

@@ -10,7 +10,7 @@ use super::patches::{Partition, absorb_small, connected, split_large};
 use super::sdf::{Probe, Target};
 use super::surface::{Surface, outward_faces};
 use super::{Method, SegmentError, SegmentOptions, Segmentation};
-use super::{bodies, refine, smooth};
+use super::{bodies, grid, refine, smooth};
 use crate::mesh::Mesh;
 use crate::progress::{Cancelled, Progress};
 use glam::DVec3;
@@ -48,25 +48,26 @@ pub fn segment(
     if is_flat(positions) {
         return Err(SegmentError::Flat);
     }
-    progress.stage("segmentation");
+    progress.stage("thickness");
     let (faces, _) = outward_faces(positions, mesh.faces());
     let fine = Surface::of_faces(positions, &faces);
     let (coarse, cell_of_face) = coarsen(&fine);
     progress.check()?;
     let diameters = shape_diameters(positions, &faces, &fine, &coarse, &cell_of_face);
     progress.check()?;
-    progress.fraction(0.4);
     let cells = match options.method {
         Method::Sdf { clusters, smoothing } => {
             let label = labels(&coarse, diameters.as_deref(), clusters, smoothing);
             absorb_small(&coarse, connected(&coarse, &label), LEAST_SEGMENT * coarse.total_area())
         }
         Method::Merge => {
+            progress.stage("patches");
             let patches = over_segment(&coarse, diameters.as_deref(), options.parts);
             let gaps = bodies::nearest_links(&coarse);
             let patches = bodies::join_crumbs(&coarse, patches, &gaps);
+            progress.stage("parts");
             let ground = Ground { positions, faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
-            let solid = Solid::of_mesh(positions, &faces);
+            let solid = Solid::filled(positions, &faces, grid::CELLS);
             let tree = ground.merge(&solid, patches, &gaps, progress)?;
             let part_cost = PART_COST / DETAIL_RANGE.powf(options.detail);
             match options.parts {
@@ -75,7 +76,7 @@ pub fn segment(
             }
         }
     };
-    progress.fraction(0.9);
+    progress.stage("borders");
     let of_face = cell_of_face.iter().map(|&c| cells.of_cell[c as usize]).collect();
     let refined = refine::refine_borders(&fine, Partition { of_cell: of_face, count: cells.count });
     // Borders that moved may have left slivers; a number that was asked for stands.

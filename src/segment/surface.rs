@@ -46,6 +46,15 @@ impl Surface {
         Self::new(area, centre, normal, borders.collect())
     }
 
+    /// Areas of faces.
+    pub fn face_areas(positions: &[DVec3], faces: &[[u32; 3]]) -> Vec<f64> {
+        let area = |f: &[u32; 3]| {
+            let [a, b, c] = f.map(|v| positions[v as usize]);
+            ((b - a).cross(c - a).length() / 2.0).max(f64::MIN_POSITIVE)
+        };
+        faces.iter().map(area).collect()
+    }
+
     /// Groups of this surface's cells as the cells of a coarser one; `group` is `0..count`.
     pub fn grouped(&self, group: &[u32], count: usize) -> Self {
         let mut area = vec![0.0; count];

@@ -3,9 +3,12 @@
 mod check;
 #[path = "../cube/mod.rs"]
 mod cube;
+mod exports;
+mod film;
 mod make;
 mod project;
 mod refusals;
+mod segment;
 
 use std::path::Path;
 use tempfile::TempDir;

@@ -4,10 +4,10 @@ use glam::DVec2;
 use rayon::prelude::*;
 use serde::Deserialize;
 use std::sync::LazyLock;
-use tatamu::export::format_of;
+use tatamu::export::{FormatOptions, format_of};
 use tatamu::mesh::{self, Mesh};
 use tatamu::pipeline::{self, Options, Output};
-use tatamu::product;
+use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::report::Run;
 
@@ -78,9 +78,10 @@ fn make(name: &'static str) -> Made {
     let (mesh, repairs) = Mesh::from_soup(&mesh::read(&bytes).expect("OBJ")).expect("a mesh");
     let output = pipeline::run(&mesh, &Options::default(), &Silent).expect("a model");
     let run = Run { path: name, repairs: &repairs, stages: &[], warnings: &[] };
-    let documents = product::export_input(&output, name, &run).expect("documents");
+    let product = Product::new(&output, name, run);
     let [fold, pdf] = ["fold", "pdf"].map(|format| {
-        let mut files = format_of(format).expect("registered").write(&documents).expect("files");
+        let format = format_of(format).expect("registered");
+        let mut files = format.write(&product, &FormatOptions::default()).expect("files");
         files.remove(0).bytes
     });
     let master = serde_json::from_slice(&fold).expect("FOLD");

@@ -3,8 +3,11 @@ use crate::export::fixture::model;
 use std::collections::BTreeSet;
 
 fn written(version: DxfVersion, text_mode: TextMode) -> String {
-    let input = model(2).with_dxf_version(version).with_text_mode(text_mode);
-    let files = write(&input).expect("can be written");
+    let options = FormatOptions {
+        dxf: DxfOptions { version, text: text_mode, ..DxfOptions::default() },
+        ..FormatOptions::default()
+    };
+    let files = write(&model(2), &options).expect("can be written");
     assert_eq!(files.iter().map(|f| f.suffix.as_str()).collect::<Vec<_>>(), ["-1", "-2"]);
     String::from_utf8(files[0].bytes.clone()).expect("ASCII")
 }
@@ -95,4 +98,37 @@ fn the_same_input_gives_the_same_bytes() {
         assert!(text == written(version, TextMode::Outlines));
         assert_eq!(text.contains("AcDb"), version == DxfVersion::R2000);
     }
+}
+
+#[test]
+fn letters_on_a_dashed_layer_are_solid_lines() {
+    let stroke = LineStyles::standard().stroke(Layer::Glue).clone();
+    let mut drawing = Drawing::new("page", DVec2::new(100.0, 100.0));
+    drawing.marks = vec![
+        Mark::line(Layer::Glue, DVec2::ZERO, DVec2::X, &stroke),
+        Mark::text(Layer::Glue, Text::new("LL", DVec2::ONE, 2.0)),
+    ];
+    let pages = Pages::new("page", vec![drawing], LineStyles::standard()).expect("valid");
+    let files = write(&pages, &FormatOptions::default()).expect("can be written");
+    let file = read(std::str::from_utf8(&files[0].bytes).expect("ASCII"));
+    let types: Vec<&str> = file.entities().map(|e| e.common.line_type_name.as_str()).collect();
+    // A crease, and two strokes for each letter.
+    assert_eq!(types, [&["BYLAYER"][..], &["CONTINUOUS"; 4]].concat());
+}
+
+#[test]
+fn sheets_may_stand_in_a_row_in_one_file() {
+    let dxf = DxfOptions { sheets: DxfSheets::Row, ..DxfOptions::default() };
+    let files = write(&model(3), &FormatOptions { dxf, ..FormatOptions::default() }).expect("can be written");
+    assert_eq!(files.len(), 1);
+    let file = read(std::str::from_utf8(&files[0].bytes).expect("ASCII"));
+    assert!((length_mm(&file, "CUT") - 3.0 * 288.0).abs() < 1e-6);
+    let left = file.entities().filter_map(|e| match &e.specific {
+        EntityType::LwPolyline(line) if e.common.layer == "CUT" => line.vertices.first().map(|v| v.x),
+        _ => None,
+    });
+    let left: Vec<f64> = left.collect();
+    // A4 and a gap of 20 mm.
+    assert!((left[4] - left[0] - 230.0).abs() < 1e-9 && (left[8] - left[0] - 460.0).abs() < 1e-9, "{left:?}");
+    assert_eq!(file.header.maximum_drawing_extents.x, 670.0);
 }

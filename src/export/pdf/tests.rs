@@ -1,11 +1,14 @@
 use super::*;
+use crate::drawing::{Chapter, Drawing, Image, Mark, Polyline, Raster, Rgb};
 use crate::export::fixture::{A4_MM, LEGEND, model};
+use crate::units::parse_paper;
+use glam::DAffine2;
 use lopdf::content::{Content, Operation};
 
 const MM_PER_PT: f64 = 25.4 / 72.0;
 
 fn written(pages: usize) -> Vec<u8> {
-    let mut files = write(&model(pages)).expect("the fixture can be written");
+    let mut files = write(&model(pages), &FormatOptions::default()).expect("the fixture can be written");
     assert_eq!(files.len(), 1);
     files.remove(0).bytes
 }
@@ -79,7 +82,7 @@ fn dashes_are_in_points() {
     let document = Document::load_mem(&written(1)).expect("valid PDF");
     let dashes = operations(&document, 1).into_iter().filter(|o| o.operator == "d");
     let dashes = dashes.map(|o| numbers(o.operands[0].as_array().expect("array")));
-    let mountain = [2.0, 1.0].map(|mm| mm * PT_PER_MM);
+    let mountain = [2.0, 1.0].map(|mm| mm / MM_PER_PT);
     let is_mountain = |dash: &Vec<f64>| {
         dash.len() == 2 && (dash[0] - mountain[0]).abs() < 1e-5 && (dash[1] - mountain[1]).abs() < 1e-5
     };
@@ -103,9 +106,9 @@ fn the_catalog_forbids_scaling_and_names_the_layers() {
     };
     let names = groups.iter().map(name).collect::<Vec<_>>();
     for layer in LEGEND {
-        assert!(names.contains(&layer.name().to_owned()), "{names:?}");
+        assert!(names.iter().any(|name| name == LineStyles::standard().layer_name(layer)), "{names:?}");
     }
-    assert_eq!(names.last().map(String::as_str), Some("picture"));
+    assert_eq!(names.last().map(String::as_str), Some("PICTURE"));
 }
 
 #[test]
@@ -131,4 +134,111 @@ fn the_same_input_gives_the_same_bytes() {
     let info = document.get_dictionary(info).expect("info");
     assert!(info.has(b"Title") && !info.has(b"CreationDate"));
     assert!(!document.trailer.has(b"ID"));
+}
+
+/// Title and destination of each bookmark, and how deep it is.
+fn bookmarks(document: &Document) -> Vec<(usize, String, Vec<f64>, ObjectId)> {
+    fn walk(
+        document: &Document,
+        of: &Dictionary,
+        depth: usize,
+        out: &mut Vec<(usize, String, Vec<f64>, ObjectId)>,
+    ) {
+        let mut next = of.get(b"First").and_then(Object::as_reference).ok();
+        while let Some(id) = next {
+            let item = document.get_dictionary(id).expect("an item");
+            let title = lopdf::decode_text_string(item.get(b"Title").expect("title")).expect("text");
+            let target = item.get(b"Dest").and_then(Object::as_array).expect("destination");
+            out.push((depth, title, numbers(&target[2..]), target[0].as_reference().expect("a page")));
+            walk(document, item, depth + 1, out);
+            next = item.get(b"Next").and_then(Object::as_reference).ok();
+        }
+    }
+    let mut out = Vec::new();
+    let root = document.catalog().and_then(|c| c.get(b"Outlines")).and_then(Object::as_reference);
+    walk(document, document.get_dictionary(root.expect("bookmarks")).expect("root"), 0, &mut out);
+    out
+}
+
+#[test]
+fn bookmarks_lead_to_components_and_pieces() {
+    let pieces = vec!["head 1/2".to_owned(), "head 2/2".to_owned()];
+    let chapters = vec![
+        Chapter { name: "hëad".to_owned(), pieces },
+        Chapter { name: "lost".to_owned(), pieces: vec!["lost".to_owned()] },
+    ];
+    let pages = model(2).with_chapters(chapters);
+    let files = write(&pages, &FormatOptions::default()).expect("can be written");
+    let document = Document::load_mem(&files[0].bytes).expect("valid PDF");
+    let found = bookmarks(&document);
+    let titles: Vec<(usize, &str)> = found.iter().map(|b| (b.0, b.1.as_str())).collect();
+    // A component without a piece on any page has no bookmark.
+    assert_eq!(titles, [(0, "hëad"), (1, "head 1/2"), (1, "head 2/2")]);
+    // The first piece is the square of 30 mm at (20, 40) on the first page.
+    let first = DVec2::from_slice(&found[1].2[..2]) * MM_PER_PT;
+    let last = DVec2::from_slice(&found[1].2[2..]) * MM_PER_PT;
+    assert!((first - DVec2::new(15.0, 35.0)).length() < 1e-4, "{first}");
+    assert!((last - DVec2::new(55.0, 75.0)).length() < 1e-4, "{last}");
+    assert_eq!(found[1].3, document.get_pages()[&1]);
+}
+
+#[test]
+fn a_date_is_written_only_where_one_is_given() {
+    let pdf = PdfOptions::default().with_created(Timestamp::of_unix(1_000_000_000));
+    let files = write(&model(1), &FormatOptions { pdf, ..FormatOptions::default() }).expect("can be written");
+    let document = Document::load_mem(&files[0].bytes).expect("valid PDF");
+    let info = document.trailer.get(b"Info").and_then(Object::as_reference).expect("info");
+    let date = document.get_dictionary(info).and_then(|info| info.get(b"CreationDate"));
+    assert_eq!(date.and_then(Object::as_str).expect("a date"), b"D:20010909014640Z");
+}
+
+#[test]
+fn tiles_hold_the_whole_sheet_at_full_size() {
+    let pdf = PdfOptions::default().with_tile(parse_paper("a5").ok()).expect("large enough");
+    let files = write(&model(1), &FormatOptions { pdf, ..FormatOptions::default() }).expect("can be written");
+    let document = Document::load_mem(&files[0].bytes).expect("valid PDF");
+    let pages = document.get_pages();
+    // A4 on A5 upright is two by two: 148 - 30 mm and 210 - 30 mm a step. The upper half is empty.
+    assert_eq!(pages.len(), 2);
+    for (&number, id) in &pages {
+        let page = document.get_dictionary(*id).expect("page");
+        let media = numbers(page.get(b"MediaBox").and_then(Object::as_array).expect("box"));
+        assert!((DVec2::from_slice(&media[2..]) * MM_PER_PT - DVec2::new(148.0, 210.0)).length() < 1e-4);
+        let shifts = operations(&document, number).into_iter().filter(|o| o.operator == "cm");
+        let shifts: Vec<Vec<f64>> = shifts.map(|o| numbers(&o.operands)).collect();
+        // Moved, but not scaled.
+        assert_eq!(shifts.len(), 1);
+        assert_eq!(shifts[0][..4], [1.0, 0.0, 0.0, 1.0]);
+    }
+    let text = document.extract_text(&[1, 2]).expect("text");
+    for words in ["tile B1 of 2 × 2", "tile B2 of 2 × 2", "50 mm"] {
+        assert!(text.contains(words), "{words:?} is not in {text:?}");
+    }
+}
+
+#[test]
+fn pictures_are_pixels_at_their_place() {
+    let pixels = vec![Rgb(255, 0, 0), Rgb(0, 255, 0)];
+    let raster = std::sync::Arc::new(Raster::new(2, 1, 5.0, pixels).expect("valid"));
+    let clip = Polyline::closed([[20.0, 30.0], [30.0, 30.0], [25.0, 35.0]].map(DVec2::from).to_vec());
+    let place = DAffine2::from_translation(DVec2::new(20.0, 30.0));
+    let mut drawing = Drawing::new("page", A4_MM);
+    drawing.marks = vec![Mark::image(Layer::Picture, Image { raster, place, clip })];
+    let pages = Pages::new("page", vec![drawing], LineStyles::standard()).expect("valid");
+    let files = write(&pages, &FormatOptions::default()).expect("can be written");
+    let document = Document::load_mem(&files[0].bytes).expect("valid PDF");
+    let operations = operations(&document, 1);
+    let operators = operations.iter().map(|o| o.operator.as_str()).collect::<Vec<_>>().join(" ");
+    assert!(operators.contains("q m l l h W n cm q cm Do Q Q"), "{operators}");
+    let matrix =
+        operations.iter().find(|o| o.operator == "cm").map(|o| numbers(&o.operands)).expect("placed");
+    for (found, expected) in matrix.iter().zip([10.0, 0.0, 0.0, 5.0, 20.0, 30.0]) {
+        assert!((found * MM_PER_PT - expected).abs() < 1e-4, "{matrix:?}");
+    }
+    let stream = document.objects.values().filter_map(|object| object.as_stream().ok());
+    let mut images =
+        stream.filter(|s| s.dict.get(b"Subtype").and_then(Object::as_name).ok() == Some(b"Image"));
+    let image = images.next().expect("an image");
+    let content = image.decompressed_content().unwrap_or_else(|_| image.content.clone());
+    assert_eq!(content, [255, 0, 0, 0, 255, 0]);
 }

@@ -1,0 +1,147 @@
+//! `tatamu segment`
+
+use super::error::CliError;
+use super::options::ModelArgs;
+use super::progress::TerminalProgress;
+use super::segment_args::SegmentArgs;
+use super::{input, make, output, terminal};
+use clap::Args;
+use std::path::{Path, PathBuf};
+use tatamu::export::png;
+use tatamu::geom::Hull;
+use tatamu::mesh::Up;
+use tatamu::parts_report::{self, PartsRun};
+use tatamu::pipeline;
+use tatamu::progress::Progress;
+use tatamu::project::parse_up;
+use tatamu::render::parts_picture;
+use tatamu::segment::{Overlap, Parts, overlap};
+
+/// Shows the parts that a mesh is divided into, without making a model.
+///
+/// Each part becomes one component of the model. The picture shows the parts in colour from two
+/// sides with their names, by which a project file can merge, split and rename them.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct SegmentCommand {
+    /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB) or project file (TOML)
+    ///
+    /// Changes by hand in a project file are made before the parts are shown.
+    #[arg(value_name = "INPUT")]
+    input: PathBuf,
+
+    /// Picture to write, a PNG file
+    ///
+    /// An existing file is replaced. Example: -o parts.png
+    #[arg(short, long = "output", value_name = "FILE")]
+    output: Option<PathBuf>,
+
+    /// File for the segmentation: one number a line
+    ///
+    /// For each face of the input file, in its order, the index of its part from 0; -1 for a face
+    /// that was dropped in the repair. Example: --segments teddy.seg
+    #[arg(long, value_name = "FILE")]
+    segments: Option<PathBuf>,
+
+    /// File for a report: parts, borders with their planes, seconds by step, as JSON
+    ///
+    /// Example: --report parts.json
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+
+    /// Axis of the mesh that points up: x, y or z [default: y]
+    ///
+    /// Only the picture depends on it. Example: --up z
+    #[arg(long, value_name = "AXIS", value_parser = parse_up)]
+    up: Option<Up>,
+
+    #[command(flatten)]
+    segmentation: SegmentArgs,
+
+    /// No summary and no progress bar; warnings and errors only
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  tatamu segment teddy.obj -o parts.png
+  tatamu segment teddy.obj --parts 6 -o parts.png --report parts.json
+  tatamu segment teddy.toml -o parts.png";
+
+const DOTS_PER_INCH: f64 = 130.0;
+
+/// Runs the command.
+pub fn run(args: &SegmentCommand) -> Result<(), CliError> {
+    if let Some(path) = args.output.as_ref().filter(|p| !is_png(p)) {
+        return Err(CliError::Extension { path: path.clone(), known: ".png".to_owned() });
+    }
+    let places: Vec<PathBuf> =
+        [&args.output, &args.segments, &args.report].into_iter().flatten().cloned().collect();
+    output::check_places(&places, &[&args.input])?;
+    let input = input::read(&args.input)?;
+    output::check_places(&places, &[&args.input, &input.mesh_path])?;
+    let model_args = ModelArgs::of_segmentation(args.up, args.segmentation.clone());
+    let options = model_args.merge(&input)?;
+    make::repair_warnings(&input.repairs).iter().for_each(make::warn);
+
+    let progress = TerminalProgress::new(args.quiet);
+    let (parts, _) = pipeline::find_parts(&input.mesh, &options, &progress)
+        .map_err(|error| CliError::of_run(error, &progress))?;
+    progress.stage("hulls");
+    let hulls: Vec<Option<Hull>> = parts.hulls().into_iter().map(Result::ok).collect();
+    progress.stage("overlap");
+    let overlap = overlap(parts.mesh(), hulls.iter().flatten());
+    let mut files = Vec::new();
+    if let Some(path) = &args.output {
+        progress.stage("picture");
+        files.push((path.clone(), draw(&parts, path)?));
+    }
+    let stages = progress.finish();
+    if let Some(path) = &args.segments {
+        let labels: Vec<Option<u32>> =
+            parts.segmentation().face_segments().iter().map(|id| Some(id.0)).collect();
+        files.push((path.clone(), make::segments(parts.mesh(), &labels, &input.repairs)));
+    }
+    if let Some(path) = &args.report {
+        let mesh_path = input.mesh_path.to_string_lossy();
+        let run = PartsRun { path: &mesh_path, hulls: &hulls, overlap, stages: &stages };
+        let bytes = parts_report::to_json(&parts, &run)
+            .map_err(|error| CliError::Output { path: path.clone(), reason: error.to_string() })?;
+        files.push((path.clone(), bytes));
+    }
+    output::write(&files)?;
+    if !args.quiet {
+        summarise(&parts, overlap, &stages);
+        let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
+        if !written.is_empty() {
+            terminal::say(&format!("written     {}", written.join(", ")));
+        }
+    }
+    Ok(())
+}
+
+fn is_png(path: &Path) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"))
+}
+
+fn draw(parts: &Parts, path: &Path) -> Result<Vec<u8>, CliError> {
+    let refuse = |reason: String| CliError::Output { path: path.to_owned(), reason };
+    let labels: Vec<u32> = parts.segmentation().face_segments().iter().map(|id| id.0).collect();
+    let drawing =
+        parts_picture(parts.mesh(), &labels, parts.names()).map_err(|error| refuse(error.to_string()))?;
+    png::render(&drawing, DOTS_PER_INCH).map_err(|error| refuse(error.to_string()))
+}
+
+fn summarise(parts: &Parts, overlap: Option<Overlap>, stages: &[(&'static str, f64)]) {
+    let shares = parts.names().iter().zip(parts.area_shares());
+    let shares: Vec<String> = shares.map(|(name, share)| format!("{name} {:.0}%", 100.0 * share)).collect();
+    terminal::say(&format!("parts       {}, by share of the surface: {}", shares.len(), shares.join(", ")));
+    let likeness = match overlap {
+        Some(o) => format!("{:.3} (their hulls' union over the solid: intersection over union)", o.iou),
+        None => "unknown: the mesh encloses nothing".to_owned(),
+    };
+    terminal::say(&format!("likeness    {likeness}"));
+    let steps: Vec<String> = stages.iter().map(|(name, s)| format!("{name} {s:.2}")).collect();
+    terminal::say(&format!("seconds     {}", steps.join(", ")));
+}

@@ -1,0 +1,53 @@
+//! Wavefront OBJ of the deployed model, for programs that know no paper.
+//!
+//! One object a component, one group a panel, in millimetres, y up. Each panel has vertices of its
+//! own, since slits keep neighbours apart. Colours of components are written after the coordinates
+//! of vertices, as MeshLab and Blender read them.
+
+use super::{ExportError, ExportFile, Format, FormatOptions, Source};
+use crate::component::PanelId;
+use crate::drawing::Rgb;
+use crate::model::Model;
+use crate::product::Product;
+use crate::render::palette;
+use std::fmt::Write;
+
+/// The registry's entry.
+pub const FORMAT: Format = Format {
+    name: "obj",
+    extensions: &["obj"],
+    description: "OBJ: the standing model as polygons, in millimetres",
+    source: Source::Model(write),
+};
+
+fn write(product: &Product<'_>, _: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
+    let text = text(product.output().model(), product.title());
+    Ok(vec![ExportFile::single(text.into_bytes())])
+}
+
+fn text(model: &Model, title: &str) -> String {
+    let creator = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
+    let mut out = format!("# {}, by {creator}; millimetres, y up\n", one_line(title));
+    let mut count = 0;
+    for (p, part) in model.parts().iter().enumerate() {
+        let Rgb(red, green, blue) = palette::colour(p);
+        let colour = [red, green, blue].map(|c| format!("{:.3}", f64::from(c) / 255.0)).join(" ");
+        let _ = writeln!(out, "o {}", one_line(&part.name));
+        for (id, panel) in part.component.panels().panels().iter().enumerate() {
+            let outline = model.deployed_outline(p, PanelId(id));
+            let _ = writeln!(out, "g {}", panel.kind.short_name());
+            for corner in &outline {
+                let _ = writeln!(out, "v {:.6} {:.6} {:.6} {colour}", corner.x, corner.y, corner.z);
+            }
+            let corners: String = (1..=outline.len()).map(|k| format!(" {}", count + k)).collect();
+            let _ = writeln!(out, "f{corners}");
+            count += outline.len();
+        }
+    }
+    out
+}
+
+/// Names cannot begin another line.
+fn one_line(name: &str) -> String {
+    name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}

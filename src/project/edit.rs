@@ -1,0 +1,103 @@
+//! The tables `[[edit]]`.
+
+use crate::geom::Plane;
+use crate::segment;
+use glam::DVec3;
+use serde::Deserialize;
+
+/// A change to the parts, as it stands in the file.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(try_from = "Table")]
+pub struct Edit(segment::Edit);
+
+impl Edit {
+    /// The change, in the coordinates of the mesh file.
+    pub fn change(&self) -> &segment::Edit {
+        &self.0
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Table {
+    merge: Option<Vec<String>>,
+    split: Option<String>,
+    point: Option<[f64; 3]>,
+    normal: Option<[f64; 3]>,
+    front: Option<String>,
+}
+
+impl TryFrom<Table> for Edit {
+    type Error = &'static str;
+
+    fn try_from(table: Table) -> Result<Self, Self::Error> {
+        let has_plane = table.point.is_some() || table.normal.is_some() || table.front.is_some();
+        match (table.merge, table.split) {
+            (Some(parts), None) if !has_plane => {
+                if parts.len() < 2 {
+                    return Err("merge needs two or more names, such as [\"body\", \"part-2\"]");
+                }
+                Ok(Self(segment::Edit::Merge { parts }))
+            }
+            (None, Some(part)) => {
+                let (Some(point), Some(normal)) = (table.point, table.normal) else {
+                    return Err("split needs a plane: a point and a normal, each such as [0, 1.5, 0]");
+                };
+                let plane = Plane::through(DVec3::from_array(point), DVec3::from_array(normal));
+                let plane = plane.ok_or("the normal must have a length, and all numbers must be finite")?;
+                if table.front.as_ref().is_some_and(|name| !is_name(name)) {
+                    return Err(
+                        "front is the name of the new part: a letter at least, no control characters",
+                    );
+                }
+                Ok(Self(segment::Edit::Split { part, plane, front: table.front }))
+            }
+            _ => Err("an edit has either merge, or split with point and normal"),
+        }
+    }
+}
+
+fn is_name(name: &str) -> bool {
+    !name.trim().is_empty() && !name.contains(char::is_control)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Project;
+    use super::*;
+
+    fn parse(edit: &str) -> Result<Project, String> {
+        Project::parse(&format!("mesh = 'a.obj'\n[[edit]]\n{edit}\n")).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn merges_and_splits_in_their_order() {
+        let text = "merge = ['body', 'part-3']\n[[edit]]\nsplit = 'body'\npoint = [0, 2, 0]\n\
+                    normal = [0, 5, 0]\nfront = 'head'";
+        let project = parse(text).unwrap();
+        let parts = vec!["body".to_owned(), "part-3".to_owned()];
+        assert_eq!(project.edits[0].change(), &segment::Edit::Merge { parts });
+        let segment::Edit::Split { part, plane, front } = project.edits[1].change() else {
+            panic!("the second is a split");
+        };
+        assert_eq!((part.as_str(), front.as_deref()), ("body", Some("head")));
+        assert_eq!((plane.normal(), plane.offset()), (DVec3::Y, 2.0));
+    }
+
+    #[test]
+    fn wrong_edits_are_told_with_their_place() {
+        for (edit, word) in [
+            ("merge = ['body']", "two or more"),
+            ("split = 'body'", "needs a plane"),
+            ("split = 'body'\npoint = [0, 0, 0]\nnormal = [0, 0, 0]", "must have a length"),
+            ("split = 'body'\npoint = [0, nan, 0]\nnormal = [0, 0, 1]", "finite"),
+            ("split = 'body'\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nfront = ' '", "front"),
+            ("merge = ['a', 'b']\nsplit = 'c'", "either"),
+            ("front = 'a'", "either"),
+            ("cut = 'a'", "unknown field `cut`"),
+        ] {
+            let message = parse(edit).unwrap_err();
+            assert!(message.contains(word) && message.contains("line"), "{edit}: {message}");
+        }
+    }
+}

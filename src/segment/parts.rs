@@ -1,0 +1,108 @@
+//! A mesh divided into named parts.
+
+use super::surface::Surface;
+use super::{SegmentId, Segmentation};
+use crate::geom::{Hull, HullError};
+use crate::mesh::Mesh;
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// A mesh divided into parts with names.
+///
+/// # Guarantees
+/// One name for each segment, all different. The parts are in the order of their area, biggest
+/// first, but for a root that was chosen, which is the first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parts {
+    mesh: Mesh,
+    segmentation: Segmentation,
+    names: Vec<String>,
+}
+
+/// Name of a part that was not given another: the first, biggest one is the body.
+pub fn default_name(index: usize) -> String {
+    if index == 0 { "body".to_owned() } else { format!("part-{}", index + 1) }
+}
+
+impl Parts {
+    /// Names the segments of a mesh in their order.
+    pub fn new(mesh: Mesh, segmentation: Segmentation) -> Self {
+        let names = (0..segmentation.count()).map(default_name).collect();
+        Self { mesh, segmentation, names }
+    }
+
+    /// Parts from a label for each face and a name for each label; labels without a face are
+    /// dropped.
+    pub(super) fn of_labels(mesh: Mesh, labels: &[u32], names: &[String]) -> Self {
+        let areas = face_areas(&mesh);
+        let segmentation = Segmentation::numbered(labels, names.len(), &areas);
+        let mut ordered = vec![String::new(); segmentation.count()];
+        for (id, &label) in segmentation.face_segments().iter().zip(labels) {
+            let name = &mut ordered[id.0 as usize];
+            if name.is_empty() {
+                name.clone_from(&names[label as usize]);
+            }
+        }
+        Self { mesh, segmentation, names: ordered }
+    }
+
+    /// The same parts with one of them first.
+    pub(super) fn with_first(mut self, part: usize) -> Self {
+        let renumbered = |id: usize| match id {
+            _ if id == part => 0,
+            _ if id < part => id as u32 + 1,
+            _ => id as u32,
+        };
+        for id in &mut self.segmentation.face_segment {
+            *id = SegmentId(renumbered(id.0 as usize));
+        }
+        self.names[..=part].rotate_right(1);
+        self
+    }
+
+    /// The mesh. Where a part was split, its faces are cut.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// Its segments.
+    pub fn segmentation(&self) -> &Segmentation {
+        &self.segmentation
+    }
+
+    /// Their names.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The convex hull of each part; an error where it has no volume.
+    pub fn hulls(&self) -> Vec<Result<Hull, HullError>> {
+        let mut points: Vec<Vec<DVec3>> = vec![Vec::new(); self.names.len()];
+        for (f, id) in self.segmentation.face_segments().iter().enumerate() {
+            points[id.0 as usize].extend(self.mesh.corners(f));
+        }
+        points.par_iter().map(|p| Hull::of_points(p)).collect()
+    }
+
+    /// Number of faces of each part.
+    pub fn face_counts(&self) -> Vec<usize> {
+        let mut counts = vec![0; self.names.len()];
+        self.segmentation.face_segments().iter().for_each(|id| counts[id.0 as usize] += 1);
+        counts
+    }
+
+    /// Share of the surface that each part has.
+    pub fn area_shares(&self) -> Vec<f64> {
+        let mut shares = vec![0.0; self.names.len()];
+        let areas = face_areas(&self.mesh);
+        let total: f64 = areas.iter().sum();
+        for (id, area) in self.segmentation.face_segments().iter().zip(areas) {
+            shares[id.0 as usize] += area / total;
+        }
+        shares
+    }
+}
+
+fn face_areas(mesh: &Mesh) -> Vec<f64> {
+    Surface::face_areas(mesh.positions(), mesh.faces())
+}
