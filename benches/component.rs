@@ -56,8 +56,8 @@ fn meshes() -> Vec<Named> {
 fn bodies(path: &Path) -> Option<Bodies> {
     let (mesh, _) = Mesh::from_soup(&mesh::read(&std::fs::read(path).ok()?).ok()?).ok()?;
     let options = Options::default();
-    let (found, _) = pipeline::find_parts(&mesh, &options, &Silent).ok()?;
-    Bodies::new(&found, &options).ok()
+    let (divided, _) = pipeline::find_parts(&mesh, &options, &Silent).ok()?;
+    Bodies::new(&divided, &options).ok()
 }
 
 /// All components of a mesh at the default settings, without its segmentation.

@@ -26,6 +26,8 @@ const SUPPORT_WORTH: f64 = 0.04;
 const ROUNDS: [(usize, usize); 2] = [(4, 5), (6, 3)];
 /// Steps of a fit at most.
 const STEPS: usize = 24;
+/// So many panels are dropped at most, for want of room.
+const REPAIRS: usize = 40;
 /// Steps after a panel was dropped.
 const REPAIR_STEPS: usize = 8;
 /// A shape that misses a limit by less is as good as one that keeps it.
@@ -157,7 +159,7 @@ fn settle(target: &Target, fit: Fit) -> Result<(Fitted, Assembled), AssembleErro
     let mut is_least = false;
     let mut best: Option<(f64, Fitted, Assembled)> = None;
     let mut failure = AssembleError::NoRoom;
-    loop {
+    for _ in 0..REPAIRS {
         let is_valid = fit.best().lack_mm < NEAR_ENOUGH_MM;
         match assemble_unbroken(fit.best()) {
             Ok(made) => {

@@ -303,7 +303,10 @@ pub(super) fn simplify(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<F
     let mut simpler = solid.clone();
     let spare = |j: usize| {
         let facets = &solid.chains[j].facets;
-        let free = (0..facets.len()).filter(|&k| facets.len() > 1 && !facets[k].is_joint);
+        // A joint panel needs a plane beside it, for the chain to fold at.
+        let has_other =
+            facets.iter().filter(|f| !f.is_joint).count() > 1 || facets.iter().all(|f| !f.is_joint);
+        let free = (0..facets.len()).filter(|&k| facets.len() > 1 && has_other && !facets[k].is_joint);
         free.min_by(|&a, &b| {
             let area = |k: usize| bulge(&shape.chains[j].lines, k, (solid.top_mm, solid.bottom_mm)).0;
             area(a).total_cmp(&area(b))
