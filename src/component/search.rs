@@ -23,7 +23,7 @@ const PRICE_RISES: usize = 2;
 /// A better supported joint may cost this share of the hull's height in error.
 const SUPPORT_WORTH: f64 = 0.04;
 /// The search narrows down: after so many steps each, so many starts are left.
-const ROUNDS: [(usize, usize); 2] = [(4, 5), (6, 3)];
+const ROUNDS: [(usize, usize); 2] = [(4, 6), (6, 4)];
 /// Steps of a fit at most.
 const STEPS: usize = 24;
 /// So many panels are dropped at most, for want of room.
