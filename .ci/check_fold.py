@@ -136,7 +136,7 @@ def check_edges(fold, at_edges):
 
 
 def label_pairs(fold):
-    """The tab edge and the mate edge of each label."""
+    """The two edges of each label."""
     edges = defaultdict(list)
     for k, label in enumerate(fold["edges_tatamu:label"]):
         kind = fold["edges_tatamu:kind"][k]
@@ -147,7 +147,9 @@ def label_pairs(fold):
     pairs = {}
     for label, found in edges.items():
         kinds = sorted(fold["edges_tatamu:kind"][k] for k in found)
-        if require(kinds == ["mate", "tab"], f"label {label} stands on {kinds}"):
+        # Two mates are joined by tape.
+        is_pair = kinds in (["mate", "tab"], ["mate", "mate"])
+        if require(is_pair, f"label {label} stands on {kinds}"):
             pairs[label] = found
     return pairs
 

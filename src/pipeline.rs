@@ -1,12 +1,13 @@
 //! The way from a mesh to sheets, stage by stage. Reading [`run`] is reading the program.
 
+use crate::fold::{FoldPlan, ModelMotion};
 use crate::geom::Hull;
 use crate::mesh::{Mesh, Up};
 use crate::model::{self, Contact, Link, Model, ModelError, Part, PartOptions};
-use crate::net::{Net, NetOptions, NetsError, develop_model};
+use crate::net::{Net, NetChoices, NetOptions, NetsError, develop_model};
 use crate::progress::{Cancelled, Progress};
 use crate::segment::{self, Edit, EditError, Parts, SegmentError, SegmentId, SegmentOptions, Segmentation};
-use crate::sheet::{Layout, LayoutError, SheetOptions};
+use crate::sheet::{Layout, LayoutError, SheetChoices, SheetOptions};
 use crate::units::Paper;
 use glam::{DAffine3, DVec3};
 use std::collections::{BTreeMap, BTreeSet};
@@ -30,6 +31,9 @@ pub struct Options {
     pub top_edges: usize,
     /// Vertices of profiles, at least 3.
     pub profile_vertices: usize,
+    /// Distance between component and hull that is close enough, mm: then as few edges and
+    /// vertices are used as reach it, and the two numbers above are the most.
+    pub tolerance_mm: Option<f64>,
     /// Least width and height of panels, mm.
     pub min_panel_width_mm: f64,
     /// Width of glue tabs, mm.
@@ -38,6 +42,12 @@ pub struct Options {
     pub paper: Paper,
     /// Border of the sheets that stays free, mm.
     pub margin_mm: f64,
+    /// Thickness of the paper, mm.
+    pub thickness_mm: f64,
+    /// What else is chosen about nets.
+    pub nets: NetChoices,
+    /// What else is chosen about sheets.
+    pub sheets: SheetChoices,
 }
 
 impl Default for Options {
@@ -51,10 +61,14 @@ impl Default for Options {
             components: BTreeMap::new(),
             top_edges: 6,
             profile_vertices: 6,
+            tolerance_mm: None,
             min_panel_width_mm: 3.0,
             tab_width_mm: 6.0,
             paper: Paper::default(),
             margin_mm: 10.0,
+            thickness_mm: 0.25,
+            nets: NetChoices::default(),
+            sheets: SheetChoices::default(),
         }
     }
 }
@@ -126,7 +140,7 @@ fn too_large(error: &NetsError, size_mm: f64) -> String {
             let fits = (size_mm * scale * FITS).floor();
             format!(
                 "a panel of \"{name}\" measures {:.0} × {:.0} mm and does not fit the {:.0} × {:.0} mm within the \
-                 sheet's margins; use --size {fits}mm at most, or larger --paper",
+                 sheet's margins; use --size {fits}mm at most, or larger --paper, or do without --no-split",
                 panel.x, panel.y, sheet_mm.x, sheet_mm.y
             )
         }
@@ -152,6 +166,7 @@ pub struct Output {
     face_part: Vec<Option<u32>>,
     part_faces: Vec<usize>,
     model: Model,
+    fold_plan: FoldPlan,
     nets: Vec<Net>,
     layout: Layout,
     warnings: Vec<Warning>,
@@ -188,6 +203,11 @@ impl Output {
         &self.model
     }
 
+    /// How the model folds.
+    pub fn fold_plan(&self) -> &FoldPlan {
+        &self.fold_plan
+    }
+
     /// Their nets, in the same order.
     pub fn nets(&self) -> &[Net] {
         &self.nets
@@ -209,16 +229,23 @@ impl Output {
 /// # Errors
 /// See [`Error`].
 pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
-    let (found, to_model) = find_parts(mesh, options, progress)?;
-    let (mesh, segmentation) = (found.mesh(), found.segmentation());
-    let Bodies { solid, parts, links } = divide(&found, options, progress)?;
+    let (divided, to_model) = find_parts(mesh, options, progress)?;
+    let (mesh, segmentation) = (divided.mesh(), divided.segmentation());
+
+    progress.stage("hulls");
+    let Bodies { parts, links, part_of_segment, flat } = Bodies::new(&divided, options)?;
+    progress.check()?;
 
     progress.stage("components");
     let model = model::build(&parts, &links, options.min_panel_width_mm, progress)?;
 
+    progress.stage("folding");
+    let fold_plan = FoldPlan::new(&ModelMotion::new(&model), options.thickness_mm, progress)?;
+
     progress.stage("nets");
-    let sheets = SheetOptions { paper: options.paper, margin_mm: options.margin_mm };
-    let net_options = NetOptions { tab_width_mm: options.tab_width_mm, sheet_mm: sheets.room_mm() };
+    let sheets = SheetOptions { paper: options.paper, margin_mm: options.margin_mm, choices: options.sheets };
+    let net_options =
+        NetOptions { tab_width_mm: options.tab_width_mm, sheet_mm: sheets.room_mm(), choices: options.nets };
     let nets = develop_model(&model, &net_options, progress)
         .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
 
@@ -228,11 +255,13 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     let face_part: Vec<Option<u32>> = segmentation
         .face_segments()
         .iter()
-        .map(|s| solid.part_of_segment[s.0 as usize].map(|p| p as u32))
+        .map(|s| part_of_segment[s.0 as usize].map(|p| p as u32))
         .collect();
     let mut part_faces = vec![0; parts.len()];
     face_part.iter().flatten().for_each(|&p| part_faces[p as usize] += 1);
-    let warnings = warnings(&model, &nets, &solid.flat, options.min_panel_width_mm);
+    let mut warnings = warnings(&model, &nets, &flat, options);
+    let advice = fold_plan.advice(&model).into_iter();
+    warnings.extend(advice.map(|(code, message)| Warning { code, message }));
     Ok(Output {
         options: options.clone(),
         mesh: mesh.clone(),
@@ -240,14 +269,15 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
         face_part,
         part_faces,
         model,
+        fold_plan,
         nets,
         layout,
         warnings,
     })
 }
 
-/// Finds the parts of a mesh at the model's size, and makes the changes by hand; also gives the
-/// transform from the coordinates of the mesh as it was read.
+/// Divides a mesh at the model's size into parts; also gives the transform from the coordinates of
+/// the mesh as it was read.
 ///
 /// # Errors
 /// [`Error::Segment`], [`Error::Edit`], [`Error::Cancelled`].
@@ -268,15 +298,31 @@ pub fn find_parts(
     Ok((parts, to_model))
 }
 
-/// A mesh divided into parts, with the joints between them: what the components are made from.
+/// Hulls of the parts of a mesh, with the joints between them: what the components are made from.
 #[derive(Debug, Clone)]
 pub struct Bodies {
-    solid: Solid,
     parts: Vec<Part>,
     links: Vec<Link>,
+    part_of_segment: Vec<Option<usize>>,
+    /// Number of faces of each segment that is flat.
+    flat: Vec<usize>,
 }
 
 impl Bodies {
+    /// The hulls of `divided`, with what `options` says of each.
+    ///
+    /// # Errors
+    /// [`Error::NothingSolid`], [`Error::NoComponent`], [`Error::SameName`].
+    pub fn new(divided: &Parts, options: &Options) -> Result<Self, Error> {
+        let solid = hulls(divided);
+        let names = solid.names(divided.names());
+        let parts = parts(solid.hulls, &names, options)?;
+        let contacts = contacts(divided.mesh(), divided.segmentation(), &solid.part_of_segment);
+        let hulls: Vec<&Hull> = parts.iter().map(|p| &p.hull).collect();
+        let links = model::link_tree(&hulls, &contacts);
+        Ok(Self { parts, links, part_of_segment: solid.part_of_segment, flat: solid.flat })
+    }
+
     /// The parts; a component is made of each.
     pub fn parts(&self) -> &[Part] {
         &self.parts
@@ -286,22 +332,6 @@ impl Bodies {
     pub fn links(&self) -> &[Link] {
         &self.links
     }
-}
-
-/// The hulls of parts, and the joints between them.
-///
-/// # Errors
-/// See [`Error`].
-pub fn divide(found: &Parts, options: &Options, progress: &dyn Progress) -> Result<Bodies, Error> {
-    progress.stage("hulls");
-    let mut solid = hulls(found);
-    let names = solid.names(found.names());
-    let parts = parts(std::mem::take(&mut solid.hulls), &names, options)?;
-    let contacts = contacts(found.mesh(), found.segmentation(), &solid.part_of_segment);
-    let hulls: Vec<&Hull> = parts.iter().map(|p| &p.hull).collect();
-    let links = model::link_tree(&hulls, &contacts);
-    progress.check()?;
-    Ok(Bodies { solid, parts, links })
 }
 
 /// Hulls of the segments that have one.
@@ -360,6 +390,7 @@ fn parts(hulls: Vec<Hull>, names: &[String], options: &Options) -> Result<Vec<Pa
                 direction_rad: own.direction_rad,
                 top_edges: own.top_edges.unwrap_or(options.top_edges),
                 profile_vertices: own.profile_vertices.unwrap_or(options.profile_vertices),
+                tolerance_mm: options.tolerance_mm,
                 comfortable_mm,
             },
         }
@@ -403,7 +434,8 @@ fn rim_mm(points: &[DVec3]) -> f64 {
 /// Joint panels that carry less than this of their child are worth a warning.
 const GOOD_SUPPORT: f64 = 0.8;
 
-fn warnings(model: &Model, nets: &[Net], flat: &[usize], min_panel_mm: f64) -> Vec<Warning> {
+fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Options) -> Vec<Warning> {
+    let min_panel_mm = options.min_panel_width_mm;
     let mut out = Vec::new();
     let mut warn = |code, message| out.push(Warning { code, message });
     if !flat.is_empty() {
@@ -438,6 +470,17 @@ fn warnings(model: &Model, nets: &[Net], flat: &[usize], min_panel_mm: f64) -> V
                 format!(
                     "{}: {what} is only {mm:.2} mm {word}, less than {min_panel_mm} mm; use fewer top edges or \
                      profile vertices for it, or a larger --size",
+                    part.name
+                ),
+            );
+        }
+        let error_mm = part.component.hausdorff_mm();
+        if let Some(tolerance_mm) = options.tolerance_mm.filter(|t| error_mm > *t) {
+            warn(
+                "tolerance_missed",
+                format!(
+                    "{}: it comes within {error_mm:.1} mm of its shape, not within {tolerance_mm} mm; allow more top \
+                     edges or profile vertices, or narrower panels",
                     part.name
                 ),
             );

@@ -1,11 +1,25 @@
 //! A finished run, from which every format takes what it needs when it is asked for.
 
-use crate::drawing::{Chapter, LineStyles, Pages, PagesError};
+use crate::drawing::{Chapter, Drawing, LineStyles, Pages, PagesError};
+use crate::mesh::painting::Painting;
 use crate::model::ModelPart;
 use crate::net::Net;
+use crate::paint;
 use crate::pipeline::Output;
 use crate::report::Run;
 use std::cell::OnceCell;
+
+/// What is drawn on the pages.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Content {
+    /// Everything.
+    #[default]
+    All,
+    /// What is only read: labels, glue marks, furniture, registration marks.
+    Print,
+    /// What a cutter works on: contours, slits and creases, in true size.
+    Cut,
+}
 
 /// A finished run with its title and the look of its sheets. The sheets are drawn when a format
 /// first asks for them.
@@ -15,19 +29,35 @@ pub struct Product<'a> {
     title: &'a str,
     run: Run<'a>,
     styles: LineStyles,
+    painting: Option<&'a Painting>,
+    content: Content,
     pages: OnceCell<Result<Pages, PagesError>>,
 }
 
 impl<'a> Product<'a> {
     /// A run with the standard line styles.
     pub fn new(output: &'a Output, title: &'a str, run: Run<'a>) -> Self {
-        Self { output, title, run, styles: LineStyles::standard(), pages: OnceCell::new() }
+        let styles = LineStyles::standard();
+        let (painting, content) = (None, Content::default());
+        Self { output, title, run, styles, painting, content, pages: OnceCell::new() }
+    }
+
+    /// The same with only a part of its marks, at the same places.
+    #[must_use]
+    pub fn with_content(self, content: Content) -> Self {
+        Self { content, pages: OnceCell::new(), ..self }
     }
 
     /// The same with another look.
     #[must_use]
     pub fn with_styles(self, styles: LineStyles) -> Self {
         Self { styles, pages: OnceCell::new(), ..self }
+    }
+
+    /// The same with panels in the mesh's colours.
+    #[must_use]
+    pub fn with_painting(self, painting: Option<&'a Painting>) -> Self {
+        Self { painting, pages: OnceCell::new(), ..self }
     }
 
     /// The results of all stages.
@@ -53,11 +83,34 @@ impl<'a> Product<'a> {
         let draw = || {
             let note = size_note(self.output);
             let layout = self.output.layout();
-            let drawings = layout.pages(self.output.nets(), self.title, &note, &self.styles);
-            let pages = Pages::new(self.title, drawings, self.styles.clone())?;
+            let mut drawings = layout.pages(self.output.nets(), self.title, &note, &self.styles);
+            if let Some(painting) = self.painting {
+                paint::colour(self.output, painting, &mut drawings);
+            }
+            let pages = Pages::new(self.title, self.reduced(drawings), self.styles.clone())?;
             Ok(pages.with_chapters(chapters(self.output)))
         };
         self.pages.get_or_init(draw).as_ref().map_err(Clone::clone)
+    }
+
+    /// Leaves what is asked for, and makes up for the printer's scale where it is printed.
+    fn reduced(&self, mut pages: Vec<Drawing>) -> Vec<Drawing> {
+        let layout = self.output.layout();
+        match self.content {
+            Content::All => {}
+            Content::Print => {
+                pages.iter_mut().for_each(|page| page.marks.retain(|mark| !mark.layer.is_worked()));
+            }
+            Content::Cut => {
+                // Lists of labels have pages of their own, with nothing to cut.
+                pages.truncate(layout.sheet_count());
+                pages.iter_mut().for_each(|page| page.marks.retain(|mark| mark.layer.is_worked()));
+                return pages;
+            }
+        }
+        let calibration = layout.options().choices.calibration;
+        pages.iter_mut().for_each(|page| calibration.apply(page));
+        pages
     }
 }
 

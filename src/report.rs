@@ -1,6 +1,7 @@
 //! The report: what was made, in numbers, as JSON.
 
 use crate::component::PanelId;
+use crate::fold::{Clash, Overlap, Stack};
 use crate::geom::polygon;
 use crate::mesh::Repairs;
 use crate::model::ModelPart;
@@ -31,6 +32,7 @@ struct Report<'a> {
     input: Input<'a>,
     stages: Vec<Stage>,
     components: Vec<Component<'a>>,
+    fold: Fold<'a>,
     nets: Vec<NetNumbers<'a>>,
     sheets: Sheets,
     warnings: Vec<WarningText<'a>>,
@@ -94,6 +96,39 @@ struct Joint {
     support_ratio: f64,
 }
 
+/// How the model folds.
+#[derive(Serialize)]
+struct Fold<'a> {
+    thickness_mm: f64,
+    order: Vec<&'a str>,
+    clashes: Vec<FoldClash<'a>>,
+    deployed_overlaps: Vec<DeployedOverlap<'a>>,
+    flat: Vec<Flat<'a>>,
+}
+
+#[derive(Serialize)]
+struct FoldClash<'a> {
+    components: [&'a str; 2],
+    panels: [String; 2],
+    folding: &'a str,
+    folded: f64,
+    depth_mm: f64,
+}
+
+#[derive(Serialize)]
+struct DeployedOverlap<'a> {
+    components: [&'a str; 2],
+    depth_mm: f64,
+}
+
+#[derive(Serialize)]
+struct Flat<'a> {
+    root: &'a str,
+    size_mm: [f64; 2],
+    layers: usize,
+    stack_mm: f64,
+}
+
 #[derive(Serialize)]
 struct NetNumbers<'a> {
     component: &'a str,
@@ -149,6 +184,7 @@ pub fn to_json(output: &Output, run: &Run<'_>) -> Result<Vec<u8>, serde_json::Er
             .enumerate()
             .map(|(p, part)| component(output, p, part, diagonal_mm))
             .collect(),
+        fold: fold(output),
         nets: parts.iter().zip(output.nets()).map(|(part, net)| numbers(&part.name, net)).collect(),
         sheets: Sheets {
             count: output.layout().sheet_count(),
@@ -178,6 +214,36 @@ fn repairs(repairs: &Repairs) -> RepairNumbers {
         components: repairs.components,
         boundary_edges: repairs.boundary_edges,
         non_manifold_edges: repairs.non_manifold_edges,
+    }
+}
+
+fn fold(output: &Output) -> Fold<'_> {
+    let (parts, plan) = (output.model().parts(), output.fold_plan());
+    let name = |part: usize| parts[part].name.as_str();
+    let panel = |part: usize, panel: PanelId| parts[part].component.panels().panel(panel).kind.to_string();
+    let clash = |clash: &Clash| FoldClash {
+        components: clash.parts.map(name),
+        panels: [0, 1].map(|k| panel(clash.parts[k], clash.panels[k])),
+        folding: name(clash.mover),
+        folded: clash.folded,
+        depth_mm: clash.depth_mm,
+    };
+    let overlap = |overlap: &Overlap| DeployedOverlap {
+        components: overlap.parts.map(name),
+        depth_mm: overlap.depth_mm,
+    };
+    let flat = |stack: &Stack| Flat {
+        root: name(stack.root),
+        size_mm: stack.size_mm.to_array(),
+        layers: stack.layers,
+        stack_mm: stack.height_mm,
+    };
+    Fold {
+        thickness_mm: plan.thickness_mm(),
+        order: plan.order().iter().map(|&p| name(p)).collect(),
+        clashes: plan.clashes().iter().map(clash).collect(),
+        deployed_overlaps: plan.overlaps().iter().map(overlap).collect(),
+        flat: plan.stacks().iter().map(flat).collect(),
     }
 }
 

@@ -10,9 +10,7 @@ use tatamu::component::{PanelId, PanelSet};
 use tatamu::drawing::{Layer, Polyline, Rgb, Shape, Stroke};
 use tatamu::export::fold::{self, FoldComponent, FoldModel};
 use tatamu::geom::polygon;
-use tatamu::net::{
-    EdgeKind, JointMark, MarkOptions, Naming, Net, NetError, NetOptions, check::faults, develop,
-};
+use tatamu::net::{EdgeKind, JointMark, Naming, Net, NetError, NetOptions, Side, check::faults, develop};
 use tatamu::sheet::PiecePlace;
 
 const A4: DVec2 = DVec2::new(190.0, 277.0);
@@ -20,7 +18,8 @@ const SMALL: DVec2 = DVec2::new(85.0, 115.0);
 const HUGE: DVec2 = DVec2::new(5e3, 5e3);
 
 fn net_of(set: &PanelSet, sheet_mm: DVec2) -> Result<Net, NetError> {
-    let options = NetOptions { tab_width_mm: 6.0, sheet_mm };
+    let mut options = NetOptions::new(6.0, sheet_mm);
+    options.choices.may_split = false;
     develop(set, Naming { name: "body", prefix: "A" }, &[], &options)
 }
 
@@ -31,6 +30,7 @@ fn master(set: &PanelSet, net: &Net) -> Vec<u8> {
     let offsets: Vec<DVec2> = (0..places.len()).map(|k| DVec2::X * (k as f64 * 2e4)).collect();
     let deployed = DAffine3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7);
     let component = FoldComponent {
+        between: &[],
         name: "body",
         set,
         net,
@@ -171,7 +171,7 @@ fn joint_marks_lie_on_their_panel_with_their_text() {
         key: DVec2::new(30.0, 0.0),
         text: "head".into(),
     };
-    let options = NetOptions { tab_width_mm: 6.0, sheet_mm: A4 };
+    let options = NetOptions::new(6.0, A4);
     let naming = Naming { name: "body", prefix: "B" };
     let net = develop(&set, naming, &[mark], &options).expect("a net");
     assert!(faults(&set, &net, A4).is_empty());
@@ -192,7 +192,7 @@ fn every_cut_and_crease_is_drawn_once() {
     let piece = &net.pieces()[0];
     let stroke = |_: Layer| Stroke { width_mm: 0.2, colour: Rgb(0, 0, 0), dash_mm: Vec::new() };
     let length = |layers: &[Layer]| -> f64 {
-        let marks = piece.marks(MarkOptions::default(), stroke);
+        let marks = piece.marks(Side::Outside, stroke);
         let paths = marks.iter().filter(|m| layers.contains(&m.layer)).map(|m| &m.shape);
         paths
             .map(|shape| if let Shape::Path { contours, .. } = shape { line_mm(&contours[0]) } else { 0.0 })

@@ -46,7 +46,8 @@ pub struct FoldReport {
     pub stretch_mm: f64,
     /// Largest distance between two edges of the same label, in any folded frame, mm.
     pub label_gap_mm: f64,
-    /// Labels that are not on exactly one tab edge and one mate edge.
+    /// Labels that are not on exactly one tab edge and one mate edge, or on two mate edges, which
+    /// tape joins.
     pub unpaired_labels: Vec<String>,
     /// Faces that are not counter-clockwise in the crease pattern.
     pub clockwise_faces: Vec<usize>,
@@ -56,34 +57,35 @@ pub struct FoldReport {
     pub thickness_mm: f64,
     /// Largest difference between an edge's stated and measured fold angle, radians.
     pub angle_error_rad: f64,
+    /// Pairs of panels of one component that overlap in one of its layers in the last frame.
+    pub layer_overlaps: Vec<(usize, usize)>,
+    /// Largest gap of a chain, Eq. (2), as a share of its mean segment.
+    pub gap_share: f64,
+    /// Chains whose panels are not one row from the top panel to the bottom panel, as
+    /// `component, chain`.
+    pub broken_chains: Vec<String>,
+    /// Narrowest side panel: least width at any height, or least height, mm, with its face.
+    pub narrowest: Option<(f64, usize)>,
     /// Edges shared by two faces that are no hinge, fold hinge or tab, and such edges that are
     /// not shared by two faces.
     pub misnamed_edges: Vec<usize>,
 }
 
-impl FoldReport {
-    /// Whether nothing is wrong by more than `tolerance_mm`, or the angle that moves a point at a
-    /// metre's distance as much.
-    pub fn is_sound(&self, tolerance_mm: f64) -> bool {
-        self.faces > 0
-            && [self.stretch_mm, self.label_gap_mm, self.thickness_mm].iter().all(|x| *x <= tolerance_mm)
-            && self.angle_error_rad <= tolerance_mm
-            && self.unpaired_labels.is_empty()
-            && self.clockwise_faces.is_empty()
-            && self.overlaps.is_empty()
-            && self.misnamed_edges.is_empty()
-    }
-}
-
 #[derive(Deserialize)]
-struct Master {
+pub(super) struct Master {
     vertices_coords: Vec<Vec<f64>>,
-    edges_vertices: Vec<[usize; 2]>,
-    faces_vertices: Vec<Vec<usize>>,
+    pub(super) edges_vertices: Vec<[usize; 2]>,
+    pub(super) faces_vertices: Vec<Vec<usize>>,
     #[serde(rename = "faces_tatamu:component")]
-    component: Vec<String>,
+    pub(super) component: Vec<String>,
+    #[serde(rename = "faces_tatamu:kind")]
+    pub(super) face_kind: Vec<String>,
+    #[serde(rename = "faces_tatamu:chain")]
+    pub(super) chain: Vec<Option<usize>>,
+    #[serde(rename = "faces_tatamu:panel")]
+    pub(super) panel: Vec<Option<usize>>,
     #[serde(rename = "edges_tatamu:kind")]
-    edge_kind: Vec<String>,
+    pub(super) edge_kind: Vec<String>,
     #[serde(rename = "edges_tatamu:label")]
     edge_label: Vec<Option<String>>,
     file_frames: Vec<Frame>,
@@ -99,10 +101,10 @@ struct Frame {
 }
 
 /// A master whose lists fit together, with all coordinates in space.
-struct Model {
-    master: Master,
-    pattern: Vec<DVec3>,
-    frames: Vec<Vec<DVec3>>,
+pub(super) struct Model {
+    pub(super) master: Master,
+    pub(super) pattern: Vec<DVec3>,
+    pub(super) frames: Vec<Vec<DVec3>>,
 }
 
 /// Refolds a FOLD master: measures every folded frame against the crease pattern.
@@ -118,13 +120,17 @@ pub fn fold(bytes: &[u8]) -> Result<FoldReport, FoldCheckError> {
         stretch_mm: model.stretch(),
         label_gap_mm,
         unpaired_labels,
-        overlaps: model.overlaps(),
+        overlaps: overlapping(
+            &(0..model.master.faces_vertices.len()).map(|f| model.polygon(f)).collect::<Vec<_>>(),
+        ),
         thickness_mm: model.frames.last().map_or(0.0, |flat| model.thickness(flat)),
         ..FoldReport::default()
     };
     let faces = 0..report.faces;
     report.clockwise_faces = faces.filter(|&f| area(&model.polygon(f)) <= 0.0).collect();
     model.edges(&mut report);
+    super::chains::measure(&model, &mut report);
+    report.layer_overlaps = super::layers::overlaps(&model);
     Ok(report)
 }
 
@@ -139,6 +145,9 @@ impl Model {
             if found == expected { Ok(()) } else { Err(FoldCheckError::Length { list, found, expected }) }
         };
         length("faces_tatamu:component", master.component.len(), faces)?;
+        length("faces_tatamu:kind", master.face_kind.len(), faces)?;
+        length("faces_tatamu:chain", master.chain.len(), faces)?;
+        length("faces_tatamu:panel", master.panel.len(), faces)?;
         length("edges_tatamu:kind", master.edge_kind.len(), edges)?;
         length("edges_tatamu:label", master.edge_label.len(), edges)?;
         for frame in &master.file_frames {
@@ -160,7 +169,7 @@ impl Model {
     }
 
     /// Corners of a face in the crease pattern.
-    fn polygon(&self, face: usize) -> Vec<DVec2> {
+    pub(super) fn polygon(&self, face: usize) -> Vec<DVec2> {
         self.master.faces_vertices[face].iter().map(|&v| self.pattern[v].truncate()).collect()
     }
 
@@ -189,7 +198,9 @@ impl Model {
         let (mut worst, mut unpaired) = (0.0_f64, Vec::new());
         for (label, pair) in edges {
             let kinds: BTreeSet<&str> = pair.iter().map(|&e| self.master.edge_kind[e].as_str()).collect();
-            if pair.len() != 2 || kinds != BTreeSet::from(["mate", "tab"]) {
+            let is_glued = kinds == BTreeSet::from(["mate", "tab"]);
+            let is_taped = kinds == BTreeSet::from(["mate"]);
+            if pair.len() != 2 || !(is_glued || is_taped) {
                 unpaired.push(label.to_owned());
                 continue;
             }
@@ -201,25 +212,6 @@ impl Model {
             }
         }
         (worst, unpaired)
-    }
-
-    fn overlaps(&self) -> Vec<(usize, usize)> {
-        let polygons: Vec<Vec<DVec2>> =
-            (0..self.master.faces_vertices.len()).map(|f| self.polygon(f)).collect();
-        let boxes: Vec<(DVec2, DVec2)> = polygons
-            .iter()
-            .map(|p| p.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |b, q| (b.0.min(*q), b.1.max(*q))))
-            .collect();
-        let mut out = Vec::new();
-        for a in 0..polygons.len() {
-            for b in 0..a {
-                let apart = boxes[a].0.cmpgt(boxes[b].1).any() || boxes[b].0.cmpgt(boxes[a].1).any();
-                if !apart && area(&common(&polygons[a], &polygons[b])).abs() > OVERLAP_MM2 {
-                    out.push((b, a));
-                }
-            }
-        }
-        out
     }
 
     fn thickness(&self, flat: &[DVec3]) -> f64 {
@@ -280,6 +272,24 @@ impl Model {
     }
 }
 
+/// Pairs of convex polygons that share more than a touch.
+pub(super) fn overlapping(polygons: &[Vec<DVec2>]) -> Vec<(usize, usize)> {
+    let boxes: Vec<(DVec2, DVec2)> = polygons
+        .iter()
+        .map(|p| p.iter().fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |b, q| (b.0.min(*q), b.1.max(*q))))
+        .collect();
+    let mut out = Vec::new();
+    for a in 0..polygons.len() {
+        for b in 0..a {
+            let apart = boxes[a].0.cmpgt(boxes[b].1).any() || boxes[b].0.cmpgt(boxes[a].1).any();
+            if !apart && area(&common(&polygons[a], &polygons[b])).abs() > OVERLAP_MM2 {
+                out.push((b, a));
+            }
+        }
+    }
+    out
+}
+
 fn points(coords: &[Vec<f64>]) -> Result<Vec<DVec3>, FoldCheckError> {
     coords
         .iter()
@@ -291,12 +301,12 @@ fn points(coords: &[Vec<f64>]) -> Result<Vec<DVec3>, FoldCheckError> {
         .collect()
 }
 
-fn area(polygon: &[DVec2]) -> f64 {
+pub(super) fn area(polygon: &[DVec2]) -> f64 {
     (0..polygon.len()).map(|k| polygon[k].perp_dot(polygon[(k + 1) % polygon.len()])).sum::<f64>() / 2.0
 }
 
 /// Normal with the length of the area (Newell).
-fn area_vector(points: impl Iterator<Item = DVec3>) -> DVec3 {
+pub(super) fn area_vector(points: impl Iterator<Item = DVec3>) -> DVec3 {
     let points: Vec<DVec3> = points.collect();
     let Some(&origin) = points.first() else {
         return DVec3::ZERO;

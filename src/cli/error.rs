@@ -1,12 +1,15 @@
 //! What the user is told when nothing comes of it.
 
 use std::path::PathBuf;
+use tatamu::check::FoldCheckError;
 use tatamu::drawing::StyleError;
 use tatamu::export::ExportError;
-use tatamu::mesh::{MeshError, ReadError};
+use tatamu::mesh::{ColourError, MeshError, ReadError};
 use tatamu::pipeline;
+use tatamu::plotter::ProfileError;
 use tatamu::progress::{Cancelled, Progress};
 use tatamu::project::ProjectError;
+use tatamu::show::ShowError;
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
@@ -23,12 +26,30 @@ pub enum CliError {
     /// The project file is wrong.
     #[error("project file {path}: {error}")]
     Project { path: PathBuf, error: ProjectError },
+    /// The mesh has no colours that can be used.
+    #[error("{path}: {error}; or leave --color out")]
+    Colour { path: PathBuf, error: ColourError },
     /// A style file is wrong.
     #[error("style file {path}: {error}")]
     Style { path: PathBuf, error: StyleError },
+    /// A profile of a cutter or a medium is wrong.
+    #[error("profile {name}: {error}")]
+    Profile { name: String, error: ProfileError },
+    /// A sheet cannot be worked on by a machine.
+    #[error("{sheet}: {reason}")]
+    Sheet { sheet: String, reason: String },
+    /// The port cannot be used.
+    #[error("cannot use the port {port}: {reason}")]
+    Port { port: String, reason: String },
+    /// The machine stopped the job.
+    #[error("{0}")]
+    Machine(String),
     /// The mesh that a project file names cannot be read.
     #[error("cannot read {path}, the mesh of project file {project}: {reason}")]
     ProjectMesh { path: PathBuf, project: PathBuf, reason: String },
+    /// The file is no FOLD master.
+    #[error("{path}: {error}")]
+    Check { path: PathBuf, error: FoldCheckError },
     /// Options contradict each other, or the command has no use for its input.
     #[error("{0}")]
     Options(String),
@@ -44,6 +65,9 @@ pub enum CliError {
     /// A stage failed.
     #[error("{0}")]
     Pipeline(pipeline::Error),
+    /// A picture cannot be made.
+    #[error("the picture could not be made: {0}")]
+    Show(#[from] ShowError),
     /// A document cannot be made.
     #[error(transparent)]
     Export(#[from] ExportError),

@@ -63,6 +63,19 @@ pub struct FileArgs {
     #[arg(long, value_name = "SIZE", value_parser = parse_paper)]
     tile: Option<Paper>,
 
+    /// Panels in the mesh's own colours, in PDF, SVG and PNG
+    ///
+    /// From materials and textures (OBJ, glTF) and colours of vertices and faces (OBJ, PLY, OFF,
+    /// glTF). Leave it out for files that are cut and not printed. Example: --color -o bear.pdf
+    #[arg(long, visible_alias = "colour")]
+    color: bool,
+
+    /// GLB files without the animation of the folding
+    ///
+    /// The model stands still, for programs that want no animation. Example: --static -o bear.glb
+    #[arg(long = "static")]
+    is_static: bool,
+
     /// Each piece in a FOLD file of its own, besides the whole model
     ///
     /// With the angles of the flat state, for Flat-Folder and Origami Simulator.
@@ -82,6 +95,8 @@ pub struct FileChoice {
     pub formats: FormatOptions,
     /// Look of the lines.
     pub styles: LineStyles,
+    /// Whether panels have the mesh's colours.
+    pub is_coloured: bool,
 }
 
 impl FileArgs {
@@ -97,6 +112,7 @@ impl FileArgs {
         formats.dxf.version = self.dxf_version.or(table.dxf_version).unwrap_or(formats.dxf.version);
         formats.dxf.sheets = self.dxf_sheets.or(table.dxf_sheets).unwrap_or(formats.dxf.sheets);
         formats.png = self.dpi.or(table.dpi).unwrap_or(formats.png);
+        formats.glb.is_static = self.is_static || table.is_static;
         formats.fold.pieces = self.fold_pieces || table.fold_pieces;
         let pdf = formats.pdf.with_created(source_date()?);
         formats.pdf = pdf.with_tile(self.tile.or(table.tile)).map_err(CliError::Options)?;
@@ -105,7 +121,7 @@ impl FileArgs {
             (None, Some(name)) => styles(Path::new(name), &input_path.with_file_name(name))?,
             (None, None) => LineStyles::standard(),
         };
-        Ok(FileChoice { formats, styles })
+        Ok(FileChoice { formats, styles, is_coloured: self.color || table.color })
     }
 }
 

@@ -89,10 +89,14 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         segmentation: options.segmentation,
         top_edges: options.top_edges,
         profile_vertices: options.profile_vertices,
+        tolerance_mm: options.tolerance_mm,
         min_panel_width_mm: options.min_panel_width_mm,
         tab_width_mm: options.tab_width_mm,
         paper: options.paper,
         margin_mm: options.margin_mm,
+        thickness_mm: options.thickness_mm,
+        nets: options.nets,
+        sheets: options.sheets,
         components: &components,
     });
     output::write(&[(path.clone(), text.into_bytes())])?;

@@ -2,6 +2,7 @@
 
 use super::error::{CliError, reason};
 use std::path::{Component, Path, PathBuf};
+use tatamu::mesh::painting::Painting;
 use tatamu::mesh::{self, Mesh, Repairs};
 use tatamu::project::Project;
 
@@ -45,6 +46,14 @@ fn read_mesh(path: &Path, bytes: &[u8], project: Option<Project>) -> Result<Inpu
     let (mesh, repairs) =
         Mesh::from_soup(&soup).map_err(|error| CliError::Mesh { path: path.to_owned(), error })?;
     Ok(Input { mesh_path: path.to_owned(), project, mesh, repairs })
+}
+
+/// The colours of the mesh of an input.
+pub fn read_painting(input: &Input) -> Result<Painting, CliError> {
+    let path = &input.mesh_path;
+    let sibling = |name: &str| read_sibling(path, name);
+    mesh::read_painting(&read_file(path)?, &sibling)
+        .map_err(|error| CliError::Colour { path: path.clone(), error })
 }
 
 /// The content of a file.

@@ -1,6 +1,8 @@
 //! `tatamu make`
 
+use super::cutters::CutterArgs;
 use super::error::CliError;
+use super::film::FilmArgs;
 use super::formats::{self, FileArgs};
 use super::options::ModelArgs;
 use super::progress::TerminalProgress;
@@ -8,10 +10,12 @@ use super::{input, output, terminal};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use tatamu::export::FORMATS;
+use tatamu::export::{FORMATS, Source};
+use tatamu::fold::Stack;
 use tatamu::mesh::{Mesh, Repairs};
+use tatamu::net::Side;
 use tatamu::pipeline::{self, Output, Warning};
-use tatamu::product::{self, Product};
+use tatamu::product::{self, Content, Product};
 use tatamu::report::Run;
 
 /// Makes a model of a mesh, or of a project file.
@@ -38,6 +42,17 @@ pub struct MakeArgs {
     #[arg(short, long = "output", value_name = "FILE")]
     output: Vec<PathBuf>,
 
+    #[command(flatten)]
+    film: FilmArgs,
+
+    /// Writes what is printed and what is cut into two files, NAME-print and NAME-cut
+    ///
+    /// Both have the same pages with the same origin. NAME-cut holds contours, slits and creases;
+    /// NAME-print holds labels, glue marks, scale bars and registration marks. Formats that are
+    /// no pages are written once. Example: --print-and-cut --marks silhouette -o teddy.svg
+    #[arg(long)]
+    print_and_cut: bool,
+
     /// File for the segmentation: one number a line
     ///
     /// For each face of the input file, in its order, the index of its component from 0; -1 for
@@ -48,6 +63,9 @@ pub struct MakeArgs {
 
     #[command(flatten)]
     files: FileArgs,
+
+    #[command(flatten)]
+    cutter: CutterArgs,
 
     /// No summary and no progress bar; warnings and errors only
     #[arg(short, long)]
@@ -79,7 +97,13 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     let places: Vec<PathBuf> = paths.iter().chain(&args.segments).cloned().collect();
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
     let options = args.model.merge(&input)?;
-    let choice = args.files.merge(input.project.as_ref().map(|p| &p.export), &args.input)?;
+    let mut choice = args.files.merge(input.project.as_ref().map(|p| &p.export), &args.input)?;
+    if choice.is_coloured && options.sheets.side == Side::Inside {
+        let reason = "--color is for the outside of the paper; leave out --side inside, or --color";
+        return Err(CliError::Options(reason.to_owned()));
+    }
+    let painting = choice.is_coloured.then(|| input::read_painting(&input)).transpose()?;
+    choice.formats.plt = args.cutter.choice()?;
     let warnings = repair_warnings(&input.repairs);
     warnings.iter().for_each(warn);
 
@@ -97,11 +121,26 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
         warnings: &warnings,
     };
     let title = terminal::printable(&stem.to_string_lossy());
-    let product = Product::new(&result, &title, run).with_styles(choice.styles);
+    let product = |content| {
+        Product::new(&result, &title, run)
+            .with_styles(choice.styles.clone())
+            .with_painting(painting.as_ref())
+            .with_content(content)
+    };
+    let products = match args.print_and_cut {
+        false => vec![("", product(Content::All))],
+        true => vec![("-print", product(Content::Print)), ("-cut", product(Content::Cut))],
+    };
+    let formats = args.film.choose(choice.formats)?;
     let mut files = Vec::new();
     for target in targets {
-        for file in target.format.write(&product, &choice.formats)? {
-            files.push((output::with_suffix(&target.path, &file.suffix), file.bytes));
+        let is_paged = matches!(target.format.source, Source::Pages(_));
+        for (name, product) in if is_paged { &products[..] } else { &products[..1] } {
+            let name = if is_paged { name } else { "" };
+            for file in target.format.write(product, &formats)? {
+                let suffix = format!("{name}{}", file.suffix);
+                files.push((output::with_suffix(&target.path, &suffix), file.bytes));
+            }
         }
     }
     if let Some(path) = &args.segments {
@@ -155,7 +194,7 @@ pub fn warn(warning: &Warning) {
 }
 
 /// Shows the first few warnings of each kind, and counts the others.
-fn warn_by_kind(warnings: &[Warning]) {
+pub fn warn_by_kind(warnings: &[Warning]) {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for warning in warnings {
         let count = counts.entry(warning.code).or_default();
@@ -184,6 +223,16 @@ pub fn segments(mesh: &Mesh, part_of_face: &[Option<u32>], repairs: &Repairs) ->
     text.into_bytes()
 }
 
+/// The flat model, and the order of folding.
+fn folding(result: &Output) -> String {
+    let plan = result.fold_plan();
+    let parts = result.model().parts();
+    let order: Vec<&str> = plan.order().iter().map(|&p| parts[p].name.as_str()).collect();
+    let flat = |s: &Stack| format!("{:.0} × {:.0} mm, {} layers", s.size_mm.x, s.size_mm.y, s.layers);
+    let sizes: Vec<String> = plan.stacks().iter().map(flat).collect();
+    format!("to {}, in the order {}", sizes.join(" and "), order.join(", "))
+}
+
 fn summarise(result: &Output, files: &[(PathBuf, Vec<u8>)]) {
     let names: Vec<&str> = result.model().parts().iter().map(|p| p.name.as_str()).collect();
     let pieces: usize = result.nets().iter().map(|net| net.pieces().len()).sum();
@@ -191,6 +240,7 @@ fn summarise(result: &Output, files: &[(PathBuf, Vec<u8>)]) {
     let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
     terminal::say(&format!("size        {}", product::size_note(result)));
     terminal::say(&format!("components  {}: {}", names.len(), names.join(", ")));
+    terminal::say(&format!("folds       {}", folding(result)));
     terminal::say(&format!("pieces      {pieces}"));
     terminal::say(&format!(
         "sheets      {} of {}, {:.0}% used",

@@ -1,16 +1,26 @@
 //! The command line: parse, run, report, exit code. One file per subcommand.
 
+mod check;
+mod cutters;
 mod error;
+mod film;
 mod formats;
 mod init;
 mod input;
 mod make;
+mod net_args;
 mod options;
 mod output;
+mod plot;
+mod ports;
 mod progress;
 mod segment;
 mod segment_args;
+mod sheet_args;
+mod show;
 mod terminal;
+#[cfg(unix)]
+mod virtual_plotter;
 
 use clap::{Parser, Subcommand};
 use error::CliError;
@@ -34,8 +44,15 @@ struct Cli {
 enum Command {
     Make(make::MakeArgs),
     Init(init::InitArgs),
-    Segment(segment::SegmentCommand),
+    Show(show::ShowArgs),
     Formats(formats::FormatsArgs),
+    Check(check::CheckArgs),
+    Segment(segment::SegmentCommand),
+    Plot(Box<plot::PlotArgs>),
+    Ports(ports::PortsArgs),
+    Profiles(cutters::ProfilesArgs),
+    #[cfg(unix)]
+    VirtualPlotter(virtual_plotter::VirtualPlotterArgs),
 }
 
 const EXAMPLES: &str = "\
@@ -45,6 +62,10 @@ Examples:
   tatamu init teddy.obj                     teddy.toml, a project file to edit
   tatamu segment teddy.obj -o parts.png     shows the parts without making a model
   tatamu make teddy.toml                    makes what the project file says
+  tatamu make teddy.obj -o teddy.gif        an animation of its folding
+  tatamu show teddy.obj -o half.png --pose 0.5
+  tatamu check teddy.fold                   verifies a FOLD file
+  tatamu plot teddy.obj --cutter generic-hpgl --port /dev/ttyUSB0
 
 \"tatamu make --help\" explains every option.";
 
@@ -52,16 +73,23 @@ Examples:
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let result = match &cli.command {
-        Command::Make(args) => make::run(args),
-        Command::Init(args) => init::run(args),
-        Command::Segment(args) => segment::run(args),
+        Command::Make(args) => make::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Init(args) => init::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Show(args) => show::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Segment(args) => segment::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Check(args) => check::run(args),
+        Command::Plot(args) => plot::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Ports(args) => ports::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Profiles(args) => cutters::run(args).map(|()| ExitCode::SUCCESS),
+        #[cfg(unix)]
+        Command::VirtualPlotter(args) => virtual_plotter::run(args).map(|()| ExitCode::SUCCESS),
         Command::Formats(args) => {
             formats::run(args);
-            Ok(())
+            Ok(ExitCode::SUCCESS)
         }
     };
     match result {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(CliError::Cancelled(cancelled)) => {
             terminal::complain("tatamu", &cancelled.to_string());
             ExitCode::from(STOPPED)

@@ -2,11 +2,13 @@
 
 use super::error::CliError;
 use super::input::Input;
+use super::net_args::NetArgs;
 use super::segment_args::SegmentArgs;
+use super::sheet_args::SheetArgs;
 use clap::Args;
 use tatamu::mesh::Up;
 use tatamu::pipeline::{ComponentOptions, Options};
-use tatamu::project::{check_count, check_degrees, check_parts, parse_up};
+use tatamu::project::{Defaults, check_count, check_degrees, check_parts, parse_thickness_mm, parse_up};
 use tatamu::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};
 
 /// Options of the model.
@@ -48,6 +50,13 @@ pub struct ModelArgs {
     #[arg(long, value_name = "N", value_parser = count)]
     profile_vertices: Option<usize>,
 
+    /// How close each component must come to its shape, instead of numbers of edges and vertices
+    ///
+    /// As few top edges and profile vertices are used as reach it, at most those of --top-edges and
+    /// --profile-vertices, or 12 and 10. Example: --tolerance 2mm
+    #[arg(long, value_name = "LENGTH", value_parser = parse_length_mm)]
+    tolerance: Option<f64>,
+
     /// Least width and height of a panel [default: 3mm]
     ///
     /// What is narrower cannot be folded by hand. Where the shape leaves no choice, a warning
@@ -72,7 +81,23 @@ pub struct ModelArgs {
     /// Most printers cannot print the outermost 5 mm. Example: --margin 5mm
     #[arg(long, value_name = "LENGTH", value_parser = parse_length_or_zero_mm)]
     margin: Option<f64>,
+
+    /// Thickness of the paper, 0.02mm to 5mm [default: 0.25mm]
+    ///
+    /// Panels that come into each other by up to half of it while the model folds only rub; more
+    /// is a warning. Card of 200 g/m² has 0.25 mm. Example: --thickness 0.4mm
+    #[arg(long, value_name = "LENGTH", value_parser = parse_thickness_mm)]
+    thickness: Option<f64>,
+    #[command(flatten)]
+    nets: NetArgs,
+
+    #[command(flatten)]
+    sheets: SheetArgs,
 }
+
+/// With a tolerance, the most top edges and profile vertices of a component that says nothing else.
+const MOST_EDGES: usize = 12;
+const MOST_VERTICES: usize = 10;
 
 /// Reads a whole number.
 pub fn number(text: &str) -> Result<u64, String> {
@@ -114,8 +139,22 @@ impl ModelArgs {
         set(&mut options.min_panel_width_mm, self.min_panel_width);
         set(&mut options.tab_width_mm, self.tab_width);
         set(&mut options.margin_mm, self.margin);
+        set(&mut options.thickness_mm, self.thickness);
+        self.nets.merge(input.project.as_ref().map(|p| &p.nets), &mut options.nets);
+        self.sheets.merge(input.project.as_ref().map(|p| &p.sheets), &mut options.sheets);
         options.up = self.up.unwrap_or(options.up);
         options.segmentation = self.segmentation.merge(input.project.as_ref())?;
+        options.tolerance_mm = self.tolerance.or(options.tolerance_mm);
+        if options.tolerance_mm.is_some() {
+            let defaults = input.project.as_ref().map(|project| &project.defaults);
+            let is_default = |of: fn(&Defaults) -> Option<usize>| defaults.and_then(of).is_none();
+            if is_default(|d| d.top_edges) {
+                options.top_edges = MOST_EDGES;
+            }
+            if is_default(|d| d.profile_vertices) {
+                options.profile_vertices = MOST_VERTICES;
+            }
+        }
         options.top_edges = self.top_edges.unwrap_or(options.top_edges);
         options.profile_vertices = self.profile_vertices.unwrap_or(options.profile_vertices);
         options.paper = self.paper.unwrap_or(options.paper);
@@ -148,6 +187,8 @@ impl ModelArgs {
         set(&mut options.min_panel_width_mm, defaults.min_panel_width_mm);
         set(&mut options.tab_width_mm, defaults.tab_width_mm);
         set(&mut options.margin_mm, project.paper.margin_mm);
+        set(&mut options.thickness_mm, project.paper.thickness_mm);
+        options.tolerance_mm = defaults.tolerance_mm;
         options.up = project.up.unwrap_or(options.up);
         options.edits = project.edits.iter().map(|edit| edit.change().clone()).collect();
         options.root = project.segmentation.root.clone();

@@ -2,7 +2,7 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 use tatamu::progress::Progress;
@@ -13,7 +13,33 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// Steps of the bar.
 const STEPS: u64 = 1000;
 
-static IS_CANCELLED: AtomicBool = AtomicBool::new(false);
+/// How often Ctrl-C was pressed.
+static STOPS: AtomicU32 = AtomicU32::new(0);
+
+/// Whether pressing it is only counted, because someone has to put things in order first.
+static IS_COUNTED: AtomicBool = AtomicBool::new(false);
+
+/// Listens for Ctrl-C: unless it is only counted, the second time ends the program at once.
+fn listen() {
+    // Fails only where a handler is set already, which then stays in force.
+    let _ = ctrlc::set_handler(|| {
+        let was_pressed = STOPS.fetch_add(1, Ordering::SeqCst) > 0;
+        if was_pressed && !IS_COUNTED.load(Ordering::SeqCst) {
+            std::process::exit(i32::from(super::STOPPED));
+        }
+    });
+}
+
+/// From now on Ctrl-C is only counted; see [`stops`].
+pub fn count_stops() {
+    IS_COUNTED.store(true, Ordering::SeqCst);
+    listen();
+}
+
+/// How often Ctrl-C was pressed.
+pub fn stops() -> u32 {
+    STOPS.load(Ordering::SeqCst)
+}
 
 /// Shows progress on the standard error output, if that is a terminal and the work takes long.
 pub struct TerminalProgress {
@@ -27,12 +53,7 @@ impl TerminalProgress {
     /// Begins to listen for Ctrl-C, which from now on asks the work to stop; the second time it
     /// ends the program at once.
     pub fn new(is_quiet: bool) -> Self {
-        // Fails only where a handler is set already, which then stays in force.
-        let _ = ctrlc::set_handler(|| {
-            if IS_CANCELLED.swap(true, Ordering::SeqCst) {
-                std::process::exit(i32::from(super::STOPPED));
-            }
-        });
+        listen();
         Self {
             start: Instant::now(),
             is_shown: !is_quiet && std::io::stderr().is_terminal(),
@@ -88,7 +109,7 @@ impl Progress for TerminalProgress {
     }
 
     fn is_cancelled(&self) -> bool {
-        IS_CANCELLED.load(Ordering::SeqCst)
+        stops() > 0
     }
 }
 

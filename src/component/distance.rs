@@ -79,6 +79,17 @@ impl Polytope {
         self.faces.len()
     }
 
+    /// Corners of face `k`, counter-clockwise.
+    pub fn outline(&self, k: usize) -> impl Iterator<Item = DVec3> + '_ {
+        let face = &self.faces[k];
+        self.outlines[face.start as usize..face.end as usize].iter().map(|&c| self.corners[c as usize])
+    }
+
+    /// Outward normal and offset of face `k`.
+    pub fn plane(&self, k: usize) -> (DVec3, f64) {
+        (self.faces[k].normal, self.faces[k].offset)
+    }
+
     /// Outward normal of face `k`.
     pub fn normal(&self, k: usize) -> DVec3 {
         self.faces[k].normal

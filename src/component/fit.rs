@@ -10,9 +10,10 @@
 use super::distance::{Polytope, Position};
 use super::gradient::ProfileLength;
 use super::profile::imbalance;
+use super::seated::miss_mm;
 use super::shape::{Shape, profile};
 use super::solid::{Chain, Solid};
-use super::target::{FoldSpot, JointTarget, Target};
+use super::target::{FoldSpot, Target};
 use glam::DVec3;
 
 /// First length of steps, as a share of the hull's radius.
@@ -188,33 +189,6 @@ pub(super) fn rooms<'s>(
     // The two parts about the fold vertex are shorter than their plane.
     let whole = (0..chain.lines.len()).filter(move |&i| spot != FoldSpot::Inside(i));
     whole.map(|i| ProfileLength::of_segment(chain, i)).chain(about_fold)
-}
-
-/// How far a joint panel fails to cover its partner's points, or reaches out of its partner's
-/// panel, at most, in the joint's plane.
-pub(super) fn miss_mm(shape: &Shape, target: &Target, joint: &JointTarget) -> f64 {
-    let Some(face) = target.joint_face(&shape.solid, joint) else { return 0.0 };
-    let faces = (0..shape.polytope.face_count()).map(|k| shape.face(k)).filter(|f| *f != face);
-    let normal = shape.polytope.normal(shape.index(face));
-    let mut miss = 0.0f64;
-    for f in faces {
-        let (n, c) = shape.solid.plane(f);
-        let scale = in_plane_scale(normal, n);
-        for point in &joint.cover {
-            miss = miss.max((n.dot(*point) - c) * scale);
-        }
-    }
-    for corner in shape.corners.iter().filter(|c| c.faces.contains(&face)) {
-        for (n, c) in &joint.within {
-            miss = miss.max(n.dot(corner.point) - c);
-        }
-    }
-    miss
-}
-
-/// Distances in a plane are distances to another plane that cuts it, times this.
-pub(super) fn in_plane_scale(normal: DVec3, other: DVec3) -> f64 {
-    1.0 / normal.cross(other).length().max(0.25)
 }
 
 /// Makes fold vertices at bends exact again after a linear step, by moving one plane beside each

@@ -12,10 +12,12 @@ mod profile;
 mod qp;
 mod rows;
 mod search;
+mod seated;
 mod shape;
 mod solid;
 mod start;
 mod target;
+mod tolerance;
 
 pub use assemble::AssembleError;
 pub use convert::{Component, ConvertError, choose, convert};
@@ -24,3 +26,4 @@ pub use panel::{Hinge, HingeId, HingeSide, Panel, PanelId, PanelKind, PanelSet};
 pub use profile::{Profile, ProfileError};
 pub use solid::{Chain, Clearance, Corner, FaceId, SideFacet, Solid};
 pub use target::{JointTarget, Seat, Target};
+pub use tolerance::fewest;

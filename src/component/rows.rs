@@ -1,18 +1,22 @@
 //! One step of the fit: the quadratic programme around the present solid.
 
 use super::distance::{Feature, Position};
-use super::fit::{Fitted, MARGIN, MEAN_WEIGHT, SIZE_PRICE, Task, in_plane_scale, rooms};
+use super::fit::{Fitted, MARGIN, MEAN_WEIGHT, SIZE_PRICE, Task, rooms};
 use super::gradient::{Freedom, ProfileLength, Terms};
 use super::qp::Programme;
+use super::seated;
 use super::shape::Shape;
-use super::solid::{FaceId, Solid};
+use super::solid::Solid;
 use super::start::{MAX_SLOPE_RAD, MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD};
-use super::target::{FoldSpot, JointTarget};
+use super::target::FoldSpot;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// Places farther inside than this share of the radius cannot become the worst within a step.
-const REACH: f64 = 0.5;
+/// Places that are less far out than the worst one by more than so many steps cannot become the
+/// worst within a step.
+const REACH: f64 = 6.0;
+/// Places farther than this share of the radius inside a joint panel cannot leave it within a step.
+const NEAR_JOINT: f64 = 0.3;
 /// Curvature of the variables that bound others, over the radius: the programme needs some.
 const BOUND_CURVATURE: f64 = 0.02;
 /// No parameter changes by more than this many times the length of the step.
@@ -49,11 +53,13 @@ impl Task<'_> {
             first_miss: count + 2,
         };
         model.prices(step_mm);
-        model.error_rows();
+        model.error_rows(step_mm);
         model.size_rows(step_mm);
         model.order_rows();
         for (k, joint) in self.target.joints.iter().enumerate() {
-            model.joint_rows(k, joint);
+            let shape = (&at.shape, &model.freedom);
+            let near_mm = NEAR_JOINT * self.radius_mm;
+            seated::rows(shape, (&self.target, joint), near_mm, count + 2 + k, &mut model.programme);
         }
         let change = model.programme.solve()?;
         Some(model.freedom.apply(&at.shape.solid, &change[..count]))
@@ -89,13 +95,14 @@ impl Model<'_> {
     }
 
     /// Distances of corners from the hull, and of the hull's corners from the solid.
-    fn error_rows(&mut self) {
+    fn error_rows(&mut self, step_mm: f64) {
+        let lowest = self.at.error_mm - REACH * step_mm;
         let (at, task) = (self.at, self.task);
         let corners = task.hull.corners();
         let count = (at.own.len() + at.hulls.len()) as f64;
         let weight = MEAN_WEIGHT / (count * task.mean_scale_mm());
         for (corner, position) in at.shape.corners.iter().zip(&at.own) {
-            if position.depth_mm > -REACH * task.radius_mm {
+            if position.depth_mm > lowest {
                 let (distance, direction) =
                     self.distance(position, corner.point, |face| task.hull.normal(face));
                 let terms = self.freedom.corner(&at.shape, corner, direction);
@@ -103,7 +110,7 @@ impl Model<'_> {
             }
         }
         for (&corner, position) in corners.iter().zip(&at.hulls) {
-            if position.depth_mm > -REACH * task.radius_mm {
+            if position.depth_mm > lowest {
                 let (distance, direction) =
                     self.distance(position, corner, |face| at.shape.polytope.normal(face));
                 let mut terms = self.reach(position, corner, direction);
@@ -210,36 +217,6 @@ impl Model<'_> {
             let gap = (solid.chains[next].angle_rad - chain.angle_rad).rem_euclid(TAU);
             difference(freedom.angle(j), freedom.angle(next), gap - MIN_TURN_RAD);
             difference(freedom.angle(next), freedom.angle(j), MAX_TURN_RAD - gap);
-        }
-    }
-
-    /// Joint panels should cover what is glued on them, or stay within what they are glued on.
-    fn joint_rows(&mut self, k: usize, joint: &JointTarget) {
-        let (shape, miss) = (&self.at.shape, self.first_miss + k);
-        let Some(face) = self.task.target.joint_face(&shape.solid, joint) else { return };
-        let normal = shape.polytope.normal(shape.index(face));
-        let near = 0.3 * self.task.radius_mm;
-        let others: Vec<FaceId> =
-            (0..shape.polytope.face_count()).map(|f| shape.face(f)).filter(|f| *f != face).collect();
-        for &f in &others {
-            let (n, c) = shape.solid.plane(f);
-            let scale = in_plane_scale(normal, n);
-            for &point in &joint.cover {
-                let inside = (c - n.dot(point)) * scale;
-                if inside < near {
-                    let terms = self.freedom.plane(shape, f, point).into_iter().map(|(k, a)| (k, -a * scale));
-                    self.programme.at_most(terms.chain([(miss, -1.0)]), inside);
-                }
-            }
-        }
-        for corner in shape.corners.iter().filter(|c| c.faces.contains(&face)) {
-            for &(n, c) in &joint.within {
-                let inside = c - n.dot(corner.point);
-                if inside < near {
-                    let terms = self.freedom.corner(shape, corner, n);
-                    self.programme.at_most(terms.into_iter().chain([(miss, -1.0)]), inside);
-                }
-            }
         }
     }
 }

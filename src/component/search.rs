@@ -5,7 +5,8 @@ use super::assemble::{AssembleError, Assembled, assemble};
 use super::convert::ConvertError;
 use super::fit::{Fit, Fitted};
 use super::profile::{balance, imbalance};
-use super::start::{circumscribe, fold_spots, simplify};
+use super::seated::support;
+use super::start::{boxed, circumscribe, fold_spots, simplify};
 use super::target::{FoldSpot, Target};
 use crate::geom::{self, Hull, HullError, polygon};
 use glam::DVec3;
@@ -13,10 +14,18 @@ use rayon::prelude::*;
 
 /// Hulls with more corners are fitted through their extreme points in this many directions.
 const FIT_DIRECTIONS: usize = 320;
+/// While directions are compared, in so many.
+const ROUGH_DIRECTIONS: usize = 140;
+/// Joints that carry less than this get a higher price, this many times the last, so many times.
+const GOOD_SUPPORT: f64 = 0.85;
+const PRICE_RISE: f64 = 4.0;
+const PRICE_RISES: usize = 2;
+/// A better supported joint may cost this share of the hull's height in error.
+const SUPPORT_WORTH: f64 = 0.04;
 /// The search narrows down: after so many steps each, so many starts are left.
-const ROUNDS: [(usize, usize); 3] = [(4, 5), (6, 3), (8, 2)];
+const ROUNDS: [(usize, usize); 2] = [(4, 5), (6, 3)];
 /// Steps of a fit at most.
-const STEPS: usize = 30;
+const STEPS: usize = 24;
 /// Steps after a panel was dropped.
 const REPAIR_STEPS: usize = 8;
 /// A shape that misses a limit by less is as good as one that keeps it.
@@ -30,7 +39,7 @@ const LACK_PRICE: f64 = 2.0;
 /// The best component: index of its target, solid and panels.
 pub(super) fn best(targets: &[(Target, f64)]) -> Result<(usize, Fitted, Assembled), ConvertError> {
     let hulls: Vec<Hull> =
-        targets.par_iter().map(|t| simplified(t.0.hull, FIT_DIRECTIONS)).collect::<Vec<_>>();
+        targets.par_iter().map(|t| simplified(t.0.hull, ROUGH_DIRECTIONS)).collect::<Vec<_>>();
     let goals: Vec<Target> = targets.iter().zip(&hulls).map(|(t, hull)| goal(&t.0, hull)).collect();
     let mut runs: Vec<(usize, Fit)> =
         goals.par_iter().enumerate().map(|(k, goal)| (k, start(goal))).collect();
@@ -60,7 +69,24 @@ pub(super) fn best(targets: &[(Target, f64)]) -> Result<(usize, Fitted, Assemble
             Err(error) => failure = ConvertError::Assemble(error),
         }
     }
-    best.map(|b| b.1).ok_or(failure)
+    let best = best.map(|b| b.1).ok_or(failure);
+    let k = best.as_ref().map_or(0, |b| b.0);
+    match as_box(&targets[k].0) {
+        Some((fitted, made)) if best.as_ref().map_or(true, |b| fitted.error_mm < b.1.error_mm) => {
+            Ok((k, fitted, made))
+        }
+        _ => best,
+    }
+}
+
+/// The box round the hull, for bodies that nothing else comes as close to; `None` where it has no
+/// room either, or joints at its sides.
+fn as_box(target: &Target) -> Option<(Fitted, Assembled)> {
+    let mut solid = boxed(target)?;
+    let spots = fold_spots(&mut solid, target.profile_vertices);
+    let fitted = Fit::new(target.clone(), solid, spots).into_best();
+    let made = assemble_unbroken(&fitted).ok()?;
+    (fitted.lack_mm < NEAR_ENOUGH_MM).then_some((fitted, made))
 }
 
 /// What directions are compared by.
@@ -95,8 +121,38 @@ fn start<'h>(goal: &Target<'h>) -> Fit<'h> {
     Fit::new(goal.clone(), solid, spots)
 }
 
-/// Fits to the end; drops panels that have no room, one by one; at last accepts smaller ones.
+/// Fits to the end, and again with a higher price on joints that are not well supported.
 fn finish(target: &Target, fit: Fit) -> Result<(Fitted, Assembled), AssembleError> {
+    let hull = simplified(target.hull, FIT_DIRECTIONS);
+    let mut goal = Target { hull: &hull, ..fit.target().clone() };
+    let Fitted { shape, spots, .. } = fit.into_best();
+    let mut best = settle(target, Fit::new(goal.clone(), shape.solid, spots))?;
+    let height = hull.support(DVec3::Z) + hull.support(-DVec3::Z);
+    for _ in 0..PRICE_RISES {
+        let supports = |fitted: &Fitted| -> Vec<f64> {
+            target.joints.iter().map(|joint| support(&fitted.shape, target, joint)).collect()
+        };
+        let before = supports(&best.0);
+        if before.iter().all(|s| *s >= GOOD_SUPPORT) {
+            break;
+        }
+        for (joint, support) in goal.joints.iter_mut().zip(&before) {
+            joint.price *= if *support < GOOD_SUPPORT { PRICE_RISE } else { 1.0 };
+        }
+        let next = Fit::new(goal.clone(), best.0.shape.solid.clone(), best.0.spots.clone());
+        let Ok(next) = settle(target, next) else { break };
+        let lacking = |s: &[f64]| s.iter().map(|s| (GOOD_SUPPORT - s).max(0.0)).sum::<f64>();
+        if lacking(&supports(&next.0)) < lacking(&before)
+            && next.0.error_mm < best.0.error_mm + SUPPORT_WORTH * height
+        {
+            best = next;
+        }
+    }
+    Ok(best)
+}
+
+/// Fits to the end; drops panels that have no room, one by one; at last accepts smaller ones.
+fn settle(target: &Target, fit: Fit) -> Result<(Fitted, Assembled), AssembleError> {
     let mut fit = fit.run(STEPS);
     let mut is_least = false;
     let mut best: Option<(f64, Fitted, Assembled)> = None;

@@ -17,7 +17,7 @@ impl Line {
         (self.offset - v * self.sin) / self.cos
     }
 
-    fn meets(&self, below: &Line) -> f64 {
+    pub(super) fn meets(&self, below: &Line) -> f64 {
         (self.offset * below.cos - below.offset * self.cos) / (self.sin * below.cos - self.cos * below.sin)
     }
 }

@@ -2,10 +2,11 @@
 
 use super::fit::{Fitted, rooms};
 use super::profile::{Balance, balance, imbalance};
+use super::shape::Line;
 use super::solid::{Chain, SideFacet, Solid};
 use super::target::{FoldSpot, Seat, Target};
 use crate::geom::polygon;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
 /// Angle between neighbouring candidates for top edges and for slopes.
@@ -24,17 +25,6 @@ pub(super) const MIN_BEND_RAD: f64 = PI / 60.0;
 pub(super) fn circumscribe(target: &Target, edges: usize) -> Solid {
     let points = target.hull.vertices();
     let flat: Vec<DVec2> = points.iter().map(|p| p.truncate()).collect();
-    let heights = points.iter().map(|p| p.z);
-    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), z| (l.min(z), h.max(z)));
-    let (mut top_mm, mut bottom_mm) = (high, low);
-    let (mut is_top_joint, mut is_bottom_joint) = (false, false);
-    for joint in &target.joints {
-        match joint.seat {
-            Seat::Top { height_mm } => (top_mm, is_top_joint) = (height_mm, true),
-            Seat::Bottom { height_mm } => (bottom_mm, is_bottom_joint) = (height_mm, true),
-            Seat::Side { .. } => {}
-        }
-    }
     let locked: Vec<f64> = target.locked_angles();
     let angles = choose_angles(&polygon::convex_hull(&flat), &locked, edges);
     let chains = angles
@@ -45,12 +35,40 @@ pub(super) fn circumscribe(target: &Target, edges: usize) -> Solid {
             facets: tangents(target, angle_rad),
         })
         .collect();
-    let mut solid = Solid { chains, top_mm, bottom_mm, is_top_joint, is_bottom_joint };
+    let mut solid = with_ends(target, chains);
     lower_ends(&mut solid, target.min_panel_mm);
     for j in 0..solid.chains.len() {
         thin_out(&mut solid, j, target.profile_vertices - 1);
     }
     solid
+}
+
+/// The box round a hull; `None` for joints at its sides, and where four edges are too many.
+pub(super) fn boxed(target: &Target) -> Option<Solid> {
+    if !target.locked_angles().is_empty() || target.top_edges < 4 {
+        return None;
+    }
+    let chain = |k: usize| {
+        let angle_rad = PI / 2.0 * k as f64;
+        let normal = DVec2::from_angle(angle_rad).extend(0.0);
+        let side = SideFacet { slope_rad: 0.0, offset_mm: target.hull.support(normal), is_joint: false };
+        Chain { angle_rad, is_locked: false, facets: vec![side] }
+    };
+    Some(with_ends(target, (0..4).map(chain).collect()))
+}
+
+/// A solid with these chains, as high as the hull or up to the joints at its ends.
+fn with_ends(target: &Target, chains: Vec<Chain>) -> Solid {
+    let (mut top_mm, mut bottom_mm) = (target.hull.support(DVec3::Z), -target.hull.support(-DVec3::Z));
+    let (mut is_top_joint, mut is_bottom_joint) = (false, false);
+    for joint in &target.joints {
+        match joint.seat {
+            Seat::Top { height_mm } => (top_mm, is_top_joint) = (height_mm, true),
+            Seat::Bottom { height_mm } => (bottom_mm, is_bottom_joint) = (height_mm, true),
+            Seat::Side { .. } => {}
+        }
+    }
+    Solid { chains, top_mm, bottom_mm, is_top_joint, is_bottom_joint }
 }
 
 /// A top edge whose loss adds less than this share of the area is not worth a chain: a box has four.
@@ -75,39 +93,62 @@ fn choose_angles(outline: &[DVec2], locked: &[f64], edges: usize) -> Vec<f64> {
         let n = DVec2::from_angle(a);
         outline.iter().map(|p| n.dot(*p)).fold(f64::NEG_INFINITY, f64::max)
     };
-    let mut set: Vec<(f64, f64)> = candidates.into_iter().map(|a| (a, support(a))).collect();
+    let mut set: Vec<Edge> = candidates
+        .into_iter()
+        .map(|angle_rad| Edge {
+            angle_rad,
+            normal: DVec2::from_angle(angle_rad),
+            support: support(angle_rad),
+            is_locked: locked.contains(&angle_rad),
+        })
+        .collect();
+    let mut costs: Vec<f64> = (0..set.len()).map(|k| area_added(&set, k)).collect();
     loop {
         let n = set.len();
-        let removable = (0..n).filter(|&k| !locked.contains(&set[k].0)).filter_map(|k| {
-            let (before, after) = (set[(k + n - 1) % n], set[(k + 1) % n]);
-            let gap = (after.0 - before.0).rem_euclid(TAU);
-            let near = (set[k].0 - before.0).rem_euclid(TAU).min((after.0 - set[k].0).rem_euclid(TAU));
-            (gap <= MAX_TURN_RAD && n > 3)
-                .then(|| (near >= MIN_TURN_RAD, area_added(before, set[k], after), k))
+        let removable = (0..n).filter(|&k| !set[k].is_locked).filter_map(|k| {
+            let (before, after) = (set[(k + n - 1) % n].angle_rad, set[(k + 1) % n].angle_rad);
+            let gap = (after - before).rem_euclid(TAU);
+            let own = set[k].angle_rad;
+            let near = (own - before).rem_euclid(TAU).min((after - own).rem_euclid(TAU));
+            (gap <= MAX_TURN_RAD && n > 3).then_some((near >= MIN_TURN_RAD, costs[k], k))
         });
         let best = removable.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
         match best {
             Some((is_spread, area, k)) if n > edges || !is_spread || area < WORTH_SHARE * whole => {
-                set.remove(k)
+                set.remove(k);
+                costs.remove(k);
+                for changed in [(k + n - 2) % (n - 1), k % (n - 1)] {
+                    costs[changed] = area_added(&set, changed);
+                }
             }
-            _ => return set.into_iter().map(|s| s.0).collect(),
+            _ => return set.into_iter().map(|s| s.angle_rad).collect(),
         };
     }
+}
+
+/// A candidate for an edge of the top polygon.
+struct Edge {
+    angle_rad: f64,
+    normal: DVec2,
+    support: f64,
+    is_locked: bool,
+}
+
+/// Area between an edge and the corner that its neighbours would make without it.
+fn area_added(set: &[Edge], k: usize) -> f64 {
+    let n = set.len();
+    let (before, line, after) = (&set[(k + n - 1) % n], &set[k], &set[(k + 1) % n]);
+    let meet = |a: &Edge, b: &Edge| {
+        let (na, nb) = (a.normal, b.normal);
+        DVec2::new(a.support * nb.y - b.support * na.y, na.x * b.support - nb.x * a.support) / na.perp_dot(nb)
+    };
+    polygon::cross3(meet(before, line), meet(before, after), meet(line, after)).abs() / 2.0
 }
 
 /// Signed difference of two directions, in (−π, π].
 pub(super) fn turn(a: f64, b: f64) -> f64 {
     let d = (a - b).rem_euclid(TAU);
     if d > PI { d - TAU } else { d }
-}
-
-/// Area between a line and the corner of its two neighbours, lines given as (angle, support).
-fn area_added(before: (f64, f64), line: (f64, f64), after: (f64, f64)) -> f64 {
-    let meet = |a: (f64, f64), b: (f64, f64)| {
-        let (na, nb) = (DVec2::from_angle(a.0), DVec2::from_angle(b.0));
-        DVec2::new(a.1 * nb.y - b.1 * na.y, na.x * b.1 - nb.x * a.1) / na.perp_dot(nb)
-    };
-    polygon::cross3(meet(before, line), meet(before, after), meet(line, after)).abs() / 2.0
 }
 
 /// Tangent planes of the hull's silhouette in one direction, from steep-up to steep-down, with
@@ -139,7 +180,7 @@ fn tangents(target: &Target, angle_rad: f64) -> Vec<SideFacet> {
 fn lower_ends(solid: &mut Solid, min_panel_mm: f64) {
     let (high, low) = (solid.top_mm, solid.bottom_mm);
     let height = high - low;
-    let widest = solid.clone();
+    let widest = super::shape::Shape::of(solid.clone());
     let narrowest =
         |v: f64| (0..widest.chains.len()).map(|j| widest.width_at(j, v)).fold(f64::INFINITY, f64::min);
     let useful = narrowest((high + low) / 2.0).min(8.0 * min_panel_mm) * 0.4;
@@ -159,16 +200,22 @@ const WORTH_MM: f64 = 0.05;
 /// Drops planes of chain j until `count` are left and all are worth having: first those outside
 /// the heights, then those whose loss adds the least area to the profile. Joint panels stay.
 fn thin_out(solid: &mut Solid, j: usize, count: usize) {
-    let (top, bottom) = (solid.top_mm, solid.bottom_mm);
+    let ends = (solid.top_mm, solid.bottom_mm);
+    let mut lines = super::shape::lines(&solid.chains[j]);
     let facets = &mut solid.chains[j].facets;
+    let mut bulges: Vec<(f64, f64)> = (0..lines.len()).map(|k| bulge(&lines, k, ends)).collect();
     loop {
         let best = (0..facets.len())
             .filter(|&k| !facets[k].is_joint)
-            .map(|k| (bulge(facets, k, top, bottom), k))
-            .min_by(|a, b| a.0.0.total_cmp(&b.0.0).then(a.1.cmp(&b.1)));
+            .min_by(|&a, &b| bulges[a].0.total_cmp(&bulges[b].0).then(a.cmp(&b)));
         match best {
-            Some(((_, mean_mm), k)) if facets.len() > 1 && (facets.len() > count || mean_mm < WORTH_MM) => {
+            Some(k) if facets.len() > 1 && (facets.len() > count || bulges[k].1 < WORTH_MM) => {
                 facets.remove(k);
+                lines.remove(k);
+                bulges.remove(k);
+                for changed in k.saturating_sub(1)..(k + 1).min(lines.len()) {
+                    bulges[changed] = bulge(&lines, changed, ends);
+                }
             }
             _ => return,
         }
@@ -176,19 +223,19 @@ fn thin_out(solid: &mut Solid, j: usize, count: usize) {
 }
 
 /// Area by which the profile would grow without plane k, mm², and its mean width, mm.
-fn bulge(facets: &[SideFacet], k: usize, top: f64, bottom: f64) -> (f64, f64) {
-    let bend = |k: usize| facets[k].meets(&facets[k + 1]);
+fn bulge(lines: &[Line], k: usize, (top, bottom): (f64, f64)) -> (f64, f64) {
+    let bend = |k: usize| lines[k].meets(&lines[k + 1]);
     let upper = if k == 0 { top } else { bend(k - 1).min(top) };
-    let lower = if k + 1 == facets.len() { bottom } else { bend(k).max(bottom) };
+    let lower = if k + 1 == lines.len() { bottom } else { bend(k).max(bottom) };
     if upper <= lower {
         return (0.0, 0.0);
     }
     let steps = 12;
     let gaps = (0..steps).map(|s| {
         let v = lower + (upper - lower) * (f64::from(s) + 0.5) / f64::from(steps);
-        let above = if k > 0 { facets[k - 1].u_at(v) } else { f64::INFINITY };
-        let below = facets.get(k + 1).map_or(f64::INFINITY, |f| f.u_at(v));
-        (above.min(below) - facets[k].u_at(v)).clamp(0.0, 1e6)
+        let above = if k > 0 { lines[k - 1].u_at(v) } else { f64::INFINITY };
+        let below = lines.get(k + 1).map_or(f64::INFINITY, |f| f.u_at(v));
+        (above.min(below) - lines[k].u_at(v)).clamp(0.0, 1e6)
     });
     let mean_mm = gaps.sum::<f64>() / f64::from(steps);
     (mean_mm * (upper - lower), mean_mm)
@@ -258,7 +305,7 @@ pub(super) fn simplify(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<F
         let facets = &solid.chains[j].facets;
         let free = (0..facets.len()).filter(|&k| facets.len() > 1 && !facets[k].is_joint);
         free.min_by(|&a, &b| {
-            let area = |k: usize| bulge(facets, k, solid.top_mm, solid.bottom_mm).0;
+            let area = |k: usize| bulge(&shape.chains[j].lines, k, (solid.top_mm, solid.bottom_mm)).0;
             area(a).total_cmp(&area(b))
         })
     };

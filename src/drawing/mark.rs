@@ -7,6 +7,8 @@ use glam::{DAffine2, DVec2};
 
 /// How far the matrix of a placement may be from a rotation.
 const RIGID_TOLERANCE: f64 = 1e-9;
+/// A text this near to upright counts as upright; it then reads from below.
+const UPRIGHT: f64 = 1e-9;
 
 impl Polyline {
     /// An open polyline.
@@ -63,6 +65,15 @@ impl Text {
             Align::End => 1.0,
         };
         self.anchor - DVec2::from_angle(self.angle_rad) * (share * width_mm)
+    }
+}
+
+impl Text {
+    /// Middle of its capitals.
+    pub fn middle(&self) -> DVec2 {
+        let along = DVec2::from_angle(self.angle_rad);
+        let width_mm = text::width_mm(&self.content, self.cap_height_mm);
+        self.start() + along * (width_mm / 2.0) + along.perp() * (self.cap_height_mm / 2.0)
     }
 }
 
@@ -142,6 +153,60 @@ impl Mark {
             }
         }
         self
+    }
+
+    /// The same mark seen from behind: mirrored in the upright line at `x_mm`. Letters are not
+    /// mirrored; a text stands in the mirrored place of its box.
+    #[must_use]
+    pub fn mirrored(mut self, x_mm: f64) -> Self {
+        let mirror = |p: DVec2| DVec2::new(2.0 * x_mm - p.x, p.y);
+        match &mut self.shape {
+            Shape::Path { contours, .. } => {
+                contours.iter_mut().flat_map(|c| &mut c.points).for_each(|p| *p = mirror(*p));
+            }
+            Shape::Text(text) => {
+                let middle = mirror(text.middle());
+                text.angle_rad = -text.angle_rad;
+                text.anchor += middle - text.middle();
+            }
+            Shape::Image(image) => {
+                let flip = DAffine2::from_cols(-DVec2::X, DVec2::Y, DVec2::X * (2.0 * x_mm));
+                image.place = flip * image.place;
+                image.clip.points.iter_mut().for_each(|p| *p = mirror(*p));
+            }
+        }
+        self
+    }
+
+    /// The same mark; a text that is upside down is turned about its middle.
+    #[must_use]
+    pub fn righted(mut self) -> Self {
+        if let Shape::Text(text) = &mut self.shape {
+            let along = DVec2::from_angle(text.angle_rad);
+            if along.x < -UPRIGHT || (along.x.abs() <= UPRIGHT && along.y < 0.0) {
+                let middle = text.middle();
+                text.angle_rad += std::f64::consts::PI;
+                text.anchor += middle - text.middle();
+            }
+        }
+        self
+    }
+
+    /// Moves the mark's points away from `middle` by a factor across and one along the page;
+    /// letters keep their size.
+    pub fn stretch(&mut self, middle: DVec2, factor: DVec2) {
+        let moved = |p: DVec2| middle + (p - middle) * factor;
+        match &mut self.shape {
+            Shape::Path { contours, .. } => {
+                contours.iter_mut().flat_map(|c| &mut c.points).for_each(|p| *p = moved(*p));
+            }
+            Shape::Text(text) => text.anchor += moved(text.middle()) - text.middle(),
+            Shape::Image(image) => {
+                let scale = DAffine2::from_scale_angle_translation(factor, 0.0, middle - middle * factor);
+                image.place = scale * image.place;
+                image.clip.points.iter_mut().for_each(|p| *p = moved(*p));
+            }
+        }
     }
 
     /// Smallest and largest coordinates of the mark's geometry, mm: half the width of strokes is

@@ -47,13 +47,15 @@ pub enum Layer {
     Label,
     /// Scale bar, legend, title: belongs to the page, not to a piece.
     Furniture,
+    /// Marks by which a cutter finds the page.
+    Registration,
     /// Filled faces of pictures.
     Picture,
 }
 
 impl Layer {
     /// All layers, in their order.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Cut,
         Self::Slit,
         Self::Mountain,
@@ -62,6 +64,7 @@ impl Layer {
         Self::Glue,
         Self::Label,
         Self::Furniture,
+        Self::Registration,
         Self::Picture,
     ];
 
@@ -77,7 +80,16 @@ impl Layer {
             Self::Glue => "glue",
             Self::Label => "label",
             Self::Furniture => "furniture",
+            Self::Registration => "registration",
             Self::Picture => "picture",
+        }
+    }
+
+    /// Whether a cutter works on these lines: cuts and creases. All else is printed only.
+    pub fn is_worked(self) -> bool {
+        match self {
+            Self::Cut | Self::Slit | Self::Mountain | Self::Valley | Self::FoldHinge => true,
+            Self::Glue | Self::Label | Self::Furniture | Self::Registration | Self::Picture => false,
         }
     }
 }
@@ -135,7 +147,8 @@ pub struct Text {
 pub struct Image {
     /// The pixels.
     pub raster: Arc<Raster>,
-    /// Rigid motion to the page, from mm along the raster's lower and left edge.
+    /// To the page, from mm along the raster's lower and left edge: a rigid motion, but for a mirror
+    /// and a printer's scale.
     pub place: DAffine2,
     /// Closed contour on the page; nothing is seen outside.
     pub clip: Polyline,

@@ -148,6 +148,7 @@ struct StyleFile {
     glue: StyleTable,
     label: StyleTable,
     furniture: StyleTable,
+    registration: StyleTable,
     picture: StyleTable,
 }
 
@@ -162,6 +163,7 @@ impl StyleFile {
             Layer::Glue => &self.glue,
             Layer::Label => &self.label,
             Layer::Furniture => &self.furniture,
+            Layer::Registration => &self.registration,
             Layer::Picture => &self.picture,
         }
     }

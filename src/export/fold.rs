@@ -1,16 +1,22 @@
 //! FOLD 1.2: the multi-frame master, from crease pattern to flat model.
 //!
 //! Frame 0 holds the crease pattern, all pieces at their places on the sheets; `file_frames` hold
-//! the deployed and the flat state of the same vertices. Coordinates are written with as many
+//! the deployed and the flat state of the same vertices, and as many poses between them as are
+//! asked for: components fold in them one after another, and the bottom panels of roots stay where
+//! they are when deployed. Coordinates are written with as many
 //! digits as they have, so every face is congruent in all frames within rounding.
 
+mod options;
 mod pieces;
 
+pub use options::{FoldOptions, PoseCount};
 pub use pieces::write_piece;
 
 use super::{ExportError, ExportFile, Format, FormatOptions, Source};
-use crate::component::{HingeId, PanelKind, PanelSet};
-use crate::net::{Corner, EdgeKind, FaceKind, Net, Piece};
+use crate::component::{HingeId, PanelId, PanelKind, PanelSet};
+use crate::fold::{ModelMotion, PartPose, Sequence};
+use crate::net::{Corner, EdgeKind, FaceKind, Net, Piece, PieceMesh};
+use crate::pipeline::Output;
 use crate::product::Product;
 use crate::sheet::PiecePlace;
 use glam::{DAffine3, DVec2, DVec3};
@@ -27,19 +33,28 @@ pub const FORMAT: Format = Format {
 /// Version of the format.
 const SPEC: f64 = 1.2;
 const CREATOR: &str = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
+/// Shorter edges are points.
+const SHORTEST_MM: f64 = 1e-6;
 /// Distance between sheets in the crease pattern, mm.
 const SHEET_GAP_MM: f64 = 20.0;
 
-/// Choices for FOLD files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct FoldOptions {
-    /// Whether each piece is written to a file of its own, besides the master.
-    pub pieces: bool,
+/// The panels of all components in evenly spread poses between deployed and flat.
+fn poses_between(output: &Output, PoseCount(count): PoseCount) -> Vec<Vec<Vec<DAffine3>>> {
+    let motion = ModelMotion::new(output.model());
+    let sequence = Sequence::new(output.fold_plan().order());
+    let poses: Vec<_> =
+        (1..=count).map(|k| motion.pose(&sequence.folded(k as f64 / (count + 1) as f64))).collect();
+    let panels = |part: &PartPose| -> Vec<DAffine3> {
+        part.pose.placements.iter().map(|placement| part.frame * *placement).collect()
+    };
+    let parts = 0..output.model().parts().len();
+    parts.map(|p| poses.iter().map(|pose| panels(&pose.parts[p])).collect()).collect()
 }
 
 /// The master of a model, with its sheets side by side, and the pieces.
 fn files(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
     let output = product.output();
+    let between = poses_between(output, options.fold.poses);
     let layout = output.layout();
     let components: Vec<FoldComponent> = output
         .model()
@@ -49,10 +64,11 @@ fn files(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFil
         .enumerate()
         .map(|(n, (part, net))| FoldComponent {
             name: &part.name,
-            set: part.component.panels(),
+            set: net.panels(),
             net,
             pieces: layout.places(n),
             deployed: part.deployed(),
+            between: &between[n],
             flat: part.flat,
         })
         .collect();
@@ -76,7 +92,7 @@ fn files(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFil
 pub struct FoldComponent<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Its panels.
+    /// The panels that the net was made of: [`Net::panels`].
     pub set: &'a PanelSet,
     /// Its net, made from `set`.
     pub net: &'a Net,
@@ -84,7 +100,10 @@ pub struct FoldComponent<'a> {
     pub pieces: &'a [PiecePlace],
     /// Rigid motion from the component's axes to the model's in the deployed state.
     pub deployed: DAffine3,
-    /// The same in the final state of folding.
+    /// Poses between deployed and flat: from the coordinates of each panel, by id, to the model's
+    /// axes. All components have as many.
+    pub between: &'a [Vec<DAffine3>],
+    /// The same as `deployed` in the final state of folding.
     pub flat: DAffine3,
 }
 
@@ -105,13 +124,20 @@ pub struct FoldModel<'a> {
 /// # Errors
 /// Only what `serde_json` reports; no input is known that brings it about.
 pub fn write(model: &FoldModel<'_>) -> Result<Vec<u8>, serde_json::Error> {
-    let mut graph = Graph::default();
+    let between = model.components.iter().map(|c| c.between.len()).min().unwrap_or(0);
+    let mut graph = Graph::with_poses(between);
     for component in model.components {
         for (piece, place) in component.net.pieces().iter().zip(component.pieces) {
             graph.add_piece(model, component, piece, *place);
         }
     }
-    let Graph { pattern, edges, faces, deployed, flat } = graph;
+    let Graph { pattern, edges, faces, states } = graph;
+    let title = |k: usize| match k {
+        0 => "deployed".to_owned(),
+        k if k == between + 1 => "flat".to_owned(),
+        k => format!("pose {k} of {between}"),
+    };
+    let frame = |(k, state): (usize, State)| Frame::folded(title(k), state.coords, state.angles_deg);
     let master = Master {
         file_spec: SPEC,
         file_creator: CREATOR,
@@ -124,10 +150,7 @@ pub fn write(model: &FoldModel<'_>) -> Result<Vec<u8>, serde_json::Error> {
         vertices_coords: pattern,
         edges,
         faces,
-        file_frames: vec![
-            Frame::folded("deployed", deployed.coords, deployed.angles_deg),
-            Frame::folded("flat", flat.coords, flat.angles_deg),
-        ],
+        file_frames: states.into_iter().enumerate().map(frame).collect(),
     };
     serde_json::to_vec(&master)
 }
@@ -180,7 +203,7 @@ struct Faces {
 
 #[derive(Serialize)]
 struct Frame {
-    frame_title: &'static str,
+    frame_title: String,
     frame_classes: [&'static str; 1],
     frame_attributes: [&'static str; 1],
     frame_unit: &'static str,
@@ -192,7 +215,7 @@ struct Frame {
 }
 
 impl Frame {
-    fn folded(title: &'static str, coords: Vec<[f64; 3]>, angles_deg: Vec<f64>) -> Self {
+    fn folded(title: String, coords: Vec<[f64; 3]>, angles_deg: Vec<f64>) -> Self {
         Self {
             frame_title: title,
             frame_classes: ["foldedForm"],
@@ -219,11 +242,18 @@ struct Graph {
     pattern: Vec<[f64; 3]>,
     edges: Edges,
     faces: Faces,
-    deployed: State,
-    flat: State,
+    /// Deployed, the poses between, flat.
+    states: Vec<State>,
 }
 
 impl Graph {
+    /// An empty master with so many poses between deployed and flat.
+    fn with_poses(between: usize) -> Self {
+        let mut graph = Self::default();
+        graph.states.resize_with(between + 2, State::default);
+        graph
+    }
+
     fn add_piece(
         &mut self,
         model: &FoldModel<'_>,
@@ -231,23 +261,36 @@ impl Graph {
         piece: &Piece,
         at: PiecePlace,
     ) {
-        let (first_vertex, first_face) = (self.pattern.len(), self.faces.faces_vertices.len());
+        let first_face = self.faces.faces_vertices.len();
         let offsets = model.sheet_offsets;
         let offset = offsets.get(at.sheet).or(offsets.last()).copied().unwrap_or_default();
-        for vertex in piece.mesh().vertices() {
+        let kept = without_short_edges(piece.mesh());
+        let mut number = vec![0; kept.len()];
+        for (v, vertex) in piece.mesh().vertices().iter().enumerate() {
+            if kept[v] != v {
+                number[v] = number[kept[v]];
+                continue;
+            }
+            number[v] = self.pattern.len();
             let flat = at.place.transform_point2(vertex.at) + offset;
             self.pattern.push([flat.x, flat.y, 0.0]);
-            let (deployed, flat) = folded(component, piece, vertex.of);
-            self.deployed.coords.push(deployed.into());
-            self.flat.coords.push(flat.into());
+            let last = self.states.len() - 1;
+            for (k, state) in self.states.iter_mut().enumerate() {
+                state.coords.push(folded(component, piece, vertex.of, k, last).into());
+            }
         }
-        for edge in piece.mesh().edges() {
-            self.edges.edges_vertices.push(edge.ends.map(|v| first_vertex + v));
+        for edge in piece.mesh().edges().iter().filter(|edge| kept[edge.ends[0]] != kept[edge.ends[1]]) {
+            self.edges.edges_vertices.push(edge.ends.map(|v| number[v]));
             self.edges.edges_faces.push(edge.faces.iter().map(|f| first_face + f).collect());
             self.add_edge_kind(component, edge.kind);
         }
         for face in piece.mesh().faces() {
-            self.faces.faces_vertices.push(face.vertices.iter().map(|v| first_vertex + v).collect());
+            let mut corners: Vec<usize> = face.vertices.iter().map(|&v| number[v]).collect();
+            corners.dedup();
+            if corners.len() > 1 && corners.first() == corners.last() {
+                corners.pop();
+            }
+            self.faces.faces_vertices.push(corners);
             self.add_face_kind(component, face.kind);
             self.faces.component.push(component.name.to_owned());
             self.faces.sheet.push(at.sheet);
@@ -275,8 +318,19 @@ impl Graph {
         self.edges.label.push(label);
         self.edges.edges_assignment.push(assignment);
         self.edges.fold_angle_deg.push(mountain_deg(deployed_rad));
-        self.deployed.angles_deg.push(mountain_deg(deployed_rad));
-        self.flat.angles_deg.push(mountain_deg(flat_rad));
+        let last = self.states.len() - 1;
+        for (k, state) in self.states.iter_mut().enumerate() {
+            let angle_rad = match (k, fold) {
+                (0, _) => deployed_rad,
+                (k, _) if k == last => flat_rad,
+                (k, Some(hinge)) => {
+                    let [a, b] = hinge.sides.map(|s| placed(component, s.panel, k, last).matrix3.z_axis);
+                    a.cross(b).length().atan2(a.dot(b))
+                }
+                (_, None) => 0.0,
+            };
+            state.angles_deg.push(mountain_deg(angle_rad));
+        }
     }
 
     fn add_face_kind(&mut self, component: &FoldComponent<'_>, kind: FaceKind) {
@@ -296,13 +350,38 @@ impl Graph {
     }
 }
 
+/// For each vertex the first one that edges without length lead to: panels may have corners at the
+/// same place, and readers sort edges by their directions.
+fn without_short_edges(mesh: &PieceMesh) -> Vec<usize> {
+    let mut kept: Vec<usize> = (0..mesh.vertices().len()).collect();
+    for edge in mesh.edges() {
+        let [a, b] = mesh.segment(edge);
+        if a.distance(b) < SHORTEST_MM {
+            let ends = edge.ends.map(|v| kept[v]);
+            let (first, last) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+            kept.iter_mut().filter(|k| **k == last).for_each(|k| *k = first);
+        }
+    }
+    kept
+}
+
 /// FOLD's sign: mountain folds are negative; a flat edge is plain 0.
 fn mountain_deg(angle_rad: f64) -> f64 {
     if angle_rad == 0.0 { 0.0 } else { -angle_rad.to_degrees() }
 }
 
-/// A vertex in the deployed and in the flat state. A tab lies on the inside of its mate.
-fn folded(component: &FoldComponent<'_>, piece: &Piece, of: Corner) -> (DVec3, DVec3) {
+/// A panel in a state: 0 is deployed, `last` is flat.
+fn placed(component: &FoldComponent<'_>, panel: PanelId, state: usize, last: usize) -> DAffine3 {
+    match state {
+        0 => component.deployed * component.set.panel(panel).deployed,
+        k if k == last => component.flat * component.set.panel(panel).flat,
+        // A part of a split panel moves with it.
+        k => component.between[k - 1][component.net.source(panel).0],
+    }
+}
+
+/// A vertex in a state. A tab lies on the inside of its mate.
+fn folded(component: &FoldComponent<'_>, piece: &Piece, of: Corner, state: usize, last: usize) -> DVec3 {
     let (panel, point) = match of {
         Corner::Panel { panel, corner } => (panel, component.set.panel(panel).outline[corner]),
         Corner::Tab { tab, corner } => {
@@ -311,10 +390,5 @@ fn folded(component: &FoldComponent<'_>, piece: &Piece, of: Corner) -> (DVec3, D
             (mate, tab.on_mate[corner])
         }
     };
-    let panel = component.set.panel(panel);
-    let point = point.extend(0.0);
-    (
-        (component.deployed * panel.deployed).transform_point3(point),
-        (component.flat * panel.flat).transform_point3(point),
-    )
+    placed(component, panel, state, last).transform_point3(point.extend(0.0))
 }

@@ -4,23 +4,28 @@
 //! Nothing is computed for a format that is not asked for. Adding a format is one file and one line
 //! in [`FORMATS`]; one with choices of its own adds their type to [`FormatOptions`].
 
+mod apng;
 mod dxf;
 #[cfg(test)]
 mod fixture;
 pub mod fold;
+mod gif;
 pub mod glb;
 pub mod gltf;
 mod json;
 mod obj;
 mod options;
 mod pdf;
+mod plt;
 pub mod png;
 mod svg;
 
 pub use dxf::{DxfOptions, DxfSheets, DxfVersion};
-pub use fold::FoldOptions;
+pub use fold::{FoldOptions, PoseCount};
+pub use glb::GlbOptions;
 pub use options::{FormatOptions, TextMode};
 pub use pdf::{PdfOptions, Timestamp};
+pub use plt::PltOptions;
 pub use png::PngOptions;
 pub use svg::{SvgOptions, SvgStroke};
 
@@ -33,9 +38,12 @@ pub const FORMATS: &[Format] = &[
     svg::FORMAT,
     dxf::FORMAT,
     png::FORMAT,
-    fold::FORMAT,
+    plt::FORMAT,
+    gif::FORMAT,
+    apng::FORMAT,
     glb::FORMAT,
     obj::FORMAT,
+    fold::FORMAT,
     json::FORMAT,
 ];
 

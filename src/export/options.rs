@@ -2,19 +2,28 @@
 
 use super::dxf::DxfOptions;
 use super::fold::FoldOptions;
+use super::glb::GlbOptions;
 use super::pdf::PdfOptions;
+use super::plt::PltOptions;
 use super::png::PngOptions;
 use super::svg::SvgOptions;
+use crate::show::FilmOptions;
 
 /// The choices for all formats, one checked type a format that has any.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct FormatOptions {
     /// For DXF.
     pub dxf: DxfOptions,
+    /// For animations.
+    pub film: FilmOptions,
     /// For FOLD.
     pub fold: FoldOptions,
+    /// For GLB.
+    pub glb: GlbOptions,
     /// For PDF.
     pub pdf: PdfOptions,
+    /// For PLT.
+    pub plt: PltOptions,
     /// For PNG.
     pub png: PngOptions,
     /// For SVG.

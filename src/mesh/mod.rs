@@ -6,6 +6,7 @@
 
 mod cut;
 mod edges;
+pub mod painting;
 mod placement;
 mod read;
 mod repair;
@@ -13,7 +14,7 @@ mod soup;
 
 pub use edges::Edges;
 pub use placement::Up;
-pub use read::{Format, Place, ReadError, read, read_with_siblings};
+pub use read::{ColourError, Format, Place, ReadError, read, read_painting, read_with_siblings};
 pub use repair::{MeshError, Repairs};
 pub use soup::{Soup, SoupError};
 

@@ -4,7 +4,9 @@
 use super::link::Link;
 use super::seat::{Seating, level_axis, seat_plane, seats, turn_onto};
 use super::{Joint, Model, ModelPart};
-use crate::component::{Component, ConvertError, JointTarget, PanelId, PrincipalAxis, Target, choose};
+use crate::component::{
+    Component, ConvertError, JointTarget, PanelId, PrincipalAxis, Target, choose, fewest,
+};
 use crate::geom::{Hull, Plane, polygon};
 use crate::progress::{Cancelled, Progress};
 use glam::{DAffine3, DVec3};
@@ -22,6 +24,9 @@ pub struct PartOptions {
     pub top_edges: usize,
     /// Most vertices of a profile.
     pub profile_vertices: usize,
+    /// Distance from the hull that is close enough; then the two numbers above are the most that
+    /// is used, and as few are used as will do.
+    pub tolerance_mm: Option<f64>,
     /// Size below which panels are made fewer rather than smaller, mm.
     pub comfortable_mm: f64,
 }
@@ -176,7 +181,11 @@ impl Builder<'_> {
         let targets: Vec<(Target, f64)> =
             candidates.iter().map(|c| (self.target(c), PLANE_PRICE * c.plane_shift_mm)).collect();
         let fail = |error| ModelError::Component { name: part.options.name.clone(), error };
-        let (best, component) = choose(&targets).map_err(fail)?;
+        let found = match part.options.tolerance_mm {
+            Some(tolerance_mm) => fewest(&targets, tolerance_mm),
+            None => choose(&targets),
+        };
+        let (best, component) = found.map_err(fail)?;
         let (chosen, target) = (&candidates[best], &targets[best].0);
         let joints = chosen
             .joints

@@ -38,7 +38,7 @@ pub enum NetFault {
         /// How often it was found.
         count: usize,
     },
-    /// A hinge is neither one crease nor one tab.
+    /// A hinge is neither one crease nor one tab nor taped.
     #[error("hinge {hinge:?} is {creases} creases and {tabs} tabs")]
     Hinge {
         /// The hinge.
@@ -133,7 +133,11 @@ fn structure(set: &PanelSet, net: &Net, out: &mut Vec<NetFault>) {
     for hinge in (0..set.hinges().len()).map(HingeId) {
         let creases = net.pieces().iter().filter(|p| p.creases().contains(&hinge)).count();
         let tabs = all_tabs(net).filter(|t| t.hinge == hinge).count();
-        if creases + tabs != 1 {
+        let taped = net
+            .warnings()
+            .iter()
+            .any(|w| matches!(w, super::NetWarning::NoTab { label } if net.label(hinge) == Some(label)));
+        if creases + tabs + usize::from(taped) != 1 {
             out.push(NetFault::Hinge { hinge, creases, tabs });
         }
     }

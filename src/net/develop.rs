@@ -4,10 +4,13 @@ use super::chains::Chains;
 use super::cuts::{Candidate, Problem};
 use super::divide::divide;
 use super::finish::finish;
+use super::glue;
+use super::grow::grow;
 use super::layout::{self, Layout, best_turn, hinge_length};
+use super::split::{Split, split};
 use super::tabs::{self, Placed, Shapes, USEFUL_WIDTH_MM};
 use super::{JointMark, Net};
-use crate::component::{HingeId, PanelId, PanelSet};
+use crate::component::{Hinge, HingeId, PanelId, PanelKind, PanelSet};
 use glam::DVec2;
 
 /// Hinges shorter than this cost extra to glue.
@@ -55,6 +58,35 @@ pub struct NetOptions {
     pub tab_width_mm: f64,
     /// Room for pieces on a sheet: width and height within the margins, mm.
     pub sheet_mm: DVec2,
+    /// What else is chosen.
+    pub choices: NetChoices,
+}
+
+/// What the user may choose about nets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NetChoices {
+    /// Whether a panel larger than the sheet may be split.
+    pub may_split: bool,
+    /// Whether the place of each tab behind its mate is drawn.
+    pub glue_marks: bool,
+    /// Whether the angle of each crease is written beside it.
+    pub angles: bool,
+    /// Creases that are folded by less, when deployed, are not drawn; fold hinges always are.
+    pub hide_below_rad: f64,
+}
+
+impl Default for NetChoices {
+    /// Panels may be split, and nothing is drawn but what must be.
+    fn default() -> Self {
+        Self { may_split: true, glue_marks: false, angles: false, hide_below_rad: 0.0 }
+    }
+}
+
+impl NetOptions {
+    /// The standard choices.
+    pub fn new(tab_width_mm: f64, sheet_mm: DVec2) -> Self {
+        Self { tab_width_mm, sheet_mm, choices: NetChoices::default() }
+    }
 }
 
 /// Names that appear on the pieces of a component.
@@ -67,11 +99,11 @@ pub struct Naming<'a> {
 }
 
 /// Makes the net of a component: the best one-piece net that fits the sheet with all its tabs;
-/// where there is none, two pieces, then more.
+/// where there is none, two pieces, then more. A panel that is larger than the sheet is split.
 ///
 /// # Errors
-/// [`NetError::PanelTooLarge`] where one panel alone does not fit the sheet (the largest such
-/// panel is named); [`NetError::NotChains`] for panels that are no component.
+/// [`NetError::PanelTooLarge`] where one panel alone does not fit the sheet and may not be split
+/// (the largest such panel is named); [`NetError::NotChains`] for panels that are no component.
 pub fn develop(
     set: &PanelSet,
     naming: Naming<'_>,
@@ -79,17 +111,32 @@ pub fn develop(
     options: &NetOptions,
 ) -> Result<Net, NetError> {
     let chains = Chains::of(set)?;
-    check_panels(set, naming.name, options.sheet_mm)?;
+    let Err(error) = check_panels(set, naming.name, options.sheet_mm) else {
+        let source = (0..set.panels().len()).map(PanelId).collect();
+        let draft = draft_of_chains(set, &chains, options);
+        return Ok(finish(Split { set: set.clone(), source }, draft, naming, joints, options));
+    };
+    let split =
+        if options.choices.may_split { split(set, options.sheet_mm, options.tab_width_mm) } else { None };
+    let split = split.ok_or(error)?;
+    let shapes = tabs::shapes(&split.set, options.tab_width_mm);
+    let cut_cost = cut_costs(&split.set, &shapes, options.tab_width_mm);
+    let is_cut = grow(&split.set, &cut_cost, options.sheet_mm, options.tab_width_mm);
+    let draft = with_tabs(&split.set, is_cut, options.sheet_mm, &cut_cost, &shapes);
+    Ok(finish(split, draft, naming, joints, options))
+}
+
+fn draft_of_chains(set: &PanelSet, chains: &Chains, options: &NetOptions) -> Draft {
     let shapes = tabs::shapes(set, options.tab_width_mm);
-    let cut_cost = cut_costs(set, &chains, &shapes, options.tab_width_mm);
+    let cut_cost = cut_costs(set, &shapes, options.tab_width_mm);
     let problem = |may_cut_folds| Problem {
         set,
-        chains: &chains,
+        chains,
         sheet_mm: options.sheet_mm,
         cut_cost: &cut_cost,
         may_cut_folds,
     };
-    let draft = [false, true]
+    [false, true]
         .into_iter()
         .map(problem)
         .find_map(|problem| {
@@ -97,8 +144,7 @@ pub fn develop(
                 .iter()
                 .find_map(|search| best_draft(&problem, search(&problem), &shapes, options))
         })
-        .unwrap_or_else(|| last_resort(&problem(true), &shapes));
-    Ok(finish(set, draft, naming, joints, options))
+        .unwrap_or_else(|| last_resort(&problem(true), &shapes))
 }
 
 /// Cuts, layouts and tabs, before texts.
@@ -106,6 +152,8 @@ pub(super) struct Draft {
     pub(super) layouts: Vec<Layout>,
     pub(super) cut: Vec<HingeId>,
     pub(super) tabs: Vec<Placed>,
+    /// Halves of strips of tape over cut hinges without a tab.
+    pub(super) tapes: Vec<Placed>,
 }
 
 fn check_panels(set: &PanelSet, name: &str, sheet_mm: DVec2) -> Result<(), NetError> {
@@ -122,22 +170,19 @@ fn check_panels(set: &PanelSet, name: &str, sheet_mm: DVec2) -> Result<(), NetEr
     }
 }
 
-fn cut_costs(set: &PanelSet, chains: &Chains, shapes: &[Shapes], tab_width_mm: f64) -> Vec<f64> {
-    let mut costs = vec![0.0; set.hinges().len()];
-    for chain in &chains.chains {
-        for (place, &hinge) in chain.hinges.iter().enumerate() {
-            let is_end = place == 0 || place + 1 == chain.hinges.len();
-            let short = (1.0 - hinge_length(set, hinge) / LONG_HINGE_MM).max(0.0);
-            let widest = tabs::widest(&shapes[hinge.0]);
-            costs[hinge.0] = 1.0
-                + short
-                + if is_end { 0.0 } else { MIDDLE_COST }
-                + if set.hinges()[hinge.0].is_fold { FOLD_COST } else { 0.0 }
-                + (1.0 - widest / tab_width_mm).max(0.0)
-                + if widest < USEFUL_WIDTH_MM { NO_TAB_COST } else { 0.0 };
-        }
-    }
-    costs
+fn cut_costs(set: &PanelSet, shapes: &[Shapes], tab_width_mm: f64) -> Vec<f64> {
+    let is_side = |p: PanelId| matches!(set.panel(p).kind, PanelKind::Side { .. });
+    let cost = |(id, hinge): (usize, &Hinge)| {
+        let is_middle = hinge.sides.iter().all(|s| is_side(s.panel));
+        let short = (1.0 - hinge_length(set, HingeId(id)) / LONG_HINGE_MM).max(0.0);
+        let widest = tabs::widest(&shapes[id]);
+        1.0 + short
+            + if is_middle { MIDDLE_COST } else { 0.0 }
+            + if hinge.is_fold { FOLD_COST } else { 0.0 }
+            + (1.0 - widest / tab_width_mm).max(0.0)
+            + if widest < USEFUL_WIDTH_MM { NO_TAB_COST } else { 0.0 }
+    };
+    set.hinges().iter().enumerate().map(cost).collect()
 }
 
 /// The best of the candidates that has room for all its tabs; narrow tabs count against it.
@@ -159,7 +204,7 @@ fn best_draft(
         let lack = |t: &Placed| 1.0 - t.width_mm() / tabs::widest(&shapes[t.hinge.0]);
         let cost = candidate.cost + tabs.iter().map(lack).sum::<f64>();
         if best.as_ref().is_none_or(|b| cost < b.0) {
-            best = Some((cost, Draft { layouts, cut, tabs }));
+            best = Some((cost, Draft { layouts, cut, tabs, tapes: Vec::new() }));
         }
     }
     best.map(|b| b.1)
@@ -180,37 +225,47 @@ fn last_resort(problem: &Problem<'_>, shapes: &[Shapes]) -> Draft {
         },
         |best| best.is_cut,
     );
-    let mut is_cut = divide(problem, start);
+    with_tabs(set, divide(problem, start), problem.sheet_mm, problem.cut_cost, shapes)
+}
+
+/// The pieces of a set of cuts with their tabs; where tabs have no room it is cut further, and in
+/// the end they become narrower, or tape.
+fn with_tabs(
+    set: &PanelSet,
+    mut is_cut: Vec<bool>,
+    sheet_mm: DVec2,
+    cut_cost: &[f64],
+    shapes: &[Shapes],
+) -> Draft {
     let mut least_mm = USEFUL_WIDTH_MM;
     loop {
         let layouts = layout::pieces(set, &is_cut);
         let cut = cut_hinges(&is_cut);
-        match tabs::place(set, &layouts, problem.sheet_mm, shapes, &cut, least_mm) {
-            Ok(tabs) => return Draft { layouts, cut, tabs },
-            Err(hinge) => {
-                let more = further_cut(problem, &layouts, hinge);
-                match more {
-                    Some(hinge) => is_cut[hinge.0] = true,
-                    None if least_mm > 0.0 => least_mm = 0.0,
-                    None => {
-                        let tabs = where_room(problem, &layouts, shapes, cut.clone());
-                        return Draft { layouts, cut, tabs };
-                    }
+        match tabs::place(set, &layouts, sheet_mm, shapes, &cut, least_mm) {
+            Ok(tabs) => return Draft { layouts, cut, tabs, tapes: Vec::new() },
+            Err(hinge) => match further_cut(set, cut_cost, &layouts, hinge) {
+                Some(hinge) => is_cut[hinge.0] = true,
+                None if least_mm > 0.0 => least_mm = 0.0,
+                None => {
+                    let tabs = where_room(set, sheet_mm, &layouts, shapes, cut.clone());
+                    let tapes = glue::tapes(&cut, &tabs, shapes);
+                    return Draft { layouts, cut, tabs, tapes };
                 }
-            }
+            },
         }
     }
 }
 
 /// Tabs for all hinges that have room.
 fn where_room(
-    problem: &Problem<'_>,
+    set: &PanelSet,
+    sheet_mm: DVec2,
     layouts: &[Layout],
     shapes: &[Shapes],
     mut cut: Vec<HingeId>,
 ) -> Vec<Placed> {
     loop {
-        match tabs::place(problem.set, layouts, problem.sheet_mm, shapes, &cut, 0.0) {
+        match tabs::place(set, layouts, sheet_mm, shapes, &cut, 0.0) {
             Ok(tabs) => return tabs,
             Err(hinge) => cut.retain(|&h| h != hinge),
         }
@@ -218,13 +273,13 @@ fn where_room(
 }
 
 /// The cheapest hinge to cut further in the pieces next to a hinge whose tab has no room.
-fn further_cut(problem: &Problem<'_>, layouts: &[Layout], hinge: HingeId) -> Option<HingeId> {
-    let sides = problem.set.hinges()[hinge.0].sides;
+fn further_cut(set: &PanelSet, cut_cost: &[f64], layouts: &[Layout], hinge: HingeId) -> Option<HingeId> {
+    let sides = set.hinges()[hinge.0].sides;
     layouts
         .iter()
         .filter(|l| sides.iter().any(|s| l.place(s.panel).is_some()))
         .flat_map(|l| l.creases.iter().copied())
-        .min_by(|a, b| problem.cut_cost[a.0].total_cmp(&problem.cut_cost[b.0]))
+        .min_by(|a, b| cut_cost[a.0].total_cmp(&cut_cost[b.0]))
 }
 
 fn cut_hinges(is_cut: &[bool]) -> Vec<HingeId> {

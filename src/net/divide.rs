@@ -2,7 +2,7 @@
 
 use super::cuts::{PANEL_GAP_MM, Problem};
 use super::layout::{self, best_turn, clash};
-use crate::component::{HingeId, PanelId};
+use crate::component::{HingeId, PanelId, PanelSet};
 use glam::DVec2;
 
 /// Pieces that result from cutting where a piece is no good: starting with `is_cut`, cuts one
@@ -11,7 +11,7 @@ use glam::DVec2;
 pub(crate) fn divide(problem: &Problem<'_>, mut is_cut: Vec<bool>) -> Vec<bool> {
     while let Some(bad) = layout::pieces(problem.set, &is_cut)
         .into_iter()
-        .find(|piece| piece.panels.len() > 1 && badness(problem, piece) > 0.0)
+        .find(|piece| piece.panels.len() > 1 && badness(problem.set, problem.sheet_mm, piece) > 0.0)
     {
         let ids: Vec<PanelId> = bad.panels.iter().map(|p| p.0).collect();
         let cost_of = |hinge: HingeId| {
@@ -19,7 +19,8 @@ pub(crate) fn divide(problem: &Problem<'_>, mut is_cut: Vec<bool>) -> Vec<bool> 
             trial[hinge.0] = true;
             let halves = layout::pieces(problem.set, &trial);
             let halves = halves.iter().filter(|l| l.panels.iter().any(|p| ids.contains(&p.0)));
-            1e3 * halves.map(|l| badness(problem, l)).sum::<f64>() + problem.cut_cost[hinge.0]
+            1e3 * halves.map(|l| badness(problem.set, problem.sheet_mm, l)).sum::<f64>()
+                + problem.cut_cost[hinge.0]
         };
         let costs: Vec<(f64, HingeId)> = bad.creases.iter().map(|&h| (cost_of(h), h)).collect();
         let Some((_, hinge)) = costs.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)) else {
@@ -32,13 +33,13 @@ pub(crate) fn divide(problem: &Problem<'_>, mut is_cut: Vec<bool>) -> Vec<bool> 
 
 /// 0 for a piece without overlap that fits; else the number of overlapping pairs and how much
 /// it is too large.
-fn badness(problem: &Problem<'_>, piece: &layout::Layout) -> f64 {
-    let outlines = piece.outlines(problem.set);
+pub(super) fn badness(set: &PanelSet, sheet_mm: DVec2, piece: &layout::Layout) -> f64 {
+    let outlines = piece.outlines(set);
     let pairs = outlines
         .iter()
         .enumerate()
         .flat_map(|(k, a)| outlines[..k].iter().map(move |b| f64::from(u8::from(clash(a, b, PANEL_GAP_MM)))));
     let points: Vec<DVec2> = outlines.iter().flatten().copied().collect();
-    let scale = best_turn(&points, problem.sheet_mm).scale;
+    let scale = best_turn(&points, sheet_mm).scale;
     pairs.sum::<f64>() + (1.0 / scale - 1.0).max(0.0)
 }

@@ -1,17 +1,30 @@
 //! What a piece looks like on paper.
 
 use super::mesh::EdgeKind;
-use super::{FaceKind, LabelKind, Piece};
+use super::split::is_seam;
+use super::{FaceKind, Label, LabelKind, Piece};
 use crate::component::PanelSet;
 use crate::drawing::{Align, Layer, Mark, Polyline, Stroke, Text};
 use glam::DVec2;
+use std::f64::consts::FRAC_PI_4;
+
+/// How a crease is folded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Fold {
+    /// Away from the viewer outside, and back.
+    Back,
+    /// By 180°.
+    Flat,
+    /// Not at all: the seam of a split panel, behind which its other part is glued.
+    Seam,
+}
 
 /// A crease to draw: a hinge that stays joined, or the base of a tab.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Crease {
     ends: [DVec2; 2],
-    is_fold: bool,
-    deployed_rad: f64,
+    fold: Fold,
+    is_drawn: bool,
     /// The panels on both sides, in short.
     between: String,
 }
@@ -26,19 +39,22 @@ impl Crease {
     }
 }
 
-/// The creases of a piece's mesh.
-pub(crate) fn creases(set: &PanelSet, mesh: &super::PieceMesh) -> Vec<Crease> {
+/// The creases of a piece's mesh. Those that fold by less than `hide_below_rad` when deployed are
+/// not drawn.
+pub(crate) fn creases(set: &PanelSet, mesh: &super::PieceMesh, hide_below_rad: f64) -> Vec<Crease> {
     mesh.edges()
         .iter()
         .filter_map(|edge| match edge.kind {
             EdgeKind::Hinge(h) | EdgeKind::Tab(h) => {
                 let hinge = set.hinges()[h.0];
-                Some(Crease {
-                    ends: mesh.segment(edge),
-                    is_fold: hinge.is_fold,
-                    deployed_rad: hinge.deployed_rad,
-                    between: between(set, mesh, &edge.faces),
-                })
+                let fold = match hinge {
+                    _ if hinge.is_fold => Fold::Flat,
+                    _ if is_seam(set, h) => Fold::Seam,
+                    _ => Fold::Back,
+                };
+                let is_drawn = fold != Fold::Back || hinge.deployed_rad >= hide_below_rad;
+                let between = between(set, mesh, &edge.faces);
+                Some(Crease { ends: mesh.segment(edge), fold, is_drawn, between })
             }
             _ => None,
         })
@@ -54,25 +70,26 @@ fn between(set: &PanelSet, mesh: &super::PieceMesh, faces: &[usize]) -> String {
     faces.iter().map(name).collect::<Vec<_>>().join(" ")
 }
 
-/// What is drawn of a piece.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MarkOptions {
-    /// Creases that are folded by less, when deployed, are not drawn; fold hinges always are.
-    pub hide_below_rad: f64,
+/// The side of the paper that is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Side {
+    /// What can be seen of the model.
+    #[default]
+    Outside,
+    /// What cannot: pieces are mirrored and creases fold towards the viewer.
+    Inside,
 }
 
-impl Default for MarkOptions {
-    fn default() -> Self {
-        Self { hide_below_rad: 0.0 }
-    }
-}
+/// Size of the dot at the end of a leader line, mm.
+const DOT_MM: f64 = 0.35;
 
 impl Piece {
-    /// The piece's marks in its own coordinates: the contour as one closed path, every cut line
-    /// once, creases, joint outlines, texts. `stroke_of` gives the look of each layer.
-    pub fn marks(&self, options: MarkOptions, stroke_of: impl Fn(Layer) -> Stroke) -> Vec<Mark> {
+    /// The piece's marks in its own coordinates, seen from outside: the contour as one closed
+    /// path, every cut line once, creases, joint outlines, texts. `stroke_of` gives the look of
+    /// each layer, `side` the layer of creases.
+    pub fn marks(&self, side: Side, stroke_of: impl Fn(Layer) -> Stroke) -> Vec<Mark> {
         let path = |layer: Layer, contour: Polyline, part: String| {
-            Mark::path(layer, vec![contour], Some(stroke_of(layer)), None).of_piece(&*self.name).of_part(part)
+            Mark::path(layer, vec![contour], Some(stroke_of(layer)), None).of_part(part)
         };
         let closed = |points: &[DVec2]| Polyline::closed(points.to_vec());
         let mut marks = Vec::new();
@@ -82,24 +99,46 @@ impl Piece {
             marks.push(path(Layer::Glue, closed(&joint.outline), panel.clone()));
             marks.push(path(Layer::Glue, closed(&joint.key), format!("{panel} key")));
         }
-        for crease in &self.crease_lines {
-            let layer = if crease.is_fold { Layer::FoldHinge } else { Layer::Mountain };
-            if crease.is_fold || crease.deployed_rad >= options.hide_below_rad {
-                marks.push(path(layer, Polyline::open(crease.ends.to_vec()), crease.between.clone()));
-            }
+        for area in &self.glue_areas {
+            let [start, end, far, near] = area.outline;
+            marks.push(path(Layer::Glue, Polyline::open(vec![end, far, near, start]), "tab".to_owned()));
+        }
+        for crease in self.crease_lines.iter().filter(|c| c.is_drawn) {
+            let line = Polyline::open(crease.ends.to_vec());
+            marks.push(path(crease.layer(side), line, crease.between.clone()));
         }
         for slit in &self.slits {
             marks.push(path(Layer::Slit, Polyline::open(slit.clone()), "inside".to_owned()));
         }
         marks.push(path(Layer::Cut, closed(&self.outline), "outline".to_owned()));
-        for label in &self.labels {
-            let layer = if label.kind == LabelKind::Joint { Layer::Glue } else { Layer::Label };
-            let text = Text::new(&*label.text, label.anchor, label.cap_height_mm)
-                .aligned(Align::Middle)
-                .turned(label.angle_rad)
-                .coloured(stroke_of(layer).colour);
-            marks.push(Mark::text(layer, text).of_piece(&*self.name).of_part(&*label.text));
+        for leader in &self.leaders {
+            let line = Polyline::open(vec![leader.from, leader.to]);
+            marks.push(path(Layer::Label, line, "leader".to_owned()));
+            let dot = (0..8).map(|k| leader.to + DVec2::from_angle(f64::from(k) * FRAC_PI_4) * DOT_MM);
+            let dot = Mark::filled(Layer::Label, dot.collect(), stroke_of(Layer::Label).colour);
+            marks.push(dot.of_part("leader"));
         }
-        marks
+        marks.extend(self.labels.iter().map(|label| label_mark(label, &stroke_of)));
+        marks.into_iter().map(|mark| mark.of_piece(&*self.name)).collect()
     }
+}
+
+impl Crease {
+    fn layer(&self, side: Side) -> Layer {
+        match (self.fold, side) {
+            (Fold::Flat, _) => Layer::FoldHinge,
+            (Fold::Seam, _) => Layer::Glue,
+            (Fold::Back, Side::Outside) => Layer::Mountain,
+            (Fold::Back, Side::Inside) => Layer::Valley,
+        }
+    }
+}
+
+fn label_mark(label: &Label, stroke_of: &impl Fn(Layer) -> Stroke) -> Mark {
+    let layer = if label.kind == LabelKind::Joint { Layer::Glue } else { Layer::Label };
+    let text = Text::new(&label.text, label.anchor, label.cap_height_mm)
+        .aligned(Align::Middle)
+        .turned(label.angle_rad)
+        .coloured(stroke_of(layer).colour);
+    Mark::text(layer, text).of_part(&*label.text)
 }

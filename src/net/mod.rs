@@ -5,7 +5,8 @@
 //! ```
 //!
 //! Panels are a graph: top panel, chains, bottom panel. A net of one piece is a spanning tree of
-//! it: one chain stays whole, each other chain is cut at one hinge and glued there by a tab.
+//! it: one chain stays whole, each other chain is cut at one hinge and glued there by a tab. Where
+//! a panel had to be split to fit the sheet the graph is any graph, and pieces are grown.
 
 mod chains;
 pub mod check;
@@ -15,19 +16,22 @@ mod develop;
 mod divide;
 mod extent;
 mod finish;
+mod glue;
+mod grow;
 mod labels;
 mod layout;
 mod marks;
 mod mesh;
 mod of_model;
+mod split;
 mod tabs;
 
-pub use develop::{Naming, NetError, NetOptions, develop};
-pub use marks::MarkOptions;
+pub use develop::{Naming, NetChoices, NetError, NetOptions, develop};
+pub use marks::Side;
 pub use mesh::{Corner, Edge, EdgeKind, Face, FaceKind, PieceMesh, Vertex};
 pub use of_model::{NetsError, develop_model};
 
-use crate::component::{HingeId, PanelId, PanelKind};
+use crate::component::{HingeId, PanelId, PanelKind, PanelSet};
 use glam::{DAffine2, DVec2};
 use std::collections::BTreeMap;
 
@@ -93,6 +97,27 @@ pub enum LabelKind {
     Joint,
     /// Name of the piece.
     Name,
+    /// Angle of a crease in the deployed state.
+    Angle,
+}
+
+/// A thin line from a text that had no room where it belongs to that place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Leader {
+    /// Beside the text.
+    pub from: DVec2,
+    /// The place that the text is about.
+    pub to: DVec2,
+}
+
+/// Where glue or tape goes: behind a panel's cut edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GlueArea {
+    /// The cut hinge.
+    pub hinge: HingeId,
+    /// Trapezoid in the piece's coordinates, counter-clockwise seen from outside; the first edge
+    /// is the hinge.
+    pub outline: [DVec2; 4],
 }
 
 /// A text on a piece.
@@ -125,6 +150,8 @@ pub struct Piece {
     tabs: Vec<Tab>,
     joints: Vec<PlacedJoint>,
     labels: Vec<Label>,
+    leaders: Vec<Leader>,
+    glue_areas: Vec<GlueArea>,
     unplaced_labels: Vec<String>,
     mesh: PieceMesh,
     crease_lines: Vec<marks::Crease>,
@@ -161,6 +188,16 @@ impl Piece {
     /// Texts on it.
     pub fn labels(&self) -> &[Label] {
         &self.labels
+    }
+
+    /// Lines from texts that stand elsewhere to what they are about.
+    pub fn leaders(&self) -> &[Leader] {
+        &self.leaders
+    }
+
+    /// Where tabs come to lie behind its panels, if that was asked for, and where tape goes.
+    pub fn glue_areas(&self) -> &[GlueArea] {
+        &self.glue_areas
     }
 
     /// Texts that found no place on it; they must be listed on the sheet.
@@ -211,8 +248,8 @@ pub enum NetWarning {
         /// Its width.
         width_mm: f64,
     },
-    /// A cut hinge has no room for a tab on either side: both edges carry this label, to be joined
-    /// with a strip of paper.
+    /// A cut hinge has no room for a tab on either side: both edges carry this label, and the place
+    /// for a strip of tape behind them.
     NoTab {
         /// The label.
         label: String,
@@ -221,6 +258,13 @@ pub enum NetWarning {
     CutFoldHinge {
         /// Its label.
         label: String,
+    },
+    /// A panel is larger than the sheet and was split.
+    SplitPanel {
+        /// The component.
+        name: String,
+        /// Number of its parts.
+        parts: usize,
     },
     /// A label had no room on its piece.
     UnplacedLabel {
@@ -238,6 +282,7 @@ impl NetWarning {
             NetWarning::NarrowTab { .. } => "narrow_tab",
             NetWarning::NoTab { .. } => "no_tab",
             NetWarning::CutFoldHinge { .. } => "cut_fold_hinge",
+            NetWarning::SplitPanel { .. } => "split_panel",
             NetWarning::UnplacedLabel { .. } => "unplaced_label",
         }
     }
@@ -250,13 +295,16 @@ impl std::fmt::Display for NetWarning {
                 write!(f, "tab {label} is only {width_mm:.1} mm wide; glue it with care")
             }
             NetWarning::NoTab { label } => {
-                write!(f, "there is no room for a tab at {label}; join its two edges with a strip of paper")
+                write!(f, "there is no room for a tab at {label}; join its two edges with tape from behind")
             }
             NetWarning::CutFoldHinge { label } => {
                 write!(
                     f,
                     "the hinge at {label} folds flat and had to be cut; join it with tape so that it can move"
                 )
+            }
+            NetWarning::SplitPanel { name, parts } => {
+                write!(f, "a panel of {name} is larger than the sheet and is glued from {parts} parts")
             }
             NetWarning::UnplacedLabel { piece, text } => {
                 write!(f, "the label {text} has no room on {piece}; it is listed on its sheet")
@@ -271,12 +319,26 @@ pub struct Net {
     pieces: Vec<Piece>,
     warnings: Vec<NetWarning>,
     labels: BTreeMap<HingeId, String>,
+    set: PanelSet,
+    source: Vec<PanelId>,
 }
 
 impl Net {
     /// The pieces, most panels first.
     pub fn pieces(&self) -> &[Piece] {
         &self.pieces
+    }
+
+    /// The panels that its ids mean: the component's own, but for those that were split to fit
+    /// the sheet. The first part of a split panel has the panel's id.
+    pub fn panels(&self) -> &PanelSet {
+        &self.set
+    }
+
+    /// The component's panel of which a panel of [`Net::panels`] is, or is a part. Both have the
+    /// same plane coordinates.
+    pub fn source(&self, panel: PanelId) -> PanelId {
+        self.source[panel.0]
     }
 
     /// What to tell the user.

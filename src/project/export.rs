@@ -29,6 +29,11 @@ pub struct ExportTable {
     /// Paper on which a PDF divides larger sheets.
     #[serde(deserialize_with = "fields::paper")]
     pub tile: Option<Paper>,
+    /// Whether panels have the mesh's own colours.
+    pub color: bool,
+    /// Whether GLB files are without animation.
+    #[serde(rename = "static")]
+    pub is_static: bool,
     /// Whether each piece is written to a FOLD file of its own.
     pub fold_pieces: bool,
 }
@@ -49,6 +54,10 @@ pub(super) const TEMPLATE: &str = r#"
 # dpi = 150
 # Paper on which a PDF divides sheets that are larger.
 # tile = "a4"
+# Panels in the mesh's own colours.
+# color = true
+# GLB files without the animation of the folding.
+# static = true
 # Each piece in a FOLD file of its own, besides the whole model.
 # fold_pieces = true
 "#;
@@ -72,6 +81,8 @@ mod tests {
             dxf_sheets: Some(DxfSheets::Files),
             dpi: Some(PngOptions::default()),
             tile: Some(Paper::default()),
+            color: true,
+            is_static: true,
             fold_pieces: true,
         };
         assert_eq!(export, expected);

@@ -32,6 +32,19 @@ pub fn parse_up(text: &str) -> Result<Up, String> {
     }
 }
 
+/// Thinnest and thickest paper that is believed, mm.
+const THICKNESSES_MM: std::ops::RangeInclusive<f64> = 0.02..=5.0;
+
+/// Reads the thickness of paper, in mm.
+///
+/// # Errors
+/// A message for what is no length or out of range.
+pub fn parse_thickness_mm(text: &str) -> Result<f64, String> {
+    let mm = parse_length_mm(text).map_err(|error| error.to_string())?;
+    let message = || format!("paper is from {} to {} mm thick", THICKNESSES_MM.start(), THICKNESSES_MM.end());
+    THICKNESSES_MM.contains(&mm).then_some(mm).ok_or_else(message)
+}
+
 /// Checks a number of top edges or profile vertices.
 ///
 /// # Errors
@@ -161,6 +174,13 @@ pub(super) fn length_or_zero<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f
             Raw::Text(text) => parse_length_or_zero_mm(text),
         }
         .map_err(|error| error.to_string())
+    })
+}
+
+pub(super) fn thickness<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f64>, D::Error> {
+    visit(d, "a thickness such as \"0.25mm\", or mm", |raw| match raw {
+        Raw::Number(mm) => parse_thickness_mm(&mm.to_string()),
+        Raw::Text(text) => parse_thickness_mm(text),
     })
 }
 

@@ -6,14 +6,16 @@
 mod edit;
 mod export;
 mod fields;
+mod sheet_fields;
 mod template;
 
 pub use edit::Edit;
 pub use export::ExportTable;
 pub use fields::{
     LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_clusters, check_count, check_degrees, check_detail,
-    check_parts, check_smoothing, parse_method, parse_up,
+    check_parts, check_smoothing, parse_method, parse_thickness_mm, parse_up,
 };
+pub use sheet_fields::{Nets, Sheets, check_effort, check_hidden_degrees, parse_marks, parse_side};
 pub use template::{Template, TemplateComponent, to_toml};
 
 use crate::mesh::Up;
@@ -56,12 +58,18 @@ pub struct Project {
     /// The sheets.
     #[serde(default)]
     pub paper: PaperTable,
-    /// Changes to the parts by hand, one after the other.
-    #[serde(default, rename = "edit")]
-    pub edits: Vec<Edit>,
     /// The files.
     #[serde(default)]
     pub export: ExportTable,
+    /// The pieces.
+    #[serde(default)]
+    pub nets: Nets,
+    /// How the sheets are filled and printed.
+    #[serde(default)]
+    pub sheets: Sheets,
+    /// Changes to the parts by hand, one after the other.
+    #[serde(default, rename = "edit")]
+    pub edits: Vec<Edit>,
     /// What differs for single components.
     #[serde(default, rename = "component")]
     pub components: Vec<Component>,
@@ -110,6 +118,9 @@ pub struct Defaults {
     /// Vertices of profiles.
     #[serde(default, deserialize_with = "fields::count")]
     pub profile_vertices: Option<usize>,
+    /// How close components must come to their shapes, mm; the numbers above are then the most.
+    #[serde(default, rename = "tolerance", deserialize_with = "fields::length")]
+    pub tolerance_mm: Option<f64>,
     /// Least width and height of panels, mm.
     #[serde(default, deserialize_with = "fields::length")]
     pub min_panel_width_mm: Option<f64>,
@@ -128,6 +139,9 @@ pub struct PaperTable {
     /// Border that stays free, mm.
     #[serde(default, deserialize_with = "fields::length_or_zero")]
     pub margin_mm: Option<f64>,
+    /// Thickness, mm.
+    #[serde(default, deserialize_with = "fields::thickness")]
+    pub thickness_mm: Option<f64>,
 }
 
 /// A table `[[component]]`.

@@ -2,7 +2,10 @@
 
 use super::LEAST_COUNT;
 use crate::mesh::Up;
+use crate::net::{NetChoices, Side};
 use crate::segment::{Method, SegmentOptions};
+use crate::sheet::fit::Rotation;
+use crate::sheet::{Registration, SheetChoices};
 use crate::units::Paper;
 
 /// What `init` writes into a fresh project file.
@@ -18,6 +21,8 @@ pub struct Template<'a> {
     pub top_edges: usize,
     /// Vertices of profiles.
     pub profile_vertices: usize,
+    /// How close components must come to their shapes, mm, if it was chosen.
+    pub tolerance_mm: Option<f64>,
     /// Least width and height of panels, mm.
     pub min_panel_width_mm: f64,
     /// Width of glue tabs, mm.
@@ -26,6 +31,12 @@ pub struct Template<'a> {
     pub paper: Paper,
     /// Border that stays free, mm.
     pub margin_mm: f64,
+    /// Thickness of the paper.
+    pub thickness_mm: f64,
+    /// What else is chosen about nets.
+    pub nets: NetChoices,
+    /// What else is chosen about sheets.
+    pub sheets: SheetChoices,
     /// How the mesh is divided.
     pub segmentation: SegmentOptions,
     /// The components.
@@ -92,6 +103,9 @@ size = "{size}mm"
 top_edges = {top_edges}
 # Vertices of each profile at most, {LEAST_COUNT} or more: more follow the shape better, fewer fold faster.
 profile_vertices = {profile_vertices}
+# How close each component must come to its shape: then as few edges and vertices are used as reach
+# it, and the two numbers above are the most.
+{tolerance_comment}tolerance = "{tolerance}mm"
 # No panel is narrower or lower than this; what cannot be kept is a warning.
 min_panel_width_mm = {min_panel_width}
 # Width of the glue tabs.
@@ -102,8 +116,12 @@ tab_width_mm = {tab_width}
 size = "{paper}"
 # Border of each sheet that stays free.
 margin_mm = {margin}
-{export}
-# One table for each component. What a table leaves out comes from [defaults].
+# Thickness, for the check of the folding.
+thickness_mm = {thickness}
+
+{nets}
+{sheets}
+{export}# One table for each component. What a table leaves out comes from [defaults].
 # rename: another name, which is printed on the pieces.
 # direction: angle of the fold axis about the component's longest axis, in degrees;
 # without it the best direction is searched for.
@@ -122,11 +140,16 @@ margin_mm = {margin}
         method_comment = unless(template.segmentation.method != Method::Merge),
         top_edges = template.top_edges,
         profile_vertices = template.profile_vertices,
+        tolerance_comment = unless(template.tolerance_mm.is_some()),
+        tolerance = template.tolerance_mm.unwrap_or(2.0),
         min_panel_width = template.min_panel_width_mm,
         tab_width = template.tab_width_mm,
         paper = template.paper.name(),
         margin = template.margin_mm,
+        thickness = template.thickness_mm,
         export = super::export::TEMPLATE,
+        nets = nets_table(&template.nets),
+        sheets = sheets_table(&template.sheets),
     );
     for component in template.components {
         text += &format!(
@@ -140,6 +163,53 @@ margin_mm = {margin}
         );
     }
     text
+}
+
+fn nets_table(nets: &NetChoices) -> String {
+    format!(
+        "[nets]
+# Whether a panel larger than the sheet is made of parts; else it is refused.
+split = {}
+# Whether the place of each tab behind its mate is drawn.
+glue_marks = {}
+# Whether the angle of each crease is written beside it.
+angles = {}
+# Creases that are folded by less than this, in degrees, are not drawn.
+hide_below = {}
+",
+        nets.may_split,
+        nets.glue_marks,
+        nets.angles,
+        nets.hide_below_rad.to_degrees()
+    )
+}
+
+fn sheets_table(sheets: &SheetChoices) -> String {
+    let side = match sheets.side {
+        Side::Outside => "outside",
+        Side::Inside => "inside",
+    };
+    format!(
+        "[sheets]
+# Printed side of the paper: \"outside\" or \"inside\".
+side = \"{side}\"
+# Whether pieces are turned by multiples of 90 degrees only, for paper with a grain.
+grain = {}
+# Least distance between pieces.
+spacing_mm = {}
+# How long to look for fewer sheets: pieces placed in trials.
+effort = {}
+# Registration marks for a cutter: \"none\", \"silhouette\" or \"corners\".
+marks = \"{}\"
+# Measured lengths of the level and of the upright bar of 100 mm.
+calibrate = \"{}\"
+",
+        sheets.rotation == Rotation::QuarterTurns,
+        sheets.spacing_mm,
+        sheets.effort,
+        sheets.registration.map_or("none", Registration::name),
+        sheets.calibration.text()
+    )
 }
 
 #[cfg(test)]
@@ -162,10 +232,14 @@ mod tests {
             size_mm: 123.5,
             top_edges: 7,
             profile_vertices: 4,
+            tolerance_mm: Some(1.5),
             min_panel_width_mm: 3.0,
             tab_width_mm: 6.5,
             paper: parse_paper("100x150").unwrap(),
             margin_mm: 0.0,
+            thickness_mm: 0.25,
+            nets: NetChoices { angles: true, ..NetChoices::default() },
+            sheets: SheetChoices { registration: Some(Registration::Silhouette), ..SheetChoices::default() },
             segmentation: SegmentOptions { detail: 0.25, ..Default::default() },
             components: &components,
         };
@@ -175,6 +249,9 @@ mod tests {
         assert_eq!((project.size_mm, project.paper.margin_mm), (Some(123.5), Some(0.0)));
         assert_eq!(project.paper.size, Some(template.paper));
         assert_eq!(project.defaults.tab_width_mm, Some(6.5));
+        assert_eq!((project.nets.split, project.nets.angles), (Some(true), Some(true)));
+        assert_eq!(project.sheets.marks, Some(Some(Registration::Silhouette)));
+        assert_eq!(project.sheets.calibrate, Some(template.sheets.calibration));
         assert_eq!((project.segmentation.detail, project.segmentation.parts), (Some(0.25), None));
         assert_eq!((project.segmentation.method, project.edits.len()), (None, 0));
         assert_eq!(project.components[1].name, "he\"ad");

@@ -25,8 +25,8 @@ impl Look {
     }
 }
 
-/// The width of the lines, in their own colour, that close the seams between filled neighbours,
-/// relative to the picture's size: 1.5 pixels at 640 pixels. Those of 1 pixel let 7% of the ground
+/// The width of the lines, in their own colour, that close the seams between filled neighbours
+/// where no other line does (and would be painted over), relative to the picture's size: 1.5 pixels at 640 pixels. Those of 1 pixel let 7% of the ground
 /// shine through.
 const SEAM_SHARE: f64 = 1.5 / 640.0;
 
@@ -55,24 +55,27 @@ fn draw(scene: &Scene, view: &View, look: &Look, seam_mm: f64, fragment: &Fragme
     let colour = light::shaded(colour, view.camera().direction(normal));
     let points: Vec<DVec2> = fragment.corners.iter().map(|&c| view.project(c)).collect();
     let stroke = |width_mm, colour| Stroke { width_mm, colour, dash_mm: Vec::new() };
-    let mut lines = [Vec::new(), Vec::new()];
+    let widths_mm = [look.crease_mm, look.outline_mm];
+    let (mut lines, mut seams) = ([Vec::new(), Vec::new()], Vec::new());
     for (k, edge) in fragment.edges.iter().enumerate() {
-        let Some(edge) = edge.map(|e| face.edges()[e]) else {
-            continue;
-        };
-        if let Some(weight) = weight(view, edge, fragment.corners[k], is_front) {
-            let (a, b) = (points[k], points[(k + 1) % points.len()]);
-            lines[weight as usize].push(Polyline::open(vec![a, b]));
+        let edge = edge.map(|e| face.edges()[e]);
+        let weight = edge.and_then(|edge| weight(view, edge, fragment.corners[k], is_front));
+        let line = Polyline::open(vec![points[k], points[(k + 1) % points.len()]]);
+        match weight.map(|w| w as usize).filter(|&w| widths_mm[w] > 0.0) {
+            Some(weight) => lines[weight].push(line),
+            None => seams.push(line),
         }
     }
-    let outline = Polyline::closed(points);
-    let seam = stroke(seam_mm, colour);
-    marks.push(Mark::path(Layer::Picture, vec![outline], Some(seam), Some(colour)));
+    marks.push(Mark::path(Layer::Picture, vec![Polyline::closed(points)], None, Some(colour)));
     let line_colour = light::line_on(colour);
-    for (contours, width_mm) in lines.into_iter().zip([look.crease_mm, look.outline_mm]) {
-        if !contours.is_empty() && width_mm > 0.0 {
-            let line = stroke(width_mm, line_colour);
-            marks.push(Mark::path(Layer::Picture, contours, Some(line), None));
+    let [creases, outlines] = lines;
+    for (contours, width_mm, colour) in [
+        (seams, seam_mm, colour),
+        (creases, look.crease_mm, line_colour),
+        (outlines, look.outline_mm, line_colour),
+    ] {
+        if !contours.is_empty() {
+            marks.push(Mark::path(Layer::Picture, contours, Some(stroke(width_mm, colour)), None));
         }
     }
 }

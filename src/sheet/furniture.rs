@@ -22,6 +22,9 @@ const MAX_GAP_MM: f64 = 8.0;
 const BARS_MM: [f64; 4] = [100.0, 50.0, 20.0, 10.0];
 /// Heights of the bar's ticks: at its ends, in the middle, at the other centimetres.
 const TICKS_MM: [f64; 3] = [2.6, 1.9, 1.2];
+/// Distance of the upright bar from the pieces; narrower margins have no bar.
+const SIDE_BAR_MM: f64 = 2.5;
+const SIDE_BAR_MARGIN_MM: f64 = 8.0;
 /// Distance between the ticks and the words above.
 const TICK_GAP_MM: f64 = 1.2;
 /// The titles stand beside the bar where they have at least this width.
@@ -59,6 +62,23 @@ impl Furniture<'_> {
         marks.extend(strip.legend_marks(styles));
         marks
     }
+
+    /// An upright bar in the left margin, to measure the printer's scale along the page. Nothing
+    /// where the margin is too narrow to be printed on, or the page too low.
+    pub fn side_bar(&self, styles: &LineStyles) -> Vec<Mark> {
+        let room_mm = self.size_mm.y - 2.0 * self.margin_mm;
+        let fitting = BARS_MM.into_iter().find(|&bar_mm| bar_mm <= room_mm);
+        let Some(bar_mm) = fitting.filter(|_| self.margin_mm >= SIDE_BAR_MARGIN_MM) else {
+            return Vec::new();
+        };
+        let at = |x: f64, y: f64| DVec2::splat(self.margin_mm) + DVec2::new(x - SIDE_BAR_MM, y);
+        let line = |from, to| Mark::line(Layer::Furniture, from, to, styles.stroke(Layer::Furniture));
+        let ticks = [0.0, bar_mm].map(|y| line(at(0.0, y), at(TICKS_MM[2], y)));
+        let end = at(TICKS_MM[2], bar_mm + TICK_GAP_MM);
+        let text = Text::new(format!("{bar_mm}"), end, CAP_MM).aligned(Align::End);
+        let text = Mark::text(Layer::Furniture, text.coloured(styles.colour(Layer::Furniture)));
+        [line(at(0.0, 0.0), at(0.0, bar_mm)), text].into_iter().chain(ticks).collect()
+    }
 }
 
 /// Height above the bottom margin that the strip takes, with its clearance: pieces stay above
@@ -76,7 +96,7 @@ fn words(layer: Layer) -> Option<[&'static str; 2]> {
         Layer::Valley => Some(["fold up (valley)", "valley"]),
         Layer::FoldHinge => Some(["fold flat 180°", "180°"]),
         Layer::Glue => Some(["glue here", "glue"]),
-        Layer::Label | Layer::Furniture | Layer::Picture => None,
+        Layer::Label | Layer::Furniture | Layer::Registration | Layer::Picture => None,
     }
 }
 

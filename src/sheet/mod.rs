@@ -1,8 +1,15 @@
 //! Pieces placed on sheets of paper, with page furniture.
 
+mod calibration;
 pub mod fit;
 pub mod furniture;
 mod layout;
 pub mod nest;
+mod options;
+mod pages;
+mod registration;
 
-pub use layout::{Layout, LayoutError, PiecePlace, SheetOptions};
+pub use calibration::{Calibration, CalibrationError};
+pub use layout::{Layout, LayoutError, PiecePlace};
+pub use options::{SheetChoices, SheetOptions};
+pub use registration::Registration;

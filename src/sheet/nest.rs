@@ -79,12 +79,20 @@ pub struct NestOptions {
 }
 
 /// 25 orders of 60 pieces, 150 of 10.
-const DEFAULT_EFFORT: usize = 1500;
+pub const DEFAULT_EFFORT: usize = 1500;
+/// Scissors pass between pieces.
+pub const DEFAULT_SPACING_MM: f64 = 2.0;
 
 impl NestOptions {
     /// Free rotation, 2 mm apart, default effort.
     pub fn new(width_mm: f64, height_mm: f64) -> Self {
-        Self { width_mm, height_mm, spacing_mm: 2.0, rotation: Rotation::Free, effort: DEFAULT_EFFORT }
+        Self {
+            width_mm,
+            height_mm,
+            spacing_mm: DEFAULT_SPACING_MM,
+            rotation: Rotation::Free,
+            effort: DEFAULT_EFFORT,
+        }
     }
 
     fn check(&self) -> Result<(), NestError> {
@@ -233,6 +241,9 @@ impl Frame {
 /// Edges of the hull that a piece is laid on, beside the special angles.
 const EDGES: usize = 5;
 
+/// Angles in steps of a right angle by this number, tried beside those.
+const STEPS: usize = 18;
+
 /// Angles nearer than this are tried once.
 const SAME_RAD: f64 = 0.02;
 
@@ -255,6 +266,7 @@ fn angles(outline: &[DVec2], special: &[f64], rotation: Rotation) -> Vec<f64> {
                 base.push(angle);
             }
         }
+        base.extend((0..STEPS).map(|k| FRAC_PI_2 * (k as f64 + 0.5) / STEPS as f64));
     } else {
         base.push(0.0);
     }

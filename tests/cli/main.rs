@@ -1,7 +1,10 @@
 //! The program as its users meet it.
 
+mod check;
 #[path = "../cube/mod.rs"]
 mod cube;
+mod exports;
+mod film;
 mod make;
 mod project;
 mod refusals;

@@ -44,6 +44,32 @@ fn a_single_sheet_has_the_name_that_was_given() {
 }
 
 #[test]
+fn print_and_cut_are_files_apart_that_share_the_page() {
+    let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
+    let outputs = ["--print-and-cut", "--marks", "silhouette", "-o", "a.svg", "-o", "a.fold"];
+    let result = run(folder.path(), &[&["make", "cube.off", "--size", "60"][..], &outputs].concat());
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    assert_eq!(names(&folder), ["a-cut-1.svg", "a-print-1.svg", "a.fold", "cube.off"]);
+    let [cut, print] = ["a-cut-1.svg", "a-print-1.svg"]
+        .map(|name| std::fs::read_to_string(folder.path().join(name)).unwrap());
+    for (layer, is_cut) in
+        [("cut", true), ("mountain", true), ("fold-hinge", true), ("label", false), ("registration", false)]
+    {
+        let group = format!("inkscape:label=\"{layer}\"");
+        assert_eq!((cut.contains(&group), print.contains(&group)), (is_cut, !is_cut), "{layer}");
+    }
+    assert!(cut.contains("viewBox=\"0 0 210 297\"") && print.contains("viewBox=\"0 0 210 297\""));
+}
+
+#[test]
+fn a_cube_larger_than_the_sheet_is_made_of_parts() {
+    let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
+    let result = run(folder.path(), &["make", "cube.off", "--size", "300", "-o", "a.pdf"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    assert!(result.err.contains("is larger than the sheet and is glued from"), "{}", result.err);
+}
+
+#[test]
 #[cfg(unix)]
 fn ctrl_c_stops_the_work_and_leaves_nothing() {
     let folder = folder_with(&[]);

@@ -67,6 +67,13 @@ fn a_size_of_zero() {
         ("--paper", "a99"),
         ("--margin", "-1"),
         ("--direction", "head"),
+        ("--hide-below", "90"),
+        ("--side", "back"),
+        ("--spacing", "-1"),
+        ("--effort", "many"),
+        ("--marks", "crosses"),
+        ("--calibrate", "97.3"),
+        ("--calibrate", "X:973"),
     ] {
         let flag_and_value = format!("{flag}={value}");
         let result = run(folder.path(), &["make", "a.obj", &flag_and_value]);
@@ -126,11 +133,12 @@ fn names_cannot_steer_the_terminal() {
 #[test]
 fn what_does_not_fit_the_paper_is_refused_with_a_size_that_fits() {
     let files: [(&str, &[u8]); 2] = [("cube.off", cube::OFF.as_bytes()), ("cube.pdf", b"old")];
-    assert_refused(&files, &["make", "cube.off", "--size", "1m"], &["does not fit", "--size"]);
+    assert_refused(&files, &["make", "cube.off", "--size", "1m", "--no-split"], &["does not fit", "--size"]);
     let folder = folder_with(&files);
-    let message = run(folder.path(), &["make", "cube.off", "--size", "1m"]).err;
+    let message = run(folder.path(), &["make", "cube.off", "--size", "1m", "--no-split"]).err;
     assert_eq!(std::fs::read(folder.path().join("cube.pdf")).unwrap(), b"old");
     let size = message.split("--size ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
-    assert_eq!(run(folder.path(), &["make", "cube.off", "--size", size]).code, Some(0), "--size {size}");
+    let whole = run(folder.path(), &["make", "cube.off", "--size", size, "--no-split"]);
+    assert_eq!(whole.code, Some(0), "--size {size}: {}", whole.err);
     assert!(std::fs::read(folder.path().join("cube.pdf")).unwrap().starts_with(b"%PDF"), "--size {size}");
 }

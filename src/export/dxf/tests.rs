@@ -112,8 +112,8 @@ fn letters_on_a_dashed_layer_are_solid_lines() {
     let files = write(&pages, &FormatOptions::default()).expect("can be written");
     let file = read(std::str::from_utf8(&files[0].bytes).expect("ASCII"));
     let types: Vec<&str> = file.entities().map(|e| e.common.line_type_name.as_str()).collect();
-    // A crease, and one line for each letter.
-    assert_eq!(types, ["BYLAYER", "CONTINUOUS", "CONTINUOUS"]);
+    // A crease, and two strokes for each letter.
+    assert_eq!(types, [&["BYLAYER"][..], &["CONTINUOUS"; 4]].concat());
 }
 
 #[test]

@@ -32,11 +32,11 @@ pub fn write_piece(
     component: &FoldComponent<'_>,
     piece: &Piece,
 ) -> Result<Vec<u8>, serde_json::Error> {
-    let mut graph = Graph::default();
+    let mut graph = Graph::with_poses(0);
     let model = FoldModel { title, components: &[], sheet_offsets: &[] };
     graph.add_piece(&model, component, piece, PiecePlace { sheet: 0, place: DAffine2::IDENTITY });
     let mut edges = graph.edges;
-    edges.fold_angle_deg = graph.flat.angles_deg;
+    edges.fold_angle_deg = graph.states.pop().unwrap_or_default().angles_deg;
     for (assignment, &angle_deg) in edges.edges_assignment.iter_mut().zip(&edges.fold_angle_deg) {
         if *assignment != "B" {
             *assignment = if angle_deg < 0.0 { "M" } else { "F" };

@@ -1,5 +1,9 @@
 //! glTF 2.0, as JSON or as GLB: the triangles of the default scene, with the nodes' transforms.
 
+mod colour;
+
+pub(super) use colour::read_painting;
+
 use super::{Format, Place, ReadError, excerpt};
 use crate::mesh::Soup;
 use base64::Engine;
@@ -20,14 +24,16 @@ pub(super) fn read(
     bytes: &[u8],
     sibling: &dyn Fn(&str) -> Result<Vec<u8>, String>,
 ) -> Result<Soup, ReadError> {
+    let file = open(bytes)?;
+    let scene = Scene::read(&file, sibling)?;
+    Soup::new(scene.positions, scene.triangles).map_err(|error| ReadError::from_soup(Format::Gltf, &error))
+}
+
+fn open(bytes: &[u8]) -> Result<Gltf, ReadError> {
     if bytes.starts_with(b"glTF") {
         check_glb(bytes)?;
     }
-    let file = parse(bytes)?;
-    let mut scene =
-        Scene { buffers: load_buffers(&file, sibling)?, positions: Vec::new(), triangles: Vec::new() };
-    scene.add_nodes(&file)?;
-    Soup::new(scene.positions, scene.triangles).map_err(|error| ReadError::from_soup(Format::Gltf, &error))
+    parse(bytes)
 }
 
 /// Parses and validates the structure.
@@ -118,15 +124,33 @@ struct Scene<'a> {
     buffers: Vec<Cow<'a, [u8]>>,
     positions: Vec<DVec3>,
     triangles: Vec<[u32; 3]>,
+    uses: Vec<Use>,
 }
 
-impl Scene<'_> {
+/// Where a primitive stands in the scene.
+struct Use {
+    /// Index of the mesh in the file, and of the primitive in the mesh.
+    primitive: [usize; 2],
+    first_position: usize,
+    first_triangle: usize,
+}
+
+impl<'a> Scene<'a> {
+    fn read(file: &'a Gltf, sibling: &dyn Fn(&str) -> Result<Vec<u8>, String>) -> Result<Self, ReadError> {
+        let buffers = load_buffers(file, sibling)?;
+        let mut scene = Self { buffers, positions: Vec::new(), triangles: Vec::new(), uses: Vec::new() };
+        scene.add_nodes(file)?;
+        Ok(scene)
+    }
+
     fn add_nodes(&mut self, file: &Gltf) -> Result<(), ReadError> {
         let mut todo: Vec<(Node, DMat4)> = match file.default_scene().or(file.scenes().next()) {
             Some(scene) => scene.nodes().map(|node| (node, DMat4::IDENTITY)).collect(),
             None => {
-                for primitive in file.meshes().flat_map(|mesh| mesh.primitives()) {
-                    self.add_primitive(&primitive, DMat4::IDENTITY)?;
+                for mesh in file.meshes() {
+                    for primitive in mesh.primitives() {
+                        self.add_primitive(mesh.index(), &primitive, DMat4::IDENTITY)?;
+                    }
                 }
                 return Ok(());
             }
@@ -142,7 +166,7 @@ impl Scene<'_> {
             let matrix = parent * DMat4::from_cols_array_2d(&own);
             if let Some(mesh) = node.mesh() {
                 for primitive in mesh.primitives() {
-                    self.add_primitive(&primitive, matrix)?;
+                    self.add_primitive(mesh.index(), &primitive, matrix)?;
                 }
             }
             let children: Vec<Node> = node.children().collect();
@@ -151,7 +175,7 @@ impl Scene<'_> {
         Ok(())
     }
 
-    fn add_primitive(&mut self, primitive: &Primitive, matrix: DMat4) -> Result<(), ReadError> {
+    fn add_primitive(&mut self, mesh: usize, primitive: &Primitive, matrix: DMat4) -> Result<(), ReadError> {
         let Some(accessor) = primitive.get(&Semantic::Positions) else {
             return Ok(());
         };
@@ -179,6 +203,11 @@ impl Scene<'_> {
                 advice: "simplify the scene first".to_owned(),
             });
         }
+        self.uses.push(Use {
+            primitive: [mesh, primitive.index()],
+            first_position: self.positions.len(),
+            first_triangle: self.triangles.len(),
+        });
         let is_mirror = matrix.determinant() < 0.0;
         let triangles = split(primitive.mode(), &indices);
         self.triangles.extend(triangles.into_iter().map(|[a, b, c]| {

@@ -9,7 +9,9 @@ mod obj;
 mod off;
 mod ply;
 mod stl;
+mod texture;
 
+use super::painting::Painting;
 use super::{Soup, SoupError};
 use std::fmt;
 
@@ -224,6 +226,61 @@ pub fn read_with_siblings(
         return Err(ReadError::NoFaces { format });
     }
     Ok(soup)
+}
+
+/// Why a file's colours could not be read.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ColourError {
+    /// The file is no mesh.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The file has no colours.
+    #[error("{format} file: it has no colours, neither materials nor vertex colours nor a texture")]
+    None {
+        /// The format.
+        format: Format,
+    },
+    /// A file of materials cannot be had.
+    #[error("its materials are in another file, {name}: {reason}")]
+    Sibling {
+        /// The name in the file.
+        name: String,
+        /// Why it cannot be had.
+        reason: String,
+    },
+    /// A texture cannot be used.
+    #[error("its texture {name} cannot be used: {reason}")]
+    Texture {
+        /// The name in the file.
+        name: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+}
+
+/// Reads the colours of a mesh file of any known format; `sibling` as in [`read_with_siblings`].
+///
+/// # Errors
+/// See [`ColourError`].
+pub fn read_painting(
+    bytes: &[u8],
+    sibling: &dyn Fn(&str) -> Result<Vec<u8>, String>,
+) -> Result<Painting, ColourError> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let format = recognise(bytes).ok_or_else(|| unrecognised(bytes))?;
+    let painting = match format {
+        Format::Obj => obj::read_painting(bytes, sibling)?,
+        Format::Ply => ply::read_painting(bytes)?,
+        Format::Off => off::read_painting(bytes)?,
+        Format::Gltf => gltf::read_painting(bytes, sibling)?,
+        Format::StlAscii | Format::StlBinary => None,
+    };
+    painting.ok_or(ColourError::None { format })
+}
+
+/// A polygon's corners as triangles about the first: good enough to show its colours.
+fn fan(corners: usize) -> impl Iterator<Item = [usize; 3]> {
+    (2..corners).map(|k| [0, k - 1, k])
 }
 
 fn recognise(bytes: &[u8]) -> Option<Format> {

@@ -1,6 +1,10 @@
 //! Wavefront OBJ. Vertices and faces are read; materials, normals, texture coordinates, groups,
 //! lines and points are passed over.
 
+mod colour;
+
+pub(super) use colour::read_painting;
+
 use super::lines::{Feed, Line, Lines, number};
 use super::{Format, Place, ReadError};
 use crate::mesh::Soup;

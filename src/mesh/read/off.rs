@@ -1,5 +1,9 @@
 //! Object File Format in text, with the headers OFF, COFF, NOFF, STOFF and their combinations.
-//! Colours, normals and texture coordinates are passed over.
+//! Normals and texture coordinates are passed over; colours are read apart.
+
+mod colour;
+
+pub(super) use colour::read_painting;
 
 use super::lines::{Line, Lines, number};
 use super::{Format, Place, ReadError, excerpt};

@@ -1,6 +1,9 @@
 //! Stanford PLY, in text and in both binary byte orders.
 
+mod colour;
 mod elements;
+
+pub(super) use colour::read_painting;
 
 use super::lines::{Feed, Line, Lines, number};
 use super::{Format, Place, ReadError, excerpt};
@@ -12,7 +15,25 @@ use ply_rs_bw::ply::{ElementDef, Encoding, Header, PropertyType, ScalarType};
 use std::cell::Cell;
 use std::io::{BufRead, BufReader, ErrorKind};
 
+/// What is kept of a file.
+struct Elements {
+    vertices: Vec<Vertex>,
+    faces: Vec<Face>,
+}
+
 pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
+    let Elements { vertices, faces } = read_all(bytes)?;
+    let count = vertices.len();
+    let polygons = faces
+        .iter()
+        .enumerate()
+        .map(|(k, face)| narrow(k, &face.corners, count))
+        .collect::<Result<Vec<_>, _>>()?;
+    let positions = vertices.iter().map(|v| DVec3::from_array(v.position)).collect();
+    Soup::new(positions, polygons).map_err(|error| ReadError::from_soup(Format::Ply, &error))
+}
+
+fn read_all(bytes: &[u8]) -> Result<Elements, ReadError> {
     let mut reader = Reader::new(bytes);
     let header = Parser::<Other>::new().read_header(&mut reader).map_err(|error| in_header(bytes, &error))?;
     let header_lines = reader.line() - 1;
@@ -96,18 +117,18 @@ fn read_elements<R: BufRead>(
     reader: &mut Reader<R>,
     header: &Header,
     explain: &dyn Fn(&ElementDef, &ParseError) -> ReadError,
-) -> Result<Soup, ReadError> {
-    let (mut positions, mut faces) = (Vec::new(), Vec::new());
+) -> Result<Elements, ReadError> {
+    let mut kept = Elements { vertices: Vec::new(), faces: Vec::new() };
     for (name, element) in &header.elements {
         match name.as_str() {
             "vertex" => {
-                let vertices: Vec<Vertex> = Parser::new()
+                let vertices = Parser::new()
                     .read_payload_for_element(reader, element, header)
                     .map_err(|error| explain(element, &error))?;
-                positions.extend(vertices.iter().map(|v| DVec3::from_array(v.0)));
+                kept.vertices.extend(vertices);
             }
             "face" => {
-                faces = Parser::<Face>::new()
+                kept.faces = Parser::new()
                     .read_payload_for_element(reader, element, header)
                     .map_err(|error| explain(element, &error))?;
             }
@@ -118,10 +139,7 @@ fn read_elements<R: BufRead>(
             }
         }
     }
-    let count = positions.len();
-    let polygons =
-        faces.iter().enumerate().map(|(k, face)| narrow(k, &face.0, count)).collect::<Result<Vec<_>, _>>()?;
-    Soup::new(positions, polygons).map_err(|error| ReadError::from_soup(Format::Ply, &error))
+    Ok(kept)
 }
 
 fn narrow(face: usize, indices: &[i64], count: usize) -> Result<Vec<u32>, ReadError> {

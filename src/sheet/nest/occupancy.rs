@@ -89,10 +89,11 @@ impl Occupancy {
     }
 
     /// The cheapest free position of a pose, if it costs less than `limit`. The cost is `pull` ·
-    /// centre of the bounding box in mm; both parts of `pull` are at least 0.
-    pub fn best_spot(&self, pose: &Pose, pull: DVec2, limit: f64) -> Option<Spot> {
+    /// the point in mm at the share `lean` of the way from the bounding box's lower left to its
+    /// upper right corner; both parts of `pull` are at least 0.
+    pub fn best_spot(&self, pose: &Pose, pull: DVec2, lean: f64, limit: f64) -> Option<Spot> {
         let mut query =
-            Query { pose, fixed: pull.dot(pose.extent) / 2.0, step: pull * self.cell_mm, limit, best: None };
+            Query { pose, fixed: pull.dot(pose.extent) * lean, step: pull * self.cell_mm, limit, best: None };
         let top = LAYERS - 1;
         for row in 0..pose.rows.div_ceil(1 << top) {
             self.visit(&mut query, top, row, &[u64::MAX; WORDS]);
@@ -199,7 +200,7 @@ mod tests {
         for k in 0..9 {
             let pose = Pose::new(&star(28.0), f64::from(k), 1.0, &grid);
             let pull = DVec2::from_angle(0.1 + 0.15 * f64::from(k));
-            let found = sheet.best_spot(&pose, pull, f64::INFINITY);
+            let found = sheet.best_spot(&pose, pull, 0.5, f64::INFINITY);
             let layer = &sheet.layers[0];
             let mut naive = f64::INFINITY;
             for row in 0..pose.rows {

@@ -13,6 +13,10 @@ use std::f64::consts::FRAC_PI_2;
 /// Orders that are tried at once; fixed, so that the result does not hang on the machine.
 const BATCH: usize = 8;
 
+/// Poses of a piece that are tried in one order, and how many of them are always the common ones.
+const POSES: usize = 28;
+const COMMON_POSES: usize = 8;
+
 /// The best orders, which are varied further.
 const POOL: usize = 4;
 
@@ -42,6 +46,11 @@ struct Plan {
     order: Vec<usize>,
     /// Direction away from which pieces are drawn; both parts at least 0.
     pull: DVec2,
+    /// How much a pose's own extent counts against it, from 0 to 1: with 0 the near edge of a
+    /// piece is drawn to the corner, with 1 its far edge.
+    lean: f64,
+    /// Chooses the poses that are tried; the common ones for 0.
+    poses: u64,
 }
 
 /// What came out of a plan.
@@ -146,9 +155,8 @@ fn standard_plans(items: &[Item]) -> Vec<Plan> {
     let orders =
         [sorted(|i| (0, i.area_mm2)), sorted(|i| (i.group, i.area_mm2)), sorted(|i| (0, i.longest_mm))];
     let pulls = [(0.1, 1.0), (1.0, 0.1), (1.0, 1.0)].map(DVec2::from);
-    let plans =
-        pulls.iter().flat_map(|&pull| orders.iter().map(move |order| Plan { order: order.clone(), pull }));
-    plans.collect()
+    let plan = |pull, order: &Vec<usize>| Plan { order: order.clone(), pull, lean: 0.5, poses: 0 };
+    pulls.iter().flat_map(|&pull| orders.iter().map(move |order| plan(pull, order))).collect()
 }
 
 /// A plan near one of the best: some pieces of its emptiest sheet come earlier, some change
@@ -172,7 +180,25 @@ fn varied(pool: &[Layout], rng: &mut fastrand::Rng) -> Plan {
     if rng.u8(..3) == 0 {
         plan.pull = DVec2::from_angle(rng.f64() * FRAC_PI_2);
     }
+    if rng.u8(..3) == 0 {
+        plan.lean = rng.f64();
+    }
+    if rng.u8(..2) == 0 {
+        plan.poses = rng.u64(..);
+    }
     plan
+}
+
+/// The poses of an item that a plan tries.
+fn chosen_poses(item: usize, count: usize, plan: &Plan) -> Vec<usize> {
+    let mut indices: Vec<usize> = (0..count).collect();
+    if plan.poses != 0 && count > POSES {
+        // A stream of its own for each item, so that it does not matter which come before it.
+        let mut rng = fastrand::Rng::with_seed(plan.poses.wrapping_add(item as u64));
+        rng.shuffle(&mut indices[COMMON_POSES..]);
+    }
+    indices.truncate(POSES);
+    indices
 }
 
 /// Puts the pieces on sheets in the order of a plan; `None` where that takes more than `most`.
@@ -181,7 +207,8 @@ fn lay_out(items: &[Item], grid: &Grid, plan: Plan, most: usize) -> Option<Layou
     let mut sheets: Vec<Vec<Placed>> = Vec::new();
     for &item in &plan.order {
         let poses = &items[item].poses;
-        let place = |sheet: &Occupancy| best_pose(sheet, poses, plan.pull);
+        let chosen = chosen_poses(item, poses.len(), &plan);
+        let place = |sheet: &Occupancy| best_pose(sheet, poses, &chosen, &plan);
         let found = (0..stock.len()).find_map(|k| Some((k, place(&stock[k])?)));
         let (k, (pose, spot)) = match found {
             Some(found) => found,
@@ -200,15 +227,16 @@ fn lay_out(items: &[Item], grid: &Grid, plan: Plan, most: usize) -> Option<Layou
     Some(Layout::new(plan, sheets, items))
 }
 
-/// The cheapest place for a piece on a sheet, over all its poses.
-fn best_pose(sheet: &Occupancy, poses: &[Pose], pull: DVec2) -> Option<(usize, Spot)> {
+/// The cheapest place for a piece on a sheet, over the chosen poses.
+fn best_pose(sheet: &Occupancy, poses: &[Pose], chosen: &[usize], plan: &Plan) -> Option<(usize, Spot)> {
     let mut best: Option<(usize, Spot)> = None;
-    for (k, pose) in poses.iter().enumerate() {
+    for &k in chosen {
+        let pose = &poses[k];
         if sheet.is_too_full_for(pose) {
             continue;
         }
         let limit = best.map_or(f64::INFINITY, |(_, spot)| spot.cost);
-        if let Some(spot) = sheet.best_spot(pose, pull, limit) {
+        if let Some(spot) = sheet.best_spot(pose, plan.pull, plan.lean, limit) {
             best = Some((k, spot));
         }
     }

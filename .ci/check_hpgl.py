@@ -1,0 +1,122 @@
+"""Reads an HP-GL file with hp2xx and compares it with the DXF file of the same sheet.
+
+    check_hpgl.py JOB.plt SHEET.dxf
+
+Fails where hp2xx ignores a command, and where a line of the one is farther than the tolerance from
+the lines of the other. The job has to be that of a pen without overcut, so that both are the same
+geometry.
+"""
+
+import math
+import re
+import subprocess
+import sys
+import tempfile
+
+TOLERANCE_MM = 0.025
+SKIPPED_LAYERS = {"0"}
+
+
+def pairs(path):
+    lines = open(path, encoding="utf-8").read().splitlines()
+    return [(lines[k].strip(), lines[k + 1].strip()) for k in range(0, len(lines) - 1, 2)]
+
+
+def entities(path):
+    """(type, {code: [values]}) of the section ENTITIES."""
+    found, is_inside, entity = [], False, None
+    for code, value in pairs(path):
+        if code == "2" and value == "ENTITIES":
+            is_inside = True
+        elif code == "0":
+            if value == "ENDSEC":
+                is_inside = False
+            entity = (value, {}) if is_inside else None
+            if entity:
+                found.append(entity)
+        elif entity:
+            entity[1].setdefault(code, []).append(value)
+    return found
+
+
+def segments(path):
+    out, polyline = [], None
+    for kind, codes in entities(path):
+        layer = codes.get("8", ["0"])[0]
+        number = lambda code: [float(v) for v in codes.get(code, [])]
+        if kind == "LINE":
+            points, is_closed = [(number("10")[0], number("20")[0]), (number("11")[0], number("21")[0])], False
+        elif kind == "LWPOLYLINE":
+            points = list(zip(number("10"), number("20")))
+            is_closed = int(codes.get("70", ["0"])[0]) & 1
+        elif kind == "POLYLINE":
+            polyline = ([], int(codes.get("70", ["0"])[0]) & 1, layer)
+            continue
+        elif kind == "VERTEX" and polyline:
+            polyline[0].append((number("10")[0], number("20")[0]))
+            continue
+        elif kind == "SEQEND" and polyline:
+            points, is_closed, layer = polyline
+            polyline = None
+        else:
+            continue
+        if is_closed:
+            points = points + points[:1]
+        out += [(a, b, layer) for a, b in zip(points, points[1:])]
+    return out
+
+
+def distance(p, a, b):
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    length = dx * dx + dy * dy
+    t = 0 if length == 0 else max(0, min(1, ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length))
+    return math.hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy)
+
+
+class Grid:
+    """Segments by the cells of 5 mm that they touch."""
+
+    SIZE = 5.0
+
+    def __init__(self, lines):
+        self.cells = {}
+        for line in lines:
+            (ax, ay), (bx, by) = line[:2]
+            for i in range(int(min(ax, bx) // self.SIZE) - 1, int(max(ax, bx) // self.SIZE) + 2):
+                for j in range(int(min(ay, by) // self.SIZE) - 1, int(max(ay, by) // self.SIZE) + 2):
+                    self.cells.setdefault((i, j), []).append(line)
+
+    def distance(self, p):
+        near = self.cells.get((int(p[0] // self.SIZE), int(p[1] // self.SIZE)), [])
+        return min((distance(p, a, b) for a, b, *_ in near), default=math.inf)
+
+
+def samples(lines):
+    for a, b, *_ in lines:
+        steps = max(1, math.ceil(math.hypot(b[0] - a[0], b[1] - a[1]) / 0.5))
+        for k in range(steps + 1):
+            yield (a[0] + (b[0] - a[0]) * k / steps, a[1] + (b[1] - a[1]) * k / steps)
+
+
+def main(job, sheet):
+    with tempfile.TemporaryDirectory() as folder:
+        drawn_path = f"{folder}/drawn.dxf"
+        command = ["hp2xx", "-t", "-x", "0", "-y", "0", "-m", "dxf", "-f", drawn_path, job]
+        run = subprocess.run(command, capture_output=True, text=True)
+        said = run.stdout + run.stderr
+        ignored = re.search(r"HPGL command\(s\) ignored:\s*(\d+)", said)
+        if run.returncode or not ignored or ignored[1] != "0":
+            sys.exit(f"hp2xx did not read all of it:\n{said}")
+        drawn = [line for line in segments(drawn_path)]
+    meant = [line for line in segments(sheet) if line[2] not in SKIPPED_LAYERS]
+    if not drawn or not meant:
+        sys.exit(f"{len(drawn)} lines drawn, {len(meant)} meant")
+    for name, ours, others in [("drawn, not meant", drawn, meant), ("meant, not drawn", meant, drawn)]:
+        grid = Grid(others)
+        worst, place = max((grid.distance(p), p) for p in samples(ours))
+        print(f"{name}: {worst:.4f} mm at most, at {place[0]:.2f}, {place[1]:.2f}")
+        if worst > TOLERANCE_MM:
+            sys.exit(1)
+
+
+main(*sys.argv[1:])

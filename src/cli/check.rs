@@ -1,0 +1,59 @@
+//! `tatamu check`
+
+use super::error::{CliError, reason};
+use super::terminal;
+use clap::Args;
+use std::path::PathBuf;
+use std::process::ExitCode;
+use tatamu::check::{self, Limits, Verdict};
+use tatamu::units::parse_length_or_zero_mm;
+
+/// Checks a FOLD file by its own numbers: refolds it and measures.
+///
+/// Panels must stay rigid in every state, labelled edges meet, chains close without a gap, and
+/// nothing overlap in the crease pattern or in the flat layers. Prints a table of what was found;
+/// the exit code is 1 where anything fails.
+#[derive(Debug, Args)]
+pub struct CheckArgs {
+    /// FOLD file, as "tatamu make -o FILE.fold" writes it
+    #[arg(value_name = "FILE.fold")]
+    file: PathBuf,
+
+    /// Least width and height of side panels that passes [default: 3mm]
+    ///
+    /// 0mm accepts any. Example: --min-panel-width 4mm
+    #[arg(long, value_name = "LENGTH", value_parser = parse_length_or_zero_mm)]
+    min_panel_width: Option<f64>,
+
+    /// Only what fails
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Runs the command.
+pub fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
+    let path = args.file.clone();
+    let bytes = std::fs::read(&args.file)
+        .map_err(|error| CliError::Input { path: path.clone(), reason: reason(&error) })?;
+    let report = check::fold(&bytes).map_err(|error| CliError::Check { path, error })?;
+    let limits = Limits::default();
+    let least = args.min_panel_width.unwrap_or(limits.min_panel_mm);
+    let verdicts = report.verdicts(&Limits { min_panel_mm: least, ..limits });
+    let failed = verdicts.iter().filter(|v| !v.passes).count();
+    for verdict in verdicts.iter().filter(|v| !args.quiet || !v.passes) {
+        terminal::say(&line(verdict));
+    }
+    if !args.quiet {
+        terminal::say(&match failed {
+            0 => "all is well".to_owned(),
+            n => format!("{n} of {} checks failed", verdicts.len()),
+        });
+    }
+    Ok(if failed == 0 { ExitCode::SUCCESS } else { ExitCode::FAILURE })
+}
+
+fn line(verdict: &Verdict) -> String {
+    let word = if verdict.passes { "ok  " } else { "FAIL" };
+    let found = terminal::printable(&verdict.found);
+    format!("{word}  {:<24}{found:<28}{}", verdict.name, verdict.allowed)
+}

@@ -1,0 +1,157 @@
+//! From what the user gave to sheets that can be sent.
+
+use super::PlotArgs;
+use crate::cli::error::CliError;
+use crate::cli::progress::TerminalProgress;
+use crate::cli::{input, make, terminal};
+use glam::DVec2;
+use std::path::Path;
+use tatamu::drawing::Drawing;
+use tatamu::export::{ExportError, PltOptions};
+use tatamu::pipeline;
+use tatamu::plotter::{Cutter, Job, Placement, Plan, Point, test_cut};
+use tatamu::product::Product;
+use tatamu::report::Run;
+
+/// One sheet, ready to be sent.
+pub struct Sheet {
+    name: String,
+    bytes: Vec<u8>,
+    job: Job,
+    placement: Placement,
+    /// Way with the tool up, and that in the order of the drawing, mm.
+    travel_mm: Option<[f64; 2]>,
+    notes: Vec<String>,
+}
+
+impl Sheet {
+    /// Its name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The bytes as in a .plt file.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// The job.
+    pub fn job(&self) -> &Job {
+        &self.job
+    }
+
+    /// How it lies on the machine.
+    pub fn placement(&self) -> &Placement {
+        &self.placement
+    }
+
+    /// What the user should know.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// What is sent, in a line.
+    pub fn summary(&self, cutter: &Cutter) -> String {
+        let units = cutter.frame().units_per_mm().value();
+        let motions = self.job.commands().iter().flat_map(|command| command.motions());
+        let drawn: f64 = motions.filter(|m| m.is_down).map(|m| m.from.distance(m.to)).sum::<f64>() / units;
+        let travel = self.travel_mm.map_or(String::new(), |[own, file]| {
+            format!(", {:.1} m of travel ({:.1} m in the order of the drawing)", own / 1000.0, file / 1000.0)
+        });
+        let turned = if self.placement.is_turned() { ", sheet turned by 90° to the left" } else { "" };
+        format!(
+            "{}: {} strokes, {:.1} m{travel}, {}, {} bytes{turned}",
+            self.name,
+            self.job.strokes(),
+            drawn / 1000.0,
+            minutes(self.job.seconds()),
+            self.bytes.len()
+        )
+    }
+
+    fn of_file(name: String, bytes: Vec<u8>, cutter: &Cutter) -> Result<Self, CliError> {
+        let job = parse(&name, &bytes, cutter)?;
+        let places = job.commands().iter().flat_map(|c| c.motions()).flat_map(|m| [m.from, m.to]);
+        let on_sheet = |p: Point| cutter.frame().to_sheet(DVec2::ZERO, p);
+        let reach = places.map(|p| on_sheet(p).abs()).fold(DVec2::ZERO, DVec2::max);
+        let mut notes = Vec::new();
+        if job.dropped() > 0 {
+            notes.push(format!(
+                "{name}: {} questions and control sequences are left out; tatamu does the handshake itself",
+                job.dropped()
+            ));
+        }
+        let placement = Placement::straight(reach.ceil() + DVec2::splat(5.0));
+        Ok(Self { name, bytes, job, placement, travel_mm: None, notes })
+    }
+
+    fn of_drawing(name: String, drawing: &Drawing, machine: &PltOptions) -> Result<Self, CliError> {
+        let plan = Plan::new(drawing, &machine.cutter, &machine.media)
+            .map_err(|error| CliError::Sheet { sheet: name.clone(), reason: error.to_string() })?;
+        let home = machine.cutter.frame().to_sheet(drawing.size_mm, Point::default());
+        let travel_mm = Some([plan.toolpath().travel_mm(home), plan.toolpath().file_travel_mm()]);
+        let job = parse(&name, plan.bytes(), &machine.cutter)?;
+        Ok(Self {
+            name,
+            bytes: plan.bytes().to_vec(),
+            job,
+            placement: *plan.placement(),
+            travel_mm,
+            notes: plan.notes().to_vec(),
+        })
+    }
+}
+
+/// Reads a job.
+pub fn parse(name: &str, bytes: &[u8], cutter: &Cutter) -> Result<Job, CliError> {
+    Job::parse(bytes, cutter)
+        .map_err(|error| CliError::Sheet { sheet: name.to_owned(), reason: error.to_string() })
+}
+
+/// A time in words.
+pub fn minutes(seconds: f64) -> String {
+    let whole = seconds.ceil() as u64;
+    if whole < 60 { format!("{whole} s") } else { format!("{} min {:02} s", whole / 60, whole % 60) }
+}
+
+/// The sheets that the user asked for.
+pub fn sheets(args: &PlotArgs, machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
+    if args.test_cut {
+        return Ok(vec![Sheet::of_drawing("test cut".to_owned(), &test_cut(), machine)?]);
+    }
+    let is_plt = |path: &Path| {
+        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+        ["plt", "hpgl", "hpg", "gpgl", "dmpl"].iter().any(|e| extension == *e)
+    };
+    if args.input.iter().all(|path| is_plt(path)) {
+        let sheet = |path: &std::path::PathBuf| {
+            let bytes = input::read_file(path)?;
+            Sheet::of_file(path.display().to_string(), bytes, &machine.cutter)
+        };
+        return args.input.iter().map(sheet).collect();
+    }
+    match args.input.as_slice() {
+        [input] => of_model(args, input, machine),
+        _ => {
+            Err(CliError::Options("only .plt files can be several; give one mesh or project file".to_owned()))
+        }
+    }
+}
+
+fn of_model(args: &PlotArgs, path: &Path, machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
+    let input = input::read(path)?;
+    let options = args.model.merge(&input)?;
+    make::repair_warnings(&input.repairs).iter().for_each(make::warn);
+    let progress = TerminalProgress::new(args.quiet);
+    let result = pipeline::run(&input.mesh, &options, &progress)
+        .map_err(|error| CliError::of_run(error, &progress))?;
+    progress.finish();
+    make::warn_by_kind(result.warnings());
+    let title = terminal::printable(&path.file_stem().unwrap_or_default().to_string_lossy());
+    let path = input.mesh_path.to_string_lossy();
+    let run = Run { path: &path, repairs: &input.repairs, stages: &[], warnings: &[] };
+    let product = Product::new(&result, &title, run);
+    let pages = product.pages().map_err(ExportError::from)?.drawings();
+    let name = |k: usize| format!("{title}, sheet {} of {}", k + 1, pages.len());
+    pages.iter().enumerate().map(|(k, page)| Sheet::of_drawing(name(k), page, machine)).collect()
+}

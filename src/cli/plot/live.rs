@@ -1,0 +1,291 @@
+//! Jobs on their way: the port, the clock, the keyboard and the user.
+
+use super::journal::{Header, Journal, Position};
+use super::keys::Keys;
+use super::{PlotArgs, Sheet, handshake, jobs};
+use crate::cli::error::{CliError, reason};
+use crate::cli::{output, ports, progress, terminal};
+use indicatif::{ProgressBar, ProgressStyle};
+use serialport::{ClearBuffer, DataBits, FlowControl, SerialPort, StopBits};
+use std::io::{ErrorKind, IsTerminal};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+use tatamu::plotter::profile::{Handshake, Parity};
+use tatamu::plotter::session::{End, Outcome, Session, State, Status, Step};
+use tatamu::plotter::{Cutter, Job};
+use tatamu::progress::Cancelled;
+
+/// A port that is not ready for so long is asked again.
+const PORT_TIMEOUT: Duration = Duration::from_millis(100);
+/// Longest time between two looks at port and keyboard.
+const LOOK: Duration = Duration::from_millis(4);
+/// The journal is written so often.
+const NOTE_EVERY: Duration = Duration::from_millis(500);
+
+/// Sends sheets from the first on.
+pub fn start(args: &PlotArgs, cutter: &Cutter, sheets: Vec<Sheet>) -> Result<(), CliError> {
+    let port = args.port.clone().unwrap_or_default();
+    let name = args.input.first().and_then(|path| path.file_stem()).unwrap_or("test-cut".as_ref());
+    let path = PathBuf::from(name).with_extension("tatamu-job");
+    let header = Header {
+        cutter: cutter.text().to_owned(),
+        port,
+        baud: args.baud,
+        handshake: args.handshake.map(|h| h.name().to_owned()),
+        copies: args.copies,
+        sheets: sheets.iter().map(|sheet| Header::sheet(sheet.name(), sheet.bytes())).collect(),
+    };
+    output::check_places(std::slice::from_ref(&path), &[])?;
+    send_all(args, &path, &header, Position::default())
+}
+
+/// Goes on with a job.
+pub fn resume(args: &PlotArgs, path: &Path, (header, at): (Header, Position)) -> Result<(), CliError> {
+    let mut header = header;
+    header.port = args.port.clone().unwrap_or(header.port);
+    header.baud = args.baud.or(header.baud);
+    header.handshake = args.handshake.map(|h| h.name().to_owned()).or(header.handshake);
+    send_all(args, path, &header, at)
+}
+
+fn send_all(args: &PlotArgs, path: &Path, header: &Header, start: Position) -> Result<(), CliError> {
+    let cutter = Cutter::parse(&header.cutter)
+        .map_err(|error| CliError::Profile { name: path.display().to_string(), error })?;
+    let damaged =
+        || CliError::Input { path: path.to_owned(), reason: "the journal is damaged; begin anew".to_owned() };
+    let chosen = header.handshake.as_deref().map(handshake).transpose().map_err(CliError::Options)?;
+    let mut port = open(header, &cutter)?;
+    progress::count_stops();
+    let keys = Keys::listen();
+    let mut journal = Journal::create(path, header, start)?;
+    let mut at = start;
+    while at.copy < header.copies {
+        while at.sheet < header.sheets.len() {
+            let (name, bytes) = (&header.sheets[at.sheet].0, header.bytes(at.sheet).ok_or_else(damaged)?);
+            let whole = jobs::parse(name, &bytes, &cutter)?;
+            let job = jobs::parse(name, &whole.from_stroke(at.strokes, cutter.dialect()), &cutter)?;
+            let first = whole.strokes() - job.strokes();
+            load(args, &keys, name, at, header.copies)
+                .inspect_err(|_| tell_resume(&journal, whole.strokes()))?;
+            let live = Live { keys: &keys, is_quiet: args.quiet, first, name };
+            let outcome = live.send(job, &cutter, chosen, port.as_mut(), &mut journal, at)?;
+            if outcome.end != End::Finished {
+                journal.note(Position { strokes: first + outcome.strokes_done, ..at })?;
+                tell_resume(&journal, whole.strokes());
+                return Err(failure(outcome));
+            }
+            at = Position { sheet: at.sheet + 1, strokes: 0, ..at };
+            journal.note(at)?;
+        }
+        at = Position { copy: at.copy + 1, sheet: 0, strokes: 0 };
+        journal.note(at)?;
+    }
+    journal.remove();
+    if !args.quiet {
+        terminal::say("done");
+    }
+    Ok(())
+}
+
+/// Says how to go on.
+fn tell_resume(journal: &Journal, strokes: usize) {
+    let at = journal.position();
+    terminal::complain(
+        "tatamu",
+        &format!(
+            "{} of {strokes} strokes of this sheet are certainly done; go on with: tatamu plot --resume {}",
+            at.strokes,
+            journal.path().display()
+        ),
+    );
+}
+
+fn failure(outcome: Outcome) -> CliError {
+    let what = match outcome.end {
+        End::Finished | End::Stopped => return CliError::Cancelled(Cancelled),
+        End::Device(16) => "the machine's buffer ran over (error 16); try --handshake paced".to_owned(),
+        End::Device(15) => {
+            "the machine misread bytes (error 15); check --baud, parity and the cable".to_owned()
+        }
+        End::Device(code) => format!("the machine reports the error {code} (ESC.E)"),
+        End::NoAnswer => "the machine does not answer; check port, baud and cable, or try --handshake paced \
+                          or rtscts"
+            .to_owned(),
+        End::PortLost => {
+            "the port is gone: the tool may be down; lift it by hand before you do anything else".to_owned()
+        }
+    };
+    CliError::Machine(what)
+}
+
+/// Asks for the sheet.
+fn load(args: &PlotArgs, keys: &Keys, name: &str, at: Position, copies: u16) -> Result<(), CliError> {
+    if args.yes {
+        return Ok(());
+    }
+    let copy = if copies > 1 { format!(" (copy {} of {copies})", at.copy + 1) } else { String::new() };
+    terminal::complain("tatamu", &format!("load a sheet for {name}{copy}, then press Enter; Ctrl-C ends"));
+    loop {
+        match keys.poll() {
+            Ok(Some(b'\n' | b'\r')) => return Ok(()),
+            Ok(_) if progress::stops() > 0 => return Err(CliError::Cancelled(Cancelled)),
+            Ok(_) => std::thread::sleep(LOOK),
+            Err(()) => {
+                let message = "there is no one to ask whether the sheet is loaded; use --yes";
+                return Err(CliError::Options(message.to_owned()));
+            }
+        }
+    }
+}
+
+/// Opens the port without any flow control of the system: the session does it.
+fn open(header: &Header, cutter: &Cutter) -> Result<Box<dyn SerialPort>, CliError> {
+    let serial = cutter.serial();
+    let failed = |error: serialport::Error| CliError::Port {
+        port: header.port.clone(),
+        reason: match error.kind() {
+            serialport::ErrorKind::Io(kind) => reason(&kind.into()) + ports::hint(&header.port),
+            _ => format!("{error}{}; \"tatamu ports\" lists the ports", ports::hint(&header.port)),
+        },
+    };
+    let mut port = serialport::new(&header.port, header.baud.unwrap_or(serial.baud))
+        .timeout(PORT_TIMEOUT)
+        .data_bits(if serial.data_bits == 7 { DataBits::Seven } else { DataBits::Eight })
+        .stop_bits(if serial.stop_bits == 2 { StopBits::Two } else { StopBits::One })
+        .parity(match serial.parity {
+            Parity::None => serialport::Parity::None,
+            Parity::Even => serialport::Parity::Even,
+            Parity::Odd => serialport::Parity::Odd,
+        })
+        .flow_control(FlowControl::None)
+        .open()
+        .map_err(failed)?;
+    // Not every port has these lines, and not every machine needs them.
+    let _ = port.write_request_to_send(true);
+    let _ = port.write_data_terminal_ready(true);
+    let _ = port.clear(ClearBuffer::Input);
+    Ok(port)
+}
+
+/// One job on its way.
+struct Live<'a> {
+    keys: &'a Keys,
+    is_quiet: bool,
+    /// Strokes of the sheet that were done before.
+    first: usize,
+    name: &'a str,
+}
+
+impl Live<'_> {
+    fn send(
+        &self,
+        job: Job,
+        cutter: &Cutter,
+        chosen: Option<Handshake>,
+        port: &mut dyn SerialPort,
+        journal: &mut Journal,
+        at: Position,
+    ) -> Result<Outcome, CliError> {
+        let handshake = chosen.unwrap_or(cutter.serial().handshake);
+        let baud = port.baud_rate().ok();
+        let clear_to_send = port.read_clear_to_send().ok();
+        let mut session = Session::new(job, cutter, handshake, clear_to_send);
+        if let Some(baud) = baud {
+            session.set_baud(baud);
+        }
+        let bar = self.bar();
+        let (start, mut noted) = (Instant::now(), Instant::now());
+        let mut stops = 0;
+        let mut pending: Vec<u8> = Vec::new();
+        let mut has_hardware = false;
+        loop {
+            while stops < progress::stops() {
+                stops += 1;
+                session.stop();
+            }
+            self.heed_keys(&mut session);
+            if exchange(port, &mut pending, &mut session).is_err() {
+                session.port_lost();
+            }
+            let queued = pending.len() + port.bytes_to_write().map_or(0, |n| n as usize);
+            let step = session.step(start.elapsed(), queued);
+            let status = session.status();
+            if status.handshake == Handshake::RtsCts && !has_hardware {
+                has_hardware = port.set_flow_control(FlowControl::Hardware).is_ok();
+            }
+            if !self.is_quiet {
+                session.take_notes().iter().for_each(|note| terminal::complain("tatamu", note));
+            }
+            match step {
+                Step::Send(bytes) => pending.extend(bytes),
+                Step::Wait(wait) => std::thread::sleep(wait.min(LOOK)),
+                Step::Done(outcome) => {
+                    bar.finish_and_clear();
+                    return Ok(outcome);
+                }
+            }
+            if noted.elapsed() >= NOTE_EVERY {
+                noted = Instant::now();
+                journal.note(Position { strokes: self.first + status.strokes_done, ..at })?;
+                self.show(&bar, &status);
+            }
+        }
+    }
+
+    fn heed_keys(&self, session: &mut Session) {
+        while let Some(key) = self.keys.pressed() {
+            if key == b'p' || key == b' ' {
+                if session.is_pausing() { session.go_on() } else { session.pause() }
+            }
+        }
+    }
+
+    fn bar(&self) -> ProgressBar {
+        if self.is_quiet || !std::io::stderr().is_terminal() {
+            return ProgressBar::hidden();
+        }
+        let bar = ProgressBar::new(1);
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {msg}") {
+            bar.set_style(style);
+        }
+        bar
+    }
+
+    fn show(&self, bar: &ProgressBar, status: &Status) {
+        let what = match status.state {
+            State::Probing => "asking the machine",
+            State::Sending => "p: pause",
+            State::Paused => "paused, p: go on",
+            State::Finishing => "the machine works on",
+            State::Stopping | State::Ended => "lifting the tool",
+        };
+        let (done, all) = (self.first + status.strokes_done, self.first + status.strokes);
+        bar.set_length(all as u64);
+        bar.set_position(done as u64);
+        let left = jobs::minutes(status.seconds_left);
+        bar.set_message(format!("{}: stroke {done} of {all}, {left} left ({what})", self.name));
+    }
+}
+
+/// Writes what is pending, as far as the port takes it, and reads what came.
+fn exchange(port: &mut dyn SerialPort, pending: &mut Vec<u8>, session: &mut Session) -> std::io::Result<()> {
+    let is_passing =
+        |kind| matches!(kind, ErrorKind::TimedOut | ErrorKind::WouldBlock | ErrorKind::Interrupted);
+    if !pending.is_empty() {
+        match port.write(pending) {
+            Ok(n) => drop(pending.drain(..n)),
+            Err(error) if is_passing(error.kind()) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    let mut buffer = [0; 256];
+    let waiting = port.bytes_to_read()? as usize;
+    if waiting > 0 {
+        match port.read(&mut buffer[..waiting.min(256)]) {
+            Ok(n) => session.received(&buffer[..n]),
+            Err(error) if is_passing(error.kind()) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,50 @@
+//! `tatamu ports`
+
+use super::error::CliError;
+use super::terminal;
+use clap::Args;
+use serialport::SerialPortType;
+
+/// Lists the serial ports, with what is known of what is plugged in.
+#[derive(Debug, Args)]
+pub struct PortsArgs {}
+
+/// Runs the command.
+pub fn run(_: &PortsArgs) -> Result<(), CliError> {
+    let ports = serialport::available_ports()
+        .map_err(|error| CliError::Options(format!("the serial ports cannot be listed: {error}")))?;
+    if ports.is_empty() {
+        terminal::say("no serial port; plug the machine in and switch it on");
+    }
+    for port in ports {
+        let what = match &port.port_type {
+            SerialPortType::UsbPort(usb) => {
+                let words = [usb.manufacturer.as_deref(), usb.product.as_deref()];
+                let words: Vec<&str> = words.into_iter().flatten().collect();
+                format!("USB {:04x}:{:04x} {}", usb.vid, usb.pid, words.join(" "))
+            }
+            SerialPortType::BluetoothPort => "Bluetooth".to_owned(),
+            SerialPortType::PciPort | SerialPortType::Unknown => String::new(),
+        };
+        terminal::say(format!("{:<16} {what}{}", port.port_name, hint(&port.port_name)).trim_end());
+    }
+    Ok(())
+}
+
+/// What to do where the user may not open the port.
+#[cfg(unix)]
+pub fn hint(port: &str) -> &'static str {
+    use rustix::fs::{Access, access};
+    match access(port, Access::READ_OK | Access::WRITE_OK) {
+        Err(rustix::io::Errno::ACCESS) => {
+            "  (no permission: sudo usermod -a -G dialout $USER, then log out and in again)"
+        }
+        _ => "",
+    }
+}
+
+/// What to do where the user may not open the port.
+#[cfg(not(unix))]
+pub fn hint(_: &str) -> &'static str {
+    ""
+}

@@ -1,0 +1,170 @@
+//! `tatamu show`
+
+use super::error::CliError;
+use super::film::size_px;
+use super::options::ModelArgs;
+use super::progress::TerminalProgress;
+use super::{input, output, terminal};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+use tatamu::drawing::{LineStyles, Pages, Rgb};
+use tatamu::export::{FORMATS, FormatOptions, Source, png};
+use tatamu::pipeline::{self, Output};
+use tatamu::render::Scene;
+use tatamu::show::{
+    ShowError, Still, ViewAngle, components_scene, hulls_scene, mesh_scene, segments_scene, staged_scene,
+};
+
+/// Shows a mesh, or a stage of its way to a paper model, as a picture.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct ShowArgs {
+    /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB) or project file (TOML)
+    #[arg(value_name = "INPUT")]
+    input: PathBuf,
+
+    /// Picture to write: .png, .svg, .pdf or .dxf [default: the input's name with .png]
+    ///
+    /// Example: -o half.png
+    #[arg(short, long = "output", value_name = "FILE")]
+    output: Option<PathBuf>,
+
+    /// What is shown [default: components]
+    ///
+    /// mesh: the input; segments: its parts; hulls: the convex hull of each part; components: the
+    /// paper model; flat: the same, folded. Example: --stage hulls
+    #[arg(long, value_name = "STAGE", value_enum)]
+    stage: Option<Stage>,
+
+    /// How far the model is folded, from 0 (deployed) to 1 (flat)
+    ///
+    /// Components fold one after another, in the order that "make" reports. Example: --pose 0.5
+    #[arg(long, value_name = "SHARE", value_parser = share, conflicts_with = "stage")]
+    pose: Option<f64>,
+
+    /// Where it is seen from [default: corner]
+    ///
+    /// corner, front, back, left, right, top, or two angles in degrees: round the model from its
+    /// front to its left, and up. Example: --view 30,20
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
+    view: Option<ViewAngle>,
+
+    /// Longer side in pixels [default: 800]
+    ///
+    /// SVG and PDF have 96 of them to the inch. Example: --size-px 1600
+    #[arg(long, value_name = "PIXELS", value_parser = size_px)]
+    size_px: Option<u32>,
+
+    /// No ground and no shadow
+    ///
+    /// For pictures that are laid on something else.
+    #[arg(long)]
+    transparent: bool,
+
+    #[command(flatten)]
+    model: ModelArgs,
+
+    /// No message and no progress bar; warnings and errors only
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// What there is to see.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Stage {
+    Mesh,
+    Segments,
+    Hulls,
+    Components,
+    Flat,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  tatamu show teddy.obj                                teddy.png, the paper model
+  tatamu show teddy.obj --stage segments -o parts.svg
+  tatamu show teddy.obj --pose 0.5 --view left -o half.png";
+
+const SIZE_PX: u32 = 800;
+
+fn share(text: &str) -> Result<f64, String> {
+    let share: Option<f64> = text.trim().parse().ok();
+    let share = share.filter(|share| (0.0..=1.0).contains(share));
+    share.ok_or_else(|| "this must be a number from 0 (deployed) to 1 (flat)".to_owned())
+}
+
+/// Runs the command.
+pub fn run(args: &ShowArgs) -> Result<(), CliError> {
+    let path = args.output.clone().unwrap_or_else(|| {
+        let mut name = args.input.file_stem().unwrap_or("model".as_ref()).to_owned();
+        name.push(".png");
+        PathBuf::from(name)
+    });
+    let write = format_of(&path, &args.input)?;
+    let input = input::read(&args.input)?;
+    output::check_places(std::slice::from_ref(&path), &[&args.input, &input.mesh_path])?;
+    let options = args.model.merge(&input)?;
+    let scene = if args.stage == Some(Stage::Mesh) {
+        mesh_scene(&input.mesh.scaled(options.size_mm, options.up).0).map_err(ShowError::from)?
+    } else {
+        let progress = TerminalProgress::new(args.quiet);
+        let result = pipeline::run(&input.mesh, &options, &progress)
+            .map_err(|error| CliError::of_run(error, &progress))?;
+        progress.finish();
+        scene(args, &result)?
+    };
+    let still = Still {
+        size_px: args.size_px.unwrap_or(SIZE_PX),
+        angle: args.view.unwrap_or_default(),
+        ground: (!args.transparent).then_some(Rgb::WHITE),
+    };
+    let title = terminal::printable(&args.input.file_stem().unwrap_or_default().to_string_lossy());
+    let bytes = write(title, &still, &scene)?;
+    output::write(&[(path.clone(), bytes)])?;
+    if !args.quiet {
+        terminal::say(&format!("written     {}", path.display()));
+    }
+    Ok(())
+}
+
+fn scene(args: &ShowArgs, result: &Output) -> Result<Scene, ShowError> {
+    Ok(match (args.pose, args.stage) {
+        (Some(pose), _) => staged_scene(result, pose),
+        (None, Some(Stage::Mesh)) => mesh_scene(result.mesh())?,
+        (None, Some(Stage::Segments)) => segments_scene(result)?,
+        (None, Some(Stage::Hulls)) => hulls_scene(result)?,
+        (None, Some(Stage::Flat)) => staged_scene(result, 1.0),
+        (None, Some(Stage::Components) | None) => components_scene(result.model()),
+    })
+}
+
+/// Draws a still and turns it into a file.
+type Writer = Box<dyn Fn(String, &Still, &Scene) -> Result<Vec<u8>, CliError>>;
+
+/// The writer for a file name: the formats that are made of pages can hold a picture.
+fn format_of(path: &std::path::Path, input: &std::path::Path) -> Result<Writer, CliError> {
+    let unknown = || {
+        let pages = FORMATS.iter().filter(|f| matches!(f.source, Source::Pages(_)));
+        let known: Vec<String> = pages.flat_map(|f| f.extensions).map(|e| format!(".{e}")).collect();
+        CliError::Extension { path: path.to_owned(), known: known.join(", ") }
+    };
+    let paths = [path.to_owned()];
+    let target = output::targets(&paths, &[input]).map_err(|error| match error {
+        CliError::Extension { .. } => unknown(),
+        other => other,
+    })?;
+    let format = target.first().ok_or_else(unknown)?.format;
+    let Source::Pages(write) = format.source else { return Err(unknown()) };
+    let is_png = format.name == png::FORMAT.name;
+    Ok(Box::new(move |title, still, scene| {
+        let drawing = still.take(scene)?;
+        if is_png {
+            // A picture is measured in pixels, whatever the resolution of sheets.
+            return Ok(png::render(&drawing, Still::dots_per_inch()).map_err(ShowError::from)?);
+        }
+        let pages = Pages::new(title, vec![drawing], LineStyles::standard())
+            .map_err(tatamu::export::ExportError::from)?;
+        let files = write(&pages, &FormatOptions::default())?;
+        Ok(files.into_iter().next().map(|file| file.bytes).unwrap_or_default())
+    }))
+}

@@ -1,0 +1,188 @@
+//! `tatamu virtual-plotter`
+
+use super::cutters::CutterArgs;
+use super::error::CliError;
+use super::{output, progress, terminal};
+use clap::Args;
+use glam::DVec2;
+use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
+use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
+use std::fs::File;
+use std::io::{Read, Write};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+use tatamu::drawing::{Drawing, Layer, LineStyles, Mark, Pages};
+use tatamu::export::{FormatOptions, Source};
+use tatamu::plotter::{Cutter, Faults, VirtualOptions, VirtualPlotter};
+
+/// A plotter that is not there, to try things with: it opens a port and does what it is told.
+///
+/// It prints the name of its port, which "tatamu plot --port" and other programs can use. It reads
+/// at the speed of its line, also after XOFF, as real ones do. When the host closes the port, it
+/// says how many bytes it lost and whether the pen is up.
+#[derive(Debug, Args)]
+pub struct VirtualPlotterArgs {
+    #[command(flatten)]
+    cutter: CutterArgs,
+
+    /// Size of its buffer in bytes
+    #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(256..))]
+    buffer: u32,
+
+    /// Speed of its line in bits a second [default: as in the profile]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(300..))]
+    baud: Option<u32>,
+
+    /// How many times faster than the profile it moves
+    #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = factor)]
+    speedup: f64,
+
+    /// Answers no question
+    #[arg(long)]
+    mute: bool,
+
+    /// Sends XOFF when fewer bytes are free, and XON again later
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    xoff_below: Option<u32>,
+
+    /// What it drew, written when the host closes the port: .png, .svg, .dxf, .pdf
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+
+    /// Ends when the host closes the port
+    #[arg(long)]
+    once: bool,
+}
+
+fn factor(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|x: &f64| *x > 0.0 && *x <= 1e6);
+    number.ok_or_else(|| "this must be a number above 0, such as 10".to_owned())
+}
+
+/// Time between two looks at the port.
+const LOOK: Duration = Duration::from_millis(1);
+
+/// Runs the command.
+pub fn run(args: &VirtualPlotterArgs) -> Result<(), CliError> {
+    let cutter = args.cutter.choice()?.cutter;
+    if let Some(path) = &args.output {
+        output::targets(std::slice::from_ref(path), &[])?;
+    }
+    let (mut host, name) = open().map_err(|error| CliError::Port {
+        port: "of the virtual plotter".to_owned(),
+        reason: error.to_string(),
+    })?;
+    progress::count_stops();
+    terminal::say(&name);
+    loop {
+        let plotter = serve(args, &cutter, &mut host);
+        if plotter.received() > 0 {
+            report(args, &cutter, &plotter)?;
+        }
+        if args.once || progress::stops() > 0 {
+            return Ok(());
+        }
+    }
+}
+
+/// Opens a pair of ports: ours, and the name of the host's.
+fn open() -> rustix::io::Result<(File, String)> {
+    let ours = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
+    grantpt(&ours)?;
+    unlockpt(&ours)?;
+    let name = ptsname(&ours, Vec::new())?.to_string_lossy().into_owned();
+    // Nothing is echoed, even before the host has set its port up.
+    let mut modes = tcgetattr(&ours)?;
+    modes.make_raw();
+    tcsetattr(&ours, OptionalActions::Now, &modes)?;
+    fcntl_setfl(&ours, fcntl_getfl(&ours)? | OFlags::NONBLOCK)?;
+    Ok((File::from(ours), name))
+}
+
+/// Works for one host until it closes the port.
+fn serve(args: &VirtualPlotterArgs, cutter: &Cutter, host: &mut File) -> VirtualPlotter {
+    let faults = Faults { slowness: 1.0 / args.speedup, ..Faults::default() };
+    let options = VirtualOptions {
+        buffer_bytes: args.buffer as usize,
+        answers: !args.mute,
+        xoff_below: args.xoff_below.map(|n| n as usize),
+        faults,
+    };
+    let mut plotter = VirtualPlotter::new(cutter, options);
+    let serial = cutter.serial();
+    let byte_s = serial.byte_s() * f64::from(serial.baud) / f64::from(args.baud.unwrap_or(serial.baud));
+    let start = Instant::now();
+    let mut line_free = Duration::ZERO;
+    let mut is_gone = false;
+    while progress::stops() == 0 && !(is_gone && plotter.is_idle()) {
+        let now = start.elapsed();
+        line_free = line_free.max(now.saturating_sub(10 * LOOK));
+        let due = ((now.saturating_sub(line_free)).as_secs_f64() / byte_s) as usize;
+        let mut bytes = [0; 4096];
+        match host.read(&mut bytes[..due.min(4096)]) {
+            Ok(n) => {
+                is_gone = false;
+                for &byte in &bytes[..n] {
+                    line_free += Duration::from_secs_f64(byte_s);
+                    plotter.receive(byte, line_free);
+                }
+            }
+            // On Linux a port without a host is an error to read.
+            Err(error) => is_gone = error.raw_os_error() == Some(5) && plotter.received() > 0,
+        }
+        plotter.run_until(now);
+        let answers = plotter.take_answers(now);
+        if !answers.is_empty() {
+            // A host that has gone misses nothing.
+            let _ = host.write_all(&answers);
+        }
+        std::thread::sleep(LOOK);
+    }
+    plotter
+}
+
+/// Says what happened, and draws it.
+fn report(args: &VirtualPlotterArgs, cutter: &Cutter, plotter: &VirtualPlotter) -> Result<(), CliError> {
+    let pen = if plotter.is_pen_down() { "down" } else { "up" };
+    let drawn = plotter.motions().iter().filter(|m| m.is_down).count();
+    terminal::say(&format!(
+        "received {} bytes, lost {}, broken commands {}, lines drawn {drawn}, pen {pen}",
+        plotter.received(),
+        plotter.lost(),
+        plotter.broken()
+    ));
+    let Some(path) = &args.output else {
+        return Ok(());
+    };
+    let mut files = Vec::new();
+    for target in output::targets(std::slice::from_ref(path), &[])? {
+        let Source::Pages(write) = target.format.source else {
+            return Err(CliError::Options(format!("{} is no drawing; use .png or .svg", path.display())));
+        };
+        let pages = Pages::new("drawn", vec![drawing(cutter, plotter)], LineStyles::standard());
+        let pages = pages.map_err(|error| CliError::Options(error.to_string()))?;
+        let written = write(&pages, &FormatOptions::default())?;
+        files.extend(written.into_iter().map(|file| (output::with_suffix(path, &file.suffix), file.bytes)));
+    }
+    output::write(&files)
+}
+
+/// What was drawn, in the machine's coordinates, mm.
+fn drawing(cutter: &Cutter, plotter: &VirtualPlotter) -> Drawing {
+    let units = cutter.frame().units_per_mm().value();
+    let at = |p: tatamu::plotter::Point| DVec2::new(f64::from(p.x()), f64::from(p.y())) / units;
+    let places = plotter.motions().iter().flat_map(|m| [at(m.from), at(m.to)]);
+    let (low, high) = places.fold((DVec2::ZERO, DVec2::ONE), |(l, h), p| (l.min(p), h.max(p)));
+    let border = DVec2::splat(5.0);
+    let mut page = Drawing::new("drawn", high - low + 2.0 * border);
+    page.ground = Some(tatamu::drawing::Rgb::WHITE);
+    let styles = LineStyles::standard();
+    let line = |layer, m: &tatamu::plotter::Motion| {
+        Mark::line(layer, at(m.from) - low + border, at(m.to) - low + border, styles.stroke(layer))
+    };
+    let travel = plotter.motions().iter().filter(|m| !m.is_down).map(|m| line(Layer::Glue, m));
+    let drawn = plotter.motions().iter().filter(|m| m.is_down).map(|m| line(Layer::Cut, m));
+    page.marks = travel.chain(drawn).collect();
+    page
+}

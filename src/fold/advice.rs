@@ -1,0 +1,50 @@
+//! What the user should know about the folding, and what to change.
+
+use super::check::{Clash, Overlap};
+use super::order::FoldPlan;
+use crate::component::PanelKind;
+use crate::model::Model;
+
+/// A short constant name for programs, and a sentence.
+pub type Advice = (&'static str, String);
+
+impl FoldPlan {
+    /// One piece of advice for each clash and each overlap.
+    pub fn advice(&self, model: &Model) -> Vec<Advice> {
+        let overlaps = self.overlaps().iter().map(|overlap| of_overlap(model, overlap));
+        overlaps.chain(self.clashes().iter().map(|clash| of_clash(model, clash))).collect()
+    }
+}
+
+fn of_overlap(model: &Model, overlap: &Overlap) -> Advice {
+    let [a, b] = overlap.parts.map(|p| &model.parts()[p].name);
+    let message = format!(
+        "{a} and {b} stand in each other by {:.1} mm when deployed, though no joint connects them; cut a notch into \
+         one of them there, or try another number of --parts",
+        overlap.depth_mm
+    );
+    ("deployed_overlap", message)
+}
+
+fn of_clash(model: &Model, clash: &Clash) -> Advice {
+    let names = clash.parts.map(|p| model.parts()[p].name.as_str());
+    let kinds: [PanelKind; 2] =
+        [0, 1].map(|k| model.parts()[clash.parts[k]].component.panels().panel(clash.panels[k]).kind);
+    let (percent, depth_mm) = (100.0 * clash.folded, clash.depth_mm);
+    if clash.parts[0] == clash.parts[1] {
+        let message = format!(
+            "{}: {} and {} get {depth_mm:.1} mm into each other when it is {percent:.0}% folded; cut the slit between \
+             them wider, or use fewer top edges for it",
+            names[0], kinds[0], kinds[1]
+        );
+        return ("own_fold_clash", message);
+    }
+    let mover = &model.parts()[clash.mover].name;
+    let message = format!(
+        "{} and {} bump into each other, and no order of folding was found that avoids it: {} of {} and {} of {} get \
+         {depth_mm:.1} mm into each other when {mover} is {percent:.0}% folded; try another --direction for one of \
+         them, or another number of --parts",
+        names[0], names[1], kinds[0], names[0], kinds[1], names[1]
+    );
+    ("fold_clash", message)
+}

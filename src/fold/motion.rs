@@ -1,0 +1,159 @@
+//! The motion of one component: its top panel comes down along the fold axis, and every chain
+//! follows as [`ChainMotion`] says. Chains are free of one another at their slits, so that the
+//! height alone decides the pose.
+
+use super::chain::{ChainMotion, Shares};
+use crate::component::{Component, PanelId, PanelKind, Profile};
+use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
+use std::f64::consts::FRAC_PI_2;
+
+/// How a component moves between deployed and flat.
+///
+/// # Guarantees
+/// Panels are rigid and stay joined at their hinges in every pose, within rounding (1e-12 of the
+/// component's size) and the profiles' gaps.
+#[derive(Debug, Clone)]
+pub struct ComponentMotion {
+    chains: Vec<Chain>,
+    panels: Vec<(PanelKind, DAffine3)>,
+    height_mm: f64,
+}
+
+#[derive(Debug, Clone)]
+struct Chain {
+    motion: ChainMotion,
+    outward: DVec2,
+}
+
+/// A component in one pose.
+#[derive(Debug, Clone)]
+pub struct ComponentPose {
+    /// Placement of each panel in the component's axes, by id; the bottom panel stays.
+    pub placements: Vec<DAffine3>,
+    /// Height of the top panel over the bottom panel.
+    pub height_mm: f64,
+    /// How far each chain is.
+    pub shares: Vec<Shares>,
+}
+
+impl ComponentMotion {
+    /// The motion of a component.
+    pub fn new(component: &Component) -> Self {
+        let chain = |(j, profile): (usize, &Profile)| Chain {
+            motion: ChainMotion::new(profile),
+            outward: component.solid().chains[j].normal(),
+        };
+        let panel = |p: &crate::component::Panel| (p.kind, p.deployed);
+        Self {
+            chains: component.profiles().iter().enumerate().map(chain).collect(),
+            panels: component.panels().panels().iter().map(panel).collect(),
+            height_mm: component.solid().top_mm - component.solid().bottom_mm,
+        }
+    }
+
+    /// Deployed height, mm.
+    pub fn height_mm(&self) -> f64 {
+        self.height_mm
+    }
+
+    /// Number of panels.
+    pub fn panel_count(&self) -> usize {
+        self.panels.len()
+    }
+
+    /// The linkage of chain j.
+    pub fn chain(&self, j: usize) -> &ChainMotion {
+        &self.chains[j].motion
+    }
+
+    /// Height of the top panel over the bottom panel at `folded`, from 0 (deployed) to 1 (flat). It
+    /// falls as the cosine of a quarter turn: a straight wall then bends evenly, although its height
+    /// hardly changes at first.
+    pub fn height_at_mm(&self, folded: f64) -> f64 {
+        if folded >= 1.0 { 0.0 } else { self.height_mm * (FRAC_PI_2 * folded).cos() }
+    }
+
+    /// How far each chain is at `folded`.
+    pub fn shares(&self, folded: f64) -> Vec<Shares> {
+        let height_mm = self.height_at_mm(folded);
+        self.chains.iter().map(|c| c.motion.at_height(height_mm)).collect()
+    }
+
+    /// The same, found faster from a moment that is near.
+    pub(super) fn shares_near(&self, folded: f64, near: &[Shares]) -> Vec<Shares> {
+        let height_mm = self.height_at_mm(folded);
+        self.chains.iter().zip(near).map(|(c, near)| c.motion.at_height_near(height_mm, *near)).collect()
+    }
+
+    /// The pose at `folded`.
+    pub fn pose(&self, folded: f64) -> ComponentPose {
+        let shares = self.shares(folded);
+        let height_mm = self.height_at_mm(folded);
+        let place = |(k, (_, deployed)): (usize, &(PanelKind, DAffine3))| {
+            self.moved(PanelId(k), height_mm, &shares) * *deployed
+        };
+        let placements = self.panels.iter().enumerate().map(place).collect();
+        ComponentPose { placements, height_mm, shares }
+    }
+
+    /// How a panel has moved from where it is when deployed, in the component's axes.
+    pub(super) fn moved(&self, panel: PanelId, height_mm: f64, shares: &[Shares]) -> DAffine3 {
+        match self.panels[panel.0].0 {
+            PanelKind::Top => DAffine3::from_translation(DVec3::Z * (height_mm - self.height_mm)),
+            PanelKind::Bottom => DAffine3::IDENTITY,
+            PanelKind::Side { chain, index } => self.chains[chain].move_link(index, shares[chain]),
+        }
+    }
+}
+
+/// From which end of its component a panel hangs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum End {
+    /// The top panel, by this chain; none for the top panel itself.
+    Top(Option<usize>),
+    /// The bottom panel.
+    Bottom(Option<usize>),
+}
+
+impl ComponentMotion {
+    /// The end that a panel hangs from.
+    pub(super) fn end_of(&self, panel: PanelId) -> End {
+        match self.panels[panel.0].0 {
+            PanelKind::Top => End::Top(None),
+            PanelKind::Bottom => End::Bottom(None),
+            PanelKind::Side { chain, index } if self.chains[chain].motion.is_above(index) => {
+                End::Top(Some(chain))
+            }
+            PanelKind::Side { chain, .. } => End::Bottom(Some(chain)),
+        }
+    }
+
+    /// How far points that ride on a panel move against the panel's end of the component, at most,
+    /// for a change of the chain's share by 1. The points are given as they lie when deployed.
+    pub(super) fn sway_mm(&self, panel: PanelId, points: &[DVec3]) -> f64 {
+        let PanelKind::Side { chain, index } = self.panels[panel.0].0 else { return 0.0 };
+        let chain = &self.chains[chain];
+        let [ends, _] = chain.motion.link_ends(index, Shares::DEPLOYED);
+        let pivot = ends[if chain.motion.is_above(index) { 0 } else { 1 }];
+        let in_plane = |p: &DVec3| DVec2::new(chain.outward.dot(p.truncate()), p.z);
+        let reach = points.iter().map(|p| in_plane(p).distance(pivot)).fold(0.0, f64::max);
+        chain.motion.sway_mm(index, reach)
+    }
+}
+
+impl Chain {
+    fn in_space(&self, point: DVec2) -> DVec3 {
+        (self.outward * point.x).extend(point.y)
+    }
+
+    /// How a link has moved from where it is when deployed.
+    fn move_link(&self, link: usize, shares: Shares) -> DAffine3 {
+        let [before, after] = self.motion.link_ends(link, shares);
+        let tangent = self.outward.perp().extend(0.0);
+        let turn = DQuat::from_axis_angle(-tangent, self.motion.turn_rad(link, shares));
+        let pivot = if self.motion.is_above(link) { 0 } else { 1 };
+        DAffine3::from_translation(self.in_space(after[pivot]))
+            * DAffine3::from_mat3(DMat3::from_quat(turn))
+            * DAffine3::from_translation(-self.in_space(before[pivot]))
+    }
+}

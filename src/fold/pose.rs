@@ -1,0 +1,119 @@
+//! Poses of a model: one number for each component, from 0 (deployed) to 1 (flat). A child rides
+//! rigidly on its parent's joint panel.
+
+use super::motion::{ComponentMotion, ComponentPose};
+use crate::component::PanelId;
+use crate::model::{Model, ModelPart};
+use glam::{DAffine3, DVec3};
+
+/// How a model moves.
+#[derive(Debug, Clone)]
+pub struct ModelMotion<'a> {
+    model: &'a Model,
+    motions: Vec<ComponentMotion>,
+    /// From the child's joint panel to the parent's, by child.
+    relations: Vec<DAffine3>,
+    /// Parents before their children.
+    downwards: Vec<usize>,
+}
+
+/// A model in one pose.
+#[derive(Debug, Clone)]
+pub struct ModelPose {
+    /// By component.
+    pub parts: Vec<PartPose>,
+}
+
+/// A component in a pose of its model.
+#[derive(Debug, Clone)]
+pub struct PartPose {
+    /// From the component's axes to the model's.
+    pub frame: DAffine3,
+    /// The component in its axes.
+    pub pose: ComponentPose,
+}
+
+impl PartPose {
+    /// Placement of a panel in the model.
+    pub fn panel(&self, panel: PanelId) -> DAffine3 {
+        self.frame * self.pose.placements[panel.0]
+    }
+}
+
+impl<'a> ModelMotion<'a> {
+    /// The motion of a model.
+    pub fn new(model: &'a Model) -> Self {
+        let parts = model.parts();
+        let panel =
+            |part: &ModelPart, id: PanelId| part.deployed() * part.component.panels().panel(id).deployed;
+        let relation = |part: &ModelPart| match &part.joint {
+            Some(joint) => {
+                let parent = panel(&parts[joint.parent], joint.parent_panel);
+                parent.inverse() * panel(part, joint.child_panel)
+            }
+            None => DAffine3::IDENTITY,
+        };
+        let mut downwards: Vec<usize> = (0..parts.len()).collect();
+        downwards.sort_by_key(|&p| ancestors(model, p).len());
+        Self {
+            model,
+            motions: parts.iter().map(|p| ComponentMotion::new(&p.component)).collect(),
+            relations: parts.iter().map(relation).collect(),
+            downwards,
+        }
+    }
+
+    /// The model.
+    pub fn model(&self) -> &'a Model {
+        self.model
+    }
+
+    /// The motion of one component.
+    pub fn component(&self, part: usize) -> &ComponentMotion {
+        &self.motions[part]
+    }
+
+    /// The pose in which component p is folded by `folded[p]`. The bottom panels of roots stay
+    /// where they are when deployed.
+    pub fn pose(&self, folded: &[f64]) -> ModelPose {
+        self.pose_from(folded, 0.0, |part, _| self.model.parts()[part].deployed())
+    }
+
+    /// The same with roots placed by the caller, given the root's index and pose. Components are
+    /// lifted off the panels that carry them, by `lift_mm` when flat.
+    pub fn pose_from(
+        &self,
+        folded: &[f64],
+        lift_mm: f64,
+        place_root: impl Fn(usize, &ComponentPose) -> DAffine3,
+    ) -> ModelPose {
+        let poses = self.motions.iter().zip(folded).map(|(motion, &folded)| motion.pose(folded));
+        let mut parts: Vec<PartPose> =
+            poses.map(|pose| PartPose { frame: DAffine3::IDENTITY, pose }).collect();
+        for &p in &self.downwards {
+            parts[p].frame = match &self.model.parts()[p].joint {
+                None => place_root(p, &parts[p].pose),
+                Some(joint) => {
+                    let carrier = parts[joint.parent].panel(joint.parent_panel);
+                    let lift = DAffine3::from_translation(DVec3::Z * (lift_mm * folded[p]));
+                    carrier
+                        * lift
+                        * self.relations[p]
+                        * parts[p].pose.placements[joint.child_panel.0].inverse()
+                }
+            };
+        }
+        ModelPose { parts }
+    }
+}
+
+/// The parent of a component, its parent and so on to the root.
+pub fn ancestors(model: &Model, part: usize) -> Vec<usize> {
+    let parent = |&p: &usize| model.parts()[p].joint.as_ref().map(|j| j.parent);
+    std::iter::successors(parent(&part), parent).collect()
+}
+
+/// The root that a component hangs from; itself for a root.
+pub fn root_of(model: &Model, part: usize) -> usize {
+    ancestors(model, part).last().copied().unwrap_or(part)
+}

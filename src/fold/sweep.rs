@@ -1,0 +1,292 @@
+//! One component folds while everything else keeps its shape: what bumps into what?
+//!
+//! All sheets ride rigidly on a panel of the component that moves. The time from deployed to flat
+//! is halved again and again. A pair of sheets is let go for a span of time where its gap in the
+//! middle of the span, less what both can move in half of it, is above minus half the paper's
+//! thickness: panels move at known rates (see [`ComponentMotion`]), so that no contact deeper than
+//! that slips through. A deeper gap is a clash. Sheets that change sides of each other from one
+//! span to the next have gone through each other, however parallel they were.
+//!
+//! The broad phase is a tree of balls of two levels, over the sheets of a component and over each
+//! sheet.
+
+use super::contact::{Sheet, facing_mm, gap};
+use super::motion::{ComponentMotion, End};
+use super::track::{Moment, Track};
+use crate::component::PanelId;
+use glam::DVec3;
+use std::collections::BTreeMap;
+
+/// Spans that the motion is divided into at first; in longer ones hardly a pair can be let go.
+const FIRST_SPANS: usize = 16;
+/// Spans are not halved more often than this, 1e-6 of the motion.
+const MOST_HALVINGS: usize = 16;
+/// Sheets nearer to one plane than this are on neither side of each other.
+const SAME_PLANE_MM: f64 = 1e-6;
+/// Gaps are computed for spans in which sheets move less than this share of their size: in longer
+/// ones they are hardly ever wide enough.
+const SHORT: f64 = 0.3;
+
+/// A ball with what is needed to bound its motion.
+#[derive(Debug, Clone, Copy)]
+struct Ball {
+    centre: DVec3,
+    radius_mm: f64,
+    sway_mm: f64,
+}
+
+impl Ball {
+    fn round<'a>(corners: impl Iterator<Item = &'a DVec3> + Clone, sway_mm: f64) -> Self {
+        let low = corners.clone().copied().fold(DVec3::INFINITY, DVec3::min);
+        let high = corners.clone().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let centre = 0.5 * (low + high);
+        let radius_mm = corners.map(|c| c.distance(centre)).fold(0.0, f64::max);
+        Self { centre, radius_mm, sway_mm }
+    }
+}
+
+/// Sheets that ride on one panel.
+#[derive(Debug, Clone)]
+pub(super) struct Body {
+    carrier: PanelId,
+    end: End,
+    ball: Ball,
+    sheets: Vec<(Sheet, Ball)>,
+}
+
+impl Body {
+    /// Sheets, as they lie in the axes of the component that moves when that is deployed, and the
+    /// panel that carries them.
+    pub(super) fn new(sheets: Vec<Sheet>, carrier: PanelId, motion: &ComponentMotion) -> Self {
+        let sheets: Vec<(Sheet, Ball)> = sheets
+            .into_iter()
+            .map(|sheet| {
+                let ball = Ball::round(sheet.corners.iter(), motion.sway_mm(carrier, &sheet.corners));
+                (sheet, ball)
+            })
+            .collect();
+        let sway = sheets.iter().map(|s| s.1.sway_mm).fold(0.0, f64::max);
+        let ball = Ball::round(sheets.iter().flat_map(|s| &s.0.corners), sway);
+        Self { carrier, end: motion.end_of(carrier), ball, sheets }
+    }
+
+    /// The panel that carries it.
+    pub(super) fn carrier(&self) -> PanelId {
+        self.carrier
+    }
+
+    /// How far any point of a ball moves between two moments against the end that the carrier
+    /// hangs from.
+    fn way_mm(&self, ball: &Ball, from: &Moment<'_>, to: &Moment<'_>) -> f64 {
+        let change = match self.end {
+            End::Top(Some(chain)) => from.shares[chain].above - to.shares[chain].above,
+            End::Bottom(Some(chain)) => from.shares[chain].below - to.shares[chain].below,
+            End::Top(None) | End::Bottom(None) => 0.0,
+        };
+        ball.sway_mm * change.abs()
+    }
+
+    fn hangs_from_top(&self) -> bool {
+        matches!(self.end, End::Top(_))
+    }
+}
+
+/// One sheet of a body.
+pub(super) type SheetId = (usize, usize);
+
+/// The first contact of two sheets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Contact {
+    /// The two sheets.
+    pub(super) sheets: [SheetId; 2],
+    /// How far the component is folded.
+    pub(super) folded: f64,
+}
+
+/// One component's motion with everything that rides on it.
+#[derive(Debug)]
+pub(super) struct Sweep<'a> {
+    track: &'a Track<'a>,
+    bodies: &'a [Body],
+    /// Contacts up to this depth are none.
+    allowed_mm: f64,
+}
+
+/// Two bodies, or two sheets of theirs, that may meet, and the list that they belong to.
+#[derive(Debug, Clone, Copy)]
+struct Pair<T> {
+    members: [T; 2],
+    list: usize,
+    /// The direction in which the gap was largest when it was last looked for.
+    axis: usize,
+}
+
+impl<'a> Sweep<'a> {
+    /// The motion of a component with bodies that may meet, for paper of a thickness.
+    pub(super) fn new(track: &'a Track<'a>, bodies: &'a [Body], thickness_mm: f64) -> Self {
+        Self { track, bodies, allowed_mm: thickness_mm / 2.0 }
+    }
+
+    /// For each list of pairs of bodies the first contact, if there is any.
+    pub(super) fn contacts(&self, lists: &[Vec<[usize; 2]>]) -> Vec<Option<Contact>> {
+        let pairs: Vec<Pair<usize>> = lists
+            .iter()
+            .enumerate()
+            .flat_map(|(list, members)| members.iter().map(move |&members| Pair { members, list, axis: 0 }))
+            .collect();
+        let mut run = Run {
+            sweep: self,
+            found: vec![None; lists.len()],
+            sides: BTreeMap::new(),
+            scratch: Default::default(),
+        };
+        let mut from = self.track.at(0.0);
+        for k in 1..=FIRST_SPANS {
+            let to = self.track.at(k as f64 / FIRST_SPANS as f64);
+            run.span(&from, &to, &pairs, &[], 0);
+            from = to;
+        }
+        run.found
+    }
+
+    /// How deep two sheets are in each other at some time; negative where they are apart.
+    pub(super) fn depth_mm(&self, sheets: [SheetId; 2], folded: f64) -> f64 {
+        let mut scratch = Default::default();
+        self.pose(sheets, &self.track.at(folded), &mut scratch);
+        -gap(&scratch[0], &scratch[1], f64::INFINITY, 0).mm
+    }
+
+    fn pose(&self, sheets: [SheetId; 2], at: &Moment<'_>, scratch: &mut [Sheet; 2]) {
+        for (posed, (body, sheet)) in scratch.iter_mut().zip(sheets) {
+            let body = &self.bodies[body];
+            let (motion, sheet) = (at.moved(body.carrier), &body.sheets[sheet].0);
+            posed.corners.clear();
+            posed.corners.extend(sheet.corners.iter().map(|&c| motion.transform_point3(c)));
+            posed.normal = motion.transform_vector3(sheet.normal);
+        }
+    }
+
+    /// How far two balls come nearer to each other at most in either half of a span.
+    fn way_mm(&self, [a, b]: [(&Body, &Ball); 2], [from, middle, to]: [&Moment<'_>; 3]) -> f64 {
+        let way = |from: &Moment<'_>, to: &Moment<'_>| {
+            let own = a.0.way_mm(a.1, from, to) + b.0.way_mm(b.1, from, to);
+            let is_one_end = a.0.hangs_from_top() == b.0.hangs_from_top();
+            own + if is_one_end { 0.0 } else { (from.height_mm - to.height_mm).abs() }
+        };
+        way(from, middle).max(way(middle, to))
+    }
+}
+
+/// Whether two balls are farther apart than `way_mm`.
+fn are_far([a, b]: [(&Body, &Ball); 2], at: &Moment<'_>, way_mm: f64) -> bool {
+    let [p, q] = [a, b].map(|(body, ball)| at.moved(body.carrier).transform_point3(ball.centre));
+    let reach = a.1.radius_mm + b.1.radius_mm + way_mm;
+    p.distance_squared(q) > reach * reach
+}
+
+/// A sweep under way, in the order of time.
+struct Run<'a> {
+    sweep: &'a Sweep<'a>,
+    found: Vec<Option<Contact>>,
+    /// Side of each other that sheets were on when last seen facing each other closely.
+    sides: BTreeMap<[SheetId; 2], bool>,
+    scratch: [Sheet; 2],
+}
+
+impl Run<'_> {
+    fn span(
+        &mut self,
+        from: &Moment<'_>,
+        to: &Moment<'_>,
+        bodies: &[Pair<usize>],
+        sheets: &[Pair<SheetId>],
+        halvings: usize,
+    ) {
+        let middle = self.sweep.track.at(0.5 * (from.folded + to.folded));
+        let span = [from, &middle, to];
+        let (mut bodies_left, mut sheets_left) = (Vec::new(), Vec::new());
+        for pair in sheets {
+            sheets_left.extend(self.unsettled(*pair, span, halvings));
+        }
+        for pair in bodies {
+            if self.found[pair.list].is_some() {
+                continue;
+            }
+            let both = pair.members.map(|b| &self.sweep.bodies[b]);
+            let balls = both.map(|b| (b, &b.ball));
+            let way = self.sweep.way_mm(balls, span);
+            if are_far(balls, &middle, way) {
+                continue;
+            }
+            if way > SHORT * both.map(|b| b.ball.radius_mm).iter().sum::<f64>() {
+                bodies_left.push(*pair);
+                continue;
+            }
+            for k in 0..both[0].sheets.len() {
+                for l in 0..both[1].sheets.len() {
+                    let members = [(pair.members[0], k), (pair.members[1], l)];
+                    let pair = Pair { members, list: pair.list, axis: 0 };
+                    sheets_left.extend(self.unsettled(pair, span, halvings));
+                }
+            }
+        }
+        if !(bodies_left.is_empty() && sheets_left.is_empty()) {
+            self.span(from, &middle, &bodies_left, &sheets_left, halvings + 1);
+            self.span(&middle, to, &bodies_left, &sheets_left, halvings + 1);
+        }
+    }
+
+    /// Two sheets, if the span must be halved to know about them.
+    fn unsettled(
+        &mut self,
+        mut pair: Pair<SheetId>,
+        span: [&Moment<'_>; 3],
+        halvings: usize,
+    ) -> Option<Pair<SheetId>> {
+        if self.found[pair.list].is_some() {
+            return None;
+        }
+        let sweep = self.sweep;
+        let balls = pair.members.map(|(body, sheet)| {
+            let body = &sweep.bodies[body];
+            (body, &body.sheets[sheet].1)
+        });
+        let way = sweep.way_mm(balls, span);
+        if are_far(balls, span[1], way) {
+            self.sides.remove(&pair.members);
+            return None;
+        }
+        if way > SHORT * (balls[0].1.radius_mm + balls[1].1.radius_mm) && halvings < MOST_HALVINGS {
+            return Some(pair);
+        }
+        sweep.pose(pair.members, span[1], &mut self.scratch);
+        let enough = way - sweep.allowed_mm;
+        let gap = gap(&self.scratch[0], &self.scratch[1], enough, pair.axis);
+        pair.axis = gap.axis;
+        let is_settled = gap.mm > enough || halvings == MOST_HALVINGS;
+        if gap.mm < -sweep.allowed_mm || (is_settled && self.has_changed_sides(&pair, gap.mm <= way)) {
+            self.found[pair.list] = Some(Contact { sheets: pair.members, folded: span[1].folded });
+            return None;
+        }
+        (!is_settled).then_some(pair)
+    }
+
+    /// Whether the sheets in `scratch` have gone through each other since they were seen last.
+    fn has_changed_sides(&mut self, pair: &Pair<SheetId>, is_near: bool) -> bool {
+        if !is_near {
+            self.sides.remove(&pair.members);
+            return false;
+        }
+        match facing_mm(&self.scratch[0], &self.scratch[1], self.sweep.allowed_mm) {
+            Some(height_mm) if height_mm.abs() < SAME_PLANE_MM => false,
+            Some(height_mm) => {
+                let is_above = height_mm > 0.0;
+                self.sides.insert(pair.members, is_above).is_some_and(|before| before != is_above)
+            }
+            None => {
+                self.sides.remove(&pair.members);
+                false
+            }
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Texts at edges: labels of glued pairs, and angles along creases.
+
+use super::leader::Waiting;
+use super::{LABEL_CAPS_MM, LabelKind, Placer, Wanted};
+use crate::geom::polygon;
+use crate::net::Tab;
+use crate::net::mesh::EdgeKind;
+use glam::DVec2;
+
+/// Places along an edge, as shares of its length, that are tried.
+const ALONG: [f64; 9] = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88];
+/// Distances from the edge to the text, mm.
+const OFF_MM: [f64; 4] = [0.9, 2.0, 4.0, 7.0];
+/// Distances from a crease to its angle.
+const ANGLE_OFF_MM: [f64; 2] = [0.6, 1.2];
+/// A leader line ends this far within the edge that it points to.
+const TARGET_MM: f64 = 0.6;
+
+impl Placer<'_> {
+    /// The label of each tab on the tab, or beside it on its panel; that of each mate along its
+    /// edge. `label_of` gives the label of a cut hinge.
+    pub(crate) fn glued(&mut self, tabs: &[Tab], label_of: impl Fn(&EdgeKind) -> Option<String>) {
+        for edge in self.mesh.edges() {
+            let Some(text) = label_of(&edge.kind) else {
+                continue;
+            };
+            let [a, b] = self.mesh.segment(edge);
+            let face = edge.faces[0];
+            let panel = self.mesh.outline(face);
+            let tab = match edge.kind {
+                EdgeKind::Tab(hinge) => tabs.iter().find(|t| t.hinge == hinge),
+                _ => None,
+            };
+            let kind = if tab.is_some() { LabelKind::Tab } else { LabelKind::Mate };
+            let is_on_tab = tab.is_some_and(|t| self.on_tab(&t.outline, &text));
+            if is_on_tab || self.along([a, b], &panel, &text, kind) {
+                continue;
+            }
+            let inward = (b - a).perp().normalize_or_zero() * TARGET_MM;
+            let targets = match tab {
+                Some(t) => vec![polygon::centroid(&t.outline)],
+                None => ALONG.iter().map(|&t| a.lerp(b, t) + inward).collect(),
+            };
+            self.waiting.push(Waiting { text, kind, targets });
+        }
+    }
+
+    fn on_tab(&mut self, tab: &[DVec2], text: &str) -> bool {
+        let base = tab[1] - tab[0];
+        let inward = base.perp().normalize_or_zero();
+        let half_width = inward.dot(tab[2] - tab[0]) / 2.0;
+        let middle = |t: f64| tab[0] + base * t + inward * half_width;
+        LABEL_CAPS_MM.iter().any(|&cap_mm| {
+            let wanted = Wanted { text, kind: LabelKind::Tab, cap_mm };
+            ALONG.iter().any(|&t| self.put(tab, middle(t), base, wanted))
+        })
+    }
+
+    fn along(&mut self, edge: [DVec2; 2], panel: &[DVec2], text: &str, kind: LabelKind) -> bool {
+        LABEL_CAPS_MM.iter().any(|&cap_mm| {
+            let wanted = Wanted { text, kind, cap_mm };
+            OFF_MM.iter().any(|&off_mm| self.beside(edge, panel, off_mm, wanted))
+        })
+    }
+
+    /// Tries the places at a distance from an edge, inwards.
+    fn beside(&mut self, edge: [DVec2; 2], panel: &[DVec2], off_mm: f64, wanted: Wanted) -> bool {
+        let direction = edge[1] - edge[0];
+        let off = direction.perp().normalize_or_zero() * (off_mm + wanted.cap_mm / 2.0);
+        ALONG.iter().any(|&t| self.put(panel, edge[0] + direction * t + off, direction, wanted))
+    }
+
+    /// The angle of each crease beside it, where there is room. `angle_of` gives the text.
+    pub(crate) fn angles(&mut self, angle_of: impl Fn(&EdgeKind) -> Option<String>) {
+        let cap_mm = LABEL_CAPS_MM[LABEL_CAPS_MM.len() - 1];
+        for edge in self.mesh.edges() {
+            let Some(text) = angle_of(&edge.kind) else {
+                continue;
+            };
+            let wanted = Wanted { text: &text, kind: LabelKind::Angle, cap_mm };
+            let [a, b] = self.mesh.segment(edge);
+            ANGLE_OFF_MM.iter().any(|&off_mm| {
+                edge.faces.iter().zip([[a, b], [b, a]]).any(|(&face, ends)| {
+                    let panel = self.mesh.outline(face);
+                    self.beside(ends, &panel, off_mm, wanted)
+                })
+            });
+        }
+    }
+}

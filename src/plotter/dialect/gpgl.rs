@@ -1,0 +1,88 @@
+//! GP-GL, the language of Graphtec's cutters: one letter, parameters, ETX.
+
+use super::{Controls, Dialect, Meaning, Pen, chunked, pairs};
+use crate::plotter::Point;
+
+/// Ends every command.
+const ETX: u8 = 0x03;
+
+/// GP-GL.
+#[derive(Debug, Clone, Copy)]
+pub struct Gpgl;
+
+impl Dialect for Gpgl {
+    fn name(&self) -> &'static str {
+        "gpgl"
+    }
+
+    fn travel(&self, to: Point) -> Vec<u8> {
+        format!("M{},{}\x03", to.x(), to.y()).into_bytes()
+    }
+
+    fn draw(&self, through: &[Point]) -> Vec<Vec<u8>> {
+        chunked(b"D", &[ETX], through)
+    }
+
+    /// A move to where the pen is.
+    fn lift(&self, at: Point) -> Vec<u8> {
+        self.travel(at)
+    }
+
+    fn lower(&self, _: Point) -> Vec<u8> {
+        Vec::new()
+    }
+
+    fn first(&self, bytes: &[u8]) -> Option<usize> {
+        Some(bytes.iter().position(|&b| b == ETX)? + 1)
+    }
+
+    fn mnemonic<'a>(&self, command: &'a [u8]) -> &'a [u8] {
+        let command = command.trim_ascii_start();
+        let letters = command.iter().take_while(|b| b.is_ascii_alphabetic()).count();
+        &command[..letters.max(1).min(command.len())]
+    }
+
+    fn meaning(&self, command: &[u8]) -> Meaning {
+        let name = self.mnemonic(command);
+        let command = command.trim_ascii_start();
+        let parameters = command[name.len()..].strip_suffix(&[ETX]).unwrap_or(&command[name.len()..]);
+        let motion = |pen, is_relative| match pairs(parameters) {
+            Some(to) => Meaning::Move { pen, to, is_relative: Some(is_relative) },
+            None => Meaning::Broken,
+        };
+        match name {
+            b"M" => motion(Pen::Up, false),
+            b"D" => motion(Pen::Down, false),
+            b"O" => motion(Pen::Up, true),
+            b"E" => motion(Pen::Down, true),
+            b"H" => Meaning::Move { pen: Pen::Up, to: vec![Point::default()], is_relative: Some(false) },
+            b"G" | b"C" | b"?" | b"[" | b"U" | b"V" | b"@" | b"#" => Meaning::Query,
+            b"=" | b"\"" | b":" | b";" | [0x1B] => Meaning::Control,
+            _ => Meaning::Setup,
+        }
+    }
+
+    /// None: status is asked for in ways that differ between models.
+    fn controls(&self) -> Option<Controls> {
+        None
+    }
+
+    fn switch_xon_xoff_on(&self, _: usize) -> Vec<u8> {
+        Vec::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exact_bytes() {
+        let at = Point::new(200, 45);
+        assert_eq!(Gpgl.travel(at), b"M200,45\x03");
+        assert_eq!(Gpgl.draw(&[at, Point::new(0, 7)]), [b"D200,45,0,7\x03"]);
+        assert_eq!((Gpgl.lift(at), Gpgl.lower(at)), (b"M200,45\x03".to_vec(), Vec::new()));
+        assert_eq!(Gpgl.split(b"!10\x03FX14\x03M0,0\x03"), [&b"!10\x03"[..], b"FX14\x03", b"M0,0\x03"]);
+        assert_eq!((Gpgl.mnemonic(b"FX14\x03"), Gpgl.mnemonic(b"!10\x03")), (&b"FX"[..], &b"!"[..]));
+    }
+}

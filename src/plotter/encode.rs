@@ -1,0 +1,134 @@
+//! Strokes as the bytes of a machine's language.
+
+use super::{Cutter, Frame, Media, OffBed, Point};
+use crate::toolpath::{Operation, Stroke};
+use glam::{DVec2, Vec2Swizzles};
+
+/// How a sheet lies on the machine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placement {
+    sheet_mm: DVec2,
+    is_turned: bool,
+}
+
+impl Placement {
+    /// As it is drawn where that fits the machine, else turned by 90° to the left.
+    ///
+    /// # Errors
+    /// [`OffBed`] as drawn, where neither fits.
+    pub fn find(strokes: &[Stroke], sheet_mm: DVec2, frame: &Frame) -> Result<Self, OffBed> {
+        let fits = |is_turned| {
+            let placement = Self { sheet_mm, is_turned };
+            let mut points = strokes.iter().flat_map(Stroke::shaft);
+            points.try_for_each(|&p| placement.to_device(frame, p).map(|_| ())).map(|()| placement)
+        };
+        fits(false).or_else(|error| fits(true).map_err(|_| error))
+    }
+
+    /// A sheet as it is drawn.
+    pub fn straight(sheet_mm: DVec2) -> Self {
+        Self { sheet_mm, is_turned: false }
+    }
+
+    /// Size of the sheet as it is drawn, mm.
+    pub fn sheet_mm(&self) -> DVec2 {
+        self.sheet_mm
+    }
+
+    /// Whether the sheet has to be turned by 90° to the left.
+    pub fn is_turned(&self) -> bool {
+        self.is_turned
+    }
+
+    /// A position on the sheet in device units.
+    ///
+    /// # Errors
+    /// See [`OffBed`].
+    pub fn to_device(&self, frame: &Frame, at_mm: DVec2) -> Result<Point, OffBed> {
+        if self.is_turned {
+            let turned = DVec2::new(self.sheet_mm.y - at_mm.y, at_mm.x);
+            frame.to_device(self.sheet_mm.yx(), turned)
+        } else {
+            frame.to_device(self.sheet_mm, at_mm)
+        }
+    }
+
+    /// The position on the sheet for one of the machine, mm.
+    pub fn to_sheet(&self, frame: &Frame, at: Point) -> DVec2 {
+        if self.is_turned {
+            let turned = frame.to_sheet(self.sheet_mm.yx(), at);
+            DVec2::new(turned.y, self.sheet_mm.y - turned.x)
+        } else {
+            frame.to_sheet(self.sheet_mm, at)
+        }
+    }
+}
+
+/// The bytes of a job: start, then each operation with its tool, force and speed, then end.
+///
+/// # Errors
+/// [`OffBed`] before anything is made of it.
+pub fn encode(
+    strokes: &[Stroke],
+    placement: &Placement,
+    cutter: &Cutter,
+    media: &Media,
+) -> Result<Vec<u8>, OffBed> {
+    let mut writer = Writer { cutter, bytes: Vec::new(), at: Point::default() };
+    writer.bytes.extend(cutter.start().as_bytes());
+    for operation in Operation::ALL {
+        let mut own = strokes.iter().filter(|s| s.operation() == operation).peekable();
+        if own.peek().is_some() {
+            writer.set_up(operation, media);
+        }
+        for stroke in own {
+            let points = stroke.shaft().iter().map(|&p| placement.to_device(cutter.frame(), p));
+            writer.stroke(points.collect::<Result<_, _>>()?);
+        }
+    }
+    let lift = cutter.dialect().lift(writer.at);
+    writer.command(&lift);
+    writer.bytes.extend(cutter.end().as_bytes());
+    Ok(writer.bytes)
+}
+
+struct Writer<'a> {
+    cutter: &'a Cutter,
+    bytes: Vec<u8>,
+    at: Point,
+}
+
+impl Writer<'_> {
+    fn command(&mut self, command: &[u8]) {
+        self.bytes.extend(command);
+        self.bytes.extend(self.cutter.separator().as_bytes());
+    }
+
+    /// Takes the tool for an operation, lifted, and sets force and speed where the machine can.
+    fn set_up(&mut self, operation: Operation, media: &Media) {
+        let work = media.work(operation);
+        let lift = self.cutter.dialect().lift(self.at);
+        self.command(&lift);
+        let select = self.cutter.tool(operation).map_or("", |tool| tool.select());
+        self.bytes.extend(select.as_bytes());
+        let levels = [(self.cutter.force(), work.force_g()), (self.cutter.speed(), work.speed_mm_s())];
+        for (level, value) in levels {
+            if let (Some(level), Some(value)) = (level, value) {
+                self.bytes.extend(level.command(value).0.as_bytes());
+            }
+        }
+    }
+
+    /// One stroke; nothing is left of one that is shorter than a unit.
+    fn stroke(&mut self, mut points: Vec<Point>) {
+        points.dedup();
+        if let [first, through @ ..] = points.as_slice()
+            && !through.is_empty()
+        {
+            let dialect = self.cutter.dialect();
+            self.command(&dialect.travel(*first));
+            dialect.draw(through).iter().for_each(|command| self.command(command));
+            self.at = points[points.len() - 1];
+        }
+    }
+}

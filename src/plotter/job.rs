@@ -1,0 +1,339 @@
+//! A job read from the bytes of a file: whole commands, what each of them moves, and how long that
+//! takes.
+
+use super::dialect::{Dialect, Meaning, Pen};
+use super::{Cutter, Point};
+
+/// Commands longer than this are refused: they could not be on their way as a whole.
+const LONGEST_FOREIGN_COMMAND: usize = 128;
+
+/// Why a file is no job.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum JobError {
+    /// No command moves with the pen down.
+    #[error("nothing is drawn by it; is it a {0} file?")]
+    Empty(&'static str),
+    /// A command that cannot be read.
+    #[error("the command \"{text}\" at byte {at} is no {dialect}; choose the cutter whose language it is")]
+    Broken {
+        /// Offset of the command.
+        at: usize,
+        /// The command.
+        text: String,
+        /// Name of the dialect.
+        dialect: &'static str,
+    },
+    /// A command that is too long to be sent whole.
+    #[error(
+        "the command at byte {at} is {length} bytes long; at most {LONGEST_FOREIGN_COMMAND} can be sent so that \
+         a stop leaves no part of it"
+    )]
+    Long {
+        /// Offset of the command.
+        at: usize,
+        /// Its length.
+        length: usize,
+    },
+}
+
+/// One straight move.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// Where it begins.
+    pub from: Point,
+    /// Where it ends.
+    pub to: Point,
+    /// Whether the pen is down.
+    pub is_down: bool,
+}
+
+/// One whole command.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Command {
+    bytes: Vec<u8>,
+    motions: Vec<Motion>,
+    is_setup: bool,
+    is_down_after: bool,
+    ends_at: Point,
+    strokes_done: usize,
+    seconds: f64,
+}
+
+impl Command {
+    /// Its bytes.
+    pub fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// What it moves.
+    pub fn motions(&self) -> &[Motion] {
+        &self.motions
+    }
+
+    /// Whether the pen is down after it.
+    pub fn is_down_after(&self) -> bool {
+        self.is_down_after
+    }
+
+    /// Where the pen is after it.
+    pub fn ends_at(&self) -> Point {
+        self.ends_at
+    }
+
+    /// Number of strokes of the job that are finished when this command begins.
+    pub fn strokes_done(&self) -> usize {
+        self.strokes_done
+    }
+
+    /// Time that it takes by the machine's profile, s.
+    pub fn seconds(&self) -> f64 {
+        self.seconds
+    }
+}
+
+/// A job.
+///
+/// # Guarantees
+/// Every command is whole and at most 128 bytes long; none asks the machine for an answer; at least
+/// one stroke.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Job {
+    commands: Vec<Command>,
+    strokes: usize,
+    is_relative: bool,
+    seconds: f64,
+    dropped: usize,
+}
+
+impl Job {
+    /// Reads a file for a machine. Questions and device control are left out, since they would
+    /// disturb the handshake.
+    ///
+    /// # Errors
+    /// See [`JobError`].
+    pub fn parse(bytes: &[u8], cutter: &Cutter) -> Result<Self, JobError> {
+        let dialect = cutter.dialect();
+        let mut reader = Reader::new(cutter);
+        let mut at = 0;
+        let mut dropped = 0;
+        for command in dialect.split(bytes) {
+            let meaning = dialect.meaning(command);
+            match meaning {
+                Meaning::Broken => {
+                    let text: String = command.iter().take(24).map(|&b| char::from(b)).collect();
+                    return Err(JobError::Broken {
+                        at,
+                        text: text.trim().to_owned(),
+                        dialect: dialect.name(),
+                    });
+                }
+                Meaning::Query | Meaning::Control => dropped += 1,
+                Meaning::Move { .. } | Meaning::Setup => reader.take(command, meaning),
+            }
+            at += command.len();
+        }
+        let job = reader.finished(dropped);
+        let mut at = 0;
+        for command in &job.commands {
+            let length = command.bytes.len();
+            if length > LONGEST_FOREIGN_COMMAND {
+                return Err(JobError::Long { at, length });
+            }
+            at += length;
+        }
+        if job.strokes == 0 { Err(JobError::Empty(dialect.name())) } else { Ok(job) }
+    }
+
+    /// The commands.
+    pub fn commands(&self) -> &[Command] {
+        &self.commands
+    }
+
+    /// Number of strokes: from where the pen is set down to where it is lifted.
+    pub fn strokes(&self) -> usize {
+        self.strokes
+    }
+
+    /// Time of the whole job by the machine's profile, s.
+    pub fn seconds(&self) -> f64 {
+        self.seconds
+    }
+
+    /// Number of questions and control sequences that were left out.
+    pub fn dropped(&self) -> usize {
+        self.dropped
+    }
+
+    /// All bytes that are sent.
+    pub fn bytes(&self) -> Vec<u8> {
+        self.commands.iter().flat_map(|command| command.bytes.iter().copied()).collect()
+    }
+
+    /// The bytes of a job that begins with a stroke: all settings up to there, the latest of each
+    /// kind, then everything from the travel to that stroke on. The whole job where positions are
+    /// distances, since those need what came before.
+    pub fn from_stroke(&self, stroke: usize, dialect: &dyn Dialect) -> Vec<u8> {
+        let draws = |c: &Command| c.strokes_done == stroke && c.motions.iter().any(|m| m.is_down);
+        let Some(first) = self.commands.iter().position(draws).filter(|_| !self.is_relative && stroke > 0)
+        else {
+            return self.bytes();
+        };
+        let travels = |c: &Command| !c.is_down_after && !c.motions.is_empty();
+        let start = self.commands[..first].iter().rposition(travels).unwrap_or(first);
+        let settings: Vec<&Command> = self.commands[..start].iter().filter(|c| c.is_setup).collect();
+        let kind = |c: &Command| dialect.mnemonic(&c.bytes).to_ascii_uppercase();
+        let is_latest = |k: usize| settings[k + 1..].iter().all(|later| kind(later) != kind(settings[k]));
+        let settings = (0..settings.len()).filter(|&k| is_latest(k)).map(|k| settings[k]);
+        let rest = self.commands[start..].iter();
+        settings.chain(rest).flat_map(|command| command.bytes.iter().copied()).collect()
+    }
+}
+
+/// Follows the pen through a file.
+struct Reader<'a> {
+    cutter: &'a Cutter,
+    commands: Vec<Command>,
+    at: Point,
+    is_down: bool,
+    is_relative: bool,
+    was_relative: bool,
+    /// Strokes that were begun, and those that were finished.
+    begun: usize,
+    done: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn new(cutter: &'a Cutter) -> Self {
+        Self {
+            cutter,
+            commands: Vec::new(),
+            at: Point::default(),
+            is_down: false,
+            is_relative: false,
+            was_relative: false,
+            begun: 0,
+            done: 0,
+        }
+    }
+
+    fn take(&mut self, bytes: &[u8], meaning: Meaning) {
+        let strokes_done = self.done;
+        let was_down = self.is_down;
+        let is_mode = |m: &Meaning| matches!(m, Meaning::Move { pen: Pen::Keep, to, .. } if to.is_empty());
+        let is_setup = meaning == Meaning::Setup || is_mode(&meaning);
+        let motions = match meaning {
+            Meaning::Move { pen, to, is_relative } => {
+                self.is_relative = is_relative.unwrap_or(self.is_relative);
+                self.was_relative |= self.is_relative;
+                match pen {
+                    Pen::Up => self.is_down = false,
+                    Pen::Down => self.is_down = true,
+                    Pen::Keep => {}
+                }
+                to.into_iter().map(|to| self.moved(to)).collect()
+            }
+            _ => Vec::new(),
+        };
+        if self.is_down && !was_down {
+            self.begun += 1;
+        }
+        if was_down && !self.is_down {
+            self.done = self.begun;
+        }
+        // A command that lifts the pen begins when the stroke before it is finished.
+        let strokes_done = if was_down && !self.is_down { self.done } else { strokes_done };
+        let seconds =
+            self.seconds(&motions) + f64::from(u8::from(was_down != self.is_down)) * self.cutter.pen_s();
+        self.commands.push(Command {
+            bytes: bytes.to_vec(),
+            motions,
+            is_setup,
+            is_down_after: self.is_down,
+            ends_at: self.at,
+            strokes_done,
+            seconds,
+        });
+    }
+
+    fn moved(&mut self, to: Point) -> Motion {
+        let from = self.at;
+        self.at = if self.is_relative {
+            Point::new(from.x().saturating_add(to.x()), from.y().saturating_add(to.y()))
+        } else {
+            to
+        };
+        Motion { from, to: self.at, is_down: self.is_down }
+    }
+
+    fn seconds(&self, motions: &[Motion]) -> f64 {
+        let units = self.cutter.frame().units_per_mm().value();
+        let speed = |m: &Motion| if m.is_down { self.cutter.draw_mm_s() } else { self.cutter.travel_mm_s() };
+        motions.iter().map(|m| m.from.distance(m.to) / units / speed(m)).sum()
+    }
+
+    fn finished(self, dropped: usize) -> Job {
+        Job {
+            seconds: self.commands.iter().map(Command::seconds).sum(),
+            commands: self.commands,
+            strokes: self.begun,
+            is_relative: self.was_relative,
+            dropped,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::plotter::profile::CUTTERS;
+
+    fn generic() -> Cutter {
+        Cutter::parse(CUTTERS[0].text).unwrap()
+    }
+
+    const FILE: &[u8] = b"IN;SP1;FS20;VS5;PU400,0;PD800,0,800,400;PU0,0;SP2;FS90;PD0,400;PU;PG;";
+
+    #[test]
+    fn strokes_positions_and_time() {
+        let job = Job::parse(FILE, &generic()).unwrap();
+        assert_eq!((job.strokes(), job.dropped()), (2, 0));
+        assert_eq!(job.bytes(), FILE);
+        let done: Vec<usize> = job.commands().iter().map(Command::strokes_done).collect();
+        assert_eq!(done, [0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2]);
+        let drawn: f64 = job
+            .commands()
+            .iter()
+            .flat_map(Command::motions)
+            .filter(|m| m.is_down)
+            .map(|m| m.from.distance(m.to))
+            .sum();
+        assert_eq!(drawn, 1200.0);
+        // 30 mm drawn at 100 mm/s, 10 mm and 22.36 mm travelled at 300 mm/s, four times 0.1 s.
+        assert!((job.seconds() - (0.3 + (10.0 + 500f64.sqrt()) / 300.0 + 0.4)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_later_stroke_keeps_the_latest_settings() {
+        let job = Job::parse(FILE, &generic()).unwrap();
+        let rest = job.from_stroke(1, generic().dialect());
+        assert_eq!(String::from_utf8_lossy(&rest), "IN;SP1;FS20;VS5;PU0,0;SP2;FS90;PD0,400;PU;PG;");
+        let three = b"IN;SP1;FS20;PU1,1;PD2,2;PU3,3;SP2;FS30;PU4,4;PD5,5;PU;SP3;PU6,6;PD7,7;PU;";
+        let job = Job::parse(three, &generic()).unwrap();
+        let rest = job.from_stroke(2, generic().dialect());
+        assert_eq!(String::from_utf8_lossy(&rest), "IN;FS30;SP3;PU6,6;PD7,7;PU;");
+        assert_eq!(job.from_stroke(0, generic().dialect()), three);
+    }
+
+    #[test]
+    fn other_programs_files() {
+        let job = Job::parse(b"\x1b.(;IN;OI;PU0,0\nPD10,0PR0,10,-10,0;PA;PU;", &generic()).unwrap();
+        assert_eq!((job.strokes(), job.dropped()), (1, 2));
+        assert_eq!(job.commands().last().map(Command::ends_at), Some(Point::new(0, 10)));
+        // Distances mean nothing without what came before.
+        assert_eq!(job.from_stroke(1, generic().dialect()), job.bytes());
+        assert!(matches!(Job::parse(b"", &generic()), Err(JobError::Empty(_))));
+        assert!(matches!(Job::parse(b"%PDF-1.4 1 0 obj", &generic()), Err(JobError::Broken { at: 0, .. })));
+        let long = format!("PU0,0;PD{};", ["1,2"; 50].join(","));
+        assert!(matches!(Job::parse(long.as_bytes(), &generic()), Err(JobError::Long { at: 6, .. })));
+    }
+}

@@ -1,0 +1,397 @@
+//! What a machine is like.
+
+use super::fields::{
+    Ascii, BladeOffset, DialectName, DirectionName, OriginName, Positive, RatioText, Template,
+};
+use super::{ProfileError, check_unverified};
+use crate::plotter::dialect::Dialect;
+use crate::plotter::{Direction, Frame, Origin};
+use crate::toolpath::Operation;
+use glam::DVec2;
+use serde::Deserialize;
+
+/// How the program keeps from sending more than the machine has room for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Handshake {
+    /// Whatever the machine answers to; else what its profile falls back to.
+    Auto,
+    /// The machine is asked for its free bytes.
+    EscB,
+    /// The machine holds the line CTS low.
+    RtsCts,
+    /// The machine sends XOFF and XON.
+    XonXoff,
+    /// No more is sent than the machine has certainly done by now.
+    Paced,
+}
+
+impl Handshake {
+    /// All of them, in the order of help texts.
+    pub const ALL: [Self; 5] = [Self::Auto, Self::EscB, Self::RtsCts, Self::XonXoff, Self::Paced];
+
+    /// Name in small letters.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::EscB => "escb",
+            Self::RtsCts => "rtscts",
+            Self::XonXoff => "xonxoff",
+            Self::Paced => "paced",
+        }
+    }
+}
+
+/// Parity of the serial line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Parity {
+    /// No parity bit.
+    None,
+    /// Even parity.
+    Even,
+    /// Odd parity.
+    Odd,
+}
+
+/// The serial line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "SerialTable")]
+pub struct Serial {
+    /// Bits a second.
+    pub baud: u32,
+    /// 7 or 8.
+    pub data_bits: u8,
+    /// Parity.
+    pub parity: Parity,
+    /// 1 or 2.
+    pub stop_bits: u8,
+    /// Handshake to use where the user does not say; `auto` probes.
+    pub handshake: Handshake,
+    /// What `auto` uses for a machine that does not answer.
+    pub fallback: Handshake,
+    /// Size of the machine's buffer, bytes.
+    pub buffer_bytes: usize,
+    /// Whether the machine may be sent questions and device control.
+    pub answers: bool,
+}
+
+impl Serial {
+    /// Time that a byte takes on the line, s.
+    pub fn byte_s(&self) -> f64 {
+        let parity = u8::from(self.parity != Parity::None);
+        f64::from(1 + self.data_bits + parity + self.stop_bits) / f64::from(self.baud)
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SerialTable {
+    baud: u32,
+    data_bits: u8,
+    parity: Parity,
+    stop_bits: u8,
+    handshake: Handshake,
+    fallback: Handshake,
+    buffer_bytes: usize,
+    answers: bool,
+}
+
+impl TryFrom<SerialTable> for Serial {
+    type Error = String;
+
+    fn try_from(table: SerialTable) -> Result<Self, String> {
+        let SerialTable { baud, data_bits, parity, stop_bits, handshake, fallback, buffer_bytes, answers } =
+            table;
+        let ensure = |holds: bool, message: &str| if holds { Ok(()) } else { Err(message.to_owned()) };
+        ensure((300..=4_000_000).contains(&baud), "baud must be from 300 to 4000000")?;
+        ensure(matches!(data_bits, 7 | 8), "data_bits must be 7 or 8")?;
+        ensure(matches!(stop_bits, 1 | 2), "stop_bits must be 1 or 2")?;
+        ensure((256..=1 << 30).contains(&buffer_bytes), "buffer_bytes must be at least 256")?;
+        let needs_answers = [handshake, fallback].contains(&Handshake::EscB);
+        ensure(answers || !needs_answers, "escb needs a machine that answers: set answers = true")?;
+        ensure(
+            !matches!(fallback, Handshake::Auto | Handshake::EscB),
+            "fallback is rtscts, xonxoff or paced",
+        )?;
+        Ok(Self { baud, data_bits, parity, stop_bits, handshake, fallback, buffer_bytes, answers })
+    }
+}
+
+/// A setting of the machine, such as its force, and how it is told.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(try_from = "LevelTable")]
+pub struct Level {
+    command: String,
+    per_unit: f64,
+    range: [u32; 2],
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct LevelTable {
+    command: Template,
+    per_unit: Positive,
+    range: [u32; 2],
+}
+
+impl TryFrom<LevelTable> for Level {
+    type Error = String;
+
+    fn try_from(table: LevelTable) -> Result<Self, String> {
+        let [least, most] = table.range;
+        let message = "the range goes from the least to the greatest number of the command";
+        let level = Self { command: table.command.0, per_unit: table.per_unit.0, range: table.range };
+        (least <= most).then_some(level).ok_or_else(|| message.to_owned())
+    }
+}
+
+impl Level {
+    /// The command for a value in grams or mm/s, by the nearest step that the machine has, and
+    /// whether that step is within its range.
+    pub fn command(&self, value: f64) -> (String, bool) {
+        let wish = (value * self.per_unit).round();
+        let [least, most] = self.range.map(f64::from);
+        let step = wish.clamp(least, most);
+        (self.command.replace("{}", &step.to_string()), step == wish)
+    }
+}
+
+/// A tool of the machine.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MachineTool {
+    #[serde(default)]
+    select: Ascii,
+    #[serde(default)]
+    blade_offset_mm: BladeOffset,
+}
+
+impl MachineTool {
+    /// The command that takes the tool up.
+    pub fn select(&self) -> &str {
+        &self.select.0
+    }
+
+    /// Distance from the shaft's axis to the blade's tip, mm.
+    pub fn blade_offset_mm(&self) -> f64 {
+        self.blade_offset_mm.0
+    }
+}
+
+/// A machine.
+///
+/// # Guarantees
+/// What its parts guarantee; at least one tool.
+#[derive(Debug, Clone)]
+pub struct Cutter {
+    text: String,
+    name: String,
+    description: String,
+    unverified: Vec<String>,
+    dialect: &'static dyn Dialect,
+    frame: Frame,
+    serial: Serial,
+    motion: MotionTable,
+    commands: CommandTable,
+    force: Option<Level>,
+    speed: Option<Level>,
+    tools: [Option<MachineTool>; Operation::ALL.len()],
+}
+
+impl Cutter {
+    /// Reads a profile.
+    ///
+    /// # Errors
+    /// See [`ProfileError`].
+    pub fn parse(text: &str) -> Result<Self, ProfileError> {
+        let file: CutterFile = toml::from_str(text)?;
+        check_unverified(text, &file.unverified)?;
+        let tools = file.tools;
+        Ok(Self {
+            text: text.to_owned(),
+            name: file.name,
+            description: file.description,
+            unverified: file.unverified,
+            dialect: file.dialect.0,
+            frame: file.frame.0,
+            serial: file.serial,
+            motion: file.motion,
+            commands: file.commands,
+            force: file.force,
+            speed: file.speed,
+            tools: [tools.pen, tools.crease, tools.fold_hinge, Some(tools.cut)],
+        })
+    }
+
+    /// The profile as it was read.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Name for people.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// What it is and what to mind.
+    pub fn description(&self) -> &str {
+        &self.description
+    }
+
+    /// Fields that nobody has tried on a machine.
+    pub fn unverified(&self) -> &[String] {
+        &self.unverified
+    }
+
+    /// Its language.
+    pub fn dialect(&self) -> &'static dyn Dialect {
+        self.dialect
+    }
+
+    /// Its coordinates.
+    pub fn frame(&self) -> &Frame {
+        &self.frame
+    }
+
+    /// Its serial line.
+    pub fn serial(&self) -> &Serial {
+        &self.serial
+    }
+
+    /// Speed with the tool up, mm/s.
+    pub fn travel_mm_s(&self) -> f64 {
+        self.motion.travel_mm_s.0
+    }
+
+    /// Speed with the tool down where the medium or the machine does not set one, mm/s.
+    pub fn draw_mm_s(&self) -> f64 {
+        self.motion.draw_mm_s.0
+    }
+
+    /// Time to lift the tool or set it down, s.
+    pub fn pen_s(&self) -> f64 {
+        self.motion.pen_s.0
+    }
+
+    /// Commands before everything else.
+    pub fn start(&self) -> &str {
+        &self.commands.start.0
+    }
+
+    /// Commands after everything else.
+    pub fn end(&self) -> &str {
+        &self.commands.end.0
+    }
+
+    /// Commands after the tool was lifted because the job is stopped.
+    pub fn stop(&self) -> &str {
+        &self.commands.stop.0
+    }
+
+    /// What stands after each command.
+    pub fn separator(&self) -> &str {
+        &self.commands.separator.0
+    }
+
+    /// Its force, in grams, where it can be set.
+    pub fn force(&self) -> Option<&Level> {
+        self.force.as_ref()
+    }
+
+    /// Its speed, in mm/s, where it can be set.
+    pub fn speed(&self) -> Option<&Level> {
+        self.speed.as_ref()
+    }
+
+    /// The tool for an operation; none where the machine leaves it out.
+    pub fn tool(&self, operation: Operation) -> Option<&MachineTool> {
+        self.tools[operation as usize].as_ref()
+    }
+}
+
+impl PartialEq for Cutter {
+    fn eq(&self, other: &Self) -> bool {
+        self.text == other.text
+    }
+}
+
+/// The file.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CutterFile {
+    name: String,
+    description: String,
+    #[serde(default)]
+    unverified: Vec<String>,
+    dialect: DialectName,
+    frame: FrameField,
+    serial: Serial,
+    motion: MotionTable,
+    commands: CommandTable,
+    force: Option<Level>,
+    speed: Option<Level>,
+    tools: ToolTables,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct MotionTable {
+    travel_mm_s: Positive,
+    draw_mm_s: Positive,
+    pen_s: Positive,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct CommandTable {
+    start: Ascii,
+    end: Ascii,
+    stop: Ascii,
+    #[serde(default)]
+    separator: Ascii,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+struct ToolTables {
+    pen: Option<MachineTool>,
+    crease: Option<MachineTool>,
+    fold_hinge: Option<MachineTool>,
+    cut: MachineTool,
+}
+
+#[derive(Deserialize)]
+#[serde(try_from = "FrameTable")]
+struct FrameField(Frame);
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FrameTable {
+    units_per_mm: RatioText,
+    #[serde(with = "OriginName")]
+    origin: Origin,
+    #[serde(default)]
+    offset_mm: [f64; 2],
+    #[serde(with = "DirectionName")]
+    x: Direction,
+    #[serde(with = "DirectionName")]
+    y: Direction,
+    bed_x_mm: [f64; 2],
+    bed_y_mm: [f64; 2],
+    range: [i32; 2],
+}
+
+impl TryFrom<FrameTable> for FrameField {
+    type Error = String;
+
+    fn try_from(table: FrameTable) -> Result<Self, String> {
+        let offset_mm = DVec2::from(table.offset_mm);
+        if !offset_mm.is_finite() {
+            return Err("offset_mm is two numbers".to_owned());
+        }
+        let beds = [table.bed_x_mm, table.bed_y_mm];
+        Frame::new(table.units_per_mm.0, (table.origin, offset_mm), [table.x, table.y], beds, table.range)
+            .map(Self)
+    }
+}

@@ -1,0 +1,155 @@
+//! Single values of profiles.
+
+use crate::plotter::dialect::{Dialect, dialect_of};
+use crate::plotter::{Direction, Origin, Ratio};
+use crate::toolpath::{Perforation, Tooling, ToolingError};
+use serde::Deserialize;
+
+/// A number above 0.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(try_from = "f64")]
+pub(super) struct Positive(pub f64);
+
+impl TryFrom<f64> for Positive {
+    type Error = String;
+
+    fn try_from(x: f64) -> Result<Self, String> {
+        let is_usable = x > 0.0 && x <= 1e6;
+        is_usable.then_some(Self(x)).ok_or_else(|| format!("{x} is no usable size; give a number above 0"))
+    }
+}
+
+/// Distance from the shaft's axis to the blade's tip, mm.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[serde(try_from = "f64")]
+pub(super) struct BladeOffset(pub f64);
+
+impl TryFrom<f64> for BladeOffset {
+    type Error = ToolingError;
+
+    fn try_from(mm: f64) -> Result<Self, ToolingError> {
+        Tooling::new(mm, 0.0, 1).map(|_| Self(mm))
+    }
+}
+
+/// How far closed lines are followed past their start, mm.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
+#[serde(try_from = "f64")]
+pub(super) struct Overcut(pub f64);
+
+impl TryFrom<f64> for Overcut {
+    type Error = ToolingError;
+
+    fn try_from(mm: f64) -> Result<Self, ToolingError> {
+        Tooling::new(0.0, mm, 1).map(|_| Self(mm))
+    }
+}
+
+/// Number of passes.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(try_from = "u32")]
+pub(super) struct Passes(pub u32);
+
+impl Default for Passes {
+    fn default() -> Self {
+        Self(1)
+    }
+}
+
+impl TryFrom<u32> for Passes {
+    type Error = ToolingError;
+
+    fn try_from(passes: u32) -> Result<Self, ToolingError> {
+        Tooling::new(0.0, 0.0, passes).map(|_| Self(passes))
+    }
+}
+
+/// Length of dashes and gaps, mm.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(try_from = "[f64; 2]")]
+pub(super) struct Dashes(pub Perforation);
+
+impl TryFrom<[f64; 2]> for Dashes {
+    type Error = ToolingError;
+
+    fn try_from([dash_mm, gap_mm]: [f64; 2]) -> Result<Self, ToolingError> {
+        Perforation::new(dash_mm, gap_mm).map(Self)
+    }
+}
+
+/// A ratio written as "n" or "n/d".
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(try_from = "String")]
+pub(super) struct RatioText(pub Ratio);
+
+impl TryFrom<String> for RatioText {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        let ratio = Ratio::parse(&text);
+        ratio.map(Self).ok_or_else(|| format!("\"{text}\" is no ratio; write it as \"40\" or \"5105/127\""))
+    }
+}
+
+/// The name of a dialect.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(try_from = "String")]
+pub(super) struct DialectName(pub &'static dyn Dialect);
+
+impl TryFrom<String> for DialectName {
+    type Error = String;
+
+    fn try_from(name: String) -> Result<Self, String> {
+        let dialect = dialect_of(&name);
+        dialect.map(Self).ok_or_else(|| format!("\"{name}\" is no dialect; there are hpgl, gpgl, dmpl"))
+    }
+}
+
+/// Text that is sent as it is. Newlines and control characters are written as in any TOML string.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Deserialize)]
+#[serde(try_from = "String")]
+pub(super) struct Ascii(pub String);
+
+impl TryFrom<String> for Ascii {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        let is_usable = text.is_ascii() && text.len() <= 200;
+        let message = "commands have at most 200 characters, all of them ASCII";
+        is_usable.then_some(Self(text)).ok_or_else(|| message.to_owned())
+    }
+}
+
+/// A command with `{}` in the place of its number.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "Ascii")]
+pub(super) struct Template(pub String);
+
+impl TryFrom<Ascii> for Template {
+    type Error = String;
+
+    fn try_from(text: Ascii) -> Result<Self, String> {
+        let is_usable = text.0.matches("{}").count() == 1;
+        let message = format!("\"{}\" needs {{}} once, where the number goes, such as \"FS{{}};\"", text.0);
+        is_usable.then_some(Self(text.0)).ok_or(message)
+    }
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case", remote = "Origin")]
+pub(super) enum OriginName {
+    LowerLeft,
+    LowerRight,
+    UpperLeft,
+    UpperRight,
+    Centre,
+}
+
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(rename_all = "kebab-case", remote = "Direction")]
+pub(super) enum DirectionName {
+    Right,
+    Up,
+    Left,
+    Down,
+}

@@ -1,0 +1,180 @@
+//! Sending, pausing, finishing and stopping.
+
+use super::{End, Handshake, MOST_IN_FLIGHT, Phase, Question, RESERVE, Session, Step};
+use std::time::Duration;
+
+/// A machine that works on may take so much longer than its profile says before it is given up.
+const TOLERANCE: u32 = 3;
+/// And so much in any case.
+const GRACE: Duration = Duration::from_secs(20);
+/// After the second wish to stop the port has so long to send what lifts the tool.
+const HURRY: Duration = Duration::from_secs(10);
+/// The next look where only time passes.
+const TICK: Duration = Duration::from_millis(20);
+
+impl Session {
+    pub(super) fn stream(&mut self, now: Duration) -> Step {
+        if self.stop_wishes > 0 {
+            return self.begin_stop(End::Stopped, now);
+        }
+        if self.ask.error != 0 {
+            return self.begin_stop(End::Device(self.ask.error), now);
+        }
+        self.ledger_by_flow(now);
+        if let Some(step) = self.keep_asking(now) {
+            return step;
+        }
+        self.heed_pause();
+        let bytes = self.commands_that_fit(now);
+        if !bytes.is_empty() {
+            return Step::Send(bytes);
+        }
+        let is_all_sent = self.next == self.job.commands().len() && self.inserted.is_empty();
+        if is_all_sent && self.paused.is_none() {
+            self.phase = Phase::Finish(End::Finished);
+            return Step::Wait(Duration::ZERO);
+        }
+        let excess = self.line.in_flight(now).saturating_sub(MOST_IN_FLIGHT / 2);
+        Step::Wait(self.line.time(excess.max(1)).min(TICK))
+    }
+
+    /// Counts what the machine has certainly done, where it does not say so itself.
+    fn ledger_by_flow(&mut self, now: Duration) {
+        match self.handshake {
+            Handshake::Paced => self.ledger.taken_by_time(now),
+            Handshake::RtsCts | Handshake::XonXoff => {
+                let held = self.line.in_flight(now) + self.ask.size;
+                self.ledger.taken(self.ledger.total().saturating_sub(held as u64));
+            }
+            Handshake::Auto | Handshake::EscB => {}
+        }
+    }
+
+    /// Lifts the pen for a pause, and sets it down again after it.
+    fn heed_pause(&mut self) {
+        let pen = match (self.wants_pause, self.paused) {
+            (true, None) => {
+                self.paused = Some(self.is_down);
+                if self.is_down { self.dialect.lift(self.at) } else { Vec::new() }
+            }
+            (false, Some(was_down)) => {
+                self.paused = None;
+                if was_down { self.dialect.lower(self.at) } else { Vec::new() }
+            }
+            _ => Vec::new(),
+        };
+        if !pen.is_empty() {
+            self.inserted.push_back(pen);
+        }
+    }
+
+    /// Takes as many whole commands as may be sent now.
+    fn commands_that_fit(&mut self, now: Duration) -> Vec<u8> {
+        let mut out = Vec::new();
+        loop {
+            let is_inserted = !self.inserted.is_empty();
+            let length = match (self.inserted.front(), self.job.commands().get(self.next)) {
+                (Some(bytes), _) => bytes.len(),
+                (None, Some(command)) if self.paused.is_none() => command.bytes().len(),
+                _ => break,
+            };
+            if !self.has_room(length, now) {
+                break;
+            }
+            let arrival = self.line.busy_until().max(now) + self.line.time(length);
+            if is_inserted {
+                self.ledger.sent(length, self.ledger.strokes_done(), 0.0, arrival);
+                out.extend(self.inserted.pop_front().unwrap_or_default());
+            } else if let Some(command) = self.job.commands().get(self.next) {
+                self.ledger.sent(length, command.strokes_done(), command.seconds(), arrival);
+                out.extend(command.bytes());
+                self.at = command.ends_at();
+                self.is_down = command.is_down_after();
+                self.next += 1;
+            }
+            self.line.sent(length, now);
+        }
+        out
+    }
+
+    /// Whether a command may be sent: the line is not too far behind, and the machine has room.
+    fn has_room(&self, length: usize, now: Duration) -> bool {
+        let is_line_free = self.line.in_flight(now) + length <= MOST_IN_FLIGHT;
+        is_line_free
+            && !self.is_held
+            && match self.handshake {
+                Handshake::EscB => length <= self.credit(),
+                Handshake::Paced => self.ledger.held_by_time(now) + length + RESERVE <= self.ask.size,
+                Handshake::Auto | Handshake::RtsCts | Handshake::XonXoff => true,
+            }
+    }
+
+    /// Lifts the tool: nothing of the job is sent after this. It is sent even where the machine
+    /// said stop, since some of its buffer was kept free.
+    pub(super) fn begin_stop(&mut self, end: End, now: Duration) -> Step {
+        let mut bytes = Vec::new();
+        if let Some(controls) = self.dialect.controls().filter(|_| self.serial.answers) {
+            bytes.extend(controls.discard);
+            self.ledger.discard(now);
+        }
+        bytes.extend(self.dialect.lift(self.at));
+        bytes.extend(self.stop.as_bytes());
+        self.is_down = false;
+        self.ask.open = None;
+        self.ask.stage = 0;
+        self.phase = Phase::Finish(end);
+        self.ledger.sent(bytes.len(), self.ledger.strokes_done(), 0.0, now);
+        self.send_control(&bytes, now)
+    }
+
+    /// Waits until the machine has done everything, as far as that can be known.
+    pub(super) fn finish(&mut self, end: End, now: Duration) -> Step {
+        if end == End::Finished && self.stop_wishes > 0 {
+            return self.begin_stop(End::Stopped, now);
+        }
+        let is_empty = self.line.in_flight(now) == 0;
+        let is_overdue = now >= self.line.busy_until() + HURRY;
+        if self.stop_wishes > 2 || self.stop_wishes > 1 && (is_empty || is_overdue) {
+            return self.end(end, false);
+        }
+        self.ledger_by_flow(now);
+        if !is_empty {
+            return Step::Wait(TICK);
+        }
+        if !self.may_ask() || end == End::NoAnswer {
+            // Only time tells. A machine that holds the line is not done.
+            let is_done = now >= self.ledger.done_at() && !self.is_held;
+            return if is_done { self.end(end, false) } else { Step::Wait(TICK) };
+        }
+        self.confirm(end, now)
+    }
+
+    /// Asks for a position, which is answered when everything before is done, then for errors.
+    fn confirm(&mut self, end: End, now: Duration) -> Step {
+        let stage = self.ask.stage;
+        if stage == 0 {
+            self.ask.stage = 1;
+            self.ask.has_position = false;
+            return self.ask(Question::Position, now);
+        }
+        if stage == 1 && self.ask.has_position {
+            self.ask.stage = 2;
+            return self.ask(Question::Error, now);
+        }
+        if stage == 2 && self.ask.open.is_none() {
+            return self.end(self.with_error(end), true);
+        }
+        let asked = self.ask.open.map_or(now, |(_, asked, _)| asked);
+        let works_on = self.ledger.done_at().saturating_sub(asked) * TOLERANCE;
+        let patience = if stage == 1 { works_on + GRACE } else { GRACE };
+        if self.ask.is_unanswered(now, patience) { self.end(end, stage == 2) } else { Step::Wait(TICK) }
+    }
+
+    /// An error that the machine reported at last.
+    fn with_error(&self, end: End) -> End {
+        match end {
+            End::Finished if self.ask.error != 0 => End::Device(self.ask.error),
+            other => other,
+        }
+    }
+}

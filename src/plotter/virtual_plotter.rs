@@ -1,0 +1,309 @@
+//! A plotter that is not there: it takes bytes at the speed of the line into a small buffer, works
+//! them off in modelled time, answers as plotters do, and remembers what it drew and what it lost.
+//!
+//! It reads bytes whether or not it asked for silence, as a real one does: a host that sends too
+//! much loses data here too.
+
+use super::dialect::{Dialect, Meaning, Pen};
+use super::{Cutter, Motion, Point};
+use std::collections::VecDeque;
+use std::time::Duration;
+
+const ESC: u8 = 0x1B;
+const XON: u8 = 17;
+const XOFF: u8 = 19;
+/// Delay of every answer.
+const ANSWER_DELAY: Duration = Duration::from_millis(2);
+/// The error that ESC.E reports after an overflow.
+const OVERFLOW: u32 = 16;
+/// CTS falls when fewer bytes are free, and rises again at twice as many.
+const CTS_BELOW: usize = 64;
+
+/// What a virtual plotter is like.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VirtualOptions {
+    /// Size of the buffer, bytes.
+    pub buffer_bytes: usize,
+    /// Whether it answers questions and knows device control.
+    pub answers: bool,
+    /// Whether it sends XOFF and XON from the start, at this number of free bytes.
+    pub xoff_below: Option<usize>,
+    /// Faults.
+    pub faults: Faults,
+}
+
+impl Default for VirtualOptions {
+    fn default() -> Self {
+        Self { buffer_bytes: 1024, answers: true, xoff_below: None, faults: Faults::default() }
+    }
+}
+
+/// What is wrong with a virtual plotter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Faults {
+    /// Motion takes so many times the time of the profile.
+    pub slowness: f64,
+    /// One answer of so many is noise; 0 for none.
+    pub garbage_every: u32,
+    /// One answer of so many does not come; 0 for none.
+    pub silence_every: u32,
+    /// It reports a framing error after so many bytes.
+    pub error_at: Option<u64>,
+}
+
+impl Default for Faults {
+    fn default() -> Self {
+        Self { slowness: 1.0, garbage_every: 0, silence_every: 0, error_at: None }
+    }
+}
+
+/// A plotter that is not there.
+#[derive(Debug, Clone)]
+pub struct VirtualPlotter {
+    options: VirtualOptions,
+    dialect: &'static dyn Dialect,
+    units_per_mm: f64,
+    /// Speed with the pen up and down, mm/s, and time to lift or lower it.
+    speeds_mm_s: [f64; 2],
+    pen_s: f64,
+    now: Duration,
+    busy_until: Duration,
+    buffer: VecDeque<u8>,
+    control: Vec<u8>,
+    answers: VecDeque<(Duration, Vec<u8>)>,
+    asked: u32,
+    xoff_below: Option<usize>,
+    has_sent_xoff: bool,
+    is_clear_to_send: bool,
+    is_down: bool,
+    is_relative: bool,
+    at: Point,
+    error: u32,
+    received: u64,
+    lost: u64,
+    broken: u64,
+    motions: Vec<Motion>,
+}
+
+impl VirtualPlotter {
+    /// A plotter like a cutter's profile.
+    pub fn new(cutter: &Cutter, options: VirtualOptions) -> Self {
+        Self {
+            options,
+            dialect: cutter.dialect(),
+            units_per_mm: cutter.frame().units_per_mm().value(),
+            speeds_mm_s: [cutter.travel_mm_s(), cutter.draw_mm_s()],
+            pen_s: cutter.pen_s(),
+            now: Duration::ZERO,
+            busy_until: Duration::ZERO,
+            buffer: VecDeque::with_capacity(options.buffer_bytes),
+            control: Vec::new(),
+            answers: VecDeque::new(),
+            asked: 0,
+            xoff_below: options.xoff_below,
+            has_sent_xoff: false,
+            is_clear_to_send: true,
+            is_down: false,
+            is_relative: false,
+            at: Point::default(),
+            error: 0,
+            received: 0,
+            lost: 0,
+            broken: 0,
+            motions: Vec::new(),
+        }
+    }
+
+    /// A byte arrives.
+    pub fn receive(&mut self, byte: u8, now: Duration) {
+        self.run_until(now);
+        self.received += 1;
+        if self.options.faults.error_at == Some(self.received) {
+            self.error = 15;
+        }
+        let knows_control = self.options.answers && self.dialect.controls().is_some();
+        if knows_control && (byte == ESC || !self.control.is_empty()) {
+            self.control.push(byte);
+            self.heed_control();
+        } else if self.buffer.len() < self.options.buffer_bytes {
+            self.buffer.push_back(byte);
+        } else {
+            self.lost += 1;
+            self.error = OVERFLOW;
+        }
+        self.run_until(now);
+        self.signal();
+    }
+
+    /// Time passes.
+    pub fn run_until(&mut self, now: Duration) {
+        while self.busy_until <= now {
+            let bytes = self.buffer.make_contiguous();
+            let Some(length) = self.dialect.first(bytes).filter(|&n| n > 0) else {
+                break;
+            };
+            let command: Vec<u8> = self.buffer.drain(..length).collect();
+            self.busy_until = self.busy_until.max(self.now);
+            self.execute(&command);
+            self.signal();
+        }
+        self.now = self.now.max(now);
+    }
+
+    /// What it says by now.
+    pub fn take_answers(&mut self, now: Duration) -> Vec<u8> {
+        let mut out = Vec::new();
+        while self.answers.front().is_some_and(|(due, _)| *due <= now) {
+            out.extend(self.answers.pop_front().map(|(_, bytes)| bytes).unwrap_or_default());
+        }
+        out
+    }
+
+    /// Whether the line CTS is up.
+    pub fn is_clear_to_send(&self) -> bool {
+        self.is_clear_to_send
+    }
+
+    /// Free bytes of the buffer.
+    pub fn free(&self) -> usize {
+        self.options.buffer_bytes - self.buffer.len()
+    }
+
+    /// Whether it has nothing left to do.
+    pub fn is_idle(&self) -> bool {
+        let bytes: Vec<u8> = self.buffer.iter().copied().collect();
+        self.busy_until <= self.now && self.dialect.first(&bytes).is_none_or(|n| n == 0)
+    }
+
+    /// Whether it told the host to be silent.
+    pub fn holds_host(&self) -> bool {
+        self.has_sent_xoff
+    }
+
+    /// Whether the pen is down.
+    pub fn is_pen_down(&self) -> bool {
+        self.is_down
+    }
+
+    /// Bytes that arrived.
+    pub fn received(&self) -> u64 {
+        self.received
+    }
+
+    /// Bytes that arrived when the buffer was full.
+    pub fn lost(&self) -> u64 {
+        self.lost
+    }
+
+    /// Commands that could not be read.
+    pub fn broken(&self) -> u64 {
+        self.broken
+    }
+
+    /// What it did.
+    pub fn motions(&self) -> &[Motion] {
+        &self.motions
+    }
+
+    fn answer(&mut self, text: String) {
+        let faults = self.options.faults;
+        self.asked += 1;
+        let is_nth = |every: u32| every > 0 && self.asked.is_multiple_of(every);
+        if !self.options.answers || is_nth(faults.silence_every) {
+            return;
+        }
+        let text = if is_nth(faults.garbage_every) { "?\u{7f}9x".to_owned() } else { text };
+        let due = self.now.max(self.busy_until.min(self.now)) + ANSWER_DELAY;
+        self.answers.push_back((due, format!("{text}\r").into_bytes()));
+    }
+
+    /// Acts on device control when it is complete.
+    fn heed_control(&mut self) {
+        let Some(length) = self.dialect.first(&self.control).filter(|&n| n == self.control.len()) else {
+            return;
+        };
+        let control = std::mem::take(&mut self.control);
+        debug_assert_eq!(length, control.len());
+        let parameters = String::from_utf8_lossy(&control[3..control.len()]).into_owned();
+        let numbers: Vec<usize> =
+            parameters.trim_end_matches(':').split(';').map(|n| n.parse().unwrap_or(0)).collect();
+        match control[2] {
+            b'B' => self.answer(self.free().to_string()),
+            b'L' => self.answer(self.options.buffer_bytes.to_string()),
+            b'E' => {
+                self.answer(self.error.to_string());
+                self.error = 0;
+            }
+            b'K' => {
+                self.buffer.clear();
+                self.busy_until = self.busy_until.min(self.now);
+            }
+            b'I' => self.xoff_below = numbers.first().copied().filter(|&n| n > 0),
+            _ => {}
+        }
+    }
+
+    /// XOFF, XON and CTS by the number of free bytes.
+    fn signal(&mut self) {
+        let free = self.free();
+        self.is_clear_to_send = free >= if self.is_clear_to_send { CTS_BELOW } else { 2 * CTS_BELOW };
+        let Some(below) = self.xoff_below else {
+            return;
+        };
+        let is_low = free < below;
+        let is_high = free > (2 * below).min(self.options.buffer_bytes - 1);
+        if is_low && !self.has_sent_xoff || is_high && self.has_sent_xoff {
+            self.has_sent_xoff = is_low;
+            let sign = if is_low { XOFF } else { XON };
+            self.answers.push_back((self.now, vec![sign]));
+        }
+    }
+
+    fn execute(&mut self, command: &[u8]) {
+        match self.dialect.meaning(command) {
+            Meaning::Move { pen, to, is_relative } => {
+                self.is_relative = is_relative.unwrap_or(self.is_relative);
+                let was_down = self.is_down;
+                self.is_down = match pen {
+                    Pen::Up => false,
+                    Pen::Down => true,
+                    Pen::Keep => was_down,
+                };
+                if was_down != self.is_down {
+                    self.spend(self.pen_s);
+                }
+                to.into_iter().for_each(|to| self.go(to));
+            }
+            Meaning::Query => {
+                let name = self.dialect.mnemonic(command).to_ascii_uppercase();
+                match name.as_slice() {
+                    b"OA" | b"OC" => {
+                        let text = format!("{},{},{}", self.at.x(), self.at.y(), u8::from(self.is_down));
+                        self.answer(text);
+                    }
+                    b"OI" => self.answer("virtual".to_owned()),
+                    b"OS" => self.answer("16".to_owned()),
+                    _ => self.answer("0".to_owned()),
+                }
+            }
+            Meaning::Broken | Meaning::Control => self.broken += 1,
+            Meaning::Setup => {}
+        }
+    }
+
+    fn go(&mut self, to: Point) {
+        let from = self.at;
+        self.at = if self.is_relative {
+            Point::new(from.x().saturating_add(to.x()), from.y().saturating_add(to.y()))
+        } else {
+            to
+        };
+        let way_mm = from.distance(self.at) / self.units_per_mm;
+        self.spend(way_mm / self.speeds_mm_s[usize::from(self.is_down)]);
+        self.motions.push(Motion { from, to: self.at, is_down: self.is_down });
+    }
+
+    fn spend(&mut self, seconds: f64) {
+        self.busy_until += Duration::from_secs_f64(seconds * self.options.faults.slowness);
+    }
+}

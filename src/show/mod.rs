@@ -1,0 +1,13 @@
+//! Pictures of a run: its stages as stills, its folding as a film.
+//!
+//! Scenes have y up, as pictures do; models have z up.
+
+mod angle;
+mod film;
+mod scenes;
+mod still;
+
+pub use angle::ViewAngle;
+pub use film::{Film, FilmOptions, Shot, staged_scene};
+pub use scenes::{components_scene, hulls_scene, mesh_scene, pose_scene, segments_scene, upright};
+pub use still::{ShowError, Still, framed};

@@ -1,0 +1,100 @@
+//! What is to be seen at each stage.
+
+use crate::component::{PanelId, PanelSet};
+use crate::drawing::Rgb;
+use crate::fold::{ModelMotion, ModelPose};
+use crate::geom::Hull;
+use crate::mesh::Mesh;
+use crate::model::Model;
+use crate::pipeline::Output;
+use crate::render::{Edge, Face, Scene, SceneError, light, palette};
+use glam::{DAffine3, DMat3, DVec3};
+
+/// The input, and faces of segments without volume.
+const PLAIN: Rgb = Rgb(200, 200, 204);
+/// The inside of paper is paler than the printed side.
+const INSIDE: f64 = 0.4;
+
+/// From the model's axes, z up, to those of pictures, y up.
+pub fn upright() -> DAffine3 {
+    DAffine3::from_mat3(DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y))
+}
+
+/// A mesh in one colour.
+///
+/// # Errors
+/// [`SceneError`]: no mesh is known that brings one about.
+pub fn mesh_scene(mesh: &Mesh) -> Result<Scene, SceneError> {
+    coloured_mesh(mesh, |_| PLAIN)
+}
+
+/// The mesh with a colour for each part.
+///
+/// # Errors
+/// As [`mesh_scene`].
+pub fn segments_scene(output: &Output) -> Result<Scene, SceneError> {
+    let part = |face: usize| output.face_parts()[face];
+    coloured_mesh(output.mesh(), |face| part(face).map_or(PLAIN, |p| palette::colour(p as usize)))
+}
+
+fn coloured_mesh(mesh: &Mesh, colour_of: impl Fn(usize) -> Rgb) -> Result<Scene, SceneError> {
+    let vertices: Vec<DVec3> = mesh.positions().iter().map(|p| upright().transform_point3(*p)).collect();
+    let mut scene = Scene::new();
+    scene.push_mesh(&vertices, mesh.faces(), colour_of, Some(PLAIN))?;
+    Ok(scene)
+}
+
+/// The convex hull of each part.
+///
+/// # Errors
+/// As [`mesh_scene`].
+pub fn hulls_scene(output: &Output) -> Result<Scene, SceneError> {
+    let mesh = output.mesh();
+    let mut scene = Scene::new();
+    for part in 0..output.model().parts().len() {
+        let own = (0..mesh.faces().len()).filter(|&f| output.face_parts()[f] == Some(part as u32));
+        let points: Vec<DVec3> =
+            own.flat_map(|f| mesh.corners(f)).map(|p| upright().transform_point3(p)).collect();
+        if let Ok(hull) = Hull::of_points(&points) {
+            let triangles: Vec<[u32; 3]> = hull.triangles().collect();
+            scene.push_mesh(hull.vertices(), &triangles, |_| palette::colour(part), None)?;
+        }
+    }
+    Ok(scene)
+}
+
+/// The components, deployed.
+pub fn components_scene(model: &Model) -> Scene {
+    let motion = ModelMotion::new(model);
+    pose_scene(model, &motion.pose(&vec![0.0; model.parts().len()]))
+}
+
+/// The components in a pose.
+pub fn pose_scene(model: &Model, pose: &ModelPose) -> Scene {
+    let mut scene = Scene::new();
+    for (index, (part, posed)) in model.parts().iter().zip(&pose.parts).enumerate() {
+        let place = |panel: PanelId| upright() * posed.panel(panel);
+        push_panels(&mut scene, part.component.panels(), place, palette::colour(index));
+    }
+    scene
+}
+
+/// Adds the panels of a component; those too thin to be seen are left out.
+fn push_panels(scene: &mut Scene, set: &PanelSet, place: impl Fn(PanelId) -> DAffine3, colour: Rgb) {
+    let mut edges: Vec<Vec<Edge>> =
+        set.panels().iter().map(|panel| vec![Edge::Border; panel.outline.len()]).collect();
+    for hinge in set.hinges() {
+        let [a, b] = hinge.sides;
+        for (here, there) in [(a, b), (b, a)] {
+            edges[here.panel.0][here.edge] = Edge::Crease(place(there.panel).matrix3.z_axis);
+        }
+    }
+    let inside = light::mixed(colour, Rgb::WHITE, INSIDE);
+    for (k, (panel, edges)) in set.panels().iter().zip(edges).enumerate() {
+        let motion = place(PanelId(k));
+        let corners = panel.outline.iter().map(|p| motion.transform_point3(p.extend(0.0))).collect();
+        if let Ok(face) = Face::new(corners, edges, colour, Some(inside)) {
+            scene.push(face);
+        }
+    }
+}

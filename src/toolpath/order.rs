@@ -1,0 +1,353 @@
+//! The order of work: by operation, inner lines before outer ones, small pieces before large
+//! ones, and within that the shortest way with the tool up that greedy choice, 2-opt and moves of
+//! short runs find.
+//!
+//! The heuristics are the usual ones for the travelling salesman's problem; see Croes (1958), "A
+//! method for solving traveling-salesman problems", and Or (1976).
+
+use super::inside::{area_mm2, containers};
+use super::{Operation, Task};
+use glam::DVec2;
+
+/// Upper limits of the areas of small and of middling pieces, mm². Small pieces are cut while the
+/// sheet around them still holds.
+const SIZE_CLASSES_MM2: [f64; 2] = [400.0, 2500.0];
+/// Rounds of improvement at most; a few suffice.
+const ROUNDS: usize = 24;
+/// Moves look at places at most this far on in the order, so that thousands of labels stay quick.
+const WINDOW: usize = 400;
+/// Longest run of tasks that is moved as a whole.
+const LONGEST_RUN: usize = 3;
+/// Gains below this are rounding, mm.
+const LEAST_GAIN_MM: f64 = 1e-9;
+
+/// The tasks in the order of work, turned and started so that the way between them is short.
+/// `start` is where the tool is before.
+pub fn in_order(tasks: Vec<Task>, start: DVec2) -> Vec<Task> {
+    let mut at = start;
+    let mut done: Vec<Task> = Vec::with_capacity(tasks.len());
+    for operation in Operation::ALL {
+        let own: Vec<Task> = tasks.iter().filter(|t| t.operation() == operation).cloned().collect();
+        let groups = if operation == Operation::Cut { by_size(own) } else { vec![own] };
+        for group in groups {
+            let group = Tour::greedy(&group, at).improved().in_order();
+            at = group.last().map_or(at, Task::end);
+            done.extend(group);
+        }
+    }
+    done
+}
+
+/// Length of the way between tasks, from `start` on, mm.
+pub fn travel_mm(tasks: &[Task], start: DVec2) -> f64 {
+    let ends = std::iter::once(start).chain(tasks.iter().map(Task::end));
+    ends.zip(tasks).map(|(end, task)| end.distance(task.start())).sum()
+}
+
+/// Tasks by the size of the outermost line around them, smallest first.
+fn by_size(tasks: Vec<Task>) -> Vec<Vec<Task>> {
+    let around = containers(&tasks);
+    let mut classes = vec![Vec::new(); SIZE_CLASSES_MM2.len() + 1];
+    let areas: Vec<f64> = tasks.iter().map(area_mm2).collect();
+    for (k, task) in tasks.into_iter().enumerate() {
+        let area = around[k].iter().map(|&c| areas[c]).fold(areas[k], f64::max);
+        classes[SIZE_CLASSES_MM2.iter().filter(|&&limit| area > limit).count()].push(task);
+    }
+    classes
+}
+
+/// A task at its place in the order.
+#[derive(Debug, Clone, Copy)]
+struct Visit {
+    task: usize,
+    entry: Entry,
+    start: DVec2,
+    end: DVec2,
+}
+
+/// How a task is begun.
+#[derive(Debug, Clone, Copy)]
+enum Entry {
+    /// As it is.
+    Forwards,
+    /// At its end.
+    Backwards,
+    /// A closed line at one of its corners.
+    Corner(usize),
+}
+
+impl Visit {
+    /// The way to do a task that begins nearest to `at`, by the distance to `next` too where that
+    /// is known.
+    fn best(tasks: &[Task], task: usize, at: DVec2, next: Option<DVec2>) -> Self {
+        let line = &tasks[task];
+        let (first, last) = (line.start(), line.end());
+        if !line.is_closed() {
+            let forwards = Self { task, entry: Entry::Forwards, start: first, end: last };
+            let backwards = Self { task, entry: Entry::Backwards, start: last, end: first };
+            let way = |v: &Self| at.distance(v.start) + next.map_or(0.0, |p| p.distance(v.end));
+            return if way(&backwards) < way(&forwards) { backwards } else { forwards };
+        }
+        let way = |p: DVec2| at.distance(p) + next.map_or(0.0, |next| p.distance(next));
+        let corners = line.points().iter().copied().enumerate();
+        let nearest = corners.min_by(|a, b| way(a.1).total_cmp(&way(b.1)));
+        let (corner, p) = nearest.unwrap_or((0, first));
+        Self { task, entry: Entry::Corner(corner), start: p, end: p }
+    }
+
+    fn turned(self) -> Self {
+        let entry = match self.entry {
+            Entry::Forwards => Entry::Backwards,
+            Entry::Backwards => Entry::Forwards,
+            corner @ Entry::Corner(_) => corner,
+        };
+        Self { entry, start: self.end, end: self.start, ..self }
+    }
+
+    fn applied(self, task: &Task) -> Task {
+        match self.entry {
+            Entry::Forwards => task.clone(),
+            Entry::Backwards => task.clone().reversed(),
+            Entry::Corner(corner) => task.clone().started_at(corner),
+        }
+    }
+}
+
+/// A group of tasks in some order.
+struct Tour<'a> {
+    tasks: &'a [Task],
+    start: DVec2,
+    visits: Vec<Visit>,
+    /// For each task those that have to come before it.
+    before: Vec<Vec<usize>>,
+}
+
+impl<'a> Tour<'a> {
+    /// Always the nearest task that may come next.
+    fn greedy(tasks: &'a [Task], start: DVec2) -> Self {
+        let before = inner_first(tasks);
+        let mut left: Vec<usize> = (0..tasks.len()).collect();
+        let mut is_done = vec![false; tasks.len()];
+        let mut visits = Vec::with_capacity(tasks.len());
+        let mut at = start;
+        while !left.is_empty() {
+            let free = |&&task: &&usize| before[task].iter().all(|&inner| is_done[inner]);
+            let offers = left.iter().filter(free).map(|&task| Visit::best(tasks, task, at, None));
+            let nearest = offers.min_by(|a, b| at.distance(a.start).total_cmp(&at.distance(b.start)));
+            // Areas grow outwards, so some task is always free.
+            let visit = nearest.unwrap_or_else(|| Visit::best(tasks, left[0], at, None));
+            is_done[visit.task] = true;
+            left.retain(|&task| task != visit.task);
+            at = visit.end;
+            visits.push(visit);
+        }
+        Self { tasks, start, visits, before }
+    }
+
+    /// Exchanges and moves while they shorten the way.
+    fn improved(mut self) -> Self {
+        for _ in 0..ROUNDS {
+            let gain_mm = self.turn_runs() + self.move_runs() + self.choose_starts();
+            if gain_mm < LEAST_GAIN_MM {
+                break;
+            }
+        }
+        self
+    }
+
+    fn in_order(&self) -> Vec<Task> {
+        self.visits.iter().map(|visit| visit.applied(&self.tasks[visit.task])).collect()
+    }
+
+    /// Where the tool is before visit `k`.
+    fn end_before(&self, k: usize) -> DVec2 {
+        if k == 0 { self.start } else { self.visits[k - 1].end }
+    }
+
+    /// Way from a point to the start of visit `k`; 0 past the last.
+    fn hop(&self, from: DVec2, k: usize) -> f64 {
+        self.visits.get(k).map_or(0.0, |visit| from.distance(visit.start))
+    }
+
+    /// Whether these visits, in this order and without others between, keep inner lines first.
+    fn is_allowed<'b>(&self, visits: impl Iterator<Item = &'b Visit> + Clone) -> bool {
+        let mut later = visits;
+        while let Some(visit) = later.next() {
+            let before = &self.before[visit.task];
+            if !before.is_empty() && later.clone().any(|other| before.contains(&other.task)) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// 2-opt: runs of tasks are done in reverse, each task backwards.
+    fn turn_runs(&mut self) -> f64 {
+        let mut gained = 0.0;
+        for i in 0..self.visits.len() {
+            for j in i..self.visits.len().min(i + WINDOW) {
+                let (a, b) = (self.end_before(i), self.visits[j].end);
+                let old = self.hop(a, i) + self.hop(b, j + 1);
+                let gain = old - a.distance(b) - self.hop(self.visits[i].start, j + 1);
+                if gain > LEAST_GAIN_MM && self.is_allowed(self.visits[i..=j].iter().rev()) {
+                    self.visits[i..=j].reverse();
+                    self.visits[i..=j].iter_mut().for_each(|visit| *visit = visit.turned());
+                    gained += gain;
+                }
+            }
+        }
+        gained
+    }
+
+    /// Or-opt: short runs of tasks are done earlier or later.
+    fn move_runs(&mut self) -> f64 {
+        let mut gained = 0.0;
+        for length in 1..=LONGEST_RUN {
+            for i in 0..self.visits.len().saturating_sub(length) {
+                gained += self.move_run(i, length);
+            }
+        }
+        gained
+    }
+
+    /// Moves the run of `length` visits at `i` to the best place near it, if that is a gain.
+    fn move_run(&mut self, i: usize, length: usize) -> f64 {
+        let j = i + length;
+        let (first, last) = (self.visits[i].start, self.visits[j - 1].end);
+        let bridge = self.hop(self.end_before(i), j);
+        let freed = self.hop(self.end_before(i), i) + self.hop(last, j) - bridge;
+        let window = i.saturating_sub(WINDOW)..=(j + WINDOW).min(self.visits.len());
+        let mut best: Option<(f64, usize)> = None;
+        for k in window.filter(|&k| k < i || k > j) {
+            let at = self.end_before(k);
+            let gain = freed - (at.distance(first) + self.hop(last, k) - self.hop(at, k));
+            let is_better = gain > best.map_or(LEAST_GAIN_MM, |(most, _)| most);
+            let (run, rest) = if k < i { (i..j, k..i) } else { (i..j, j..k) };
+            let (run, rest) = (self.visits[run].iter(), self.visits[rest].iter());
+            let is_allowed = || {
+                if k < i { self.is_allowed(run.chain(rest)) } else { self.is_allowed(rest.chain(run)) }
+            };
+            if is_better && is_allowed() {
+                best = Some((gain, k));
+            }
+        }
+        match best {
+            Some((_, k)) if k < i => self.visits[k..j].rotate_right(length),
+            Some((_, k)) => self.visits[i..k].rotate_left(length),
+            None => {}
+        }
+        best.map_or(0.0, |(gain, _)| gain)
+    }
+
+    /// Begins each task where that is best between its neighbours.
+    fn choose_starts(&mut self) -> f64 {
+        let mut gained = 0.0;
+        for k in 0..self.visits.len() {
+            let at = self.end_before(k);
+            let old = self.visits[k];
+            let next = self.visits.get(k + 1).map(|visit| visit.start);
+            let new = Visit::best(self.tasks, old.task, at, next);
+            let way = |v: Visit| at.distance(v.start) + next.map_or(0.0, |p| p.distance(v.end));
+            if way(old) - way(new) > LEAST_GAIN_MM {
+                self.visits[k] = new;
+                gained += way(old) - way(new);
+            }
+        }
+        gained
+    }
+}
+
+/// For each task those inside of it.
+fn inner_first(tasks: &[Task]) -> Vec<Vec<usize>> {
+    let mut before = vec![Vec::new(); tasks.len()];
+    let is_cut = |task: &Task| task.operation() == Operation::Cut;
+    for (inner, outers) in containers(tasks).into_iter().enumerate() {
+        outers.into_iter().filter(|&outer| is_cut(&tasks[outer])).for_each(|outer| before[outer].push(inner));
+    }
+    before
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::Polyline;
+
+    fn square(corner: [f64; 2], side: f64) -> Task {
+        let [x, y] = corner;
+        let points = [[x, y], [x + side, y], [x + side, y + side], [x, y + side]].map(DVec2::from).to_vec();
+        Task::new(Operation::Cut, &Polyline::closed(points)).unwrap()
+    }
+
+    fn line(operation: Operation, from: [f64; 2], to: [f64; 2]) -> Task {
+        Task::new(operation, &Polyline::open(vec![from.into(), to.into()])).unwrap()
+    }
+
+    fn random_tasks(seed: u64, count: usize) -> Vec<Task> {
+        let mut rng = fastrand::Rng::with_seed(seed);
+        let mut tasks = Vec::new();
+        for _ in 0..count {
+            let at = [rng.f64() * 180.0, rng.f64() * 270.0];
+            match rng.u8(0..4) {
+                0 => tasks.push(square(at, 2.0 + rng.f64() * 20.0)),
+                1 => tasks.push(line(Operation::Cut, at, [at[0] + 1.0, at[1] + 4.0])),
+                2 => tasks.push(line(Operation::Crease, at, [at[0] + 20.0, at[1]])),
+                _ => tasks.push(line(Operation::FoldHinge, at, [at[0], at[1] + 9.0])),
+            }
+        }
+        tasks
+    }
+
+    /// The corners of each task in an order that does not depend on start and direction.
+    fn as_set(tasks: &[Task]) -> Vec<String> {
+        let key = |task: &Task| {
+            let mut points: Vec<String> = task.points().iter().map(|p| format!("{p:?}")).collect();
+            points.sort();
+            format!("{:?} {} {points:?}", task.operation(), task.is_closed())
+        };
+        let mut keys: Vec<String> = tasks.iter().map(key).collect();
+        keys.sort();
+        keys
+    }
+
+    #[test]
+    fn the_order_keeps_all_work_and_its_precedence() {
+        for seed in 0..12 {
+            let tasks = random_tasks(seed, 60);
+            let done = in_order(tasks.clone(), DVec2::ZERO);
+            assert_eq!(as_set(&done), as_set(&tasks), "seed {seed}");
+            assert!(done.is_sorted_by_key(Task::operation), "seed {seed}");
+            let around = containers(&done);
+            for (k, outers) in around.iter().enumerate() {
+                let cuts = outers.iter().filter(|&&o| done[o].operation() == done[k].operation());
+                assert!(cuts.copied().all(|outer| outer > k), "seed {seed}: {k} is inside of {outers:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_way_is_never_longer_than_greedy_and_close_to_the_best() {
+        // A row of lines, shuffled: the best way is along the row, without a hop backwards.
+        let mut tasks: Vec<Task> = (0..60)
+            .map(|k| f64::from(k) * 3.0)
+            .map(|x| line(Operation::Crease, [x, 0.0], [x + 2.0, 0.0]))
+            .collect();
+        fastrand::Rng::with_seed(5).shuffle(&mut tasks);
+        let done = in_order(tasks, DVec2::ZERO);
+        assert!((travel_mm(&done, DVec2::ZERO) - 59.0).abs() < 1e-9);
+        for seed in 0..6 {
+            let tasks: Vec<Task> =
+                random_tasks(seed, 80).into_iter().filter(|t| t.operation() == Operation::Crease).collect();
+            let greedy = Tour::greedy(&tasks, DVec2::ZERO).in_order();
+            let best = Tour::greedy(&tasks, DVec2::ZERO).improved().in_order();
+            assert!(travel_mm(&best, DVec2::ZERO) <= travel_mm(&greedy, DVec2::ZERO) + 1e-9);
+        }
+    }
+
+    #[test]
+    fn holes_come_before_their_outline_and_small_pieces_first() {
+        let tasks = vec![square([0.0, 0.0], 100.0), square([10.0, 10.0], 20.0), square([120.0, 0.0], 8.0)];
+        let done = in_order(tasks, DVec2::new(0.0, 0.0));
+        let sides: Vec<f64> = done.iter().map(|t| area_mm2(t).sqrt().round()).collect();
+        assert_eq!(sides, [8.0, 20.0, 100.0]);
+    }
+}

@@ -1,0 +1,138 @@
+//! What is known of the tool for an operation.
+
+use super::{Operation, Perforation};
+
+/// Most passes over a line.
+const MOST_PASSES: u32 = 20;
+/// Largest offset of a blade, mm: no drag knife has more.
+const LARGEST_OFFSET_MM: f64 = 3.0;
+/// Longest overcut, mm.
+const LONGEST_OVERCUT_MM: f64 = 10.0;
+
+/// A tool that cannot be.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum ToolingError {
+    /// Offset of the blade out of range.
+    #[error("a blade offset of {0} mm is not possible; give 0 to {LARGEST_OFFSET_MM} mm, such as 0.25")]
+    BladeOffset(f64),
+    /// Overcut out of range.
+    #[error("an overcut of {0} mm is not possible; give 0 to {LONGEST_OVERCUT_MM} mm, such as 0.5")]
+    Overcut(f64),
+    /// Number of passes out of range.
+    #[error("{0} passes are not possible; give 1 to {MOST_PASSES}")]
+    Passes(u32),
+    /// Lengths of a perforation out of range.
+    #[error(
+        "a perforation of {dash_mm} mm dashes and {gap_mm} mm gaps is not possible; give 0.1 to 100 mm for both"
+    )]
+    Perforation {
+        /// Length of dashes.
+        dash_mm: f64,
+        /// Length of gaps.
+        gap_mm: f64,
+    },
+}
+
+/// How an operation follows a line.
+///
+/// # Guarantees
+/// Lengths are finite and within what tools can do; at least one pass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tooling {
+    blade_offset_mm: f64,
+    overcut_mm: f64,
+    passes: u32,
+    perforation: Option<Perforation>,
+}
+
+impl Tooling {
+    /// A pen: one pass, right along the line.
+    pub fn pen() -> Self {
+        Self { blade_offset_mm: 0.0, overcut_mm: 0.0, passes: 1, perforation: None }
+    }
+
+    /// A tool whose tip trails its shaft by `blade_offset_mm`, and that goes on past the start of
+    /// closed lines by `overcut_mm`.
+    ///
+    /// # Errors
+    /// Lengths or passes out of range.
+    pub fn new(blade_offset_mm: f64, overcut_mm: f64, passes: u32) -> Result<Self, ToolingError> {
+        if !(0.0..=LARGEST_OFFSET_MM).contains(&blade_offset_mm) {
+            return Err(ToolingError::BladeOffset(blade_offset_mm));
+        }
+        if !(0.0..=LONGEST_OVERCUT_MM).contains(&overcut_mm) {
+            return Err(ToolingError::Overcut(overcut_mm));
+        }
+        if !(1..=MOST_PASSES).contains(&passes) {
+            return Err(ToolingError::Passes(passes));
+        }
+        Ok(Self { blade_offset_mm, overcut_mm, passes, perforation: None })
+    }
+
+    /// The same tool, which perforates instead of following the line.
+    #[must_use]
+    pub fn perforating(mut self, perforation: Perforation) -> Self {
+        self.perforation = Some(perforation);
+        self
+    }
+
+    /// Distance from the shaft's axis to the tip, mm.
+    pub fn blade_offset_mm(&self) -> f64 {
+        self.blade_offset_mm
+    }
+
+    /// How far closed lines are followed past their start, mm.
+    pub fn overcut_mm(&self) -> f64 {
+        self.overcut_mm
+    }
+
+    /// Times that each line is followed.
+    pub fn passes(&self) -> u32 {
+        self.passes
+    }
+
+    /// How the line is perforated, if it is.
+    pub fn perforation(&self) -> Option<Perforation> {
+        self.perforation
+    }
+}
+
+/// The tool for each operation; none where the machine leaves it out.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Toolset {
+    tools: [Option<Tooling>; Operation::ALL.len()],
+}
+
+impl Toolset {
+    /// The same set with a tool for an operation.
+    #[must_use]
+    pub fn with(mut self, operation: Operation, tooling: Tooling) -> Self {
+        self.tools[operation as usize] = Some(tooling);
+        self
+    }
+
+    /// The tool for an operation.
+    pub fn of(&self, operation: Operation) -> Option<&Tooling> {
+        self.tools[operation as usize].as_ref()
+    }
+
+    /// The operations that are done, in their order.
+    pub fn operations(&self) -> Vec<Operation> {
+        Operation::ALL.into_iter().filter(|&o| self.of(o).is_some()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn impossible_tools_are_refused() {
+        assert!(matches!(Tooling::new(f64::NAN, 0.0, 1), Err(ToolingError::BladeOffset(_))));
+        assert!(matches!(Tooling::new(-0.1, 0.0, 1), Err(ToolingError::BladeOffset(_))));
+        assert!(matches!(Tooling::new(0.25, 11.0, 1), Err(ToolingError::Overcut(_))));
+        assert!(matches!(Tooling::new(0.25, 0.5, 0), Err(ToolingError::Passes(0))));
+        let set = Toolset::default().with(Operation::Cut, Tooling::pen());
+        assert_eq!(set.operations(), [Operation::Cut]);
+    }
+}

@@ -1,0 +1,190 @@
+//! Orders of folding: models whose answer is known, and brute force.
+
+use glam::{DAffine3, DVec2, DVec3};
+use tatamu::component::{Panel, PanelId, PanelKind};
+use tatamu::fold::{FoldPlan, ModelMotion, ModelPose, Sequence};
+use tatamu::geom::{self, Hull, Plane};
+use tatamu::model::{Link, Model, Part, PartOptions, build};
+use tatamu::progress::Silent;
+
+const THICKNESS_MM: f64 = 0.25;
+/// Height of the ears: folded, they reach half of it sideways.
+const EAR_MM: f64 = 30.0;
+
+fn cuboid(name: &str, low: DVec3, size: DVec3) -> Part {
+    let corner = |k: u32| low + size * DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2));
+    let corners: Vec<DVec3> = (0..8).map(corner).collect();
+    let options = PartOptions {
+        name: name.to_owned(),
+        direction_rad: Some(0.0),
+        top_edges: 4,
+        profile_vertices: 3,
+        tolerance_mm: None,
+        comfortable_mm: 3.0,
+    };
+    Part { hull: Hull::of_points(&corners).unwrap(), options }
+}
+
+/// A head with two ears on its top, `gap_mm` apart. All fold downwards.
+fn ears(gap_mm: f64) -> Model {
+    let head = cuboid("head", DVec3::new(-80.0, -35.0, -40.0), DVec3::new(160.0, 70.0, 40.0));
+    let size = DVec3::new(20.0, 45.0, EAR_MM);
+    let left = cuboid("left", DVec3::new(-0.5 * gap_mm - 20.0, -22.0, 0.0), size);
+    let right = cuboid("right", DVec3::new(0.5 * gap_mm, -22.0, 0.0), size);
+    let plane = Plane::horizontal(0.0);
+    let links = [1, 2].map(|child| Link { parent: 0, child, plane });
+    build(&[head, left, right], &links, 3.0, &Silent).unwrap()
+}
+
+fn plan(motion: &ModelMotion<'_>) -> FoldPlan {
+    FoldPlan::new(motion, THICKNESS_MM, &Silent).unwrap()
+}
+
+/// Triangles of each chain of the only part in a pose.
+fn chains(model: &Model, pose: &ModelPose) -> Vec<Vec<[DVec3; 3]>> {
+    let set = model.parts()[0].component.panels();
+    let mut chains = vec![Vec::new(); model.parts()[0].component.profiles().len()];
+    for (k, panel) in set.panels().iter().enumerate() {
+        if let PanelKind::Side { chain, .. } = panel.kind {
+            chains[chain].extend(fan(panel, &pose.parts[0].panel(PanelId(k))));
+        }
+    }
+    chains
+}
+
+fn fan(panel: &Panel, motion: &DAffine3) -> Vec<[DVec3; 3]> {
+    let corners: Vec<DVec3> = panel.outline.iter().map(|q| motion.transform_point3(q.extend(0.0))).collect();
+    (1..corners.len() - 1).map(|i| [corners[0], corners[i], corners[i + 1]]).collect()
+}
+
+/// Triangles of each part in a pose.
+fn triangles(model: &Model, pose: &ModelPose) -> Vec<Vec<[DVec3; 3]>> {
+    let parts = model.parts().iter().zip(&pose.parts);
+    parts
+        .map(|(part, posed)| {
+            let panels = part.component.panels().panels().iter().enumerate();
+            panels.flat_map(|(k, panel)| fan(panel, &posed.panel(PanelId(k)))).collect()
+        })
+        .collect()
+}
+
+/// Whether a segment goes through a triangle, its ends and the triangle's edges being farther than
+/// `clear_mm` away.
+fn pierces([p, q]: [DVec3; 2], t: [DVec3; 3], clear_mm: f64) -> bool {
+    let normal = (t[1] - t[0]).cross(t[2] - t[0]).normalize_or_zero();
+    let (from, to) = (normal.dot(p - t[0]), normal.dot(q - t[0]));
+    if from.abs() <= clear_mm || to.abs() <= clear_mm || from * to > 0.0 {
+        return false;
+    }
+    let at = p + (q - p) * (from / (from - to));
+    (0..3).all(|k| {
+        let inwards = normal.cross(t[(k + 1) % 3] - t[k]).normalize_or_zero();
+        inwards.dot(at - t[k]) > clear_mm
+    })
+}
+
+/// Pairs of bodies that cut through each other, by every triangle of one and every edge of the
+/// other.
+fn cuts(all: &[Vec<[DVec3; 3]>], clear_mm: f64) -> Vec<[usize; 2]> {
+    let cut = |a: &[[DVec3; 3]], b: &[[DVec3; 3]]| {
+        a.iter().any(|t| b.iter().any(|u| (0..3).any(|k| pierces([u[k], u[(k + 1) % 3]], *t, clear_mm))))
+    };
+    let mut pairs = Vec::new();
+    for a in 0..all.len() {
+        for b in a + 1..all.len() {
+            if cut(&all[a], &all[b]) || cut(&all[b], &all[a]) {
+                pairs.push([a, b]);
+            }
+        }
+    }
+    pairs
+}
+
+#[test]
+fn ears_that_clash_together_fold_one_by_one() {
+    let model = ears(0.75 * EAR_MM);
+    let motion = ModelMotion::new(&model);
+    let plan = plan(&motion);
+    assert_eq!(plan.clashes(), []);
+    assert_eq!(plan.overlaps(), []);
+    assert_eq!(plan.order().len(), 3);
+    let together = |folded: f64| cuts(&triangles(&model, &motion.pose(&[0.0, folded, folded])), 0.5);
+    assert!(
+        (1..20).any(|k| together(f64::from(k) / 20.0).contains(&[1, 2])),
+        "they meet when folded together"
+    );
+}
+
+#[test]
+fn ears_too_near_to_each_other_clash_in_any_order() {
+    let model = ears(0.3 * EAR_MM);
+    let motion = ModelMotion::new(&model);
+    let plan = plan(&motion);
+    assert!(plan.clashes().iter().any(|c| c.parts == [1, 2] && c.depth_mm > 1.0), "{:?}", plan.clashes());
+    let mut order = plan.order().to_vec();
+    order.sort_unstable();
+    assert_eq!(order, [0, 1, 2], "a model is made all the same");
+    let advice = plan.advice(&model);
+    let (code, message) = advice.iter().find(|(code, _)| *code == "fold_clash").expect("a warning");
+    for word in ["left", "right", "--direction"] {
+        assert!(message.contains(word), "{code}: {message}");
+    }
+}
+
+#[test]
+fn plans_agree_with_brute_force() {
+    for k in 0..6 {
+        let model = ears(EAR_MM * (0.35 + 0.08 * f64::from(k)));
+        let motion = ModelMotion::new(&model);
+        let plan = plan(&motion);
+        let sequence = Sequence::new(plan.order());
+        let poses = (0..=240).map(|k| motion.pose(&sequence.folded(f64::from(k) / 240.0)));
+        let (mut deep, mut any) = (Vec::new(), Vec::new());
+        for pose in poses {
+            let bodies = triangles(&model, &pose);
+            deep.extend(cuts(&bodies, THICKNESS_MM));
+            any.extend(cuts(&bodies, 0.4 * THICKNESS_MM));
+        }
+        let told: Vec<[usize; 2]> = plan.clashes().iter().map(|c| c.parts).collect();
+        assert!(deep.iter().all(|pair| told.contains(pair)), "not told of {deep:?}, only of {told:?}");
+        assert!(told.iter().all(|pair| any.contains(pair)), "told of {told:?}, but only {any:?} happen");
+    }
+}
+
+/// Random bodies of one component: whether its own chains clash is told, and seldom so.
+#[test]
+fn chains_of_one_component_agree_with_brute_force() {
+    let mut rng = fastrand::Rng::with_seed(5);
+    let mut clashing = 0;
+    for _ in 0..24 {
+        let mut axis = || 15.0 + 60.0 * rng.f64();
+        let axes = DVec3::new(axis(), axis(), axis());
+        let points: Vec<DVec3> = geom::directions(20 + rng.usize(..60)).map(|d| d * axes).collect();
+        let mut part = cuboid("body", DVec3::ZERO, DVec3::ONE);
+        part.hull = Hull::of_points(&points).unwrap();
+        part.options.direction_rad = Some(6.0 * rng.f64());
+        (part.options.top_edges, part.options.profile_vertices) = (3 + rng.usize(..5), 3 + rng.usize(..4));
+        let model = build(&[part], &[], 3.0, &Silent).unwrap();
+        let motion = ModelMotion::new(&model);
+        let told = !plan(&motion).clashes().is_empty();
+        let poses = || (1..200).map(|k| chains(&model, &motion.pose(&[f64::from(k) / 200.0])));
+        let happens = |clear_mm: f64| poses().any(|chains| !cuts(&chains, clear_mm).is_empty());
+        assert!(told || !happens(THICKNESS_MM));
+        assert!(!told || happens(0.4 * THICKNESS_MM));
+        clashing += usize::from(told);
+    }
+    assert!(clashing <= 2, "{clashing} of 24 cannot fold without their slits being cut wider");
+}
+
+#[test]
+fn flat_ears_lie_on_the_head() {
+    let model = ears(EAR_MM);
+    let motion = ModelMotion::new(&model);
+    let plan = plan(&motion);
+    let [stack] = plan.stacks() else { panic!("one stack") };
+    // Two layers of the head and two of an ear; ears side by side reach the other's flange.
+    assert_eq!(stack.layers, 6);
+    assert!((stack.height_mm - 6.0 * THICKNESS_MM).abs() < 1e-12);
+    let expected = DVec2::new(160.0 + 40.0, 70.0 + 40.0);
+    assert!((stack.size_mm - expected).abs().max_element() < 1.0, "{}", stack.size_mm);
+}

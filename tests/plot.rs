@@ -1,0 +1,191 @@
+//! Jobs from the built program through a real pseudo terminal to the virtual plotter, which is the
+//! built program too.
+#![cfg(unix)]
+
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+use std::process::{Child, Command, Output, Stdio};
+use tempfile::TempDir;
+
+/// A virtual plotter that works for one host.
+struct Machine {
+    child: Child,
+    out: BufReader<std::process::ChildStdout>,
+    port: String,
+}
+
+fn tatamu(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tatamu"));
+    command.current_dir(folder).stdin(Stdio::null());
+    command
+}
+
+impl Machine {
+    fn start(folder: &Path, arguments: &[&str]) -> Self {
+        let mut child = tatamu(folder)
+            .args(["virtual-plotter", "--once"])
+            .args(arguments)
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut out = BufReader::new(child.stdout.take().unwrap());
+        let mut port = String::new();
+        out.read_line(&mut port).unwrap();
+        Self { child, out, port: port.trim().to_owned() }
+    }
+
+    /// What it says of itself at the end.
+    fn report(mut self) -> String {
+        let mut report = String::new();
+        self.out.read_to_string(&mut report).unwrap();
+        assert!(self.child.wait().unwrap().success());
+        report
+    }
+}
+
+/// A job of so many strokes, each of 40 short lines.
+fn job(strokes: usize) -> String {
+    let mut job = "IN;PA;SP1;VS10;".to_owned();
+    for k in 0..strokes {
+        let (x, y) = (400 + (k % 20) * 400, 400 + (k / 20) * 400);
+        job += &format!("PU{x},{y};");
+        for i in 1..=40 {
+            job += &format!("PD{},{};", x + 8 * i, y + 40 * (i % 2));
+        }
+    }
+    job + "PU;SP0;"
+}
+
+fn folder(strokes: usize) -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.plt"), job(strokes)).unwrap();
+    folder
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+#[test]
+fn a_job_arrives_whole_by_every_handshake() {
+    // Time alone takes the time that the profile says.
+    for (handshake, strokes, arguments) in [
+        ("auto", 30, &["--cutter", "generic-hpgl"][..]),
+        ("escb", 30, &["--cutter", "generic-hpgl"]),
+        ("xonxoff", 30, &["--cutter", "generic-hpgl"]),
+        ("paced", 4, &["--cutter", "generic-hpgl", "--mute"]),
+    ] {
+        let folder = folder(strokes);
+        let speeds = ["--baud", "115200", "--speedup", "8"];
+        let machine = Machine::start(folder.path(), &[arguments, &speeds, &["-o", "drawn.svg"]].concat());
+        let options = ["--cutter", "generic-hpgl", "--baud", "115200", "--yes", "--handshake", handshake];
+        let mut plot = tatamu(folder.path());
+        let output = plot.args(["plot", "a.plt", "--port", &machine.port]).args(options).output().unwrap();
+        assert!(output.status.success(), "{handshake}: {}", said(&output));
+        let report = machine.report();
+        let expected = format!("lost 0, broken commands 0, lines drawn {}, pen up", 40 * strokes);
+        assert!(report.contains(&expected), "{handshake}: {report}");
+        assert!(!folder.path().join("a.tatamu-job").exists(), "{handshake}");
+        assert!(std::fs::read_to_string(folder.path().join("drawn.svg")).unwrap().contains("<path"));
+    }
+}
+
+#[test]
+fn ctrl_c_lifts_the_pen_and_the_job_goes_on_later() {
+    stop_and_go_on(1);
+}
+
+#[test]
+fn ctrl_c_twice_lifts_the_pen_too() {
+    stop_and_go_on(2);
+}
+
+/// Stops a job of 150 strokes in the middle by pressing Ctrl-C, and goes on with it.
+fn stop_and_go_on(presses: usize) {
+    let folder = folder(150);
+    let machine = Machine::start(folder.path(), &["--baud", "38400", "--speedup", "8"]);
+    let child = tatamu(folder.path())
+        .args(["plot", "a.plt", "--port", &machine.port])
+        .args(["--cutter", "generic-hpgl", "--baud", "38400", "--yes"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(3));
+    for _ in 0..presses {
+        let id = child.id().to_string();
+        assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    }
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", said(&output));
+    assert!(said(&output).contains("--resume a.tatamu-job"), "{}", said(&output));
+    let report = machine.report();
+    assert!(report.contains("lost 0, broken commands 0") && report.contains("pen up"), "{report}");
+    let first = lines_drawn(&report);
+    assert!((1..6000).contains(&first), "{report}");
+
+    let machine = Machine::start(folder.path(), &["--baud", "115200", "--speedup", "100"]);
+    let mut plot = tatamu(folder.path());
+    let resume = ["plot", "--resume", "a.tatamu-job", "--yes", "--baud", "115200", "--port", &machine.port];
+    let output = plot.args(resume).output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    let report = machine.report();
+    assert!(report.contains("lost 0, broken commands 0") && report.contains("pen up"), "{report}");
+    // Nothing is left out, and only what was not certainly done is drawn again.
+    let both = first + lines_drawn(&report);
+    assert!((6000..6000 + 10 * 40).contains(&both), "{first} and then {report}");
+    assert!(!folder.path().join("a.tatamu-job").exists());
+}
+
+fn lines_drawn(report: &str) -> usize {
+    let (_, rest) = report.split_once("lines drawn ").unwrap();
+    rest.split_once(',').unwrap().0.parse().unwrap()
+}
+
+#[test]
+fn a_machine_that_vanishes_is_told_with_a_warning_about_the_tool() {
+    let folder = folder(400);
+    let mut machine = Machine::start(folder.path(), &["--baud", "9600"]);
+    let child = tatamu(folder.path())
+        .args(["plot", "a.plt", "--cutter", "generic-hpgl", "--yes", "--port", &machine.port])
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(2000));
+    machine.child.kill().unwrap();
+    machine.child.wait().unwrap();
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+    assert!(said(&output).contains("the tool may be down"), "{}", said(&output));
+    assert!(folder.path().join("a.tatamu-job").exists());
+}
+
+#[test]
+fn what_cannot_be_plotted_is_refused_before_anything_is_sent() {
+    let folder = folder(1);
+    for (arguments, words) in [
+        (&["plot", "a.plt"][..], "--port"),
+        (&["plot", "a.plt", "--port", "/dev/none"], "--cutter"),
+        (&["plot", "a.plt", "--port", "/dev/none", "--cutter", "generic-hpgl", "--yes"], "/dev/none"),
+        (&["plot", "a.plt", "--dry-run", "--cutter", "graphtec"], "gpgl"),
+        (&["plot", "a.plt", "--dry-run", "--cutter", "unheard-of"], "hp-7475a"),
+        (&["plot", "a.plt", "--dry-run", "--only", "2"], "there is no sheet 2"),
+        (&["plot", "--resume", "a.plt"], "no journal"),
+        (&["plot", "a.plt", "--preview", "a.fold"], ".png"),
+    ] {
+        let output = tatamu(folder.path()).args(arguments).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        assert!(said(&output).contains(words), "{arguments:?}: {}", said(&output));
+    }
+}
+
+#[test]
+fn a_test_cut_can_be_looked_at() {
+    let folder = folder(1);
+    let arguments = ["plot", "--test-cut", "--dry-run", "--preview", "cut.png"];
+    let output = tatamu(folder.path()).args(arguments).output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("test cut: 7 strokes"));
+    assert!(std::fs::read(folder.path().join("cut.png")).unwrap().starts_with(b"\x89PNG"));
+}

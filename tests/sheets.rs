@@ -1,0 +1,322 @@
+//! Sheets of random components, checked by polygon booleans that share no code with the program.
+
+mod support;
+
+use geo::{Area, BooleanOps, BoundingRect, Contains, Intersects};
+use glam::{DAffine2, DVec2};
+use support::Prism;
+use tatamu::drawing::{Drawing, Layer, LineStyles, Mark, Shape, Text, text};
+use tatamu::net::{LabelKind, Naming, Net, NetOptions, Side, check::faults, develop};
+use tatamu::progress::Silent;
+use tatamu::sheet::fit::Rotation;
+use tatamu::sheet::{Calibration, Layout, Registration, SheetOptions};
+use tatamu::units::parse_paper;
+
+/// Less common area is rounding.
+const TOUCH_MM2: f64 = 1e-4;
+
+/// Components of many shapes, from 10 to 130 mm.
+fn prisms() -> Vec<Prism> {
+    let mut rng = fastrand::Rng::with_seed(17);
+    let mut made = Vec::new();
+    while made.len() < 14 {
+        let sides = 3 + made.len() % 6;
+        let size = 5.0 * 1.2f64.powi(made.len() as i32);
+        let step = std::f64::consts::TAU / sides as f64;
+        let waist = 0.5 + rng.f64() * 0.5;
+        let profiles = (0..sides)
+            .map(|_| {
+                let belly = 1.0 + rng.f64() * 0.3;
+                [(waist, 1.6), (belly, 0.6 + rng.f64() * 0.5), (0.8, 0.0)]
+                    .map(|(u, v)| DVec2::new(u, v) * size)
+                    .to_vec()
+            })
+            .collect();
+        let prism = Prism { normals_rad: (0..sides).map(|j| j as f64 * step).collect(), profiles };
+        if prism.least_measure() > 1.0 {
+            made.push(prism);
+        }
+    }
+    made
+}
+
+struct Made {
+    nets: Vec<Net>,
+    layout: Layout,
+}
+
+impl Made {
+    fn new(prisms: &[Prism], sheets: &SheetOptions, change: impl Fn(&mut NetOptions)) -> Self {
+        let mut options = NetOptions::new(6.0, sheets.room_mm());
+        change(&mut options);
+        let net = |(k, prism): (usize, &Prism)| {
+            let letter = char::from(b'A' + k as u8).to_string();
+            let name = format!("part-{k}");
+            let naming = Naming { name: &name, prefix: &letter };
+            develop(&prism.panel_set(), naming, &[], &options).expect("a net")
+        };
+        let nets: Vec<Net> = prisms.iter().enumerate().map(net).collect();
+        let layout = Layout::new(&nets, sheets, &Silent).expect("a layout");
+        Self { nets, layout }
+    }
+
+    fn pages(&self) -> Vec<Drawing> {
+        self.layout.pages(&self.nets, "test", "", &LineStyles::standard())
+    }
+
+    /// Every piece with its sheet and place.
+    fn placed(&self) -> impl Iterator<Item = (&tatamu::net::Piece, usize, DAffine2)> {
+        self.nets.iter().enumerate().flat_map(|(n, net)| {
+            net.pieces().iter().zip(self.layout.places(n)).map(|(piece, at)| (piece, at.sheet, at.place))
+        })
+    }
+}
+
+fn polygon(points: impl IntoIterator<Item = DVec2>) -> geo::Polygon {
+    let ring: Vec<geo::Coord> = points.into_iter().map(|p| geo::Coord { x: p.x, y: p.y }).collect();
+    geo::Polygon::new(ring.into(), Vec::new())
+}
+
+fn a4() -> SheetOptions {
+    SheetOptions::new(parse_paper("a4").expect("a paper"), 10.0)
+}
+
+/// Pairs of polygons that share more than a touch.
+fn overlaps(polygons: &[geo::Polygon]) -> Vec<(usize, usize, f64)> {
+    let boxes: Vec<_> = polygons.iter().map(|p| p.bounding_rect().expect("corners")).collect();
+    let mut found = Vec::new();
+    for a in 0..polygons.len() {
+        for b in 0..a {
+            if boxes[a].intersects(&boxes[b]) {
+                let area = polygons[a].intersection(&polygons[b]).unsigned_area();
+                if area > TOUCH_MM2 {
+                    found.push((b, a, area));
+                }
+            }
+        }
+    }
+    found
+}
+
+/// The box of a text's ink, along its own direction.
+fn ink(text: &Text) -> geo::Polygon {
+    let along = DVec2::from_angle(text.angle_rad);
+    let outlines = text::outlines(text);
+    let local = outlines.iter().flat_map(|c| c.points()).map(|p| {
+        let q = p - text.anchor;
+        DVec2::new(along.dot(q), along.perp().dot(q))
+    });
+    let (lo, hi) = local.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |b, p| (b.0.min(p), b.1.max(p)));
+    let at = |x: f64, y: f64| text.anchor + along * x + along.perp() * y;
+    polygon([at(lo.x, lo.y), at(hi.x, lo.y), at(hi.x, hi.y), at(lo.x, hi.y)])
+}
+
+fn texts(page: &Drawing, layers: &[Layer]) -> Vec<Text> {
+    let text = |mark: &Mark| match &mark.shape {
+        Shape::Text(text) if layers.contains(&mark.layer) && mark.piece.is_some() => Some(text.clone()),
+        _ => None,
+    };
+    page.marks.iter().filter_map(text).collect()
+}
+
+#[test]
+fn no_panel_tab_or_label_lies_on_another() {
+    let made = Made::new(&prisms(), &a4(), |options| options.choices.angles = true);
+    let pages = made.pages();
+    for (sheet, page) in pages.iter().enumerate().take(made.layout.sheet_count()) {
+        let mut faces = Vec::new();
+        for (piece, _, place) in made.placed().filter(|p| p.1 == sheet) {
+            let mesh = piece.mesh();
+            faces.extend(
+                (0..mesh.faces().len())
+                    .map(|f| polygon(mesh.outline(f).into_iter().map(|p| place.transform_point2(p)))),
+            );
+        }
+        assert!(!faces.is_empty());
+        assert_eq!(overlaps(&faces), [], "faces on sheet {sheet}");
+        let texts = texts(page, &[Layer::Label, Layer::Glue]);
+        assert!(texts.iter().all(|t| t.cap_height_mm >= 2.0));
+        let inks: Vec<geo::Polygon> = texts.iter().map(ink).collect();
+        assert_eq!(overlaps(&inks), [], "texts on sheet {sheet}");
+        for (text, ink) in texts.iter().zip(&inks) {
+            let on = faces.iter().filter(|face| face.contains(ink)).count();
+            assert_eq!(on, 1, "{:?} on sheet {sheet} is not within one panel or tab", text.content);
+            assert!(DVec2::from_angle(text.angle_rad).x > -1e-6, "{:?} is upside down", text.content);
+        }
+    }
+}
+
+#[test]
+fn every_label_stands_on_both_sides_or_is_listed() {
+    let made = Made::new(&prisms(), &a4(), |options| options.choices.glue_marks = true);
+    let mut leaders = 0;
+    for net in &made.nets {
+        assert_eq!(faults(net.panels(), net, a4().room_mm()), []);
+        for label in (0..net.panels().hinges().len()).filter_map(|h| net.label(tatamu::component::HingeId(h)))
+        {
+            let placed = net.pieces().iter().flat_map(|p| p.labels()).filter(|l| l.text == label);
+            let listed = net.pieces().iter().flat_map(|p| p.unplaced_labels()).filter(|l| *l == label);
+            assert_eq!(placed.count() + listed.count(), 2, "{label}");
+        }
+    }
+    for (piece, ..) in made.placed() {
+        leaders += piece.leaders().len();
+        let paper = polygon(piece.outline().iter().copied());
+        for leader in piece.leaders() {
+            let ends = [leader.from, leader.to].map(|p| geo::Point::new(p.x, p.y));
+            assert!(ends.iter().all(|p| paper.intersects(p)), "{}: a leader line leaves it", piece.name());
+        }
+    }
+    assert!(leaders > 0, "small components need leader lines");
+}
+
+#[test]
+fn what_has_no_room_is_listed_on_the_pages() {
+    // So small that hardly a text fits.
+    let prism = Prism::regular(5, &[(2.0, 4.5), (2.5, 2.5), (2.0, 0.0)]);
+    let made = Made::new(&[prism.clone(), prism], &a4(), |_| ());
+    let words: String = made
+        .pages()
+        .iter()
+        .flat_map(|page| &page.marks)
+        .filter_map(|mark| match &mark.shape {
+            Shape::Text(text) if mark.layer == Layer::Furniture => Some(format!("{}; ", text.content)),
+            _ => None,
+        })
+        .collect();
+    let mut count = 0;
+    for (piece, ..) in made.placed() {
+        for text in piece.unplaced_labels() {
+            count += 1;
+            assert!(words.contains(&format!("{}: {text}; ", piece.name())), "{text} in {words}");
+        }
+    }
+    assert!(count > 0);
+}
+
+#[test]
+fn a_panel_larger_than_the_sheet_is_split_into_parts_that_fit() {
+    let sheets = SheetOptions::new(parse_paper("a5").expect("a paper"), 10.0);
+    for prism in
+        [Prism::cuboid(300.0, 200.0, 120.0), Prism::regular(7, &[(90.0, 260.0), (140.0, 120.0), (80.0, 0.0)])]
+    {
+        let set = prism.panel_set();
+        let made = Made::new(&[prism], &sheets, |_| ());
+        let net = &made.nets[0];
+        assert_eq!(faults(net.panels(), net, sheets.room_mm()), []);
+        assert!(net.panels().panels().len() > set.panels().len());
+        // The parts of each panel make up the panel.
+        for (k, panel) in set.panels().iter().enumerate() {
+            let parts = (0..net.panels().panels().len())
+                .map(tatamu::component::PanelId)
+                .filter(|&p| net.source(p).0 == k)
+                .map(|p| polygon(net.panels().panel(p).outline.iter().copied()));
+            let whole = polygon(panel.outline.iter().copied());
+            let mut area = 0.0;
+            for part in parts {
+                assert!(part.difference(&whole).unsigned_area() < TOUCH_MM2);
+                area += part.unsigned_area();
+            }
+            assert!((area - whole.unsigned_area()).abs() < TOUCH_MM2);
+        }
+        let places = made.layout.places(0);
+        assert!(
+            net.pieces()
+                .iter()
+                .zip(places)
+                .all(|(p, _)| p.labels().iter().any(|l| l.kind == LabelKind::Name))
+        );
+    }
+}
+
+#[test]
+fn the_inside_is_the_outside_mirrored_with_letters_that_read() {
+    let prisms = &prisms()[6..9];
+    let outside = Made::new(prisms, &a4(), |_| ());
+    let mut sheets = a4();
+    sheets.choices.side = Side::Inside;
+    let inside = Made::new(prisms, &sheets, |_| ());
+    for (front, back) in outside.pages().iter().zip(inside.pages()) {
+        let of_pieces = |page: &Drawing| -> Vec<Mark> {
+            page.marks.iter().filter(|m| m.piece.is_some()).cloned().collect()
+        };
+        for (a, b) in of_pieces(front).iter().zip(of_pieces(&back)) {
+            match (&a.shape, &b.shape) {
+                (Shape::Path { contours: p, .. }, Shape::Path { contours: q, .. }) => {
+                    let points = |c: &[tatamu::drawing::Polyline]| -> Vec<DVec2> {
+                        c.iter().flat_map(|c| c.points.clone()).collect()
+                    };
+                    for (p, q) in points(p).into_iter().zip(points(q)) {
+                        assert!((DVec2::new(210.0 - p.x, p.y) - q).length() < 1e-9);
+                    }
+                }
+                (Shape::Text(p), Shape::Text(q)) => {
+                    let middle = p.middle();
+                    assert!((DVec2::new(210.0 - middle.x, middle.y) - q.middle()).length() < 1e-9);
+                    assert!(DVec2::from_angle(q.angle_rad).x > -1e-6);
+                }
+                _ => panic!("other marks on the inside"),
+            }
+        }
+        assert!(back.marks.iter().all(|m| m.layer != Layer::Mountain));
+    }
+}
+
+#[test]
+fn grain_keeps_pieces_square_to_the_sheet() {
+    let mut sheets = a4();
+    sheets.choices.rotation = Rotation::QuarterTurns;
+    let made = Made::new(&prisms(), &sheets, |_| ());
+    for (piece, _, place) in made.placed() {
+        let x = place.matrix2.x_axis.abs();
+        assert!(x.min_element() < 1e-9, "{} is turned by {x}", piece.name());
+    }
+}
+
+#[test]
+fn calibration_stretches_the_page_and_keeps_it_within_the_margin() {
+    let mut sheets = a4();
+    sheets.choices.calibration = Calibration::parse("X:97.3,Y:100.1").expect("a calibration");
+    sheets.choices.registration = Some(Registration::Corners);
+    let made = Made::new(&prisms()[4..9], &sheets, |_| ());
+    for mut page in made.pages() {
+        let before = page.clone();
+        sheets.choices.calibration.apply(&mut page);
+        for (mark, printed) in before.marks.iter().zip(&page.marks) {
+            let (Some((lo, hi)), Some((p, q))) = (mark.bounds(), printed.bounds()) else { continue };
+            if mark.layer == Layer::Cut {
+                let size = (q - p) * sheets.choices.calibration.share();
+                assert!((size - (hi - lo)).length() < 1e-9, "{size} is not {}", hi - lo);
+                assert!(p.x >= 10.0 - 1e-9 && q.x <= 200.0 + 1e-9 && p.y >= 10.0 && q.y <= 287.0);
+            }
+        }
+    }
+}
+
+/// Length that two segments have in common.
+fn common_mm([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> f64 {
+    let along = (b - a).normalize_or_zero();
+    let away = |p: DVec2| along.perp_dot(p - a).abs();
+    if away(c).max(away(d)) > 1e-4 {
+        return 0.0;
+    }
+    let (s, t) = (along.dot(c - a), along.dot(d - a));
+    (s.max(t).min(a.distance(b)) - s.min(t).max(0.0)).max(0.0)
+}
+
+#[test]
+fn no_line_is_cut_twice() {
+    let mut all = prisms();
+    all.extend((3..9).map(|n| Prism::regular(n, &[(25.0, 50.0), (25.0, 0.0)])));
+    let made = Made::new(&all, &a4(), |_| ());
+    for (piece, ..) in made.placed() {
+        let outline = piece.outline();
+        let ring = (0..outline.len()).map(|k| [outline[k], outline[(k + 1) % outline.len()]]);
+        let slits = piece.slits().iter().flat_map(|s| s.windows(2).map(|w| [w[0], w[1]]));
+        let segments: Vec<[DVec2; 2]> = ring.chain(slits).collect();
+        for (k, &a) in segments.iter().enumerate() {
+            let twice = segments[..k].iter().map(|&b| common_mm(a, b)).fold(0.0, f64::max);
+            assert!(twice < 0.01, "{}: {twice} mm are cut twice", piece.name());
+        }
+    }
+}
