@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     drawing.ground = Some(Rgb::WHITE);
     for (k, scene) in scenes.iter().enumerate() {
         let view = View::fit(camera, scene.points(), SIZE_MM, MARGIN_MM)?;
-        let marks = picture(scene, &view, &Look::for_size(SIZE_MM), None, None).marks;
+        let marks = picture(scene, &view, &Look::for_size(SIZE_MM), None, Vec::new()).marks;
         drawing.place(marks, DAffine2::from_translation(DVec2::X * (SIZE_MM.x * k as f64)));
     }
     std::fs::write(output, png::render(&drawing, DOTS_PER_INCH)?)?;
