@@ -143,7 +143,9 @@ pub fn test_cut() -> Drawing {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::plotter::Job;
     use crate::plotter::profile::{CUTTERS, MEDIA};
+    use crate::toolpath::{Tip, deviation_mm};
 
     fn cutter(name: &str) -> Cutter {
         Cutter::parse(CUTTERS.iter().find(|p| p.name == name).unwrap().text).unwrap()
@@ -174,18 +176,83 @@ mod tests {
         assert!(!plan.placement().is_turned());
     }
 
-    #[test]
-    fn every_cutter_and_medium_makes_a_job_that_means_the_sheet() {
+    /// Every profile with every medium, on two sheets.
+    fn all_plans() -> Vec<(Cutter, Plan)> {
+        let mut plans = Vec::new();
         for cutter in CUTTERS.iter().map(|p| Cutter::parse(p.text).unwrap()) {
             for media in MEDIA.iter().map(|p| Media::parse(p.text).unwrap()) {
                 for drawing in [sheet(), test_cut()] {
                     let plan = Plan::new(&drawing, &cutter, &media);
                     let plan = plan.unwrap_or_else(|e| panic!("{} {}: {e}", cutter.name(), media.name()));
-                    let commands = cutter.dialect().split(plan.bytes());
-                    assert!(commands.iter().all(|c| c.len() <= 64), "{}", cutter.name());
-                    assert_eq!(commands.concat(), plan.bytes());
+                    plans.push((cutter.clone(), plan));
                 }
             }
+        }
+        plans
+    }
+
+    /// The way of the shaft for each stroke that the job of a plan makes, on the sheet, mm.
+    fn executed(cutter: &Cutter, plan: &Plan) -> Vec<Vec<DVec2>> {
+        let job = Job::parse(plan.bytes(), cutter).unwrap();
+        assert_eq!(job.strokes(), plan.toolpath().strokes().len(), "{}", cutter.name());
+        let mut ways = vec![Vec::new(); job.strokes()];
+        let at = |p| plan.placement().to_sheet(cutter.frame(), p);
+        for command in job.commands() {
+            for motion in command.motions().iter().filter(|m| m.is_down) {
+                let way = &mut ways[command.strokes_done()];
+                if way.is_empty() {
+                    way.push(at(motion.from));
+                }
+                way.push(at(motion.to));
+            }
+        }
+        ways
+    }
+
+    #[test]
+    fn what_is_executed_is_the_sheet_within_half_a_unit() {
+        for (cutter, plan) in all_plans() {
+            let half_mm = 0.5 / cutter.frame().units_per_mm().value() + 1e-9;
+            for (way, stroke) in executed(&cutter, &plan).iter().zip(plan.toolpath().strokes()) {
+                let is_near = |p: DVec2, q: &DVec2| (p - *q).abs().max_element() <= half_mm;
+                assert!(
+                    stroke.shaft().iter().all(|&p| way.iter().any(|q| is_near(p, q))),
+                    "{}",
+                    cutter.name()
+                );
+                assert!(
+                    way.iter().all(|&p| stroke.shaft().iter().any(|q| is_near(p, q))),
+                    "{}",
+                    cutter.name()
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_tip_of_what_is_executed_stays_on_the_line() {
+        for (cutter, plan) in all_plans() {
+            let mut tips = Operation::ALL.map(|operation| {
+                let offset_mm = cutter.tool(operation).map_or(0.0, |tool| tool.blade_offset_mm());
+                (Tip::new(offset_mm, DVec2::new(-0.6, 0.8)), false)
+            });
+            for (way, stroke) in executed(&cutter, &plan).iter().zip(plan.toolpath().strokes()) {
+                let (tip, is_aligned) = &mut tips[stroke.operation() as usize];
+                let cut = tip.drag(way);
+                let off_mm = deviation_mm(&cut, stroke.line());
+                // The first stroke of a blade turns it.
+                let is_first = !std::mem::replace(is_aligned, true) && tip.offset_mm() > 0.0;
+                assert!(is_first || off_mm <= 0.05, "{}: {off_mm} mm", cutter.name());
+            }
+        }
+    }
+
+    #[test]
+    fn commands_are_short() {
+        for (cutter, plan) in all_plans() {
+            let commands = cutter.dialect().split(plan.bytes());
+            assert!(commands.iter().all(|c| c.len() <= 64), "{}", cutter.name());
+            assert_eq!(commands.concat(), plan.bytes());
         }
     }
 

@@ -25,6 +25,11 @@ impl Tip {
         Self { offset_mm, direction: direction.normalize_or(DVec2::X) }
     }
 
+    /// Distance from the shaft's axis to the tip, mm.
+    pub fn offset_mm(&self) -> f64 {
+        self.offset_mm
+    }
+
     /// The tip's way while the shaft goes along a polyline with the tool down. The direction is
     /// kept for the next line.
     pub fn drag(&mut self, shaft: &[DVec2]) -> Vec<DVec2> {
