@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::mem::discriminant;
 use tatamu::component::distance::{Polytope, hausdorff};
 use tatamu::component::{Component, JointTarget, Panel, Seat, Target, convert, fewest};
 use tatamu::geom::{Hull, Plane, directions, polygon};
@@ -58,7 +59,13 @@ fn bodies(kind: &str, axes: impl Fn(&mut fastrand::Rng) -> DVec3, joints: usize)
             let mut hull = Hull::of_points(&ellipsoid(&mut random, axes, count)).ok()?;
             let mut seats = Vec::new();
             for _ in 0..joints {
-                seats.extend(cut(&mut random, &mut hull));
+                if let Some(joint) = cut(&mut random, &mut hull) {
+                    // A cut at an end takes away the panel of an earlier one there.
+                    let is_end = |j: &JointTarget| !matches!(j.seat, Seat::Side { .. });
+                    let same = |j: &JointTarget| discriminant(&j.seat) == discriminant(&joint.seat);
+                    seats.retain(|j| !(is_end(j) && same(j)));
+                    seats.push(joint);
+                }
             }
             let (edges, vertices) = (random.usize(3..7), random.usize(3..6));
             Some(Body { name: format!("{kind} {seed}"), hull, joints: seats, edges, vertices })
@@ -141,8 +148,9 @@ fn faults(body: &Body, component: &Component) -> Vec<String> {
             }
         };
         let corners = component.panels().panel(panel).deployed_outline();
-        if corners.iter().any(|c| (normal.dot(*c) - offset).abs() > 1e-7) {
-            faults.push("a joint panel is off its plane".to_owned());
+        let off_mm = corners.iter().map(|c| (normal.dot(*c) - offset).abs()).fold(0.0, f64::max);
+        if off_mm > 1e-7 {
+            faults.push(format!("the joint panel {:?} is {off_mm} mm off its plane", joint.seat));
         }
     }
     faults

@@ -1,6 +1,7 @@
 //! A small sheet with every kind of mark, for the tests of the formats.
 
 use crate::drawing::{Align, Drawing, Layer, LineStyles, Mark, Pages, Polyline, Rgb, Text};
+use crate::sheet::Registration;
 use crate::sheet::furniture::Furniture;
 use glam::{DAffine2, DVec2};
 
@@ -29,6 +30,7 @@ pub fn sheet(size_mm: DVec2, page: usize, pages: usize) -> Drawing {
     };
     let mut drawing = Drawing::new(format!("teddy <3> {page}/{pages}"), size_mm);
     drawing.marks = furniture.marks(&styles);
+    drawing.marks.extend(Registration::Corners.marks(size_mm, &styles));
     for (name, angle_rad, corner) in [("head 1/2", 0.0, [20.0, 40.0]), ("head 2/2", 0.4, [60.0, 90.0])] {
         let place = DAffine2::from_angle_translation(angle_rad, DVec2::from(corner));
         drawing.place(piece(name, &styles), place);

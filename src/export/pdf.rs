@@ -160,7 +160,7 @@ fn font_id() -> FontId {
 fn layer_id(styles: &LineStyles, layer: Layer) -> LayerInternalId {
     let name = styles.layer_name(layer);
     let first = Layer::ALL.iter().position(|&other| styles.layer_name(other) == name);
-    LayerInternalId(format!("L{}-{name}", first.unwrap_or_default() + 1))
+    LayerInternalId(format!("L{:02}-{name}", first.unwrap_or_default() + 1))
 }
 
 fn group(styles: &LineStyles, layer: Layer) -> printpdf::Layer {

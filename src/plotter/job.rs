@@ -133,6 +133,9 @@ impl Job {
             at += command.len();
         }
         let job = reader.finished(dropped);
+        if job.strokes == 0 {
+            return Err(JobError::Empty(dialect.name()));
+        }
         let mut at = 0;
         for command in &job.commands {
             let length = command.bytes.len();
@@ -141,7 +144,7 @@ impl Job {
             }
             at += length;
         }
-        if job.strokes == 0 { Err(JobError::Empty(dialect.name())) } else { Ok(job) }
+        Ok(job)
     }
 
     /// The commands.

@@ -77,9 +77,15 @@ impl Registration {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::drawing::Shape;
     use crate::geom::polygon;
 
     const A4: DVec2 = DVec2::new(210.0, 297.0);
+
+    fn lines(mark: &Mark) -> Vec<[DVec2; 2]> {
+        let Shape::Path { contours, .. } = &mark.shape else { panic!("a mark of lines") };
+        contours.iter().flat_map(|c| c.points.windows(2)).map(|ends| [ends[0], ends[1]]).collect()
+    }
 
     #[test]
     fn marks_stay_within_their_border_and_on_the_page() {
@@ -90,11 +96,11 @@ mod tests {
             let (lo, hi) = polygon::bounds(bounds).unwrap();
             assert!(lo.min_element() >= 5.0 && (A4 - hi).min_element() >= 5.0);
             let inner = |p: DVec2| p.clamp(DVec2::splat(kind.border_mm()), A4 - kind.border_mm()) == p;
-            for mark in &marks {
-                let (lo, hi) = mark.bounds().unwrap();
-                // No mark reaches into the area of pieces, not even with its keep-out.
-                let nearest = A4.map(|x| x / 2.0).clamp(lo - KEEP_OUT_MM + 1e-9, hi + KEEP_OUT_MM - 1e-9);
-                assert!(!inner(nearest) || nearest == A4 / 2.0, "{name} {lo} {hi}");
+            // No line reaches into the area of pieces, not even with its keep-out.
+            for line in marks.iter().flat_map(lines) {
+                let (lo, hi) = polygon::bounds(line).unwrap();
+                let nearest = (A4 / 2.0).clamp(lo - KEEP_OUT_MM + 1e-9, hi + KEEP_OUT_MM - 1e-9);
+                assert!(!inner(nearest), "{name} {lo} {hi}");
             }
         }
     }

@@ -22,15 +22,28 @@ fn formats_are_listed_with_extensions_and_styles() {
 fn choices_about_files_are_checked_before_the_work() {
     for (arguments, words) in [
         (["--style", "none"], ["no style file none", "standard, laser, bw"]),
-        (["--style", "bad.toml"], ["style file bad.toml", "line 2"]),
         (["--tile", "30x30mm"], ["30x30mm is too small", "60 mm"]),
     ] {
-        let bad: (&str, &[u8]) = ("bad.toml", b"[cut]\nwidth_mm = -1\n");
-        assert_refused(&[OBJ, bad], &[&["make", "cube.obj"][..], &arguments].concat(), &words);
+        assert_refused(&[OBJ], &[&["make", "cube.obj"][..], &arguments].concat(), &words);
     }
-    let off: (&str, &[u8]) = ("cube.off", cube::OFF.as_bytes());
-    assert_refused(&[off], &["make", "cube.off", "--color"], &["cube.off", "no colours", "--color"]);
+    let plain = cube::OFF.replace(" 255 0 0", "");
+    assert_refused(
+        &[("cube.off", plain.as_bytes())],
+        &["make", "cube.off", "--color"],
+        &["cube.off", "no colours", "--color"],
+    );
     assert_refused(&[OBJ], &["make", "cube.obj", "--color"], &["missing.mtl", "no such file", "--color"]);
+}
+
+#[test]
+fn a_mistake_in_a_style_file_is_shown_with_its_line() {
+    let folder = folder_with(&[OBJ, ("bad.toml", b"[cut]\nwidth_mm = -1\n")]);
+    let result = run(folder.path(), &["make", "cube.obj", "--style", "bad.toml"]);
+    assert_eq!(result.code, Some(1), "{}", result.err);
+    for words in ["style file bad.toml", "line 2", "width_mm = -1"] {
+        assert!(result.err.contains(words), "no {words:?} in: {}", result.err);
+    }
+    assert_eq!(names(&folder), ["bad.toml", "cube.obj"]);
 }
 
 #[test]
