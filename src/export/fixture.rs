@@ -1,7 +1,6 @@
 //! A small sheet with every kind of mark, for the tests of the formats.
 
 use crate::drawing::{Align, Drawing, Layer, LineStyles, Mark, Pages, Polyline, Rgb, Text};
-use crate::sheet::Registration;
 use crate::sheet::furniture::Furniture;
 use glam::{DAffine2, DVec2};
 
@@ -30,7 +29,9 @@ pub fn sheet(size_mm: DVec2, page: usize, pages: usize) -> Drawing {
     };
     let mut drawing = Drawing::new(format!("teddy <3> {page}/{pages}"), size_mm);
     drawing.marks = furniture.marks(&styles);
-    drawing.marks.extend(Registration::Corners.marks(size_mm, &styles));
+    let stroke = styles.stroke(Layer::Registration);
+    let ends = [DVec2::new(15.0, 180.0), DVec2::new(25.0, 180.0)];
+    drawing.marks.push(Mark::line(Layer::Registration, ends[0], ends[1], stroke));
     for (name, angle_rad, corner) in [("head 1/2", 0.0, [20.0, 40.0]), ("head 2/2", 0.4, [60.0, 90.0])] {
         let place = DAffine2::from_angle_translation(angle_rad, DVec2::from(corner));
         drawing.place(piece(name, &styles), place);
