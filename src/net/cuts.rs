@@ -16,9 +16,8 @@ use glam::{DAffine2, DVec2};
 const NODE_BUDGET: usize = 20_000;
 /// Best results that are kept to be tried with tabs.
 const KEEP: usize = 16;
-/// Weight of the bounding box (over the panels' area) against the cost of one cut. Of 0.3, 1.2, 3, 6
-/// and 15 the largest gave the fewest sheets: on five scanned figures 17 against 20, with the same
-/// number of tabs.
+/// Weight of the bounding box (over the panels' area) against the cost of one cut. On five scanned
+/// figures 0.3, 1.2, 3, 6 and 15 gave 20, 19, 18, 18 and 18 sheets, with the same number of tabs.
 const BOX_WEIGHT: f64 = 15.0;
 /// Cost of a strip that becomes a piece of its own, apart from its two glued hinges.
 const STRIP_COST: f64 = 8.0;
