@@ -56,8 +56,8 @@ pub(super) fn best(targets: &[(Target, f64)]) -> Result<(usize, Fitted, Assemble
         ranked.truncate(left);
         runs = ranked.into_iter().map(|r| r.1).collect();
     }
-    let results: Vec<(usize, Result<(Fitted, Assembled), AssembleError>)> =
-        runs.into_par_iter().map(|(k, fit)| (k, finish(&targets[k].0, fit))).collect();
+    let finished = runs.into_par_iter().map(|(k, fit)| (k, finish(&targets[k].0, fit)));
+    let results: Vec<(usize, Result<_, AssembleError>)> = finished.collect();
     let mut failure = ConvertError::Hull(HullError::Flat);
     let mut best: Option<(f64, (usize, Fitted, Assembled))> = None;
     for (k, result) in results {

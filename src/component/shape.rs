@@ -194,8 +194,8 @@ fn polytope(solid: &Solid, chains: &[ChainShape], corners: &[Corner], starts: &[
     let mut left: Vec<Vec<u32>> = vec![Vec::new(); 2 + chains.iter().map(|c| c.lines.len()).sum::<usize>()];
     let mut right = left.clone();
     for j in 0..n {
-        for c in starts[j]..starts[j + 1] {
-            for face in corners[c].faces {
+        for (c, corner) in corners.iter().enumerate().take(starts[j + 1]).skip(starts[j]) {
+            for face in corner.faces {
                 let list = match face {
                     FaceId::Side(chain, _) if chain == j => &mut right,
                     _ => &mut left,

@@ -213,7 +213,8 @@ fn thin_out(solid: &mut Solid, j: usize, count: usize) {
                 facets.remove(k);
                 lines.remove(k);
                 bulges.remove(k);
-                for changed in k.saturating_sub(1)..(k + 1).min(lines.len()) {
+                let beside = [k.checked_sub(1), Some(k).filter(|&k| k < lines.len())];
+                for changed in beside.into_iter().flatten() {
                     bulges[changed] = bulge(&lines, changed, ends);
                 }
             }

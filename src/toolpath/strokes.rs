@@ -191,7 +191,7 @@ mod tests {
 
     fn star(centre: DVec2, corners: usize, inner: f64, outer: f64) -> Vec<DVec2> {
         let at = |k: usize| {
-            let radius = if k % 2 == 0 { outer } else { inner };
+            let radius = if k.is_multiple_of(2) { outer } else { inner };
             let angle = std::f64::consts::TAU * k as f64 / (2 * corners) as f64;
             centre + DVec2::from_angle(angle) * radius
         };

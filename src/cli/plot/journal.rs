@@ -108,7 +108,7 @@ pub fn read(path: &Path) -> Result<(Header, Position), CliError> {
         path: path.to_owned(),
         reason: "it is no journal of a job (.tatamu-job)".to_owned(),
     })?;
-    let position = lines.filter_map(|line| serde_json::from_str(line).ok()).last();
+    let position = lines.filter_map(|line| serde_json::from_str(line).ok()).next_back();
     Ok((header, position.unwrap_or_default()))
 }
 

@@ -152,7 +152,7 @@ fn pairs(parameters: &[u8]) -> Option<Vec<Point>> {
         is_usable.then(|| value.round() as i32)
     };
     let numbers: Vec<i32> = fields.map(number).collect::<Option<_>>()?;
-    let is_even = numbers.len() % 2 == 0;
+    let is_even = numbers.len().is_multiple_of(2);
     is_even.then(|| numbers.chunks(2).map(|pair| Point::new(pair[0], pair[1])).collect())
 }
 

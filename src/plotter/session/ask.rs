@@ -185,7 +185,8 @@ impl Session {
             return None;
         }
         self.ask.count += 1;
-        let question = if self.ask.count % ERROR_EVERY == 0 { Question::Error } else { Question::Free };
+        let question =
+            if self.ask.count.is_multiple_of(ERROR_EVERY) { Question::Error } else { Question::Free };
         Some(self.ask(question, now))
     }
 

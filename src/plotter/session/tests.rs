@@ -156,7 +156,6 @@ fn a_megabyte_arrives_whole_by_every_handshake_at_two_speeds() {
             assert_eq!(bench.plotter.motions(), meant(&job, &cutter), "{handshake:?} {baud}");
             assert_eq!(outcome.is_confirmed, answers);
             let busy = bench.busy.as_secs_f64() / (bench.busy + bench.idle).as_secs_f64();
-            println!("{:8} {baud:6} baud: line busy {:.1} %", handshake.name(), 100.0 * busy);
             // Time alone knows no more than what the motion is sure to have taken.
             let is_line_the_limit = handshake != Handshake::Paced || baud == 9600;
             let least = if is_line_the_limit { 0.95 } else { 0.1 };
