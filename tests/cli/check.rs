@@ -49,6 +49,9 @@ fn shift(point: &mut Value, axis: usize, by: f64) {
     point[axis] = (point[axis].as_f64().expect("a number") + by).into();
 }
 
+/// Something done to a good file.
+type Damage = Box<dyn Fn(&mut Value)>;
+
 #[test]
 fn a_good_file_passes_line_by_line() {
     let folder = folder_with(&[("a.fold", cube_fold().to_string().as_bytes())]);
@@ -62,7 +65,7 @@ fn a_good_file_passes_line_by_line() {
 #[test]
 fn each_damage_is_named() {
     let file = cube_fold();
-    let damages: [(&str, Box<dyn Fn(&mut Value)>); 7] = [
+    let damages: [(&str, Damage); 7] = [
         ("rigid panels", Box::new(|f| shift(&mut f["file_frames"][0]["vertices_coords"][0], 0, 0.01))),
         ("flatness", Box::new(|f| shift(&mut f["file_frames"][1]["vertices_coords"][0], 2, 0.01))),
         (
