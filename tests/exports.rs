@@ -130,8 +130,8 @@ impl Sheet {
                 if !has(&self.faces[face]) {
                     continue;
                 }
-                for other in 0..self.faces.len() {
-                    if motion[other].is_none() && has(&self.faces[other]) {
+                for (other, place) in motion.iter_mut().enumerate() {
+                    if place.is_none() && has(&self.faces[other]) {
                         let (p, along) = (self.points[a], (self.points[b] - self.points[a]).normalize());
                         let mirror = glam::DMat2::from_cols(
                             2.0 * along.x * along - DVec2::X,
@@ -139,7 +139,7 @@ impl Sheet {
                         );
                         let mirror = glam::DAffine2::from_mat2_translation(mirror, p - mirror * p);
                         assert!(angle_deg == 0.0 || angle_deg == -180.0);
-                        motion[other] = Some(if angle_deg == 0.0 { own } else { own * mirror });
+                        *place = Some(if angle_deg == 0.0 { own } else { own * mirror });
                         todo.push(other);
                     }
                 }
