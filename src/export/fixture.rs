@@ -30,7 +30,7 @@ pub fn sheet(size_mm: DVec2, page: usize, pages: usize) -> Drawing {
     let mut drawing = Drawing::new(format!("teddy <3> {page}/{pages}"), size_mm);
     drawing.marks = furniture.marks(&styles);
     let stroke = styles.stroke(Layer::Registration);
-    let ends = [DVec2::new(15.0, 180.0), DVec2::new(25.0, 180.0)];
+    let ends = [DVec2::new(15.0, 140.0), DVec2::new(25.0, 140.0)];
     drawing.marks.push(Mark::line(Layer::Registration, ends[0], ends[1], stroke));
     for (name, angle_rad, corner) in [("head 1/2", 0.0, [20.0, 40.0]), ("head 2/2", 0.4, [60.0, 90.0])] {
         let place = DAffine2::from_angle_translation(angle_rad, DVec2::from(corner));
