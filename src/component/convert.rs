@@ -5,7 +5,7 @@ use super::assemble::AssembleError;
 use super::distance::{Polytope, hausdorff};
 use super::panel::{PanelId, PanelKind, PanelSet};
 use super::profile::Profile;
-use super::search;
+use super::search::{self, Found};
 use super::solid::{FaceId, Solid};
 use super::target::{JointTarget, Target};
 use crate::geom::{HullError, polygon};
@@ -135,7 +135,7 @@ pub fn convert(target: &Target) -> Result<Component, ConvertError> {
 /// # Errors
 /// As [`convert`], where no target gives a component.
 pub fn choose(targets: &[(Target, f64)]) -> Result<(usize, Component), ConvertError> {
-    let (k, fitted, made) = search::best(targets)?;
+    let Found { target: k, fitted, made, .. } = search::best(targets)?;
     let error_mm = hausdorff(&fitted.shape.polytope, &Polytope::of_hull(targets[k].0.hull));
     let component = Component {
         solid: fitted.shape.solid,

@@ -5,6 +5,7 @@ use super::solid::{Chain, SideFacet, Solid};
 use super::start::{MAX_SLOPE_RAD, MIN_BEND_RAD, MIN_TURN_RAD, fold_spots, tangents, thin_out, turn};
 use super::target::{FoldSpot, Target};
 use glam::{DVec2, DVec3};
+use std::f64::consts::TAU;
 
 /// A solid with a chain more, or a plane more in a chain, that cuts off the corner farthest from
 /// the hull; `None` where the limits of `target` leave no place for one.
@@ -34,8 +35,11 @@ pub(super) fn grown(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<Fold
 }
 
 fn add_chain(solid: &mut Solid, angle_rad: f64, target: &Target) {
-    let angle_rad = angle_rad.rem_euclid(std::f64::consts::TAU);
-    let place = solid.chains.partition_point(|c| c.angle_rad.rem_euclid(std::f64::consts::TAU) < angle_rad);
+    // The chains turn counter-clockwise, but the first may have any direction.
+    let past = |chain: &Chain| (angle_rad - chain.angle_rad).rem_euclid(TAU);
+    let before =
+        (0..solid.chains.len()).min_by(|&a, &b| past(&solid.chains[a]).total_cmp(&past(&solid.chains[b])));
+    let place = before.map_or(0, |before| before + 1);
     let chain = Chain { angle_rad, is_locked: false, facets: tangents(target, angle_rad) };
     solid.chains.insert(place, chain);
     thin_out(solid, place, target.profile_vertices - 1);

@@ -23,20 +23,23 @@ const PRICE_RISE: f64 = 4.0;
 const PRICE_RISES: usize = 2;
 /// A better supported joint may cost this share of the hull's height in error.
 const SUPPORT_WORTH: f64 = 0.04;
+/// In the choice between finished shapes, the same for what a joint lacks of good support.
+const SUPPORT_PRICE: f64 = 0.2;
 /// Directions are compared after so many steps each; so many are left.
 const FIRST_STEPS: usize = 4;
 const LEFT: usize = 6;
-/// The best few of them are also tried with fewer top edges, down to so many less: a start with
-/// fewer edges may lead to a better place, and gets the others back where they are worth most.
-const RETRIED: usize = 3;
-const FEWER: usize = 2;
+/// The best few of them are also started with fewer top edges, or with this share of the profile
+/// vertices: that may lead to a better place, and the rest is added where it is worth most.
+const RETRIED: usize = 2;
+const FEWER_EDGES: [usize; 2] = [1, 2];
+const FEWER_VERTICES: f64 = 0.6;
 /// All are compared again after so many steps more; so many are left with all top edges, and
 /// with fewer.
 const MORE_STEPS: usize = 6;
 const LEFT_FULL: usize = 5;
-const LEFT_FEWER: usize = 3;
+const LEFT_FEWER: usize = 2;
 /// And again after so many more; so many are finished.
-const LAST_STEPS: usize = 8;
+const LAST_STEPS: usize = 6;
 const FINISHED: usize = 3;
 /// Planes are added one by one, with so many steps each.
 const GROWN_STEPS: usize = 8;
@@ -54,45 +57,86 @@ const SPREAD_PRICE: f64 = 0.03;
 /// Price of a mm that a shape lacks to be valid, while directions are compared.
 const LACK_PRICE: f64 = 2.0;
 
-/// The best component: index of its target, solid and panels.
-pub(super) fn best(targets: &[(Target, f64)]) -> Result<(usize, Fitted, Assembled), ConvertError> {
+/// A finished component.
+pub(super) struct Found {
+    /// Index of its target.
+    pub(super) target: usize,
+    pub(super) fitted: Fitted,
+    pub(super) made: Assembled,
+    /// What finished shapes are compared by, mm.
+    cost_mm: f64,
+}
+
+/// Shapes with more top edges or profile vertices than this are also tried with no more: the search
+/// finds its way more surely among few, and more of either shall not make the error larger.
+const SURE: usize = 6;
+
+/// The best component.
+pub(super) fn best(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
+    let mut best = best_of_counts(targets);
+    if targets.iter().any(|t| t.0.top_edges > SURE || t.0.profile_vertices > SURE) {
+        let fewer: Vec<(Target, f64)> = targets
+            .iter()
+            .map(|(target, cost_mm)| {
+                let top_edges = target.top_edges.min(SURE);
+                let profile_vertices = target.profile_vertices.min(SURE);
+                (Target { top_edges, profile_vertices, ..target.clone() }, *cost_mm)
+            })
+            .collect();
+        let other = best_of_counts(&fewer);
+        let is_better = |other: &Found| best.as_ref().map_or(true, |b| other.cost_mm < b.cost_mm);
+        best = if other.as_ref().is_ok_and(is_better) { other } else { best };
+    }
+    let target = best.as_ref().map_or(0, |b| b.target);
+    match as_box(&targets[target].0) {
+        Some((fitted, made)) if best.as_ref().map_or(true, |b| fitted.error_mm < b.fitted.error_mm) => {
+            Ok(Found { target, cost_mm: fitted.error_mm, fitted, made })
+        }
+        _ => best,
+    }
+}
+
+/// The best component found from starts with the targets' counts, or a few less.
+fn best_of_counts(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
     let hulls: Vec<Hull> =
         targets.par_iter().map(|t| simplified(t.0.hull, ROUGH_DIRECTIONS)).collect::<Vec<_>>();
     let goals: Vec<Target> = targets.iter().zip(&hulls).map(|(t, hull)| goal(&t.0, hull)).collect();
-    let runs = goals.par_iter().enumerate().map(|(k, goal)| (k, start(goal, goal.top_edges)));
+    let runs = goals.par_iter().enumerate();
+    let runs = runs.map(|(k, goal)| (k, start(goal, (goal.top_edges, goal.profile_vertices))));
     let runs = ranked(runs.collect(), targets, FIRST_STEPS, LEFT);
     let with_fewer = |&(k, _): &(usize, Fit)| {
         let goal = &goals[k];
-        let least = goal.locked_angles().len().max(3).max(goal.top_edges.saturating_sub(FEWER));
-        (least..goal.top_edges).map(move |edges| (k, start(goal, edges))).collect::<Vec<_>>()
+        fewer(goal).into_iter().map(move |counts| (k, start(goal, counts)))
     };
     let fewer: Vec<(usize, Fit)> = runs.par_iter().take(RETRIED).flat_map_iter(with_fewer).collect();
     let mut runs = ranked(runs, targets, MORE_STEPS, LEFT_FULL);
     runs.extend(ranked(fewer, targets, FIRST_STEPS + MORE_STEPS, LEFT_FEWER));
     let runs = ranked(runs, targets, LAST_STEPS, FINISHED);
     let finished = runs.into_par_iter().map(|(k, fit)| (k, finish(&targets[k].0, fit)));
-    let results: Vec<(usize, Result<_, AssembleError>)> = finished.collect();
-    let mut failure = ConvertError::Hull(HullError::Flat);
-    let mut best: Option<(f64, (usize, Fitted, Assembled))> = None;
-    for (k, result) in results {
+    let finished: Vec<(usize, Result<_, AssembleError>)> = finished.collect();
+    let mut best = Err(ConvertError::Hull(HullError::Flat));
+    for (target, result) in finished {
         match result {
             Ok((fitted, made)) => {
-                let cost = cost(&fitted) + targets[k].1;
-                if best.as_ref().is_none_or(|b| cost < b.0) {
-                    best = Some((cost, (k, fitted, made)));
+                let cost_mm = finished_cost(&fitted, &targets[target]);
+                if best.as_ref().map_or(true, |b: &Found| cost_mm < b.cost_mm) {
+                    best = Ok(Found { target, fitted, made, cost_mm });
                 }
             }
-            Err(error) => failure = ConvertError::Assemble(error),
+            Err(error) if best.is_err() => best = Err(ConvertError::Assemble(error)),
+            Err(_) => {}
         }
     }
-    let best = best.map(|b| b.1).ok_or(failure);
-    let k = best.as_ref().map_or(0, |b| b.0);
-    match as_box(&targets[k].0) {
-        Some((fitted, made)) if best.as_ref().map_or(true, |b| fitted.error_mm < b.1.error_mm) => {
-            Ok((k, fitted, made))
-        }
-        _ => best,
-    }
+    best
+}
+
+/// What finished shapes are compared by: the error first, then good joints and a small spread.
+fn finished_cost(fitted: &Fitted, (target, own_mm): &(Target, f64)) -> f64 {
+    fitted.error_mm
+        + LACK_PRICE * fitted.lack_mm
+        + SPREAD_PRICE * spread_mm(fitted)
+        + SUPPORT_PRICE * height_mm(target.hull) * short_of_support(fitted, target)
+        + own_mm
 }
 
 /// Goes on with fits, each with the index of its target, and keeps the best.
@@ -121,15 +165,30 @@ fn as_box(target: &Target) -> Option<(Fitted, Assembled)> {
     (fitted.lack_mm < NEAR_ENOUGH_MM).then_some((fitted, made))
 }
 
-/// What directions are compared by.
+/// What directions are compared by, while they are fitted.
 fn cost(fitted: &Fitted) -> f64 {
+    fitted.error_mm + LACK_PRICE * fitted.lack_mm + fitted.miss_mm + SPREAD_PRICE * spread_mm(fitted)
+}
+
+/// How far the longest chain reaches from the axis when flat.
+fn spread_mm(fitted: &Fitted) -> f64 {
     let reach = fitted.shape.chains.iter().map(|chain| {
         let profile = &chain.profile;
         let at = balance(profile);
         profile[0].x + profile.windows(2).take(at.segment).map(|w| w[0].distance(w[1])).sum::<f64>()
     });
-    let spread = reach.fold(0.0, f64::max);
-    fitted.error_mm + LACK_PRICE * fitted.lack_mm + fitted.miss_mm + SPREAD_PRICE * spread
+    reach.fold(0.0, f64::max)
+}
+
+/// What all joints together lack of being well supported.
+fn short_of_support(fitted: &Fitted, target: &Target) -> f64 {
+    let supports = target.joints.iter().map(|joint| support(&fitted.shape, target, joint));
+    supports.map(|s| (GOOD_SUPPORT - s).max(0.0)).sum()
+}
+
+/// Height of a hull along the fold axis.
+fn height_mm(hull: &Hull) -> f64 {
+    hull.support(DVec3::Z) + hull.support(-DVec3::Z)
 }
 
 /// The target for a simplified hull, with no more panels than can be handled comfortably at the
@@ -147,8 +206,18 @@ fn goal<'h>(target: &Target, hull: &'h Hull) -> Target<'h> {
     }
 }
 
-fn start<'h>(goal: &Target<'h>, edges: usize) -> Fit<'h> {
-    let mut solid = circumscribe(goal, edges);
+/// Top edges and profile vertices to start with, fewer than there may be.
+fn fewer(goal: &Target) -> Vec<(usize, usize)> {
+    let (edges, vertices) = (goal.top_edges, goal.profile_vertices);
+    let least = goal.locked_angles().len().max(3);
+    let fewer_edges = FEWER_EDGES.into_iter().filter(|less| edges >= least + less);
+    let fewer_vertices = (vertices as f64 * FEWER_VERTICES).ceil() as usize;
+    let other = (3..vertices).contains(&fewer_vertices).then_some((edges, fewer_vertices));
+    fewer_edges.map(|less| (edges - less, vertices)).chain(other).collect()
+}
+
+fn start<'h>(goal: &Target<'h>, (edges, vertices): (usize, usize)) -> Fit<'h> {
+    let mut solid = circumscribe(&Target { profile_vertices: vertices, ..goal.clone() }, edges);
     let spots = fold_spots(&mut solid, goal.profile_vertices);
     Fit::new(goal.clone(), solid, spots)
 }
@@ -165,22 +234,18 @@ fn finish(target: &Target, fit: Fit) -> Result<(Fitted, Assembled), AssembleErro
             _ => break,
         }
     }
-    let height = hull.support(DVec3::Z) + hull.support(-DVec3::Z);
+    let height = height_mm(&hull);
     for _ in 0..PRICE_RISES {
-        let supports = |fitted: &Fitted| -> Vec<f64> {
-            target.joints.iter().map(|joint| support(&fitted.shape, target, joint)).collect()
-        };
-        let before = supports(&best.0);
-        if before.iter().all(|s| *s >= GOOD_SUPPORT) {
+        if short_of_support(&best.0, target) == 0.0 {
             break;
         }
-        for (joint, support) in goal.joints.iter_mut().zip(&before) {
-            joint.price *= if *support < GOOD_SUPPORT { PRICE_RISE } else { 1.0 };
+        for (joint, own) in goal.joints.iter_mut().zip(&target.joints) {
+            let is_good = support(&best.0.shape, target, own) >= GOOD_SUPPORT;
+            joint.price *= if is_good { 1.0 } else { PRICE_RISE };
         }
         let next = Fit::new(goal.clone(), best.0.shape.solid.clone(), best.0.spots.clone());
         let Ok(next) = settle(target, next) else { break };
-        let lacking = |s: &[f64]| s.iter().map(|s| (GOOD_SUPPORT - s).max(0.0)).sum::<f64>();
-        if lacking(&supports(&next.0)) < lacking(&before)
+        if short_of_support(&next.0, target) < short_of_support(&best.0, target)
             && next.0.error_mm < best.0.error_mm + SUPPORT_WORTH * height
         {
             best = next;
@@ -228,7 +293,7 @@ fn girth_and_height(hull: &Hull) -> (f64, f64) {
     let flat: Vec<glam::DVec2> = hull.vertices().iter().map(|v| v.truncate()).collect();
     let outline = polygon::convex_hull(&flat);
     let girth = polygon::edges(&outline).map(|(a, b)| a.distance(b)).sum();
-    (girth, hull.support(DVec3::Z) + hull.support(-DVec3::Z))
+    (girth, height_mm(hull))
 }
 
 /// Imbalance up to which a fold vertex at a bend is exact, as a share of the height.

@@ -74,7 +74,9 @@ pub enum PngError {
 }
 
 fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
-    let file = |drawing| render(drawing, options.png.dots_per_inch);
+    // Viewers show what is transparent as black or as a chequerboard.
+    let on_paper = |sheet: &Drawing| Drawing { ground: Some(Rgb::WHITE), ..sheet.clone() };
+    let file = |sheet| render(&on_paper(sheet), options.png.dots_per_inch);
     let files = pages.drawings().iter().map(file).collect::<Result<Vec<_>, _>>();
     files.map(ExportFile::of_pages).map_err(|error| ExportError::writer(&FORMAT, error))
 }

@@ -11,12 +11,14 @@ use crate::mesh::painting::Painting;
 use crate::pipeline::Output;
 
 /// Width of the white line round letters on coloured panels, mm, so that they can be read.
-const HALO_MM: f64 = 0.8;
+const LETTER_HALO_MM: f64 = 0.8;
+/// What is white on both sides of the other lines there, mm, but for cuts, which go away.
+const LINE_HALO_MM: f64 = 0.15;
 /// Straight pieces in the place of each curve of a letter's halo.
 const CURVE_STEPS: usize = 4;
 
 /// Puts the pictures of all panels under the marks of their sheets, and white halos under the
-/// letters on pieces.
+/// letters and lines on pieces.
 pub fn colour(output: &Output, painting: &Painting, pages: &mut [Drawing]) {
     let mut under: Vec<Vec<Mark>> = vec![Vec::new(); pages.len()];
     for (sheet, picture) in pictures(output, painting) {
@@ -30,10 +32,16 @@ pub fn colour(output: &Output, painting: &Painting, pages: &mut [Drawing]) {
 }
 
 fn halo(mark: &Mark) -> Option<Mark> {
-    let (Shape::Text(text), Some(piece)) = (&mark.shape, &mark.piece) else {
-        return None;
+    let piece = mark.piece.as_ref()?;
+    let white = |width_mm| Stroke { width_mm, colour: Rgb::WHITE, dash_mm: Vec::new() };
+    let (contours, stroke) = match (&mark.shape, mark.layer) {
+        (Shape::Text(text), _) => (text::contours(text, CURVE_STEPS), white(LETTER_HALO_MM)),
+        (_, Layer::Cut | Layer::Slit | Layer::Picture) => return None,
+        (Shape::Path { contours, stroke: Some(stroke), .. }, _) => {
+            let dash_mm = stroke.dash_mm.clone();
+            (contours.clone(), Stroke { dash_mm, ..white(stroke.width_mm + 2.0 * LINE_HALO_MM) })
+        }
+        _ => return None,
     };
-    let stroke = Stroke { width_mm: HALO_MM, colour: Rgb::WHITE, dash_mm: Vec::new() };
-    let contours = text::contours(text, CURVE_STEPS);
     Some(Mark::path(Layer::Picture, contours, Some(stroke), None).of_piece(piece).of_part("halo"))
 }
