@@ -42,6 +42,9 @@ type Question = (usize, [usize; 2], Vec<bool>);
 /// Samples over the rest of the motion that tell how bad a clash becomes.
 const DEPTH_SAMPLES: usize = 16;
 
+/// The pairs of one sweep are shared out in so many shares, for several threads.
+const SHARES_OF_SWEEP: usize = 4;
+
 /// All states of so many parts are tried to see whether a clash can be avoided.
 const MOST_BETWEEN: usize = 4;
 
@@ -145,8 +148,10 @@ impl<'a> Checker<'a> {
         let sweep = Sweep::new(&self.tracks[mover], &bodies, self.thickness_mm);
         let lists: Vec<Vec<[usize; 2]>> =
             open.iter().map(|(_, parts, _)| pairs(*parts, &bodies, &owners)).collect();
-        let contacts = sweep.contacts(&lists).into_iter();
-        let found = contacts.map(|contact| contact.map(|c| clash(mover, &sweep, c, &owners)));
+        let shares = lists.par_chunks(lists.len().div_ceil(SHARES_OF_SWEEP));
+        let contacts: Vec<Vec<Option<Contact>>> = shares.map(|lists| sweep.contacts(lists)).collect();
+        let found = contacts.into_iter().flatten();
+        let found = found.map(|contact| contact.map(|c| clash(mover, &sweep, c, &owners)));
         open.into_iter().zip(found.collect::<Vec<_>>()).collect()
     }
 

@@ -171,14 +171,6 @@ impl Search<'_> {
         }
     }
 
-    /// Works out, in parallel, the motions of all components that are left.
-    fn ask_together(&mut self, parts: &[usize], is_flat: &[bool]) {
-        let checker = &self.checker;
-        let left = parts.par_iter().filter(|&&part| !is_flat[part]);
-        let answers: Vec<_> = left.map(|&part| checker.answers(part, is_flat)).collect();
-        answers.into_iter().for_each(|a| self.checker.learn(a));
-    }
-
     /// Folds what is left, depth first; false where there is no way.
     fn extend(
         &mut self,
@@ -192,17 +184,12 @@ impl Search<'_> {
         if self.dead_ends.contains(is_flat as &[bool]) || self.dead_ends.len() > MOST_STATES {
             return Ok(false);
         }
-        let mut has_failed = false;
         for &part in parts {
             if is_flat[part] || self.checker.sweeps() > self.most_sweeps {
                 continue;
             }
             self.progress.check()?;
-            if has_failed {
-                self.ask_together(parts, is_flat);
-            }
-            has_failed = !self.checker.clashes(part, is_flat).is_empty();
-            if has_failed {
+            if !self.checker.clashes(part, is_flat).is_empty() {
                 continue;
             }
             order.push(part);
@@ -222,7 +209,6 @@ impl Search<'_> {
         let mut is_flat = vec![false; self.motion.model().parts().len()];
         let mut order = Vec::new();
         while order.len() < parts.len() {
-            self.ask_together(parts, &is_flat);
             let mut best: Option<(f64, usize)> = None;
             for &part in parts.iter().filter(|&&p| !is_flat[p]) {
                 self.progress.check()?;
