@@ -53,26 +53,26 @@ pub fn snowman() -> Mesh {
     surface_nets::mesh(&solid, DVec3::new(-80.0, -8.0, -60.0), DVec3::new(80.0, 220.0, 60.0), 4.2)
 }
 
-/// A teddy bear that sits.
+/// A teddy bear that sits, its arms held out so that each is a part of its own.
 pub fn teddy() -> Mesh {
     let solid = Solid(vec![
         Part::ellipsoid(43.0, 48.0, 38.0).at(0.0, 48.0, 0.0),
-        Part::ellipsoid(41.0, 36.0, 36.0).at(0.0, 122.0, 3.0).blended(6.0),
-        Part::ellipsoid(20.0, 16.0, 18.0).at(0.0, 112.0, 35.0).blended(6.0),
-        Part::ellipsoid(8.0, 6.0, 6.0).at(0.0, 119.0, 49.5).blended(4.0),
+        Part::ellipsoid(41.0, 36.0, 36.0).at(0.0, 123.5, 3.0).blended(3.5),
+        Part::ellipsoid(20.0, 16.0, 18.0).at(0.0, 113.5, 35.0).blended(6.0),
+        Part::ellipsoid(8.0, 6.0, 6.0).at(0.0, 120.5, 49.5).blended(4.0),
         Part::ellipsoid(18.0, 18.0, 10.0)
             .turned(DVec3::Z, -20.0)
-            .at(35.0, 154.0, 0.0)
+            .at(37.0, 155.5, 0.0)
             .mirrored()
             .blended(6.0),
-        Part::tube(&[[30.0, 80.0, 4.0, 14.0], [61.0, 51.0, 28.0, 15.0]]).mirrored().blended(9.0),
-        Part::tube(&[[28.0, 19.0, 16.0, 18.0], [44.0, 18.0, 64.0, 17.0]]).mirrored().blended(12.0),
+        Part::tube(&[[34.5, 72.5, 6.5, 12.0], [73.0, 61.0, 37.0, 12.5]]).mirrored().blended(8.0),
+        Part::tube(&[[32.0, 19.0, 22.0, 18.0], [51.5, 18.0, 64.0, 17.0]]).mirrored().blended(12.0),
         Part::tube(&[[0.0, -3.0, 0.0, 19.0], [0.0, 7.0, 0.0, 19.0]])
             .flattened(0.6)
             .turned(DVec3::Y, 19.0)
-            .at(47.0, 22.0, 76.0)
+            .at(54.5, 22.0, 76.0)
             .mirrored()
             .blended(6.0),
     ]);
-    surface_nets::mesh(&solid, DVec3::new(-90.0, -8.0, -50.0), DVec3::new(90.0, 184.0, 106.0), 4.5)
+    surface_nets::mesh(&solid, DVec3::new(-90.0, -8.0, -50.0), DVec3::new(90.0, 200.0, 120.0), 4.5)
 }

@@ -12,7 +12,11 @@ impl FoldPlan {
     /// One piece of advice for each clash and each overlap.
     pub fn advice(&self, model: &Model) -> Vec<Advice> {
         let overlaps = self.overlaps().iter().map(|overlap| of_overlap(model, overlap));
-        overlaps.chain(self.clashes().iter().map(|clash| of_clash(model, clash))).collect()
+        let clashes = self.clashes().iter().map(|clash| match clash.depth_mm {
+            depth_mm if depth_mm <= self.thickness_mm() => of_rub(model, clash),
+            _ => of_clash(model, clash),
+        });
+        overlaps.chain(clashes).collect()
     }
 }
 
@@ -24,6 +28,23 @@ fn of_overlap(model: &Model, overlap: &Overlap) -> Advice {
         overlap.depth_mm
     );
     ("deployed_overlap", message)
+}
+
+/// Paper gives way by its own thickness.
+fn of_rub(model: &Model, clash: &Clash) -> Advice {
+    let [a, b] = clash.parts.map(|p| &model.parts()[p].name);
+    let depth_mm = clash.depth_mm;
+    let message = if a == b {
+        format!(
+            "{a}: two of its panels rub against each other ({depth_mm:.2} mm) while it folds; fold it with care"
+        )
+    } else {
+        let mover = &model.parts()[clash.mover].name;
+        format!(
+            "{a} and {b} rub against each other ({depth_mm:.2} mm) while {mover} folds; bend them apart a little there"
+        )
+    };
+    ("fold_rub", message)
 }
 
 fn of_clash(model: &Model, clash: &Clash) -> Advice {
