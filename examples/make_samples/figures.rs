@@ -10,8 +10,8 @@ use super::surface_nets;
 pub fn rabbit() -> Mesh {
     let solid = Solid(vec![
         Part::ellipsoid(37.0, 43.0, 35.0).at(0.0, 43.0, 0.0),
-        Part::ellipsoid(34.0, 30.0, 32.0).at(0.0, 104.0, 8.0).blended(7.0),
-        Part::ellipsoid(19.0, 14.0, 14.0).at(0.0, 94.0, 31.0).blended(6.0),
+        Part::ellipsoid(34.0, 30.0, 32.0).at(0.0, 107.0, 8.0).blended(6.0),
+        Part::ellipsoid(19.0, 14.0, 14.0).at(0.0, 97.0, 31.0).blended(6.0),
         Part::tube(&[
             [0.0, 0.0, 0.0, 8.0],
             [0.0, 18.0, 0.0, 10.5],
@@ -22,13 +22,13 @@ pub fn rabbit() -> Mesh {
         ])
         .flattened(0.75)
         .turned(DVec3::X, -10.0)
-        .turned(DVec3::Z, -13.0)
-        .at(15.0, 122.0, 4.0)
+        .turned(DVec3::Z, -14.5)
+        .at(15.5, 125.0, 4.0)
         .mirrored()
         .blended(6.0),
-        Part::ellipsoid(15.0, 22.0, 22.0).at(26.0, 26.0, 8.0).mirrored().blended(4.0),
-        Part::tube(&[[25.0, 10.5, 18.0, 10.5], [32.0, 12.0, 54.0, 12.0]]).mirrored().blended(4.0),
-        Part::tube(&[[25.0, 66.0, 14.0, 10.0], [15.0, 50.0, 43.0, 10.5]]).mirrored().blended(4.0),
+        Part::ellipsoid(15.0, 22.0, 22.0).at(25.5, 26.0, 8.0).mirrored().blended(4.0),
+        Part::tube(&[[24.5, 10.5, 18.0, 10.5], [31.5, 12.0, 58.0, 12.0]]).mirrored().blended(3.0),
+        Part::tube(&[[25.0, 65.5, 14.0, 10.0], [16.0, 49.0, 46.5, 10.5]]).mirrored().blended(4.0),
         Part::ball(15.0).at(0.0, 24.0, -41.0).blended(6.0),
     ]);
     surface_nets::mesh(&solid, DVec3::new(-60.0, -6.0, -70.0), DVec3::new(60.0, 216.0, 70.0), 4.2)
@@ -38,16 +38,16 @@ pub fn rabbit() -> Mesh {
 pub fn snowman() -> Mesh {
     let hat = |part: Part, up: f64| {
         let tilt = DVec3::new(0.13, 0.985, -0.06).normalize() * up;
-        part.turned(DVec3::X, -3.5).turned(DVec3::Z, -7.5).at(tilt.x, 161.0 + tilt.y, -1.0 + tilt.z)
+        part.turned(DVec3::X, -3.5).turned(DVec3::Z, -7.5).at(tilt.x, 164.0 + tilt.y, -1.0 + tilt.z)
     };
     let drum = |height, bottom, top, rounding| Part::new(Shape::Drum { height, bottom, top, rounding });
     let solid = Solid(vec![
         Part::ellipsoid(52.0, 48.0, 52.0).at(0.0, 46.0, 0.0),
-        Part::ellipsoid(38.0, 35.0, 38.0).at(0.0, 108.0, 0.0).blended(5.0),
-        Part::ellipsoid(29.0, 27.5, 29.0).at(0.0, 153.0, 0.0).blended(5.0),
-        Part::tube(&[[0.0, 153.0, 21.0, 8.5], [0.0, 151.0, 52.0, 3.8]]).blended(5.0),
-        Part::tube(&[[26.0, 113.0, 3.0, 8.5], [61.0, 132.0, 14.0, 10.0]]).mirrored().blended(6.0),
-        hat(drum(11.0, 33.0, 33.0, 5.4), 15.0).blended(4.0),
+        Part::ellipsoid(38.0, 35.0, 38.0).at(0.0, 109.5, 0.0).blended(3.5),
+        Part::ellipsoid(29.0, 27.5, 29.0).at(0.0, 156.0, 0.0).blended(4.0),
+        Part::tube(&[[0.0, 156.0, 21.0, 8.0], [0.0, 154.0, 55.5, 3.8]]).blended(2.0),
+        Part::tube(&[[26.0, 113.5, 3.0, 8.5], [63.0, 130.5, 15.5, 10.0]]).mirrored().blended(3.5),
+        hat(drum(11.0, 32.0, 32.0, 5.4), 15.0).blended(4.0),
         hat(drum(38.0, 20.0, 22.0, 5.0), 32.0).blended(6.0),
     ]);
     surface_nets::mesh(&solid, DVec3::new(-80.0, -8.0, -60.0), DVec3::new(80.0, 220.0, 60.0), 4.2)

@@ -54,6 +54,9 @@ const NEAR_ENOUGH_MM: f64 = 1e-3;
 /// Price of a mm of spread when flat, against a mm of error: directions that fold smaller win
 /// where the error is alike (Figure 8).
 const SPREAD_PRICE: f64 = 0.03;
+/// Price of an opening in a finished shape, against a mm of error, for each mm that a square of its
+/// area measures.
+const TRIM_PRICE: f64 = 0.5;
 /// Price of a mm that a shape lacks to be valid, while directions are compared.
 const LACK_PRICE: f64 = 2.0;
 
@@ -118,7 +121,7 @@ fn best_of_counts(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
     for (target, result) in finished {
         match result {
             Ok((fitted, made)) => {
-                let cost_mm = finished_cost(&fitted, &targets[target]);
+                let cost_mm = finished_cost(&fitted, &targets[target]) + trim_cost(&made);
                 if best.as_ref().map_or(true, |b: &Found| cost_mm < b.cost_mm) {
                     best = Ok(Found { target, fitted, made, cost_mm });
                 }
@@ -137,6 +140,11 @@ fn finished_cost(fitted: &Fitted, (target, own_mm): &(Target, f64)) -> f64 {
         + SPREAD_PRICE * spread_mm(fitted)
         + SUPPORT_PRICE * height_mm(target.hull) * short_of_support(fitted, target)
         + own_mm
+}
+
+/// What the openings cost that slits are widened to, so that the flat layers do not overlap.
+fn trim_cost(made: &Assembled) -> f64 {
+    TRIM_PRICE * made.trimmed_mm2.sqrt()
 }
 
 /// Goes on with fits, each with the index of its target, and keeps the best.
