@@ -6,7 +6,7 @@ use super::language::{Language, Words, fill};
 use super::order::Access;
 use super::picture::{self, PictureError};
 use super::steps::{Action, Step, steps};
-use crate::drawing::{Align, Drawing, Layer, LineStyles, Mark, PagesError, Text};
+use crate::drawing::{Align, Drawing, Layer, LineStyles, Mark, PagesError, Stroke, Text};
 use crate::net::Side;
 use crate::pipeline::Output;
 use crate::product;
@@ -19,6 +19,8 @@ const FRAMES: usize = 25;
 /// Size of cut-outs in the list of parts, and of samples of lines, mm.
 const THUMBNAIL_MM: DVec2 = DVec2::new(34.0, 26.0);
 const SAMPLE_MM: DVec2 = DVec2::new(20.0, 7.0);
+/// Hairlines are hard to see on a screen: samples are at least this wide.
+const SAMPLE_LINE_MM: f64 = 0.4;
 /// Height of maps of sheets, mm.
 const MAP_MM: f64 = 22.0;
 
@@ -130,6 +132,12 @@ impl Guide {
             words,
         })
     }
+}
+
+/// With a capital at its beginning: A4, Letter.
+fn capital(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 struct Writer<'a> {
@@ -287,7 +295,7 @@ impl Writer<'_> {
         let paper = if sheets == 1 { &words.paper_one } else { &words.paper_many };
         let values = [
             ("sheets", sheets.to_string()),
-            ("paper", output.layout().options().paper.name()),
+            ("paper", capital(&output.layout().options().paper.name())),
             ("weight", format!("{:.0}", estimate.weight)),
             ("thickness", output.options().thickness_mm.to_string()),
             ("cut", metres(estimate.cut_m)),
@@ -333,14 +341,18 @@ impl Writer<'_> {
             Side::Outside => (Layer::Mountain, &words.mountain),
             Side::Inside => (Layer::Valley, &words.valley),
         };
+        let plain = |layer: Layer| {
+            let stroke = self.styles.stroke(layer);
+            Stroke { width_mm: stroke.width_mm.max(SAMPLE_LINE_MM), ..stroke.clone() }
+        };
         let line = |layer: Layer| {
             let [from, to] = [1.0, SAMPLE_MM.x - 1.0].map(|x| DVec2::new(x, SAMPLE_MM.y / 2.0));
-            Mark::line(Layer::Picture, from, to, self.styles.stroke(layer))
+            Mark::line(Layer::Picture, from, to, &plain(layer))
         };
         let middle = SAMPLE_MM / 2.0;
         let key = [DVec2::new(0.0, 2.0), DVec2::new(-2.0, -2.0), DVec2::new(2.0, -2.0)];
         let key = key.map(|corner| middle + corner).to_vec();
-        let key = Mark::polygon(Layer::Picture, key, self.styles.stroke(Layer::Glue));
+        let key = Mark::polygon(Layer::Picture, key, &plain(Layer::Glue));
         let label = Text::new("A1", middle - DVec2::Y * 1.5, 3.0).aligned(Align::Middle);
         let label = Mark::text(Layer::Picture, label.coloured(self.styles.colour(Layer::Label)));
         let rows = [

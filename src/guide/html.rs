@@ -30,7 +30,7 @@ pub fn html(guide: &Guide) -> String {
         escaped(&words.done_count),
         escaped(&words.skip),
     );
-    let _ = write!(out, "<header><h1>{}</h1></header>\n", escaped(&heading));
+    let _ = writeln!(out, "<header><h1>{}</h1></header>", escaped(&heading));
     push_contents(&mut out, guide);
     out.push_str("<main id=\"steps\" tabindex=\"-1\">\n");
     push_cover(&mut out, guide);
@@ -79,13 +79,12 @@ fn push_cover(out: &mut String, guide: &Guide) {
     let words = &guide.words.cover;
     out.push_str("<section class=\"page\" id=\"cover\" aria-labelledby=\"cover-title\">\n");
     let _ = write!(out, "<h2 id=\"cover-title\">{}</h2>\n<div class=\"pictures\">", escaped(&words.deployed));
-    let ends = [(0, &words.deployed), (guide.frames.len() - 1, &words.flat)];
-    for (k, caption) in ends {
-        let picture = reference(&format!("frame-{k}"), &guide.frames[k], caption);
-        let _ = write!(out, "<figure>{picture}<figcaption>{}</figcaption></figure>", escaped(caption));
+    push_slider(out, guide, &words.deployed);
+    if let (Some(last), k) = (guide.frames.last(), guide.frames.len() - 1) {
+        let picture = reference(&format!("frame-{k}"), last, &words.flat);
+        let _ = write!(out, "<figure>{picture}<figcaption>{}</figcaption></figure>", escaped(&words.flat));
     }
     out.push_str("</div>\n");
-    push_slider(out, guide);
     out.push_str("<div class=\"facts\">\n");
     for (title, sentences) in &guide.facts {
         let _ = write!(out, "<div><h3>{}</h3>", escaped(title));
@@ -97,15 +96,17 @@ fn push_cover(out: &mut String, guide: &Guide) {
     let _ = write!(out, "</div>\n<p class=\"hint\">{}</p>\n</section>\n", escaped(&guide.words.page.hint));
 }
 
-fn push_slider(out: &mut String, guide: &Guide) {
+/// The model that folds under a slider, deployed at first.
+fn push_slider(out: &mut String, guide: &Guide, caption: &str) {
     let Some(first) = guide.frames.first() else { return };
     let words = &guide.words.deploy;
-    let (last, text) = (guide.frames.len() - 1, escaped(&words.slider_text));
+    let (last, text) = (guide.frames.len().saturating_sub(1), escaped(&words.slider_text));
     let _ = write!(
         out,
-        "<figure class=\"slider\">{}<figcaption><label>{} <input type=\"range\" min=\"0\" max=\"{last}\" \
-         value=\"0\" aria-label=\"{text}\"></label></figcaption></figure>\n",
-        reference("frame-0", first, &words.slider_text),
+        "<figure class=\"slider\">{}<figcaption>{}<label>{} <input type=\"range\" min=\"0\" max=\"{last}\" \
+         value=\"0\" aria-label=\"{text}\"></label></figcaption></figure>",
+        reference("frame-0", first, caption),
+        escaped(caption),
         escaped(&words.slider)
     );
 }
@@ -114,31 +115,27 @@ fn push_parts(out: &mut String, guide: &Guide) {
     let words = &guide.words.cover;
     let title = escaped(&words.parts_title);
     out.push_str("<section class=\"page\" id=\"parts\" aria-labelledby=\"parts-title\">\n");
-    let _ = write!(out, "<h2 id=\"parts-title\">{title}</h2>\n<table><thead><tr>");
-    for column in [&words.net, &words.part, &words.pieces, &words.place] {
-        let _ = write!(out, "<th scope=\"col\">{}</th>", escaped(column));
-    }
-    out.push_str("</tr></thead><tbody>\n");
+    let _ = write!(out, "<h2 id=\"parts-title\">{title}</h2>\n<ul class=\"parts\">\n");
     for (p, part) in guide.parts.iter().enumerate() {
-        let _ = write!(
+        let _ = writeln!(
             out,
-            "<tr><td class=\"thumb\">{}</td><th scope=\"row\">{}</th><td>{}</td><td>{}<div class=\"maps\">{}</div></td></tr>\n",
+            "<li><div class=\"thumb\">{}</div><p><b>{}</b><br>{}: {}<br>{}</p><div class=\"maps\">{}</div></li>",
             svg(&part.picture, &part.name),
             escaped(&part.name),
+            escaped(&words.pieces),
             part.pieces,
             escaped(&part.sheets),
             maps(p, part)
         );
     }
-    let _ = write!(
+    let _ = writeln!(
         out,
-        "</tbody></table>\n<h2>{}</h2>\n<table class=\"lines\"><tbody>",
+        "</ul>\n<h2>{}</h2>\n<table class=\"lines\"><tbody>",
         escaped(&guide.words.lines.title)
     );
     for line in &guide.lines {
         let meaning = escaped(&line.meaning);
-        let _ =
-            write!(out, "<tr><td class=\"sample\">{}</td><td>{meaning}</td></tr>\n", svg(&line.sample, ""));
+        let _ = write!(out, "<tr><td class=\"sample\">{}</td><td>{meaning}</td></tr>", svg(&line.sample, ""));
     }
     out.push_str("</tbody></table>\n</section>\n");
 }
@@ -178,7 +175,7 @@ fn push_step(out: &mut String, guide: &Guide, chapter: &str, k: usize) {
         escaped(&part.map_text)
     );
     if entry.step.action == Action::Deploy {
-        push_slider(out, guide);
+        push_slider(out, guide, &guide.words.deploy.slider_text);
     }
     let _ = write!(
         out,

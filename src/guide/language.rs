@@ -105,7 +105,6 @@ pub struct PageWords {
     pub done: String,
     pub done_count: String,
     pub hint: String,
-    pub all_steps: String,
     pub sheet: String,
     pub sheets: String,
     pub map: String,
@@ -132,11 +131,7 @@ pub struct CoverWords {
     pub time: String,
     pub time_formula: String,
     pub parts_title: String,
-    pub part: String,
-    pub net: String,
     pub pieces: String,
-    #[serde(rename = "where")]
-    pub place: String,
 }
 
 /// What lines mean. The fields are named in the language files.

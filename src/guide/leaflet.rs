@@ -19,10 +19,12 @@ const LINE: f64 = 1.95;
 /// Width of a step's column at least; its picture, and what is left of it for maps.
 const COLUMN_MM: f64 = 86.0;
 const GAP_MM: f64 = 8.0;
-const PICTURE: f64 = 0.76;
+const PICTURE: f64 = 0.70;
 const MAP: f64 = 0.85;
 /// Space below a step.
-const BELOW_MM: f64 = 7.0;
+const BELOW_MM: f64 = 6.0;
+/// A chapter begins where there is room for its first steps.
+const CHAPTER_ROOM_MM: f64 = 92.0;
 const SOFT: Rgb = Rgb(96, 96, 102);
 const FRAME: Rgb = Rgb(205, 205, 210);
 
@@ -147,7 +149,7 @@ impl<'a> Book<'a> {
 
     /// The heading of a chapter, which needs room for a row of steps below it.
     fn chapter(&mut self, title: &str) {
-        self.ensure(105.0);
+        self.ensure(CHAPTER_ROOM_MM);
         if self.y_mm < self.size_mm.y - MARGIN_MM {
             let stroke = Stroke { width_mm: 0.3, colour: FRAME, dash_mm: Vec::new() };
             let line = Mark::line(Layer::Picture, DVec2::ZERO, DVec2::X * self.width_mm(), &stroke);

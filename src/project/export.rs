@@ -88,6 +88,7 @@ mod tests {
             dpi: Some(PngOptions::default()),
             tile: Some(Paper::default()),
             color: true,
+            guide_language: Some(Language::English),
             is_static: true,
             fold_pieces: true,
         };

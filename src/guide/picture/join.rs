@@ -15,6 +15,8 @@ use glam::{DAffine3, DVec2, DVec3};
 
 /// A component hovers over its place by this share of its size.
 const HOVER: f64 = 0.45;
+/// What is farther from the joint than this share of the component's size may be cut off.
+const AROUND: f64 = 1.3;
 
 /// A component comes to its place on its parent; `is_there` tells which ones are joined already.
 pub fn joined(
@@ -51,7 +53,11 @@ pub fn joined(
     let below = mark(&output.nets()[joint.parent], joint.parent_panel, middle);
     let centre = on_parent.transform_point3(middle.extend(0.0));
     let spots = spots(&below, &base, &centre, normal);
-    let points: Vec<DVec3> = scene.points().collect();
+    // The joint and what is round it; small components on large ones would not be seen else.
+    let reach = AROUND * low.distance(high);
+    let own_points = corners().map(|c| (hover * own).transform_point3(c));
+    let near = scene.points().filter(|p| p.distance(centre) < reach);
+    let points: Vec<DVec3> = own_points.chain(near).chain([centre]).collect();
     let view = best_view(&scene, &points, &spots)?;
     let mut over = Vec::new();
     if let Some(Marked { outline, key }) = &below {

@@ -21,6 +21,8 @@ use glam::DVec2;
 pub const SIZE_MM: DVec2 = DVec2::new(84.0, 63.0);
 /// Free border of pictures, which has room for labels at their edge, mm.
 const MARGIN_MM: f64 = 6.0;
+/// Colours must be told apart in the shade, too.
+const RELIEF: f64 = 0.6;
 /// What is there.
 const THERE: Rgb = Rgb(214, 214, 218);
 /// Where glue goes.
@@ -28,7 +30,8 @@ const GLUED: Rgb = Rgb(255, 226, 120);
 
 /// A scene with marks over it; faces that are not seen are left out.
 fn taken(scene: &Scene, view: &View, over: Vec<Mark>) -> Drawing {
-    let mut drawing = picture(scene, view, &Look::for_size(view.size_mm()), None, Vec::new());
+    let look = Look { relief: RELIEF, ..Look::for_size(view.size_mm()) };
+    let mut drawing = picture(scene, view, &look, None, Vec::new());
     drawing.marks = prune::seen(drawing.marks, view.size_mm());
     drawing.marks.extend(over);
     drawing

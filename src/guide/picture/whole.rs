@@ -15,6 +15,8 @@ use rayon::prelude::*;
 /// How far the component that folds now is folded, and where its arrow ends.
 const NOW: f64 = 0.4;
 const SOON: f64 = 0.85;
+/// Length of the arrow.
+const SHAFT_MM: f64 = 13.0;
 /// Flat components lie so far off their parents: enough to see what lies on what.
 const LIFT_MM: f64 = 0.3;
 
@@ -58,7 +60,11 @@ fn moving(
     let points: Vec<DVec3> = scene.points().collect();
     let view = best_view(&scene, &points, &spots)?;
     let [from, to] = ends(output, part, [&pose, &next]).map(|p| view.project(p));
-    Ok(taken(&scene, &view, overlay::arrow(&[from, to])))
+    let along = (to - from).normalize_or(DVec2::NEG_Y);
+    // It begins outside, as a hand does that pushes, or inside where it pulls.
+    let [start, tip] =
+        if now < soon { [from - SHAFT_MM * along, from] } else { [from, from + SHAFT_MM * along] };
+    Ok(taken(&scene, &view, overlay::arrow(&[start, tip])))
 }
 
 /// Each panel of a component with its middle and its share of the area.
