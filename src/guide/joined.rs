@@ -61,8 +61,8 @@ impl<'a> Joined<'a> {
         let mut body: Vec<usize> = (0..self.set.panels().len()).collect();
         loop {
             let mut is_settled = true;
-            for (h, hinge) in self.set.hinges().iter().enumerate().filter(|(h, _)| self.is_joined[*h]) {
-                debug_assert!(self.is_joined[h]);
+            let joined = self.set.hinges().iter().zip(&self.is_joined).filter(|(_, is_joined)| **is_joined);
+            for (hinge, _) in joined {
                 let [a, b] = hinge.sides.map(|side| side.panel.0);
                 let least = body[a].min(body[b]);
                 is_settled &= body[a] == body[b];

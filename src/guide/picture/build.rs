@@ -17,6 +17,8 @@ const HALF: f64 = 0.5;
 /// How far the chain that is glued next is folded, and those that come later.
 const NEXT: f64 = 0.62;
 const LATER: f64 = 0.35;
+/// A chain that is glued next is swung aside by this in all, at least, if its creases allow it.
+const LEAST_SWING_RAD: f64 = 0.5;
 /// Tabs are bent by this share of their hinges.
 const TAB: f64 = 0.75;
 /// A loose body is drawn away from the others by this share of the component's size.
@@ -38,7 +40,6 @@ pub fn folded(net: &Net, colour: Rgb) -> Result<Drawing, PictureError> {
         let pose = Pose::folded(&joined, middle, |_| HALF);
         let back = pose.panel(middle).inverse();
         let own = |panel: PanelId| piece.panels().iter().any(|p| p.panel == panel);
-        let mut part = Vec::new();
         let mut alone = Scene::new();
         push(
             &mut alone,
@@ -47,16 +48,13 @@ pub fn folded(net: &Net, colour: Rgb) -> Result<Drawing, PictureError> {
             |panel| back * pose.panel(panel),
             |panel| own(panel).then(|| Paint::of_paper(colour)),
         );
-        part.extend(alone.faces().iter().cloned());
         let points: Vec<DVec3> = alone.points().collect();
         let low = points.iter().map(|p| p.x).fold(f64::INFINITY, f64::min);
         let high = points.iter().map(|p| p.x).fold(f64::NEG_INFINITY, f64::max);
         let shift = DVec3::X * (right_mm - low);
-        for face in part {
+        for face in alone.faces() {
             let corners = face.corners().iter().map(|&c| c + shift).collect();
-            if let Ok(face) = Face::new(corners, face.edges().to_vec(), face.front(), face.back()) {
-                scene.push(face);
-            }
+            scene.extend_face(Face::new(corners, face.edges().to_vec(), face.front(), face.back()));
         }
         right_mm += (high - low) * 1.08;
     }
@@ -203,9 +201,13 @@ fn chain_of(joined: &Joined, hinge: HingeId) -> Option<Vec<PanelId>> {
 /// The component before (0) to after (1) a step.
 fn pose(net: &Net, before: &Joined, pair: &Pair, loose: Option<PanelId>, progress: f64) -> Pose {
     let next = before.chain_of(pair.hinge);
+    let hinges = before.set().hinges().iter().enumerate().map(|(h, hinge)| (HingeId(h), hinge.deployed_rad));
+    let own = hinges.filter(|(h, _)| before.is_joined(*h) && before.chain_of(*h) == next);
+    let whole_rad: f64 = own.map(|(_, angle_rad)| angle_rad).sum();
+    let swing = (LEAST_SWING_RAD / whole_rad.max(LEAST_SWING_RAD)).max(1.0 - NEXT);
     let share = |hinge: HingeId| match before.chain_of(hinge) {
         Some(chain) if before.is_shut(chain) => 1.0,
-        Some(chain) if Some(chain) == next => NEXT + (1.0 - NEXT) * progress,
+        Some(chain) if Some(chain) == next => 1.0 - (1.0 - progress) * swing,
         Some(_) => LATER,
         None => 1.0,
     };

@@ -35,19 +35,7 @@ pub fn joined(
     let low = corners().reduce(DVec3::min).unwrap_or_default();
     let high = corners().reduce(DVec3::max).unwrap_or_default();
     let hover = DAffine3::from_translation(normal * (HOVER * low.distance(high)));
-    let mut scene = Scene::new();
-    let root = root_of(model, part);
-    for (p, other) in parts.iter().enumerate() {
-        let (place, colour) = match p {
-            _ if p == part => (hover * own, palette::colour(part)),
-            _ if is_there[p] && root_of(model, p) == root => (upright() * other.deployed(), THERE),
-            _ => continue,
-        };
-        // Standing components are shut: nothing is seen of their insides.
-        let paint = Paint { outside: colour, inside: None };
-        let set = other.component.panels();
-        push_panels(&mut scene, set, |panel| place * set.panel(panel).deployed, |_| Some(paint), |_| true);
-    }
+    let scene = standing(output, part, &(hover * own), is_there);
     let outline = model.outline_on((part, joint.child_panel), (joint.parent, joint.parent_panel));
     let middle = polygon::centroid(&outline);
     let below = mark(&output.nets()[joint.parent], joint.parent_panel, middle);
@@ -86,6 +74,25 @@ pub fn joined(
     let middle = overlay::middle(&drawing.marks);
     drawing.marks.extend(overlay::labels(&names, middle, view.size_mm()));
     Ok(drawing)
+}
+
+/// What is joined already, and the component at its place above it.
+fn standing(output: &Output, part: usize, place: &DAffine3, is_there: &[bool]) -> Scene {
+    let model = output.model();
+    let root = root_of(model, part);
+    let mut scene = Scene::new();
+    for (p, other) in model.parts().iter().enumerate() {
+        let (place, colour) = match p {
+            _ if p == part => (*place, palette::colour(part)),
+            _ if is_there[p] && root_of(model, p) == root => (upright() * other.deployed(), THERE),
+            _ => continue,
+        };
+        // Standing components are shut: nothing is seen of their insides.
+        let paint = Paint { outside: colour, inside: None };
+        let set = other.component.panels();
+        push_panels(&mut scene, set, |panel| place * set.panel(panel).deployed, |_| Some(paint), |_| true);
+    }
+    scene
 }
 
 /// A joint mark in its component's axes.

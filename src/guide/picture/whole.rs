@@ -15,8 +15,8 @@ use rayon::prelude::*;
 /// How far the component that folds now is folded, and where its arrow ends.
 const NOW: f64 = 0.4;
 const SOON: f64 = 0.85;
-/// Length of the arrow.
-const SHAFT_MM: f64 = 13.0;
+/// Length of the arrow, as a share of the model's size.
+const SHAFT: f64 = 0.2;
 /// Flat components lie so far off their parents: enough to see what lies on what.
 const LIFT_MM: f64 = 0.3;
 
@@ -57,14 +57,15 @@ fn moving(
             Spot { at, normal: motion.matrix3.z_axis, weight: area }
         })
         .collect();
-    let points: Vec<DVec3> = scene.points().collect();
-    let view = best_view(&scene, &points, &spots)?;
-    let [from, to] = ends(output, part, [&pose, &next]).map(|p| view.project(p));
-    let along = (to - from).normalize_or(DVec2::NEG_Y);
+    let low = scene.points().reduce(DVec3::min).unwrap_or_default();
+    let high = scene.points().reduce(DVec3::max).unwrap_or_default();
+    let [from, to] = ends(output, part, [&pose, &next]);
+    let shaft = SHAFT * low.distance(high) * (to - from).normalize_or(DVec3::NEG_Y);
     // It begins outside, as a hand does that pushes, or inside where it pulls.
-    let [start, tip] =
-        if now < soon { [from - SHAFT_MM * along, from] } else { [from, from + SHAFT_MM * along] };
-    Ok(taken(&scene, &view, overlay::arrow(&[start, tip])))
+    let [start, tip] = if now < soon { [from - shaft, from] } else { [from, from + shaft] };
+    let points: Vec<DVec3> = scene.points().chain([start, tip]).collect();
+    let view = best_view(&scene, &points, &spots)?;
+    Ok(taken(&scene, &view, overlay::arrow(&[view.project(start), view.project(tip)])))
 }
 
 /// Each panel of a component with its middle and its share of the area.
