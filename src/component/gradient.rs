@@ -3,6 +3,7 @@
 use super::shape::{ChainShape, Line, Shape};
 use super::solid::{Corner, FaceId, Solid};
 use glam::{DMat3, DVec2, DVec3};
+use smallvec::SmallVec;
 
 /// Which parameters of a solid are free, and where they stand in the vector of changes.
 ///
@@ -18,7 +19,7 @@ pub(super) struct Freedom {
 }
 
 /// A linear form over the free parameters.
-pub(super) type Terms = Vec<(usize, f64)>;
+pub(super) type Terms = SmallVec<[(usize, f64); 16]>;
 
 impl Freedom {
     pub(super) fn of(solid: &Solid, radius_mm: f64) -> Self {

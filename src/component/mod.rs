@@ -6,6 +6,7 @@ mod direction;
 pub mod distance;
 mod fit;
 mod gradient;
+mod grow;
 mod layer;
 mod panel;
 mod profile;

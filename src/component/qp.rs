@@ -66,8 +66,11 @@ impl Programme {
         let mut basis = Basis::new(self.size, &self.curvature)?;
         let mut x = basis.unconstrained(&self.cost);
         let mut is_active = vec![false; self.rows.len()];
+        let mut suspects: Vec<usize> = Vec::new();
         for _ in 0..PIVOTS * (self.size + self.rows.len()) {
-            let Some((row, mut excess)) = self.most_violated(&x, &is_active) else { return Some(x) };
+            let Some((row, mut excess)) = self.most_violated(&x, &is_active, &mut suspects) else {
+                return Some(x);
+            };
             let mut own = 0.0;
             loop {
                 let step = basis.step(&self.terms[self.rows[row].start..self.rows[row].end]);
@@ -94,16 +97,27 @@ impl Programme {
         x.iter().all(|x| x.is_finite()).then_some(x)
     }
 
-    fn most_violated(&self, x: &[f64], is_active: &[bool]) -> Option<(usize, f64)> {
+    /// The row that is violated most and by how much, of those that have been violated since all
+    /// were looked at; where none is left, of all.
+    fn most_violated(
+        &self,
+        x: &[f64],
+        is_active: &[bool],
+        suspects: &mut Vec<usize>,
+    ) -> Option<(usize, f64)> {
         let mut worst = (HOLDS, None);
-        for (k, row) in self.rows.iter().enumerate() {
-            if !is_active[k] {
-                let value: f64 = self.terms[row.start..row.end].iter().map(|&(i, a)| a * x[i]).sum();
-                let excess = value - row.bound;
-                if excess > worst.0 * row.norm {
-                    worst = (excess / row.norm, Some((k, excess)));
-                }
+        let mut is_violated = |&k: &usize| {
+            let row = &self.rows[k];
+            let value: f64 = self.terms[row.start..row.end].iter().map(|&(i, a)| a * x[i]).sum();
+            let excess = value - row.bound;
+            if excess > worst.0 * row.norm {
+                worst = (excess / row.norm, Some((k, excess)));
             }
+            excess > HOLDS * row.norm
+        };
+        suspects.retain(|k| !is_active[*k] && is_violated(k));
+        if suspects.is_empty() {
+            suspects.extend((0..self.rows.len()).filter(|k| !is_active[*k] && is_violated(k)));
         }
         worst.1
     }
@@ -260,7 +274,7 @@ fn rotation(a: f64, b: f64) -> (f64, f64, f64) {
     if b == 0.0 {
         return (1.0, 0.0, a);
     }
-    let length = a.hypot(b);
+    let length = (a * a + b * b).sqrt();
     (a / length, b / length, length)
 }
 

@@ -4,6 +4,7 @@
 use super::assemble::{AssembleError, Assembled, assemble};
 use super::convert::ConvertError;
 use super::fit::{Fit, Fitted};
+use super::grow::grown;
 use super::profile::{balance, imbalance};
 use super::seated::support;
 use super::start::{boxed, circumscribe, fold_spots, simplify};
@@ -22,8 +23,23 @@ const PRICE_RISE: f64 = 4.0;
 const PRICE_RISES: usize = 2;
 /// A better supported joint may cost this share of the hull's height in error.
 const SUPPORT_WORTH: f64 = 0.04;
-/// The search narrows down: after so many steps each, so many starts are left.
-const ROUNDS: [(usize, usize); 2] = [(4, 6), (6, 4)];
+/// Directions are compared after so many steps each; so many are left.
+const FIRST_STEPS: usize = 4;
+const LEFT: usize = 6;
+/// The best few of them are also tried with fewer top edges, down to so many less: a start with
+/// fewer edges may lead to a better place, and gets the others back where they are worth most.
+const RETRIED: usize = 3;
+const FEWER: usize = 2;
+/// All are compared again after so many steps more; so many are left with all top edges, and
+/// with fewer.
+const MORE_STEPS: usize = 6;
+const LEFT_FULL: usize = 5;
+const LEFT_FEWER: usize = 3;
+/// And again after so many more; so many are finished.
+const LAST_STEPS: usize = 8;
+const FINISHED: usize = 3;
+/// Planes are added one by one, with so many steps each.
+const GROWN_STEPS: usize = 8;
 /// Steps of a fit at most.
 const STEPS: usize = 24;
 /// So many panels are dropped at most, for want of room.
@@ -43,19 +59,17 @@ pub(super) fn best(targets: &[(Target, f64)]) -> Result<(usize, Fitted, Assemble
     let hulls: Vec<Hull> =
         targets.par_iter().map(|t| simplified(t.0.hull, ROUGH_DIRECTIONS)).collect::<Vec<_>>();
     let goals: Vec<Target> = targets.iter().zip(&hulls).map(|(t, hull)| goal(&t.0, hull)).collect();
-    let mut runs: Vec<(usize, Fit)> =
-        goals.par_iter().enumerate().map(|(k, goal)| (k, start(goal))).collect();
-    for (steps, left) in ROUNDS {
-        if runs.len() <= 1 {
-            break;
-        }
-        let gone_on: Vec<(usize, Fit)> = runs.into_par_iter().map(|(k, fit)| (k, fit.run(steps))).collect();
-        let mut ranked: Vec<(f64, (usize, Fit))> =
-            gone_on.into_iter().map(|run| (cost(run.1.best()) + targets[run.0].1, run)).collect();
-        ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.0.cmp(&b.1.0)));
-        ranked.truncate(left);
-        runs = ranked.into_iter().map(|r| r.1).collect();
-    }
+    let runs = goals.par_iter().enumerate().map(|(k, goal)| (k, start(goal, goal.top_edges)));
+    let runs = ranked(runs.collect(), targets, FIRST_STEPS, LEFT);
+    let with_fewer = |&(k, _): &(usize, Fit)| {
+        let goal = &goals[k];
+        let least = goal.locked_angles().len().max(3).max(goal.top_edges.saturating_sub(FEWER));
+        (least..goal.top_edges).map(move |edges| (k, start(goal, edges))).collect::<Vec<_>>()
+    };
+    let fewer: Vec<(usize, Fit)> = runs.par_iter().take(RETRIED).flat_map_iter(with_fewer).collect();
+    let mut runs = ranked(runs, targets, MORE_STEPS, LEFT_FULL);
+    runs.extend(ranked(fewer, targets, FIRST_STEPS + MORE_STEPS, LEFT_FEWER));
+    let runs = ranked(runs, targets, LAST_STEPS, FINISHED);
     let finished = runs.into_par_iter().map(|(k, fit)| (k, finish(&targets[k].0, fit)));
     let results: Vec<(usize, Result<_, AssembleError>)> = finished.collect();
     let mut failure = ConvertError::Hull(HullError::Flat);
@@ -79,6 +93,22 @@ pub(super) fn best(targets: &[(Target, f64)]) -> Result<(usize, Fitted, Assemble
         }
         _ => best,
     }
+}
+
+/// Goes on with fits, each with the index of its target, and keeps the best.
+fn ranked<'h>(
+    runs: Vec<(usize, Fit<'h>)>,
+    targets: &[(Target, f64)],
+    steps: usize,
+    left: usize,
+) -> Vec<(usize, Fit<'h>)> {
+    let gone_on: Vec<(usize, Fit)> = runs.into_par_iter().map(|(k, fit)| (k, fit.run(steps))).collect();
+    let mut ranked: Vec<(f64, (usize, Fit))> =
+        gone_on.into_iter().map(|run| (cost(run.1.best()) + targets[run.0].1, run)).collect();
+    // The sort is stable: equal ones stay in the order of their targets.
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ranked.truncate(left);
+    ranked.into_iter().map(|r| r.1).collect()
 }
 
 /// The box round the hull, for bodies that nothing else comes as close to; `None` where it has no
@@ -117,18 +147,24 @@ fn goal<'h>(target: &Target, hull: &'h Hull) -> Target<'h> {
     }
 }
 
-fn start<'h>(goal: &Target<'h>) -> Fit<'h> {
-    let mut solid = circumscribe(goal, goal.top_edges);
+fn start<'h>(goal: &Target<'h>, edges: usize) -> Fit<'h> {
+    let mut solid = circumscribe(goal, edges);
     let spots = fold_spots(&mut solid, goal.profile_vertices);
     Fit::new(goal.clone(), solid, spots)
 }
 
-/// Fits to the end, and again with a higher price on joints that are not well supported.
+/// Fits to the end, adds planes where there may be more, and fits again with a higher price on joints that are not well supported.
 fn finish(target: &Target, fit: Fit) -> Result<(Fitted, Assembled), AssembleError> {
     let hull = simplified(target.hull, FIT_DIRECTIONS);
     let mut goal = Target { hull: &hull, ..fit.target().clone() };
     let Fitted { shape, spots, .. } = fit.into_best();
     let mut best = settle(target, Fit::new(goal.clone(), shape.solid, spots))?;
+    while let Some((solid, spots)) = grown(&best.0, &goal) {
+        match settle(target, Fit::new(goal.clone(), solid, spots).run(GROWN_STEPS)) {
+            Ok(next) if cost(&next.0) < cost(&best.0) => best = next,
+            _ => break,
+        }
+    }
     let height = hull.support(DVec3::Z) + hull.support(-DVec3::Z);
     for _ in 0..PRICE_RISES {
         let supports = |fitted: &Fitted| -> Vec<f64> {

@@ -153,7 +153,7 @@ pub(super) fn turn(a: f64, b: f64) -> f64 {
 
 /// Tangent planes of the hull's silhouette in one direction, from steep-up to steep-down, with
 /// the joint panels of that direction among them.
-fn tangents(target: &Target, angle_rad: f64) -> Vec<SideFacet> {
+pub(super) fn tangents(target: &Target, angle_rad: f64) -> Vec<SideFacet> {
     let n = DVec2::from_angle(angle_rad);
     let silhouette: Vec<DVec2> =
         target.hull.vertices().iter().map(|p| DVec2::new(n.dot(p.truncate()), p.z)).collect();
@@ -199,7 +199,7 @@ const WORTH_MM: f64 = 0.05;
 
 /// Drops planes of chain j until `count` are left and all are worth having: first those outside
 /// the heights, then those whose loss adds the least area to the profile. Joint panels stay.
-fn thin_out(solid: &mut Solid, j: usize, count: usize) {
+pub(super) fn thin_out(solid: &mut Solid, j: usize, count: usize) {
     let ends = (solid.top_mm, solid.bottom_mm);
     let mut lines = super::shape::lines(&solid.chains[j]);
     let facets = &mut solid.chains[j].facets;

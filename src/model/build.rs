@@ -276,7 +276,7 @@ impl Builder<'_> {
         frame: &DAffine3,
         to_local: &DAffine3,
     ) -> (Vec<DVec3>, Vec<(DVec3, f64)>) {
-        let section = |p: usize| self.parts[p].hull.section(&plane.moved(frame));
+        let section = |p: usize| few_corners(self.parts[p].hull.section(&plane.moved(frame)));
         match self.from_parent {
             Some((link, made)) if link.parent == other => {
                 let Some((_, panel)) = made.joint(self.part) else { return Default::default() };
@@ -296,6 +296,23 @@ impl Builder<'_> {
 
 fn seating(plane: &Plane, centre: DVec3, to_local: &DAffine3, is_fixed: bool) -> Seating {
     Seating { plane: plane.moved(to_local), centre: to_local.transform_point3(centre), is_fixed }
+}
+
+/// Sections of round hulls are handled by so many of their corners.
+const SECTION_CORNERS: usize = 24;
+
+/// Corners of a convex polygon that are about evenly spread along its outline.
+fn few_corners(outline: Vec<DVec3>) -> Vec<DVec3> {
+    let count = outline.len();
+    if count <= SECTION_CORNERS {
+        return outline;
+    }
+    let ends = outline.iter().zip(outline.iter().cycle().skip(1));
+    let mut along = 0.0;
+    let lengths: Vec<f64> = ends.map(|(a, b)| (along, along += a.distance(*b)).0).collect();
+    let place = |length: f64| (length / along * SECTION_CORNERS as f64) as usize;
+    let is_first = |k: &usize| *k == 0 || place(lengths[*k]) != place(lengths[*k - 1]);
+    (0..count).filter(is_first).map(|k| outline[k]).collect()
 }
 
 fn radius(points: &[DVec3]) -> f64 {

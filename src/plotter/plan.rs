@@ -127,7 +127,7 @@ const TEST_INSET_MM: f64 = 12.0;
 /// A test cut: a square of 10 mm with a triangle in it, and a crease beside them.
 pub fn test_cut() -> Drawing {
     let look = Look { width_mm: 0.2, colour: crate::drawing::Rgb::BLACK, dash_mm: Vec::new() };
-    let mut sheet = Drawing::new("test cut", DVec2::new(4.0, 3.0) * TEST_SIDE_MM + 2.0 * TEST_INSET_MM);
+    let mut sheet = Drawing::new("test cut", DVec2::new(1.8, 1.0) * TEST_SIDE_MM + 2.0 * TEST_INSET_MM);
     let at = |x: f64, y: f64| DVec2::splat(TEST_INSET_MM) + DVec2::new(x, y) * TEST_SIDE_MM;
     let square = vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)];
     let triangle = vec![at(0.3, 0.3), at(0.7, 0.3), at(0.5, 0.7)];

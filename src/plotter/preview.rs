@@ -10,11 +10,11 @@ const BORDER_MM: f64 = 8.0;
 const STRIP_MM: f64 = 12.0;
 /// Height of letters of the legend and of the numbers of strokes, mm.
 const LEGEND_CAP_MM: f64 = 2.2;
-const NUMBER_CAP_MM: f64 = 0.9;
+const NUMBER_CAP_MM: f64 = 1.2;
 /// At most so many strokes get a number; between them every so many.
 const NUMBERS: usize = 120;
 
-const TRAVEL: Rgb = Rgb(170, 170, 170);
+const TRAVEL: Rgb = Rgb(130, 150, 130);
 const TIP: Rgb = Rgb(20, 20, 20);
 const SHEET: Rgb = Rgb(225, 225, 225);
 
@@ -34,7 +34,7 @@ pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
     let travel =
         runs.iter().filter(|run| !run.is_down).map(|run| run.points.iter().map(|&p| at(p)).collect());
     let travel = travel.map(Polyline::open).collect();
-    picture.marks.push(Mark::path(Layer::Picture, travel, Some(line(0.08, TRAVEL)), None));
+    picture.marks.push(Mark::path(Layer::Picture, travel, Some(line(0.12, TRAVEL)), None));
     let strokes: Vec<Vec<DVec2>> = runs
         .iter()
         .filter(|run| run.is_down)
@@ -96,7 +96,7 @@ fn legend(size_mm: DVec2, job: &Job, placement: &Placement) -> Vec<Mark> {
     let mut marks = Vec::new();
     marks.extend(sample(0.0, &line(0.35, colour(0.0)), "shaft"));
     marks.extend(sample(step, &line(0.1, TIP), "tip"));
-    marks.extend(sample(2.0 * step, &line(0.08, TRAVEL), "travel"));
+    marks.extend(sample(2.0 * step, &line(0.12, TRAVEL), "travel"));
     marks.push(Mark::text(Layer::Picture, second));
     marks
 }

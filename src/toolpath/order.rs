@@ -9,9 +9,9 @@ use super::inside::{area_mm2, containers};
 use super::{Operation, Task};
 use glam::DVec2;
 
-/// Upper limits of the areas of small and of middling pieces, mm². Small pieces are cut while the
-/// sheet around them still holds.
-const SIZE_CLASSES_MM2: [f64; 2] = [400.0, 2500.0];
+/// Up to this area a piece is small, mm². Small pieces are cut while the sheet around them still
+/// holds. More classes than two cost a sweep over the sheet each.
+const SMALL_MM2: f64 = 2500.0;
 /// Rounds of improvement at most; a few suffice.
 const ROUNDS: usize = 24;
 /// Moves look at places at most this far on in the order, so that thousands of labels stay quick.
@@ -28,7 +28,7 @@ pub fn in_order(tasks: Vec<Task>, start: DVec2) -> Vec<Task> {
     let mut done: Vec<Task> = Vec::with_capacity(tasks.len());
     for operation in Operation::ALL {
         let own: Vec<Task> = tasks.iter().filter(|t| t.operation() == operation).cloned().collect();
-        let groups = if operation == Operation::Cut { by_size(own) } else { vec![own] };
+        let groups = if operation == Operation::Cut { by_size(own) } else { [own, Vec::new()] };
         for group in groups {
             let group = Tour::greedy(&group, at).improved().in_order();
             at = group.last().map_or(at, Task::end);
@@ -44,16 +44,16 @@ pub fn travel_mm(tasks: &[Task], start: DVec2) -> f64 {
     ends.zip(tasks).map(|(end, task)| end.distance(task.start())).sum()
 }
 
-/// Tasks by the size of the outermost line around them, smallest first.
-fn by_size(tasks: Vec<Task>) -> Vec<Vec<Task>> {
+/// Tasks inside of small pieces, and the others: by the outermost line around them.
+fn by_size(tasks: Vec<Task>) -> [Vec<Task>; 2] {
     let around = containers(&tasks);
-    let mut classes = vec![Vec::new(); SIZE_CLASSES_MM2.len() + 1];
     let areas: Vec<f64> = tasks.iter().map(area_mm2).collect();
+    let (mut small, mut large) = (Vec::new(), Vec::new());
     for (k, task) in tasks.into_iter().enumerate() {
         let area = around[k].iter().map(|&c| areas[c]).fold(areas[k], f64::max);
-        classes[SIZE_CLASSES_MM2.iter().filter(|&&limit| area > limit).count()].push(task);
+        if area > SMALL_MM2 { large.push(task) } else { small.push(task) }
     }
-    classes
+    [small, large]
 }
 
 /// A task at its place in the order.
