@@ -1,12 +1,13 @@
 //! The assembly guide: every step once, in an order that hands can follow, and nothing in it that
 //! a name could break.
 
-mod made;
 mod support;
 
 use glam::DVec2;
 use proptest::prelude::*;
+use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
 use support::Prism;
 use tatamu::component::{HingeId, PanelKind};
 use tatamu::drawing::{LineStyles, Shape};
@@ -16,6 +17,15 @@ use tatamu::net::{Naming, Net, NetOptions, develop};
 use tatamu::pipeline::{self, Options, Output};
 use tatamu::progress::Silent;
 use tatamu::units::{Paper, parse_paper};
+
+const SAMPLES: [&str; 6] = ["teddy", "snowman", "rabbit", "teapot", "bottle", "box"];
+
+fn make(name: &str, options: &Options) -> Output {
+    let path = format!("{}/samples/{name}.obj", env!("CARGO_MANIFEST_DIR"));
+    let bytes = std::fs::read(path).unwrap();
+    let (mesh, _) = Mesh::from_soup(&mesh::read(&bytes).unwrap()).unwrap();
+    pipeline::run(&mesh, options, &Silent).unwrap()
+}
 
 /// All labels of a model, told by what is printed: on tabs, and where there are none, by the net.
 fn labels(output: &Output) -> Vec<String> {
@@ -111,16 +121,30 @@ fn assert_complete(output: &Output) {
 
 #[test]
 fn every_label_joint_and_component_has_its_step() {
-    made::samples().iter().for_each(|made| assert_complete(&made.output));
+    SAMPLES.par_iter().for_each(|name| assert_complete(&make(name, &Options::default())));
 }
 
 #[test]
 fn split_panels_and_other_shapes_have_complete_guides_too() {
-    let bytes = include_bytes!("../samples/snowman.obj");
-    let (mesh, _) = Mesh::from_soup(&mesh::read(bytes).unwrap()).unwrap();
     for (size_mm, top_edges, profile_vertices) in [(700.0, 4, 3), (60.0, 9, 8)] {
         let options = Options { size_mm, top_edges, profile_vertices, ..Options::default() };
-        assert_complete(&pipeline::run(&mesh, &options, &Silent).unwrap());
+        assert_complete(&make("snowman", &options));
+    }
+}
+
+#[test]
+fn a_box_shuts_with_its_last_tab() {
+    let set = Prism::cuboid(60.0, 50.0, 40.0).panel_set();
+    let options = NetOptions::new(6.0, DVec2::splat(400.0));
+    let net = develop(&set, Naming { name: "box", prefix: "A" }, &[], &options).unwrap();
+    assert_can_be_glued(&net);
+    let access: Vec<Access> = gluing_order(&net).iter().map(|gluing| gluing.access).collect();
+    assert_eq!(access, [Access::Finger, Access::Finger, Access::FoldFlat]);
+    // A box of a matchbox's size has no room for a finger, and a tiny one not for a pencil.
+    for (scale, expected) in [(0.2, Access::Stick), (0.1, Access::FoldFlat)] {
+        let set = Prism::cuboid(60.0 * scale, 50.0 * scale, 40.0 * scale).panel_set();
+        let net = develop(&set, Naming { name: "box", prefix: "A" }, &[], &options).unwrap();
+        assert_eq!(gluing_order(&net)[0].access, expected, "{scale}");
     }
 }
 
@@ -154,8 +178,8 @@ proptest! {
 }
 
 fn snowman(title: &str, language: Language) -> Guide {
-    let made = made::samples().iter().find(|made| made.name == "snowman").unwrap();
-    Guide::new(&made.output, title, &LineStyles::standard(), language).unwrap()
+    static SNOWMAN: LazyLock<Output> = LazyLock::new(|| make("snowman", &Options::default()));
+    Guide::new(&SNOWMAN, title, &LineStyles::standard(), language).unwrap()
 }
 
 #[test]

@@ -6,12 +6,13 @@ use super::film::FilmArgs;
 use super::formats::{self, FileArgs};
 use super::guide::GuideArgs;
 use super::options::ModelArgs;
+use super::output::{self, Target};
 use super::progress::TerminalProgress;
-use super::{input, output, terminal};
+use super::{input, terminal};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use tatamu::export::Source;
+use tatamu::export::{FormatOptions, Source};
 use tatamu::fold::Stack;
 use tatamu::mesh::{Mesh, Repairs};
 use tatamu::net::Side;
@@ -136,17 +137,7 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     };
     let formats = args.guide.choose(choice.formats, input.project.as_ref().map(|p| &p.export));
     let formats = args.film.choose(formats)?;
-    let mut files = Vec::new();
-    for target in targets {
-        let is_paged = matches!(target.format.source, Source::Pages(_));
-        for (name, product) in if is_paged { &products[..] } else { &products[..1] } {
-            let name = if is_paged { name } else { "" };
-            for file in target.format.write(product, &formats)? {
-                let suffix = format!("{name}{}", file.suffix);
-                files.push((output::with_suffix(&target.path, &suffix), file.bytes));
-            }
-        }
-    }
+    let mut files = written(targets, &products, &formats)?;
     if let Some(path) = &args.segments {
         files.push((path.clone(), segments(result.mesh(), result.face_parts(), &input.repairs)));
     }
@@ -155,6 +146,26 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
         summarise(&result, &files);
     }
     Ok(())
+}
+
+/// The files of all targets; pages of each product, all else of the first.
+fn written(
+    targets: Vec<Target>,
+    products: &[(&str, Product<'_>)],
+    formats: &FormatOptions,
+) -> Result<Vec<(PathBuf, Vec<u8>)>, CliError> {
+    let mut files = Vec::new();
+    for target in targets {
+        let is_paged = matches!(target.format.source, Source::Pages(_));
+        for (name, product) in if is_paged { products } else { &products[..1] } {
+            let name = if is_paged { name } else { "" };
+            for file in target.format.write(product, formats)? {
+                let suffix = format!("{name}{}", file.suffix);
+                files.push((output::with_suffix(&target.path, &suffix), file.bytes));
+            }
+        }
+    }
+    Ok(files)
 }
 
 /// What the repair found and did, as warnings.

@@ -186,11 +186,11 @@ fn push_step(out: &mut String, guide: &Guide, chapter: &str, k: usize) {
 
 fn push_bar(out: &mut String, guide: &Guide) {
     let words = &guide.words.page;
-    let _ = write!(
+    let _ = writeln!(
         out,
         "<footer class=\"bar\"><button type=\"button\" id=\"back\">{}</button>\
          <p><output id=\"where\" aria-live=\"polite\"></output><progress id=\"progress\" value=\"0\" max=\"{}\" \
-         aria-label=\"{}\"></progress></p><button type=\"button\" id=\"next\">{}</button></footer>\n",
+         aria-label=\"{}\"></progress></p><button type=\"button\" id=\"next\">{}</button></footer>",
         escaped(&words.previous),
         guide.entries.len(),
         escaped(&words.done),

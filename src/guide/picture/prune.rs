@@ -106,7 +106,7 @@ mod tests {
     fn what_is_painted_over_is_left_out_and_nothing_else() {
         let [small, large] = [square(10.0), square(40.0)];
         let size_mm = DVec2::splat(100.0);
-        assert_eq!(seen(vec![small.clone(), large.clone()], size_mm), [large.clone()]);
+        assert_eq!(seen(vec![small.clone(), large.clone()], size_mm), std::slice::from_ref(&large));
         let both = vec![large, small];
         assert_eq!(seen(both.clone(), size_mm), both);
     }
