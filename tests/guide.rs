@@ -141,7 +141,7 @@ fn a_box_shuts_with_its_last_tab() {
     let access: Vec<Access> = gluing_order(&net).iter().map(|gluing| gluing.access).collect();
     assert_eq!(access, [Access::Finger, Access::Finger, Access::FoldFlat]);
     // A box of a matchbox's size has no room for a finger, and a tiny one not for a pencil.
-    for (scale, expected) in [(0.2, Access::Stick), (0.1, Access::FoldFlat)] {
+    for (scale, expected) in [(0.25, Access::Stick), (0.1, Access::FoldFlat)] {
         let set = Prism::cuboid(60.0 * scale, 50.0 * scale, 40.0 * scale).panel_set();
         let net = develop(&set, Naming { name: "box", prefix: "A" }, &[], &options).unwrap();
         assert_eq!(gluing_order(&net)[0].access, expected, "{scale}");
