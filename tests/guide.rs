@@ -144,7 +144,9 @@ fn a_box_shuts_with_its_last_tab() {
     for (scale, expected) in [(0.25, Access::Stick), (0.1, Access::FoldFlat)] {
         let set = Prism::cuboid(60.0 * scale, 50.0 * scale, 40.0 * scale).panel_set();
         let net = develop(&set, Naming { name: "box", prefix: "A" }, &[], &options).unwrap();
-        assert_eq!(gluing_order(&net)[0].access, expected, "{scale}");
+        // Where tabs have no room it is made of several pieces, which come together on the table.
+        let mut shutting = gluing_order(&net).into_iter().filter(|gluing| gluing.access != Access::Free);
+        assert_eq!(shutting.next().map(|gluing| gluing.access), Some(expected), "{scale}");
     }
 }
 
