@@ -17,6 +17,7 @@ pub mod drawing;
 pub mod export;
 pub mod fold;
 pub mod geom;
+pub mod guide;
 pub mod mesh;
 pub mod model;
 pub mod net;

@@ -65,6 +65,11 @@ impl<'a> Product<'a> {
         self.output
     }
 
+    /// The look of the lines.
+    pub fn styles(&self) -> &LineStyles {
+        &self.styles
+    }
+
     /// The model's title.
     pub fn title(&self) -> &'a str {
         self.title

@@ -65,7 +65,7 @@ fn no_cracks_show_between_faces() {
     // Without lines, every pixel well inside the outline is opaque.
     let scene = cube();
     let view = view(&scene, 0.6, 0.5);
-    let look = Look { crease_mm: 0.0, outline_mm: 0.0 };
+    let look = Look { crease_mm: 0.0, outline_mm: 0.0, relief: 1.0 };
     let pixmap = png::rasterise(&picture(&scene, &view, &look, None, Vec::new()), DPI).unwrap();
     for step in 0..=1000 {
         let along = 10.0 - 20.0 * f64::from(step) / 1000.0;

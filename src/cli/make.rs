@@ -4,13 +4,15 @@ use super::cutters::CutterArgs;
 use super::error::CliError;
 use super::film::FilmArgs;
 use super::formats::{self, FileArgs};
+use super::guide::GuideArgs;
 use super::options::ModelArgs;
+use super::output::{self, Target};
 use super::progress::TerminalProgress;
-use super::{input, output, terminal};
+use super::{input, terminal};
 use clap::Args;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use tatamu::export::{FORMATS, Source};
+use std::path::PathBuf;
+use tatamu::export::{FormatOptions, Source};
 use tatamu::fold::Stack;
 use tatamu::mesh::{Mesh, Repairs};
 use tatamu::net::Side;
@@ -41,6 +43,9 @@ pub struct MakeArgs {
     /// replaced, but only when the new one is complete. Example: -o teddy.pdf -o teddy.json
     #[arg(short, long = "output", value_name = "FILE")]
     output: Vec<PathBuf>,
+
+    #[command(flatten)]
+    guide: GuideArgs,
 
     #[command(flatten)]
     film: FilmArgs,
@@ -78,6 +83,7 @@ const MOST_OF_A_KIND: usize = 4;
 const EXAMPLES: &str = "\
 Examples:
   tatamu make teddy.obj
+  tatamu make teddy.obj -o teddy.pdf --guide teddy.html
   tatamu make teddy.obj --size 30cm --paper a3 -o teddy.pdf -o teddy.json
   tatamu make bunny.stl --up z --parts 5 --top-edges 8
   tatamu make teddy.toml --direction head=90";
@@ -88,11 +94,9 @@ fn after_help() -> String {
 
 /// Runs the command.
 pub fn run(args: &MakeArgs) -> Result<(), CliError> {
-    let paths = match args.output.as_slice() {
-        [] => vec![default_output(&args.input)],
-        paths => paths.to_vec(),
-    };
-    let targets = output::targets(&paths, &[&args.input])?;
+    let targets = args.guide.targets(&args.input, &args.output)?;
+    let paths: Vec<PathBuf> = targets.iter().map(|target| target.path.clone()).collect();
+    output::check_places(&paths, &[&args.input])?;
     let input = input::read(&args.input)?;
     let places: Vec<PathBuf> = paths.iter().chain(&args.segments).cloned().collect();
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
@@ -131,18 +135,9 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
         false => vec![("", product(Content::All))],
         true => vec![("-print", product(Content::Print)), ("-cut", product(Content::Cut))],
     };
-    let formats = args.film.choose(choice.formats)?;
-    let mut files = Vec::new();
-    for target in targets {
-        let is_paged = matches!(target.format.source, Source::Pages(_));
-        for (name, product) in if is_paged { &products[..] } else { &products[..1] } {
-            let name = if is_paged { name } else { "" };
-            for file in target.format.write(product, &formats)? {
-                let suffix = format!("{name}{}", file.suffix);
-                files.push((output::with_suffix(&target.path, &suffix), file.bytes));
-            }
-        }
-    }
+    let formats = args.guide.choose(choice.formats, input.project.as_ref().map(|p| &p.export));
+    let formats = args.film.choose(formats)?;
+    let mut files = written(targets, &products, &formats)?;
     if let Some(path) = &args.segments {
         files.push((path.clone(), segments(result.mesh(), result.face_parts(), &input.repairs)));
     }
@@ -153,13 +148,24 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     Ok(())
 }
 
-/// The input's name with the first format's extension, in the working directory.
-fn default_output(input: &Path) -> PathBuf {
-    let stem = input.file_stem().unwrap_or("model".as_ref());
-    let mut name = stem.to_owned();
-    name.push(".");
-    name.push(FORMATS[0].extensions[0]);
-    PathBuf::from(name)
+/// The files of all targets; pages of each product, all else of the first.
+fn written(
+    targets: Vec<Target>,
+    products: &[(&str, Product<'_>)],
+    formats: &FormatOptions,
+) -> Result<Vec<(PathBuf, Vec<u8>)>, CliError> {
+    let mut files = Vec::new();
+    for target in targets {
+        let is_paged = matches!(target.format.source, Source::Pages(_));
+        for (name, product) in if is_paged { products } else { &products[..1] } {
+            let name = if is_paged { name } else { "" };
+            for file in target.format.write(product, formats)? {
+                let suffix = format!("{name}{}", file.suffix);
+                files.push((output::with_suffix(&target.path, &suffix), file.bytes));
+            }
+        }
+    }
+    Ok(files)
 }
 
 /// What the repair found and did, as warnings.

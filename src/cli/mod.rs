@@ -5,6 +5,7 @@ mod cutters;
 mod error;
 mod film;
 mod formats;
+mod guide;
 mod init;
 mod input;
 mod make;

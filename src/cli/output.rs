@@ -4,7 +4,7 @@ use super::error::{CliError, reason};
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use tatamu::export::{FORMATS, Format, format_of};
+use tatamu::export::{FORMATS, Format, format_among};
 use tempfile::NamedTempFile;
 
 /// A file name that the user gave, with its format.
@@ -15,9 +15,9 @@ pub struct Target {
     pub format: &'static Format,
 }
 
-/// The extensions of all formats, for messages: `.pdf, .svg`.
-pub fn known_extensions() -> String {
-    let extensions = FORMATS.iter().flat_map(|format| format.extensions);
+/// The extensions of some formats, for messages: `.pdf, .svg`.
+pub fn known_extensions(formats: &[Format]) -> String {
+    let extensions = formats.iter().flat_map(|format| format.extensions);
     let dotted: Vec<String> = extensions.map(|e| format!(".{e}")).collect();
     dotted.join(", ")
 }
@@ -25,15 +25,29 @@ pub fn known_extensions() -> String {
 /// Finds the format of each name, and checks before any work that a file can be written there and
 /// that none of `inputs` would be lost.
 pub fn targets(paths: &[PathBuf], inputs: &[&Path]) -> Result<Vec<Target>, CliError> {
-    let target = |path: &PathBuf| -> Result<Target, CliError> {
-        let extension = path.extension().unwrap_or_default().to_string_lossy();
-        let format = format_of(&extension)
-            .ok_or_else(|| CliError::Extension { path: path.clone(), known: known_extensions() })?;
-        Ok(Target { path: path.clone(), format })
-    };
-    let targets = paths.iter().map(target).collect::<Result<_, _>>()?;
+    let targets = targets_among(paths, &[FORMATS])?;
     check_places(paths, inputs)?;
     Ok(targets)
+}
+
+/// Finds the format of each name, in the first of some lists that has it.
+pub fn targets_among(paths: &[PathBuf], lists: &[&'static [Format]]) -> Result<Vec<Target>, CliError> {
+    let target = |path: &PathBuf| -> Result<Target, CliError> {
+        let extension = path.extension().unwrap_or_default().to_string_lossy();
+        let format = lists.iter().find_map(|formats| format_among(formats, &extension));
+        let known = || known_extensions(lists.last().copied().unwrap_or(FORMATS));
+        let format = format.ok_or_else(|| CliError::Extension { path: path.clone(), known: known() })?;
+        Ok(Target { path: path.clone(), format })
+    };
+    paths.iter().map(target).collect()
+}
+
+/// The input's name with another extension, in the working directory.
+pub fn default_name(input: &Path, extension: &str) -> PathBuf {
+    let mut name = input.file_stem().unwrap_or("model".as_ref()).to_owned();
+    name.push(".");
+    name.push(extension);
+    PathBuf::from(name)
 }
 
 /// Checks that files can be written under these names, that no name comes twice, and that none

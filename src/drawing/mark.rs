@@ -192,6 +192,25 @@ impl Mark {
         self
     }
 
+    /// The same mark in another size, about the origin: lines, dashes and letters too.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Self {
+        self.stretch(DVec2::ZERO, DVec2::splat(factor));
+        match &mut self.shape {
+            Shape::Path { stroke: Some(stroke), .. } => {
+                stroke.width_mm *= factor;
+                stroke.dash_mm.iter_mut().for_each(|dash| *dash *= factor);
+            }
+            Shape::Text(text) => {
+                let middle = text.middle();
+                text.cap_height_mm *= factor;
+                text.anchor += middle - text.middle();
+            }
+            Shape::Path { stroke: None, .. } | Shape::Image(_) => {}
+        }
+        self
+    }
+
     /// Moves the mark's points away from `middle` by a factor across and one along the page;
     /// letters keep their size.
     pub fn stretch(&mut self, middle: DVec2, factor: DVec2) {

@@ -12,6 +12,7 @@ pub mod fold;
 mod gif;
 pub mod glb;
 pub mod gltf;
+mod guide;
 mod json;
 mod obj;
 mod options;
@@ -23,6 +24,7 @@ mod svg;
 pub use dxf::{DxfOptions, DxfSheets, DxfVersion};
 pub use fold::{FoldOptions, PoseCount};
 pub use glb::GlbOptions;
+pub use guide::{GUIDES, GuideOptions};
 pub use options::{FormatOptions, TextMode};
 pub use pdf::{PdfOptions, Timestamp};
 pub use plt::PltOptions;
@@ -44,6 +46,7 @@ pub const FORMATS: &[Format] = &[
     glb::FORMAT,
     obj::FORMAT,
     fold::FORMAT,
+    guide::HTML,
     json::FORMAT,
 ];
 
@@ -141,8 +144,13 @@ impl Format {
 
 /// The format for a file name's extension (without the dot, in any case).
 pub fn format_of(extension: &str) -> Option<&'static Format> {
+    format_among(FORMATS, extension)
+}
+
+/// The same among some formats.
+pub fn format_among<'a>(formats: &'a [Format], extension: &str) -> Option<&'a Format> {
     let extension = extension.to_ascii_lowercase();
-    FORMATS.iter().find(|format| format.extensions.contains(&extension.as_str()))
+    formats.iter().find(|format| format.extensions.contains(&extension.as_str()))
 }
 
 #[cfg(test)]

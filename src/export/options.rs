@@ -3,6 +3,7 @@
 use super::dxf::DxfOptions;
 use super::fold::FoldOptions;
 use super::glb::GlbOptions;
+use super::guide::GuideOptions;
 use super::pdf::PdfOptions;
 use super::plt::PltOptions;
 use super::png::PngOptions;
@@ -20,6 +21,8 @@ pub struct FormatOptions {
     pub fold: FoldOptions,
     /// For GLB.
     pub glb: GlbOptions,
+    /// For assembly guides.
+    pub guide: GuideOptions,
     /// For PDF.
     pub pdf: PdfOptions,
     /// For PLT.

@@ -85,6 +85,12 @@ impl Leaf {
     }
 }
 
+/// Pages in their own size, whatever is chosen for sheets.
+pub(super) fn whole(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
+    let pdf = PdfOptions { tile: None, ..options.pdf };
+    write(pages, &FormatOptions { pdf, ..options.clone() })
+}
+
 fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
     let failed = |message: String| ExportError::writer(&FORMAT, message);
     let mut pdf = PdfDocument::new(pages.title());

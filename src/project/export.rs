@@ -2,6 +2,7 @@
 
 use super::fields;
 use crate::export::{DxfSheets, DxfVersion, PngOptions, SvgStroke, TextMode};
+use crate::guide::Language;
 use crate::units::Paper;
 use serde::Deserialize;
 
@@ -31,6 +32,9 @@ pub struct ExportTable {
     pub tile: Option<Paper>,
     /// Whether panels have the mesh's own colours.
     pub color: bool,
+    /// Language of the assembly guide.
+    #[serde(deserialize_with = "fields::named")]
+    pub guide_language: Option<Language>,
     /// Whether GLB files are without animation.
     #[serde(rename = "static")]
     pub is_static: bool,
@@ -56,6 +60,8 @@ pub(super) const TEMPLATE: &str = r#"
 # tile = "a4"
 # Panels in the mesh's own colours.
 # color = true
+# Language of the assembly guide, "en" or "de".
+# guide_language = "en"
 # GLB files without the animation of the folding.
 # static = true
 # Each piece in a FOLD file of its own, besides the whole model.
@@ -82,6 +88,7 @@ mod tests {
             dpi: Some(PngOptions::default()),
             tile: Some(Paper::default()),
             color: true,
+            guide_language: Some(Language::English),
             is_static: true,
             fold_pieces: true,
         };

@@ -15,13 +15,15 @@ pub struct Look {
     pub crease_mm: f64,
     /// Borders and silhouettes, mm.
     pub outline_mm: f64,
+    /// How much the light tells, from 0, where faces have their own colours, to 1.
+    pub relief: f64,
 }
 
 impl Look {
     /// Lines that suit a picture of this size: about 1 and 1.6 pixels at 640 pixels.
     pub fn for_size(size_mm: DVec2) -> Self {
         let pixel_mm = size_mm.max_element() / 640.0;
-        Self { crease_mm: pixel_mm, outline_mm: 1.6 * pixel_mm }
+        Self { crease_mm: pixel_mm, outline_mm: 1.6 * pixel_mm, relief: 1.0 }
     }
 }
 
@@ -52,7 +54,8 @@ fn draw(scene: &Scene, view: &View, look: &Look, seam_mm: f64, fragment: &Fragme
     let Some((colour, normal)) = side else {
         return;
     };
-    let colour = light::shaded(colour, view.camera().direction(normal));
+    let lit = light::shaded(colour, view.camera().direction(normal));
+    let colour = light::mixed(colour, lit, look.relief);
     let points: Vec<DVec2> = fragment.corners.iter().map(|&c| view.project(c)).collect();
     let stroke = |width_mm, colour| Stroke { width_mm, colour, dash_mm: Vec::new() };
     let widths_mm = [look.crease_mm, look.outline_mm];

@@ -148,6 +148,11 @@ impl Scene {
         self.faces.push(face);
     }
 
+    /// Adds a face where it is one: what is too thin to be seen is left out.
+    pub fn extend_face(&mut self, face: Result<Face, SceneError>) {
+        self.faces.extend(face);
+    }
+
     /// The faces, in the order in which they were added.
     pub fn faces(&self) -> &[Face] {
         &self.faces

@@ -9,5 +9,6 @@ mod still;
 
 pub use angle::ViewAngle;
 pub use film::{Film, FilmOptions, Shot, staged_scene};
+pub(crate) use scenes::{Paint, push_panels};
 pub use scenes::{components_scene, hulls_scene, mesh_scene, pose_scene, segments_scene, upright};
 pub use still::{ShowError, Still, framed};

@@ -1,6 +1,6 @@
 //! What is to be seen at each stage.
 
-use crate::component::{PanelId, PanelSet};
+use crate::component::{HingeId, PanelId, PanelSet};
 use crate::drawing::Rgb;
 use crate::fold::{ModelMotion, ModelPose};
 use crate::geom::Hull;
@@ -74,27 +74,48 @@ pub fn pose_scene(model: &Model, pose: &ModelPose) -> Scene {
     let mut scene = Scene::new();
     for (index, (part, posed)) in model.parts().iter().zip(&pose.parts).enumerate() {
         let place = |panel: PanelId| upright() * posed.panel(panel);
-        push_panels(&mut scene, part.component.panels(), place, palette::colour(index));
+        let paint = Paint::of_paper(palette::colour(index));
+        push_panels(&mut scene, part.component.panels(), place, |_| Some(paint), |_| true);
     }
     scene
 }
 
-/// Adds the panels of a component; those too thin to be seen are left out.
-fn push_panels(scene: &mut Scene, set: &PanelSet, place: impl Fn(PanelId) -> DAffine3, colour: Rgb) {
+/// The two sides of a panel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Paint {
+    pub(crate) outside: Rgb,
+    /// None where the inside cannot be seen.
+    pub(crate) inside: Option<Rgb>,
+}
+
+impl Paint {
+    /// Paper with this colour outside.
+    pub(crate) fn of_paper(outside: Rgb) -> Self {
+        Self { outside, inside: Some(light::mixed(outside, Rgb::WHITE, INSIDE)) }
+    }
+}
+
+/// Adds the panels of a component that have a paint; those too thin to be seen are left out. Edges
+/// at hinges that are joined are creases.
+pub(crate) fn push_panels(
+    scene: &mut Scene,
+    set: &PanelSet,
+    place: impl Fn(PanelId) -> DAffine3,
+    paint: impl Fn(PanelId) -> Option<Paint>,
+    is_joined: impl Fn(HingeId) -> bool,
+) {
     let mut edges: Vec<Vec<Edge>> =
         set.panels().iter().map(|panel| vec![Edge::Border; panel.outline.len()]).collect();
-    for hinge in set.hinges() {
+    for (_, hinge) in set.hinges().iter().enumerate().filter(|(h, _)| is_joined(HingeId(*h))) {
         let [a, b] = hinge.sides;
         for (here, there) in [(a, b), (b, a)] {
             edges[here.panel.0][here.edge] = Edge::Crease(place(there.panel).matrix3.z_axis);
         }
     }
-    let inside = light::mixed(colour, Rgb::WHITE, INSIDE);
     for (k, (panel, edges)) in set.panels().iter().zip(edges).enumerate() {
+        let Some(paint) = paint(PanelId(k)) else { continue };
         let motion = place(PanelId(k));
         let corners = panel.outline.iter().map(|p| motion.transform_point3(p.extend(0.0))).collect();
-        if let Ok(face) = Face::new(corners, edges, colour, Some(inside)) {
-            scene.push(face);
-        }
+        scene.extend_face(Face::new(corners, edges, paint.outside, paint.inside));
     }
 }

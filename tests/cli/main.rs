@@ -5,6 +5,7 @@ mod check;
 mod cube;
 mod exports;
 mod film;
+mod guide;
 mod make;
 mod project;
 mod refusals;

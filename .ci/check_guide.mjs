@@ -1,0 +1,116 @@
+// Opens a guide as a reader would: walks all steps, ticks, reloads, moves the slider, swipes.
+// No message on the console, no error, no request to anything but the file itself.
+// check_guide.mjs GUIDE.html [FOLDER FOR PICTURES]
+import { createRequire } from "node:module";
+import { pathToFileURL } from "node:url";
+import { resolve } from "node:path";
+
+const require = createRequire(`${process.env.NODE_TOOLS}/`);
+const puppeteer = require("puppeteer-core");
+const [file, pictures] = process.argv.slice(2);
+const address = pathToFileURL(resolve(file)).href;
+const faults = [];
+const expect = (holds, what) => { if (!holds) faults.push(what); };
+
+const browser = await puppeteer.launch({
+  executablePath: process.env.CHROMIUM || "/usr/bin/chromium",
+  args: ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage"],
+});
+const page = await browser.newPage();
+page.on("console", (message) => faults.push(`console: ${message.text()}`));
+page.on("pageerror", (error) => faults.push(`error: ${error.message}`));
+page.on("request", (request) => {
+  if (request.url().split("#")[0] !== address) faults.push(`request: ${request.url().slice(0, 200)}`);
+});
+const shown = () => page.$$eval("main > .page:not([hidden])", (pages) => pages.map((p) => p.id));
+const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+
+for (const [name, width, height] of [["phone", 390, 844], ["desktop", 1280, 800]]) {
+  const isPhone = name === "phone";
+  await page.setViewport({ width, height, isMobile: isPhone, hasTouch: isPhone, deviceScaleFactor: 1 });
+  await page.goto(address);
+  expect((await shown()).join() === "cover", `${name}: the cover comes first`);
+  const count = await page.$$eval(".step", (steps) => steps.length);
+  expect(count > 0, "there are steps");
+  const ids = await page.$$eval("main > .page", (pages) => pages.map((p) => p.id));
+  for (const id of ids) {
+    expect((await shown()).join() === id, `${name}: ${id} is shown alone`);
+    expect((await overflow()) <= 0, `${name}: ${id} is ${await overflow()} px too wide`);
+    const faint = await page.$$eval(`#${id} svg`, (all) => all.filter((s) => s.getBoundingClientRect().width < 20).length);
+    expect(faint === 0, `${name}: ${id} has ${faint} pictures without a size`);
+    if (pictures && ["cover", "parts", "step-1", "step-2", "step-4", `step-${count}`].includes(id)) {
+      await page.screenshot({ path: `${pictures}/${name}-${id}.png`, fullPage: true });
+    }
+    if (id !== ids.at(-1)) await (ids.indexOf(id) % 2 ? page.keyboard.press("ArrowRight") : page.click("#next"));
+  }
+  expect(await page.$eval("#next", (b) => b.disabled), "there is nothing after the last page");
+  await page.keyboard.press("Home");
+  expect((await shown()).join() === "cover", "Home leads to the cover");
+  await page.keyboard.press("ArrowLeft");
+  expect((await shown()).join() === "cover", "there is nothing before the cover");
+}
+
+// The slider shows every frame.
+const frames = await page.$eval("#cover input[type=range]", (range) => Number(range.max) + 1);
+await page.focus("#cover input[type=range]");
+await page.keyboard.press("End");
+const last = await page.$eval("#cover .slider use", (use) => use.getAttribute("href"));
+expect(last === `#frame-${frames - 1}`, `the slider ends at ${last}`);
+expect(await page.$(last) !== null, `${last} exists`);
+await page.keyboard.press("ArrowLeft");
+const before = await page.$eval("#cover .slider use", (use) => use.getAttribute("href"));
+expect(before === `#frame-${frames - 2}`, `one step back is ${before}`);
+
+// Ticks stay, by keyboard and by click.
+await page.goto(`${address}#step-1`);
+await page.reload();
+expect((await shown()).join() === "step-1", "the address leads to a step");
+await page.focus("#step-1 .tick input");
+await page.keyboard.press("Space");
+await page.click("#next");
+await page.click("#step-2 .tick");
+await page.reload();
+const ticked = await page.$$eval(".tick input:checked", (all) => all.map((t) => t.dataset.step));
+expect(ticked.join() === "1,2", `after a reload ${ticked} are ticked`);
+expect((await page.$eval("#where", (w) => w.textContent)).startsWith("2 "), "the count is kept");
+expect((await shown()).join() === "step-2", "the reader stays at a step");
+
+// Contents, and a swipe.
+await page.setViewport({ width: 390, height: 844, isMobile: true, hasTouch: true });
+await page.goto(`${address}#cover`);
+await page.reload();
+await page.click("nav summary");
+await page.click("nav li:last-child a");
+expect((await shown()).join().startsWith("step-"), "contents lead to a chapter");
+const place = (await shown()).join();
+const touch = await page.touchscreen.touchStart(300, 300);
+await touch.move(60, 310);
+await touch.end();
+expect((await shown()).join() !== place, "a swipe turns the page");
+
+// Landmarks and names, for those who do not see it.
+const tree = await page.accessibility.snapshot({ interestingOnly: false });
+const roles = new Set();
+const unnamed = [];
+const walk = (node) => {
+  roles.add(node.role);
+  if (["button", "checkbox", "slider", "image"].includes(node.role) && !node.name) unnamed.push(node.role);
+  (node.children || []).forEach(walk);
+};
+walk(tree);
+for (const role of ["banner", "navigation", "main", "contentinfo"]) expect(roles.has(role), `landmark ${role}`);
+expect(unnamed.length === 0, `without a name: ${unnamed}`);
+
+if (pictures) {
+  await page.setViewport({ width: 1280, height: 800 });
+  await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: "dark" }]);
+  await page.goto(`${address}#step-2`);
+  await page.reload();
+  await page.screenshot({ path: `${pictures}/dark-step-2.png` });
+}
+await page.emulateMediaType("print");
+const hidden = await page.$$eval("main > .page", (all) => all.filter((p) => getComputedStyle(p).display === "none").length);
+expect(hidden === 0, `${hidden} pages are not printed`);
+await browser.close();
+faults.forEach((fault) => console.log(fault));
+process.exit(faults.length ? 1 : 0);

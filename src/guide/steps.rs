@@ -1,0 +1,82 @@
+//! All steps of building a model, in their order.
+
+use super::order::{Access, gluing_order};
+use crate::component::HingeId;
+use crate::fold::ancestors;
+use crate::model::Model;
+use crate::net::Net;
+use crate::pipeline::Output;
+
+/// What is done in a step.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Action {
+    /// The pieces of the component are scored and folded.
+    Fold,
+    /// Two edges of the component with the same label are glued, or taped where there is no tab.
+    Glue {
+        /// The hinge, of [`Net::panels`].
+        hinge: HingeId,
+        /// What both edges say.
+        label: String,
+        /// Whether one of them has a tab.
+        has_tab: bool,
+        /// How it is pressed.
+        access: Access,
+    },
+    /// The component is glued on its parent.
+    Join {
+        /// The parent.
+        parent: usize,
+    },
+    /// The component is folded flat within the model.
+    Flatten,
+    /// The model is deployed again, beginning with this component.
+    Deploy,
+}
+
+/// One step.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Step {
+    /// The component that it is about.
+    pub part: usize,
+    /// What is done.
+    pub action: Action,
+}
+
+/// The steps: each component is folded and glued; then components are joined from the roots
+/// outwards; then the model is folded flat in the order that [`crate::fold::FoldPlan`] found, and
+/// deployed in the reverse order.
+pub fn steps(output: &Output) -> Vec<Step> {
+    let model = output.model();
+    let outwards = outwards(model);
+    let mut steps = Vec::new();
+    for &part in &outwards {
+        steps.push(Step { part, action: Action::Fold });
+        steps.extend(glued(&output.nets()[part]).map(|action| Step { part, action }));
+    }
+    for &part in &outwards {
+        if let Some(joint) = &model.parts()[part].joint {
+            steps.push(Step { part, action: Action::Join { parent: joint.parent } });
+        }
+    }
+    let order = output.fold_plan().order();
+    steps.extend(order.iter().map(|&part| Step { part, action: Action::Flatten }));
+    steps.extend(order.last().map(|&part| Step { part, action: Action::Deploy }));
+    steps
+}
+
+/// Components, roots first, and each after its parent.
+pub fn outwards(model: &Model) -> Vec<usize> {
+    let mut parts: Vec<usize> = (0..model.parts().len()).collect();
+    parts.sort_by_key(|&part| (ancestors(model, part).len(), part));
+    parts
+}
+
+fn glued(net: &Net) -> impl Iterator<Item = Action> + '_ {
+    gluing_order(net).into_iter().map(|gluing| Action::Glue {
+        hinge: gluing.hinge,
+        label: net.label(gluing.hinge).unwrap_or_default().to_owned(),
+        has_tab: net.pieces().iter().flat_map(|p| p.tabs()).any(|tab| tab.hinge == gluing.hinge),
+        access: gluing.access,
+    })
+}
