@@ -13,6 +13,7 @@ pub mod dialect;
 mod encode;
 mod frame;
 mod job;
+mod pace;
 mod plan;
 mod preview;
 pub mod profile;

@@ -12,7 +12,7 @@ const STOPGAP_MM: [f64; 2] = [1.5, 1.5];
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlanError {
     /// It does not fit.
-    #[error("{0}")]
+    #[error("{0}; use smaller --paper or a larger --margin, or a larger machine")]
     OffBed(#[from] OffBed),
     /// Cutter and medium do not go together.
     #[error("{0}")]
@@ -234,15 +234,12 @@ mod tests {
         for (cutter, plan) in all_plans() {
             let mut tips = Operation::ALL.map(|operation| {
                 let offset_mm = cutter.tool(operation).map_or(0.0, |tool| tool.blade_offset_mm());
-                (Tip::new(offset_mm, DVec2::new(-0.6, 0.8)), false)
+                Tip::new(offset_mm, DVec2::new(-0.6, 0.8))
             });
             for (way, stroke) in executed(&cutter, &plan).iter().zip(plan.toolpath().strokes()) {
-                let (tip, is_aligned) = &mut tips[stroke.operation() as usize];
-                let cut = tip.drag(way);
+                let cut = tips[stroke.operation() as usize].drag(way);
                 let off_mm = deviation_mm(&cut, stroke.line());
-                // The first stroke of a blade turns it.
-                let is_first = !std::mem::replace(is_aligned, true) && tip.offset_mm() > 0.0;
-                assert!(is_first || off_mm <= 0.05, "{}: {off_mm} mm", cutter.name());
+                assert!(stroke.is_turn() || off_mm <= 0.05, "{}: {off_mm} mm", cutter.name());
             }
         }
     }

@@ -20,6 +20,7 @@ pub struct Stroke {
     operation: Operation,
     line: Vec<DVec2>,
     shaft: Vec<DVec2>,
+    is_turn: bool,
 }
 
 impl Stroke {
@@ -36,6 +37,11 @@ impl Stroke {
     /// The way of the shaft, which is what the machine is told, mm.
     pub fn shaft(&self) -> &[DVec2] {
         &self.shaft
+    }
+
+    /// Whether it is no part of the drawing, but turns a drag knife so that it points the right way.
+    pub fn is_turn(&self) -> bool {
+        self.is_turn
     }
 }
 
@@ -92,13 +98,13 @@ fn strokes_of(work: &[Task], tools: &Toolset, align: Option<Vec<DVec2>>) -> Vec<
         };
         let own: Vec<&Task> = work.iter().filter(|t| t.operation() == operation).collect();
         let mut blade = Blade::new(tooling.blade_offset_mm());
-        let mut push = |line: Vec<DVec2>| {
+        let mut push = |line: Vec<DVec2>, is_turn| {
             let shaft = blade.follow(&line);
-            out.push(Stroke { operation, line, shaft });
+            out.push(Stroke { operation, line, shaft, is_turn });
         };
         let is_dragged = tooling.blade_offset_mm() > 0.0 && !own.is_empty();
-        align.iter().filter(|_| is_dragged).for_each(|line| push(line.clone()));
-        own.iter().flat_map(|task| lines(task, tooling)).for_each(&mut push);
+        align.iter().filter(|_| is_dragged).for_each(|line| push(line.clone(), true));
+        own.iter().flat_map(|task| lines(task, tooling)).for_each(|line| push(line, false));
     }
     out
 }
@@ -221,7 +227,8 @@ mod tests {
             for (k, stroke) in path.strokes().iter().enumerate() {
                 let way = tip.drag(stroke.shaft());
                 // The first stroke only turns the blade, in the margin.
-                let is_first = k == 0 && offset_mm > 0.0;
+                let is_first = stroke.is_turn();
+                assert_eq!(is_first, k == 0 && offset_mm > 0.0);
                 let off_mm = deviation_mm(&way, stroke.line());
                 assert!(is_first || off_mm <= 0.05, "offset {offset_mm}, stroke {k}: {off_mm}");
                 // And nothing of the line is left out.

@@ -21,6 +21,8 @@ pub struct Sheet {
     placement: Placement,
     /// Way with the tool up, and that in the order of the drawing, mm.
     travel_mm: Option<[f64; 2]>,
+    /// Strokes that only turn a drag knife.
+    turns: Vec<usize>,
     notes: Vec<String>,
 }
 
@@ -43,6 +45,11 @@ impl Sheet {
     /// How it lies on the machine.
     pub fn placement(&self) -> &Placement {
         &self.placement
+    }
+
+    /// Its strokes that only turn a drag knife.
+    pub fn turns(&self) -> &[usize] {
+        &self.turns
     }
 
     /// What the user should know.
@@ -82,7 +89,7 @@ impl Sheet {
             ));
         }
         let placement = Placement::straight(reach.ceil() + DVec2::splat(5.0));
-        Ok(Self { name, bytes, job, placement, travel_mm: None, notes })
+        Ok(Self { name, bytes, job, placement, travel_mm: None, turns: Vec::new(), notes })
     }
 
     fn of_drawing(name: String, drawing: &Drawing, machine: &PltOptions) -> Result<Self, CliError> {
@@ -91,12 +98,14 @@ impl Sheet {
         let home = machine.cutter.frame().to_sheet(drawing.size_mm, Point::default());
         let travel_mm = Some([plan.toolpath().travel_mm(home), plan.toolpath().file_travel_mm()]);
         let job = parse(&name, plan.bytes(), &machine.cutter)?;
+        let strokes = plan.toolpath().strokes();
         Ok(Self {
             name,
             bytes: plan.bytes().to_vec(),
             job,
             placement: *plan.placement(),
             travel_mm,
+            turns: (0..strokes.len()).filter(|&k| strokes[k].is_turn()).collect(),
             notes: plan.notes().to_vec(),
         })
     }

@@ -1,6 +1,6 @@
 //! Jobs on their way: the port, the clock, the keyboard and the user.
 
-use super::journal::{Header, Journal, Position};
+use super::journal::{Header, Journal, Position, SheetEntry};
 use super::keys::Keys;
 use super::{PlotArgs, Sheet, handshake, jobs};
 use crate::cli::error::{CliError, reason};
@@ -33,7 +33,10 @@ pub fn start(args: &PlotArgs, cutter: &Cutter, sheets: Vec<Sheet>) -> Result<(),
         baud: args.baud,
         handshake: args.handshake.map(|h| h.name().to_owned()),
         copies: args.copies,
-        sheets: sheets.iter().map(|sheet| Header::sheet(sheet.name(), sheet.bytes())).collect(),
+        sheets: sheets
+            .iter()
+            .map(|sheet| SheetEntry::new(sheet.name(), sheet.bytes(), sheet.turns()))
+            .collect(),
     };
     output::check_places(std::slice::from_ref(&path), &[])?;
     send_all(args, &path, &header, Position::default())
@@ -54,6 +57,13 @@ fn send_all(args: &PlotArgs, path: &Path, header: &Header, start: Position) -> R
     let damaged =
         || CliError::Input { path: path.to_owned(), reason: "the journal is damaged; begin anew".to_owned() };
     let chosen = header.handshake.as_deref().map(handshake).transpose().map_err(CliError::Options)?;
+    if chosen == Some(Handshake::EscB) && !cutter.can_be_asked() {
+        return Err(CliError::Options(format!(
+            "{} does not answer questions (answers in its profile), so --handshake escb cannot work; use \
+             paced, or what \"tatamu profiles show\" says",
+            cutter.name()
+        )));
+    }
     let mut port = open(header, &cutter)?;
     progress::count_stops();
     let keys = Keys::listen();
@@ -61,16 +71,18 @@ fn send_all(args: &PlotArgs, path: &Path, header: &Header, start: Position) -> R
     let mut at = start;
     while at.copy < header.copies {
         while at.sheet < header.sheets.len() {
-            let (name, bytes) = (&header.sheets[at.sheet].0, header.bytes(at.sheet).ok_or_else(damaged)?);
-            let whole = jobs::parse(name, &bytes, &cutter)?;
-            let job = jobs::parse(name, &whole.from_stroke(at.strokes, cutter.dialect()), &cutter)?;
+            let sheet = &header.sheets[at.sheet];
+            let name = &sheet.name;
+            let whole = jobs::parse(name, &sheet.bytes().ok_or_else(damaged)?, &cutter)?;
+            let rest = whole.from_stroke(at.strokes, &sheet.turns, cutter.dialect());
+            let job = jobs::parse(name, &rest, &cutter)?;
             let first = whole.strokes() - job.strokes();
             load(args, &keys, name, at, header.copies)
                 .inspect_err(|_| tell_resume(&journal, whole.strokes()))?;
             let live = Live { keys: &keys, is_quiet: args.quiet, first, name };
             let outcome = live.send(job, &cutter, chosen, port.as_mut(), &mut journal, at)?;
             if outcome.end != End::Finished {
-                journal.note(Position { strokes: first + outcome.strokes_done, ..at })?;
+                journal.note(Position { strokes: at.strokes.max(first + outcome.strokes_done), ..at })?;
                 tell_resume(&journal, whole.strokes());
                 return Err(failure(outcome));
             }
@@ -226,7 +238,7 @@ impl Live<'_> {
             }
             if noted.elapsed() >= NOTE_EVERY {
                 noted = Instant::now();
-                journal.note(Position { strokes: self.first + status.strokes_done, ..at })?;
+                journal.note(Position { strokes: at.strokes.max(self.first + status.strokes_done), ..at })?;
                 self.show(&bar, &status);
             }
         }

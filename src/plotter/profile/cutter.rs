@@ -155,6 +155,18 @@ impl Level {
         let step = wish.clamp(least, most);
         (self.command.replace("{}", &step.to_string()), step == wish)
     }
+
+    /// What a command of a job sets in grams or mm/s: none inside where it sets the machine's own
+    /// choice, none at all where it is another command.
+    pub fn read(&self, command: &[u8]) -> Option<Option<f64>> {
+        let head = self.command.split("{}").next().unwrap_or_default().trim_start();
+        let command = std::str::from_utf8(command).ok()?.trim_start_matches([';', ' ', '\r', '\n', '\t']);
+        let name = command.get(..head.len()).filter(|name| name.eq_ignore_ascii_case(head))?;
+        let rest = command[name.len()..].trim_start();
+        let digits = rest.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(rest.len());
+        let step: Option<f64> = rest[..digits].parse().ok();
+        Some(step.filter(|&step| step > 0.0).map(|step| step / self.per_unit))
+    }
 }
 
 /// A tool of the machine.
@@ -244,6 +256,11 @@ impl Cutter {
         &self.unverified
     }
 
+    /// Whether it answers questions about its buffer.
+    pub fn can_be_asked(&self) -> bool {
+        self.serial.answers && self.dialect.controls().is_some()
+    }
+
     /// Its language.
     pub fn dialect(&self) -> &'static dyn Dialect {
         self.dialect
@@ -267,6 +284,11 @@ impl Cutter {
     /// Speed with the tool down where the medium or the machine does not set one, mm/s.
     pub fn draw_mm_s(&self) -> f64 {
         self.motion.draw_mm_s.0
+    }
+
+    /// How fast it gains and loses speed, mm/s².
+    pub fn acceleration_mm_s2(&self) -> f64 {
+        self.motion.acceleration_mm_s2.0
     }
 
     /// Time to lift the tool or set it down, s.
@@ -339,6 +361,7 @@ struct CutterFile {
 struct MotionTable {
     travel_mm_s: Positive,
     draw_mm_s: Positive,
+    acceleration_mm_s2: Positive,
     pen_s: Positive,
 }
 

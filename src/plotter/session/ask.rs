@@ -122,7 +122,8 @@ impl Session {
         }
         let wants_answers = matches!(self.handshake, Handshake::Auto | Handshake::EscB) && self.may_ask();
         if !wants_answers {
-            return self.begin(self.handshake, now);
+            let is_possible = self.handshake != Handshake::EscB;
+            return if is_possible { self.begin(self.handshake, now) } else { self.end(End::NoAnswer, false) };
         }
         if self.ask.open.is_some() && !self.ask.is_unanswered(now, PATIENCE) {
             return Step::Wait(INTERVAL);
@@ -152,7 +153,12 @@ impl Session {
             Handshake::RtsCts if self.has_clear_to_send != Some(true) => Handshake::Paced,
             other => other,
         };
-        self.handshake = if handshake == Handshake::Auto { fallback } else { handshake };
+        let has_no_cts = handshake == Handshake::RtsCts && self.has_clear_to_send.is_none();
+        self.handshake = match handshake {
+            Handshake::Auto => fallback,
+            _ if has_no_cts => Handshake::Paced,
+            other => other,
+        };
         // What a machine does with questions that it does not know is anybody's guess.
         self.serial.answers &= handshake != Handshake::Auto && self.handshake != Handshake::Paced;
         let why = match self.handshake {
@@ -161,7 +167,11 @@ impl Session {
             Handshake::XonXoff => "XON/XOFF".to_owned(),
             _ => format!("time alone: no more than {} bytes ahead of the machine", self.ask.size),
         };
-        let asked = if handshake == Handshake::Auto { "no answer from the machine; " } else { "" };
+        let asked = match handshake {
+            Handshake::Auto => "no answer from the machine; ",
+            _ if has_no_cts => "the port has no line CTS; ",
+            _ => "",
+        };
         self.notes.push(format!("{asked}handshake: {} ({why})", self.handshake.name()));
         self.phase = Phase::Stream;
         self.ask.stage = 0;
