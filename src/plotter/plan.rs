@@ -76,6 +76,7 @@ impl Plan {
 pub fn toolset(cutter: &Cutter, media: &Media) -> Result<(Toolset, Vec<String>), ToolingError> {
     let mut tools = Toolset::default();
     let mut notes = Vec::new();
+    let mut before = None;
     for operation in Operation::ALL {
         let Some(tool) = cutter.tool(operation) else {
             continue;
@@ -99,6 +100,9 @@ pub fn toolset(cutter: &Cutter, media: &Media) -> Result<(Toolset, Vec<String>),
             tooling = tooling.perforating(perforation);
         }
         tools = tools.with(operation, tooling);
+        if before.replace(tool) == Some(tool) {
+            tools = tools.going_on(operation);
+        }
         notes.extend(limits(cutter, media, operation));
     }
     Ok((tools, notes))
@@ -232,12 +236,14 @@ mod tests {
     #[test]
     fn the_tip_of_what_is_executed_stays_on_the_line() {
         for (cutter, plan) in all_plans() {
-            let mut tips = Operation::ALL.map(|operation| {
-                let offset_mm = cutter.tool(operation).map_or(0.0, |tool| tool.blade_offset_mm());
-                Tip::new(offset_mm, DVec2::new(-0.6, 0.8))
-            });
+            let mut in_hand = None;
+            let mut tip = Tip::new(0.0, DVec2::X);
             for (way, stroke) in executed(&cutter, &plan).iter().zip(plan.toolpath().strokes()) {
-                let cut = tips[stroke.operation() as usize].drag(way);
+                let tool = cutter.tool(stroke.operation()).unwrap();
+                if in_hand.replace(tool) != Some(tool) {
+                    tip = Tip::new(tool.blade_offset_mm(), DVec2::new(-0.6, 0.8));
+                }
+                let cut = tip.drag(way);
                 let off_mm = deviation_mm(&cut, stroke.line());
                 assert!(stroke.is_turn() || off_mm <= 0.05, "{}: {off_mm} mm", cutter.name());
             }

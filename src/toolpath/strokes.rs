@@ -92,18 +92,23 @@ fn in_file_order(work: &[Task]) -> Vec<Task> {
 
 fn strokes_of(work: &[Task], tools: &Toolset, align: Option<Vec<DVec2>>) -> Vec<Stroke> {
     let mut out = Vec::new();
+    let mut blade: Option<Blade> = None;
     for operation in tools.operations() {
         let Some(tooling) = tools.of(operation) else {
             continue;
         };
         let own: Vec<&Task> = work.iter().filter(|t| t.operation() == operation).collect();
-        let mut blade = Blade::new(tooling.blade_offset_mm());
+        blade = blade.filter(|_| tools.goes_on(operation));
+        if own.is_empty() {
+            continue;
+        }
+        let is_turned = blade.is_some() || tooling.blade_offset_mm() == 0.0;
+        let blade = blade.get_or_insert_with(|| Blade::new(tooling.blade_offset_mm()));
         let mut push = |line: Vec<DVec2>, is_turn| {
             let shaft = blade.follow(&line);
             out.push(Stroke { operation, line, shaft, is_turn });
         };
-        let is_dragged = tooling.blade_offset_mm() > 0.0 && !own.is_empty();
-        align.iter().filter(|_| is_dragged).for_each(|line| push(line.clone(), true));
+        align.iter().filter(|_| !is_turned).for_each(|line| push(line.clone(), true));
         own.iter().flat_map(|task| lines(task, tooling)).for_each(|line| push(line, false));
     }
     out

@@ -101,6 +101,8 @@ impl Tooling {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Toolset {
     tools: [Option<Tooling>; Operation::ALL.len()],
+    /// For each operation whether its tool is that of the one before in the order of work.
+    goes_on: [bool; Operation::ALL.len()],
 }
 
 impl Toolset {
@@ -109,6 +111,19 @@ impl Toolset {
     pub fn with(mut self, operation: Operation, tooling: Tooling) -> Self {
         self.tools[operation as usize] = Some(tooling);
         self
+    }
+
+    /// The same set where an operation goes on with the very tool of the one done before it: a
+    /// drag knife then points as that left it.
+    #[must_use]
+    pub fn going_on(mut self, operation: Operation) -> Self {
+        self.goes_on[operation as usize] = true;
+        self
+    }
+
+    /// Whether an operation goes on with the tool of the one done before it.
+    pub fn goes_on(&self, operation: Operation) -> bool {
+        self.goes_on[operation as usize]
     }
 
     /// The tool for an operation.

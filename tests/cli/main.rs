@@ -6,6 +6,7 @@ mod cube;
 mod exports;
 mod film;
 mod make;
+mod profiles;
 mod project;
 mod refusals;
 mod segment;

@@ -106,13 +106,16 @@ fn way_error_mm(way: &[DVec2], stroke: &Stroke) -> f64 {
 
 /// Drags a blade along the ways: how far its tip is from the lines, and the lines from its way.
 fn tips(ways: &[Vec<DVec2>], strokes: &[Stroke], cutter: &Cutter) -> (f64, f64) {
-    let mut tips = Operation::ALL.map(|operation| {
-        let offset_mm = cutter.tool(operation).map_or(0.0, |tool| tool.blade_offset_mm());
-        Tip::new(offset_mm, DVec2::new(-0.6, 0.8))
-    });
+    let mut in_hand = None;
+    let mut tip = Tip::new(0.0, DVec2::X);
     let (mut tip_mm, mut missed_mm) = (0.0_f64, 0.0_f64);
     for (way, stroke) in ways.iter().zip(strokes) {
-        let cut = tips[stroke.operation() as usize].drag(way);
+        let tool = cutter.tool(stroke.operation());
+        if in_hand.replace(tool) != Some(tool) {
+            let offset_mm = tool.map_or(0.0, |tool| tool.blade_offset_mm());
+            tip = Tip::new(offset_mm, DVec2::new(-0.6, 0.8));
+        }
+        let cut = tip.drag(way);
         if !stroke.is_turn() {
             tip_mm = tip_mm.max(deviation_mm(&cut, stroke.line()));
             missed_mm = missed_mm.max(deviation_mm(stroke.line(), &cut));

@@ -5,7 +5,7 @@ use super::rehearsal::Rehearsal;
 use std::time::Duration;
 use tatamu::plotter::profile::Handshake;
 use tatamu::plotter::session::{End, MOST_IN_FLIGHT, SLOWNESS, State};
-use tatamu::plotter::{Cutter, Faults, Job, Media, Motion, Plan, VirtualOptions, VirtualPlotter, test_cut};
+use tatamu::plotter::{Cutter, Faults, Job, Motion, VirtualOptions, VirtualPlotter};
 
 /// A cutter like a profile, with another speed of the line and another answer to questions.
 fn cutter(name: &str, baud: u32, answers: bool) -> Cutter {
@@ -62,6 +62,8 @@ fn a_megabyte_arrives_whole_by_every_handshake_at_two_speeds() {
             assert_eq!((rehearsal.plotter.lost(), rehearsal.plotter.broken()), (0, 0), "{handshake:?} {baud}");
             assert_eq!(rehearsal.plotter.motions(), meant(&job, &cutter), "{handshake:?} {baud}");
             assert_eq!(outcome.is_confirmed, answers);
+            let line = cutter.serial().byte_s() * job.len() as f64;
+            assert!(rehearsal.now().as_secs_f64() >= line, "faster than the line");
             assert!(rehearsal.most_queued <= MOST_IN_FLIGHT + 40, "{handshake:?} {baud}");
             let busy = rehearsal.busy_share();
             assert!(busy >= 0.95, "{handshake:?} {baud}: {busy}");

@@ -26,7 +26,15 @@ const NOTE_EVERY: Duration = Duration::from_millis(500);
 pub fn start(args: &PlotArgs, cutter: &Cutter, sheets: Vec<Sheet>) -> Result<(), CliError> {
     let port = args.port.clone().unwrap_or_default();
     let name = args.input.first().and_then(|path| path.file_stem()).unwrap_or("test-cut".as_ref());
-    let path = PathBuf::from(name).with_extension("tatamu-job");
+    let mut name = name.to_owned();
+    name.push(".tatamu-job");
+    let path = PathBuf::from(name);
+    if path.exists() {
+        terminal::complain(
+            "note",
+            &format!("{} of a job that was stopped is replaced by this one", path.display()),
+        );
+    }
     let header = Header {
         cutter: cutter.text().to_owned(),
         port,
@@ -157,7 +165,10 @@ fn open(header: &Header, cutter: &Cutter) -> Result<Box<dyn SerialPort>, CliErro
         port: header.port.clone(),
         reason: match error.kind() {
             serialport::ErrorKind::Io(kind) => reason(&kind.into()) + ports::hint(&header.port),
-            _ => format!("{error}{}; \"tatamu ports\" lists the ports", ports::hint(&header.port)),
+            serialport::ErrorKind::NoDevice => {
+                "another program uses it, or it is gone; close that program and try again".to_owned()
+            }
+            _ => format!("it does not work as a serial port ({error}); \"tatamu ports\" lists the ports"),
         },
     };
     let mut port = serialport::new(&header.port, header.baud.unwrap_or(serial.baud))
