@@ -22,6 +22,7 @@ use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::report::Run;
 use tatamu::segment::SegmentOptions;
+use tatamu::toolpath::{Operation, tasks};
 
 /// Machines and media of the first table.
 const JOBS: [(&str, &str); 4] = [
@@ -72,7 +73,10 @@ fn pages(argument: &str) -> Result<Vec<Drawing>, Box<dyn Error>> {
     let segmentation = SegmentOptions { parts, ..SegmentOptions::default() };
     let output = pipeline::run(&mesh, &Options { segmentation, ..Options::default() }, &Silent)?;
     let run = Run { path, repairs: &repairs, stages: &[], warnings: &[] };
-    Ok(Product::new(&output, path, run).pages()?.drawings().to_vec())
+    let mut pages = Product::new(&output, path, run).pages()?.drawings().to_vec();
+    // Sheets that only have words on them are nothing for a cutter.
+    pages.retain(|page| !tasks(page, &[Operation::Cut]).is_empty());
+    Ok(pages)
 }
 
 fn measure_model(pages: &[Drawing], cutter: &Cutter, media: &Media) -> Result<(), Box<dyn Error>> {

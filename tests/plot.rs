@@ -221,6 +221,6 @@ fn a_test_cut_can_be_looked_at() {
     let arguments = ["plot", "--test-cut", "--dry-run", "--preview", "cut.png"];
     let output = tatamu(folder.path()).args(arguments).output().unwrap();
     assert!(output.status.success(), "{}", said(&output));
-    assert!(String::from_utf8_lossy(&output.stdout).contains("test cut: 7 strokes"));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("test cut: 5 strokes"));
     assert!(std::fs::read(folder.path().join("cut.png")).unwrap().starts_with(b"\x89PNG"));
 }

@@ -8,6 +8,10 @@ use glam::DVec2;
 /// Dashes and gaps of creases where nothing but a full cut is possible, mm.
 const STOPGAP_MM: [f64; 2] = [1.5, 1.5];
 
+/// Machines with fewer units in a millimetre get finer arcs: this far from the true ones, mm.
+const COARSE_UNITS_PER_MM: f64 = 30.0;
+const FINE_ARCS_MM: f64 = 0.001;
+
 /// Why a sheet cannot be sent to a machine.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlanError {
@@ -17,9 +21,9 @@ pub enum PlanError {
     /// Cutter and medium do not go together.
     #[error("{0}")]
     Tooling(#[from] ToolingError),
-    /// Nothing on the sheet is for this machine.
-    #[error("nothing on sheet {0} is for a cutter")]
-    Nothing(String),
+    /// Nothing on the sheet is for this machine: such as a list of labels.
+    #[error("nothing on it is for a cutter")]
+    Nothing,
 }
 
 /// A sheet as a job for a machine.
@@ -41,7 +45,7 @@ impl Plan {
         let home = cutter.frame().to_sheet(drawing.size_mm, Point::default());
         let toolpath = Toolpath::of_drawing(drawing, &tools, home);
         if toolpath.strokes().is_empty() {
-            return Err(PlanError::Nothing(drawing.title.clone()));
+            return Err(PlanError::Nothing);
         }
         let placement = Placement::find(toolpath.strokes(), drawing.size_mm, cutter.frame())?;
         let bytes = encode(toolpath.strokes(), &placement, cutter, media)?;
@@ -77,6 +81,9 @@ pub fn toolset(cutter: &Cutter, media: &Media) -> Result<(Toolset, Vec<String>),
     let mut tools = Toolset::default();
     let mut notes = Vec::new();
     let mut before = None;
+    if cutter.frame().units_per_mm().value() < COARSE_UNITS_PER_MM {
+        tools = tools.with_arcs(FINE_ARCS_MM);
+    }
     for operation in Operation::ALL {
         let Some(tool) = cutter.tool(operation) else {
             continue;

@@ -60,7 +60,7 @@ pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
             picture.marks.push(Mark::text(Layer::Picture, text.coloured(colour(share(k)))));
         }
     }
-    picture.marks.extend(legend(size_mm, job, placement));
+    picture.marks.extend(legend(size_mm, job, cutter, placement));
     picture
 }
 
@@ -105,9 +105,10 @@ fn tool_of(command: &Command, cutter: &Cutter) -> Option<Operation> {
     Operation::ALL.into_iter().find(|o| command.is_setup() && takes(o))
 }
 
-fn legend(size_mm: DVec2, job: &Job, placement: &Placement) -> Vec<Mark> {
+fn legend(size_mm: DVec2, job: &Job, cutter: &Cutter, placement: &Placement) -> Vec<Mark> {
     let turned = if placement.is_turned() { "; the sheet is turned by 90° to the left" } else { "" };
-    let words = format!("{} strokes, blue first, red last{turned}", job.strokes());
+    let words =
+        format!("{}: {} strokes, blue first, red last{turned}", cutter.name(), job.strokes());
     let at = |x: f64| DVec2::new(BORDER_MM + x, BORDER_MM + STRIP_MM / 2.0);
     let sample = |x: f64, look: &Stroke, words: &str| {
         let text = Text::new(words, at(x + 8.0) - DVec2::Y, LEGEND_CAP_MM).aligned(Align::Start);
@@ -116,9 +117,9 @@ fn legend(size_mm: DVec2, job: &Job, placement: &Placement) -> Vec<Mark> {
     let second = Text::new(words, at(0.0) - DVec2::Y * 6.0, LEGEND_CAP_MM);
     let step = (size_mm.x - 2.0 * BORDER_MM) / 3.0;
     let mut marks = Vec::new();
-    marks.extend(sample(0.0, &line(0.35, colour(0.0)), "shaft"));
-    marks.extend(sample(step, &line(0.1, TIP), "tip"));
-    marks.extend(sample(2.0 * step, &line(0.12, TRAVEL), "travel"));
+    marks.extend(sample(0.0, &line(0.35, colour(0.0)), "shaft, tool down"));
+    marks.extend(sample(step, &line(0.1, TIP), "tip of the blade"));
+    marks.extend(sample(2.0 * step, &line(0.12, TRAVEL), "travel, tool up"));
     marks.push(Mark::text(Layer::Picture, second));
     marks
 }

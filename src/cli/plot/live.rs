@@ -164,6 +164,9 @@ fn open(header: &Header, cutter: &Cutter) -> Result<Box<dyn SerialPort>, CliErro
     let failed = |error: serialport::Error| CliError::Port {
         port: header.port.clone(),
         reason: match error.kind() {
+            serialport::ErrorKind::Io(ErrorKind::NotFound) => {
+                "there is no such port; \"tatamu ports\" lists those that there are".to_owned()
+            }
             serialport::ErrorKind::Io(kind) => reason(&kind.into()) + ports::hint(&header.port),
             serialport::ErrorKind::NoDevice => {
                 "another program uses it, or it is gone; close that program and try again".to_owned()
