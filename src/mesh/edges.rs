@@ -1,5 +1,7 @@
 //! Which faces meet at which edge.
 
+use rayon::prelude::*;
+
 /// The edges of a list of triangles.
 ///
 /// A *side* is one of a triangle's three borders: side `3 f + k` leads from corner `k` of face `f`
@@ -20,9 +22,9 @@ impl Edges {
     /// Collects the edges of triangles. There must be fewer than 2³² sides.
     pub fn new(faces: &[[u32; 3]]) -> Self {
         let mut keyed: Vec<(u64, u32)> = faces
-            .iter()
+            .par_iter()
             .enumerate()
-            .flat_map(|(f, t)| {
+            .flat_map_iter(|(f, t)| {
                 (0..3).map(move |k| {
                     let (a, b) = (t[k], t[(k + 1) % 3]);
                     let key = (u64::from(a.min(b)) << 32) | u64::from(a.max(b));
@@ -30,7 +32,7 @@ impl Edges {
                 })
             })
             .collect();
-        keyed.sort_unstable();
+        keyed.par_sort_unstable();
         let mut edges = Self {
             vertices: Vec::new(),
             first: Vec::new(),

@@ -4,29 +4,45 @@
 use super::surface::Surface;
 use rayon::prelude::*;
 
-/// More cells than this are grouped.
+/// More cells than this are grouped where borders are drawn. A border that is half a cell off is
+/// then off by 0.2% of the size.
+const MOST_BORDER_CELLS: usize = 100_000;
+
+/// More cells than this are grouped for all else.
 const MOST_CELLS: usize = 12_000;
 
 /// A round that removes a smaller share than this is the last one.
 const LEAST_PROGRESS: f64 = 0.05;
 
-/// Groups the cells in pairs, again and again, until few are left. Returns the coarse surface and
-/// the coarse cell of each cell of the given one.
-pub(super) fn coarsen(fine: &Surface) -> (Surface, Vec<u32>) {
-    let mut cell_of: Vec<u32> = (0..fine.len() as u32).collect();
-    let mut coarse = fine.clone();
-    while coarse.len() > MOST_CELLS {
-        let (group, count) = pairs(&coarse);
-        let progress = 1.0 - count as f64 / coarse.len() as f64;
-        coarse = coarse.grouped(&group, count);
-        for cell in &mut cell_of {
-            *cell = group[*cell as usize];
+/// A surface of fewer cells.
+pub(super) struct Coarse {
+    pub surface: Surface,
+    /// The cell of each cell of the surface that it was made from.
+    pub cell_of: Vec<u32>,
+}
+
+/// Groups the cells of the faces' surface in pairs, again and again, until few are left: the
+/// surface to draw borders on, and the one for all else.
+pub(super) fn coarsen(fine: &Surface) -> [Coarse; 2] {
+    let itself = (0..fine.len() as u32).collect();
+    let borders = Coarse { surface: fine.clone(), cell_of: itself }.reduced(MOST_BORDER_CELLS);
+    let coarse = Coarse { surface: borders.surface.clone(), cell_of: borders.cell_of.clone() };
+    [borders, coarse.reduced(MOST_CELLS)]
+}
+
+impl Coarse {
+    fn reduced(mut self, most_cells: usize) -> Self {
+        while self.surface.len() > most_cells {
+            let (group, count) = pairs(&self.surface);
+            let progress = 1.0 - count as f64 / self.surface.len() as f64;
+            self.surface = self.surface.grouped(&group, count);
+            self.cell_of.par_iter_mut().for_each(|cell| *cell = group[*cell as usize]);
+            if progress < LEAST_PROGRESS {
+                break;
+            }
         }
-        if progress < LEAST_PROGRESS {
-            break;
-        }
+        self
     }
-    (coarse, cell_of)
 }
 
 /// A matching: small cells first, each with the free neighbour that gives the most compact and

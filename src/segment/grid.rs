@@ -2,6 +2,7 @@
 
 use super::hollow::enclosed;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 /// About as many cells fill the bounding box while parts are searched for.
 pub(super) const CELLS: f64 = 60_000.0;
@@ -13,6 +14,9 @@ const HOLLOW: f64 = 0.7;
 
 /// The box is widened to this share of its longest side in each direction.
 const LEAST_SIDE: f64 = 0.02;
+
+/// Faces that one thread works on at a time.
+const FACES_AT_ONCE: usize = 4096;
 
 /// A run of cells of one column: the column, the first cell, and the cell behind the last.
 pub(super) type Run = (u32, u16, u16);
@@ -170,10 +174,17 @@ impl Frame {
         is_surface: &mut [bool],
     ) {
         let [u, v] = [(axis + 1) % 3, (axis + 2) % 3];
+        let crossings = |faces: &[[u32; 3]]| {
+            let mut crossings: Vec<Crossing> = Vec::new();
+            for f in faces {
+                self.cross(f.map(|i| positions[i as usize]), axis, &mut |c| crossings.push(c));
+            }
+            crossings
+        };
+        let crossings: Vec<Vec<Crossing>> = faces.par_chunks(FACES_AT_ONCE).map(crossings).collect();
         let mut columns: Vec<Vec<(f64, bool)>> = vec![Vec::new(); self.count[u] * self.count[v]];
-        for f in faces {
-            let corners = f.map(|i| positions[i as usize]);
-            self.cross(corners, axis, &mut |(column, height, up)| columns[column].push((height, up)));
+        for (column, height, up) in crossings.into_iter().flatten() {
+            columns[column].push((height, up));
         }
         let [_, ny, nz] = self.count;
         let stride = [ny * nz, nz, 1];

@@ -1,7 +1,6 @@
 //! How well convex hulls stand for the solid.
 
 use super::grid::Solid;
-use super::surface::outward_faces;
 use crate::geom::Hull;
 use crate::mesh::Mesh;
 
@@ -23,8 +22,7 @@ pub struct Overlap {
 /// Compares the union of hulls with the solid that a mesh bounds; `None` where it encloses
 /// nothing.
 pub fn overlap<'a>(mesh: &Mesh, hulls: impl IntoIterator<Item = &'a Hull>) -> Option<Overlap> {
-    let (faces, _) = outward_faces(mesh.positions(), mesh.faces());
-    let solid = Solid::of_mesh(mesh.positions(), &faces, CELLS);
+    let solid = Solid::of_mesh(mesh.positions(), mesh.faces(), CELLS);
     let mut covered = vec![false; solid.len()];
     let (mut inside, mut outside) = (0usize, 0usize);
     for hull in hulls {

@@ -77,11 +77,17 @@ impl Parts {
 
     /// The convex hull of each part; an error where it has no volume.
     pub fn hulls(&self) -> Vec<Result<Hull, HullError>> {
-        let mut points: Vec<Vec<DVec3>> = vec![Vec::new(); self.names.len()];
-        for (f, id) in self.segmentation.face_segments().iter().enumerate() {
-            points[id.0 as usize].extend(self.mesh.corners(f));
+        let mut corners: Vec<Vec<u32>> = vec![Vec::new(); self.names.len()];
+        for (face, id) in self.mesh.faces().iter().zip(self.segmentation.face_segments()) {
+            corners[id.0 as usize].extend(face);
         }
-        points.par_iter().map(|p| Hull::of_points(p)).collect()
+        let hull = |mut corners: Vec<u32>| {
+            corners.sort_unstable();
+            corners.dedup();
+            let points: Vec<DVec3> = corners.iter().map(|&v| self.mesh.positions()[v as usize]).collect();
+            Hull::of_points(&points)
+        };
+        corners.into_par_iter().map(hull).collect()
     }
 
     /// Number of faces of each part.

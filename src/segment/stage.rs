@@ -1,7 +1,7 @@
 //! The stage as a whole.
 
 use super::choose::Tree;
-use super::coarsen::coarsen;
+use super::coarsen::{Coarse, coarsen};
 use super::cut::soft_labels;
 use super::gmm::Mixture;
 use super::grid::Solid;
@@ -50,9 +50,10 @@ pub fn segment(
     }
     progress.stage("thickness");
     let (faces, fine) = outward_faces(positions, mesh.faces());
-    let (coarse, cell_of_face) = coarsen(&fine);
+    let (target, [borders, Coarse { surface: coarse, cell_of: cell_of_face }]) =
+        rayon::join(|| Target::new(positions, &faces), || coarsen(&fine));
     progress.check()?;
-    let diameters = shape_diameters(positions, &faces, &fine, &coarse, &cell_of_face);
+    let diameters = target.and_then(|target| shape_diameters(&target, &fine, &coarse, &cell_of_face));
     progress.check()?;
     let cells = match options.method {
         Method::Sdf { clusters, smoothing } => {
@@ -76,14 +77,18 @@ pub fn segment(
         }
     };
     progress.stage("borders");
-    let of_face = cell_of_face.iter().map(|&c| cells.of_cell[c as usize]).collect();
-    let refined = refine::refine_borders(&fine, Partition { of_cell: of_face, count: cells.count });
+    let mut of_cell = vec![0; borders.surface.len()];
+    for (&cell, &coarse) in borders.cell_of.iter().zip(&cell_of_face) {
+        of_cell[cell as usize] = cells.of_cell[coarse as usize];
+    }
+    let refined = refine::refine_borders(&borders.surface, Partition { of_cell, count: cells.count });
     // Borders that moved may have left slivers; a number that was asked for stands.
     let refined = match options.parts {
-        None => absorb_small(&fine, refined, LEAST_SEGMENT * fine.total_area()),
+        None => absorb_small(&borders.surface, refined, LEAST_SEGMENT * fine.total_area()),
         Some(_) => refined,
     };
-    Ok(Segmentation::numbered(&refined.of_cell, refined.count, fine.areas()))
+    let of_face: Vec<u32> = borders.cell_of.iter().map(|&cell| refined.of_cell[cell as usize]).collect();
+    Ok(Segmentation::numbered(&of_face, refined.count, fine.areas()))
 }
 
 fn is_flat(positions: &[DVec3]) -> bool {
@@ -94,13 +99,11 @@ fn is_flat(positions: &[DVec3]) -> bool {
 /// Smoothed shape diameters of the cells, on a scale from 0 to 1; `None` where no ray meets the
 /// other side of anything.
 fn shape_diameters(
-    positions: &[DVec3],
-    faces: &[[u32; 3]],
+    target: &Target,
     fine: &Surface,
     coarse: &Surface,
     cell_of_face: &[u32],
 ) -> Option<Vec<f64>> {
-    let target = Target::new(positions, faces)?;
     let mut nearest: Vec<(f64, usize)> = vec![(f64::INFINITY, 0); coarse.len()];
     for (f, &cell) in cell_of_face.iter().enumerate() {
         let d = fine.centres()[f].distance_squared(coarse.centres()[cell as usize]);

@@ -31,29 +31,18 @@ pub(super) struct Surface {
 impl Surface {
     /// Every face is a cell.
     pub fn of_faces(positions: &[DVec3], faces: &[[u32; 3]]) -> Self {
-        let mut area = Vec::with_capacity(faces.len());
-        let mut centre = Vec::with_capacity(faces.len());
-        let mut normal = Vec::with_capacity(faces.len());
-        for f in faces {
-            let [a, b, c] = f.map(|v| positions[v as usize]);
-            let doubled = (b - a).cross(c - a);
-            area.push((doubled.length() / 2.0).max(f64::MIN_POSITIVE));
-            centre.push((a + b + c) / 3.0);
-            normal.push(doubled.normalize_or_zero());
-        }
-        let borders = edge_pairs(faces)
-            .into_iter()
-            .map(|(cells, [u, v])| (cells, (positions[u as usize] - positions[v as usize]).length()));
-        Self::new(area, centre, normal, borders.collect())
+        let corners = |f: &[u32; 3]| f.map(|v| positions[v as usize]);
+        let centre = faces.par_iter().map(|f| corners(f).iter().sum::<DVec3>() / 3.0).collect();
+        let normal = faces.par_iter().map(|f| doubled_area(corners(f)).normalize_or_zero()).collect();
+        let length = |[u, v]: [u32; 2]| (positions[u as usize] - positions[v as usize]).length();
+        let borders = edge_pairs(faces).into_par_iter().map(|(cells, edge)| (cells, length(edge)));
+        Self::new(Self::face_areas(positions, faces), centre, normal, borders.collect())
     }
 
     /// Areas of faces.
     pub fn face_areas(positions: &[DVec3], faces: &[[u32; 3]]) -> Vec<f64> {
-        let area = |f: &[u32; 3]| {
-            let [a, b, c] = f.map(|v| positions[v as usize]);
-            ((b - a).cross(c - a).length() / 2.0).max(f64::MIN_POSITIVE)
-        };
-        faces.iter().map(area).collect()
+        let doubled = |f: &[u32; 3]| doubled_area(f.map(|v| positions[v as usize])).length();
+        faces.par_iter().map(|f| (doubled(f) / 2.0).max(f64::MIN_POSITIVE)).collect()
     }
 
     /// Groups of this surface's cells as the cells of a coarser one; `group` is `0..count`.
@@ -92,12 +81,12 @@ impl Surface {
                 _ => links.push(Link { cells, length, turn_rad: 0.0 }),
             }
         }
-        for link in &mut links {
+        links.par_iter_mut().for_each(|link| {
             let [a, b] = link.cells.map(|c| c as usize);
             let angle = normal[a].cross(normal[b]).length().atan2(normal[a].dot(normal[b]));
             let opens = (normal[b] - normal[a]).dot(centre[b] - centre[a]) >= 0.0;
             link.turn_rad = if opens { -angle } else { angle };
-        }
+        });
         let mut surface = Self { area, centre, normal, links, first: Vec::new(), around: Vec::new() };
         surface.index_links();
         surface
@@ -193,15 +182,18 @@ impl Surface {
     }
 }
 
+/// A normal as long as twice the triangle's area.
+fn doubled_area([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a)
+}
+
 /// Faces that share an edge, with the edge. Where more than two meet, each with the next.
 pub(super) fn edge_pairs(faces: &[[u32; 3]]) -> Vec<([u32; 2], [u32; 2])> {
-    let mut edges: Vec<([u32; 2], u32)> = Vec::with_capacity(faces.len() * 3);
-    for (f, face) in faces.iter().enumerate() {
-        for k in 0..3 {
-            let (u, v) = (face[k], face[(k + 1) % 3]);
-            edges.push(([u.min(v), u.max(v)], f as u32));
-        }
-    }
+    let sides = |(f, face): (usize, &[u32; 3])| {
+        let [a, b, c] = *face;
+        [(a, b), (b, c), (c, a)].map(|(u, v)| ([u.min(v), u.max(v)], f as u32))
+    };
+    let mut edges: Vec<([u32; 2], u32)> = faces.par_iter().enumerate().flat_map_iter(sides).collect();
     edges.par_sort_unstable();
     edges
         .windows(2)

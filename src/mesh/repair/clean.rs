@@ -3,20 +3,21 @@
 use super::{Repairs, Triangle};
 use crate::mesh::Edges;
 use glam::DVec3;
+use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// Drops all but the first of triangles with the same three corners, whichever way they face.
 pub(super) fn drop_duplicates(triangles: &mut Vec<Triangle>, repairs: &mut Repairs) {
     let mut order: Vec<([u32; 3], u32)> = triangles
-        .iter()
-        .zip(0..)
-        .map(|(t, k)| {
+        .par_iter()
+        .enumerate()
+        .map(|(k, t)| {
             let mut corners = t.corners;
             corners.sort_unstable();
-            (corners, k)
+            (corners, k as u32)
         })
         .collect();
-    order.sort_unstable();
+    order.par_sort_unstable();
     let mut is_kept = vec![true; triangles.len()];
     for pair in order.windows(2) {
         is_kept[pair[1].1 as usize] = pair[0].0 != pair[1].0;
@@ -41,7 +42,7 @@ pub(super) fn drop_flat(
     let is_flat = |t: &Triangle| height(positions, t.corners) <= tolerance;
     let before = polygon_count(triangles);
     for _ in 0..ROUNDS {
-        let flat: Vec<bool> = triangles.iter().map(is_flat).collect();
+        let flat: Vec<bool> = triangles.par_iter().map(is_flat).collect();
         let turned = if flat.contains(&true) { turn_edges(positions, triangles, &flat) } else { 0 };
         if turned == 0 {
             break;
