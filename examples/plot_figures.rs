@@ -33,8 +33,7 @@ const JOBS: [(&str, &str); 4] = [
 ];
 /// Length of the job that is streamed, bytes.
 const STREAMED: usize = 1_000_000;
-const HANDSHAKES: [Handshake; 4] =
-    [Handshake::EscB, Handshake::RtsCts, Handshake::XonXoff, Handshake::Paced];
+const HANDSHAKES: [Handshake; 4] = [Handshake::EscB, Handshake::RtsCts, Handshake::XonXoff, Handshake::Paced];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut sheets = Vec::new();
@@ -142,7 +141,9 @@ fn stream(pages: &[Drawing]) -> Result<(), Box<dyn Error>> {
 
 /// Stops the test cut after each of its bytes, on every machine by its own handshake.
 fn stop_everywhere() -> Result<(), Box<dyn Error>> {
-    println!("\nstops  pen left down  lost  broken  machine, the test cut stopped once and twice at every byte");
+    println!(
+        "\nstops  pen left down  lost  broken  machine, the test cut stopped once and twice at every byte"
+    );
     for profile in CUTTERS {
         let cutter = Cutter::parse(profile.text)?;
         let bytes = Plan::new(&test_cut(), &cutter, &Media::usual())?.bytes().to_vec();
@@ -152,8 +153,7 @@ fn stop_everywhere() -> Result<(), Box<dyn Error>> {
             for stop_wishes in [1, 2] {
                 let answers = cutter.serial().answers;
                 let options = VirtualOptions { answers, ..VirtualOptions::default() };
-                let mut rehearsal =
-                    Rehearsal::new(job.clone(), &cutter, cutter.serial().handshake, options);
+                let mut rehearsal = Rehearsal::new(job.clone(), &cutter, cutter.serial().handshake, options);
                 (rehearsal.stop_at, rehearsal.stop_wishes) = (Some(stop_at), stop_wishes);
                 rehearsal.run();
                 stops += 1;

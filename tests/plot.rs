@@ -202,7 +202,17 @@ fn what_cannot_be_plotted_is_refused_before_anything_is_sent() {
         (&["plot", "a.plt", "--dry-run", "--cutter", "graphtec"], "gpgl"),
         (&["plot", "a.plt", "--dry-run", "--cutter", "unheard-of"], "hp-7475a"),
         (
-            &["plot", "a.plt", "--port", "/dev/none", "--cutter", "vinyl-cutter", "--handshake", "escb", "--yes"],
+            &[
+                "plot",
+                "a.plt",
+                "--port",
+                "/dev/none",
+                "--cutter",
+                "vinyl-cutter",
+                "--handshake",
+                "escb",
+                "--yes",
+            ],
             "paced",
         ),
         (&["plot", "a.plt", "--dry-run", "--only", "2"], "there is no sheet 2"),

@@ -396,13 +396,8 @@ mod tests {
         let long = format!("PU0,0;PD{}PU;", corners.join(","));
         let job = Job::parse(long.as_bytes(), &generic()).unwrap();
         assert!(job.commands().iter().all(|c| c.bytes().len() <= LONGEST_FOREIGN_COMMAND));
-        let down: Vec<Point> = job
-            .commands()
-            .iter()
-            .flat_map(Command::motions)
-            .filter(|m| m.is_down)
-            .map(|m| m.to)
-            .collect();
+        let down: Vec<Point> =
+            job.commands().iter().flat_map(Command::motions).filter(|m| m.is_down).map(|m| m.to).collect();
         assert_eq!(down, (1..=50).map(|k| Point::new(k * 100, k % 7)).collect::<Vec<_>>());
         assert_eq!(job.strokes(), 1);
         let label = format!("PU0,0;PD9,9;LB{}\x03", "x".repeat(200));

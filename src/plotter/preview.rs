@@ -107,8 +107,7 @@ fn tool_of(command: &Command, cutter: &Cutter) -> Option<Operation> {
 
 fn legend(size_mm: DVec2, job: &Job, cutter: &Cutter, placement: &Placement) -> Vec<Mark> {
     let turned = if placement.is_turned() { "; the sheet is turned by 90° to the left" } else { "" };
-    let words =
-        format!("{}: {} strokes, blue first, red last{turned}", cutter.name(), job.strokes());
+    let words = format!("{}: {} strokes, blue first, red last{turned}", cutter.name(), job.strokes());
     let at = |x: f64| DVec2::new(BORDER_MM + x, BORDER_MM + STRIP_MM / 2.0);
     let sample = |x: f64, look: &Stroke, words: &str| {
         let text = Text::new(words, at(x + 8.0) - DVec2::Y, LEGEND_CAP_MM).aligned(Align::Start);

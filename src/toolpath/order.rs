@@ -301,7 +301,11 @@ impl<'a> Tour<'a> {
             self.visits[i..j].reverse();
             self.visits[i..j].iter_mut().for_each(|visit| *visit = visit.turned());
         }
-        if k < i { self.visits[k..j].rotate_right(length) } else { self.visits[i..k].rotate_left(length) }
+        if k < i {
+            self.visits[k..j].rotate_right(length)
+        } else {
+            self.visits[i..k].rotate_left(length)
+        }
         gain
     }
 

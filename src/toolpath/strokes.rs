@@ -103,7 +103,8 @@ fn strokes_of(work: &[Task], tools: &Toolset, align: Option<Vec<DVec2>>) -> Vec<
             continue;
         }
         let is_turned = blade.is_some() || tooling.blade_offset_mm() == 0.0;
-        let blade = blade.get_or_insert_with(|| Blade::new(tooling.blade_offset_mm(), tools.arc_tolerance_mm()));
+        let blade =
+            blade.get_or_insert_with(|| Blade::new(tooling.blade_offset_mm(), tools.arc_tolerance_mm()));
         let mut push = |line: Vec<DVec2>, is_turn| {
             let shaft = blade.follow(&line);
             out.push(Stroke { operation, line, shaft, is_turn });

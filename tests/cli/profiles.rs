@@ -5,8 +5,7 @@ use super::*;
 fn run_with_config(folder: &Path, arguments: &[&str]) -> Run {
     let mut command = assert_cmd::cargo::cargo_bin_cmd!("tatamu");
     let config = folder.join("config");
-    let result =
-        command.current_dir(folder).env("XDG_CONFIG_HOME", config).args(arguments).output().unwrap();
+    let result = command.current_dir(folder).env("XDG_CONFIG_HOME", config).args(arguments).output().unwrap();
     Run {
         code: result.status.code(),
         out: String::from_utf8(result.stdout).unwrap(),

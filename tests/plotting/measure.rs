@@ -53,8 +53,12 @@ impl Figures {
 pub fn sheet(drawing: &Drawing, cutter: &Cutter, media: &Media) -> Result<Figures, Box<dyn Error>> {
     let plan = Plan::new(drawing, cutter, media)?;
     let job = Job::parse(plan.bytes(), cutter)?;
-    let mut rehearsal =
-        Rehearsal::new(job, cutter, Handshake::Paced, VirtualOptions { answers: false, ..Default::default() });
+    let mut rehearsal = Rehearsal::new(
+        job,
+        cutter,
+        Handshake::Paced,
+        VirtualOptions { answers: false, ..Default::default() },
+    );
     let outcome = rehearsal.run();
     if outcome.end != End::Finished {
         return Err(format!("the job ended by {:?}", outcome.end).into());

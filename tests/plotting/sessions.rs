@@ -59,7 +59,11 @@ fn a_megabyte_arrives_whole_by_every_handshake_at_two_speeds() {
             let mut rehearsal = rehearse(&job, &cutter, handshake, options);
             let outcome = rehearsal.run();
             assert_eq!(outcome.end, End::Finished, "{handshake:?} {baud}");
-            assert_eq!((rehearsal.plotter.lost(), rehearsal.plotter.broken()), (0, 0), "{handshake:?} {baud}");
+            assert_eq!(
+                (rehearsal.plotter.lost(), rehearsal.plotter.broken()),
+                (0, 0),
+                "{handshake:?} {baud}"
+            );
             assert_eq!(rehearsal.plotter.motions(), meant(&job, &cutter), "{handshake:?} {baud}");
             assert_eq!(outcome.is_confirmed, answers);
             let line = cutter.serial().byte_s() * job.len() as f64;
@@ -124,7 +128,8 @@ fn a_stopped_job_goes_on_where_it_was() {
         let outcome = rehearsal.run();
         assert_eq!(outcome.end, End::Stopped);
         assert!(handshake != Handshake::EscB || outcome.strokes_done > 3, "{handshake:?} {outcome:?}");
-        let rest = Job::parse(&job, &cutter).unwrap().from_stroke(outcome.strokes_done, &[], cutter.dialect());
+        let rest =
+            Job::parse(&job, &cutter).unwrap().from_stroke(outcome.strokes_done, &[], cutter.dialect());
         let mut again = rehearse(&rest, &cutter, handshake, VirtualOptions::default());
         assert_eq!(again.run().end, End::Finished);
         let down = |motions: &[Motion]| motions.iter().filter(|m| m.is_down).copied().collect::<Vec<_>>();

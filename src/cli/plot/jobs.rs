@@ -188,7 +188,6 @@ fn of_drawings(title: &str, pages: &[Drawing], machine: &PltOptions) -> Result<V
         1 => title.to_owned(),
         count => format!("{title}, sheet {} of {count}", k + 1),
     };
-    let sheet =
-        |(k, (page, plan)): (usize, &(&Drawing, Plan))| Sheet::of_plan(name(k), page, plan, machine);
+    let sheet = |(k, (page, plan)): (usize, &(&Drawing, Plan))| Sheet::of_plan(name(k), page, plan, machine);
     plans.iter().enumerate().map(sheet).collect()
 }

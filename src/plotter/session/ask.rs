@@ -123,7 +123,11 @@ impl Session {
         let wants_answers = matches!(self.handshake, Handshake::Auto | Handshake::EscB) && self.may_ask();
         if !wants_answers {
             let is_possible = self.handshake != Handshake::EscB;
-            return if is_possible { self.begin(self.handshake, now) } else { self.end(End::NoAnswer, false) };
+            return if is_possible {
+                self.begin(self.handshake, now)
+            } else {
+                self.end(End::NoAnswer, false)
+            };
         }
         if self.ask.open.is_some() && !self.ask.is_unanswered(now, PATIENCE) {
             return Step::Wait(INTERVAL);
