@@ -29,8 +29,11 @@ pub struct Rehearsal {
     now: Duration,
     port: VecDeque<u8>,
     line_free: Duration,
+    /// Time in which the plotter had room: all of it, and that in which the line carried the job.
+    room: Duration,
     busy: Duration,
-    idle: Duration,
+    /// Bytes of a question (ESC . and a letter) that are still to come.
+    question: u8,
 }
 
 impl Rehearsal {
@@ -47,8 +50,9 @@ impl Rehearsal {
             now: Duration::ZERO,
             port: VecDeque::new(),
             line_free: Duration::ZERO,
+            room: Duration::ZERO,
             busy: Duration::ZERO,
-            idle: Duration::ZERO,
+            question: 0,
         }
     }
 
@@ -89,10 +93,10 @@ impl Rehearsal {
         self.now
     }
 
-    /// Share of the time in which the line was busy, of that in which it was busy or the plotter
-    /// had room for more.
+    /// Share of the time in which the line carried the job, of that in which the plotter had room
+    /// and there was something to send. Questions do not count.
     pub fn busy_share(&self) -> f64 {
-        self.busy.as_secs_f64() / (self.busy + self.idle).as_secs_f64()
+        self.busy.as_secs_f64() / self.room.as_secs_f64()
     }
 
     /// Time passes: bytes go over the line, answers come back.
@@ -101,10 +105,11 @@ impl Rehearsal {
         self.line_free = self.line_free.max(self.now);
         while self.line_free + self.byte <= end {
             let is_held = self.handshake == Handshake::RtsCts && !self.plotter.is_clear_to_send();
+            let has_room = self.plotter.free() >= ROOM && !self.plotter.holds_host() && !is_held;
+            let counts = has_room && is_sending;
             let Some(byte) = self.port.front().copied().filter(|_| !is_held) else {
-                let has_room = self.plotter.free() >= ROOM && !self.plotter.holds_host() && !is_held;
-                if has_room && is_sending {
-                    self.idle += end - self.line_free;
+                if counts {
+                    self.room += end - self.line_free;
                 }
                 self.line_free = end;
                 self.plotter.run_until(end);
@@ -112,7 +117,12 @@ impl Rehearsal {
             };
             self.port.pop_front();
             self.line_free += self.byte;
-            self.busy += self.byte;
+            self.question = if byte == 0x1B { 3 } else { self.question };
+            if counts {
+                self.room += self.byte;
+                self.busy += if self.question == 0 { self.byte } else { Duration::ZERO };
+            }
+            self.question = self.question.saturating_sub(1);
             self.plotter.receive(byte, self.line_free);
             self.happen(self.plotter.received());
         }

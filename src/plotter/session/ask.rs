@@ -7,8 +7,10 @@ use std::time::Duration;
 const PATIENCE: Duration = Duration::from_millis(1000);
 /// Unanswered questions in a row after which the machine is given up.
 const MOST_SILENCES: u32 = 5;
-/// A full buffer is asked about again after so long.
+/// A full buffer is asked about again after so long, and one with some room after so long: often
+/// enough for a fast line, and not so often that the machine has nothing else to do.
 const INTERVAL: Duration = Duration::from_millis(40);
+const SHORT_INTERVAL: Duration = Duration::from_millis(10);
 /// Every so many questions the machine is asked for errors.
 const ERROR_EVERY: u32 = 32;
 /// Least number of free bytes at which XOFF is asked for: twice what may be on its way.
@@ -194,7 +196,8 @@ impl Session {
             return Some(self.begin_stop(End::NoAnswer, now));
         }
         let is_low = self.credit() < (self.ask.size - RESERVE.min(self.ask.size)) / 2;
-        let is_time = self.credit() > 0 || now >= self.ask.last + INTERVAL;
+        let interval = if self.credit() > 0 { SHORT_INTERVAL } else { INTERVAL };
+        let is_time = now >= self.ask.last + interval;
         if self.ask.open.is_some() || !is_low || !is_time {
             return None;
         }
