@@ -2,6 +2,8 @@
 
 use super::measure::{self, Figures};
 use super::{media, profile};
+use glam::DVec2;
+use tatamu::drawing::{Drawing, Layer, Mark, Rgb, Stroke};
 use tatamu::mesh::{self, Mesh};
 use tatamu::pipeline::{self, Options};
 use tatamu::product::Product;
@@ -30,5 +32,41 @@ fn the_sheets_of_a_model_are_executed_as_they_are_drawn() {
         assert!(figures.drawing_mm <= 2.5e-4, "{name}: {figures:?}");
         assert!(figures.tip_mm <= 0.05 && figures.missed_mm <= 0.05, "{name}: {figures:?}");
         assert!(figures.travel_mm <= 0.6 * figures.file_travel_mm, "{name}: {figures:?}");
+    }
+}
+
+/// Contours as nets really have them: corners twice at one place, next to each other or not, a spike
+/// that goes out and back, and edges far shorter than a unit of the machine.
+#[test]
+fn contours_with_edges_of_no_length_are_cut_like_others() {
+    let corners = |points: &[[f64; 2]]| points.iter().map(|&p| DVec2::from(p) + DVec2::splat(40.0)).collect();
+    let pinched =
+        [[0.0, 0.0], [20.0, 0.0], [20.0, 0.0], [10.0, 10.0], [20.0, 20.0], [0.0, 20.0], [10.0, 10.0]];
+    let spiked =
+        [[40.0, 0.0], [60.0, 0.0], [60.0, 10.0], [75.0, 10.0], [60.0, 10.0], [60.0, 20.0], [40.0, 20.0]];
+    let tiny = [
+        [0.0, 40.0],
+        [20.0, 40.0],
+        [20.0, 40.0 + 1e-9],
+        [20.003, 40.001],
+        [20.0, 60.0],
+        [0.0, 60.0],
+        [0.0, 40.0],
+    ];
+    let look = Stroke { width_mm: 0.2, colour: Rgb::BLACK, dash_mm: Vec::new() };
+    let mut page = Drawing::new("page", DVec2::new(210.0, 297.0));
+    for contour in [&pinched, &spiked, &tiny] {
+        page.marks.push(Mark::polygon(Layer::Cut, corners(contour), &look));
+    }
+    page.marks.push(Mark::line(Layer::Slit, DVec2::splat(9.0), DVec2::splat(9.0), &look));
+    page.marks.push(Mark::line(Layer::Mountain, DVec2::splat(30.0), DVec2::splat(30.0), &look));
+    for (cutter, medium) in
+        [("vinyl-cutter", "cardstock-300"), ("generic-hpgl", "vinyl"), ("silhouette", "paper-120")]
+    {
+        let figures = measure::sheet(&page, &profile(cutter), &media(medium)).unwrap();
+        // One stroke turns the blade; a line without length is no work.
+        assert_eq!((figures.strokes, figures.lost), (4, 0), "{cutter}");
+        assert!(figures.unit_error <= 0.5 + 1e-6 && figures.drawing_mm <= 2.5e-4, "{cutter}: {figures:?}");
+        assert!(figures.tip_mm <= 0.05 && figures.missed_mm <= 0.05, "{cutter}: {figures:?}");
     }
 }
