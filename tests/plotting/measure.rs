@@ -10,6 +10,9 @@ use tatamu::plotter::session::End;
 use tatamu::plotter::{Cutter, Job, Media, Motion, Plan, Point, VirtualOptions, toolset};
 use tatamu::toolpath::{Operation, Stroke, Task, Tip, deviation_mm, tasks};
 
+/// Error of the arithmetic, mm.
+const ROUNDING_MM: f64 = 1e-9;
+
 /// The figures of a sheet.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Figures {
@@ -74,7 +77,10 @@ pub fn sheet(drawing: &Drawing, cutter: &Cutter, media: &Media) -> Result<Figure
         return Err(format!("{} strokes executed of {}", ways.len(), strokes.len()).into());
     }
     let units_per_mm = cutter.frame().units_per_mm().value();
-    let unit_errors = ways.iter().zip(strokes).map(|(way, stroke)| way_error_mm(way, stroke) * units_per_mm);
+    let unit_errors = ways
+        .iter()
+        .zip(strokes)
+        .map(|(way, stroke)| way_error_mm(way, stroke, 0.5 / units_per_mm) * units_per_mm);
     let (tip_mm, missed_mm) = tips(&ways, strokes, cutter);
     Ok(Figures {
         strokes: strokes.len(),
@@ -95,17 +101,19 @@ fn executed(motions: &[Motion]) -> Vec<Vec<Point>> {
     runs.map(|run| std::iter::once(run[0].from).chain(run.iter().map(|m| m.to)).collect()).collect()
 }
 
-/// Largest distance along an axis between a way and the shaft's, both followed from their start.
-fn way_error_mm(way: &[DVec2], stroke: &Stroke) -> f64 {
-    let off = |k: usize, p: DVec2| way.get(k).map_or(f64::INFINITY, |q| (*q - p).abs().max_element());
-    let (mut at, mut worst) = (0, off(0, stroke.shaft()[0]));
+/// Largest distance along an axis between a way and the shaft's, both followed from their start,
+/// and of the way's corners from the shaft's. Infinite where one leaves the other.
+fn way_error_mm(way: &[DVec2], stroke: &Stroke, half_unit_mm: f64) -> f64 {
+    let apart = |p: DVec2, q: DVec2| (q - p).abs().max_element();
+    let (mut at, mut worst) = (0, 0.0_f64);
     for &p in stroke.shaft() {
-        if off(at + 1, p) < off(at, p) {
+        while at + 1 < way.len() && apart(p, way[at]) > half_unit_mm + ROUNDING_MM {
             at += 1;
         }
-        worst = worst.max(off(at, p));
+        worst = worst.max(apart(p, way[at]));
     }
-    if at + 1 == way.len() { worst } else { f64::INFINITY }
+    let nearest = |q: DVec2| stroke.shaft().iter().map(|&p| apart(p, q)).fold(f64::INFINITY, f64::min);
+    way.iter().map(|&q| nearest(q)).fold(worst, f64::max)
 }
 
 /// Drags a blade along the ways: how far its tip is from the lines, and the lines from its way.

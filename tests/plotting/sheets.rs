@@ -6,9 +6,16 @@ use glam::DVec2;
 use tatamu::drawing::{Drawing, Layer, Mark, Rgb, Stroke};
 use tatamu::mesh::{self, Mesh};
 use tatamu::pipeline::{self, Options};
+use tatamu::plotter::Cutter;
 use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::report::Run;
+
+/// How far the tip may be from its line. A unit of 0.05 mm alone puts the shaft 0.035 mm off, and
+/// the swings at corners add to it.
+fn most_mm(cutter: &Cutter) -> f64 {
+    if cutter.frame().units_per_mm().value() < 30.0 { 0.08 } else { 0.05 }
+}
 
 #[test]
 fn the_sheets_of_a_model_are_executed_as_they_are_drawn() {
@@ -30,7 +37,7 @@ fn the_sheets_of_a_model_are_executed_as_they_are_drawn() {
         assert_eq!(figures.lost, 0, "{name}");
         assert!(figures.unit_error <= 0.5 + 1e-6, "{name}: {figures:?}");
         assert!(figures.drawing_mm <= 2.5e-4, "{name}: {figures:?}");
-        assert!(figures.tip_mm <= 0.05 && figures.missed_mm <= 0.05, "{name}: {figures:?}");
+        assert!(figures.tip_mm <= most_mm(&cutter) && figures.missed_mm <= 0.05, "{name}: {figures:?}");
         assert!(figures.travel_mm <= 0.6 * figures.file_travel_mm, "{name}: {figures:?}");
     }
 }
@@ -63,10 +70,18 @@ fn contours_with_edges_of_no_length_are_cut_like_others() {
     for (cutter, medium) in
         [("vinyl-cutter", "cardstock-300"), ("generic-hpgl", "vinyl"), ("silhouette", "paper-120")]
     {
-        let figures = measure::sheet(&page, &profile(cutter), &media(medium)).unwrap();
+        let (cutter, medium) = (profile(cutter), media(medium));
+        let figures = measure::sheet(&page, &cutter, &medium).unwrap();
+        let cutter_name = cutter.name();
         // One stroke turns the blade; a line without length is no work.
-        assert_eq!((figures.strokes, figures.lost), (4, 0), "{cutter}");
-        assert!(figures.unit_error <= 0.5 + 1e-6 && figures.drawing_mm <= 2.5e-4, "{cutter}: {figures:?}");
-        assert!(figures.tip_mm <= 0.05 && figures.missed_mm <= 0.05, "{cutter}: {figures:?}");
+        assert_eq!((figures.strokes, figures.lost), (4, 0), "{cutter_name}");
+        assert!(
+            figures.unit_error <= 0.5 + 1e-6 && figures.drawing_mm <= 2.5e-4,
+            "{cutter_name}: {figures:?}"
+        );
+        assert!(
+            figures.tip_mm <= most_mm(&cutter) && figures.missed_mm <= 0.05,
+            "{cutter_name}: {figures:?}"
+        );
     }
 }
