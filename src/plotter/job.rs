@@ -2,48 +2,9 @@
 //! takes.
 
 use super::dialect::{Dialect, Meaning, Pen};
+use super::job_error::{JobError, LONGEST_FOREIGN_COMMAND};
 use super::pace::Pace;
 use super::{Cutter, OffBed, Point};
-
-/// Commands longer than this are refused: they could not be on their way as a whole.
-const LONGEST_FOREIGN_COMMAND: usize = 128;
-
-/// Why a file is no job.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum JobError {
-    /// No command moves with the pen down.
-    #[error("nothing is drawn by it; is it a {0} file?")]
-    Empty(&'static str),
-    /// A command that cannot be read.
-    #[error("the command \"{text}\" at byte {at} is no {dialect}; choose the cutter whose language it is")]
-    Broken {
-        /// Offset of the command.
-        at: usize,
-        /// The command.
-        text: String,
-        /// Name of the dialect.
-        dialect: &'static str,
-    },
-    /// A command that is too long to be sent whole.
-    #[error(
-        "the command at byte {at} is {length} bytes long; at most {LONGEST_FOREIGN_COMMAND} can be sent so that \
-         a stop leaves no part of it"
-    )]
-    Long {
-        /// Offset of the command.
-        at: usize,
-        /// Its length.
-        length: usize,
-    },
-    /// A position that the machine cannot reach.
-    #[error("{error} (the command at byte {at}); move the drawing, or use a larger machine")]
-    OffBed {
-        /// Offset of the command.
-        at: usize,
-        /// What is beyond what.
-        error: OffBed,
-    },
-}
 
 /// One straight move.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -130,6 +91,8 @@ impl Job {
         let mut reader = Reader::new(cutter);
         let mut at = 0;
         let mut dropped = 0;
+        // A file in another language is one long command: that nothing is drawn by it says more.
+        let mut too_long = None;
         for command in dialect.split(bytes) {
             let meaning = dialect.meaning(command);
             match meaning {
@@ -142,9 +105,13 @@ impl Job {
                     });
                 }
                 Meaning::Query | Meaning::Control => dropped += 1,
-                Meaning::Move { .. } | Meaning::Setup => {
-                    reader.take_whole(command, meaning, dialect).map_err(|error| error.at(at))?;
-                }
+                Meaning::Move { .. } | Meaning::Setup => match reader.take_whole(command, meaning, dialect) {
+                    Err(Fault::OffBed(error)) => return Err(JobError::OffBed { at, error }),
+                    Err(Fault::Long(length)) => {
+                        too_long.get_or_insert(JobError::Long { at, length });
+                    }
+                    Ok(()) => {}
+                },
             }
             at += command.len();
         }
@@ -152,7 +119,7 @@ impl Job {
         if job.strokes == 0 {
             return Err(JobError::Empty(dialect.name()));
         }
-        Ok(job)
+        too_long.map_or(Ok(job), Err)
     }
 
     /// The commands.
@@ -212,15 +179,6 @@ impl Job {
 enum Fault {
     Long(usize),
     OffBed(OffBed),
-}
-
-impl Fault {
-    fn at(self, at: usize) -> JobError {
-        match self {
-            Self::Long(length) => JobError::Long { at, length },
-            Self::OffBed(error) => JobError::OffBed { at, error },
-        }
-    }
 }
 
 /// Follows the pen through a file.
