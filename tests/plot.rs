@@ -162,6 +162,37 @@ fn a_machine_that_vanishes_is_told_with_a_warning_about_the_tool() {
 }
 
 #[test]
+fn a_machine_that_is_unplugged_or_reports_an_error_is_told_as_such() {
+    for (fault, words) in [("--unplug-at", "the tool may be down"), ("--error-at", "misread bytes")] {
+        let folder = folder(100);
+        let machine = Machine::start(folder.path(), &["--baud", "38400", "--speedup", "8", fault, "4000"]);
+        let mut plot = tatamu(folder.path());
+        let options = ["--cutter", "generic-hpgl", "--baud", "38400", "--yes"];
+        let output = plot.args(["plot", "a.plt", "--port", &machine.port]).args(options).output().unwrap();
+        assert_eq!(output.status.code(), Some(1), "{fault}: {}", said(&output));
+        assert!(said(&output).contains(words), "{fault}: {}", said(&output));
+        assert!(folder.path().join("a.tatamu-job").exists(), "{fault}");
+        assert!(fault == "--unplug-at" || machine.report().contains("pen up"));
+    }
+}
+
+#[test]
+fn a_busy_port_is_refused() {
+    let folder = folder(1);
+    let machine = Machine::start(folder.path(), &[]);
+    let mut first = serialport::new(&machine.port, 9600).open().unwrap();
+    let mut plot = tatamu(folder.path());
+    let options = ["--cutter", "generic-hpgl", "--yes"];
+    let output = plot.args(["plot", "a.plt", "--port", &machine.port]).args(options).output().unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    assert!(said(&output).contains("another program"), "{}", said(&output));
+    assert!(!folder.path().join("a.tatamu-job").exists());
+    std::io::Write::write_all(&mut first, b"IN;").unwrap();
+    drop(first);
+    machine.report();
+}
+
+#[test]
 fn what_cannot_be_plotted_is_refused_before_anything_is_sent() {
     let folder = folder(1);
     for (arguments, words) in [
@@ -170,6 +201,20 @@ fn what_cannot_be_plotted_is_refused_before_anything_is_sent() {
         (&["plot", "a.plt", "--port", "/dev/none", "--cutter", "generic-hpgl", "--yes"], "/dev/none"),
         (&["plot", "a.plt", "--dry-run", "--cutter", "graphtec"], "gpgl"),
         (&["plot", "a.plt", "--dry-run", "--cutter", "unheard-of"], "hp-7475a"),
+        (
+            &[
+                "plot",
+                "a.plt",
+                "--port",
+                "/dev/none",
+                "--cutter",
+                "vinyl-cutter",
+                "--handshake",
+                "escb",
+                "--yes",
+            ],
+            "paced",
+        ),
         (&["plot", "a.plt", "--dry-run", "--only", "2"], "there is no sheet 2"),
         (&["plot", "--resume", "a.plt"], "no journal"),
         (&["plot", "a.plt", "--preview", "a.fold"], ".png"),
@@ -186,6 +231,6 @@ fn a_test_cut_can_be_looked_at() {
     let arguments = ["plot", "--test-cut", "--dry-run", "--preview", "cut.png"];
     let output = tatamu(folder.path()).args(arguments).output().unwrap();
     assert!(output.status.success(), "{}", said(&output));
-    assert!(String::from_utf8_lossy(&output.stdout).contains("test cut: 7 strokes"));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("test cut: 5 strokes"));
     assert!(std::fs::read(folder.path().join("cut.png")).unwrap().starts_with(b"\x89PNG"));
 }

@@ -111,7 +111,14 @@ pub fn run(args: &ProfilesArgs) -> Result<(), CliError> {
                 true => ("media", MEDIA),
                 false => ("cutters", CUTTERS),
             };
-            terminal::say(find(name, kind, built_in)?.trim_end());
+            let other = |error| match error {
+                CliError::Options(reason) if kind == "cutters" && !name.contains('.') => {
+                    let names: Vec<&str> = MEDIA.iter().map(|profile| profile.name).collect();
+                    CliError::Options(format!("{reason}; media are: {}", names.join(", ")))
+                }
+                error => error,
+            };
+            terminal::say(find(name, kind, built_in).map_err(other)?.trim_end());
         }
         ProfilesCommand::Path => {
             let folder = folder().ok_or_else(|| {

@@ -34,7 +34,7 @@ pub struct VirtualPlotterArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(300..))]
     baud: Option<u32>,
 
-    /// How many times faster than the profile it moves
+    /// How many times faster than the profile it moves; 0.2 is slow
     #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = factor)]
     speedup: f64,
 
@@ -45,6 +45,22 @@ pub struct VirtualPlotterArgs {
     /// Sends XOFF when fewer bytes are free, and XON again later
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     xoff_below: Option<u32>,
+
+    /// Every so many answers it answers noise
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    garbage_every: u32,
+
+    /// Every so many answers it says nothing
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    silence_every: u32,
+
+    /// Reports a framing error (ESC.E) after so many bytes
+    #[arg(long, value_name = "N")]
+    error_at: Option<u64>,
+
+    /// Is unplugged after so many bytes: the port is gone
+    #[arg(long, value_name = "N")]
+    unplug_at: Option<u64>,
 
     /// What it drew, written when the host closes the port: .png, .svg, .dxf, .pdf
     #[arg(short, long, value_name = "FILE")]
@@ -80,7 +96,7 @@ pub fn run(args: &VirtualPlotterArgs) -> Result<(), CliError> {
         if plotter.received() > 0 {
             report(args, &cutter, &plotter)?;
         }
-        if args.once || progress::stops() > 0 {
+        if args.once || args.unplug_at.is_some() || progress::stops() > 0 {
             return Ok(());
         }
     }
@@ -102,7 +118,12 @@ fn open() -> rustix::io::Result<(File, String)> {
 
 /// Works for one host until it closes the port.
 fn serve(args: &VirtualPlotterArgs, cutter: &Cutter, host: &mut File) -> VirtualPlotter {
-    let faults = Faults { slowness: 1.0 / args.speedup, ..Faults::default() };
+    let faults = Faults {
+        slowness: 1.0 / args.speedup,
+        garbage_every: args.garbage_every,
+        silence_every: args.silence_every,
+        error_at: args.error_at,
+    };
     let options = VirtualOptions {
         buffer_bytes: args.buffer as usize,
         answers: !args.mute,
@@ -115,7 +136,9 @@ fn serve(args: &VirtualPlotterArgs, cutter: &Cutter, host: &mut File) -> Virtual
     let start = Instant::now();
     let mut line_free = Duration::ZERO;
     let mut is_gone = false;
-    while progress::stops() == 0 && !(is_gone && plotter.is_idle()) {
+    let is_unplugged =
+        |plotter: &VirtualPlotter| args.unplug_at.is_some_and(|bytes| plotter.received() >= bytes);
+    while progress::stops() == 0 && !is_unplugged(&plotter) && !(is_gone && plotter.is_idle()) {
         let now = start.elapsed();
         line_free = line_free.max(now.saturating_sub(10 * LOOK));
         let due = ((now.saturating_sub(line_free)).as_secs_f64() / byte_s) as usize;

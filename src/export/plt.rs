@@ -2,7 +2,7 @@
 
 use super::{ExportError, ExportFile, Format, FormatOptions, Source};
 use crate::drawing::Pages;
-use crate::plotter::{Cutter, Media, Plan};
+use crate::plotter::{Cutter, Media, Plan, PlanError};
 
 /// The registry's entry.
 pub const FORMAT: Format = Format {
@@ -29,12 +29,17 @@ impl Default for PltOptions {
 
 fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
     let PltOptions { cutter, media } = &options.plt;
-    let file = |(index, drawing)| {
-        let plan = Plan::new(drawing, cutter, media);
-        let plan =
-            plan.map_err(|error| ExportError::writer(&FORMAT, format!("sheet {}: {error}", index + 1)))?;
-        Ok(plan.bytes().to_vec())
+    let file = |(index, drawing)| match Plan::new(drawing, cutter, media) {
+        Ok(plan) => Ok(plan.bytes().to_vec()),
+        Err(PlanError::Nothing) => Ok(Vec::new()),
+        Err(error) => Err(ExportError::writer(&FORMAT, format!("sheet {}: {error}", index + 1))),
     };
     let files: Result<Vec<Vec<u8>>, ExportError> = pages.drawings().iter().enumerate().map(file).collect();
-    files.map(ExportFile::of_pages)
+    let mut files = ExportFile::of_pages(files?);
+    // Sheets that only have words on them are no jobs; the others keep their numbers.
+    files.retain(|file| !file.bytes.is_empty());
+    if files.is_empty() {
+        return Err(ExportError::writer(&FORMAT, PlanError::Nothing.to_string()));
+    }
+    Ok(files)
 }

@@ -107,8 +107,7 @@ impl Direction {
 pub enum OffBed {
     /// Beyond the bed.
     #[error(
-        "the job reaches {axis} = {found_mm:.1} mm, but the machine's {axis} goes from {least_mm:.1} to \
-         {most_mm:.1} mm; use smaller --paper or a larger --margin, or a larger machine"
+        "the job reaches {axis} = {found_mm:.1} mm, but the machine's {axis} goes from {least_mm:.1} to {most_mm:.1} mm"
     )]
     Bed {
         /// Name of the machine's axis.
@@ -122,8 +121,7 @@ pub enum OffBed {
     },
     /// Beyond the numbers that the machine knows.
     #[error(
-        "the job needs the coordinate {axis} = {found} units, but the machine knows only {least} to {most}; \
-         use smaller --paper"
+        "the job needs the coordinate {axis} = {found} units, but the machine knows only {least} to {most}"
     )]
     Range {
         /// Name of the machine's axis.
@@ -192,20 +190,36 @@ impl Frame {
     pub fn to_device(&self, sheet_mm: DVec2, at_mm: DVec2) -> Result<Point, OffBed> {
         let from_origin = at_mm - self.origin_on(sheet_mm);
         let mut units = [0; 2];
-        for (k, axis) in ['x', 'y'].into_iter().enumerate() {
+        for (k, unit) in units.iter_mut().enumerate() {
             let found_mm = from_origin.dot(self.axes[k].vector()) - self.offset_mm[k];
-            let [least_mm, most_mm] = self.bed_mm[k];
-            if !(least_mm - BED_TOLERANCE_MM..=most_mm + BED_TOLERANCE_MM).contains(&found_mm) {
-                return Err(OffBed::Bed { axis, found_mm, least_mm, most_mm });
-            }
-            let found = self.units_per_mm.times(found_mm).round();
-            let [least, most] = self.range;
-            if !(f64::from(least)..=f64::from(most)).contains(&found) {
-                return Err(OffBed::Range { axis, found, least, most });
-            }
-            units[k] = found as i32;
+            self.check_axis(k, found_mm, BED_TOLERANCE_MM)?;
+            *unit = self.units_per_mm.times(found_mm).round() as i32;
         }
         Ok(Point { x: units[0], y: units[1] })
+    }
+
+    /// Whether the machine reaches a position that a file states.
+    ///
+    /// # Errors
+    /// [`OffBed`] where it does not.
+    pub fn check(&self, at: Point) -> Result<(), OffBed> {
+        let at_mm = at.as_vec() / self.units_per_mm.value();
+        let half_unit_mm = 0.5 / self.units_per_mm.value();
+        (0..2).try_for_each(|k| self.check_axis(k, at_mm[k], half_unit_mm))
+    }
+
+    fn check_axis(&self, k: usize, found_mm: f64, tolerance_mm: f64) -> Result<(), OffBed> {
+        let axis = ['x', 'y'][k];
+        let [least_mm, most_mm] = self.bed_mm[k];
+        if !(least_mm - tolerance_mm..=most_mm + tolerance_mm).contains(&found_mm) {
+            return Err(OffBed::Bed { axis, found_mm, least_mm, most_mm });
+        }
+        let found = self.units_per_mm.times(found_mm).round();
+        let [least, most] = self.range;
+        if !(f64::from(least)..=f64::from(most)).contains(&found) {
+            return Err(OffBed::Range { axis, found, least, most });
+        }
+        Ok(())
     }
 
     /// Where on the sheet a position is, mm.

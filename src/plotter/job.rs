@@ -2,39 +2,9 @@
 //! takes.
 
 use super::dialect::{Dialect, Meaning, Pen};
-use super::{Cutter, Point};
-
-/// Commands longer than this are refused: they could not be on their way as a whole.
-const LONGEST_FOREIGN_COMMAND: usize = 128;
-
-/// Why a file is no job.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum JobError {
-    /// No command moves with the pen down.
-    #[error("nothing is drawn by it; is it a {0} file?")]
-    Empty(&'static str),
-    /// A command that cannot be read.
-    #[error("the command \"{text}\" at byte {at} is no {dialect}; choose the cutter whose language it is")]
-    Broken {
-        /// Offset of the command.
-        at: usize,
-        /// The command.
-        text: String,
-        /// Name of the dialect.
-        dialect: &'static str,
-    },
-    /// A command that is too long to be sent whole.
-    #[error(
-        "the command at byte {at} is {length} bytes long; at most {LONGEST_FOREIGN_COMMAND} can be sent so that \
-         a stop leaves no part of it"
-    )]
-    Long {
-        /// Offset of the command.
-        at: usize,
-        /// Its length.
-        length: usize,
-    },
-}
+use super::job_error::{JobError, LONGEST_FOREIGN_COMMAND};
+use super::pace::Pace;
+use super::{Cutter, OffBed, Point};
 
 /// One straight move.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,6 +45,11 @@ impl Command {
         self.is_down_after
     }
 
+    /// Whether it sets something for what follows, such as a tool.
+    pub fn is_setup(&self) -> bool {
+        self.is_setup
+    }
+
     /// Where the pen is after it.
     pub fn ends_at(&self) -> Point {
         self.ends_at
@@ -94,8 +69,8 @@ impl Command {
 /// A job.
 ///
 /// # Guarantees
-/// Every command is whole and at most 128 bytes long; none asks the machine for an answer; at least
-/// one stroke.
+/// Every command is whole and at most 128 bytes long; none asks the machine for an answer; the
+/// machine reaches every position; at least one stroke.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Job {
     commands: Vec<Command>,
@@ -116,6 +91,8 @@ impl Job {
         let mut reader = Reader::new(cutter);
         let mut at = 0;
         let mut dropped = 0;
+        // A file in another language is one long command: that nothing is drawn by it says more.
+        let mut too_long = None;
         for command in dialect.split(bytes) {
             let meaning = dialect.meaning(command);
             match meaning {
@@ -128,7 +105,13 @@ impl Job {
                     });
                 }
                 Meaning::Query | Meaning::Control => dropped += 1,
-                Meaning::Move { .. } | Meaning::Setup => reader.take(command, meaning),
+                Meaning::Move { .. } | Meaning::Setup => match reader.take_whole(command, meaning, dialect) {
+                    Err(Fault::OffBed(error)) => return Err(JobError::OffBed { at, error }),
+                    Err(Fault::Long(length)) => {
+                        too_long.get_or_insert(JobError::Long { at, length });
+                    }
+                    Ok(()) => {}
+                },
             }
             at += command.len();
         }
@@ -136,15 +119,7 @@ impl Job {
         if job.strokes == 0 {
             return Err(JobError::Empty(dialect.name()));
         }
-        let mut at = 0;
-        for command in &job.commands {
-            let length = command.bytes.len();
-            if length > LONGEST_FOREIGN_COMMAND {
-                return Err(JobError::Long { at, length });
-            }
-            at += length;
-        }
-        Ok(job)
+        too_long.map_or(Ok(job), Err)
     }
 
     /// The commands.
@@ -173,23 +148,37 @@ impl Job {
     }
 
     /// The bytes of a job that begins with a stroke: all settings up to there, the latest of each
-    /// kind, then everything from the travel to that stroke on. The whole job where positions are
-    /// distances, since those need what came before.
-    pub fn from_stroke(&self, stroke: usize, dialect: &dyn Dialect) -> Vec<u8> {
-        let draws = |c: &Command| c.strokes_done == stroke && c.motions.iter().any(|m| m.is_down);
-        let Some(first) = self.commands.iter().position(draws).filter(|_| !self.is_relative && stroke > 0)
-        else {
+    /// kind, then the last of the strokes `turns` before it, which turn a drag knife, then everything
+    /// from the travel to that stroke on. The whole job where positions are distances, since those
+    /// need what came before.
+    pub fn from_stroke(&self, stroke: usize, turns: &[usize], dialect: &dyn Dialect) -> Vec<u8> {
+        let Some(start) = self.start_of(stroke).filter(|_| !self.is_relative && stroke > 0) else {
             return self.bytes();
         };
-        let travels = |c: &Command| !c.is_down_after && !c.motions.is_empty();
-        let start = self.commands[..first].iter().rposition(travels).unwrap_or(first);
+        let turn = turns.iter().copied().filter(|&turn| turn < stroke).max();
+        let turn = turn.and_then(|turn| Some(self.start_of(turn)?..self.start_of(turn + 1)?));
+        let turn = self.commands[turn.unwrap_or(0..0)].iter().filter(|c| !c.motions.is_empty());
         let settings: Vec<&Command> = self.commands[..start].iter().filter(|c| c.is_setup).collect();
         let kind = |c: &Command| dialect.mnemonic(&c.bytes).to_ascii_uppercase();
         let is_latest = |k: usize| settings[k + 1..].iter().all(|later| kind(later) != kind(settings[k]));
         let settings = (0..settings.len()).filter(|&k| is_latest(k)).map(|k| settings[k]);
         let rest = self.commands[start..].iter();
-        settings.chain(rest).flat_map(|command| command.bytes.iter().copied()).collect()
+        settings.chain(turn).chain(rest).flat_map(|command| command.bytes.iter().copied()).collect()
     }
+
+    /// The command that travels to a stroke.
+    fn start_of(&self, stroke: usize) -> Option<usize> {
+        let draws = |c: &Command| c.strokes_done == stroke && c.motions.iter().any(|m| m.is_down);
+        let first = self.commands.iter().position(draws)?;
+        let travels = |c: &Command| !c.is_down_after && !c.motions.is_empty();
+        Some(self.commands[..first].iter().rposition(travels).unwrap_or(first))
+    }
+}
+
+/// What is wrong with a command.
+enum Fault {
+    Long(usize),
+    OffBed(OffBed),
 }
 
 /// Follows the pen through a file.
@@ -200,6 +189,7 @@ struct Reader<'a> {
     is_down: bool,
     is_relative: bool,
     was_relative: bool,
+    pace: Pace,
     /// Strokes that were begun, and those that were finished.
     begun: usize,
     done: usize,
@@ -214,9 +204,26 @@ impl<'a> Reader<'a> {
             is_down: false,
             is_relative: false,
             was_relative: false,
+            pace: Pace::new(cutter),
             begun: 0,
             done: 0,
         }
+    }
+
+    /// Takes a command, in parts where it is a move that is too long to be sent whole.
+    fn take_whole(&mut self, bytes: &[u8], meaning: Meaning, dialect: &dyn Dialect) -> Result<(), Fault> {
+        let first = self.commands.len();
+        if bytes.len() <= LONGEST_FOREIGN_COMMAND {
+            self.take(bytes, meaning);
+        } else {
+            let parts = dialect.in_parts(bytes);
+            if parts.is_empty() {
+                return Err(Fault::Long(bytes.len()));
+            }
+            parts.iter().for_each(|part| self.take(part, dialect.meaning(part)));
+        }
+        let mut motions = self.commands[first..].iter().flat_map(|command| &command.motions);
+        motions.try_for_each(|motion| self.cutter.frame().check(motion.to)).map_err(Fault::OffBed)
     }
 
     fn take(&mut self, bytes: &[u8], meaning: Meaning) {
@@ -224,7 +231,10 @@ impl<'a> Reader<'a> {
         let was_down = self.is_down;
         let is_mode = |m: &Meaning| matches!(m, Meaning::Move { pen: Pen::Keep, to, .. } if to.is_empty());
         let is_setup = meaning == Meaning::Setup || is_mode(&meaning);
-        let motions = match meaning {
+        if is_setup {
+            self.pace.heed(bytes);
+        }
+        let motions: Vec<Motion> = match meaning {
             Meaning::Move { pen, to, is_relative } => {
                 self.is_relative = is_relative.unwrap_or(self.is_relative);
                 self.was_relative |= self.is_relative;
@@ -245,8 +255,8 @@ impl<'a> Reader<'a> {
         }
         // A command that lifts the pen begins when the stroke before it is finished.
         let strokes_done = if was_down && !self.is_down { self.done } else { strokes_done };
-        let seconds =
-            self.seconds(&motions) + f64::from(u8::from(was_down != self.is_down)) * self.cutter.pen_s();
+        let pen_s = if was_down == self.is_down { 0.0 } else { self.pace.pen() };
+        let seconds = pen_s + motions.iter().map(|motion| self.pace.seconds(motion)).sum::<f64>();
         self.commands.push(Command {
             bytes: bytes.to_vec(),
             motions,
@@ -266,12 +276,6 @@ impl<'a> Reader<'a> {
             to
         };
         Motion { from, to: self.at, is_down: self.is_down }
-    }
-
-    fn seconds(&self, motions: &[Motion]) -> f64 {
-        let units = self.cutter.frame().units_per_mm().value();
-        let speed = |m: &Motion| if m.is_down { self.cutter.draw_mm_s() } else { self.cutter.travel_mm_s() };
-        motions.iter().map(|m| m.from.distance(m.to) / units / speed(m)).sum()
     }
 
     fn finished(self, dropped: usize) -> Job {
@@ -311,20 +315,26 @@ mod tests {
             .map(|m| m.from.distance(m.to))
             .sum();
         assert_eq!(drawn, 1200.0);
-        // 30 mm drawn at 100 mm/s, 10 mm and 22.36 mm travelled at 300 mm/s, four times 0.1 s.
-        assert!((job.seconds() - (0.3 + (10.0 + 500f64.sqrt()) / 300.0 + 0.4)).abs() < 1e-9);
+        // 30 mm drawn at 50 mm/s, three times from rest; 10 mm and 22.36 mm travelled, too short
+        // for 300 mm/s; four times 0.1 s.
+        let a: f64 = generic().acceleration_mm_s2();
+        let travel = 2.0 * ((10.0 / a).sqrt() + (500f64.sqrt() / a).sqrt());
+        assert!((job.seconds() - (30.0 / 50.0 + 3.0 * 50.0 / a + travel + 0.4)).abs() < 1e-9);
     }
 
     #[test]
     fn a_later_stroke_keeps_the_latest_settings() {
         let job = Job::parse(FILE, &generic()).unwrap();
-        let rest = job.from_stroke(1, generic().dialect());
+        let rest = job.from_stroke(1, &[], generic().dialect());
         assert_eq!(String::from_utf8_lossy(&rest), "IN;SP1;FS20;VS5;PU0,0;SP2;FS90;PD0,400;PU;PG;");
         let three = b"IN;SP1;FS20;PU1,1;PD2,2;PU3,3;SP2;FS30;PU4,4;PD5,5;PU;SP3;PU6,6;PD7,7;PU;";
         let job = Job::parse(three, &generic()).unwrap();
-        let rest = job.from_stroke(2, generic().dialect());
+        let rest = job.from_stroke(2, &[], generic().dialect());
         assert_eq!(String::from_utf8_lossy(&rest), "IN;FS30;SP3;PU6,6;PD7,7;PU;");
-        assert_eq!(job.from_stroke(0, generic().dialect()), three);
+        // A drag knife is turned first; what turns it for another tool is of no use.
+        let turned = job.from_stroke(2, &[0, 1, 2], generic().dialect());
+        assert_eq!(String::from_utf8_lossy(&turned), "IN;FS30;SP3;PU4,4;PD5,5;PU6,6;PD7,7;PU;");
+        assert_eq!(job.from_stroke(0, &[], generic().dialect()), three);
     }
 
     #[test]
@@ -333,10 +343,31 @@ mod tests {
         assert_eq!((job.strokes(), job.dropped()), (1, 2));
         assert_eq!(job.commands().last().map(Command::ends_at), Some(Point::new(0, 10)));
         // Distances mean nothing without what came before.
-        assert_eq!(job.from_stroke(1, generic().dialect()), job.bytes());
+        assert_eq!(job.from_stroke(1, &[], generic().dialect()), job.bytes());
         assert!(matches!(Job::parse(b"", &generic()), Err(JobError::Empty(_))));
         assert!(matches!(Job::parse(b"%PDF-1.4 1 0 obj", &generic()), Err(JobError::Broken { at: 0, .. })));
-        let long = format!("PU0,0;PD{};", ["1,2"; 50].join(","));
-        assert!(matches!(Job::parse(long.as_bytes(), &generic()), Err(JobError::Long { at: 6, .. })));
+    }
+
+    #[test]
+    fn a_long_move_is_sent_in_parts_and_what_cannot_be_parted_is_refused() {
+        let corners: Vec<String> = (1..=50).map(|k| format!("{k}00,{}", k % 7)).collect();
+        let long = format!("PU0,0;PD{}PU;", corners.join(","));
+        let job = Job::parse(long.as_bytes(), &generic()).unwrap();
+        assert!(job.commands().iter().all(|c| c.bytes().len() <= LONGEST_FOREIGN_COMMAND));
+        let down: Vec<Point> =
+            job.commands().iter().flat_map(Command::motions).filter(|m| m.is_down).map(|m| m.to).collect();
+        assert_eq!(down, (1..=50).map(|k| Point::new(k * 100, k % 7)).collect::<Vec<_>>());
+        assert_eq!(job.strokes(), 1);
+        let label = format!("PU0,0;PD9,9;LB{}\x03", "x".repeat(200));
+        assert!(matches!(Job::parse(label.as_bytes(), &generic()), Err(JobError::Long { at: 12, .. })));
+    }
+
+    #[test]
+    fn a_file_that_leaves_the_bed_is_refused() {
+        let file = b"IN;PU0,0;PD400,400;PU0,99000;";
+        let refused = Job::parse(file, &generic());
+        assert!(matches!(refused, Err(JobError::OffBed { at: 19, .. })), "{refused:?}");
+        let refused = Job::parse(b"PU0,0;PR;PD400,400,-401,0;PU;", &generic());
+        assert!(matches!(refused, Err(JobError::OffBed { at: 9, .. })), "{refused:?}");
     }
 }

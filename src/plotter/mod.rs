@@ -13,6 +13,8 @@ pub mod dialect;
 mod encode;
 mod frame;
 mod job;
+mod job_error;
+mod pace;
 mod plan;
 mod preview;
 pub mod profile;
@@ -21,7 +23,8 @@ mod virtual_plotter;
 
 pub use encode::{Placement, encode};
 pub use frame::{Direction, Frame, OffBed, Origin, Point, Ratio};
-pub use job::{Command, Job, JobError, Motion};
+pub use job::{Command, Job, Motion};
+pub use job_error::JobError;
 pub use plan::{Plan, PlanError, test_cut, toolset};
 pub use preview::preview;
 pub use profile::{Cutter, Media, ProfileError};

@@ -8,18 +8,22 @@ use glam::DVec2;
 /// Dashes and gaps of creases where nothing but a full cut is possible, mm.
 const STOPGAP_MM: [f64; 2] = [1.5, 1.5];
 
+/// Machines with fewer units in a millimetre get finer arcs: this far from the true ones, mm.
+const COARSE_UNITS_PER_MM: f64 = 30.0;
+const FINE_ARCS_MM: f64 = 0.001;
+
 /// Why a sheet cannot be sent to a machine.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlanError {
     /// It does not fit.
-    #[error("{0}")]
+    #[error("{0}; use smaller --paper or a larger --margin, or a larger machine")]
     OffBed(#[from] OffBed),
     /// Cutter and medium do not go together.
     #[error("{0}")]
     Tooling(#[from] ToolingError),
-    /// Nothing on the sheet is for this machine.
-    #[error("nothing on sheet {0} is for a cutter")]
-    Nothing(String),
+    /// Nothing on the sheet is for this machine: such as a list of labels.
+    #[error("nothing on it is for a cutter")]
+    Nothing,
 }
 
 /// A sheet as a job for a machine.
@@ -41,7 +45,7 @@ impl Plan {
         let home = cutter.frame().to_sheet(drawing.size_mm, Point::default());
         let toolpath = Toolpath::of_drawing(drawing, &tools, home);
         if toolpath.strokes().is_empty() {
-            return Err(PlanError::Nothing(drawing.title.clone()));
+            return Err(PlanError::Nothing);
         }
         let placement = Placement::find(toolpath.strokes(), drawing.size_mm, cutter.frame())?;
         let bytes = encode(toolpath.strokes(), &placement, cutter, media)?;
@@ -76,6 +80,10 @@ impl Plan {
 pub fn toolset(cutter: &Cutter, media: &Media) -> Result<(Toolset, Vec<String>), ToolingError> {
     let mut tools = Toolset::default();
     let mut notes = Vec::new();
+    let mut before = None;
+    if cutter.frame().units_per_mm().value() < COARSE_UNITS_PER_MM {
+        tools = tools.with_arcs(FINE_ARCS_MM);
+    }
     for operation in Operation::ALL {
         let Some(tool) = cutter.tool(operation) else {
             continue;
@@ -99,6 +107,9 @@ pub fn toolset(cutter: &Cutter, media: &Media) -> Result<(Toolset, Vec<String>),
             tooling = tooling.perforating(perforation);
         }
         tools = tools.with(operation, tooling);
+        if before.replace(tool) == Some(tool) {
+            tools = tools.going_on(operation);
+        }
         notes.extend(limits(cutter, media, operation));
     }
     Ok((tools, notes))
@@ -232,17 +243,16 @@ mod tests {
     #[test]
     fn the_tip_of_what_is_executed_stays_on_the_line() {
         for (cutter, plan) in all_plans() {
-            let mut tips = Operation::ALL.map(|operation| {
-                let offset_mm = cutter.tool(operation).map_or(0.0, |tool| tool.blade_offset_mm());
-                (Tip::new(offset_mm, DVec2::new(-0.6, 0.8)), false)
-            });
+            let mut in_hand = None;
+            let mut tip = Tip::new(0.0, DVec2::X);
             for (way, stroke) in executed(&cutter, &plan).iter().zip(plan.toolpath().strokes()) {
-                let (tip, is_aligned) = &mut tips[stroke.operation() as usize];
+                let tool = cutter.tool(stroke.operation()).unwrap();
+                if in_hand.replace(tool) != Some(tool) {
+                    tip = Tip::new(tool.blade_offset_mm(), DVec2::new(-0.6, 0.8));
+                }
                 let cut = tip.drag(way);
                 let off_mm = deviation_mm(&cut, stroke.line());
-                // The first stroke of a blade turns it.
-                let is_first = !std::mem::replace(is_aligned, true) && tip.offset_mm() > 0.0;
-                assert!(is_first || off_mm <= 0.05, "{}: {off_mm} mm", cutter.name());
+                assert!(stroke.is_turn() || off_mm <= 0.05, "{}: {off_mm} mm", cutter.name());
             }
         }
     }

@@ -1,6 +1,6 @@
 //! A picture of a job: where the machine goes, in which order, and where the tip cuts.
 
-use super::{Cutter, Job, Motion, Placement, Point};
+use super::{Command, Cutter, Job, Motion, Placement, Point};
 use crate::drawing::{Align, Drawing, Layer, Mark, Polyline, Rgb, Stroke, Text};
 use crate::toolpath::{Operation, Tip};
 use glam::DVec2;
@@ -30,23 +30,26 @@ pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
     picture.ground = Some(Rgb::WHITE);
     let corners = [DVec2::ZERO, DVec2::new(sheet_mm.x, 0.0), sheet_mm, DVec2::new(0.0, sheet_mm.y)];
     picture.marks.push(Mark::polygon(Layer::Picture, corners.map(|p| p + shift).to_vec(), &line(0.3, SHEET)));
-    let runs = runs(job);
+    let runs = runs(job, cutter);
     let travel =
         runs.iter().filter(|run| !run.is_down).map(|run| run.points.iter().map(|&p| at(p)).collect());
     let travel = travel.map(Polyline::open).collect();
     picture.marks.push(Mark::path(Layer::Picture, travel, Some(line(0.12, TRAVEL)), None));
-    let strokes: Vec<Vec<DVec2>> = runs
-        .iter()
-        .filter(|run| run.is_down)
-        .map(|run| run.points.iter().map(|&p| at(p)).collect())
-        .collect();
+    let drawn: Vec<&Run> = runs.iter().filter(|run| run.is_down).collect();
+    let strokes: Vec<Vec<DVec2>> =
+        drawn.iter().map(|run| run.points.iter().map(|&p| at(p)).collect()).collect();
     let share = |k: usize| k as f64 / strokes.len().saturating_sub(1).max(1) as f64;
     for (k, stroke) in strokes.iter().enumerate() {
         picture.marks.push(Mark::polyline(Layer::Picture, stroke.clone(), &line(0.35, colour(share(k)))));
     }
-    let offset_mm = cutter.tool(Operation::Cut).map_or(0.0, |tool| tool.blade_offset_mm());
-    let mut tip = Tip::new(offset_mm, DVec2::X);
-    let ways = strokes.iter().map(|stroke| Polyline::open(tip.drag(stroke))).collect();
+    let mut tip = Tip::new(0.0, DVec2::X);
+    let mut ways = Vec::new();
+    for (run, stroke) in drawn.iter().zip(&strokes) {
+        if tip.offset_mm() != run.blade_offset_mm {
+            tip = Tip::new(run.blade_offset_mm, DVec2::X);
+        }
+        ways.push(Polyline::open(tip.drag(stroke)));
+    }
     picture.marks.push(Mark::path(Layer::Picture, ways, Some(line(0.1, TIP)), None));
     let every = strokes.len().div_ceil(NUMBERS).max(1);
     for (k, stroke) in strokes.iter().enumerate() {
@@ -57,7 +60,7 @@ pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
             picture.marks.push(Mark::text(Layer::Picture, text.coloured(colour(share(k)))));
         }
     }
-    picture.marks.extend(legend(size_mm, job, placement));
+    picture.marks.extend(legend(size_mm, job, cutter, placement));
     picture
 }
 
@@ -65,17 +68,23 @@ pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
 struct Run {
     is_down: bool,
     points: Vec<Point>,
+    blade_offset_mm: f64,
 }
 
-fn runs(job: &Job) -> Vec<Run> {
+fn runs(job: &Job, cutter: &Cutter) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     let mut strokes = 0;
+    // A file that takes no tool up is cut with the knife.
+    let mut blade_offset_mm = offset_mm(cutter, Operation::Cut);
     for command in job.commands() {
+        if let Some(operation) = tool_of(command, cutter) {
+            blade_offset_mm = offset_mm(cutter, operation);
+        }
         for &Motion { from, to, is_down } in command.motions() {
             let goes_on = strokes == command.strokes_done();
             match runs.last_mut().filter(|run| run.is_down == is_down && (goes_on || !is_down)) {
                 Some(run) => run.points.push(to),
-                None => runs.push(Run { is_down, points: vec![from, to] }),
+                None => runs.push(Run { is_down, points: vec![from, to], blade_offset_mm }),
             }
         }
         strokes = command.strokes_done();
@@ -83,9 +92,22 @@ fn runs(job: &Job) -> Vec<Run> {
     runs
 }
 
-fn legend(size_mm: DVec2, job: &Job, placement: &Placement) -> Vec<Mark> {
+fn offset_mm(cutter: &Cutter, operation: Operation) -> f64 {
+    cutter.tool(operation).map_or(0.0, |tool| tool.blade_offset_mm())
+}
+
+/// The operation whose tool a command takes up.
+fn tool_of(command: &Command, cutter: &Cutter) -> Option<Operation> {
+    let bytes = command.bytes().trim_ascii();
+    let takes = |o: &Operation| {
+        cutter.tool(*o).is_some_and(|tool| !bytes.is_empty() && tool.select().trim().as_bytes() == bytes)
+    };
+    Operation::ALL.into_iter().find(|o| command.is_setup() && takes(o))
+}
+
+fn legend(size_mm: DVec2, job: &Job, cutter: &Cutter, placement: &Placement) -> Vec<Mark> {
     let turned = if placement.is_turned() { "; the sheet is turned by 90° to the left" } else { "" };
-    let words = format!("{} strokes, blue first, red last{turned}", job.strokes());
+    let words = format!("{}: {} strokes, blue first, red last{turned}", cutter.name(), job.strokes());
     let at = |x: f64| DVec2::new(BORDER_MM + x, BORDER_MM + STRIP_MM / 2.0);
     let sample = |x: f64, look: &Stroke, words: &str| {
         let text = Text::new(words, at(x + 8.0) - DVec2::Y, LEGEND_CAP_MM).aligned(Align::Start);
@@ -94,9 +116,9 @@ fn legend(size_mm: DVec2, job: &Job, placement: &Placement) -> Vec<Mark> {
     let second = Text::new(words, at(0.0) - DVec2::Y * 6.0, LEGEND_CAP_MM);
     let step = (size_mm.x - 2.0 * BORDER_MM) / 3.0;
     let mut marks = Vec::new();
-    marks.extend(sample(0.0, &line(0.35, colour(0.0)), "shaft"));
-    marks.extend(sample(step, &line(0.1, TIP), "tip"));
-    marks.extend(sample(2.0 * step, &line(0.12, TRAVEL), "travel"));
+    marks.extend(sample(0.0, &line(0.35, colour(0.0)), "shaft, tool down"));
+    marks.extend(sample(step, &line(0.1, TIP), "tip of the blade"));
+    marks.extend(sample(2.0 * step, &line(0.12, TRAVEL), "travel, tool up"));
     marks.push(Mark::text(Layer::Picture, second));
     marks
 }

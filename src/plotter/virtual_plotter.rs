@@ -5,6 +5,7 @@
 //! much loses data here too.
 
 use super::dialect::{Dialect, Meaning, Pen};
+use super::pace::Pace;
 use super::{Cutter, Motion, Point};
 use std::collections::VecDeque;
 use std::time::Duration;
@@ -62,10 +63,7 @@ impl Default for Faults {
 pub struct VirtualPlotter {
     options: VirtualOptions,
     dialect: &'static dyn Dialect,
-    units_per_mm: f64,
-    /// Speed with the pen up and down, mm/s, and time to lift or lower it.
-    speeds_mm_s: [f64; 2],
-    pen_s: f64,
+    pace: Pace,
     now: Duration,
     busy_until: Duration,
     buffer: VecDeque<u8>,
@@ -91,9 +89,7 @@ impl VirtualPlotter {
         Self {
             options,
             dialect: cutter.dialect(),
-            units_per_mm: cutter.frame().units_per_mm().value(),
-            speeds_mm_s: [cutter.travel_mm_s(), cutter.draw_mm_s()],
-            pen_s: cutter.pen_s(),
+            pace: Pace::new(cutter),
             now: Duration::ZERO,
             busy_until: Duration::ZERO,
             buffer: VecDeque::with_capacity(options.buffer_bytes),
@@ -270,7 +266,8 @@ impl VirtualPlotter {
                     Pen::Keep => was_down,
                 };
                 if was_down != self.is_down {
-                    self.spend(self.pen_s);
+                    let seconds = self.pace.pen();
+                    self.spend(seconds);
                 }
                 to.into_iter().for_each(|to| self.go(to));
             }
@@ -287,7 +284,7 @@ impl VirtualPlotter {
                 }
             }
             Meaning::Broken | Meaning::Control => self.broken += 1,
-            Meaning::Setup => {}
+            Meaning::Setup => self.pace.heed(command),
         }
     }
 
@@ -298,9 +295,10 @@ impl VirtualPlotter {
         } else {
             to
         };
-        let way_mm = from.distance(self.at) / self.units_per_mm;
-        self.spend(way_mm / self.speeds_mm_s[usize::from(self.is_down)]);
-        self.motions.push(Motion { from, to: self.at, is_down: self.is_down });
+        let motion = Motion { from, to: self.at, is_down: self.is_down };
+        let seconds = self.pace.seconds(&motion);
+        self.spend(seconds);
+        self.motions.push(motion);
     }
 
     fn spend(&mut self, seconds: f64) {

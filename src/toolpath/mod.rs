@@ -15,6 +15,7 @@ mod strokes;
 mod task;
 mod tip;
 mod tooling;
+mod visit;
 
 pub use blade::ARC_TOLERANCE_MM;
 pub use order::{in_order, travel_mm};

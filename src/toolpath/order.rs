@@ -1,13 +1,16 @@
 //! The order of work: by operation, inner lines before outer ones, small pieces before large
-//! ones, and within that the shortest way with the tool up that greedy choice, 2-opt and moves of
-//! short runs find.
+//! ones, and within that the shortest way with the tool up that greedy choice, 2-opt, moves of
+//! short runs, and both again after random exchanges find.
 //!
 //! The heuristics are the usual ones for the travelling salesman's problem; see Croes (1958), "A
-//! method for solving traveling-salesman problems", and Or (1976).
+//! method for solving traveling-salesman problems", Or (1976), and Martin, Otto and Felten (1991),
+//! "Large-step Markov chains", for the exchanges.
 
 use super::inside::{area_mm2, containers};
+use super::visit::Visit;
 use super::{Operation, Task};
 use glam::DVec2;
+use std::ops::Range;
 
 /// Up to this area a piece is small, mm². Small pieces are cut while the sheet around them still
 /// holds. More classes than two cost a sweep over the sheet each.
@@ -18,24 +21,29 @@ const ROUNDS: usize = 24;
 const WINDOW: usize = 400;
 /// Longest run of tasks that is moved as a whole.
 const LONGEST_RUN: usize = 3;
+/// Random exchanges: so many at most, and fewer for long orders, whose improvement takes time with
+/// the square of their length.
+const MOST_SHAKES: usize = 300;
+const SHAKEN_PAIRS: usize = 4_000_000;
 /// Gains below this are rounding, mm.
 const LEAST_GAIN_MM: f64 = 1e-9;
 
 /// The tasks in the order of work, turned and started so that the way between them is short.
 /// `start` is where the tool is before.
 pub fn in_order(tasks: Vec<Task>, start: DVec2) -> Vec<Task> {
-    let mut at = start;
-    let mut done: Vec<Task> = Vec::with_capacity(tasks.len());
+    let mut sorted: Vec<Task> = Vec::with_capacity(tasks.len());
+    let mut groups: Vec<usize> = Vec::with_capacity(tasks.len());
+    let mut group = 0;
     for operation in Operation::ALL {
         let own: Vec<Task> = tasks.iter().filter(|t| t.operation() == operation).cloned().collect();
-        let groups = if operation == Operation::Cut { by_size(own) } else { [own, Vec::new()] };
-        for group in groups {
-            let group = Tour::greedy(&group, at).improved().in_order();
-            at = group.last().map_or(at, Task::end);
-            done.extend(group);
+        let parts = if operation == Operation::Cut { by_size(own) } else { [own, Vec::new()] };
+        for part in parts.into_iter().filter(|part| !part.is_empty()) {
+            groups.resize(groups.len() + part.len(), group);
+            sorted.extend(part);
+            group += 1;
         }
     }
-    done
+    Tour::greedy(&sorted, groups, start).improved().shaken().in_order()
 }
 
 /// Length of the way between tasks, from `start` on, mm.
@@ -56,103 +64,97 @@ fn by_size(tasks: Vec<Task>) -> [Vec<Task>; 2] {
     [small, large]
 }
 
-/// A task at its place in the order.
-#[derive(Debug, Clone, Copy)]
-struct Visit {
-    task: usize,
-    entry: Entry,
-    start: DVec2,
-    end: DVec2,
-}
-
-/// How a task is begun.
-#[derive(Debug, Clone, Copy)]
-enum Entry {
-    /// As it is.
-    Forwards,
-    /// At its end.
-    Backwards,
-    /// A closed line at one of its corners.
-    Corner(usize),
-}
-
-impl Visit {
-    /// The way to do a task that begins nearest to `at`, by the distance to `next` too where that
-    /// is known.
-    fn best(tasks: &[Task], task: usize, at: DVec2, next: Option<DVec2>) -> Self {
-        let line = &tasks[task];
-        let (first, last) = (line.start(), line.end());
-        if !line.is_closed() {
-            let forwards = Self { task, entry: Entry::Forwards, start: first, end: last };
-            let backwards = Self { task, entry: Entry::Backwards, start: last, end: first };
-            let way = |v: &Self| at.distance(v.start) + next.map_or(0.0, |p| p.distance(v.end));
-            return if way(&backwards) < way(&forwards) { backwards } else { forwards };
-        }
-        let way = |p: DVec2| at.distance(p) + next.map_or(0.0, |next| p.distance(next));
-        let corners = line.points().iter().copied().enumerate();
-        let nearest = corners.min_by(|a, b| way(a.1).total_cmp(&way(b.1)));
-        let (corner, p) = nearest.unwrap_or((0, first));
-        Self { task, entry: Entry::Corner(corner), start: p, end: p }
-    }
-
-    fn turned(self) -> Self {
-        let entry = match self.entry {
-            Entry::Forwards => Entry::Backwards,
-            Entry::Backwards => Entry::Forwards,
-            corner @ Entry::Corner(_) => corner,
-        };
-        Self { entry, start: self.end, end: self.start, ..self }
-    }
-
-    fn applied(self, task: &Task) -> Task {
-        match self.entry {
-            Entry::Forwards => task.clone(),
-            Entry::Backwards => task.clone().reversed(),
-            Entry::Corner(corner) => task.clone().started_at(corner),
-        }
-    }
-}
-
-/// A group of tasks in some order.
+/// Tasks in some order.
 struct Tour<'a> {
     tasks: &'a [Task],
+    /// For each task the number of its group; one group is done after the other.
+    groups: Vec<usize>,
     start: DVec2,
     visits: Vec<Visit>,
     /// For each task those that have to come before it.
     before: Vec<Vec<usize>>,
+    has_precedence: bool,
 }
 
 impl<'a> Tour<'a> {
     /// Always the nearest task that may come next.
-    fn greedy(tasks: &'a [Task], start: DVec2) -> Self {
+    fn greedy(tasks: &'a [Task], groups: Vec<usize>, start: DVec2) -> Self {
         let before = inner_first(tasks);
-        let mut left: Vec<usize> = (0..tasks.len()).collect();
         let mut is_done = vec![false; tasks.len()];
-        let mut visits = Vec::with_capacity(tasks.len());
+        let mut visits: Vec<Visit> = Vec::with_capacity(tasks.len());
         let mut at = start;
-        while !left.is_empty() {
-            let free = |&&task: &&usize| before[task].iter().all(|&inner| is_done[inner]);
-            let offers = left.iter().filter(free).map(|&task| Visit::best(tasks, task, at, None));
-            let nearest = offers.min_by(|a, b| at.distance(a.start).total_cmp(&at.distance(b.start)));
-            // Areas grow outwards, so some task is always free.
-            let visit = nearest.unwrap_or_else(|| Visit::best(tasks, left[0], at, None));
-            is_done[visit.task] = true;
-            left.retain(|&task| task != visit.task);
-            at = visit.end;
-            visits.push(visit);
+        for group in 0..=groups.iter().copied().max().unwrap_or(0) {
+            let mut left: Vec<usize> = (0..tasks.len()).filter(|&k| groups[k] == group).collect();
+            while !left.is_empty() {
+                let free = |&&task: &&usize| before[task].iter().all(|&inner| is_done[inner]);
+                let offers = left.iter().filter(free).map(|&task| Visit::best(tasks, task, at, None));
+                let nearest = offers.min_by(|a, b| at.distance(a.start).total_cmp(&at.distance(b.start)));
+                // Areas grow outwards, so some task is always free.
+                let visit = nearest.unwrap_or_else(|| Visit::best(tasks, left[0], at, None));
+                is_done[visit.task] = true;
+                left.retain(|&task| task != visit.task);
+                at = visit.end;
+                visits.push(visit);
+            }
         }
-        Self { tasks, start, visits, before }
+        let has_precedence = before.iter().any(|inner| !inner.is_empty());
+        Self { tasks, groups, start, visits, before, has_precedence }
     }
 
     /// Exchanges and moves while they shorten the way.
     fn improved(mut self) -> Self {
+        self.improve();
+        self
+    }
+
+    fn improve(&mut self) {
         for _ in 0..ROUNDS {
             let gain_mm = self.turn_runs() + self.move_runs() + self.choose_starts();
             if gain_mm < LEAST_GAIN_MM {
                 break;
             }
         }
+    }
+
+    /// Exchanges two neighbouring runs at random and improves what comes of it; the best is kept.
+    fn shaken(mut self) -> Self {
+        let count = self.visits.len();
+        if count < 4 {
+            return self;
+        }
+        let mut rng = fastrand::Rng::with_seed(count as u64);
+        let mut best = (self.way_mm(), self.visits.clone());
+        for _ in 0..MOST_SHAKES.min(SHAKEN_PAIRS / (count * count)) {
+            let group = self.group_around(rng.usize(0..count));
+            let mut cuts: [usize; 3] = std::array::from_fn(|_| rng.usize(group.start..=group.end));
+            cuts.sort_unstable();
+            let [i, j, k] = cuts;
+            let exchanged = self.visits[j..k].iter().chain(&self.visits[i..j]);
+            if !self.is_allowed(exchanged) {
+                continue;
+            }
+            self.visits[i..k].rotate_left(j - i);
+            self.improve();
+            let way_mm = self.way_mm();
+            if way_mm < best.0 - LEAST_GAIN_MM {
+                best = (way_mm, self.visits.clone());
+            } else {
+                self.visits.clone_from(&best.1);
+            }
+        }
         self
+    }
+
+    /// The visits of the group that visit `k` belongs to.
+    fn group_around(&self, k: usize) -> Range<usize> {
+        let of = |visit: &Visit| self.groups[visit.task];
+        let group = of(&self.visits[k]);
+        let start = self.visits.partition_point(|visit| of(visit) < group);
+        start..self.visits.partition_point(|visit| of(visit) <= group)
+    }
+
+    fn way_mm(&self) -> f64 {
+        (0..self.visits.len()).map(|k| self.hop(self.end_before(k), k)).sum()
     }
 
     fn in_order(&self) -> Vec<Task> {
@@ -171,6 +173,9 @@ impl<'a> Tour<'a> {
 
     /// Whether these visits, in this order and without others between, keep inner lines first.
     fn is_allowed<'b>(&self, visits: impl Iterator<Item = &'b Visit> + Clone) -> bool {
+        if !self.has_precedence {
+            return true;
+        }
         let mut later = visits;
         while let Some(visit) = later.next() {
             let before = &self.before[visit.task];
@@ -185,7 +190,7 @@ impl<'a> Tour<'a> {
     fn turn_runs(&mut self) -> f64 {
         let mut gained = 0.0;
         for i in 0..self.visits.len() {
-            for j in i..self.visits.len().min(i + WINDOW) {
+            for j in i..self.group_around(i).end.min(i + WINDOW) {
                 let (a, b) = (self.end_before(i), self.visits[j].end);
                 let old = self.hop(a, i) + self.hop(b, j + 1);
                 let gain = old - a.distance(b) - self.hop(self.visits[i].start, j + 1);
@@ -199,44 +204,66 @@ impl<'a> Tour<'a> {
         gained
     }
 
-    /// Or-opt: short runs of tasks are done earlier or later.
+    /// Or-opt: short runs of tasks are done earlier or later, forwards or backwards.
     fn move_runs(&mut self) -> f64 {
         let mut gained = 0.0;
         for length in 1..=LONGEST_RUN {
-            for i in 0..self.visits.len().saturating_sub(length) {
-                gained += self.move_run(i, length);
+            for i in 0..(self.visits.len() + 1).saturating_sub(length) {
+                let group = self.group_around(i);
+                if i + length <= group.end {
+                    gained += self.move_run(i, length, group);
+                }
             }
         }
         gained
     }
 
-    /// Moves the run of `length` visits at `i` to the best place near it, if that is a gain.
-    fn move_run(&mut self, i: usize, length: usize) -> f64 {
+    /// Moves the run of `length` visits at `i` to the best place near it in its group, if that is a
+    /// gain.
+    fn move_run(&mut self, i: usize, length: usize, group: Range<usize>) -> f64 {
         let j = i + length;
         let (first, last) = (self.visits[i].start, self.visits[j - 1].end);
         let bridge = self.hop(self.end_before(i), j);
         let freed = self.hop(self.end_before(i), i) + self.hop(last, j) - bridge;
-        let window = i.saturating_sub(WINDOW)..=(j + WINDOW).min(self.visits.len());
-        let mut best: Option<(f64, usize)> = None;
+        let window = i.saturating_sub(WINDOW).max(group.start)..=(j + WINDOW).min(group.end);
+        let mut best: Option<(f64, usize, bool)> = None;
         for k in window.filter(|&k| k < i || k > j) {
             let at = self.end_before(k);
-            let gain = freed - (at.distance(first) + self.hop(last, k) - self.hop(at, k));
-            let is_better = gain > best.map_or(LEAST_GAIN_MM, |(most, _)| most);
-            let (run, rest) = if k < i { (i..j, k..i) } else { (i..j, j..k) };
-            let (run, rest) = (self.visits[run].iter(), self.visits[rest].iter());
-            let is_allowed = || {
-                if k < i { self.is_allowed(run.chain(rest)) } else { self.is_allowed(rest.chain(run)) }
-            };
-            if is_better && is_allowed() {
-                best = Some((gain, k));
+            for is_turned in [false, true] {
+                let (enter, leave) = if is_turned { (last, first) } else { (first, last) };
+                let gain = freed - (at.distance(enter) + self.hop(leave, k) - self.hop(at, k));
+                let is_better = gain > best.map_or(LEAST_GAIN_MM, |(most, _, _)| most);
+                if is_better && self.may_move(i..j, k, is_turned) {
+                    best = Some((gain, k, is_turned));
+                }
             }
         }
-        match best {
-            Some((_, k)) if k < i => self.visits[k..j].rotate_right(length),
-            Some((_, k)) => self.visits[i..k].rotate_left(length),
-            None => {}
+        let Some((gain, k, is_turned)) = best else {
+            return 0.0;
+        };
+        if is_turned {
+            self.visits[i..j].reverse();
+            self.visits[i..j].iter_mut().for_each(|visit| *visit = visit.turned());
         }
-        best.map_or(0.0, |(gain, _)| gain)
+        if k < i {
+            self.visits[k..j].rotate_right(length)
+        } else {
+            self.visits[i..k].rotate_left(length)
+        }
+        gain
+    }
+
+    /// Whether a run may be done before visit `k`, as it is or backwards.
+    fn may_move(&self, run: Range<usize>, k: usize, is_turned: bool) -> bool {
+        let rest = if k < run.start { k..run.start } else { run.end..k };
+        let is_earlier = k < run.start;
+        let mut order: Vec<Visit> = self.visits[run].to_vec();
+        if is_turned {
+            order.reverse();
+        }
+        let place = if is_earlier { order.len() } else { 0 };
+        order.splice(place..place, self.visits[rest].iter().copied());
+        self.is_allowed(order.iter())
     }
 
     /// Begins each task where that is best between its neighbours.
@@ -337,9 +364,11 @@ mod tests {
         for seed in 0..6 {
             let tasks: Vec<Task> =
                 random_tasks(seed, 80).into_iter().filter(|t| t.operation() == Operation::Crease).collect();
-            let greedy = Tour::greedy(&tasks, DVec2::ZERO).in_order();
-            let best = Tour::greedy(&tasks, DVec2::ZERO).improved().in_order();
-            assert!(travel_mm(&best, DVec2::ZERO) <= travel_mm(&greedy, DVec2::ZERO) + 1e-9);
+            let greedy = || Tour::greedy(&tasks, vec![0; tasks.len()], DVec2::ZERO);
+            let way = |tour: Tour| travel_mm(&tour.in_order(), DVec2::ZERO);
+            let improved = way(greedy().improved());
+            assert!(improved <= way(greedy()) + 1e-9);
+            assert!(way(greedy().improved().shaken()) <= improved + 1e-9);
         }
     }
 

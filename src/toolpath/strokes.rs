@@ -20,6 +20,7 @@ pub struct Stroke {
     operation: Operation,
     line: Vec<DVec2>,
     shaft: Vec<DVec2>,
+    is_turn: bool,
 }
 
 impl Stroke {
@@ -36,6 +37,11 @@ impl Stroke {
     /// The way of the shaft, which is what the machine is told, mm.
     pub fn shaft(&self) -> &[DVec2] {
         &self.shaft
+    }
+
+    /// Whether it is no part of the drawing, but turns a drag knife so that it points the right way.
+    pub fn is_turn(&self) -> bool {
+        self.is_turn
     }
 }
 
@@ -86,19 +92,25 @@ fn in_file_order(work: &[Task]) -> Vec<Task> {
 
 fn strokes_of(work: &[Task], tools: &Toolset, align: Option<Vec<DVec2>>) -> Vec<Stroke> {
     let mut out = Vec::new();
+    let mut blade: Option<Blade> = None;
     for operation in tools.operations() {
         let Some(tooling) = tools.of(operation) else {
             continue;
         };
         let own: Vec<&Task> = work.iter().filter(|t| t.operation() == operation).collect();
-        let mut blade = Blade::new(tooling.blade_offset_mm());
-        let mut push = |line: Vec<DVec2>| {
+        blade = blade.filter(|_| tools.goes_on(operation));
+        if own.is_empty() {
+            continue;
+        }
+        let is_turned = blade.is_some() || tooling.blade_offset_mm() == 0.0;
+        let blade =
+            blade.get_or_insert_with(|| Blade::new(tooling.blade_offset_mm(), tools.arc_tolerance_mm()));
+        let mut push = |line: Vec<DVec2>, is_turn| {
             let shaft = blade.follow(&line);
-            out.push(Stroke { operation, line, shaft });
+            out.push(Stroke { operation, line, shaft, is_turn });
         };
-        let is_dragged = tooling.blade_offset_mm() > 0.0 && !own.is_empty();
-        align.iter().filter(|_| is_dragged).for_each(|line| push(line.clone()));
-        own.iter().flat_map(|task| lines(task, tooling)).for_each(&mut push);
+        align.iter().filter(|_| !is_turned).for_each(|line| push(line.clone(), true));
+        own.iter().flat_map(|task| lines(task, tooling)).for_each(|line| push(line, false));
     }
     out
 }
@@ -221,7 +233,8 @@ mod tests {
             for (k, stroke) in path.strokes().iter().enumerate() {
                 let way = tip.drag(stroke.shaft());
                 // The first stroke only turns the blade, in the margin.
-                let is_first = k == 0 && offset_mm > 0.0;
+                let is_first = stroke.is_turn();
+                assert_eq!(is_first, k == 0 && offset_mm > 0.0);
                 let off_mm = deviation_mm(&way, stroke.line());
                 assert!(is_first || off_mm <= 0.05, "offset {offset_mm}, stroke {k}: {off_mm}");
                 // And nothing of the line is left out.

@@ -1,6 +1,6 @@
 //! What is known of the tool for an operation.
 
-use super::{Operation, Perforation};
+use super::{ARC_TOLERANCE_MM, Operation, Perforation};
 
 /// Most passes over a line.
 const MOST_PASSES: u32 = 20;
@@ -98,9 +98,19 @@ impl Tooling {
 }
 
 /// The tool for each operation; none where the machine leaves it out.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Toolset {
     tools: [Option<Tooling>; Operation::ALL.len()],
+    /// For each operation whether its tool is that of the one before in the order of work.
+    goes_on: [bool; Operation::ALL.len()],
+    arc_tolerance_mm: f64,
+}
+
+impl Default for Toolset {
+    fn default() -> Self {
+        const COUNT: usize = Operation::ALL.len();
+        Self { tools: [None; COUNT], goes_on: [false; COUNT], arc_tolerance_mm: ARC_TOLERANCE_MM }
+    }
 }
 
 impl Toolset {
@@ -109,6 +119,32 @@ impl Toolset {
     pub fn with(mut self, operation: Operation, tooling: Tooling) -> Self {
         self.tools[operation as usize] = Some(tooling);
         self
+    }
+
+    /// The same set where an operation goes on with the very tool of the one done before it: a
+    /// drag knife then points as that left it.
+    #[must_use]
+    pub fn going_on(mut self, operation: Operation) -> Self {
+        self.goes_on[operation as usize] = true;
+        self
+    }
+
+    /// The same set with other chords for the swings of drag knives: how far they may be from
+    /// their arcs, mm.
+    #[must_use]
+    pub fn with_arcs(mut self, tolerance_mm: f64) -> Self {
+        self.arc_tolerance_mm = tolerance_mm;
+        self
+    }
+
+    /// How far the chords of a drag knife's swing may be from its arc, mm.
+    pub fn arc_tolerance_mm(&self) -> f64 {
+        self.arc_tolerance_mm
+    }
+
+    /// Whether an operation goes on with the tool of the one done before it.
+    pub fn goes_on(&self, operation: Operation) -> bool {
+        self.goes_on[operation as usize]
     }
 
     /// The tool for an operation.

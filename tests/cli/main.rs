@@ -7,6 +7,7 @@ mod exports;
 mod film;
 mod guide;
 mod make;
+mod profiles;
 mod project;
 mod refusals;
 mod segment;

@@ -9,7 +9,7 @@ use std::path::Path;
 use tatamu::drawing::Drawing;
 use tatamu::export::{ExportError, PltOptions};
 use tatamu::pipeline;
-use tatamu::plotter::{Cutter, Job, Placement, Plan, Point, test_cut};
+use tatamu::plotter::{Cutter, Job, Placement, Plan, PlanError, Point, test_cut};
 use tatamu::product::Product;
 use tatamu::report::Run;
 
@@ -21,6 +21,8 @@ pub struct Sheet {
     placement: Placement,
     /// Way with the tool up, and that in the order of the drawing, mm.
     travel_mm: Option<[f64; 2]>,
+    /// Strokes that only turn a drag knife.
+    turns: Vec<usize>,
     notes: Vec<String>,
 }
 
@@ -45,6 +47,11 @@ impl Sheet {
         &self.placement
     }
 
+    /// Its strokes that only turn a drag knife.
+    pub fn turns(&self) -> &[usize] {
+        &self.turns
+    }
+
     /// What the user should know.
     pub fn notes(&self) -> &[String] {
         &self.notes
@@ -56,14 +63,17 @@ impl Sheet {
         let motions = self.job.commands().iter().flat_map(|command| command.motions());
         let drawn: f64 = motions.filter(|m| m.is_down).map(|m| m.from.distance(m.to)).sum::<f64>() / units;
         let travel = self.travel_mm.map_or(String::new(), |[own, file]| {
-            format!(", {:.1} m of travel ({:.1} m in the order of the drawing)", own / 1000.0, file / 1000.0)
+            format!(", {} of travel ({} in the order of the drawing)", length(own), length(file))
         });
         let turned = if self.placement.is_turned() { ", sheet turned by 90° to the left" } else { "" };
         format!(
-            "{}: {} strokes, {:.1} m{travel}, {}, {} bytes{turned}",
+            "{}: {}, {} long{travel}, {}, {} bytes{turned}",
             self.name,
-            self.job.strokes(),
-            drawn / 1000.0,
+            match self.job.strokes() {
+                1 => "1 stroke".to_owned(),
+                count => format!("{count} strokes"),
+            },
+            length(drawn),
             minutes(self.job.seconds()),
             self.bytes.len()
         )
@@ -82,21 +92,21 @@ impl Sheet {
             ));
         }
         let placement = Placement::straight(reach.ceil() + DVec2::splat(5.0));
-        Ok(Self { name, bytes, job, placement, travel_mm: None, notes })
+        Ok(Self { name, bytes, job, placement, travel_mm: None, turns: Vec::new(), notes })
     }
 
-    fn of_drawing(name: String, drawing: &Drawing, machine: &PltOptions) -> Result<Self, CliError> {
-        let plan = Plan::new(drawing, &machine.cutter, &machine.media)
-            .map_err(|error| CliError::Sheet { sheet: name.clone(), reason: error.to_string() })?;
+    fn of_plan(name: String, drawing: &Drawing, plan: &Plan, machine: &PltOptions) -> Result<Self, CliError> {
         let home = machine.cutter.frame().to_sheet(drawing.size_mm, Point::default());
         let travel_mm = Some([plan.toolpath().travel_mm(home), plan.toolpath().file_travel_mm()]);
         let job = parse(&name, plan.bytes(), &machine.cutter)?;
+        let strokes = plan.toolpath().strokes();
         Ok(Self {
             name,
             bytes: plan.bytes().to_vec(),
             job,
             placement: *plan.placement(),
             travel_mm,
+            turns: (0..strokes.len()).filter(|&k| strokes[k].is_turn()).collect(),
             notes: plan.notes().to_vec(),
         })
     }
@@ -108,6 +118,11 @@ pub fn parse(name: &str, bytes: &[u8], cutter: &Cutter) -> Result<Job, CliError>
         .map_err(|error| CliError::Sheet { sheet: name.to_owned(), reason: error.to_string() })
 }
 
+/// A length in words.
+fn length(mm: f64) -> String {
+    if mm < 1000.0 { format!("{mm:.0} mm") } else { format!("{:.1} m", mm / 1000.0) }
+}
+
 /// A time in words.
 pub fn minutes(seconds: f64) -> String {
     let whole = seconds.ceil() as u64;
@@ -117,7 +132,7 @@ pub fn minutes(seconds: f64) -> String {
 /// The sheets that the user asked for.
 pub fn sheets(args: &PlotArgs, machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
     if args.test_cut {
-        return Ok(vec![Sheet::of_drawing("test cut".to_owned(), &test_cut(), machine)?]);
+        return of_drawings("test cut", &[test_cut()], machine);
     }
     let is_plt = |path: &Path| {
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
@@ -152,6 +167,27 @@ fn of_model(args: &PlotArgs, path: &Path, machine: &PltOptions) -> Result<Vec<Sh
     let run = Run { path: &path, repairs: &input.repairs, stages: &[], warnings: &[] };
     let product = Product::new(&result, &title, run);
     let pages = product.pages().map_err(ExportError::from)?.drawings();
-    let name = |k: usize| format!("{title}, sheet {} of {}", k + 1, pages.len());
-    pages.iter().enumerate().map(|(k, page)| Sheet::of_drawing(name(k), page, machine)).collect()
+    of_drawings(&title, pages, machine)
+}
+
+/// The sheets on which there is something for the machine.
+fn of_drawings(title: &str, pages: &[Drawing], machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
+    let mut plans = Vec::new();
+    for (k, page) in pages.iter().enumerate() {
+        match Plan::new(page, &machine.cutter, &machine.media) {
+            Ok(plan) => plans.push((page, plan)),
+            // Only words are on it.
+            Err(PlanError::Nothing) if pages.len() > 1 => {}
+            Err(error) => {
+                let sheet = format!("{title}, sheet {}", k + 1);
+                return Err(CliError::Sheet { sheet, reason: error.to_string() });
+            }
+        }
+    }
+    let name = |k: usize| match plans.len() {
+        1 => title.to_owned(),
+        count => format!("{title}, sheet {} of {count}", k + 1),
+    };
+    let sheet = |(k, (page, plan)): (usize, &(&Drawing, Plan))| Sheet::of_plan(name(k), page, plan, machine);
+    plans.iter().enumerate().map(sheet).collect()
 }

@@ -2,7 +2,7 @@
 //! further one says how far it is; a line that was not finished does not count.
 
 use crate::cli::error::{CliError, reason};
-use crate::cli::input;
+use crate::cli::{input, output};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::{Deserialize, Serialize};
@@ -23,19 +23,30 @@ pub struct Header {
     pub handshake: Option<String>,
     /// Number of copies.
     pub copies: u16,
-    /// The sheets with their bytes, base64.
-    pub sheets: Vec<(String, String)>,
+    /// The sheets.
+    pub sheets: Vec<SheetEntry>,
 }
 
-impl Header {
-    /// The bytes of a sheet; none where the file is damaged.
-    pub fn bytes(&self, sheet: usize) -> Option<Vec<u8>> {
-        STANDARD.decode(&self.sheets.get(sheet)?.1).ok()
+/// A sheet of a job.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SheetEntry {
+    /// Its name.
+    pub name: String,
+    /// Its strokes that only turn a drag knife.
+    pub turns: Vec<usize>,
+    /// Its bytes, base64.
+    bytes: String,
+}
+
+impl SheetEntry {
+    /// A sheet with its bytes.
+    pub fn new(name: &str, bytes: &[u8], turns: &[usize]) -> Self {
+        Self { name: name.to_owned(), turns: turns.to_vec(), bytes: STANDARD.encode(bytes) }
     }
 
-    /// A sheet of the header.
-    pub fn sheet(name: &str, bytes: &[u8]) -> (String, String) {
-        (name.to_owned(), STANDARD.encode(bytes))
+    /// The bytes; none where the file is damaged.
+    pub fn bytes(&self) -> Option<Vec<u8>> {
+        STANDARD.decode(&self.bytes).ok()
     }
 }
 
@@ -58,16 +69,16 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Begins a journal.
+    /// Begins a journal, in the place of another only when it is complete.
     pub fn create(path: &Path, header: &Header, at: Position) -> Result<Self, CliError> {
         let failed =
             |error: std::io::Error| CliError::Output { path: path.to_owned(), reason: reason(&error) };
-        let mut file = File::create(path).map_err(failed)?;
-        let line = serde_json::to_string(header).map_err(|error| failed(error.into()))?;
-        writeln!(file, "{line}").map_err(failed)?;
-        let mut journal = Self { path: path.to_owned(), file, last: Position::default() };
-        journal.note(at)?;
-        Ok(journal)
+        let header = serde_json::to_string(header).map_err(|error| failed(error.into()))?;
+        let position = serde_json::to_string(&at).map_err(|error| failed(error.into()))?;
+        let whole = format!("{header}\n{position}\n");
+        output::write(&[(path.to_owned(), whole.into_bytes())])?;
+        let file = File::options().append(true).open(path).map_err(failed)?;
+        Ok(Self { path: path.to_owned(), file, last: at })
     }
 
     /// Notes how far the job is, where that is news.
@@ -126,7 +137,7 @@ mod tests {
             baud: None,
             handshake: Some("paced".to_owned()),
             copies: 2,
-            sheets: vec![Header::sheet("one", b"M0,0\x03")],
+            sheets: vec![SheetEntry::new("one", b"M0,0\x03", &[0, 9])],
         };
         let mut journal = Journal::create(&path, &header, Position::default()).unwrap();
         let at = Position { copy: 1, sheet: 0, strokes: 17 };
@@ -134,7 +145,7 @@ mod tests {
         // The power fails in the middle of a line.
         journal.file.write_all(b"{\"copy\":1,\"sh").unwrap();
         assert_eq!(read(&path).unwrap(), (header.clone(), at));
-        assert_eq!(header.bytes(0).as_deref(), Some(&b"M0,0\x03"[..]));
+        assert_eq!(header.sheets[0].bytes().as_deref(), Some(&b"M0,0\x03"[..]));
         std::fs::write(&path, "IN;PU;").unwrap();
         assert!(read(&path).is_err());
     }

@@ -1,6 +1,6 @@
 //! Jobs on their way: the port, the clock, the keyboard and the user.
 
-use super::journal::{Header, Journal, Position};
+use super::journal::{Header, Journal, Position, SheetEntry};
 use super::keys::Keys;
 use super::{PlotArgs, Sheet, handshake, jobs};
 use crate::cli::error::{CliError, reason};
@@ -26,14 +26,25 @@ const NOTE_EVERY: Duration = Duration::from_millis(500);
 pub fn start(args: &PlotArgs, cutter: &Cutter, sheets: Vec<Sheet>) -> Result<(), CliError> {
     let port = args.port.clone().unwrap_or_default();
     let name = args.input.first().and_then(|path| path.file_stem()).unwrap_or("test-cut".as_ref());
-    let path = PathBuf::from(name).with_extension("tatamu-job");
+    let mut name = name.to_owned();
+    name.push(".tatamu-job");
+    let path = PathBuf::from(name);
+    if path.exists() {
+        terminal::complain(
+            "note",
+            &format!("{} of a job that was stopped is replaced by this one", path.display()),
+        );
+    }
     let header = Header {
         cutter: cutter.text().to_owned(),
         port,
         baud: args.baud,
         handshake: args.handshake.map(|h| h.name().to_owned()),
         copies: args.copies,
-        sheets: sheets.iter().map(|sheet| Header::sheet(sheet.name(), sheet.bytes())).collect(),
+        sheets: sheets
+            .iter()
+            .map(|sheet| SheetEntry::new(sheet.name(), sheet.bytes(), sheet.turns()))
+            .collect(),
     };
     output::check_places(std::slice::from_ref(&path), &[])?;
     send_all(args, &path, &header, Position::default())
@@ -54,6 +65,13 @@ fn send_all(args: &PlotArgs, path: &Path, header: &Header, start: Position) -> R
     let damaged =
         || CliError::Input { path: path.to_owned(), reason: "the journal is damaged; begin anew".to_owned() };
     let chosen = header.handshake.as_deref().map(handshake).transpose().map_err(CliError::Options)?;
+    if chosen == Some(Handshake::EscB) && !cutter.can_be_asked() {
+        return Err(CliError::Options(format!(
+            "{} does not answer questions (answers in its profile), so --handshake escb cannot work; use \
+             paced, or what \"tatamu profiles show\" says",
+            cutter.name()
+        )));
+    }
     let mut port = open(header, &cutter)?;
     progress::count_stops();
     let keys = Keys::listen();
@@ -61,16 +79,18 @@ fn send_all(args: &PlotArgs, path: &Path, header: &Header, start: Position) -> R
     let mut at = start;
     while at.copy < header.copies {
         while at.sheet < header.sheets.len() {
-            let (name, bytes) = (&header.sheets[at.sheet].0, header.bytes(at.sheet).ok_or_else(damaged)?);
-            let whole = jobs::parse(name, &bytes, &cutter)?;
-            let job = jobs::parse(name, &whole.from_stroke(at.strokes, cutter.dialect()), &cutter)?;
+            let sheet = &header.sheets[at.sheet];
+            let name = &sheet.name;
+            let whole = jobs::parse(name, &sheet.bytes().ok_or_else(damaged)?, &cutter)?;
+            let rest = whole.from_stroke(at.strokes, &sheet.turns, cutter.dialect());
+            let job = jobs::parse(name, &rest, &cutter)?;
             let first = whole.strokes() - job.strokes();
             load(args, &keys, name, at, header.copies)
                 .inspect_err(|_| tell_resume(&journal, whole.strokes()))?;
             let live = Live { keys: &keys, is_quiet: args.quiet, first, name };
             let outcome = live.send(job, &cutter, chosen, port.as_mut(), &mut journal, at)?;
             if outcome.end != End::Finished {
-                journal.note(Position { strokes: first + outcome.strokes_done, ..at })?;
+                journal.note(Position { strokes: at.strokes.max(first + outcome.strokes_done), ..at })?;
                 tell_resume(&journal, whole.strokes());
                 return Err(failure(outcome));
             }
@@ -144,8 +164,14 @@ fn open(header: &Header, cutter: &Cutter) -> Result<Box<dyn SerialPort>, CliErro
     let failed = |error: serialport::Error| CliError::Port {
         port: header.port.clone(),
         reason: match error.kind() {
+            serialport::ErrorKind::Io(ErrorKind::NotFound) => {
+                "there is no such port; \"tatamu ports\" lists those that there are".to_owned()
+            }
             serialport::ErrorKind::Io(kind) => reason(&kind.into()) + ports::hint(&header.port),
-            _ => format!("{error}{}; \"tatamu ports\" lists the ports", ports::hint(&header.port)),
+            serialport::ErrorKind::NoDevice => {
+                "another program uses it, or it is gone; close that program and try again".to_owned()
+            }
+            _ => format!("it does not work as a serial port ({error}); \"tatamu ports\" lists the ports"),
         },
     };
     let mut port = serialport::new(&header.port, header.baud.unwrap_or(serial.baud))
@@ -226,7 +252,7 @@ impl Live<'_> {
             }
             if noted.elapsed() >= NOTE_EVERY {
                 noted = Instant::now();
-                journal.note(Position { strokes: self.first + status.strokes_done, ..at })?;
+                journal.note(Position { strokes: at.strokes.max(self.first + status.strokes_done), ..at })?;
                 self.show(&bar, &status);
             }
         }

@@ -22,6 +22,10 @@ impl Dialect for Dmpl {
         through.iter().map(|at| format!("D{},{},", at.x(), at.y()).into_bytes()).collect()
     }
 
+    fn tail(&self) -> &'static [u8] {
+        b","
+    }
+
     fn lift(&self, _: Point) -> Vec<u8> {
         b"U,".to_vec()
     }

@@ -20,7 +20,11 @@ impl Dialect for Gpgl {
     }
 
     fn draw(&self, through: &[Point]) -> Vec<Vec<u8>> {
-        chunked(b"D", &[ETX], through)
+        chunked(b"D", self.tail(), through)
+    }
+
+    fn tail(&self) -> &'static [u8] {
+        &[ETX]
     }
 
     /// A move to where the pen is.

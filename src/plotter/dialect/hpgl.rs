@@ -24,7 +24,11 @@ impl Dialect for Hpgl {
     }
 
     fn draw(&self, through: &[Point]) -> Vec<Vec<u8>> {
-        chunked(b"PD", b";", through)
+        chunked(b"PD", self.tail(), through)
+    }
+
+    fn tail(&self) -> &'static [u8] {
+        b";"
     }
 
     fn lift(&self, _: Point) -> Vec<u8> {

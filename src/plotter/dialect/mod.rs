@@ -75,6 +75,9 @@ pub trait Dialect: Sync + std::fmt::Debug {
     /// Moves with the pen down, as whole commands of at most [`LONGEST_COMMAND`] bytes.
     fn draw(&self, through: &[Point]) -> Vec<Vec<u8>>;
 
+    /// What ends a command.
+    fn tail(&self) -> &'static [u8];
+
     /// Lifts the pen at its place.
     fn lift(&self, at: Point) -> Vec<u8>;
 
@@ -96,6 +99,15 @@ pub trait Dialect: Sync + std::fmt::Debug {
     /// Switches XON/XOFF on, with XOFF sent when fewer bytes are free; empty where the language
     /// cannot.
     fn switch_xon_xoff_on(&self, least_free: usize) -> Vec<u8>;
+
+    /// A move through many positions as several commands of at most [`LONGEST_COMMAND`] bytes;
+    /// nothing for other commands.
+    fn in_parts(&self, command: &[u8]) -> Vec<Vec<u8>> {
+        match self.meaning(command) {
+            Meaning::Move { to, .. } => chunked(self.mnemonic(command), self.tail(), &to),
+            _ => Vec::new(),
+        }
+    }
 
     /// All commands of a file, in their order; what is left over at the end counts as one.
     fn split<'a>(&self, bytes: &'a [u8]) -> Vec<&'a [u8]> {

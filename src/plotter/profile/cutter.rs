@@ -1,8 +1,7 @@
 //! What a machine is like.
 
-use super::fields::{
-    Ascii, BladeOffset, DialectName, DirectionName, OriginName, Positive, RatioText, Template,
-};
+use super::fields::{Ascii, BladeOffset, DialectName, DirectionName, OriginName, Positive, RatioText};
+use super::level::Level;
 use super::{ProfileError, check_unverified};
 use crate::plotter::dialect::Dialect;
 use crate::plotter::{Direction, Frame, Origin};
@@ -118,45 +117,6 @@ impl TryFrom<SerialTable> for Serial {
     }
 }
 
-/// A setting of the machine, such as its force, and how it is told.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(try_from = "LevelTable")]
-pub struct Level {
-    command: String,
-    per_unit: f64,
-    range: [u32; 2],
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct LevelTable {
-    command: Template,
-    per_unit: Positive,
-    range: [u32; 2],
-}
-
-impl TryFrom<LevelTable> for Level {
-    type Error = String;
-
-    fn try_from(table: LevelTable) -> Result<Self, String> {
-        let [least, most] = table.range;
-        let message = "the range goes from the least to the greatest number of the command";
-        let level = Self { command: table.command.0, per_unit: table.per_unit.0, range: table.range };
-        (least <= most).then_some(level).ok_or_else(|| message.to_owned())
-    }
-}
-
-impl Level {
-    /// The command for a value in grams or mm/s, by the nearest step that the machine has, and
-    /// whether that step is within its range.
-    pub fn command(&self, value: f64) -> (String, bool) {
-        let wish = (value * self.per_unit).round();
-        let [least, most] = self.range.map(f64::from);
-        let step = wish.clamp(least, most);
-        (self.command.replace("{}", &step.to_string()), step == wish)
-    }
-}
-
 /// A tool of the machine.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -244,6 +204,11 @@ impl Cutter {
         &self.unverified
     }
 
+    /// Whether it answers questions about its buffer.
+    pub fn can_be_asked(&self) -> bool {
+        self.serial.answers && self.dialect.controls().is_some()
+    }
+
     /// Its language.
     pub fn dialect(&self) -> &'static dyn Dialect {
         self.dialect
@@ -267,6 +232,11 @@ impl Cutter {
     /// Speed with the tool down where the medium or the machine does not set one, mm/s.
     pub fn draw_mm_s(&self) -> f64 {
         self.motion.draw_mm_s.0
+    }
+
+    /// How fast it gains and loses speed, mm/s².
+    pub fn acceleration_mm_s2(&self) -> f64 {
+        self.motion.acceleration_mm_s2.0
     }
 
     /// Time to lift the tool or set it down, s.
@@ -339,6 +309,7 @@ struct CutterFile {
 struct MotionTable {
     travel_mm_s: Positive,
     draw_mm_s: Positive,
+    acceleration_mm_s2: Positive,
     pen_s: Positive,
 }
 

@@ -3,10 +3,12 @@
 
 mod cutter;
 mod fields;
+mod level;
 mod library;
 mod media;
 
-pub use cutter::{Cutter, Handshake, Level, MachineTool, Parity, Serial};
+pub use cutter::{Cutter, Handshake, MachineTool, Parity, Serial};
+pub use level::Level;
 pub use library::{CUTTERS, MEDIA, Profile};
 pub use media::{Media, Work};
 

@@ -7,8 +7,10 @@ use std::time::Duration;
 const PATIENCE: Duration = Duration::from_millis(1000);
 /// Unanswered questions in a row after which the machine is given up.
 const MOST_SILENCES: u32 = 5;
-/// A full buffer is asked about again after so long.
+/// A full buffer is asked about again after so long, and one with some room after so long: often
+/// enough for a fast line, and not so often that the machine has nothing else to do.
 const INTERVAL: Duration = Duration::from_millis(40);
+const SHORT_INTERVAL: Duration = Duration::from_millis(10);
 /// Every so many questions the machine is asked for errors.
 const ERROR_EVERY: u32 = 32;
 /// Least number of free bytes at which XOFF is asked for: twice what may be on its way.
@@ -122,7 +124,12 @@ impl Session {
         }
         let wants_answers = matches!(self.handshake, Handshake::Auto | Handshake::EscB) && self.may_ask();
         if !wants_answers {
-            return self.begin(self.handshake, now);
+            let is_possible = self.handshake != Handshake::EscB;
+            return if is_possible {
+                self.begin(self.handshake, now)
+            } else {
+                self.end(End::NoAnswer, false)
+            };
         }
         if self.ask.open.is_some() && !self.ask.is_unanswered(now, PATIENCE) {
             return Step::Wait(INTERVAL);
@@ -152,7 +159,12 @@ impl Session {
             Handshake::RtsCts if self.has_clear_to_send != Some(true) => Handshake::Paced,
             other => other,
         };
-        self.handshake = if handshake == Handshake::Auto { fallback } else { handshake };
+        let has_no_cts = handshake == Handshake::RtsCts && self.has_clear_to_send.is_none();
+        self.handshake = match handshake {
+            Handshake::Auto => fallback,
+            _ if has_no_cts => Handshake::Paced,
+            other => other,
+        };
         // What a machine does with questions that it does not know is anybody's guess.
         self.serial.answers &= handshake != Handshake::Auto && self.handshake != Handshake::Paced;
         let why = match self.handshake {
@@ -161,7 +173,11 @@ impl Session {
             Handshake::XonXoff => "XON/XOFF".to_owned(),
             _ => format!("time alone: no more than {} bytes ahead of the machine", self.ask.size),
         };
-        let asked = if handshake == Handshake::Auto { "no answer from the machine; " } else { "" };
+        let asked = match handshake {
+            Handshake::Auto => "no answer from the machine; ",
+            _ if has_no_cts => "the port has no line CTS; ",
+            _ => "",
+        };
         self.notes.push(format!("{asked}handshake: {} ({why})", self.handshake.name()));
         self.phase = Phase::Stream;
         self.ask.stage = 0;
@@ -180,7 +196,8 @@ impl Session {
             return Some(self.begin_stop(End::NoAnswer, now));
         }
         let is_low = self.credit() < (self.ask.size - RESERVE.min(self.ask.size)) / 2;
-        let is_time = self.credit() > 0 || now >= self.ask.last + INTERVAL;
+        let interval = if self.credit() > 0 { SHORT_INTERVAL } else { INTERVAL };
+        let is_time = now >= self.ask.last + interval;
         if self.ask.open.is_some() || !is_low || !is_time {
             return None;
         }

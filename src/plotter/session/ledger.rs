@@ -5,7 +5,7 @@ use std::time::Duration;
 
 /// How much longer a machine may take than its profile says, where nothing but time tells what it
 /// has done.
-const SLOWNESS: f64 = 1.3;
+pub const SLOWNESS: f64 = 1.3;
 
 /// One command that was sent.
 #[derive(Debug, Clone, Copy)]

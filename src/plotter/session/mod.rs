@@ -12,8 +12,8 @@ mod ledger;
 mod line;
 mod replies;
 mod stream;
-#[cfg(test)]
-mod tests;
+
+pub use ledger::SLOWNESS;
 
 use super::profile::{Handshake, Serial};
 use super::{Cutter, Job, Point};

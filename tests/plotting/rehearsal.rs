@@ -1,0 +1,143 @@
+//! A session with the virtual plotter, on a line of modelled speed and in modelled time.
+
+use std::collections::VecDeque;
+use std::time::Duration;
+use tatamu::plotter::profile::Handshake;
+use tatamu::plotter::session::{End, Outcome, Session, State, Step};
+use tatamu::plotter::{Cutter, Job, VirtualOptions, VirtualPlotter};
+
+/// Longest time between two looks at the port.
+const LOOK: Duration = Duration::from_millis(4);
+/// So many free bytes are room: the reserve, what may be on its way, and a chunk to send.
+const ROOM: usize = 384;
+/// No job of these tests takes longer.
+const TOO_LONG: Duration = Duration::from_secs(20_000);
+
+/// A host, a line and a plotter.
+pub struct Rehearsal {
+    pub session: Session,
+    pub plotter: VirtualPlotter,
+    /// After this byte the user stops the job, so many times.
+    pub stop_at: Option<u64>,
+    pub stop_wishes: u32,
+    /// After this byte the port is gone.
+    pub unplug_at: Option<u64>,
+    /// Most bytes that the port held.
+    pub most_queued: usize,
+    handshake: Handshake,
+    byte: Duration,
+    now: Duration,
+    port: VecDeque<u8>,
+    line_free: Duration,
+    /// Time in which the plotter had room: all of it, and that in which the line carried the job.
+    room: Duration,
+    busy: Duration,
+    /// Bytes of a question (ESC . and a letter) that are still to come.
+    question: u8,
+}
+
+impl Rehearsal {
+    pub fn new(job: Job, cutter: &Cutter, handshake: Handshake, options: VirtualOptions) -> Self {
+        Self {
+            session: Session::new(job, cutter, handshake, Some(handshake == Handshake::RtsCts)),
+            plotter: VirtualPlotter::new(cutter, options),
+            stop_at: None,
+            stop_wishes: 1,
+            unplug_at: None,
+            most_queued: 0,
+            handshake,
+            byte: Duration::from_secs_f64(cutter.serial().byte_s()),
+            now: Duration::ZERO,
+            port: VecDeque::new(),
+            line_free: Duration::ZERO,
+            room: Duration::ZERO,
+            busy: Duration::ZERO,
+            question: 0,
+        }
+    }
+
+    /// Runs to the end of the session, and until the plotter has nothing left to do.
+    pub fn run(&mut self) -> Outcome {
+        let outcome = loop {
+            if let Some(outcome) = self.advance() {
+                break outcome;
+            }
+            assert!(self.now < TOO_LONG, "no end: {:?}", self.session.status());
+        };
+        while !self.port.is_empty() && outcome.end != End::PortLost {
+            self.pass(LOOK, false);
+        }
+        self.now += Duration::from_secs(1000);
+        self.plotter.run_until(self.now);
+        outcome
+    }
+
+    /// One step of the session.
+    pub fn advance(&mut self) -> Option<Outcome> {
+        let is_sending = self.session.status().state == State::Sending;
+        let wait = match self.session.step(self.now, self.port.len()) {
+            Step::Done(outcome) => return Some(outcome),
+            Step::Send(bytes) => {
+                self.port.extend(bytes);
+                self.most_queued = self.most_queued.max(self.port.len());
+                Duration::ZERO
+            }
+            Step::Wait(wait) => wait.clamp(Duration::from_micros(100), LOOK),
+        };
+        self.pass(wait, is_sending);
+        None
+    }
+
+    /// Modelled time that has passed.
+    pub fn now(&self) -> Duration {
+        self.now
+    }
+
+    /// Share of the time in which the line carried the job, of that in which the plotter had room
+    /// and there was something to send. Questions do not count.
+    pub fn busy_share(&self) -> f64 {
+        self.busy.as_secs_f64() / self.room.as_secs_f64()
+    }
+
+    /// Time passes: bytes go over the line, answers come back.
+    fn pass(&mut self, wait: Duration, is_sending: bool) {
+        let end = self.now + wait;
+        self.line_free = self.line_free.max(self.now);
+        while self.line_free + self.byte <= end {
+            let is_held = self.handshake == Handshake::RtsCts && !self.plotter.is_clear_to_send();
+            let has_room = self.plotter.free() >= ROOM && !self.plotter.holds_host() && !is_held;
+            let counts = has_room && is_sending;
+            let Some(byte) = self.port.front().copied().filter(|_| !is_held) else {
+                if counts {
+                    self.room += end - self.line_free;
+                }
+                self.line_free = end;
+                self.plotter.run_until(end);
+                break;
+            };
+            self.port.pop_front();
+            self.line_free += self.byte;
+            self.question = if byte == 0x1B { 3 } else { self.question };
+            if counts {
+                self.room += self.byte;
+                self.busy += if self.question == 0 { self.byte } else { Duration::ZERO };
+            }
+            self.question = self.question.saturating_sub(1);
+            self.plotter.receive(byte, self.line_free);
+            self.happen(self.plotter.received());
+        }
+        self.now = end;
+        let answers = self.plotter.take_answers(end);
+        self.session.received(&answers);
+    }
+
+    /// What was to happen after so many bytes.
+    fn happen(&mut self, received: u64) {
+        if self.stop_at == Some(received) {
+            (0..self.stop_wishes).for_each(|_| self.session.stop());
+        }
+        if self.unplug_at == Some(received) {
+            self.session.port_lost();
+        }
+    }
+}
