@@ -270,6 +270,14 @@ mod tests {
         assert!(component.narrowest_panel().1 >= 3.0 && component.lowest_panel().1 >= 3.0);
     }
 
+    /// Here a chain is added before the first one, whose direction is not the smallest: it was put
+    /// out of turn once, and the hinges were torn.
+    #[test]
+    fn added_chains_keep_the_turn() {
+        let axes = DVec3::new(33.567306163393795, 87.81412782575691, 85.76739848566356);
+        check(&convert(&target(&Hull::of_points(&blob(axes, 30)).unwrap(), vec![])).unwrap());
+    }
+
     /// Chains of a flaring bowl overlap when flat and are trimmed back.
     #[test]
     fn overlapping_flat_layers_are_trimmed() {
