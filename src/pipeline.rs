@@ -1,16 +1,19 @@
 //! The way from a mesh to sheets, stage by stage. Reading [`run`] is reading the program.
 
+mod bodies;
+
+pub use bodies::Bodies;
+
 use crate::fold::{FoldPlan, ModelMotion};
-use crate::geom::Hull;
 use crate::mesh::{Mesh, Up};
-use crate::model::{self, Contact, Link, Model, ModelError, Part, PartOptions};
+use crate::model::{self, Model, ModelError};
 use crate::net::{Net, NetChoices, NetOptions, NetsError, develop_model};
 use crate::progress::{Cancelled, Progress};
-use crate::segment::{self, Edit, EditError, Parts, SegmentError, SegmentId, SegmentOptions, Segmentation};
+use crate::segment::{self, Edit, EditError, Parts, SegmentError, SegmentOptions};
 use crate::sheet::{Layout, LayoutError, SheetChoices, SheetOptions};
 use crate::units::Paper;
-use glam::{DAffine3, DVec3};
-use std::collections::{BTreeMap, BTreeSet};
+use glam::DAffine3;
+use std::collections::BTreeMap;
 
 /// What the user chose.
 #[derive(Debug, Clone, PartialEq)]
@@ -233,11 +236,11 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     let (mesh, segmentation) = (divided.mesh(), divided.segmentation());
 
     progress.stage("hulls");
-    let Bodies { parts, links, part_of_segment, flat } = Bodies::new(&divided, options)?;
+    let bodies = Bodies::new(&divided, options)?;
     progress.check()?;
 
     progress.stage("components");
-    let model = model::build(&parts, &links, options.min_panel_width_mm, progress)?;
+    let model = model::build(bodies.parts(), bodies.links(), options.min_panel_width_mm, progress)?;
 
     progress.stage("folding");
     let fold_plan = FoldPlan::new(&ModelMotion::new(&model), options.thickness_mm, progress)?;
@@ -255,11 +258,11 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     let face_part: Vec<Option<u32>> = segmentation
         .face_segments()
         .iter()
-        .map(|s| part_of_segment[s.0 as usize].map(|p| p as u32))
+        .map(|&segment| bodies.part_of(segment).map(|p| p as u32))
         .collect();
-    let mut part_faces = vec![0; parts.len()];
+    let mut part_faces = vec![0; bodies.parts().len()];
     face_part.iter().flatten().for_each(|&p| part_faces[p as usize] += 1);
-    let mut warnings = warnings(&model, &nets, &flat, options);
+    let mut warnings = warnings(&model, &nets, bodies.flat_faces(), options);
     let advice = fold_plan.advice(&model).into_iter();
     warnings.extend(advice.map(|(code, message)| Warning { code, message }));
     Ok(Output {
@@ -296,139 +299,6 @@ pub fn find_parts(
         parts = parts.with_root(root)?;
     }
     Ok((parts, to_model))
-}
-
-/// Hulls of the parts of a mesh, with the joints between them: what the components are made from.
-#[derive(Debug, Clone)]
-pub struct Bodies {
-    parts: Vec<Part>,
-    links: Vec<Link>,
-    part_of_segment: Vec<Option<usize>>,
-    /// Number of faces of each segment that is flat.
-    flat: Vec<usize>,
-}
-
-impl Bodies {
-    /// The hulls of `divided`, with what `options` says of each.
-    ///
-    /// # Errors
-    /// [`Error::NothingSolid`], [`Error::NoComponent`], [`Error::SameName`].
-    pub fn new(divided: &Parts, options: &Options) -> Result<Self, Error> {
-        let solid = hulls(divided);
-        let names = solid.names(divided.names());
-        let parts = parts(solid.hulls, &names, options)?;
-        let contacts = contacts(divided.mesh(), divided.segmentation(), &solid.part_of_segment);
-        let hulls: Vec<&Hull> = parts.iter().map(|p| &p.hull).collect();
-        let links = model::link_tree(&hulls, &contacts);
-        Ok(Self { parts, links, part_of_segment: solid.part_of_segment, flat: solid.flat })
-    }
-
-    /// The parts; a component is made of each.
-    pub fn parts(&self) -> &[Part] {
-        &self.parts
-    }
-
-    /// The tree of joints between them.
-    pub fn links(&self) -> &[Link] {
-        &self.links
-    }
-}
-
-/// Hulls of the segments that have one.
-#[derive(Debug, Clone)]
-struct Solid {
-    hulls: Vec<Hull>,
-    part_of_segment: Vec<Option<usize>>,
-    /// Number of faces of each segment that is flat.
-    flat: Vec<usize>,
-}
-
-impl Solid {
-    /// The names of the segments that have a hull.
-    fn names(&self, of_segment: &[String]) -> Vec<String> {
-        let has_hull = self.part_of_segment.iter().zip(of_segment);
-        has_hull.filter(|(part, _)| part.is_some()).map(|(_, name)| name.clone()).collect()
-    }
-}
-
-fn hulls(parts: &Parts) -> Solid {
-    let mut solid = Solid { hulls: Vec::new(), part_of_segment: Vec::new(), flat: Vec::new() };
-    for (hull, faces) in parts.hulls().into_iter().zip(parts.face_counts()) {
-        match hull {
-            Ok(hull) => {
-                solid.part_of_segment.push(Some(solid.hulls.len()));
-                solid.hulls.push(hull);
-            }
-            Err(_) => {
-                solid.part_of_segment.push(None);
-                solid.flat.push(faces);
-            }
-        }
-    }
-    solid
-}
-
-/// Panels are comfortable from this many times the least width; a component whose numbers the user
-/// has set gets them down to the least width.
-const COMFORTABLE: f64 = 1.5;
-
-fn parts(hulls: Vec<Hull>, names: &[String], options: &Options) -> Result<Vec<Part>, Error> {
-    if hulls.is_empty() {
-        return Err(Error::NothingSolid);
-    }
-    if let Some(name) = options.components.keys().find(|name| !names.contains(name)) {
-        return Err(Error::NoComponent { name: name.clone(), known: names.join(", ") });
-    }
-    let part = |(hull, name): (Hull, &String)| {
-        let own = options.components.get(name).cloned().unwrap_or_default();
-        let is_set = own.top_edges.is_some() || own.profile_vertices.is_some();
-        let comfortable_mm = options.min_panel_width_mm * if is_set { 1.0 } else { COMFORTABLE };
-        Part {
-            hull,
-            options: PartOptions {
-                name: own.rename.unwrap_or_else(|| name.clone()),
-                direction_rad: own.direction_rad,
-                top_edges: own.top_edges.unwrap_or(options.top_edges),
-                profile_vertices: own.profile_vertices.unwrap_or(options.profile_vertices),
-                tolerance_mm: options.tolerance_mm,
-                comfortable_mm,
-            },
-        }
-    };
-    let parts: Vec<Part> = hulls.into_iter().zip(names).map(part).collect();
-    let mut seen = BTreeSet::new();
-    match parts.iter().find(|part| !seen.insert(part.options.name.as_str())) {
-        Some(part) => Err(Error::SameName(part.options.name.clone())),
-        None => Ok(parts),
-    }
-}
-
-fn contacts(mesh: &Mesh, segmentation: &Segmentation, part_of_segment: &[Option<usize>]) -> Vec<Contact> {
-    let part = |s: SegmentId| part_of_segment[s.0 as usize];
-    let borders = segmentation.borders(mesh);
-    let near = segment::near_contacts(mesh, segmentation);
-    let touching = near.into_iter().filter(|(pair, _)| !borders.contains_key(pair)).map(|(pair, points)| {
-        let length_mm = rim_mm(&points);
-        (pair, points, length_mm)
-    });
-    let bordering = borders.iter().map(|(&pair, interface)| {
-        let points = interface.vertices().iter().map(|&v| mesh.positions()[v as usize]).collect();
-        (pair, points, interface.length())
-    });
-    bordering
-        .chain(touching)
-        .filter_map(|((a, b), points, length_mm)| {
-            Some(Contact { parts: (part(a)?, part(b)?), points, length_mm })
-        })
-        .collect()
-}
-
-/// Length of the circle whose points are as far from their centre as these, on the whole.
-fn rim_mm(points: &[DVec3]) -> f64 {
-    let n = points.len().max(1) as f64;
-    let centre = points.iter().sum::<DVec3>() / n;
-    let square = points.iter().map(|p| p.distance_squared(centre)).sum::<f64>() / n;
-    std::f64::consts::TAU * square.sqrt()
 }
 
 /// Joint panels that carry less than this of their child are worth a warning.

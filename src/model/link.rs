@@ -64,6 +64,26 @@ pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact]) -> Vec<Link> {
     links
 }
 
+/// The hulls, of which those of neighbours without a joint end at the plane between them, so that
+/// their components do not stand in each other. Where that plane would take much of either, both
+/// stay whole.
+pub fn parted(part_hulls: &[&Hull], contacts: &[Contact], links: &[Link]) -> Vec<Hull> {
+    let mut hulls: Vec<Hull> = part_hulls.iter().map(|&hull| hull.clone()).collect();
+    for contact in contacts {
+        let (a, b) = contact.parts;
+        if links.iter().any(|l| (l.parent, l.child) == (a, b) || (l.parent, l.child) == (b, a)) {
+            continue;
+        }
+        let plane = contact_plane(contact, part_hulls[a], part_hulls[b]);
+        if cut_off(&plane, part_hulls[a], part_hulls[b]) <= CLIP_SHARE
+            && let (Some(first), Some(second)) = (hulls[a].clip(&plane), hulls[b].clip(&plane.flipped()))
+        {
+            (hulls[a], hulls[b]) = (first, second);
+        }
+    }
+    hulls
+}
+
 /// A least-squares plane may cut off at most this share of a hull before it is moved.
 const CLIP_SHARE: f64 = 0.2;
 /// Places tried for a poor plane.
@@ -132,5 +152,21 @@ mod tests {
             assert!((link.plane.normal() - DVec3::X).length() < 1e-9);
             assert!((link.plane.offset() - x).abs() < 1e-9);
         }
+    }
+
+    #[test]
+    fn neighbours_without_a_joint_end_where_they_meet() {
+        let hulls = [cube(DVec3::ZERO, 10.0), cube(DVec3::X * 9.0, 10.0), cube(DVec3::X * 30.0, 10.0)];
+        let hulls: Vec<&Hull> = hulls.iter().collect();
+        let face = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(y, z)| DVec3::new(9.5, y, z));
+        let contact = Contact { parts: (0, 1), points: face.to_vec(), length_mm: 40.0 };
+        let ends = |hulls: &[Hull]| (hulls[0].support(DVec3::X), -hulls[1].support(-DVec3::X));
+        let apart = parted(&hulls, std::slice::from_ref(&contact), &[]);
+        assert!((ends(&apart).0 - 9.5).abs() < 1e-9 && (ends(&apart).1 - 9.5).abs() < 1e-9);
+        // A joint has its own plane; and a plane that would halve a hull is not heeded.
+        let links = link_tree(&hulls, std::slice::from_ref(&contact));
+        assert_eq!(ends(&parted(&hulls, std::slice::from_ref(&contact), &links)), (10.0, 9.0));
+        let points = face.map(|p| p - DVec3::X * 5.0).to_vec();
+        assert_eq!(ends(&parted(&hulls, &[Contact { points, ..contact }], &[])), (10.0, 9.0));
     }
 }

@@ -5,7 +5,7 @@ mod link;
 mod seat;
 
 pub use build::{ModelError, Part, PartOptions, build};
-pub use link::{Contact, Link, link_tree};
+pub use link::{Contact, Link, link_tree, parted};
 
 use crate::component::{Component, PanelId};
 use crate::geom::polygon;
