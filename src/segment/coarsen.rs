@@ -3,6 +3,7 @@
 
 use super::surface::Surface;
 use rayon::prelude::*;
+use std::borrow::Cow;
 
 /// More cells than this are grouped where borders are drawn. A border that is half a cell off is
 /// then off by 0.2% of the size.
@@ -15,27 +16,28 @@ const MOST_CELLS: usize = 12_000;
 const LEAST_PROGRESS: f64 = 0.05;
 
 /// A surface of fewer cells.
-pub(super) struct Coarse {
-    pub surface: Surface,
+#[derive(Clone)]
+pub(super) struct Coarse<'a> {
+    pub surface: Cow<'a, Surface>,
     /// The cell of each cell of the surface that it was made from.
     pub cell_of: Vec<u32>,
 }
 
 /// Groups the cells of the faces' surface in pairs, again and again, until few are left: the
 /// surface to draw borders on, and the one for all else.
-pub(super) fn coarsen(fine: &Surface) -> [Coarse; 2] {
+pub(super) fn coarsen(fine: &Surface) -> [Coarse<'_>; 2] {
     let itself = (0..fine.len() as u32).collect();
-    let borders = Coarse { surface: fine.clone(), cell_of: itself }.reduced(MOST_BORDER_CELLS);
-    let coarse = Coarse { surface: borders.surface.clone(), cell_of: borders.cell_of.clone() };
-    [borders, coarse.reduced(MOST_CELLS)]
+    let borders = Coarse { surface: Cow::Borrowed(fine), cell_of: itself }.reduced(MOST_BORDER_CELLS);
+    let coarse = borders.clone().reduced(MOST_CELLS);
+    [borders, coarse]
 }
 
-impl Coarse {
+impl Coarse<'_> {
     fn reduced(mut self, most_cells: usize) -> Self {
         while self.surface.len() > most_cells {
             let (group, count) = pairs(&self.surface);
             let progress = 1.0 - count as f64 / self.surface.len() as f64;
-            self.surface = self.surface.grouped(&group, count);
+            self.surface = Cow::Owned(self.surface.grouped(&group, count));
             self.cell_of.par_iter_mut().for_each(|cell| *cell = group[*cell as usize]);
             if progress < LEAST_PROGRESS {
                 break;
