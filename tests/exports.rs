@@ -63,7 +63,9 @@ fn an_obj_holds_the_standing_panels() {
         for (polygon, panel) in soup.polygons().zip(&panels) {
             let corners: Vec<DVec3> = polygon.iter().map(|&v| soup.positions()[v as usize]).collect();
             assert_eq!(corners.len(), panel.len());
-            assert!(corners.iter().zip(panel).all(|(a, b)| a.distance(*b) < 1e-5));
+            // What is up in the model is y in the file, as its first line says.
+            let is_same = |(a, b): (&DVec3, &DVec3)| a.distance(DVec3::new(b.x, b.z, -b.y)) < 1e-5;
+            assert!(corners.iter().zip(panel).all(is_same));
         }
         // Its colours are those of the components.
         let painting = mesh::read_painting(written, &|_| Err(String::new())).expect("colours");

@@ -37,7 +37,8 @@ fn text(model: &Model, title: &str) -> String {
             let outline = model.deployed_outline(p, PanelId(id));
             let _ = writeln!(out, "g {}", panel.kind.short_name());
             for corner in &outline {
-                let _ = writeln!(out, "v {:.6} {:.6} {:.6} {colour}", corner.x, corner.y, corner.z);
+                // The model's z points up.
+                let _ = writeln!(out, "v {:.6} {:.6} {:.6} {colour}", corner.x, corner.z, -corner.y);
             }
             let corners: String = (1..=outline.len()).map(|k| format!(" {}", count + k)).collect();
             let _ = writeln!(out, "f{corners}");
