@@ -121,7 +121,7 @@ fn best_of_counts(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
     for (target, result) in finished {
         match result {
             Ok((fitted, made)) => {
-                let cost_mm = finished_cost(&fitted, &targets[target]) + trim_cost(&made);
+                let cost_mm = finished_cost(&fitted, &made, &targets[target]);
                 if best.as_ref().map_or(true, |b: &Found| cost_mm < b.cost_mm) {
                     best = Ok(Found { target, fitted, made, cost_mm });
                 }
@@ -133,18 +133,15 @@ fn best_of_counts(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
     best
 }
 
-/// What finished shapes are compared by: the error first, then good joints and a small spread.
-fn finished_cost(fitted: &Fitted, (target, own_mm): &(Target, f64)) -> f64 {
+/// What finished shapes are compared by: the error first, then good joints, a small spread, and small
+/// openings where slits were widened so that the flat layers do not overlap.
+fn finished_cost(fitted: &Fitted, made: &Assembled, (target, own_mm): &(Target, f64)) -> f64 {
     fitted.error_mm
         + LACK_PRICE * fitted.lack_mm
         + SPREAD_PRICE * spread_mm(fitted)
         + SUPPORT_PRICE * height_mm(target.hull) * short_of_support(fitted, target)
         + own_mm
-}
-
-/// What the openings cost that slits are widened to, so that the flat layers do not overlap.
-fn trim_cost(made: &Assembled) -> f64 {
-    TRIM_PRICE * made.trimmed_mm2.sqrt()
+        + TRIM_PRICE * made.trimmed_mm2.sqrt()
 }
 
 /// Goes on with fits, each with the index of its target, and keeps the best.
@@ -243,8 +240,9 @@ fn finish(target: &Target, fit: Fit) -> Result<(Fitted, Assembled), AssembleErro
         }
     }
     let height = height_mm(&hull);
+    let mut short = short_of_support(&best.0, target);
     for _ in 0..PRICE_RISES {
-        if short_of_support(&best.0, target) == 0.0 {
+        if short == 0.0 {
             break;
         }
         for (joint, own) in goal.joints.iter_mut().zip(&target.joints) {
@@ -253,10 +251,9 @@ fn finish(target: &Target, fit: Fit) -> Result<(Fitted, Assembled), AssembleErro
         }
         let next = Fit::new(goal.clone(), best.0.shape.solid.clone(), best.0.spots.clone());
         let Ok(next) = settle(target, next) else { break };
-        if short_of_support(&next.0, target) < short_of_support(&best.0, target)
-            && next.0.error_mm < best.0.error_mm + SUPPORT_WORTH * height
-        {
-            best = next;
+        let next_short = short_of_support(&next.0, target);
+        if next_short < short && next.0.error_mm < best.0.error_mm + SUPPORT_WORTH * height {
+            (best, short) = (next, next_short);
         }
     }
     Ok(best)

@@ -265,7 +265,7 @@ mod tests {
     use std::f64::consts::FRAC_PI_2;
 
     fn stroke() -> Stroke {
-        Stroke { width_mm: 0.25, colour: Rgb::BLACK, dash_mm: Vec::new() }
+        Stroke::solid(0.25, Rgb::BLACK)
     }
 
     #[test]

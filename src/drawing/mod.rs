@@ -26,6 +26,12 @@ impl Rgb {
     pub const BLACK: Self = Self(0, 0, 0);
     /// White.
     pub const WHITE: Self = Self(255, 255, 255);
+
+    /// As in SVG and CSS: `#rrggbb`.
+    pub fn hex(self) -> String {
+        let Self(red, green, blue) = self;
+        format!("#{red:02x}{green:02x}{blue:02x}")
+    }
 }
 
 /// What a mark means; exporters turn it into groups, layers or pens.
@@ -103,6 +109,13 @@ pub struct Stroke {
     pub colour: Rgb,
     /// Lengths of dashes and gaps in turn, mm; empty for a solid line.
     pub dash_mm: Vec<f64>,
+}
+
+impl Stroke {
+    /// A line without dashes.
+    pub fn solid(width_mm: f64, colour: Rgb) -> Self {
+        Self { width_mm, colour, dash_mm: Vec::new() }
+    }
 }
 
 /// One polyline.

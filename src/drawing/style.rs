@@ -83,7 +83,7 @@ impl LineStyles {
     }
 
     fn plain() -> Self {
-        let stroke = Stroke { width_mm: 0.2, colour: Rgb::BLACK, dash_mm: Vec::new() };
+        let stroke = Stroke::solid(0.2, Rgb::BLACK);
         let layer = |layer: Layer| layer.name().to_ascii_uppercase();
         let looks = Layer::ALL.map(|kind| Look { stroke: stroke.clone(), layer: layer(kind), dxf_colour: 7 });
         Self { looks }

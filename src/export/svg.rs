@@ -103,7 +103,7 @@ impl<'a> Page<'a> {
             .add(view);
         if let Some(ground) = self.drawing.ground {
             let sheet = Rectangle::new().set("width", width).set("height", height);
-            document.append(sheet.set("fill", colour(ground)));
+            document.append(sheet.set("fill", ground.hex()));
         }
         let mut names: Vec<&str> = Vec::new();
         for mark in &self.drawing.marks {
@@ -167,7 +167,7 @@ impl<'a> Page<'a> {
     fn paths(&self, contours: &[Polyline], stroke: Option<&Stroke>, fill: Option<Rgb>) -> Vec<Element> {
         let data: Vec<String> = contours.iter().map(|contour| self.contour(contour)).collect();
         if let Some(fill) = fill {
-            let path = Path::new().set("d", data.concat()).set("fill", colour(fill));
+            let path = Path::new().set("d", data.concat()).set("fill", fill.hex());
             let path = path.set("fill-rule", "evenodd");
             return vec![stroke.map_or(path.clone(), |stroke| self.stroked(path, stroke)).into()];
         }
@@ -193,7 +193,7 @@ impl<'a> Page<'a> {
             SvgStroke::Hairline => HAIRLINE_MM,
         };
         let path = path
-            .set("stroke", colour(stroke.colour))
+            .set("stroke", stroke.colour.hex())
             .set("stroke-width", px(width_mm))
             .set("stroke-linejoin", "round");
         if stroke.dash_mm.is_empty() {
@@ -208,11 +208,11 @@ impl<'a> Page<'a> {
         let words = text::printable(&text.content);
         match self.options.text {
             TextMode::Outlines => {
-                let path = Path::new().set("d", self.letters(text)).set("fill", colour(text.colour));
+                let path = Path::new().set("d", self.letters(text)).set("fill", text.colour.hex());
                 path.set("aria-label", words).into()
             }
             TextMode::Strokes => {
-                let stroke = Stroke { width_mm: pen_mm, colour: text.colour, dash_mm: Vec::new() };
+                let stroke = Stroke::solid(pen_mm, text.colour);
                 let lines = strokes::polylines(text);
                 let data: String = lines.iter().map(|line| self.contour(line)).collect();
                 let path = self.stroked(Path::new().set("d", data).set("fill", "none"), &stroke);
@@ -246,7 +246,7 @@ impl<'a> Page<'a> {
             .set("font-family", format!("{FONT_FAMILY}, sans-serif"))
             .set("font-size", px(text::em_mm(text.cap_height_mm)))
             .set("font-kerning", "none")
-            .set("fill", colour(text.colour))
+            .set("fill", text.colour.hex())
     }
 
     /// The clip's definition, and a group that it holds for: inside it the pixels are turned.
@@ -301,10 +301,6 @@ impl<'a> Page<'a> {
 /// Without the control characters that XML forbids.
 fn xml_text(content: &str) -> String {
     content.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
-}
-
-fn colour(Rgb(red, green, blue): Rgb) -> String {
-    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 /// A length in user units.

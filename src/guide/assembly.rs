@@ -1,7 +1,8 @@
 //! Where the panels of a component are while it is built.
 
 use super::joined::Joined;
-use crate::component::{HingeId, PanelId, PanelSet};
+use crate::component::{Hinge, HingeId, PanelId, PanelSet};
+use crate::net::layout;
 use glam::{DAffine2, DAffine3, DMat3, DVec2, DVec3};
 
 /// Panels at their places, in the component's axes.
@@ -63,20 +64,14 @@ fn spread(joined: &Joined, share: impl Fn(HingeId) -> f64, places: &mut [Option<
 /// From the coordinates of the panel on the other side of a hinge to those of the panel on `side`,
 /// folded by a share of the deployed angle.
 fn across(set: &PanelSet, hinge: HingeId, side: usize, share: f64) -> DAffine3 {
-    let hinge = set.hinges()[hinge.0];
-    let [here, there] = [side, 1 - side].map(|s| {
-        let side = hinge.sides[s];
-        set.panel(side.panel).edge(side.edge)
-    });
-    bend(here, hinge.deployed_rad * share) * flat(there, here)
+    let Hinge { sides, deployed_rad, .. } = set.hinges()[hinge.0];
+    bend(layout::edge(set, sides[side]), deployed_rad * share) * in_space(layout::across(set, hinge, side))
 }
 
-/// The motion of the plane that lays one edge on another, end to start.
-fn flat([a, b]: [DVec2; 2], [p, q]: [DVec2; 2]) -> DAffine3 {
-    let turn = (p - q).to_angle() - (b - a).to_angle();
-    let motion = DAffine2::from_angle(turn);
-    let shift = q - motion.transform_point2(a);
-    DAffine3::from_translation(shift.extend(0.0)) * DAffine3::from_mat3(DMat3::from_rotation_z(turn))
+/// A motion of the plane as one of space.
+pub fn in_space(motion: DAffine2) -> DAffine3 {
+    let [x, y] = [motion.matrix2.x_axis, motion.matrix2.y_axis].map(|axis| axis.extend(0.0));
+    DAffine3::from_cols(x, y, DVec3::Z, motion.translation.extend(0.0))
 }
 
 /// A turn about an edge of a panel: what lies outside goes down, away from the viewer.

@@ -1,6 +1,7 @@
 //! What the building takes: lengths, and minutes by a stated formula.
 
 use crate::component::HingeId;
+use crate::net::layout::hinge_length;
 use crate::pipeline::Output;
 
 /// Minutes for a metre of cutting, by hand, round corners.
@@ -45,11 +46,7 @@ impl Estimate {
         let pieces = || output.nets().iter().flat_map(|net| net.pieces());
         let glued_mm = output.nets().iter().flat_map(|net| {
             let hinges = (0..net.panels().hinges().len()).map(HingeId);
-            hinges.filter(|&h| net.label(h).is_some()).map(|h| {
-                let side = net.panels().hinges()[h.0].sides[0];
-                let [a, b] = net.panels().panel(side.panel).edge(side.edge);
-                a.distance(b)
-            })
+            hinges.filter(|&h| net.label(h).is_some()).map(|h| hinge_length(net.panels(), h))
         });
         let lengths: Vec<f64> = glued_mm.collect();
         let weight = output.options().thickness_mm * CARD_G_PER_M2_MM / WEIGHT_STEP;

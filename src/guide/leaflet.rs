@@ -113,6 +113,13 @@ impl<'a> Book<'a> {
         self.size_mm.x - 2.0 * MARGIN_MM
     }
 
+    /// How many columns there are, and how far apart they begin.
+    fn columns(&self) -> (usize, f64) {
+        let room = self.width_mm() + GAP_MM;
+        let columns = (room / (COLUMN_MM + GAP_MM)).floor().max(1.0) as usize;
+        (columns, room / columns as f64)
+    }
+
     fn new_page(&mut self) {
         self.pages.push(Drawing::new(self.guide.title.clone(), self.size_mm));
         self.y_mm = self.size_mm.y - MARGIN_MM;
@@ -151,7 +158,7 @@ impl<'a> Book<'a> {
     fn chapter(&mut self, title: &str) {
         self.ensure(CHAPTER_ROOM_MM);
         if self.y_mm < self.size_mm.y - MARGIN_MM {
-            let stroke = Stroke { width_mm: 0.3, colour: FRAME, dash_mm: Vec::new() };
+            let stroke = Stroke::solid(0.3, FRAME);
             let line = Mark::line(Layer::Picture, DVec2::ZERO, DVec2::X * self.width_mm(), &stroke);
             self.put(vec![(0.0, Block { marks: vec![line], height_mm: 5.0 })]);
         }
@@ -204,8 +211,7 @@ impl<'a> Book<'a> {
         let guide = self.guide;
         self.new_page();
         self.heading(&guide.words.cover.parts_title, CHAPTER_MM);
-        let columns = ((self.width_mm() + GAP_MM) / (COLUMN_MM + GAP_MM)).floor().max(1.0) as usize;
-        let pitch = (self.width_mm() + GAP_MM) / columns as f64;
+        let (columns, pitch) = self.columns();
         for row in guide.parts.chunks(columns) {
             let block = |part: &super::content::PartRow| {
                 let mut block = Block::new();
@@ -226,8 +232,7 @@ impl<'a> Book<'a> {
     }
 
     fn steps(&mut self, range: std::ops::Range<usize>) {
-        let columns = ((self.width_mm() + GAP_MM) / (COLUMN_MM + GAP_MM)).floor().max(1.0) as usize;
-        let pitch = (self.width_mm() + GAP_MM) / columns as f64;
+        let (columns, pitch) = self.columns();
         let mut row: Vec<(f64, Block)> = Vec::new();
         let mut filled = 0;
         for k in range {

@@ -78,7 +78,7 @@ fn marks(drawing: &Drawing) -> String {
                     "<text x=\"{}\" y=\"{}\" font-size=\"{font}\" text-anchor=\"{anchor}\" fill=\"{}\">{}</text>",
                     start[0],
                     start[1],
-                    colour(words.colour),
+                    words.colour.hex(),
                     escaped(&words.content)
                 );
             }
@@ -108,11 +108,11 @@ fn push_path(
 ) {
     out.push_str("<path");
     if let Some(fill) = fill {
-        let _ = write!(out, " fill=\"{}\"", colour(fill));
+        let _ = write!(out, " fill=\"{}\"", fill.hex());
     }
     if let Some(stroke) = stroke {
         let width = stroke.width_mm * STEPS;
-        let _ = write!(out, " stroke=\"{}\" stroke-width=\"{width:.1}\"", colour(stroke.colour));
+        let _ = write!(out, " stroke=\"{}\" stroke-width=\"{width:.1}\"", stroke.colour.hex());
         if !stroke.dash_mm.is_empty() {
             let dash: Vec<String> = stroke.dash_mm.iter().map(|mm| format!("{:.0}", mm * STEPS)).collect();
             let _ = write!(out, " stroke-dasharray=\"{}\"", dash.join(" "));
@@ -143,10 +143,6 @@ fn push_path(
 /// From y up to y down, in steps.
 fn steps(drawing: &Drawing, p: DVec2) -> [i64; 2] {
     [p.x, drawing.size_mm.y - p.y].map(|mm| (mm * STEPS).round() as i64)
-}
-
-fn colour(Rgb(red, green, blue): Rgb) -> String {
-    format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
 #[cfg(test)]

@@ -54,7 +54,7 @@ pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact]) -> Vec<Link> {
             for &(child, contact) in neighbours.get(&parent).map_or(&[][..], Vec::as_slice) {
                 if !seen[child] {
                     seen[child] = true;
-                    let plane = contact_plane(contact, part_hulls[parent], part_hulls[child]);
+                    let (plane, _) = contact_plane(contact, part_hulls[parent], part_hulls[child]);
                     links.push(Link { parent, child, plane });
                     queue.push_back(child);
                 }
@@ -74,8 +74,8 @@ pub fn parted(part_hulls: &[&Hull], contacts: &[Contact], links: &[Link]) -> Vec
         if links.iter().any(|l| (l.parent, l.child) == (a, b) || (l.parent, l.child) == (b, a)) {
             continue;
         }
-        let plane = contact_plane(contact, part_hulls[a], part_hulls[b]);
-        if cut_off(&plane, part_hulls[a], part_hulls[b]) <= CLIP_SHARE
+        let (plane, cut_off) = contact_plane(contact, part_hulls[a], part_hulls[b]);
+        if cut_off <= CLIP_SHARE
             && let (Some(first), Some(second)) = (hulls[a].clip(&plane), hulls[b].clip(&plane.flipped()))
         {
             (hulls[a], hulls[b]) = (first, second);
@@ -90,15 +90,16 @@ const CLIP_SHARE: f64 = 0.2;
 const SLIDES: usize = 17;
 
 /// The plane between two parts: least squares through the interface, moved along its normal where
-/// it would cut off too much.
-fn contact_plane(contact: &Contact, parent: &Hull, child: &Hull) -> Plane {
+/// it would cut off too much; and the share that it cuts off.
+fn contact_plane(contact: &Contact, parent: &Hull, child: &Hull) -> (Plane, f64) {
     let towards = child.centroid() - parent.centroid();
     let centre = contact.points.iter().sum::<DVec3>() / contact.points.len().max(1) as f64;
     let fitted = Plane::fit(&contact.points).map(|(plane, _)| plane);
     let plane = fitted.or_else(|| Plane::through(centre, towards)).unwrap_or_else(|| fallback(centre));
     let plane = if plane.normal().dot(towards) < 0.0 { plane.flipped() } else { plane };
-    if cut_off(&plane, parent, child) <= CLIP_SHARE {
-        return plane;
+    let as_fitted = (plane, cut_off(&plane, parent, child));
+    if as_fitted.1 <= CLIP_SHARE {
+        return as_fitted;
     }
     let heights = contact.points.iter().map(|p| plane.distance(*p));
     let (low, high) = heights.fold((0.0f64, 0.0f64), |(l, h), d| (l.min(d), h.max(d)));
@@ -107,9 +108,9 @@ fn contact_plane(contact: &Contact, parent: &Hull, child: &Hull) -> Plane {
             let shift = low + (high - low) * k as f64 / (SLIDES - 1) as f64;
             Plane::through(centre + plane.normal() * shift, plane.normal())
         })
-        .map(|p| (cut_off(&p, parent, child), p))
-        .min_by(|a, b| a.0.total_cmp(&b.0))
-        .map_or(plane, |best| best.1)
+        .map(|p| (p, cut_off(&p, parent, child)))
+        .min_by(|a, b| a.1.total_cmp(&b.1))
+        .unwrap_or(as_fitted)
 }
 
 fn fallback(centre: DVec3) -> Plane {

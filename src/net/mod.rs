@@ -19,7 +19,7 @@ mod finish;
 mod glue;
 mod grow;
 mod labels;
-mod layout;
+pub(crate) mod layout;
 mod marks;
 mod mesh;
 mod of_model;

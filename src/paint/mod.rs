@@ -33,7 +33,7 @@ pub fn colour(output: &Output, painting: &Painting, pages: &mut [Drawing]) {
 
 fn halo(mark: &Mark) -> Option<Mark> {
     let piece = mark.piece.as_ref()?;
-    let white = |width_mm| Stroke { width_mm, colour: Rgb::WHITE, dash_mm: Vec::new() };
+    let white = |width_mm| Stroke::solid(width_mm, Rgb::WHITE);
     let (contours, stroke) = match (&mark.shape, mark.layer) {
         (Shape::Text(text), _) => (text::contours(text, CURVE_STEPS), white(LETTER_HALO_MM)),
         (_, Layer::Cut | Layer::Slit | Layer::Picture) => return None,

@@ -29,18 +29,26 @@ pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
     let mut picture = Drawing::new("preview", size_mm);
     picture.ground = Some(Rgb::WHITE);
     let corners = [DVec2::ZERO, DVec2::new(sheet_mm.x, 0.0), sheet_mm, DVec2::new(0.0, sheet_mm.y)];
-    picture.marks.push(Mark::polygon(Layer::Picture, corners.map(|p| p + shift).to_vec(), &line(0.3, SHEET)));
+    picture.marks.push(Mark::polygon(
+        Layer::Picture,
+        corners.map(|p| p + shift).to_vec(),
+        &Stroke::solid(0.3, SHEET),
+    ));
     let runs = runs(job, cutter);
     let travel =
         runs.iter().filter(|run| !run.is_down).map(|run| run.points.iter().map(|&p| at(p)).collect());
     let travel = travel.map(Polyline::open).collect();
-    picture.marks.push(Mark::path(Layer::Picture, travel, Some(line(0.12, TRAVEL)), None));
+    picture.marks.push(Mark::path(Layer::Picture, travel, Some(Stroke::solid(0.12, TRAVEL)), None));
     let drawn: Vec<&Run> = runs.iter().filter(|run| run.is_down).collect();
     let strokes: Vec<Vec<DVec2>> =
         drawn.iter().map(|run| run.points.iter().map(|&p| at(p)).collect()).collect();
     let share = |k: usize| k as f64 / strokes.len().saturating_sub(1).max(1) as f64;
     for (k, stroke) in strokes.iter().enumerate() {
-        picture.marks.push(Mark::polyline(Layer::Picture, stroke.clone(), &line(0.35, colour(share(k)))));
+        picture.marks.push(Mark::polyline(
+            Layer::Picture,
+            stroke.clone(),
+            &Stroke::solid(0.35, colour(share(k))),
+        ));
     }
     let mut tip = Tip::new(0.0, DVec2::X);
     let mut ways = Vec::new();
@@ -50,7 +58,7 @@ pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
         }
         ways.push(Polyline::open(tip.drag(stroke)));
     }
-    picture.marks.push(Mark::path(Layer::Picture, ways, Some(line(0.1, TIP)), None));
+    picture.marks.push(Mark::path(Layer::Picture, ways, Some(Stroke::solid(0.1, TIP)), None));
     let every = strokes.len().div_ceil(NUMBERS).max(1);
     for (k, stroke) in strokes.iter().enumerate() {
         let start = stroke[0];
@@ -116,15 +124,11 @@ fn legend(size_mm: DVec2, job: &Job, cutter: &Cutter, placement: &Placement) -> 
     let second = Text::new(words, at(0.0) - DVec2::Y * 6.0, LEGEND_CAP_MM);
     let step = (size_mm.x - 2.0 * BORDER_MM) / 3.0;
     let mut marks = Vec::new();
-    marks.extend(sample(0.0, &line(0.35, colour(0.0)), "shaft, tool down"));
-    marks.extend(sample(step, &line(0.1, TIP), "tip of the blade"));
-    marks.extend(sample(2.0 * step, &line(0.12, TRAVEL), "travel, tool up"));
+    marks.extend(sample(0.0, &Stroke::solid(0.35, colour(0.0)), "shaft, tool down"));
+    marks.extend(sample(step, &Stroke::solid(0.1, TIP), "tip of the blade"));
+    marks.extend(sample(2.0 * step, &Stroke::solid(0.12, TRAVEL), "travel, tool up"));
     marks.push(Mark::text(Layer::Picture, second));
     marks
-}
-
-fn line(width_mm: f64, colour: Rgb) -> Stroke {
-    Stroke { width_mm, colour, dash_mm: Vec::new() }
 }
 
 fn dot(at: DVec2, colour: Rgb) -> Mark {

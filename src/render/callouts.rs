@@ -69,7 +69,7 @@ fn placed<'a>(mut column: Vec<&'a Callout<'a>>, height: f64, step: f64) -> Vec<(
 }
 
 fn draw(marks: &mut Vec<Mark>, callout: &Callout, from: DVec2, cap_mm: f64) {
-    let stroke = |width: f64, colour| Stroke { width_mm: width * cap_mm, colour, dash_mm: Vec::new() };
+    let stroke = |width: f64, colour| Stroke::solid(width * cap_mm, colour);
     // White below makes lines and dots stand out on dark parts.
     for (more, colour) in [(2.0 * LINE_SHARE, Rgb::WHITE), (0.0, Rgb::BLACK)] {
         let line = stroke(LINE_SHARE + more, colour);

@@ -57,7 +57,6 @@ fn draw(scene: &Scene, view: &View, look: &Look, seam_mm: f64, fragment: &Fragme
     let lit = light::shaded(colour, view.camera().direction(normal));
     let colour = light::mixed(colour, lit, look.relief);
     let points: Vec<DVec2> = fragment.corners.iter().map(|&c| view.project(c)).collect();
-    let stroke = |width_mm, colour| Stroke { width_mm, colour, dash_mm: Vec::new() };
     let widths_mm = [look.crease_mm, look.outline_mm];
     let (mut lines, mut seams) = ([Vec::new(), Vec::new()], Vec::new());
     for (k, edge) in fragment.edges.iter().enumerate() {
@@ -78,7 +77,7 @@ fn draw(scene: &Scene, view: &View, look: &Look, seam_mm: f64, fragment: &Fragme
         (outlines, look.outline_mm, line_colour),
     ] {
         if !contours.is_empty() {
-            marks.push(Mark::path(Layer::Picture, contours, Some(stroke(width_mm, colour)), None));
+            marks.push(Mark::path(Layer::Picture, contours, Some(Stroke::solid(width_mm, colour)), None));
         }
     }
 }

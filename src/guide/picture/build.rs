@@ -5,7 +5,7 @@ use super::{GLUED, PictureError, SIZE_MM, THERE, overlay, taken};
 use crate::component::{HingeId, PanelId};
 use crate::drawing::{Drawing, Rgb};
 use crate::geom::polygon;
-use crate::guide::assembly::{Pose, bend};
+use crate::guide::assembly::{Pose, bend, in_space};
 use crate::guide::joined::Joined;
 use crate::net::{Net, Piece, Tab};
 use crate::render::{Camera, Edge, Face, Scene, View};
@@ -96,11 +96,6 @@ fn tab_place(net: &Net, piece: &Piece, tab: &Tab) -> DAffine3 {
     let edge = net.panels().panel(side.panel).edge(side.edge);
     let angle = TAB * net.panels().hinges()[tab.hinge.0].deployed_rad;
     bend(edge, angle) * in_space(back)
-}
-
-fn in_space(motion: glam::DAffine2) -> DAffine3 {
-    let [x, y] = [motion.matrix2.x_axis, motion.matrix2.y_axis].map(|axis| axis.extend(0.0));
-    DAffine3::from_cols(x, y, DVec3::Z, motion.translation.extend(0.0))
 }
 
 /// The two places that are glued together, as they are when nothing is posed yet.

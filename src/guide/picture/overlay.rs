@@ -19,10 +19,6 @@ const PAD_MM: f64 = 1.1;
 const LEADER_MM: f64 = 7.0;
 const DOT_MM: f64 = 0.8;
 
-fn solid(width_mm: f64, colour: Rgb) -> Stroke {
-    Stroke { width_mm, colour, dash_mm: Vec::new() }
-}
-
 /// An arrow along a path of two or more points; the last part of a short one is made longer.
 pub fn arrow(path: &[DVec2]) -> Vec<Mark> {
     let [.., before, tip] = *path else { return Vec::new() };
@@ -41,9 +37,9 @@ pub fn arrow(path: &[DVec2]) -> Vec<Mark> {
         vec![tip + along * (1.5 * more), back + side, back - side]
     };
     vec![
-        Mark::polyline(Layer::Picture, shaft.clone(), &solid(ARROW_MM + 2.0 * HALO_MM, Rgb::WHITE)),
+        Mark::polyline(Layer::Picture, shaft.clone(), &Stroke::solid(ARROW_MM + 2.0 * HALO_MM, Rgb::WHITE)),
         Mark::filled(Layer::Picture, head(HALO_MM), Rgb::WHITE),
-        Mark::polyline(Layer::Picture, shaft, &solid(ARROW_MM, INK)),
+        Mark::polyline(Layer::Picture, shaft, &Stroke::solid(ARROW_MM, INK)),
         Mark::filled(Layer::Picture, head(0.0), INK),
     ]
 }
@@ -61,8 +57,8 @@ pub fn labels(items: &[(&str, DVec2)], middle: DVec2, size_mm: DVec2) -> Vec<Mar
         let outward = ((at - middle).normalize_or_zero() + 1.5 * away).normalize_or(DVec2::Y);
         let centre = free_place(at, outward, half, size_mm, &plates, items);
         plates.push([centre - half, centre + half]);
-        marks.push(Mark::line(Layer::Picture, centre, at, &solid(0.9, Rgb::WHITE)));
-        marks.push(Mark::line(Layer::Picture, centre, at, &solid(0.4, INK)));
+        marks.push(Mark::line(Layer::Picture, centre, at, &Stroke::solid(0.9, Rgb::WHITE)));
+        marks.push(Mark::line(Layer::Picture, centre, at, &Stroke::solid(0.4, INK)));
         marks.push(Mark::filled(Layer::Picture, disc(at, DOT_MM + 0.3), Rgb::WHITE));
         marks.push(Mark::filled(Layer::Picture, disc(at, DOT_MM), INK));
         marks.push(Mark::filled(Layer::Picture, plate(centre, half + DVec2::splat(0.3)), Rgb::WHITE));
@@ -128,7 +124,7 @@ fn disc(centre: DVec2, radius: f64) -> Vec<DVec2> {
 pub fn joint(outline: Vec<DVec2>, key: Vec<DVec2>) -> Vec<Mark> {
     let dashed = Stroke { width_mm: 0.6, colour: GLUE, dash_mm: vec![1.6, 1.0] };
     vec![
-        Mark::polygon(Layer::Picture, outline.clone(), &solid(1.1, Rgb::WHITE)),
+        Mark::polygon(Layer::Picture, outline.clone(), &Stroke::solid(1.1, Rgb::WHITE)),
         Mark::polygon(Layer::Picture, outline, &dashed),
         Mark::filled(Layer::Picture, key, GLUE),
     ]

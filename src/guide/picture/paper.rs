@@ -65,8 +65,8 @@ pub fn sheet_map(output: &Output, sheet: usize, part: usize, height_mm: f64) -> 
     let size_mm = paper_mm * scale;
     let mut drawing = Drawing::new("", size_mm);
     let corners = [DVec2::ZERO, DVec2::X * size_mm.x, size_mm, DVec2::Y * size_mm.y];
-    let edge = Stroke { width_mm: 0.3, colour: EDGE, dash_mm: Vec::new() };
-    let thin = Stroke { width_mm: 0.12, colour: EDGE, dash_mm: Vec::new() };
+    let edge = Stroke::solid(0.3, EDGE);
+    let thin = Stroke::solid(0.12, EDGE);
     drawing.marks.push(Mark::filled(Layer::Picture, corners.to_vec(), PAPER));
     for (n, net) in output.nets().iter().enumerate() {
         for (piece, at) in
