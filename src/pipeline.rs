@@ -249,11 +249,11 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     let sheets = SheetOptions { paper: options.paper, margin_mm: options.margin_mm, choices: options.sheets };
     let net_options =
         NetOptions { tab_width_mm: options.tab_width_mm, sheet_mm: sheets.room_mm(), choices: options.nets };
-    let nets = develop_model(&model, &net_options, progress)
+    let alternatives = develop_model(&model, &net_options, progress)
         .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
 
     progress.stage("sheets");
-    let layout = Layout::new(&nets, &sheets, progress)?;
+    let (layout, nets) = Layout::of_alternatives(&alternatives, &sheets, progress)?;
 
     let face_part: Vec<Option<u32>> = segmentation
         .face_segments()
