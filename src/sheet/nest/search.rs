@@ -215,7 +215,7 @@ fn varied(pool: &[Layout], alternatives: &[usize], rng: &mut fastrand::Rng) -> P
         plan.poses = rng.u64(..);
     }
     if rng.u8(..3) == 0 {
-        for _ in 0..=rng.usize(..=alternatives.len() / 4) {
+        for _ in 0..=rng.usize(..=1 + alternatives.len() / 4) {
             let group = rng.usize(..alternatives.len());
             plan.chosen[group] = rng.usize(..alternatives[group]);
         }
