@@ -80,7 +80,11 @@ impl Paper {
         let is_size = |&&(_, size): &&(&str, [f64; 2])| size == [self.width_mm, self.height_mm];
         match PAPERS.iter().find(is_size) {
             Some((name, _)) => (*name).to_owned(),
-            None => format!("{}x{}mm", self.width_mm, self.height_mm),
+            None => format!(
+                "{}x{}mm",
+                without_rounding_error(self.width_mm),
+                without_rounding_error(self.height_mm)
+            ),
         }
     }
 }
@@ -148,6 +152,11 @@ pub fn parse_paper(text: &str) -> Result<Paper, UnitsError> {
     Ok(Paper { width_mm: side(&width)?, height_mm: side(height)? })
 }
 
+/// A length to a nanometre, so that 12 in is 304.8 mm and not 304.79999999999995 mm.
+fn without_rounding_error(mm: f64) -> f64 {
+    (mm * 1e6).round() / 1e6
+}
+
 /// A text for an error message, without control characters.
 fn printable(text: &str) -> String {
     text.chars().filter(|c| !c.is_control()).take(40).collect()
@@ -203,6 +212,7 @@ mod tests {
         assert_eq!(size("21cm×297mm"), [210.0, 297.0]);
         assert_eq!(parse_paper("8.5x11in").unwrap().name(), "letter");
         assert_eq!(parse_paper("100x50").unwrap().name(), "100x50mm");
+        assert_eq!(parse_paper("12x12in").unwrap().name(), "304.8x304.8mm");
     }
 
     #[test]

@@ -59,7 +59,7 @@ pub struct FileArgs {
     /// Paper on which the PDF divides larger sheets
     ///
     /// A sheet that does not fit is divided among pages of this size, which overlap and have marks
-    /// to lay them on one another. Example: --paper a2 --tile a4
+    /// to lay them on one another. Example: --paper 420x594mm --tile a4
     #[arg(long, value_name = "SIZE", value_parser = parse_paper)]
     tile: Option<Paper>,
 
