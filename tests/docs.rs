@@ -186,11 +186,9 @@ fn run(folder: &Path, line: &str) {
         words.iter_mut().filter(|word| **word == PORT).for_each(|word| *word = &machine.port);
         words.push("--yes");
     }
-    for (_, extra) in QUICK.iter().filter(|(name, _)| *name == words[0]) {
-        for pair in extra.chunks(2).filter(|pair| !words.contains(&pair[0])).collect::<Vec<_>>() {
-            words.extend(pair);
-        }
-    }
+    let quick = QUICK.iter().find(|(name, _)| *name == words[0]).map_or(&[][..], |(_, extra)| *extra);
+    let missing = quick.chunks(2).filter(|pair| !words.contains(&pair[0])).flatten().copied();
+    words.extend(missing.collect::<Vec<&str>>());
     let output = tatamu(folder).args(&words).output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{line}\n{said}");
