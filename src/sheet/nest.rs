@@ -1,7 +1,7 @@
 //! Nesting: pieces of any shape on as few sheets as possible.
 //!
-//! Each piece is tried at a list of angles and at all points of a lattice ([`raster`]), with a row
-//! of positions in a machine word ([`occupancy`]); orders of the pieces are searched ([`search`]).
+//! Each piece is tried at a list of angles and at all points of a lattice (`raster`), with a row
+//! of positions in a machine word (`occupancy`); orders of the pieces are searched (`search`).
 //! Hollows need no special care: a free place is free wherever it is.
 //!
 //! # Why on a lattice
