@@ -14,7 +14,7 @@ use std::sync::Mutex;
 use tempfile::TempDir;
 
 /// Commands that are not run, as they stand in the text without their comments, with the reason.
-const SKIPPED: [(&str, &str); 6] = [
+const SKIPPED: &[(&str, &str)] = &[
     ("tatamu make INPUT [options]", "a synopsis"),
     ("tatamu segment INPUT [options]", "a synopsis"),
     ("tatamu init MESH [options]", "a synopsis"),
