@@ -6,7 +6,7 @@ use glam::DVec2;
 use std::error::Error;
 use std::time::Instant;
 use tatamu::mesh::{self, Mesh};
-use tatamu::net::{Net, NetOptions, Piece, develop_model};
+use tatamu::net::{KnownNets, Net, NetOptions, Piece, develop_model};
 use tatamu::pipeline::{self, Options};
 use tatamu::progress::Silent;
 use tatamu::sheet::nest::{NestOptions, Shape, nest};
@@ -46,7 +46,7 @@ impl Figures {
             SheetOptions { choices: options.sheets, ..SheetOptions::new(options.paper, options.margin_mm) };
         let start = Instant::now();
         let net_options = NetOptions::new(options.tab_width_mm, sheets.room_mm());
-        let nets = develop_model(output.model(), &net_options, &Silent)?;
+        let nets = develop_model(output.model(), &net_options, &KnownNets::default(), &Silent)?;
         let layout = Layout::new(&nets, &sheets, &Silent)?;
         let seconds = start.elapsed().as_secs_f64();
         let pieces: Vec<&Piece> = nets.iter().flat_map(Net::pieces).collect();

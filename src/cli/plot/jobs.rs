@@ -155,7 +155,7 @@ pub fn sheets(args: &PlotArgs, machine: &PltOptions) -> Result<Vec<Sheet>, CliEr
 
 fn of_model(args: &PlotArgs, path: &Path, machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
     let input = input::read(path)?;
-    let options = args.model.merge(&input)?;
+    let options = args.model.merge(input.project.as_ref())?;
     make::repair_warnings(&input.repairs).iter().for_each(make::warn);
     let progress = TerminalProgress::new(args.quiet);
     let result = pipeline::run(&input.mesh, &options, &progress)
