@@ -171,7 +171,7 @@ fn of_model(args: &PlotArgs, path: &Path, machine: &PltOptions) -> Result<Vec<Sh
 }
 
 /// The sheets on which there is something for the machine.
-fn of_drawings(title: &str, pages: &[Drawing], machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
+pub fn of_drawings(title: &str, pages: &[Drawing], machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
     let mut plans = Vec::new();
     for (k, page) in pages.iter().enumerate() {
         match Plan::new(page, &machine.cutter, &machine.media) {

@@ -14,6 +14,12 @@ mod document;
 #[cfg(feature = "studio")]
 mod opened;
 #[cfg(feature = "studio")]
+mod pages;
+#[cfg(feature = "studio")]
+mod plotting;
+#[cfg(feature = "studio")]
+mod scene;
+#[cfg(feature = "studio")]
 mod selection;
 #[cfg(feature = "studio")]
 mod state;
@@ -25,6 +31,8 @@ mod surface;
 mod tasks;
 #[cfg(all(test, feature = "studio"))]
 mod tests;
+#[cfg(feature = "studio")]
+mod view;
 #[cfg(feature = "studio")]
 mod worker;
 
@@ -46,8 +54,25 @@ pub struct StudioArgs {
 /// Runs the command.
 #[cfg(feature = "studio")]
 pub fn run(args: &StudioArgs) -> Result<(), CliError> {
-    let _ = &args.input;
-    Ok(())
+    let input = args.input.clone();
+    let options = eframe::NativeOptions {
+        viewport: eframe::egui::ViewportBuilder::default()
+            .with_app_id("tatamu")
+            .with_inner_size([1280.0, 760.0])
+            .with_min_inner_size([800.0, 500.0])
+            .with_drag_and_drop(true),
+        ..Default::default()
+    };
+    let create: eframe::AppCreator<'_> = Box::new(move |context| {
+        let ctx = context.egui_ctx.clone();
+        let wake = std::sync::Arc::new(move || ctx.request_repaint());
+        let mut window = view::Window::new(state::Studio::new(store::Store::of_user(), wake));
+        input.iter().for_each(|path| window.open(path));
+        Ok(Box::new(window))
+    });
+    eframe::run_native("tatamu studio", options, create).map_err(|error| {
+        CliError::Options(format!("the window cannot be opened: {error}; is there a display, with OpenGL?"))
+    })
 }
 
 /// Says how to get a program with the window.

@@ -102,7 +102,9 @@ pub fn scene(studio: &Studio, setting: &Setting) -> Solids {
     let divided = shaped.divided();
     let of_face = |face: usize| divided.face_parts()[face].map(|p| p as usize);
     let tag = |face: usize| of_face(face).map_or(Frame::NOTHING, |part| Tag { part, panel: None }.number());
-    if layers.distances && let Some(distances) = shown.distances() {
+    if layers.distances
+        && let Some(distances) = shown.distances()
+    {
         push_mesh(&mut solids, divided.mesh(), |f| (distances.colour(f), tag(f)), false);
     } else if layers.segments {
         let names = shown.names();
@@ -276,7 +278,12 @@ fn push_arrow(solids: &mut Solids, part: &ModelPart, frame: DAffine3) {
     };
     let (low, neck, tip) = (solid.top_mm, solid.top_mm + 0.6 * reach, solid.top_mm + reach);
     for k in 0..SIDES {
-        let shaft = [ring(radius, low, k), ring(radius, low, k + 1), ring(radius, neck, k + 1), ring(radius, neck, k)];
+        let shaft = [
+            ring(radius, low, k),
+            ring(radius, low, k + 1),
+            ring(radius, neck, k + 1),
+            ring(radius, neck, k),
+        ];
         solids.push_outline(&shaft, ACCENT, None, Frame::NOTHING);
         let cone = [ring(2.6 * radius, neck, k), ring(2.6 * radius, neck, k + 1), at(0.0, 0.0, tip)];
         solids.push_outline(&cone, ACCENT, None, Frame::NOTHING);
@@ -291,7 +298,13 @@ fn push_plane(solids: &mut Solids, point: DVec3, normal: DVec3, half: f64) {
     let corner = |a: f64, b: f64| upright().transform_point3(point + half * (a * u + b * v));
     let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
     for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
-        solids.push_triangle([corners[a], corners[b], corners[c]], ACCENT, Some(ACCENT), Frame::NOTHING, true);
+        solids.push_triangle(
+            [corners[a], corners[b], corners[c]],
+            ACCENT,
+            Some(ACCENT),
+            Frame::NOTHING,
+            true,
+        );
     }
     push_edges(solids, &corners, ACCENT, 2.0);
 }

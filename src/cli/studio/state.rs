@@ -146,11 +146,6 @@ impl Studio {
         (self.notice, self.problem) = (None, None);
     }
 
-    /// Tells the user something.
-    pub fn tell(&mut self, notice: impl Into<String>) {
-        self.notice = Some(notice.into());
-    }
-
     /// Files that were open before.
     pub fn recent(&self) -> Vec<PathBuf> {
         self.store.recent()

@@ -199,7 +199,11 @@ fn warnings(window: &mut Window, ui: &mut Ui) {
             let what = if a == b { format!("{a} touches itself") } else { format!("{a} touches {b}") };
             ui.colored_label(
                 Color32::from_rgb(210, 60, 40),
-                format!("{what} at {:.0} % of its folding, {:.2} mm deep", 100.0 * clash.folded, clash.depth_mm),
+                format!(
+                    "{what} at {:.0} % of its folding, {:.2} mm deep",
+                    100.0 * clash.folded,
+                    clash.depth_mm
+                ),
             );
         });
     }

@@ -47,7 +47,8 @@ struct Entry {
 impl Browser {
     /// A dialog that begins in a folder, with a name.
     pub fn new(purpose: Purpose, folder: Option<PathBuf>, name: &str) -> Self {
-        let folder = folder.filter(|f| f.is_dir()).or_else(|| std::env::current_dir().ok()).unwrap_or_default();
+        let folder =
+            folder.filter(|f| f.is_dir()).or_else(|| std::env::current_dir().ok()).unwrap_or_default();
         let folder = std::path::absolute(&folder).unwrap_or(folder);
         let entries = entries(&folder);
         Self { purpose, folder, name: name.to_owned(), shows_all: false, entries, replaces: None }
@@ -78,7 +79,11 @@ impl Browser {
     fn content(&mut self, ui: &mut Ui) -> Answer {
         ui.horizontal(|ui| {
             let parent = self.folder.parent().map(Path::to_owned);
-            if ui.add_enabled(parent.is_some(), egui::Button::new("⬆")).on_hover_text("folder above").clicked() {
+            if ui
+                .add_enabled(parent.is_some(), egui::Button::new("⬆"))
+                .on_hover_text("folder above")
+                .clicked()
+            {
                 parent.into_iter().for_each(|parent| self.go_to(parent));
             }
             ui.add(egui::Label::new(self.folder.display().to_string()).truncate());
@@ -94,7 +99,8 @@ impl Browser {
         let mut is_done = false;
         ui.horizontal(|ui| {
             let label = ui.label("File");
-            let field = ui.add(egui::TextEdit::singleline(&mut self.name).desired_width(260.0)).labelled_by(label.id);
+            let field =
+                ui.add(egui::TextEdit::singleline(&mut self.name).desired_width(260.0)).labelled_by(label.id);
             if field.changed() {
                 self.replaces = None;
             }
@@ -132,7 +138,8 @@ impl Browser {
             }
         };
         let mut chosen = None;
-        for entry in entries.iter().filter(|entry| self.is_listed(entry)) {
+        let listed: Vec<Entry> = entries.into_iter().filter(|entry| self.is_listed(entry)).collect();
+        for entry in &listed {
             let text = if entry.is_file { entry.name.clone() } else { format!("{}/", entry.name) };
             let response = ui.selectable_label(entry.is_file && self.name == entry.name, text);
             if response.clicked() {

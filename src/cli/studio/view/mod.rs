@@ -59,6 +59,8 @@ pub struct Window {
     question: Option<Question>,
     may_close: bool,
     parts: parts::PartsPanel,
+    /// The file that the panels show.
+    source: Option<std::path::PathBuf>,
 }
 
 impl Window {
@@ -77,6 +79,7 @@ impl Window {
             question: None,
             may_close: false,
             parts: parts::PartsPanel::default(),
+            source: None,
         }
     }
 
@@ -112,8 +115,10 @@ impl Window {
     /// Draws everything, and heeds what the user did.
     pub fn show(&mut self, ui: &mut egui::Ui) {
         self.studio.poll();
+        self.follow_file();
         let ctx = ui.ctx().clone();
-        let dropped: Vec<_> = ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
+        let dropped: Vec<_> =
+            ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
         if let Some(path) = dropped.first() {
             self.open(path);
         }
@@ -133,10 +138,22 @@ impl Window {
         self.dialogs(&ctx);
     }
 
+    /// Panels begin anew with another file.
+    fn follow_file(&mut self) {
+        let source = self.studio.opened().map(|opened| opened.source.clone());
+        if source != self.source {
+            self.source = source;
+            self.space.reset();
+            (self.sheets, self.export) = (SheetsPanel::default(), ExportPanel::default());
+            self.parts = parts::PartsPanel::default();
+        }
+    }
+
     fn middle(&mut self, ui: &mut egui::Ui) {
         match self.mode {
             Mode::Model => {
-                egui::Panel::bottom("folding").show(ui, |ui| space::folding_bar(&mut self.space, &mut self.studio, ui));
+                egui::Panel::bottom("folding")
+                    .show(ui, |ui| space::folding_bar(&mut self.space, &mut self.studio, ui));
                 egui::CentralPanel::no_frame().show(ui, |ui| self.space.show(&mut self.studio, ui));
             }
             Mode::Sheets => {
@@ -182,7 +199,7 @@ impl Window {
         }
         let Some(Question::Close) = self.question else { return };
         let mut close = false;
-        egui::Modal::new(egui::Id::new("close")).show(ctx, |ui| {
+        egui::Modal::new(egui::Id::unique("close")).show(ctx, |ui| {
             if is_cutting {
                 ui.label("The machine is at work. Closing stops it and lifts the tool.");
             }

@@ -46,10 +46,13 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
     CollapsingHeader::new("Components").default_open(true).show(ui, |ui| components(studio, ui));
     if let Some(index) = studio.selected_index() {
         let title = studio.shown().part(index).map_or(String::new(), |part| part.name.clone());
-        CollapsingHeader::new(RichText::new(title).strong()).id_salt("own").default_open(true).show(ui, |ui| {
-            own(panel, studio, ui, index);
-            splitting(panel, studio, space, ui, index);
-        });
+        CollapsingHeader::new(RichText::new(title).strong()).id_salt("own").default_open(true).show(
+            ui,
+            |ui| {
+                own(panel, studio, ui, index);
+                splitting(panel, studio, space, ui, index);
+            },
+        );
     } else {
         panel.split = None;
         space.show_split(None);
@@ -67,7 +70,15 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
 
 fn model(studio: &mut Studio, ui: &mut Ui) {
     let Some(options) = studio.document().map(|d| d.options().clone()) else { return };
-    let number = |label, help, table, key, range, digits, unit| Number { label, help, table, key, range, digits, unit };
+    let number = |label, help, table, key, range, digits, unit| Number {
+        label,
+        help,
+        table,
+        key,
+        range,
+        digits,
+        unit,
+    };
     let size = number("Size", "the longest side of the model", "", "size", 10.0..=2000.0, Some(0), " mm");
     size.row(studio, ui, options.size_mm);
     let up = match options.up {
@@ -75,7 +86,14 @@ fn model(studio: &mut Studio, ui: &mut Ui) {
         Up::Y => "y",
         Up::Z => "z",
     };
-    choice_row(studio, ui, ("Upwards", "the axis of the mesh that points up"), ("", "up"), up, &["x", "y", "z"]);
+    choice_row(
+        studio,
+        ui,
+        ("Upwards", "the axis of the mesh that points up"),
+        ("", "up"),
+        up,
+        &["x", "y", "z"],
+    );
     let of_shape = ("Method", "merge suits most meshes; sdf is the method of the paper");
     let segmentation = options.segmentation;
     let (method, sdf) = match segmentation.method {
@@ -85,22 +103,43 @@ fn model(studio: &mut Studio, ui: &mut Ui) {
     let name = if method == MethodName::Merge { "merge" } else { "sdf" };
     choice_row(studio, ui, of_shape, ("segmentation", "method"), name, &["merge", "sdf"]);
     if let Some((clusters, smoothing)) = sdf {
-        let row = number("Clusters", "classes of thickness", "segmentation", "clusters", 1.0..=32.0, None, "");
-        row.row(studio, ui, clusters as f64);
         let row =
-            number("Smoothing", "cost of borders between parts", "segmentation", "smoothing", 0.0..=10.0, Some(2), "");
+            number("Clusters", "classes of thickness", "segmentation", "clusters", 1.0..=32.0, None, "");
+        row.row(studio, ui, clusters as f64);
+        let row = number(
+            "Smoothing",
+            "cost of borders between parts",
+            "segmentation",
+            "smoothing",
+            0.0..=10.0,
+            Some(2),
+            "",
+        );
         row.row(studio, ui, smoothing);
     } else {
-        let parts = number("Parts", "how many components to aim at", "segmentation", "parts", 1.0..=200.0, None, "");
+        let parts =
+            number("Parts", "how many components to aim at", "segmentation", "parts", 1.0..=200.0, None, "");
         let found = studio.shown().names().len().max(1) as f64;
         parts.optional_row(studio, ui, segmentation.parts.map(|n| n as f64), found);
         if segmentation.parts.is_none() {
-            let row = number("Detail", "from 0, few components, to 1, many", "segmentation", "detail", 0.0..=1.0, Some(2), "");
+            let row = number(
+                "Detail",
+                "from 0, few components, to 1, many",
+                "segmentation",
+                "detail",
+                0.0..=1.0,
+                Some(2),
+                "",
+            );
             row.row(studio, ui, segmentation.detail);
         }
     }
     let most = "more follow the shape better, fewer fold faster";
-    number("Top edges", most, "defaults", "top_edges", 3.0..=64.0, None, "").row(studio, ui, options.top_edges as f64);
+    number("Top edges", most, "defaults", "top_edges", 3.0..=64.0, None, "").row(
+        studio,
+        ui,
+        options.top_edges as f64,
+    );
     let row = number("Profile vertices", most, "defaults", "profile_vertices", 3.0..=64.0, None, "");
     row.row(studio, ui, options.profile_vertices as f64);
     let row = number(
@@ -213,11 +252,15 @@ fn figures(studio: &Studio, ui: &mut Ui, index: usize) {
     let (Some(part), Some(shaped)) = (studio.shown().part(index), studio.shown().shaped()) else { return };
     let error_mm = part.component.hausdorff_mm();
     let share = 100.0 * error_mm / shaped.divided().mesh().diagonal_mm();
-    ui.label("Distance").on_hover_text("Hausdorff distance from the part's hull, and its share of the model's diagonal");
+    ui.label("Distance")
+        .on_hover_text("Hausdorff distance from the part's hull, and its share of the model's diagonal");
     ui.label(format!("{error_mm:.2} mm ({share:.1} %)"));
     ui.end_row();
-    let gap = part.component.profiles().iter().map(|p| p.gap_mm().abs() / p.mean_segment_mm()).fold(0.0, f64::max);
-    ui.label("Gap").on_hover_text("by how much the worst chain fails to fold flat, in its mean segments; below 1e-9 it is rounding");
+    let gap =
+        part.component.profiles().iter().map(|p| p.gap_mm().abs() / p.mean_segment_mm()).fold(0.0, f64::max);
+    ui.label("Gap").on_hover_text(
+        "by how much the worst chain fails to fold flat, in its mean segments; below 1e-9 it is rounding",
+    );
     ui.label(format!("{gap:.1e}"));
     ui.end_row();
     if let Some(joint) = &part.joint
@@ -287,23 +330,60 @@ fn paper(studio: &mut Studio, ui: &mut Ui) {
     let Some(options) = studio.document().map(|d| d.options().clone()) else { return };
     let now = options.paper.name();
     choice_row(studio, ui, ("Paper", "size of the sheets"), ("paper", "size"), &now, &PAPERS);
-    let mm = |label, help, table, key, range, digits| Number { label, help, table, key, range, digits: Some(digits), unit: " mm" };
-    mm("Margin", "border that stays free", "paper", "margin_mm", 0.0..=60.0, 1).row(studio, ui, options.margin_mm);
-    let row = mm("Thickness", "of the paper, for the check of the folding", "paper", "thickness_mm", 0.02..=5.0, 2);
+    let mm = |label, help, table, key, range, digits| Number {
+        label,
+        help,
+        table,
+        key,
+        range,
+        digits: Some(digits),
+        unit: " mm",
+    };
+    mm("Margin", "border that stays free", "paper", "margin_mm", 0.0..=60.0, 1).row(
+        studio,
+        ui,
+        options.margin_mm,
+    );
+    let row =
+        mm("Thickness", "of the paper, for the check of the folding", "paper", "thickness_mm", 0.02..=5.0, 2);
     row.row(studio, ui, options.thickness_mm);
-    mm("Tabs", "width of the glue tabs", "defaults", "tab_width_mm", 1.0..=30.0, 1).row(studio, ui, options.tab_width_mm);
-    let row = mm("Least panel", "no panel is narrower or lower", "defaults", "min_panel_width_mm", 0.5..=30.0, 1);
+    mm("Tabs", "width of the glue tabs", "defaults", "tab_width_mm", 1.0..=30.0, 1).row(
+        studio,
+        ui,
+        options.tab_width_mm,
+    );
+    let row =
+        mm("Least panel", "no panel is narrower or lower", "defaults", "min_panel_width_mm", 0.5..=30.0, 1);
     row.row(studio, ui, options.min_panel_width_mm);
     let row = mm("Spacing", "least distance between pieces", "sheets", "spacing_mm", 0.0..=30.0, 1);
     row.row(studio, ui, options.sheets.spacing_mm);
     let side = if options.sheets.side == Side::Outside { "outside" } else { "inside" };
-    choice_row(studio, ui, ("Print on", "printed side of the paper"), ("sheets", "side"), side, &["outside", "inside"]);
+    choice_row(
+        studio,
+        ui,
+        ("Print on", "printed side of the paper"),
+        ("sheets", "side"),
+        side,
+        &["outside", "inside"],
+    );
     let marks = options.sheets.registration.map_or("none", Registration::name);
     let among = ["none", "silhouette", "corners"];
     choice_row(studio, ui, ("Marks", "registration marks for a cutter"), ("sheets", "marks"), marks, &among);
     let grain = options.sheets.rotation == Rotation::QuarterTurns;
-    tick_row(studio, ui, ("Along the grain", "pieces turned by multiples of 90° only"), ("sheets", "grain"), grain);
+    tick_row(
+        studio,
+        ui,
+        ("Along the grain", "pieces turned by multiples of 90° only"),
+        ("sheets", "grain"),
+        grain,
+    );
     let nets = options.nets;
-    tick_row(studio, ui, ("Glue marks", "the place of each tab behind its mate"), ("nets", "glue_marks"), nets.glue_marks);
+    tick_row(
+        studio,
+        ui,
+        ("Glue marks", "the place of each tab behind its mate"),
+        ("nets", "glue_marks"),
+        nets.glue_marks,
+    );
     tick_row(studio, ui, ("Angles", "the angle of each crease beside it"), ("nets", "angles"), nets.angles);
 }

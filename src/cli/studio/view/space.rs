@@ -62,12 +62,8 @@ impl Default for Space {
 }
 
 impl Space {
-    /// What is to be seen.
-    pub fn layers_mut(&mut self) -> &mut Layers {
-        &mut self.setting.layers
-    }
-
     /// How far the model is folded.
+    #[cfg(test)]
     pub fn folded(&self) -> f64 {
         self.setting.folded
     }
@@ -95,7 +91,11 @@ impl Space {
     /// Shows all of the model.
     pub fn fit(&mut self) {
         if let (Some(orbit), Some(ball)) = (&mut self.orbit, self.solids.as_ref().and_then(|s| s.3.ball())) {
-            *orbit = Orbit { azimuth_rad: orbit.azimuth_rad, elevation_rad: orbit.elevation_rad, ..Orbit::of_ball(ball) };
+            *orbit = Orbit {
+                azimuth_rad: orbit.azimuth_rad,
+                elevation_rad: orbit.elevation_rad,
+                ..Orbit::of_ball(ball)
+            };
         }
     }
 
@@ -151,7 +151,7 @@ impl Space {
             false => Rgb(246, 247, 249),
         };
         let is_smooth = !is_moving && !self.is_playing && size_px[0] * size_px[1] <= MOST_SMOOTH;
-        self.refresh_picture(studio, ui.ctx(), size_px, is_smooth, ground);
+        self.refresh_picture(ui.ctx(), size_px, is_smooth, ground);
         let painter = ui.painter_at(rect);
         match &self.texture {
             Some(texture) => {
@@ -167,9 +167,7 @@ impl Space {
             ui.ctx().request_repaint();
         }
         self.legend(studio, ui, rect);
-        response.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::WidgetType::Image, true, "Model in space")
-        });
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Model in space"));
     }
 
     fn animate(&mut self, studio: &Studio, ui: &egui::Ui) {
@@ -186,9 +184,10 @@ impl Space {
     fn refresh_scene(&mut self, studio: &Studio) {
         let version = studio.shown().version();
         let selection = format!("{:?}", studio.selection);
-        let is_old = self.solids.as_ref().is_none_or(|(v, s, setting, _)| {
-            *v != version || *s != selection || *setting != self.setting
-        });
+        let is_old = self
+            .solids
+            .as_ref()
+            .is_none_or(|(v, s, setting, _)| *v != version || *s != selection || *setting != self.setting);
         if is_old {
             let was_other = self.solids.as_ref().is_none_or(|s| s.3.facets.is_empty());
             let solids = scene::scene(studio, &self.setting);
@@ -204,8 +203,10 @@ impl Space {
         *self = Self { texture: self.texture.take(), ..Self::default() };
     }
 
-    fn refresh_picture(&mut self, studio: &Studio, ctx: &egui::Context, size_px: [usize; 2], is_smooth: bool, ground: Rgb) {
-        let (Some(orbit), Some((version, selection, setting, solids))) = (self.orbit, &self.solids) else { return };
+    fn refresh_picture(&mut self, ctx: &egui::Context, size_px: [usize; 2], is_smooth: bool, ground: Rgb) {
+        let (Some(orbit), Some((version, selection, setting, solids))) = (self.orbit, &self.solids) else {
+            return;
+        };
         let wanted = Drawn {
             version: *version,
             selection: selection.clone(),
@@ -230,7 +231,6 @@ impl Space {
             Some(texture) => texture.set(image, TextureOptions::LINEAR),
             None => self.texture = Some(ctx.load_texture("space", image, TextureOptions::LINEAR)),
         }
-        let _ = studio;
         (self.frame, self.drawn) = (Some(frame), Some(wanted));
     }
 
@@ -252,7 +252,8 @@ impl Space {
                 orbit.turn(-dx * DRAG_RAD, dy * DRAG_RAD);
             }
         }
-        let over = response.hover_pos().and_then(|at| self.tag_under(at - rect.min, ui.ctx().pixels_per_point()));
+        let over =
+            response.hover_pos().and_then(|at| self.tag_under(at - rect.min, ui.ctx().pixels_per_point()));
         self.setting.hover = over.filter(|_| !response.dragged());
         if response.clicked() {
             match over {
@@ -306,7 +307,9 @@ impl Space {
             }
             _ => {
                 let factor = zoom * if zoom == 1.0 { 1.12f64.powf(notches) } else { 1.0 };
-                if factor != 1.0 && let Some(orbit) = &mut self.orbit {
+                if factor != 1.0
+                    && let Some(orbit) = &mut self.orbit
+                {
                     orbit.zoom_at(factor, DVec2::new(f64::from(at.x), -f64::from(at.y)));
                 }
             }
@@ -324,7 +327,13 @@ impl Space {
         let place = response.rect.left_bottom() + egui::vec2(10.0, -10.0);
         let text = format!("{}{what}   ({hint})", part.name);
         let colour = ui.visuals().text_color();
-        ui.painter_at(response.rect).text(place, egui::Align2::LEFT_BOTTOM, text, egui::FontId::proportional(14.0), colour);
+        ui.painter_at(response.rect).text(
+            place,
+            egui::Align2::LEFT_BOTTOM,
+            text,
+            egui::FontId::proportional(14.0),
+            colour,
+        );
     }
 
     /// The scale of colours.
@@ -337,10 +346,9 @@ impl Space {
         let font = egui::FontId::proportional(13.0);
         let at = rect.right_top() + egui::vec2(-12.0, 12.0);
         let text = match studio.shown().distances() {
-            Some(d) => format!(
-                "red: the surface sticks out, up to {:.1} mm\nblue: the component does",
-                d.most_mm
-            ),
+            Some(d) => {
+                format!("red: the surface sticks out, up to {:.1} mm\nblue: the component does", d.most_mm)
+            }
             None => "distances are being measured …".to_owned(),
         };
         painter.text(at, egui::Align2::RIGHT_TOP, text, font, colour);
@@ -352,7 +360,11 @@ pub fn folding_bar(space: &mut Space, studio: &mut Studio, ui: &mut egui::Ui) {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         let text = if space.is_playing { "⏸ Pause" } else { "▶ Fold" };
-        if ui.button(text).on_hover_text("folds the components one by one, in the order that was found (Space)").clicked() {
+        if ui
+            .button(text)
+            .on_hover_text("folds the components one by one, in the order that was found (Space)")
+            .clicked()
+        {
             space.play();
         }
         let mut folded = space.setting.folded;
@@ -360,7 +372,9 @@ pub fn folding_bar(space: &mut Space, studio: &mut Studio, ui: &mut egui::Ui) {
         let label = ui.label("folded");
         let slider = egui::Slider::new(&mut folded, 0.0..=1.0)
             .custom_formatter(|x, _| format!("{:.0} %", 100.0 * x))
-            .custom_parser(|text| text.trim().trim_end_matches('%').trim().parse().ok().map(|x: f64| x / 100.0));
+            .custom_parser(|text| {
+                text.trim().trim_end_matches('%').trim().parse().ok().map(|x: f64| x / 100.0)
+            });
         if ui.add(slider).labelled_by(label.id).changed() {
             (space.setting.folded, space.is_playing, space.setting.clash) = (folded, false, None);
         }

@@ -29,7 +29,10 @@ impl Number {
         let label = ui.label(self.label).on_hover_text(self.help);
         if let Some(x) = self.field(ui, now, label.id, studio) {
             let value = self.value(x);
-            studio.change(&Change::Set { table: self.table, key: self.key, value: Some(value) }, Some(self.key));
+            studio.change(
+                &Change::Set { table: self.table, key: self.key, value: Some(value) },
+                Some(self.key),
+            );
         }
         ui.end_row();
     }
@@ -40,8 +43,9 @@ impl Number {
         ui.horizontal(|ui| {
             let mut is_set = now.is_some();
             let name = format!("choose {}", self.label);
-            let tick = ui.add(egui::Checkbox::without_text(&mut is_set)).on_hover_text("without a tick: automatic");
-            tick.widget_info(|| egui::WidgetInfo::selected(egui::WidgetType::Checkbox, true, now.is_some(), &name));
+            let tick =
+                ui.add(egui::Checkbox::without_text(&mut is_set)).on_hover_text("without a tick: automatic");
+            tick.widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, now.is_some(), &name));
             if tick.changed() {
                 let value = is_set.then(|| self.value(otherwise));
                 studio.change(&Change::Set { table: self.table, key: self.key, value }, None);
@@ -50,7 +54,8 @@ impl Number {
                 Some(now) => {
                     if let Some(x) = self.field(ui, now, label.id, studio) {
                         let value = Some(self.value(x));
-                        studio.change(&Change::Set { table: self.table, key: self.key, value }, Some(self.key));
+                        studio
+                            .change(&Change::Set { table: self.table, key: self.key, value }, Some(self.key));
                     }
                 }
                 None => drop(ui.weak("automatic")),
@@ -66,11 +71,17 @@ impl Number {
             if let Some(x) = self.field(ui, now, label.id, studio) {
                 let value = Some(self.value(x));
                 let gesture = format!("{} {name}", self.key);
-                studio.change(&Change::Component { name: name.to_owned(), key: self.key, value }, Some(&gesture));
+                studio.change(
+                    &Change::Component { name: name.to_owned(), key: self.key, value },
+                    Some(&gesture),
+                );
             }
             if is_set {
                 if ui.small_button("auto").on_hover_text("as the whole model has it").clicked() {
-                    studio.change(&Change::Component { name: name.to_owned(), key: self.key, value: None }, None);
+                    studio.change(
+                        &Change::Component { name: name.to_owned(), key: self.key, value: None },
+                        None,
+                    );
                 }
             } else {
                 ui.weak("auto");

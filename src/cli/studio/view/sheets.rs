@@ -1,0 +1,192 @@
+//! The sheets as they will be printed. A piece that is clicked is selected in space, too.
+
+use super::super::pages::{self, PieceId};
+use super::super::state::Studio;
+use super::picture::Picture;
+use eframe::egui::{self, Color32, Rect, Sense, Stroke, Ui, Vec2};
+use glam::DVec2;
+use tatamu::drawing::Drawing;
+use tatamu::pipeline::Output;
+
+/// Colour of what is selected.
+const ACCENT: Color32 = Color32::from_rgb(230, 90, 20);
+/// Room between pages, points.
+const GAP: f32 = 16.0;
+
+/// The panel of the sheets.
+pub struct SheetsPanel {
+    version: Option<u64>,
+    drawings: Result<Vec<Drawing>, String>,
+    pictures: Vec<Picture>,
+    /// Points of the screen for a millimetre; none fits the page to the window.
+    scale: Option<f32>,
+    /// The piece that is selected and seen; the view goes there when another one is selected.
+    seen: Option<String>,
+}
+
+impl Default for SheetsPanel {
+    fn default() -> Self {
+        Self { version: None, drawings: Ok(Vec::new()), pictures: Vec::new(), scale: None, seen: None }
+    }
+}
+
+impl SheetsPanel {
+    /// Draws the panel.
+    pub fn show(&mut self, studio: &mut Studio, ui: &mut Ui) {
+        let Some(output) = studio.shown().output().cloned() else {
+            ui.weak("the sheets are being made …");
+            return;
+        };
+        self.refresh(studio, &output);
+        self.bar(studio, &output, ui);
+        let drawings = match &self.drawings {
+            Ok(drawings) => drawings.clone(),
+            Err(problem) => {
+                ui.colored_label(ui.visuals().error_fg_color, problem);
+                return;
+            }
+        };
+        let Some(first) = drawings.first() else { return };
+        let room = ui.available_size() - egui::vec2(24.0, 24.0);
+        let page = egui::vec2(first.size_mm.x as f32, first.size_mm.y as f32);
+        let fitting = (room.x / page.x).min(room.y / page.y).max(0.1);
+        let scale = self.scale.unwrap_or(fitting);
+        let zoom = ui.input(|i| if i.modifiers.command { i.zoom_delta() } else { 1.0 });
+        if zoom != 1.0 && ui.rect_contains_pointer(ui.max_rect()) {
+            self.scale = Some((scale * zoom).clamp(0.3, 20.0));
+        }
+        egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+            ui.horizontal_wrapped(|ui| {
+                ui.spacing_mut().item_spacing = Vec2::splat(GAP);
+                for (k, drawing) in drawings.iter().enumerate() {
+                    self.page(studio, &output, ui, (k, drawing), scale);
+                }
+            });
+        });
+    }
+
+    fn refresh(&mut self, studio: &Studio, output: &Output) {
+        let version = studio.shown().version();
+        if self.version == Some(version) {
+            return;
+        }
+        self.version = Some(version);
+        let (Some(opened), Some(document)) = (studio.opened(), studio.document()) else { return };
+        self.drawings = pages::drawings(opened, document.project(), output);
+        let count = self.drawings.as_ref().map_or(0, Vec::len);
+        self.pictures.resize_with(count, Picture::default);
+    }
+
+    fn bar(&mut self, studio: &mut Studio, output: &Output, ui: &mut Ui) {
+        ui.horizontal(|ui| {
+            let layout = output.layout();
+            let sheets = layout.sheet_count();
+            let name = layout.options().paper.name();
+            ui.label(format!("{sheets} sheets of {name}, {:.0} % used", 100.0 * layout.utilisation()));
+            if studio.finished().is_none() {
+                ui.spinner();
+                ui.weak("of the model before");
+            }
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let scale = self.scale;
+                if ui.add_enabled(scale.is_some(), egui::Button::new("Fit")).clicked() {
+                    self.scale = None;
+                }
+                if ui.button("➕").on_hover_text("larger (Ctrl and wheel)").clicked() {
+                    self.scale = Some((scale.unwrap_or(2.0) * 1.3).min(20.0));
+                }
+                if ui.button("➖").on_hover_text("smaller (Ctrl and wheel)").clicked() {
+                    self.scale = Some((scale.unwrap_or(2.0) / 1.3).max(0.3));
+                }
+                if let (Some(piece), Some(name)) = (studio.selection.piece(), studio.selection.last()) {
+                    ui.label(format!("piece {piece} of {name}"));
+                }
+            });
+        });
+        ui.separator();
+    }
+
+    fn page(
+        &mut self,
+        studio: &mut Studio,
+        output: &Output,
+        ui: &mut Ui,
+        (k, drawing): (usize, &Drawing),
+        scale: f32,
+    ) {
+        let size = scale * egui::vec2(drawing.size_mm.x as f32, drawing.size_mm.y as f32);
+        let response = ui.allocate_response(size, Sense::click());
+        let rect = response.rect;
+        response
+            .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, format!("Sheet {}", k + 1)));
+        if !ui.is_rect_visible(rect) {
+            return;
+        }
+        let painter = ui.painter_at(rect);
+        let pixels_per_mm = f64::from(scale * ui.ctx().pixels_per_point());
+        let version = self.version.unwrap_or_default();
+        match self.pictures[k].texture(ui.ctx(), drawing, version, pixels_per_mm) {
+            Some(texture) => {
+                let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+                painter.image(texture.id(), rect, whole, Color32::WHITE);
+            }
+            None => drop(painter.rect_filled(rect, 0.0, Color32::WHITE)),
+        }
+        let outlines = pages::outlines(output, k);
+        let to_mm = |at: egui::Pos2| {
+            DVec2::new(f64::from((at.x - rect.left()) / scale), f64::from((rect.bottom() - at.y) / scale))
+        };
+        let to_screen =
+            |p: &DVec2| egui::pos2(rect.left() + scale * p.x as f32, rect.bottom() - scale * p.y as f32);
+        let over = response.hover_pos().and_then(|at| pages::piece_at(&outlines, to_mm(at)));
+        for (id, outline) in &outlines {
+            let is_selected = is_selected(studio, output, *id);
+            if is_selected || over == Some(*id) {
+                let width = if is_selected { 2.5 } else { 1.2 };
+                let points: Vec<egui::Pos2> = outline.iter().map(to_screen).collect();
+                self.follow(ui, is_selected, output, *id, &points);
+                painter.add(egui::Shape::closed_line(points, Stroke::new(width, ACCENT)));
+            }
+        }
+        if response.clicked() {
+            let piece = over.and_then(|id| pages::piece(output, id).map(|piece| (id, piece)));
+            match piece.and_then(|(id, piece)| Some((studio.shown().names().get(id.net)?.clone(), piece))) {
+                Some((name, piece)) => {
+                    self.seen = Some(piece.name().to_owned());
+                    studio.selection.select_piece(&name, piece.name());
+                }
+                None => studio.selection.clear(),
+            }
+        }
+        if over.is_some() {
+            ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
+        }
+    }
+
+    /// Brings a piece into view that was selected elsewhere.
+    fn follow(&mut self, ui: &Ui, is_selected: bool, output: &Output, id: PieceId, points: &[egui::Pos2]) {
+        let Some(name) = pages::piece(output, id).map(|piece| piece.name()) else { return };
+        if is_selected && self.seen.as_deref() != Some(name) {
+            self.seen = Some(name.to_owned());
+            ui.scroll_to_rect(Rect::from_points(points), None);
+        }
+    }
+}
+
+/// Whether a piece is selected, or the component or the panel that it is made of.
+fn is_selected(studio: &Studio, output: &Output, id: PieceId) -> bool {
+    let selection = &studio.selection;
+    let name = studio.shown().names().get(id.net);
+    if name.is_none_or(|name| !selection.has(name)) {
+        return false;
+    }
+    let Some(piece) = pages::piece(output, id) else { return false };
+    match (selection.piece(), selection.panel()) {
+        (Some(selected), _) => selected == piece.name(),
+        (None, Some(panel)) => {
+            let net = &output.nets()[id.net];
+            piece.panels().iter().any(|placed| net.source(placed.panel) == panel)
+        }
+        _ => true,
+    }
+}
