@@ -3,6 +3,7 @@
 //! `cargo run --release --example sheet_figures -- MESH...`
 
 use glam::DVec2;
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::time::Instant;
 use tatamu::mesh::{self, Mesh};
@@ -47,7 +48,7 @@ impl Figures {
         let start = Instant::now();
         let net_options = NetOptions::new(options.tab_width_mm, sheets.room_mm());
         let nets = develop_model(output.model(), &net_options, &KnownNets::default(), &Silent)?;
-        let layout = Layout::new(&nets, &sheets, &Silent)?;
+        let layout = Layout::new(&nets, &sheets, &BTreeMap::new(), &Silent)?;
         let seconds = start.elapsed().as_secs_f64();
         let pieces: Vec<&Piece> = nets.iter().flat_map(Net::pieces).collect();
         Ok(Self {

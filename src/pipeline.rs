@@ -15,7 +15,7 @@ use crate::model::ModelError;
 use crate::net::{NetChoices, NetsError};
 use crate::progress::{Cancelled, Progress};
 use crate::segment::{Edit, EditError, Parts, SegmentError, SegmentOptions};
-use crate::sheet::{LayoutError, SheetChoices};
+use crate::sheet::{LayoutError, Pin, SheetChoices};
 use crate::units::Paper;
 use glam::DAffine3;
 use std::borrow::Cow;
@@ -57,6 +57,8 @@ pub struct Options {
     pub nets: NetChoices,
     /// What else is chosen about sheets.
     pub sheets: SheetChoices,
+    /// Pieces, by name, that lie where the user wants them.
+    pub pins: BTreeMap<String, Pin>,
 }
 
 impl Default for Options {
@@ -78,6 +80,7 @@ impl Default for Options {
             thickness_mm: 0.25,
             nets: NetChoices::default(),
             sheets: SheetChoices::default(),
+            pins: BTreeMap::new(),
         }
     }
 }

@@ -198,6 +198,7 @@ fn merge_project(project: &Project, options: &mut Options) {
     let vertices = defaults.profile_vertices;
     options.profile_vertices = vertices.unwrap_or(options.profile_vertices);
     options.paper = project.paper.size.unwrap_or(options.paper);
+    options.pins = project.pins.iter().map(|table| (table.piece().to_owned(), table.pin())).collect();
     for component in &project.components {
         let choice = ComponentOptions {
             rename: component.rename.clone(),

@@ -1,7 +1,7 @@
 //! The stages, with a memory for what each of them made: what is asked for again is not made again.
 //! The command line runs an engine once; the studio keeps one and changes a little at a time.
 
-use super::warning::warnings;
+use super::warning::{pin_warnings, warnings};
 use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
 use crate::fold::{FoldPlan, ModelMotion};
 use crate::memory::Memory;
@@ -10,9 +10,10 @@ use crate::model::{self, Known, Model, ModelPart};
 use crate::net::{KnownNets, Net, NetOptions, develop_model};
 use crate::progress::Progress;
 use crate::segment::{self, Edit, Parts, SegmentOptions};
-use crate::sheet::{Layout, SheetOptions};
+use crate::sheet::{Layout, Pin, SheetOptions};
 use glam::DAffine3;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// So many results of whole stages are kept, for going back and forth between a few choices.
@@ -30,7 +31,7 @@ pub struct Engine<'m> {
     components: Known,
     plans: Memory<(Arc<Model>, f64), Arc<FoldPlan>>,
     nets: KnownNets,
-    layouts: Memory<(SheetOptions, Arc<Vec<Net>>), Arc<Layout>>,
+    layouts: Memory<(SheetOptions, BTreeMap<String, Pin>, Arc<Vec<Net>>), Arc<Layout>>,
 }
 
 /// What decides the parts before they are changed by hand: size, axis and segmentation.
@@ -157,11 +158,12 @@ impl<'m> Engine<'m> {
         let nets = develop_model(model, &net_options, &self.nets, progress)
             .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
         let nets = Arc::new(nets);
-        let layout = self.layouts.get_or((sheets, nets.clone()), || {
+        let layout = self.layouts.get_or((sheets, options.pins.clone(), nets.clone()), || {
             progress.stage("sheets");
-            Ok::<_, Error>(Arc::new(Layout::new(&nets, &sheets, progress)?))
+            Ok::<_, Error>(Arc::new(Layout::new(&nets, &sheets, &options.pins, progress)?))
         })?;
         let mut warnings = warnings(model, &nets, shaped.divided.hulls().flat_faces(), options);
+        warnings.extend(pin_warnings(&layout));
         let advice = fold_plan.advice(model).into_iter();
         warnings.extend(advice.map(|(code, message)| Warning { code, message }));
         Ok(Output { shaped, fold_plan, nets, layout, warnings: Arc::new(warnings) })

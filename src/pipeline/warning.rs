@@ -3,6 +3,7 @@
 use super::Options;
 use crate::model::Model;
 use crate::net::Net;
+use crate::sheet::{Layout, Unheeded};
 
 /// Something that the user should know about a model that was made all the same.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -84,4 +85,21 @@ pub(super) fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Op
         out.extend(net.warnings().iter().map(|w| Warning { code: w.code(), message: w.to_string() }));
     }
     out
+}
+
+/// Pins that could not be heeded.
+pub(super) fn pin_warnings(layout: &Layout) -> Vec<Warning> {
+    let warning = |pin: &Unheeded| match pin {
+        Unheeded::NoPiece(name) => Warning {
+            code: "pin_without_piece",
+            message: format!("{name}: there is no piece of this name any more; take its [[pin]] away"),
+        },
+        Unheeded::NoRoom(name) => Warning {
+            code: "pin_without_room",
+            message: format!(
+                "{name}: it does not fit where it is pinned, so it was put elsewhere; move it or another pin"
+            ),
+        },
+    };
+    layout.unheeded_pins().iter().map(warning).collect()
 }

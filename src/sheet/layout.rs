@@ -2,10 +2,12 @@
 
 use super::SheetOptions;
 use super::nest::{NestError, Shape, nest};
+use super::pin::{Pin, Unheeded, unheeded};
 use crate::geom::polygon;
-use crate::net::Net;
+use crate::net::{Net, Piece};
 use crate::progress::Progress;
 use glam::DAffine2;
+use std::collections::BTreeMap;
 
 /// Where a piece lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +41,7 @@ pub enum LayoutError {
 /// All pieces of a model on sheets.
 #[derive(Debug, Clone)]
 pub struct Layout {
+    unheeded: Vec<Unheeded>,
     options: SheetOptions,
     places: Vec<Vec<PiecePlace>>,
     sheets: usize,
@@ -46,11 +49,16 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Nests the pieces of all nets.
+    /// Nests the pieces of all nets, those that are pinned, by name, at their places.
     ///
     /// # Errors
     /// See [`LayoutError`].
-    pub fn new(nets: &[Net], options: &SheetOptions, progress: &dyn Progress) -> Result<Self, LayoutError> {
+    pub fn new(
+        nets: &[Net],
+        options: &SheetOptions,
+        pins: &BTreeMap<String, Pin>,
+        progress: &dyn Progress,
+    ) -> Result<Self, LayoutError> {
         let room = options.room_mm();
         if room.min_element() <= 0.0 {
             let size = options.size_mm();
@@ -61,7 +69,14 @@ impl Layout {
             });
         }
         let pieces = || nets.iter().enumerate().flat_map(|(n, net)| net.pieces().iter().map(move |p| (n, p)));
-        let shapes: Vec<Shape> = pieces().filter_map(|(n, p)| Shape::new(p.outline().to_vec(), n)).collect();
+        let shape = |(n, piece): (usize, &Piece)| {
+            let shape = Shape::new(piece.outline().to_vec(), n)?;
+            Some(match pins.get(piece.name()) {
+                Some(pin) => shape.pinned(pin.placement(piece.outline(), options.origin_mm())),
+                None => shape,
+            })
+        };
+        let shapes: Vec<Shape> = pieces().filter_map(shape).collect();
         debug_assert_eq!(shapes.len(), pieces().count(), "every piece has an area");
         let placements = nest(&shapes, &options.nesting(), progress)?;
         let mut places = vec![Vec::new(); nets.len()];
@@ -72,7 +87,14 @@ impl Layout {
         let sheets = placements.iter().map(|p| p.sheet + 1).max().unwrap_or(0);
         let area: f64 = shapes.iter().map(|s| polygon::area(s.outline())).sum();
         let utilisation = area / (room.x * room.y * sheets.max(1) as f64);
-        Ok(Self { options: *options, places, sheets, utilisation })
+        let places_of = pieces().map(|(_, piece)| piece).zip(places.iter().flatten());
+        let unheeded = unheeded(pins, places_of);
+        Ok(Self { unheeded, options: *options, places, sheets, utilisation })
+    }
+
+    /// Pins that could not be heeded.
+    pub fn unheeded_pins(&self) -> &[Unheeded] {
+        &self.unheeded
     }
 
     /// Places of the pieces of net `n`, in the net's order.

@@ -29,7 +29,7 @@ use glam::{DAffine2, DVec2};
 use occupancy::Pose;
 use raster::Grid;
 use rayon::prelude::*;
-use search::Item;
+use search::{Item, Pinned};
 use std::f64::consts::FRAC_PI_2;
 
 /// The outline of one piece.
@@ -40,6 +40,7 @@ use std::f64::consts::FRAC_PI_2;
 pub struct Shape {
     outline: Vec<DVec2>,
     group: usize,
+    pin: Option<Placement>,
 }
 
 impl Shape {
@@ -48,12 +49,19 @@ impl Shape {
     /// `None` where a guarantee would be broken.
     pub fn new(outline: Vec<DVec2>, group: usize) -> Option<Self> {
         let is_sound = outline.iter().all(|p| p.is_finite()) && polygon::area(&outline) > 0.0;
-        is_sound.then_some(Self { outline, group })
+        is_sound.then_some(Self { outline, group, pin: None })
     }
 
     /// Corners.
     pub fn outline(&self) -> &[DVec2] {
         &self.outline
+    }
+
+    /// The same piece at the place where the user wants it: on the lattice, within the sheet, as
+    /// near to it as can be. Where another pinned piece is in the way it goes elsewhere.
+    #[must_use]
+    pub fn pinned(self, place: Placement) -> Self {
+        Self { pin: Some(place), ..self }
     }
 
     /// Number of its group.
@@ -178,7 +186,8 @@ pub fn nest(
     let orders = options.effort / pieces.len().max(1);
     let sheets = search::search(&items, &frame.grid, orders, progress)?;
     let mut placements = vec![None; pieces.len()];
-    for (sheet, placed) in sheets.iter().enumerate() {
+    // Pins may have left sheets before theirs empty.
+    for (sheet, placed) in sheets.iter().filter(|sheet| !sheet.is_empty()).enumerate() {
         for p in placed {
             let pose = &items[p.item].poses[p.pose];
             let cell = DVec2::new(p.spot.column as f64, p.spot.row as f64);
@@ -209,6 +218,12 @@ impl Frame {
         let DVec2 { x, y } = self.grid.sheet_mm;
         let best = fit::best_fit(&piece.outline, x, y, options.rotation);
         let (least_angle, least) = fit::least_rectangle(&piece.outline);
+        let group = piece.group;
+        let area_mm2 = polygon::area(&piece.outline);
+        let item = |poses, pin| Item { poses, group, area_mm2, longest_mm: least.x, pin };
+        if let Some((pose, pin)) = piece.pin.and_then(|pin| self.pinned(piece, pin, options)) {
+            return Ok(item(vec![pose], Some(pin)));
+        }
         let mut poses = Vec::new();
         for angle in angles(&piece.outline, &[best.angle_rad, least_angle], options.rotation) {
             if fit::is_within(fit::extent(&piece.outline, angle), x, y) {
@@ -223,7 +238,23 @@ impl Frame {
                 scale: best.scale,
             });
         }
-        Ok(Item { poses, group: piece.group, area_mm2: polygon::area(&piece.outline), longest_mm: least.x })
+        Ok(item(poses, None))
+    }
+
+    /// A piece at the place of its pin: its pose, and sheet, column and row of its lower left corner;
+    /// none where it does not fit the sheet at that angle.
+    fn pinned(&self, piece: &Shape, pin: Placement, options: &NestOptions) -> Option<(Pose, Pinned)> {
+        let (angle, at) = match self.turned_mm {
+            None => (pin.rotation_rad, pin.translation),
+            Some(height) => {
+                (pin.rotation_rad - FRAC_PI_2, DVec2::new(pin.translation.y, height - pin.translation.x))
+            }
+        };
+        let DVec2 { x, y } = self.grid.sheet_mm;
+        let is_within = fit::is_within(fit::extent(&piece.outline, angle), x, y);
+        let pose = is_within.then(|| Pose::new(&piece.outline, angle, options.spacing_mm, &self.grid))?;
+        let [column, row] = pose.nearest((at - pose.origin) / self.grid.cell_mm);
+        Some((pose, Pinned { sheet: pin.sheet, column, row }))
     }
 
     fn placement(&self, sheet: usize, angle_rad: f64, at: DVec2) -> Placement {

@@ -30,6 +30,45 @@ pub(super) struct Item {
     pub group: usize,
     pub area_mm2: f64,
     pub longest_mm: f64,
+    /// Where the user wants it; then it has one pose.
+    pub pin: Option<Pinned>,
+}
+
+/// A place that the user chose.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Pinned {
+    pub sheet: usize,
+    pub column: usize,
+    pub row: usize,
+}
+
+/// The sheets with the pieces that are pinned, before any other is placed.
+struct Start {
+    stock: Vec<Occupancy>,
+    sheets: Vec<Vec<Placed>>,
+    is_placed: Vec<bool>,
+}
+
+impl Start {
+    fn new(items: &[Item], grid: &Grid) -> Self {
+        let mut start = Self { stock: Vec::new(), sheets: Vec::new(), is_placed: vec![false; items.len()] };
+        for (item, pin, pose) in
+            items.iter().enumerate().filter_map(|(k, i)| Some((k, i.pin?, i.poses.first()?)))
+        {
+            while start.stock.len() <= pin.sheet {
+                start.stock.push(Occupancy::new(grid));
+                start.sheets.push(Vec::new());
+            }
+            let sheet = &mut start.stock[pin.sheet];
+            if sheet.is_free(pose, pin.column, pin.row) {
+                let spot = Spot { cost: 0.0, column: pin.column, row: pin.row };
+                sheet.place(pose, &spot);
+                start.sheets[pin.sheet].push(Placed { item, pose: 0, spot });
+                start.is_placed[item] = true;
+            }
+        }
+        start
+    }
 }
 
 /// A piece at its place.
@@ -67,12 +106,13 @@ struct Layout {
 }
 
 impl Layout {
-    fn new(plan: Plan, mut sheets: Vec<Vec<Placed>>, items: &[Item]) -> Self {
+    /// The first `pinned` sheets stay where they are.
+    fn new(plan: Plan, mut sheets: Vec<Vec<Placed>>, items: &[Item], pinned: usize) -> Self {
         let mean_group = |sheet: &Vec<Placed>| {
             let sum: usize = sheet.iter().map(|p| items[p.item].group).sum();
             sum as f64 / sheet.len() as f64
         };
-        sheets.sort_by(|a, b| mean_group(a).total_cmp(&mean_group(b)));
+        sheets[pinned..].sort_by(|a, b| mean_group(a).total_cmp(&mean_group(b)));
         let mut range: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
         for (k, sheet) in sheets.iter().enumerate() {
             for placed in sheet {
@@ -117,6 +157,7 @@ pub(super) fn search(
     let mut rng = fastrand::Rng::with_seed(SEED);
     let area: f64 = items.iter().map(|i| i.area_mm2).sum();
     let fewest = (area / grid.sheet_mm.element_product()).ceil() as usize;
+    let start = Start::new(items, grid);
     let mut batch = standard_plans(items);
     let mut left = orders;
     let mut pool: Vec<Layout> = Vec::new();
@@ -126,7 +167,7 @@ pub(super) fn search(
         progress.fraction(1.0 - left as f64 / orders.max(1) as f64);
         let most = best.as_ref().map_or(usize::MAX, |b| b.sheets.len());
         let found: Vec<Option<Layout>> =
-            batch.into_par_iter().map(|plan| lay_out(items, grid, plan, most)).collect();
+            batch.into_par_iter().map(|plan| lay_out(items, grid, &start, plan, most)).collect();
         pool.extend(found.into_iter().flatten());
         pool.sort_by(Layout::promise);
         best = pool.iter().chain(&best).min_by(|a, b| a.merit(b)).cloned();
@@ -202,17 +243,16 @@ fn chosen_poses(item: usize, count: usize, plan: &Plan) -> Vec<usize> {
 }
 
 /// Puts the pieces on sheets in the order of a plan; `None` where that takes more than `most`.
-fn lay_out(items: &[Item], grid: &Grid, plan: Plan, most: usize) -> Option<Layout> {
-    let mut stock: Vec<Occupancy> = Vec::new();
-    let mut sheets: Vec<Vec<Placed>> = Vec::new();
-    for &item in &plan.order {
+fn lay_out(items: &[Item], grid: &Grid, start: &Start, plan: Plan, most: usize) -> Option<Layout> {
+    let (mut stock, mut sheets) = (start.stock.clone(), start.sheets.clone());
+    for &item in plan.order.iter().filter(|&&item| !start.is_placed[item]) {
         let poses = &items[item].poses;
         let chosen = chosen_poses(item, poses.len(), &plan);
         let place = |sheet: &Occupancy| best_pose(sheet, poses, &chosen, &plan);
         let found = (0..stock.len()).find_map(|k| Some((k, place(&stock[k])?)));
         let (k, (pose, spot)) = match found {
             Some(found) => found,
-            None if stock.len() == most => return None,
+            None if stock.len() >= most => return None,
             None => {
                 let empty = Occupancy::new(grid);
                 let first = place(&empty)?;
@@ -224,7 +264,8 @@ fn lay_out(items: &[Item], grid: &Grid, plan: Plan, most: usize) -> Option<Layou
         stock[k].place(&poses[pose], &spot);
         sheets[k].push(Placed { item, pose, spot });
     }
-    Some(Layout::new(plan, sheets, items))
+    let pinned = start.sheets.len();
+    Some(Layout::new(plan, sheets, items, pinned))
 }
 
 /// The cheapest place for a piece on a sheet, over the chosen poses.

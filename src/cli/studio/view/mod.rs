@@ -9,6 +9,8 @@ mod plot;
 mod sheets;
 mod shortcuts;
 mod space;
+#[cfg(all(test, feature = "studio-test"))]
+mod tests;
 mod values;
 
 use super::state::Studio;
