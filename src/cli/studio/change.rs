@@ -2,6 +2,7 @@
 //! result is read by the same parser as any project file.
 
 use glam::DVec3;
+use tatamu::sheet::Pin;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value};
 
 /// One change.
@@ -48,8 +49,8 @@ pub enum Change {
     Pin {
         /// Name of the piece.
         piece: String,
-        /// Sheet from 1, left and lower side of the piece on it in mm, and its turn in degrees.
-        place: Option<(usize, [f64; 2], f64)>,
+        /// Its place; none lets the layout decide.
+        place: Option<Pin>,
     },
 }
 
@@ -117,12 +118,12 @@ impl Change {
                 if let Some(old) = find(list, "piece", piece) {
                     list.remove(old);
                 }
-                if let Some((sheet, [x, y], degrees)) = place {
+                if let Some(pin) = place {
                     let mut table = named("piece", piece);
-                    table["sheet"] = toml_edit::value(*sheet as i64);
-                    table["x_mm"] = toml_edit::value(to_digits(*x, 2));
-                    table["y_mm"] = toml_edit::value(to_digits(*y, 2));
-                    table["turn"] = toml_edit::value(to_digits(*degrees, 2));
+                    table["sheet"] = toml_edit::value(pin.sheet as i64 + 1);
+                    table["x_mm"] = toml_edit::value(to_digits(pin.at_mm.x, 2));
+                    table["y_mm"] = toml_edit::value(to_digits(pin.at_mm.y, 2));
+                    table["turn"] = toml_edit::value(to_digits(pin.turn_rad.to_degrees(), 2));
                     list.push(table);
                 }
             }

@@ -3,7 +3,7 @@
 use super::opened::Opened;
 use crate::cli::formats::FileArgs;
 use crate::cli::{input, make};
-use glam::DVec2;
+use glam::{DAffine2, DVec2};
 use tatamu::drawing::Drawing;
 use tatamu::geom::polygon;
 use tatamu::net::{Piece, Side};
@@ -11,6 +11,7 @@ use tatamu::pipeline::Output;
 use tatamu::product::Product;
 use tatamu::project::Project;
 use tatamu::report::Run;
+use tatamu::sheet::{PiecePlace, Pin};
 
 /// Draws the sheets with the look and the colours that the project asks for.
 ///
@@ -60,6 +61,27 @@ pub fn outlines(output: &Output, sheet: usize) -> Vec<(PieceId, Vec<DVec2>)> {
 /// The piece at a point of a sheet.
 pub fn piece_at(outlines: &[(PieceId, Vec<DVec2>)], at: DVec2) -> Option<PieceId> {
     outlines.iter().find(|(_, outline)| polygon::contains(outline, at)).map(|(id, _)| *id)
+}
+
+/// The piece with this name of a net.
+pub fn named(output: &Output, net: usize, name: &str) -> Option<PieceId> {
+    let pieces = output.nets().get(net)?.pieces();
+    pieces.iter().position(|piece| piece.name() == name).map(|piece| PieceId { net, piece })
+}
+
+/// The pin of a piece after it was moved on the page, from where it is, and turned about its middle.
+pub fn moved(output: &Output, id: PieceId, sheet: usize, by_mm: DVec2, turn_rad: f64) -> Option<Pin> {
+    let outline = piece(output, id)?.outline();
+    let at = output.layout().places(id.net).get(id.piece)?;
+    let is_mirrored = output.layout().options().choices.side == Side::Inside;
+    let (by_mm, turn_rad) =
+        if is_mirrored { (by_mm * DVec2::new(-1.0, 1.0), -turn_rad) } else { (by_mm, turn_rad) };
+    let (low, high) = polygon::bounds(outline.iter().map(|&p| at.place.transform_point2(p)))?;
+    let middle = low.midpoint(high);
+    let turn = DAffine2::from_translation(middle + by_mm)
+        * DAffine2::from_angle(turn_rad)
+        * DAffine2::from_translation(-middle);
+    Some(Pin::of_place(outline, &PiecePlace { sheet, place: turn * at.place }))
 }
 
 /// The piece itself.

@@ -1,5 +1,6 @@
 //! The sheets as they will be printed. A piece that is clicked is selected in space, too.
 
+use super::super::change::Change;
 use super::super::pages::{self, PieceId};
 use super::super::state::Studio;
 use super::picture::Picture;
@@ -22,11 +23,34 @@ pub struct SheetsPanel {
     scale: Option<f32>,
     /// The piece that is selected and seen; the view goes there when another one is selected.
     seen: Option<String>,
+    drag: Option<Drag>,
+    /// Where the pages are on the screen.
+    pages: Vec<Rect>,
 }
+
+/// A piece on its way to another place.
+#[derive(Debug, Clone, Copy)]
+struct Drag {
+    id: PieceId,
+    /// Where it was taken, on its page.
+    from_mm: DVec2,
+    turn_rad: f64,
+}
+
+/// Turn of a piece for a press of a key, radians.
+const TURN_RAD: f64 = std::f64::consts::PI / 12.0;
 
 impl Default for SheetsPanel {
     fn default() -> Self {
-        Self { version: None, drawings: Ok(Vec::new()), pictures: Vec::new(), scale: None, seen: None }
+        Self {
+            version: None,
+            drawings: Ok(Vec::new()),
+            pictures: Vec::new(),
+            scale: None,
+            seen: None,
+            drag: None,
+            pages: Vec::new(),
+        }
     }
 }
 
@@ -55,6 +79,7 @@ impl SheetsPanel {
         if zoom != 1.0 && ui.rect_contains_pointer(ui.max_rect()) {
             self.scale = Some((scale * zoom).clamp(0.3, 20.0));
         }
+        self.pages.clear();
         egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
             ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing = Vec2::splat(GAP);
@@ -63,6 +88,79 @@ impl SheetsPanel {
                 }
             });
         });
+        self.dragged(studio, &output, ui, scale);
+    }
+
+    /// Draws the piece that is on its way, and lays it down where it is let go.
+    fn dragged(&mut self, studio: &mut Studio, output: &Output, ui: &Ui, scale: f32) {
+        let Some(drag) = &mut self.drag else { return };
+        let (at, is_down, turns) = ui.input(|i| {
+            let turns =
+                f64::from(i.key_pressed(egui::Key::Comma)) - f64::from(i.key_pressed(egui::Key::Period));
+            (i.pointer.latest_pos(), i.pointer.primary_down(), turns)
+        });
+        drag.turn_rad += turns * TURN_RAD;
+        let drag = *drag;
+        let page = at.and_then(|at| Some((at, self.pages.iter().position(|page| page.contains(at))?)));
+        let page = page.filter(|(_, sheet)| *sheet < output.layout().sheet_count());
+        let place = page.and_then(|(at, sheet)| {
+            let by_mm = to_mm(self.pages[sheet], scale, at) - drag.from_mm;
+            Some((sheet, pages::moved(output, drag.id, sheet, by_mm, drag.turn_rad)?, by_mm))
+        });
+        if let Some((sheet, _, by_mm)) = &place {
+            let own = (0..output.layout().sheet_count()).flat_map(|s| pages::outlines(output, s));
+            let outline = own.into_iter().find(|(id, _)| *id == drag.id).map(|(_, outline)| outline);
+            let outline = outline.unwrap_or_default();
+            let middle = tatamu::geom::polygon::bounds(outline.iter().copied()).map(|(l, h)| l.midpoint(h));
+            let turn = DVec2::from_angle(drag.turn_rad);
+            let moved = outline.iter().map(|&p| {
+                let middle = middle.unwrap_or_default();
+                to_screen(self.pages[*sheet], scale, middle + turn.rotate(p - middle) + *by_mm)
+            });
+            let stroke = Stroke::new(2.0, ACCENT);
+            ui.painter().add(egui::Shape::closed_line(moved.collect(), stroke));
+            ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing);
+        }
+        if !is_down {
+            self.drag = None;
+            let piece = pages::piece(output, drag.id).map(|piece| piece.name().to_owned());
+            if let (Some((_, pin, _)), Some(piece)) = (place, piece) {
+                studio.change(&Change::Pin { piece, place: Some(pin) }, None);
+            }
+        }
+    }
+
+    /// Turns a piece where it lies.
+    fn turn(&self, studio: &mut Studio, output: &Output, id: PieceId, turn_rad: f64) {
+        let sheet = output.layout().places(id.net)[id.piece].sheet;
+        let pin = pages::moved(output, id, sheet, DVec2::ZERO, turn_rad);
+        if let (Some(pin), Some(piece)) = (pin, pages::piece(output, id)) {
+            let piece = piece.name().to_owned();
+            studio.change(&Change::Pin { piece, place: Some(pin) }, None);
+        }
+    }
+
+    /// What can be done with the piece that is selected.
+    fn piece_bar(&mut self, studio: &mut Studio, output: &Output, ui: &mut Ui) {
+        let Some(piece) = studio.selection.piece().map(str::to_owned) else { return };
+        let net = studio.selected_index();
+        let Some(id) = net.and_then(|net| pages::named(output, net, &piece)) else { return };
+        let pins = studio.document().map(|d| &d.project().pins);
+        let is_pinned = pins.is_some_and(|pins| pins.iter().any(|pin| pin.piece() == piece));
+        let is_current = studio.finished().is_some();
+        if is_pinned && ui.button("Let go").on_hover_text("the layout decides again where it lies").clicked()
+        {
+            studio.change(&Change::Pin { piece: piece.clone(), place: None }, None);
+        }
+        let help = "turns the piece by 15°; while you drag it: , and .";
+        if ui.add_enabled(is_current, egui::Button::new("⟳")).on_hover_text(help).clicked() {
+            self.turn(studio, output, id, -TURN_RAD);
+        }
+        if ui.add_enabled(is_current, egui::Button::new("⟲")).on_hover_text(help).clicked() {
+            self.turn(studio, output, id, TURN_RAD);
+        }
+        let pinned = if is_pinned { ", pinned" } else { "" };
+        ui.label(format!("piece {piece}{pinned}"));
     }
 
     fn refresh(&mut self, studio: &Studio, output: &Output) {
@@ -98,9 +196,7 @@ impl SheetsPanel {
                 if ui.button("➖").on_hover_text("smaller (Ctrl and wheel)").clicked() {
                     self.scale = Some((scale.unwrap_or(2.0) / 1.3).max(0.3));
                 }
-                if let (Some(piece), Some(name)) = (studio.selection.piece(), studio.selection.last()) {
-                    ui.label(format!("piece {piece} of {name}"));
-                }
+                self.piece_bar(studio, output, ui);
             });
         });
         ui.separator();
@@ -115,10 +211,11 @@ impl SheetsPanel {
         scale: f32,
     ) {
         let size = scale * egui::vec2(drawing.size_mm.x as f32, drawing.size_mm.y as f32);
-        let response = ui.allocate_response(size, Sense::click());
+        let response = ui.allocate_response(size, Sense::click_and_drag());
         let rect = response.rect;
         response
             .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, format!("Sheet {}", k + 1)));
+        self.pages.push(rect);
         if !ui.is_rect_visible(rect) {
             return;
         }
@@ -133,20 +230,23 @@ impl SheetsPanel {
             None => drop(painter.rect_filled(rect, 0.0, Color32::WHITE)),
         }
         let outlines = pages::outlines(output, k);
-        let to_mm = |at: egui::Pos2| {
-            DVec2::new(f64::from((at.x - rect.left()) / scale), f64::from((rect.bottom() - at.y) / scale))
-        };
-        let to_screen =
-            |p: &DVec2| egui::pos2(rect.left() + scale * p.x as f32, rect.bottom() - scale * p.y as f32);
-        let over = response.hover_pos().and_then(|at| pages::piece_at(&outlines, to_mm(at)));
+        let over = response.hover_pos().and_then(|at| pages::piece_at(&outlines, to_mm(rect, scale, at)));
         for (id, outline) in &outlines {
             let is_selected = is_selected(studio, output, *id);
             if is_selected || over == Some(*id) {
                 let width = if is_selected { 2.5 } else { 1.2 };
-                let points: Vec<egui::Pos2> = outline.iter().map(to_screen).collect();
+                let points: Vec<egui::Pos2> = outline.iter().map(|&p| to_screen(rect, scale, p)).collect();
                 self.follow(ui, is_selected, output, *id, &points);
                 painter.add(egui::Shape::closed_line(points, Stroke::new(width, ACCENT)));
             }
+        }
+        let grabbed = response.interact_pointer_pos().filter(|_| response.drag_started());
+        if let Some(at) = grabbed.filter(|_| studio.finished().is_some()) {
+            // Where the button was pressed, not where the mouse is by now.
+            let at = ui.input(|i| i.pointer.press_origin()).unwrap_or(at);
+            let from_mm = to_mm(rect, scale, at);
+            let id = pages::piece_at(&outlines, from_mm);
+            self.drag = id.map(|id| Drag { id, from_mm, turn_rad: 0.0 });
         }
         if response.clicked() {
             let piece = over.and_then(|id| pages::piece(output, id).map(|piece| (id, piece)));
@@ -171,6 +271,15 @@ impl SheetsPanel {
             ui.scroll_to_rect(Rect::from_points(points), None);
         }
     }
+}
+
+/// A point of the screen on a page, mm.
+fn to_mm(page: Rect, scale: f32, at: egui::Pos2) -> DVec2 {
+    DVec2::new(f64::from((at.x - page.left()) / scale), f64::from((page.bottom() - at.y) / scale))
+}
+
+fn to_screen(page: Rect, scale: f32, at: DVec2) -> egui::Pos2 {
+    egui::pos2(page.left() + scale * at.x as f32, page.bottom() - scale * at.y as f32)
 }
 
 /// Whether a piece is selected, or the component or the panel that it is made of.

@@ -260,3 +260,44 @@ fn a_job_goes_to_the_virtual_plotter() {
     let journal = folder.path().join("snowman.tatamu-job");
     assert_eq!(journal.exists(), state.end != Some(Ok(())), "a job that was stopped can go on");
 }
+
+#[test]
+fn a_piece_that_is_dragged_is_pinned() {
+    let (mut desk, _folder) = open();
+    click(&mut desk, "Sheets");
+    let output = desk.state().studio().finished().unwrap().clone();
+    let page = desk.get_by_label("Sheet 1").rect();
+    let size = output.layout().options().size_mm();
+    let scale = page.width() / size.x as f32;
+    let outlines = super::super::pages::outlines(&output, 0);
+    let (id, outline) = &outlines[0];
+    let edges = outline.windows(2).map(|w| w[0].midpoint(w[1]) + (w[1] - w[0]).perp().normalize() * 1.5);
+    let inside =
+        edges.into_iter().find(|&at| super::super::pages::piece_at(&outlines, at) == Some(*id)).unwrap();
+    let at = egui::pos2(page.left() + scale * inside.x as f32, page.bottom() - scale * inside.y as f32);
+    let by = egui::vec2(12.0, -8.0) * scale;
+    desk.event(Event::PointerMoved(at));
+    desk.run_steps(1);
+    let button = |pos, pressed| Event::PointerButton {
+        pos,
+        button: egui::PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    desk.event(button(at, true));
+    desk.run_steps(1);
+    for share in [0.3, 0.6, 1.0] {
+        desk.event(Event::PointerMoved(at + share * by));
+        desk.run_steps(1);
+    }
+    desk.event(button(at + by, false));
+    desk.run_steps(2);
+    let pins = &desk.state().studio().document().unwrap().project().pins;
+    let name = output.nets()[id.net].pieces()[id.piece].name();
+    assert_eq!(pins.len(), 1);
+    assert_eq!(pins[0].piece(), name);
+    let before = super::super::pages::moved(&output, *id, 0, glam::DVec2::ZERO, 0.0).unwrap();
+    let moved = pins[0].pin().at_mm - before.at_mm;
+    assert!(moved.distance(glam::DVec2::new(12.0, 8.0)) < 0.1, "{moved}");
+    settle(&mut desk, "the layout", |s| s.finished().is_some());
+}
