@@ -31,7 +31,12 @@ pub enum Change {
         /// The component's name, before it was renamed.
         name: String,
     },
-    /// Makes one part of several.
+    /// Takes away a component's table: there is no such component any more.
+    Forget {
+        /// The component's name, before it was renamed.
+        name: String,
+    },
+    /// Makes one part of several; what was set for those that lose their name goes with it.
     Merge {
         /// Their names.
         names: Vec<String>,
@@ -61,6 +66,7 @@ impl Change {
             Self::Set { key, .. } => key.replace('_', " "),
             Self::Component { name, key, .. } => format!("{} of {name}", key.replace('_', " ")),
             Self::Reset { name } => format!("reset of {name}"),
+            Self::Forget { name } => format!("what was set for {name}"),
             Self::Merge { names } => format!("merge of {}", names.join(" and ")),
             Self::Split { name, .. } => format!("split of {name}"),
             Self::Pin { piece, .. } => format!("place of {piece}"),
@@ -102,7 +108,10 @@ impl Change {
                     keys.iter().for_each(|key| drop(table.remove(key)));
                 }
             }
+            Self::Forget { name } => remove(list(root, "component")?, "name", name),
             Self::Merge { names } => {
+                let components = list(root, "component")?;
+                names.iter().skip(1).for_each(|name| remove(components, "name", name));
                 let mut table = Table::new();
                 table["merge"] = toml_edit::value(names.iter().collect::<Array>());
                 list(root, "edit")?.push(table);
@@ -115,17 +124,8 @@ impl Change {
             }
             Self::Pin { piece, place } => {
                 let list = list(root, "pin")?;
-                if let Some(old) = find(list, "piece", piece) {
-                    list.remove(old);
-                }
-                if let Some(pin) = place {
-                    let mut table = named("piece", piece);
-                    table["sheet"] = toml_edit::value(pin.sheet as i64 + 1);
-                    table["x_mm"] = toml_edit::value(to_digits(pin.at_mm.x, 2));
-                    table["y_mm"] = toml_edit::value(to_digits(pin.at_mm.y, 2));
-                    table["turn"] = toml_edit::value(to_digits(pin.turn_rad.to_degrees(), 2));
-                    list.push(table);
-                }
+                remove(list, "piece", piece);
+                list.extend(place.iter().map(|pin| pin_table(piece, pin)));
             }
         }
         Ok(document.to_string())
@@ -150,6 +150,21 @@ fn set(table: &mut Table, key: &str, value: Option<&Value>) {
 fn named(key: &str, name: &str) -> Table {
     let mut table = Table::new();
     table[key] = toml_edit::value(name);
+    table
+}
+
+fn remove(list: &mut ArrayOfTables, key: &str, name: &str) {
+    if let Some(place) = find(list, key, name) {
+        list.remove(place);
+    }
+}
+
+fn pin_table(piece: &str, pin: &Pin) -> Table {
+    let mut table = named("piece", piece);
+    table["sheet"] = toml_edit::value(pin.sheet as i64 + 1);
+    table["x_mm"] = toml_edit::value(to_digits(pin.at_mm.x, 2));
+    table["y_mm"] = toml_edit::value(to_digits(pin.at_mm.y, 2));
+    table["turn"] = toml_edit::value(to_digits(pin.turn_rad.to_degrees(), 2));
     table
 }
 
@@ -229,6 +244,7 @@ mod tests {
     #[test]
     fn parts_are_merged_and_split() {
         let (_, project) = changed(&[
+            component("part-2", "direction", Some(10.0.into())),
             Change::Merge { names: vec!["body".to_owned(), "part-2".to_owned()] },
             Change::Split {
                 name: "body".to_owned(),
@@ -237,6 +253,7 @@ mod tests {
             },
         ]);
         assert_eq!(project.edits.len(), 2);
+        assert_eq!(project.components.len(), 1, "part-2 is no more");
     }
 
     #[test]

@@ -18,6 +18,8 @@ mod pages;
 #[cfg(feature = "studio")]
 mod plotting;
 #[cfg(feature = "studio")]
+mod results;
+#[cfg(feature = "studio")]
 mod scene;
 #[cfg(feature = "studio")]
 mod selection;

@@ -3,78 +3,16 @@
 use super::change::{Change, to_digits};
 use super::document::Document;
 use super::opened::Opened;
+use super::results::{Busy, Shown};
 use super::selection::Selection;
 use super::store::Store;
-use super::surface::Distances;
 use super::tasks::{Finished, Tasks};
 use super::worker::{News, Order, Wake, Worker};
 use crate::cli::init;
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tatamu::model::ModelPart;
-use tatamu::pipeline::{Output, Shaped};
-
-/// The work that goes on.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Busy {
-    /// What is being done.
-    pub stage: &'static str,
-    /// Share of it that is done, as far as that is known.
-    pub fraction: Option<f64>,
-}
-
-/// The last good results. They stay while others are made.
-#[derive(Debug, Default)]
-pub struct Shown {
-    shaped: Option<Shaped>,
-    /// A component that is newer than the model.
-    ahead: Option<(usize, ModelPart)>,
-    output: Option<Output>,
-    distances: Option<Distances>,
-    /// Changes whenever what is shown does.
-    version: u64,
-}
-
-impl Shown {
-    /// The model and what it is made of.
-    pub fn shaped(&self) -> Option<&Shaped> {
-        self.shaped.as_ref()
-    }
-
-    /// The component of an index, the newest that there is.
-    pub fn part(&self, index: usize) -> Option<&ModelPart> {
-        match &self.ahead {
-            Some((own, part)) if *own == index => Some(part),
-            _ => self.shaped.as_ref()?.model().parts().get(index),
-        }
-    }
-
-    /// The component that is newer than the model, if there is one.
-    pub fn ahead(&self) -> Option<usize> {
-        self.ahead.as_ref().map(|(index, _)| *index)
-    }
-
-    /// All results.
-    pub fn output(&self) -> Option<&Output> {
-        self.output.as_ref()
-    }
-
-    /// Distances between surface and components, where they are of this model.
-    pub fn distances(&self) -> Option<&Distances> {
-        self.distances.as_ref()
-    }
-
-    /// Changes whenever what is shown does.
-    pub fn version(&self) -> u64 {
-        self.version
-    }
-
-    /// Names of the components that edits and options go by.
-    pub fn names(&self) -> &[String] {
-        self.shaped.as_ref().map_or(&[], |shaped| shaped.divided().hulls().names())
-    }
-}
+use tatamu::pipeline::Output;
 
 /// The studio without its window.
 pub struct Studio {
@@ -86,6 +24,8 @@ pub struct Studio {
     shown: Shown,
     busy: Option<Busy>,
     problem: Option<String>,
+    /// The component that the problem is about, if it is no more.
+    missing: Option<String>,
     notice: Option<String>,
     /// What is selected.
     pub selection: Selection,
@@ -105,6 +45,7 @@ impl Studio {
             shown: Shown::default(),
             busy: None,
             problem: None,
+            missing: None,
             notice: None,
             selection: Selection::default(),
             measures: false,
@@ -134,6 +75,11 @@ impl Studio {
     /// Why there is no newer result.
     pub fn problem(&self) -> Option<&str> {
         self.problem.as_deref()
+    }
+
+    /// The component that there is no more, though something is set for it.
+    pub fn missing(&self) -> Option<&str> {
+        self.missing.as_deref().filter(|_| self.problem.is_some())
     }
 
     /// Something to tell the user.
@@ -210,7 +156,9 @@ impl Studio {
                 self.shown.version += 1;
                 (self.busy, self.problem) = (None, None);
             }
-            News::Failed(problem) => (self.busy, self.problem) = (None, Some(problem)),
+            News::Failed(problem, missing) => {
+                (self.busy, self.problem, self.missing) = (None, Some(problem), missing);
+            }
         }
     }
 
@@ -237,7 +185,7 @@ impl Studio {
 
     fn start(&mut self, first: Option<usize>) {
         let (Some(opened), Some(document)) = (&self.opened, &self.document) else { return };
-        self.problem = None;
+        (self.problem, self.missing) = (None, None);
         self.busy = Some(Busy { stage: "starting", fraction: None });
         let (engine, options) = (opened.engine.clone(), document.options().clone());
         self.worker.start(Order { engine, options, first, measures: self.measures });

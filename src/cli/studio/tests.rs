@@ -126,6 +126,10 @@ fn what_goes_wrong_is_told_and_the_last_result_stays() {
     wait(&mut studio, "a problem", |s| s.problem().is_some());
     assert!(studio.problem().unwrap().contains("no component \"tail\""));
     assert!(studio.shown().output().is_some());
+    assert_eq!(studio.missing(), Some("tail"));
+    studio.change(&Change::Forget { name: "tail".to_owned() }, None);
+    wait(&mut studio, "the model again", |s| s.finished().is_some());
+    studio.undo();
     studio.undo();
     wait(&mut studio, "the model again", |s| s.finished().is_some());
     assert_eq!(studio.problem(), None);

@@ -35,8 +35,8 @@ pub enum News {
     Measured(Distances),
     /// Everything.
     Done(Box<Output>),
-    /// There is no result.
-    Failed(String),
+    /// There is no result; perhaps because of what was set for a component that is no more.
+    Failed(String, Option<String>),
 }
 
 /// Told when there is news.
@@ -150,7 +150,13 @@ impl Line {
         match result {
             Ok(output) => self.tell(number, News::Done(Box::new(output))),
             Err(Error::Cancelled(_)) => {}
-            Err(error) => self.tell(number, News::Failed(error.to_string())),
+            Err(error) => {
+                let missing = match &error {
+                    Error::NoComponent { name, .. } => Some(name.clone()),
+                    _ => None,
+                };
+                self.tell(number, News::Failed(error.to_string(), missing));
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 //! Menus, the bar of the state, warnings, and what is shown before a file is open.
 
+use super::super::change::Change;
 use super::{Mode, Window};
 use eframe::egui::{self, Color32, RichText, Ui};
 use std::path::PathBuf;
@@ -161,6 +162,11 @@ fn state(window: &mut Window, ui: &mut Ui) {
         ui.set_max_width(width);
         ui.add(egui::Label::new(RichText::new(&text).color(colour)).truncate()).on_hover_text(&text);
     });
+    if let Some(name) = window.studio.missing().map(str::to_owned)
+        && ui.small_button(format!("Forget {name}")).on_hover_text("drops what was set for it").clicked()
+    {
+        window.studio.change(&Change::Forget { name }, None);
+    }
     if ui.small_button("✖").on_hover_text("read").clicked() {
         window.studio.dismiss();
     }

@@ -2,6 +2,7 @@
 
 mod bars;
 mod browser;
+mod dials;
 mod export;
 mod parts;
 mod picture;

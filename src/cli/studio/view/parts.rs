@@ -1,19 +1,14 @@
-//! The dials: of the whole model, of the component that is selected, of paper and pieces.
+//! The panel at the left: the dials of the whole model, the components, and the one that is selected.
 
 use super::super::change::Change;
 use super::super::state::Studio;
+use super::dials;
 use super::space::Space;
-use super::values::{Number, choice_row, tick_row};
+use super::values::Number;
 use eframe::egui::{self, CollapsingHeader, Color32, Grid, RichText, Ui};
 use glam::DVec3;
 use tatamu::component::PrincipalAxis;
-use tatamu::mesh::Up;
-use tatamu::net::Side;
-use tatamu::project::MethodName;
 use tatamu::render::palette;
-use tatamu::segment::Method;
-use tatamu::sheet::Registration;
-use tatamu::sheet::fit::Rotation;
 
 /// What the panel remembers.
 #[derive(Debug, Default)]
@@ -41,7 +36,7 @@ const AXES: [(&str, DVec3); 4] = [
 pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: &mut Ui) {
     ui.add_space(6.0);
     CollapsingHeader::new("Model").default_open(true).show(ui, |ui| {
-        Grid::new("model").num_columns(2).show(ui, |ui| model(studio, ui));
+        Grid::new("model").num_columns(2).show(ui, |ui| dials::model(studio, ui));
     });
     CollapsingHeader::new("Components").default_open(true).show(ui, |ui| components(studio, ui));
     if let Some(index) = studio.selected_index() {
@@ -64,94 +59,8 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
         }
     }
     CollapsingHeader::new("Paper and pieces").default_open(false).show(ui, |ui| {
-        Grid::new("paper").num_columns(2).show(ui, |ui| paper(studio, ui));
+        Grid::new("paper").num_columns(2).show(ui, |ui| dials::paper(studio, ui));
     });
-}
-
-fn model(studio: &mut Studio, ui: &mut Ui) {
-    let Some(options) = studio.document().map(|d| d.options().clone()) else { return };
-    let number = |label, help, table, key, range, digits, unit| Number {
-        label,
-        help,
-        table,
-        key,
-        range,
-        digits,
-        unit,
-    };
-    let size = number("Size", "the longest side of the model", "", "size", 10.0..=2000.0, Some(0), " mm");
-    size.row(studio, ui, options.size_mm);
-    let up = match options.up {
-        Up::X => "x",
-        Up::Y => "y",
-        Up::Z => "z",
-    };
-    choice_row(
-        studio,
-        ui,
-        ("Upwards", "the axis of the mesh that points up"),
-        ("", "up"),
-        up,
-        &["x", "y", "z"],
-    );
-    let of_shape = ("Method", "merge suits most meshes; sdf is the method of the paper");
-    let segmentation = options.segmentation;
-    let (method, sdf) = match segmentation.method {
-        Method::Merge => (MethodName::Merge, None),
-        Method::Sdf { clusters, smoothing } => (MethodName::Sdf, Some((clusters, smoothing))),
-    };
-    let name = if method == MethodName::Merge { "merge" } else { "sdf" };
-    choice_row(studio, ui, of_shape, ("segmentation", "method"), name, &["merge", "sdf"]);
-    if let Some((clusters, smoothing)) = sdf {
-        let row =
-            number("Clusters", "classes of thickness", "segmentation", "clusters", 1.0..=32.0, None, "");
-        row.row(studio, ui, clusters as f64);
-        let row = number(
-            "Smoothing",
-            "cost of borders between parts",
-            "segmentation",
-            "smoothing",
-            0.0..=10.0,
-            Some(2),
-            "",
-        );
-        row.row(studio, ui, smoothing);
-    } else {
-        let parts =
-            number("Parts", "how many components to aim at", "segmentation", "parts", 1.0..=200.0, None, "");
-        let found = studio.shown().names().len().max(1) as f64;
-        parts.optional_row(studio, ui, segmentation.parts.map(|n| n as f64), found);
-        if segmentation.parts.is_none() {
-            let row = number(
-                "Detail",
-                "from 0, few components, to 1, many",
-                "segmentation",
-                "detail",
-                0.0..=1.0,
-                Some(2),
-                "",
-            );
-            row.row(studio, ui, segmentation.detail);
-        }
-    }
-    let most = "more follow the shape better, fewer fold faster";
-    number("Top edges", most, "defaults", "top_edges", 3.0..=64.0, None, "").row(
-        studio,
-        ui,
-        options.top_edges as f64,
-    );
-    let row = number("Profile vertices", most, "defaults", "profile_vertices", 3.0..=64.0, None, "");
-    row.row(studio, ui, options.profile_vertices as f64);
-    let row = number(
-        "Tolerance",
-        "with a tick: as few edges and vertices as come so close to the shape",
-        "defaults",
-        "tolerance",
-        0.1..=50.0,
-        Some(1),
-        " mm",
-    );
-    row.optional_row(studio, ui, options.tolerance_mm, 2.0);
 }
 
 /// The list of components.
@@ -322,68 +231,4 @@ fn plane(studio: &Studio, index: usize, split: Split) -> Option<(DVec3, DVec3)> 
     let centre = hull.centroid();
     let at = low + split.share * (high - low);
     Some((centre + (at - centre.dot(normal)) * normal, normal))
-}
-
-const PAPERS: [&str; 6] = ["a5", "a4", "a3", "letter", "legal", "12x12in"];
-
-fn paper(studio: &mut Studio, ui: &mut Ui) {
-    let Some(options) = studio.document().map(|d| d.options().clone()) else { return };
-    let now = options.paper.name();
-    choice_row(studio, ui, ("Paper", "size of the sheets"), ("paper", "size"), &now, &PAPERS);
-    let mm = |label, help, table, key, range, digits| Number {
-        label,
-        help,
-        table,
-        key,
-        range,
-        digits: Some(digits),
-        unit: " mm",
-    };
-    mm("Margin", "border that stays free", "paper", "margin_mm", 0.0..=60.0, 1).row(
-        studio,
-        ui,
-        options.margin_mm,
-    );
-    let row =
-        mm("Thickness", "of the paper, for the check of the folding", "paper", "thickness_mm", 0.02..=5.0, 2);
-    row.row(studio, ui, options.thickness_mm);
-    mm("Tabs", "width of the glue tabs", "defaults", "tab_width_mm", 1.0..=30.0, 1).row(
-        studio,
-        ui,
-        options.tab_width_mm,
-    );
-    let row =
-        mm("Least panel", "no panel is narrower or lower", "defaults", "min_panel_width_mm", 0.5..=30.0, 1);
-    row.row(studio, ui, options.min_panel_width_mm);
-    let row = mm("Spacing", "least distance between pieces", "sheets", "spacing_mm", 0.0..=30.0, 1);
-    row.row(studio, ui, options.sheets.spacing_mm);
-    let side = if options.sheets.side == Side::Outside { "outside" } else { "inside" };
-    choice_row(
-        studio,
-        ui,
-        ("Print on", "printed side of the paper"),
-        ("sheets", "side"),
-        side,
-        &["outside", "inside"],
-    );
-    let marks = options.sheets.registration.map_or("none", Registration::name);
-    let among = ["none", "silhouette", "corners"];
-    choice_row(studio, ui, ("Marks", "registration marks for a cutter"), ("sheets", "marks"), marks, &among);
-    let grain = options.sheets.rotation == Rotation::QuarterTurns;
-    tick_row(
-        studio,
-        ui,
-        ("Along the grain", "pieces turned by multiples of 90° only"),
-        ("sheets", "grain"),
-        grain,
-    );
-    let nets = options.nets;
-    tick_row(
-        studio,
-        ui,
-        ("Glue marks", "the place of each tab behind its mate"),
-        ("nets", "glue_marks"),
-        nets.glue_marks,
-    );
-    tick_row(studio, ui, ("Angles", "the angle of each crease beside it"), ("nets", "angles"), nets.angles);
 }

@@ -222,13 +222,8 @@ impl SheetsPanel {
         let painter = ui.painter_at(rect);
         let pixels_per_mm = f64::from(scale * ui.ctx().pixels_per_point());
         let version = self.version.unwrap_or_default();
-        match self.pictures[k].texture(ui.ctx(), drawing, version, pixels_per_mm) {
-            Some(texture) => {
-                let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
-                painter.image(texture.id(), rect, whole, Color32::WHITE);
-            }
-            None => drop(painter.rect_filled(rect, 0.0, Color32::WHITE)),
-        }
+        let texture = self.pictures[k].texture(ui.ctx(), drawing, version, pixels_per_mm);
+        paint(&painter, rect, texture);
         let outlines = pages::outlines(output, k);
         let over = response.hover_pos().and_then(|at| pages::piece_at(&outlines, to_mm(rect, scale, at)));
         for (id, outline) in &outlines {
@@ -270,6 +265,15 @@ impl SheetsPanel {
             self.seen = Some(name.to_owned());
             ui.scroll_to_rect(Rect::from_points(points), None);
         }
+    }
+}
+
+/// Paints a page; a white one until its picture is made.
+fn paint(painter: &egui::Painter, page: Rect, texture: Option<&egui::TextureHandle>) {
+    let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+    match texture {
+        Some(texture) => drop(painter.image(texture.id(), page, whole, Color32::WHITE)),
+        None => drop(painter.rect_filled(page, 0.0, Color32::WHITE)),
     }
 }
 

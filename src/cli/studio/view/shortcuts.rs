@@ -90,7 +90,9 @@ pub fn heed(window: &mut Window, ctx: &Context) {
     let writes = ctx.egui_wants_keyboard_input();
     for shortcut in LIST {
         let is_command = shortcut.modifiers.command;
-        if writes && !is_command {
+        // A text that is being written has its own undo.
+        let is_of_text = matches!(shortcut.key, Key::Z | Key::Y);
+        if writes && (!is_command || is_of_text) {
             continue;
         }
         if ctx.input_mut(|i| i.consume_key(shortcut.modifiers, shortcut.key)) {

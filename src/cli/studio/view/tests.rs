@@ -19,6 +19,7 @@ fn window(folder: &Path) -> Desk {
     Harness::builder()
         .with_size([1280.0, 720.0])
         .with_max_steps(30)
+        .with_step_dt(0.01)
         .with_accessibility_check(false)
         .build_ui_state(|ui, window: &mut Window| window.show(ui), Window::new(studio))
 }
