@@ -82,6 +82,8 @@ const CREASE: Rgb = Rgb(90, 90, 95);
 const INSIDE: f64 = 0.4;
 /// How much brighter what the mouse is over is.
 const HOVER: f64 = 0.35;
+/// Half the thickness of paper as it is drawn: what is flat would else lie in one plane.
+const HALF_MM: f64 = 0.12;
 /// Components lie on each other by so much when flat, so that one can tell them apart.
 const LIFT_MM: f64 = 0.4;
 
@@ -211,7 +213,9 @@ fn push_components(solids: &mut Solids, studio: &Studio, setting: &Setting) {
         let is_selected = shown.names().get(index).is_some_and(|name| studio.selection.has(name));
         let panels = Panels { part: index, set, is_selected, place: &place };
         push_panels(solids, studio, setting, &panels);
-        if is_selected && studio.selected_index() == Some(index) {
+        let stands = |pose: &ModelPose| pose.parts[index].pose.height_mm > 0.999 * height_mm(part);
+        let is_standing = pose.as_ref().is_none_or(stands);
+        if is_selected && is_standing && studio.selected_index() == Some(index) {
             let frame = pose.as_ref().map_or_else(|| part.deployed(), |pose| pose.parts[index].frame);
             push_arrow(solids, part, frame);
         }
@@ -243,9 +247,14 @@ fn push_panels(solids: &mut Solids, studio: &Studio, setting: &Setting, panels: 
         let outline: Vec<DVec3> =
             panel.outline.iter().map(|p| motion.transform_point3(p.extend(0.0))).collect();
         let inside = light::mixed(colour, Rgb::WHITE, INSIDE);
-        solids.push_outline(&outline, colour, Some(inside), tag.number());
+        // Paper that faces up, when flat, lies on paper that faces down.
+        let outwards = HALF_MM * motion.transform_vector3(DVec3::Z);
+        let outside: Vec<DVec3> = outline.iter().map(|&corner| corner + outwards).collect();
+        let reversed: Vec<DVec3> = outline.iter().rev().copied().collect();
+        solids.push_outline(&outside, colour, None, tag.number());
+        solids.push_outline(&reversed, inside, None, tag.number());
         let (line, width_px) = if panels.is_selected { (ACCENT, 2.4) } else { (CREASE, 1.0) };
-        push_edges(solids, &outline, line, width_px);
+        push_edges(solids, &outside, line, width_px);
     }
 }
 
@@ -258,10 +267,14 @@ fn selected_panels(studio: &Studio, part: usize) -> Vec<PanelId> {
     own.flat_map(|p| p.panels()).map(|placed| net.source(placed.panel)).collect()
 }
 
+fn height_mm(part: &ModelPart) -> f64 {
+    part.component.solid().top_mm - part.component.solid().bottom_mm
+}
+
 /// An arrow along the fold axis, through the middle of a component.
 fn push_arrow(solids: &mut Solids, part: &ModelPart, frame: DAffine3) {
     let solid = part.component.solid();
-    let height_mm = solid.top_mm - solid.bottom_mm;
+    let height_mm = height_mm(part);
     let top = part.component.panels().panels().iter().find(|p| p.kind == tatamu::component::PanelKind::Top);
     let middle = top.map_or(glam::DVec2::ZERO, |p| {
         let foot = p.deployed.transform_point3(tatamu::geom::polygon::centroid(&p.outline).extend(0.0));

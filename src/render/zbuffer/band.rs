@@ -5,8 +5,8 @@ use crate::drawing::Rgb;
 use crate::render::light;
 use crate::render::orbit::Eye;
 
-/// Lines are drawn before faces that are nearer by less than this share of the scene's radius.
-const LINE_BIAS: f64 = 0.006;
+/// Lines are drawn before faces that are nearer by less than this share of their distance.
+const LINE_BIAS: f64 = 0.0012;
 
 /// A facet as it appears.
 pub(super) struct Flat {

@@ -29,7 +29,7 @@ pub fn top(window: &mut Window, ui: &mut Ui) {
                 if let (Some(opened), Some(document)) = (window.studio.opened(), window.studio.document()) {
                     let path = document.path().unwrap_or(&opened.source);
                     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-                    let changed = if document.is_changed() { " ●" } else { "" };
+                    let changed = if document.is_changed() { " *" } else { "" };
                     ui.strong(format!("{name}{changed}")).on_hover_text(path.display().to_string());
                 }
             });
@@ -167,7 +167,7 @@ fn state(window: &mut Window, ui: &mut Ui) {
     {
         window.studio.change(&Change::Forget { name }, None);
     }
-    if ui.small_button("✖").on_hover_text("read").clicked() {
+    if ui.small_button("Dismiss").clicked() {
         window.studio.dismiss();
     }
 }

@@ -80,7 +80,7 @@ impl Browser {
         ui.horizontal(|ui| {
             let parent = self.folder.parent().map(Path::to_owned);
             if ui
-                .add_enabled(parent.is_some(), egui::Button::new("⬆"))
+                .add_enabled(parent.is_some(), egui::Button::new("Up"))
                 .on_hover_text("folder above")
                 .clicked()
             {

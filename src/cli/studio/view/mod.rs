@@ -132,7 +132,7 @@ impl Window {
             egui::CentralPanel::default().show(ui, |ui| bars::welcome(self, ui));
         } else {
             egui::Panel::left("parts").resizable(true).default_size(270.0).show(ui, |ui| {
-                egui::ScrollArea::vertical().show(ui, |ui| {
+                egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     parts::show(&mut self.parts, &mut self.studio, &mut self.space, ui);
                 });
             });

@@ -93,7 +93,7 @@ impl PlotPanel {
     /// Draws the panel.
     pub fn show(&mut self, studio: &mut Studio, ui: &mut Ui) {
         egui::Panel::right("plot").resizable(true).default_size(300.0).show(ui, |ui| {
-            egui::ScrollArea::vertical().show(ui, |ui| self.dials(studio, ui));
+            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.dials(studio, ui));
         });
         egui::CentralPanel::default().show(ui, |ui| self.preview(ui));
     }
@@ -127,7 +127,7 @@ impl PlotPanel {
         let Some(running) = &self.running else { return };
         let state = running.state();
         match &state.end {
-            Some(Ok(())) => drop(ui.label("✔ done")),
+            Some(Ok(())) => drop(ui.label("Done.")),
             Some(Err(problem)) => drop(ui.colored_label(ui.visuals().error_fg_color, problem)),
             None => {}
         }
@@ -142,7 +142,7 @@ impl PlotPanel {
             let label = ui.label("Port");
             ui.horizontal(|ui| {
                 ui.add(egui::TextEdit::singleline(&mut self.port).desired_width(140.0)).labelled_by(label.id);
-                ui.menu_button("⏷", |ui| {
+                ui.menu_button("Choose", |ui| {
                     for port in &self.ports {
                         if ui.button(format!("{port}{}", ports::hint(port))).clicked() {
                             self.port.clone_from(port);

@@ -153,10 +153,10 @@ impl SheetsPanel {
             studio.change(&Change::Pin { piece: piece.clone(), place: None }, None);
         }
         let help = "turns the piece by 15°; while you drag it: , and .";
-        if ui.add_enabled(is_current, egui::Button::new("⟳")).on_hover_text(help).clicked() {
+        if ui.add_enabled(is_current, egui::Button::new("Turn right")).on_hover_text(help).clicked() {
             self.turn(studio, output, id, -TURN_RAD);
         }
-        if ui.add_enabled(is_current, egui::Button::new("⟲")).on_hover_text(help).clicked() {
+        if ui.add_enabled(is_current, egui::Button::new("Turn left")).on_hover_text(help).clicked() {
             self.turn(studio, output, id, TURN_RAD);
         }
         let pinned = if is_pinned { ", pinned" } else { "" };
@@ -190,10 +190,10 @@ impl SheetsPanel {
                 if ui.add_enabled(scale.is_some(), egui::Button::new("Fit")).clicked() {
                     self.scale = None;
                 }
-                if ui.button("➕").on_hover_text("larger (Ctrl and wheel)").clicked() {
+                if ui.button("+").on_hover_text("larger (Ctrl and wheel)").clicked() {
                     self.scale = Some((scale.unwrap_or(2.0) * 1.3).min(20.0));
                 }
-                if ui.button("➖").on_hover_text("smaller (Ctrl and wheel)").clicked() {
+                if ui.button("-").on_hover_text("smaller (Ctrl and wheel)").clicked() {
                     self.scale = Some((scale.unwrap_or(2.0) / 1.3).max(0.3));
                 }
                 self.piece_bar(studio, output, ui);

@@ -359,7 +359,7 @@ impl Space {
 pub fn folding_bar(space: &mut Space, studio: &mut Studio, ui: &mut egui::Ui) {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
-        let text = if space.is_playing { "⏸ Pause" } else { "▶ Fold" };
+        let text = if space.is_playing { "Pause" } else { "Fold" };
         if ui
             .button(text)
             .on_hover_text("folds the components one by one, in the order that was found (Space)")

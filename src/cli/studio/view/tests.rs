@@ -178,7 +178,7 @@ fn the_project_is_saved_and_changes_show_in_the_title() {
     click(&mut desk, "Paper and pieces");
     assert!(desk.query_by_label("snowman.toml").is_some());
     click(&mut desk, "Glue marks");
-    assert!(desk.query_by_label("snowman.toml ●").is_some());
+    assert!(desk.query_by_label("snowman.toml *").is_some());
     desk.key_press_modifiers(Modifiers::COMMAND, Key::S);
     desk.run_ok();
     let text = std::fs::read_to_string(folder.path().join("snowman.toml")).unwrap();
