@@ -5,7 +5,6 @@
 #[path = "../tests/support/mod.rs"]
 mod support;
 
-use std::collections::BTreeMap;
 use support::Prism;
 use tatamu::component::PanelSet;
 use tatamu::net::{Naming, Net, NetOptions, develop};
@@ -46,5 +45,5 @@ fn nets(bencher: divan::Bencher) {
 #[divan::bench(sample_count = 3, sample_size = 1)]
 fn nesting(bencher: divan::Bencher) {
     let nets = nets_of(&sets());
-    bencher.bench(|| Layout::new(&nets, &sheets(), &BTreeMap::new(), &Silent));
+    bencher.bench(|| Layout::new(&nets, &sheets(), &Silent));
 }

@@ -7,7 +7,7 @@ use glam::{DAffine2, DVec2};
 use std::collections::BTreeMap;
 use support::Prism;
 use tatamu::drawing::{Drawing, Layer, LineStyles, Mark, Shape, Text, text};
-use tatamu::net::{LabelKind, Naming, Net, NetOptions, Side, check::faults, develop};
+use tatamu::net::{LabelKind, Naming, Net, NetOptions, Side, alternatives, check::faults};
 use tatamu::progress::Silent;
 use tatamu::sheet::fit::Rotation;
 use tatamu::sheet::{Calibration, Layout, PiecePlace, Pin, Registration, SheetOptions, Unheeded};
@@ -54,10 +54,11 @@ impl Made {
             let letter = char::from(b'A' + k as u8).to_string();
             let name = format!("part-{k}");
             let naming = Naming { name: &name, prefix: &letter };
-            develop(&prism.panel_set(), naming, &[], &options).expect("a net")
+            alternatives(&prism.panel_set(), naming, &[], &options).expect("nets")
         };
-        let nets: Vec<Net> = prisms.iter().enumerate().map(net).collect();
-        let layout = Layout::new(&nets, sheets, &BTreeMap::new(), &Silent).expect("a layout");
+        let nets: Vec<Vec<Net>> = prisms.iter().enumerate().map(net).collect();
+        let (layout, nets) =
+            Layout::of_alternatives(&nets, sheets, &BTreeMap::new(), &Silent).expect("a layout");
         Self { nets, layout }
     }
 
@@ -336,8 +337,9 @@ fn pinned_pieces_lie_where_they_are_pinned_and_the_others_round_them() {
         (names[2].clone(), pin(0, 60.0, 90.0, 0.0)),
         ("gone".to_owned(), pin(0, 50.0, 50.0, 0.0)),
     ]);
-    let layout = Layout::new(&made.nets, &sheets, &pins, &Silent).expect("a layout");
-    let pinned = Made { nets: made.nets, layout };
+    let nets: Vec<Vec<Net>> = made.nets.into_iter().map(|net| vec![net]).collect();
+    let (layout, nets) = Layout::of_alternatives(&nets, &sheets, &pins, &Silent).expect("a layout");
+    let pinned = Made { nets, layout };
     for name in &names[..2] {
         let (piece, sheet, place) = pinned.placed().find(|(p, ..)| p.name() == *name).expect("it is placed");
         let wanted = pins[name];

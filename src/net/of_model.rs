@@ -1,6 +1,6 @@
 //! Nets of all components of a model, with the marks of its joints.
 
-use super::{JointMark, Naming, Net, NetError, NetOptions, develop};
+use super::{JointMark, Naming, Net, NetError, NetOptions, alternatives};
 use crate::component::{PanelId, PanelSet};
 use crate::geom::polygon;
 use crate::memory::Memory;
@@ -26,7 +26,7 @@ const MOST_KNOWN: usize = 200;
 /// Nets that were made before, so that a change to one component leaves those of others as they
 /// are.
 #[derive(Debug)]
-pub struct KnownNets(Memory<Wish, Net>);
+pub struct KnownNets(Memory<Wish, Vec<Net>>);
 
 /// Everything that a net depends on.
 #[derive(Debug, PartialEq)]
@@ -45,7 +45,7 @@ impl Default for KnownNets {
 }
 
 impl KnownNets {
-    fn net(&self, model: &Model, p: usize, options: &NetOptions) -> Result<Net, NetError> {
+    fn nets(&self, model: &Model, p: usize, options: &NetOptions) -> Result<Vec<Net>, NetError> {
         let part = &model.parts()[p];
         let (prefix, marks) = (prefix(p), joint_marks(model, p));
         let wish = Wish {
@@ -56,12 +56,12 @@ impl KnownNets {
             panels: part.component.panels().clone(),
         };
         let naming = Naming { name: &part.name, prefix: &prefix };
-        self.0.get_or(wish, || develop(part.component.panels(), naming, &marks, options))
+        self.0.get_or(wish, || alternatives(part.component.panels(), naming, &marks, options))
     }
 }
 
-/// The net of every component, in the model's order; taken from `known` where it was made before
-/// of the same.
+/// The net of every component with its alternatives ([`alternatives`]), in the model's order; taken
+/// from `known` where it was made before of the same.
 ///
 /// # Errors
 /// The first component's error; of panels that are too large, the one that is the most so.
@@ -70,15 +70,15 @@ pub fn develop_model(
     options: &NetOptions,
     known: &KnownNets,
     progress: &dyn Progress,
-) -> Result<Vec<Net>, NetsError> {
-    let nets: Vec<Result<Net, NetsError>> = (0..model.parts().len())
+) -> Result<Vec<Vec<Net>>, NetsError> {
+    let nets: Vec<Result<Vec<Net>, NetsError>> = (0..model.parts().len())
         .into_par_iter()
         .map(|p| {
             progress.check()?;
-            Ok(known.net(model, p, options)?)
+            Ok(known.nets(model, p, options)?)
         })
         .collect();
-    let scale = |net: &Result<Net, NetsError>| match net {
+    let scale = |net: &Result<Vec<Net>, NetsError>| match net {
         Err(NetsError::Net(NetError::PanelTooLarge { scale, .. })) => *scale,
         _ => f64::INFINITY,
     };

@@ -31,8 +31,11 @@ pub struct Engine<'m> {
     components: Known,
     plans: Memory<(Arc<Model>, f64), Arc<FoldPlan>>,
     nets: KnownNets,
-    layouts: Memory<(SheetOptions, BTreeMap<String, Pin>, Arc<Vec<Net>>), Arc<Layout>>,
+    layouts: Memory<LayoutKey, (Arc<Layout>, Arc<Vec<Net>>)>,
 }
+
+/// What decides a layout: sheets, pins, and the nets with their alternatives.
+type LayoutKey = (SheetOptions, BTreeMap<String, Pin>, Arc<Vec<Vec<Net>>>);
 
 /// What decides the parts before they are changed by hand: size, axis and segmentation.
 type Found = (f64, Up, SegmentOptions);
@@ -155,12 +158,14 @@ impl<'m> Engine<'m> {
             choices: options.nets,
         };
         progress.stage("nets");
-        let nets = develop_model(model, &net_options, &self.nets, progress)
+        let alternatives = develop_model(model, &net_options, &self.nets, progress)
             .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
-        let nets = Arc::new(nets);
-        let layout = self.layouts.get_or((sheets, options.pins.clone(), nets.clone()), || {
+        let alternatives = Arc::new(alternatives);
+        let key = (sheets, options.pins.clone(), alternatives.clone());
+        let (layout, nets) = self.layouts.get_or(key, || {
             progress.stage("sheets");
-            Ok::<_, Error>(Arc::new(Layout::new(&nets, &sheets, &options.pins, progress)?))
+            let laid = Layout::of_alternatives(&alternatives, &sheets, &options.pins, progress)?;
+            Ok::<_, Error>((Arc::new(laid.0), Arc::new(laid.1)))
         })?;
         let mut warnings = warnings(model, &nets, shaped.divided.hulls().flat_faces(), options);
         warnings.extend(pin_warnings(&layout));

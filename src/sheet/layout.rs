@@ -1,7 +1,7 @@
 //! Pieces on their sheets.
 
 use super::SheetOptions;
-use super::nest::{NestError, Shape, nest};
+use super::nest::{NestError, Placement, Shape, nest_alternatives};
 use super::pin::{Pin, Unheeded, unheeded};
 use crate::geom::polygon;
 use crate::net::{Net, Piece};
@@ -41,24 +41,48 @@ pub enum LayoutError {
 /// All pieces of a model on sheets.
 #[derive(Debug, Clone)]
 pub struct Layout {
-    unheeded: Vec<Unheeded>,
     options: SheetOptions,
     places: Vec<Vec<PiecePlace>>,
     sheets: usize,
     utilisation: f64,
+    unheeded: Vec<Unheeded>,
 }
 
 impl Layout {
-    /// Nests the pieces of all nets, those that are pinned, by name, at their places.
+    /// Nests the pieces of all nets.
     ///
     /// # Errors
     /// See [`LayoutError`].
-    pub fn new(
-        nets: &[Net],
+    pub fn new(nets: &[Net], options: &SheetOptions, progress: &dyn Progress) -> Result<Self, LayoutError> {
+        let alternatives: Vec<&[Net]> = nets.iter().map(std::slice::from_ref).collect();
+        Ok(Self::nested(&alternatives, options, &BTreeMap::new(), progress)?.0)
+    }
+
+    /// Nests the pieces of one net of each list, which are alternatives with as many pieces, the
+    /// best first; also gives the nets that were taken. Pieces that are pinned, by name, lie where
+    /// they are pinned; a net that has one is the first of its list.
+    ///
+    /// # Errors
+    /// See [`LayoutError`].
+    pub fn of_alternatives(
+        nets: &[Vec<Net>],
         options: &SheetOptions,
         pins: &BTreeMap<String, Pin>,
         progress: &dyn Progress,
-    ) -> Result<Self, LayoutError> {
+    ) -> Result<(Self, Vec<Net>), LayoutError> {
+        let has_pin = |net: &Net| net.pieces().iter().any(|piece| pins.contains_key(piece.name()));
+        let usable = |nets: &[Net]| if nets.first().is_some_and(has_pin) { 1 } else { nets.len() };
+        let alternatives: Vec<&[Net]> = nets.iter().map(|nets| &nets[..usable(nets)]).collect();
+        let (layout, taken) = Self::nested(&alternatives, options, pins, progress)?;
+        Ok((layout, taken.into_iter().cloned().collect()))
+    }
+
+    fn nested<'n>(
+        nets: &[&'n [Net]],
+        options: &SheetOptions,
+        pins: &BTreeMap<String, Pin>,
+        progress: &dyn Progress,
+    ) -> Result<(Self, Vec<&'n Net>), LayoutError> {
         let room = options.room_mm();
         if room.min_element() <= 0.0 {
             let size = options.size_mm();
@@ -68,28 +92,26 @@ impl Layout {
                 margin_mm: options.border_mm(),
             });
         }
-        let pieces = || nets.iter().enumerate().flat_map(|(n, net)| net.pieces().iter().map(move |p| (n, p)));
-        let shape = |(n, piece): (usize, &Piece)| {
-            let shape = Shape::new(piece.outline().to_vec(), n)?;
-            Some(match pins.get(piece.name()) {
-                Some(pin) => shape.pinned(pin.placement(piece.outline(), options.origin_mm())),
-                None => shape,
-            })
+        let groups: Vec<Vec<Vec<Shape>>> = nets
+            .iter()
+            .enumerate()
+            .map(|(n, nets)| nets.iter().map(|net| shapes(net, n, pins, options)).collect())
+            .collect();
+        let placed = nest_alternatives(&groups, &options.nesting(), progress)?;
+        let place = |p: &Placement| PiecePlace {
+            sheet: p.sheet,
+            place: DAffine2::from_translation(options.origin_mm()) * p.motion(),
         };
-        let shapes: Vec<Shape> = pieces().filter_map(shape).collect();
-        debug_assert_eq!(shapes.len(), pieces().count(), "every piece has an area");
-        let placements = nest(&shapes, &options.nesting(), progress)?;
-        let mut places = vec![Vec::new(); nets.len()];
-        for ((n, _), placement) in pieces().zip(&placements) {
-            let place = DAffine2::from_translation(options.origin_mm()) * placement.motion();
-            places[n].push(PiecePlace { sheet: placement.sheet, place });
-        }
-        let sheets = placements.iter().map(|p| p.sheet + 1).max().unwrap_or(0);
-        let area: f64 = shapes.iter().map(|s| polygon::area(s.outline())).sum();
+        let places: Vec<Vec<PiecePlace>> =
+            placed.iter().map(|(_, placements)| placements.iter().map(place).collect()).collect();
+        let sheets = places.iter().flatten().map(|p| p.sheet + 1).max().unwrap_or(0);
+        let taken: Vec<&Net> = nets.iter().zip(&placed).map(|(nets, (chosen, _))| &nets[*chosen]).collect();
+        let pieces = taken.iter().flat_map(|net| net.pieces());
+        let area: f64 = pieces.map(|p| polygon::area(p.outline())).sum();
         let utilisation = area / (room.x * room.y * sheets.max(1) as f64);
-        let places_of = pieces().map(|(_, piece)| piece).zip(places.iter().flatten());
-        let unheeded = unheeded(pins, places_of);
-        Ok(Self { unheeded, options: *options, places, sheets, utilisation })
+        let pieces = taken.iter().flat_map(|net| net.pieces());
+        let unheeded = unheeded(pins, pieces.zip(places.iter().flatten()));
+        Ok((Self { options: *options, places, sheets, utilisation, unheeded }, taken))
     }
 
     /// Pins that could not be heeded.
@@ -116,4 +138,18 @@ impl Layout {
     pub fn utilisation(&self) -> f64 {
         self.utilisation
     }
+}
+
+/// The pieces of net `n` as the nesting sees them.
+fn shapes(net: &Net, n: usize, pins: &BTreeMap<String, Pin>, options: &SheetOptions) -> Vec<Shape> {
+    let shape = |piece: &Piece| {
+        let shape = Shape::new(piece.outline().to_vec(), n)?;
+        Some(match pins.get(piece.name()) {
+            Some(pin) => shape.pinned(pin.placement(piece.outline(), options.origin_mm())),
+            None => shape,
+        })
+    };
+    let shapes: Vec<Shape> = net.pieces().iter().filter_map(shape).collect();
+    debug_assert_eq!(shapes.len(), net.pieces().len(), "every piece has an area");
+    shapes
 }

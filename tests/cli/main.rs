@@ -11,6 +11,7 @@ mod profiles;
 mod project;
 mod refusals;
 mod segment;
+mod shell;
 
 use std::path::Path;
 use tempfile::TempDir;

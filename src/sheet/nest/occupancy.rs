@@ -55,10 +55,10 @@ impl Pose {
         }
     }
 
-    /// Column and row of the position nearest to a point of the lattice.
-    pub fn nearest(&self, at: DVec2) -> [usize; 2] {
+    /// The position nearest to a point of the lattice, in cells.
+    pub fn nearest(&self, at: DVec2) -> Spot {
         let within = |x: f64, count: usize| x.round().clamp(0.0, (count - 1) as f64) as usize;
-        [within(at.x, self.columns), within(at.y, self.rows)]
+        Spot { cost: 0.0, column: within(at.x, self.columns), row: within(at.y, self.rows) }
     }
 }
 
@@ -95,9 +95,9 @@ impl Occupancy {
     }
 
     /// Whether a pose may stand at a position of the sheet.
-    pub fn is_free(&self, pose: &Pose, column: usize, row: usize) -> bool {
-        let bit = 1 << (column % 64);
-        self.layers[0].free(&pose.probes[0], row, column / 64, bit) != 0
+    pub fn is_free(&self, pose: &Pose, spot: &Spot) -> bool {
+        let bit = 1 << (spot.column % 64);
+        self.layers[0].free(&pose.probes[0], spot.row, spot.column / 64, bit) != 0
     }
 
     /// The cheapest free position of a pose, if it costs less than `limit`. The cost is `pull` ·

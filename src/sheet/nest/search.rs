@@ -1,7 +1,9 @@
 //! The order in which pieces are put on sheets: the first sheet with room takes a piece; several
 //! orders are tried, and the best of them are varied.
 
-use super::occupancy::{Occupancy, Pose, Spot};
+use super::item::{Alternative, Item};
+use super::occupancy::{Occupancy, Spot};
+use super::pins::Start;
 use super::raster::Grid;
 use crate::progress::{Cancelled, Progress};
 use glam::DVec2;
@@ -23,54 +25,6 @@ const POOL: usize = 4;
 /// Any number does, as long as it stays.
 const SEED: u64 = 0x7461_7461_6d75;
 
-/// A piece with all poses that fit an empty sheet, at least one.
-#[derive(Debug)]
-pub(super) struct Item {
-    pub poses: Vec<Pose>,
-    pub group: usize,
-    pub area_mm2: f64,
-    pub longest_mm: f64,
-    /// Where the user wants it; then it has one pose.
-    pub pin: Option<Pinned>,
-}
-
-/// A place that the user chose.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Pinned {
-    pub sheet: usize,
-    pub column: usize,
-    pub row: usize,
-}
-
-/// The sheets with the pieces that are pinned, before any other is placed.
-struct Start {
-    stock: Vec<Occupancy>,
-    sheets: Vec<Vec<Placed>>,
-    is_placed: Vec<bool>,
-}
-
-impl Start {
-    fn new(items: &[Item], grid: &Grid) -> Self {
-        let mut start = Self { stock: Vec::new(), sheets: Vec::new(), is_placed: vec![false; items.len()] };
-        for (item, pin, pose) in
-            items.iter().enumerate().filter_map(|(k, i)| Some((k, i.pin?, i.poses.first()?)))
-        {
-            while start.stock.len() <= pin.sheet {
-                start.stock.push(Occupancy::new(grid));
-                start.sheets.push(Vec::new());
-            }
-            let sheet = &mut start.stock[pin.sheet];
-            if sheet.is_free(pose, pin.column, pin.row) {
-                let spot = Spot { cost: 0.0, column: pin.column, row: pin.row };
-                sheet.place(pose, &spot);
-                start.sheets[pin.sheet].push(Placed { item, pose: 0, spot });
-                start.is_placed[item] = true;
-            }
-        }
-        start
-    }
-}
-
 /// A piece at its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Placed {
@@ -90,6 +44,8 @@ struct Plan {
     lean: f64,
     /// Chooses the poses that are tried; the common ones for 0.
     poses: u64,
+    /// Alternative of each group.
+    chosen: Vec<usize>,
 }
 
 /// What came out of a plan.
@@ -98,6 +54,8 @@ struct Layout {
     plan: Plan,
     /// Sheets in their final order.
     sheets: Vec<Vec<Placed>>,
+    /// Groups that are not in their first alternative.
+    replaced: usize,
     /// Sum over groups of last sheet − first sheet.
     spread: usize,
     /// Sum of the squared used areas: large where some sheets hold much and another is nearly
@@ -109,18 +67,19 @@ impl Layout {
     /// The first `pinned` sheets stay where they are.
     fn new(plan: Plan, mut sheets: Vec<Vec<Placed>>, items: &[Item], pinned: usize) -> Self {
         let mean_group = |sheet: &Vec<Placed>| {
-            let sum: usize = sheet.iter().map(|p| items[p.item].group).sum();
+            let sum: usize = sheet.iter().map(|p| items[p.item].group()).sum();
             sum as f64 / sheet.len() as f64
         };
         sheets[pinned..].sort_by(|a, b| mean_group(a).total_cmp(&mean_group(b)));
         let mut range: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
         for (k, sheet) in sheets.iter().enumerate() {
             for placed in sheet {
-                range.entry(items[placed.item].group).or_insert((k, k)).1 = k;
+                range.entry(items[placed.item].group()).or_insert((k, k)).1 = k;
             }
         }
         let used = sheets.iter().map(|s| area_mm2(s, items));
         Self {
+            replaced: plan.chosen.iter().filter(|&&c| c > 0).count(),
             plan,
             spread: range.values().map(|(first, last)| last - first).sum(),
             fullness: used.map(|a| a * a).sum(),
@@ -134,16 +93,27 @@ impl Layout {
         count.then(other.fullness.total_cmp(&self.fullness))
     }
 
-    /// The better result: fewer sheets, then groups together.
+    /// The better result: fewer sheets, then groups as they are best cut, then groups together.
     fn merit(&self, other: &Self) -> Ordering {
         let count = self.sheets.len().cmp(&other.sheets.len());
+        let best_cut = self.replaced.cmp(&other.replaced);
         let together = self.spread.cmp(&other.spread);
-        count.then(together).then(self.promise(other))
+        count.then(best_cut).then(together).then(self.promise(other))
     }
 }
 
 fn area_mm2(sheet: &[Placed], items: &[Item]) -> f64 {
-    sheet.iter().map(|p| items[p.item].area_mm2).sum()
+    sheet.iter().map(|p| items[p.item].area_mm2()).sum()
+}
+
+/// Pieces that fill more of their sheets than this are not to be had.
+const DENSEST: f64 = 0.8;
+
+/// The best layout that was found.
+pub(super) struct Found {
+    /// Alternative of each group.
+    pub chosen: Vec<usize>,
+    pub sheets: Vec<Vec<Placed>>,
 }
 
 /// Tries the standard orders, then `orders` varied ones, and gives the sheets of the best. Stops
@@ -151,14 +121,15 @@ fn area_mm2(sheet: &[Placed], items: &[Item]) -> f64 {
 pub(super) fn search(
     items: &[Item],
     grid: &Grid,
+    start: &Start,
     orders: usize,
     progress: &dyn Progress,
-) -> Result<Vec<Vec<Placed>>, Cancelled> {
+) -> Result<Found, Cancelled> {
     let mut rng = fastrand::Rng::with_seed(SEED);
-    let area: f64 = items.iter().map(|i| i.area_mm2).sum();
-    let fewest = (area / grid.sheet_mm.element_product()).ceil() as usize;
-    let start = Start::new(items, grid);
-    let mut batch = standard_plans(items);
+    let area: f64 = items.iter().map(Item::area_mm2).sum();
+    let fewest = (area / (DENSEST * grid.sheet_mm.element_product())).ceil() as usize;
+    let alternatives = alternatives(items);
+    let mut batch = standard_plans(items, start, alternatives.len());
     let mut left = orders;
     let mut pool: Vec<Layout> = Vec::new();
     let mut best: Option<Layout> = None;
@@ -167,42 +138,62 @@ pub(super) fn search(
         progress.fraction(1.0 - left as f64 / orders.max(1) as f64);
         let most = best.as_ref().map_or(usize::MAX, |b| b.sheets.len());
         let found: Vec<Option<Layout>> =
-            batch.into_par_iter().map(|plan| lay_out(items, grid, &start, plan, most)).collect();
+            batch.into_par_iter().map(|plan| lay_out(items, grid, start, plan, most)).collect();
         pool.extend(found.into_iter().flatten());
         pool.sort_by(Layout::promise);
         best = pool.iter().chain(&best).min_by(|a, b| a.merit(b)).cloned();
         pool.truncate(POOL);
         let is_least = best.as_ref().is_none_or(|b| b.sheets.len() <= fewest);
-        if left == 0 || is_least {
-            return Ok(best.map(|b| b.sheets).unwrap_or_default());
+        let is_all_pinned = start.free().next().is_none();
+        if left == 0 || is_least || is_all_pinned {
+            let found = best.map(|b| Found { chosen: b.plan.chosen, sheets: b.sheets });
+            return Ok(found.unwrap_or(Found { chosen: Vec::new(), sheets: Vec::new() }));
         }
         let count = left.min(BATCH);
         left -= count;
-        batch = (0..count).map(|_| varied(&pool, &mut rng)).collect();
+        batch = (0..count).map(|_| varied(&pool, &alternatives, &mut rng)).collect();
     }
+}
+
+/// Number of alternatives of each group.
+fn alternatives(items: &[Item]) -> Vec<usize> {
+    let groups = items.iter().map(|i| i.group() + 1).max().unwrap_or(0);
+    let mut counts = vec![1; groups];
+    items.iter().for_each(|i| counts[i.group()] = i.alternatives());
+    counts
 }
 
 /// Large pieces first, by area and by length, and groups one after the other; each pulled to the
 /// lower edge, to the left edge and to the corner.
-fn standard_plans(items: &[Item]) -> Vec<Plan> {
+fn standard_plans(items: &[Item], start: &Start, groups: usize) -> Vec<Plan> {
     let sorted = |key: fn(&Item) -> (usize, f64)| {
-        let mut order: Vec<usize> = (0..items.len()).collect();
+        let mut order: Vec<usize> = start.free().collect();
         order.sort_by(|&a, &b| {
             let (a, b) = (key(&items[a]), key(&items[b]));
             a.0.cmp(&b.0).then(b.1.total_cmp(&a.1))
         });
         order
     };
-    let orders =
-        [sorted(|i| (0, i.area_mm2)), sorted(|i| (i.group, i.area_mm2)), sorted(|i| (0, i.longest_mm))];
+    let orders = [
+        sorted(|i| (0, i.area_mm2())),
+        sorted(|i| (i.group(), i.area_mm2())),
+        sorted(|i| (0, i.longest_mm())),
+    ];
     let pulls = [(0.1, 1.0), (1.0, 0.1), (1.0, 1.0)].map(DVec2::from);
-    let plan = |pull, order: &Vec<usize>| Plan { order: order.clone(), pull, lean: 0.5, poses: 0 };
+    let chosen = vec![0; groups];
+    let plan = |pull, order: &Vec<usize>| Plan {
+        order: order.clone(),
+        pull,
+        lean: 0.5,
+        poses: 0,
+        chosen: chosen.clone(),
+    };
     pulls.iter().flat_map(|&pull| orders.iter().map(move |order| plan(pull, order))).collect()
 }
 
 /// A plan near one of the best: some pieces of its emptiest sheet come earlier, some change
-/// places, and now and then the pull changes.
-fn varied(pool: &[Layout], rng: &mut fastrand::Rng) -> Plan {
+/// places, and now and then the pull changes, or groups are cut in another way.
+fn varied(pool: &[Layout], alternatives: &[usize], rng: &mut fastrand::Rng) -> Plan {
     let parent = &pool[rng.usize(..pool.len())];
     let mut plan = parent.plan.clone();
     let emptiest = parent.sheets.iter().min_by_key(|s| s.len());
@@ -227,6 +218,12 @@ fn varied(pool: &[Layout], rng: &mut fastrand::Rng) -> Plan {
     if rng.u8(..2) == 0 {
         plan.poses = rng.u64(..);
     }
+    if rng.u8(..3) == 0 {
+        for _ in 0..=rng.usize(..=1 + alternatives.len() / 4) {
+            let group = rng.usize(..alternatives.len());
+            plan.chosen[group] = rng.usize(..alternatives[group]);
+        }
+    }
     plan
 }
 
@@ -244,11 +241,12 @@ fn chosen_poses(item: usize, count: usize, plan: &Plan) -> Vec<usize> {
 
 /// Puts the pieces on sheets in the order of a plan; `None` where that takes more than `most`.
 fn lay_out(items: &[Item], grid: &Grid, start: &Start, plan: Plan, most: usize) -> Option<Layout> {
-    let (mut stock, mut sheets) = (start.stock.clone(), start.sheets.clone());
-    for &item in plan.order.iter().filter(|&&item| !start.is_placed[item]) {
-        let poses = &items[item].poses;
-        let chosen = chosen_poses(item, poses.len(), &plan);
-        let place = |sheet: &Occupancy| best_pose(sheet, poses, &chosen, &plan);
+    let mut stock: Vec<Occupancy> = start.stock().to_vec();
+    let mut sheets: Vec<Vec<Placed>> = vec![Vec::new(); stock.len()];
+    for &item in &plan.order {
+        let piece = items[item].alternative(plan.chosen[items[item].group()]);
+        let chosen = chosen_poses(item, piece.len(), &plan);
+        let place = |sheet: &Occupancy| best_pose(sheet, piece, &chosen, &plan);
         let found = (0..stock.len()).find_map(|k| Some((k, place(&stock[k])?)));
         let (k, (pose, spot)) = match found {
             Some(found) => found,
@@ -261,18 +259,17 @@ fn lay_out(items: &[Item], grid: &Grid, start: &Start, plan: Plan, most: usize) 
                 (stock.len() - 1, first)
             }
         };
-        stock[k].place(&poses[pose], &spot);
+        stock[k].place(piece.pose(pose), &spot);
         sheets[k].push(Placed { item, pose, spot });
     }
-    let pinned = start.sheets.len();
-    Some(Layout::new(plan, sheets, items, pinned))
+    Some(Layout::new(plan, sheets, items, start.stock().len()))
 }
 
 /// The cheapest place for a piece on a sheet, over the chosen poses.
-fn best_pose(sheet: &Occupancy, poses: &[Pose], chosen: &[usize], plan: &Plan) -> Option<(usize, Spot)> {
+fn best_pose(sheet: &Occupancy, piece: &Alternative, chosen: &[usize], plan: &Plan) -> Option<(usize, Spot)> {
     let mut best: Option<(usize, Spot)> = None;
     for &k in chosen {
-        let pose = &poses[k];
+        let pose = piece.pose(k);
         if sheet.is_too_full_for(pose) {
             continue;
         }
