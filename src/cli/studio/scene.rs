@@ -289,7 +289,8 @@ fn push_arrow(solids: &mut Solids, part: &ModelPart, frame: DAffine3) {
         let (sine, cosine) = (std::f64::consts::TAU * k as f64 / SIDES as f64).sin_cos();
         at(radius * cosine, radius * sine, z)
     };
-    let (low, neck, tip) = (solid.top_mm, solid.top_mm + 0.6 * reach, solid.top_mm + reach);
+    // The shaft goes through, so that it is seen from below, too.
+    let (low, neck, tip) = (solid.bottom_mm - 0.5 * reach, solid.top_mm + 0.6 * reach, solid.top_mm + reach);
     for k in 0..SIDES {
         let shaft = [
             ring(radius, low, k),

@@ -124,17 +124,17 @@ fn view_menu(window: &mut Window, ui: &mut Ui) {
 
 /// Progress, problems, warnings.
 pub fn bottom(window: &mut Window, ui: &mut Ui) {
-    if window.shows_warnings && window.studio.shown().output().is_some() {
-        egui::Panel::bottom("warnings").resizable(true).default_size(130.0).show(ui, |ui| {
-            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| warnings(window, ui));
-        });
-    }
     egui::Panel::bottom("state").show(ui, |ui| {
         ui.horizontal(|ui| {
             state(window, ui);
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| summary(window, ui));
         });
     });
+    if window.shows_warnings && window.studio.shown().output().is_some() {
+        egui::Panel::bottom("warnings").resizable(true).default_size(130.0).show(ui, |ui| {
+            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| warnings(window, ui));
+        });
+    }
 }
 
 fn state(window: &mut Window, ui: &mut Ui) {

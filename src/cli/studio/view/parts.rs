@@ -35,7 +35,7 @@ const AXES: [(&str, DVec3); 4] = [
 /// Draws the panel.
 pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: &mut Ui) {
     ui.add_space(6.0);
-    CollapsingHeader::new("Model").default_open(true).show(ui, |ui| {
+    CollapsingHeader::new("Whole model").default_open(true).show(ui, |ui| {
         Grid::new("model").num_columns(2).show(ui, |ui| dials::model(studio, ui));
     });
     CollapsingHeader::new("Components").default_open(true).show(ui, |ui| components(studio, ui));

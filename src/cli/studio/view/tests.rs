@@ -175,7 +175,10 @@ fn files_are_exported() {
 #[test]
 fn the_project_is_saved_and_changes_show_in_the_title() {
     let (mut desk, folder) = open();
+    // Room for what opens below.
+    click(&mut desk, "Whole model");
     click(&mut desk, "Paper and pieces");
+    desk.run_ok();
     assert!(desk.query_by_label("snowman.toml").is_some());
     click(&mut desk, "Glue marks");
     assert!(desk.query_by_label("snowman.toml *").is_some());
