@@ -141,7 +141,7 @@ pub fn scene(studio: &Studio, setting: &Setting) -> Solids {
         push_components(&mut solids, studio, setting);
     }
     if let Some((point, normal)) = setting.split {
-        push_plane(&mut solids, point, normal, 0.5 * divided.mesh().diagonal_mm());
+        push_plane(&mut solids, point, normal, 0.3 * divided.mesh().diagonal_mm());
     }
     solids
 }

@@ -2,6 +2,7 @@
 
 use super::super::scene::{self, Layers, Setting, Tag};
 use super::super::state::Studio;
+use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{self, Color32, CursorIcon, PointerButton, Sense, TextureHandle, TextureOptions, Vec2};
 use glam::{DVec2, DVec3};
 use tatamu::drawing::Rgb;
@@ -380,7 +381,9 @@ pub fn folding_bar(space: &mut Space, studio: &mut Studio, ui: &mut egui::Ui) {
         }
         ui.separator();
         let layers = &mut space.setting.layers;
-        ui.menu_button("Show", |ui| {
+        // Several are ticked at a time.
+        let stays = MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
+        MenuButton::new("Show").config(stays).ui(ui, |ui| {
             ui.checkbox(&mut layers.components, "Components");
             ui.checkbox(&mut layers.segments, "Mesh, in parts");
             ui.checkbox(&mut layers.input, "Mesh, plain");
