@@ -218,7 +218,7 @@ impl Builder<'_> {
     }
 
     /// The joint with the parent and the parent's component.
-    pub(super) fn from_parent(&self) -> Option<(&Link, &Made)> {
+    pub(super) fn carrier(&self) -> Option<(&Link, &Made)> {
         let link = self.links.iter().find(|l| l.child == self.part)?;
         Some((link, self.made[link.parent].as_ref()?))
     }
@@ -233,7 +233,7 @@ impl Builder<'_> {
 
     /// The plane towards the parent, outwards, as the parent's component has it.
     pub(super) fn parent_plane(&self) -> Option<Plane> {
-        self.from_parent().and_then(|(_, made)| made.joint(self.part)).map(|(plane, _)| plane.flipped())
+        self.carrier().and_then(|(_, made)| made.joint(self.part)).map(|(plane, _)| plane.flipped())
     }
 
     fn target<'h>(&self, candidate: &'h Candidate) -> Target<'h> {
@@ -253,7 +253,7 @@ impl Builder<'_> {
         let to_local = frame.inverse();
         let mut others = Vec::new();
         let mut seatings = Vec::new();
-        if let (Some((link, made)), Some(plane)) = (self.from_parent(), self.parent_plane()) {
+        if let (Some((link, made)), Some(plane)) = (self.carrier(), self.parent_plane()) {
             let panel = made.joint(self.part).map(|j| made.panel_outline(j.1)).unwrap_or_default();
             let centre = panel.iter().sum::<DVec3>() / panel.len().max(1) as f64;
             others.push(link.parent);
@@ -299,7 +299,7 @@ impl Builder<'_> {
         to_local: &DAffine3,
     ) -> (Vec<DVec3>, Vec<(DVec3, f64)>) {
         let section = |p: usize| few_corners(self.parts[p].hull.section(&plane.moved(frame)));
-        match self.from_parent() {
+        match self.carrier() {
             Some((link, made)) if link.parent == other => {
                 let Some((_, panel)) = made.joint(self.part) else { return Default::default() };
                 let outline: Vec<DVec3> =

@@ -29,7 +29,7 @@ impl Wish {
         let part = builder.part;
         let mut own = builder.parts[part].clone();
         own.options.name.clear();
-        let joint = builder.from_parent().and_then(|(_, made)| Some((made, made.joint(part)?)));
+        let joint = builder.carrier().and_then(|(_, made)| Some((made, made.joint(part)?)));
         let parent = joint.map(|(made, (plane, panel))| (plane, made.panel_outline(panel)));
         let links = builder.links.iter().filter(|l| l.parent == part || l.child == part);
         let with_hull = |link: &Link| {
@@ -80,7 +80,7 @@ pub fn build_one(
         let builder = Builder { parts, links: &links, part: p, made: &made, min_panel_mm };
         let (own, loose) = make_joined(&builder, known, progress)?;
         let mut placed = own.unplaced(&parts[p]);
-        if let (Some((link, carrier)), Some(parent)) = (builder.from_parent(), &last) {
+        if let (Some((link, carrier)), Some(parent)) = (builder.carrier(), &last) {
             let joint = seat_on(link, parent, &mut placed, [carrier, &own]);
             let lost = || ModelError::NoJointPanel(parts[p].options.name.clone());
             placed.joint = Some(joint.ok_or_else(lost)?);
