@@ -6,7 +6,7 @@ use super::progress::TerminalProgress;
 use super::{input, output, terminal};
 use clap::Args;
 use std::path::{Path, PathBuf};
-use tatamu::pipeline;
+use tatamu::pipeline::{self, Options};
 use tatamu::project::{Template, TemplateComponent, to_toml};
 
 /// Writes a project file for a mesh, to edit and to give to "make".
@@ -67,7 +67,7 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
             args.mesh.display()
         )));
     }
-    let options = args.model.merge(&input)?;
+    let options = args.model.merge(input.project.as_ref())?;
     let progress = TerminalProgress::new(args.quiet);
     let result = pipeline::run(&input.mesh, &options, &progress)
         .map_err(|error| CliError::of_run(error, &progress))?;
@@ -82,8 +82,18 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
             is_chosen: options.components.contains_key(&part.name),
         })
         .collect();
-    let text = to_toml(&Template {
-        mesh: &mesh_from(&path, &input.mesh_path)?,
+    let text = project_text(&mesh_from(&path, &input.mesh_path)?, &options, &components);
+    output::write(&[(path.clone(), text.into_bytes())])?;
+    if !args.quiet {
+        terminal::say(&format!("wrote {}; edit it, then: tatamu make {0}", path.display()));
+    }
+    Ok(())
+}
+
+/// A fresh project file.
+pub fn project_text(mesh: &str, options: &Options, components: &[TemplateComponent]) -> String {
+    to_toml(&Template {
+        mesh,
         up: options.up,
         size_mm: options.size_mm,
         segmentation: options.segmentation,
@@ -97,18 +107,13 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         thickness_mm: options.thickness_mm,
         nets: options.nets,
         sheets: options.sheets,
-        components: &components,
-    });
-    output::write(&[(path.clone(), text.into_bytes())])?;
-    if !args.quiet {
-        terminal::say(&format!("wrote {}; edit it, then: tatamu make {0}", path.display()));
-    }
-    Ok(())
+        components,
+    })
 }
 
 /// The name by which a project file finds its mesh: relative where the project file is in or
 /// above the mesh's folder, else absolute.
-fn mesh_from(project: &Path, mesh: &Path) -> Result<String, CliError> {
+pub fn mesh_from(project: &Path, mesh: &Path) -> Result<String, CliError> {
     let full = |path: &Path| {
         std::path::absolute(path)
             .map_err(|error| CliError::Input { path: path.to_owned(), reason: super::error::reason(&error) })

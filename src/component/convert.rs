@@ -26,7 +26,7 @@ pub enum ConvertError {
 /// # Guarantees
 /// Every profile is convex, falls strictly and has gap 0 within rounding; the flat layers do not
 /// overlap; joint panels are single panels on their planes.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Component {
     solid: Solid,
     profiles: Vec<Profile>,

@@ -1,10 +1,12 @@
 //! Joints between components, their tree, and the model's two end states.
 
 mod build;
+mod known;
 mod link;
 mod seat;
 
 pub use build::{ModelError, Part, PartOptions, build};
+pub use known::{Known, build_one};
 pub use link::{Contact, Link, link_tree, parted};
 
 use crate::component::{Component, PanelId};
@@ -25,7 +27,7 @@ pub struct Joint {
 }
 
 /// A component in its place.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ModelPart {
     /// Name, unique in the model.
     pub name: String,
@@ -61,7 +63,7 @@ impl ModelPart {
 /// # Guarantees
 /// Every joint's parent is another part; following parents ends at a root. In the deployed and
 /// in the flat state the two joint panels of every joint lie in one plane, facing each other.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Model {
     parts: Vec<ModelPart>,
 }

@@ -1,0 +1,105 @@
+//! What the user should know about a model that was made all the same.
+
+use super::Options;
+use crate::model::Model;
+use crate::net::Net;
+use crate::sheet::{Layout, Unheeded};
+
+/// Something that the user should know about a model that was made all the same.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    /// Short constant name, for programs.
+    pub code: &'static str,
+    /// A sentence.
+    pub message: String,
+}
+
+/// Joint panels that carry less than this of their child are worth a warning.
+const GOOD_SUPPORT: f64 = 0.8;
+
+pub(super) fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Options) -> Vec<Warning> {
+    let min_panel_mm = options.min_panel_width_mm;
+    let mut out = Vec::new();
+    let mut warn = |code, message| out.push(Warning { code, message });
+    if !flat.is_empty() {
+        let faces: usize = flat.iter().sum();
+        warn(
+            "flat_segment",
+            format!("{} flat parts of {faces} faces in all have no volume and were left out", flat.len()),
+        );
+    }
+    let roots: Vec<&str> =
+        model.parts().iter().filter(|p| p.joint.is_none()).map(|p| p.name.as_str()).collect();
+    if roots.len() > 1 {
+        warn(
+            "not_joined",
+            format!(
+                "the model is in {} groups that are not joined to one another, because they do not touch or no \
+                 joint has room; they begin with {}",
+                roots.len(),
+                roots.join(", ")
+            ),
+        );
+    }
+    for part in model.parts() {
+        let sizes = [
+            ("narrow", "wide", part.component.narrowest_panel()),
+            ("low", "high", part.component.lowest_panel()),
+        ];
+        for (_, word, (panel, mm)) in sizes.iter().filter(|s| s.2.1 < min_panel_mm - 1e-6) {
+            let what = part.component.panels().panel(*panel).kind;
+            warn(
+                "narrow_panel",
+                format!(
+                    "{}: {what} is only {mm:.2} mm {word}, less than {min_panel_mm} mm; use fewer top edges or \
+                     profile vertices for it, or a larger --size",
+                    part.name
+                ),
+            );
+        }
+        let error_mm = part.component.hausdorff_mm();
+        if let Some(tolerance_mm) = options.tolerance_mm.filter(|t| error_mm > *t) {
+            warn(
+                "tolerance_missed",
+                format!(
+                    "{}: it comes within {error_mm:.1} mm of its shape, not within {tolerance_mm} mm; allow more top \
+                     edges or profile vertices, or narrower panels",
+                    part.name
+                ),
+            );
+        }
+        if let Some(joint) = part.joint.as_ref().filter(|j| j.support_ratio < GOOD_SUPPORT) {
+            let parent = &model.parts()[joint.parent].name;
+            warn(
+                "weak_joint",
+                format!(
+                    "{}: only {:.0}% of its joint panel lies on {parent}; try another direction for either of them, \
+                     or more top edges for {parent}",
+                    part.name,
+                    joint.support_ratio * 100.0
+                ),
+            );
+        }
+    }
+    for net in nets {
+        out.extend(net.warnings().iter().map(|w| Warning { code: w.code(), message: w.to_string() }));
+    }
+    out
+}
+
+/// Pins that could not be heeded.
+pub(super) fn pin_warnings(layout: &Layout) -> Vec<Warning> {
+    let warning = |pin: &Unheeded| match pin {
+        Unheeded::NoPiece(name) => Warning {
+            code: "pin_without_piece",
+            message: format!("{name}: there is no piece of this name any more; take its [[pin]] away"),
+        },
+        Unheeded::NoRoom(name) => Warning {
+            code: "pin_without_room",
+            message: format!(
+                "{name}: it does not fit where it is pinned, so it was put elsewhere; move it or another pin"
+            ),
+        },
+    };
+    layout.unheeded_pins().iter().map(warning).collect()
+}
