@@ -21,6 +21,7 @@ const SKIPPED: &[(&str, &str)] = &[
     ("tatamu plot INPUT [options]", "a synopsis"),
     ("tatamu check FILE.fold", "a synopsis"),
     ("tatamu show INPUT [options]", "a synopsis"),
+    ("tatamu studio [INPUT]", "a synopsis"),
 ];
 
 /// Meshes of the reader's own, and the small samples that stand for them.
