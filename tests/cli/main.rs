@@ -1,9 +1,11 @@
 //! The program as its users meet it.
 
+mod bad_meshes;
 mod check;
 #[path = "../cube/mod.rs"]
 mod cube;
 mod exports;
+mod faults;
 mod film;
 mod guide;
 mod make;
