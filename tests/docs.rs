@@ -132,8 +132,7 @@ fn tatamu(folder: &Path) -> Command {
     command
 }
 
-/// A virtual plotter that works for one host, with its port. Its buffer takes a whole job: whether
-/// one is overrun while the machine is busy with other tests is not the question here.
+/// A virtual plotter for one host. Its buffer takes a whole job: being overrun is tested elsewhere.
 struct Machine {
     child: Child,
     out: BufReader<std::process::ChildStdout>,
