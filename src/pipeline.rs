@@ -1,9 +1,12 @@
 //! The way from a mesh to sheets, stage by stage. Reading [`run`] is reading the program.
 
 mod bodies;
+mod drawn;
 
 pub use bodies::Bodies;
+pub use drawn::run_drawn;
 
+use crate::design::DesignError;
 use crate::fold::{FoldPlan, ModelMotion};
 use crate::mesh::{Mesh, Up};
 use crate::model::{self, Model, ModelError};
@@ -107,6 +110,9 @@ pub enum Error {
     /// A component failed.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// Drawings make no model.
+    #[error(transparent)]
+    Design(#[from] DesignError),
     /// A net failed.
     #[error("{}", too_large(.error, *.size_mm))]
     Net {
@@ -242,6 +248,32 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     progress.stage("components");
     let model = model::build(bodies.parts(), bodies.links(), options.min_panel_width_mm, progress)?;
 
+    let face_part: Vec<Option<u32>> = segmentation
+        .face_segments()
+        .iter()
+        .map(|&segment| bodies.part_of(segment).map(|p| p as u32))
+        .collect();
+    let made = Made { model, mesh: mesh.clone(), to_model, face_part };
+    let flat = bodies.flat_faces();
+    finish(made, |model, nets| warnings(model, nets, flat, options), options, progress)
+}
+
+/// A model with the surface that it stands for.
+struct Made {
+    model: Model,
+    mesh: Mesh,
+    to_model: DAffine3,
+    face_part: Vec<Option<u32>>,
+}
+
+/// All stages after the components.
+fn finish(
+    made: Made,
+    warnings: impl Fn(&Model, &[Net]) -> Vec<Warning>,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Output, Error> {
+    let Made { model, mesh, to_model, face_part } = made;
     progress.stage("folding");
     let fold_plan = FoldPlan::new(&ModelMotion::new(&model), options.thickness_mm, progress)?;
 
@@ -255,28 +287,13 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     progress.stage("sheets");
     let layout = Layout::new(&nets, &sheets, progress)?;
 
-    let face_part: Vec<Option<u32>> = segmentation
-        .face_segments()
-        .iter()
-        .map(|&segment| bodies.part_of(segment).map(|p| p as u32))
-        .collect();
-    let mut part_faces = vec![0; bodies.parts().len()];
+    let mut part_faces = vec![0; model.parts().len()];
     face_part.iter().flatten().for_each(|&p| part_faces[p as usize] += 1);
-    let mut warnings = warnings(&model, &nets, bodies.flat_faces(), options);
+    let mut warnings = warnings(&model, &nets);
     let advice = fold_plan.advice(&model).into_iter();
     warnings.extend(advice.map(|(code, message)| Warning { code, message }));
-    Ok(Output {
-        options: options.clone(),
-        mesh: mesh.clone(),
-        to_model,
-        face_part,
-        part_faces,
-        model,
-        fold_plan,
-        nets,
-        layout,
-        warnings,
-    })
+    let options = options.clone();
+    Ok(Output { options, mesh, to_model, face_part, part_faces, model, fold_plan, nets, layout, warnings })
 }
 
 /// Divides a mesh at the model's size into parts; also gives the transform from the coordinates of

@@ -6,7 +6,6 @@ use super::progress::TerminalProgress;
 use super::{input, output, terminal};
 use clap::Args;
 use std::path::{Path, PathBuf};
-use tatamu::pipeline;
 use tatamu::project::{Template, TemplateComponent, to_toml};
 
 /// Writes a project file for a mesh, to edit and to give to "make".
@@ -69,8 +68,7 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
     }
     let options = args.model.merge(&input)?;
     let progress = TerminalProgress::new(args.quiet);
-    let result = pipeline::run(&input.mesh, &options, &progress)
-        .map_err(|error| CliError::of_run(error, &progress))?;
+    let result = input.run(&args.model, &options, &progress)?;
     progress.finish();
     let components: Vec<TemplateComponent> = result
         .model()

@@ -16,7 +16,7 @@ use tatamu::export::{FormatOptions, Source};
 use tatamu::fold::Stack;
 use tatamu::mesh::{Mesh, Repairs};
 use tatamu::net::Side;
-use tatamu::pipeline::{self, Output, Warning};
+use tatamu::pipeline::{Output, Warning};
 use tatamu::product::{self, Content, Product};
 use tatamu::report::Run;
 
@@ -112,8 +112,7 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     warnings.iter().for_each(warn);
 
     let progress = TerminalProgress::new(args.quiet);
-    let result = pipeline::run(&input.mesh, &options, &progress)
-        .map_err(|error| CliError::of_run(error, &progress))?;
+    let result = input.run(&args.model, &options, &progress)?;
     let stages = progress.finish();
     warn_by_kind(result.warnings());
 

@@ -130,6 +130,11 @@ impl ModelArgs {
         Self { up, segmentation, ..Self::default() }
     }
 
+    /// The size that was asked for, mm: drawings have one of their own.
+    pub fn size_mm(&self, input: &Input) -> Option<f64> {
+        self.size.or(input.project.as_ref().and_then(|project| project.size_mm))
+    }
+
     /// The options for an input.
     pub fn merge(&self, input: &Input) -> Result<Options, CliError> {
         let mut options = Options::default();

@@ -1,10 +1,12 @@
 //! Joints between components, their tree, and the model's two end states.
 
 mod build;
+mod joined;
 mod link;
 mod seat;
 
 pub use build::{ModelError, Part, PartOptions, build};
+pub use joined::{JoinedPart, Seam};
 pub use link::{Contact, Link, link_tree, parted};
 
 use crate::component::{Component, PanelId};

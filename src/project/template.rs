@@ -245,7 +245,7 @@ mod tests {
         };
         let text = to_toml(&template);
         let project = Project::parse(&text).unwrap();
-        assert_eq!((project.mesh.as_str(), project.up), (template.mesh, Some(Up::X)));
+        assert_eq!((project.mesh.as_deref(), project.up), (Some(template.mesh), Some(Up::X)));
         assert_eq!((project.size_mm, project.paper.margin_mm), (Some(123.5), Some(0.0)));
         assert_eq!(project.paper.size, Some(template.paper));
         assert_eq!(project.defaults.tab_width_mm, Some(6.5));

@@ -1,0 +1,103 @@
+//! Components joined where the user says.
+
+use super::{Joint, Model, ModelPart};
+use crate::component::{Component, PanelId};
+use crate::geom::polygon;
+use glam::{DAffine3, DVec3};
+
+/// How a component lies on another one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Seam {
+    /// Index of the parent.
+    pub parent: usize,
+    /// The parent's joint panel.
+    pub parent_panel: PanelId,
+    /// The child's joint panel.
+    pub child_panel: PanelId,
+    /// Rigid motion from the plane coordinates of the child's panel to those of the parent's: the
+    /// two lie in one plane, face to face.
+    pub relation: DAffine3,
+}
+
+/// A component to be joined.
+#[derive(Debug, Clone)]
+pub struct JoinedPart {
+    /// Its name.
+    pub name: String,
+    /// Its shape.
+    pub component: Component,
+    /// What it lies on; none for a root.
+    pub seam: Option<Seam>,
+}
+
+/// Roots stand so far from each other.
+const APART_MM: f64 = 20.0;
+
+impl Model {
+    /// Joins components: roots stand side by side on the ground. Seams name other parts, and
+    /// following them ends at a root.
+    pub fn joined(parts: Vec<JoinedPart>) -> Self {
+        let mut placed: Vec<Option<ModelPart>> = vec![None; parts.len()];
+        let mut next_mm = 0.0;
+        for _ in 0..parts.len() {
+            for (p, part) in parts.iter().enumerate() {
+                if placed[p].is_some() {
+                    continue;
+                }
+                let found = match &part.seam {
+                    None => Some(standing(part, &mut next_mm)),
+                    Some(seam) => placed[seam.parent].as_ref().map(|parent| on_parent(part, seam, parent)),
+                };
+                placed[p] = found;
+            }
+        }
+        Self { parts: placed.into_iter().flatten().collect() }.with_support()
+    }
+
+    /// The same with the share of each child's joint panel that lies on its parent's.
+    #[must_use]
+    pub(super) fn with_support(mut self) -> Self {
+        for p in 0..self.parts.len() {
+            let Some(joint) = self.parts[p].joint.clone() else { continue };
+            let own = self.outline_on((p, joint.child_panel), (joint.parent, joint.parent_panel));
+            let base = &self.parts[joint.parent].component.panels().panel(joint.parent_panel).outline;
+            let ratio = polygon::area(&polygon::intersect_convex(&own, base)) / polygon::area(&own);
+            self.parts[p].joint = Some(Joint { support_ratio: ratio.abs().min(1.0), ..joint });
+        }
+        self
+    }
+}
+
+fn standing(part: &JoinedPart, next_mm: &mut f64) -> ModelPart {
+    let corners: Vec<DVec3> =
+        part.component.panels().panels().iter().flat_map(|p| p.deployed_outline()).collect();
+    let low = corners.iter().map(|c| c.x).fold(f64::INFINITY, f64::min);
+    let high = corners.iter().map(|c| c.x).fold(f64::NEG_INFINITY, f64::max);
+    let lift = DVec3::Z * -part.component.bottom_mm();
+    let shift_mm = if *next_mm > 0.0 { *next_mm - low } else { 0.0 };
+    *next_mm = high + shift_mm + APART_MM;
+    ModelPart {
+        name: part.name.clone(),
+        component: part.component.clone(),
+        frame: DAffine3::from_translation(lift + DVec3::X * shift_mm),
+        placement: DAffine3::IDENTITY,
+        flat: DAffine3::from_translation(lift),
+        direction_rad: 0.0,
+        joint: None,
+    }
+}
+
+fn on_parent(part: &JoinedPart, seam: &Seam, parent: &ModelPart) -> ModelPart {
+    let below = parent.component.panels().panel(seam.parent_panel);
+    let above = part.component.panels().panel(seam.child_panel);
+    let (parent_panel, child_panel) = (seam.parent_panel, seam.child_panel);
+    ModelPart {
+        name: part.name.clone(),
+        component: part.component.clone(),
+        frame: parent.deployed() * below.deployed * seam.relation * above.deployed.inverse(),
+        placement: DAffine3::IDENTITY,
+        flat: parent.flat * below.flat * seam.relation * above.flat.inverse(),
+        direction_rad: 0.0,
+        joint: Some(Joint { parent: seam.parent, parent_panel, child_panel, support_ratio: 0.0 }),
+    }
+}

@@ -1,0 +1,70 @@
+//! The way from drawings to sheets.
+
+use super::{Error, Made, Options, Output, Warning, finish, warnings};
+use crate::design::{DesignError, Sketch, design};
+use crate::mesh::{Mesh, Soup};
+use crate::model::Model;
+use crate::progress::Progress;
+use glam::{DAffine3, DVec3};
+
+/// Runs all stages on drawn components. They have the size that they are drawn in, or their longest
+/// side is made `size_mm`.
+///
+/// # Errors
+/// See [`Error`].
+pub fn run_drawn(
+    sketches: &[Sketch],
+    size_mm: Option<f64>,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Output, Error> {
+    progress.stage("components");
+    let min_panel_mm = options.min_panel_width_mm;
+    let mut drawn = design(sketches, min_panel_mm, progress)?;
+    let mut surface = Surface::of(&drawn.model)?;
+    if let Some(size_mm) = size_mm {
+        let factor = size_mm / surface.size_mm();
+        let scaled: Vec<Sketch> = sketches.iter().map(|sketch| sketch.scaled(factor)).collect();
+        drawn = design(&scaled, min_panel_mm, progress)?;
+        surface = Surface::of(&drawn.model)?;
+    }
+    let options = Options { size_mm: surface.size_mm(), ..options.clone() };
+    let Surface { mesh, face_part } = surface;
+    let made = Made { model: drawn.model, mesh, to_model: DAffine3::IDENTITY, face_part };
+    let notes = drawn.notes;
+    let warnings = |model: &Model, nets: &[crate::net::Net]| {
+        let notes = notes.iter().map(|(code, message)| Warning { code, message: message.clone() });
+        notes.chain(warnings(model, nets, &[], &options)).collect()
+    };
+    finish(made, warnings, &options, progress)
+}
+
+/// The deployed panels as a mesh.
+struct Surface {
+    mesh: Mesh,
+    face_part: Vec<Option<u32>>,
+}
+
+impl Surface {
+    fn of(model: &Model) -> Result<Self, Error> {
+        let (mut corners, mut polygons, mut owners) =
+            (Vec::<DVec3>::new(), Vec::<Vec<u32>>::new(), Vec::new());
+        for (p, part) in model.parts().iter().enumerate() {
+            for panel in part.component.panels().panels() {
+                let first = corners.len() as u32;
+                corners.extend(panel.deployed_outline().iter().map(|c| part.deployed().transform_point3(*c)));
+                polygons.push((first..corners.len() as u32).collect());
+                owners.push(p as u32);
+            }
+        }
+        let soup = Soup::new(corners, &polygons).ok();
+        let mesh = soup.and_then(|soup| Mesh::from_soup(&soup).ok()).ok_or(DesignError::Nothing)?.0;
+        let face_part = mesh.input_faces().iter().map(|&polygon| Some(owners[polygon as usize])).collect();
+        Ok(Self { mesh, face_part })
+    }
+
+    fn size_mm(&self) -> f64 {
+        let (low, high) = self.mesh.bounds();
+        (high - low).max_element()
+    }
+}
