@@ -11,7 +11,7 @@ use super::progress::TerminalProgress;
 use super::{input, terminal};
 use clap::Args;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tatamu::export::{FormatOptions, Source};
 use tatamu::fold::Stack;
 use tatamu::mesh::{Mesh, Repairs};
@@ -75,6 +75,18 @@ pub struct MakeArgs {
     /// No summary and no progress bar; warnings and errors only
     #[arg(short, long)]
     quiet: bool,
+}
+
+impl MakeArgs {
+    /// The mesh or project file.
+    pub fn input(&self) -> &Path {
+        &self.input
+    }
+
+    /// Options of the model.
+    pub fn model(&self) -> &ModelArgs {
+        &self.model
+    }
 }
 
 /// So many warnings of one kind are shown; a small model with many labels has dozens.

@@ -69,9 +69,10 @@ fn a_zigzag_of_four_vertices_has_these_ways() {
     expected.sort_by_key(|way| way.parse::<Way>().unwrap());
     assert_eq!(found, expected);
     for way in ["^ud", "ud^", "uvd"] {
-        let found = judge(&list, &way.parse().unwrap(), MIN_MM).unwrap();
-        assert_eq!(found.score.folds, 3, "{way}");
-        let short = found.profile.lengths().fold(f64::INFINITY, f64::min);
+        let way: Way = way.parse().unwrap();
+        assert_eq!(way.folds(), 3, "{way}");
+        let closed = closing::close(&list, &way).unwrap();
+        let short = closed.profile.lengths().fold(f64::INFINITY, f64::min);
         assert!((short - 0.5 * (200f64.sqrt() - 10.0)).abs() < 1e-12, "{way}: {short}");
     }
     let limits = search::Limits { whole: &[false, true, false], min_panel_mm: MIN_MM };
