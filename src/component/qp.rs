@@ -8,7 +8,7 @@
 pub(super) struct Programme {
     size: usize,
     cost: Vec<f64>,
-    /// Row by row.
+    /// Row by row; only the entries on and above the diagonal are kept.
     curvature: Vec<f64>,
     terms: Vec<(usize, f64)>,
     rows: Vec<Row>,
@@ -31,7 +31,9 @@ impl Programme {
     /// A programme without cost and rows.
     pub(super) fn new(size: usize) -> Self {
         let curvature = vec![0.0; size * size];
-        Self { size, cost: vec![0.0; size], curvature, terms: Vec::new(), rows: Vec::new() }
+        // Room for most programmes, which need not be moved then as they grow.
+        let (terms, rows) = (Vec::with_capacity(64 * size), Vec::with_capacity(8 * size));
+        Self { size, cost: vec![0.0; size], curvature, terms, rows }
     }
 
     /// Adds `cost · x_k + ½ curvature · x_k²`.
@@ -40,12 +42,12 @@ impl Programme {
         self.curvature[k * self.size + k] += curvature;
     }
 
-    /// Adds `½ weight · (a · x + rest)²`.
+    /// Adds `½ weight · (a · x + rest)²`; no variable may stand in it twice.
     pub(super) fn add_square(&mut self, terms: &[(usize, f64)], rest: f64, weight: f64) {
-        for &(i, a) in terms {
+        for (at, &(i, a)) in terms.iter().enumerate() {
             self.cost[i] += weight * rest * a;
-            for &(k, b) in terms {
-                self.curvature[i * self.size + k] += weight * a * b;
+            for &(k, b) in &terms[at..] {
+                self.curvature[i.min(k) * self.size + i.max(k)] += weight * a * b;
             }
         }
     }
@@ -87,7 +89,7 @@ impl Programme {
                 match blocking {
                     Some((k, limit)) if limit < full => is_active[basis.remove(k)] = false,
                     _ => {
-                        basis.add(row, own, step.projected);
+                        basis.add(row, own, step);
                         is_active[row] = true;
                         break;
                     }
@@ -147,21 +149,22 @@ struct Step {
 
 impl Basis {
     /// Factorises the curvature (Cholesky) and inverts the factor.
+    /// Of `curvature` only the entries on and above the diagonal are read.
     fn new(size: usize, curvature: &[f64]) -> Option<Self> {
         let n = size;
-        let mut l = vec![0.0; n * n];
-        for i in 0..n {
-            for k in 0..=i {
-                let (a, b) = (&l[i * n..i * n + k], &l[k * n..k * n + k]);
-                let rest = curvature[i * n + k] - a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-                if i == k {
-                    if rest.is_nan() || rest <= 0.0 {
-                        return None;
-                    }
-                    l[i * n + i] = rest.sqrt();
-                } else {
-                    l[i * n + k] = rest / l[k * n + k];
-                }
+        // Row k of `upper` is column k of L: what has been found of it is taken from the rows below.
+        let mut upper = curvature.to_vec();
+        for k in 0..n {
+            let (done, below) = upper.split_at_mut((k + 1) * n);
+            let row = &mut done[k * n + k..];
+            if row[0].is_nan() || row[0] <= 0.0 {
+                return None;
+            }
+            let root = row[0].sqrt();
+            row.iter_mut().for_each(|x| *x /= root);
+            for (i, other) in below.chunks_exact_mut(n).enumerate().filter(|(i, _)| row[i + 1] != 0.0) {
+                let (own, factor) = (&row[i + 1..], row[i + 1]);
+                other[k + 1 + i..].iter_mut().zip(own).for_each(|(x, y)| *x -= factor * y);
             }
         }
         // Column k of L⁻ᵀ is row k of L⁻¹.
@@ -169,13 +172,13 @@ impl Basis {
         for i in 0..n {
             let (above, row) = j.split_at_mut(i * n);
             for k in 0..i {
-                let factor = l[i * n + k];
+                let factor = upper[k * n + i];
                 if factor != 0.0 {
                     row[..=k].iter_mut().zip(&above[k * n..=k * n + k]).for_each(|(x, y)| *x -= factor * y);
                 }
             }
             row[i] = 1.0;
-            let pivot = l[i * n + i];
+            let pivot = upper[i * n + i];
             row[..=i].iter_mut().for_each(|x| *x /= pivot);
         }
         Some(Self { size, j, r: Vec::new(), active: Vec::new(), multipliers: Vec::new() })
@@ -226,14 +229,27 @@ impl Basis {
             .min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)))
     }
 
-    fn add(&mut self, row: usize, multiplier: f64, mut projected: Vec<f64>) {
+    /// Makes a row active: the part of its normal outside of the active rows' span becomes one
+    /// column, by Householder's reflection.
+    fn add(&mut self, row: usize, multiplier: f64, step: Step) {
         let q = self.active.len();
-        for k in (q + 1..self.size).rev() {
-            let (c, s, length) = rotation(projected[k - 1], projected[k]);
-            projected[k - 1] = length;
-            self.rotate(k - 1, c, s);
-        }
-        projected.truncate(q + 1);
+        let Step { mut projected, primal: mut mirror, slope, .. } = step;
+        let length = slope.sqrt();
+        // Reflected to the far side, so that nothing cancels.
+        let turned = -length.copysign(projected[q]);
+        let (first, rest) = self.j[q * self.size..].split_at_mut(self.size);
+        // J v, for the vector v that the reflection is along: the rest of `projected`, its first
+        // entry moved by `turned`; `primal` is J times the rest of `projected`.
+        mirror.iter_mut().zip(first.iter()).for_each(|(w, j)| *w -= turned * j);
+        let scale = -1.0 / (turned * (projected[q] - turned));
+        let reflect = |column: &mut [f64], entry: f64| {
+            let factor = scale * entry;
+            column.iter_mut().zip(&mirror).for_each(|(j, w)| *j -= factor * w);
+        };
+        reflect(first, projected[q] - turned);
+        rest.chunks_exact_mut(self.size).zip(&projected[q + 1..]).for_each(|(column, &d)| reflect(column, d));
+        projected.truncate(q);
+        projected.push(turned);
         self.r.push(projected);
         self.active.push(row);
         self.multipliers.push(multiplier);
@@ -326,7 +342,8 @@ mod tests {
             let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
             let holds = |x: &[f64], slack: f64| rows.iter().all(|(a, b)| dot(a, x) <= b + slack);
             let value = |x: &[f64]| {
-                let h: f64 = (0..n).map(|i| x[i] * dot(&programme.curvature[i * n..(i + 1) * n], x)).sum();
+                let entry = |i: usize, k: usize| programme.curvature[i.min(k) * n + i.max(k)];
+                let h: f64 = (0..n * n).map(|at| x[at / n] * entry(at / n, at % n) * x[at % n]).sum();
                 dot(&programme.cost, x) + h / 2.0
             };
             assert!(holds(&x, 1e-8));

@@ -12,6 +12,7 @@ use super::target::{FoldSpot, Target};
 use crate::geom::{self, Hull, HullError, polygon};
 use glam::DVec3;
 use rayon::prelude::*;
+use std::sync::OnceLock;
 
 /// Hulls with more corners are fitted through their extreme points in this many directions.
 const FIT_DIRECTIONS: usize = 320;
@@ -43,6 +44,8 @@ const LAST_STEPS: usize = 6;
 const FINISHED: usize = 3;
 /// Planes are added one by one, with so many steps each.
 const GROWN_STEPS: usize = 8;
+/// If the cost is this many times that without the plane after them, it will not come below.
+const HOPELESS: f64 = 1.1;
 /// Steps of a fit at most.
 const STEPS: usize = 24;
 /// So many panels are dropped at most, for want of room.
@@ -76,7 +79,8 @@ const SURE: usize = 6;
 
 /// The best component.
 pub(super) fn best(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
-    let mut best = best_of_counts(targets);
+    let hulls: Vec<Simpler> = targets.par_iter().map(|t| Simpler::of(t.0.hull)).collect();
+    let mut best = best_of_counts(targets, &hulls);
     if targets.iter().any(|t| t.0.top_edges > SURE || t.0.profile_vertices > SURE) {
         let fewer: Vec<(Target, f64)> = targets
             .iter()
@@ -86,8 +90,12 @@ pub(super) fn best(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
                 (Target { top_edges, profile_vertices, ..target.clone() }, *cost_mm)
             })
             .collect();
-        let other = best_of_counts(&fewer);
-        let is_better = |other: &Found| best.as_ref().map_or(true, |b| other.cost_mm < b.cost_mm);
+        let other = best_of_counts(&fewer, &hulls);
+        let is_better = |other: &Found| {
+            best.as_ref().map_or(true, |b| {
+                other.cost_mm < b.cost_mm || other.fitted.error_mm < b.fitted.error_mm
+            })
+        };
         best = if other.as_ref().is_ok_and(is_better) { other } else { best };
     }
     let target = best.as_ref().map_or(0, |b| b.target);
@@ -100,22 +108,28 @@ pub(super) fn best(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
 }
 
 /// The best component found from starts with the targets' counts, or a few less.
-fn best_of_counts(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
-    let hulls: Vec<Hull> =
-        targets.par_iter().map(|t| simplified(t.0.hull, ROUGH_DIRECTIONS)).collect::<Vec<_>>();
-    let goals: Vec<Target> = targets.iter().zip(&hulls).map(|(t, hull)| goal(&t.0, hull)).collect();
-    let runs = goals.par_iter().enumerate();
-    let runs = runs.map(|(k, goal)| (k, start(goal, (goal.top_edges, goal.profile_vertices))));
-    let runs = ranked(runs.collect(), targets, FIRST_STEPS, LEFT);
+fn best_of_counts(targets: &[(Target, f64)], hulls: &[Simpler]) -> Result<Found, ConvertError> {
+    let goals: Vec<Target> = targets.iter().zip(hulls).map(|(t, hull)| goal(&t.0, &hull.rough)).collect();
+    let starts = || {
+        let runs = goals.par_iter().enumerate();
+        let runs = runs.map(|(k, goal)| (k, start(goal, (goal.top_edges, goal.profile_vertices))));
+        ranked(runs.collect(), targets, FIRST_STEPS, LEFT)
+    };
+    // A single start leaves other threads idle, and its hull is certain to be needed.
+    let ahead = || if let [only] = hulls { Some(only.fine()) } else { None };
+    let (runs, _) = rayon::join(starts, ahead);
     let with_fewer = |&(k, _): &(usize, Fit)| {
         let goal = &goals[k];
         fewer(goal).into_iter().map(move |counts| (k, start(goal, counts)))
     };
     let fewer: Vec<(usize, Fit)> = runs.par_iter().take(RETRIED).flat_map_iter(with_fewer).collect();
-    let mut runs = ranked(runs, targets, MORE_STEPS, LEFT_FULL);
-    runs.extend(ranked(fewer, targets, FIRST_STEPS + MORE_STEPS, LEFT_FEWER));
+    let (mut runs, fewer) = rayon::join(
+        || ranked(runs, targets, MORE_STEPS, LEFT_FULL),
+        || ranked(fewer, targets, FIRST_STEPS + MORE_STEPS, LEFT_FEWER),
+    );
+    runs.extend(fewer);
     let runs = ranked(runs, targets, LAST_STEPS, FINISHED);
-    let finished = runs.into_par_iter().map(|(k, fit)| (k, finish(&targets[k].0, fit)));
+    let finished = runs.into_par_iter().map(|(k, fit)| (k, finish(&targets[k].0, hulls[k].fine(), fit)));
     let finished: Vec<(usize, Result<_, AssembleError>)> = finished.collect();
     let mut best = Err(ConvertError::Hull(HullError::Flat));
     for (target, result) in finished {
@@ -227,19 +241,23 @@ fn start<'h>(goal: &Target<'h>, (edges, vertices): (usize, usize)) -> Fit<'h> {
     Fit::new(goal.clone(), solid, spots)
 }
 
-/// Fits to the end, adds planes where there may be more, and fits again with a higher price on joints that are not well supported.
-fn finish(target: &Target, fit: Fit) -> Result<(Fitted, Assembled), AssembleError> {
-    let hull = simplified(target.hull, FIT_DIRECTIONS);
-    let mut goal = Target { hull: &hull, ..fit.target().clone() };
+/// Fits to the end, adds planes where there may be more, and fits again with a higher price on
+/// joints that are not well supported. `hull` is the target's, simplified.
+fn finish(target: &Target, hull: &Hull, fit: Fit) -> Result<(Fitted, Assembled), AssembleError> {
+    let mut goal = Target { hull, ..fit.target().clone() };
     let Fitted { shape, spots, .. } = fit.into_best();
     let mut best = settle(target, Fit::new(goal.clone(), shape.solid, spots))?;
     while let Some((solid, spots)) = grown(&best.0, &goal) {
-        match settle(target, Fit::new(goal.clone(), solid, spots).run(GROWN_STEPS)) {
+        let next = Fit::new(goal.clone(), solid, spots).run(GROWN_STEPS);
+        if cost(next.best()) > HOPELESS * cost(&best.0) {
+            break;
+        }
+        match settle(target, next) {
             Ok(next) if cost(&next.0) < cost(&best.0) => best = next,
             _ => break,
         }
     }
-    let height = height_mm(&hull);
+    let height = height_mm(hull);
     let mut short = short_of_support(&best.0, target);
     for _ in 0..PRICE_RISES {
         if short == 0.0 {
@@ -329,13 +347,28 @@ fn assemble_unbroken(fitted: &Fitted) -> Result<Assembled, AssembleError> {
     assemble(solid, &spots)
 }
 
+/// A hull with few corners, and one with more that is made when it is needed.
+struct Simpler<'h> {
+    hull: &'h Hull,
+    rough: Hull,
+    fine: OnceLock<Hull>,
+}
+
+impl<'h> Simpler<'h> {
+    fn of(hull: &'h Hull) -> Self {
+        Self { hull, rough: simplified(hull, ROUGH_DIRECTIONS), fine: OnceLock::new() }
+    }
+
+    fn fine(&self) -> &Hull {
+        self.fine.get_or_init(|| simplified(self.hull, FIT_DIRECTIONS))
+    }
+}
+
 /// Hull of the extreme points in evenly spread directions.
 fn simplified(hull: &Hull, directions: usize) -> Hull {
     if hull.vertices().len() <= directions {
         return hull.clone();
     }
-    let points: Vec<DVec3> = geom::directions(directions)
-        .filter_map(|d| hull.vertices().iter().copied().max_by(|a, b| d.dot(*a).total_cmp(&d.dot(*b))))
-        .collect();
+    let points: Vec<DVec3> = geom::directions(directions).map(|d| hull.farthest(d)).collect();
     Hull::of_points(&points).unwrap_or_else(|_| hull.clone())
 }

@@ -130,6 +130,11 @@ impl Hull {
         self.vertices.iter().map(|v| direction.dot(*v)).fold(f64::NEG_INFINITY, f64::max)
     }
 
+    /// The vertex farthest in a direction; of equal ones the last.
+    pub fn farthest(&self, direction: DVec3) -> DVec3 {
+        self.vertices[farthest(&self.vertices, direction)]
+    }
+
     /// The hull after a rigid motion.
     pub fn moved(&self, motion: &glam::DAffine3) -> Self {
         let vertices = self.vertices.iter().map(|v| motion.transform_point3(*v)).collect();
@@ -151,16 +156,22 @@ impl Hull {
     }
 }
 
+/// Index of the point farthest in a direction; of equal ones the last.
+fn farthest(points: &[DVec3], direction: DVec3) -> usize {
+    let further = |best: (usize, f64), (k, p): (usize, &DVec3)| {
+        let reach = direction.dot(*p);
+        if reach >= best.1 { (k, reach) } else { best }
+    };
+    points.iter().enumerate().fold((0, f64::NEG_INFINITY), further).0
+}
+
 /// Directions whose extreme points make the hull for dropping inner points.
 const PREFILTER_DIRECTIONS: usize = 90;
 
 /// Drops the points that lie inside the hull of the extreme ones in a few directions.
 fn outer_points(points: Vec<DVec3>, lo: DVec3, size: f64) -> Result<Vec<DVec3>, HullError> {
-    let extreme: std::collections::BTreeSet<usize> = directions(PREFILTER_DIRECTIONS)
-        .filter_map(|d| {
-            (0..points.len()).max_by(|&i, &j| d.dot(points[i]).total_cmp(&d.dot(points[j])).then(j.cmp(&i)))
-        })
-        .collect();
+    let extreme: std::collections::BTreeSet<usize> =
+        directions(PREFILTER_DIRECTIONS).map(|d| farthest(&points, d)).collect();
     let core: Vec<DVec3> = extreme.iter().map(|&i| points[i]).collect();
     let Ok(triangles) = triangles_of(&core, lo, size) else { return Ok(points) };
     let planes: Vec<Plane> = triangles

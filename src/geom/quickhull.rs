@@ -4,7 +4,6 @@
 
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
-use std::collections::BTreeMap;
 
 /// Outward triangles of the convex hull of distinct points, as indices. Where more than three
 /// points lie in one plane, the plane is divided into several triangles. `None` where the points
@@ -62,6 +61,8 @@ fn above(points: &[DVec3], triangle: [usize; 3], point: usize) -> f64 {
 
 struct Facet {
     corners: [usize; 3],
+    /// The facets beyond its edges, in the order of [`Facet::edges`].
+    beyond: [usize; 3],
     /// Points above this facet that no other facet has, with their measure from [`above`].
     outside: Vec<(usize, f64)>,
     is_gone: bool,
@@ -83,24 +84,23 @@ impl Facet {
 struct Quickhull<'a> {
     points: &'a [DVec3],
     facets: Vec<Facet>,
-    /// The facet that runs along each directed edge.
-    along: BTreeMap<(usize, usize), usize>,
+    /// While a cone is made: the facet whose edge on the horizon begins at a point.
+    begins: Vec<usize>,
 }
 
 impl<'a> Quickhull<'a> {
     fn of_simplex(points: &'a [DVec3], [a, b, c, d]: [usize; 4]) -> Self {
-        let mut hull = Self { points, facets: Vec::new(), along: BTreeMap::new() };
-        for corners in [[a, b, c], [a, d, b], [b, d, c], [c, d, a]] {
-            hull.push(corners);
-        }
+        let mut hull = Self { points, facets: Vec::new(), begins: vec![0; points.len()] };
+        hull.push([a, b, c], [1, 2, 3]);
+        hull.push([a, d, b], [3, 2, 0]);
+        hull.push([b, d, c], [1, 3, 0]);
+        hull.push([c, d, a], [2, 1, 0]);
         hull.hand_out(0, (0..points.len()).filter(|i| ![a, b, c, d].contains(i)));
         hull
     }
 
-    fn push(&mut self, corners: [usize; 3]) {
-        let facet = Facet { corners, outside: Vec::new(), is_gone: false };
-        self.along.extend(facet.edges().map(|edge| (edge, self.facets.len())));
-        self.facets.push(facet);
+    fn push(&mut self, corners: [usize; 3], beyond: [usize; 3]) {
+        self.facets.push(Facet { corners, beyond, outside: Vec::new(), is_gone: false });
     }
 
     /// Gives each point to the first facet from `first` on that it is above; the others are inside.
@@ -124,8 +124,8 @@ impl<'a> Quickhull<'a> {
         let mut horizon = Vec::new();
         let mut at = 0;
         while at < visible.len() {
-            for (a, b) in self.facets[visible[at]].edges() {
-                let Some(&other) = self.along.get(&(b, a)) else { continue };
+            let facet = &self.facets[visible[at]];
+            for (edge, other) in facet.edges().into_iter().zip(facet.beyond) {
                 if self.facets[other].is_gone {
                     continue;
                 }
@@ -133,21 +133,33 @@ impl<'a> Quickhull<'a> {
                     self.facets[other].is_gone = true;
                     visible.push(other);
                 } else {
-                    horizon.push((a, b));
+                    horizon.push((edge, other));
                 }
             }
             at += 1;
         }
-        let mut loose = Vec::new();
-        for &facet in &visible {
-            for edge in self.facets[facet].edges() {
-                self.along.remove(&edge);
-            }
-            loose.append(&mut self.facets[facet].outside);
-        }
         let first = self.facets.len();
-        horizon.into_iter().for_each(|(a, b)| self.push([a, b, point]));
-        self.hand_out(first, loose.into_iter().map(|(i, _)| i));
+        self.push_cone(point, &horizon);
+        for facet in visible {
+            let loose = std::mem::take(&mut self.facets[facet].outside);
+            self.hand_out(first, loose.into_iter().map(|(i, _)| i));
+        }
+    }
+
+    /// The facets between a point and the edges of its horizon, each given with the facet beyond it.
+    fn push_cone(&mut self, point: usize, horizon: &[((usize, usize), usize)]) {
+        let first = self.facets.len();
+        for (k, &((a, b), other)) in horizon.iter().enumerate() {
+            self.begins[a] = first + k;
+            let side = self.facets[other].edges().iter().position(|&edge| edge == (b, a));
+            self.facets[other].beyond[side.unwrap_or(0)] = first + k;
+            self.push([a, b, point], [other, first, first]);
+        }
+        for (k, &((_, b), _)) in horizon.iter().enumerate() {
+            let after = self.begins[b];
+            self.facets[first + k].beyond[1] = after;
+            self.facets[after].beyond[2] = first + k;
+        }
     }
 }
 
