@@ -278,7 +278,12 @@ fn finish(
     let fold_plan = FoldPlan::new(&ModelMotion::new(&model), options.thickness_mm, progress)?;
 
     progress.stage("nets");
-    let sheets = SheetOptions { paper: options.paper, margin_mm: options.margin_mm, choices: options.sheets };
+    let sheets = SheetOptions {
+        paper: options.paper,
+        margin_mm: options.margin_mm,
+        choices: options.sheets,
+        has_valleys: model.has_valleys(),
+    };
     let net_options =
         NetOptions { tab_width_mm: options.tab_width_mm, sheet_mm: sheets.room_mm(), choices: options.nets };
     let nets = develop_model(&model, &net_options, progress)

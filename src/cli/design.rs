@@ -56,8 +56,8 @@ pub fn run(args: &DesignArgs) -> Result<(), CliError> {
         )));
     };
     let options = args.make.model().merge(&input)?;
-    let rankings = rankings(sketches, options.min_panel_width_mm)
-        .map_err(|error| CliError::Pipeline(error.into()))?;
+    let rankings =
+        rankings(sketches, options.min_panel_width_mm).map_err(|error| CliError::Pipeline(error.into()))?;
     for (sketch, rankings) in sketches.iter().zip(&rankings) {
         for (p, ranking) in rankings.iter().enumerate() {
             list(sketch, p, ranking);

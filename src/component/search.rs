@@ -92,9 +92,8 @@ pub(super) fn best(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
             .collect();
         let other = best_of_counts(&fewer, &hulls);
         let is_better = |other: &Found| {
-            best.as_ref().map_or(true, |b| {
-                other.cost_mm < b.cost_mm || other.fitted.error_mm < b.fitted.error_mm
-            })
+            best.as_ref()
+                .map_or(true, |b| other.cost_mm < b.cost_mm || other.fitted.error_mm < b.fitted.error_mm)
         };
         best = if other.as_ref().is_ok_and(is_better) { other } else { best };
     }

@@ -16,6 +16,7 @@ use std::f64::consts::FRAC_PI_2;
 pub struct ComponentMotion {
     chains: Vec<Chain>,
     panels: Vec<(PanelKind, DAffine3)>,
+    levels: Vec<usize>,
     height_mm: f64,
 }
 
@@ -47,6 +48,7 @@ impl ComponentMotion {
         Self {
             chains: component.profiles().iter().enumerate().map(chain).collect(),
             panels: component.panels().panels().iter().map(panel).collect(),
+            levels: levels(component),
             height_mm: component.top_mm() - component.bottom_mm(),
         }
     }
@@ -71,6 +73,12 @@ impl ComponentMotion {
     /// hardly changes at first.
     pub fn height_at_mm(&self, folded: f64) -> f64 {
         if folded >= 1.0 { 0.0 } else { self.height_mm * (FRAC_PI_2 * folded).cos() }
+    }
+
+    /// How many layers lie under each panel when flat, counted within the component, where it has
+    /// more than the two layers of a convex one; else 0 for all.
+    pub(super) fn levels(&self) -> &[usize] {
+        &self.levels
     }
 
     /// How far each chain is at `folded`.
@@ -104,6 +112,22 @@ impl ComponentMotion {
             PanelKind::Side { chain, index } => self.chains[chain].move_link(index, shares[chain]),
         }
     }
+}
+
+fn levels(component: &Component) -> Vec<usize> {
+    let layers = |profile: &Profile| profile.layer(profile.points().len() - 2);
+    let top = component.profiles().iter().map(layers).max().unwrap_or(0);
+    let level = |kind: PanelKind| match kind {
+        _ if top < 2 => 0,
+        PanelKind::Top => top,
+        PanelKind::Bottom => 0,
+        PanelKind::Side { chain, index } => {
+            let profile = &component.profiles()[chain];
+            let layer = profile.layer(index);
+            if layer == layers(profile) { 0 } else { top - layer }
+        }
+    };
+    component.panels().panels().iter().map(|panel| level(panel.kind)).collect()
 }
 
 /// From which end of its component a panel hangs.

@@ -89,7 +89,9 @@ fn most_layers(outlines: &[Vec<DVec2>]) -> usize {
             let y = low.y + (row as f64 + 0.5) * step;
             let Some((from, to)) = chord(outline, y) else { continue };
             let column = |x: f64| ((x - low.x) / step - 0.5).ceil().clamp(0.0, columns as f64) as usize;
-            for count in &mut counts[row * columns..][column(from + TOUCH_MM)..column(to - TOUCH_MM).max(column(from + TOUCH_MM))] {
+            for count in &mut counts[row * columns..]
+                [column(from + TOUCH_MM)..column(to - TOUCH_MM).max(column(from + TOUCH_MM))]
+            {
                 *count += 1;
             }
         }

@@ -74,6 +74,11 @@ impl Model {
         &self.parts
     }
 
+    /// Whether any crease is folded towards the viewer outside.
+    pub fn has_valleys(&self) -> bool {
+        self.parts.iter().any(|part| part.component.panels().hinges().iter().any(|h| h.is_valley()))
+    }
+
     /// Corners of a panel in the deployed model.
     pub fn deployed_outline(&self, part: usize, panel: PanelId) -> Vec<DVec3> {
         let part = &self.parts[part];
