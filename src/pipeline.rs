@@ -1,6 +1,7 @@
 //! The way from a mesh to sheets, stage by stage. Reading [`run`] is reading the program.
 
 mod bodies;
+mod concave;
 mod drawn;
 
 pub use bodies::Bodies;
@@ -90,6 +91,8 @@ pub struct ComponentOptions {
     pub top_edges: Option<usize>,
     /// Vertices of profiles.
     pub profile_vertices: Option<usize>,
+    /// Whether it may have dents, where that brings it nearer to its shape.
+    pub is_concave: bool,
 }
 
 /// Why there is no model.
@@ -253,9 +256,12 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
         .iter()
         .map(|&segment| bodies.part_of(segment).map(|p| p as u32))
         .collect();
+    let (model, notes) = concave::refitted(model, mesh, &face_part, options, progress)?;
     let made = Made { model, mesh: mesh.clone(), to_model, face_part };
-    let flat = bodies.flat_faces();
-    finish(made, |model, nets| warnings(model, nets, flat, options), options, progress)
+    let told = |model: &Model, nets: &[Net]| {
+        [notes.clone(), warnings(model, nets, bodies.flat_faces(), options)].concat()
+    };
+    finish(made, told, options, progress)
 }
 
 /// A model with the surface that it stands for.

@@ -37,6 +37,14 @@ pub struct ModelArgs {
     #[arg(long, value_name = "NAME=DEGREES", value_parser = direction)]
     direction: Vec<(String, f64)>,
 
+    /// Component that may have dents, such as a bottle with --parts 1
+    ///
+    /// Its profiles follow the shape itself rather than its convex hull. It stays convex, with a
+    /// message, where that is no better, and where it is joined to others. May be given once for
+    /// each component. Example: --parts 1 --concave body
+    #[arg(long, value_name = "NAME")]
+    concave: Vec<String>,
+
     /// Edges of each component's top panel, 3 or more [default: 6]
     ///
     /// More edges follow the shape better; fewer fold faster. Example: --top-edges 8
@@ -178,6 +186,11 @@ impl ModelArgs {
             let component = options.components.entry(key).or_default();
             component.direction_rad = Some(degrees.to_radians());
         }
+        for name in &self.concave {
+            let renamed = options.components.iter().find(|(_, c)| c.rename.as_ref() == Some(name));
+            let key = renamed.map_or(name, |(key, _)| key).clone();
+            options.components.entry(key).or_default().is_concave = true;
+        }
         check_margin(&options)?;
         Ok(options)
     }
@@ -207,6 +220,7 @@ impl ModelArgs {
                 direction_rad: component.direction_deg.map(f64::to_radians),
                 top_edges: component.top_edges,
                 profile_vertices: component.profile_vertices,
+                is_concave: component.concave.unwrap_or(false),
             };
             options.components.insert(component.name.clone(), choice);
         }

@@ -9,12 +9,16 @@
 mod build;
 mod closing;
 mod ranking;
+mod refit;
 mod search;
+mod silhouette;
 mod sketch;
+mod surface_distance;
 mod way;
 
 pub use build::{Design, DesignError, Note, design, rankings};
 pub use ranking::{Ranked, Ranking, Refusal, Score, WEIGHTS, Weights, rank};
+pub use refit::{Body, Concave, RefitError, refit};
 pub use sketch::{Attachment, MOST_VERTICES, Sketch, SketchError, parse_panel};
 pub use way::{Segment, Way};
 

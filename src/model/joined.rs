@@ -54,6 +54,16 @@ impl Model {
         Self { parts: placed.into_iter().flatten().collect() }.with_support()
     }
 
+    /// The same with another component in the place of one that nothing is joined to, in axes that
+    /// `frame` maps to the mesh's.
+    #[must_use]
+    pub fn with_component(mut self, part: usize, component: Component, frame: DAffine3) -> Self {
+        let flat = DAffine3::from_translation(DVec3::Z * -component.bottom_mm());
+        let old = &self.parts[part];
+        self.parts[part] = ModelPart { component, frame, flat, ..old.clone() };
+        self
+    }
+
     /// The same with the share of each child's joint panel that lies on its parent's.
     #[must_use]
     pub(super) fn with_support(mut self) -> Self {

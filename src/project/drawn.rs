@@ -83,9 +83,10 @@ impl Component {
                     .to_owned(),
             );
         };
-        if self.direction_deg.is_some() || self.top_edges.is_some() || self.profile_vertices.is_some() {
+        let fitted = [self.top_edges, self.profile_vertices];
+        if self.direction_deg.is_some() || fitted != [None; 2] || self.concave.is_some() {
             return Err(
-                "a drawn component is as it is drawn; leave out direction, top_edges, profile_vertices"
+                "a drawn component is as it is drawn; leave out direction, top_edges, profile_vertices, concave"
                     .to_owned(),
             );
         }

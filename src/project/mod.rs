@@ -185,6 +185,8 @@ pub struct Component {
     /// Vertices of profiles.
     #[serde(default, deserialize_with = "fields::count")]
     pub profile_vertices: Option<usize>,
+    /// Whether a component of a mesh may have dents.
+    pub concave: Option<bool>,
     /// The top panel, where the component is drawn.
     #[serde(default)]
     pub top: Option<Top>,

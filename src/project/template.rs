@@ -52,6 +52,8 @@ pub struct TemplateComponent {
     pub direction_deg: f64,
     /// Whether the angle was chosen by the user; else it stands in a comment.
     pub is_chosen: bool,
+    /// Whether it may have dents.
+    pub is_concave: bool,
 }
 
 /// A project file with comments that explain each key.
@@ -125,6 +127,7 @@ thickness_mm = {thickness}
 # rename: another name, which is printed on the pieces.
 # direction: angle of the fold axis about the component's longest axis, in degrees;
 # without it the best direction is searched for.
+# concave: whether it may have dents, if it is the only component or joined to no other.
 "#,
         mesh = quoted(template.mesh),
         up = match template.up {
@@ -154,12 +157,13 @@ thickness_mm = {thickness}
     for component in template.components {
         text += &format!(
             "\n[[component]]\nname = {0}\n# rename = {0}\n{1}direction = {2:.1}\n# top_edges = {3}\n\
-             # profile_vertices = {4}\n",
+             # profile_vertices = {4}\n{5}concave = true\n",
             quoted(&component.name),
             unless(component.is_chosen),
             component.direction_deg,
             template.top_edges,
-            template.profile_vertices
+            template.profile_vertices,
+            unless(component.is_concave)
         );
     }
     text
@@ -224,6 +228,7 @@ mod tests {
             name: name.to_owned(),
             direction_deg: 12.3,
             is_chosen,
+            is_concave: is_chosen,
         };
         let components = [component("body", false), component("he\"ad", true)];
         let template = Template {
@@ -257,6 +262,7 @@ mod tests {
         assert_eq!(project.components[1].name, "he\"ad");
         assert_eq!(project.components[0].direction_deg, None);
         assert_eq!(project.components[1].direction_deg, Some(12.3));
+        assert_eq!((project.components[0].concave, project.components[1].concave), (None, Some(true)));
         let uncommented = text.replace("# direction =", "direction =").replace("# parts", "parts");
         let project = Project::parse(&uncommented.replace("# top_e", "top_e")).unwrap();
         assert_eq!(project.components[0].direction_deg, Some(12.3));
