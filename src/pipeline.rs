@@ -3,19 +3,21 @@
 mod bodies;
 mod concave;
 mod drawn;
+mod finish;
 
 pub use bodies::Bodies;
 pub use drawn::run_drawn;
 
-use crate::design::DesignError;
-use crate::fold::{FoldPlan, ModelMotion};
+use crate::design::{DesignError, ThickError};
+use crate::fold::FoldPlan;
 use crate::mesh::{Mesh, Up};
 use crate::model::{self, Model, ModelError};
-use crate::net::{Net, NetChoices, NetOptions, NetsError, develop_model};
+use crate::net::{Net, NetChoices, NetsError};
 use crate::progress::{Cancelled, Progress};
 use crate::segment::{self, Edit, EditError, Parts, SegmentError, SegmentOptions};
-use crate::sheet::{Layout, LayoutError, SheetChoices, SheetOptions};
+use crate::sheet::{Layout, LayoutError, SheetChoices};
 use crate::units::Paper;
+use finish::{Made, finish};
 use glam::DAffine3;
 use std::collections::BTreeMap;
 
@@ -51,6 +53,8 @@ pub struct Options {
     pub margin_mm: f64,
     /// Thickness of the paper, mm.
     pub thickness_mm: f64,
+    /// Whether panels are boards of that thickness, each cut by itself.
+    pub is_thick: bool,
     /// What else is chosen about nets.
     pub nets: NetChoices,
     /// What else is chosen about sheets.
@@ -74,6 +78,7 @@ impl Default for Options {
             paper: Paper::default(),
             margin_mm: 10.0,
             thickness_mm: 0.25,
+            is_thick: false,
             nets: NetChoices::default(),
             sheets: SheetChoices::default(),
         }
@@ -113,6 +118,9 @@ pub enum Error {
     /// A component failed.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// Thick panels have no room.
+    #[error(transparent)]
+    Thick(#[from] ThickError),
     /// Drawings make no model.
     #[error(transparent)]
     Design(#[from] DesignError),
@@ -264,49 +272,6 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
     finish(made, told, options, progress)
 }
 
-/// A model with the surface that it stands for.
-struct Made {
-    model: Model,
-    mesh: Mesh,
-    to_model: DAffine3,
-    face_part: Vec<Option<u32>>,
-}
-
-/// All stages after the components.
-fn finish(
-    made: Made,
-    warnings: impl Fn(&Model, &[Net]) -> Vec<Warning>,
-    options: &Options,
-    progress: &dyn Progress,
-) -> Result<Output, Error> {
-    let Made { model, mesh, to_model, face_part } = made;
-    progress.stage("folding");
-    let fold_plan = FoldPlan::new(&ModelMotion::new(&model), options.thickness_mm, progress)?;
-
-    progress.stage("nets");
-    let sheets = SheetOptions {
-        paper: options.paper,
-        margin_mm: options.margin_mm,
-        choices: options.sheets,
-        has_valleys: model.has_valleys(),
-    };
-    let net_options =
-        NetOptions { tab_width_mm: options.tab_width_mm, sheet_mm: sheets.room_mm(), choices: options.nets };
-    let nets = develop_model(&model, &net_options, progress)
-        .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
-
-    progress.stage("sheets");
-    let layout = Layout::new(&nets, &sheets, progress)?;
-
-    let mut part_faces = vec![0; model.parts().len()];
-    face_part.iter().flatten().for_each(|&p| part_faces[p as usize] += 1);
-    let mut warnings = warnings(&model, &nets);
-    let advice = fold_plan.advice(&model).into_iter();
-    warnings.extend(advice.map(|(code, message)| Warning { code, message }));
-    let options = options.clone();
-    Ok(Output { options, mesh, to_model, face_part, part_faces, model, fold_plan, nets, layout, warnings })
-}
-
 /// Divides a mesh at the model's size into parts; also gives the transform from the coordinates of
 /// the mesh as it was read.
 ///
@@ -396,7 +361,8 @@ fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Options) -> V
             );
         }
     }
-    for net in nets {
+    // Board is taped at all hinges.
+    for net in nets.iter().filter(|_| !options.is_thick) {
         out.extend(net.warnings().iter().map(|w| Warning { code: w.code(), message: w.to_string() }));
     }
     out

@@ -87,7 +87,10 @@ fn models_move_continuously() {
             let corners = model.parts().iter().zip(&pose.parts).flat_map(|(part, posed)| {
                 let panels = part.component.panels().panels().iter().enumerate();
                 let frames = panels.map(|(k, panel)| (panel, posed.panel(tatamu::component::PanelId(k))));
-                frames.flat_map(|(panel, frame)| panel.outline.iter().map(move |q| frame.transform_point3(q.extend(0.0))))
+                frames
+                    .flat_map(|(panel, frame)| {
+                        panel.outline.iter().map(move |q| frame.transform_point3(q.extend(0.0)))
+                    })
                     .collect::<Vec<_>>()
             });
             corners.collect::<Vec<_>>()

@@ -94,6 +94,7 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         paper: options.paper,
         margin_mm: options.margin_mm,
         thickness_mm: options.thickness_mm,
+        is_thick: options.is_thick,
         nets: options.nets,
         sheets: options.sheets,
         components: &components,

@@ -96,6 +96,15 @@ pub struct ModelArgs {
     /// is a warning. Card of 200 g/m² has 0.25 mm. Example: --thickness 0.4mm
     #[arg(long, value_name = "LENGTH", value_parser = parse_thickness_mm)]
     thickness: Option<f64>,
+
+    /// Panels of board as thick as --thickness, each cut by itself and hinged with tape
+    ///
+    /// The outside keeps its size: panels are shortened at their hinges, and creases are found anew
+    /// for the inner faces, so that the boards lie flat on one another. Dents are refused.
+    /// Example: --thickness 1.5mm --thick -o box.pdf -o box.stl
+    #[arg(long)]
+    thick: bool,
+
     #[command(flatten)]
     nets: NetArgs,
 
@@ -153,6 +162,7 @@ impl ModelArgs {
         set(&mut options.tab_width_mm, self.tab_width);
         set(&mut options.margin_mm, self.margin);
         set(&mut options.thickness_mm, self.thickness);
+        options.is_thick |= self.thick;
         self.nets.merge(input.project.as_ref().map(|p| &p.nets), &mut options.nets);
         self.sheets.merge(input.project.as_ref().map(|p| &p.sheets), &mut options.sheets);
         options.up = self.up.unwrap_or(options.up);
@@ -206,6 +216,7 @@ impl ModelArgs {
         set(&mut options.tab_width_mm, defaults.tab_width_mm);
         set(&mut options.margin_mm, project.paper.margin_mm);
         set(&mut options.thickness_mm, project.paper.thickness_mm);
+        options.is_thick = project.paper.thick.unwrap_or(false);
         options.tolerance_mm = defaults.tolerance_mm;
         options.up = project.up.unwrap_or(options.up);
         options.edits = project.edits.iter().map(|edit| edit.change().clone()).collect();

@@ -14,12 +14,14 @@ mod search;
 mod silhouette;
 mod sketch;
 mod surface_distance;
+mod thick;
 mod way;
 
 pub use build::{Design, DesignError, Note, design, rankings};
 pub use ranking::{Ranked, Ranking, Refusal, Score, WEIGHTS, Weights, rank};
 pub use refit::{Body, Concave, RefitError, refit};
 pub use sketch::{Attachment, MOST_VERTICES, Sketch, SketchError, parse_panel};
+pub use thick::{ThickError, board, thick};
 pub use way::{Segment, Way};
 
 #[cfg(test)]

@@ -64,6 +64,36 @@ impl Model {
         self
     }
 
+    /// The same with other components in the same places, each with the panel that every panel of
+    /// the one before has become: joint panels keep their distance.
+    #[must_use]
+    pub fn with_components(&self, components: Vec<(Component, Vec<PanelId>)>) -> Self {
+        let mut parts = self.parts.clone();
+        for (part, (component, successors)) in parts.iter_mut().zip(&components) {
+            part.component = component.clone();
+            part.flat = DAffine3::from_translation(DVec3::Z * -component.bottom_mm());
+            if let Some(joint) = &mut part.joint {
+                joint.child_panel = successors[joint.child_panel.0];
+                joint.parent_panel = components[joint.parent].1[joint.parent_panel.0];
+            }
+        }
+        let mut order: Vec<usize> = (0..parts.len()).collect();
+        let depth = |p: &usize| {
+            std::iter::successors(Some(*p), |&p| Some(self.parts[p].joint.as_ref()?.parent)).count()
+        };
+        order.sort_by_key(depth);
+        for p in order {
+            let Some(joint) = parts[p].joint.clone() else { continue };
+            let panel = |p: usize, panel: PanelId| parts[p].component.panels().panel(panel);
+            let (below, above) = (panel(joint.parent, joint.parent_panel), panel(p, joint.child_panel));
+            let parent = &parts[joint.parent];
+            let relation =
+                (parent.deployed() * below.deployed).inverse() * parts[p].deployed() * above.deployed;
+            parts[p].flat = parent.flat * below.flat * relation * above.flat.inverse();
+        }
+        Self { parts }.with_support()
+    }
+
     /// The same with the share of each child's joint panel that lies on its parent's.
     #[must_use]
     pub(super) fn with_support(mut self) -> Self {

@@ -164,6 +164,8 @@ pub struct PaperTable {
     /// Thickness, mm.
     #[serde(default, deserialize_with = "fields::thickness")]
     pub thickness_mm: Option<f64>,
+    /// Whether panels are boards of that thickness.
+    pub thick: Option<bool>,
 }
 
 /// A table `[[component]]`.

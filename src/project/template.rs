@@ -33,6 +33,8 @@ pub struct Template<'a> {
     pub margin_mm: f64,
     /// Thickness of the paper.
     pub thickness_mm: f64,
+    /// Whether panels are boards of that thickness.
+    pub is_thick: bool,
     /// What else is chosen about nets.
     pub nets: NetChoices,
     /// What else is chosen about sheets.
@@ -120,6 +122,8 @@ size = "{paper}"
 margin_mm = {margin}
 # Thickness, for the check of the folding.
 thickness_mm = {thickness}
+# Whether panels are boards of that thickness, each cut by itself and hinged with tape.
+thick = {thick}
 
 {nets}
 {sheets}
@@ -150,6 +154,7 @@ thickness_mm = {thickness}
         paper = template.paper.name(),
         margin = template.margin_mm,
         thickness = template.thickness_mm,
+        thick = template.is_thick,
         export = super::export::TEMPLATE,
         nets = nets_table(&template.nets),
         sheets = sheets_table(&template.sheets),
@@ -243,6 +248,7 @@ mod tests {
             paper: parse_paper("100x150").unwrap(),
             margin_mm: 0.0,
             thickness_mm: 0.25,
+            is_thick: true,
             nets: NetChoices { angles: true, ..NetChoices::default() },
             sheets: SheetChoices { registration: Some(Registration::Silhouette), ..SheetChoices::default() },
             segmentation: SegmentOptions { detail: 0.25, ..Default::default() },

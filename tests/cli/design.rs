@@ -24,7 +24,8 @@ fn a_drawn_box_is_made_by_design_and_by_make() {
 #[test]
 fn ways_to_fold_are_listed_best_first() {
     let folder = folder_with(&[("a.toml", BOX.as_bytes())]);
-    let result = run(folder.path(), &["design", "a.toml", "--list-configurations", "--min-panel-width", "2mm"]);
+    let result =
+        run(folder.path(), &["design", "a.toml", "--list-configurations", "--min-panel-width", "2mm"]);
     assert_eq!(result.code, Some(0), "{}", result.err);
     let ways: Vec<&str> = result.out.lines().skip(2).filter_map(|l| l.split_whitespace().next()).collect();
     assert_eq!(ways, ["^d", "ud"]);
