@@ -160,7 +160,7 @@ fn offset(corners: &[DVec2], by_mm: f64) -> Option<Vec<DVec2>> {
         let outward = (w[1] - w[0]).normalize_or_zero().perp();
         lines.push((outward, outward.dot(w[0]) - by_mm));
     }
-    lines.push((-DVec2::Y, by_mm - corners[last].y));
+    lines.push((-DVec2::Y, -corners[last].y - by_mm));
     let meet = |(a, c): (DVec2, f64), (b, d): (DVec2, f64)| {
         DVec2::new(c * b.y - d * a.y, a.x * d - b.x * c) / a.perp_dot(b)
     };
