@@ -46,8 +46,8 @@ impl Figures {
             SheetOptions { choices: options.sheets, ..SheetOptions::new(options.paper, options.margin_mm) };
         let start = Instant::now();
         let net_options = NetOptions::new(options.tab_width_mm, sheets.room_mm());
-        let nets = develop_model(output.model(), &net_options, &Silent)?;
-        let layout = Layout::new(&nets, &sheets, &Silent)?;
+        let alternatives = develop_model(output.model(), &net_options, &Silent)?;
+        let (layout, nets) = Layout::of_alternatives(&alternatives, &sheets, &Silent)?;
         let seconds = start.elapsed().as_secs_f64();
         let pieces: Vec<&Piece> = nets.iter().flat_map(Net::pieces).collect();
         Ok(Self {

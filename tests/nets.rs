@@ -6,11 +6,13 @@ use glam::{DAffine2, DAffine3, DVec2, DVec3};
 use proptest::prelude::*;
 use support::Prism;
 use tatamu::check;
-use tatamu::component::{PanelId, PanelSet};
+use tatamu::component::{HingeId, PanelId, PanelSet};
 use tatamu::drawing::{Layer, Polyline, Rgb, Shape, Stroke};
 use tatamu::export::fold::{self, FoldComponent, FoldModel};
 use tatamu::geom::polygon;
-use tatamu::net::{EdgeKind, JointMark, Naming, Net, NetError, NetOptions, Side, check::faults, develop};
+use tatamu::net::{
+    EdgeKind, JointMark, Naming, Net, NetError, NetOptions, Side, alternatives, check::faults, develop,
+};
 use tatamu::sheet::PiecePlace;
 
 const A4: DVec2 = DVec2::new(190.0, 277.0);
@@ -40,6 +42,11 @@ fn master(set: &PanelSet, net: &Net) -> Vec<u8> {
     };
     let model = FoldModel { title: "test", components: &[component], sheet_offsets: &offsets };
     fold::write(&model).expect("plain data can be written")
+}
+
+/// Which hinges are cut, for each.
+fn cuts(net: &Net, set: &PanelSet) -> Vec<bool> {
+    (0..set.hinges().len()).map(|h| net.label(HingeId(h)).is_some()).collect()
 }
 
 fn assert_good(set: &PanelSet, net: &Net, sheet_mm: DVec2) {
@@ -103,6 +110,21 @@ proptest! {
                 Err(NetError::PanelTooLarge { scale, .. }) => prop_assert!(scale < 1.0 && sheet != HUGE),
                 Err(other) => prop_assert!(false, "{other}"),
             }
+        }
+    }
+
+    #[test]
+    fn alternatives_are_as_good_and_differ(prism in prism()) {
+        prop_assume!(prism.least_measure() >= 3.0);
+        let set = prism.panel_set();
+        let naming = Naming { name: "body", prefix: "A" };
+        let nets = alternatives(&set, naming, &[], &NetOptions::new(6.0, A4)).expect("nets");
+        let first = net_of(&set, A4).expect("a net");
+        prop_assert_eq!(cuts(&nets[0], &set), cuts(&first, &set));
+        for (k, net) in nets.iter().enumerate() {
+            assert_good(&set, net, A4);
+            prop_assert_eq!(net.pieces().len(), first.pieces().len());
+            prop_assert!(nets[..k].iter().all(|other| cuts(other, &set) != cuts(net, &set)));
         }
     }
 }

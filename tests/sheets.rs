@@ -6,7 +6,7 @@ use geo::{Area, BooleanOps, BoundingRect, Contains, Intersects};
 use glam::{DAffine2, DVec2};
 use support::Prism;
 use tatamu::drawing::{Drawing, Layer, LineStyles, Mark, Shape, Text, text};
-use tatamu::net::{LabelKind, Naming, Net, NetOptions, Side, check::faults, develop};
+use tatamu::net::{LabelKind, Naming, Net, NetOptions, Side, alternatives, check::faults};
 use tatamu::progress::Silent;
 use tatamu::sheet::fit::Rotation;
 use tatamu::sheet::{Calibration, Layout, Registration, SheetOptions};
@@ -53,10 +53,10 @@ impl Made {
             let letter = char::from(b'A' + k as u8).to_string();
             let name = format!("part-{k}");
             let naming = Naming { name: &name, prefix: &letter };
-            develop(&prism.panel_set(), naming, &[], &options).expect("a net")
+            alternatives(&prism.panel_set(), naming, &[], &options).expect("nets")
         };
-        let nets: Vec<Net> = prisms.iter().enumerate().map(net).collect();
-        let layout = Layout::new(&nets, sheets, &Silent).expect("a layout");
+        let nets: Vec<Vec<Net>> = prisms.iter().enumerate().map(net).collect();
+        let (layout, nets) = Layout::of_alternatives(&nets, sheets, &Silent).expect("a layout");
         Self { nets, layout }
     }
 

@@ -19,12 +19,13 @@ mod progress;
 mod segment;
 mod segment_args;
 mod sheet_args;
+mod shell;
 mod show;
 mod terminal;
 #[cfg(unix)]
 mod virtual_plotter;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use error::CliError;
 use std::process::ExitCode;
 
@@ -56,6 +57,8 @@ enum Command {
     Profiles(cutters::ProfilesArgs),
     #[cfg(unix)]
     VirtualPlotter(virtual_plotter::VirtualPlotterArgs),
+    Completions(shell::CompletionsArgs),
+    Man(shell::ManArgs),
 }
 
 const EXAMPLES: &str = "\
@@ -92,6 +95,11 @@ pub fn run() -> ExitCode {
             formats::run(args);
             Ok(ExitCode::SUCCESS)
         }
+        Command::Completions(args) => {
+            shell::completions(args, Cli::command());
+            Ok(ExitCode::SUCCESS)
+        }
+        Command::Man(args) => shell::man(args, Cli::command()).map(|()| ExitCode::SUCCESS),
     };
     match result {
         Ok(code) => code,
@@ -109,7 +117,6 @@ pub fn run() -> ExitCode {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use clap::CommandFactory;
 
     #[test]
     fn the_definition_is_consistent() {

@@ -14,7 +14,7 @@ use glam::{DAffine2, DVec2};
 
 /// Nodes visited for one choice of the uncut chain.
 const NODE_BUDGET: usize = 20_000;
-/// Best results that are kept to be tried with tabs.
+/// Best results that are kept to be tried with tabs, for one choice of the uncut chain.
 const KEEP: usize = 16;
 /// Weight of the bounding box (over the panels' area) against the cost of one cut. On five scanned
 /// figures 0.3, 1.2, 3, 6 and 15 gave 20, 19, 18, 18 and 18 sheets, with the same number of tabs.
@@ -51,24 +51,34 @@ impl Problem<'_> {
 
     /// Cut sets that leave two pieces, one round the top panel and one round the bottom panel.
     pub(crate) fn two_pieces(&self) -> Vec<Candidate> {
-        let mut best = Vec::new();
-        Mode::new(self, None, false).search(&mut best);
-        best
+        self.searched(None, false)
     }
 
     /// Cut sets in which chains may also be cut twice, so that their middle is a piece apart.
     pub(crate) fn with_strips(&self) -> Vec<Candidate> {
-        let mut best = self.with_one_uncut(true);
-        Mode::new(self, None, true).search(&mut best);
-        best
+        let mut all = self.with_one_uncut(true);
+        all.extend(self.searched(None, true));
+        all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        all
     }
 
     fn with_one_uncut(&self, has_strips: bool) -> Vec<Candidate> {
+        let found = (0..self.chains.chains.len()).flat_map(|uncut| self.searched(Some(uncut), has_strips));
+        let mut all: Vec<Candidate> = found.collect();
+        all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        all
+    }
+
+    fn searched(&self, uncut: Option<usize>, has_strips: bool) -> Vec<Candidate> {
         let mut best = Vec::new();
-        for uncut in 0..self.chains.chains.len() {
-            Mode::new(self, Some(uncut), has_strips).search(&mut best);
-        }
+        Mode::new(self, uncut, has_strips).search(&mut best);
         best
+    }
+
+    /// Number of chains that two candidates cut in different places.
+    pub(crate) fn chains_apart(&self, a: &Candidate, b: &Candidate) -> usize {
+        let differs = |chain: &&Chain| chain.hinges.iter().any(|h| a.is_cut[h.0] != b.is_cut[h.0]);
+        self.chains.chains.iter().filter(differs).count()
     }
 
     fn chain(&self, j: usize) -> &Chain {

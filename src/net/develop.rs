@@ -22,6 +22,13 @@ const FOLD_COST: f64 = 30.0;
 /// Cost of a hinge that has no room for a useful tab.
 const NO_TAB_COST: f64 = 10.0;
 
+/// Most alternatives to a net.
+const ALTERNATIVES: usize = 5;
+/// What alternatives may cost more than the best net, where a cut costs 1.
+const ALLOWANCE: f64 = 6.0;
+/// They cut so many chains elsewhere, at least.
+const APART: usize = 2;
+
 /// Why a component has no net.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum NetError {
@@ -113,11 +120,31 @@ pub fn develop(
     joints: &[JointMark],
     options: &NetOptions,
 ) -> Result<Net, NetError> {
+    let (split, mut drafts) = drafts(set, naming.name, options)?;
+    Ok(finish(split, drafts.swap_remove(0), naming, joints, options))
+}
+
+/// The net of [`develop`], then others that are nearly as good, have as many pieces and are cut
+/// elsewhere: one of them may need less paper among the pieces of other components.
+///
+/// # Errors
+/// As [`develop`].
+pub fn alternatives(
+    set: &PanelSet,
+    naming: Naming<'_>,
+    joints: &[JointMark],
+    options: &NetOptions,
+) -> Result<Vec<Net>, NetError> {
+    let (split, drafts) = drafts(set, naming.name, options)?;
+    Ok(drafts.into_iter().map(|draft| finish(split.clone(), draft, naming, joints, options)).collect())
+}
+
+/// The best draft and alternatives to it, at least one in all.
+fn drafts(set: &PanelSet, name: &str, options: &NetOptions) -> Result<(Split, Vec<Draft>), NetError> {
     let chains = Chains::of(set)?;
-    let Err(error) = check_panels(set, naming.name, options.sheet_mm) else {
+    let Err(error) = check_panels(set, name, options.sheet_mm) else {
         let source = (0..set.panels().len()).map(PanelId).collect();
-        let draft = draft_of_chains(set, &chains, options);
-        return Ok(finish(Split { set: set.clone(), source }, draft, naming, joints, options));
+        return Ok((Split { set: set.clone(), source }, drafts_of_chains(set, &chains, options)));
     };
     let split =
         if options.choices.may_split { split(set, options.sheet_mm, options.tab_width_mm) } else { None };
@@ -126,16 +153,16 @@ pub fn develop(
     let cut_cost = cut_costs(&split.set, &shapes, options.tab_width_mm);
     let is_cut = grow(&split.set, &cut_cost, options.sheet_mm, options.tab_width_mm);
     let draft = with_tabs(&split.set, is_cut, options.sheet_mm, &cut_cost, &shapes);
-    Ok(finish(split, draft, naming, joints, options))
+    Ok((split, vec![draft]))
 }
 
-fn draft_of_chains(set: &PanelSet, chains: &Chains, options: &NetOptions) -> Draft {
+fn drafts_of_chains(set: &PanelSet, chains: &Chains, options: &NetOptions) -> Vec<Draft> {
     let shapes = tabs::shapes(set, options.tab_width_mm);
     if options.choices.is_separate {
         let is_cut = vec![true; set.hinges().len()];
         let (layouts, cut) = (layout::pieces(set, &is_cut), cut_hinges(&is_cut));
         let tapes = glue::tapes(&cut, &[], &shapes);
-        return Draft { layouts, cut, tabs: Vec::new(), tapes };
+        return vec![Draft { layouts, cut, tabs: Vec::new(), tapes }];
     }
     let cut_cost = cut_costs(set, &shapes, options.tab_width_mm);
     let problem = |may_cut_folds| Problem {
@@ -151,9 +178,10 @@ fn draft_of_chains(set: &PanelSet, chains: &Chains, options: &NetOptions) -> Dra
         .find_map(|problem| {
             [Problem::one_piece, Problem::two_pieces, Problem::with_strips]
                 .iter()
-                .find_map(|search| best_draft(&problem, search(&problem), &shapes, options))
+                .map(|search| best_drafts(&problem, &search(&problem), &shapes, options))
+                .find(|drafts| !drafts.is_empty())
         })
-        .unwrap_or_else(|| last_resort(&problem(true), &shapes))
+        .unwrap_or_else(|| vec![last_resort(&problem(true), &shapes)])
 }
 
 /// Cuts, layouts and tabs, before texts.
@@ -194,29 +222,59 @@ fn cut_costs(set: &PanelSet, shapes: &[Shapes], tab_width_mm: f64) -> Vec<f64> {
     set.hinges().iter().enumerate().map(cost).collect()
 }
 
-/// The best of the candidates that has room for all its tabs; narrow tabs count against it.
-fn best_draft(
+/// The best of the candidates that has room for all its tabs, and alternatives to it. Narrow tabs
+/// count against a draft.
+fn best_drafts(
     problem: &Problem<'_>,
-    candidates: Vec<Candidate>,
+    candidates: &[Candidate],
     shapes: &[Shapes],
     options: &NetOptions,
-) -> Option<Draft> {
-    let mut best: Option<(f64, Draft)> = None;
+) -> Vec<Draft> {
+    let mut best: Option<(f64, &Candidate, Draft)> = None;
     for candidate in candidates {
         if best.as_ref().is_some_and(|b| b.0 <= candidate.cost) {
             break;
         }
-        let layouts = layout::pieces(problem.set, &candidate.is_cut);
-        let cut = cut_hinges(&candidate.is_cut);
-        let placed = tabs::place(problem.set, &layouts, options.sheet_mm, shapes, &cut, USEFUL_WIDTH_MM);
-        let Ok(tabs) = placed else { continue };
-        let lack = |t: &Placed| 1.0 - t.width_mm() / tabs::widest(&shapes[t.hinge.0]);
-        let cost = candidate.cost + tabs.iter().map(lack).sum::<f64>();
-        if best.as_ref().is_none_or(|b| cost < b.0) {
-            best = Some((cost, Draft { layouts, cut, tabs, tapes: Vec::new() }));
+        if let Some((cost, draft)) = draft(problem, candidate, shapes, options)
+            && best.as_ref().is_none_or(|b| cost < b.0)
+        {
+            best = Some((cost, candidate, draft));
         }
     }
-    best.map(|b| b.1)
+    let Some((least, first, draft_of_first)) = best else { return Vec::new() };
+    let mut taken = vec![first];
+    let mut drafts = vec![draft_of_first];
+    for candidate in candidates.iter().take_while(|c| c.cost <= least + ALLOWANCE) {
+        if drafts.len() > ALTERNATIVES {
+            break;
+        }
+        if taken.iter().any(|t| problem.chains_apart(t, candidate) < APART) {
+            continue;
+        }
+        if let Some((cost, draft)) = draft(problem, candidate, shapes, options)
+            && cost <= least + ALLOWANCE
+            && draft.layouts.len() == drafts[0].layouts.len()
+        {
+            taken.push(candidate);
+            drafts.push(draft);
+        }
+    }
+    drafts
+}
+
+/// A candidate with its tabs, and its cost with what they lack.
+fn draft(
+    problem: &Problem<'_>,
+    candidate: &Candidate,
+    shapes: &[Shapes],
+    options: &NetOptions,
+) -> Option<(f64, Draft)> {
+    let layouts = layout::pieces(problem.set, &candidate.is_cut);
+    let cut = cut_hinges(&candidate.is_cut);
+    let tabs = tabs::place(problem.set, &layouts, options.sheet_mm, shapes, &cut, USEFUL_WIDTH_MM).ok()?;
+    let lack = |t: &Placed| 1.0 - t.width_mm() / tabs::widest(&shapes[t.hinge.0]);
+    let cost = candidate.cost + tabs.iter().map(lack).sum::<f64>();
+    Some((cost, Draft { layouts, cut, tabs, tapes: Vec::new() }))
 }
 
 /// Cuts every chain at its fold hinge, or where the best two pieces are cut whatever their size,

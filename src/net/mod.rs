@@ -26,7 +26,7 @@ mod of_model;
 mod split;
 mod tabs;
 
-pub use develop::{Naming, NetChoices, NetError, NetOptions, develop};
+pub use develop::{Naming, NetChoices, NetError, NetOptions, alternatives, develop};
 pub use marks::Side;
 pub use mesh::{Corner, Edge, EdgeKind, Face, FaceKind, PieceMesh, Vertex};
 pub use of_model::{NetsError, develop_model};

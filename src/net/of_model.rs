@@ -1,6 +1,6 @@
 //! Nets of all components of a model, with the marks of its joints.
 
-use super::{JointMark, Naming, Net, NetError, NetOptions, develop};
+use super::{JointMark, Naming, Net, NetError, NetOptions, alternatives};
 use crate::component::PanelId;
 use crate::geom::polygon;
 use crate::model::Model;
@@ -19,7 +19,7 @@ pub enum NetsError {
     Cancelled(#[from] Cancelled),
 }
 
-/// The net of every component, in the model's order.
+/// The net of every component with its alternatives ([`alternatives`]), in the model's order.
 ///
 /// # Errors
 /// The first component's error; of panels that are too large, the one that is the most so.
@@ -27,17 +27,17 @@ pub fn develop_model(
     model: &Model,
     options: &NetOptions,
     progress: &dyn Progress,
-) -> Result<Vec<Net>, NetsError> {
-    let nets: Vec<Result<Net, NetsError>> = (0..model.parts().len())
+) -> Result<Vec<Vec<Net>>, NetsError> {
+    let nets: Vec<Result<Vec<Net>, NetsError>> = (0..model.parts().len())
         .into_par_iter()
         .map(|p| {
             progress.check()?;
             let part = &model.parts()[p];
             let naming = Naming { name: &part.name, prefix: &prefix(p) };
-            Ok(develop(part.component.panels(), naming, &joint_marks(model, p), options)?)
+            Ok(alternatives(part.component.panels(), naming, &joint_marks(model, p), options)?)
         })
         .collect();
-    let scale = |net: &Result<Net, NetsError>| match net {
+    let scale = |net: &Result<Vec<Net>, NetsError>| match net {
         Err(NetsError::Net(NetError::PanelTooLarge { scale, .. })) => *scale,
         _ => f64::INFINITY,
     };

@@ -41,11 +41,11 @@ pub(super) fn finish(
     };
     let choices = NetChoices { is_separate: options.is_thick, ..options.nets };
     let net_options = NetOptions { tab_width_mm: options.tab_width_mm, sheet_mm: sheets.room_mm(), choices };
-    let nets = develop_model(&model, &net_options, progress)
+    let alternatives = develop_model(&model, &net_options, progress)
         .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
 
     progress.stage("sheets");
-    let layout = Layout::new(&nets, &sheets, progress)?;
+    let (layout, nets) = Layout::of_alternatives(&alternatives, &sheets, progress)?;
 
     let mut part_faces = vec![0; model.parts().len()];
     face_part.iter().flatten().for_each(|&p| part_faces[p as usize] += 1);

@@ -1,7 +1,7 @@
 //! Pieces on their sheets.
 
 use super::SheetOptions;
-use super::nest::{NestError, Shape, nest};
+use super::nest::{NestError, Placement, Shape, nest_alternatives};
 use crate::geom::polygon;
 use crate::net::Net;
 use crate::progress::Progress;
@@ -51,6 +51,30 @@ impl Layout {
     /// # Errors
     /// See [`LayoutError`].
     pub fn new(nets: &[Net], options: &SheetOptions, progress: &dyn Progress) -> Result<Self, LayoutError> {
+        let alternatives: Vec<&[Net]> = nets.iter().map(std::slice::from_ref).collect();
+        Ok(Self::nested(&alternatives, options, progress)?.0)
+    }
+
+    /// Nests the pieces of one net of each list, which are alternatives with as many pieces, the
+    /// best first; also gives the nets that were taken.
+    ///
+    /// # Errors
+    /// See [`LayoutError`].
+    pub fn of_alternatives(
+        nets: &[Vec<Net>],
+        options: &SheetOptions,
+        progress: &dyn Progress,
+    ) -> Result<(Self, Vec<Net>), LayoutError> {
+        let alternatives: Vec<&[Net]> = nets.iter().map(Vec::as_slice).collect();
+        let (layout, taken) = Self::nested(&alternatives, options, progress)?;
+        Ok((layout, taken.into_iter().cloned().collect()))
+    }
+
+    fn nested<'n>(
+        nets: &[&'n [Net]],
+        options: &SheetOptions,
+        progress: &dyn Progress,
+    ) -> Result<(Self, Vec<&'n Net>), LayoutError> {
         let room = options.room_mm();
         if room.min_element() <= 0.0 {
             let size = options.size_mm();
@@ -60,19 +84,24 @@ impl Layout {
                 margin_mm: options.border_mm(),
             });
         }
-        let pieces = || nets.iter().enumerate().flat_map(|(n, net)| net.pieces().iter().map(move |p| (n, p)));
-        let shapes: Vec<Shape> = pieces().filter_map(|(n, p)| Shape::new(p.outline().to_vec(), n)).collect();
-        debug_assert_eq!(shapes.len(), pieces().count(), "every piece has an area");
-        let placements = nest(&shapes, &options.nesting(), progress)?;
-        let mut places = vec![Vec::new(); nets.len()];
-        for ((n, _), placement) in pieces().zip(&placements) {
-            let place = DAffine2::from_translation(options.origin_mm()) * placement.motion();
-            places[n].push(PiecePlace { sheet: placement.sheet, place });
-        }
-        let sheets = placements.iter().map(|p| p.sheet + 1).max().unwrap_or(0);
-        let area: f64 = shapes.iter().map(|s| polygon::area(s.outline())).sum();
+        let groups: Vec<Vec<Vec<Shape>>> = nets
+            .iter()
+            .enumerate()
+            .map(|(n, nets)| nets.iter().map(|net| shapes(net, n)).collect())
+            .collect();
+        let placed = nest_alternatives(&groups, &options.nesting(), progress)?;
+        let place = |p: &Placement| PiecePlace {
+            sheet: p.sheet,
+            place: DAffine2::from_translation(options.origin_mm()) * p.motion(),
+        };
+        let places: Vec<Vec<PiecePlace>> =
+            placed.iter().map(|(_, placements)| placements.iter().map(place).collect()).collect();
+        let sheets = places.iter().flatten().map(|p| p.sheet + 1).max().unwrap_or(0);
+        let taken: Vec<&Net> = nets.iter().zip(&placed).map(|(nets, (chosen, _))| &nets[*chosen]).collect();
+        let pieces = taken.iter().flat_map(|net| net.pieces());
+        let area: f64 = pieces.map(|p| polygon::area(p.outline())).sum();
         let utilisation = area / (room.x * room.y * sheets.max(1) as f64);
-        Ok(Self { options: *options, places, sheets, utilisation })
+        Ok((Self { options: *options, places, sheets, utilisation }, taken))
     }
 
     /// Places of the pieces of net `n`, in the net's order.
@@ -94,4 +123,12 @@ impl Layout {
     pub fn utilisation(&self) -> f64 {
         self.utilisation
     }
+}
+
+/// The pieces of net `n` as the nesting sees them.
+fn shapes(net: &Net, n: usize) -> Vec<Shape> {
+    let shapes: Vec<Shape> =
+        net.pieces().iter().filter_map(|p| Shape::new(p.outline().to_vec(), n)).collect();
+    debug_assert_eq!(shapes.len(), net.pieces().len(), "every piece has an area");
+    shapes
 }

@@ -14,6 +14,7 @@
 
 mod bits;
 mod check;
+mod item;
 mod occupancy;
 mod raster;
 mod search;
@@ -26,10 +27,9 @@ use super::fit::{self, Rotation};
 use crate::geom::polygon;
 use crate::progress::{Cancelled, Progress};
 use glam::{DAffine2, DVec2};
-use occupancy::Pose;
+use item::Item;
 use raster::Grid;
 use rayon::prelude::*;
-use search::Item;
 use std::f64::consts::FRAC_PI_2;
 
 /// The outline of one piece.
@@ -78,8 +78,8 @@ pub struct NestOptions {
     pub effort: usize,
 }
 
-/// 25 orders of 60 pieces, 150 of 10.
-pub const DEFAULT_EFFORT: usize = 1500;
+/// 50 orders of 60 pieces, 300 of 10. With half of it an armadillo of 14 components took a sheet more.
+pub const DEFAULT_EFFORT: usize = 3000;
 /// Scissors pass between pieces.
 pub const DEFAULT_SPACING_MM: f64 = 2.0;
 
@@ -169,24 +169,65 @@ pub fn nest(
     options: &NestOptions,
     progress: &dyn Progress,
 ) -> Result<Vec<Placement>, NestError> {
+    let items = pieces.iter().map(|piece| vec![piece]).collect();
+    Ok(nest_items(items, options, progress)?.1)
+}
+
+/// As [`nest`], of groups that may be cut in several ways: `groups[g][a]` are the pieces of group g
+/// in its alternative a, each with as many. Gives the alternative of each group, the first where
+/// others save no sheet, and the placements of its pieces.
+///
+/// # Errors
+/// As [`nest`]; of first alternatives. Others that fit no sheet are not used.
+pub fn nest_alternatives(
+    groups: &[Vec<Vec<Shape>>],
+    options: &NestOptions,
+    progress: &dyn Progress,
+) -> Result<Vec<(usize, Vec<Placement>)>, NestError> {
+    let count = |group: &[Vec<Shape>]| group.first().map_or(0, Vec::len);
+    let items = groups.iter().flat_map(|group| {
+        (0..count(group)).map(|piece| group.iter().filter_map(|shapes| shapes.get(piece)).collect())
+    });
+    let (chosen, placements) = nest_items(items.collect(), options, progress)?;
+    let mut rest = placements.into_iter();
+    let of_group = |group: &Vec<Vec<Shape>>| -> Vec<Placement> { rest.by_ref().take(count(group)).collect() };
+    let placements: Vec<Vec<Placement>> = groups.iter().map(of_group).collect();
+    let number = |g: usize| {
+        let shape = groups[g].iter().flatten().next();
+        shape.and_then(|s| chosen.get(s.group).copied()).unwrap_or(0)
+    };
+    Ok(placements.into_iter().enumerate().map(|(g, placed)| (number(g), placed)).collect())
+}
+
+/// Alternative of each group by its number, and a placement for each item, which is given as one
+/// shape for each alternative of its group.
+fn nest_items(
+    items: Vec<Vec<&Shape>>,
+    options: &NestOptions,
+    progress: &dyn Progress,
+) -> Result<(Vec<usize>, Vec<Placement>), NestError> {
     options.check()?;
     let frame = Frame::new(options);
     // Collected before the first error is taken, so that which piece is named depends on no thread.
-    let items: Vec<Result<Item, NestError>> =
-        pieces.par_iter().enumerate().map(|(index, piece)| frame.item(index, piece, options)).collect();
+    let items: Vec<Result<Item, NestError>> = items
+        .into_par_iter()
+        .enumerate()
+        .map(|(index, shapes)| frame.item(index, &shapes, options))
+        .collect();
     let items = items.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let orders = options.effort / pieces.len().max(1);
-    let sheets = search::search(&items, &frame.grid, orders, progress)?;
-    let mut placements = vec![None; pieces.len()];
-    for (sheet, placed) in sheets.iter().enumerate() {
+    let orders = options.effort / items.len().max(1);
+    let found = search::search(&items, &frame.grid, orders, progress)?;
+    let mut placements = vec![None; items.len()];
+    for (sheet, placed) in found.sheets.iter().enumerate() {
         for p in placed {
-            let pose = &items[p.item].poses[p.pose];
+            let item = &items[p.item];
+            let pose = item.alternative(found.chosen[item.group()]).pose(p.pose);
             let cell = DVec2::new(p.spot.column as f64, p.spot.row as f64);
             let at = pose.origin + cell * frame.grid.cell_mm;
             placements[p.item] = Some(frame.placement(sheet, pose.angle_rad, at));
         }
     }
-    Ok(placements.into_iter().flatten().collect())
+    Ok((found.chosen, placements.into_iter().flatten().collect()))
 }
 
 /// The usable area in portrait format, which the search works in.
@@ -205,25 +246,20 @@ impl Frame {
         }
     }
 
-    fn item(&self, index: usize, piece: &Shape, options: &NestOptions) -> Result<Item, NestError> {
-        let DVec2 { x, y } = self.grid.sheet_mm;
-        let best = fit::best_fit(&piece.outline, x, y, options.rotation);
-        let (least_angle, least) = fit::least_rectangle(&piece.outline);
-        let mut poses = Vec::new();
-        for angle in angles(&piece.outline, &[best.angle_rad, least_angle], options.rotation) {
-            if fit::is_within(fit::extent(&piece.outline, angle), x, y) {
-                poses.push(Pose::new(&piece.outline, angle, options.spacing_mm, &self.grid));
-            }
+    fn item<'a>(
+        &'a self,
+        index: usize,
+        shapes: &[&'a Shape],
+        options: &NestOptions,
+    ) -> Result<Item<'a>, NestError> {
+        let item = Item::new(shapes, options.rotation, options.spacing_mm, &self.grid);
+        if item.alternative(0).is_empty() {
+            let DVec2 { x, y } = self.grid.sheet_mm;
+            let (_, least) = fit::least_rectangle(&shapes[0].outline);
+            let scale = fit::best_fit(&shapes[0].outline, x, y, options.rotation).scale;
+            return Err(NestError::TooLarge { index, long_mm: least.x, short_mm: least.y, scale });
         }
-        if poses.is_empty() {
-            return Err(NestError::TooLarge {
-                index,
-                long_mm: least.x,
-                short_mm: least.y,
-                scale: best.scale,
-            });
-        }
-        Ok(Item { poses, group: piece.group, area_mm2: polygon::area(&piece.outline), longest_mm: least.x })
+        Ok(item)
     }
 
     fn placement(&self, sheet: usize, angle_rad: f64, at: DVec2) -> Placement {
@@ -236,40 +272,4 @@ impl Frame {
             },
         }
     }
-}
-
-/// Edges of the hull that a piece is laid on, beside the special angles.
-const EDGES: usize = 5;
-
-/// Angles in steps of a right angle by this number, tried beside those.
-const STEPS: usize = 18;
-
-/// Angles nearer than this are tried once.
-const SAME_RAD: f64 = 0.02;
-
-/// Angles worth trying: those given, and those that bring a long edge of the hull parallel to
-/// the sheet's sides; each with its quarter turns.
-fn angles(outline: &[DVec2], special: &[f64], rotation: Rotation) -> Vec<f64> {
-    let mut base: Vec<f64> = Vec::new();
-    if rotation == Rotation::Free {
-        let hull = polygon::convex_hull(outline);
-        let mut edges: Vec<DVec2> = polygon::edges(&hull).map(|(a, b)| b - a).collect();
-        edges.sort_by(|a, b| b.length().total_cmp(&a.length()));
-        let along_edges = edges.iter().map(|e| -e.to_angle());
-        for angle in special.iter().copied().chain(along_edges) {
-            let angle = angle.rem_euclid(FRAC_PI_2);
-            let apart = |other: &f64| {
-                let gap = (angle - other).abs();
-                gap.min(FRAC_PI_2 - gap) > SAME_RAD
-            };
-            if base.len() < special.len() + EDGES && base.iter().all(apart) {
-                base.push(angle);
-            }
-        }
-        base.extend((0..STEPS).map(|k| FRAC_PI_2 * (k as f64 + 0.5) / STEPS as f64));
-    } else {
-        base.push(0.0);
-    }
-    let turns = |angle: f64| (0..4).map(move |k| angle + f64::from(k) * FRAC_PI_2);
-    base.into_iter().flat_map(turns).collect()
 }

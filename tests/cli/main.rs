@@ -12,6 +12,7 @@ mod profiles;
 mod project;
 mod refusals;
 mod segment;
+mod shell;
 
 use std::path::Path;
 use tempfile::TempDir;

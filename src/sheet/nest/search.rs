@@ -1,7 +1,8 @@
 //! The order in which pieces are put on sheets: the first sheet with room takes a piece; several
 //! orders are tried, and the best of them are varied.
 
-use super::occupancy::{Occupancy, Pose, Spot};
+use super::item::{Alternative, Item};
+use super::occupancy::{Occupancy, Spot};
 use super::raster::Grid;
 use crate::progress::{Cancelled, Progress};
 use glam::DVec2;
@@ -23,15 +24,6 @@ const POOL: usize = 4;
 /// Any number does, as long as it stays.
 const SEED: u64 = 0x7461_7461_6d75;
 
-/// A piece with all poses that fit an empty sheet, at least one.
-#[derive(Debug)]
-pub(super) struct Item {
-    pub poses: Vec<Pose>,
-    pub group: usize,
-    pub area_mm2: f64,
-    pub longest_mm: f64,
-}
-
 /// A piece at its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Placed {
@@ -51,6 +43,8 @@ struct Plan {
     lean: f64,
     /// Chooses the poses that are tried; the common ones for 0.
     poses: u64,
+    /// Alternative of each group.
+    chosen: Vec<usize>,
 }
 
 /// What came out of a plan.
@@ -59,6 +53,8 @@ struct Layout {
     plan: Plan,
     /// Sheets in their final order.
     sheets: Vec<Vec<Placed>>,
+    /// Groups that are not in their first alternative.
+    replaced: usize,
     /// Sum over groups of last sheet − first sheet.
     spread: usize,
     /// Sum of the squared used areas: large where some sheets hold much and another is nearly
@@ -69,18 +65,19 @@ struct Layout {
 impl Layout {
     fn new(plan: Plan, mut sheets: Vec<Vec<Placed>>, items: &[Item]) -> Self {
         let mean_group = |sheet: &Vec<Placed>| {
-            let sum: usize = sheet.iter().map(|p| items[p.item].group).sum();
+            let sum: usize = sheet.iter().map(|p| items[p.item].group()).sum();
             sum as f64 / sheet.len() as f64
         };
         sheets.sort_by(|a, b| mean_group(a).total_cmp(&mean_group(b)));
         let mut range: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
         for (k, sheet) in sheets.iter().enumerate() {
             for placed in sheet {
-                range.entry(items[placed.item].group).or_insert((k, k)).1 = k;
+                range.entry(items[placed.item].group()).or_insert((k, k)).1 = k;
             }
         }
         let used = sheets.iter().map(|s| area_mm2(s, items));
         Self {
+            replaced: plan.chosen.iter().filter(|&&c| c > 0).count(),
             plan,
             spread: range.values().map(|(first, last)| last - first).sum(),
             fullness: used.map(|a| a * a).sum(),
@@ -94,16 +91,27 @@ impl Layout {
         count.then(other.fullness.total_cmp(&self.fullness))
     }
 
-    /// The better result: fewer sheets, then groups together.
+    /// The better result: fewer sheets, then groups as they are best cut, then groups together.
     fn merit(&self, other: &Self) -> Ordering {
         let count = self.sheets.len().cmp(&other.sheets.len());
+        let best_cut = self.replaced.cmp(&other.replaced);
         let together = self.spread.cmp(&other.spread);
-        count.then(together).then(self.promise(other))
+        count.then(best_cut).then(together).then(self.promise(other))
     }
 }
 
 fn area_mm2(sheet: &[Placed], items: &[Item]) -> f64 {
-    sheet.iter().map(|p| items[p.item].area_mm2).sum()
+    sheet.iter().map(|p| items[p.item].area_mm2()).sum()
+}
+
+/// Pieces that fill more of their sheets than this are not to be had.
+const DENSEST: f64 = 0.8;
+
+/// The best layout that was found.
+pub(super) struct Found {
+    /// Alternative of each group.
+    pub chosen: Vec<usize>,
+    pub sheets: Vec<Vec<Placed>>,
 }
 
 /// Tries the standard orders, then `orders` varied ones, and gives the sheets of the best. Stops
@@ -113,11 +121,12 @@ pub(super) fn search(
     grid: &Grid,
     orders: usize,
     progress: &dyn Progress,
-) -> Result<Vec<Vec<Placed>>, Cancelled> {
+) -> Result<Found, Cancelled> {
     let mut rng = fastrand::Rng::with_seed(SEED);
-    let area: f64 = items.iter().map(|i| i.area_mm2).sum();
-    let fewest = (area / grid.sheet_mm.element_product()).ceil() as usize;
-    let mut batch = standard_plans(items);
+    let area: f64 = items.iter().map(Item::area_mm2).sum();
+    let fewest = (area / (DENSEST * grid.sheet_mm.element_product())).ceil() as usize;
+    let alternatives = alternatives(items);
+    let mut batch = standard_plans(items, alternatives.len());
     let mut left = orders;
     let mut pool: Vec<Layout> = Vec::new();
     let mut best: Option<Layout> = None;
@@ -133,17 +142,26 @@ pub(super) fn search(
         pool.truncate(POOL);
         let is_least = best.as_ref().is_none_or(|b| b.sheets.len() <= fewest);
         if left == 0 || is_least {
-            return Ok(best.map(|b| b.sheets).unwrap_or_default());
+            let found = best.map(|b| Found { chosen: b.plan.chosen, sheets: b.sheets });
+            return Ok(found.unwrap_or(Found { chosen: Vec::new(), sheets: Vec::new() }));
         }
         let count = left.min(BATCH);
         left -= count;
-        batch = (0..count).map(|_| varied(&pool, &mut rng)).collect();
+        batch = (0..count).map(|_| varied(&pool, &alternatives, &mut rng)).collect();
     }
+}
+
+/// Number of alternatives of each group.
+fn alternatives(items: &[Item]) -> Vec<usize> {
+    let groups = items.iter().map(|i| i.group() + 1).max().unwrap_or(0);
+    let mut counts = vec![1; groups];
+    items.iter().for_each(|i| counts[i.group()] = i.alternatives());
+    counts
 }
 
 /// Large pieces first, by area and by length, and groups one after the other; each pulled to the
 /// lower edge, to the left edge and to the corner.
-fn standard_plans(items: &[Item]) -> Vec<Plan> {
+fn standard_plans(items: &[Item], groups: usize) -> Vec<Plan> {
     let sorted = |key: fn(&Item) -> (usize, f64)| {
         let mut order: Vec<usize> = (0..items.len()).collect();
         order.sort_by(|&a, &b| {
@@ -152,16 +170,26 @@ fn standard_plans(items: &[Item]) -> Vec<Plan> {
         });
         order
     };
-    let orders =
-        [sorted(|i| (0, i.area_mm2)), sorted(|i| (i.group, i.area_mm2)), sorted(|i| (0, i.longest_mm))];
+    let orders = [
+        sorted(|i| (0, i.area_mm2())),
+        sorted(|i| (i.group(), i.area_mm2())),
+        sorted(|i| (0, i.longest_mm())),
+    ];
     let pulls = [(0.1, 1.0), (1.0, 0.1), (1.0, 1.0)].map(DVec2::from);
-    let plan = |pull, order: &Vec<usize>| Plan { order: order.clone(), pull, lean: 0.5, poses: 0 };
+    let chosen = vec![0; groups];
+    let plan = |pull, order: &Vec<usize>| Plan {
+        order: order.clone(),
+        pull,
+        lean: 0.5,
+        poses: 0,
+        chosen: chosen.clone(),
+    };
     pulls.iter().flat_map(|&pull| orders.iter().map(move |order| plan(pull, order))).collect()
 }
 
 /// A plan near one of the best: some pieces of its emptiest sheet come earlier, some change
-/// places, and now and then the pull changes.
-fn varied(pool: &[Layout], rng: &mut fastrand::Rng) -> Plan {
+/// places, and now and then the pull changes, or groups are cut in another way.
+fn varied(pool: &[Layout], alternatives: &[usize], rng: &mut fastrand::Rng) -> Plan {
     let parent = &pool[rng.usize(..pool.len())];
     let mut plan = parent.plan.clone();
     let emptiest = parent.sheets.iter().min_by_key(|s| s.len());
@@ -186,6 +214,12 @@ fn varied(pool: &[Layout], rng: &mut fastrand::Rng) -> Plan {
     if rng.u8(..2) == 0 {
         plan.poses = rng.u64(..);
     }
+    if rng.u8(..3) == 0 {
+        for _ in 0..=rng.usize(..=1 + alternatives.len() / 4) {
+            let group = rng.usize(..alternatives.len());
+            plan.chosen[group] = rng.usize(..alternatives[group]);
+        }
+    }
     plan
 }
 
@@ -206,9 +240,9 @@ fn lay_out(items: &[Item], grid: &Grid, plan: Plan, most: usize) -> Option<Layou
     let mut stock: Vec<Occupancy> = Vec::new();
     let mut sheets: Vec<Vec<Placed>> = Vec::new();
     for &item in &plan.order {
-        let poses = &items[item].poses;
-        let chosen = chosen_poses(item, poses.len(), &plan);
-        let place = |sheet: &Occupancy| best_pose(sheet, poses, &chosen, &plan);
+        let piece = items[item].alternative(plan.chosen[items[item].group()]);
+        let chosen = chosen_poses(item, piece.len(), &plan);
+        let place = |sheet: &Occupancy| best_pose(sheet, piece, &chosen, &plan);
         let found = (0..stock.len()).find_map(|k| Some((k, place(&stock[k])?)));
         let (k, (pose, spot)) = match found {
             Some(found) => found,
@@ -221,17 +255,17 @@ fn lay_out(items: &[Item], grid: &Grid, plan: Plan, most: usize) -> Option<Layou
                 (stock.len() - 1, first)
             }
         };
-        stock[k].place(&poses[pose], &spot);
+        stock[k].place(piece.pose(pose), &spot);
         sheets[k].push(Placed { item, pose, spot });
     }
     Some(Layout::new(plan, sheets, items))
 }
 
 /// The cheapest place for a piece on a sheet, over the chosen poses.
-fn best_pose(sheet: &Occupancy, poses: &[Pose], chosen: &[usize], plan: &Plan) -> Option<(usize, Spot)> {
+fn best_pose(sheet: &Occupancy, piece: &Alternative, chosen: &[usize], plan: &Plan) -> Option<(usize, Spot)> {
     let mut best: Option<(usize, Spot)> = None;
     for &k in chosen {
-        let pose = &poses[k];
+        let pose = piece.pose(k);
         if sheet.is_too_full_for(pose) {
             continue;
         }

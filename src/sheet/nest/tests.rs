@@ -189,6 +189,31 @@ fn true_shapes_need_at_most_four_fifths_of_the_sheets_of_their_rectangles() {
     assert!(shapes as f64 <= 0.8 * boxes as f64, "{shapes} sheets against {boxes}");
 }
 
+/// Two blocks share the sheet; an L leaves no room for another L, nor for a block.
+#[test]
+fn another_way_of_cutting_is_taken_where_it_saves_a_sheet() {
+    let l = |group| {
+        piece(&[(0.0, 0.0), (100.0, 0.0), (100.0, 40.0), (40.0, 40.0), (40.0, 100.0), (0.0, 100.0)], group)
+    };
+    let block = |group| rectangle(98.0, 63.0, group);
+    let options = NestOptions { effort: 2000, ..NestOptions::new(130.0, 130.0) };
+    let sheets = |groups: &[Vec<Vec<Shape>>]| {
+        let placed = nest_alternatives(groups, &options, &Silent).unwrap();
+        let taken: Vec<Shape> =
+            placed.iter().zip(groups).flat_map(|((a, _), group)| group[*a].clone()).collect();
+        let flat: Vec<Placement> = placed.iter().flat_map(|p| p.1.clone()).collect();
+        check(&taken, &flat, &options, TOLERANCE_MM).unwrap();
+        (sheet_count(&flat), placed.iter().map(|p| p.0).collect::<Vec<_>>())
+    };
+    let only_l = [vec![vec![l(0)]], vec![vec![l(1)]]];
+    let both = [vec![vec![l(0)], vec![block(0)]], vec![vec![l(1)], vec![block(1)]]];
+    let useless = [vec![vec![l(0)], vec![block(0)]], vec![vec![l(1)]]];
+    assert_eq!(sheets(&only_l).0, 2);
+    assert_eq!(sheets(&both), (1, vec![1, 1]));
+    // The first way is kept where another saves nothing.
+    assert_eq!(sheets(&useless), (2, vec![0, 0]));
+}
+
 #[test]
 fn the_check_finds_what_is_wrong() {
     let pieces = [rectangle(10.0, 10.0, 0), rectangle(10.0, 10.0, 0)];

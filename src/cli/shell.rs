@@ -1,0 +1,56 @@
+//! `tatamu completions` and `tatamu man`: what shells and manuals know of the command line.
+
+use super::error::CliError;
+use super::output;
+use clap::{Args, Command};
+use clap_complete::Shell;
+use std::io::Write;
+use std::path::PathBuf;
+
+/// Prints a completion script for a shell.
+///
+/// With bash: tatamu completions bash > ~/.local/share/bash-completion/completions/tatamu
+#[derive(Debug, Args)]
+pub struct CompletionsArgs {
+    /// The shell
+    shell: Shell,
+}
+
+/// Writes manual pages, one for the program and one for each of its commands.
+///
+/// Example: tatamu man ~/.local/share/man/man1, then man tatamu-make
+#[derive(Debug, Args)]
+pub struct ManArgs {
+    /// The folder to write them into, which must exist
+    #[arg(value_name = "FOLDER")]
+    folder: PathBuf,
+}
+
+/// Prints the script for `command`.
+pub fn completions(args: &CompletionsArgs, mut command: Command) {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut command, "tatamu", &mut script);
+    // A closed pipe is no error.
+    let _ = std::io::stdout().write_all(&script);
+}
+
+/// Writes the pages of `command` and its subcommands.
+pub fn man(args: &ManArgs, mut command: Command) -> Result<(), CliError> {
+    // Fills in what subcommands inherit, and their full names.
+    command.build();
+    let commands =
+        std::iter::once(&command).chain(command.get_subcommands().filter(|c| c.get_name() != "help"));
+    let page = |command: &Command| {
+        let name = command.get_display_name().unwrap_or(command.get_name()).to_owned();
+        let path = args.folder.join(format!("{name}.1"));
+        let mut bytes = Vec::new();
+        match clap_mangen::Man::new(command.clone()).render(&mut bytes) {
+            Ok(()) => Ok((path, bytes)),
+            Err(error) => Err(CliError::Output { path, reason: error.to_string() }),
+        }
+    };
+    let pages = commands.map(page).collect::<Result<Vec<_>, _>>()?;
+    let paths: Vec<PathBuf> = pages.iter().map(|p| p.0.clone()).collect();
+    output::check_places(&paths, &[])?;
+    output::write(&pages)
+}
