@@ -161,12 +161,11 @@ fn solved(mut matrix: Vec<Vec<f64>>, mut right: Vec<f64>) -> Option<Vec<f64>> {
         if matrix[k][k] < LEAST_PIVOT {
             return None;
         }
-        for row in k + 1..n {
-            let factor = matrix[row][k] / matrix[k][k];
-            for column in k..n {
-                matrix[row][column] -= factor * matrix[k][column];
-            }
-            right[row] -= factor * right[k];
+        let pivot = matrix[k].clone();
+        for (row, value) in matrix[k + 1..].iter_mut().zip(k + 1..) {
+            let factor = row[k] / pivot[k];
+            row.iter_mut().zip(&pivot).for_each(|(x, p)| *x -= factor * p);
+            right[value] -= factor * right[k];
         }
     }
     for k in (0..n).rev() {

@@ -54,7 +54,8 @@ impl Top {
         match self {
             Top::Corners(corners) => Ok(corners.iter().map(|&c| c.into()).collect()),
             Top::Regular(Regular { edges, radius }) => {
-                if !(3..=MOST_EDGES).contains(edges) || !(*radius > 0.0 && radius.is_finite()) {
+                let is_usable = (3..=MOST_EDGES).contains(edges) && *radius > 0.0 && radius.is_finite();
+                if !is_usable {
                     return Err(format!(
                         "its regular top has {edges} edges at radius {radius}; it needs from 3 to {MOST_EDGES} edges, \
                          and a radius above 0"
