@@ -62,7 +62,8 @@ impl ModelPart {
 ///
 /// # Guarantees
 /// Every joint's parent is another part; following parents ends at a root. In the deployed and
-/// in the flat state the two joint panels of every joint lie in one plane, facing each other.
+/// in the flat state the two joint panels of every joint lie in one plane, facing each other; of
+/// boards, which have a thickness, they face each other at twice that distance.
 #[derive(Debug, Clone)]
 pub struct Model {
     parts: Vec<ModelPart>,
