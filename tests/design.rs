@@ -1,15 +1,18 @@
 //! Drawn models through the whole pipeline: the samples, all formats, the refolding check.
 
+use glam::DVec3;
 use tatamu::check;
 use tatamu::export::{FORMATS, FormatOptions, format_of};
 use tatamu::fold::ModelMotion;
-use tatamu::mesh::Repairs;
+use tatamu::geom::polygon;
+use tatamu::mesh::{self, Mesh, Repairs, Soup, Up};
 use tatamu::net;
-use tatamu::pipeline::{self, Options, Output};
+use tatamu::pipeline::{self, ComponentOptions, Options, Output};
 use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::project::Project;
 use tatamu::report::Run;
+use tatamu::segment::SegmentOptions;
 
 const SAMPLES: [&str; 5] = ["gift-box", "lamp", "vase", "insert", "figure-5"];
 
@@ -126,4 +129,71 @@ fn a_size_is_reached_and_a_way_is_chosen() {
     let sketches = Project::parse(&wrong).and_then(|p| p.sketches()).expect("a drawing");
     let error = pipeline::run_drawn(&sketches, None, &Options::default(), &Silent).unwrap_err();
     assert!(error.to_string().contains("--list-configurations"), "{error}");
+}
+
+/// A mesh as one component that may have dents.
+fn concave(mesh: &Mesh) -> Output {
+    let choice = ComponentOptions { is_concave: true, ..ComponentOptions::default() };
+    let segmentation = SegmentOptions { parts: Some(1), ..SegmentOptions::default() };
+    let options = Options {
+        up: Up::Z,
+        segmentation,
+        components: [("body".to_owned(), choice)].into(),
+        ..Options::default()
+    };
+    pipeline::run(mesh, &options, &Silent).expect("a model")
+}
+
+/// The surface of the drawn vase, as a mesh, becomes one component with its neck again.
+#[test]
+fn a_vase_becomes_one_concave_component() {
+    let vase = made(&text("vase"), None);
+    let output = concave(vase.mesh());
+    assert!(codes(&output).contains(&"concave"), "{:?}", output.warnings());
+    let component = &output.model().parts()[0].component;
+    let dents = component.panels().hinges().iter().filter(|h| h.deployed_rad < -0.05).count();
+    assert!(dents >= 3, "{dents} hinges are folded inwards");
+    // Its longest side is 200 mm now; 1 mm is half a step between the heights that are looked at.
+    assert!(component.hausdorff_mm() < 10.0, "{} mm", component.hausdorff_mm());
+    assert!(output.fold_plan().clashes().is_empty());
+}
+
+#[test]
+fn a_box_stays_convex() {
+    let corner = |k: u32| DVec3::new(f64::from(k & 1) * 3.0, f64::from(k >> 1 & 1) * 2.0, f64::from(k >> 2));
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let soup = Soup::new((0..8).map(corner).collect(), sides).expect("a soup");
+    let output = concave(&Mesh::from_soup(&soup).expect("a box").0);
+    assert!(codes(&output).contains(&"concave_refused"), "{:?}", output.warnings());
+}
+
+/// Every board is a piece of its own, and the file refolds.
+#[test]
+fn thick_panels_are_cut_one_by_one() {
+    let sketches = Project::parse(&text("gift-box")).and_then(|p| p.sketches()).expect("a drawing");
+    let options = Options { is_thick: true, thickness_mm: 1.0, ..Options::default() };
+    let output = pipeline::run_drawn(&sketches, None, &options, &Silent).expect("a model");
+    for net in output.nets() {
+        assert!(net.pieces().iter().all(|piece| piece.panels().len() == 1 && piece.tabs().is_empty()));
+        assert!(net.pieces().iter().all(|piece| !piece.glue_areas().is_empty()), "places for tape");
+    }
+    let repairs = Repairs::default();
+    let run = Run { path: "gift-box", repairs: &repairs, stages: &[], warnings: &[] };
+    let product = Product::new(&output, "gift-box", run);
+    let write = |name: &str| {
+        let format = format_of(name).expect("registered");
+        format.write(&product, &FormatOptions::default()).expect("files").remove(0).bytes
+    };
+    let report = check::fold(&write("fold")).expect("a FOLD master");
+    assert!(report.is_sound(1e-6), "{:?}", report.verdicts(&check::Limits::default()));
+    // Solids: each board is a closed body, whose volume is its area times its thickness.
+    let (soup_stl, soup_obj) =
+        (mesh::read(&write("stl")).expect("STL"), mesh::read(&write("obj")).expect("OBJ"));
+    let panels = output.nets().iter().flat_map(|net| net.panels().panels());
+    let area_mm2: f64 = panels.map(|p| polygon::area(&p.outline)).sum();
+    for soup in [soup_stl, soup_obj] {
+        let (solid, found) = Mesh::from_soup(&soup).expect("a mesh");
+        assert_eq!(found.boundary_edges, 0);
+        assert!((solid.volume() - area_mm2).abs() < 1e-3 * area_mm2, "{} {area_mm2}", solid.volume());
+    }
 }
