@@ -3,6 +3,7 @@
 mod check;
 #[path = "../cube/mod.rs"]
 mod cube;
+mod design;
 mod exports;
 mod film;
 mod guide;
