@@ -4,13 +4,13 @@ use super::worker::Wake;
 use crate::cli::error::CliError;
 use crate::cli::output;
 use crate::cli::plot::jobs::{self, Sheet};
-use crate::cli::plot::journal::Position;
 use crate::cli::plot::live;
 use crate::cli::plot::operator::{Operator, doing};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use tatamu::plotter::Cutter;
+use tatamu::plotter::journal::Position;
 use tatamu::plotter::session::Status;
 use tatamu::progress::Cancelled;
 
