@@ -99,7 +99,8 @@ pub(super) fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Op
             );
         }
     }
-    for net in nets {
+    // Board is taped at all hinges.
+    for net in nets.iter().filter(|_| !options.is_thick) {
         out.extend(net.warnings().iter().map(|w| Warning { code: w.code(), message: w.to_string() }));
     }
     out
