@@ -34,7 +34,9 @@ pub fn run_drawn(
     let notes = drawn.notes;
     let warnings = |model: &Model, nets: &[crate::net::Net]| {
         let notes = notes.iter().map(|(code, message)| Warning { code, message: message.clone() });
-        notes.chain(warnings(model, nets, &[], &options)).collect()
+        let general = warnings(model, nets, &[], &options).into_iter();
+        // Components that are drawn without a joint are meant to stand for themselves.
+        notes.chain(general.filter(|warning| warning.code != "not_joined")).collect()
     };
     finish(made, warnings, &options, progress)
 }
