@@ -10,7 +10,7 @@
 //!
 //! The method is that of the paper "Semi-Automatic Conversion of 3D Shape into Flat-Foldable
 //! Polygonal Model"; section and equation numbers in these docs are that paper's. Lengths are millimetres, angles radians, unless a name says otherwise.
-#![warn(clippy::print_stdout, clippy::print_stderr)]
+#![warn(missing_docs, clippy::print_stdout, clippy::print_stderr)]
 
 pub mod check;
 pub mod component;

@@ -42,6 +42,8 @@ const LEFT_FEWER: usize = 2;
 /// And again after so many more; so many are finished.
 const LAST_STEPS: usize = 6;
 const FINISHED: usize = 3;
+/// With a direction that the user turns by hand the answer must come at once.
+const FINISHED_OF_ONE: usize = 2;
 /// Planes are added one by one, with so many steps each.
 const GROWN_STEPS: usize = 8;
 /// If the cost is this many times that without the plane after them, it will not come below.
@@ -127,7 +129,8 @@ fn best_of_counts(targets: &[(Target, f64)], hulls: &[Simpler]) -> Result<Found,
         || ranked(fewer, targets, FIRST_STEPS + MORE_STEPS, LEFT_FEWER),
     );
     runs.extend(fewer);
-    let runs = ranked(runs, targets, LAST_STEPS, FINISHED);
+    let finished = if targets.len() == 1 { FINISHED_OF_ONE } else { FINISHED };
+    let runs = ranked(runs, targets, LAST_STEPS, finished);
     let finished = runs.into_par_iter().map(|(k, fit)| (k, finish(&targets[k].0, hulls[k].fine(), fit)));
     let finished: Vec<(usize, Result<_, AssembleError>)> = finished.collect();
     let mut best = Err(ConvertError::Hull(HullError::Flat));

@@ -14,6 +14,7 @@ mod encode;
 mod frame;
 mod job;
 mod job_error;
+pub mod journal;
 mod pace;
 mod plan;
 mod preview;

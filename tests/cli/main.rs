@@ -1,10 +1,12 @@
 //! The program as its users meet it.
 
+mod bad_meshes;
 mod check;
 #[path = "../cube/mod.rs"]
 mod cube;
 mod design;
 mod exports;
+mod faults;
 mod film;
 mod guide;
 mod make;

@@ -1,65 +1,11 @@
-//! The journal of a job: all that it takes to go on after a stop. The first line is the job, each
-//! further one says how far it is; a line that was not finished does not count.
+//! Journals as files.
 
 use crate::cli::error::{CliError, reason};
 use crate::cli::{input, output};
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-
-/// The job.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Header {
-    /// Text of the cutter's profile.
-    pub cutter: String,
-    /// The port.
-    pub port: String,
-    /// Its speed, where the user chose it.
-    pub baud: Option<u32>,
-    /// The handshake, where the user chose it.
-    pub handshake: Option<String>,
-    /// Number of copies.
-    pub copies: u16,
-    /// The sheets.
-    pub sheets: Vec<SheetEntry>,
-}
-
-/// A sheet of a job.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SheetEntry {
-    /// Its name.
-    pub name: String,
-    /// Its strokes that only turn a drag knife.
-    pub turns: Vec<usize>,
-    /// Its bytes, base64.
-    bytes: String,
-}
-
-impl SheetEntry {
-    /// A sheet with its bytes.
-    pub fn new(name: &str, bytes: &[u8], turns: &[usize]) -> Self {
-        Self { name: name.to_owned(), turns: turns.to_vec(), bytes: STANDARD.encode(bytes) }
-    }
-
-    /// The bytes; none where the file is damaged.
-    pub fn bytes(&self) -> Option<Vec<u8>> {
-        STANDARD.decode(&self.bytes).ok()
-    }
-}
-
-/// How far a job is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct Position {
-    /// Copies that are finished.
-    pub copy: u16,
-    /// Sheets of this copy that are finished.
-    pub sheet: usize,
-    /// Strokes of this sheet that are certainly finished.
-    pub strokes: usize,
-}
+use tatamu::plotter::journal::{self, Header, Position};
 
 /// A journal that is being written.
 pub struct Journal {
@@ -112,20 +58,16 @@ impl Journal {
 /// Reads a journal.
 pub fn read(path: &Path) -> Result<(Header, Position), CliError> {
     let bytes = input::read_file(path)?;
-    let text = String::from_utf8_lossy(&bytes);
-    let mut lines = text.lines();
-    let header = lines.next().and_then(|line| serde_json::from_str(line).ok());
-    let header = header.ok_or_else(|| CliError::Input {
+    journal::parse(&bytes).ok_or_else(|| CliError::Input {
         path: path.to_owned(),
         reason: "it is no journal of a job (.tatamu-job)".to_owned(),
-    })?;
-    let position = lines.filter_map(|line| serde_json::from_str(line).ok()).next_back();
-    Ok((header, position.unwrap_or_default()))
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tatamu::plotter::journal::SheetEntry;
 
     #[test]
     fn what_was_noted_last_is_where_it_goes_on() {

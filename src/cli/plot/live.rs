@@ -1,6 +1,6 @@
 //! Jobs on their way: the port, the clock, the keyboard and the user.
 
-use super::journal::{Header, Journal, Position, SheetEntry};
+use super::journal::Journal;
 use super::keys::Keys;
 use super::{PlotArgs, Sheet, handshake, jobs};
 use crate::cli::error::{CliError, reason};
@@ -10,6 +10,7 @@ use serialport::{ClearBuffer, DataBits, FlowControl, SerialPort, StopBits};
 use std::io::{ErrorKind, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
+use tatamu::plotter::journal::{Header, Position, SheetEntry};
 use tatamu::plotter::profile::{Handshake, Parity};
 use tatamu::plotter::session::{End, Outcome, Session, State, Status, Step};
 use tatamu::plotter::{Cutter, Job};

@@ -1,0 +1,12 @@
+//! All mesh readers (the format is found from the content), and the repair after them.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use tatamu::mesh::{self, Mesh};
+
+fuzz_target!(|bytes: &[u8]| {
+    if let Ok(soup) = mesh::read(bytes) {
+        let _ = Mesh::from_soup(&soup);
+    }
+    let _ = mesh::read_painting(bytes, &|_| Err(String::new()));
+});
