@@ -87,7 +87,11 @@ fn what_can_be_a_model_becomes_one_with_a_warning_where_something_was_wrong() {
         ("open", cube().with_faces(lid), "open edges: 4"),
         ("tube", cube().with_faces(|f| f.truncate(4)), "open edges: 8"),
         ("two cubes at an edge", cube().and(&block([40.0, 40.0, 0.0], [40.0; 3])), "more than two faces: 1"),
-        ("a fin", cube().with_point([80.0, 90.0, 9.0]).with_faces(|f| f.push(vec![0, 1, 8])), "more than two faces"),
+        (
+            "a fin",
+            cube().with_point([80.0, 90.0, 9.0]).with_faces(|f| f.push(vec![0, 1, 8])),
+            "more than two faces",
+        ),
         ("self-intersecting", cube().and(&block([20.0; 3], [40.0; 3])), "bodies besides the first: 1"),
         ("one in another", cube().and(&block([10.0; 3], [20.0; 3])), "bodies besides the first: 1"),
         ("one face turned", cube().with_faces(|f| f[0].reverse()), "faced inwards: 2"),
@@ -148,7 +152,11 @@ fn what_cannot_is_refused_with_a_word_what_to_do() {
         let folder = folder_with(&[("a.obj", mesh.obj().as_bytes())]);
         let result = run(folder.path(), &["make", "a.obj"]);
         assert_eq!(result.code, Some(1), "{name}: {}", result.err);
-        assert!(result.err.starts_with("error: a.obj: ") && result.err.contains(words), "{name}: {}", result.err);
+        assert!(
+            result.err.starts_with("error: a.obj: ") && result.err.contains(words),
+            "{name}: {}",
+            result.err
+        );
         assert!(!folder.path().join("a.pdf").exists(), "{name}");
     }
 }
