@@ -96,7 +96,10 @@ pub enum DesignError {
 
 fn why(reasons: &[Refusal]) -> String {
     let reasons: Vec<String> = reasons.iter().map(ToString::to_string).collect();
-    if reasons.is_empty() { String::new() } else { format!(" ({})", reasons.join("; ")) }
+    match reasons.is_empty() {
+        true => " (no crease leaves panels high enough to fold)".to_owned(),
+        false => format!(" ({})", reasons.join("; ")),
+    }
 }
 
 /// Something that the maker of a drawn model should know: a short constant name, and a sentence.

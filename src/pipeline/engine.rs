@@ -2,7 +2,7 @@
 //! The command line runs an engine once; the studio keeps one and changes a little at a time.
 
 use super::concave;
-use super::warning::pin_warnings;
+use super::warning::{self, not_joined, pin_warnings};
 use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
 use crate::design::thick;
 use crate::fold::{FoldPlan, ModelMotion};
@@ -117,7 +117,8 @@ impl<'m> Engine<'m> {
         let least_mm = options.min_panel_width_mm;
         let model = model::build(bodies.parts(), bodies.links(), least_mm, &self.components, progress)?;
         let (mesh, face_parts) = (divided.mesh(), divided.face_parts());
-        let (model, notes) = concave::refitted(model, mesh, face_parts, options, progress)?;
+        let (model, mut notes) = concave::refitted(model, mesh, face_parts, options, progress)?;
+        notes.extend(not_joined(&model));
         Ok(Shaped { options: Arc::new(options.clone()), divided, model: Arc::new(model), notes })
     }
 
@@ -180,12 +181,7 @@ impl<'m> Engine<'m> {
             Ok::<_, Error>((Arc::new(laid.0), Arc::new(laid.1)))
         })?;
         let mut warnings = shaped.notes.clone();
-        warnings.extend(super::warning::warnings(
-            &model,
-            &nets,
-            shaped.divided.hulls().flat_faces(),
-            options,
-        ));
+        warnings.extend(warning::warnings(&model, &nets, shaped.divided.hulls().flat_faces(), options));
         warnings.extend(pin_warnings(&layout));
         let advice = fold_plan.advice(&model).into_iter();
         warnings.extend(advice.map(|(code, message)| Warning { code, message }));
