@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use tatamu::component::{Target, convert};
 use tatamu::geom::{Hull, directions};
 use tatamu::mesh::{self, Mesh};
-use tatamu::model;
-use tatamu::pipeline::{self, Bodies, Options};
+use tatamu::model::{self, Known};
+use tatamu::pipeline::{self, Bodies, Hulls, Options};
 use tatamu::progress::Silent;
 
 fn main() {
@@ -57,12 +57,12 @@ fn bodies(path: &Path) -> Option<Bodies> {
     let (mesh, _) = Mesh::from_soup(&mesh::read(&std::fs::read(path).ok()?).ok()?).ok()?;
     let options = Options::default();
     let (divided, _) = pipeline::find_parts(&mesh, &options, &Silent).ok()?;
-    Bodies::new(&divided, &options).ok()
+    Bodies::new(&Hulls::new(&divided).ok()?, &options).ok()
 }
 
 /// All components of a mesh at the default settings, without its segmentation.
 #[divan::bench(args = meshes())]
 fn whole_model(bencher: Bencher, mesh: &Named) {
     let Some(bodies) = bodies(&mesh.0) else { return };
-    bencher.bench(|| model::build(bodies.parts(), bodies.links(), 3.0, &Silent).is_ok());
+    bencher.bench(|| model::build(bodies.parts(), bodies.links(), 3.0, &Known::default(), &Silent).is_ok());
 }

@@ -6,8 +6,8 @@
 use std::error::Error;
 use std::time::Instant;
 use tatamu::mesh::{self, Mesh};
-use tatamu::model::{self, Model, Part};
-use tatamu::pipeline::{self, Bodies, Options};
+use tatamu::model::{self, Known, Model, Part};
+use tatamu::pipeline::{self, Bodies, Hulls, Options};
 use tatamu::progress::Silent;
 use tatamu::segment::SegmentOptions;
 
@@ -34,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let segmentation = SegmentOptions { parts, ..SegmentOptions::default() };
         let options = Options { segmentation, ..Options::default() };
         let (divided, _) = pipeline::find_parts(&mesh, &options, &Silent)?;
-        let bodies = Bodies::new(&divided, &options)?;
+        let bodies = Bodies::new(&Hulls::new(&divided)?, &options)?;
         println!("{path}: {} components, thousandths of the diagonal", bodies.parts().len());
         println!("  edges vertices    mean  worst      time  each component | support of each joint, %");
         for setting in SETTINGS {
@@ -58,7 +58,7 @@ fn measure(
     let mut made: Option<Model> = None;
     for _ in 0..RUNS {
         let start = Instant::now();
-        made = Some(model::build(&parts, bodies.links(), least_mm, &Silent)?);
+        made = Some(model::build(&parts, bodies.links(), least_mm, &Known::default(), &Silent)?);
         fastest_ms = fastest_ms.min(start.elapsed().as_secs_f64() * 1e3);
     }
     let Some(model) = made else { return Ok(()) };

@@ -3,10 +3,11 @@
 //! `cargo run --release --example sheet_figures -- MESH...`
 
 use glam::DVec2;
+use std::collections::BTreeMap;
 use std::error::Error;
 use std::time::Instant;
 use tatamu::mesh::{self, Mesh};
-use tatamu::net::{Net, NetOptions, Piece, develop_model};
+use tatamu::net::{KnownNets, Net, NetOptions, Piece, develop_model};
 use tatamu::pipeline::{self, Options};
 use tatamu::progress::Silent;
 use tatamu::sheet::nest::{NestOptions, Shape, nest};
@@ -46,8 +47,8 @@ impl Figures {
             SheetOptions { choices: options.sheets, ..SheetOptions::new(options.paper, options.margin_mm) };
         let start = Instant::now();
         let net_options = NetOptions::new(options.tab_width_mm, sheets.room_mm());
-        let alternatives = develop_model(output.model(), &net_options, &Silent)?;
-        let (layout, nets) = Layout::of_alternatives(&alternatives, &sheets, &Silent)?;
+        let alternatives = develop_model(output.model(), &net_options, &KnownNets::default(), &Silent)?;
+        let (layout, nets) = Layout::of_alternatives(&alternatives, &sheets, &BTreeMap::new(), &Silent)?;
         let seconds = start.elapsed().as_secs_f64();
         let pieces: Vec<&Piece> = nets.iter().flat_map(Net::pieces).collect();
         Ok(Self {

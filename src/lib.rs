@@ -20,6 +20,7 @@ pub mod export;
 pub mod fold;
 pub mod geom;
 pub mod guide;
+pub mod memory;
 pub mod mesh;
 pub mod model;
 pub mod net;

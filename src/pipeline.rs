@@ -1,24 +1,28 @@
-//! The way from a mesh to sheets, stage by stage. Reading [`run`] is reading the program.
+//! The way from a mesh to sheets, stage by stage. Reading [`Engine`] is reading the program.
 
 mod bodies;
 mod concave;
 mod drawn;
-mod finish;
+mod engine;
+mod output;
+mod warning;
 
-pub use bodies::Bodies;
+pub use bodies::{Bodies, Hulls};
 pub use drawn::run_drawn;
+pub use engine::Engine;
+pub use output::{Divided, Output, Shaped};
+pub use warning::Warning;
 
 use crate::design::{DesignError, ThickError};
-use crate::fold::FoldPlan;
 use crate::mesh::{Mesh, Up};
-use crate::model::{self, Model, ModelError};
-use crate::net::{Net, NetChoices, NetsError};
+use crate::model::ModelError;
+use crate::net::{NetChoices, NetsError};
 use crate::progress::{Cancelled, Progress};
-use crate::segment::{self, Edit, EditError, Parts, SegmentError, SegmentOptions};
-use crate::sheet::{Layout, LayoutError, SheetChoices};
+use crate::segment::{Edit, EditError, Parts, SegmentError, SegmentOptions};
+use crate::sheet::{LayoutError, Pin, SheetChoices};
 use crate::units::Paper;
-use finish::{Made, finish};
 use glam::DAffine3;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// What the user chose.
@@ -59,6 +63,8 @@ pub struct Options {
     pub nets: NetChoices,
     /// What else is chosen about sheets.
     pub sheets: SheetChoices,
+    /// Pieces, by name, that lie where the user wants them.
+    pub pins: BTreeMap<String, Pin>,
 }
 
 impl Default for Options {
@@ -81,6 +87,7 @@ impl Default for Options {
             is_thick: false,
             nets: NetChoices::default(),
             sheets: SheetChoices::default(),
+            pins: BTreeMap::new(),
         }
     }
 }
@@ -168,108 +175,12 @@ fn too_large(error: &NetsError, size_mm: f64) -> String {
     }
 }
 
-/// Something that the user should know about a model that was made all the same.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Warning {
-    /// Short constant name, for programs.
-    pub code: &'static str,
-    /// A sentence.
-    pub message: String,
-}
-
-/// The result of all stages.
-#[derive(Debug, Clone)]
-pub struct Output {
-    options: Options,
-    mesh: Mesh,
-    to_model: DAffine3,
-    face_part: Vec<Option<u32>>,
-    part_faces: Vec<usize>,
-    model: Model,
-    fold_plan: FoldPlan,
-    nets: Vec<Net>,
-    layout: Layout,
-    warnings: Vec<Warning>,
-}
-
-impl Output {
-    /// What the run was asked for.
-    pub fn options(&self) -> &Options {
-        &self.options
-    }
-
-    /// The mesh at the size of the model.
-    pub fn mesh(&self) -> &Mesh {
-        &self.mesh
-    }
-
-    /// From the file's coordinates to those of [`Output::mesh`].
-    pub fn to_model(&self) -> &DAffine3 {
-        &self.to_model
-    }
-
-    /// The component of each face of [`Output::mesh`]; none where its segment became none.
-    pub fn face_parts(&self) -> &[Option<u32>] {
-        &self.face_part
-    }
-
-    /// Number of faces of each component's segment.
-    pub fn part_faces(&self) -> &[usize] {
-        &self.part_faces
-    }
-
-    /// The components in their places.
-    pub fn model(&self) -> &Model {
-        &self.model
-    }
-
-    /// How the model folds.
-    pub fn fold_plan(&self) -> &FoldPlan {
-        &self.fold_plan
-    }
-
-    /// Their nets, in the same order.
-    pub fn nets(&self) -> &[Net] {
-        &self.nets
-    }
-
-    /// The pieces on their sheets.
-    pub fn layout(&self) -> &Layout {
-        &self.layout
-    }
-
-    /// What the user should know.
-    pub fn warnings(&self) -> &[Warning] {
-        &self.warnings
-    }
-}
-
 /// Runs all stages on a mesh as it was read.
 ///
 /// # Errors
 /// See [`Error`].
 pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
-    let (divided, to_model) = find_parts(mesh, options, progress)?;
-    let (mesh, segmentation) = (divided.mesh(), divided.segmentation());
-
-    progress.stage("hulls");
-    let bodies = Bodies::new(&divided, options)?;
-    progress.check()?;
-
-    progress.stage("components");
-    let model = model::build(bodies.parts(), bodies.links(), options.min_panel_width_mm, progress)?;
-
-    let face_part: Vec<Option<u32>> = segmentation
-        .face_segments()
-        .iter()
-        .map(|&segment| bodies.part_of(segment).map(|p| p as u32))
-        .collect();
-    let (model, notes) = concave::refitted(model, mesh, &face_part, options, progress)?;
-    let made = Made { model, mesh: mesh.clone(), to_model, face_part };
-    let told = |model: &Model, nets: &[Net]| {
-        [notes.clone(), warnings(model, nets, bodies.flat_faces(), options)].concat()
-    };
-    finish(made, told, options, progress)
+    Engine::new(Cow::Borrowed(mesh)).run(options, progress)
 }
 
 /// Divides a mesh at the model's size into parts; also gives the transform from the coordinates of
@@ -282,88 +193,5 @@ pub fn find_parts(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<(Parts, DAffine3), Error> {
-    let (mesh, to_model) = mesh.scaled(options.size_mm, options.up);
-    let segmentation = segment::segment(&mesh, &options.segmentation, progress)?;
-    let mut parts = Parts::new(mesh, segmentation);
-    for edit in &options.edits {
-        parts = parts.edited(&edit.moved(&to_model))?;
-    }
-    if let Some(root) = &options.root {
-        parts = parts.with_root(root)?;
-    }
-    Ok((parts, to_model))
-}
-
-/// Joint panels that carry less than this of their child are worth a warning.
-const GOOD_SUPPORT: f64 = 0.8;
-
-fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Options) -> Vec<Warning> {
-    let min_panel_mm = options.min_panel_width_mm;
-    let mut out = Vec::new();
-    let mut warn = |code, message| out.push(Warning { code, message });
-    if !flat.is_empty() {
-        let faces: usize = flat.iter().sum();
-        warn(
-            "flat_segment",
-            format!("{} flat parts of {faces} faces in all have no volume and were left out", flat.len()),
-        );
-    }
-    let roots: Vec<&str> =
-        model.parts().iter().filter(|p| p.joint.is_none()).map(|p| p.name.as_str()).collect();
-    if roots.len() > 1 {
-        warn(
-            "not_joined",
-            format!(
-                "the model is in {} groups that are not joined to one another, because they do not touch or no \
-                 joint has room; they begin with {}",
-                roots.len(),
-                roots.join(", ")
-            ),
-        );
-    }
-    for part in model.parts() {
-        let sizes = [
-            ("narrow", "wide", part.component.narrowest_panel()),
-            ("low", "high", part.component.lowest_panel()),
-        ];
-        for (_, word, (panel, mm)) in sizes.iter().filter(|s| s.2.1 < min_panel_mm - 1e-6) {
-            let what = part.component.panels().panel(*panel).kind;
-            warn(
-                "narrow_panel",
-                format!(
-                    "{}: {what} is only {mm:.2} mm {word}, less than {min_panel_mm} mm; use fewer top edges or \
-                     profile vertices for it, or a larger --size",
-                    part.name
-                ),
-            );
-        }
-        let error_mm = part.component.hausdorff_mm();
-        if let Some(tolerance_mm) = options.tolerance_mm.filter(|t| error_mm > *t) {
-            warn(
-                "tolerance_missed",
-                format!(
-                    "{}: it comes within {error_mm:.1} mm of its shape, not within {tolerance_mm} mm; allow more top \
-                     edges or profile vertices, or narrower panels",
-                    part.name
-                ),
-            );
-        }
-        if let Some(joint) = part.joint.as_ref().filter(|j| j.support_ratio < GOOD_SUPPORT) {
-            let parent = &model.parts()[joint.parent].name;
-            warn(
-                "weak_joint",
-                format!(
-                    "{}: only {:.0}% of its joint panel lies on {parent}; try another direction for either of them, \
-                     or more top edges for {parent}",
-                    part.name,
-                    joint.support_ratio * 100.0
-                ),
-            );
-        }
-    }
-    // Board is taped at all hinges.
-    for net in nets.iter().filter(|_| !options.is_thick) {
-        out.extend(net.warnings().iter().map(|w| Warning { code: w.code(), message: w.to_string() }));
-    }
-    out
+    Engine::new(Cow::Borrowed(mesh)).find_parts(options, progress)
 }

@@ -4,7 +4,7 @@ use glam::{DAffine3, DVec2, DVec3};
 use tatamu::component::{Panel, PanelId, PanelKind};
 use tatamu::fold::{FoldPlan, ModelMotion, ModelPose, Sequence};
 use tatamu::geom::{self, Hull, Plane};
-use tatamu::model::{Link, Model, Part, PartOptions, build};
+use tatamu::model::{Known, Link, Model, Part, PartOptions, build};
 use tatamu::progress::Silent;
 
 const THICKNESS_MM: f64 = 0.25;
@@ -33,7 +33,7 @@ fn ears(gap_mm: f64) -> Model {
     let right = cuboid("right", DVec3::new(0.5 * gap_mm, -22.0, 0.0), size);
     let plane = Plane::horizontal(0.0);
     let links = [1, 2].map(|child| Link { parent: 0, child, plane });
-    build(&[head, left, right], &links, 3.0, &Silent).unwrap()
+    build(&[head, left, right], &links, 3.0, &Known::default(), &Silent).unwrap()
 }
 
 fn plan(motion: &ModelMotion<'_>) -> FoldPlan {
@@ -164,7 +164,7 @@ fn chains_of_one_component_agree_with_brute_force() {
         part.hull = Hull::of_points(&points).unwrap();
         part.options.direction_rad = Some(6.0 * rng.f64());
         (part.options.top_edges, part.options.profile_vertices) = (3 + rng.usize(..5), 3 + rng.usize(..4));
-        let model = build(&[part], &[], 3.0, &Silent).unwrap();
+        let model = build(&[part], &[], 3.0, &Known::default(), &Silent).unwrap();
         let motion = ModelMotion::new(&model);
         let told = !plan(&motion).clashes().is_empty();
         let poses = || (1..200).map(|k| chains(&model, &motion.pose(&[f64::from(k) / 200.0])));

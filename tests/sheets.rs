@@ -4,12 +4,13 @@ mod support;
 
 use geo::{Area, BooleanOps, BoundingRect, Contains, Intersects};
 use glam::{DAffine2, DVec2};
+use std::collections::BTreeMap;
 use support::Prism;
 use tatamu::drawing::{Drawing, Layer, LineStyles, Mark, Shape, Text, text};
 use tatamu::net::{LabelKind, Naming, Net, NetOptions, Side, alternatives, check::faults};
 use tatamu::progress::Silent;
 use tatamu::sheet::fit::Rotation;
-use tatamu::sheet::{Calibration, Layout, Registration, SheetOptions};
+use tatamu::sheet::{Calibration, Layout, PiecePlace, Pin, Registration, SheetOptions, Unheeded};
 use tatamu::units::parse_paper;
 
 /// Less common area is rounding.
@@ -56,7 +57,8 @@ impl Made {
             alternatives(&prism.panel_set(), naming, &[], &options).expect("nets")
         };
         let nets: Vec<Vec<Net>> = prisms.iter().enumerate().map(net).collect();
-        let (layout, nets) = Layout::of_alternatives(&nets, sheets, &Silent).expect("a layout");
+        let (layout, nets) =
+            Layout::of_alternatives(&nets, sheets, &BTreeMap::new(), &Silent).expect("a layout");
         Self { nets, layout }
     }
 
@@ -317,6 +319,44 @@ fn no_line_is_cut_twice() {
         for (k, &a) in segments.iter().enumerate() {
             let twice = segments[..k].iter().map(|&b| common_mm(a, b)).fold(0.0, f64::max);
             assert!(twice < 0.01, "{}: {twice} mm are cut twice", piece.name());
+        }
+    }
+}
+
+#[test]
+fn pinned_pieces_lie_where_they_are_pinned_and_the_others_round_them() {
+    let sheets = SheetOptions::new(parse_paper("a4").expect("a4"), 10.0);
+    let made = Made::new(&prisms()[..7], &sheets, |_| {});
+    let pieces: Vec<_> = made.placed().map(|(piece, ..)| piece.clone()).collect();
+    // A corner of the usable area at an angle of its own; another sheet; on the first one; no piece.
+    let names = [0, 1, 2].map(|k| pieces[k].name().to_owned());
+    let pin = |sheet, x, y, turn_rad| Pin { sheet, at_mm: DVec2::new(x, y), turn_rad };
+    let pins = BTreeMap::from([
+        (names[0].clone(), pin(0, 60.0, 90.0, 0.3)),
+        (names[1].clone(), pin(1, 50.0, 60.0, -1.2)),
+        (names[2].clone(), pin(0, 60.0, 90.0, 0.0)),
+        ("gone".to_owned(), pin(0, 50.0, 50.0, 0.0)),
+    ]);
+    let nets: Vec<Vec<Net>> = made.nets.into_iter().map(|net| vec![net]).collect();
+    let (layout, nets) = Layout::of_alternatives(&nets, &sheets, &pins, &Silent).expect("a layout");
+    let pinned = Made { nets, layout };
+    for name in &names[..2] {
+        let (piece, sheet, place) = pinned.placed().find(|(p, ..)| p.name() == *name).expect("it is placed");
+        let wanted = pins[name];
+        let found = Pin::of_place(piece.outline(), &PiecePlace { sheet, place });
+        assert_eq!(found.sheet, wanted.sheet);
+        assert!((found.turn_rad - wanted.turn_rad).abs() < 1e-9);
+        assert!(found.at_mm.distance(wanted.at_mm) < 0.6, "{name}: {} {}", found.at_mm, wanted.at_mm);
+    }
+    let expected = [Unheeded::NoPiece("gone".to_owned()), Unheeded::NoRoom(names[2].clone())];
+    assert_eq!(pinned.layout.unheeded_pins(), expected);
+    let outlines: Vec<(usize, geo::Polygon)> = pinned
+        .placed()
+        .map(|(piece, sheet, at)| (sheet, polygon(piece.outline().iter().map(|&p| at.transform_point2(p)))))
+        .collect();
+    for (k, (sheet, a)) in outlines.iter().enumerate() {
+        for (_, b) in outlines[..k].iter().filter(|(other, _)| other == sheet) {
+            assert!(a.intersection(b).unsigned_area() < TOUCH_MM2);
         }
     }
 }

@@ -42,6 +42,12 @@ impl CutterArgs {
         Ok(choice)
     }
 
+    /// The choice of these names.
+    #[cfg(feature = "studio")]
+    pub fn of(cutter: &str, media: &str) -> Self {
+        Self { cutter: Some(cutter.to_owned()), media: Some(media.to_owned()) }
+    }
+
     /// Whether the user chose a cutter.
     pub fn has_cutter(&self) -> bool {
         self.cutter.is_some()
@@ -144,6 +150,16 @@ fn list() {
         terminal::say(&format!("  {:<16} {}", profile.name, name.unwrap_or_default()));
     }
     own("media").iter().for_each(|name| terminal::say(&format!("  {name:<16} your own")));
+}
+
+/// Names of all cutters and of all media, the user's own last.
+#[cfg(feature = "studio")]
+pub fn names() -> [Vec<String>; 2] {
+    [("cutters", CUTTERS), ("media", MEDIA)].map(|(kind, built_in)| {
+        let mut names: Vec<String> = built_in.iter().map(|profile| profile.name.to_owned()).collect();
+        names.extend(own(kind));
+        names
+    })
 }
 
 /// Names of the user's own profiles.

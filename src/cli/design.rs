@@ -55,7 +55,7 @@ pub fn run(args: &DesignArgs) -> Result<(), CliError> {
             input.mesh_path.display()
         )));
     };
-    let options = args.make.model().merge(&input)?;
+    let options = args.make.model().merge(input.project.as_ref())?;
     let rankings =
         rankings(sketches, options.min_panel_width_mm).map_err(|error| CliError::Pipeline(error.into()))?;
     for (sketch, rankings) in sketches.iter().zip(&rankings) {

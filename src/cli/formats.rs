@@ -13,7 +13,7 @@ use tatamu::project::ExportTable;
 use tatamu::units::{Paper, parse_paper};
 
 /// Options of the files.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Options of files")]
 pub struct FileArgs {
     /// Look of the lines: standard, laser, bw, or a style file (TOML) [default: standard]

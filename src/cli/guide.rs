@@ -9,7 +9,7 @@ use tatamu::guide::Language;
 use tatamu::project::ExportTable;
 
 /// Options of the assembly guide.
-#[derive(Debug, Clone, Args)]
+#[derive(Debug, Clone, Default, Args)]
 #[command(next_help_heading = "Assembly guide")]
 pub struct GuideArgs {
     /// Writes an assembly guide, too: FILE.html for a screen, FILE.pdf for paper

@@ -6,6 +6,7 @@ use super::progress::TerminalProgress;
 use super::{input, output, terminal};
 use clap::Args;
 use std::path::{Path, PathBuf};
+use tatamu::pipeline::Options;
 use tatamu::project::{Template, TemplateComponent, to_toml};
 
 /// Writes a project file for a mesh, to edit and to give to "make".
@@ -66,7 +67,7 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
             args.mesh.display()
         )));
     }
-    let options = args.model.merge(&input)?;
+    let options = args.model.merge(input.project.as_ref())?;
     let progress = TerminalProgress::new(args.quiet);
     let result = input.run(&args.model, &options, &progress)?;
     progress.finish();
@@ -81,8 +82,18 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
             is_concave: options.components.get(&part.name).is_some_and(|c| c.is_concave),
         })
         .collect();
-    let text = to_toml(&Template {
-        mesh: &mesh_from(&path, &input.mesh_path)?,
+    let text = project_text(&mesh_from(&path, &input.mesh_path)?, &options, &components);
+    output::write(&[(path.clone(), text.into_bytes())])?;
+    if !args.quiet {
+        terminal::say(&format!("wrote {}; edit it, then: tatamu make {0}", path.display()));
+    }
+    Ok(())
+}
+
+/// A fresh project file.
+pub fn project_text(mesh: &str, options: &Options, components: &[TemplateComponent]) -> String {
+    to_toml(&Template {
+        mesh,
         up: options.up,
         size_mm: options.size_mm,
         segmentation: options.segmentation,
@@ -97,18 +108,13 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         is_thick: options.is_thick,
         nets: options.nets,
         sheets: options.sheets,
-        components: &components,
-    });
-    output::write(&[(path.clone(), text.into_bytes())])?;
-    if !args.quiet {
-        terminal::say(&format!("wrote {}; edit it, then: tatamu make {0}", path.display()));
-    }
-    Ok(())
+        components,
+    })
 }
 
 /// The name by which a project file finds its mesh: relative where the project file is in or
 /// above the mesh's folder, else absolute.
-fn mesh_from(project: &Path, mesh: &Path) -> Result<String, CliError> {
+pub fn mesh_from(project: &Path, mesh: &Path) -> Result<String, CliError> {
     let full = |path: &Path| {
         std::path::absolute(path)
             .map_err(|error| CliError::Input { path: path.to_owned(), reason: super::error::reason(&error) })

@@ -93,13 +93,11 @@ fn read_mesh(path: &Path, bytes: &[u8], project: Option<Project>) -> Result<Inpu
     Ok(Input { mesh_path: path.to_owned(), project, shape: Shape::Mesh(mesh), repairs })
 }
 
-/// The colours of the mesh of an input.
-pub fn read_painting(input: &Input) -> Result<Painting, CliError> {
-    input.mesh()?;
-    let path = &input.mesh_path;
+/// The colours of a mesh file.
+pub fn read_painting(path: &Path) -> Result<Painting, CliError> {
     let sibling = |name: &str| read_sibling(path, name);
     mesh::read_painting(&read_file(path)?, &sibling)
-        .map_err(|error| CliError::Colour { path: path.clone(), error })
+        .map_err(|error| CliError::Colour { path: path.to_owned(), error })
 }
 
 /// The content of a file.

@@ -112,13 +112,13 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     let input = input::read(&args.input)?;
     let places: Vec<PathBuf> = paths.iter().chain(&args.segments).cloned().collect();
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
-    let options = args.model.merge(&input)?;
+    let options = args.model.merge(input.project.as_ref())?;
     let mut choice = args.files.merge(input.project.as_ref().map(|p| &p.export), &args.input)?;
     if choice.is_coloured && options.sheets.side == Side::Inside {
         let reason = "--color is for the outside of the paper; leave out --side inside, or --color";
         return Err(CliError::Options(reason.to_owned()));
     }
-    let painting = choice.is_coloured.then(|| input::read_painting(&input)).transpose()?;
+    let painting = choice.is_coloured.then(|| input::read_painting(&input.mesh_path)).transpose()?;
     choice.formats.plt = args.cutter.choice()?;
     let warnings = repair_warnings(&input.repairs);
     warnings.iter().for_each(warn);
@@ -160,7 +160,7 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
 }
 
 /// The files of all targets; pages of each product, all else of the first.
-fn written(
+pub fn written(
     targets: Vec<Target>,
     products: &[(&str, Product<'_>)],
     formats: &FormatOptions,

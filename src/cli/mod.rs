@@ -21,6 +21,7 @@ mod segment_args;
 mod sheet_args;
 mod shell;
 mod show;
+mod studio;
 mod terminal;
 #[cfg(unix)]
 mod virtual_plotter;
@@ -49,6 +50,7 @@ enum Command {
     Design(Box<design::DesignArgs>),
     Init(init::InitArgs),
     Show(show::ShowArgs),
+    Studio(studio::StudioArgs),
     Formats(formats::FormatsArgs),
     Check(check::CheckArgs),
     Segment(segment::SegmentCommand),
@@ -71,6 +73,7 @@ Examples:
   tatamu design vase.toml                   makes a model that is drawn in a project file
   tatamu make teddy.obj -o teddy.gif        an animation of its folding
   tatamu show teddy.obj -o half.png --pose 0.5
+  tatamu studio teddy.obj                   a window in which to try directions and sizes
   tatamu check teddy.fold                   verifies a FOLD file
   tatamu plot teddy.obj --cutter generic-hpgl --port /dev/ttyUSB0
 
@@ -84,6 +87,7 @@ pub fn run() -> ExitCode {
         Command::Design(args) => design::run(args).map(|()| ExitCode::SUCCESS),
         Command::Init(args) => init::run(args).map(|()| ExitCode::SUCCESS),
         Command::Show(args) => show::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Studio(args) => studio::run(args).map(|()| ExitCode::SUCCESS),
         Command::Segment(args) => segment::run(args).map(|()| ExitCode::SUCCESS),
         Command::Check(args) => check::run(args),
         Command::Plot(args) => plot::run(args).map(|()| ExitCode::SUCCESS),

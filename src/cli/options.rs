@@ -8,7 +8,9 @@ use super::sheet_args::SheetArgs;
 use clap::Args;
 use tatamu::mesh::Up;
 use tatamu::pipeline::{ComponentOptions, Options};
-use tatamu::project::{Defaults, check_count, check_degrees, check_parts, parse_thickness_mm, parse_up};
+use tatamu::project::{
+    Defaults, Project, check_count, check_degrees, check_parts, parse_thickness_mm, parse_up,
+};
 use tatamu::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};
 
 /// Options of the model.
@@ -152,10 +154,12 @@ impl ModelArgs {
         self.size.or(input.project.as_ref().and_then(|project| project.size_mm))
     }
 
-    /// The options for an input.
-    pub fn merge(&self, input: &Input) -> Result<Options, CliError> {
+    /// The options for an input, which may be a project.
+    pub fn merge(&self, project: Option<&Project>) -> Result<Options, CliError> {
         let mut options = Options::default();
-        self.merge_project(input, &mut options);
+        if let Some(project) = project {
+            merge_project(project, &mut options);
+        }
         let set = |slot: &mut f64, value: Option<f64>| *slot = value.unwrap_or(*slot);
         set(&mut options.size_mm, self.size);
         set(&mut options.min_panel_width_mm, self.min_panel_width);
@@ -163,13 +167,13 @@ impl ModelArgs {
         set(&mut options.margin_mm, self.margin);
         set(&mut options.thickness_mm, self.thickness);
         options.is_thick |= self.thick;
-        self.nets.merge(input.project.as_ref().map(|p| &p.nets), &mut options.nets);
-        self.sheets.merge(input.project.as_ref().map(|p| &p.sheets), &mut options.sheets);
+        self.nets.merge(project.map(|p| &p.nets), &mut options.nets);
+        self.sheets.merge(project.map(|p| &p.sheets), &mut options.sheets);
         options.up = self.up.unwrap_or(options.up);
-        options.segmentation = self.segmentation.merge(input.project.as_ref())?;
+        options.segmentation = self.segmentation.merge(project)?;
         options.tolerance_mm = self.tolerance.or(options.tolerance_mm);
         if options.tolerance_mm.is_some() {
-            let defaults = input.project.as_ref().map(|project| &project.defaults);
+            let defaults = project.map(|project| &project.defaults);
             let is_default = |of: fn(&Defaults) -> Option<usize>| defaults.and_then(of).is_none();
             if is_default(|d| d.top_edges) {
                 options.top_edges = MOST_EDGES;
@@ -204,37 +208,36 @@ impl ModelArgs {
         check_margin(&options)?;
         Ok(options)
     }
+}
 
-    fn merge_project(&self, input: &Input, options: &mut Options) {
-        let Some(project) = &input.project else {
-            return;
+/// What a project says.
+fn merge_project(project: &Project, options: &mut Options) {
+    let defaults = &project.defaults;
+    let set = |slot: &mut f64, value: Option<f64>| *slot = value.unwrap_or(*slot);
+    set(&mut options.size_mm, project.size_mm);
+    set(&mut options.min_panel_width_mm, defaults.min_panel_width_mm);
+    set(&mut options.tab_width_mm, defaults.tab_width_mm);
+    set(&mut options.margin_mm, project.paper.margin_mm);
+    set(&mut options.thickness_mm, project.paper.thickness_mm);
+    options.is_thick = project.paper.thick.unwrap_or(false);
+    options.tolerance_mm = defaults.tolerance_mm;
+    options.up = project.up.unwrap_or(options.up);
+    options.edits = project.edits.iter().map(|edit| edit.change().clone()).collect();
+    options.root = project.segmentation.root.clone();
+    options.top_edges = defaults.top_edges.unwrap_or(options.top_edges);
+    let vertices = defaults.profile_vertices;
+    options.profile_vertices = vertices.unwrap_or(options.profile_vertices);
+    options.paper = project.paper.size.unwrap_or(options.paper);
+    options.pins = project.pins.iter().map(|table| (table.piece().to_owned(), table.pin())).collect();
+    for component in &project.components {
+        let choice = ComponentOptions {
+            rename: component.rename.clone(),
+            direction_rad: component.direction_deg.map(f64::to_radians),
+            top_edges: component.top_edges,
+            profile_vertices: component.profile_vertices,
+            is_concave: component.concave.unwrap_or(false),
         };
-        let defaults = &project.defaults;
-        let set = |slot: &mut f64, value: Option<f64>| *slot = value.unwrap_or(*slot);
-        set(&mut options.size_mm, project.size_mm);
-        set(&mut options.min_panel_width_mm, defaults.min_panel_width_mm);
-        set(&mut options.tab_width_mm, defaults.tab_width_mm);
-        set(&mut options.margin_mm, project.paper.margin_mm);
-        set(&mut options.thickness_mm, project.paper.thickness_mm);
-        options.is_thick = project.paper.thick.unwrap_or(false);
-        options.tolerance_mm = defaults.tolerance_mm;
-        options.up = project.up.unwrap_or(options.up);
-        options.edits = project.edits.iter().map(|edit| edit.change().clone()).collect();
-        options.root = project.segmentation.root.clone();
-        options.top_edges = defaults.top_edges.unwrap_or(options.top_edges);
-        let vertices = defaults.profile_vertices;
-        options.profile_vertices = vertices.unwrap_or(options.profile_vertices);
-        options.paper = project.paper.size.unwrap_or(options.paper);
-        for component in &project.components {
-            let choice = ComponentOptions {
-                rename: component.rename.clone(),
-                direction_rad: component.direction_deg.map(f64::to_radians),
-                top_edges: component.top_edges,
-                profile_vertices: component.profile_vertices,
-                is_concave: component.concave.unwrap_or(false),
-            };
-            options.components.insert(component.name.clone(), choice);
-        }
+        options.components.insert(component.name.clone(), choice);
     }
 }
 

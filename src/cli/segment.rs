@@ -82,7 +82,7 @@ pub fn run(args: &SegmentCommand) -> Result<(), CliError> {
     let input = input::read(&args.input)?;
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
     let model_args = ModelArgs::of_segmentation(args.up, args.segmentation.clone());
-    let options = model_args.merge(&input)?;
+    let options = model_args.merge(input.project.as_ref())?;
     make::repair_warnings(&input.repairs).iter().for_each(make::warn);
 
     let progress = TerminalProgress::new(args.quiet);

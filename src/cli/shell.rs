@@ -12,7 +12,7 @@ use std::path::PathBuf;
 /// With bash: tatamu completions bash > ~/.local/share/bash-completion/completions/tatamu
 #[derive(Debug, Args)]
 pub struct CompletionsArgs {
-    /// The shell
+    /// Shell that the script is for
     shell: Shell,
 }
 

@@ -103,7 +103,7 @@ pub fn run(args: &VirtualPlotterArgs) -> Result<(), CliError> {
 }
 
 /// Opens a pair of ports: ours, and the name of the host's.
-fn open() -> rustix::io::Result<(File, String)> {
+pub fn open() -> rustix::io::Result<(File, String)> {
     let ours = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY)?;
     grantpt(&ours)?;
     unlockpt(&ours)?;
@@ -117,7 +117,7 @@ fn open() -> rustix::io::Result<(File, String)> {
 }
 
 /// Works for one host until it closes the port.
-fn serve(args: &VirtualPlotterArgs, cutter: &Cutter, host: &mut File) -> VirtualPlotter {
+pub fn serve(args: &VirtualPlotterArgs, cutter: &Cutter, host: &mut File) -> VirtualPlotter {
     let faults = Faults {
         slowness: 1.0 / args.speedup,
         garbage_every: args.garbage_every,

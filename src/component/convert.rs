@@ -32,7 +32,7 @@ const LEAST_WIDTH_MM: f64 = 0.1;
 /// Every profile falls strictly and has gap 0 within rounding; the layers of the flat top and
 /// bottom panel do not overlap; joint panels are single panels on their planes. A component made
 /// for a hull is convex.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Component {
     solid: Option<Solid>,
     normals: Vec<DVec2>,

@@ -30,6 +30,14 @@ pub fn centroid(polygon: &[DVec2]) -> DVec2 {
     if weight.abs() > f64::MIN_POSITIVE { sum / weight } else { mean }
 }
 
+/// Whether a point lies inside of a ring (even–odd).
+pub fn contains(ring: &[DVec2], p: DVec2) -> bool {
+    let edges = ring.iter().zip(ring.iter().cycle().skip(1));
+    let crossings = edges
+        .filter(|(a, b)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y));
+    crossings.count() % 2 == 1
+}
+
 /// Smallest and largest coordinates; `None` for no points.
 pub fn bounds(points: impl IntoIterator<Item = DVec2>) -> Option<(DVec2, DVec2)> {
     points.into_iter().fold(None, |acc, p| match acc {

@@ -1,6 +1,7 @@
 //! Parts into a model: from the roots outwards, each part gets its fold direction, its joint
 //! planes, its component, and its place on its parent.
 
+use super::known::Known;
 use super::link::Link;
 use super::seat::{Seating, level_axis, seat_plane, seats, turn_onto};
 use super::{Joint, Model, ModelPart};
@@ -32,7 +33,7 @@ pub struct PartOptions {
 }
 
 /// One segment to become a component.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Part {
     /// Convex hull of the segment, in the mesh's scaled axes.
     pub hull: Hull,
@@ -68,11 +69,13 @@ const JOINT_PRICE: f64 = 0.3;
 /// A joint plane that leaves less than this share of a hull is not used to clip it.
 const LEAST_SHARE: f64 = 0.15;
 
-/// Builds the model; `links` as [`super::link_tree`] gives them.
+/// Builds the model; `links` as [`super::link_tree`] gives them. Components are taken from `known`
+/// where they were made before of the same.
 pub fn build(
     parts: &[Part],
     links: &[Link],
     min_panel_mm: f64,
+    known: &Known,
     progress: &dyn Progress,
 ) -> Result<Model, ModelError> {
     let mut links = links.to_vec();
@@ -83,7 +86,8 @@ pub fn build(
         let results: Vec<Result<(Made, Vec<usize>), ModelError>> = level
             .par_iter()
             .map(|&p| {
-                let result = make_joined(parts, &links, p, &made, min_panel_mm, progress);
+                let builder = Builder { parts, links: &links, part: p, made: &made, min_panel_mm };
+                let result = make_joined(&builder, known, progress);
                 let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                 progress.fraction(count as f64 / parts.len() as f64);
                 result
@@ -104,33 +108,29 @@ pub fn build(
 
 /// Makes one part. Where no shape has room for all its joints, the children with the smallest
 /// interfaces are let go, one by one, to stand for themselves; they are returned.
-fn make_joined(
-    parts: &[Part],
-    links: &[Link],
-    part: usize,
-    made: &[Option<Made>],
-    min_panel_mm: f64,
+pub(super) fn make_joined(
+    builder: &Builder<'_>,
+    known: &Known,
     progress: &dyn Progress,
 ) -> Result<(Made, Vec<usize>), ModelError> {
-    let mut links = links.to_vec();
+    let mut links = builder.links.to_vec();
     let mut loose = Vec::new();
     loop {
         progress.check()?;
-        let to_parent = links.iter().find(|l| l.child == part);
-        let from_parent = to_parent.and_then(|l| made[l.parent].as_ref().map(|m| (l, m)));
-        let error = match (Builder { parts, links: &links, part, from_parent, min_panel_mm }).make() {
+        let builder = Builder { links: &links, ..*builder };
+        let error = match known.make(&builder) {
             Ok(done) => return Ok((done, loose)),
             Err(error) => error,
         };
         // A part's links come longest interface first.
-        let Some(smallest) = links.iter().rposition(|l| l.parent == part) else { return Err(error) };
+        let Some(smallest) = links.iter().rposition(|l| l.parent == builder.part) else { return Err(error) };
         loose.push(links.remove(smallest).child);
     }
 }
 
 /// A part's component before it is placed.
 #[derive(Debug, Clone)]
-struct Made {
+pub(super) struct Made {
     component: Component,
     frame: DAffine3,
     direction_rad: f64,
@@ -139,22 +139,38 @@ struct Made {
 }
 
 impl Made {
-    fn joint(&self, other: usize) -> Option<(Plane, PanelId)> {
+    pub(super) fn joint(&self, other: usize) -> Option<(Plane, PanelId)> {
         self.joints.iter().find(|j| j.0 == other).map(|j| (j.1, j.2))
     }
 
-    fn panel_outline(&self, panel: PanelId) -> Vec<DVec3> {
+    /// The part before it is placed.
+    pub(super) fn unplaced(&self, part: &Part) -> ModelPart {
+        ModelPart {
+            name: part.options.name.clone(),
+            component: self.component.clone(),
+            frame: self.frame,
+            placement: DAffine3::IDENTITY,
+            flat: DAffine3::from_translation(DVec3::Z * -self.component.bottom_mm()),
+            direction_rad: self.direction_rad,
+            joint: None,
+        }
+    }
+
+    pub(super) fn panel_outline(&self, panel: PanelId) -> Vec<DVec3> {
         let panel = self.component.panels().panel(panel);
         panel.deployed_outline().into_iter().map(|p| self.frame.transform_point3(p)).collect()
     }
 }
 
-struct Builder<'a> {
-    parts: &'a [Part],
-    links: &'a [Link],
-    part: usize,
-    from_parent: Option<(&'a Link, &'a Made)>,
-    min_panel_mm: f64,
+/// What one component is made from.
+#[derive(Clone, Copy)]
+pub(super) struct Builder<'a> {
+    pub(super) parts: &'a [Part],
+    pub(super) links: &'a [Link],
+    pub(super) part: usize,
+    /// The components that were made before, the parent's among them.
+    pub(super) made: &'a [Option<Made>],
+    pub(super) min_panel_mm: f64,
 }
 
 /// A fold direction with what follows from it.
@@ -166,7 +182,7 @@ struct Candidate {
 }
 
 impl Builder<'_> {
-    fn make(&self) -> Result<Made, ModelError> {
+    pub(super) fn make(&self) -> Result<Made, ModelError> {
         let part = &self.parts[self.part];
         let principal = PrincipalAxis::of_hull(&part.hull);
         let axes: Vec<DVec3> = match part.options.direction_rad {
@@ -201,6 +217,12 @@ impl Builder<'_> {
         Ok(Made { component, frame: chosen.frame, direction_rad, joints })
     }
 
+    /// The joint with the parent and the parent's component.
+    pub(super) fn carrier(&self) -> Option<(&Link, &Made)> {
+        let link = self.links.iter().find(|l| l.child == self.part)?;
+        Some((link, self.made[link.parent].as_ref()?))
+    }
+
     /// Turns a fold axis that is almost across the parent's joint plane to be exactly across it.
     fn settle(&self, axis: DVec3) -> DVec3 {
         match self.parent_plane() {
@@ -210,8 +232,8 @@ impl Builder<'_> {
     }
 
     /// The plane towards the parent, outwards, as the parent's component has it.
-    fn parent_plane(&self) -> Option<Plane> {
-        self.from_parent.and_then(|(_, made)| made.joint(self.part)).map(|(plane, _)| plane.flipped())
+    pub(super) fn parent_plane(&self) -> Option<Plane> {
+        self.carrier().and_then(|(_, made)| made.joint(self.part)).map(|(plane, _)| plane.flipped())
     }
 
     fn target<'h>(&self, candidate: &'h Candidate) -> Target<'h> {
@@ -231,7 +253,7 @@ impl Builder<'_> {
         let to_local = frame.inverse();
         let mut others = Vec::new();
         let mut seatings = Vec::new();
-        if let (Some((link, made)), Some(plane)) = (self.from_parent, self.parent_plane()) {
+        if let (Some((link, made)), Some(plane)) = (self.carrier(), self.parent_plane()) {
             let panel = made.joint(self.part).map(|j| made.panel_outline(j.1)).unwrap_or_default();
             let centre = panel.iter().sum::<DVec3>() / panel.len().max(1) as f64;
             others.push(link.parent);
@@ -277,7 +299,7 @@ impl Builder<'_> {
         to_local: &DAffine3,
     ) -> (Vec<DVec3>, Vec<(DVec3, f64)>) {
         let section = |p: usize| few_corners(self.parts[p].hull.section(&plane.moved(frame)));
-        match self.from_parent {
+        match self.carrier() {
             Some((link, made)) if link.parent == other => {
                 let Some((_, panel)) = made.joint(self.part) else { return Default::default() };
                 let outline: Vec<DVec3> =
@@ -325,37 +347,34 @@ fn shift_mm(points: &[DVec3], seating: &Seating) -> f64 {
     points.iter().map(|p| seating.plane.distance(*p).abs()).fold(0.0, f64::max)
 }
 
+/// Places a child on its parent, deployed and flat; none where a joint panel got lost.
+pub(super) fn seat_on(
+    link: &Link,
+    parent: &ModelPart,
+    child: &mut ModelPart,
+    made: [&Made; 2],
+) -> Option<Joint> {
+    let (up_plane, parent_panel) = made[0].joint(link.child)?;
+    let (own_plane, child_panel) = made[1].joint(link.parent)?;
+    let outline = made[1].panel_outline(child_panel);
+    let centre = outline.iter().sum::<DVec3>() / outline.len() as f64;
+    child.placement = parent.placement * turn_onto(&own_plane, &up_plane.flipped(), centre);
+    let on = |p: &ModelPart, panel: PanelId| p.component.panels().panel(panel).clone();
+    let (above, below) = (on(child, child_panel), on(parent, parent_panel));
+    let relation = (parent.deployed() * below.deployed).inverse() * child.deployed() * above.deployed;
+    child.flat = parent.flat * below.flat * relation * above.flat.inverse();
+    Some(Joint { parent: link.parent, parent_panel, child_panel, support_ratio: 0.0 })
+}
+
 /// Places every part on its parent, deployed and flat.
 fn place(parts: &[Part], links: &[Link], made: Vec<Made>) -> Result<Model, ModelError> {
     let lost = |p: usize| ModelError::NoJointPanel(parts[p].options.name.clone());
-    let mut placed: Vec<ModelPart> = parts
-        .iter()
-        .zip(&made)
-        .map(|(part, m)| ModelPart {
-            name: part.options.name.clone(),
-            component: m.component.clone(),
-            frame: m.frame,
-            placement: DAffine3::IDENTITY,
-            flat: DAffine3::from_translation(DVec3::Z * -m.component.bottom_mm()),
-            direction_rad: m.direction_rad,
-            joint: None,
-        })
-        .collect();
+    let mut placed: Vec<ModelPart> = parts.iter().zip(&made).map(|(part, m)| m.unplaced(part)).collect();
     for link in links {
-        let (up_plane, parent_panel) =
-            made[link.parent].joint(link.child).ok_or_else(|| lost(link.parent))?;
-        let (own_plane, child_panel) = made[link.child].joint(link.parent).ok_or_else(|| lost(link.child))?;
-        let centre = made[link.child].panel_outline(child_panel).iter().sum::<DVec3>()
-            / made[link.child].component.panels().panel(child_panel).outline.len() as f64;
-        let turn = turn_onto(&own_plane, &up_plane.flipped(), centre);
         let parent = placed[link.parent].clone();
-        let child = &mut placed[link.child];
-        child.placement = parent.placement * turn;
-        let on = |p: &ModelPart, panel: PanelId| p.component.panels().panel(panel).clone();
-        let (above, below) = (on(child, child_panel), on(&parent, parent_panel));
-        let relation = (parent.deployed() * below.deployed).inverse() * child.deployed() * above.deployed;
-        child.flat = parent.flat * below.flat * relation * above.flat.inverse();
-        child.joint = Some(Joint { parent: link.parent, parent_panel, child_panel, support_ratio: 0.0 });
+        let joint = seat_on(link, &parent, &mut placed[link.child], [&made[link.parent], &made[link.child]]);
+        let joint = joint.ok_or_else(|| lost(link.child))?;
+        placed[link.child].joint = Some(joint);
     }
     Ok(Model { parts: placed }.with_support())
 }

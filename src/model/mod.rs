@@ -2,11 +2,13 @@
 
 mod build;
 mod joined;
+mod known;
 mod link;
 mod seat;
 
 pub use build::{ModelError, Part, PartOptions, build};
 pub use joined::{JoinedPart, Seam};
+pub use known::{Known, build_one};
 pub use link::{Contact, Link, link_tree, parted};
 
 use crate::component::{Component, PanelId};
@@ -27,7 +29,7 @@ pub struct Joint {
 }
 
 /// A component in its place.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ModelPart {
     /// Name, unique in the model.
     pub name: String,
@@ -64,7 +66,7 @@ impl ModelPart {
 /// Every joint's parent is another part; following parents ends at a root. In the deployed and
 /// in the flat state the two joint panels of every joint lie in one plane, facing each other; of
 /// boards, which have a thickness, they face each other at twice that distance.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Model {
     parts: Vec<ModelPart>,
 }

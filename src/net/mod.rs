@@ -29,7 +29,7 @@ mod tabs;
 pub use develop::{Naming, NetChoices, NetError, NetOptions, alternatives, develop};
 pub use marks::Side;
 pub use mesh::{Corner, Edge, EdgeKind, Face, FaceKind, PieceMesh, Vertex};
-pub use of_model::{NetsError, develop_model};
+pub use of_model::{KnownNets, NetsError, develop_model};
 
 use crate::component::{HingeId, PanelId, PanelKind, PanelSet};
 use glam::{DAffine2, DVec2};

@@ -1,8 +1,9 @@
 //! Nets of all components of a model, with the marks of its joints.
 
 use super::{JointMark, Naming, Net, NetError, NetOptions, alternatives};
-use crate::component::PanelId;
+use crate::component::{PanelId, PanelSet};
 use crate::geom::polygon;
+use crate::memory::Memory;
 use crate::model::Model;
 use crate::progress::{Cancelled, Progress};
 use glam::{DVec2, DVec3};
@@ -19,22 +20,62 @@ pub enum NetsError {
     Cancelled(#[from] Cancelled),
 }
 
-/// The net of every component with its alternatives ([`alternatives`]), in the model's order.
+/// So many nets are kept: a few turns of a few dozen components.
+const MOST_KNOWN: usize = 200;
+
+/// Nets that were made before, so that a change to one component leaves those of others as they
+/// are.
+#[derive(Debug)]
+pub struct KnownNets(Memory<Wish, Vec<Net>>);
+
+/// Everything that a net depends on.
+#[derive(Debug, PartialEq)]
+struct Wish {
+    name: String,
+    prefix: String,
+    options: NetOptions,
+    marks: Vec<JointMark>,
+    panels: PanelSet,
+}
+
+impl Default for KnownNets {
+    fn default() -> Self {
+        Self(Memory::new(MOST_KNOWN))
+    }
+}
+
+impl KnownNets {
+    fn nets(&self, model: &Model, p: usize, options: &NetOptions) -> Result<Vec<Net>, NetError> {
+        let part = &model.parts()[p];
+        let (prefix, marks) = (prefix(p), joint_marks(model, p));
+        let wish = Wish {
+            name: part.name.clone(),
+            prefix: prefix.clone(),
+            options: options.clone(),
+            marks: marks.clone(),
+            panels: part.component.panels().clone(),
+        };
+        let naming = Naming { name: &part.name, prefix: &prefix };
+        self.0.get_or(wish, || alternatives(part.component.panels(), naming, &marks, options))
+    }
+}
+
+/// The net of every component with its alternatives ([`alternatives`]), in the model's order; taken
+/// from `known` where it was made before of the same.
 ///
 /// # Errors
 /// The first component's error; of panels that are too large, the one that is the most so.
 pub fn develop_model(
     model: &Model,
     options: &NetOptions,
+    known: &KnownNets,
     progress: &dyn Progress,
 ) -> Result<Vec<Vec<Net>>, NetsError> {
     let nets: Vec<Result<Vec<Net>, NetsError>> = (0..model.parts().len())
         .into_par_iter()
         .map(|p| {
             progress.check()?;
-            let part = &model.parts()[p];
-            let naming = Naming { name: &part.name, prefix: &prefix(p) };
-            Ok(alternatives(part.component.panels(), naming, &joint_marks(model, p), options)?)
+            Ok(known.nets(model, p, options)?)
         })
         .collect();
     let scale = |net: &Result<Vec<Net>, NetsError>| match net {

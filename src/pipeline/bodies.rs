@@ -8,31 +8,67 @@ use crate::segment::{self, Parts, SegmentId, Segmentation};
 use glam::DVec3;
 use std::collections::BTreeSet;
 
-/// Hulls of the parts of a mesh, with the joints between them: what the components are made from.
+/// Hulls of the parts of a mesh with the joints between them, as the shape alone decides them.
+#[derive(Debug, Clone, Default)]
+pub struct Hulls {
+    solid: Solid,
+    names: Vec<String>,
+    links: Vec<Link>,
+}
+
+impl Hulls {
+    /// The hulls of `divided`.
+    ///
+    /// # Errors
+    /// [`Error::NothingSolid`].
+    pub fn new(divided: &Parts) -> Result<Self, Error> {
+        let mut solid = hulls(divided);
+        if solid.hulls.is_empty() {
+            return Err(Error::NothingSolid);
+        }
+        let contacts = contacts(divided.mesh(), divided.segmentation(), &solid.part_of_segment);
+        let hulls: Vec<&Hull> = solid.hulls.iter().collect();
+        let links = model::link_tree(&hulls, &contacts);
+        let parted = model::parted(&hulls, &contacts, &links);
+        solid.hulls = parted;
+        Ok(Self { names: solid.names(divided.names()), solid, links })
+    }
+
+    /// The hulls, clipped where joints are.
+    pub fn hulls(&self) -> &[Hull] {
+        &self.solid.hulls
+    }
+
+    /// The names of the parts before they are renamed: those that options and edits go by.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The part that a segment is; none for one that is flat.
+    pub fn part_of(&self, segment: SegmentId) -> Option<usize> {
+        self.solid.part_of_segment[segment.0 as usize]
+    }
+
+    /// Number of faces of each segment that is flat.
+    pub fn flat_faces(&self) -> &[usize] {
+        &self.solid.flat
+    }
+}
+
+/// Hulls with what the user wants of each: what the components are made from.
 #[derive(Debug, Clone)]
 pub struct Bodies {
     parts: Vec<Part>,
     links: Vec<Link>,
-    part_of_segment: Vec<Option<usize>>,
-    /// Number of faces of each segment that is flat.
-    flat: Vec<usize>,
 }
 
 impl Bodies {
-    /// The hulls of `divided`, with what `options` says of each.
+    /// The hulls with what `options` says of each.
     ///
     /// # Errors
-    /// [`Error::NothingSolid`], [`Error::NoComponent`], [`Error::SameName`].
-    pub fn new(divided: &Parts, options: &Options) -> Result<Self, Error> {
-        let solid = hulls(divided);
-        let names = solid.names(divided.names());
-        let mut parts = parts(solid.hulls, &names, options)?;
-        let contacts = contacts(divided.mesh(), divided.segmentation(), &solid.part_of_segment);
-        let hulls: Vec<&Hull> = parts.iter().map(|p| &p.hull).collect();
-        let links = model::link_tree(&hulls, &contacts);
-        let hulls = model::parted(&hulls, &contacts, &links);
-        parts.iter_mut().zip(hulls).for_each(|(part, hull)| part.hull = hull);
-        Ok(Self { parts, links, part_of_segment: solid.part_of_segment, flat: solid.flat })
+    /// [`Error::NoComponent`], [`Error::SameName`].
+    pub fn new(hulls: &Hulls, options: &Options) -> Result<Self, Error> {
+        Ok(Self { parts: parts(hulls, options)?, links: hulls.links.clone() })
     }
 
     /// The parts; a component is made of each.
@@ -44,20 +80,10 @@ impl Bodies {
     pub fn links(&self) -> &[Link] {
         &self.links
     }
-
-    /// The part that a segment is; none for one that is flat.
-    pub fn part_of(&self, segment: SegmentId) -> Option<usize> {
-        self.part_of_segment[segment.0 as usize]
-    }
-
-    /// Number of faces of each segment that is flat.
-    pub fn flat_faces(&self) -> &[usize] {
-        &self.flat
-    }
 }
 
 /// Hulls of the segments that have one.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 struct Solid {
     hulls: Vec<Hull>,
     part_of_segment: Vec<Option<usize>>,
@@ -94,19 +120,17 @@ fn hulls(parts: &Parts) -> Solid {
 /// has set gets them down to the least width.
 const COMFORTABLE: f64 = 1.5;
 
-fn parts(hulls: Vec<Hull>, names: &[String], options: &Options) -> Result<Vec<Part>, Error> {
-    if hulls.is_empty() {
-        return Err(Error::NothingSolid);
-    }
+fn parts(hulls: &Hulls, options: &Options) -> Result<Vec<Part>, Error> {
+    let names = hulls.names();
     if let Some(name) = options.components.keys().find(|name| !names.contains(name)) {
         return Err(Error::NoComponent { name: name.clone(), known: names.join(", ") });
     }
-    let part = |(hull, name): (Hull, &String)| {
+    let part = |(hull, name): (&Hull, &String)| {
         let own = options.components.get(name).cloned().unwrap_or_default();
         let is_set = own.top_edges.is_some() || own.profile_vertices.is_some();
         let comfortable_mm = options.min_panel_width_mm * if is_set { 1.0 } else { COMFORTABLE };
         Part {
-            hull,
+            hull: hull.clone(),
             options: PartOptions {
                 name: own.rename.unwrap_or_else(|| name.clone()),
                 direction_rad: own.direction_rad,
@@ -117,7 +141,7 @@ fn parts(hulls: Vec<Hull>, names: &[String], options: &Options) -> Result<Vec<Pa
             },
         }
     };
-    let parts: Vec<Part> = hulls.into_iter().zip(names).map(part).collect();
+    let parts: Vec<Part> = hulls.hulls().iter().zip(names).map(part).collect();
     let mut seen = BTreeSet::new();
     match parts.iter().find(|part| !seen.insert(part.options.name.as_str())) {
         Some(part) => Err(Error::SameName(part.options.name.clone())),

@@ -1,11 +1,13 @@
 //! The way from drawings to sheets.
 
-use super::{Error, Made, Options, Output, Warning, finish, warnings};
+use super::{Divided, Engine, Error, Options, Output, Shaped, Warning};
 use crate::design::{DesignError, Sketch, design};
 use crate::mesh::{Mesh, Soup};
 use crate::model::Model;
 use crate::progress::Progress;
-use glam::{DAffine3, DVec3};
+use glam::DVec3;
+use std::borrow::Cow;
+use std::sync::Arc;
 
 /// Runs all stages on drawn components. They have the size that they are drawn in, or their longest
 /// side is made `size_mm`.
@@ -30,15 +32,12 @@ pub fn run_drawn(
     }
     let options = Options { size_mm: surface.size_mm(), ..options.clone() };
     let Surface { mesh, face_part } = surface;
-    let made = Made { model: drawn.model, mesh, to_model: DAffine3::IDENTITY, face_part };
-    let notes = drawn.notes;
-    let warnings = |model: &Model, nets: &[crate::net::Net]| {
-        let notes = notes.iter().map(|(code, message)| Warning { code, message: message.clone() });
-        let general = warnings(model, nets, &[], &options).into_iter();
-        // Components that are drawn without a joint are meant to stand for themselves.
-        notes.chain(general.filter(|warning| warning.code != "not_joined")).collect()
-    };
-    finish(made, warnings, &options, progress)
+    let notes = drawn.notes.into_iter().map(|(code, message)| Warning { code, message }).collect();
+    let parts = drawn.model.parts().len();
+    let engine = Engine::new(Cow::Owned(mesh.clone()));
+    let divided = Arc::new(Divided::drawn(mesh, face_part, parts));
+    let shaped = Shaped { options: Arc::new(options), divided, model: Arc::new(drawn.model), notes };
+    engine.finish(shaped, progress)
 }
 
 /// The deployed panels as a mesh.

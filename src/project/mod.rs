@@ -7,6 +7,7 @@ mod drawn;
 mod edit;
 mod export;
 mod fields;
+mod pin;
 mod sheet_fields;
 mod template;
 
@@ -17,6 +18,7 @@ pub use fields::{
     LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_clusters, check_count, check_degrees, check_detail,
     check_parts, check_smoothing, parse_method, parse_thickness_mm, parse_up,
 };
+pub use pin::PinTable;
 pub use sheet_fields::{Nets, Sheets, check_effort, check_hidden_degrees, parse_marks, parse_side};
 pub use template::{Template, TemplateComponent, to_toml};
 
@@ -92,6 +94,9 @@ pub struct Project {
     /// Changes to the parts by hand, one after the other.
     #[serde(default, rename = "edit")]
     pub edits: Vec<Edit>,
+    /// Where pieces lie that are not left to the layout.
+    #[serde(default, rename = "pin")]
+    pub pins: Vec<PinTable>,
     /// What differs for single components.
     #[serde(default, rename = "component")]
     pub components: Vec<Component>,

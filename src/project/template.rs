@@ -127,7 +127,16 @@ thick = {thick}
 
 {nets}
 {sheets}
-{export}# One table for each component. What a table leaves out comes from [defaults].
+{export}# Pieces at places of your own: sheet from 1, lower left corner in mm, turn in degrees. The studio
+# writes these when you drag a piece.
+# [[pin]]
+# piece = "head"
+# sheet = 1
+# x_mm = 20
+# y_mm = 30
+# turn = 90
+
+# One table for each component. What a table leaves out comes from [defaults].
 # rename: another name, which is printed on the pieces.
 # direction: angle of the fold axis about the component's longest axis, in degrees;
 # without it the best direction is searched for.

@@ -9,6 +9,7 @@ mod bsp;
 mod callouts;
 pub mod light;
 mod mesh;
+mod orbit;
 pub mod palette;
 mod parts;
 mod picture;
@@ -16,8 +17,10 @@ mod proxy;
 mod scene;
 mod shadow;
 mod view;
+pub mod zbuffer;
 
 pub use callouts::{Callout, callouts};
+pub use orbit::{Eye, Orbit};
 pub use parts::{PartsPictureError, parts_picture};
 pub use picture::{Look, picture};
 pub use proxy::{Proxy, proxy};

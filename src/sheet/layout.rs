@@ -2,10 +2,12 @@
 
 use super::SheetOptions;
 use super::nest::{NestError, Placement, Shape, nest_alternatives};
+use super::pin::{Pin, Unheeded, unheeded};
 use crate::geom::polygon;
-use crate::net::Net;
+use crate::net::{Net, Piece};
 use crate::progress::Progress;
 use glam::DAffine2;
+use std::collections::BTreeMap;
 
 /// Where a piece lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -43,6 +45,7 @@ pub struct Layout {
     places: Vec<Vec<PiecePlace>>,
     sheets: usize,
     utilisation: f64,
+    unheeded: Vec<Unheeded>,
 }
 
 impl Layout {
@@ -52,27 +55,32 @@ impl Layout {
     /// See [`LayoutError`].
     pub fn new(nets: &[Net], options: &SheetOptions, progress: &dyn Progress) -> Result<Self, LayoutError> {
         let alternatives: Vec<&[Net]> = nets.iter().map(std::slice::from_ref).collect();
-        Ok(Self::nested(&alternatives, options, progress)?.0)
+        Ok(Self::nested(&alternatives, options, &BTreeMap::new(), progress)?.0)
     }
 
     /// Nests the pieces of one net of each list, which are alternatives with as many pieces, the
-    /// best first; also gives the nets that were taken.
+    /// best first; also gives the nets that were taken. Pieces that are pinned, by name, lie where
+    /// they are pinned; a net that has one is the first of its list.
     ///
     /// # Errors
     /// See [`LayoutError`].
     pub fn of_alternatives(
         nets: &[Vec<Net>],
         options: &SheetOptions,
+        pins: &BTreeMap<String, Pin>,
         progress: &dyn Progress,
     ) -> Result<(Self, Vec<Net>), LayoutError> {
-        let alternatives: Vec<&[Net]> = nets.iter().map(Vec::as_slice).collect();
-        let (layout, taken) = Self::nested(&alternatives, options, progress)?;
+        let has_pin = |net: &Net| net.pieces().iter().any(|piece| pins.contains_key(piece.name()));
+        let usable = |nets: &[Net]| if nets.first().is_some_and(has_pin) { 1 } else { nets.len() };
+        let alternatives: Vec<&[Net]> = nets.iter().map(|nets| &nets[..usable(nets)]).collect();
+        let (layout, taken) = Self::nested(&alternatives, options, pins, progress)?;
         Ok((layout, taken.into_iter().cloned().collect()))
     }
 
     fn nested<'n>(
         nets: &[&'n [Net]],
         options: &SheetOptions,
+        pins: &BTreeMap<String, Pin>,
         progress: &dyn Progress,
     ) -> Result<(Self, Vec<&'n Net>), LayoutError> {
         let room = options.room_mm();
@@ -87,7 +95,7 @@ impl Layout {
         let groups: Vec<Vec<Vec<Shape>>> = nets
             .iter()
             .enumerate()
-            .map(|(n, nets)| nets.iter().map(|net| shapes(net, n)).collect())
+            .map(|(n, nets)| nets.iter().map(|net| shapes(net, n, pins, options)).collect())
             .collect();
         let placed = nest_alternatives(&groups, &options.nesting(), progress)?;
         let place = |p: &Placement| PiecePlace {
@@ -101,7 +109,14 @@ impl Layout {
         let pieces = taken.iter().flat_map(|net| net.pieces());
         let area: f64 = pieces.map(|p| polygon::area(p.outline())).sum();
         let utilisation = area / (room.x * room.y * sheets.max(1) as f64);
-        Ok((Self { options: *options, places, sheets, utilisation }, taken))
+        let pieces = taken.iter().flat_map(|net| net.pieces());
+        let unheeded = unheeded(pins, pieces.zip(places.iter().flatten()));
+        Ok((Self { options: *options, places, sheets, utilisation, unheeded }, taken))
+    }
+
+    /// Pins that could not be heeded.
+    pub fn unheeded_pins(&self) -> &[Unheeded] {
+        &self.unheeded
     }
 
     /// Places of the pieces of net `n`, in the net's order.
@@ -126,9 +141,15 @@ impl Layout {
 }
 
 /// The pieces of net `n` as the nesting sees them.
-fn shapes(net: &Net, n: usize) -> Vec<Shape> {
-    let shapes: Vec<Shape> =
-        net.pieces().iter().filter_map(|p| Shape::new(p.outline().to_vec(), n)).collect();
+fn shapes(net: &Net, n: usize, pins: &BTreeMap<String, Pin>, options: &SheetOptions) -> Vec<Shape> {
+    let shape = |piece: &Piece| {
+        let shape = Shape::new(piece.outline().to_vec(), n)?;
+        Some(match pins.get(piece.name()) {
+            Some(pin) => shape.pinned(pin.placement(piece.outline(), options.origin_mm())),
+            None => shape,
+        })
+    };
+    let shapes: Vec<Shape> = net.pieces().iter().filter_map(shape).collect();
     debug_assert_eq!(shapes.len(), net.pieces().len(), "every piece has an area");
     shapes
 }

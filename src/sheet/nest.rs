@@ -1,7 +1,7 @@
 //! Nesting: pieces of any shape on as few sheets as possible.
 //!
-//! Each piece is tried at a list of angles and at all points of a lattice ([`raster`]), with a row
-//! of positions in a machine word ([`occupancy`]); orders of the pieces are searched ([`search`]).
+//! Each piece is tried at a list of angles and at all points of a lattice (`raster`), with a row
+//! of positions in a machine word (`occupancy`); orders of the pieces are searched (`search`).
 //! Hollows need no special care: a free place is free wherever it is.
 //!
 //! # Why on a lattice
@@ -16,6 +16,7 @@ mod bits;
 mod check;
 mod item;
 mod occupancy;
+mod pins;
 mod raster;
 mod search;
 #[cfg(test)]
@@ -28,8 +29,11 @@ use crate::geom::polygon;
 use crate::progress::{Cancelled, Progress};
 use glam::{DAffine2, DVec2};
 use item::Item;
+use occupancy::Pose;
+use pins::{Pinned, Start};
 use raster::Grid;
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
 
 /// The outline of one piece.
@@ -40,6 +44,7 @@ use std::f64::consts::FRAC_PI_2;
 pub struct Shape {
     outline: Vec<DVec2>,
     group: usize,
+    pin: Option<Placement>,
 }
 
 impl Shape {
@@ -48,12 +53,20 @@ impl Shape {
     /// `None` where a guarantee would be broken.
     pub fn new(outline: Vec<DVec2>, group: usize) -> Option<Self> {
         let is_sound = outline.iter().all(|p| p.is_finite()) && polygon::area(&outline) > 0.0;
-        is_sound.then_some(Self { outline, group })
+        is_sound.then_some(Self { outline, group, pin: None })
     }
 
     /// Corners.
     pub fn outline(&self) -> &[DVec2] {
         &self.outline
+    }
+
+    /// The same piece at the place where the user wants it: on the lattice, within the sheet, as
+    /// near to it as can be. Where another pinned piece is in the way it goes elsewhere. Pinned
+    /// pieces have no alternatives.
+    #[must_use]
+    pub fn pinned(self, place: Placement) -> Self {
+        Self { pin: Some(place), ..self }
     }
 
     /// Number of its group.
@@ -209,15 +222,25 @@ fn nest_items(
     options.check()?;
     let frame = Frame::new(options);
     // Collected before the first error is taken, so that which piece is named depends on no thread.
+    let pins: Vec<Option<Pinned>> =
+        items.iter().map(|shapes| frame.pinned(shapes.first()?, options)).collect();
     let items: Vec<Result<Item, NestError>> = items
         .into_par_iter()
         .enumerate()
         .map(|(index, shapes)| frame.item(index, &shapes, options))
         .collect();
     let items = items.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let orders = options.effort / items.len().max(1);
-    let found = search::search(&items, &frame.grid, orders, progress)?;
+    let start = Start::new(&pins, &frame.grid);
+    let free = start.free().count();
+    let orders = options.effort / free.max(1);
+    let found = search::search(&items, &frame.grid, &start, orders, progress)?;
     let mut placements = vec![None; items.len()];
+    for (index, pin) in pins.iter().enumerate().filter(|(index, _)| !start.is_free(*index)) {
+        placements[index] = pin.as_ref().map(|pin| {
+            let cell = DVec2::new(pin.spot.column as f64, pin.spot.row as f64);
+            frame.placement(pin.sheet, pin.pose.angle_rad, pin.pose.origin + cell * frame.grid.cell_mm)
+        });
+    }
     for (sheet, placed) in found.sheets.iter().enumerate() {
         for p in placed {
             let item = &items[p.item];
@@ -227,7 +250,11 @@ fn nest_items(
             placements[p.item] = Some(frame.placement(sheet, pose.angle_rad, at));
         }
     }
-    Ok((found.chosen, placements.into_iter().flatten().collect()))
+    let mut placements: Vec<Placement> = placements.into_iter().flatten().collect();
+    // Pins may have left sheets before theirs empty.
+    let used: BTreeSet<usize> = placements.iter().map(|p| p.sheet).collect();
+    placements.iter_mut().for_each(|p| p.sheet = used.range(..p.sheet).count());
+    Ok((found.chosen, placements))
 }
 
 /// The usable area in portrait format, which the search works in.
@@ -260,6 +287,22 @@ impl Frame {
             return Err(NestError::TooLarge { index, long_mm: least.x, short_mm: least.y, scale });
         }
         Ok(item)
+    }
+
+    /// A piece at the place of its pin, if it has one and fits the sheet at that angle.
+    fn pinned(&self, shape: &Shape, options: &NestOptions) -> Option<Pinned> {
+        let pin = shape.pin?;
+        let (angle_rad, at) = match self.turned_mm {
+            None => (pin.rotation_rad, pin.translation),
+            Some(height) => {
+                (pin.rotation_rad - FRAC_PI_2, DVec2::new(pin.translation.y, height - pin.translation.x))
+            }
+        };
+        let DVec2 { x, y } = self.grid.sheet_mm;
+        let is_within = fit::is_within(fit::extent(&shape.outline, angle_rad), x, y);
+        let pose = is_within.then(|| Pose::new(&shape.outline, angle_rad, options.spacing_mm, &self.grid))?;
+        let spot = pose.nearest((at - pose.origin) / self.grid.cell_mm);
+        Some(Pinned { sheet: pin.sheet, pose, spot })
     }
 
     fn placement(&self, sheet: usize, angle_rad: f64, at: DVec2) -> Placement {

@@ -12,7 +12,7 @@ pub(super) fn containers(tasks: &[Task]) -> Vec<Vec<usize>> {
             return false;
         };
         let is_boxed = c.cmple(a).all() && d.cmpge(b).all() && (a, b) != (c, d);
-        is_boxed && contains(tasks[outer].points(), middle(&tasks[inner]))
+        is_boxed && polygon::contains(tasks[outer].points(), middle(&tasks[inner]))
     };
     let closed: Vec<usize> = (0..tasks.len()).filter(|&k| tasks[k].is_closed()).collect();
     let of = |k: usize| closed.iter().copied().filter(|&c| c != k && within(k, c)).collect();
@@ -28,12 +28,4 @@ pub(super) fn area_mm2(task: &Task) -> f64 {
 fn middle(task: &Task) -> DVec2 {
     let longest = task.points().windows(2).max_by(|a, b| a[0].distance(a[1]).total_cmp(&b[0].distance(b[1])));
     longest.map_or(task.start(), |w| w[0].midpoint(w[1]))
-}
-
-/// Whether a point lies inside of a ring (even–odd).
-fn contains(ring: &[DVec2], p: DVec2) -> bool {
-    let edges = ring.iter().zip(ring.iter().cycle().skip(1));
-    let crossings = edges
-        .filter(|(a, b)| (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y));
-    crossings.count() % 2 == 1
 }

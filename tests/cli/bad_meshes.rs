@@ -184,8 +184,9 @@ fn small_files_that_claim_to_be_large_are_refused_at_once() {
         // With 512 MiB of address space an allocation of what is claimed would abort.
         let command = format!("ulimit -v 524288; exec \"$0\" make {name}");
         let program = assert_cmd::cargo::cargo_bin!("tatamu");
-        let shell = std::process::Command::new("sh").arg("-c").arg(command).arg(program);
-        let output = { shell }.current_dir(folder.path()).env("RAYON_NUM_THREADS", "1").output().unwrap();
+        let mut shell = std::process::Command::new("sh");
+        shell.arg("-c").arg(command).arg(program).current_dir(folder.path()).env("RAYON_NUM_THREADS", "1");
+        let output = shell.output().unwrap();
         let said = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(1), "{name}: {said}");
         assert!(said.starts_with(&format!("error: {name}: ")), "{said}");

@@ -154,7 +154,7 @@ pub fn sheets(args: &PlotArgs, machine: &PltOptions) -> Result<Vec<Sheet>, CliEr
 
 fn of_model(args: &PlotArgs, path: &Path, machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
     let input = input::read(path)?;
-    let options = args.model.merge(&input)?;
+    let options = args.model.merge(input.project.as_ref())?;
     make::repair_warnings(&input.repairs).iter().for_each(make::warn);
     let progress = TerminalProgress::new(args.quiet);
     let result = input.run(&args.model, &options, &progress)?;
@@ -169,7 +169,7 @@ fn of_model(args: &PlotArgs, path: &Path, machine: &PltOptions) -> Result<Vec<Sh
 }
 
 /// The sheets on which there is something for the machine.
-fn of_drawings(title: &str, pages: &[Drawing], machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
+pub fn of_drawings(title: &str, pages: &[Drawing], machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
     let mut plans = Vec::new();
     for (k, page) in pages.iter().enumerate() {
         match Plan::new(page, &machine.cutter, &machine.media) {

@@ -1,18 +1,17 @@
 //! Jobs on their way: the port, the clock, the keyboard and the user.
 
 use super::journal::Journal;
-use super::keys::Keys;
+use super::operator::{Operator, Terminal};
 use super::{PlotArgs, Sheet, handshake, jobs};
 use crate::cli::error::{CliError, reason};
-use crate::cli::{output, ports, progress, terminal};
-use indicatif::{ProgressBar, ProgressStyle};
+use crate::cli::{output, ports, terminal};
 use serialport::{ClearBuffer, DataBits, FlowControl, SerialPort, StopBits};
-use std::io::{ErrorKind, IsTerminal};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use tatamu::plotter::journal::{Header, Position, SheetEntry};
 use tatamu::plotter::profile::{Handshake, Parity};
-use tatamu::plotter::session::{End, Outcome, Session, State, Status, Step};
+use tatamu::plotter::session::{End, Outcome, Session, Step};
 use tatamu::plotter::{Cutter, Job};
 use tatamu::progress::Cancelled;
 
@@ -36,19 +35,25 @@ pub fn start(args: &PlotArgs, cutter: &Cutter, sheets: Vec<Sheet>) -> Result<(),
             &format!("{} of a job that was stopped is replaced by this one", path.display()),
         );
     }
-    let header = Header {
+    let header = header(&sheets, cutter, port, args.copies);
+    let handshake = args.handshake.map(|h| h.name().to_owned());
+    let header = Header { baud: args.baud, handshake, ..header };
+    let mut terminal = Terminal::new(args.yes, args.quiet);
+    output::check_places(std::slice::from_ref(&path), &[])?;
+    send_all(&mut terminal, &path, &header, Position::default())
+}
+
+/// What a journal says of a job.
+pub fn header(sheets: &[Sheet], cutter: &Cutter, port: String, copies: u16) -> Header {
+    let entry = |sheet: &Sheet| SheetEntry::new(sheet.name(), sheet.bytes(), sheet.turns());
+    Header {
         cutter: cutter.text().to_owned(),
         port,
-        baud: args.baud,
-        handshake: args.handshake.map(|h| h.name().to_owned()),
-        copies: args.copies,
-        sheets: sheets
-            .iter()
-            .map(|sheet| SheetEntry::new(sheet.name(), sheet.bytes(), sheet.turns()))
-            .collect(),
-    };
-    output::check_places(std::slice::from_ref(&path), &[])?;
-    send_all(args, &path, &header, Position::default())
+        baud: None,
+        handshake: None,
+        copies,
+        sheets: sheets.iter().map(entry).collect(),
+    }
 }
 
 /// Goes on with a job.
@@ -57,10 +62,16 @@ pub fn resume(args: &PlotArgs, path: &Path, (header, at): (Header, Position)) ->
     header.port = args.port.clone().unwrap_or(header.port);
     header.baud = args.baud.or(header.baud);
     header.handshake = args.handshake.map(|h| h.name().to_owned()).or(header.handshake);
-    send_all(args, path, &header, at)
+    send_all(&mut Terminal::new(args.yes, args.quiet), path, &header, at)
 }
 
-fn send_all(args: &PlotArgs, path: &Path, header: &Header, start: Position) -> Result<(), CliError> {
+/// Sends what is left of a job, and keeps a journal of it.
+pub fn send_all(
+    operator: &mut dyn Operator,
+    path: &Path,
+    header: &Header,
+    start: Position,
+) -> Result<(), CliError> {
     let cutter = Cutter::parse(&header.cutter)
         .map_err(|error| CliError::Profile { name: path.display().to_string(), error })?;
     let damaged =
@@ -74,8 +85,7 @@ fn send_all(args: &PlotArgs, path: &Path, header: &Header, start: Position) -> R
         )));
     }
     let mut port = open(header, &cutter)?;
-    progress::count_stops();
-    let keys = Keys::listen();
+    operator.begin();
     let mut journal = Journal::create(path, header, start)?;
     let mut at = start;
     while at.copy < header.copies {
@@ -86,13 +96,15 @@ fn send_all(args: &PlotArgs, path: &Path, header: &Header, start: Position) -> R
             let rest = whole.from_stroke(at.strokes, &sheet.turns, cutter.dialect());
             let job = jobs::parse(name, &rest, &cutter)?;
             let first = whole.strokes() - job.strokes();
-            load(args, &keys, name, at, header.copies)
-                .inspect_err(|_| tell_resume(&journal, whole.strokes()))?;
-            let live = Live { keys: &keys, is_quiet: args.quiet, first, name };
+            if let Err(error) = operator.load(name, (at.copy + 1, header.copies)) {
+                operator.stopped(journal.path(), (journal.position().strokes, whole.strokes()));
+                return Err(error);
+            }
+            let mut live = Live { operator, first, name };
             let outcome = live.send(job, &cutter, chosen, port.as_mut(), &mut journal, at)?;
             if outcome.end != End::Finished {
                 journal.note(Position { strokes: at.strokes.max(first + outcome.strokes_done), ..at })?;
-                tell_resume(&journal, whole.strokes());
+                operator.stopped(journal.path(), (journal.position().strokes, whole.strokes()));
                 return Err(failure(outcome));
             }
             at = Position { sheet: at.sheet + 1, strokes: 0, ..at };
@@ -102,23 +114,8 @@ fn send_all(args: &PlotArgs, path: &Path, header: &Header, start: Position) -> R
         journal.note(at)?;
     }
     journal.remove();
-    if !args.quiet {
-        terminal::say("done");
-    }
+    operator.done();
     Ok(())
-}
-
-/// Says how to go on.
-fn tell_resume(journal: &Journal, strokes: usize) {
-    let at = journal.position();
-    terminal::complain(
-        "tatamu",
-        &format!(
-            "{} of {strokes} strokes of this sheet are certainly done; go on with: tatamu plot --resume {}",
-            at.strokes,
-            journal.path().display()
-        ),
-    );
 }
 
 fn failure(outcome: Outcome) -> CliError {
@@ -137,26 +134,6 @@ fn failure(outcome: Outcome) -> CliError {
         }
     };
     CliError::Machine(what)
-}
-
-/// Asks for the sheet.
-fn load(args: &PlotArgs, keys: &Keys, name: &str, at: Position, copies: u16) -> Result<(), CliError> {
-    if args.yes {
-        return Ok(());
-    }
-    let copy = if copies > 1 { format!(" (copy {} of {copies})", at.copy + 1) } else { String::new() };
-    terminal::complain("tatamu", &format!("load a sheet for {name}{copy}, then press Enter; Ctrl-C ends"));
-    loop {
-        match keys.poll() {
-            Ok(Some(b'\n' | b'\r')) => return Ok(()),
-            Ok(_) if progress::stops() > 0 => return Err(CliError::Cancelled(Cancelled)),
-            Ok(_) => std::thread::sleep(LOOK),
-            Err(()) => {
-                let message = "there is no one to ask whether the sheet is loaded; use --yes";
-                return Err(CliError::Options(message.to_owned()));
-            }
-        }
-    }
 }
 
 /// Opens the port without any flow control of the system: the session does it.
@@ -196,8 +173,7 @@ fn open(header: &Header, cutter: &Cutter) -> Result<Box<dyn SerialPort>, CliErro
 
 /// One job on its way.
 struct Live<'a> {
-    keys: &'a Keys,
-    is_quiet: bool,
+    operator: &'a mut dyn Operator,
     /// Strokes of the sheet that were done before.
     first: usize,
     name: &'a str,
@@ -205,7 +181,7 @@ struct Live<'a> {
 
 impl Live<'_> {
     fn send(
-        &self,
+        &mut self,
         job: Job,
         cutter: &Cutter,
         chosen: Option<Handshake>,
@@ -220,17 +196,19 @@ impl Live<'_> {
         if let Some(baud) = baud {
             session.set_baud(baud);
         }
-        let bar = self.bar();
         let (start, mut noted) = (Instant::now(), Instant::now());
         let mut stops = 0;
         let mut pending: Vec<u8> = Vec::new();
         let mut has_hardware = false;
         loop {
-            while stops < progress::stops() {
+            while stops < self.operator.stops() {
                 stops += 1;
                 session.stop();
             }
-            self.heed_keys(&mut session);
+            match self.operator.pauses(session.is_pausing()) {
+                true => session.pause(),
+                false => session.go_on(),
+            }
             if exchange(port, &mut pending, &mut session).is_err() {
                 session.port_lost();
             }
@@ -240,57 +218,21 @@ impl Live<'_> {
             if status.handshake == Handshake::RtsCts && !has_hardware {
                 has_hardware = port.set_flow_control(FlowControl::Hardware).is_ok();
             }
-            if !self.is_quiet {
-                session.take_notes().iter().for_each(|note| terminal::complain("tatamu", note));
-            }
+            session.take_notes().iter().for_each(|note| self.operator.note(note));
             match step {
                 Step::Send(bytes) => pending.extend(bytes),
                 Step::Wait(wait) => std::thread::sleep(wait.min(LOOK)),
                 Step::Done(outcome) => {
-                    bar.finish_and_clear();
+                    self.operator.sheet_over();
                     return Ok(outcome);
                 }
             }
             if noted.elapsed() >= NOTE_EVERY {
                 noted = Instant::now();
                 journal.note(Position { strokes: at.strokes.max(self.first + status.strokes_done), ..at })?;
-                self.show(&bar, &status);
+                self.operator.show(self.name, self.first, &status);
             }
         }
-    }
-
-    fn heed_keys(&self, session: &mut Session) {
-        while let Some(key) = self.keys.pressed() {
-            if key == b'p' || key == b' ' {
-                if session.is_pausing() { session.go_on() } else { session.pause() }
-            }
-        }
-    }
-
-    fn bar(&self) -> ProgressBar {
-        if self.is_quiet || !std::io::stderr().is_terminal() {
-            return ProgressBar::hidden();
-        }
-        let bar = ProgressBar::new(1);
-        if let Ok(style) = ProgressStyle::with_template("{bar:30} {msg}") {
-            bar.set_style(style);
-        }
-        bar
-    }
-
-    fn show(&self, bar: &ProgressBar, status: &Status) {
-        let what = match status.state {
-            State::Probing => "asking the machine",
-            State::Sending => "p: pause",
-            State::Paused => "paused, p: go on",
-            State::Finishing => "the machine works on",
-            State::Stopping | State::Ended => "lifting the tool",
-        };
-        let (done, all) = (self.first + status.strokes_done, self.first + status.strokes);
-        bar.set_length(all as u64);
-        bar.set_position(done as u64);
-        let left = jobs::minutes(status.seconds_left);
-        bar.set_message(format!("{}: stroke {done} of {all}, {left} left ({what})", self.name));
     }
 }
 

@@ -1,9 +1,10 @@
 //! `tatamu plot`
 
-mod jobs;
-mod journal;
+pub mod jobs;
+pub mod journal;
 mod keys;
-mod live;
+pub mod live;
+pub mod operator;
 
 use super::cutters::CutterArgs;
 use super::error::CliError;

@@ -54,6 +54,12 @@ impl Pose {
             halo: runs(&at_corner, spacing_mm, grid.cell_mm),
         }
     }
+
+    /// The position nearest to a point of the lattice, in cells.
+    pub fn nearest(&self, at: DVec2) -> Spot {
+        let within = |x: f64, count: usize| x.round().clamp(0.0, (count - 1) as f64) as usize;
+        Spot { cost: 0.0, column: within(at.x, self.columns), row: within(at.y, self.rows) }
+    }
 }
 
 /// A position on the lattice, in cells.
@@ -86,6 +92,12 @@ impl Occupancy {
     /// Whether the free cells are fewer than the pose needs, wherever they are.
     pub fn is_too_full_for(&self, pose: &Pose) -> bool {
         self.free < pose.cells
+    }
+
+    /// Whether a pose may stand at a position of the sheet.
+    pub fn is_free(&self, pose: &Pose, spot: &Spot) -> bool {
+        let bit = 1 << (spot.column % 64);
+        self.layers[0].free(&pose.probes[0], spot.row, spot.column / 64, bit) != 0
     }
 
     /// The cheapest free position of a pose, if it costs less than `limit`. The cost is `pull` ·

@@ -3,6 +3,7 @@
 
 use super::item::{Alternative, Item};
 use super::occupancy::{Occupancy, Spot};
+use super::pins::Start;
 use super::raster::Grid;
 use crate::progress::{Cancelled, Progress};
 use glam::DVec2;
@@ -63,12 +64,13 @@ struct Layout {
 }
 
 impl Layout {
-    fn new(plan: Plan, mut sheets: Vec<Vec<Placed>>, items: &[Item]) -> Self {
+    /// The first `pinned` sheets stay where they are.
+    fn new(plan: Plan, mut sheets: Vec<Vec<Placed>>, items: &[Item], pinned: usize) -> Self {
         let mean_group = |sheet: &Vec<Placed>| {
             let sum: usize = sheet.iter().map(|p| items[p.item].group()).sum();
             sum as f64 / sheet.len() as f64
         };
-        sheets.sort_by(|a, b| mean_group(a).total_cmp(&mean_group(b)));
+        sheets[pinned..].sort_by(|a, b| mean_group(a).total_cmp(&mean_group(b)));
         let mut range: BTreeMap<usize, (usize, usize)> = BTreeMap::new();
         for (k, sheet) in sheets.iter().enumerate() {
             for placed in sheet {
@@ -119,6 +121,7 @@ pub(super) struct Found {
 pub(super) fn search(
     items: &[Item],
     grid: &Grid,
+    start: &Start,
     orders: usize,
     progress: &dyn Progress,
 ) -> Result<Found, Cancelled> {
@@ -126,7 +129,7 @@ pub(super) fn search(
     let area: f64 = items.iter().map(Item::area_mm2).sum();
     let fewest = (area / (DENSEST * grid.sheet_mm.element_product())).ceil() as usize;
     let alternatives = alternatives(items);
-    let mut batch = standard_plans(items, alternatives.len());
+    let mut batch = standard_plans(items, start, alternatives.len());
     let mut left = orders;
     let mut pool: Vec<Layout> = Vec::new();
     let mut best: Option<Layout> = None;
@@ -135,13 +138,14 @@ pub(super) fn search(
         progress.fraction(1.0 - left as f64 / orders.max(1) as f64);
         let most = best.as_ref().map_or(usize::MAX, |b| b.sheets.len());
         let found: Vec<Option<Layout>> =
-            batch.into_par_iter().map(|plan| lay_out(items, grid, plan, most)).collect();
+            batch.into_par_iter().map(|plan| lay_out(items, grid, start, plan, most)).collect();
         pool.extend(found.into_iter().flatten());
         pool.sort_by(Layout::promise);
         best = pool.iter().chain(&best).min_by(|a, b| a.merit(b)).cloned();
         pool.truncate(POOL);
         let is_least = best.as_ref().is_none_or(|b| b.sheets.len() <= fewest);
-        if left == 0 || is_least {
+        let is_all_pinned = start.free().next().is_none();
+        if left == 0 || is_least || is_all_pinned {
             let found = best.map(|b| Found { chosen: b.plan.chosen, sheets: b.sheets });
             return Ok(found.unwrap_or(Found { chosen: Vec::new(), sheets: Vec::new() }));
         }
@@ -161,9 +165,9 @@ fn alternatives(items: &[Item]) -> Vec<usize> {
 
 /// Large pieces first, by area and by length, and groups one after the other; each pulled to the
 /// lower edge, to the left edge and to the corner.
-fn standard_plans(items: &[Item], groups: usize) -> Vec<Plan> {
+fn standard_plans(items: &[Item], start: &Start, groups: usize) -> Vec<Plan> {
     let sorted = |key: fn(&Item) -> (usize, f64)| {
-        let mut order: Vec<usize> = (0..items.len()).collect();
+        let mut order: Vec<usize> = start.free().collect();
         order.sort_by(|&a, &b| {
             let (a, b) = (key(&items[a]), key(&items[b]));
             a.0.cmp(&b.0).then(b.1.total_cmp(&a.1))
@@ -236,9 +240,9 @@ fn chosen_poses(item: usize, count: usize, plan: &Plan) -> Vec<usize> {
 }
 
 /// Puts the pieces on sheets in the order of a plan; `None` where that takes more than `most`.
-fn lay_out(items: &[Item], grid: &Grid, plan: Plan, most: usize) -> Option<Layout> {
-    let mut stock: Vec<Occupancy> = Vec::new();
-    let mut sheets: Vec<Vec<Placed>> = Vec::new();
+fn lay_out(items: &[Item], grid: &Grid, start: &Start, plan: Plan, most: usize) -> Option<Layout> {
+    let mut stock: Vec<Occupancy> = start.stock().to_vec();
+    let mut sheets: Vec<Vec<Placed>> = vec![Vec::new(); stock.len()];
     for &item in &plan.order {
         let piece = items[item].alternative(plan.chosen[items[item].group()]);
         let chosen = chosen_poses(item, piece.len(), &plan);
@@ -246,7 +250,7 @@ fn lay_out(items: &[Item], grid: &Grid, plan: Plan, most: usize) -> Option<Layou
         let found = (0..stock.len()).find_map(|k| Some((k, place(&stock[k])?)));
         let (k, (pose, spot)) = match found {
             Some(found) => found,
-            None if stock.len() == most => return None,
+            None if stock.len() >= most => return None,
             None => {
                 let empty = Occupancy::new(grid);
                 let first = place(&empty)?;
@@ -258,7 +262,7 @@ fn lay_out(items: &[Item], grid: &Grid, plan: Plan, most: usize) -> Option<Layou
         stock[k].place(piece.pose(pose), &spot);
         sheets[k].push(Placed { item, pose, spot });
     }
-    Some(Layout::new(plan, sheets, items))
+    Some(Layout::new(plan, sheets, items, start.stock().len()))
 }
 
 /// The cheapest place for a piece on a sheet, over the chosen poses.

@@ -1,0 +1,58 @@
+//! A file that is open.
+
+use crate::cli::{init, input};
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use tatamu::mesh::Repairs;
+use tatamu::pipeline::{Engine, Options};
+
+/// A file that is open.
+pub struct Opened {
+    /// What the user opened: a mesh or a project file.
+    pub source: PathBuf,
+    /// The mesh file.
+    pub mesh_path: PathBuf,
+    /// What was done to the mesh to make it clean.
+    pub repairs: Repairs,
+    /// The mesh, with all that is made of it.
+    pub engine: Arc<Engine<'static>>,
+    /// Text of the project file; a fresh one for a mesh.
+    pub text: String,
+    /// Whether the source is a project file.
+    pub is_project: bool,
+}
+
+impl Opened {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// A message that says what is wrong with which file.
+    pub fn read(source: &Path) -> Result<Self, String> {
+        let input = input::read(source).map_err(|error| error.to_string())?;
+        let mesh = input.mesh().map_err(|error| error.to_string())?.clone();
+        let is_project = input.project.is_some();
+        let text = if is_project {
+            let bytes = input::read_file(source).map_err(|error| error.to_string())?;
+            String::from_utf8(bytes).map_err(|error| error.to_string())?
+        } else {
+            let project = source.with_extension("toml");
+            let name = init::mesh_from(&project, source).map_err(|error| error.to_string())?;
+            init::project_text(&name, &Options::default(), &[])
+        };
+        Ok(Self {
+            source: source.to_owned(),
+            mesh_path: input.mesh_path,
+            repairs: input.repairs,
+            engine: Arc::new(Engine::new(Cow::Owned(mesh))),
+            text,
+            is_project,
+        })
+    }
+
+    /// The title of what is made: the file's name without its extension.
+    pub fn title(&self) -> String {
+        let stem = self.source.file_stem().unwrap_or_default();
+        crate::cli::terminal::printable(&stem.to_string_lossy())
+    }
+}

@@ -1,0 +1,66 @@
+//! What is shown of the work: the last good results.
+
+use super::surface::Distances;
+use tatamu::model::ModelPart;
+use tatamu::pipeline::{Output, Shaped};
+
+/// The work that goes on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Busy {
+    /// What is being done.
+    pub stage: &'static str,
+    /// Share of it that is done, as far as that is known.
+    pub fraction: Option<f64>,
+}
+
+/// The last good results. They stay while others are made.
+#[derive(Debug, Default)]
+pub struct Shown {
+    pub(super) shaped: Option<Shaped>,
+    /// A component that is newer than the model.
+    pub(super) ahead: Option<(usize, ModelPart)>,
+    pub(super) output: Option<Output>,
+    pub(super) distances: Option<Distances>,
+    /// Changes whenever what is shown does.
+    pub(super) version: u64,
+}
+
+impl Shown {
+    /// The model and what it is made of.
+    pub fn shaped(&self) -> Option<&Shaped> {
+        self.shaped.as_ref()
+    }
+
+    /// The component of an index, the newest that there is.
+    pub fn part(&self, index: usize) -> Option<&ModelPart> {
+        match &self.ahead {
+            Some((own, part)) if *own == index => Some(part),
+            _ => self.shaped.as_ref()?.model().parts().get(index),
+        }
+    }
+
+    /// The component that is newer than the model, if there is one.
+    pub fn ahead(&self) -> Option<usize> {
+        self.ahead.as_ref().map(|(index, _)| *index)
+    }
+
+    /// All results.
+    pub fn output(&self) -> Option<&Output> {
+        self.output.as_ref()
+    }
+
+    /// Distances between surface and components, where they are of this model.
+    pub fn distances(&self) -> Option<&Distances> {
+        self.distances.as_ref()
+    }
+
+    /// Changes whenever what is shown does.
+    pub fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// Names of the components that edits and options go by.
+    pub fn names(&self) -> &[String] {
+        self.shaped.as_ref().map_or(&[], |shaped| shaped.divided().hulls().names())
+    }
+}

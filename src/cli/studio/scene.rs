@@ -1,0 +1,337 @@
+//! What is seen in space: the parts of the model that the user wants to see, in the pose of the
+//! moment, with what is selected.
+
+use super::state::Studio;
+use glam::{DAffine3, DVec3};
+use tatamu::component::{PanelId, PanelSet};
+use tatamu::drawing::Rgb;
+use tatamu::fold::{Clash, ModelMotion, ModelPose, Sequence};
+use tatamu::mesh::Mesh;
+use tatamu::model::ModelPart;
+use tatamu::render::zbuffer::{Frame, Line, Solids};
+use tatamu::render::{light, palette};
+use tatamu::show::upright;
+
+/// What is to be seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Layers {
+    /// The mesh as it is.
+    pub input: bool,
+    /// The mesh in the colours of its parts.
+    pub segments: bool,
+    /// The hulls of the parts, as edges.
+    pub hulls: bool,
+    /// The components.
+    pub components: bool,
+    /// The mesh in colours of its distance from the components.
+    pub distances: bool,
+}
+
+impl Layers {
+    /// The components alone.
+    pub const COMPONENTS: Self =
+        Self { input: false, segments: false, hulls: false, components: true, distances: false };
+}
+
+/// All that decides what is seen, but for the model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting {
+    /// What is to be seen.
+    pub layers: Layers,
+    /// How far the model is folded, 0 to 1, one component after the other.
+    pub folded: f64,
+    /// What the mouse is over.
+    pub hover: Option<Tag>,
+    /// The clash that is shown.
+    pub clash: Option<Clash>,
+    /// The plane at which a part would be split: a point and a normal, in the model's axes.
+    pub split: Option<(DVec3, DVec3)>,
+}
+
+/// What is seen at a pixel.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Tag {
+    /// The component or part.
+    pub part: usize,
+    /// The panel; none for the mesh.
+    pub panel: Option<PanelId>,
+}
+
+/// Panels of a component that can be told apart; the last number means none.
+const PANELS: u32 = 4096;
+
+impl Tag {
+    fn number(self) -> u32 {
+        let panel = self.panel.map_or(PANELS - 1, |p| (p.0 as u32).min(PANELS - 2));
+        self.part as u32 * PANELS + panel
+    }
+
+    /// What a number of a picture stands for.
+    pub fn of_number(number: u32) -> Option<Self> {
+        let (part, panel) = ((number / PANELS) as usize, number % PANELS);
+        (number < Frame::NOTHING - PANELS)
+            .then_some(Self { part, panel: (panel != PANELS - 1).then_some(PanelId(panel as usize)) })
+    }
+}
+
+const PLAIN: Rgb = Rgb(200, 200, 204);
+const CLASH: Rgb = Rgb(220, 40, 30);
+const ACCENT: Rgb = Rgb(230, 90, 20);
+const CREASE: Rgb = Rgb(90, 90, 95);
+/// The inside of paper is paler than its outside.
+const INSIDE: f64 = 0.4;
+/// How much brighter what the mouse is over is.
+const HOVER: f64 = 0.35;
+/// Half the thickness of paper as it is drawn: what is flat would else lie in one plane.
+const HALF_MM: f64 = 0.12;
+/// Components lie on each other by so much when flat, so that one can tell them apart.
+const LIFT_MM: f64 = 0.4;
+
+/// The scene, in the axes of pictures.
+pub fn scene(studio: &Studio, setting: &Setting) -> Solids {
+    let mut solids = Solids::default();
+    let shown = studio.shown();
+    let Some(shaped) = shown.shaped() else {
+        // Nothing is divided yet: the mesh as it was read.
+        if let (Some(opened), Some(document)) = (studio.opened(), studio.document()) {
+            let options = document.options();
+            let (mesh, _) = opened.engine.mesh().scaled(options.size_mm, options.up);
+            push_mesh(&mut solids, &mesh, |_| (PLAIN, Frame::NOTHING), false);
+        }
+        return solids;
+    };
+    let layers = setting.layers;
+    let divided = shaped.divided();
+    let of_face = |face: usize| divided.face_parts()[face].map(|p| p as usize);
+    let tag = |face: usize| of_face(face).map_or(Frame::NOTHING, |part| Tag { part, panel: None }.number());
+    if layers.distances
+        && let Some(distances) = shown.distances()
+    {
+        push_mesh(&mut solids, divided.mesh(), |f| (distances.colour(f), tag(f)), false);
+    } else if layers.segments {
+        let names = shown.names();
+        let colour = |face: usize| {
+            let Some(part) = of_face(face) else { return PLAIN };
+            let is_lit = names.get(part).is_some_and(|name| studio.selection.has(name))
+                || setting.hover.is_some_and(|h| h.part == part);
+            lit(palette::colour(part), is_lit)
+        };
+        push_mesh(&mut solids, divided.mesh(), |f| (colour(f), tag(f)), layers.components);
+    } else if layers.input {
+        push_mesh(&mut solids, divided.mesh(), |f| (PLAIN, tag(f)), layers.components);
+    }
+    if layers.hulls {
+        for (part, hull) in divided.hulls().hulls().iter().enumerate() {
+            let colour = light::mixed(palette::colour(part), Rgb::BLACK, 0.4);
+            for facet in hull.facets() {
+                let outline: Vec<DVec3> = facet
+                    .outline()
+                    .iter()
+                    .map(|&v| upright().transform_point3(hull.vertices()[v as usize]))
+                    .collect();
+                if !(layers.components || layers.segments || layers.input || layers.distances) {
+                    let number = Tag { part, panel: None }.number();
+                    solids.push_outline(&outline, palette::colour(part), None, number);
+                }
+                push_edges(&mut solids, &outline, colour, 1.0);
+            }
+        }
+    }
+    if layers.components {
+        push_components(&mut solids, studio, setting);
+    }
+    if let Some((point, normal)) = setting.split {
+        push_plane(&mut solids, point, normal, 0.3 * divided.mesh().diagonal_mm());
+    }
+    solids
+}
+
+fn lit(colour: Rgb, is_lit: bool) -> Rgb {
+    if is_lit { light::mixed(colour, Rgb::WHITE, HOVER) } else { colour }
+}
+
+fn push_mesh(solids: &mut Solids, mesh: &Mesh, of_face: impl Fn(usize) -> (Rgb, u32), is_screened: bool) {
+    let turn = upright();
+    solids.facets.reserve(mesh.faces().len());
+    for face in 0..mesh.faces().len() {
+        let (colour, tag) = of_face(face);
+        let corners = mesh.corners(face).map(|c| turn.transform_point3(c));
+        solids.push_triangle(corners, colour, Some(colour), tag, is_screened);
+    }
+}
+
+fn push_edges(solids: &mut Solids, outline: &[DVec3], colour: Rgb, width_px: f32) {
+    let ends = outline.iter().zip(outline.iter().cycle().skip(1));
+    solids.lines.extend(ends.map(|(&a, &b)| Line { ends: [a, b], colour, width_px }));
+}
+
+/// How far each component is folded: in the order that was found, as long as it is known.
+pub fn folded(studio: &Studio, progress: f64) -> Option<Vec<f64>> {
+    let shaped = studio.shown().shaped()?;
+    let count = shaped.model().parts().len();
+    let plan = studio.shown().output().map(|output| output.fold_plan().order());
+    let order = match plan.filter(|order| order.len() == count) {
+        Some(order) => order.to_vec(),
+        None => (0..count).rev().collect(),
+    };
+    Some(Sequence::new(&order).folded(progress))
+}
+
+/// The moment at which a clash happens, as a progress of the folding.
+pub fn moment(studio: &Studio, clash: &Clash) -> Option<f64> {
+    let order = studio.shown().output()?.fold_plan().order();
+    let step = order.iter().position(|&p| p == clash.mover)? as f64;
+    let sequence = Sequence::new(order);
+    let at = |share: f64| (step + share) / order.len() as f64;
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..30 {
+        let middle = 0.5 * (low + high);
+        if sequence.folded(at(middle))[clash.mover] < clash.folded {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    Some(at(low))
+}
+
+fn push_components(solids: &mut Solids, studio: &Studio, setting: &Setting) {
+    let shown = studio.shown();
+    let Some(shaped) = shown.shaped() else { return };
+    let is_moving = setting.folded > 0.0 && shown.ahead().is_none();
+    let pose: Option<ModelPose> = is_moving.then(|| folded(studio, setting.folded)).flatten().map(|folded| {
+        let motion = ModelMotion::new(shaped.model());
+        motion.pose_from(&folded, LIFT_MM, |root, _| shaped.model().parts()[root].deployed())
+    });
+    for index in 0..shaped.model().parts().len() {
+        let Some(part) = shown.part(index) else { continue };
+        let set = part.component.panels();
+        let place = |panel: PanelId| match &pose {
+            Some(pose) => pose.parts[index].panel(panel),
+            None => part.deployed() * set.panel(panel).deployed,
+        };
+        let is_selected = shown.names().get(index).is_some_and(|name| studio.selection.has(name));
+        let panels = Panels { part: index, set, is_selected, place: &place };
+        push_panels(solids, studio, setting, &panels);
+        let stands = |pose: &ModelPose| pose.parts[index].pose.height_mm > 0.999 * height_mm(part);
+        let is_standing = pose.as_ref().is_none_or(stands);
+        if is_selected && is_standing && studio.selected_index() == Some(index) {
+            let frame = pose.as_ref().map_or_else(|| part.deployed(), |pose| pose.parts[index].frame);
+            push_arrow(solids, part, frame);
+        }
+    }
+}
+
+struct Panels<'a> {
+    part: usize,
+    set: &'a PanelSet,
+    is_selected: bool,
+    place: &'a dyn Fn(PanelId) -> DAffine3,
+}
+
+fn push_panels(solids: &mut Solids, studio: &Studio, setting: &Setting, panels: &Panels<'_>) {
+    let pieces = selected_panels(studio, panels.part);
+    for (k, panel) in panels.set.panels().iter().enumerate() {
+        let id = PanelId(k);
+        let tag = Tag { part: panels.part, panel: Some(id) };
+        let clashes = setting.clash.is_some_and(|clash| {
+            (0..2).any(|side| clash.parts[side] == panels.part && clash.panels[side] == id)
+        });
+        let is_panel = panels.is_selected && (studio.selection.panel() == Some(id) || pieces.contains(&id));
+        let colour = match (clashes, is_panel) {
+            (true, _) => CLASH,
+            (_, true) => light::mixed(palette::colour(panels.part), ACCENT, 0.45),
+            _ => lit(palette::colour(panels.part), setting.hover == Some(tag)),
+        };
+        let motion = upright() * (panels.place)(id);
+        let outline: Vec<DVec3> =
+            panel.outline.iter().map(|p| motion.transform_point3(p.extend(0.0))).collect();
+        let inside = light::mixed(colour, Rgb::WHITE, INSIDE);
+        // Paper that faces up, when flat, lies on paper that faces down.
+        let outwards = HALF_MM * motion.transform_vector3(DVec3::Z);
+        let outside: Vec<DVec3> = outline.iter().map(|&corner| corner + outwards).collect();
+        let reversed: Vec<DVec3> = outline.iter().rev().copied().collect();
+        solids.push_outline(&outside, colour, None, tag.number());
+        solids.push_outline(&reversed, inside, None, tag.number());
+        let (line, width_px) = if panels.is_selected { (ACCENT, 2.4) } else { (CREASE, 1.0) };
+        push_edges(solids, &outside, line, width_px);
+    }
+}
+
+/// The panels of the selected piece, where it is one of this component.
+fn selected_panels(studio: &Studio, part: usize) -> Vec<PanelId> {
+    let piece = studio.selection.piece().filter(|_| studio.selected_index() == Some(part));
+    let net = studio.shown().output().and_then(|output| output.nets().get(part));
+    let (Some(piece), Some(net)) = (piece, net) else { return Vec::new() };
+    let own = net.pieces().iter().filter(|p| p.name() == piece);
+    own.flat_map(|p| p.panels()).map(|placed| net.source(placed.panel)).collect()
+}
+
+fn height_mm(part: &ModelPart) -> f64 {
+    part.component.top_mm() - part.component.bottom_mm()
+}
+
+/// An arrow along the fold axis, through the middle of a component.
+fn push_arrow(solids: &mut Solids, part: &ModelPart, frame: DAffine3) {
+    let (top_mm, bottom_mm) = (part.component.top_mm(), part.component.bottom_mm());
+    let height_mm = height_mm(part);
+    let top = part.component.panels().panels().iter().find(|p| p.kind == tatamu::component::PanelKind::Top);
+    let middle = top.map_or(glam::DVec2::ZERO, |p| {
+        let foot = p.deployed.transform_point3(tatamu::geom::polygon::centroid(&p.outline).extend(0.0));
+        foot.truncate()
+    });
+    let to_picture = upright() * frame;
+    let at = |x: f64, y: f64, z: f64| to_picture.transform_point3(DVec3::new(middle.x + x, middle.y + y, z));
+    let reach = 0.35 * height_mm.max(10.0);
+    let radius = 0.035 * height_mm.clamp(20.0, 120.0);
+    const SIDES: usize = 10;
+    let ring = |radius: f64, z: f64, k: usize| {
+        let (sine, cosine) = (std::f64::consts::TAU * k as f64 / SIDES as f64).sin_cos();
+        at(radius * cosine, radius * sine, z)
+    };
+    // The shaft goes through, so that it is seen from below, too.
+    let (low, neck, tip) = (bottom_mm - 0.5 * reach, top_mm + 0.6 * reach, top_mm + reach);
+    for k in 0..SIDES {
+        let shaft = [
+            ring(radius, low, k),
+            ring(radius, low, k + 1),
+            ring(radius, neck, k + 1),
+            ring(radius, neck, k),
+        ];
+        solids.push_outline(&shaft, ACCENT, None, Frame::NOTHING);
+        let cone = [ring(2.6 * radius, neck, k), ring(2.6 * radius, neck, k + 1), at(0.0, 0.0, tip)];
+        solids.push_outline(&cone, ACCENT, None, Frame::NOTHING);
+        let base = [at(0.0, 0.0, neck), ring(2.6 * radius, neck, k + 1), ring(2.6 * radius, neck, k)];
+        solids.push_outline(&base, ACCENT, None, Frame::NOTHING);
+    }
+}
+
+/// A square of a plane, half see-through.
+fn push_plane(solids: &mut Solids, point: DVec3, normal: DVec3, half: f64) {
+    let (u, v) = normal.any_orthonormal_pair();
+    let corner = |a: f64, b: f64| upright().transform_point3(point + half * (a * u + b * v));
+    let corners = [corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)];
+    for [a, b, c] in [[0, 1, 2], [0, 2, 3]] {
+        solids.push_triangle(
+            [corners[a], corners[b], corners[c]],
+            ACCENT,
+            Some(ACCENT),
+            Frame::NOTHING,
+            true,
+        );
+    }
+    push_edges(solids, &corners, ACCENT, 2.0);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tags_are_read_back() {
+        for tag in [Tag { part: 0, panel: None }, Tag { part: 199, panel: Some(PanelId(77)) }] {
+            assert_eq!(Tag::of_number(tag.number()), Some(tag));
+        }
+        assert_eq!(Tag::of_number(Frame::NOTHING), None);
+    }
+}

@@ -1,0 +1,235 @@
+//! A dialog for files, that needs no other program.
+
+use eframe::egui::{self, Context, Key, Ui};
+use std::path::{Path, PathBuf};
+
+/// What a file is wanted for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// To open it.
+    Open,
+    /// To save the project in it.
+    Save,
+}
+
+/// What the user did.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Answer {
+    /// Nothing yet.
+    Open,
+    /// Chose a file.
+    Chosen(PathBuf),
+    /// Chose none.
+    Cancelled,
+}
+
+/// Files that can be opened, by extension.
+const KNOWN: [&str; 7] = ["toml", "obj", "stl", "ply", "off", "gltf", "glb"];
+
+/// The dialog.
+#[derive(Debug)]
+pub struct Browser {
+    purpose: Purpose,
+    folder: PathBuf,
+    name: String,
+    shows_all: bool,
+    entries: Result<Vec<Entry>, String>,
+    /// The user was asked whether this file may be replaced.
+    replaces: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+struct Entry {
+    is_file: bool,
+    name: String,
+}
+
+impl Browser {
+    /// A dialog that begins in a folder, with a name.
+    pub fn new(purpose: Purpose, folder: Option<PathBuf>, name: &str) -> Self {
+        let folder =
+            folder.filter(|f| f.is_dir()).or_else(|| std::env::current_dir().ok()).unwrap_or_default();
+        let folder = std::path::absolute(&folder).unwrap_or(folder);
+        let entries = entries(&folder);
+        Self { purpose, folder, name: name.to_owned(), shows_all: false, entries, replaces: None }
+    }
+
+    /// What the file is wanted for.
+    pub fn purpose(&self) -> Purpose {
+        self.purpose
+    }
+
+    /// Draws the dialog.
+    pub fn show(&mut self, ctx: &Context) -> Answer {
+        let mut answer = Answer::Open;
+        let title = match self.purpose {
+            Purpose::Open => "Open a mesh or a project",
+            Purpose::Save => "Save the project",
+        };
+        let mut is_open = true;
+        egui::Window::new(title)
+            .open(&mut is_open)
+            .collapsible(false)
+            .default_size([520.0, 400.0])
+            .anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0])
+            .show(ctx, |ui| answer = self.content(ui));
+        if is_open { answer } else { Answer::Cancelled }
+    }
+
+    fn content(&mut self, ui: &mut Ui) -> Answer {
+        ui.horizontal(|ui| {
+            let parent = self.folder.parent().map(Path::to_owned);
+            if ui
+                .add_enabled(parent.is_some(), egui::Button::new("Up"))
+                .on_hover_text("folder above")
+                .clicked()
+            {
+                parent.into_iter().for_each(|parent| self.go_to(parent));
+            }
+            ui.add(egui::Label::new(self.folder.display().to_string()).truncate());
+        });
+        let mut answer = Answer::Open;
+        let height = (ui.ctx().content_rect().height() - 260.0).clamp(120.0, 300.0);
+        egui::ScrollArea::vertical().max_height(height).auto_shrink(false).show(ui, |ui| {
+            if let Some(chosen) = self.list(ui) {
+                answer = self.choose(chosen);
+            }
+        });
+        ui.separator();
+        let mut is_done = false;
+        ui.horizontal(|ui| {
+            let label = ui.label("File");
+            let field =
+                ui.add(egui::TextEdit::singleline(&mut self.name).desired_width(260.0)).labelled_by(label.id);
+            if field.changed() {
+                self.replaces = None;
+            }
+            is_done |= field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+            let word = match (self.purpose, &self.replaces) {
+                (Purpose::Open, _) => "Open",
+                (Purpose::Save, None) => "Save",
+                (Purpose::Save, Some(_)) => "Replace it",
+            };
+            is_done |= ui.add_enabled(!self.name.trim().is_empty(), egui::Button::new(word)).clicked();
+            if ui.button("Cancel").clicked() {
+                answer = Answer::Cancelled;
+            }
+            if self.purpose == Purpose::Open {
+                ui.checkbox(&mut self.shows_all, "all files");
+            }
+        });
+        if self.replaces.is_some() {
+            ui.colored_label(ui.visuals().warn_fg_color, "There is a file of this name.");
+        }
+        if is_done && !self.name.trim().is_empty() {
+            // A whole path may be written, too.
+            answer = self.choose(self.folder.join(self.name.trim()));
+        }
+        answer
+    }
+
+    /// The folder's content; what was clicked.
+    fn list(&mut self, ui: &mut Ui) -> Option<PathBuf> {
+        let entries = match &self.entries {
+            Ok(entries) => entries.clone(),
+            Err(problem) => {
+                ui.colored_label(ui.visuals().error_fg_color, problem);
+                return None;
+            }
+        };
+        let mut chosen = None;
+        let listed: Vec<Entry> = entries.into_iter().filter(|entry| self.is_listed(entry)).collect();
+        for entry in &listed {
+            let text = if entry.is_file { entry.name.clone() } else { format!("{}/", entry.name) };
+            let response = ui.selectable_label(entry.is_file && self.name == entry.name, text);
+            if response.clicked() {
+                if entry.is_file {
+                    (self.name, self.replaces) = (entry.name.clone(), None);
+                } else {
+                    chosen = Some(self.folder.join(&entry.name));
+                }
+            }
+            if response.double_clicked() {
+                chosen = Some(self.folder.join(&entry.name));
+            }
+        }
+        chosen
+    }
+
+    fn is_listed(&self, entry: &Entry) -> bool {
+        let extension = Path::new(&entry.name).extension().map(|e| e.to_ascii_lowercase());
+        let among = match self.purpose {
+            Purpose::Open => &KNOWN[..],
+            Purpose::Save => &KNOWN[..1],
+        };
+        let is_known = extension.is_some_and(|e| among.iter().any(|known| e == *known));
+        !entry.name.starts_with('.') && (!entry.is_file || self.shows_all || is_known)
+    }
+
+    fn choose(&mut self, path: PathBuf) -> Answer {
+        if path.is_dir() {
+            self.go_to(path);
+            return Answer::Open;
+        }
+        if self.purpose == Purpose::Save {
+            let path = if path.extension().is_none() { path.with_extension("toml") } else { path };
+            if path.exists() && self.replaces.as_ref() != Some(&path) {
+                self.replaces = Some(path);
+                return Answer::Open;
+            }
+            return Answer::Chosen(path);
+        }
+        Answer::Chosen(path)
+    }
+
+    fn go_to(&mut self, folder: PathBuf) {
+        self.entries = entries(&folder);
+        if self.purpose == Purpose::Open {
+            self.name.clear();
+        }
+        (self.folder, self.replaces) = (folder, None);
+    }
+}
+
+/// Folders first, then files, by name.
+fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
+    let list = std::fs::read_dir(folder).map_err(|error| format!("this folder cannot be read: {error}"))?;
+    let entry = |entry: std::io::Result<std::fs::DirEntry>| {
+        let entry = entry.ok()?;
+        Some(Entry { is_file: !entry.path().is_dir(), name: entry.file_name().into_string().ok()? })
+    };
+    let mut entries: Vec<Entry> = list.filter_map(entry).collect();
+    entries.sort();
+    Ok(entries)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_replaced_only_when_asked_twice() {
+        let folder = tempfile::tempdir().unwrap();
+        let old = folder.path().join("a.toml");
+        std::fs::write(&old, "x").unwrap();
+        let mut browser = Browser::new(Purpose::Save, Some(folder.path().to_owned()), "a.toml");
+        assert_eq!(browser.choose(old.clone()), Answer::Open);
+        assert_eq!(browser.choose(old.clone()), Answer::Chosen(old));
+        let new = folder.path().join("b");
+        assert_eq!(browser.choose(new.clone()), Answer::Chosen(new.with_extension("toml")));
+    }
+
+    #[test]
+    fn only_what_can_be_opened_is_listed() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["b.OBJ", "a.txt", ".hidden.obj", "c.toml"] {
+            std::fs::write(folder.path().join(name), "x").unwrap();
+        }
+        std::fs::create_dir(folder.path().join("z")).unwrap();
+        let browser = Browser::new(Purpose::Open, Some(folder.path().to_owned()), "");
+        let entries = browser.entries.clone().unwrap();
+        let listed: Vec<&str> =
+            entries.iter().filter(|e| browser.is_listed(e)).map(|e| e.name.as_str()).collect();
+        assert_eq!(listed, ["z", "b.OBJ", "c.toml"]);
+    }
+}

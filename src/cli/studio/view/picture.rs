@@ -1,0 +1,63 @@
+//! Drawings as pictures in the window: the same pixels as in a PNG file.
+
+use eframe::egui::{self, Color32, ColorImage, TextureHandle, TextureOptions};
+use std::sync::mpsc::{Receiver, channel};
+use tatamu::drawing::{Drawing, Rgb};
+use tatamu::export::png;
+use tatamu::units::MM_PER_INCH;
+
+/// Finest and coarsest pictures, dots per inch.
+const FINEST: f64 = 400.0;
+const COARSEST: f64 = 20.0;
+/// A picture serves for sizes up to so much larger.
+const STEP: f64 = 1.4;
+
+/// A picture of a drawing. It is made in the background; until then an older one serves.
+#[derive(Default)]
+pub struct Picture {
+    key: Option<(u64, f64)>,
+    texture: Option<TextureHandle>,
+    coming: Option<Receiver<ColorImage>>,
+    /// That of the texture.
+    version: u64,
+}
+
+impl Picture {
+    /// The picture for a scale, in pixels of the screen for a millimetre; none before the first is
+    /// made. `version` tells drawings apart.
+    pub fn texture(
+        &mut self,
+        ctx: &egui::Context,
+        drawing: &Drawing,
+        version: u64,
+        pixels_per_mm: f64,
+    ) -> Option<&TextureHandle> {
+        // Steps of scale, so that zooming does not draw it again all the time.
+        let wanted = (pixels_per_mm * MM_PER_INCH).clamp(COARSEST, FINEST);
+        let dpi = COARSEST * STEP.powf((wanted / COARSEST).log(STEP).ceil());
+        if self.key != Some((version, dpi)) {
+            self.key = Some((version, dpi));
+            let (sender, coming) = channel();
+            self.coming = Some(coming);
+            let drawing = Drawing { ground: Some(Rgb::WHITE), ..drawing.clone() };
+            let ctx = ctx.clone();
+            std::thread::spawn(move || {
+                if let Ok(pixmap) = png::rasterise(&drawing, dpi) {
+                    let size = [pixmap.width() as usize, pixmap.height() as usize];
+                    let pixels =
+                        pixmap.pixels().iter().map(|p| Color32::from_rgb(p.red(), p.green(), p.blue()));
+                    let _ = sender.send(ColorImage::new(size, pixels.collect()));
+                    ctx.request_repaint();
+                }
+            });
+        }
+        if let Some(image) = self.coming.as_ref().and_then(|coming| coming.try_recv().ok()) {
+            match &mut self.texture {
+                Some(texture) => texture.set(image, TextureOptions::LINEAR),
+                None => self.texture = Some(ctx.load_texture("drawing", image, TextureOptions::LINEAR)),
+            }
+            (self.coming, self.version) = (None, version);
+        }
+        self.texture.as_ref()
+    }
+}

@@ -1,0 +1,187 @@
+//! Work in the background. One thread makes the component that the user turns, in threads of its
+//! own, so that it does not wait for what went before to end; another one makes all the rest.
+
+use super::surface::{self, Distances};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, Sender, channel};
+use tatamu::model::ModelPart;
+use tatamu::pipeline::{Engine, Error, Options, Output, Shaped};
+use tatamu::progress::Progress;
+
+/// What is to be made.
+pub struct Order {
+    /// The mesh, with all that was made of it.
+    pub engine: Arc<Engine<'static>>,
+    /// What is asked for.
+    pub options: Options,
+    /// The component that is wanted first.
+    pub first: Option<usize>,
+    /// Whether the distances between the surface and the components are wanted.
+    pub measures: bool,
+}
+
+/// What comes of an order, bit by bit.
+pub enum News {
+    /// A stage began.
+    Stage(&'static str),
+    /// So much of the stage is done, 0 to 1.
+    Fraction(f64),
+    /// The component that was wanted first.
+    Component(usize, Box<ModelPart>),
+    /// All components.
+    Shaped(Shaped),
+    /// Distances between the surface and the components.
+    Measured(Distances),
+    /// Everything.
+    Done(Box<Output>),
+    /// There is no result; perhaps because of what was set for a component that is no more.
+    Failed(String, Option<String>),
+}
+
+/// Told when there is news.
+pub type Wake = Arc<dyn Fn() + Send + Sync>;
+
+/// The threads. They end with the worker.
+pub struct Worker {
+    orders: Sender<(u64, Order)>,
+    news: Receiver<(u64, News)>,
+    /// The order that counts; all others stop.
+    current: Arc<AtomicU64>,
+}
+
+/// What the threads share.
+#[derive(Clone)]
+struct Line {
+    current: Arc<AtomicU64>,
+    news: Sender<(u64, News)>,
+    wake: Wake,
+}
+
+impl Worker {
+    /// Starts the threads.
+    pub fn new(wake: Wake) -> Self {
+        let (orders, ahead) = channel::<(u64, Order)>();
+        let (pass_on, main) = channel::<(u64, Order)>();
+        let (sender, news) = channel();
+        let current = Arc::new(AtomicU64::new(0));
+        let line = Line { current: current.clone(), news: sender, wake };
+        let own = line.clone();
+        std::thread::spawn(move || {
+            // Without a pool of its own it works in that of all.
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().ok();
+            while let Ok(order) = latest(&ahead) {
+                match &pool {
+                    Some(pool) => pool.install(|| own.look_ahead(&order)),
+                    None => own.look_ahead(&order),
+                }
+                if pass_on.send(order).is_err() {
+                    break;
+                }
+            }
+        });
+        std::thread::spawn(move || {
+            while let Ok(order) = latest(&main) {
+                line.work(order);
+            }
+        });
+        Self { orders, news, current }
+    }
+
+    /// Begins to work on an order, and stops what went before.
+    pub fn start(&self, order: Order) {
+        let number = self.current.fetch_add(1, Ordering::SeqCst) + 1;
+        // The thread is there as long as the worker is.
+        let _ = self.orders.send((number, order));
+    }
+
+    /// Stops the work.
+    pub fn cancel(&self) {
+        self.current.fetch_add(1, Ordering::SeqCst);
+    }
+
+    /// The next news of the order that counts.
+    pub fn news(&self) -> Option<News> {
+        let current = self.current.load(Ordering::SeqCst);
+        self.news.try_iter().find(|(number, _)| *number == current).map(|(_, news)| news)
+    }
+}
+
+impl Drop for Worker {
+    fn drop(&mut self) {
+        self.cancel();
+    }
+}
+
+/// The order that came last; older ones are of no use any more.
+fn latest(orders: &Receiver<(u64, Order)>) -> Result<(u64, Order), std::sync::mpsc::RecvError> {
+    let first = orders.recv()?;
+    Ok(orders.try_iter().last().unwrap_or(first))
+}
+
+impl Line {
+    fn tell(&self, number: u64, news: News) {
+        let _ = self.news.send((number, news));
+        (self.wake)();
+    }
+
+    fn look_ahead(&self, (number, order): &(u64, Order)) {
+        let watch = Watch { line: self, number: *number, is_silent: true };
+        let Some(part) = order.first else { return };
+        // What fails here fails in the other thread, too, which says so.
+        if let Ok(component) = order.engine.component(&order.options, part, &watch) {
+            self.tell(*number, News::Component(part, Box::new(component)));
+        }
+    }
+
+    fn work(&self, (number, order): (u64, Order)) {
+        let watch = Watch { line: self, number, is_silent: false };
+        if watch.is_cancelled() {
+            return;
+        }
+        let engine = &order.engine;
+        let result = engine.shape(&order.options, &watch).and_then(|shaped| {
+            self.tell(number, News::Shaped(shaped.clone()));
+            if order.measures {
+                self.tell(number, News::Measured(surface::distances(&shaped)));
+            }
+            engine.finish(shaped, &watch)
+        });
+        match result {
+            Ok(output) => self.tell(number, News::Done(Box::new(output))),
+            Err(Error::Cancelled(_)) => {}
+            Err(error) => {
+                let missing = match &error {
+                    Error::NoComponent { name, .. } => Some(name.clone()),
+                    _ => None,
+                };
+                self.tell(number, News::Failed(error.to_string(), missing));
+            }
+        }
+    }
+}
+
+/// Passes progress on, and stops what does not count any more.
+struct Watch<'a> {
+    line: &'a Line,
+    number: u64,
+    is_silent: bool,
+}
+
+impl Progress for Watch<'_> {
+    fn stage(&self, name: &'static str) {
+        if !self.is_silent {
+            self.line.tell(self.number, News::Stage(name));
+        }
+    }
+
+    fn fraction(&self, done: f64) {
+        if !self.is_silent {
+            self.line.tell(self.number, News::Fraction(done));
+        }
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.line.current.load(Ordering::Relaxed) != self.number
+    }
+}

@@ -1,0 +1,195 @@
+//! The stages, with a memory for what each of them made: what is asked for again is not made again.
+//! The command line runs an engine once; the studio keeps one and changes a little at a time.
+
+use super::concave;
+use super::warning::pin_warnings;
+use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
+use crate::design::thick;
+use crate::fold::{FoldPlan, ModelMotion};
+use crate::memory::Memory;
+use crate::mesh::{Mesh, Up};
+use crate::model::{self, Known, Model, ModelPart};
+use crate::net::{KnownNets, Net, NetChoices, NetOptions, develop_model};
+use crate::progress::Progress;
+use crate::segment::{self, Edit, Parts, SegmentOptions};
+use crate::sheet::{Layout, Pin, SheetOptions};
+use glam::DAffine3;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// So many results of whole stages are kept, for going back and forth between a few choices.
+const FEW: usize = 4;
+
+/// All stages for one mesh.
+///
+/// # Guarantees
+/// A result depends on the mesh and the options alone, not on what was asked for before.
+#[derive(Debug)]
+pub struct Engine<'m> {
+    mesh: Cow<'m, Mesh>,
+    segmented: Memory<Found, Arc<(Parts, DAffine3)>>,
+    divided: Memory<(Found, Vec<Edit>, Option<String>), Arc<Divided>>,
+    components: Known,
+    plans: Memory<(Arc<Model>, f64), Arc<FoldPlan>>,
+    nets: KnownNets,
+    layouts: Memory<LayoutKey, (Arc<Layout>, Arc<Vec<Net>>)>,
+}
+
+/// What decides a layout: sheets, pins, and the nets with their alternatives.
+type LayoutKey = (SheetOptions, BTreeMap<String, Pin>, Arc<Vec<Vec<Net>>>);
+
+/// What decides the parts before they are changed by hand: size, axis and segmentation.
+type Found = (f64, Up, SegmentOptions);
+
+impl<'m> Engine<'m> {
+    /// An engine for a mesh as it was read.
+    pub fn new(mesh: Cow<'m, Mesh>) -> Self {
+        Self {
+            mesh,
+            segmented: Memory::new(FEW),
+            divided: Memory::new(FEW),
+            components: Known::default(),
+            plans: Memory::new(FEW),
+            nets: KnownNets::default(),
+            layouts: Memory::new(FEW),
+        }
+    }
+
+    /// The mesh as it was read.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// Runs all stages.
+    ///
+    /// # Errors
+    /// See [`Error`].
+    pub fn run(&self, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
+        self.finish(self.shape(options, progress)?, progress)
+    }
+
+    /// The mesh at the model's size, its parts and their hulls.
+    ///
+    /// # Errors
+    /// [`Error::Segment`], [`Error::Edit`], [`Error::NothingSolid`], [`Error::Cancelled`].
+    pub fn divide(&self, options: &Options, progress: &dyn Progress) -> Result<Arc<Divided>, Error> {
+        let found = (options.size_mm, options.up, options.segmentation);
+        self.divided.get_or((found, options.edits.clone(), options.root.clone()), || {
+            let parts = self.find_parts(options, progress)?;
+            progress.stage("hulls");
+            let divided = Divided::new(parts)?;
+            progress.check()?;
+            Ok(Arc::new(divided))
+        })
+    }
+
+    /// Divides the mesh at the model's size into parts; also gives the transform from the
+    /// coordinates of the mesh as it was read.
+    ///
+    /// # Errors
+    /// [`Error::Segment`], [`Error::Edit`], [`Error::Cancelled`].
+    pub fn find_parts(&self, options: &Options, progress: &dyn Progress) -> Result<(Parts, DAffine3), Error> {
+        let found = (options.size_mm, options.up, options.segmentation);
+        let segmented = self.segmented.get_or(found, || {
+            let (mesh, to_model) = self.mesh.scaled(options.size_mm, options.up);
+            let segmentation = segment::segment(&mesh, &options.segmentation, progress)?;
+            Ok::<_, Error>(Arc::new((Parts::new(mesh, segmentation), to_model)))
+        })?;
+        let (mut parts, to_model) = Arc::unwrap_or_clone(segmented);
+        for edit in &options.edits {
+            parts = parts.edited(&edit.moved(&to_model))?;
+        }
+        if let Some(root) = &options.root {
+            parts = parts.with_root(root)?;
+        }
+        Ok((parts, to_model))
+    }
+
+    /// Makes the components.
+    ///
+    /// # Errors
+    /// As [`Engine::divide`], and [`Error::Model`], [`Error::NoComponent`], [`Error::SameName`].
+    pub fn shape(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
+        let divided = self.divide(options, progress)?;
+        let bodies = Bodies::new(divided.hulls(), options)?;
+        progress.stage("components");
+        let least_mm = options.min_panel_width_mm;
+        let model = model::build(bodies.parts(), bodies.links(), least_mm, &self.components, progress)?;
+        let (mesh, face_parts) = (divided.mesh(), divided.face_parts());
+        let (model, notes) = concave::refitted(model, mesh, face_parts, options, progress)?;
+        Ok(Shaped { options: Arc::new(options.clone()), divided, model: Arc::new(model), notes })
+    }
+
+    /// Makes one component, by its index, and what carries it: sooner than the whole model.
+    ///
+    /// # Errors
+    /// As [`Engine::shape`]; [`Error::NoComponent`] where there are not so many.
+    pub fn component(
+        &self,
+        options: &Options,
+        part: usize,
+        progress: &dyn Progress,
+    ) -> Result<ModelPart, Error> {
+        let divided = self.divide(options, progress)?;
+        let bodies = Bodies::new(divided.hulls(), options)?;
+        if part >= bodies.parts().len() {
+            let known = divided.hulls().names().join(", ");
+            return Err(Error::NoComponent { name: format!("number {}", part + 1), known });
+        }
+        let least_mm = options.min_panel_width_mm;
+        let (parts, links) = (bodies.parts(), bodies.links());
+        Ok(model::build_one(parts, links, part, least_mm, &self.components, progress)?)
+    }
+
+    /// From the components to sheets.
+    ///
+    /// # Errors
+    /// [`Error::Net`], [`Error::Layout`], [`Error::Cancelled`].
+    pub fn finish(&self, shaped: Shaped, progress: &dyn Progress) -> Result<Output, Error> {
+        let options = &*shaped.options;
+        let mut model = shaped.model.clone();
+        if options.is_thick {
+            model = Arc::new(thick(&model, options.thickness_mm, options.min_panel_width_mm)?);
+        }
+        let thickness_mm = options.thickness_mm;
+        let fold_plan = self.plans.get_or((model.clone(), thickness_mm), || {
+            progress.stage("folding");
+            let plan = FoldPlan::new(&ModelMotion::new(&model), thickness_mm, progress)?;
+            Ok::<_, Error>(Arc::new(plan))
+        })?;
+        let sheets = SheetOptions {
+            paper: options.paper,
+            margin_mm: options.margin_mm,
+            choices: options.sheets,
+            has_valleys: model.has_valleys(),
+        };
+        let net_options = NetOptions {
+            tab_width_mm: options.tab_width_mm,
+            sheet_mm: sheets.room_mm(),
+            choices: NetChoices { is_separate: options.is_thick, ..options.nets },
+        };
+        progress.stage("nets");
+        let alternatives = develop_model(&model, &net_options, &self.nets, progress)
+            .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
+        let alternatives = Arc::new(alternatives);
+        let key = (sheets, options.pins.clone(), alternatives.clone());
+        let (layout, nets) = self.layouts.get_or(key, || {
+            progress.stage("sheets");
+            let laid = Layout::of_alternatives(&alternatives, &sheets, &options.pins, progress)?;
+            Ok::<_, Error>((Arc::new(laid.0), Arc::new(laid.1)))
+        })?;
+        let mut warnings = shaped.notes.clone();
+        warnings.extend(super::warning::warnings(
+            &model,
+            &nets,
+            shaped.divided.hulls().flat_faces(),
+            options,
+        ));
+        warnings.extend(pin_warnings(&layout));
+        let advice = fold_plan.advice(&model).into_iter();
+        warnings.extend(advice.map(|(code, message)| Warning { code, message }));
+        let shaped = Shaped { model, ..shaped.clone() };
+        Ok(Output { shaped, fold_plan, nets, layout, warnings: Arc::new(warnings) })
+    }
+}

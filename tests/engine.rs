@@ -1,0 +1,101 @@
+//! The engine remembers, and what it remembers is what would be made anew.
+
+use std::borrow::Cow;
+use std::sync::Mutex;
+use tatamu::mesh::{self, Mesh};
+use tatamu::pipeline::{ComponentOptions, Engine, Options, Output};
+use tatamu::progress::{Progress, Silent};
+use tatamu::segment::{Edit, SegmentOptions};
+use tatamu::units::parse_paper;
+
+/// A sample with a joint, made with few edges so that it is quick.
+fn bottle() -> Mesh {
+    let bytes = include_bytes!("../samples/bottle.obj");
+    Mesh::from_soup(&mesh::read(bytes).expect("OBJ")).expect("a mesh").0
+}
+
+fn options() -> Options {
+    Options {
+        segmentation: SegmentOptions { parts: Some(2), ..Default::default() },
+        top_edges: 4,
+        profile_vertices: 4,
+        ..Options::default()
+    }
+}
+
+fn turned(name: &str, degrees: f64) -> Options {
+    let mut options = options();
+    let own = ComponentOptions { direction_rad: Some(degrees.to_radians()), ..Default::default() };
+    options.components.insert(name.to_owned(), own);
+    options
+}
+
+fn assert_same(a: &Output, b: &Output) {
+    assert!(a.model() == b.model(), "the models differ");
+    assert!(a.nets() == b.nets(), "the nets differ");
+    assert!(a.fold_plan() == b.fold_plan(), "the orders of folding differ");
+    assert_eq!(a.warnings(), b.warnings());
+    for n in 0..a.nets().len() {
+        assert_eq!(a.layout().places(n), b.layout().places(n));
+    }
+}
+
+/// Notes which stages ran.
+#[derive(Default)]
+struct Stages(Mutex<Vec<&'static str>>);
+
+impl Progress for Stages {
+    fn stage(&self, name: &'static str) {
+        self.0.lock().expect("no panic").push(name);
+    }
+}
+
+#[test]
+fn going_to_and_fro_gives_what_a_fresh_run_gives() {
+    let mesh = bottle();
+    let engine = Engine::new(Cow::Borrowed(&mesh));
+    let first = engine.run(&options(), &Silent).expect("a model");
+    let names = first.shaped().divided().hulls().names().to_vec();
+    assert_eq!(names.len(), 2);
+    let merged = Options { edits: vec![Edit::Merge { parts: names.clone() }], ..options() };
+    let small = Options { paper: parse_paper("a3").expect("a3"), ..turned(&names[1], 30.0) };
+    for options in [turned(&names[0], 40.0), small, merged, options()] {
+        let kept = engine.run(&options, &Silent).expect("a model");
+        let fresh = Engine::new(Cow::Borrowed(&mesh)).run(&options, &Silent).expect("a model");
+        assert_same(&kept, &fresh);
+    }
+}
+
+#[test]
+fn only_what_changed_is_made_again() {
+    let mesh = bottle();
+    let engine = Engine::new(Cow::Borrowed(&mesh));
+    let first = engine.run(&options(), &Silent).expect("a model");
+    let stages = |options: &Options| {
+        let stages = Stages::default();
+        engine.run(options, &stages).expect("a model");
+        stages.0.into_inner().expect("no panic")
+    };
+    assert_eq!(stages(&options()), ["components", "nets"], "nothing is new: a look at what is known");
+    let leaf = (0..2)
+        .find(|&p| first.model().parts().iter().all(|q| q.joint.as_ref().is_none_or(|j| j.parent != p)));
+    let leaf = &first.model().parts()[leaf.expect("a tree has leaves")].name;
+    assert_eq!(stages(&turned(leaf, 40.0)), ["components", "folding", "nets", "sheets"]);
+    let paper = Options { margin_mm: 12.0, ..turned(leaf, 40.0) };
+    assert_eq!(stages(&paper), ["components", "nets", "sheets"]);
+}
+
+#[test]
+fn one_component_alone_is_the_one_of_the_model() {
+    let mesh = bottle();
+    let fresh = Engine::new(Cow::Borrowed(&mesh));
+    for part in 0..2 {
+        let options = turned("body", 25.0);
+        let alone = fresh.component(&options, part, &Silent).expect("a component");
+        let model = fresh.shape(&options, &Silent).expect("a model");
+        let whole = &model.model().parts()[part];
+        assert_eq!(alone.component, whole.component);
+        assert_eq!(alone.deployed(), whole.deployed());
+    }
+    assert!(fresh.component(&options(), 2, &Silent).is_err());
+}
