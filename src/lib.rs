@@ -5,6 +5,7 @@
 //!
 //! ```text
 //! mesh -> segment -> hull + joints -> component -> model -> net -> sheet -> drawing -> export
+//!                             design -^
 //! ```
 //!
 //! The method is that of the paper "Semi-Automatic Conversion of 3D Shape into Flat-Foldable
@@ -13,6 +14,7 @@
 
 pub mod check;
 pub mod component;
+pub mod design;
 pub mod drawing;
 pub mod export;
 pub mod fold;

@@ -1,15 +1,19 @@
 //! The way from a mesh to sheets, stage by stage. Reading [`Engine`] is reading the program.
 
 mod bodies;
+mod concave;
+mod drawn;
 mod engine;
 mod output;
 mod warning;
 
 pub use bodies::{Bodies, Hulls};
+pub use drawn::run_drawn;
 pub use engine::Engine;
 pub use output::{Divided, Output, Shaped};
 pub use warning::Warning;
 
+use crate::design::{DesignError, ThickError};
 use crate::mesh::{Mesh, Up};
 use crate::model::ModelError;
 use crate::net::{NetChoices, NetsError};
@@ -53,6 +57,8 @@ pub struct Options {
     pub margin_mm: f64,
     /// Thickness of the paper, mm.
     pub thickness_mm: f64,
+    /// Whether panels are boards of that thickness, each cut by itself.
+    pub is_thick: bool,
     /// What else is chosen about nets.
     pub nets: NetChoices,
     /// What else is chosen about sheets.
@@ -78,6 +84,7 @@ impl Default for Options {
             paper: Paper::default(),
             margin_mm: 10.0,
             thickness_mm: 0.25,
+            is_thick: false,
             nets: NetChoices::default(),
             sheets: SheetChoices::default(),
             pins: BTreeMap::new(),
@@ -96,6 +103,8 @@ pub struct ComponentOptions {
     pub top_edges: Option<usize>,
     /// Vertices of profiles.
     pub profile_vertices: Option<usize>,
+    /// Whether it may have dents, where that brings it nearer to its shape.
+    pub is_concave: bool,
 }
 
 /// Why there is no model.
@@ -116,6 +125,12 @@ pub enum Error {
     /// A component failed.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// Thick panels have no room.
+    #[error(transparent)]
+    Thick(#[from] ThickError),
+    /// Drawings make no model.
+    #[error(transparent)]
+    Design(#[from] DesignError),
     /// A net failed.
     #[error("{}", too_large(.error, *.size_mm))]
     Net {

@@ -84,7 +84,7 @@ struct Component<'a> {
 #[derive(Serialize)]
 struct Profile {
     vertices: usize,
-    fold_vertex: usize,
+    fold_vertices: Vec<usize>,
     gap_mm: f64,
     mean_segment_mm: f64,
 }
@@ -263,7 +263,7 @@ fn component<'a>(output: &'a Output, p: usize, part: &'a ModelPart, diagonal_mm:
             .iter()
             .map(|profile| Profile {
                 vertices: profile.points().len(),
-                fold_vertex: profile.fold_vertex(),
+                fold_vertices: profile.fold_vertices().collect(),
                 gap_mm: profile.gap_mm().abs(),
                 mean_segment_mm: profile.mean_segment_mm(),
             })

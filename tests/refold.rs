@@ -68,7 +68,7 @@ fn deployed_panels_are_the_faces_of_the_components() {
         let deployed = &master.file_frames[0].vertices_coords;
         for part in output.model().parts() {
             let name = format!("{name}, {}", part.name);
-            let solid = part.component.solid();
+            let solid = part.component.solid().expect("made for a hull");
             let to_own = part.deployed().inverse();
             let mut area_mm2 = part.component.trimmed_mm2();
             let mut panels = 0;
@@ -155,7 +155,10 @@ fn profiles_are_within_their_limits_and_have_no_gap() {
             let profiles = part.component.profiles();
             assert!((3..=options.top_edges).contains(&profiles.len()), "{name}, {}", part.name);
             for profile in profiles {
-                let (points, fold) = (profile.points(), profile.fold_vertex());
+                let points = profile.points();
+                let [fold] = profile.fold_vertices().collect::<Vec<_>>()[..] else {
+                    panic!("{name}: one fold")
+                };
                 let last = points.len() - 1;
                 assert!(last < options.profile_vertices, "{name}, {}: {last} segments", part.name);
                 let length = |part: &[DVec2]| part.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();

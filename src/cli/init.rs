@@ -6,7 +6,7 @@ use super::progress::TerminalProgress;
 use super::{input, output, terminal};
 use clap::Args;
 use std::path::{Path, PathBuf};
-use tatamu::pipeline::{self, Options};
+use tatamu::pipeline::Options;
 use tatamu::project::{Template, TemplateComponent, to_toml};
 
 /// Writes a project file for a mesh, to edit and to give to "make".
@@ -69,8 +69,7 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
     }
     let options = args.model.merge(input.project.as_ref())?;
     let progress = TerminalProgress::new(args.quiet);
-    let result = pipeline::run(&input.mesh, &options, &progress)
-        .map_err(|error| CliError::of_run(error, &progress))?;
+    let result = input.run(&args.model, &options, &progress)?;
     progress.finish();
     let components: Vec<TemplateComponent> = result
         .model()
@@ -79,7 +78,8 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         .map(|part| TemplateComponent {
             name: part.name.clone(),
             direction_deg: part.direction_rad.to_degrees(),
-            is_chosen: options.components.contains_key(&part.name),
+            is_chosen: options.components.get(&part.name).is_some_and(|c| c.direction_rad.is_some()),
+            is_concave: options.components.get(&part.name).is_some_and(|c| c.is_concave),
         })
         .collect();
     let text = project_text(&mesh_from(&path, &input.mesh_path)?, &options, &components);
@@ -105,6 +105,7 @@ pub fn project_text(mesh: &str, options: &Options, components: &[TemplateCompone
         paper: options.paper,
         margin_mm: options.margin_mm,
         thickness_mm: options.thickness_mm,
+        is_thick: options.is_thick,
         nets: options.nets,
         sheets: options.sheets,
         components,

@@ -1,21 +1,60 @@
 //! Reading the input: a mesh, or a project file that names one.
 
 use super::error::{CliError, reason};
+use super::options::ModelArgs;
+use super::progress::TerminalProgress;
 use std::path::{Component, Path, PathBuf};
+use tatamu::design::Sketch;
 use tatamu::mesh::painting::Painting;
 use tatamu::mesh::{self, Mesh, Repairs};
+use tatamu::pipeline::{self, Options, Output};
 use tatamu::project::Project;
 
-/// A mesh with where it comes from.
+/// What a model is made of, with where it comes from.
 pub struct Input {
-    /// The mesh file.
+    /// The mesh file, or the project file that holds the drawings.
     pub mesh_path: PathBuf,
     /// The project, where the user gave one.
     pub project: Option<Project>,
-    /// The clean mesh.
-    pub mesh: Mesh,
-    /// What was done to make it clean.
+    /// The shape.
+    pub shape: Shape,
+    /// What was done to make the mesh clean.
     pub repairs: Repairs,
+}
+
+/// A mesh, or drawings.
+pub enum Shape {
+    /// A clean mesh.
+    Mesh(Mesh),
+    /// Drawn components.
+    Drawn(Vec<Sketch>),
+}
+
+impl Input {
+    /// The mesh, for commands that have no use for drawings.
+    pub fn mesh(&self) -> Result<&Mesh, CliError> {
+        match &self.shape {
+            Shape::Mesh(mesh) => Ok(mesh),
+            Shape::Drawn(_) => Err(CliError::Options(format!(
+                "{} holds drawn components and no mesh, so there is nothing to divide; \"make\" makes them",
+                self.mesh_path.display()
+            ))),
+        }
+    }
+
+    /// Runs all stages.
+    pub fn run(
+        &self,
+        model: &ModelArgs,
+        options: &Options,
+        progress: &TerminalProgress,
+    ) -> Result<Output, CliError> {
+        let result = match &self.shape {
+            Shape::Mesh(mesh) => pipeline::run(mesh, options, progress),
+            Shape::Drawn(sketches) => pipeline::run_drawn(sketches, model.size_mm(self), options, progress),
+        };
+        result.map_err(|error| CliError::of_run(error, progress))
+    }
 }
 
 /// Reads a mesh or a project file.
@@ -30,7 +69,13 @@ pub fn read(path: &Path) -> Result<Input, CliError> {
     })?;
     let project =
         Project::parse(&text).map_err(|error| CliError::Project { path: path.to_owned(), error })?;
-    let mesh_path = path.with_file_name(&project.mesh);
+    let Some(mesh) = &project.mesh else {
+        let sketches = project.sketches();
+        let sketches = sketches.map_err(|error| CliError::Project { path: path.to_owned(), error })?;
+        let (shape, repairs) = (Shape::Drawn(sketches), Repairs::default());
+        return Ok(Input { mesh_path: path.to_owned(), project: Some(project), shape, repairs });
+    };
+    let mesh_path = path.with_file_name(mesh);
     let bytes = std::fs::read(&mesh_path).map_err(|error| CliError::ProjectMesh {
         path: mesh_path.clone(),
         project: path.to_owned(),
@@ -45,7 +90,7 @@ fn read_mesh(path: &Path, bytes: &[u8], project: Option<Project>) -> Result<Inpu
         .map_err(|error| CliError::Read { path: path.to_owned(), error })?;
     let (mesh, repairs) =
         Mesh::from_soup(&soup).map_err(|error| CliError::Mesh { path: path.to_owned(), error })?;
-    Ok(Input { mesh_path: path.to_owned(), project, mesh, repairs })
+    Ok(Input { mesh_path: path.to_owned(), project, shape: Shape::Mesh(mesh), repairs })
 }
 
 /// The colours of a mesh file.

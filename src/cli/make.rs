@@ -11,12 +11,12 @@ use super::progress::TerminalProgress;
 use super::{input, terminal};
 use clap::Args;
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tatamu::export::{FormatOptions, Source};
 use tatamu::fold::Stack;
 use tatamu::mesh::{Mesh, Repairs};
 use tatamu::net::Side;
-use tatamu::pipeline::{self, Output, Warning};
+use tatamu::pipeline::{Output, Warning};
 use tatamu::product::{self, Content, Product};
 use tatamu::report::Run;
 
@@ -77,6 +77,18 @@ pub struct MakeArgs {
     quiet: bool,
 }
 
+impl MakeArgs {
+    /// The mesh or project file.
+    pub fn input(&self) -> &Path {
+        &self.input
+    }
+
+    /// Options of the model.
+    pub fn model(&self) -> &ModelArgs {
+        &self.model
+    }
+}
+
 /// So many warnings of one kind are shown; a small model with many labels has dozens.
 const MOST_OF_A_KIND: usize = 4;
 
@@ -112,8 +124,7 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     warnings.iter().for_each(warn);
 
     let progress = TerminalProgress::new(args.quiet);
-    let result = pipeline::run(&input.mesh, &options, &progress)
-        .map_err(|error| CliError::of_run(error, &progress))?;
+    let result = input.run(&args.model, &options, &progress)?;
     let stages = progress.finish();
     warn_by_kind(result.warnings());
 

@@ -2,6 +2,7 @@
 
 mod check;
 mod cutters;
+mod design;
 mod error;
 mod film;
 mod formats;
@@ -45,7 +46,8 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Make(make::MakeArgs),
+    Make(Box<make::MakeArgs>),
+    Design(Box<design::DesignArgs>),
     Init(init::InitArgs),
     Show(show::ShowArgs),
     Studio(studio::StudioArgs),
@@ -68,6 +70,7 @@ Examples:
   tatamu init teddy.obj                     teddy.toml, a project file to edit
   tatamu segment teddy.obj -o parts.png     shows the parts without making a model
   tatamu make teddy.toml                    makes what the project file says
+  tatamu design vase.toml                   makes a model that is drawn in a project file
   tatamu make teddy.obj -o teddy.gif        an animation of its folding
   tatamu show teddy.obj -o half.png --pose 0.5
   tatamu studio teddy.obj                   a window in which to try directions and sizes
@@ -81,6 +84,7 @@ pub fn run() -> ExitCode {
     let cli = Cli::parse();
     let result = match &cli.command {
         Command::Make(args) => make::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Design(args) => design::run(args).map(|()| ExitCode::SUCCESS),
         Command::Init(args) => init::run(args).map(|()| ExitCode::SUCCESS),
         Command::Show(args) => show::run(args).map(|()| ExitCode::SUCCESS),
         Command::Studio(args) => studio::run(args).map(|()| ExitCode::SUCCESS),

@@ -1,6 +1,7 @@
 //! The options that shape a model: flags first, then the project file, then the defaults.
 
 use super::error::CliError;
+use super::input::Input;
 use super::net_args::NetArgs;
 use super::segment_args::SegmentArgs;
 use super::sheet_args::SheetArgs;
@@ -37,6 +38,14 @@ pub struct ModelArgs {
     /// Example: --direction head=90 --direction body=-15
     #[arg(long, value_name = "NAME=DEGREES", value_parser = direction)]
     direction: Vec<(String, f64)>,
+
+    /// Component that may have dents, such as a bottle with --parts 1
+    ///
+    /// Its profiles follow the shape itself rather than its convex hull. It stays convex, with a
+    /// message, where that is no better, and where it is joined to others. May be given once for
+    /// each component. Example: --parts 1 --concave body
+    #[arg(long, value_name = "NAME")]
+    concave: Vec<String>,
 
     /// Edges of each component's top panel, 3 or more [default: 6]
     ///
@@ -89,6 +98,15 @@ pub struct ModelArgs {
     /// is a warning. Card of 200 g/m² has 0.25 mm. Example: --thickness 0.4mm
     #[arg(long, value_name = "LENGTH", value_parser = parse_thickness_mm)]
     thickness: Option<f64>,
+
+    /// Panels of board as thick as --thickness, each cut by itself and hinged with tape
+    ///
+    /// The outside keeps its size: panels are shortened at their hinges, and creases are found anew
+    /// for the inner faces, so that the boards lie flat on one another. Dents are refused.
+    /// Example: --thickness 1.5mm --thick -o box.pdf -o box.stl
+    #[arg(long)]
+    thick: bool,
+
     #[command(flatten)]
     nets: NetArgs,
 
@@ -131,6 +149,11 @@ impl ModelArgs {
         Self { up, segmentation, ..Self::default() }
     }
 
+    /// The size that was asked for, mm: drawings have one of their own.
+    pub fn size_mm(&self, input: &Input) -> Option<f64> {
+        self.size.or(input.project.as_ref().and_then(|project| project.size_mm))
+    }
+
     /// The options for an input, which may be a project.
     pub fn merge(&self, project: Option<&Project>) -> Result<Options, CliError> {
         let mut options = Options::default();
@@ -143,6 +166,7 @@ impl ModelArgs {
         set(&mut options.tab_width_mm, self.tab_width);
         set(&mut options.margin_mm, self.margin);
         set(&mut options.thickness_mm, self.thickness);
+        options.is_thick |= self.thick;
         self.nets.merge(project.map(|p| &p.nets), &mut options.nets);
         self.sheets.merge(project.map(|p| &p.sheets), &mut options.sheets);
         options.up = self.up.unwrap_or(options.up);
@@ -176,6 +200,11 @@ impl ModelArgs {
             let component = options.components.entry(key).or_default();
             component.direction_rad = Some(degrees.to_radians());
         }
+        for name in &self.concave {
+            let renamed = options.components.iter().find(|(_, c)| c.rename.as_ref() == Some(name));
+            let key = renamed.map_or(name, |(key, _)| key).clone();
+            options.components.entry(key).or_default().is_concave = true;
+        }
         check_margin(&options)?;
         Ok(options)
     }
@@ -190,6 +219,7 @@ fn merge_project(project: &Project, options: &mut Options) {
     set(&mut options.tab_width_mm, defaults.tab_width_mm);
     set(&mut options.margin_mm, project.paper.margin_mm);
     set(&mut options.thickness_mm, project.paper.thickness_mm);
+    options.is_thick = project.paper.thick.unwrap_or(false);
     options.tolerance_mm = defaults.tolerance_mm;
     options.up = project.up.unwrap_or(options.up);
     options.edits = project.edits.iter().map(|edit| edit.change().clone()).collect();
@@ -205,6 +235,7 @@ fn merge_project(project: &Project, options: &mut Options) {
             direction_rad: component.direction_deg.map(f64::to_radians),
             top_edges: component.top_edges,
             profile_vertices: component.profile_vertices,
+            is_concave: component.concave.unwrap_or(false),
         };
         options.components.insert(component.name.clone(), choice);
     }

@@ -86,7 +86,7 @@ pub fn run(args: &SegmentCommand) -> Result<(), CliError> {
     make::repair_warnings(&input.repairs).iter().for_each(make::warn);
 
     let progress = TerminalProgress::new(args.quiet);
-    let (parts, _) = pipeline::find_parts(&input.mesh, &options, &progress)
+    let (parts, _) = pipeline::find_parts(input.mesh()?, &options, &progress)
         .map_err(|error| CliError::of_run(error, &progress))?;
     progress.stage("hulls");
     let hulls: Vec<Option<Hull>> = parts.hulls().into_iter().map(Result::ok).collect();

@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use tatamu::drawing::{LineStyles, Pages, Rgb};
 use tatamu::export::{FORMATS, FormatOptions, Source, png};
-use tatamu::pipeline::{self, Output};
+use tatamu::pipeline::Output;
 use tatamu::render::Scene;
 use tatamu::show::{
     ShowError, Still, ViewAngle, components_scene, hulls_scene, mesh_scene, segments_scene, staged_scene,
@@ -105,11 +105,10 @@ pub fn run(args: &ShowArgs) -> Result<(), CliError> {
     output::check_places(std::slice::from_ref(&path), &[&args.input, &input.mesh_path])?;
     let options = args.model.merge(input.project.as_ref())?;
     let scene = if args.stage == Some(Stage::Mesh) {
-        mesh_scene(&input.mesh.scaled(options.size_mm, options.up).0).map_err(ShowError::from)?
+        mesh_scene(&input.mesh()?.scaled(options.size_mm, options.up).0).map_err(ShowError::from)?
     } else {
         let progress = TerminalProgress::new(args.quiet);
-        let result = pipeline::run(&input.mesh, &options, &progress)
-            .map_err(|error| CliError::of_run(error, &progress))?;
+        let result = input.run(&args.model, &options, &progress)?;
         progress.finish();
         scene(args, &result)?
     };

@@ -1,11 +1,13 @@
-//! From half-spaces to rigid panels: profiles with their fold vertices, outlines, placements in
-//! both end states, hinges.
+//! From walls to rigid panels: outlines, placements in both end states, hinges. The walls are those
+//! of half-spaces with their fold vertices, or drawn.
 
-use super::layer::{self, Side};
+use super::layer::{self, Layer, Side};
 use super::panel::{Hinge, HingeSide, Panel, PanelId, PanelKind, PanelSet};
-use super::profile::{Profile, ProfileError, balance};
+use super::profile::{Fold, Profile, ProfileError, balance};
 use super::solid::Solid;
 use super::target::FoldSpot;
+use super::walls::Walls;
+use crate::geom::polygon;
 use glam::{DAffine2, DAffine3, DMat2, DMat3, DVec2, DVec3};
 
 /// Why a solid makes no panels.
@@ -28,6 +30,19 @@ pub enum AssembleError {
     /// Some panel has no width or height at some place.
     #[error("not all of its panels have room")]
     NoRoom,
+    /// Neighbouring walls meet in front of a wall.
+    #[error(
+        "edge {} has no width left at height {height_mm:.1} mm: the walls beside it meet there ({width_mm:.1} mm); draw \
+         profiles that differ less, or a longer edge", chain + 1
+    )]
+    Pinched {
+        /// The chain.
+        chain: usize,
+        /// Where it is narrowest.
+        height_mm: f64,
+        /// Its width there, negative where the walls have crossed.
+        width_mm: f64,
+    },
     /// Nothing of a panel is left.
     #[error("a panel of chain {0} vanished")]
     Vanished(usize),
@@ -48,19 +63,29 @@ pub(super) fn assemble(solid: &Solid, spots: &[FoldSpot]) -> Result<Assembled, A
             profile(solid, chain, spots[chain]).map_err(|error| AssembleError::Profile { chain, error })
         })
         .collect::<Result<Vec<_>, _>>()?;
+    panels(&Walls::new(solid.chains.iter().map(|c| c.normal()).collect(), profiles))
+}
+
+/// Panels of walls, trimmed where they would collide when flat, hinges.
+pub(super) fn panels(walls: &Walls) -> Result<Assembled, AssembleError> {
     let mut sides: Vec<Side> = Vec::new();
-    for (j, profile) in profiles.iter().enumerate() {
+    let mut trimmed_mm2 = 0.0;
+    for (j, profile) in walls.profiles().iter().enumerate() {
         for i in 0..profile.points().len() - 1 {
-            sides.push(side(solid, j, profile, i));
+            let mut side = side(walls, j, i);
+            let whole_mm2 = polygon::area(&side.outline);
+            side.outline = convex(side.outline);
+            trimmed_mm2 += whole_mm2 - polygon::area(&side.outline);
+            sides.push(side);
         }
     }
-    let trimmed_mm2 = layer::trim(solid, &mut sides);
-    let mut build = Builder { solid, profiles: &profiles, sides, panels: Vec::new(), hinges: Vec::new() };
+    trimmed_mm2 += layer::trim(walls, &mut sides);
+    let mut build = Builder { walls, sides, panels: Vec::new(), hinges: Vec::new() };
     let spans = build.match_hinges()?;
-    build.ends();
-    build.side_panels(&spans)?;
+    let ends = build.ends(&spans);
+    build.side_panels(&spans, &ends)?;
     let panels = PanelSet::new(build.panels, build.hinges);
-    Ok(Assembled { profiles, panels, trimmed_mm2 })
+    Ok(Assembled { profiles: walls.profiles().to_vec(), panels, trimmed_mm2 })
 }
 
 fn profile(solid: &Solid, chain: usize, spot: FoldSpot) -> Result<Profile, ProfileError> {
@@ -77,102 +102,170 @@ fn profile(solid: &Solid, chain: usize, spot: FoldSpot) -> Result<Profile, Profi
 
 /// Outline and layer placement of panel i of chain j. The sides follow the corners with the
 /// neighbouring chains, which bend where the neighbours' profiles do.
-fn side(solid: &Solid, j: usize, profile: &Profile, i: usize) -> Side {
+fn side(walls: &Walls, j: usize, i: usize) -> Side {
+    let profile = walls.profile(j);
     let points = profile.points();
     let (upper, lower) = (points[i], points[i + 1]);
     let length = upper.distance(lower);
-    let tangent = solid.chains[j].tangent();
+    let tangent = walls.tangent(j);
     let at = |corner: usize, v: f64| {
-        DVec2::new(tangent.dot(solid.corner_at(corner, v)), length * (v - lower.y) / (upper.y - lower.y))
+        DVec2::new(tangent.dot(walls.corner_at(corner, v)), length * (v - lower.y) / (upper.y - lower.y))
     };
     let between = |neighbour: usize| {
         let inside = move |v: &f64| *v < upper.y - BEND_MM && *v > lower.y + BEND_MM;
-        solid.chains[neighbour].bends().filter(inside).collect::<Vec<f64>>()
+        walls.profile(neighbour).bends().filter(inside).collect::<Vec<f64>>()
     };
-    let (left, right) = (solid.previous(j), j);
+    let (left, right) = (walls.previous(j), j);
     let mut outline = vec![DVec2::new(at(left, lower.y).x, 0.0), DVec2::new(at(right, lower.y).x, 0.0)];
-    outline.extend(between(solid.next(j)).into_iter().rev().map(|v| at(right, v)));
+    outline.extend(between(walls.next(j)).into_iter().rev().map(|v| at(right, v)));
     outline.extend([DVec2::new(at(right, upper.y).x, length), DVec2::new(at(left, upper.y).x, length)]);
     outline.extend(between(left).into_iter().map(|v| at(left, v)));
 
-    let is_upper = i < profile.fold_vertex();
-    let normal = solid.chains[j].normal();
-    let lengths: Vec<f64> = profile.lengths().collect();
-    let to_layer = if is_upper {
-        let reach = points[0].x + lengths[..=i].iter().sum::<f64>();
-        DAffine2::from_mat2_translation(DMat2::from_cols(tangent, -normal), normal * reach)
-    } else {
-        let reach = points[points.len() - 1].x + lengths[i + 1..].iter().sum::<f64>();
-        DAffine2::from_mat2_translation(DMat2::from_cols(tangent, normal), normal * reach)
+    let faces_up = profile.faces_up(i);
+    let runs = profile.layer(points.len() - 2);
+    let layer = match profile.layer(i) {
+        0 => Layer::Top,
+        run if run == runs => Layer::Bottom,
+        _ => Layer::Between { faces_up },
     };
-    Side { chain: j, outline, to_layer, is_upper }
+    let normal = walls.normal(j);
+    let slope = if faces_up { -normal } else { normal };
+    let to_layer =
+        DAffine2::from_mat2_translation(DMat2::from_cols(tangent, slope), normal * profile.flat_mm()[i + 1]);
+    Side { chain: j, outline, to_layer, layer }
+}
+
+/// Directions tried for a cut through an inward corner.
+const CUTS: usize = 9;
+/// Sines of inward corners below this are rounding.
+const INWARD: f64 = 1e-9;
+
+/// The outline without what makes it bend inwards beside a neighbour with a dent: panels are
+/// convex, and free to be cut back at their slits.
+fn convex(mut outline: Vec<DVec2>) -> Vec<DVec2> {
+    let inward = |outline: &[DVec2], k: usize| {
+        let n = outline.len();
+        let (into, out) = (outline[k] - outline[(k + n - 1) % n], outline[(k + 1) % n] - outline[k]);
+        (into.perp_dot(out) < -INWARD * into.length() * out.length()).then_some((into, out))
+    };
+    // Every cut takes one inward corner away and makes none.
+    for _ in 0..outline.len() {
+        let Some((k, (into, out))) = (0..outline.len()).find_map(|k| Some((k, inward(&outline, k)?))) else {
+            break;
+        };
+        let cut = |step: usize| {
+            let along = into.normalize().lerp(out.normalize(), step as f64 / (CUTS - 1) as f64);
+            let outward = -along.normalize_or(DVec2::X).perp();
+            polygon::clip(&outline, outward, outward.dot(outline[k]))
+        };
+        let cuts = (0..CUTS).map(cut);
+        outline = cuts.max_by(|a, b| polygon::area(a).total_cmp(&polygon::area(b))).unwrap_or_default();
+    }
+    outline
 }
 
 /// Bends of a neighbour nearer to a hinge than this make no corner of their own.
 const BEND_MM: f64 = 1e-6;
 
 struct Builder<'a> {
-    solid: &'a Solid,
-    profiles: &'a [Profile],
+    walls: &'a Walls,
     sides: Vec<Side>,
     panels: Vec<Panel>,
     hinges: Vec<Hinge>,
 }
 
+/// Edges of the top and of the bottom panel, by chain.
+struct Ends {
+    top: Vec<usize>,
+    bottom: Vec<usize>,
+}
+
 impl Builder<'_> {
     /// Index in `sides` of panel i of chain j.
     fn index(&self, j: usize, i: usize) -> usize {
-        self.profiles[..j].iter().map(|p| p.points().len() - 1).sum::<usize>() + i
+        self.walls.profiles()[..j].iter().map(|p| p.points().len() - 1).sum::<usize>() + i
     }
 
     fn length(&self, j: usize, i: usize) -> f64 {
-        self.profiles[j].points()[i].distance(self.profiles[j].points()[i + 1])
+        self.walls.profile(j).points()[i].distance(self.walls.profile(j).points()[i + 1])
     }
 
-    /// Gives the two panels at each inner hinge the same hinge edge, what both have left of it, and
-    /// returns these edges by chain.
+    /// The whole edge of the section that a chain has at a height.
+    fn whole_edge(&self, j: usize, v_mm: f64) -> Span {
+        let at = |corner: usize| self.walls.tangent(j).dot(self.walls.corner_at(corner, v_mm));
+        (at(self.walls.previous(j)), at(j))
+    }
+
+    /// Gives the two panels at each hinge the same hinge edge, what both have left of it, and
+    /// returns these edges by chain, from the top panel's to the bottom panel's.
     fn match_hinges(&mut self) -> Result<Vec<Vec<Span>>, AssembleError> {
-        let mut spans = vec![Vec::new(); self.profiles.len()];
+        let mut spans = vec![Vec::new(); self.walls.count()];
         for (j, spans) in spans.iter_mut().enumerate() {
-            for i in 1..self.profiles[j].points().len() - 1 {
-                let (above, below) = (self.index(j, i - 1), self.index(j, i));
-                let height = self.length(j, i);
-                let upper = span(&self.sides[above].outline, 0.0).ok_or(AssembleError::Vanished(j))?;
-                let lower = span(&self.sides[below].outline, height).ok_or(AssembleError::Vanished(j))?;
-                let common = (upper.0.max(lower.0), upper.1.min(lower.1));
-                if common.1 - common.0 <= BEND_MM {
-                    return Err(AssembleError::Vanished(j));
+            let count = self.walls.profile(j).points().len() - 1;
+            for i in 0..=count {
+                let above = (i > 0).then(|| self.index(j, i - 1));
+                let below = (i < count).then(|| (self.index(j, i), self.length(j, i)));
+                let left = |side: Option<(usize, f64)>| match side {
+                    Some((side, y)) => span(&self.sides[side].outline, y).ok_or(AssembleError::Vanished(j)),
+                    None => Ok(self.whole_edge(j, self.walls.profile(j).points()[i].y)),
+                };
+                let (upper, lower) = (left(above.map(|side| (side, 0.0)))?, left(below)?);
+                let common = common(upper, lower).ok_or(AssembleError::Vanished(j))?;
+                if let Some(above) = above {
+                    set_span(&mut self.sides[above].outline, 0.0, common);
                 }
-                set_span(&mut self.sides[above].outline, 0.0, common);
-                set_span(&mut self.sides[below].outline, height, common);
+                if let Some((below, height)) = below {
+                    set_span(&mut self.sides[below].outline, height, common);
+                }
                 spans.push(common);
             }
         }
         Ok(spans)
     }
 
-    /// Top and bottom panel.
-    fn ends(&mut self) {
-        let solid = self.solid;
-        let ring = |v: f64| (0..solid.chains.len()).map(move |j| solid.corner_at(j, v));
+    /// Top and bottom panel. Where a chain's hinge is shorter than the panel's edge, the edge is
+    /// divided.
+    fn ends(&mut self, spans: &[Vec<Span>]) -> Ends {
+        let (top_mm, bottom_mm) = (self.walls.top_mm(), self.walls.bottom_mm());
         let lift = |v: f64| DAffine3::from_translation(DVec3::Z * v);
-        self.panels.push(Panel {
-            kind: PanelKind::Top,
-            outline: ring(solid.top_mm).collect(),
-            deployed: lift(solid.top_mm),
-            flat: lift(solid.bottom_mm),
-        });
-        let turned =
-            lift(solid.bottom_mm) * DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, -1.0, -1.0)));
-        let mut outline: Vec<DVec2> = ring(solid.bottom_mm).map(|p| DVec2::new(p.x, -p.y)).collect();
+        let (outline, top) = self.ring(top_mm, |j| spans[j][0]);
+        let kind = PanelKind::Top;
+        self.panels.push(Panel { kind, outline, deployed: lift(top_mm), flat: lift(bottom_mm) });
+        let turned = lift(bottom_mm) * DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, -1.0, -1.0)));
+        let (mut outline, mut bottom) = self.ring(bottom_mm, |j| spans[j][spans[j].len() - 1]);
+        outline.iter_mut().for_each(|p| p.y = -p.y);
         outline.reverse();
+        let count = outline.len();
+        bottom.iter_mut().for_each(|edge| *edge = (2 * count - 2 - *edge) % count);
         self.panels.push(Panel { kind: PanelKind::Bottom, outline, deployed: turned, flat: turned });
+        Ends { top, bottom }
     }
 
-    fn side_panels(&mut self, spans: &[Vec<Span>]) -> Result<(), AssembleError> {
-        let n = self.solid.chains.len();
+    /// The section at a height, with the edge that is the hinge of each chain.
+    fn ring(&self, v_mm: f64, hinge: impl Fn(usize) -> Span) -> (Vec<DVec2>, Vec<usize>) {
+        let count = self.walls.count();
+        let (mut outline, mut edges) = (Vec::new(), vec![0; count]);
+        // The corner between chains 0 and 1 comes first, chain 0 last.
+        for j in (1..count).chain([0]) {
+            let (whole, hinge) = (self.whole_edge(j, v_mm), hinge(j));
+            let corner = self.walls.corner_at(self.walls.previous(j), v_mm);
+            let on_edge = |x: f64| corner + self.walls.tangent(j) * (x - whole.0);
+            outline.push(corner);
+            if hinge.0 > whole.0 {
+                outline.push(on_edge(hinge.0));
+            }
+            edges[j] = outline.len() - 1;
+            if hinge.1 < whole.1 {
+                outline.push(on_edge(hinge.1));
+            }
+        }
+        (outline, edges)
+    }
+
+    fn side_panels(&mut self, spans: &[Vec<Span>], ends: &Ends) -> Result<(), AssembleError> {
         for (j, spans) in spans.iter().enumerate() {
-            let count = self.profiles[j].points().len() - 1;
+            let profile = self.walls.profile(j);
+            let count = profile.points().len() - 1;
             for i in 0..count {
                 let (deployed, flat) = self.placements(j, i);
                 let outline = self.sides[self.index(j, i)].outline.clone();
@@ -184,39 +277,45 @@ impl Builder<'_> {
                 });
             }
             let first = 2 + self.index(j, 0);
-            let side = |builder: &Self, i: usize, y: f64, wanted: Option<Span>| {
-                let panel = PanelId(first + i);
-                let outline = &builder.panels[panel.0].outline;
-                let edge = wanted.map_or_else(|| edge_at(outline, y), |w| edge_of(outline, y, w));
-                edge.map(|edge| HingeSide { panel, edge }).ok_or(AssembleError::Vanished(j))
-            };
-            let top = HingeSide { panel: PanelId(0), edge: (j + n - 1) % n };
-            self.push_hinge(top, side(self, 0, self.length(j, 0), None)?, false);
-            for (i, &span) in (1..count).zip(spans) {
-                let above = side(self, i - 1, 0.0, Some(span))?;
-                let below = side(self, i, self.length(j, i), Some(span))?;
-                self.push_hinge(above, below, i == self.profiles[j].fold_vertex());
+            for (i, &span) in spans.iter().enumerate() {
+                let side = |builder: &Self, i: usize, y: f64| {
+                    let panel = PanelId(first + i);
+                    let edge = edge_of(&builder.panels[panel.0].outline, y, span);
+                    edge.map(|edge| HingeSide { panel, edge }).ok_or(AssembleError::Vanished(j))
+                };
+                let above = match i {
+                    0 => HingeSide { panel: PanelId(0), edge: ends.top[j] },
+                    _ => side(self, i - 1, 0.0)?,
+                };
+                let below = match i {
+                    i if i == count => HingeSide { panel: PanelId(1), edge: ends.bottom[j] },
+                    _ => side(self, i, self.length(j, i))?,
+                };
+                let fold = if i == 0 || i == count { None } else { profile.fold_at(i) };
+                self.push_hinge(above, below, fold);
             }
-            // The bottom outline is reversed: corner j stands at n − 1 − j.
-            let bottom = HingeSide { panel: PanelId(1), edge: n - 1 - j };
-            self.push_hinge(side(self, count - 1, 0.0, None)?, bottom, false);
         }
         Ok(())
     }
 
-    fn push_hinge(&mut self, above: HingeSide, below: HingeSide, is_fold: bool) {
-        let [a, b] = [above, below].map(|s| self.panels[s.panel.0].deployed.matrix3.z_axis);
-        let deployed_rad = a.cross(b).length().atan2(a.dot(b));
-        let flat_rad = if is_fold { std::f64::consts::PI } else { 0.0 };
-        self.hinges.push(Hinge { sides: [above, below], is_fold, deployed_rad, flat_rad });
+    fn push_hinge(&mut self, above: HingeSide, below: HingeSide, fold: Option<Fold>) {
+        let flat_rad = match fold {
+            Some(Fold::Mountain) => std::f64::consts::PI,
+            Some(Fold::Valley) => -std::f64::consts::PI,
+            None => 0.0,
+        };
+        let (is_fold, sides) = (fold.is_some(), [above, below]);
+        let hinge = Hinge { sides, is_fold, deployed_rad: 0.0, flat_rad };
+        let placements = sides.map(|side| self.panels[side.panel.0].deployed);
+        let deployed_rad = hinge.angle_rad(&self.panels[above.panel.0], placements);
+        self.hinges.push(Hinge { deployed_rad, ..hinge });
     }
 
     /// Rigid motions of panel i of chain j, deployed and flat.
     fn placements(&self, j: usize, i: usize) -> (DAffine3, DAffine3) {
-        let points = self.profiles[j].points();
+        let points = self.walls.profile(j).points();
         let (upper, lower) = (points[i], points[i + 1]);
-        let (normal, tangent) =
-            (self.solid.chains[j].normal().extend(0.0), self.solid.chains[j].tangent().extend(0.0));
+        let (normal, tangent) = (self.walls.normal(j).extend(0.0), self.walls.tangent(j).extend(0.0));
         let up = (upper - lower).normalize();
         let slope = normal * up.x + DVec3::Z * up.y;
         let deployed = DAffine3::from_mat3_translation(
@@ -227,7 +326,7 @@ impl Builder<'_> {
         let (x, y) = (layer.matrix2.x_axis.extend(0.0), layer.matrix2.y_axis.extend(0.0));
         let flat = DAffine3::from_mat3_translation(
             DMat3::from_cols(x, y, x.cross(y)),
-            layer.translation.extend(self.solid.bottom_mm),
+            layer.translation.extend(self.walls.bottom_mm()),
         );
         (deployed, flat)
     }
@@ -254,6 +353,13 @@ fn edge_of(outline: &[DVec2], y: f64, wanted: Span) -> Option<usize> {
 
 /// Least and largest x of an edge.
 type Span = (f64, f64);
+
+/// What two edges have in common. Ends that differ by rounding are the first edge's.
+fn common(a: Span, b: Span) -> Option<Span> {
+    let start = if b.0 > a.0 + BEND_MM { b.0 } else { a.0 };
+    let end = if b.1 < a.1 - BEND_MM { b.1 } else { a.1 };
+    (end - start > BEND_MM).then_some((start, end))
+}
 
 /// The outline's edge at height `y`.
 fn span(outline: &[DVec2], y: f64) -> Option<Span> {

@@ -1,14 +1,16 @@
 //! One hull into one component: first guess, fit, panels; simpler shapes where the limits leave
 //! no room.
 
-use super::assemble::AssembleError;
+use super::assemble::{self, AssembleError, Assembled};
 use super::distance::{Polytope, hausdorff};
 use super::panel::{PanelId, PanelKind, PanelSet};
 use super::profile::Profile;
 use super::search::{self, Found};
 use super::solid::{FaceId, Solid};
 use super::target::{JointTarget, Target};
+use super::walls::Walls;
 use crate::geom::{HullError, polygon};
+use glam::DVec2;
 
 /// Why a hull becomes no component.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -21,14 +23,19 @@ pub enum ConvertError {
     Assemble(#[from] AssembleError),
 }
 
-/// One flat-foldable convex component, in its own axes (v is z).
+/// Walls narrower than this vanish.
+const LEAST_WIDTH_MM: f64 = 0.1;
+
+/// One flat-foldable component, in its own axes (v is z).
 ///
 /// # Guarantees
-/// Every profile is convex, falls strictly and has gap 0 within rounding; the flat layers do not
-/// overlap; joint panels are single panels on their planes.
+/// Every profile falls strictly and has gap 0 within rounding; the layers of the flat top and
+/// bottom panel do not overlap; joint panels are single panels on their planes. A component made
+/// for a hull is convex.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Component {
-    solid: Solid,
+    solid: Option<Solid>,
+    normals: Vec<DVec2>,
     profiles: Vec<Profile>,
     panels: PanelSet,
     error_mm: f64,
@@ -36,9 +43,46 @@ pub struct Component {
 }
 
 impl Component {
-    /// The half-spaces.
-    pub fn solid(&self) -> &Solid {
-        &self.solid
+    /// A component from the directions of its top edges' outward normals, counter-clockwise, and
+    /// their profiles, which begin at one height and end at one height.
+    ///
+    /// # Errors
+    /// [`AssembleError`]: profiles that leave a panel no room.
+    pub fn of_profiles(normals: Vec<DVec2>, profiles: Vec<Profile>) -> Result<Self, AssembleError> {
+        let walls = Walls::new(normals.clone(), profiles);
+        let (chain, height_mm, width_mm) = walls.narrowest();
+        if width_mm <= LEAST_WIDTH_MM {
+            return Err(AssembleError::Pinched { chain, height_mm, width_mm });
+        }
+        let Assembled { profiles, panels, trimmed_mm2 } = assemble::panels(&walls)?;
+        Ok(Self { solid: None, normals, profiles, panels, error_mm: 0.0, trimmed_mm2 })
+    }
+
+    /// The same, with its Hausdorff distance to what it stands for.
+    #[must_use]
+    pub fn with_hausdorff_mm(self, error_mm: f64) -> Self {
+        Self { error_mm, ..self }
+    }
+
+    /// The half-spaces that it is the intersection of; none for one that was drawn.
+    pub fn solid(&self) -> Option<&Solid> {
+        self.solid.as_ref()
+    }
+
+    /// Outward normal of the top panel's edge j.
+    pub fn normal(&self, j: usize) -> DVec2 {
+        self.normals[j]
+    }
+
+    /// Height of the top panel.
+    pub fn top_mm(&self) -> f64 {
+        self.profiles[0].points()[0].y
+    }
+
+    /// Height of the bottom panel.
+    pub fn bottom_mm(&self) -> f64 {
+        let points = self.profiles[0].points();
+        points[points.len() - 1].y
     }
 
     /// Profile of each chain.
@@ -51,7 +95,7 @@ impl Component {
         &self.panels
     }
 
-    /// Hausdorff distance to the hull, mm.
+    /// Hausdorff distance to what it stands for, mm; 0 for one that was drawn.
     pub fn hausdorff_mm(&self) -> f64 {
         self.error_mm
     }
@@ -74,7 +118,7 @@ impl Component {
         })
     }
 
-    fn least(&self, measure: impl Fn(&[glam::DVec2]) -> f64) -> (PanelId, f64) {
+    fn least(&self, measure: impl Fn(&[DVec2]) -> f64) -> (PanelId, f64) {
         let sides =
             self.panels.panels().iter().enumerate().filter(|(_, p)| matches!(p.kind, PanelKind::Side { .. }));
         sides
@@ -84,12 +128,13 @@ impl Component {
 
     /// The panel that is the joint panel of `joint`.
     pub fn joint_panel(&self, target: &Target, joint: &JointTarget) -> Option<PanelId> {
-        match target.joint_face(&self.solid, joint)? {
+        let solid = self.solid.as_ref()?;
+        match target.joint_face(solid, joint)? {
             FaceId::Top => Some(PanelId(0)),
             FaceId::Bottom => Some(PanelId(1)),
             FaceId::Side(chain, facet) => {
                 let profile = &self.profiles[chain];
-                let shape = self.solid.profile(chain);
+                let shape = solid.profile(chain);
                 let middle = (shape[facet].y + shape[facet + 1].y) / 2.0;
                 let index = profile.points().windows(2).position(|w| w[1].y < middle)?;
                 let wanted = PanelKind::Side { chain, index };
@@ -108,7 +153,7 @@ impl Component {
 }
 
 /// Length of the outline's section at height y.
-fn chord(outline: &[glam::DVec2], y: f64) -> f64 {
+fn chord(outline: &[DVec2], y: f64) -> f64 {
     let mut span = (f64::INFINITY, f64::NEG_INFINITY);
     for (a, b) in polygon::edges(outline) {
         if (a.y - y) * (b.y - y) <= 0.0 {
@@ -137,8 +182,10 @@ pub fn convert(target: &Target) -> Result<Component, ConvertError> {
 pub fn choose(targets: &[(Target, f64)]) -> Result<(usize, Component), ConvertError> {
     let Found { target: k, fitted, made, .. } = search::best(targets)?;
     let error_mm = hausdorff(&fitted.shape.polytope, &Polytope::of_hull(targets[k].0.hull));
+    let solid = fitted.shape.solid;
     let component = Component {
-        solid: fitted.shape.solid,
+        normals: solid.chains.iter().map(|chain| chain.normal()).collect(),
+        solid: Some(solid),
         profiles: made.profiles,
         panels: made.panels,
         error_mm,
@@ -152,7 +199,7 @@ mod tests {
     use super::*;
     use crate::component::Seat;
     use crate::geom::{self, Hull};
-    use glam::{DVec2, DVec3};
+    use glam::DVec3;
     use proptest::prelude::*;
 
     /// Points spread over an ellipsoid: round, needle-like and plate-like hulls.
@@ -202,7 +249,7 @@ mod tests {
                 assert!(close(a[0], b[1]) && close(a[1], b[0]), "hinge torn: {a:?} {b:?}");
             }
         }
-        let floor = component.solid().bottom_mm;
+        let floor = component.bottom_mm();
         for panel in set.panels() {
             assert!(polygon::area(&panel.outline) > 0.0);
             let flat = panel.outline.iter().map(|q| panel.flat.transform_point3(q.extend(0.0)));
@@ -259,7 +306,7 @@ mod tests {
         let component = convert(&Target { top_edges: 4, ..target(&hull, vec![]) }).unwrap();
         check(&component);
         assert!(component.hausdorff_mm() < 0.05, "{}", component.hausdorff_mm());
-        assert_eq!(component.solid().chains.len(), 4);
+        assert_eq!(component.profiles().len(), 4);
     }
 
     #[test]

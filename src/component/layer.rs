@@ -1,13 +1,40 @@
-//! The two layers of a flat component.
+//! The layers of a flat component.
 //!
-//! Folded flat, the panels above the fold hinges lie developed round the top panel and the others
-//! round the bottom panel. Panels collide when flat exactly where two chains overlap in one of
-//! these developments. Slits are free edges, so trimming a panel there never breaks foldability:
-//! overlapping chains are cut back to a ray from the corner between their edges.
+//! Folded flat, the panels above the first fold hinges lie developed round the top panel and those
+//! below the last ones round the bottom panel; a convex component has no others. Panels collide
+//! when flat exactly where two chains overlap in one of these developments. Slits are free edges,
+//! so trimming a panel there never breaks foldability: overlapping chains are cut back to a ray
+//! from the corner between their edges. What lies between the two is free to lie in any order
+//! against other chains.
 
-use super::solid::Solid;
+use super::walls::Walls;
 use crate::geom::polygon;
 use glam::{DAffine2, DVec2};
+
+/// A layer of the flat stack.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Layer {
+    /// The top panel's.
+    Top,
+    /// One between them, whose panels face up or down.
+    Between {
+        /// Whether it shows its outside upwards.
+        faces_up: bool,
+    },
+    /// The bottom panel's.
+    Bottom,
+}
+
+impl Layer {
+    /// Whether its panels face up.
+    pub(super) fn faces_up(self) -> bool {
+        match self {
+            Layer::Top => true,
+            Layer::Bottom => false,
+            Layer::Between { faces_up } => faces_up,
+        }
+    }
+}
 
 /// A side panel under construction.
 #[derive(Debug, Clone)]
@@ -18,16 +45,16 @@ pub(super) struct Side {
     pub(super) outline: Vec<DVec2>,
     /// Placement in its layer, seen from above.
     pub(super) to_layer: DAffine2,
-    /// Whether it lies above the fold hinge.
-    pub(super) is_upper: bool,
+    /// Where it lies.
+    pub(super) layer: Layer,
 }
 
 impl Side {
-    /// Outline in the layer, counter-clockwise (the lower layer's panels face down).
+    /// Outline in the layer, counter-clockwise as seen from above.
     fn in_layer(&self) -> Vec<DVec2> {
         let mut outline: Vec<DVec2> =
             self.outline.iter().map(|&p| self.to_layer.transform_point2(p)).collect();
-        if !self.is_upper {
+        if !self.layer.faces_up() {
             outline.reverse();
         }
         outline
@@ -52,18 +79,18 @@ const RAYS: usize = 33;
 /// Trims panels that overlap when flat: first only between the chains concerned, and where that
 /// is not enough at every corner, which always suffices: the rays then part the plane round the
 /// convex polygon. Returns the area that was cut away, mm².
-pub(super) fn trim(solid: &Solid, sides: &mut [Side]) -> f64 {
+pub(super) fn trim(walls: &Walls, sides: &mut [Side]) -> f64 {
     let mut trimmed = 0.0;
-    for is_upper in [true, false] {
+    for layer in [Layer::Top, Layer::Bottom] {
         for everywhere in [false, true] {
-            let clashes = overlaps(sides, is_upper);
+            let clashes = overlaps(sides, layer);
             if clashes.is_empty() {
                 break;
             }
-            for j in 0..solid.chains.len() {
-                let k = solid.next(j);
+            for j in 0..walls.count() {
+                let k = walls.next(j);
                 if everywhere || clashes.contains(&(j.min(k), j.max(k))) {
-                    trimmed += trim_corner(solid, sides, is_upper, j);
+                    trimmed += trim_corner(walls, sides, layer, j);
                 }
             }
         }
@@ -72,9 +99,9 @@ pub(super) fn trim(solid: &Solid, sides: &mut [Side]) -> f64 {
 }
 
 /// Pairs of chains that overlap in a layer, the smaller index first.
-pub(super) fn overlaps(sides: &[Side], is_upper: bool) -> Vec<(usize, usize)> {
+pub(super) fn overlaps(sides: &[Side], layer: Layer) -> Vec<(usize, usize)> {
     let placed: Vec<(usize, Vec<DVec2>)> =
-        sides.iter().filter(|s| s.is_upper == is_upper).map(|s| (s.chain, s.in_layer())).collect();
+        sides.iter().filter(|s| s.layer == layer).map(|s| (s.chain, s.in_layer())).collect();
     let mut pairs = Vec::new();
     for (k, (a, p)) in placed.iter().enumerate() {
         for (b, q) in &placed[k + 1..] {
@@ -89,16 +116,16 @@ pub(super) fn overlaps(sides: &[Side], is_upper: bool) -> Vec<(usize, usize)> {
 }
 
 /// Cuts chains j and j + 1 back to the ray from their corner that costs the least area.
-fn trim_corner(solid: &Solid, sides: &mut [Side], is_upper: bool, j: usize) -> f64 {
-    let k = solid.next(j);
-    let corner = solid.corner_at(j, if is_upper { solid.top_mm } else { solid.bottom_mm });
-    let from = solid.chains[j].angle_rad;
-    let turn = (solid.chains[k].angle_rad - from).rem_euclid(std::f64::consts::TAU);
+fn trim_corner(walls: &Walls, sides: &mut [Side], layer: Layer, j: usize) -> f64 {
+    let k = walls.next(j);
+    let corner = walls.corner_at(j, if layer == Layer::Top { walls.top_mm() } else { walls.bottom_mm() });
+    let from = walls.normal(j).to_angle();
+    let turn = (walls.normal(k).to_angle() - from).rem_euclid(std::f64::consts::TAU);
     let normal = |chain: usize, ray: usize| {
         let direction = DVec2::from_angle(from + turn * ray as f64 / (RAYS - 1) as f64);
         if chain == j { direction.perp() } else { -direction.perp() }
     };
-    let concerned = |s: &&mut Side| s.is_upper == is_upper && (s.chain == j || s.chain == k);
+    let concerned = |s: &&mut Side| s.layer == layer && (s.chain == j || s.chain == k);
     let cost = |ray: usize, sides: &mut [Side]| -> f64 {
         sides
             .iter_mut()

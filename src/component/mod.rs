@@ -1,4 +1,4 @@
-//! One flat-foldable convex component (§4.2–4.4).
+//! One flat-foldable component: convex ones fitted to hulls (§4.2–4.4), and drawn ones of any shape.
 
 mod assemble;
 mod convert;
@@ -19,12 +19,13 @@ mod solid;
 mod start;
 mod target;
 mod tolerance;
+mod walls;
 
 pub use assemble::AssembleError;
 pub use convert::{Component, ConvertError, choose, convert};
 pub use direction::PrincipalAxis;
 pub use panel::{Hinge, HingeId, HingeSide, Panel, PanelId, PanelKind, PanelSet};
-pub use profile::{Profile, ProfileError};
+pub use profile::{Fold, Profile, ProfileError};
 pub use solid::{Chain, Clearance, Corner, FaceId, SideFacet, Solid};
 pub use target::{JointTarget, Seat, Target};
 pub use tolerance::fewest;

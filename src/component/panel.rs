@@ -92,13 +92,31 @@ pub struct HingeSide {
 pub struct Hinge {
     /// The side nearer to the top panel, then the other.
     pub sides: [HingeSide; 2],
-    /// The one hinge of the chain that folds by 180°.
+    /// Whether it folds by 180°; one hinge of each chain does in convex components.
     pub is_fold: bool,
     /// Angle by which the paper is folded away from the viewer outside, in radians, when
-    /// deployed: 0 is flat paper; always mountain (>= 0) for convex components.
+    /// deployed: 0 is flat paper, a mountain is positive, a valley negative; always mountain
+    /// (>= 0) for convex components.
     pub deployed_rad: f64,
-    /// The same in the flat state: π for the fold hinge, else 0.
+    /// The same in the flat state: π or −π for a fold hinge, else 0.
     pub flat_rad: f64,
+}
+
+impl Hinge {
+    /// Whether the paper is creased towards the viewer outside: as it folds flat or, where it lies
+    /// plane then, as it stands.
+    pub fn is_valley(&self) -> bool {
+        if self.is_fold { self.flat_rad < 0.0 } else { self.deployed_rad < 0.0 }
+    }
+
+    /// The angle of the fold, as [`Hinge::deployed_rad`], where its panels have these placements;
+    /// `first` is the panel of the first side. At 180° the sign is lost to rounding.
+    pub fn angle_rad(&self, first: &Panel, placements: [DAffine3; 2]) -> f64 {
+        let [from, to] = first.edge(self.sides[0].edge);
+        let along = placements[0].transform_vector3((to - from).extend(0.0)).normalize_or_zero();
+        let [a, b] = placements.map(|placement| placement.matrix3.z_axis);
+        along.dot(a.cross(b)).atan2(a.dot(b))
+    }
 }
 
 /// A component seen as panels joined by hinges.

@@ -1,20 +1,31 @@
-//! Profiles and their exact flat-foldability.
+//! Profiles, how they lie when flat, and their exact flat-foldability.
 //!
 //! Walking down a convex profile, (length above) − (length below) grows continuously from −L to
 //! +L, and |u_last − u_0| <= L: at the point where it equals u_last − u_0 a crease makes the chain
-//! flat-foldable with gap 0 (Eq. (2)) and no change of shape.
+//! flat-foldable with gap 0 (Eq. (2)) and no change of shape. Profiles that are not convex fold in
+//! other ways, too: each segment comes to lie facing up or down.
 
 use glam::DVec2;
 
-/// A cross-section polyline (u, v), from top to bottom, with its fold vertex.
+/// A cross-section polyline (u, v), from top to bottom, with the side that each segment shows
+/// upwards when flat: δ of Eq. (2).
 ///
 /// # Guarantees
-/// At least three points, v strictly falling (Eq. (11)), no reflex turn, and
-/// `1 <= fold_vertex <= len − 2`.
+/// At least three points, v strictly falling (Eq. (11)); the first segment faces up and the last
+/// one down when flat, so that the top and the bottom panel lie flat with them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
     points: Vec<DVec2>,
-    fold_vertex: usize,
+    faces_up: Vec<bool>,
+}
+
+/// A fold by 180°.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fold {
+    /// The outside stays outside.
+    Mountain,
+    /// The outside of both panels comes to lie face to face.
+    Valley,
 }
 
 /// Why points are no profile.
@@ -36,21 +47,26 @@ pub enum ProfileError {
 const STRAIGHT: f64 = 1e-9;
 
 impl Profile {
-    /// A profile from its vertices and the index of the one that folds by 180°.
+    /// A convex profile from its vertices and the index of the one that folds by 180°.
     pub fn new(points: Vec<DVec2>, fold_vertex: usize) -> Result<Self, ProfileError> {
-        if points.len() < 3 || fold_vertex == 0 || fold_vertex + 1 >= points.len() {
+        let faces_up = (1..points.len()).map(|i| i <= fold_vertex).collect();
+        let profile = Self::folded(points, faces_up)?;
+        let reflex = profile.turns().find(|&(_, turn)| turn > STRAIGHT);
+        match reflex {
+            Some((i, _)) => Err(ProfileError::Reflex(i)),
+            None => Ok(profile),
+        }
+    }
+
+    /// A profile of any shape, from its vertices and whether each segment faces up when flat.
+    pub fn folded(points: Vec<DVec2>, faces_up: Vec<bool>) -> Result<Self, ProfileError> {
+        let has_ends = faces_up.first() == Some(&true) && faces_up.last() == Some(&false);
+        if points.len() < 3 || faces_up.len() + 1 != points.len() || !has_ends {
             return Err(ProfileError::TooShort);
         }
-        if let Some(i) = (1..points.len()).find(|&i| points[i].y >= points[i - 1].y) {
-            return Err(ProfileError::NotFalling(i));
-        }
-        let is_reflex = |&i: &usize| {
-            let (a, b) = (points[i] - points[i - 1], points[i + 1] - points[i]);
-            a.perp_dot(b) > STRAIGHT * a.length() * b.length()
-        };
-        match (1..points.len() - 1).find(is_reflex) {
-            Some(i) => Err(ProfileError::Reflex(i)),
-            None => Ok(Self { points, fold_vertex }),
+        match (1..points.len()).find(|&i| points[i].y >= points[i - 1].y) {
+            Some(i) => Err(ProfileError::NotFalling(i)),
+            None => Ok(Self { points, faces_up }),
         }
     }
 
@@ -59,9 +75,29 @@ impl Profile {
         &self.points
     }
 
-    /// Index of the vertex that folds by 180° (the paper's convex fold vertex).
-    pub fn fold_vertex(&self) -> usize {
-        self.fold_vertex
+    /// Whether segment i faces up when flat.
+    pub fn faces_up(&self, i: usize) -> bool {
+        self.faces_up[i]
+    }
+
+    /// How inner vertex i folds by 180°, if it does.
+    pub fn fold_at(&self, i: usize) -> Option<Fold> {
+        match (self.faces_up[i - 1], self.faces_up[i]) {
+            (true, false) => Some(Fold::Mountain),
+            (false, true) => Some(Fold::Valley),
+            _ => None,
+        }
+    }
+
+    /// The vertices that fold by 180°; a convex profile has one (the paper's convex fold vertex).
+    pub fn fold_vertices(&self) -> impl Iterator<Item = usize> + '_ {
+        (1..self.points.len() - 1).filter(|&i| self.fold_at(i).is_some())
+    }
+
+    /// Number of the layer of the flat stack that segment i lies in, counted from the top panel's:
+    /// how often the chain has turned back above it.
+    pub fn layer(&self, i: usize) -> usize {
+        (1..=i).filter(|&k| self.fold_at(k).is_some()).count()
     }
 
     /// Lengths l_i of the segments.
@@ -69,12 +105,15 @@ impl Profile {
         self.points.windows(2).map(|w| w[0].distance(w[1]))
     }
 
-    /// Eq. (2) with mountain at the fold vertex alone: how far the chain misses the bottom hinge
-    /// when flat, in mm.
+    /// δ_i l_i of each segment: how far it leads outwards when flat.
+    fn advances(&self) -> impl Iterator<Item = f64> + '_ {
+        self.lengths().zip(&self.faces_up).map(|(l, &up)| if up { l } else { -l })
+    }
+
+    /// Eq. (2): how far the chain misses the bottom hinge when flat, in mm.
     pub fn gap_mm(&self) -> f64 {
         let last = self.points[self.points.len() - 1];
-        let signed = |(i, l): (usize, f64)| if i < self.fold_vertex { l } else { -l };
-        (last.x - self.points[0].x) - self.lengths().enumerate().map(signed).sum::<f64>()
+        (last.x - self.points[0].x) - self.advances().sum::<f64>()
     }
 
     /// Mean length of the segments.
@@ -82,9 +121,39 @@ impl Profile {
         self.lengths().sum::<f64>() / (self.points.len() - 1) as f64
     }
 
-    /// u of the flat fold hinge: the farthest that the chain reaches when folded.
-    pub fn flat_reach_mm(&self) -> f64 {
-        self.points[0].x + self.lengths().take(self.fold_vertex).sum::<f64>()
+    /// u' of each vertex: where it lies when flat, counted from the nearer end of the chain, the
+    /// top panel's for what lies in its layer.
+    pub fn flat_mm(&self) -> Vec<f64> {
+        let advances: Vec<f64> = self.advances().collect();
+        let last = self.points.len() - 1;
+        let first_fold = self.fold_vertices().next().unwrap_or(last);
+        let from_top = |i: usize| self.points[0].x + advances[..i].iter().sum::<f64>();
+        let from_bottom = |i: usize| self.points[last].x - advances[i..].iter().sum::<f64>();
+        (0..=last).map(|i| if i <= first_fold { from_top(i) } else { from_bottom(i) }).collect()
+    }
+
+    /// Heights at which it bends, from top to bottom.
+    pub(super) fn bends(&self) -> impl Iterator<Item = f64> + '_ {
+        self.turns().filter(|(_, turn)| turn.abs() > STRAIGHT).map(|(i, _)| self.points[i].y)
+    }
+
+    /// u at height v within its ends.
+    pub(super) fn u_at(&self, v_mm: f64) -> f64 {
+        let last = self.points.len() - 2;
+        let i = (0..last).find(|&i| self.points[i + 1].y <= v_mm).unwrap_or(last);
+        let (upper, lower) = (self.points[i], self.points[i + 1]);
+        if v_mm == lower.y {
+            return lower.x;
+        }
+        upper.x + (lower.x - upper.x) * ((upper.y - v_mm) / (upper.y - lower.y))
+    }
+
+    /// Sine of the turn at each inner vertex; positive where it is inwards.
+    fn turns(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.points.windows(3).enumerate().map(|(k, w)| {
+            let (a, b) = (w[1] - w[0], w[2] - w[1]);
+            (k + 1, a.perp_dot(b) / (a.length() * b.length()))
+        })
     }
 }
 
@@ -150,7 +219,7 @@ mod tests {
         assert!(imbalance(&points, 1).abs() < 1e-12);
         let profile = Profile::new(points, 1).unwrap();
         assert!(profile.gap_mm().abs() < 1e-12);
-        assert!((profile.flat_reach_mm() - (10.0 + 200f64.sqrt())).abs() < 1e-12);
+        assert!((profile.flat_mm()[1] - (10.0 + 200f64.sqrt())).abs() < 1e-12);
     }
 
     #[test]

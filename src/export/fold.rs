@@ -311,6 +311,7 @@ impl Graph {
         let (deployed_rad, flat_rad) = fold.map_or((0.0, 0.0), |h| (h.deployed_rad, h.flat_rad));
         let assignment = match fold {
             None => "B",
+            Some(hinge) if hinge.is_valley() => "V",
             Some(_) if deployed_rad > 0.0 || flat_rad > 0.0 => "M",
             Some(_) => "F",
         };
@@ -324,8 +325,8 @@ impl Graph {
                 (0, _) => deployed_rad,
                 (k, _) if k == last => flat_rad,
                 (k, Some(hinge)) => {
-                    let [a, b] = hinge.sides.map(|s| placed(component, s.panel, k, last).matrix3.z_axis);
-                    a.cross(b).length().atan2(a.dot(b))
+                    let placements = hinge.sides.map(|s| placed(component, s.panel, k, last));
+                    hinge.angle_rad(component.set.panel(hinge.sides[0].panel), placements)
                 }
                 (_, None) => 0.0,
             };

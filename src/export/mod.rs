@@ -19,6 +19,8 @@ mod options;
 mod pdf;
 mod plt;
 pub mod png;
+mod prism;
+mod stl;
 mod svg;
 
 pub use dxf::{DxfOptions, DxfSheets, DxfVersion};
@@ -45,6 +47,7 @@ pub const FORMATS: &[Format] = &[
     apng::FORMAT,
     glb::FORMAT,
     obj::FORMAT,
+    stl::FORMAT,
     fold::FORMAT,
     guide::HTML,
     json::FORMAT,

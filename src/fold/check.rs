@@ -232,8 +232,8 @@ impl<'a> Checker<'a> {
         let bodies: Vec<Body> = panels.iter().enumerate().map(body).collect();
         let owners: Vec<Owner> =
             (0..panels.len()).map(|first_panel| Owner { part: mover, first_panel }).collect();
-        // Chains are convex in every pose and lie between top and bottom, so that only different
-        // chains can meet.
+        // Chains go down all the way in every pose and lie between top and bottom, so that only
+        // different chains can meet.
         let chain = |k: usize| match panels[k].kind {
             PanelKind::Side { chain, .. } => Some(chain),
             PanelKind::Top | PanelKind::Bottom => None,

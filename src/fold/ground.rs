@@ -32,13 +32,13 @@ impl ModelMotion<'_> {
     /// Where a root is: its middle stays, and its fold axis turns to the vertical, the shorter way.
     fn root_frame(&self, part: usize, folded: f64, pose: &ComponentPose) -> DAffine3 {
         let deployed = self.model().parts()[part].deployed();
-        let solid = self.model().parts()[part].component.solid();
-        let middle = |height_mm: f64| DVec3::Z * (solid.bottom_mm + 0.5 * height_mm);
+        let component = &self.model().parts()[part].component;
+        let middle = |height_mm: f64| DVec3::Z * (component.bottom_mm() + 0.5 * height_mm);
         let axis = deployed.matrix3.z_axis.normalize();
         let up = if axis.z >= 0.0 { DVec3::Z } else { DVec3::NEG_Z };
         let turn = DQuat::IDENTITY.slerp(DQuat::from_rotation_arc(axis, up), folded);
         let matrix = DMat3::from_quat(turn) * deployed.matrix3;
-        let place = deployed.transform_point3(middle(solid.top_mm - solid.bottom_mm));
+        let place = deployed.transform_point3(middle(component.top_mm() - component.bottom_mm()));
         DAffine3::from_mat3_translation(matrix, place - matrix * middle(pose.height_mm))
     }
 

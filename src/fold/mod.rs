@@ -15,7 +15,7 @@ mod sweep;
 mod track;
 
 pub use advice::Advice;
-pub use chain::{ChainMotion, Shares};
+pub use chain::{ChainMotion, Course, Shares};
 pub use check::{Clash, Overlap};
 pub use motion::{ComponentMotion, ComponentPose};
 pub use order::FoldPlan;

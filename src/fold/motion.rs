@@ -2,7 +2,7 @@
 //! follows as [`ChainMotion`] says. Chains are free of one another at their slits, so that the
 //! height alone decides the pose.
 
-use super::chain::{ChainMotion, Shares};
+use super::chain::{ChainMotion, HangsFrom, Shares, Sway};
 use crate::component::{Component, PanelId, PanelKind, Profile};
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 use std::f64::consts::FRAC_PI_2;
@@ -16,6 +16,7 @@ use std::f64::consts::FRAC_PI_2;
 pub struct ComponentMotion {
     chains: Vec<Chain>,
     panels: Vec<(PanelKind, DAffine3)>,
+    levels: Vec<usize>,
     height_mm: f64,
 }
 
@@ -41,13 +42,14 @@ impl ComponentMotion {
     pub fn new(component: &Component) -> Self {
         let chain = |(j, profile): (usize, &Profile)| Chain {
             motion: ChainMotion::new(profile),
-            outward: component.solid().chains[j].normal(),
+            outward: component.normal(j),
         };
         let panel = |p: &crate::component::Panel| (p.kind, p.deployed);
         Self {
             chains: component.profiles().iter().enumerate().map(chain).collect(),
             panels: component.panels().panels().iter().map(panel).collect(),
-            height_mm: component.solid().top_mm - component.solid().bottom_mm,
+            levels: levels(component),
+            height_mm: component.top_mm() - component.bottom_mm(),
         }
     }
 
@@ -71,6 +73,12 @@ impl ComponentMotion {
     /// hardly changes at first.
     pub fn height_at_mm(&self, folded: f64) -> f64 {
         if folded >= 1.0 { 0.0 } else { self.height_mm * (FRAC_PI_2 * folded).cos() }
+    }
+
+    /// How many layers lie under each panel when flat, counted within the component, where it has
+    /// more than the two layers of a convex one; else 0 for all.
+    pub(super) fn levels(&self) -> &[usize] {
+        &self.levels
     }
 
     /// How far each chain is at `folded`.
@@ -106,6 +114,22 @@ impl ComponentMotion {
     }
 }
 
+fn levels(component: &Component) -> Vec<usize> {
+    let layers = |profile: &Profile| profile.layer(profile.points().len() - 2);
+    let top = component.profiles().iter().map(layers).max().unwrap_or(0);
+    let level = |kind: PanelKind| match kind {
+        _ if top < 2 => 0,
+        PanelKind::Top => top,
+        PanelKind::Bottom => 0,
+        PanelKind::Side { chain, index } => {
+            let profile = &component.profiles()[chain];
+            let layer = profile.layer(index);
+            if layer == layers(profile) { 0 } else { top - layer }
+        }
+    };
+    component.panels().panels().iter().map(|panel| level(panel.kind)).collect()
+}
+
 /// From which end of its component a panel hangs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum End {
@@ -121,20 +145,20 @@ impl ComponentMotion {
         match self.panels[panel.0].0 {
             PanelKind::Top => End::Top(None),
             PanelKind::Bottom => End::Bottom(None),
-            PanelKind::Side { chain, index } if self.chains[chain].motion.is_above(index) => {
-                End::Top(Some(chain))
-            }
-            PanelKind::Side { chain, .. } => End::Bottom(Some(chain)),
+            PanelKind::Side { chain, index } => match self.chains[chain].motion.hangs_from(index) {
+                HangsFrom::Top => End::Top(Some(chain)),
+                HangsFrom::Bottom => End::Bottom(Some(chain)),
+            },
         }
     }
 
     /// How far points that ride on a panel move against the panel's end of the component, at most,
-    /// for a change of the chain's share by 1. The points are given as they lie when deployed.
-    pub(super) fn sway_mm(&self, panel: PanelId, points: &[DVec3]) -> f64 {
-        let PanelKind::Side { chain, index } = self.panels[panel.0].0 else { return 0.0 };
+    /// for changes of the chain's shares by 1. The points are given as they lie when deployed.
+    pub(super) fn sway_mm(&self, panel: PanelId, points: &[DVec3]) -> Sway {
+        let PanelKind::Side { chain, index } = self.panels[panel.0].0 else { return [0.0; 2] };
         let chain = &self.chains[chain];
         let [ends, _] = chain.motion.link_ends(index, Shares::DEPLOYED);
-        let pivot = ends[if chain.motion.is_above(index) { 0 } else { 1 }];
+        let pivot = ends[chain.pivot(index)];
         let in_plane = |p: &DVec3| DVec2::new(chain.outward.dot(p.truncate()), p.z);
         let reach = points.iter().map(|p| in_plane(p).distance(pivot)).fold(0.0, f64::max);
         chain.motion.sway_mm(index, reach)
@@ -146,12 +170,20 @@ impl Chain {
         (self.outward * point.x).extend(point.y)
     }
 
+    /// The end of a link that is nearer to the end of the chain that it hangs from.
+    fn pivot(&self, link: usize) -> usize {
+        match self.motion.hangs_from(link) {
+            HangsFrom::Top => 0,
+            HangsFrom::Bottom => 1,
+        }
+    }
+
     /// How a link has moved from where it is when deployed.
     fn move_link(&self, link: usize, shares: Shares) -> DAffine3 {
         let [before, after] = self.motion.link_ends(link, shares);
         let tangent = self.outward.perp().extend(0.0);
         let turn = DQuat::from_axis_angle(-tangent, self.motion.turn_rad(link, shares));
-        let pivot = if self.motion.is_above(link) { 0 } else { 1 };
+        let pivot = self.pivot(link);
         DAffine3::from_translation(self.in_space(after[pivot]))
             * DAffine3::from_mat3(DMat3::from_quat(turn))
             * DAffine3::from_translation(-self.in_space(before[pivot]))

@@ -80,14 +80,22 @@ impl<'a> ModelMotion<'a> {
     }
 
     /// The same with roots placed by the caller, given the root's index and pose. Components are
-    /// lifted off the panels that carry them, by `lift_mm` when flat.
+    /// lifted off the panels that carry them, and the layers of concave ones off one another, by
+    /// `lift_mm` when flat.
     pub fn pose_from(
         &self,
         folded: &[f64],
         lift_mm: f64,
         place_root: impl Fn(usize, &ComponentPose) -> DAffine3,
     ) -> ModelPose {
-        let poses = self.motions.iter().zip(folded).map(|(motion, &folded)| motion.pose(folded));
+        let lifted = |(motion, &folded): (&ComponentMotion, &f64)| {
+            let mut pose = motion.pose(folded);
+            for (placement, &level) in pose.placements.iter_mut().zip(motion.levels()) {
+                placement.translation.z += lift_mm * folded * level as f64;
+            }
+            pose
+        };
+        let poses = self.motions.iter().zip(folded).map(lifted);
         let mut parts: Vec<PartPose> =
             poses.map(|pose| PartPose { frame: DAffine3::IDENTITY, pose }).collect();
         for &p in &self.downwards {

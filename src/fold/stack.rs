@@ -7,6 +7,8 @@ use glam::DVec2;
 
 /// Layers are counted on a grid of this step: places narrower than this may be missed.
 const STEP_MM: f64 = 0.5;
+/// Edges that lie on grid points belong to no outline: touching is no overlap.
+const TOUCH_MM: f64 = 1e-6;
 /// The grid has at most so many points a side.
 const MOST_POINTS: f64 = 1000.0;
 
@@ -87,7 +89,9 @@ fn most_layers(outlines: &[Vec<DVec2>]) -> usize {
             let y = low.y + (row as f64 + 0.5) * step;
             let Some((from, to)) = chord(outline, y) else { continue };
             let column = |x: f64| ((x - low.x) / step - 0.5).ceil().clamp(0.0, columns as f64) as usize;
-            for count in &mut counts[row * columns..][column(from)..column(to)] {
+            for count in &mut counts[row * columns..]
+                [column(from + TOUCH_MM)..column(to - TOUCH_MM).max(column(from + TOUCH_MM))]
+            {
                 *count += 1;
             }
         }

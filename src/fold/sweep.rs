@@ -10,6 +10,7 @@
 //! The broad phase is a tree of balls of two levels, over the sheets of a component and over each
 //! sheet.
 
+use super::chain::Sway;
 use super::contact::{Sheet, facing_mm, gap};
 use super::motion::{ComponentMotion, End};
 use super::track::{Moment, Track};
@@ -32,11 +33,11 @@ const SHORT: f64 = 0.3;
 struct Ball {
     centre: DVec3,
     radius_mm: f64,
-    sway_mm: f64,
+    sway_mm: Sway,
 }
 
 impl Ball {
-    fn round<'a>(corners: impl Iterator<Item = &'a DVec3> + Clone, sway_mm: f64) -> Self {
+    fn round<'a>(corners: impl Iterator<Item = &'a DVec3> + Clone, sway_mm: Sway) -> Self {
         let low = corners.clone().copied().fold(DVec3::INFINITY, DVec3::min);
         let high = corners.clone().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
         let centre = 0.5 * (low + high);
@@ -65,7 +66,8 @@ impl Body {
                 (sheet, ball)
             })
             .collect();
-        let sway = sheets.iter().map(|s| s.1.sway_mm).fold(0.0, f64::max);
+        let larger = |a: Sway, b: Sway| [a[0].max(b[0]), a[1].max(b[1])];
+        let sway = sheets.iter().map(|s| s.1.sway_mm).fold([0.0; 2], larger);
         let ball = Ball::round(sheets.iter().flat_map(|s| &s.0.corners), sway);
         Self { carrier, end: motion.end_of(carrier), ball, sheets }
     }
@@ -78,12 +80,9 @@ impl Body {
     /// How far any point of a ball moves between two moments against the end that the carrier
     /// hangs from.
     fn way_mm(&self, ball: &Ball, from: &Moment<'_>, to: &Moment<'_>) -> f64 {
-        let change = match self.end {
-            End::Top(Some(chain)) => from.shares[chain].above - to.shares[chain].above,
-            End::Bottom(Some(chain)) => from.shares[chain].below - to.shares[chain].below,
-            End::Top(None) | End::Bottom(None) => 0.0,
-        };
-        ball.sway_mm * change.abs()
+        let (End::Top(Some(chain)) | End::Bottom(Some(chain))) = self.end else { return 0.0 };
+        let (from, to) = (from.shares[chain], to.shares[chain]);
+        ball.sway_mm[0] * (from.above - to.above).abs() + ball.sway_mm[1] * (from.below - to.below).abs()
     }
 
     fn hangs_from_top(&self) -> bool {

@@ -337,10 +337,11 @@ impl Writer<'_> {
     /// Kinds of lines with their meanings.
     fn lines(&self) -> Vec<Line> {
         let words = &self.words.lines;
-        let (fold, folding) = match self.side() {
-            Side::Outside => (Layer::Mountain, &words.mountain),
-            Side::Inside => (Layer::Valley, &words.valley),
-        };
+        let mut folds = vec![(Layer::Mountain, &words.mountain), (Layer::Valley, &words.valley)];
+        if self.side() == Side::Inside {
+            folds.reverse();
+        }
+        folds.truncate(if self.output.model().has_valleys() { 2 } else { 1 });
         let plain = |layer: Layer| {
             let stroke = self.styles.stroke(layer);
             Stroke { width_mm: stroke.width_mm.max(SAMPLE_LINE_MM), ..stroke.clone() }
@@ -355,16 +356,18 @@ impl Writer<'_> {
         let key = Mark::polygon(Layer::Picture, key, &plain(Layer::Glue));
         let label = Text::new("A1", middle - DVec2::Y * 1.5, 3.0).aligned(Align::Middle);
         let label = Mark::text(Layer::Picture, label.coloured(self.styles.colour(Layer::Label)));
-        let rows = [
-            (line(Layer::Cut), &words.cut),
-            (line(Layer::Slit), &words.slit),
-            (line(fold), folding),
+        let folds = folds.into_iter().map(|(layer, word)| (line(layer), word));
+        let first = [(line(Layer::Cut), &words.cut), (line(Layer::Slit), &words.slit)];
+        let last = [
             (line(Layer::FoldHinge), &words.fold_hinge),
             (line(Layer::Glue), &words.glue),
             (label, &words.label),
             (key, &words.key),
         ];
-        rows.into_iter()
+        first
+            .into_iter()
+            .chain(folds)
+            .chain(last)
             .map(|(mark, meaning)| {
                 let mut sample = Drawing::new("", SAMPLE_MM);
                 sample.marks.push(mark);

@@ -8,7 +8,7 @@ use super::{Joint, Model, ModelPart};
 use crate::component::{
     Component, ConvertError, JointTarget, PanelId, PrincipalAxis, Target, choose, fewest,
 };
-use crate::geom::{Hull, Plane, polygon};
+use crate::geom::{Hull, Plane};
 use crate::progress::{Cancelled, Progress};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
@@ -150,7 +150,7 @@ impl Made {
             component: self.component.clone(),
             frame: self.frame,
             placement: DAffine3::IDENTITY,
-            flat: DAffine3::from_translation(DVec3::Z * -self.component.solid().bottom_mm),
+            flat: DAffine3::from_translation(DVec3::Z * -self.component.bottom_mm()),
             direction_rad: self.direction_rad,
             joint: None,
         }
@@ -376,13 +376,5 @@ fn place(parts: &[Part], links: &[Link], made: Vec<Made>) -> Result<Model, Model
         let joint = joint.ok_or_else(|| lost(link.child))?;
         placed[link.child].joint = Some(joint);
     }
-    let mut model = Model { parts: placed };
-    for p in 0..model.parts.len() {
-        let Some(joint) = model.parts[p].joint.clone() else { continue };
-        let own = model.outline_on((p, joint.child_panel), (joint.parent, joint.parent_panel));
-        let base = &model.parts[joint.parent].component.panels().panel(joint.parent_panel).outline;
-        let ratio = polygon::area(&polygon::intersect_convex(&own, base)) / polygon::area(&own);
-        model.parts[p].joint = Some(Joint { support_ratio: ratio.abs().min(1.0), ..joint });
-    }
-    Ok(model)
+    Ok(Model { parts: placed }.with_support())
 }

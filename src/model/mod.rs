@@ -1,11 +1,13 @@
 //! Joints between components, their tree, and the model's two end states.
 
 mod build;
+mod joined;
 mod known;
 mod link;
 mod seat;
 
 pub use build::{ModelError, Part, PartOptions, build};
+pub use joined::{JoinedPart, Seam};
 pub use known::{Known, build_one};
 pub use link::{Contact, Link, link_tree, parted};
 
@@ -62,7 +64,8 @@ impl ModelPart {
 ///
 /// # Guarantees
 /// Every joint's parent is another part; following parents ends at a root. In the deployed and
-/// in the flat state the two joint panels of every joint lie in one plane, facing each other.
+/// in the flat state the two joint panels of every joint lie in one plane, facing each other; of
+/// boards, which have a thickness, they face each other at twice that distance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model {
     parts: Vec<ModelPart>,
@@ -72,6 +75,11 @@ impl Model {
     /// The components; the index is the segment's.
     pub fn parts(&self) -> &[ModelPart] {
         &self.parts
+    }
+
+    /// Whether any crease is folded towards the viewer outside.
+    pub fn has_valleys(&self) -> bool {
+        self.parts.iter().any(|part| part.component.panels().hinges().iter().any(|h| h.is_valley()))
     }
 
     /// Corners of a panel in the deployed model.

@@ -80,12 +80,15 @@ pub struct NetChoices {
     pub angles: bool,
     /// Creases that are folded by less, when deployed, are not drawn; fold hinges always are.
     pub hide_below_rad: f64,
+    /// Whether every panel is a piece of its own, with places for tape along its hinges: board
+    /// cannot be creased.
+    pub is_separate: bool,
 }
 
 impl Default for NetChoices {
     /// Panels may be split, and nothing is drawn but what must be.
     fn default() -> Self {
-        Self { may_split: true, glue_marks: false, angles: false, hide_below_rad: 0.0 }
+        Self { may_split: true, glue_marks: false, angles: false, hide_below_rad: 0.0, is_separate: false }
     }
 }
 
@@ -155,6 +158,12 @@ fn drafts(set: &PanelSet, name: &str, options: &NetOptions) -> Result<(Split, Ve
 
 fn drafts_of_chains(set: &PanelSet, chains: &Chains, options: &NetOptions) -> Vec<Draft> {
     let shapes = tabs::shapes(set, options.tab_width_mm);
+    if options.choices.is_separate {
+        let is_cut = vec![true; set.hinges().len()];
+        let (layouts, cut) = (layout::pieces(set, &is_cut), cut_hinges(&is_cut));
+        let tapes = glue::tapes(&cut, &[], &shapes);
+        return vec![Draft { layouts, cut, tabs: Vec::new(), tapes }];
+    }
     let cut_cost = cut_costs(set, &shapes, options.tab_width_mm);
     let problem = |may_cut_folds| Problem {
         set,

@@ -154,7 +154,7 @@ impl Finisher<'_> {
     fn angle(&self, kind: &EdgeKind) -> Option<String> {
         let EdgeKind::Hinge(h) = kind else { return None };
         let hinge = self.set.hinges()[h.0];
-        let is_drawn = hinge.is_fold || hinge.deployed_rad >= self.options.choices.hide_below_rad;
+        let is_drawn = hinge.is_fold || hinge.deployed_rad.abs() >= self.options.choices.hide_below_rad;
         is_drawn.then(|| format!("{:.0}°", hinge.deployed_rad.to_degrees()))
     }
 }

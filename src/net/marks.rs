@@ -13,7 +13,9 @@ use std::f64::consts::FRAC_PI_4;
 enum Fold {
     /// Away from the viewer outside, and back.
     Back,
-    /// By 180°.
+    /// Towards the viewer outside.
+    Forth,
+    /// Away from the viewer by 180°.
     Flat,
     /// Not at all: the seam of a split panel, behind which its other part is glued.
     Seam,
@@ -48,11 +50,13 @@ pub(crate) fn creases(set: &PanelSet, mesh: &super::PieceMesh, hide_below_rad: f
             EdgeKind::Hinge(h) | EdgeKind::Tab(h) => {
                 let hinge = set.hinges()[h.0];
                 let fold = match hinge {
-                    _ if hinge.is_fold => Fold::Flat,
                     _ if is_seam(set, h) => Fold::Seam,
+                    _ if hinge.is_valley() => Fold::Forth,
+                    _ if hinge.is_fold => Fold::Flat,
                     _ => Fold::Back,
                 };
-                let is_drawn = fold != Fold::Back || hinge.deployed_rad >= hide_below_rad;
+                let is_plain = !hinge.is_fold && fold != Fold::Seam;
+                let is_drawn = !is_plain || hinge.deployed_rad.abs() >= hide_below_rad;
                 let between = between(set, mesh, &edge.faces);
                 Some(Crease { ends: mesh.segment(edge), fold, is_drawn, between })
             }
@@ -128,8 +132,8 @@ impl Crease {
         match (self.fold, side) {
             (Fold::Flat, _) => Layer::FoldHinge,
             (Fold::Seam, _) => Layer::Glue,
-            (Fold::Back, Side::Outside) => Layer::Mountain,
-            (Fold::Back, Side::Inside) => Layer::Valley,
+            (Fold::Back, Side::Outside) | (Fold::Forth, Side::Inside) => Layer::Mountain,
+            (Fold::Back, Side::Inside) | (Fold::Forth, Side::Outside) => Layer::Valley,
         }
     }
 }

@@ -9,7 +9,7 @@ use glam::DVec3;
 use std::collections::BTreeSet;
 
 /// Hulls of the parts of a mesh with the joints between them, as the shape alone decides them.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Hulls {
     solid: Solid,
     names: Vec<String>,
@@ -83,7 +83,7 @@ impl Bodies {
 }
 
 /// Hulls of the segments that have one.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 struct Solid {
     hulls: Vec<Hull>,
     part_of_segment: Vec<Option<usize>>,

@@ -1,13 +1,15 @@
 //! The stages, with a memory for what each of them made: what is asked for again is not made again.
 //! The command line runs an engine once; the studio keeps one and changes a little at a time.
 
-use super::warning::{pin_warnings, warnings};
+use super::concave;
+use super::warning::{self, not_joined, pin_warnings};
 use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
+use crate::design::thick;
 use crate::fold::{FoldPlan, ModelMotion};
 use crate::memory::Memory;
 use crate::mesh::{Mesh, Up};
 use crate::model::{self, Known, Model, ModelPart};
-use crate::net::{KnownNets, Net, NetOptions, develop_model};
+use crate::net::{KnownNets, Net, NetChoices, NetOptions, develop_model};
 use crate::progress::Progress;
 use crate::segment::{self, Edit, Parts, SegmentOptions};
 use crate::sheet::{Layout, Pin, SheetOptions};
@@ -114,7 +116,10 @@ impl<'m> Engine<'m> {
         progress.stage("components");
         let least_mm = options.min_panel_width_mm;
         let model = model::build(bodies.parts(), bodies.links(), least_mm, &self.components, progress)?;
-        Ok(Shaped { options: Arc::new(options.clone()), divided, model: Arc::new(model) })
+        let (mesh, face_parts) = (divided.mesh(), divided.face_parts());
+        let (model, mut notes) = concave::refitted(model, mesh, face_parts, options, progress)?;
+        notes.extend(not_joined(&model));
+        Ok(Shaped { options: Arc::new(options.clone()), divided, model: Arc::new(model), notes })
     }
 
     /// Makes one component, by its index, and what carries it: sooner than the whole model.
@@ -143,22 +148,30 @@ impl<'m> Engine<'m> {
     /// # Errors
     /// [`Error::Net`], [`Error::Layout`], [`Error::Cancelled`].
     pub fn finish(&self, shaped: Shaped, progress: &dyn Progress) -> Result<Output, Error> {
-        let (options, model) = (&*shaped.options, &shaped.model);
+        let options = &*shaped.options;
+        let mut model = shaped.model.clone();
+        if options.is_thick {
+            model = Arc::new(thick(&model, options.thickness_mm, options.min_panel_width_mm)?);
+        }
         let thickness_mm = options.thickness_mm;
         let fold_plan = self.plans.get_or((model.clone(), thickness_mm), || {
             progress.stage("folding");
-            let plan = FoldPlan::new(&ModelMotion::new(model), thickness_mm, progress)?;
+            let plan = FoldPlan::new(&ModelMotion::new(&model), thickness_mm, progress)?;
             Ok::<_, Error>(Arc::new(plan))
         })?;
-        let sheets =
-            SheetOptions { paper: options.paper, margin_mm: options.margin_mm, choices: options.sheets };
+        let sheets = SheetOptions {
+            paper: options.paper,
+            margin_mm: options.margin_mm,
+            choices: options.sheets,
+            has_valleys: model.has_valleys(),
+        };
         let net_options = NetOptions {
             tab_width_mm: options.tab_width_mm,
             sheet_mm: sheets.room_mm(),
-            choices: options.nets,
+            choices: NetChoices { is_separate: options.is_thick, ..options.nets },
         };
         progress.stage("nets");
-        let alternatives = develop_model(model, &net_options, &self.nets, progress)
+        let alternatives = develop_model(&model, &net_options, &self.nets, progress)
             .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
         let alternatives = Arc::new(alternatives);
         let key = (sheets, options.pins.clone(), alternatives.clone());
@@ -167,10 +180,12 @@ impl<'m> Engine<'m> {
             let laid = Layout::of_alternatives(&alternatives, &sheets, &options.pins, progress)?;
             Ok::<_, Error>((Arc::new(laid.0), Arc::new(laid.1)))
         })?;
-        let mut warnings = warnings(model, &nets, shaped.divided.hulls().flat_faces(), options);
+        let mut warnings = shaped.notes.clone();
+        warnings.extend(warning::warnings(&model, &nets, shaped.divided.hulls().flat_faces(), options));
         warnings.extend(pin_warnings(&layout));
-        let advice = fold_plan.advice(model).into_iter();
+        let advice = fold_plan.advice(&model).into_iter();
         warnings.extend(advice.map(|(code, message)| Warning { code, message }));
+        let shaped = Shaped { model, ..shaped.clone() };
         Ok(Output { shaped, fold_plan, nets, layout, warnings: Arc::new(warnings) })
     }
 }

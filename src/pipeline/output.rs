@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// A mesh at the size of the model with its parts and their hulls.
 #[derive(Debug)]
 pub struct Divided {
-    parts: Parts,
+    mesh: Mesh,
     to_model: DAffine3,
     hulls: Hulls,
     face_part: Vec<Option<u32>>,
@@ -29,7 +29,14 @@ impl Divided {
             segments.iter().map(|&segment| hulls.part_of(segment).map(|p| p as u32)).collect();
         let mut part_faces = vec![0; hulls.hulls().len()];
         face_part.iter().flatten().for_each(|&p| part_faces[p as usize] += 1);
-        Ok(Self { parts, to_model, hulls, face_part, part_faces })
+        Ok(Self { mesh: parts.into_mesh(), to_model, hulls, face_part, part_faces })
+    }
+
+    /// The surface of drawn components, which nothing was divided into.
+    pub(super) fn drawn(mesh: Mesh, face_part: Vec<Option<u32>>, parts: usize) -> Self {
+        let mut part_faces = vec![0; parts];
+        face_part.iter().flatten().for_each(|&p| part_faces[p as usize] += 1);
+        Self { mesh, to_model: DAffine3::IDENTITY, hulls: Hulls::default(), face_part, part_faces }
     }
 
     /// The hulls of the parts.
@@ -39,7 +46,7 @@ impl Divided {
 
     /// The mesh at the size of the model.
     pub fn mesh(&self) -> &Mesh {
-        self.parts.mesh()
+        &self.mesh
     }
 
     /// From the file's coordinates to those of [`Divided::mesh`].
@@ -59,6 +66,8 @@ pub struct Shaped {
     pub(super) options: Arc<Options>,
     pub(super) divided: Arc<Divided>,
     pub(super) model: Arc<Model>,
+    /// What is to be told of the components.
+    pub(super) notes: Vec<Warning>,
 }
 
 impl Shaped {

@@ -2,7 +2,7 @@
 
 use super::Options;
 use crate::component::{Component, Panel};
-use crate::model::Model;
+use crate::model::{Model, ModelPart};
 use crate::net::Net;
 use crate::sheet::{Layout, Unheeded};
 use glam::DVec3;
@@ -25,87 +25,80 @@ const SWOLLEN: f64 = 0.3;
 const THIN_PANELS: f64 = 4.0;
 
 pub(super) fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Options) -> Vec<Warning> {
-    let min_panel_mm = options.min_panel_width_mm;
     let mut out = Vec::new();
-    let mut warn = |code, message| out.push(Warning { code, message });
     if !flat.is_empty() {
         let faces: usize = flat.iter().sum();
-        warn(
-            "flat_segment",
-            format!("{} flat parts of {faces} faces in all have no volume and were left out", flat.len()),
-        );
+        let count = flat.len();
+        out.push(Warning {
+            code: "flat_segment",
+            message: format!("{count} flat parts of {faces} faces in all have no volume and were left out"),
+        });
     }
-    let roots: Vec<&str> =
-        model.parts().iter().filter(|p| p.joint.is_none()).map(|p| p.name.as_str()).collect();
-    if roots.len() > 1 {
-        warn(
-            "not_joined",
-            format!(
-                "the model is in {} groups that are not joined to one another, because they do not touch or no \
-                 joint has room; they begin with {}",
-                roots.len(),
-                roots.join(", ")
-            ),
-        );
-    }
-    for part in model.parts() {
-        let sizes = [
-            ("narrow", "wide", part.component.narrowest_panel()),
-            ("low", "high", part.component.lowest_panel()),
-        ];
-        for (_, word, (panel, mm)) in sizes.iter().filter(|s| s.2.1 < min_panel_mm - 1e-6) {
-            let what = part.component.panels().panel(*panel).kind;
-            warn(
-                "narrow_panel",
-                format!(
-                    "{}: {what} is only {mm:.2} mm {word}, less than {min_panel_mm} mm; use fewer top edges or \
-                     profile vertices for it, or a larger --size",
-                    part.name
-                ),
-            );
-        }
-        let error_mm = part.component.hausdorff_mm();
-        if let Some(tolerance_mm) = options.tolerance_mm.filter(|t| error_mm > *t) {
-            warn(
-                "tolerance_missed",
-                format!(
-                    "{}: it comes within {error_mm:.1} mm of its shape, not within {tolerance_mm} mm; allow more top \
-                     edges or profile vertices, or narrower panels",
-                    part.name
-                ),
-            );
-        }
-        let thickness_mm = thickness_mm(&part.component);
-        if error_mm > SWOLLEN * thickness_mm && thickness_mm < THIN_PANELS * min_panel_mm {
-            warn(
-                "thin_part",
-                format!(
-                    "{}: its shape is thinner than its panels may be, and it comes out larger by up to {error_mm:.1} mm; \
-                     use a larger --size, or a smaller --min-panel-width than {min_panel_mm} mm",
-                    part.name
-                ),
-            );
-        }
-        if let Some(joint) = part.joint.as_ref().filter(|j| j.support_ratio < GOOD_SUPPORT) {
-            let parent = &model.parts()[joint.parent].name;
-            warn(
-                "weak_joint",
-                format!(
-                    "{}: only {:.0}% of its joint panel lies on {parent}; try another direction for either of them, \
-                     or more top edges for {parent}",
-                    part.name,
-                    joint.support_ratio * 100.0
-                ),
-            );
-        }
-    }
-    for net in nets {
+    out.extend(model.parts().iter().flat_map(|part| part_warnings(model, part, options)));
+    // Board is taped at all hinges.
+    for net in nets.iter().filter(|_| !options.is_thick) {
         out.extend(net.warnings().iter().map(|w| Warning { code: w.code(), message: w.to_string() }));
     }
     out
 }
 
-/// Pins that could not be heeded.
+/// What is to be known about one component.
+fn part_warnings(model: &Model, part: &ModelPart, options: &Options) -> Vec<Warning> {
+    let min_panel_mm = options.min_panel_width_mm;
+    let mut out = Vec::new();
+    let mut warn = |code, message| out.push(Warning { code, message });
+    let sizes = [
+        ("narrow", "wide", part.component.narrowest_panel()),
+        ("low", "high", part.component.lowest_panel()),
+    ];
+    for (_, word, (panel, mm)) in sizes.iter().filter(|s| s.2.1 < min_panel_mm - 1e-6) {
+        let what = part.component.panels().panel(*panel).kind;
+        warn(
+            "narrow_panel",
+            format!(
+                "{}: {what} is only {mm:.2} mm {word}, less than {min_panel_mm} mm; use fewer top edges or \
+                 profile vertices for it, or a larger --size",
+                part.name
+            ),
+        );
+    }
+    let error_mm = part.component.hausdorff_mm();
+    if let Some(tolerance_mm) = options.tolerance_mm.filter(|t| error_mm > *t) {
+        warn(
+            "tolerance_missed",
+            format!(
+                "{}: it comes within {error_mm:.1} mm of its shape, not within {tolerance_mm} mm; allow more top \
+                 edges or profile vertices, or narrower panels",
+                part.name
+            ),
+        );
+    }
+    let thickness_mm = thickness_mm(&part.component);
+    if error_mm > SWOLLEN * thickness_mm && thickness_mm < THIN_PANELS * min_panel_mm {
+        warn(
+            "thin_part",
+            format!(
+                "{}: its shape is thinner than its panels may be, and it comes out larger by up to {error_mm:.1} mm; \
+                 use a larger --size, or a smaller --min-panel-width than {min_panel_mm} mm",
+                part.name
+            ),
+        );
+    }
+    if let Some(joint) = part.joint.as_ref().filter(|j| j.support_ratio < GOOD_SUPPORT) {
+        let parent = &model.parts()[joint.parent].name;
+        warn(
+            "weak_joint",
+            format!(
+                "{}: only {:.0}% of its joint panel lies on {parent}; try another direction for either of them, \
+                 or more top edges for {parent}",
+                part.name,
+                joint.support_ratio * 100.0
+            ),
+        );
+    }
+    out
+}
+
 /// Least distance between parallel planes with the whole standing component between them, of those
 /// along its panels.
 fn thickness_mm(component: &Component) -> f64 {
@@ -121,6 +114,23 @@ fn thickness_mm(component: &Component) -> f64 {
     panels.iter().map(across).fold(f64::INFINITY, f64::min)
 }
 
+/// A warning where the parts of a mesh are not one model. (Of components that are drawn, those without
+/// a joint are meant to stand for themselves.)
+pub(super) fn not_joined(model: &Model) -> Option<Warning> {
+    let roots: Vec<&str> =
+        model.parts().iter().filter(|p| p.joint.is_none()).map(|p| p.name.as_str()).collect();
+    (roots.len() > 1).then(|| Warning {
+        code: "not_joined",
+        message: format!(
+            "the model is in {} groups that are not joined to one another, because they do not touch or no joint has \
+             room; they begin with {}",
+            roots.len(),
+            roots.join(", ")
+        ),
+    })
+}
+
+/// Pins that could not be heeded.
 pub(super) fn pin_warnings(layout: &Layout) -> Vec<Warning> {
     let warning = |pin: &Unheeded| match pin {
         Unheeded::NoPiece(name) => Warning {

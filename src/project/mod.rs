@@ -3,6 +3,7 @@
 //! The structs here are the file's; they are checked while they are read, so that an error names
 //! the line and column of the value that is wrong.
 
+mod drawn;
 mod edit;
 mod export;
 mod fields;
@@ -10,6 +11,7 @@ mod pin;
 mod sheet_fields;
 mod template;
 
+pub use drawn::{Joint, Top};
 pub use edit::Edit;
 pub use export::ExportTable;
 pub use fields::{
@@ -37,14 +39,34 @@ pub enum ProjectError {
         /// The name.
         name: String,
     },
+    /// Neither a mesh nor drawings.
+    #[error(
+        "it has nothing to make a model of; give it a mesh, such as mesh = \"teddy.obj\", or [[component]] tables with \
+         top and profiles"
+    )]
+    Nothing,
+    /// A mesh and drawings.
+    #[error("component \"{name}\" is drawn, but the project has a mesh, too; make two projects of it")]
+    Mixed {
+        /// The component.
+        name: String,
+    },
+    /// A drawing that is none.
+    #[error("component \"{name}\": {reason}")]
+    Drawing {
+        /// The component.
+        name: String,
+        /// What is wrong.
+        reason: String,
+    },
 }
 
 /// A project file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Project {
-    /// The mesh file, relative to the project file.
-    pub mesh: String,
+    /// The mesh file, relative to the project file; none where the components are drawn.
+    pub mesh: Option<String>,
     /// The axis of the mesh that points up.
     #[serde(default, deserialize_with = "fields::up")]
     pub up: Option<Up>,
@@ -147,6 +169,8 @@ pub struct PaperTable {
     /// Thickness, mm.
     #[serde(default, deserialize_with = "fields::thickness")]
     pub thickness_mm: Option<f64>,
+    /// Whether panels are boards of that thickness.
+    pub thick: Option<bool>,
 }
 
 /// A table `[[component]]`.
@@ -168,6 +192,20 @@ pub struct Component {
     /// Vertices of profiles.
     #[serde(default, deserialize_with = "fields::count")]
     pub profile_vertices: Option<usize>,
+    /// Whether a component of a mesh may have dents.
+    pub concave: Option<bool>,
+    /// The top panel, where the component is drawn.
+    #[serde(default)]
+    pub top: Option<Top>,
+    /// Profiles of its edges, (u, v) from top to bottom.
+    #[serde(default)]
+    pub profiles: Vec<Vec<[f64; 2]>>,
+    /// How the profiles fold flat: one for all, or one for each.
+    #[serde(default)]
+    pub folds: Vec<String>,
+    /// What a drawn component is glued to.
+    #[serde(default)]
+    pub joint: Option<Joint>,
 }
 
 impl Project {
@@ -187,7 +225,12 @@ impl Project {
                 return Err(ProjectError::SameName { name });
             }
         }
-        Ok(project)
+        let drawn = project.components.iter().find(|component| component.is_drawn());
+        match (&project.mesh, drawn) {
+            (None, None) => Err(ProjectError::Nothing),
+            (Some(_), Some(component)) => Err(ProjectError::Mixed { name: component.name.clone() }),
+            _ => Ok(project),
+        }
     }
 }
 
@@ -221,7 +264,7 @@ profile_vertices = 4
     #[test]
     fn a_full_file() {
         let project = Project::parse(FULL).unwrap();
-        assert_eq!((project.mesh.as_str(), project.up), ("teddy.obj", Some(Up::Y)));
+        assert_eq!((project.mesh.as_deref(), project.up), (Some("teddy.obj"), Some(Up::Y)));
         assert!((project.size_mm.unwrap() - 203.2).abs() < 1e-9);
         assert_eq!(project.segmentation.parts, Some(6));
         assert_eq!(project.defaults.min_panel_width_mm, Some(2.5));

@@ -33,6 +33,8 @@ pub struct Template<'a> {
     pub margin_mm: f64,
     /// Thickness of the paper.
     pub thickness_mm: f64,
+    /// Whether panels are boards of that thickness.
+    pub is_thick: bool,
     /// What else is chosen about nets.
     pub nets: NetChoices,
     /// What else is chosen about sheets.
@@ -52,6 +54,8 @@ pub struct TemplateComponent {
     pub direction_deg: f64,
     /// Whether the angle was chosen by the user; else it stands in a comment.
     pub is_chosen: bool,
+    /// Whether it may have dents.
+    pub is_concave: bool,
 }
 
 /// A project file with comments that explain each key.
@@ -118,6 +122,8 @@ size = "{paper}"
 margin_mm = {margin}
 # Thickness, for the check of the folding.
 thickness_mm = {thickness}
+# Whether panels are boards of that thickness, each cut by itself and hinged with tape.
+thick = {thick}
 
 {nets}
 {sheets}
@@ -134,6 +140,7 @@ thickness_mm = {thickness}
 # rename: another name, which is printed on the pieces.
 # direction: angle of the fold axis about the component's longest axis, in degrees;
 # without it the best direction is searched for.
+# concave: whether it may have dents, if it is the only component or joined to no other.
 "#,
         mesh = quoted(template.mesh),
         up = match template.up {
@@ -156,6 +163,7 @@ thickness_mm = {thickness}
         paper = template.paper.name(),
         margin = template.margin_mm,
         thickness = template.thickness_mm,
+        thick = template.is_thick,
         export = super::export::TEMPLATE,
         nets = nets_table(&template.nets),
         sheets = sheets_table(&template.sheets),
@@ -163,12 +171,13 @@ thickness_mm = {thickness}
     for component in template.components {
         text += &format!(
             "\n[[component]]\nname = {0}\n# rename = {0}\n{1}direction = {2:.1}\n# top_edges = {3}\n\
-             # profile_vertices = {4}\n",
+             # profile_vertices = {4}\n{5}concave = true\n",
             quoted(&component.name),
             unless(component.is_chosen),
             component.direction_deg,
             template.top_edges,
-            template.profile_vertices
+            template.profile_vertices,
+            unless(component.is_concave)
         );
     }
     text
@@ -233,6 +242,7 @@ mod tests {
             name: name.to_owned(),
             direction_deg: 12.3,
             is_chosen,
+            is_concave: is_chosen,
         };
         let components = [component("body", false), component("he\"ad", true)];
         let template = Template {
@@ -247,6 +257,7 @@ mod tests {
             paper: parse_paper("100x150").unwrap(),
             margin_mm: 0.0,
             thickness_mm: 0.25,
+            is_thick: true,
             nets: NetChoices { angles: true, ..NetChoices::default() },
             sheets: SheetChoices { registration: Some(Registration::Silhouette), ..SheetChoices::default() },
             segmentation: SegmentOptions { detail: 0.25, ..Default::default() },
@@ -254,7 +265,7 @@ mod tests {
         };
         let text = to_toml(&template);
         let project = Project::parse(&text).unwrap();
-        assert_eq!((project.mesh.as_str(), project.up), (template.mesh, Some(Up::X)));
+        assert_eq!((project.mesh.as_deref(), project.up), (Some(template.mesh), Some(Up::X)));
         assert_eq!((project.size_mm, project.paper.margin_mm), (Some(123.5), Some(0.0)));
         assert_eq!(project.paper.size, Some(template.paper));
         assert_eq!(project.defaults.tab_width_mm, Some(6.5));
@@ -266,6 +277,7 @@ mod tests {
         assert_eq!(project.components[1].name, "he\"ad");
         assert_eq!(project.components[0].direction_deg, None);
         assert_eq!(project.components[1].direction_deg, Some(12.3));
+        assert_eq!((project.components[0].concave, project.components[1].concave), (None, Some(true)));
         let uncommented = text.replace("# direction =", "direction =").replace("# parts", "parts");
         let project = Project::parse(&uncommented.replace("# top_e", "top_e")).unwrap();
         assert_eq!(project.components[0].direction_deg, Some(12.3));

@@ -65,6 +65,11 @@ impl Parts {
         &self.mesh
     }
 
+    /// The mesh alone.
+    pub fn into_mesh(self) -> Mesh {
+        self.mesh
+    }
+
     /// Its segments.
     pub fn segmentation(&self) -> &Segmentation {
         &self.segmentation

@@ -19,6 +19,8 @@ pub struct SheetOptions {
     pub margin_mm: f64,
     /// What else is chosen.
     pub choices: SheetChoices,
+    /// Whether creases are folded both ways, so that the legend has to tell them apart.
+    pub has_valleys: bool,
 }
 
 /// What the user may choose about sheets, besides paper and margin.
@@ -55,7 +57,7 @@ impl Default for SheetChoices {
 impl SheetOptions {
     /// The standard choices.
     pub fn new(paper: Paper, margin_mm: f64) -> Self {
-        Self { paper, margin_mm, choices: SheetChoices::default() }
+        Self { paper, margin_mm, choices: SheetChoices::default(), has_valleys: false }
     }
 
     /// Width and height of a sheet, mm.
@@ -74,12 +76,13 @@ impl SheetOptions {
     }
 
     /// Kinds of lines that the legend explains.
-    pub(super) fn legend(&self) -> [Layer; 5] {
-        let fold = match self.choices.side {
-            Side::Outside => Layer::Mountain,
-            Side::Inside => Layer::Valley,
+    pub(super) fn legend(&self) -> Vec<Layer> {
+        let folds = match self.choices.side {
+            Side::Outside => [Layer::Mountain, Layer::Valley],
+            Side::Inside => [Layer::Valley, Layer::Mountain],
         };
-        [Layer::Cut, Layer::Slit, fold, Layer::FoldHinge, Layer::Glue]
+        let folds = &folds[..if self.has_valleys { 2 } else { 1 }];
+        [&[Layer::Cut, Layer::Slit], folds, &[Layer::FoldHinge, Layer::Glue]].concat()
     }
 
     fn strip_mm(&self) -> f64 {

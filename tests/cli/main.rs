@@ -4,6 +4,7 @@ mod bad_meshes;
 mod check;
 #[path = "../cube/mod.rs"]
 mod cube;
+mod design;
 mod exports;
 mod faults;
 mod film;

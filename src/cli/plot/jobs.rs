@@ -8,7 +8,6 @@ use glam::DVec2;
 use std::path::Path;
 use tatamu::drawing::Drawing;
 use tatamu::export::{ExportError, PltOptions};
-use tatamu::pipeline;
 use tatamu::plotter::{Cutter, Job, Placement, Plan, PlanError, Point, test_cut};
 use tatamu::product::Product;
 use tatamu::report::Run;
@@ -158,8 +157,7 @@ fn of_model(args: &PlotArgs, path: &Path, machine: &PltOptions) -> Result<Vec<Sh
     let options = args.model.merge(input.project.as_ref())?;
     make::repair_warnings(&input.repairs).iter().for_each(make::warn);
     let progress = TerminalProgress::new(args.quiet);
-    let result = pipeline::run(&input.mesh, &options, &progress)
-        .map_err(|error| CliError::of_run(error, &progress))?;
+    let result = input.run(&args.model, &options, &progress)?;
     progress.finish();
     make::warn_by_kind(result.warnings());
     let title = terminal::printable(&path.file_stem().unwrap_or_default().to_string_lossy());

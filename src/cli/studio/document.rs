@@ -147,7 +147,7 @@ impl Document {
     /// # Errors
     /// As [`Change::apply`].
     pub fn text_with_mesh(&self, mesh: &str) -> Result<String, String> {
-        if self.project.mesh == mesh {
+        if self.project.mesh.as_deref() == Some(mesh) {
             return Ok(self.text.clone());
         }
         Change::Set { table: "", key: "mesh", value: Some(mesh.into()) }.apply(&self.text)

@@ -30,20 +30,21 @@ impl Opened {
     /// A message that says what is wrong with which file.
     pub fn read(source: &Path) -> Result<Self, String> {
         let input = input::read(source).map_err(|error| error.to_string())?;
+        let mesh = input.mesh().map_err(|error| error.to_string())?.clone();
         let is_project = input.project.is_some();
         let text = if is_project {
             let bytes = input::read_file(source).map_err(|error| error.to_string())?;
             String::from_utf8(bytes).map_err(|error| error.to_string())?
         } else {
             let project = source.with_extension("toml");
-            let mesh = init::mesh_from(&project, source).map_err(|error| error.to_string())?;
-            init::project_text(&mesh, &Options::default(), &[])
+            let name = init::mesh_from(&project, source).map_err(|error| error.to_string())?;
+            init::project_text(&name, &Options::default(), &[])
         };
         Ok(Self {
             source: source.to_owned(),
             mesh_path: input.mesh_path,
             repairs: input.repairs,
-            engine: Arc::new(Engine::new(Cow::Owned(input.mesh))),
+            engine: Arc::new(Engine::new(Cow::Owned(mesh))),
             text,
             is_project,
         })

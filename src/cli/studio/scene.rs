@@ -268,12 +268,12 @@ fn selected_panels(studio: &Studio, part: usize) -> Vec<PanelId> {
 }
 
 fn height_mm(part: &ModelPart) -> f64 {
-    part.component.solid().top_mm - part.component.solid().bottom_mm
+    part.component.top_mm() - part.component.bottom_mm()
 }
 
 /// An arrow along the fold axis, through the middle of a component.
 fn push_arrow(solids: &mut Solids, part: &ModelPart, frame: DAffine3) {
-    let solid = part.component.solid();
+    let (top_mm, bottom_mm) = (part.component.top_mm(), part.component.bottom_mm());
     let height_mm = height_mm(part);
     let top = part.component.panels().panels().iter().find(|p| p.kind == tatamu::component::PanelKind::Top);
     let middle = top.map_or(glam::DVec2::ZERO, |p| {
@@ -290,7 +290,7 @@ fn push_arrow(solids: &mut Solids, part: &ModelPart, frame: DAffine3) {
         at(radius * cosine, radius * sine, z)
     };
     // The shaft goes through, so that it is seen from below, too.
-    let (low, neck, tip) = (solid.bottom_mm - 0.5 * reach, solid.top_mm + 0.6 * reach, solid.top_mm + reach);
+    let (low, neck, tip) = (bottom_mm - 0.5 * reach, top_mm + 0.6 * reach, top_mm + reach);
     for k in 0..SIDES {
         let shaft = [
             ring(radius, low, k),

@@ -82,7 +82,7 @@ fn what_is_saved_is_what_the_command_line_reads() {
     std::fs::create_dir(&elsewhere).unwrap();
     studio.save_as(&elsewhere.join("b.toml"));
     let text = std::fs::read_to_string(elsewhere.join("b.toml")).unwrap();
-    let mesh = Project::parse(&text).unwrap().mesh;
+    let mesh = Project::parse(&text).unwrap().mesh.unwrap();
     assert!(elsewhere.join(mesh).is_file(), "the mesh is found from another folder");
 }
 

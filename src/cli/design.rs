@@ -1,0 +1,95 @@
+//! `tatamu design`
+
+use super::error::CliError;
+use super::input::{self, Shape};
+use super::make::{self, MakeArgs};
+use super::terminal;
+use clap::Args;
+use std::collections::BTreeMap;
+use tatamu::design::{Ranked, Ranking, Refusal, Sketch, rankings};
+
+/// Makes a model that is drawn in a project file.
+///
+/// The file has [[component]] tables with a top panel, a profile for each of its edges, and the
+/// panel that the component is glued on. Profiles may have dents: among the ways in which a chain
+/// can fold flat the best is chosen, and the profile is creased or moved a little to make it exact.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub struct DesignArgs {
+    #[command(flatten)]
+    make: MakeArgs,
+
+    /// Prints the ways in which each profile can fold flat, best first, and makes nothing
+    ///
+    /// A way has a letter for each drawn segment, from top to bottom: u lies facing up when flat, d
+    /// facing down, ^ is creased between (a mountain), v is creased the other way (a valley). Put the
+    /// one that you like into the component's table, such as folds = ["u^d"].
+    #[arg(long)]
+    list_configurations: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  tatamu design vase.toml -o vase.pdf -o vase.gif
+  tatamu design vase.toml --list-configurations
+  tatamu design vase.toml --size 30cm
+
+A project file of one component:
+  [[component]]
+  name = \"vase\"
+  top = { edges = 8, radius = 28 }        # or a list of corners, counter-clockwise
+  profiles = [[[0, 150], [20, 72], [-2, 0]]]";
+
+/// So many ways are listed for a profile.
+const LISTED: usize = 12;
+
+/// Runs the command.
+pub fn run(args: &DesignArgs) -> Result<(), CliError> {
+    if !args.list_configurations {
+        return make::run(&args.make);
+    }
+    let input = input::read(args.make.input())?;
+    let Shape::Drawn(sketches) = &input.shape else {
+        return Err(CliError::Options(format!(
+            "{} holds no drawn components, so there are no profiles with ways to fold",
+            input.mesh_path.display()
+        )));
+    };
+    let options = args.make.model().merge(input.project.as_ref())?;
+    let rankings =
+        rankings(sketches, options.min_panel_width_mm).map_err(|error| CliError::Pipeline(error.into()))?;
+    for (sketch, rankings) in sketches.iter().zip(&rankings) {
+        for (p, ranking) in rankings.iter().enumerate() {
+            list(sketch, p, ranking);
+        }
+    }
+    Ok(())
+}
+
+fn list(sketch: &Sketch, p: usize, ranking: &Ranking) {
+    let name = terminal::printable(sketch.name());
+    terminal::say(&format!("{name}, profile {}: {} ways to fold", p + 1, ranking.ranked.len()));
+    if !ranking.ranked.is_empty() {
+        let width = sketch.profiles()[p].len().max(3);
+        terminal::say(&format!("  {:width$}  folds  moved mm  spread mm  inward mm  score", "way"));
+        ranking.ranked.iter().take(LISTED).for_each(|ranked| terminal::say(&row(ranked, width)));
+    }
+    let mut counts: BTreeMap<Refusal, usize> = BTreeMap::new();
+    ranking.refused.iter().for_each(|(_, refusal)| *counts.entry(*refusal).or_default() += 1);
+    for (refusal, count) in counts {
+        terminal::say(&format!("  {count} more do not work: {refusal}"));
+    }
+}
+
+fn row(ranked: &Ranked, width: usize) -> String {
+    let score = ranked.score;
+    format!(
+        "  {:width$}  {:5}  {:8.2}  {:9.1}  {:9.1}  {:.3}",
+        ranked.way.to_string(),
+        score.folds,
+        score.moved_mm,
+        score.spread_mm,
+        score.inward_mm,
+        score.total()
+    )
+}

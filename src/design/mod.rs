@@ -1,0 +1,28 @@
+//! Models that are drawn rather than made from a mesh (§3.2, Kase et al. 2015): the user draws the
+//! top panel and a profile for each of its edges, concave ones too, and chooses among the ways in
+//! which the chains can fold flat.
+//!
+//! ```text
+//! Sketch (checked) -> ways to fold each profile -> closed exactly -> ranked -> Component -> Model
+//! ```
+
+mod build;
+mod closing;
+mod ranking;
+mod refit;
+mod search;
+mod silhouette;
+mod sketch;
+mod surface_distance;
+mod thick;
+mod way;
+
+pub use build::{Design, DesignError, Note, design, rankings};
+pub use ranking::{Ranked, Ranking, Refusal, Score, WEIGHTS, Weights, rank};
+pub use refit::{Body, Concave, RefitError, refit};
+pub use sketch::{Attachment, MOST_VERTICES, Sketch, SketchError, parse_panel};
+pub use thick::{ThickError, board, thick};
+pub use way::{Segment, Way};
+
+#[cfg(test)]
+mod tests;

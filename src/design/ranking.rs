@@ -1,0 +1,170 @@
+//! The ways to fold a profile, best first.
+
+use super::closing::close;
+use super::search::{Limits, ROUNDING_MM, promising};
+use super::way::Way;
+use crate::component::Profile;
+use crate::fold::ChainMotion;
+use glam::DVec2;
+
+/// What things cost in a score; lengths are shares of the chain's length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weights {
+    /// Each fold by 180°.
+    pub fold: f64,
+    /// A crease that was not drawn.
+    pub crease: f64,
+    /// The farthest that a vertex is moved to close the gap.
+    pub moved: f64,
+    /// How far the flat chain reaches beyond the deployed one.
+    pub spread: f64,
+    /// The mean angle that the segments turn by, in radians.
+    pub turn: f64,
+    /// How far a vertex comes inwards while the top comes down: it has to be pulled by hand.
+    pub inward: f64,
+}
+
+/// The weights of the score. They prefer a shape as it was drawn over all else; a zigzag folds as a
+/// bellows (many folds, small turns), a straight wall in the middle.
+pub const WEIGHTS: Weights =
+    Weights { fold: 0.03, crease: 0.02, moved: 10.0, spread: 0.3, turn: 0.3, inward: 1.0 };
+
+/// What speaks against a way to fold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Score {
+    /// Length of the chain, mm.
+    pub length_mm: f64,
+    /// Folds by 180°.
+    pub folds: usize,
+    /// Whether a crease was added.
+    pub is_creased: bool,
+    /// How far a vertex was moved at most, mm.
+    pub moved_mm: f64,
+    /// How far the flat chain reaches beyond the deployed one, mm.
+    pub spread_mm: f64,
+    /// Mean angle that the segments turn by, weighted by length, radians.
+    pub turn_rad: f64,
+    /// How far a vertex comes inwards of where it stands, mm.
+    pub inward_mm: f64,
+}
+
+impl Score {
+    /// The weighted sum; less is better.
+    pub fn total(&self) -> f64 {
+        let share = |mm: f64| mm / self.length_mm;
+        WEIGHTS.fold * self.folds as f64
+            + WEIGHTS.crease * f64::from(u8::from(self.is_creased))
+            + WEIGHTS.moved * share(self.moved_mm)
+            + WEIGHTS.spread * share(self.spread_mm)
+            + WEIGHTS.turn * self.turn_rad
+            + WEIGHTS.inward * share(self.inward_mm)
+    }
+}
+
+/// A way to fold with the profile that it needs.
+#[derive(Debug, Clone)]
+pub struct Ranked {
+    /// The way.
+    pub way: Way,
+    /// What speaks against it.
+    pub score: Score,
+    /// The drawn profile, with a crease or moved to have gap 0.
+    pub profile: Profile,
+    /// The drawn segment that each segment of `profile` is, or is a part of.
+    pub source: Vec<usize>,
+}
+
+/// Why a way to fold is none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
+pub enum Refusal {
+    /// The gap cannot be closed by the crease that it has, or by a small movement.
+    #[error("the gap cannot be closed")]
+    Gap,
+    /// Eq. (1) is broken.
+    #[error("a hinge would come to lie farther in than it stands (Eq. 1)")]
+    Inward,
+    /// A panel would be too low.
+    #[error("a panel would be too low to fold")]
+    Low,
+    /// The top would have to rise first.
+    #[error("the top would have to rise before it comes down")]
+    Rise,
+    /// It names another number of segments than the profile has.
+    #[error("it has another number of letters than the profile has segments")]
+    Count,
+}
+
+/// The ways to fold one profile.
+#[derive(Debug, Clone)]
+pub struct Ranking {
+    /// Those that work, best first.
+    pub ranked: Vec<Ranked>,
+    /// Those that looked promising and do not.
+    pub refused: Vec<(Way, Refusal)>,
+}
+
+/// Vertices are moved by at most this share of the chain's length.
+const MOST_MOVED: f64 = 0.1;
+
+/// Ranks the ways to fold a drawn profile: `whole` tells which segments may not be creased.
+pub fn rank(points: &[DVec2], whole: &[bool], min_panel_mm: f64) -> Ranking {
+    let mut ranking = Ranking { ranked: Vec::new(), refused: Vec::new() };
+    for way in promising(points, Limits { whole, min_panel_mm }) {
+        match judge(points, &way, min_panel_mm) {
+            Ok(ranked) => ranking.ranked.push(ranked),
+            Err(refusal) => ranking.refused.push((way, refusal)),
+        }
+    }
+    ranking
+        .ranked
+        .sort_by(|a, b| a.score.total().total_cmp(&b.score.total()).then_with(|| a.way.cmp(&b.way)));
+    ranking
+}
+
+/// Closes one way and measures it.
+///
+/// # Errors
+/// [`Refusal`].
+pub(super) fn judge(points: &[DVec2], way: &Way, min_panel_mm: f64) -> Result<Ranked, Refusal> {
+    if way.segments().len() + 1 != points.len() {
+        return Err(Refusal::Count);
+    }
+    let closed = close(points, way).ok_or(Refusal::Gap)?;
+    let length_mm: f64 = closed.profile.lengths().sum();
+    if closed.moved_mm > MOST_MOVED * length_mm {
+        return Err(Refusal::Gap);
+    }
+    let profile = closed.profile;
+    let is_short = |(l, &segment): (f64, &usize)| {
+        let drawn_mm = points[segment].distance(points[segment + 1]);
+        l < min_panel_mm.min(drawn_mm) - ROUNDING_MM
+    };
+    if profile.lengths().zip(&closed.source).any(is_short) {
+        return Err(Refusal::Low);
+    }
+    let flat = profile.flat_mm();
+    if flat.iter().zip(profile.points()).any(|(flat, p)| *flat < p.x - ROUNDING_MM) {
+        return Err(Refusal::Inward);
+    }
+    let course = ChainMotion::new(&profile).course();
+    if !course.comes_straight_down {
+        return Err(Refusal::Rise);
+    }
+    let widest = |list: &mut dyn Iterator<Item = f64>| list.fold(f64::NEG_INFINITY, f64::max);
+    let stands_mm = widest(&mut profile.points().iter().map(|p| p.x));
+    let turned = |(i, w): (usize, &[DVec2])| {
+        let step = w[1] - w[0];
+        let alpha = (-step.y).atan2(step.x);
+        step.length() * if profile.faces_up(i) { alpha } else { std::f64::consts::PI - alpha }
+    };
+    let score = Score {
+        length_mm,
+        folds: way.folds(),
+        is_creased: way.creased().is_some(),
+        moved_mm: closed.moved_mm,
+        spread_mm: (widest(&mut flat.iter().copied()) - stands_mm).max(0.0),
+        turn_rad: profile.points().windows(2).enumerate().map(turned).sum::<f64>() / length_mm,
+        inward_mm: course.inward_mm,
+    };
+    Ok(Ranked { way: way.clone(), score, profile, source: closed.source })
+}

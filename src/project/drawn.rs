@@ -1,0 +1,180 @@
+//! Components that are drawn in the project file.
+
+use super::{Component, Project, ProjectError};
+use crate::design::{Attachment, Sketch, Way, parse_panel};
+use glam::DVec2;
+use serde::Deserialize;
+
+/// The top panel of a drawn component.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "a list of corners such as [[0, 0], [40, 0], [40, 40]], or { edges = 6, radius = 40 }"
+)]
+pub enum Top {
+    /// Its corners, counter-clockwise.
+    Corners(Vec<[f64; 2]>),
+    /// A regular polygon whose first edge looks along −y.
+    Regular(Regular),
+}
+
+/// A regular polygon.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Regular {
+    /// Number of edges.
+    pub edges: usize,
+    /// Distance of its edges from the middle, mm.
+    pub radius: f64,
+}
+
+/// The table `[component.joint]`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Joint {
+    /// Name of the component that carries it.
+    pub to: String,
+    /// The carrier's panel, such as "top" or "chain2.1".
+    pub panel: String,
+    /// Its own panel; the bottom panel without it.
+    pub own: Option<String>,
+    /// How far it lies off the middle of the carrier's panel, mm.
+    #[serde(default)]
+    pub at: [f64; 2],
+    /// Angle by which it is turned there, degrees.
+    #[serde(default)]
+    pub turn: f64,
+}
+
+/// The most edges of a regular top panel.
+const MOST_EDGES: usize = 64;
+
+impl Top {
+    fn corners(&self) -> Result<Vec<DVec2>, String> {
+        match self {
+            Top::Corners(corners) => Ok(corners.iter().map(|&c| c.into()).collect()),
+            Top::Regular(Regular { edges, radius }) => {
+                let is_usable = (3..=MOST_EDGES).contains(edges) && *radius > 0.0 && radius.is_finite();
+                if !is_usable {
+                    return Err(format!(
+                        "its regular top has {edges} edges at radius {radius}; it needs from 3 to {MOST_EDGES} edges, \
+                         and a radius above 0"
+                    ));
+                }
+                let step = std::f64::consts::TAU / *edges as f64;
+                let outer = radius / (0.5 * step).cos();
+                let first = -std::f64::consts::FRAC_PI_2 - 0.5 * step;
+                Ok((0..*edges).map(|k| DVec2::from_angle(first + step * k as f64) * outer).collect())
+            }
+        }
+    }
+}
+
+impl Component {
+    /// Whether the file holds its shape.
+    pub(super) fn is_drawn(&self) -> bool {
+        self.top.is_some() || !self.profiles.is_empty() || !self.folds.is_empty() || self.joint.is_some()
+    }
+
+    fn sketch(&self) -> Result<Sketch, String> {
+        let Some(top) = self.top.as_ref().filter(|_| !self.profiles.is_empty()) else {
+            return Err(
+                "a drawn component has a top and profiles, such as top = { edges = 6, radius = 40 } and \
+                        profiles = [[[0, 60], [0, 0]]]"
+                    .to_owned(),
+            );
+        };
+        let fitted = [self.top_edges, self.profile_vertices];
+        if self.direction_deg.is_some() || fitted != [None; 2] || self.concave.is_some() {
+            return Err(
+                "a drawn component is as it is drawn; leave out direction, top_edges, profile_vertices, concave"
+                    .to_owned(),
+            );
+        }
+        let name = self.rename.as_ref().unwrap_or(&self.name).clone();
+        let profiles = self.profiles.iter().map(|profile| profile.iter().map(|&p| p.into()).collect());
+        let sketch = Sketch::new(name, top.corners()?, profiles.collect()).map_err(|e| e.to_string())?;
+        let ways =
+            self.folds.iter().map(|text| text.parse::<Way>().map_err(|e| format!("folds \"{text}\": {e}")));
+        let sketch = sketch.with_ways(ways.collect::<Result<_, _>>()?).map_err(|e| e.to_string())?;
+        match &self.joint {
+            None => Ok(sketch),
+            Some(joint) => sketch.attached(joint.attachment()?).map_err(|e| e.to_string()),
+        }
+    }
+}
+
+impl Joint {
+    fn attachment(&self) -> Result<Attachment, String> {
+        let (at_mm, turn_rad) = (DVec2::from(self.at), self.turn.to_radians());
+        if !at_mm.is_finite() || !turn_rad.is_finite() {
+            return Err("at and turn of its joint must be finite numbers".to_owned());
+        }
+        let panel = |name: &str| parse_panel(name).map_err(|e| e.to_string());
+        let own = panel(self.own.as_deref().unwrap_or("bottom"))?;
+        Ok(Attachment { to: self.to.clone(), panel: panel(&self.panel)?, own, at_mm, turn_rad })
+    }
+}
+
+impl Project {
+    /// The drawn components; none where the project has a mesh.
+    ///
+    /// # Errors
+    /// [`ProjectError::Drawing`].
+    pub fn sketches(&self) -> Result<Vec<Sketch>, ProjectError> {
+        let drawn = self.components.iter().filter(|_| self.mesh.is_none());
+        let sketch = |component: &Component| {
+            let name = component.name.clone();
+            component.sketch().map_err(|reason| ProjectError::Drawing { name, reason })
+        };
+        drawn.map(sketch).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BOX: &str = "[[component]]
+name = 'box'
+top = { edges = 4, radius = 30 }
+profiles = [[[0, 50], [0, 0]]]
+[[component]]
+name = 'knob'
+top = [[0, 0], [20, 0], [20, 20], [0, 20]]
+profiles = [[[0, 10], [5, 0]]]
+folds = ['^']
+[component.joint]
+to = 'box'
+panel = 'top'
+turn = 45
+";
+
+    #[test]
+    fn drawn_components_are_read() {
+        let sketches = Project::parse(BOX).unwrap().sketches().unwrap();
+        assert_eq!(sketches.len(), 2);
+        assert!(sketches[0].top().iter().all(|c| (c.abs() - DVec2::splat(30.0)).length() < 1e-9));
+        assert_eq!(sketches[1].attachment().unwrap().to, "box");
+    }
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        for (from, to, word) in [
+            ("edges = 4", "edges = 2", "from 3 to 64"),
+            ("radius = 30", "radius = -1", "above 0"),
+            ("[0, 0]]]\n[[c", "[0, 60]]]\n[[c", "v falls"),
+            ("'^'", "'x'", "folds \"x\""),
+            ("panel = 'top'", "panel = 'lid'", "panels are top"),
+            ("folds = ['^']", "top_edges = 3", "as it is drawn"),
+        ] {
+            let text = BOX.replacen(from, to, 1);
+            let found = Project::parse(&text).and_then(|project| project.sketches());
+            let message = found.unwrap_err().to_string();
+            assert!(message.contains(word), "{to}: {message}");
+        }
+        let mixed = format!("mesh = 'a.obj'\n{BOX}");
+        assert!(Project::parse(&mixed).unwrap_err().to_string().contains("two projects"));
+        assert!(Project::parse("[[component]]\nname = 'a'\n").unwrap_err().to_string().contains("mesh ="));
+    }
+}

@@ -1,0 +1,206 @@
+//! Drawn models through the whole pipeline: the samples, all formats, the refolding check.
+
+use glam::DVec3;
+use tatamu::check;
+use tatamu::export::{FORMATS, FormatOptions, format_of};
+use tatamu::fold::ModelMotion;
+use tatamu::geom::polygon;
+use tatamu::mesh::{self, Mesh, Repairs, Soup, Up};
+use tatamu::net;
+use tatamu::pipeline::{self, ComponentOptions, Options, Output};
+use tatamu::product::Product;
+use tatamu::progress::Silent;
+use tatamu::project::Project;
+use tatamu::report::Run;
+use tatamu::segment::SegmentOptions;
+
+const SAMPLES: [&str; 5] = ["gift-box", "lamp", "vase", "insert", "figure-5"];
+
+fn text(name: &str) -> String {
+    let path = format!("{}/samples/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+    std::fs::read_to_string(path).expect("a committed file")
+}
+
+fn made(text: &str, size_mm: Option<f64>) -> Output {
+    let sketches = Project::parse(text).and_then(|project| project.sketches()).expect("a drawing");
+    pipeline::run_drawn(&sketches, size_mm, &Options::default(), &Silent).expect("a model")
+}
+
+fn codes(output: &Output) -> Vec<&'static str> {
+    output.warnings().iter().map(|w| w.code).collect()
+}
+
+#[test]
+fn every_format_is_written_and_refolds() {
+    let repairs = Repairs::default();
+    for name in SAMPLES {
+        let output = made(&text(name), None);
+        let run = Run { path: name, repairs: &repairs, stages: &[], warnings: &[] };
+        let product = Product::new(&output, name, run);
+        // Films and guides take time, and know of no samples.
+        let formats = if name == "lamp" { FORMATS } else { &[] };
+        for format in formats {
+            let files = format.write(&product, &FormatOptions::default()).expect("files");
+            assert!(files.iter().all(|file| !file.bytes.is_empty()), "{name}, {}", format.name);
+        }
+        let fold = format_of("fold").expect("registered");
+        let bytes = fold.write(&product, &FormatOptions::default()).expect("files").remove(0).bytes;
+        let report = check::fold(&bytes).expect("a FOLD master");
+        assert!(report.is_sound(1e-6), "{name}: {:?}", report.verdicts(&check::Limits::default()));
+        assert!(report.gap_share <= 1e-9, "{name}");
+        for (part, net) in output.model().parts().iter().zip(output.nets()) {
+            let faults = net::check::faults(net.panels(), net, output.layout().options().room_mm());
+            assert!(faults.is_empty(), "{name}, {}: {faults:?}", part.name);
+        }
+        assert!(output.fold_plan().clashes().is_empty(), "{name}: {:?}", output.fold_plan().clashes());
+        assert!(!codes(&output).contains(&"pull_by_hand"), "{name}");
+    }
+}
+
+#[test]
+fn a_bellows_has_mountains_and_valleys() {
+    let repairs = Repairs::default();
+    let output = made(&text("lamp"), None);
+    let run = Run { path: "lamp", repairs: &repairs, stages: &[], warnings: &[] };
+    let fold = format_of("fold").expect("registered");
+    let bytes = fold.write(&Product::new(&output, "lamp", run), &FormatOptions::default()).expect("files");
+    let master: serde_json::Value = serde_json::from_slice(&bytes[0].bytes).expect("JSON");
+    let assignments = master["edges_assignment"].as_array().expect("a list");
+    let count = |letter: &str| assignments.iter().filter(|a| a.as_str() == Some(letter)).count();
+    assert!(count("V") >= 4 * 6, "each of six chains has four valleys");
+    let angles = master["file_frames"][0]["edges_foldAngle"].as_array().expect("angles");
+    for (assignment, angle) in assignments.iter().zip(angles) {
+        let angle = angle.as_f64().expect("a number");
+        match assignment.as_str() {
+            Some("M") => assert!(angle <= 0.0, "mountains are negative"),
+            Some("V") => assert!(angle > 0.0, "valleys are positive"),
+            _ => {}
+        }
+    }
+    let profile = &output.model().parts()[0].component.profiles()[0];
+    assert_eq!(profile.fold_vertices().count(), 9);
+}
+
+/// Poses follow one another without a jump from deployed to flat.
+#[test]
+fn models_move_continuously() {
+    for name in SAMPLES {
+        let output = made(&text(name), None);
+        let (model, motion) = (output.model(), ModelMotion::new(output.model()));
+        let places = |share: f64| {
+            let pose = motion.pose(&vec![share; model.parts().len()]);
+            let corners = model.parts().iter().zip(&pose.parts).flat_map(|(part, posed)| {
+                let panels = part.component.panels().panels().iter().enumerate();
+                let frames = panels.map(|(k, panel)| (panel, posed.panel(tatamu::component::PanelId(k))));
+                frames
+                    .flat_map(|(panel, frame)| {
+                        panel.outline.iter().map(move |q| frame.transform_point3(q.extend(0.0)))
+                    })
+                    .collect::<Vec<_>>()
+            });
+            corners.collect::<Vec<_>>()
+        };
+        let mut before = places(0.0);
+        for k in 1..=400 {
+            let here = places(f64::from(k) / 400.0);
+            let step = here.iter().zip(&before).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+            assert!(step < 4.0, "{name}: a jump of {step} mm at {k}");
+            before = here;
+        }
+    }
+}
+
+/// Figure 5: "components cannot be attached" to the segments of a dent.
+#[test]
+fn a_component_in_a_dent_is_crushed() {
+    let crushed = made(&text("figure-5").replace("chain1.1", "chain1.2"), None);
+    assert!(codes(&crushed).contains(&"fold_clash"), "{:?}", codes(&crushed));
+    assert!(!codes(&made(&text("figure-5"), None)).contains(&"fold_clash"));
+}
+
+#[test]
+fn a_size_is_reached_and_a_way_is_chosen() {
+    let large = made(&text("vase"), Some(300.0));
+    assert!((large.options().size_mm - 300.0).abs() < 1e-9);
+    let text = text("vase").replace("profiles =", "folds = [\"uuvdd\"]\nprofiles =");
+    let chosen = made(&text, None);
+    assert_eq!(chosen.model().parts()[0].component.profiles()[0].fold_vertices().count(), 3);
+    let wrong = text.replace("uuvdd", "uddd^");
+    let sketches = Project::parse(&wrong).and_then(|p| p.sketches()).expect("a drawing");
+    let error = pipeline::run_drawn(&sketches, None, &Options::default(), &Silent).unwrap_err();
+    assert!(error.to_string().contains("--list-configurations"), "{error}");
+}
+
+/// A mesh as one component that may have dents.
+fn concave(mesh: &Mesh) -> Output {
+    let choice = ComponentOptions { is_concave: true, ..ComponentOptions::default() };
+    let segmentation = SegmentOptions { parts: Some(1), ..SegmentOptions::default() };
+    let options = Options {
+        up: Up::Z,
+        segmentation,
+        components: [("body".to_owned(), choice)].into(),
+        ..Options::default()
+    };
+    pipeline::run(mesh, &options, &Silent).expect("a model")
+}
+
+/// The surface of the drawn vase, as a mesh, becomes one component with its neck again.
+#[test]
+fn a_vase_becomes_one_concave_component() {
+    let vase = made(&text("vase"), None);
+    let output = concave(vase.mesh());
+    assert!(codes(&output).contains(&"concave"), "{:?}", output.warnings());
+    let component = &output.model().parts()[0].component;
+    let dents = component.panels().hinges().iter().filter(|h| h.deployed_rad < -0.05).count();
+    assert!(dents >= 3, "{dents} hinges are folded inwards");
+    // Its longest side is 200 mm now; 1 mm is half a step between the heights that are looked at.
+    assert!(component.hausdorff_mm() < 10.0, "{} mm", component.hausdorff_mm());
+    assert!(output.fold_plan().clashes().is_empty());
+}
+
+#[test]
+fn a_box_stays_convex() {
+    let corner = |k: u32| DVec3::new(f64::from(k & 1) * 3.0, f64::from(k >> 1 & 1) * 2.0, f64::from(k >> 2));
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let soup = Soup::new((0..8).map(corner).collect(), sides).expect("a soup");
+    let output = concave(&Mesh::from_soup(&soup).expect("a box").0);
+    assert!(codes(&output).contains(&"concave_refused"), "{:?}", output.warnings());
+}
+
+/// Every board is a piece of its own, and the file refolds.
+#[test]
+fn thick_panels_are_cut_one_by_one() {
+    let sketches = Project::parse(&text("gift-box")).and_then(|p| p.sketches()).expect("a drawing");
+    let options = Options { is_thick: true, thickness_mm: 1.0, ..Options::default() };
+    let output = pipeline::run_drawn(&sketches, None, &options, &Silent).expect("a model");
+    for net in output.nets() {
+        assert!(net.pieces().iter().all(|piece| piece.panels().len() == 1 && piece.tabs().is_empty()));
+        assert!(net.pieces().iter().all(|piece| !piece.glue_areas().is_empty()), "places for tape");
+    }
+    let repairs = Repairs::default();
+    let run = Run { path: "gift-box", repairs: &repairs, stages: &[], warnings: &[] };
+    let product = Product::new(&output, "gift-box", run);
+    let write = |name: &str| {
+        let format = format_of(name).expect("registered");
+        format.write(&product, &FormatOptions::default()).expect("files").remove(0).bytes
+    };
+    let report = check::fold(&write("fold")).expect("a FOLD master");
+    assert!(report.is_sound(1e-6), "{:?}", report.verdicts(&check::Limits::default()));
+    // Solids: each board is a closed body, whose volume is its area times its thickness.
+    let (soup_stl, soup_obj) =
+        (mesh::read(&write("stl")).expect("STL"), mesh::read(&write("obj")).expect("OBJ"));
+    let panels = output.nets().iter().flat_map(|net| net.panels().panels());
+    let area_mm2: f64 = panels.map(|p| polygon::area(&p.outline)).sum();
+    for soup in [soup_stl, soup_obj] {
+        let (_, found) = Mesh::from_soup(&soup).expect("a mesh");
+        assert_eq!(found.boundary_edges, 0);
+        // As they stand in the file: boards that touch are no one body.
+        let at = |v: u32| soup.positions()[v as usize];
+        let six = |polygon: &[u32]| -> f64 {
+            let fan = polygon.windows(2).map(|w| at(polygon[0]).dot(at(w[0]).cross(at(w[1]))));
+            fan.sum()
+        };
+        let volume_mm3 = soup.polygons().map(six).sum::<f64>() / 6.0;
+        assert!((volume_mm3 - area_mm2).abs() < 1e-3 * area_mm2, "{volume_mm3} {area_mm2}");
+    }
+}
