@@ -22,6 +22,7 @@ const SKIPPED: &[(&str, &str)] = &[
     ("tatamu check FILE.fold", "a synopsis"),
     ("tatamu show INPUT [options]", "a synopsis"),
     ("tatamu studio [INPUT]", "a synopsis"),
+    ("tatamu design FILE.toml", "a synopsis"),
 ];
 
 /// Meshes of the reader's own, and the small samples that stand for them.
