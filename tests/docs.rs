@@ -130,7 +130,8 @@ fn tatamu(folder: &Path) -> Command {
     command
 }
 
-/// A virtual plotter that works for one host, with its port.
+/// A virtual plotter that works for one host, with its port. Its buffer takes a whole job: whether
+/// one is overrun while the machine is busy with other tests is not the question here.
 struct Machine {
     child: Child,
     out: BufReader<std::process::ChildStdout>,
@@ -140,7 +141,14 @@ struct Machine {
 impl Machine {
     fn start(folder: &Path, arguments: &[&str]) -> Self {
         let mut command = tatamu(folder);
-        command.arg("virtual-plotter").args(arguments).args(["--speedup", "1000", "--baud", "1000000"]);
+        command.arg("virtual-plotter").args(arguments).args([
+            "--speedup",
+            "1000",
+            "--baud",
+            "1000000",
+            "--buffer",
+            "1000000",
+        ]);
         if !arguments.contains(&"--once") {
             command.arg("--once");
         }

@@ -1,9 +1,11 @@
 //! What the user should know about a model that was made all the same.
 
 use super::Options;
+use crate::component::{Component, Panel};
 use crate::model::Model;
 use crate::net::Net;
 use crate::sheet::{Layout, Unheeded};
+use glam::DVec3;
 
 /// Something that the user should know about a model that was made all the same.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,6 +18,11 @@ pub struct Warning {
 
 /// Joint panels that carry less than this of their child are worth a warning.
 const GOOD_SUPPORT: f64 = 0.8;
+
+/// An error of this share of its thickness changes a component's looks,
+const SWOLLEN: f64 = 0.3;
+/// and comes from the least size of panels where it is thinner than so many of them.
+const THIN_PANELS: f64 = 4.0;
 
 pub(super) fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Options) -> Vec<Warning> {
     let min_panel_mm = options.min_panel_width_mm;
@@ -68,6 +75,17 @@ pub(super) fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Op
                 ),
             );
         }
+        let thickness_mm = thickness_mm(&part.component);
+        if error_mm > SWOLLEN * thickness_mm && thickness_mm < THIN_PANELS * min_panel_mm {
+            warn(
+                "thin_part",
+                format!(
+                    "{}: its shape is thinner than its panels may be, and it comes out larger by up to {error_mm:.1} mm; \
+                     use a larger --size, or a smaller --min-panel-width than {min_panel_mm} mm",
+                    part.name
+                ),
+            );
+        }
         if let Some(joint) = part.joint.as_ref().filter(|j| j.support_ratio < GOOD_SUPPORT) {
             let parent = &model.parts()[joint.parent].name;
             warn(
@@ -88,6 +106,21 @@ pub(super) fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Op
 }
 
 /// Pins that could not be heeded.
+/// Least distance between parallel planes with the whole standing component between them, of those
+/// along its panels.
+fn thickness_mm(component: &Component) -> f64 {
+    let panels = component.panels().panels();
+    let corners: Vec<DVec3> = panels.iter().flat_map(|p| p.deployed_outline()).collect();
+    let across = |panel: &Panel| {
+        let normal = panel.deployed.matrix3.z_axis;
+        let reach = corners.iter().map(|c| normal.dot(*c));
+        let (low, high) =
+            reach.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), r| (low.min(r), high.max(r)));
+        high - low
+    };
+    panels.iter().map(across).fold(f64::INFINITY, f64::min)
+}
+
 pub(super) fn pin_warnings(layout: &Layout) -> Vec<Warning> {
     let warning = |pin: &Unheeded| match pin {
         Unheeded::NoPiece(name) => Warning {
