@@ -23,6 +23,7 @@ const SKIPPED: &[(&str, &str)] = &[
     ("tatamu show INPUT [options]", "a synopsis"),
     ("tatamu studio [INPUT]", "a synopsis"),
     ("tatamu studio samples/teddy.obj", "opens a window, and is not in the usual build"),
+    ("tatamu design FILE.toml", "a synopsis"),
 ];
 
 /// Meshes of the reader's own, and the small samples that stand for them.
