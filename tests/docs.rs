@@ -133,7 +133,7 @@ fn tatamu(folder: &Path) -> Command {
     command
 }
 
-/// A virtual plotter for one host. Its buffer takes a whole job: being overrun is tested elsewhere.
+/// A virtual plotter whose buffer takes a whole job: being overrun is tested elsewhere.
 struct Machine {
     child: Child,
     out: BufReader<std::process::ChildStdout>,
