@@ -37,7 +37,7 @@ const PORT: &str = "/dev/ttyUSB0";
 const QUICK: [(&str, &[&str]); 3] = [
     ("make", &["--effort", "0", "--frames", "4", "--size-px", "160"]),
     ("show", &["--effort", "0", "--size-px", "200"]),
-    ("plot", &["--effort", "0", "--handshake", "xonxoff", "--baud", "1000000"]),
+    ("plot", &["--effort", "0", "--handshake", "xonxoff", "--baud", "1000000", "--size", "40mm"]),
 ];
 
 enum Step {
