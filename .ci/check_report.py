@@ -33,7 +33,10 @@ def is_number(value, least=-math.inf, most=math.inf):
 
 
 def check_profile(profile, where):
-    if keys(profile, "vertices fold_vertex gap_mm mean_segment_mm", where):
+    if keys(profile, "vertices fold_vertices gap_mm mean_segment_mm", where):
+        # A convex chain folds back at one vertex between its ends.
+        folds, last = profile["fold_vertices"], profile["vertices"] - 1
+        require(len(folds) == 1 and 0 < folds[0] < last, f"{where}: folds {folds} of {last + 1} vertices")
         gap, mean = profile["gap_mm"], profile["mean_segment_mm"]
         if require(is_number(gap) and is_number(mean, 0), f"{where}: gap {gap}, mean {mean}"):
             require(abs(gap) <= GAP_SHARE * mean, f"{where}: gap {gap} mm, mean segment {mean} mm")
