@@ -21,7 +21,9 @@ mod segment_args;
 mod sheet_args;
 mod shell;
 mod show;
+#[cfg(feature = "studio")]
 mod studio;
+mod studio_args;
 mod terminal;
 #[cfg(unix)]
 mod virtual_plotter;
@@ -50,7 +52,7 @@ enum Command {
     Design(Box<design::DesignArgs>),
     Init(init::InitArgs),
     Show(show::ShowArgs),
-    Studio(studio::StudioArgs),
+    Studio(studio_args::StudioArgs),
     Formats(formats::FormatsArgs),
     Check(check::CheckArgs),
     Segment(segment::SegmentCommand),
@@ -87,7 +89,7 @@ pub fn run() -> ExitCode {
         Command::Design(args) => design::run(args).map(|()| ExitCode::SUCCESS),
         Command::Init(args) => init::run(args).map(|()| ExitCode::SUCCESS),
         Command::Show(args) => show::run(args).map(|()| ExitCode::SUCCESS),
-        Command::Studio(args) => studio::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Studio(args) => studio_args::run(args).map(|()| ExitCode::SUCCESS),
         Command::Segment(args) => segment::run(args).map(|()| ExitCode::SUCCESS),
         Command::Check(args) => check::run(args),
         Command::Plot(args) => plot::run(args).map(|()| ExitCode::SUCCESS),

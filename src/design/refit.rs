@@ -6,9 +6,10 @@
 
 use super::ranking::rank;
 use super::silhouette::Silhouette;
-use super::surface_distance::{Facets, samples};
+use super::surface_distance::{farthest, samples};
 use crate::component::{Component, Profile};
 use crate::geom::eigen;
+use crate::geom::nearest::Tree;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -151,7 +152,7 @@ fn surface(component: &Component, frame: &DAffine3) -> Vec<[DVec3; 3]> {
 
 /// Hausdorff distances to one surface, both ways.
 struct Measure {
-    facets: Facets,
+    surface: Tree,
     /// Corners and middles of the triangles, which are small in comparison.
     points: Vec<DVec3>,
     cloud: Vec<DVec3>,
@@ -165,7 +166,7 @@ impl Measure {
         let size_mm = low.distance(high);
         let points = samples(triangles, FINE * size_mm);
         let cloud = points.iter().copied().step_by(points.len().div_ceil(CLOUD)).collect();
-        Self { facets: Facets::new(triangles), points, cloud, size_mm }
+        Self { surface: Tree::new(triangles.to_vec()), points, cloud, size_mm }
     }
 
     /// Quick, and the same for all candidates: distances to points stand for those to the surface.
@@ -175,11 +176,11 @@ impl Measure {
             self.cloud.iter().map(|q| p.distance_squared(*q)).fold(f64::INFINITY, f64::min).sqrt()
         };
         let there = own.iter().map(to_cloud).fold(0.0, f64::max);
-        there.max(Facets::new(surface).farthest(&self.cloud))
+        there.max(farthest(&self.cloud, &Tree::new(surface.to_vec())))
     }
 
     fn fine(&self, surface: &[[DVec3; 3]]) -> f64 {
-        let there = self.facets.farthest(&samples(surface, FINE * self.size_mm));
-        there.max(Facets::new(surface).farthest(&self.points))
+        let there = farthest(&samples(surface, FINE * self.size_mm), &self.surface);
+        there.max(farthest(&self.points, &Tree::new(surface.to_vec())))
     }
 }

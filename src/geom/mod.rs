@@ -2,6 +2,7 @@
 
 pub mod eigen;
 mod hull;
+pub(crate) mod nearest;
 mod plane;
 pub mod polygon;
 mod quickhull;

@@ -1,8 +1,8 @@
 //! Pictures of panels at their places on the sheets.
 
-use super::nearest::Tree;
 use crate::component::PanelSet;
 use crate::drawing::{Image, Layer, Mark, Polyline, Raster, Rgb};
+use crate::geom::nearest::Tree;
 use crate::geom::polygon;
 use crate::mesh::painting::Painting;
 use crate::model::ModelPart;

@@ -185,7 +185,7 @@ impl<'m> Engine<'m> {
         warnings.extend(pin_warnings(&layout));
         let advice = fold_plan.advice(&model).into_iter();
         warnings.extend(advice.map(|(code, message)| Warning { code, message }));
-        let shaped = Shaped { model, ..shaped.clone() };
+        let shaped = Shaped { model, ..shaped };
         Ok(Output { shaped, fold_plan, nets, layout, warnings: Arc::new(warnings) })
     }
 }

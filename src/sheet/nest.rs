@@ -29,7 +29,7 @@ use crate::geom::polygon;
 use crate::progress::{Cancelled, Progress};
 use glam::{DAffine2, DVec2};
 use item::Item;
-use occupancy::Pose;
+use occupancy::{Pose, Spot};
 use pins::{Pinned, Start};
 use raster::Grid;
 use rayon::prelude::*;
@@ -187,7 +187,7 @@ pub fn nest(
 }
 
 /// As [`nest`], of groups that may be cut in several ways: `groups[g][a]` are the pieces of group g
-/// in its alternative a, each with as many. Gives the alternative of each group, the first where
+/// in its alternative a, each with as many, and g as the number of their group. Gives the alternative of each group, the first where
 /// others save no sheet, and the placements of its pieces.
 ///
 /// # Errors
@@ -205,11 +205,8 @@ pub fn nest_alternatives(
     let mut rest = placements.into_iter();
     let of_group = |group: &Vec<Vec<Shape>>| -> Vec<Placement> { rest.by_ref().take(count(group)).collect() };
     let placements: Vec<Vec<Placement>> = groups.iter().map(of_group).collect();
-    let number = |g: usize| {
-        let shape = groups[g].iter().flatten().next();
-        shape.and_then(|s| chosen.get(s.group).copied()).unwrap_or(0)
-    };
-    Ok(placements.into_iter().enumerate().map(|(g, placed)| (number(g), placed)).collect())
+    // A group without pieces, at the end, is not among the chosen.
+    Ok(chosen.into_iter().chain(std::iter::repeat(0)).zip(placements).collect())
 }
 
 /// Alternative of each group by its number, and a placement for each item, which is given as one
@@ -236,18 +233,13 @@ fn nest_items(
     let found = search::search(&items, &frame.grid, &start, orders, progress)?;
     let mut placements = vec![None; items.len()];
     for (index, pin) in pins.iter().enumerate().filter(|(index, _)| !start.is_free(*index)) {
-        placements[index] = pin.as_ref().map(|pin| {
-            let cell = DVec2::new(pin.spot.column as f64, pin.spot.row as f64);
-            frame.placement(pin.sheet, pin.pose.angle_rad, pin.pose.origin + cell * frame.grid.cell_mm)
-        });
+        placements[index] = pin.as_ref().map(|pin| frame.placement(pin.sheet, &pin.pose, &pin.spot));
     }
     for (sheet, placed) in found.sheets.iter().enumerate() {
         for p in placed {
             let item = &items[p.item];
             let pose = item.alternative(found.chosen[item.group()]).pose(p.pose);
-            let cell = DVec2::new(p.spot.column as f64, p.spot.row as f64);
-            let at = pose.origin + cell * frame.grid.cell_mm;
-            placements[p.item] = Some(frame.placement(sheet, pose.angle_rad, at));
+            placements[p.item] = Some(frame.placement(sheet, pose, &p.spot));
         }
     }
     let mut placements: Vec<Placement> = placements.into_iter().flatten().collect();
@@ -305,7 +297,9 @@ impl Frame {
         Some(Pinned { sheet: pin.sheet, pose, spot })
     }
 
-    fn placement(&self, sheet: usize, angle_rad: f64, at: DVec2) -> Placement {
+    fn placement(&self, sheet: usize, pose: &Pose, spot: &Spot) -> Placement {
+        let at = pose.origin + DVec2::new(spot.column as f64, spot.row as f64) * self.grid.cell_mm;
+        let angle_rad = pose.angle_rad;
         match self.turned_mm {
             None => Placement { sheet, rotation_rad: angle_rad, translation: at },
             Some(height) => Placement {

@@ -1,11 +1,17 @@
 //! A file that is open.
 
-use crate::cli::{init, input};
+use crate::cli::error::CliError;
+use crate::cli::formats::FileArgs;
+use crate::cli::{init, input, make};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use tatamu::export::FormatOptions;
 use tatamu::mesh::Repairs;
-use tatamu::pipeline::{Engine, Options};
+use tatamu::pipeline::{Engine, Options, Output};
+use tatamu::product::Product;
+use tatamu::project::Project;
+use tatamu::report::Run;
 
 /// A file that is open.
 pub struct Opened {
@@ -48,6 +54,27 @@ impl Opened {
             text,
             is_project,
         })
+    }
+
+    /// Gives what was made, with the look and the colours that the project asks for, and its options of
+    /// formats.
+    ///
+    /// # Errors
+    /// The style file or the colours cannot be read.
+    pub fn with_product<T>(
+        &self,
+        project: &Project,
+        output: &Output,
+        give: impl FnOnce(Product<'_>, FormatOptions) -> T,
+    ) -> Result<T, CliError> {
+        let choice = FileArgs::default().merge(Some(&project.export), &self.source)?;
+        let painting = choice.is_coloured.then(|| input::read_painting(&self.mesh_path)).transpose()?;
+        let warnings = make::repair_warnings(&self.repairs);
+        let mesh_path = self.mesh_path.to_string_lossy();
+        let run = Run { path: &mesh_path, repairs: &self.repairs, stages: &[], warnings: &warnings };
+        let title = self.title();
+        let product = Product::new(output, &title, run).with_styles(choice.styles);
+        Ok(give(product.with_painting(painting.as_ref()), choice.formats))
     }
 
     /// The title of what is made: the file's name without its extension.

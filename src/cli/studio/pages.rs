@@ -1,16 +1,12 @@
 //! The sheets as they are printed.
 
 use super::opened::Opened;
-use crate::cli::formats::FileArgs;
-use crate::cli::{input, make};
 use glam::{DAffine2, DVec2};
 use tatamu::drawing::Drawing;
 use tatamu::geom::polygon;
 use tatamu::net::{Piece, Side};
 use tatamu::pipeline::Output;
-use tatamu::product::Product;
 use tatamu::project::Project;
-use tatamu::report::Run;
 use tatamu::sheet::{PiecePlace, Pin};
 
 /// Draws the sheets with the look and the colours that the project asks for.
@@ -18,17 +14,10 @@ use tatamu::sheet::{PiecePlace, Pin};
 /// # Errors
 /// A message where its style file or its colours cannot be read.
 pub fn drawings(opened: &Opened, project: &Project, output: &Output) -> Result<Vec<Drawing>, String> {
-    let choice = FileArgs::default().merge(Some(&project.export), &opened.source);
-    let choice = choice.map_err(|error| error.to_string())?;
-    let painting = choice.is_coloured.then(|| input::read_painting(&opened.mesh_path)).transpose();
-    let painting = painting.map_err(|error| error.to_string())?;
-    let warnings = make::repair_warnings(&opened.repairs);
-    let mesh_path = opened.mesh_path.to_string_lossy();
-    let run = Run { path: &mesh_path, repairs: &opened.repairs, stages: &[], warnings: &warnings };
-    let title = opened.title();
-    let product =
-        Product::new(output, &title, run).with_styles(choice.styles).with_painting(painting.as_ref());
-    product.pages().map(|pages| pages.drawings().to_vec()).map_err(|error| error.to_string())
+    let pages = opened.with_product(project, output, |product, _| {
+        product.pages().map(|pages| pages.drawings().to_vec()).map_err(|error| error.to_string())
+    });
+    pages.map_err(|error| error.to_string())?
 }
 
 /// A piece on a sheet: the net, and its number in the net.

@@ -2,17 +2,14 @@
 
 use super::opened::Opened;
 use super::worker::Wake;
-use crate::cli::formats::FileArgs;
 use crate::cli::guide::GuideArgs;
+use crate::cli::make;
 use crate::cli::output::{self, Target};
-use crate::cli::{input, make};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use tatamu::pipeline::Output;
-use tatamu::product::Product;
 use tatamu::project::Project;
-use tatamu::report::Run;
 
 /// What was done, or why not.
 pub enum Finished {
@@ -87,16 +84,10 @@ fn export(
     let run = || {
         let paths: Vec<PathBuf> = targets.iter().map(|target| target.path.clone()).collect();
         output::check_places(&paths, &[&opened.source, &opened.mesh_path])?;
-        let choice = FileArgs::default().merge(Some(&project.export), &opened.source)?;
-        let painting = choice.is_coloured.then(|| input::read_painting(&opened.mesh_path)).transpose()?;
-        let formats = GuideArgs::default().choose(choice.formats, Some(&project.export));
-        let warnings = make::repair_warnings(&opened.repairs);
-        let mesh_path = opened.mesh_path.to_string_lossy();
-        let run = Run { path: &mesh_path, repairs: &opened.repairs, stages: &[], warnings: &warnings };
-        let title = opened.title();
-        let product =
-            Product::new(output, &title, run).with_styles(choice.styles).with_painting(painting.as_ref());
-        let files = make::written(targets, &[("", product)], &formats)?;
+        let files = opened.with_product(project, output, |product, formats| {
+            let formats = GuideArgs::default().choose(formats, Some(&project.export));
+            make::written(targets, &[("", product)], &formats)
+        })??;
         output::write(&files)?;
         Ok(files.iter().map(|(path, _)| path.display().to_string()).collect())
     };

@@ -96,7 +96,7 @@ impl Band {
         }
         for y in self.rows(flat.rows) {
             let at = y as f32 + 0.5;
-            let Some([left, right]) = span(&flat.corners, at) else { continue };
+            let Some([left, right]) = span(flat.corners.map(|[x, y, _]| [x, y]), at) else { continue };
             let first = (left - 0.5).ceil().max(0.0) as usize;
             let end = ((right - 0.5).floor() + 1.0).clamp(0.0, self.width as f32) as usize;
             // Nearness is linear in the picture.
@@ -143,19 +143,6 @@ impl Band {
     }
 }
 
-/// Where a row crosses a triangle.
-fn span(corners: &[[f32; 3]; 3], at: f32) -> Option<[f32; 2]> {
-    let mut span = [f32::MAX, f32::MIN];
-    for k in 0..3 {
-        let (p, q) = (corners[k], corners[(k + 1) % 3]);
-        if (p[1] <= at) != (q[1] <= at) {
-            let x = p[0] + (at - p[1]) / (q[1] - p[1]) * (q[0] - p[0]);
-            span = [span[0].min(x), span[1].max(x)];
-        }
-    }
-    (span[0] <= span[1]).then_some(span)
-}
-
 /// Where a row crosses a line of some width with square ends.
 fn stroke_span(line: &Stroke, at: f32) -> Option<[f32; 2]> {
     let [a, b] = line.ends;
@@ -168,9 +155,14 @@ fn stroke_span(line: &Stroke, at: f32) -> Option<[f32; 2]> {
         [b[0] + ux + uy, b[1] + uy - ux],
         [a[0] - ux + uy, a[1] - uy - ux],
     ];
+    span(corners, at)
+}
+
+/// Where a row crosses a convex outline.
+fn span<const N: usize>(corners: [[f32; 2]; N], at: f32) -> Option<[f32; 2]> {
     let mut span = [f32::MAX, f32::MIN];
-    for k in 0..4 {
-        let (p, q) = (corners[k], corners[(k + 1) % 4]);
+    for k in 0..N {
+        let (p, q) = (corners[k], corners[(k + 1) % N]);
         if (p[1] <= at) != (q[1] <= at) {
             let x = p[0] + (at - p[1]) / (q[1] - p[1]) * (q[0] - p[0]);
             span = [span[0].min(x), span[1].max(x)];

@@ -24,7 +24,7 @@ impl Node {
 
 /// Triangles, ready to be searched.
 #[derive(Debug, Clone)]
-pub(super) struct Tree {
+pub(crate) struct Tree {
     triangles: Vec<[DVec3; 3]>,
     order: Vec<usize>,
     nodes: Vec<Node>,
@@ -32,18 +32,18 @@ pub(super) struct Tree {
 
 /// A point of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Nearest {
+pub(crate) struct Nearest {
     /// Index of the triangle.
-    pub(super) triangle: usize,
+    pub(crate) triangle: usize,
     /// Weights of its corners.
-    pub(super) weights: DVec3,
+    pub(crate) weights: DVec3,
     /// Square of the distance to it.
-    pub(super) distance_squared: f64,
+    pub(crate) distance_squared: f64,
 }
 
 impl Tree {
     /// A tree of at least one triangle.
-    pub(super) fn new(triangles: Vec<[DVec3; 3]>) -> Self {
+    pub(crate) fn new(triangles: Vec<[DVec3; 3]>) -> Self {
         let order: Vec<usize> = (0..triangles.len()).collect();
         let count = order.len();
         let mut tree = Self { triangles, order, nodes: Vec::new() };
@@ -73,7 +73,7 @@ impl Tree {
     }
 
     /// The point nearest to `p`. Search is quick where `guess` is a triangle near it.
-    pub(super) fn nearest(&self, p: DVec3, guess: usize) -> Nearest {
+    pub(crate) fn nearest(&self, p: DVec3, guess: usize) -> Nearest {
         let mut best = self.on_triangle(guess, p);
         let mut todo = vec![0];
         while let Some(index) = todo.pop() {

@@ -1,0 +1,32 @@
+//! `tatamu studio`, with or without the window.
+
+use super::error::CliError;
+use clap::Args;
+use std::path::PathBuf;
+
+/// Opens the window in which you turn the dials and see the paper change.
+///
+/// It has the model in space, its folding, its sheets, the files, and the cutter. It reads and
+/// writes the same project files as the command line.
+#[derive(Debug, Args)]
+pub struct StudioArgs {
+    /// Mesh or project file to open
+    #[arg(value_name = "INPUT")]
+    input: Option<PathBuf>,
+}
+
+/// Runs the command.
+#[cfg(feature = "studio")]
+pub fn run(args: &StudioArgs) -> Result<(), CliError> {
+    super::studio::run(args.input.clone())
+}
+
+/// Says how to get a program with the window.
+#[cfg(not(feature = "studio"))]
+pub fn run(args: &StudioArgs) -> Result<(), CliError> {
+    let input = args.input.as_deref().map(|path| format!(" {}", path.display())).unwrap_or_default();
+    Err(CliError::Options(format!(
+        "this program was built without its window, which takes longer to build; get it with: cargo run --release \
+         --features studio -- studio{input}"
+    )))
+}
