@@ -51,14 +51,14 @@ impl Placer<'_> {
         let half_width = inward.dot(tab[2] - tab[0]) / 2.0;
         let middle = |t: f64| tab[0] + base * t + inward * half_width;
         LABEL_CAPS_MM.iter().any(|&cap_mm| {
-            let wanted = Wanted { text, kind: LabelKind::Tab, cap_mm };
+            let wanted = Wanted::new(text, LabelKind::Tab, cap_mm);
             ALONG.iter().any(|&t| self.put(tab, middle(t), base, wanted))
         })
     }
 
     fn along(&mut self, edge: [DVec2; 2], panel: &[DVec2], text: &str, kind: LabelKind) -> bool {
         LABEL_CAPS_MM.iter().any(|&cap_mm| {
-            let wanted = Wanted { text, kind, cap_mm };
+            let wanted = Wanted::new(text, kind, cap_mm);
             OFF_MM.iter().any(|&off_mm| self.beside(edge, panel, off_mm, wanted))
         })
     }
@@ -77,7 +77,7 @@ impl Placer<'_> {
             let Some(text) = angle_of(&edge.kind) else {
                 continue;
             };
-            let wanted = Wanted { text: &text, kind: LabelKind::Angle, cap_mm };
+            let wanted = Wanted::new(&text, LabelKind::Angle, cap_mm);
             let [a, b] = self.mesh.segment(edge);
             ANGLE_OFF_MM.iter().any(|&off_mm| {
                 edge.faces.iter().zip([[a, b], [b, a]]).any(|(&face, ends)| {

@@ -44,8 +44,8 @@ impl Placer<'_> {
         let Some(&target) = waiting.targets.first().filter(|_| waiting.kind == LabelKind::Joint) else {
             return false;
         };
-        let mut outlines = self.panels().map(|f| self.mesh.outline(f));
-        let panel = outlines.find(|o| depth_outside(o, target) <= 0.0);
+        let mut outlines = self.panels().map(|f| &self.outlines[f]);
+        let panel = outlines.find(|o| depth_outside(o, target) <= 0.0).cloned();
         panel.is_some_and(|p| self.in_area(&p, &waiting.text, &NAME_CAPS_MM, waiting.kind))
     }
 
@@ -55,10 +55,10 @@ impl Placer<'_> {
         };
         let spots = self.spots_near(first);
         for cap_mm in CAPS_MM {
-            let wanted = Wanted { text: &waiting.text, kind: waiting.kind, cap_mm };
+            let wanted = Wanted::new(&waiting.text, waiting.kind, cap_mm);
             for spot in &spots {
                 let letters = text_box(spot.centre, spot.direction, wanted);
-                if !self.is_free(&self.mesh.outline(spot.face), &letters) {
+                if !self.is_free(&self.outlines[spot.face], &letters) {
                     continue;
                 }
                 let mut lines = waiting.targets.iter().map(|&to| leader(&letters, to));
@@ -77,9 +77,9 @@ impl Placer<'_> {
     fn spots_near(&self, to: DVec2) -> Vec<Spot> {
         let mut out = Vec::new();
         for face in self.panels() {
-            let outline = self.mesh.outline(face);
-            for direction in [DVec2::X, longest_edge(&outline)] {
-                out.extend(spots(&outline).into_iter().map(|centre| Spot {
+            let outline = &self.outlines[face];
+            for direction in [DVec2::X, longest_edge(outline)] {
+                out.extend(spots(outline).into_iter().map(|centre| Spot {
                     face,
                     centre,
                     direction,
@@ -102,11 +102,10 @@ impl Placer<'_> {
     }
 
     fn is_on_paper(&self, line: &Leader) -> bool {
-        let faces: Vec<Vec<DVec2>> = (0..self.mesh.faces().len()).map(|f| self.mesh.outline(f)).collect();
         let steps = (line.from.distance(line.to) / STEP_MM).ceil().max(1.0);
         (0..=steps as usize).all(|k| {
             let at = line.from.lerp(line.to, k as f64 / steps);
-            faces.iter().any(|f| depth_outside(f, at) <= 0.0)
+            self.outlines.iter().any(|f| depth_outside(f, at) <= 0.0)
         })
     }
 }

@@ -37,17 +37,30 @@ pub(crate) struct Texts {
     pub(crate) unplaced: Vec<String>,
 }
 
-/// A text that is looking for its place.
+/// A text of a given size that is looking for its place.
 #[derive(Clone, Copy)]
 struct Wanted<'t> {
     text: &'t str,
     kind: LabelKind,
     cap_mm: f64,
+    width_mm: f64,
+    /// How far it reaches below the middle of its capitals.
+    below_mm: f64,
+}
+
+impl<'t> Wanted<'t> {
+    fn new(text: &'t str, kind: LabelKind, cap_mm: f64) -> Self {
+        let reaches_below = text.contains(|c: char| DESCENDING.contains(c));
+        let below = if reaches_below { 0.5 + DESCENT } else { 0.5 };
+        Self { text, kind, cap_mm, width_mm: text::width_mm(text, cap_mm), below_mm: below * cap_mm }
+    }
 }
 
 /// Puts texts on a piece, keeping them off lines and each other.
 pub(crate) struct Placer<'a> {
     mesh: &'a PieceMesh,
+    /// Outlines of the mesh's faces.
+    outlines: Vec<Vec<DVec2>>,
     taken: Vec<Vec<DVec2>>,
     /// What is glued on: only labels of the edges in it and its own text go there.
     covered: Vec<Vec<DVec2>>,
@@ -63,6 +76,7 @@ impl<'a> Placer<'a> {
     pub(crate) fn new(mesh: &'a PieceMesh) -> Self {
         Self {
             mesh,
+            outlines: (0..mesh.faces().len()).map(|f| mesh.outline(f)).collect(),
             taken: Vec::new(),
             covered: Vec::new(),
             lines: Vec::new(),
@@ -86,7 +100,7 @@ impl<'a> Placer<'a> {
     /// The piece's name in its largest panel, or the next one that has room; on what is glued on
     /// only where nothing else is left.
     pub(crate) fn name(&mut self, name: &str) {
-        let mut panels: Vec<Vec<DVec2>> = self.panels().map(|f| self.mesh.outline(f)).collect();
+        let mut panels: Vec<Vec<DVec2>> = self.panels().map(|f| self.outlines[f].clone()).collect();
         panels.sort_by(|a, b| polygon::area(b).total_cmp(&polygon::area(a)));
         let count = self.taken.len();
         self.taken.append(&mut self.covered);
@@ -120,7 +134,7 @@ impl<'a> Placer<'a> {
         let spots = spots(area);
         let directions = [DVec2::X, longest_edge(area)];
         caps_mm.iter().any(|&cap_mm| {
-            let wanted = Wanted { text, kind, cap_mm };
+            let wanted = Wanted::new(text, kind, cap_mm);
             directions.iter().any(|&d| spots.iter().any(|&at| self.put(area, at, d, wanted)))
         })
     }
@@ -151,7 +165,7 @@ impl<'a> Placer<'a> {
             anchor: centre - along.perp() * (wanted.cap_mm / 2.0),
             angle_rad: along.to_angle(),
             cap_height_mm: wanted.cap_mm,
-            width_mm: text::width_mm(wanted.text, wanted.cap_mm),
+            width_mm: wanted.width_mm,
         });
     }
 }
@@ -160,11 +174,9 @@ impl<'a> Placer<'a> {
 /// where letters reach there. `centre` is the middle of its capitals.
 fn text_box(centre: DVec2, direction: DVec2, wanted: Wanted) -> [DVec2; 4] {
     let along = upright(direction);
-    let half = DVec2::new(text::width_mm(wanted.text, wanted.cap_mm), wanted.cap_mm) / 2.0;
-    let reaches_below = wanted.text.contains(|c: char| DESCENDING.contains(c));
-    let low = if reaches_below { 1.0 + 2.0 * DESCENT } else { 1.0 };
-    let corner = |x: f64, y: f64| centre + along * (half.x * x) + along.perp() * (half.y * y);
-    [corner(-1.0, -low), corner(1.0, -low), corner(1.0, 1.0), corner(-1.0, 1.0)]
+    let aside = along * (wanted.width_mm / 2.0);
+    let (low, high) = (along.perp() * -wanted.below_mm, along.perp() * (wanted.cap_mm / 2.0));
+    [low - aside, low + aside, high + aside, high - aside].map(|corner| centre + corner)
 }
 
 /// Points all over an area, its middle first and then from there outwards.

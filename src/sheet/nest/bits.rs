@@ -1,7 +1,7 @@
 //! Rows of bits, and the question "which positions of a body in a row of cells are free?", for a
 //! word of positions at once.
 
-use super::raster::{COLUMNS, Run};
+use super::raster::{COLUMNS, Run, stretch};
 
 /// Words of a row of cells.
 pub(super) const WORDS: usize = COLUMNS / 64;
@@ -14,6 +14,9 @@ type Row = [u64; 2 * WORDS];
 
 /// Level k tells for each cell whether any of the 2^k cells from it on is taken.
 const LEVELS: usize = COLUMNS.ilog2() as usize + 1;
+
+/// Rows that are this power of two apart come first among probes.
+const FAR_APART: u32 = 6;
 
 /// A run of a body, as two stretches of 2^level cells that overlap or meet.
 #[derive(Debug, Clone, Copy)]
@@ -30,7 +33,7 @@ impl Probe {
         let size = 1 << layer;
         let block = |cell: i32| (cell.max(0) as usize).div_ceil(size);
         let rows = body.iter().filter(|r| r.row >= 0 && r.row % size as i32 == 0);
-        let mut probes: Vec<Self> = rows
+        let probes: Vec<Self> = rows
             .filter(|r| block(r.start) < block(r.end))
             .map(|r| {
                 let (start, end) = (block(r.start), block(r.end).min(COLUMNS));
@@ -39,8 +42,11 @@ impl Probe {
             })
             .collect();
         // Rows far apart first: they find a clash sooner than neighbours do.
-        probes.sort_by_key(|p| std::cmp::Reverse(p.row.trailing_zeros().min(6)));
-        probes
+        let mut sorted = Vec::with_capacity(probes.len());
+        for zeros in (0..=FAR_APART).rev() {
+            sorted.extend(probes.iter().filter(|p| p.row.trailing_zeros().min(FAR_APART) == zeros));
+        }
+        sorted
     }
 }
 
@@ -77,13 +83,9 @@ impl Layer {
     pub fn take(&mut self, row: usize, start: usize, end: usize) -> usize {
         let mut gained = 0;
         for (k, word) in self.levels[0][row].iter_mut().take(WORDS).enumerate() {
-            let from = start.saturating_sub(64 * k).min(64);
-            let to = end.saturating_sub(64 * k).min(64);
-            if from < to {
-                let bits = (u64::MAX >> (64 - (to - from))) << from;
-                gained += (bits & !*word).count_ones() as usize;
-                *word |= bits;
-            }
+            let bits = stretch(start, end, k);
+            gained += (bits & !*word).count_ones() as usize;
+            *word |= bits;
         }
         gained
     }

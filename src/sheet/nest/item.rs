@@ -60,7 +60,14 @@ pub(super) struct Alternative<'a> {
     rotation: Rotation,
     spacing_mm: f64,
     grid: &'a Grid,
-    angles: OnceLock<Vec<(f64, OnceLock<Pose>)>>,
+    angles: OnceLock<Vec<Angle>>,
+}
+
+struct Angle {
+    angle_rad: f64,
+    /// Size of the bounding box.
+    extent: DVec2,
+    pose: OnceLock<Pose>,
 }
 
 impl Alternative<'_> {
@@ -76,19 +83,26 @@ impl Alternative<'_> {
 
     /// Pose `k`.
     pub fn pose(&self, k: usize) -> &Pose {
-        let (angle_rad, pose) = &self.angles()[k];
+        let Angle { angle_rad, pose, .. } = &self.angles()[k];
         pose.get_or_init(|| Pose::new(self.shape.outline(), *angle_rad, self.spacing_mm, self.grid))
     }
 
-    fn angles(&self) -> &[(f64, OnceLock<Pose>)] {
+    /// Size of the bounding box of pose `k`.
+    pub fn extent(&self, k: usize) -> DVec2 {
+        self.angles()[k].extent
+    }
+
+    fn angles(&self) -> &[Angle] {
         self.angles.get_or_init(|| {
             let outline = self.shape.outline();
             let DVec2 { x, y } = self.grid.sheet_mm;
             let best = fit::best_fit(outline, x, y, self.rotation);
             let (least_angle, _) = fit::least_rectangle(outline);
-            let all = angles(outline, &[best.angle_rad, least_angle], self.rotation).into_iter();
-            let fits = |angle: &f64| fit::is_within(fit::extent(outline, *angle), x, y);
-            all.filter(fits).map(|angle| (angle, OnceLock::new())).collect()
+            let hull = polygon::convex_hull(outline);
+            let all = angles(&hull, &[best.angle_rad, least_angle], self.rotation).into_iter();
+            let angle =
+                |angle_rad| Angle { angle_rad, extent: fit::extent(&hull, angle_rad), pose: OnceLock::new() };
+            all.map(angle).filter(|a| fit::is_within(a.extent, x, y)).collect()
         })
     }
 }
@@ -104,11 +118,10 @@ const SAME_RAD: f64 = 0.02;
 
 /// Angles worth trying: those given, and those that bring a long edge of the hull parallel to
 /// the sheet's sides; each with its quarter turns.
-fn angles(outline: &[DVec2], special: &[f64], rotation: Rotation) -> Vec<f64> {
+fn angles(hull: &[DVec2], special: &[f64], rotation: Rotation) -> Vec<f64> {
     let mut base: Vec<f64> = Vec::new();
     if rotation == Rotation::Free {
-        let hull = polygon::convex_hull(outline);
-        let mut edges: Vec<DVec2> = polygon::edges(&hull).map(|(a, b)| b - a).collect();
+        let mut edges: Vec<DVec2> = polygon::edges(hull).map(|(a, b)| b - a).collect();
         edges.sort_by(|a, b| b.length().total_cmp(&a.length()));
         let along_edges = edges.iter().map(|e| -e.to_angle());
         for angle in special.iter().copied().chain(along_edges) {

@@ -9,6 +9,7 @@ use super::bits::{Layer, Positions, Probe, WORDS, doubled, first_positions};
 use super::raster::{COLUMNS, Grid, Run, runs};
 use crate::sheet::fit::extent;
 use glam::DVec2;
+use std::sync::OnceLock;
 
 /// Cells, then blocks of 2, 4 and 8 cells.
 const LAYERS: usize = 4;
@@ -30,7 +31,11 @@ pub(super) struct Pose {
     columns: usize,
     rows: usize,
     probes: [Vec<Probe>; LAYERS],
-    halo: Vec<Run>,
+    /// The turned piece, the lower left corner of its bounding box in the origin.
+    outline: Vec<DVec2>,
+    spacing_mm: f64,
+    /// Made when the pose is placed first: most never are.
+    halo: OnceLock<Vec<Run>>,
 }
 
 impl Pose {
@@ -51,8 +56,14 @@ impl Pose {
             columns: steps.x.max(0.0) as usize + 1,
             rows: steps.y.max(0.0) as usize + 1,
             probes: std::array::from_fn(|layer| Probe::of_body(&body, layer)),
-            halo: runs(&at_corner, spacing_mm, grid.cell_mm),
+            outline: at_corner,
+            spacing_mm,
+            halo: OnceLock::new(),
         }
+    }
+
+    fn halo(&self, cell_mm: f64) -> &[Run] {
+        self.halo.get_or_init(|| runs(&self.outline, self.spacing_mm, cell_mm))
     }
 
     /// The position nearest to a point of the lattice, in cells.
@@ -104,8 +115,8 @@ impl Occupancy {
     /// the point in mm at the share `lean` of the way from the bounding box's lower left to its
     /// upper right corner; both parts of `pull` are at least 0.
     pub fn best_spot(&self, pose: &Pose, pull: DVec2, lean: f64, limit: f64) -> Option<Spot> {
-        let mut query =
-            Query { pose, fixed: pull.dot(pose.extent) * lean, step: pull * self.cell_mm, limit, best: None };
+        let fixed = least_cost(pose.extent, pull, lean);
+        let mut query = Query { pose, fixed, step: pull * self.cell_mm, limit, best: None };
         let top = LAYERS - 1;
         for row in 0..pose.rows.div_ceil(1 << top) {
             self.visit(&mut query, top, row, &[u64::MAX; WORDS]);
@@ -139,7 +150,7 @@ impl Occupancy {
     pub fn place(&mut self, pose: &Pose, spot: &Spot) {
         let rows = self.layers[0].rows() as i32;
         let (mut first, mut last) = (rows - 1, 0);
-        for run in &pose.halo {
+        for run in pose.halo(self.cell_mm) {
             let row = run.row + spot.row as i32;
             if (0..rows).contains(&row) {
                 (first, last) = (first.min(row), last.max(row));
@@ -158,6 +169,12 @@ impl Occupancy {
             }
         }
     }
+}
+
+/// Cost of a pose of a given extent in the corner of the sheet, where it is least; see
+/// [`Occupancy::best_spot`].
+pub(super) fn least_cost(extent: DVec2, pull: DVec2, lean: f64) -> f64 {
+    pull.dot(extent) * lean
 }
 
 /// A search for the cheapest position of one pose on one sheet.

@@ -6,7 +6,7 @@
 //! is involved, so a layout on the lattice is valid in exact geometry.
 
 use crate::geom::polygon;
-use glam::DVec2;
+use glam::{DVec2, IVec2};
 
 /// Most cells across the sheet, so that a row is four machine words.
 pub(super) const COLUMNS: usize = 256;
@@ -54,33 +54,34 @@ pub(super) struct Run {
 /// Runs of the cells that are nearer than `grow_mm` to the polygon; with 0, of those that it
 /// touches. Disjoint, in the order of rows.
 pub(super) fn runs(outline: &[DVec2], grow_mm: f64, cell_mm: f64) -> Vec<Run> {
-    let mut found = Vec::new();
     let scaled: Vec<DVec2> = outline.iter().map(|&p| p / cell_mm).collect();
+    let grow = grow_mm / cell_mm;
+    let Some((low, high)) = polygon::bounds(scaled.iter().copied()) else {
+        return Vec::new();
+    };
+    let mut cells = Cells::new((low - grow).floor().as_ivec2(), (high + grow).ceil().as_ivec2());
+    // First a bit where the inside begins or ends.
     for (a, b) in polygon::edges(&scaled) {
-        border_runs(a, b, grow_mm / cell_mm, &mut found);
+        crossings(a, b, |row, column| cells.toggle(row, column));
     }
-    inner_runs(&scaled, &mut found);
-    found.sort_unstable();
-    let mut merged: Vec<Run> = Vec::with_capacity(found.len());
-    for run in found {
-        match merged.last_mut() {
-            Some(last) if last.row == run.row && run.start <= last.end => {
-                last.end = last.end.max(run.end);
-            }
-            _ => merged.push(run),
-        }
+    cells.fill_between();
+    for (a, b) in polygon::edges(&scaled) {
+        border_runs(a, b, grow, |run| cells.set(run));
     }
-    merged
+    cells.runs()
 }
 
 /// Cells nearer than `grow` to an edge: a stadium, cut into rows. All in units of cells.
-fn border_runs(a: DVec2, b: DVec2, grow: f64, found: &mut Vec<Run>) {
+fn border_runs(a: DVec2, b: DVec2, grow: f64, mut found: impl FnMut(Run)) {
     let (low, high) = (a.y.min(b.y) - grow, a.y.max(b.y) + grow);
     let side = (b - a).perp().normalize_or_zero() * grow;
+    let sides = [Slope::new(a + side, b + side), Slope::new(a - side, b - side)];
+    // Without a growth the stadium is the edge.
+    let (centres, sides) = if grow > 0.0 { (&[a, b][..], &sides[..]) } else { (&[][..], &sides[..1]) };
     for row in (low + SLIVER).floor() as i32..(high - SLIVER).ceil() as i32 {
         let band = (f64::from(row), f64::from(row) + 1.0);
         let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
-        for centre in [a, b] {
+        for centre in centres {
             let away = centre.y - centre.y.clamp(band.0, band.1);
             if away.abs() <= grow {
                 let half = (grow * grow - away * away).max(0.0).sqrt();
@@ -88,8 +89,8 @@ fn border_runs(a: DVec2, b: DVec2, grow: f64, found: &mut Vec<Run>) {
                 to = to.max(centre.x + half);
             }
         }
-        for offset in [side, -side] {
-            if let Some((x, y)) = span_in_band(a + offset, b + offset, band) {
+        for side in sides {
+            if let Some((x, y)) = side.span_in_band(band) {
                 from = from.min(x);
                 to = to.max(y);
             }
@@ -97,45 +98,132 @@ fn border_runs(a: DVec2, b: DVec2, grow: f64, found: &mut Vec<Run>) {
         if from <= to {
             let start = (from + SLIVER).floor() as i32;
             let end = (to - SLIVER).ceil() as i32;
-            found.extend((start < end).then_some(Run { row, start, end }));
+            if start < end {
+                found(Run { row, start, end });
+            }
         }
     }
 }
 
-/// Range of x of the part of a segment with y in `band`.
-fn span_in_band(a: DVec2, b: DVec2, band: (f64, f64)) -> Option<(f64, f64)> {
-    let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
-    if b.y < band.0 || a.y > band.1 {
-        return None;
-    }
-    let at = |y: f64| {
-        let t = if b.y > a.y { (y - a.y) / (b.y - a.y) } else { 0.0 };
-        a.x + (b.x - a.x) * t.clamp(0.0, 1.0)
-    };
-    let lower = if a.y >= band.0 { a.x } else { at(band.0) };
-    let upper = if b.y <= band.1 { b.x } else { at(band.1) };
-    Some((lower.min(upper), lower.max(upper)))
+/// A segment from its lower end up.
+struct Slope {
+    low: DVec2,
+    high: DVec2,
+    /// Change of x with y; 0 for a level one.
+    run: f64,
 }
 
-/// Cells whose centre is inside the polygon (even–odd): among those that no edge touches, these
-/// are the cells that it covers.
-fn inner_runs(scaled: &[DVec2], found: &mut Vec<Run>) {
-    let mut crossings: Vec<(i32, f64)> = Vec::new();
-    for (a, b) in polygon::edges(scaled) {
-        let (low, high) = (a.y.min(b.y), a.y.max(b.y));
-        // Rows whose middle is in low..high: the upper end is left out.
-        for row in (low - 0.5).ceil() as i32..(high - 0.5).ceil() as i32 {
-            let y = f64::from(row) + 0.5;
-            crossings.push((row, a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y))));
+impl Slope {
+    fn new(a: DVec2, b: DVec2) -> Self {
+        let (low, high) = if a.y <= b.y { (a, b) } else { (b, a) };
+        let way = high - low;
+        Self { low, high, run: if way.y > 0.0 { way.x / way.y } else { 0.0 } }
+    }
+
+    /// Range of x of the part with y in `band`.
+    fn span_in_band(&self, band: (f64, f64)) -> Option<(f64, f64)> {
+        let Self { low, high, run } = *self;
+        if high.y < band.0 || low.y > band.1 {
+            return None;
+        }
+        let within = |x: f64| x.clamp(low.x.min(high.x), low.x.max(high.x));
+        let at = |y: f64| within(low.x + (y - low.y) * run);
+        let lower = if low.y >= band.0 { low.x } else { at(band.0) };
+        let upper = if high.y <= band.1 { high.x } else { at(band.1) };
+        Some((lower.min(upper), lower.max(upper)))
+    }
+}
+
+/// For each row whose middle the edge crosses, the first column whose centre is behind it. The
+/// edge's upper end is left out, so that a corner between two edges counts once.
+fn crossings(a: DVec2, b: DVec2, mut found: impl FnMut(i32, i32)) {
+    let (low, high) = (a.y.min(b.y), a.y.max(b.y));
+    for row in (low - 0.5).ceil() as i32..(high - 0.5).ceil() as i32 {
+        let y = f64::from(row) + 0.5;
+        let x = a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y));
+        found(row, (x - 0.5).ceil() as i32);
+    }
+}
+
+/// A rectangle of cells, a bit each.
+struct Cells {
+    /// Row and column of the first cell.
+    low: IVec2,
+    /// Words of a row.
+    words: usize,
+    bits: Vec<u64>,
+}
+
+impl Cells {
+    /// All free, from `low` up to and without `high`.
+    fn new(low: IVec2, high: IVec2) -> Self {
+        // A crossing on the right edge begins behind the last cell.
+        let size = (high - low).max(IVec2::ZERO).as_usizevec2() + 1;
+        let words = size.x.div_ceil(64);
+        Self { low, words, bits: vec![0; words * size.y] }
+    }
+
+    fn row(&mut self, row: i32) -> &mut [u64] {
+        let start = (row - self.low.y) as usize * self.words;
+        &mut self.bits[start..start + self.words]
+    }
+
+    fn toggle(&mut self, row: i32, column: i32) {
+        let column = (column - self.low.x) as usize;
+        self.row(row)[column / 64] ^= 1 << (column % 64);
+    }
+
+    /// Sets the cells from every first to every second bit of a row, that one left out.
+    fn fill_between(&mut self) {
+        for row in self.bits.chunks_exact_mut(self.words) {
+            let mut is_inside = 0;
+            for word in row {
+                for by in [1, 2, 4, 8, 16, 32] {
+                    *word ^= *word << by;
+                }
+                *word ^= is_inside;
+                is_inside = ((*word as i64) >> 63) as u64;
+            }
         }
     }
-    crossings.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    for pair in crossings.chunks_exact(2) {
-        let start = (pair[0].1 - 0.5).ceil() as i32;
-        let end = (pair[1].1 - 0.5).floor() as i32 + 1;
-        let row = pair[0].0;
-        found.extend((start < end).then_some(Run { row, start, end }));
+
+    fn set(&mut self, run: Run) {
+        let (start, end) = ((run.start - self.low.x) as usize, (run.end - self.low.x) as usize);
+        for (k, word) in self.row(run.row).iter_mut().enumerate().take(end.div_ceil(64)).skip(start / 64) {
+            *word |= stretch(start, end, k);
+        }
     }
+
+    fn runs(&self) -> Vec<Run> {
+        let mut runs = Vec::new();
+        for (row, words) in (self.low.y..).zip(self.bits.chunks_exact(self.words)) {
+            let mut start = None;
+            for (k, &word) in words.iter().enumerate() {
+                let column = |bit: u32| self.low.x + 64 * k as i32 + bit as i32;
+                let mut bit = 0;
+                while bit < 64 {
+                    let rest = if start.is_some() { !word >> bit } else { word >> bit };
+                    bit += rest.trailing_zeros();
+                    if bit < 64 {
+                        match start.take() {
+                            Some(start) => runs.push(Run { row, start, end: column(bit) }),
+                            None => start = Some(column(bit)),
+                        }
+                    }
+                }
+            }
+            let end = self.low.x + 64 * self.words as i32;
+            runs.extend(start.map(|start| Run { row, start, end }));
+        }
+        runs
+    }
+}
+
+/// The bits of word `k` that belong to `start..end`, counted from word 0 on.
+pub(super) fn stretch(start: usize, end: usize, k: usize) -> u64 {
+    let from = start.saturating_sub(64 * k).min(64);
+    let to = end.saturating_sub(64 * k).min(64);
+    if from < to { (u64::MAX >> (64 - (to - from))) << from } else { 0 }
 }
 
 #[cfg(test)]

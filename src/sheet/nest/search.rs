@@ -2,7 +2,7 @@
 //! orders are tried, and the best of them are varied.
 
 use super::item::{Alternative, Item};
-use super::occupancy::{Occupancy, Spot};
+use super::occupancy::{Occupancy, Spot, least_cost};
 use super::pins::Start;
 use super::raster::Grid;
 use crate::progress::{Cancelled, Progress};
@@ -269,11 +269,14 @@ fn lay_out(items: &[Item], grid: &Grid, start: &Start, plan: Plan, most: usize) 
 fn best_pose(sheet: &Occupancy, piece: &Alternative, chosen: &[usize], plan: &Plan) -> Option<(usize, Spot)> {
     let mut best: Option<(usize, Spot)> = None;
     for &k in chosen {
+        let limit = best.map_or(f64::INFINITY, |(_, spot)| spot.cost);
+        if least_cost(piece.extent(k), plan.pull, plan.lean) >= limit {
+            continue;
+        }
         let pose = piece.pose(k);
         if sheet.is_too_full_for(pose) {
             continue;
         }
-        let limit = best.map_or(f64::INFINITY, |(_, spot)| spot.cost);
         if let Some(spot) = sheet.best_spot(pose, plan.pull, plan.lean, limit) {
             best = Some((k, spot));
         }
