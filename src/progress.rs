@@ -29,6 +29,15 @@ pub trait Progress: Sync {
     }
 }
 
+/// Passes on nothing but the wish to stop: for work that goes on beside the stage that is shown.
+pub struct Beside<'a>(pub &'a dyn Progress);
+
+impl Progress for Beside<'_> {
+    fn is_cancelled(&self) -> bool {
+        self.0.is_cancelled()
+    }
+}
+
 /// Ignores everything and never stops.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Silent;

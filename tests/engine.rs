@@ -99,3 +99,34 @@ fn one_component_alone_is_the_one_of_the_model() {
     }
     assert!(fresh.component(&options(), 2, &Silent).is_err());
 }
+
+/// Depth of all bumps of a model, mm.
+fn harm_mm(output: &Output) -> f64 {
+    let plan = output.fold_plan();
+    let bumps = plan.clashes().iter().filter(|clash| clash.depth_mm > plan.thickness_mm());
+    bumps.map(|clash| clash.depth_mm).sum()
+}
+
+/// Two parts of the snowman bump into each other in the directions that fit them best.
+#[test]
+fn other_directions_are_found_where_components_bump_but_not_against_the_users_wish() {
+    let bytes = include_bytes!("../samples/snowman.obj");
+    let mesh = Mesh::from_soup(&mesh::read(bytes).expect("OBJ")).expect("a mesh").0;
+    let engine = Engine::new(Cow::Borrowed(&mesh));
+    let tangled = engine.run(&Options::default(), &Silent).expect("a model");
+    assert!(harm_mm(&tangled) > 0.5, "nothing to untangle");
+    let wishes = Options { untangles: true, ..Options::default() };
+    let clear = engine.run(&wishes, &Silent).expect("a model");
+    assert!(harm_mm(&clear) < 0.5 * harm_mm(&tangled), "{} mm", harm_mm(&clear));
+
+    let mut fixed = wishes;
+    for part in tangled.model().parts() {
+        let own = ComponentOptions { direction_rad: Some(part.direction_rad), ..Default::default() };
+        fixed.components.insert(part.name.clone(), own);
+    }
+    let stays = engine.run(&fixed, &Silent).expect("a model");
+    let directions = |output: &Output| -> Vec<f64> {
+        output.model().parts().iter().map(|part| part.direction_rad).collect()
+    };
+    assert_eq!(directions(&stays), directions(&tangled));
+}

@@ -124,7 +124,7 @@ fn ears_too_near_to_each_other_clash_in_any_order() {
     let mut order = plan.order().to_vec();
     order.sort_unstable();
     assert_eq!(order, [0, 1, 2], "a model is made all the same");
-    let advice = plan.advice(&model);
+    let advice = plan.advice(&model, false);
     let (code, message) = advice.iter().find(|(code, _)| *code == "fold_clash").expect("a warning");
     for word in ["left", "right", "--direction"] {
         assert!(message.contains(word), "{code}: {message}");

@@ -78,7 +78,7 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
         .map(|part| TemplateComponent {
             name: part.name.clone(),
             direction_deg: part.direction_rad.to_degrees(),
-            is_chosen: options.components.get(&part.name).is_some_and(|c| c.direction_rad.is_some()),
+            is_chosen: result.options().components.get(&part.name).is_some_and(|c| c.direction_rad.is_some()),
             is_concave: options.components.get(&part.name).is_some_and(|c| c.is_concave),
         })
         .collect();

@@ -39,6 +39,13 @@ pub struct ModelArgs {
     #[arg(long, value_name = "NAME=DEGREES", value_parser = direction)]
     direction: Vec<(String, f64)>,
 
+    /// Tries other fold directions where components bump into each other while they fold
+    ///
+    /// Takes some seconds; directions given by --direction stay. "init" writes those that were
+    /// found into the project file, and the report has them. Example: --untangle
+    #[arg(long)]
+    untangle: bool,
+
     /// Component that may have dents, such as a bottle with --parts 1
     ///
     /// Its profiles follow the shape itself rather than its convex hull. It stays convex, with a
@@ -167,6 +174,7 @@ impl ModelArgs {
         set(&mut options.margin_mm, self.margin);
         set(&mut options.thickness_mm, self.thickness);
         options.is_thick |= self.thick;
+        options.untangles = self.untangle;
         self.nets.merge(project.map(|p| &p.nets), &mut options.nets);
         self.sheets.merge(project.map(|p| &p.sheets), &mut options.sheets);
         options.up = self.up.unwrap_or(options.up);

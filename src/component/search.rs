@@ -29,9 +29,9 @@ const SUPPORT_PRICE: f64 = 0.2;
 /// Directions are compared after so many steps each; so many are left.
 const FIRST_STEPS: usize = 4;
 const LEFT: usize = 6;
-/// The best few of them are also started with fewer top edges, or with this share of the profile
+/// So many of them are also started with fewer top edges, or with this share of the profile
 /// vertices: that may lead to a better place, and the rest is added where it is worth most.
-const RETRIED: usize = 2;
+const RETRIED: usize = 1;
 const FEWER_EDGES: [usize; 2] = [1, 2];
 const FEWER_VERTICES: f64 = 0.6;
 /// All are compared again after so many steps more; so many are left with all top edges, and

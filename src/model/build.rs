@@ -1,18 +1,15 @@
-//! Parts into a model: from the roots outwards, each part gets its fold direction, its joint
-//! planes, its component, and its place on its parent.
+//! One part gets its fold direction, its joint planes, its component, and its place on its parent.
 
-use super::known::Known;
 use super::link::Link;
 use super::seat::{Seating, level_axis, seat_plane, seats, turn_onto};
-use super::{Joint, Model, ModelPart};
+use super::{Joint, ModelPart};
 use crate::component::{
     Component, ConvertError, JointTarget, PanelId, PrincipalAxis, Target, choose, fewest,
 };
 use crate::geom::{Hull, Plane};
-use crate::progress::{Cancelled, Progress};
+use crate::progress::Cancelled;
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What the user may set for one part.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,65 +66,6 @@ const JOINT_PRICE: f64 = 0.3;
 /// A joint plane that leaves less than this share of a hull is not used to clip it.
 const LEAST_SHARE: f64 = 0.15;
 
-/// Builds the model; `links` as [`super::link_tree`] gives them. Components are taken from `known`
-/// where they were made before of the same.
-pub fn build(
-    parts: &[Part],
-    links: &[Link],
-    min_panel_mm: f64,
-    known: &Known,
-    progress: &dyn Progress,
-) -> Result<Model, ModelError> {
-    let mut links = links.to_vec();
-    let mut made: Vec<Option<Made>> = vec![None; parts.len()];
-    let mut level: Vec<usize> = (0..parts.len()).filter(|&p| links.iter().all(|l| l.child != p)).collect();
-    let done = AtomicUsize::new(0);
-    while !level.is_empty() {
-        let results: Vec<Result<(Made, Vec<usize>), ModelError>> = level
-            .par_iter()
-            .map(|&p| {
-                let builder = Builder { parts, links: &links, part: p, made: &made, min_panel_mm };
-                let result = make_joined(&builder, known, progress);
-                let count = done.fetch_add(1, Ordering::Relaxed) + 1;
-                progress.fraction(count as f64 / parts.len() as f64);
-                result
-            })
-            .collect();
-        let mut next = Vec::new();
-        for (&p, result) in level.iter().zip(results) {
-            let (part, loose) = result?;
-            made[p] = Some(part);
-            links.retain(|l| !loose.contains(&l.child));
-            next.extend(loose);
-            next.extend(links.iter().filter(|l| l.parent == p).map(|l| l.child));
-        }
-        level = next;
-    }
-    place(parts, &links, made.into_iter().flatten().collect())
-}
-
-/// Makes one part. Where no shape has room for all its joints, the children with the smallest
-/// interfaces are let go, one by one, to stand for themselves; they are returned.
-pub(super) fn make_joined(
-    builder: &Builder<'_>,
-    known: &Known,
-    progress: &dyn Progress,
-) -> Result<(Made, Vec<usize>), ModelError> {
-    let mut links = builder.links.to_vec();
-    let mut loose = Vec::new();
-    loop {
-        progress.check()?;
-        let builder = Builder { links: &links, ..*builder };
-        let error = match known.make(&builder) {
-            Ok(done) => return Ok((done, loose)),
-            Err(error) => error,
-        };
-        // A part's links come longest interface first.
-        let Some(smallest) = links.iter().rposition(|l| l.parent == builder.part) else { return Err(error) };
-        loose.push(links.remove(smallest).child);
-    }
-}
-
 /// A part's component before it is placed.
 #[derive(Debug, Clone)]
 pub(super) struct Made {
@@ -168,8 +106,8 @@ pub(super) struct Builder<'a> {
     pub(super) parts: &'a [Part],
     pub(super) links: &'a [Link],
     pub(super) part: usize,
-    /// The components that were made before, the parent's among them.
-    pub(super) made: &'a [Option<Made>],
+    /// The parent, where it has one.
+    pub(super) carrier: Option<&'a Made>,
     pub(super) min_panel_mm: f64,
 }
 
@@ -220,7 +158,7 @@ impl Builder<'_> {
     /// The joint with the parent and the parent's component.
     pub(super) fn carrier(&self) -> Option<(&Link, &Made)> {
         let link = self.links.iter().find(|l| l.child == self.part)?;
-        Some((link, self.made[link.parent].as_ref()?))
+        Some((link, self.carrier?))
     }
 
     /// Turns a fold axis that is almost across the parent's joint plane to be exactly across it.
@@ -364,17 +302,4 @@ pub(super) fn seat_on(
     let relation = (parent.deployed() * below.deployed).inverse() * child.deployed() * above.deployed;
     child.flat = parent.flat * below.flat * relation * above.flat.inverse();
     Some(Joint { parent: link.parent, parent_panel, child_panel, support_ratio: 0.0 })
-}
-
-/// Places every part on its parent, deployed and flat.
-fn place(parts: &[Part], links: &[Link], made: Vec<Made>) -> Result<Model, ModelError> {
-    let lost = |p: usize| ModelError::NoJointPanel(parts[p].options.name.clone());
-    let mut placed: Vec<ModelPart> = parts.iter().zip(&made).map(|(part, m)| m.unplaced(part)).collect();
-    for link in links {
-        let parent = placed[link.parent].clone();
-        let joint = seat_on(link, &parent, &mut placed[link.child], [&made[link.parent], &made[link.child]]);
-        let joint = joint.ok_or_else(|| lost(link.child))?;
-        placed[link.child].joint = Some(joint);
-    }
-    Ok(Model { parts: placed }.with_support())
 }

@@ -1,6 +1,7 @@
 //! Components that were made before, so that a change to one part leaves the others as they are.
 
-use super::build::{Builder, Made, make_joined, seat_on};
+use super::build::{Builder, Made, seat_on};
+use super::grow::make_joined;
 use super::link::Link;
 use super::{ModelError, ModelPart, Part};
 use crate::geom::{Hull, Plane};
@@ -71,23 +72,22 @@ pub fn build_one(
     progress: &dyn Progress,
 ) -> Result<ModelPart, ModelError> {
     let mut links = links.to_vec();
-    let mut made: Vec<Option<Made>> = vec![None; parts.len()];
     let up = |p: &usize| links.iter().find(|l| l.child == *p).map(|l| l.parent);
     let mut path: Vec<usize> = std::iter::successors(Some(part), up).collect();
     path.reverse();
-    let mut last: Option<ModelPart> = None;
+    let mut last: Option<(ModelPart, Made)> = None;
     for &p in &path {
-        let builder = Builder { parts, links: &links, part: p, made: &made, min_panel_mm };
+        let builder =
+            Builder { parts, links: &links, part: p, carrier: last.as_ref().map(|l| &l.1), min_panel_mm };
         let (own, loose) = make_joined(&builder, known, progress)?;
         let mut placed = own.unplaced(&parts[p]);
-        if let (Some((link, carrier)), Some(parent)) = (builder.carrier(), &last) {
+        if let (Some((link, carrier)), Some((parent, _))) = (builder.carrier(), &last) {
             let joint = seat_on(link, parent, &mut placed, [carrier, &own]);
             let lost = || ModelError::NoJointPanel(parts[p].options.name.clone());
             placed.joint = Some(joint.ok_or_else(lost)?);
         }
-        last = Some(placed);
-        made[p] = Some(own);
+        last = Some((placed, own));
         links.retain(|l| !loose.contains(&l.child));
     }
-    last.ok_or_else(|| ModelError::NoJointPanel(parts[part].options.name.clone()))
+    last.map(|l| l.0).ok_or_else(|| ModelError::NoJointPanel(parts[part].options.name.clone()))
 }

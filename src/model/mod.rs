@@ -1,12 +1,14 @@
 //! Joints between components, their tree, and the model's two end states.
 
 mod build;
+mod grow;
 mod joined;
 mod known;
 mod link;
 mod seat;
 
-pub use build::{ModelError, Part, PartOptions, build};
+pub use build::{ModelError, Part, PartOptions};
+pub use grow::build;
 pub use joined::{JoinedPart, Seam};
 pub use known::{Known, build_one};
 pub use link::{Contact, Link, link_tree, parted};

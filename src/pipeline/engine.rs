@@ -66,7 +66,11 @@ impl<'m> Engine<'m> {
     /// # Errors
     /// See [`Error`].
     pub fn run(&self, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
-        self.finish(self.shape(options, progress)?, progress)
+        let options = match options.untangles {
+            true => Cow::Owned(self.untangled(options, progress)?),
+            false => Cow::Borrowed(options),
+        };
+        self.finish(self.shape(&options, progress)?, progress)
     }
 
     /// The mesh at the model's size, its parts and their hulls.
@@ -143,6 +147,19 @@ impl<'m> Engine<'m> {
         Ok(model::build_one(parts, links, part, least_mm, &self.components, progress)?)
     }
 
+    /// How the components fold.
+    pub(super) fn plan(
+        &self,
+        model: &Arc<Model>,
+        thickness_mm: f64,
+        progress: &dyn Progress,
+    ) -> Result<Arc<FoldPlan>, Error> {
+        self.plans.get_or((model.clone(), thickness_mm), || {
+            progress.stage("folding");
+            Ok(Arc::new(FoldPlan::new(&ModelMotion::new(model), thickness_mm, progress)?))
+        })
+    }
+
     /// From the components to sheets.
     ///
     /// # Errors
@@ -153,12 +170,7 @@ impl<'m> Engine<'m> {
         if options.is_thick {
             model = Arc::new(thick(&model, options.thickness_mm, options.min_panel_width_mm)?);
         }
-        let thickness_mm = options.thickness_mm;
-        let fold_plan = self.plans.get_or((model.clone(), thickness_mm), || {
-            progress.stage("folding");
-            let plan = FoldPlan::new(&ModelMotion::new(&model), thickness_mm, progress)?;
-            Ok::<_, Error>(Arc::new(plan))
-        })?;
+        let fold_plan = self.plan(&model, options.thickness_mm, progress)?;
         let sheets = SheetOptions {
             paper: options.paper,
             margin_mm: options.margin_mm,
@@ -183,7 +195,7 @@ impl<'m> Engine<'m> {
         let mut warnings = shaped.notes.clone();
         warnings.extend(warning::warnings(&model, &nets, shaped.divided.hulls().flat_faces(), options));
         warnings.extend(pin_warnings(&layout));
-        let advice = fold_plan.advice(&model).into_iter();
+        let advice = fold_plan.advice(&model, options.untangles).into_iter();
         warnings.extend(advice.map(|(code, message)| Warning { code, message }));
         let shaped = Shaped { model, ..shaped };
         Ok(Output { shaped, fold_plan, nets, layout, warnings: Arc::new(warnings) })
