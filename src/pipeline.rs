@@ -184,7 +184,7 @@ fn too_large(error: &NetsError, size_mm: f64) -> String {
 /// # Errors
 /// See [`Error`].
 pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
-    Engine::new(Cow::Borrowed(mesh)).run(options, progress)
+    Engine::for_one_division(Cow::Borrowed(mesh)).run(options, progress)
 }
 
 /// Divides a mesh at the model's size into parts; also gives the transform from the coordinates of
@@ -197,5 +197,5 @@ pub fn find_parts(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<(Parts, DAffine3), Error> {
-    Engine::new(Cow::Borrowed(mesh)).find_parts(options, progress)
+    Engine::for_one_division(Cow::Borrowed(mesh)).find_parts(options, progress)
 }

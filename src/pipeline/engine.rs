@@ -56,6 +56,11 @@ impl<'m> Engine<'m> {
         }
     }
 
+    /// An engine for a mesh that is divided in one way only: the parts need not be copied then.
+    pub(super) fn for_one_division(mesh: Cow<'m, Mesh>) -> Self {
+        Self { segmented: Memory::new(0), ..Self::new(mesh) }
+    }
+
     /// The mesh as it was read.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
