@@ -8,6 +8,11 @@ mod mesh;
 mod surface_nets;
 mod wares;
 
+use mesh::Mesh;
+
+/// Edges of the sample teddy.
+const TEDDY_CELL_MM: f64 = 4.5;
+
 /// One sample.
 pub struct Sample {
     /// File name without its extension.
@@ -24,9 +29,15 @@ pub fn all() -> Vec<Sample> {
         ("rabbit", figures::rabbit()),
         ("snowman", figures::snowman()),
         ("teapot", wares::teapot()),
-        ("teddy", figures::teddy()),
+        ("teddy", figures::teddy(TEDDY_CELL_MM)),
     ]
     .into_iter()
     .map(|(name, mesh)| Sample { name, obj: mesh.to_obj(name) })
     .collect()
+}
+
+/// The sample teddy with about so many faces, whose number grows as the square of the edges shrinks.
+pub fn teddy_of(faces: f64) -> Mesh {
+    let usual = figures::teddy(TEDDY_CELL_MM).faces.len() as f64;
+    figures::teddy(TEDDY_CELL_MM * (usual / faces).sqrt())
 }
