@@ -232,9 +232,12 @@ fn named_tetrahedron(name: &str) -> Output {
 
 #[test]
 fn names_of_components_are_text_and_no_markup() {
-    for name in
-        ["<script>alert(1)</script>", "\"&' onload='x", "</svg></style><script src=x>", "a\u{1b}[31m\u{0}b"]
-    {
+    for (name, shown) in [
+        ("<script>alert(1)</script>", "&lt;script&gt;alert(1)&lt;/script&gt;"),
+        ("\"&' onload='x", "&quot;&amp;&#39; onload=&#39;x"),
+        ("</svg></style><script src=x>", "&lt;/svg&gt;&lt;/style&gt;&lt;script src=x&gt;"),
+        ("a\u{1b}[31m\u{0}b", "a [31m b"),
+    ] {
         let output = named_tetrahedron(name);
         let guide = Guide::new(&output, "a", &LineStyles::standard(), Language::English).unwrap();
         let page = html(&guide);
@@ -244,8 +247,7 @@ fn names_of_components_are_text_and_no_markup() {
             assert_eq!(page.to_lowercase().matches(tag).count(), count, "{name}: {tag}");
         }
         assert!(page.chars().all(|c| c == '\n' || !c.is_control()), "{name}");
-        let shown: String = name.chars().filter(|c| c.is_alphanumeric()).collect();
-        assert!(shown.len() < 3 || page.contains(&shown[..3]), "{name} is shown");
+        assert!(page.contains(shown), "{name} is shown");
     }
 }
 
