@@ -51,7 +51,7 @@ fn compare(picture: &Path) -> Result<(), Box<dyn Error>> {
     let mut rows = Vec::new();
     println!("| faces | seconds | peak memory, MiB |\n|---|---|---|");
     for faces in FACES {
-        std::fs::write(&path, generator::teddy_of(faces).to_obj("teddy"))?;
+        std::fs::write(&path, teddy(faces).to_obj("teddy"))?;
         let output = Command::new(std::env::current_exe()?).arg(ONE).arg(&path).output()?;
         if !output.status.success() {
             return Err(String::from_utf8_lossy(&output.stderr).into());
@@ -64,6 +64,12 @@ fn compare(picture: &Path) -> Result<(), Box<dyn Error>> {
     }
     std::fs::write(picture, plot(&rows)?)?;
     Ok(())
+}
+
+/// The sample teddy with about so many faces, whose number grows as the square of the edges shrinks.
+fn teddy(faces: f64) -> generator::mesh::Mesh {
+    let usual = generator::figures::teddy(generator::TEDDY_CELL_MM).faces.len() as f64;
+    generator::figures::teddy(generator::TEDDY_CELL_MM * (usual / faces).sqrt())
 }
 
 /// Makes one model, and prints faces, seconds and mebibytes.
