@@ -15,7 +15,7 @@ use tempfile::TempDir;
 
 /// Commands that are not run, as they stand in the text without their comments, with the reason.
 const SKIPPED: &[(&str, &str)] = &[
-    ("tatamu make INPUT [options]", "a synopsis"),
+    ("tatamu make INPUT... [options]", "a synopsis"),
     ("tatamu segment INPUT [options]", "a synopsis"),
     ("tatamu init MESH [options]", "a synopsis"),
     ("tatamu plot INPUT [options]", "a synopsis"),
@@ -178,7 +178,8 @@ fn option<'a>(words: &[&'a str], names: &[&str]) -> Vec<&'a str> {
 /// Runs a command as it stands in the text, but for what [`QUICK`] and [`PORT`] say.
 fn run(folder: &Path, line: &str) {
     let (line, redirect) = line.split_once(" > ").map_or((line, None), |(l, file)| (l, Some(file)));
-    let mut words: Vec<&str> = line.split_whitespace().skip(1).collect();
+    let unquoted = |word| str::trim_matches(word, '\'');
+    let mut words: Vec<&str> = line.split_whitespace().skip(1).map(unquoted).collect();
     if words[0] == "virtual-plotter" {
         let machine = Machine::start(folder, &words[1..]);
         let mut host = vec!["plot", "--test-cut", "--yes", "--port", &machine.port];
@@ -208,7 +209,13 @@ fn run(folder: &Path, line: &str) {
         std::fs::write(folder.join(file), &output.stdout).unwrap();
     }
     let names = ["-o", "--output", "--guide", "--report", "--segments", "--preview"];
-    option(&words, &names).iter().for_each(|name| assert!(is_written(folder, name), "{line}: no {name}"));
+    let stem = words.get(1).and_then(|input| Path::new(input).file_stem()).unwrap_or_default();
+    let stem = stem.to_string_lossy();
+    for name in option(&words, &names) {
+        let is_folder = folder.join(name).is_dir();
+        let name = if is_folder { format!("{name}/{stem}.pdf") } else { name.replace("{name}", &stem) };
+        assert!(is_written(folder, &name), "{line}: no {name}");
+    }
     if let Some(machine) = machine {
         machine.end();
     }
@@ -216,7 +223,7 @@ fn run(folder: &Path, line: &str) {
 
 /// Whether there is a file of this name, or one with a number of a sheet or the like in it.
 fn is_written(folder: &Path, name: &str) -> bool {
-    let (stem, extension) = name.rsplit_once('.').unwrap();
+    let (stem, extension) = name.trim_start_matches("./").rsplit_once('.').unwrap();
     let is_one = |found: &str| {
         let rest = found.strip_prefix(stem).and_then(|rest| rest.strip_suffix(&format!(".{extension}")));
         rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
@@ -333,7 +340,7 @@ fn every_warning_is_explained_and_in_the_schema() {
 /// known to give warnings all texts of words joined by underscores, since they have no others.
 fn codes_in(path: &Path) -> Vec<String> {
     let name = path.strip_prefix(root().join("src")).unwrap().to_string_lossy().into_owned();
-    let gives = ["pipeline", "cli/make.rs", "fold/advice.rs", "net/mod.rs", "design/build.rs"];
+    let gives = ["pipeline", "cli/input.rs", "fold/advice.rs", "net/mod.rs", "design/build.rs"];
     let gives = gives.iter().any(|part| name.starts_with(part));
     let is_word = |text: &str| text.chars().all(|c| c.is_ascii_lowercase() || c == '_') && !text.is_empty();
     let text = read(path);

@@ -14,7 +14,7 @@ use tatamu::drawing::{LineStyles, Shape};
 use tatamu::guide::{Access, Action, Guide, Language, Step, gluing_order, html, leaflet, steps};
 use tatamu::mesh::{self, Mesh};
 use tatamu::net::{Naming, Net, NetOptions, develop};
-use tatamu::pipeline::{self, Options, Output};
+use tatamu::pipeline::{self, ComponentOptions, Options, Output};
 use tatamu::progress::Silent;
 use tatamu::units::{Paper, parse_paper};
 
@@ -219,6 +219,36 @@ fn the_page_needs_nothing_from_elsewhere_whatever_the_model_is_called() {
         assert!(!unescaped.contains(outside), "{outside}");
     }
     assert!(page.contains("default-src 'none'"));
+}
+
+/// The tetrahedron as one component of some name.
+fn named_tetrahedron(name: &str) -> Output {
+    let text = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+    let (mesh, _) = Mesh::from_soup(&mesh::read(text).unwrap()).unwrap();
+    let component = ComponentOptions { rename: Some(name.to_owned()), ..ComponentOptions::default() };
+    let components = BTreeMap::from([("body".to_owned(), component)]);
+    pipeline::run(&mesh, &Options { components, ..Options::default() }, &Silent).unwrap()
+}
+
+#[test]
+fn names_of_components_are_text_and_no_markup() {
+    for (name, shown) in [
+        ("<script>alert(1)</script>", "&lt;script&gt;alert(1)&lt;/script&gt;"),
+        ("\"&' onload='x", "&quot;&amp;&#39; onload=&#39;x"),
+        ("</svg></style><script src=x>", "&lt;/svg&gt;&lt;/style&gt;&lt;script src=x&gt;"),
+        ("a\u{1b}[31m\u{0}b", "a [31m b"),
+    ] {
+        let output = named_tetrahedron(name);
+        let guide = Guide::new(&output, "a", &LineStyles::standard(), Language::English).unwrap();
+        let page = html(&guide);
+        // The script and the style of the page itself, and nothing else.
+        for (tag, count) in [("<script", 1), ("</script", 1), ("<style", 1), ("</style", 1), ("onload='", 0)]
+        {
+            assert_eq!(page.to_lowercase().matches(tag).count(), count, "{name}: {tag}");
+        }
+        assert!(page.chars().all(|c| c == '\n' || !c.is_control()), "{name}");
+        assert!(page.contains(shown), "{name} is shown");
+    }
 }
 
 #[test]

@@ -53,8 +53,9 @@ pub fn snowman() -> Mesh {
     surface_nets::mesh(&solid, DVec3::new(-80.0, -8.0, -60.0), DVec3::new(80.0, 220.0, 60.0), 4.2)
 }
 
-/// A teddy bear that sits, its arms held out so that each is a part of its own.
-pub fn teddy() -> Mesh {
+/// A teddy bear that sits, its arms held out so that each is a part of its own, with edges of about
+/// `cell` mm.
+pub fn teddy(cell: f64) -> Mesh {
     let solid = Solid(vec![
         Part::ellipsoid(43.0, 48.0, 38.0).at(0.0, 48.0, 0.0),
         Part::ellipsoid(41.0, 36.0, 36.0).at(0.0, 123.5, 3.0).blended(3.5),
@@ -74,5 +75,5 @@ pub fn teddy() -> Mesh {
             .mirrored()
             .blended(6.0),
     ]);
-    surface_nets::mesh(&solid, DVec3::new(-90.0, -8.0, -50.0), DVec3::new(90.0, 200.0, 120.0), 4.5)
+    surface_nets::mesh(&solid, DVec3::new(-90.0, -8.0, -50.0), DVec3::new(90.0, 200.0, 120.0), cell)
 }

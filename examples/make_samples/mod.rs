@@ -1,12 +1,15 @@
 //! The sample meshes: blended implicit surfaces, a lathe and a box.
 
 mod block;
-mod figures;
+pub mod figures;
 mod implicit;
 mod lathe;
-mod mesh;
+pub mod mesh;
 mod surface_nets;
 mod wares;
+
+/// Edges of the sample teddy.
+pub const TEDDY_CELL_MM: f64 = 4.5;
 
 /// One sample.
 pub struct Sample {
@@ -24,7 +27,7 @@ pub fn all() -> Vec<Sample> {
         ("rabbit", figures::rabbit()),
         ("snowman", figures::snowman()),
         ("teapot", wares::teapot()),
-        ("teddy", figures::teddy()),
+        ("teddy", figures::teddy(TEDDY_CELL_MM)),
     ]
     .into_iter()
     .map(|(name, mesh)| Sample { name, obj: mesh.to_obj(name) })

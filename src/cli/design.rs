@@ -6,6 +6,7 @@ use super::make::{self, MakeArgs};
 use super::terminal;
 use clap::Args;
 use std::collections::BTreeMap;
+use std::path::Path;
 use tatamu::design::{Ranked, Ranking, Refusal, Sketch, rankings};
 
 /// Makes a model that is drawn in a project file.
@@ -48,7 +49,12 @@ pub fn run(args: &DesignArgs) -> Result<(), CliError> {
     if !args.list_configurations {
         return make::run(&args.make);
     }
-    let input = input::read(args.make.input())?;
+    args.make.inputs().iter().try_for_each(|path| list_all(args, path))
+}
+
+/// Lists the ways of all profiles of a project file.
+fn list_all(args: &DesignArgs, path: &Path) -> Result<(), CliError> {
+    let input = input::read(path)?;
     let Shape::Drawn(sketches) = &input.shape else {
         return Err(CliError::Options(format!(
             "{} holds no drawn components, so there are no profiles with ways to fold",

@@ -59,6 +59,9 @@ pub enum CliError {
     /// An output cannot be written.
     #[error("cannot write {path}: {reason}")]
     Output { path: PathBuf, reason: String },
+    /// Some inputs of several failed; why was told already.
+    #[error("{} of {of} inputs failed: {}", failed.len(), failed.join(", "))]
+    Several { failed: Vec<String>, of: usize },
     /// Ctrl-C.
     #[error(transparent)]
     Cancelled(Cancelled),

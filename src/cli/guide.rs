@@ -1,6 +1,7 @@
 //! Options of the assembly guide.
 
 use super::error::CliError;
+use super::names;
 use super::output::{self, Target};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -16,7 +17,8 @@ pub struct GuideArgs {
     ///
     /// Numbered steps with pictures: fold, glue, join, fold flat. May be given several times; "-o
     /// FILE.html" does the same. Without FILE, each PDF of -o is the guide instead of the sheets; if
-    /// there is no -o, the guide is the input's name with -guide.pdf, beside the sheets.
+    /// there is no -o, the guide is the input's name with -guide.pdf, beside the sheets. {name} and
+    /// folders as with -o.
     /// Example: --guide teddy.html, --guide -o guide.pdf
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "", value_parser = wanted)]
     guide: Vec<Wanted>,
@@ -48,16 +50,19 @@ impl GuideArgs {
         let mut guides: Vec<PathBuf> = Vec::new();
         for wanted in &self.guide {
             match wanted {
-                Wanted::File(path) => guides.push(path.clone()),
+                Wanted::File(path) => guides.push(names::for_input(path, input, GUIDES[0].extensions[0])),
                 Wanted::Outputs if outputs.is_empty() => {
-                    let name = output::default_name(input, GUIDES[GUIDES.len() - 1].extensions[0]);
-                    guides.push(output::with_suffix(&name, "-guide"));
+                    let name = names::default(input, GUIDES[GUIDES.len() - 1].extensions[0]);
+                    guides.push(names::with_suffix(&name, "-guide"));
                 }
                 Wanted::Outputs => {}
             }
         }
-        let default = [output::default_name(input, FORMATS[0].extensions[0])];
-        let sheets = if outputs.is_empty() { &default[..] } else { outputs };
+        let extension = FORMATS[0].extensions[0];
+        let default = [names::default(input, extension)];
+        let outputs: Vec<PathBuf> =
+            outputs.iter().map(|path| names::for_input(path, input, extension)).collect();
+        let sheets = if outputs.is_empty() { &default[..] } else { &outputs[..] };
         let lists: &[&'static [Format]] =
             if is_output && !outputs.is_empty() { &[GUIDES, FORMATS] } else { &[FORMATS] };
         let mut targets = output::targets_among(sheets, lists)?;

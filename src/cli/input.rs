@@ -5,9 +5,10 @@ use super::options::ModelArgs;
 use super::progress::TerminalProgress;
 use std::path::{Component, Path, PathBuf};
 use tatamu::design::Sketch;
+use tatamu::drawing::LineStyles;
 use tatamu::mesh::painting::Painting;
 use tatamu::mesh::{self, Mesh, Repairs};
-use tatamu::pipeline::{self, Options, Output};
+use tatamu::pipeline::{self, Options, Output, Warning};
 use tatamu::project::Project;
 
 /// What a model is made of, with where it comes from.
@@ -20,6 +21,8 @@ pub struct Input {
     pub shape: Shape,
     /// What was done to make the mesh clean.
     pub repairs: Repairs,
+    /// What the user should know about the project file.
+    pub notes: Vec<Warning>,
 }
 
 /// A mesh, or drawings.
@@ -42,6 +45,12 @@ impl Input {
         }
     }
 
+    /// What the user should know about the files that were read.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let repairs = repair_warnings(&self.repairs);
+        self.notes.iter().cloned().chain(repairs).collect()
+    }
+
     /// Runs all stages.
     pub fn run(
         &self,
@@ -57,11 +66,20 @@ impl Input {
     }
 }
 
+/// The files that are read for an input, as far as they can be told without reading a mesh: itself,
+/// and the mesh of a project.
+pub fn files(path: &Path) -> Vec<PathBuf> {
+    let text = std::fs::read(path).ok().filter(|bytes| is_project(path, bytes)).map(String::from_utf8);
+    let project = text.and_then(Result::ok).and_then(|text| Project::parse(&text).ok());
+    let mesh = project.and_then(|project| project.mesh).map(|mesh| path.with_file_name(mesh));
+    std::iter::once(path.to_owned()).chain(mesh).collect()
+}
+
 /// Reads a mesh or a project file.
 pub fn read(path: &Path) -> Result<Input, CliError> {
     let bytes = read_file(path)?;
     if !is_project(path, &bytes) {
-        return read_mesh(path, &bytes, None);
+        return read_mesh(path, &bytes, None, Vec::new());
     }
     let text = String::from_utf8(bytes).map_err(|_| CliError::Input {
         path: path.to_owned(),
@@ -69,11 +87,12 @@ pub fn read(path: &Path) -> Result<Input, CliError> {
     })?;
     let project =
         Project::parse(&text).map_err(|error| CliError::Project { path: path.to_owned(), error })?;
+    let notes = outside_notes(path, &project);
     let Some(mesh) = &project.mesh else {
         let sketches = project.sketches();
         let sketches = sketches.map_err(|error| CliError::Project { path: path.to_owned(), error })?;
         let (shape, repairs) = (Shape::Drawn(sketches), Repairs::default());
-        return Ok(Input { mesh_path: path.to_owned(), project: Some(project), shape, repairs });
+        return Ok(Input { mesh_path: path.to_owned(), project: Some(project), shape, repairs, notes });
     };
     let mesh_path = path.with_file_name(mesh);
     let bytes = std::fs::read(&mesh_path).map_err(|error| CliError::ProjectMesh {
@@ -81,16 +100,78 @@ pub fn read(path: &Path) -> Result<Input, CliError> {
         project: path.to_owned(),
         reason: reason(&error),
     })?;
-    read_mesh(&mesh_path, &bytes, Some(project))
+    read_mesh(&mesh_path, &bytes, Some(project), notes)
 }
 
-fn read_mesh(path: &Path, bytes: &[u8], project: Option<Project>) -> Result<Input, CliError> {
+fn read_mesh(
+    path: &Path,
+    bytes: &[u8],
+    project: Option<Project>,
+    notes: Vec<Warning>,
+) -> Result<Input, CliError> {
     let sibling = |name: &str| read_sibling(path, name);
     let soup = mesh::read_with_siblings(bytes, &sibling)
         .map_err(|error| CliError::Read { path: path.to_owned(), error })?;
     let (mesh, repairs) =
         Mesh::from_soup(&soup).map_err(|error| CliError::Mesh { path: path.to_owned(), error })?;
-    Ok(Input { mesh_path: path.to_owned(), project, shape: Shape::Mesh(mesh), repairs })
+    Ok(Input { mesh_path: path.to_owned(), project, shape: Shape::Mesh(mesh), repairs, notes })
+}
+
+/// What the repair found and did, as warnings.
+pub fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
+    let bodies = repairs.components.saturating_sub(1);
+    let counts = [
+        (repairs.boundary_edges, "open_edges", "open edges", "thickness near them is a guess"),
+        (
+            repairs.non_manifold_edges,
+            "non_manifold_edges",
+            "edges with more than two faces",
+            "components may be divided there",
+        ),
+        (bodies, "several_bodies", "bodies besides the first", "joined where they touch"),
+        (repairs.degenerate_faces, "degenerate_faces", "faces without area", "dropped"),
+        (repairs.duplicate_faces, "duplicate_faces", "repeated faces", "dropped"),
+        (repairs.flipped_faces, "flipped_faces", "faces that faced inwards", "turned"),
+    ];
+    counts
+        .iter()
+        .filter(|(count, ..)| *count > 0)
+        .map(|(count, code, what, effect)| Warning {
+            code,
+            message: format!("the mesh has {what}: {count} ({effect})"),
+        })
+        .collect()
+}
+
+/// A project file may come from anybody: the user is told which files it has read from elsewhere.
+fn outside_notes(path: &Path, project: &Project) -> Vec<Warning> {
+    let style = project.export.style.as_deref().filter(|name| LineStyles::built_in(name).is_none());
+    let named = [("mesh", project.mesh.as_deref()), ("style file", style)];
+    let named = named.into_iter().filter_map(|(what, name)| Some((what, name?)));
+    let outside = named.filter(|(_, name)| !is_within(&path.with_file_name(""), Path::new(name)));
+    outside
+        .map(|(what, name)| Warning {
+            code: "outside_folder",
+            message: format!(
+                "project file {} names a {what} outside of its own folder: {name}; make sure that this is the one \
+                 you mean",
+                path.display()
+            ),
+        })
+        .collect()
+}
+
+/// Whether a name in a file of `folder` leads to something below that folder, links apart.
+fn is_within(folder: &Path, name: &Path) -> bool {
+    let absolute = std::path::absolute(folder).ok();
+    let name = absolute.and_then(|folder| name.strip_prefix(folder).ok()).unwrap_or(name);
+    let depth = name.components().try_fold(0usize, |depth, component| match component {
+        Component::Normal(_) => Some(depth + 1),
+        Component::CurDir => Some(depth),
+        Component::ParentDir => depth.checked_sub(1),
+        Component::RootDir | Component::Prefix(_) => None,
+    });
+    depth.is_some()
 }
 
 /// The colours of a mesh file.
@@ -143,6 +224,19 @@ mod tests {
         for name in ["/etc/hostname", "../x.bin", "a/../../x.bin", ""] {
             let result = read_sibling(Path::new("folder/mesh.gltf"), name);
             assert!(result.is_err(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_name_leads_outside_when_it_leaves_the_folder() {
+        let is_within = |name: &str| is_within(Path::new("/home/me/bear/"), Path::new(name));
+        for name in ["a.obj", "./a.obj", "meshes/a.obj", "meshes/../a.obj", "/home/me/bear/a.obj"] {
+            assert!(is_within(name), "{name}");
+        }
+        for name in
+            ["../a.obj", "a/../../b.obj", "/etc/hostname", "/home/me/bear/../a.obj", "/home/me/bears/a.obj"]
+        {
+            assert!(!is_within(name), "{name}");
         }
     }
 }

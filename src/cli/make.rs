@@ -5,19 +5,17 @@ use super::error::CliError;
 use super::film::FilmArgs;
 use super::formats::{self, FileArgs};
 use super::guide::GuideArgs;
+use super::made::Made;
 use super::options::ModelArgs;
 use super::output::{self, Target};
 use super::progress::TerminalProgress;
-use super::{input, terminal};
+use super::{batch, input, names, terminal};
 use clap::Args;
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use tatamu::export::{FormatOptions, Source};
-use tatamu::fold::Stack;
 use tatamu::mesh::{Mesh, Repairs};
 use tatamu::net::Side;
-use tatamu::pipeline::{Output, Warning};
-use tatamu::product::{self, Content, Product};
+use tatamu::product::{Content, Product};
 use tatamu::report::Run;
 
 /// Makes a model of a mesh, or of a project file.
@@ -27,12 +25,13 @@ use tatamu::report::Run;
 #[derive(Debug, Args)]
 #[command(after_help = after_help())]
 pub struct MakeArgs {
-    /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB) or project file (TOML)
+    /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB) or project file (TOML); may be several
     ///
     /// The format is found from the content, whatever the file's name. Open borders, edges of more
-    /// than two faces and several bodies are accepted with a warning.
-    #[arg(value_name = "INPUT")]
-    input: PathBuf,
+    /// than two faces and several bodies are accepted with a warning. Several inputs are made at
+    /// the same time, each as it would be alone; one that fails does not stop the others.
+    #[arg(value_name = "INPUT", required = true)]
+    inputs: Vec<PathBuf>,
 
     #[command(flatten)]
     model: ModelArgs,
@@ -40,7 +39,9 @@ pub struct MakeArgs {
     /// File to write; may be given several times [default: the input's name with .pdf]
     ///
     /// The extension chooses the format; the end of this page lists them. An existing file is
-    /// replaced, but only when the new one is complete. Example: -o teddy.pdf -o teddy.json
+    /// replaced, but only when the new one is complete. {name} stands for the input's name without
+    /// its extension; a folder, or a name that ends in a slash, gets a PDF of that name.
+    /// Example: -o teddy.pdf -o teddy.json, -o 'models/{name}.svg', -o models/
     #[arg(short, long = "output", value_name = "FILE")]
     output: Vec<PathBuf>,
 
@@ -61,8 +62,8 @@ pub struct MakeArgs {
     /// File for the segmentation: one number a line
     ///
     /// For each face of the input file, in its order, the index of its component from 0; -1 for
-    /// a face that was dropped in the repair, or whose part has no volume.
-    /// Example: --segments teddy.seg
+    /// a face that was dropped in the repair, or whose part has no volume. {name} and folders as
+    /// with -o. Example: --segments teddy.seg
     #[arg(long, value_name = "FILE")]
     segments: Option<PathBuf>,
 
@@ -78,9 +79,14 @@ pub struct MakeArgs {
 }
 
 impl MakeArgs {
-    /// The mesh or project file.
-    pub fn input(&self) -> &Path {
-        &self.input
+    /// The meshes and project files.
+    pub fn inputs(&self) -> &[PathBuf] {
+        &self.inputs
+    }
+
+    /// Whether only warnings and errors are told.
+    pub fn is_quiet(&self) -> bool {
+        self.quiet
     }
 
     /// Options of the model.
@@ -89,15 +95,14 @@ impl MakeArgs {
     }
 }
 
-/// So many warnings of one kind are shown; a small model with many labels has dozens.
-const MOST_OF_A_KIND: usize = 4;
-
 const EXAMPLES: &str = "\
 Examples:
   tatamu make teddy.obj
   tatamu make teddy.obj -o teddy.pdf --guide teddy.html
   tatamu make teddy.obj --size 30cm --paper a3 -o teddy.pdf -o teddy.json
   tatamu make bunny.stl --up z --parts 5 --top-edges 8
+  tatamu make teddy.obj bunny.stl -o models/
+  tatamu make *.obj --size 30cm -o 'models/{name}.svg' --guide 'models/{name}.html'
   tatamu make teddy.toml --direction head=90";
 
 fn after_help() -> String {
@@ -106,29 +111,66 @@ fn after_help() -> String {
 
 /// Runs the command.
 pub fn run(args: &MakeArgs) -> Result<(), CliError> {
-    let targets = args.guide.targets(&args.input, &args.output)?;
-    let paths: Vec<PathBuf> = targets.iter().map(|target| target.path.clone()).collect();
-    output::check_places(&paths, &[&args.input])?;
-    let input = input::read(&args.input)?;
-    let places: Vec<PathBuf> = paths.iter().chain(&args.segments).cloned().collect();
-    output::check_places(&places, &[&args.input, &input.mesh_path])?;
+    let [input] = args.inputs() else { return batch::run(args) };
+    let progress = TerminalProgress::new(args.quiet);
+    let tell = |warning: &str| terminal::complain("warning", warning);
+    let made = make(args, Task::new(args, input)?, &progress, &tell)?;
+    output::write(&made.files)?;
+    if !args.quiet {
+        made.summary.iter().for_each(|line| terminal::say(line));
+    }
+    Ok(())
+}
+
+/// One input, and the files to make of it.
+pub struct Task<'a> {
+    /// The mesh or project file.
+    pub input: &'a Path,
+    targets: Vec<Target>,
+    segments: Option<PathBuf>,
+}
+
+impl<'a> Task<'a> {
+    /// What is asked for of one of the inputs.
+    pub fn new(args: &MakeArgs, input: &'a Path) -> Result<Self, CliError> {
+        let targets = args.guide.targets(input, &args.output)?;
+        let segments = args.segments.as_ref().map(|path| names::for_input(path, input, "seg"));
+        Ok(Self { input, targets, segments })
+    }
+
+    /// The names that the user gave; sheets may get numbers.
+    pub fn places(&self) -> Vec<PathBuf> {
+        self.targets.iter().map(|target| &target.path).chain(&self.segments).cloned().collect()
+    }
+}
+
+/// Makes the model of one input, and the content of its files. Warnings are told as they come.
+pub fn make(
+    args: &MakeArgs,
+    task: Task<'_>,
+    progress: &TerminalProgress,
+    tell: &dyn Fn(&str),
+) -> Result<Made, CliError> {
+    let places = task.places();
+    output::check_places(&places, &[task.input])?;
+    let input = input::read(task.input)?;
+    output::check_places(&places, &[task.input, &input.mesh_path])?;
     let options = args.model.merge(input.project.as_ref())?;
-    let mut choice = args.files.merge(input.project.as_ref().map(|p| &p.export), &args.input)?;
+    let mut choice = args.files.merge(input.project.as_ref().map(|p| &p.export), task.input)?;
     if choice.is_coloured && options.sheets.side == Side::Inside {
         let reason = "--color is for the outside of the paper; leave out --side inside, or --color";
         return Err(CliError::Options(reason.to_owned()));
     }
     let painting = choice.is_coloured.then(|| input::read_painting(&input.mesh_path)).transpose()?;
     choice.formats.plt = args.cutter.choice()?;
-    let warnings = repair_warnings(&input.repairs);
-    warnings.iter().for_each(warn);
+    let warnings = input.warnings();
+    warnings.iter().for_each(|warning| tell(&warning.message));
 
-    let progress = TerminalProgress::new(args.quiet);
-    let result = input.run(&args.model, &options, &progress)?;
+    let result = input.run(&args.model, &options, progress)?;
     let stages = progress.finish();
-    warn_by_kind(result.warnings());
+    terminal::first_of_each_kind(result.warnings()).iter().for_each(|message| tell(message));
 
-    let stem = args.input.file_stem().unwrap_or_default();
+    let stem = task.input.file_stem().unwrap_or_default();
     let run = Run {
         path: &input.mesh_path.to_string_lossy(),
         repairs: &input.repairs,
@@ -148,15 +190,11 @@ pub fn run(args: &MakeArgs) -> Result<(), CliError> {
     };
     let formats = args.guide.choose(choice.formats, input.project.as_ref().map(|p| &p.export));
     let formats = args.film.choose(formats)?;
-    let mut files = written(targets, &products, &formats)?;
-    if let Some(path) = &args.segments {
-        files.push((path.clone(), segments(result.mesh(), result.face_parts(), &input.repairs)));
+    let mut files = written(task.targets, &products, &formats)?;
+    if let Some(path) = task.segments {
+        files.push((path, segments(result.mesh(), result.face_parts(), &input.repairs)));
     }
-    output::write(&files)?;
-    if !args.quiet {
-        summarise(&result, &files);
-    }
-    Ok(())
+    Ok(Made::new(&result, files))
 }
 
 /// The files of all targets; pages of each product, all else of the first.
@@ -172,61 +210,11 @@ pub fn written(
             let name = if is_paged { name } else { "" };
             for file in target.format.write(product, formats)? {
                 let suffix = format!("{name}{}", file.suffix);
-                files.push((output::with_suffix(&target.path, &suffix), file.bytes));
+                files.push((names::with_suffix(&target.path, &suffix), file.bytes));
             }
         }
     }
     Ok(files)
-}
-
-/// What the repair found and did, as warnings.
-pub fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
-    let bodies = repairs.components.saturating_sub(1);
-    let counts = [
-        (repairs.boundary_edges, "open_edges", "open edges", "thickness near them is a guess"),
-        (
-            repairs.non_manifold_edges,
-            "non_manifold_edges",
-            "edges with more than two faces",
-            "components may be divided there",
-        ),
-        (bodies, "several_bodies", "bodies besides the first", "joined where they touch"),
-        (repairs.degenerate_faces, "degenerate_faces", "faces without area", "dropped"),
-        (repairs.duplicate_faces, "duplicate_faces", "repeated faces", "dropped"),
-        (repairs.flipped_faces, "flipped_faces", "faces that faced inwards", "turned"),
-    ];
-    counts
-        .iter()
-        .filter(|(count, ..)| *count > 0)
-        .map(|(count, code, what, effect)| Warning {
-            code,
-            message: format!("the mesh has {what}: {count} ({effect})"),
-        })
-        .collect()
-}
-
-/// Shows a warning.
-pub fn warn(warning: &Warning) {
-    terminal::complain("warning", &warning.message);
-}
-
-/// Shows the first few warnings of each kind, and counts the others.
-pub fn warn_by_kind(warnings: &[Warning]) {
-    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
-    for warning in warnings {
-        let count = counts.entry(warning.code).or_default();
-        *count += 1;
-        if *count <= MOST_OF_A_KIND {
-            warn(warning);
-        }
-    }
-    for (code, count) in counts.into_iter().filter(|(_, count)| *count > MOST_OF_A_KIND) {
-        let more = count - MOST_OF_A_KIND;
-        terminal::complain(
-            "warning",
-            &format!("{more} more like these ({code}); -o FILE.json writes a report with all of them"),
-        );
-    }
 }
 
 /// One component index a line for each face of the input file, -1 for a dropped one.
@@ -238,32 +226,4 @@ pub fn segments(mesh: &Mesh, part_of_face: &[Option<u32>], repairs: &Repairs) ->
     };
     let text: String = of_input.into_iter().map(line).collect();
     text.into_bytes()
-}
-
-/// The flat model, and the order of folding.
-fn folding(result: &Output) -> String {
-    let plan = result.fold_plan();
-    let parts = result.model().parts();
-    let order: Vec<&str> = plan.order().iter().map(|&p| parts[p].name.as_str()).collect();
-    let flat = |s: &Stack| format!("{:.0} × {:.0} mm, {} layers", s.size_mm.x, s.size_mm.y, s.layers);
-    let sizes: Vec<String> = plan.stacks().iter().map(flat).collect();
-    format!("to {}, in the order {}", sizes.join(" and "), order.join(", "))
-}
-
-fn summarise(result: &Output, files: &[(PathBuf, Vec<u8>)]) {
-    let names: Vec<&str> = result.model().parts().iter().map(|p| p.name.as_str()).collect();
-    let pieces: usize = result.nets().iter().map(|net| net.pieces().len()).sum();
-    let layout = result.layout();
-    let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
-    terminal::say(&format!("size        {}", product::size_note(result)));
-    terminal::say(&format!("components  {}: {}", names.len(), names.join(", ")));
-    terminal::say(&format!("folds       {}", folding(result)));
-    terminal::say(&format!("pieces      {pieces}"));
-    terminal::say(&format!(
-        "sheets      {} of {}, {:.0}% used",
-        layout.sheet_count(),
-        layout.options().paper.name(),
-        100.0 * layout.utilisation()
-    ));
-    terminal::say(&format!("written     {}", written.join(", ")));
 }

@@ -1,5 +1,6 @@
 //! The command line: parse, run, report, exit code. One file per subcommand.
 
+mod batch;
 mod check;
 mod cutters;
 mod design;
@@ -9,7 +10,9 @@ mod formats;
 mod guide;
 mod init;
 mod input;
+mod made;
 mod make;
+mod names;
 mod net_args;
 mod options;
 mod output;
@@ -69,6 +72,7 @@ const EXAMPLES: &str = "\
 Examples:
   tatamu make teddy.obj                     teddy.pdf, 200 mm high or wide, on A4
   tatamu make teddy.obj --size 30cm --paper a3 -o teddy.pdf -o teddy.svg
+  tatamu make *.obj -o models/              a PDF of each mesh, in a folder
   tatamu init teddy.obj                     teddy.toml, a project file to edit
   tatamu segment teddy.obj -o parts.png     shows the parts without making a model
   tatamu make teddy.toml                    makes what the project file says

@@ -42,18 +42,10 @@ pub fn targets_among(paths: &[PathBuf], lists: &[&'static [Format]]) -> Result<V
     paths.iter().map(target).collect()
 }
 
-/// The input's name with another extension, in the working directory.
-pub fn default_name(input: &Path, extension: &str) -> PathBuf {
-    let mut name = input.file_stem().unwrap_or("model".as_ref()).to_owned();
-    name.push(".");
-    name.push(extension);
-    PathBuf::from(name)
-}
-
 /// Checks that files can be written under these names, that no name comes twice, and that none
 /// of `inputs` would be lost.
 pub fn check_places(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), CliError> {
-    let mut seen: BTreeSet<&Path> = BTreeSet::new();
+    let mut seen: BTreeSet<PathBuf> = BTreeSet::new();
     for path in paths {
         let refuse = |reason: &str| CliError::Output { path: path.clone(), reason: reason.to_owned() };
         if path.is_dir() {
@@ -62,16 +54,24 @@ pub fn check_places(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), CliError>
         if inputs.iter().any(|input| is_same_file(input, path)) {
             return Err(refuse("it is the input; choose another name"));
         }
-        if !seen.insert(path) {
-            return Err(refuse("it is asked for twice; choose another name"));
-        }
         let folder = folder(path);
         if !folder.is_dir() {
             return Err(refuse(&format!("there is no folder {}; make it first", folder.display())));
         }
+        if !seen.insert(place(path)) {
+            return Err(refuse(TWICE));
+        }
         temporary(path)?;
     }
     Ok(())
+}
+
+/// One name for each place, however the user wrote it.
+pub fn place(path: &Path) -> PathBuf {
+    match (folder(path).canonicalize(), path.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => path.to_owned(),
+    }
 }
 
 fn is_same_file(a: &Path, b: &Path) -> bool {
@@ -81,11 +81,18 @@ fn is_same_file(a: &Path, b: &Path) -> bool {
     }
 }
 
+const TWICE: &str = "it is asked for twice; choose another name";
+
 /// Writes all files to temporary files beside their places, then puts them into place. An error
 /// up to the last step leaves everything as it was.
 pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), CliError> {
     let mut ready = Vec::with_capacity(files.len());
+    let mut seen: BTreeSet<&Path> = BTreeSet::new();
     for (path, bytes) in files {
+        // The sheets of a.svg may be called as another file that the user asked for.
+        if !seen.insert(path) {
+            return Err(CliError::Output { path: path.clone(), reason: TWICE.to_owned() });
+        }
         let mut file = temporary(path)?;
         let written = file.write_all(bytes).and_then(|()| file.flush());
         written.map_err(|error| failed(path, &error))?;
@@ -122,26 +129,9 @@ fn failed(path: &Path, error: &std::io::Error) -> CliError {
     CliError::Output { path: path.to_owned(), reason: reason(error) }
 }
 
-/// A name with something between its stem and its extension: `a.svg` and `-2` give `a-2.svg`.
-pub fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
-    let mut name = path.file_stem().unwrap_or_default().to_owned();
-    name.push(suffix);
-    if let Some(extension) = path.extension() {
-        name.push(".");
-        name.push(extension);
-    }
-    path.with_file_name(name)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_suffix_stands_before_the_extension() {
-        assert_eq!(with_suffix(Path::new("x/a.b.svg"), "-2"), Path::new("x/a.b-2.svg"));
-        assert_eq!(with_suffix(Path::new("a.svg"), ""), Path::new("a.svg"));
-    }
 
     #[test]
     fn all_files_or_none() {

@@ -118,3 +118,36 @@ impl Drop for TerminalProgress {
         self.finish();
     }
 }
+
+/// A bar that counts, on the standard error output if that is a terminal.
+pub struct CountBar(ProgressBar);
+
+impl CountBar {
+    /// A bar of so many steps, none of them done.
+    pub fn new(steps: usize, is_quiet: bool) -> Self {
+        if is_quiet || !std::io::stderr().is_terminal() {
+            return Self(ProgressBar::hidden());
+        }
+        let bar = ProgressBar::new(steps as u64);
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {bar:30} {pos} of {len}") {
+            bar.set_style(style);
+        }
+        bar.enable_steady_tick(Duration::from_millis(120));
+        Self(bar)
+    }
+
+    /// One more step is done.
+    pub fn advance(&self) {
+        self.0.inc(1);
+    }
+
+    /// Prints something without the bar in its way.
+    pub fn suspend(&self, print: impl FnOnce()) {
+        self.0.suspend(print);
+    }
+
+    /// Takes the bar away.
+    pub fn finish(&self) {
+        self.0.finish_and_clear();
+    }
+}

@@ -83,7 +83,7 @@ pub fn run(args: &SegmentCommand) -> Result<(), CliError> {
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
     let model_args = ModelArgs::of_segmentation(args.up, args.segmentation.clone());
     let options = model_args.merge(input.project.as_ref())?;
-    make::repair_warnings(&input.repairs).iter().for_each(make::warn);
+    input.warnings().iter().for_each(terminal::warn);
 
     let progress = TerminalProgress::new(args.quiet);
     let (parts, _) = pipeline::find_parts(input.mesh()?, &options, &progress)

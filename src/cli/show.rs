@@ -103,6 +103,7 @@ pub fn run(args: &ShowArgs) -> Result<(), CliError> {
     let write = format_of(&path, &args.input)?;
     let input = input::read(&args.input)?;
     output::check_places(std::slice::from_ref(&path), &[&args.input, &input.mesh_path])?;
+    input.notes.iter().for_each(terminal::warn);
     let options = args.model.merge(input.project.as_ref())?;
     let scene = if args.stage == Some(Stage::Mesh) {
         mesh_scene(&input.mesh()?.scaled(options.size_mm, options.up).0).map_err(ShowError::from)?

@@ -2,7 +2,7 @@
 
 use super::cutters::CutterArgs;
 use super::error::CliError;
-use super::{output, progress, terminal};
+use super::{names, output, progress, terminal};
 use clap::Args;
 use glam::DVec2;
 use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
@@ -186,7 +186,7 @@ fn report(args: &VirtualPlotterArgs, cutter: &Cutter, plotter: &VirtualPlotter) 
         let pages = Pages::new("drawn", vec![drawing(cutter, plotter)], LineStyles::standard());
         let pages = pages.map_err(|error| CliError::Options(error.to_string()))?;
         let written = write(&pages, &FormatOptions::default())?;
-        files.extend(written.into_iter().map(|file| (output::with_suffix(path, &file.suffix), file.bytes)));
+        files.extend(written.into_iter().map(|file| (names::with_suffix(path, &file.suffix), file.bytes)));
     }
     output::write(&files)
 }

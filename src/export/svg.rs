@@ -298,9 +298,10 @@ impl<'a> Page<'a> {
     }
 }
 
-/// Without the control characters that XML forbids.
+/// Without the characters that XML forbids.
 fn xml_text(content: &str) -> String {
-    content.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+    let is_forbidden = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
+    content.chars().map(|c| if is_forbidden(c) { ' ' } else { c }).collect()
 }
 
 /// A length in user units.

@@ -1,6 +1,7 @@
 //! The program as its users meet it.
 
 mod bad_meshes;
+mod batch;
 mod check;
 #[path = "../cube/mod.rs"]
 mod cube;
@@ -15,6 +16,7 @@ mod project;
 mod refusals;
 mod segment;
 mod shell;
+mod trust;
 
 use std::path::Path;
 use tempfile::TempDir;

@@ -3,7 +3,7 @@
 use super::PlotArgs;
 use crate::cli::error::CliError;
 use crate::cli::progress::TerminalProgress;
-use crate::cli::{input, make, terminal};
+use crate::cli::{input, terminal};
 use glam::DVec2;
 use std::path::Path;
 use tatamu::drawing::Drawing;
@@ -155,11 +155,11 @@ pub fn sheets(args: &PlotArgs, machine: &PltOptions) -> Result<Vec<Sheet>, CliEr
 fn of_model(args: &PlotArgs, path: &Path, machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
     let input = input::read(path)?;
     let options = args.model.merge(input.project.as_ref())?;
-    make::repair_warnings(&input.repairs).iter().for_each(make::warn);
+    input.warnings().iter().for_each(terminal::warn);
     let progress = TerminalProgress::new(args.quiet);
     let result = input.run(&args.model, &options, &progress)?;
     progress.finish();
-    make::warn_by_kind(result.warnings());
+    terminal::warn_by_kind(result.warnings());
     let title = terminal::printable(&path.file_stem().unwrap_or_default().to_string_lossy());
     let path = input.mesh_path.to_string_lossy();
     let run = Run { path: &path, repairs: &input.repairs, stages: &[], warnings: &[] };

@@ -9,7 +9,7 @@ pub mod operator;
 use super::cutters::CutterArgs;
 use super::error::CliError;
 use super::options::ModelArgs;
-use super::{output, terminal};
+use super::{names, output, terminal};
 use clap::Args;
 use jobs::Sheet;
 use std::path::{Path, PathBuf};
@@ -156,6 +156,6 @@ fn draw(path: &Path, sheets: &[Sheet], machine: &PltOptions) -> Result<(), CliEr
     let pages = pages.map_err(|error| CliError::Options(error.to_string()))?;
     let files = write(&pages, &FormatOptions::default())?;
     let files: Vec<(PathBuf, Vec<u8>)> =
-        files.into_iter().map(|file| (output::with_suffix(path, &file.suffix), file.bytes)).collect();
+        files.into_iter().map(|file| (names::with_suffix(path, &file.suffix), file.bytes)).collect();
     output::write(&files)
 }

@@ -2,7 +2,7 @@
 
 use crate::cli::error::CliError;
 use crate::cli::formats::FileArgs;
-use crate::cli::{init, input, make};
+use crate::cli::{init, input};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -69,7 +69,7 @@ impl Opened {
     ) -> Result<T, CliError> {
         let choice = FileArgs::default().merge(Some(&project.export), &self.source)?;
         let painting = choice.is_coloured.then(|| input::read_painting(&self.mesh_path)).transpose()?;
-        let warnings = make::repair_warnings(&self.repairs);
+        let warnings = input::repair_warnings(&self.repairs);
         let mesh_path = self.mesh_path.to_string_lossy();
         let run = Run { path: &mesh_path, repairs: &self.repairs, stages: &[], warnings: &warnings };
         let title = self.title();

@@ -122,6 +122,28 @@ fn ids_name_role_piece_and_part() {
 }
 
 #[test]
+fn names_are_text_and_no_markup() {
+    let name = "<script>alert(1)</script> \"&' ]]> -- \u{7}\u{1b}[31m\u{ffff}";
+    let stroke = LineStyles::standard().stroke(Layer::Cut).clone();
+    for text_mode in [TextMode::Outlines, TextMode::Strokes, TextMode::Text] {
+        let mut drawing = Drawing::new(name, A4_MM);
+        let line = Mark::line(Layer::Cut, DVec2::ZERO, DVec2::X, &stroke);
+        let label = Mark::text(Layer::Label, Text::new(name, DVec2::ZERO, 3.0));
+        drawing.marks = vec![line.of_piece(name).of_part(name), label.of_piece(name)];
+        let pages = Pages::new(name, vec![drawing], LineStyles::standard()).expect("valid");
+        let svg = SvgOptions { text: text_mode, ..SvgOptions::default() };
+        let options = FormatOptions { svg, ..FormatOptions::default() };
+        let files = write(&pages, &options).expect("can be written");
+        let text = String::from_utf8(files[0].bytes.clone()).expect("UTF-8");
+        let xml = Xml::parse(&text).expect("valid XML");
+        assert!(xml.descendants().all(|n| !n.has_tag_name("script") && n.tag_name().name() != "script"));
+        let labels: Vec<&str> = xml.descendants().filter_map(|n| n.attribute((INKSCAPE, "label"))).collect();
+        assert!(labels.iter().any(|l| l.starts_with("<script>alert(1)</script> \"&' ]]>")), "{labels:?}");
+        assert!(!text.contains(['\u{7}', '\u{1b}', '\u{ffff}']));
+    }
+}
+
+#[test]
 fn hairlines_are_thinner_than_a_thousandth_of_an_inch() {
     let svg = SvgOptions { stroke: SvgStroke::Hairline, text: TextMode::Strokes };
     let files = write(&model(1), &FormatOptions { svg, ..FormatOptions::default() }).expect("can be written");

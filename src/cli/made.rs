@@ -1,0 +1,56 @@
+//! What `make` made of one input.
+
+use std::path::{Path, PathBuf};
+use tatamu::fold::Stack;
+use tatamu::pipeline::Output;
+use tatamu::product;
+
+/// The files of a model, not yet written, and what is told of it.
+pub struct Made {
+    /// Names and contents.
+    pub files: Vec<(PathBuf, Vec<u8>)>,
+    /// Some lines about the model.
+    pub summary: Vec<String>,
+    /// The same in one line.
+    pub line: String,
+}
+
+impl Made {
+    /// Sums up a model.
+    pub fn new(result: &Output, files: Vec<(PathBuf, Vec<u8>)>) -> Self {
+        let names: Vec<&str> = result.model().parts().iter().map(|p| p.name.as_str()).collect();
+        let pieces: usize = result.nets().iter().map(|net| net.pieces().len()).sum();
+        let layout = result.layout();
+        let (sheets, paper) = (layout.sheet_count(), layout.options().paper.name());
+        let paths: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
+        let written = paths.join(", ");
+        let line = format!(
+            "{} components, {pieces} pieces, {sheets} sheets of {paper}; written {written}",
+            names.len()
+        );
+        let summary = vec![
+            format!("size        {}", product::size_note(result)),
+            format!("components  {}: {}", names.len(), names.join(", ")),
+            format!("folds       {}", folding(result)),
+            format!("pieces      {pieces}"),
+            format!("sheets      {sheets} of {paper}, {:.0}% used", 100.0 * layout.utilisation()),
+            format!("written     {written}"),
+        ];
+        Self { files, summary, line }
+    }
+
+    /// Names of the files.
+    pub fn paths(&self) -> impl Iterator<Item = &Path> {
+        self.files.iter().map(|(path, _)| path.as_path())
+    }
+}
+
+/// The flat model, and the order of folding.
+fn folding(result: &Output) -> String {
+    let plan = result.fold_plan();
+    let parts = result.model().parts();
+    let order: Vec<&str> = plan.order().iter().map(|&p| parts[p].name.as_str()).collect();
+    let flat = |s: &Stack| format!("{:.0} × {:.0} mm, {} layers", s.size_mm.x, s.size_mm.y, s.layers);
+    let sizes: Vec<String> = plan.stacks().iter().map(flat).collect();
+    format!("to {}, in the order {}", sizes.join(" and "), order.join(", "))
+}
