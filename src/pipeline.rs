@@ -8,7 +8,7 @@ mod output;
 mod warning;
 
 pub use bodies::{Bodies, Hulls};
-pub use drawn::run_drawn;
+pub use drawn::{run_drawn, shape_drawn};
 pub use engine::Engine;
 pub use output::{Divided, Output, Shaped};
 pub use warning::Warning;

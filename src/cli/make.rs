@@ -258,6 +258,7 @@ fn summarise(result: &Output, files: &[(PathBuf, Vec<u8>)]) {
     terminal::say(&format!("size        {}", product::size_note(result)));
     terminal::say(&format!("components  {}: {}", names.len(), names.join(", ")));
     terminal::say(&format!("folds       {}", folding(result)));
+    result.remarks().iter().for_each(|remark| terminal::say(&format!("note        {remark}")));
     terminal::say(&format!("pieces      {pieces}"));
     terminal::say(&format!(
         "sheets      {} of {}, {:.0}% used",

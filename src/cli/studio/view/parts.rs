@@ -43,16 +43,19 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
         let title = studio.shown().part(index).map_or(String::new(), |part| part.name.clone());
         CollapsingHeader::new(RichText::new(title).strong()).id_salt("own").default_open(true).show(
             ui,
-            |ui| {
-                own(panel, studio, ui, index);
-                splitting(panel, studio, space, ui, index);
+            |ui| match studio.is_drawn() {
+                true => drop(ui.weak("drawn in the project file")),
+                false => {
+                    own(panel, studio, ui, index);
+                    splitting(panel, studio, space, ui, index);
+                }
             },
         );
     } else {
         panel.split = None;
         space.show_split(None);
     }
-    if studio.selection.names().len() > 1 {
+    if studio.selection.names().len() > 1 && !studio.is_drawn() {
         let names = studio.selection.names().join(" and ");
         if ui.button("Merge").on_hover_text(format!("makes one part of {names} (M)")).clicked() {
             studio.merge_selected();
@@ -79,8 +82,10 @@ fn components(studio: &mut Studio, ui: &mut Ui) {
             if ui.selectable_label(studio.selection.has(name), &part.name).clicked() {
                 clicked = Some(name.clone());
             }
-            ui.weak(format!("{:.1} mm", part.component.hausdorff_mm()))
-                .on_hover_text("how far the component is from its part's hull, at most");
+            if !studio.is_drawn() {
+                ui.weak(format!("{:.1} mm", part.component.hausdorff_mm()))
+                    .on_hover_text("how far the component is from its part's hull, at most");
+            }
         });
     }
     if let Some(name) = clicked {
