@@ -6,6 +6,9 @@ use glam::{DVec2, DVec3};
 /// Heights at which a body is cut.
 const LEVELS: usize = 96;
 
+/// Corners so near to a height are on it: joint panels come from other axes.
+const SAME_MM: f64 = 1e-6;
+
 /// What stays as it is: joint panels.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Kept {
@@ -83,10 +86,11 @@ impl Silhouette {
         for triangle in triangles {
             let top = triangle.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
             let bottom = triangle.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
-            let first = heights.partition_point(|v| *v > top);
-            for (k, &v) in heights.iter().enumerate().skip(first).take_while(|(_, v)| **v >= bottom) {
+            let first = heights.partition_point(|v| *v > top + SAME_MM);
+            for (k, &v) in heights.iter().enumerate().skip(first).take_while(|(_, v)| **v >= bottom - SAME_MM)
+            {
                 for (a, b) in (0..3).map(|i| (triangle[i], triangle[(i + 1) % 3])) {
-                    if a.z == v {
+                    if (a.z - v).abs() <= SAME_MM {
                         for (reach, normal) in reaches.iter_mut().zip(&normals) {
                             reach[k] = reach[k].max(normal.dot(a.truncate()));
                         }

@@ -23,6 +23,8 @@ pub struct PartsPanel {
 struct Split {
     axis: usize,
     share: f64,
+    /// Whether it has not been seen yet.
+    is_new: bool,
 }
 
 const AXES: [(&str, DVec3); 4] = [
@@ -192,13 +194,14 @@ fn splitting(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui:
     let Some(mut split) = panel.split else {
         space.show_split(None);
         if ui.button("Split …").on_hover_text("divides this part by a plane").clicked() {
-            panel.split = Some(Split { axis: 2, share: 0.5 });
+            panel.split = Some(Split { axis: 2, share: 0.5, is_new: true });
         }
         return;
     };
     let plane = plane(studio, index, split);
     space.show_split(plane);
-    ui.group(|ui| {
+    let is_new = std::mem::take(&mut split.is_new);
+    let group = ui.group(|ui| {
         egui::ComboBox::from_id_salt("axis").selected_text(AXES[split.axis].0).show_ui(ui, |ui| {
             for (k, (name, _)) in AXES.iter().enumerate() {
                 ui.selectable_value(&mut split.axis, k, *name);
@@ -218,6 +221,9 @@ fn splitting(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui:
             }
         });
     });
+    if is_new {
+        group.response.scroll_to_me(None);
+    }
 }
 
 /// The plane across a part's hull, in the model's axes.

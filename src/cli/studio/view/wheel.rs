@@ -10,6 +10,9 @@ use eframe::egui::{Event, MouseWheelSource, MouseWheelUnit, TouchPhase, Vec2};
 const STEP_POINTS: f32 = 40.0;
 /// After so many seconds without an event a gesture has ended.
 const PAUSE_S: f64 = 0.25;
+/// winit 0.30 tells of a click twice on X11, as the wheel's button goes down and up, where the wheel
+/// has no axis: remote desktops, old mice. Nobody clicks twice in so short a time.
+const ECHO_S: f64 = 0.02;
 
 /// The gesture that goes on.
 #[derive(Debug, Clone, Copy, Default)]
@@ -18,6 +21,8 @@ pub struct Wheel {
     turns: bool,
     /// What is left of a step.
     rest: f32,
+    /// The last whole line, unless it was an echo.
+    line: Option<(f64, Vec2)>,
 }
 
 /// What is to be done.
@@ -40,7 +45,14 @@ impl Wheel {
             let is_momentum = source == MouseWheelSource::Momentum;
             let has_paused = self.last_s.is_none_or(|last_s| now_s - last_s > PAUSE_S);
             if has_paused || (phase == TouchPhase::Start && !is_momentum) {
-                *self = Self { last_s: None, turns: is_over, rest: 0.0 };
+                *self = Self { turns: is_over, ..Self::default() };
+            }
+            if unit == MouseWheelUnit::Line && delta.length() == 1.0 {
+                let is_echo = self.line.take().is_some_and(|(s, old)| old == delta && now_s - s < ECHO_S);
+                if is_echo {
+                    continue;
+                }
+                self.line = Some((now_s, delta));
             }
             self.last_s = Some(now_s);
             // With Shift some systems turn the wheel sideways.
@@ -87,6 +99,16 @@ mod tests {
         let points = (0..4)
             .map(|k| read(&mut wheel, MouseWheelUnit::Point, 10.0, 5.0 + 0.1 * f64::from(k), true).turn);
         assert_eq!(points.collect::<Vec<_>>(), [0.0, 0.0, 0.0, 1.0]);
+    }
+
+    #[test]
+    fn a_click_that_is_told_twice_is_one() {
+        let mut wheel = Wheel::default();
+        let told = [0.0, 0.001, 0.05, 0.06]
+            .map(|now_s| read(&mut wheel, MouseWheelUnit::Line, 1.0, now_s, true).turn);
+        assert_eq!(told, [1.0, 0.0, 1.0, 0.0]);
+        assert_eq!(read(&mut wheel, MouseWheelUnit::Line, 1.0, 0.09, true).turn, 1.0);
+        assert_eq!(read(&mut wheel, MouseWheelUnit::Line, -1.0, 0.095, true).turn, -1.0, "the other way");
     }
 
     #[test]
