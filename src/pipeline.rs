@@ -9,7 +9,7 @@ mod untangle;
 mod warning;
 
 pub use bodies::{Bodies, Hulls};
-pub use drawn::run_drawn;
+pub use drawn::{run_drawn, shape_drawn};
 pub use engine::Engine;
 pub use output::{Divided, Output, Shaped};
 pub use warning::Warning;

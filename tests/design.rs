@@ -14,7 +14,7 @@ use tatamu::project::Project;
 use tatamu::report::Run;
 use tatamu::segment::SegmentOptions;
 
-const SAMPLES: [&str; 5] = ["gift-box", "lamp", "vase", "insert", "figure-5"];
+const SAMPLES: [&str; 6] = ["gift-box", "lamp", "vase", "insert", "figure-1", "figure-5"];
 
 fn text(name: &str) -> String {
     let path = format!("{}/samples/{name}.toml", env!("CARGO_MANIFEST_DIR"));
@@ -149,7 +149,12 @@ fn concave(mesh: &Mesh) -> Output {
 fn a_vase_becomes_one_concave_component() {
     let vase = made(&text("vase"), None);
     let output = concave(vase.mesh());
-    assert!(codes(&output).contains(&"concave"), "{:?}", output.warnings());
+    assert!(
+        output.remarks().iter().any(|text| text.contains("one concave component")),
+        "{:?}",
+        output.remarks()
+    );
+    assert!(codes(&output).iter().all(|code| !code.starts_with("concave")), "success is no warning");
     let component = &output.model().parts()[0].component;
     let dents = component.panels().hinges().iter().filter(|h| h.deployed_rad < -0.05).count();
     assert!(dents >= 3, "{dents} hinges are folded inwards");
@@ -167,19 +172,106 @@ fn a_box_stays_convex() {
     assert!(codes(&output).contains(&"concave_refused"), "{:?}", output.warnings());
 }
 
+/// An hourglass with a block on its side: eight faces round, and the block on the upper band.
+fn hourglass_with_a_block() -> Mesh {
+    let rings = [(40.0, 100.0), (40.0, 70.0), (15.0, 50.0), (40.0, 30.0), (40.0, 0.0)];
+    let step = std::f64::consts::TAU / 8.0;
+    let mut corners = Vec::new();
+    for (apothem, z) in rings {
+        let corner = |k: u32| {
+            let (sin, cos) = (step * (f64::from(k) - 0.5)).sin_cos();
+            DVec3::new(cos, sin, 0.0) * (apothem / (0.5 * step).cos()) + DVec3::Z * z
+        };
+        corners.extend((0..8).map(corner));
+    }
+    let mut faces: Vec<Vec<u32>> = vec![(0..8).collect(), (32..40).rev().collect()];
+    for ring in 0..4 {
+        let (up, down) = (8 * ring, 8 * ring + 8);
+        faces.extend((0..8).map(|k| vec![up + k, down + k, down + (k + 1) % 8, up + (k + 1) % 8]));
+    }
+    let first = corners.len() as u32;
+    let bit = |k: u32, of: u32, low: f64, high: f64| if k >> of & 1 == 1 { high } else { low };
+    let block = |k| DVec3::new(bit(k, 0, 40.0, 70.0), bit(k, 1, -12.0, 12.0), bit(k, 2, 74.0, 96.0));
+    corners.extend((0..8).map(block));
+    let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    faces.extend(sides.map(|side| side.map(|k: u32| first + k).to_vec()));
+    let soup = Soup::new(corners, &faces).expect("a soup");
+    Mesh::from_soup(&soup).expect("a mesh").0
+}
+
+/// A component with a joint gets its dent, and what is joined to it stays where it was, on whole
+/// panels.
+#[test]
+fn a_component_with_joints_may_have_dents() {
+    let mesh = hourglass_with_a_block();
+    let run = |is_concave: bool| {
+        let choice = ComponentOptions { is_concave, ..ComponentOptions::default() };
+        let components = [("body".to_owned(), choice)].into();
+        let segmentation = SegmentOptions { parts: Some(2), ..SegmentOptions::default() };
+        let options =
+            Options { components, segmentation, up: Up::Z, profile_vertices: 8, ..Options::default() };
+        pipeline::run(&mesh, &options, &Silent).expect("a model")
+    };
+    let (convex, concave) = (run(false), run(true));
+    assert!(concave.remarks().len() == 1, "{:?}", concave.warnings());
+    let parts = concave.model().parts();
+    let body = parts.iter().position(|part| part.name == "body").expect("a body");
+    assert!(
+        parts[body].component.panels().hinges().iter().any(|hinge| hinge.deployed_rad < -0.05),
+        "no dent"
+    );
+    let mut joints = 0;
+    for (part, before) in parts.iter().zip(convex.model().parts()) {
+        assert!(part.deployed().abs_diff_eq(before.deployed(), 1e-9), "{} has moved", part.name);
+        let (Some(joint), Some(old)) = (&part.joint, &before.joint) else { continue };
+        let plane = |output: &Output, p: usize, panel| {
+            let place = output.model().parts()[p].deployed();
+            let placed = place * output.model().parts()[p].component.panels().panel(panel).deployed;
+            (placed.matrix3.z_axis, placed.matrix3.z_axis.dot(placed.translation))
+        };
+        let ((n, c), (m, d)) =
+            (plane(&concave, joint.parent, joint.parent_panel), plane(&convex, old.parent, old.parent_panel));
+        assert!(n.distance(m) < 1e-9 && (c - d).abs() < 1e-6, "{} hangs on another plane", part.name);
+        joints += usize::from(joint.parent == body);
+    }
+    assert!(joints > 0, "nothing is joined to the body");
+}
+
 /// Every board is a piece of its own, and the file refolds.
 #[test]
 fn thick_panels_are_cut_one_by_one() {
-    let sketches = Project::parse(&text("gift-box")).and_then(|p| p.sketches()).expect("a drawing");
+    let output = boards("gift-box");
+    let mut pieces = output.nets().iter().flat_map(|net| net.pieces());
+    assert!(pieces.all(|piece| !piece.glue_areas().is_empty()), "places for tape");
+}
+
+/// The same with valleys, which have their hinges on the outer faces.
+#[test]
+fn boards_have_tape_outside_at_valleys() {
+    for name in ["lamp", "vase", "figure-5"] {
+        let output = boards(name);
+        let areas = output.nets().iter().flat_map(|net| {
+            let hinges = net.panels().hinges();
+            let areas = net.pieces().iter().flat_map(|piece| piece.glue_areas());
+            areas.map(move |area| (area.is_outside, hinges[area.hinge.0].is_valley()))
+        });
+        let areas: Vec<(bool, bool)> = areas.collect();
+        assert!(areas.contains(&(true, true)) && areas.contains(&(false, false)), "{name}");
+        assert!(areas.iter().all(|(is_outside, is_valley)| is_outside == is_valley), "{name}");
+    }
+}
+
+/// A drawn sample of boards, checked.
+fn boards(name: &str) -> Output {
+    let sketches = Project::parse(&text(name)).and_then(|p| p.sketches()).expect("a drawing");
     let options = Options { is_thick: true, thickness_mm: 1.0, ..Options::default() };
     let output = pipeline::run_drawn(&sketches, None, &options, &Silent).expect("a model");
     for net in output.nets() {
         assert!(net.pieces().iter().all(|piece| piece.panels().len() == 1 && piece.tabs().is_empty()));
-        assert!(net.pieces().iter().all(|piece| !piece.glue_areas().is_empty()), "places for tape");
     }
     let repairs = Repairs::default();
-    let run = Run { path: "gift-box", repairs: &repairs, stages: &[], warnings: &[] };
-    let product = Product::new(&output, "gift-box", run);
+    let run = Run { path: name, repairs: &repairs, stages: &[], warnings: &[] };
+    let product = Product::new(&output, name, run);
     let write = |name: &str| {
         let format = format_of(name).expect("registered");
         format.write(&product, &FormatOptions::default()).expect("files").remove(0).bytes
@@ -203,4 +295,5 @@ fn thick_panels_are_cut_one_by_one() {
         let volume_mm3 = soup.polygons().map(six).sum::<f64>() / 6.0;
         assert!((volume_mm3 - area_mm2).abs() < 1e-3 * area_mm2, "{volume_mm3} {area_mm2}");
     }
+    output
 }

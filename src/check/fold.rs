@@ -88,6 +88,8 @@ pub(super) struct Master {
     pub(super) edge_kind: Vec<String>,
     #[serde(rename = "edges_tatamu:label")]
     edge_label: Vec<Option<String>>,
+    #[serde(rename = "edges_tatamu:lift_mm", default)]
+    edge_lift_mm: Vec<f64>,
     file_frames: Vec<Frame>,
 }
 
@@ -150,6 +152,9 @@ impl Model {
         length("faces_tatamu:panel", master.panel.len(), faces)?;
         length("edges_tatamu:kind", master.edge_kind.len(), edges)?;
         length("edges_tatamu:label", master.edge_label.len(), edges)?;
+        if !master.edge_lift_mm.is_empty() {
+            length("edges_tatamu:lift_mm", master.edge_lift_mm.len(), edges)?;
+        }
         for frame in &master.file_frames {
             let of = |list: &str| format!("{list} of frame {:?}", frame.frame_title);
             length(&of("vertices_coords"), frame.vertices_coords.len(), count)?;
@@ -204,9 +209,9 @@ impl Model {
                 unpaired.push(label.to_owned());
                 continue;
             }
-            let [a, b] = [pair[0], pair[1]].map(|e| self.master.edges_vertices[e]);
             for frame in &self.frames {
-                let apart = |i: usize, k: usize| frame[a[i]].distance(frame[b[k]]);
+                let [a, b] = [pair[0], pair[1]].map(|edge| self.axis(edge, frame));
+                let apart = |i: usize, k: usize| a[i].distance(b[k]);
                 let along = apart(0, 0).max(apart(1, 1));
                 worst = worst.max(apart(0, 1).max(apart(1, 0)).min(along));
             }
@@ -214,6 +219,26 @@ impl Model {
         (worst, unpaired)
     }
 
+    /// The axis of an edge in a frame: over the edge, where the panels are boards.
+    fn axis(&self, edge: usize, frame: &[DVec3]) -> [DVec3; 2] {
+        let ends = self.master.edges_vertices[edge];
+        let lift_mm = self.master.edge_lift_mm.get(edge).copied().unwrap_or(0.0);
+        let faces = || self.master.faces_vertices.iter();
+        let own = || faces().find(|face| ends.iter().all(|end| face.contains(end)));
+        let lift = match own().filter(|_| lift_mm != 0.0) {
+            Some(face) => area_vector(face.iter().map(|&v| frame[v])).normalize_or_zero() * lift_mm,
+            None => DVec3::ZERO,
+        };
+        ends.map(|end| frame[end] + lift)
+    }
+
+    /// Thickness of the boards, if there are some: as far as valleys have their axes outside.
+    fn board_mm(&self) -> Option<f64> {
+        let most = self.master.edge_lift_mm.iter().copied().fold(0.0, f64::max);
+        (most > 0.0).then_some(most)
+    }
+
+    /// How far any corner is out of its layer, paper having one.
     fn thickness(&self, flat: &[DVec3]) -> f64 {
         let mut plane: BTreeMap<&str, (DVec3, DVec3)> = BTreeMap::new();
         let faces = || self.master.component.iter().zip(&self.master.faces_vertices);
@@ -227,7 +252,8 @@ impl Model {
             }
         }
         let height = |name: &String, v: usize| {
-            plane.get(name.as_str()).map_or(0.0, |(at, n)| n.dot(flat[v] - *at).abs())
+            let height_mm = plane.get(name.as_str()).map_or(0.0, |(at, n)| n.dot(flat[v] - *at).abs());
+            self.board_mm().map_or(height_mm, |board| (height_mm - (height_mm / board).round() * board).abs())
         };
         faces().flat_map(|(name, f)| f.iter().map(move |&v| height(name, v))).fold(0.0, f64::max)
     }

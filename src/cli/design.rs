@@ -77,7 +77,7 @@ fn list(sketch: &Sketch, p: usize, ranking: &Ranking) {
     terminal::say(&format!("{name}, profile {}: {} ways to fold", p + 1, ranking.ranked.len()));
     if !ranking.ranked.is_empty() {
         let width = sketch.profiles()[p].len().max(3);
-        terminal::say(&format!("  {:width$}  folds  moved mm  spread mm  inward mm  score", "way"));
+        terminal::say(&format!("  {:width$}  folds  moved mm  spread mm  inward mm  rise mm  score", "way"));
         ranking.ranked.iter().take(LISTED).for_each(|ranked| terminal::say(&row(ranked, width)));
     }
     let mut counts: BTreeMap<Refusal, usize> = BTreeMap::new();
@@ -90,12 +90,13 @@ fn list(sketch: &Sketch, p: usize, ranking: &Ranking) {
 fn row(ranked: &Ranked, width: usize) -> String {
     let score = ranked.score;
     format!(
-        "  {:width$}  {:5}  {:8.2}  {:9.1}  {:9.1}  {:.3}",
+        "  {:width$}  {:5}  {:8.2}  {:9.1}  {:9.1}  {:7.1}  {:.3}",
         ranked.way.to_string(),
         score.folds,
         score.moved_mm,
         score.spread_mm,
         score.inward_mm,
+        score.rise_mm,
         score.total()
     )
 }

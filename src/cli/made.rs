@@ -28,14 +28,17 @@ impl Made {
             "{} components, {pieces} pieces, {sheets} sheets of {paper}; written {written}",
             names.len()
         );
-        let summary = vec![
+        let mut summary = vec![
             format!("size        {}", product::size_note(result)),
             format!("components  {}: {}", names.len(), names.join(", ")),
             format!("folds       {}", folding(result)),
+        ];
+        summary.extend(result.remarks().iter().map(|remark| format!("note        {remark}")));
+        summary.extend([
             format!("pieces      {pieces}"),
             format!("sheets      {sheets} of {paper}, {:.0}% used", 100.0 * layout.utilisation()),
             format!("written     {written}"),
-        ];
+        ]);
         Self { files, summary, line }
     }
 

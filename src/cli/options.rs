@@ -49,8 +49,8 @@ pub struct ModelArgs {
     /// Component that may have dents, such as a bottle with --parts 1
     ///
     /// Its profiles follow the shape itself rather than its convex hull. It stays convex, with a
-    /// message, where that is no better, and where it is joined to others. May be given once for
-    /// each component. Example: --parts 1 --concave body
+    /// warning, where that is no better, and where its joints to others cannot be kept. May be given
+    /// once for each component. Example: --parts 1 --concave body
     #[arg(long, value_name = "NAME")]
     concave: Vec<String>,
 
@@ -109,7 +109,7 @@ pub struct ModelArgs {
     /// Panels of board as thick as --thickness, each cut by itself and hinged with tape
     ///
     /// The outside keeps its size: panels are shortened at their hinges, and creases are found anew
-    /// for the inner faces, so that the boards lie flat on one another. Dents are refused.
+    /// for the boards, so that they lie flat on one another. Valleys have their hinges outside.
     /// Example: --thickness 1.5mm --thick -o box.pdf -o box.stl
     #[arg(long)]
     thick: bool,
@@ -165,6 +165,9 @@ impl ModelArgs {
     pub fn merge(&self, project: Option<&Project>) -> Result<Options, CliError> {
         let mut options = Options::default();
         if let Some(project) = project {
+            if project.mesh.is_none() {
+                self.check_drawn()?;
+            }
             merge_project(project, &mut options);
         }
         let set = |slot: &mut f64, value: Option<f64>| *slot = value.unwrap_or(*slot);
@@ -215,6 +218,29 @@ impl ModelArgs {
         }
         check_margin(&options)?;
         Ok(options)
+    }
+
+    /// Refuses flags that have no meaning for components that are drawn.
+    fn check_drawn(&self) -> Result<(), CliError> {
+        let flags = [
+            ("--up", self.up.is_some()),
+            ("--direction", !self.direction.is_empty()),
+            ("--untangle", self.untangle),
+            ("--concave", !self.concave.is_empty()),
+            ("--top-edges", self.top_edges.is_some()),
+            ("--profile-vertices", self.profile_vertices.is_some()),
+            ("--tolerance", self.tolerance.is_some()),
+        ];
+        let own = flags.into_iter().filter(|flag| flag.1).map(|flag| flag.0);
+        let given: Vec<&str> = self.segmentation.given().chain(own).collect();
+        match given.is_empty() {
+            true => Ok(()),
+            false => Err(CliError::Options(format!(
+                "components that are drawn are made as they are drawn, so {} would do nothing; leave it out, or change the \
+                 drawing",
+                given.join(", ")
+            ))),
+        }
     }
 }
 

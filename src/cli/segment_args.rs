@@ -61,6 +61,18 @@ fn clusters(text: &str) -> Result<usize, String> {
 }
 
 impl SegmentArgs {
+    /// The flags that were given.
+    pub fn given(&self) -> impl Iterator<Item = &'static str> {
+        let flags = [
+            ("--parts", self.parts.is_some()),
+            ("--detail", self.detail.is_some()),
+            ("--method", self.method.is_some()),
+            ("--clusters", self.clusters.is_some()),
+            ("--smoothing", self.smoothing.is_some()),
+        ];
+        flags.into_iter().filter(|flag| flag.1).map(|flag| flag.0)
+    }
+
     /// The options, with those of a project where there is one.
     pub fn merge(&self, project: Option<&Project>) -> Result<SegmentOptions, CliError> {
         let table = project.map(|p| p.segmentation.clone()).unwrap_or_default();

@@ -5,6 +5,7 @@ use super::layer::{self, Layer, Side};
 use super::panel::{Hinge, HingeSide, Panel, PanelId, PanelKind, PanelSet};
 use super::profile::{Fold, Profile, ProfileError, balance};
 use super::solid::Solid;
+use super::spans::{Span, common, edge_of, set_span, span};
 use super::target::FoldSpot;
 use super::walls::Walls;
 use crate::geom::polygon;
@@ -100,11 +101,31 @@ fn profile(solid: &Solid, chain: usize, spot: FoldSpot) -> Result<Profile, Profi
     }
 }
 
-/// Outline and layer placement of panel i of chain j. The sides follow the corners with the
-/// neighbouring chains, which bend where the neighbours' profiles do.
+/// Outline and layer placement of panel i of chain j.
 fn side(walls: &Walls, j: usize, i: usize) -> Side {
     let profile = walls.profile(j);
-    let points = profile.points();
+    let outline = match walls.outside() {
+        None => outline(walls, j, i),
+        Some(outside) => outside.outline(j, profile.face(i)),
+    };
+    let faces_up = profile.faces_up(i);
+    let runs = profile.layer(profile.points().len() - 2);
+    let layer = match profile.layer(i) {
+        0 => Layer::Top,
+        run if run == runs => Layer::Bottom,
+        run => Layer::Between { faces_up, run },
+    };
+    let normal = walls.normal(j);
+    let slope = if faces_up { -normal } else { normal };
+    let columns = DMat2::from_cols(walls.tangent(j), slope);
+    let to_layer = DAffine2::from_mat2_translation(columns, normal * profile.flat_mm()[i + 1]);
+    Side { chain: j, outline, to_layer, layer }
+}
+
+/// Outline of panel i of chain j. The sides follow the corners with the neighbouring chains, which
+/// bend where the neighbours' profiles do.
+fn outline(walls: &Walls, j: usize, i: usize) -> Vec<DVec2> {
+    let points = walls.profile(j).points();
     let (upper, lower) = (points[i], points[i + 1]);
     let length = upper.distance(lower);
     let tangent = walls.tangent(j);
@@ -120,19 +141,7 @@ fn side(walls: &Walls, j: usize, i: usize) -> Side {
     outline.extend(between(walls.next(j)).into_iter().rev().map(|v| at(right, v)));
     outline.extend([DVec2::new(at(right, upper.y).x, length), DVec2::new(at(left, upper.y).x, length)]);
     outline.extend(between(left).into_iter().map(|v| at(left, v)));
-
-    let faces_up = profile.faces_up(i);
-    let runs = profile.layer(points.len() - 2);
-    let layer = match profile.layer(i) {
-        0 => Layer::Top,
-        run if run == runs => Layer::Bottom,
-        _ => Layer::Between { faces_up },
-    };
-    let normal = walls.normal(j);
-    let slope = if faces_up { -normal } else { normal };
-    let to_layer =
-        DAffine2::from_mat2_translation(DMat2::from_cols(tangent, slope), normal * profile.flat_mm()[i + 1]);
-    Side { chain: j, outline, to_layer, layer }
+    outline
 }
 
 /// Directions tried for a cut through an inward corner.
@@ -187,7 +196,8 @@ impl Builder<'_> {
     }
 
     fn length(&self, j: usize, i: usize) -> f64 {
-        self.walls.profile(j).points()[i].distance(self.walls.profile(j).points()[i + 1])
+        let [upper, lower] = self.walls.profile(j).face(i);
+        upper.distance(lower)
     }
 
     /// The whole edge of the section that a chain has at a height.
@@ -230,7 +240,8 @@ impl Builder<'_> {
         let lift = |v: f64| DAffine3::from_translation(DVec3::Z * v);
         let (outline, top) = self.ring(top_mm, |j| spans[j][0]);
         let kind = PanelKind::Top;
-        self.panels.push(Panel { kind, outline, deployed: lift(top_mm), flat: lift(bottom_mm) });
+        let flat = lift(bottom_mm + self.walls.profile(0).flat_heights_mm().1);
+        self.panels.push(Panel { kind, outline, deployed: lift(top_mm), flat });
         let turned = lift(bottom_mm) * DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, -1.0, -1.0)));
         let (mut outline, mut bottom) = self.ring(bottom_mm, |j| spans[j][spans[j].len() - 1]);
         outline.iter_mut().for_each(|p| p.y = -p.y);
@@ -292,20 +303,20 @@ impl Builder<'_> {
                     _ => side(self, i, self.length(j, i))?,
                 };
                 let fold = if i == 0 || i == count { None } else { profile.fold_at(i) };
-                self.push_hinge(above, below, fold);
+                self.push_hinge(above, below, fold, profile.lifts_mm()[i]);
             }
         }
         Ok(())
     }
 
-    fn push_hinge(&mut self, above: HingeSide, below: HingeSide, fold: Option<Fold>) {
+    fn push_hinge(&mut self, above: HingeSide, below: HingeSide, fold: Option<Fold>, lift_mm: f64) {
         let flat_rad = match fold {
             Some(Fold::Mountain) => std::f64::consts::PI,
             Some(Fold::Valley) => -std::f64::consts::PI,
             None => 0.0,
         };
         let (is_fold, sides) = (fold.is_some(), [above, below]);
-        let hinge = Hinge { sides, is_fold, deployed_rad: 0.0, flat_rad };
+        let hinge = Hinge { sides, is_fold, deployed_rad: 0.0, flat_rad, lift_mm };
         let placements = sides.map(|side| self.panels[side.panel.0].deployed);
         let deployed_rad = hinge.angle_rad(&self.panels[above.panel.0], placements);
         self.hinges.push(Hinge { deployed_rad, ..hinge });
@@ -313,8 +324,8 @@ impl Builder<'_> {
 
     /// Rigid motions of panel i of chain j, deployed and flat.
     fn placements(&self, j: usize, i: usize) -> (DAffine3, DAffine3) {
-        let points = self.walls.profile(j).points();
-        let (upper, lower) = (points[i], points[i + 1]);
+        let profile = self.walls.profile(j);
+        let [upper, lower] = profile.face(i);
         let (normal, tangent) = (self.walls.normal(j).extend(0.0), self.walls.tangent(j).extend(0.0));
         let up = (upper - lower).normalize();
         let slope = normal * up.x + DVec3::Z * up.y;
@@ -326,67 +337,8 @@ impl Builder<'_> {
         let (x, y) = (layer.matrix2.x_axis.extend(0.0), layer.matrix2.y_axis.extend(0.0));
         let flat = DAffine3::from_mat3_translation(
             DMat3::from_cols(x, y, x.cross(y)),
-            layer.translation.extend(self.walls.bottom_mm()),
+            layer.translation.extend(self.walls.bottom_mm() + profile.flat_heights_mm().0[i]),
         );
         (deployed, flat)
-    }
-}
-
-/// Corner `k` of the outline edge that lies at height `y` (0 is the lower hinge).
-fn edge_at(outline: &[DVec2], y: f64) -> Option<usize> {
-    let n = outline.len();
-    let on = |k: usize| outline[k % n].y == y;
-    (0..n).filter(|&k| on(k) && on(k + 1)).max_by(|&a, &b| {
-        let length = |k: usize| outline[k].distance(outline[(k + 1) % n]);
-        length(a).total_cmp(&length(b))
-    })
-}
-
-/// Corner `k` of exactly the edge `wanted` at height `y`.
-fn edge_of(outline: &[DVec2], y: f64, wanted: Span) -> Option<usize> {
-    let ends = |k: usize| (outline[k], outline[(k + 1) % outline.len()]);
-    (0..outline.len()).find(|&k| {
-        let (a, b) = ends(k);
-        a.y == y && b.y == y && (a.x.min(b.x), a.x.max(b.x)) == wanted
-    })
-}
-
-/// Least and largest x of an edge.
-type Span = (f64, f64);
-
-/// What two edges have in common. Ends that differ by rounding are the first edge's.
-fn common(a: Span, b: Span) -> Option<Span> {
-    let start = if b.0 > a.0 + BEND_MM { b.0 } else { a.0 };
-    let end = if b.1 < a.1 - BEND_MM { b.1 } else { a.1 };
-    (end - start > BEND_MM).then_some((start, end))
-}
-
-/// The outline's edge at height `y`.
-fn span(outline: &[DVec2], y: f64) -> Option<Span> {
-    let k = edge_at(outline, y)?;
-    let (a, b) = (outline[k].x, outline[(k + 1) % outline.len()].x);
-    Some((a.min(b), a.max(b)))
-}
-
-/// Makes `wanted` an edge of its own within the outline's edge at height `y`.
-fn set_span(outline: &mut Vec<DVec2>, y: f64, wanted: Span) {
-    let Some(k) = edge_at(outline, y) else { return };
-    let next = (k + 1) % outline.len();
-    let forward = outline[next].x > outline[k].x;
-    let (first, second) = if forward { wanted } else { (wanted.1, wanted.0) };
-    let (first, second) = (DVec2::new(first, y), DVec2::new(second, y));
-    let mut middle = Vec::new();
-    if outline[k].distance(first) > BEND_MM {
-        middle.push(first);
-    } else {
-        outline[k] = first;
-    }
-    if outline[next].distance(second) > BEND_MM {
-        middle.push(second);
-    } else {
-        outline[next] = second;
-    }
-    for (offset, point) in middle.into_iter().enumerate() {
-        outline.insert(k + 1 + offset, point);
     }
 }

@@ -2,6 +2,7 @@
 //! no room.
 
 use super::assemble::{self, AssembleError, Assembled};
+use super::boards::{self, Outside};
 use super::distance::{Polytope, hausdorff};
 use super::panel::{PanelId, PanelKind, PanelSet};
 use super::profile::Profile;
@@ -51,6 +52,27 @@ impl Component {
     pub fn of_profiles(normals: Vec<DVec2>, profiles: Vec<Profile>) -> Result<Self, AssembleError> {
         let walls = Walls::new(normals.clone(), profiles);
         let (chain, height_mm, width_mm) = walls.narrowest();
+        if width_mm <= LEAST_WIDTH_MM {
+            return Err(AssembleError::Pinched { chain, height_mm, width_mm });
+        }
+        let Assembled { profiles, panels, trimmed_mm2 } = assemble::panels(&walls)?;
+        Ok(Self { solid: None, normals, profiles, panels, error_mm: 0.0, trimmed_mm2 })
+    }
+
+    /// A component of boards of one thickness: profiles made with [`Profile::boards`], and those of
+    /// the faces outside, from top to bottom.
+    ///
+    /// # Errors
+    /// [`AssembleError`].
+    pub fn of_boards(
+        normals: Vec<DVec2>,
+        profiles: Vec<Profile>,
+        outside: Vec<Profile>,
+        thickness_mm: f64,
+    ) -> Result<Self, AssembleError> {
+        let outside = Outside::new(normals.clone(), outside, thickness_mm);
+        let walls = Walls::new(normals.clone(), profiles).within(outside);
+        let (chain, height_mm, width_mm) = boards::inner(&walls)?.narrowest();
         if width_mm <= LEAST_WIDTH_MM {
             return Err(AssembleError::Pinched { chain, height_mm, width_mm });
         }

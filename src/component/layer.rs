@@ -5,14 +5,14 @@
 //! when flat exactly where two chains overlap in one of these developments. Slits are free edges,
 //! so trimming a panel there never breaks foldability: overlapping chains are cut back to a ray
 //! from the corner between their edges. What lies between the two is free to lie in any order
-//! against other chains.
+//! against other chains, unless it is of boards, which have a layer each.
 
 use super::walls::Walls;
 use crate::geom::polygon;
 use glam::{DAffine2, DVec2};
 
 /// A layer of the flat stack.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Layer {
     /// The top panel's.
     Top,
@@ -20,6 +20,8 @@ pub(super) enum Layer {
     Between {
         /// Whether it shows its outside upwards.
         faces_up: bool,
+        /// Its number under the top panel's.
+        run: usize,
     },
     /// The bottom panel's.
     Bottom,
@@ -31,7 +33,7 @@ impl Layer {
         match self {
             Layer::Top => true,
             Layer::Bottom => false,
-            Layer::Between { faces_up } => faces_up,
+            Layer::Between { faces_up, .. } => faces_up,
         }
     }
 }
@@ -81,7 +83,14 @@ const RAYS: usize = 33;
 /// convex polygon. Returns the area that was cut away, mm².
 pub(super) fn trim(walls: &Walls, sides: &mut [Side]) -> f64 {
     let mut trimmed = 0.0;
-    for layer in [Layer::Top, Layer::Bottom] {
+    let mut layers = vec![Layer::Top, Layer::Bottom];
+    if walls.outside().is_some() {
+        let mut between: Vec<Layer> = sides.iter().map(|side| side.layer).collect();
+        between.sort_unstable();
+        between.dedup();
+        layers.extend(between.into_iter().filter(|layer| matches!(layer, Layer::Between { .. })));
+    }
+    for layer in layers {
         for everywhere in [false, true] {
             let clashes = overlaps(sides, layer);
             if clashes.is_empty() {
@@ -118,7 +127,7 @@ pub(super) fn overlaps(sides: &[Side], layer: Layer) -> Vec<(usize, usize)> {
 /// Cuts chains j and j + 1 back to the ray from their corner that costs the least area.
 fn trim_corner(walls: &Walls, sides: &mut [Side], layer: Layer, j: usize) -> f64 {
     let k = walls.next(j);
-    let corner = walls.corner_at(j, if layer == Layer::Top { walls.top_mm() } else { walls.bottom_mm() });
+    let corner = walls.corner_at(j, if layer == Layer::Bottom { walls.bottom_mm() } else { walls.top_mm() });
     let from = walls.normal(j).to_angle();
     let turn = (walls.normal(k).to_angle() - from).rem_euclid(std::f64::consts::TAU);
     let normal = |chain: usize, ray: usize| {

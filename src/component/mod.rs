@@ -1,6 +1,7 @@
 //! One flat-foldable component: convex ones fitted to hulls (§4.2–4.4), and drawn ones of any shape.
 
 mod assemble;
+mod boards;
 mod convert;
 mod direction;
 pub mod distance;
@@ -16,6 +17,7 @@ mod search;
 mod seated;
 mod shape;
 mod solid;
+mod spans;
 mod start;
 mod target;
 mod tolerance;

@@ -87,7 +87,8 @@ pub struct HingeSide {
     pub edge: usize,
 }
 
-/// An edge that two panels share, whole, in every pose. The edges run in opposite directions.
+/// An edge that two panels share, whole, in every pose, or their feet on the inner faces of boards
+/// that turn about an axis outside. The edges run in opposite directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hinge {
     /// The side nearer to the top panel, then the other.
@@ -100,6 +101,9 @@ pub struct Hinge {
     pub deployed_rad: f64,
     /// The same in the flat state: π or −π for a fold hinge, else 0.
     pub flat_rad: f64,
+    /// How far the axis lies over the planes of the two outlines, outwards: the edges are its feet.
+    /// 0 but for valleys of boards, whose outlines are those of inner faces, mm.
+    pub lift_mm: f64,
 }
 
 impl Hinge {

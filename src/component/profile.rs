@@ -15,8 +15,11 @@ use glam::DVec2;
 /// one down when flat, so that the top and the bottom panel lie flat with them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
+    /// Axes of the hinges.
     points: Vec<DVec2>,
     faces_up: Vec<bool>,
+    /// How far each axis lies over the inner faces of the panels that it joins: 0 but for boards.
+    lifts_mm: Vec<f64>,
 }
 
 /// A fold by 180°.
@@ -66,11 +69,25 @@ impl Profile {
         }
         match (1..points.len()).find(|&i| points[i].y >= points[i - 1].y) {
             Some(i) => Err(ProfileError::NotFalling(i)),
-            None => Ok(Self { points, faces_up }),
+            None => Ok(Self { lifts_mm: vec![0.0; points.len()], points, faces_up }),
         }
     }
 
-    /// Vertices (u, v), mm.
+    /// A profile of boards: the axis of each hinge lies over the inner faces of the two boards that
+    /// it joins, by as much as `lifts_mm` says: 0, or their thickness. The ends have 0.
+    pub fn boards(points: Vec<DVec2>, faces_up: Vec<bool>, lifts_mm: Vec<f64>) -> Result<Self, ProfileError> {
+        let is_short = |(w, lifts): (&[DVec2], &[f64])| w[0].distance(w[1]) <= (lifts[1] - lifts[0]).abs();
+        let is_open = lifts_mm.first() == Some(&0.0) && lifts_mm.last() == Some(&0.0);
+        if lifts_mm.len() != points.len() || !is_open {
+            return Err(ProfileError::TooShort);
+        }
+        if let Some(i) = points.windows(2).zip(lifts_mm.windows(2)).position(is_short) {
+            return Err(ProfileError::NotFalling(i + 1));
+        }
+        Ok(Self { lifts_mm, ..Self::folded(points, faces_up)? })
+    }
+
+    /// Axes of the hinges (u, v), mm: the vertices, where panels have no thickness.
     pub fn points(&self) -> &[DVec2] {
         &self.points
     }
@@ -100,9 +117,45 @@ impl Profile {
         (1..=i).filter(|&k| self.fold_at(k).is_some()).count()
     }
 
-    /// Lengths l_i of the segments.
+    /// Lengths l_i of the segments; of boards, between their hinges along the board.
     pub fn lengths(&self) -> impl Iterator<Item = f64> + '_ {
-        self.points.windows(2).map(|w| w[0].distance(w[1]))
+        self.points.windows(2).zip(self.lifts_mm.windows(2)).map(|(w, lifts)| {
+            let (between, rise) = (w[0].distance(w[1]), lifts[1] - lifts[0]);
+            if rise == 0.0 { between } else { (between * between - rise * rise).sqrt() }
+        })
+    }
+
+    /// How far the axis of each hinge lies over the inner faces of the panels that it joins, mm.
+    pub fn lifts_mm(&self) -> &[f64] {
+        &self.lifts_mm
+    }
+
+    /// The inner face of segment i, from its upper to its lower end.
+    pub fn face(&self, i: usize) -> [DVec2; 2] {
+        let ends = [self.points[i], self.points[i + 1]];
+        let lifts = [self.lifts_mm[i], self.lifts_mm[i + 1]];
+        if lifts == [0.0; 2] {
+            return ends;
+        }
+        // The line between the axes is turned from the board towards its outside.
+        let length = self.lengths().nth(i).unwrap_or(0.0);
+        let turn = DVec2::new(length, lifts[0] - lifts[1]).normalize_or(DVec2::X);
+        let outward = turn.rotate((ends[1] - ends[0]).normalize_or_zero()).perp();
+        [ends[0] - outward * lifts[0], ends[1] - outward * lifts[1]]
+    }
+
+    /// How high the inner face of each segment lies over the bottom panel's when flat, and how high
+    /// the top panel's: boards lie on one another.
+    pub fn flat_heights_mm(&self) -> (Vec<f64>, f64) {
+        let mut axis_mm = 0.0;
+        let mut heights = vec![0.0; self.faces_up.len()];
+        for i in (0..heights.len()).rev() {
+            // The outside is up, or down.
+            let sign = if self.faces_up[i] { 1.0 } else { -1.0 };
+            heights[i] = axis_mm - sign * self.lifts_mm[i + 1];
+            axis_mm = heights[i] + sign * self.lifts_mm[i];
+        }
+        (heights, axis_mm)
     }
 
     /// δ_i l_i of each segment: how far it leads outwards when flat.

@@ -1,6 +1,7 @@
 //! The walls of a component: chains of panels extruded from profiles along the edges of the top
 //! panel and trimmed with one another. At height v the component is { x : n_j·x <= u_j(v) }.
 
+use super::boards::Outside;
 use super::profile::Profile;
 use glam::DVec2;
 
@@ -13,13 +14,25 @@ use glam::DVec2;
 pub(super) struct Walls {
     normals: Vec<DVec2>,
     profiles: Vec<Profile>,
+    /// What boards keep within; none for paper.
+    outside: Option<Outside>,
 }
 
 impl Walls {
     /// Takes directions of the edges' outward normals and profiles that keep the guarantees.
     pub(super) fn new(normals: Vec<DVec2>, profiles: Vec<Profile>) -> Self {
         debug_assert!(normals.len() == profiles.len() && normals.len() > 2);
-        Self { normals, profiles }
+        Self { normals, profiles, outside: None }
+    }
+
+    /// The same, made of boards.
+    pub(super) fn within(self, outside: Outside) -> Self {
+        Self { outside: Some(outside), ..self }
+    }
+
+    /// What boards keep within.
+    pub(super) fn outside(&self) -> Option<&Outside> {
+        self.outside.as_ref()
     }
 
     /// Number of chains.

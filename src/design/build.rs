@@ -276,6 +276,9 @@ fn choose(sketch: &Sketch, p: usize, whole: &[bool], min_panel_mm: f64) -> Resul
         let way = way.clone();
         return match judge(&sketch.profiles()[p], &way, min_panel_mm) {
             Err(refusal) => Err(DesignError::Refused { name, profile, way, refusal }),
+            Ok(ranked) if is_held(sketch, &ranked) => {
+                Err(DesignError::Refused { name, profile, way, refusal: Refusal::Held })
+            }
             Ok(ranked) => match way.creased().filter(|&segment| whole[segment]) {
                 None => Ok(ranked),
                 Some(segment) => {
@@ -286,9 +289,22 @@ fn choose(sketch: &Sketch, p: usize, whole: &[bool], min_panel_mm: f64) -> Resul
         };
     }
     let ranking = rank(&sketch.profiles()[p], whole, min_panel_mm);
-    let reasons: BTreeSet<Refusal> = ranking.refused.iter().map(|r| r.1).collect();
+    let mut reasons: BTreeSet<Refusal> = ranking.refused.iter().map(|r| r.1).collect();
+    if ranking.ranked.iter().any(|ranked| is_held(sketch, ranked)) {
+        reasons.insert(Refusal::Held);
+    }
     let reasons = reasons.into_iter().collect();
-    ranking.ranked.into_iter().next().ok_or(DesignError::NoWay { name, profile, reasons })
+    ranking.ranked.into_iter().find(|ranked| !is_held(sketch, ranked)).ok_or(DesignError::NoWay {
+        name,
+        profile,
+        reasons,
+    })
+}
+
+/// Whether a chain has to rise while others stay: all chains share the top's height, and those of other
+/// profiles do not reach as high.
+fn is_held(sketch: &Sketch, ranked: &Ranked) -> bool {
+    ranked.score.rise_mm > 0.0 && sketch.profiles().len() > 1
 }
 
 /// Vertices that moved by less are where they were drawn.
@@ -306,6 +322,15 @@ fn note(sketch: &Sketch, p: usize, ranked: &Ranked) -> Vec<Note> {
             ranked.score.moved_mm
         );
         notes.push(("moved_vertices", message));
+    }
+    if ranked.score.rise_mm > 0.0 {
+        let message = format!(
+            "{name}: the chains of profile {profile} have to rise by {:.1} mm before they can fold; lift the top, and pull \
+             each of its {} chains by hand past this point, or choose another way",
+            ranked.score.rise_mm,
+            sketch.top().len()
+        );
+        notes.push(("rises_first", message));
     }
     if ranked.score.inward_mm > INWARD_MM {
         let message = format!(

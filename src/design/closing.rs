@@ -8,6 +8,9 @@
 //! taken as the identity; the last steps go straight back along the gradients. The constraints are
 //! the gap and, where the nearest shape breaks it, Eq. (1): the hinge that breaks it most is held
 //! to u'_i = u_i, and so on until none does.
+//!
+//! Boards are shorter at their hinges than the drawn segments; by how much more their chain then
+//! leads outwards is their *excess*, and the gap that is closed is that of the boards.
 
 use super::way::Way;
 use crate::component::Profile;
@@ -33,15 +36,15 @@ pub(super) struct Closed {
 }
 
 /// Closes a way to fold a drawn profile; nothing where it cannot be done.
-pub(super) fn close(points: &[DVec2], way: &Way) -> Option<Closed> {
+pub(super) fn close(points: &[DVec2], way: &Way, excess_mm: f64) -> Option<Closed> {
     let faces_up = way.faces_up();
     let Some(creased) = way.creased() else {
-        let moved = least_movement(points, &faces_up)?;
+        let moved = least_movement(points, &faces_up, excess_mm)?;
         let moved_mm = points.iter().zip(&moved).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
         let source = (0..faces_up.len()).collect();
         return Some(Closed { profile: Profile::folded(moved, faces_up).ok()?, source, moved_mm });
     };
-    let share = crease_share(points, way, creased);
+    let share = crease_share(points, way, creased, excess_mm);
     if !(share > 0.0 && share < 1.0) {
         return None;
     }
@@ -53,12 +56,12 @@ pub(super) fn close(points: &[DVec2], way: &Way) -> Option<Closed> {
 
 /// Where the crease divides its segment, from 0, its upper end, to 1; outside of that range where
 /// the other segments leave too much for it.
-fn crease_share(points: &[DVec2], way: &Way, creased: usize) -> f64 {
+fn crease_share(points: &[DVec2], way: &Way, creased: usize, excess_mm: f64) -> f64 {
     let length = |i: usize| points[i].distance(points[i + 1]);
     let others = (0..points.len() - 1).filter(|&i| i != creased);
     let advance: f64 =
         others.map(|i| if way.segments()[i].begins_up() { length(i) } else { -length(i) }).sum();
-    let wanted = points[points.len() - 1].x - points[0].x - advance;
+    let wanted = points[points.len() - 1].x - points[0].x - advance - excess_mm;
     let sign = if way.segments()[creased].begins_up() { 1.0 } else { -1.0 };
     0.5 * (1.0 + sign * wanted / length(creased))
 }
@@ -67,6 +70,7 @@ fn crease_share(points: &[DVec2], way: &Way, creased: usize) -> f64 {
 struct Flat<'a> {
     points: &'a [DVec2],
     faces_up: &'a [bool],
+    excess_mm: f64,
 }
 
 impl Flat<'_> {
@@ -81,7 +85,8 @@ impl Flat<'_> {
 
     /// u'_k − u_k: Eq. (1) for an inner vertex; for the last one −ε of Eq. (2).
     fn beyond(&self, k: usize) -> f64 {
-        self.points[0].x + (0..k).map(|i| self.advance(i)).sum::<f64>() - self.points[k].x
+        let excess_mm = if k == self.last() { self.excess_mm } else { 0.0 };
+        self.points[0].x + (0..k).map(|i| self.advance(i)).sum::<f64>() - self.points[k].x + excess_mm
     }
 
     /// The gradient of [`Flat::beyond`] in all inner vertices; 0 for the ends, which stay.
@@ -114,11 +119,11 @@ fn dot(a: &[DVec2], b: &[DVec2]) -> f64 {
 }
 
 /// The nearest points, in the sum of squares, with gap 0 and no vertex inside of where it stands.
-fn least_movement(drawn: &[DVec2], faces_up: &[bool]) -> Option<Vec<DVec2>> {
+fn least_movement(drawn: &[DVec2], faces_up: &[bool], excess_mm: f64) -> Option<Vec<DVec2>> {
     let mut held = vec![drawn.len() - 1];
     loop {
-        let points = nearest(drawn, faces_up, &held)?;
-        match (Flat { points: &points, faces_up }).innermost() {
+        let points = nearest(drawn, faces_up, excess_mm, &held)?;
+        match (Flat { points: &points, faces_up, excess_mm }).innermost() {
             None => return Some(points),
             Some(k) if held.contains(&k) => return None,
             Some(k) => held.push(k),
@@ -127,11 +132,11 @@ fn least_movement(drawn: &[DVec2], faces_up: &[bool]) -> Option<Vec<DVec2>> {
 }
 
 /// The nearest points at which u' = u for the vertices `held`.
-fn nearest(drawn: &[DVec2], faces_up: &[bool], held: &[usize]) -> Option<Vec<DVec2>> {
+fn nearest(drawn: &[DVec2], faces_up: &[bool], excess_mm: f64, held: &[usize]) -> Option<Vec<DVec2>> {
     let length: f64 = drawn.windows(2).map(|w| w[0].distance(w[1])).sum();
     let mut points = drawn.to_vec();
     for step in 0..MOST_STEPS + LAST_STEPS {
-        let flat = Flat { points: &points, faces_up };
+        let flat = Flat { points: &points, faces_up, excess_mm };
         let values: Vec<f64> = held.iter().map(|&k| flat.beyond(k)).collect();
         let is_met = values.iter().all(|c| c.abs() <= EXACT * length);
         if is_met && (step == 0 || step >= MOST_STEPS) {
@@ -149,7 +154,7 @@ fn nearest(drawn: &[DVec2], faces_up: &[bool], held: &[usize]) -> Option<Vec<DVe
             points.iter_mut().zip(slope).for_each(|(p, s)| *p += *s * factor);
         }
     }
-    let flat = Flat { points: &points, faces_up };
+    let flat = Flat { points: &points, faces_up, excess_mm };
     held.iter().all(|&k| flat.beyond(k).abs() <= 1e-12 * length).then_some(points)
 }
 
@@ -185,7 +190,7 @@ mod tests {
 
     #[test]
     fn a_straight_wall_is_creased_in_its_middle() {
-        let closed = close(&points(&[(0.0, 60.0), (0.0, 0.0)]), &"^".parse().unwrap()).unwrap();
+        let closed = close(&points(&[(0.0, 60.0), (0.0, 0.0)]), &"^".parse().unwrap(), 0.0).unwrap();
         assert_eq!(closed.profile.points()[1], DVec2::new(0.0, 30.0));
         assert_eq!(closed.source, [0, 0]);
     }
@@ -202,7 +207,7 @@ mod tests {
             (28.0, 10.0),
             (18.0, 0.0),
         ]);
-        let closed = close(&drawn, &"ududud".parse().unwrap()).unwrap();
+        let closed = close(&drawn, &"ududud".parse().unwrap(), 0.0).unwrap();
         assert!(closed.moved_mm > 0.01 && closed.moved_mm < 0.5, "{}", closed.moved_mm);
         let flat = closed.profile.flat_mm();
         for (flat, p) in flat.iter().zip(closed.profile.points()) {
@@ -215,7 +220,7 @@ mod tests {
     fn a_vertex_moves_onto_its_hyperbola_the_shortest_way() {
         // One inner vertex; any other point of its hyperbola is farther from where it was drawn.
         let drawn = points(&[(0.0, 50.0), (25.0, 20.0), (5.0, 0.0)]);
-        let closed = close(&drawn, &"ud".parse().unwrap()).unwrap();
+        let closed = close(&drawn, &"ud".parse().unwrap(), 0.0).unwrap();
         let found = closed.profile.points()[1];
         assert!(closed.profile.gap_mm().abs() < 1e-10);
         assert!((found.distance(drawn[1]) - closed.moved_mm).abs() < 1e-12);

@@ -8,6 +8,8 @@
 
 mod build;
 mod closing;
+mod hinged;
+mod overlap;
 mod ranking;
 mod refit;
 mod search;

@@ -22,12 +22,14 @@ pub struct Weights {
     pub turn: f64,
     /// How far a vertex comes inwards while the top comes down: it has to be pulled by hand.
     pub inward: f64,
+    /// How far the top has to rise before it comes down.
+    pub rise: f64,
 }
 
 /// The weights of the score. They prefer a shape as it was drawn over all else; a zigzag folds as a
 /// bellows (many folds, small turns), a straight wall in the middle.
 pub const WEIGHTS: Weights =
-    Weights { fold: 0.03, crease: 0.02, moved: 10.0, spread: 0.3, turn: 0.3, inward: 1.0 };
+    Weights { fold: 0.03, crease: 0.02, moved: 10.0, spread: 0.3, turn: 0.3, inward: 1.0, rise: 10.0 };
 
 /// What speaks against a way to fold.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,6 +48,8 @@ pub struct Score {
     pub turn_rad: f64,
     /// How far a vertex comes inwards of where it stands, mm.
     pub inward_mm: f64,
+    /// How far the top has to rise before it comes down, mm.
+    pub rise_mm: f64,
 }
 
 impl Score {
@@ -58,6 +62,7 @@ impl Score {
             + WEIGHTS.spread * share(self.spread_mm)
             + WEIGHTS.turn * self.turn_rad
             + WEIGHTS.inward * share(self.inward_mm)
+            + WEIGHTS.rise * share(self.rise_mm)
     }
 }
 
@@ -86,9 +91,14 @@ pub enum Refusal {
     /// A panel would be too low.
     #[error("a panel would be too low to fold")]
     Low,
-    /// The top would have to rise first.
-    #[error("the top would have to rise before it comes down")]
+    /// The top would have to rise on its way.
+    #[error("the top would have to rise on its way down")]
     Rise,
+    /// The top would have to rise first, and other chains hold it.
+    #[error(
+        "the top would have to rise before it comes down, which chains with other profiles do not let it"
+    )]
+    Held,
     /// It names another number of segments than the profile has.
     #[error("it has another number of letters than the profile has segments")]
     Count,
@@ -126,10 +136,43 @@ pub fn rank(points: &[DVec2], whole: &[bool], min_panel_mm: f64) -> Ranking {
 /// # Errors
 /// [`Refusal`].
 pub(super) fn judge(points: &[DVec2], way: &Way, min_panel_mm: f64) -> Result<Ranked, Refusal> {
+    moving(measured(points, way, min_panel_mm)?)
+}
+
+/// The best way to fold that some condition holds for and that lets the top come straight down: the
+/// first such of [`rank`], sooner.
+pub(super) fn best(
+    points: &[DVec2],
+    whole: &[bool],
+    min_panel_mm: f64,
+    is_wanted: impl Fn(&Ranked) -> bool,
+) -> Option<Ranked> {
+    let ways = promising(points, Limits { whole, min_panel_mm });
+    let measured = ways.iter().filter_map(|way| measured(points, way, min_panel_mm).ok());
+    let mut wanted: Vec<Ranked> = measured.filter(is_wanted).collect();
+    let order =
+        |a: &Ranked, b: &Ranked| a.score.total().total_cmp(&b.score.total()).then_with(|| a.way.cmp(&b.way));
+    wanted.sort_by(order);
+    let mut best: Option<Ranked> = None;
+    for ranked in wanted {
+        // What its motion adds is not less than 0.
+        if best.as_ref().is_some_and(|best| order(best, &ranked).is_lt()) {
+            break;
+        }
+        let Some(ranked) = moving(ranked).ok().filter(|ranked| ranked.score.rise_mm == 0.0) else { continue };
+        if best.as_ref().is_none_or(|best| order(&ranked, best).is_lt()) {
+            best = Some(ranked);
+        }
+    }
+    best
+}
+
+/// Closes one way and measures what can be told without its motion.
+fn measured(points: &[DVec2], way: &Way, min_panel_mm: f64) -> Result<Ranked, Refusal> {
     if way.segments().len() + 1 != points.len() {
         return Err(Refusal::Count);
     }
-    let closed = close(points, way).ok_or(Refusal::Gap)?;
+    let closed = close(points, way, 0.0).ok_or(Refusal::Gap)?;
     let length_mm: f64 = closed.profile.lengths().sum();
     if closed.moved_mm > MOST_MOVED * length_mm {
         return Err(Refusal::Gap);
@@ -146,10 +189,6 @@ pub(super) fn judge(points: &[DVec2], way: &Way, min_panel_mm: f64) -> Result<Ra
     if flat.iter().zip(profile.points()).any(|(flat, p)| *flat < p.x - ROUNDING_MM) {
         return Err(Refusal::Inward);
     }
-    let course = ChainMotion::new(&profile).course();
-    if !course.comes_straight_down {
-        return Err(Refusal::Rise);
-    }
     let widest = |list: &mut dyn Iterator<Item = f64>| list.fold(f64::NEG_INFINITY, f64::max);
     let stands_mm = widest(&mut profile.points().iter().map(|p| p.x));
     let turned = |(i, w): (usize, &[DVec2])| {
@@ -164,7 +203,18 @@ pub(super) fn judge(points: &[DVec2], way: &Way, min_panel_mm: f64) -> Result<Ra
         moved_mm: closed.moved_mm,
         spread_mm: (widest(&mut flat.iter().copied()) - stands_mm).max(0.0),
         turn_rad: profile.points().windows(2).enumerate().map(turned).sum::<f64>() / length_mm,
-        inward_mm: course.inward_mm,
+        inward_mm: 0.0,
+        rise_mm: 0.0,
     };
     Ok(Ranked { way: way.clone(), score, profile, source: closed.source })
+}
+
+/// Adds what a chain does on its way.
+fn moving(mut ranked: Ranked) -> Result<Ranked, Refusal> {
+    let course = ChainMotion::new(&ranked.profile).course();
+    if !course.comes_straight_down {
+        return Err(Refusal::Rise);
+    }
+    (ranked.score.inward_mm, ranked.score.rise_mm) = (course.inward_mm, course.rise_mm);
+    Ok(ranked)
 }

@@ -2,12 +2,13 @@
 //!
 //! The paper's components are convex (§3.3); its future work (§6) is to loosen that. Here profiles
 //! are silhouettes of the body itself rather than of its hull, and fold flat as drawn ones do. The
-//! fold axis is one of the body's principal axes, edges of the top panel are spread evenly round it.
+//! fold axis is one of the body's principal axes, edges of the top panel are spread evenly round it;
+//! where others are joined to it, it keeps the convex one's axes and chains, and its joint panels.
 
-use super::ranking::rank;
-use super::silhouette::Silhouette;
+use super::ranking::{Ranked, best};
+use super::silhouette::{Drawn, Kept, Silhouette};
 use super::surface_distance::{farthest, samples};
-use crate::component::{Component, Profile};
+use crate::component::{Component, PanelId, PanelKind, Profile};
 use crate::geom::eigen;
 use crate::geom::nearest::Tree;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
@@ -33,6 +34,8 @@ pub struct Concave {
     pub component: Component,
     /// From its axes to the body's.
     pub frame: DAffine3,
+    /// The panels that the joint panels of the convex one have become, in their order.
+    pub joints: Vec<PanelId>,
 }
 
 /// Why there is no concave component.
@@ -41,6 +44,11 @@ pub enum RefitError {
     /// No axis gives one.
     #[error("no profile that follows its shape folds flat with panels wide enough")]
     None,
+    /// The same, with joints.
+    #[error(
+        "no profile that keeps its joint panels whole and in their places folds flat with panels wide enough"
+    )]
+    Joints,
     /// The convex one is no worse.
     #[error(
         "a concave component comes within {concave_mm:.1} mm of it, the convex one within {convex_mm:.1} mm"
@@ -59,32 +67,54 @@ const SHRINKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// compared, and at the end.
 const COARSE: f64 = 1.0 / 25.0;
 const FINE: f64 = 1.0 / 100.0;
-/// So many vertices of the body are enough to compare candidates.
+/// So many points of the body are enough to compare candidates.
 const CLOUD: usize = 3000;
 
-/// The best concave component for a body, and the convex one's distance to the same surface.
+/// Where a concave component may stand: its axes, the edges of its top, what it has to keep.
+struct Stand {
+    frame: DAffine3,
+    normals: Vec<DVec2>,
+    kept: Kept,
+}
+
+/// The best concave component for a body, and the convex one's distance to the same surface. The
+/// panels `joints` of the convex one stay whole, and where they are.
 ///
 /// # Errors
 /// [`RefitError`] where it would be no better than `convex`, which stands in the body's axes at
 /// `convex_frame`.
-pub fn refit(body: &Body, convex: &Component, convex_frame: &DAffine3) -> Result<(Concave, f64), RefitError> {
-    let measure = Measure::new(&body.triangles);
-    let turned: Vec<(DAffine3, f64)> =
-        frames(&body.triangles).into_iter().flat_map(|frame| [(frame, 0.0), (frame, 0.5)]).collect();
-    let made: Vec<Vec<(f64, Concave)>> = turned
+pub fn refit(
+    body: &Body,
+    convex: &Component,
+    convex_frame: &DAffine3,
+    joints: &[PanelId],
+) -> Result<(Concave, f64), RefitError> {
+    // Where something is joined, the body has no surface of its own.
+    let lids = joints.iter().flat_map(|&joint| lid(convex, joint, convex_frame));
+    let triangles: Vec<[DVec3; 3]> = body.triangles.iter().copied().chain(lids).collect();
+    let measure = Measure::new(&triangles);
+    let stands = match joints.is_empty() {
+        true => free_stands(&triangles, body.top_edges),
+        false => vec![joined_stand(convex, convex_frame, joints)],
+    };
+    let drawn: Vec<(usize, Vec<Drawn>)> = stands
         .par_iter()
-        .map(|(frame, phase)| {
-            let made = components(body, frame, *phase).into_iter();
-            let measured = |component: Component| {
-                let error_mm = measure.coarse(&surface(&component, frame));
-                (error_mm, Concave { component, frame: *frame })
-            };
-            made.map(measured).collect()
+        .enumerate()
+        .flat_map_iter(|(s, stand)| {
+            drawings(body, stand, &triangles).into_iter().map(move |drawn| (s, drawn))
         })
         .collect();
-    let made = made.into_iter().flatten();
-    let best = made.reduce(|best, next| if next.0 < best.0 { next } else { best });
-    let concave = best.ok_or(RefitError::None)?.1;
+    let measured = |(s, drawn): &(usize, Vec<Drawn>)| {
+        let stand = &stands[*s];
+        let component = folded(body, &stand.normals, drawn)?;
+        let joints = joints.iter().map(|&joint| kept(convex, joint, &component)).collect::<Option<_>>()?;
+        let error_mm = measure.coarse(&surface(&component, &stand.frame));
+        Some((error_mm, Concave { component, frame: stand.frame, joints }))
+    };
+    let made: Vec<(f64, Concave)> = drawn.par_iter().filter_map(measured).collect();
+    let best = made.into_iter().reduce(|best, next| if next.0 < best.0 { next } else { best });
+    let none = if joints.is_empty() { RefitError::None } else { RefitError::Joints };
+    let concave = best.ok_or(none)?.1;
     let concave_mm = measure.fine(&surface(&concave.component, &concave.frame));
     let convex_mm = measure.fine(&surface(convex, convex_frame));
     if concave_mm >= convex_mm {
@@ -92,6 +122,60 @@ pub fn refit(body: &Body, convex: &Component, convex_frame: &DAffine3) -> Result
     }
     let component = concave.component.with_hausdorff_mm(concave_mm);
     Ok((Concave { component, ..concave }, convex_mm))
+}
+
+/// A panel as triangles in the body's axes.
+fn lid(component: &Component, panel: PanelId, frame: &DAffine3) -> Vec<[DVec3; 3]> {
+    let outline = component.panels().panel(panel).deployed_outline();
+    let corners: Vec<DVec3> = outline.iter().map(|p| frame.transform_point3(*p)).collect();
+    (1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]]).collect()
+}
+
+/// On every axis of the body, with the edges of the top panel in two places round it.
+fn free_stands(triangles: &[[DVec3; 3]], edges: usize) -> Vec<Stand> {
+    let step = std::f64::consts::TAU / edges as f64;
+    let turned = frames(triangles).into_iter().flat_map(|frame| [(frame, 0.0), (frame, 0.5)]);
+    let stand = |(frame, phase): (DAffine3, f64)| {
+        let normals = (0..edges).map(|k| DVec2::from_angle(step * (k as f64 + phase))).collect();
+        Stand { frame, normals, kept: Kept::default() }
+    };
+    turned.map(stand).collect()
+}
+
+/// In the convex one's place, with its chains.
+fn joined_stand(convex: &Component, frame: &DAffine3, joints: &[PanelId]) -> Stand {
+    let mut kept = Kept::default();
+    for joint in joints {
+        match convex.panels().panel(*joint).kind {
+            PanelKind::Top => kept.top_mm = Some(convex.top_mm()),
+            PanelKind::Bottom => kept.bottom_mm = Some(convex.bottom_mm()),
+            PanelKind::Side { chain, index } => {
+                let points = convex.profiles()[chain].points();
+                let side = (chain, [points[index], points[index + 1]]);
+                if !kept.sides.contains(&side) {
+                    kept.sides.push(side);
+                }
+            }
+        }
+    }
+    let normals = (0..convex.profiles().len()).map(|j| convex.normal(j)).collect();
+    Stand { frame: *frame, normals, kept }
+}
+
+/// The panel that a joint panel has become.
+fn kept(convex: &Component, joint: PanelId, component: &Component) -> Option<PanelId> {
+    let kind = match convex.panels().panel(joint).kind {
+        PanelKind::Side { chain, index } => {
+            let wanted = &convex.profiles()[chain].points()[index..index + 2];
+            let found = component.profiles()[chain].points();
+            let index = found.windows(2).position(|w| {
+                w[0].distance(wanted[0]) < ROUNDING_MM && w[1].distance(wanted[1]) < ROUNDING_MM
+            })?;
+            PanelKind::Side { chain, index }
+        }
+        end => end,
+    };
+    component.panels().panels().iter().position(|panel| panel.kind == kind).map(PanelId)
 }
 
 /// Axes of the body, each with the fold axis as z.
@@ -108,46 +192,43 @@ fn frames(triangles: &[[DVec3; 3]]) -> [DAffine3; 3] {
     })
 }
 
-/// Components with this fold axis and their top panel turned by a share of an edge.
-fn components(body: &Body, frame: &DAffine3, phase: f64) -> Vec<Component> {
-    let edges = body.top_edges;
-    let step = std::f64::consts::TAU / edges as f64;
-    let normals: Vec<DVec2> = (0..edges).map(|k| DVec2::from_angle(step * (k as f64 + phase))).collect();
-    let to_own = frame.inverse();
-    let local: Vec<[DVec3; 3]> =
-        body.triangles.iter().map(|t| t.map(|p| to_own.transform_point3(p))).collect();
-    let silhouette = Silhouette::new(&local, normals.clone());
+/// Profiles of components with this stand.
+fn drawings(body: &Body, stand: &Stand, triangles: &[[DVec3; 3]]) -> Vec<Vec<Drawn>> {
+    let to_own = stand.frame.inverse();
+    let local: Vec<[DVec3; 3]> = triangles.iter().map(|t| t.map(|p| to_own.transform_point3(p))).collect();
+    let silhouette = Silhouette::new(&local, stand.normals.clone(), stand.kept.clone());
+    let step = std::f64::consts::TAU / stand.normals.len() as f64;
     let made = (3..=body.profile_vertices).flat_map(|count| SHRINKS.map(|shrink| (count, shrink)));
-    made.filter_map(|(count, shrink)| {
+    let drawn = made.filter_map(|(count, shrink)| {
         let scale = 1.0 - shrink * (1.0 - (0.5 * step).cos());
-        let drawn = silhouette.profiles(count, scale, body.min_panel_mm / scale)?;
-        let profiles = drawn.iter().map(|points| folded(body, points)).collect::<Option<Vec<_>>>()?;
-        let component = Component::of_profiles(normals.clone(), profiles).ok()?;
-        (component.narrowest_panel().1 >= body.min_panel_mm - ROUNDING_MM).then_some(component)
-    })
-    .collect()
+        silhouette.profiles(count, scale, body.min_panel_mm / scale)
+    });
+    drawn.collect()
+}
+
+/// A component with these profiles, each in the best way to fold.
+fn folded(body: &Body, normals: &[DVec2], drawn: &[Drawn]) -> Option<Component> {
+    let fold = |Drawn { points, whole }: &Drawn| {
+        let is_wanted = |ranked: &Ranked| {
+            let found = ranked.profile.points();
+            let stays = |k: usize| found.iter().any(|p| p.distance(points[k]) < ROUNDING_MM);
+            found.len() <= body.profile_vertices
+                && (0..whole.len()).all(|k| !whole[k] || (stays(k) && stays(k + 1)))
+        };
+        best(points, whole, body.min_panel_mm, is_wanted).map(|ranked| ranked.profile)
+    };
+    let profiles = drawn.iter().map(fold).collect::<Option<Vec<Profile>>>()?;
+    let component = Component::of_profiles(normals.to_vec(), profiles).ok()?;
+    (component.narrowest_panel().1 >= body.min_panel_mm - ROUNDING_MM).then_some(component)
 }
 
 /// Panels narrower by less are wide enough.
 const ROUNDING_MM: f64 = 1e-6;
 
-/// The best way to fold a profile that has no more vertices than allowed.
-fn folded(body: &Body, points: &[DVec2]) -> Option<Profile> {
-    let whole = vec![false; points.len() - 1];
-    let ranked = rank(points, &whole, body.min_panel_mm).ranked.into_iter();
-    let mut profiles = ranked.map(|ranked| ranked.profile);
-    profiles.find(|profile| profile.points().len() <= body.profile_vertices)
-}
-
 /// The deployed panels as triangles in the body's axes.
 fn surface(component: &Component, frame: &DAffine3) -> Vec<[DVec3; 3]> {
-    let outlines = component.panels().panels().iter().map(|panel| panel.deployed_outline());
-    outlines
-        .flat_map(|outline| {
-            let corners: Vec<DVec3> = outline.iter().map(|p| frame.transform_point3(*p)).collect();
-            (1..corners.len() - 1).map(move |k| [corners[0], corners[k], corners[k + 1]]).collect::<Vec<_>>()
-        })
-        .collect()
+    let panels = (0..component.panels().panels().len()).map(PanelId);
+    panels.flat_map(|panel| lid(component, panel, frame)).collect()
 }
 
 /// Hausdorff distances to one surface, both ways.
@@ -169,13 +250,9 @@ impl Measure {
         Self { surface: Tree::new(triangles.to_vec()), points, cloud, size_mm }
     }
 
-    /// Quick, and the same for all candidates: distances to points stand for those to the surface.
+    /// Quick: coarser samples than at the end.
     fn coarse(&self, surface: &[[DVec3; 3]]) -> f64 {
-        let own = samples(surface, COARSE * self.size_mm);
-        let to_cloud = |p: &DVec3| {
-            self.cloud.iter().map(|q| p.distance_squared(*q)).fold(f64::INFINITY, f64::min).sqrt()
-        };
-        let there = own.iter().map(to_cloud).fold(0.0, f64::max);
+        let there = farthest(&samples(surface, COARSE * self.size_mm), &self.surface);
         there.max(farthest(&self.cloud, &Tree::new(surface.to_vec())))
     }
 

@@ -71,7 +71,7 @@ fn a_zigzag_of_four_vertices_has_these_ways() {
     for way in ["^ud", "ud^", "uvd"] {
         let way: Way = way.parse().unwrap();
         assert_eq!(way.folds(), 3, "{way}");
-        let closed = closing::close(&list, &way).unwrap();
+        let closed = closing::close(&list, &way, 0.0).unwrap();
         let short = closed.profile.lengths().fold(f64::INFINITY, f64::min);
         assert!((short - 0.5 * (200f64.sqrt() - 10.0)).abs() < 1e-12, "{way}: {short}");
     }
@@ -91,11 +91,35 @@ fn a_bellows_folds_at_every_bend() {
     assert_eq!((0..8).map(|i| profile.layer(i)).collect::<Vec<_>>(), [0, 1, 2, 3, 4, 5, 6, 7]);
 }
 
-/// An hourglass must snap through: its top would rise.
+/// An hourglass must snap through: its two links of √500 stand upright on one another on the way.
 #[test]
-fn an_hourglass_is_not_folded_at_its_waist_alone() {
-    let found = judge(&points(&[(0.0, 40.0), (-10.0, 20.0), (0.0, 0.0)]), &"ud".parse().unwrap(), MIN_MM);
-    assert_eq!(found.unwrap_err(), Refusal::Rise);
+fn an_hourglass_rises_before_it_folds_at_its_waist() {
+    let waist = points(&[(0.0, 40.0), (-10.0, 20.0), (0.0, 0.0)]);
+    let way: Way = "ud".parse().unwrap();
+    let found = judge(&waist, &way, MIN_MM).unwrap();
+    let rise_mm = 2.0 * 500f64.sqrt() - 40.0;
+    assert!((found.score.rise_mm - rise_mm).abs() < 1e-9, "{}", found.score.rise_mm);
+    let sketch = regular(4, 40.0, vec![waist.clone()]).unwrap().with_ways(vec![way.clone()]).unwrap();
+    let made = design(&[sketch], MIN_MM, &Silent).unwrap();
+    assert!(made.notes.iter().any(|(code, text)| *code == "rises_first" && text.contains("4.7 mm")));
+    let component = &made.model.parts()[0].component;
+    let motion = ComponentMotion::new(component);
+    let poses: Vec<_> = (0..=400).map(|k| motion.pose(f64::from(k) / 400.0)).collect();
+    assert!((poses[0].height_mm - 40.0).abs() < 1e-9 && poses[400].height_mm == 0.0);
+    let highest = poses.iter().map(|p| p.height_mm).fold(0.0, f64::max);
+    assert!(highest <= 40.0 + rise_mm + 1e-9 && highest > 40.0 + 0.99 * rise_mm, "{highest}");
+    for pair in poses.windows(2) {
+        assert!(tear_mm(component, &pair[1].placements) < 1e-8);
+        assert!((pair[1].height_mm - pair[0].height_mm).abs() < 0.5, "a jump");
+        let panels = pair[0].placements.iter().zip(&pair[1].placements);
+        assert!(panels.into_iter().all(|(a, b)| a.translation.distance(b.translation) < 3.0), "a jump");
+    }
+    // A straight wall beside it holds the top.
+    let wall = points(&[(0.0, 40.0), (0.0, 0.0)]);
+    let ways = vec![way, "^".parse().unwrap()];
+    let mixed = regular(4, 40.0, vec![waist, wall]).unwrap().with_ways(ways).unwrap();
+    let refused = design(&[mixed], MIN_MM, &Silent).unwrap_err();
+    assert!(matches!(refused, DesignError::Refused { refusal: Refusal::Held, .. }), "{refused}");
 }
 
 /// The most that is asked for must not take long, with hardly a branch to prune.

@@ -1,27 +1,27 @@
 //! Panels of greyboard or foam board, which have a thickness.
 //!
-//! The outside stays where it is: panels are boards whose outer faces lie on the faces of the model.
-//! All hinges of a convex component are mountains, so their axes go to the valley side, the inner
-//! edges, where two boards meet when they come to lie on one another. Inner edges are the corners
-//! of the shape that is offset inwards by the thickness: a panel is shorter by t·tan(θ/2) at a hinge
-//! that is folded by θ. That inner shape, not the outer one, is the linkage that has to fold flat;
-//! its creases are found anew, so that all hinges lie in one plane when flat and the stack is
-//! 2t high. Boards are cut square; outside of a hinge a wedge stays open.
+//! The outside stays where it is: panels are boards whose outer faces lie on the faces of the model,
+//! and [`super::hinged`] finds the hinges of each chain. All chains must come to lie in equally many
+//! layers, since the top panel lies on all of them; the flat stack is as high as its layers and the
+//! ends, the top and the bottom panel lying in the first and the last. Boards are cut square; beside
+//! a hinge a wedge stays open.
 
-use super::ranking::rank;
-use crate::component::{AssembleError, Component, PanelId, PanelKind, Profile};
+use super::Note;
+use super::hinged::{Chain, Hinged, Unhinged};
+use super::overlap::Solid;
+use crate::component::{AssembleError, Component, Panel, PanelId, PanelKind, Profile};
 use crate::model::Model;
-use glam::{DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 
 /// Why a model cannot be made of thick panels.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ThickError {
-    /// A dent.
+    /// A fold against the bend.
     #[error(
-        "\"{name}\" has a valley in chain {}: thick panels need a convex component; leave out --thick, or draw it without \
-         the dent", chain + 1
+        "\"{name}\" folds flat against a bend in chain {}: boards that are cut square cannot stand bent one way and fold \
+         the other way; choose another way to fold (--list-configurations), or leave out --thick", chain + 1
     )]
-    Valley {
+    Against {
         /// The component.
         name: String,
         /// The chain.
@@ -40,6 +40,32 @@ pub enum ThickError {
         /// The thickness.
         thickness_mm: f64,
     },
+    /// Chains of different heights.
+    #[error(
+        "\"{name}\" has chains that fold into different numbers of layers, so that a top of boards would not lie flat on \
+         them; draw profiles that fold equally often, or leave out --thick"
+    )]
+    Layers {
+        /// The component.
+        name: String,
+    },
+    /// Two boards in one place.
+    #[error(
+        "\"{name}\": boards of {thickness_mm} mm leave no room for both {first} and {second} when {state}; use thinner \
+         board, a larger --size, or draw them farther apart"
+    )]
+    Overlap {
+        /// The component.
+        name: String,
+        /// One of them.
+        first: PanelKind,
+        /// The other.
+        second: PanelKind,
+        /// Standing or folded flat.
+        state: &'static str,
+        /// The thickness.
+        thickness_mm: f64,
+    },
     /// Walls leave no room.
     #[error("\"{name}\": {error}")]
     Assemble {
@@ -51,26 +77,36 @@ pub enum ThickError {
 }
 
 /// The model with its panels as boards of a thickness: its components become the inner faces of
-/// these boards.
+/// these boards. Also says what the user should know.
 ///
 /// # Errors
 /// [`ThickError`].
-pub fn thick(model: &Model, thickness_mm: f64, min_panel_mm: f64) -> Result<Model, ThickError> {
+pub fn thick(model: &Model, thickness_mm: f64, min_panel_mm: f64) -> Result<(Model, Vec<Note>), ThickError> {
     let parts = model.parts();
-    let mut made = Vec::new();
+    let (mut made, mut notes) = (Vec::new(), Vec::new());
     for (p, part) in parts.iter().enumerate() {
-        let own = part.joint.iter().map(|j| j.child_panel);
-        let carried = parts.iter().filter_map(|q| q.joint.as_ref()).filter(|j| j.parent == p);
-        let joints: Vec<PanelId> = own.chain(carried.map(|j| j.parent_panel)).collect();
+        let joints = model.joint_panels(p);
         let boards =
             Boards { name: &part.name, component: &part.component, joints, thickness_mm, min_panel_mm };
-        made.push(boards.inner()?);
+        let (inner, moved_mm) = boards.inner()?;
+        made.push(inner);
+        if moved_mm > MOVED_MM {
+            let message = format!(
+                "{}: so that boards of {thickness_mm} mm fold flat, vertices were moved by up to {moved_mm:.1} mm",
+                part.name
+            );
+            notes.push(("moved_vertices", message));
+        }
     }
-    Ok(model.with_components(made))
+    Ok((model.with_components(made), notes))
 }
 
+/// Vertices that moved by less are where they were.
+const MOVED_MM: f64 = 0.05;
 /// Turns with a smaller sine are creases in a straight wall.
-const STRAIGHT: f64 = 1e-9;
+pub(super) const STRAIGHT: f64 = 1e-9;
+/// Boards that come into each other by less touch.
+const TOUCH_MM: f64 = 1e-5;
 
 /// One component with the thickness that it is to get.
 struct Boards<'a> {
@@ -85,17 +121,25 @@ struct Boards<'a> {
 type Inner = (Component, Vec<PanelId>);
 
 impl Boards<'_> {
-    fn inner(&self) -> Result<Inner, ThickError> {
-        let chains = 0..self.component.profiles().len();
-        let folded = chains.clone().map(|j| self.chain(j)).collect::<Result<Vec<_>, _>>()?;
-        let normals = chains.map(|j| self.component.normal(j)).collect();
-        let profiles = folded.iter().map(|f| f.0.clone()).collect();
-        let inner = Component::of_profiles(normals, profiles);
+    /// The inner faces, and how far a vertex was moved.
+    fn inner(&self) -> Result<(Inner, f64), ThickError> {
+        let chains = self.chains()?;
+        let normals: Vec<DVec2> = (0..chains.len()).map(|j| self.component.normal(j)).collect();
+        let profiles: Vec<Profile> = chains.iter().map(|c| c.profile.clone()).collect();
+        let has_lifts = profiles.iter().any(|p| p.lifts_mm().iter().any(|lift| *lift > 0.0));
+        let inner = match has_lifts {
+            false => Component::of_profiles(normals, profiles),
+            true => {
+                let outside = chains.iter().map(|c| c.outside.clone()).collect();
+                Component::of_boards(normals, profiles, outside, self.thickness_mm)
+            }
+        };
         let inner = inner.map_err(|error| ThickError::Assemble { name: self.name.to_owned(), error })?;
+        self.check(&inner)?;
         let successor = |kind: PanelKind| match kind {
             PanelKind::Side { chain, index } => {
                 let facet = facets(&self.component.profiles()[chain])[index];
-                let index = folded[chain].1.iter().position(|&of| of == facet);
+                let index = chains[chain].source.iter().position(|&of| of == facet);
                 PanelKind::Side { chain, index: index.unwrap_or(0) }
             }
             end => end,
@@ -103,30 +147,79 @@ impl Boards<'_> {
         let find = |kind: PanelKind| inner.panels().panels().iter().position(|p| p.kind == kind);
         let panels = self.component.panels().panels().iter();
         let successors = panels.map(|panel| PanelId(find(successor(panel.kind)).unwrap_or(0))).collect();
-        Ok((inner, successors))
+        let moved_mm = chains.iter().map(|c| c.moved_mm).fold(0.0, f64::max);
+        Ok(((inner, successors), moved_mm))
     }
 
-    /// The inner profile of a chain, and the facet that each of its segments belongs to.
-    fn chain(&self, chain: usize) -> Result<(Profile, Vec<usize>), ThickError> {
-        let name = || self.name.to_owned();
-        let profile = &self.component.profiles()[chain];
-        let corners = corners(profile);
-        if corners.windows(3).any(|w| turn(w[0], w[1], w[2]) > STRAIGHT) {
-            return Err(ThickError::Valley { name: name(), chain });
+    /// The chains, each in its best way of those with as many layers as all others.
+    fn chains(&self) -> Result<Vec<Hinged>, ThickError> {
+        let mut known: Vec<(Chain, Vec<Hinged>)> = Vec::new();
+        let mut found = Vec::new();
+        for j in 0..self.component.profiles().len() {
+            let chain = self.chain(j);
+            if let Some(k) = known.iter().position(|(other, _)| *other == chain) {
+                found.push(k);
+                continue;
+            }
+            let name = self.name.to_owned();
+            let hinged =
+                chain.hinged(self.component.profiles()[j].clone()).map_err(|reason| match reason {
+                    Unhinged::Against => ThickError::Against { name, chain: j },
+                    Unhinged::NoRoom => {
+                        ThickError::NoRoom { name, chain: j, thickness_mm: self.thickness_mm }
+                    }
+                })?;
+            found.push(known.len());
+            known.push((chain, hinged));
         }
-        let no_room = || ThickError::NoRoom { name: name(), chain, thickness_mm: self.thickness_mm };
-        let points = offset(&corners, self.thickness_mm).ok_or_else(no_room)?;
-        let facets = facets(profile);
-        let mut whole = vec![false; points.len() - 1];
+        // The sum of the places in the orders of all chains, by number of layers.
+        let place = |k: usize, layers: usize| known[k].1.iter().position(|way| way.layers() == layers);
+        let price = |layers: usize| -> Option<usize> { found.iter().map(|&k| place(k, layers)).sum() };
+        let choices = known[0].1.iter().map(Hinged::layers);
+        let best = choices.filter_map(|layers| Some((price(layers)?, layers))).min();
+        let layers = best.ok_or(ThickError::Layers { name: self.name.to_owned() })?.1;
+        let chosen = |&k: &usize| known[k].1.iter().find(|way| way.layers() == layers).cloned();
+        Ok(found.iter().filter_map(chosen).collect())
+    }
+
+    /// The outside of a chain.
+    fn chain(&self, j: usize) -> Chain {
+        let profile = &self.component.profiles()[j];
+        let (corners, facets) = (corners(profile), facets(profile));
+        let mut whole = vec![false; corners.len() - 1];
         for panel in &self.joints {
-            if let PanelKind::Side { chain: of, index } = self.component.panels().panel(*panel).kind
-                && of == chain
+            if let PanelKind::Side { chain, index } = self.component.panels().panel(*panel).kind
+                && chain == j
             {
                 whole[facets[index]] = true;
             }
         }
-        let best = rank(&points, &whole, self.min_panel_mm).ranked.into_iter().next();
-        best.map(|best| (best.profile, best.source)).ok_or_else(no_room)
+        let (thickness_mm, min_panel_mm) = (self.thickness_mm, self.min_panel_mm);
+        Chain { corners, whole, thickness_mm, min_panel_mm }
+    }
+
+    /// No two boards are in one place, standing or flat.
+    fn check(&self, inner: &Component) -> Result<(), ThickError> {
+        let panels = inner.panels().panels();
+        let states: [(&str, fn(&Panel) -> DAffine3); 2] =
+            [("it stands", |p| p.deployed), ("folded flat", |p| p.flat)];
+        for (state, place) in states {
+            let solid = |p: &Panel| Solid::prism(&p.outline, place(p), self.thickness_mm);
+            let solids: Vec<Solid> = panels.iter().map(solid).collect();
+            for (a, b) in (0..solids.len()).flat_map(|b| (0..b).map(move |a| (a, b))) {
+                if solids[a].overlaps(&solids[b], TOUCH_MM) {
+                    let (first, second, thickness_mm) = (panels[a].kind, panels[b].kind, self.thickness_mm);
+                    return Err(ThickError::Overlap {
+                        name: self.name.to_owned(),
+                        first,
+                        second,
+                        state,
+                        thickness_mm,
+                    });
+                }
+            }
+        }
+        Ok(())
     }
 }
 
@@ -146,27 +239,9 @@ fn corners(profile: &Profile) -> Vec<DVec2> {
 }
 
 /// For each segment of a profile the segment between corners that it belongs to.
-fn facets(profile: &Profile) -> Vec<usize> {
+pub(super) fn facets(profile: &Profile) -> Vec<usize> {
     let points = profile.points();
     (0..points.len() - 1).map(|i| (1..=i).filter(|&k| is_corner(points, k)).count()).collect()
-}
-
-/// A convex profile between a level top and a level bottom, all moved inwards.
-fn offset(corners: &[DVec2], by_mm: f64) -> Option<Vec<DVec2>> {
-    let last = corners.len() - 1;
-    // Lines n·x = c: the top, the walls from top to bottom, the bottom.
-    let mut lines = vec![(DVec2::Y, corners[0].y - by_mm)];
-    for w in corners.windows(2) {
-        let outward = (w[1] - w[0]).normalize_or_zero().perp();
-        lines.push((outward, outward.dot(w[0]) - by_mm));
-    }
-    lines.push((-DVec2::Y, -corners[last].y - by_mm));
-    let meet = |(a, c): (DVec2, f64), (b, d): (DVec2, f64)| {
-        DVec2::new(c * b.y - d * a.y, a.x * d - b.x * c) / a.perp_dot(b)
-    };
-    let points: Vec<DVec2> = lines.windows(2).map(|w| meet(w[0], w[1])).collect();
-    let falls = points.windows(2).all(|w| w[1].y < w[0].y) && points.iter().all(|p| p.is_finite());
-    falls.then_some(points)
 }
 
 /// The corners of a board: its inner face, then its outer one, in the component's axes deployed.
@@ -176,73 +251,4 @@ pub fn board(outline: &[DVec3], outward: DVec3, thickness_mm: f64) -> Vec<DVec3>
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::design::{Sketch, design};
-    use crate::fold::ComponentMotion;
-    use crate::progress::Silent;
-
-    fn barrel() -> Model {
-        let top = (0..6).map(|k| DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 6.0) * 40.0);
-        let profile = [(0.0, 80.0), (15.0, 50.0), (15.0, 20.0), (5.0, 0.0)].map(DVec2::from).to_vec();
-        let sketch = Sketch::new("tub".to_owned(), top.collect(), vec![profile]).unwrap();
-        design(&[sketch], 3.0, &Silent).unwrap().model
-    }
-
-    /// Outer faces of all boards lie on the faces of the model, and no board comes out of it.
-    #[test]
-    fn the_outside_is_true() {
-        let (model, t) = (barrel(), 1.5);
-        let inner = thick(&model, t, 3.0).unwrap();
-        let faces: Vec<(DVec3, f64)> = model.parts()[0]
-            .component
-            .panels()
-            .panels()
-            .iter()
-            .map(|p| (p.deployed.matrix3.z_axis, p.deployed.matrix3.z_axis.dot(p.deployed.translation)))
-            .collect();
-        for panel in inner.parts()[0].component.panels().panels() {
-            let normal = panel.deployed.matrix3.z_axis;
-            for corner in board(&panel.deployed_outline(), normal, t) {
-                for (n, c) in &faces {
-                    assert!(n.dot(corner) <= c + 1e-9, "{:?} comes out", panel.kind);
-                }
-            }
-            let outer = panel.deployed.translation + normal * t;
-            assert!(faces.iter().any(|(n, c)| n.distance(normal) < 1e-9 && (n.dot(outer) - c).abs() < 1e-9));
-        }
-    }
-
-    /// Flat, all inner faces lie in one plane, so that boards lie in two layers of their thickness.
-    #[test]
-    fn the_stack_closes() {
-        let inner = thick(&barrel(), 2.0, 3.0).unwrap();
-        let component = &inner.parts()[0].component;
-        for profile in component.profiles() {
-            assert!(profile.gap_mm().abs() <= 1e-9 * profile.mean_segment_mm());
-        }
-        let flat = ComponentMotion::new(component).pose(1.0);
-        for (panel, place) in component.panels().panels().iter().zip(&flat.placements) {
-            let corners = panel.outline.iter().map(|q| place.transform_point3(q.extend(0.0)));
-            assert!(corners.into_iter().all(|q| (q.z - component.bottom_mm()).abs() < 1e-8));
-        }
-    }
-
-    /// An edge folded by 90° is shorter by t on both sides: t·tan 45°.
-    #[test]
-    fn panels_are_shortened_by_the_half_angle() {
-        let square = [(0.0, 0.0), (60.0, 0.0), (60.0, 60.0), (0.0, 60.0)].map(DVec2::from).to_vec();
-        let wall = [(0.0, 50.0), (0.0, 0.0)].map(DVec2::from).to_vec();
-        let sketch = Sketch::new("box".to_owned(), square, vec![wall]).unwrap();
-        let model = design(&[sketch], 3.0, &Silent).unwrap().model;
-        let inner = thick(&model, 2.0, 3.0).unwrap();
-        let component = &inner.parts()[0].component;
-        assert!((component.top_mm() - component.bottom_mm() - 46.0).abs() < 1e-9);
-        let top = &component.panels().panels()[0].outline;
-        assert!((crate::geom::polygon::area(top) - 56.0 * 56.0).abs() < 1e-6);
-        assert!(matches!(
-            thick(&model, 30.0, 3.0),
-            Err(ThickError::NoRoom { .. } | ThickError::Assemble { .. })
-        ));
-    }
-}
+mod tests;

@@ -184,6 +184,14 @@ struct Edges {
     kind: Vec<&'static str>,
     #[serde(rename = "edges_tatamu:label")]
     label: Vec<Option<String>>,
+    /// Paper has no such key.
+    #[serde(rename = "edges_tatamu:lift_mm", skip_serializing_if = "is_level")]
+    lift_mm: Vec<f64>,
+}
+
+/// Whether all hinges have their axes in the planes of the panels.
+fn is_level(lifts_mm: &[f64]) -> bool {
+    lifts_mm.iter().all(|lift| *lift == 0.0)
 }
 
 #[derive(Default, Serialize)]
@@ -300,6 +308,10 @@ impl Graph {
     fn add_edge_kind(&mut self, component: &FoldComponent<'_>, kind: EdgeKind) {
         let hinge = |h: HingeId| component.set.hinges()[h.0];
         let label = |h: HingeId| component.net.label(h).map(str::to_owned);
+        self.edges.lift_mm.push(match kind {
+            EdgeKind::Hinge(h) | EdgeKind::Tab(h) | EdgeKind::Mate(h) => hinge(h).lift_mm,
+            EdgeKind::Border | EdgeKind::Slit => 0.0,
+        });
         let (name, label, fold) = match kind {
             EdgeKind::Border => ("border", None, None),
             EdgeKind::Slit => ("slit", None, None),

@@ -19,7 +19,16 @@
 //! these two add up to at most π, so that A + B >= 0, with equality in a straight deployed chain
 //! only. Hence every height from 0 to the deployed one belongs to exactly one pose, the angles
 //! never turn back, and the chain is convex in every pose. Other profiles may have to rise first;
-//! [`ChainMotion::course`] tells. Both equations are solved by a Newton iteration that a bracket
+//! then their height grows at first as s falls from 1, up to a peak. So that each moment has a number
+//! of its own that falls all the way, heights are counted on beyond the peak while a chain rises: a
+//! height h stands for 2·peak − h there. [`ChainMotion::course`] tells what is left to be refused.
+//!
+//! A board may have one of its hinges on its inner and one on its outer face. The line between the
+//! two is then tilted against the board by τ, l is measured along this line, and
+//! cos τ − cos(s α + τ) takes the place of 2 sin²(s α / 2) in (*). So that boards that lie in one
+//! plane leave it together, s α becomes s (α + (1 − s) (ᾱ − α)) there, ᾱ being the mean angle.
+//!
+//! Both equations are solved by a Newton iteration that a bracket
 //! keeps from leaving its root.
 
 use crate::component::Profile;
@@ -48,13 +57,31 @@ struct Link {
     length_mm: f64,
     /// Deployed angle away from the flat direction: α where it comes to face up, else β.
     angle_rad: f64,
+    /// The angle per share at which it leaves the flat state.
+    early_rad: f64,
+    /// Angle from the panel down to the line between its hinges: boards have them on both faces.
+    tilt_rad: f64,
+}
+
+impl Link {
+    /// The panel's angle.
+    fn turned(&self, share: f64) -> f64 {
+        share * (self.angle_rad + (1.0 - share) * (self.early_rad - self.angle_rad))
+    }
+
+    /// The derivative of [`Link::turned`].
+    fn rate(&self, share: f64) -> f64 {
+        self.angle_rad + (1.0 - 2.0 * share) * (self.early_rad - self.angle_rad)
+    }
 }
 
 /// What a chain does on its way from deployed to flat.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Course {
-    /// Whether the height falls all the way.
+    /// Whether the height falls all the way from where it is highest.
     pub comes_straight_down: bool,
+    /// How far the top has to rise before it comes down, mm.
+    pub rise_mm: f64,
     /// How far a vertex comes inwards of where it is when deployed, at most.
     pub inward_mm: f64,
 }
@@ -83,6 +110,16 @@ pub struct ChainMotion {
     last_run: usize,
     /// Right side of (*) over the left, deployed: 1 but for rounding in the profile.
     balance: f64,
+    flat_height_mm: f64,
+    peak: Peak,
+}
+
+/// Where a chain is highest.
+#[derive(Debug, Clone, Copy)]
+struct Peak {
+    /// The upper share there: 1 where it does not rise.
+    above: f64,
+    height_mm: f64,
 }
 
 impl ChainMotion {
@@ -91,23 +128,80 @@ impl ChainMotion {
         let points = profile.points().to_vec();
         let faces_up: Vec<bool> = (0..points.len() - 1).map(|i| profile.faces_up(i)).collect();
         let link = |(i, w): (usize, &[DVec2])| {
-            let step = w[1] - w[0];
-            let alpha = (-step.y).atan2(step.x);
-            Link { length_mm: step.length(), angle_rad: if faces_up[i] { alpha } else { PI - alpha } }
+            let [upper, lower] = profile.face(i);
+            let along = lower - upper;
+            let alpha = (-along.y).atan2(along.x);
+            let angle_rad = if faces_up[i] { alpha } else { PI - alpha };
+            let rise = profile.lifts_mm()[i + 1] - profile.lifts_mm()[i];
+            let tilt = if rise == 0.0 { 0.0 } else { rise.atan2(along.length()) };
+            let tilt_rad = if faces_up[i] { -tilt } else { tilt };
+            Link { length_mm: w[0].distance(w[1]), angle_rad, early_rad: angle_rad, tilt_rad }
         };
-        let links: Vec<Link> = points.windows(2).enumerate().map(link).collect();
+        let mut links: Vec<Link> = points.windows(2).enumerate().map(link).collect();
+        if links.iter().any(|link| link.tilt_rad != 0.0) {
+            for is_up in [true, false] {
+                let own =
+                    || links.iter().zip(&faces_up).filter(|(_, up)| **up == is_up).map(|(link, _)| link);
+                let length: f64 = own().map(|link| link.length_mm).sum();
+                let mean_rad = own().map(|link| link.length_mm * link.angle_rad).sum::<f64>() / length;
+                let own = links.iter_mut().zip(&faces_up).filter(|(_, up)| **up == is_up);
+                own.for_each(|(link, _)| link.early_rad = mean_rad);
+            }
+        }
         let of = |is_up: bool| -> Vec<Link> {
             links.iter().zip(&faces_up).filter(|(_, up)| **up == is_up).map(|(link, _)| *link).collect()
         };
         let (up, down) = (of(true), of(false));
         let balance = sag(&down, 1.0).0 / sag(&up, 1.0).0;
         let last_run = faces_up.iter().rposition(|up| *up).map_or(0, |last_up| last_up + 1);
-        Self { points, faces_up, up, down, last_run, links, balance }
+        let flat_height_mm = profile.flat_heights_mm().1;
+        let peak = Peak { above: 1.0, height_mm: points[0].y - points[points.len() - 1].y };
+        let motion = Self { points, faces_up, up, down, last_run, links, balance, flat_height_mm, peak };
+        Self { peak: motion.find_peak(), ..motion }
+    }
+
+    /// Where the height is largest, seen from the deployed state.
+    fn find_peak(&self) -> Peak {
+        let falls = |above: f64| self.rise_rate(above) > -ROUNDING * self.height_mm();
+        if falls(1.0) {
+            return self.peak;
+        }
+        let share = |k: usize| k as f64 / SAMPLES as f64;
+        let Some(k) = (0..SAMPLES).rev().find(|&k| falls(share(k))) else { return self.peak };
+        let (mut low, mut high) = (share(k), share(k + 1));
+        for _ in 0..MOST_STEPS {
+            let middle = 0.5 * (low + high);
+            *(if self.rise_rate(middle) > 0.0 { &mut low } else { &mut high }) = middle;
+        }
+        Peak { above: low, height_mm: self.span(self.closed(low, low)) }
+    }
+
+    /// The derivative of the height by the upper share.
+    fn rise_rate(&self, above: f64) -> f64 {
+        let below = if above == 1.0 { 1.0 } else { self.closed(above, above).below };
+        let d_sag = sag(&self.up, above).1 * self.balance;
+        let d_below = d_sag / sag(&self.down, below).1.max(f64::MIN_POSITIVE);
+        rise(&self.up, above).1 + rise(&self.down, below).1 * d_below
+    }
+
+    /// How far the top has to rise before it comes down, mm.
+    pub fn rise_mm(&self) -> f64 {
+        self.peak.height_mm - self.height_mm()
+    }
+
+    /// The deployed height, counted on beyond the peak.
+    pub fn way_mm(&self) -> f64 {
+        2.0 * self.peak.height_mm - self.height_mm()
     }
 
     /// Height of the deployed chain.
     pub fn height_mm(&self) -> f64 {
         self.points[0].y - self.points[self.points.len() - 1].y
+    }
+
+    /// Height between the hinges at its ends when flat: 0 where panels have no thickness.
+    pub fn flat_height_mm(&self) -> f64 {
+        self.flat_height_mm
     }
 
     /// Number of links.
@@ -117,14 +211,16 @@ impl ChainMotion {
 
     /// What the motion does between deployed and flat.
     pub fn course(&self) -> Course {
-        let mut course = Course { comes_straight_down: true, inward_mm: 0.0 };
-        let (mut shares, mut height_mm) = (Shares::DEPLOYED, self.height_mm());
+        let mut course = Course { comes_straight_down: true, rise_mm: self.rise_mm(), inward_mm: 0.0 };
+        let (mut shares, mut way_mm) = (Shares::DEPLOYED, self.way_mm());
         for k in (0..SAMPLES).rev() {
             let above = k as f64 / SAMPLES as f64;
             shares = self.closed(above, shares.below);
-            let next_mm = self.span(shares);
-            course.comes_straight_down &= next_mm <= height_mm + ROUNDING * self.height_mm();
-            height_mm = next_mm;
+            let height_mm = self.span(shares);
+            let next_mm =
+                if above > self.peak.above { 2.0 * self.peak.height_mm - height_mm } else { height_mm };
+            course.comes_straight_down &= next_mm <= way_mm + ROUNDING * self.height_mm();
+            way_mm = next_mm;
             let mut u_mm = self.points[0].x;
             for (link, stands) in self.points[1..].iter().enumerate() {
                 u_mm += self.step(link, shares).x;
@@ -142,27 +238,34 @@ impl ChainMotion {
         if link < self.last_run { HangsFrom::Top } else { HangsFrom::Bottom }
     }
 
-    /// The pose in which the chain spans a height, which is cut off at 0 and at the deployed one.
+    /// The pose in which the chain spans a height, counted on beyond the peak while it rises; it is
+    /// cut off at 0 and at the deployed one.
     pub fn at_height(&self, height_mm: f64) -> Shares {
-        let share = height_mm / self.height_mm();
+        let share = (height_mm - self.flat_height_mm) / (self.way_mm() - self.flat_height_mm);
         self.at_height_near(height_mm, Shares { above: share, below: share })
     }
 
     /// The same, found faster from a pose that is near.
     pub fn at_height_near(&self, height_mm: f64, near: Shares) -> Shares {
-        if height_mm >= self.height_mm() {
+        if height_mm >= self.way_mm() {
             return Shares::DEPLOYED;
         }
-        if height_mm <= 0.0 {
+        if height_mm <= self.flat_height_mm {
             return Shares::FLAT;
         }
         let ratio = if near.above > 0.0 { near.below / near.above } else { 1.0 };
-        let above = increasing_root(near.above, |s| {
+        let (range, sign) = match height_mm > self.peak.height_mm {
+            true => ([self.peak.above, 1.0], -1.0),
+            false => ([0.0, self.peak.above], 1.0),
+        };
+        // While it rises a height that is counted on stands for one below the peak.
+        let wanted_mm = if sign > 0.0 { height_mm } else { 2.0 * self.peak.height_mm - height_mm };
+        let above = increasing_root(near.above, range, |s| {
             let shares = self.closed(s, ratio * s);
             let (upper, lower) = (rise(&self.up, s), rise(&self.down, shares.below));
             let d_sag = sag(&self.up, s).1 * self.balance;
             let d_below = d_sag / sag(&self.down, shares.below).1.max(f64::MIN_POSITIVE);
-            (upper.0 + lower.0 - height_mm, upper.1 + lower.1 * d_below)
+            (sign * (upper.0 + lower.0 - wanted_mm), sign * (upper.1 + lower.1 * d_below))
         });
         self.closed(above, ratio * above)
     }
@@ -184,8 +287,11 @@ impl ChainMotion {
 
     /// Angle by which link i is turned inwards and up, from deployed: about −x of its panel.
     pub fn turn_rad(&self, link: usize, shares: Shares) -> f64 {
-        let angle = self.links[link].angle_rad;
-        if self.faces_up[link] { angle * (1.0 - shares.above) } else { -angle * (1.0 - shares.below) }
+        let turn = |share: f64| {
+            let Link { angle_rad, early_rad, .. } = self.links[link];
+            (angle_rad - share * (early_rad - angle_rad)) * (1.0 - share)
+        };
+        if self.faces_up[link] { turn(shares.above) } else { -turn(shares.below) }
     }
 
     /// Height between the two ends.
@@ -195,9 +301,9 @@ impl ChainMotion {
 
     /// From the upper to the lower end of link i.
     fn step(&self, link: usize, shares: Shares) -> DVec2 {
-        let Link { length_mm, angle_rad } = self.links[link];
+        let Link { length_mm, tilt_rad, .. } = self.links[link];
         let (share, out) = if self.faces_up[link] { (shares.above, 1.0) } else { (shares.below, -1.0) };
-        let (sin, cos) = (share * angle_rad).sin_cos();
+        let (sin, cos) = (self.links[link].turned(share) + tilt_rad).sin_cos();
         DVec2::new(out * length_mm * cos, -length_mm * sin)
     }
 
@@ -210,10 +316,11 @@ impl ChainMotion {
             HangsFrom::Bottom => link + 1..self.links.len(),
         };
         let mut sway = [0.0; 2];
+        let most_rad = |link: &Link| link.rate(0.0).max(link.rate(1.0));
         for i in between {
-            sway[usize::from(!self.faces_up[i])] += self.links[i].length_mm * self.links[i].angle_rad;
+            sway[usize::from(!self.faces_up[i])] += self.links[i].length_mm * most_rad(&self.links[i]);
         }
-        sway[usize::from(!self.faces_up[link])] += reach_mm * self.links[link].angle_rad;
+        sway[usize::from(!self.faces_up[link])] += reach_mm * most_rad(&self.links[link]);
         sway
     }
 
@@ -222,8 +329,8 @@ impl ChainMotion {
         if above <= 0.0 {
             return Shares::FLAT;
         }
-        let wanted = (self.balance * sag(&self.up, above).0).sqrt();
-        let below = increasing_root(guess, |r| {
+        let wanted = (self.balance * sag(&self.up, above).0).max(0.0).sqrt();
+        let below = increasing_root(guess, [0.0, 1.0], |r| {
             let (sag, slope) = sag(&self.down, r);
             let root = sag.max(f64::MIN_POSITIVE).sqrt();
             (root - wanted, 0.5 * slope / root)
@@ -232,19 +339,25 @@ impl ChainMotion {
     }
 }
 
-/// Σ l sin²(share·angle / 2), half of what the links lose in reach, and its derivative.
+/// Σ l (cos τ − cos(angle + τ)) / 2, half of what the links lose in reach, and its derivative.
 fn sag(links: &[Link], share: f64) -> (f64, f64) {
     links.iter().fold((0.0, 0.0), |sum, l| {
-        let (sin, cos) = (0.5 * share * l.angle_rad).sin_cos();
-        (sum.0 + l.length_mm * sin * sin, sum.1 + l.length_mm * l.angle_rad * sin * cos)
+        let half_rad = 0.5 * l.turned(share);
+        let (sin, cos) = half_rad.sin_cos();
+        if l.tilt_rad == 0.0 {
+            return (sum.0 + l.length_mm * sin * sin, sum.1 + l.length_mm * l.rate(share) * sin * cos);
+        }
+        let slope = 0.5 * (2.0 * half_rad + l.tilt_rad).sin();
+        let lost = sin * (half_rad + l.tilt_rad).sin();
+        (sum.0 + l.length_mm * lost, sum.1 + l.length_mm * l.rate(share) * slope)
     })
 }
 
-/// Σ l sin(share·angle), the height of the links, and its derivative.
+/// Σ l sin(angle + τ), the height of the links, and its derivative.
 fn rise(links: &[Link], share: f64) -> (f64, f64) {
     links.iter().fold((0.0, 0.0), |sum, l| {
-        let (sin, cos) = (share * l.angle_rad).sin_cos();
-        (sum.0 + l.length_mm * sin, sum.1 + l.length_mm * l.angle_rad * cos)
+        let (sin, cos) = (l.turned(share) + l.tilt_rad).sin_cos();
+        (sum.0 + l.length_mm * sin, sum.1 + l.length_mm * l.rate(share) * cos)
     })
 }
 
@@ -256,10 +369,10 @@ const ROUNDING: f64 = 1e-9;
 /// More than bisection alone needs to exhaust the digits of a number.
 const MOST_STEPS: usize = 80;
 
-/// The root in 0..1 of an increasing function that also gives its derivative: Newton's iteration,
+/// The root in a range of an increasing function that also gives its derivative: Newton's iteration,
 /// halving the bracket instead where a step would leave it or gains too little.
-fn increasing_root(guess: f64, function: impl Fn(f64) -> (f64, f64)) -> f64 {
-    let (mut low, mut high, mut x) = (0.0_f64, 1.0_f64, guess.clamp(0.0, 1.0));
+fn increasing_root(guess: f64, [mut low, mut high]: [f64; 2], function: impl Fn(f64) -> (f64, f64)) -> f64 {
+    let mut x = guess.clamp(low, high);
     let mut last = f64::INFINITY;
     for _ in 0..MOST_STEPS {
         let (value, slope) = function(x);

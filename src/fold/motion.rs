@@ -18,6 +18,8 @@ pub struct ComponentMotion {
     panels: Vec<(PanelKind, DAffine3)>,
     levels: Vec<usize>,
     height_mm: f64,
+    /// How far the top rises before it comes down.
+    rise_mm: f64,
 }
 
 #[derive(Debug, Clone)]
@@ -45,8 +47,10 @@ impl ComponentMotion {
             outward: component.normal(j),
         };
         let panel = |p: &crate::component::Panel| (p.kind, p.deployed);
+        let chains: Vec<Chain> = component.profiles().iter().enumerate().map(chain).collect();
         Self {
-            chains: component.profiles().iter().enumerate().map(chain).collect(),
+            rise_mm: chains.iter().map(|chain| chain.motion.rise_mm()).fold(0.0, f64::max),
+            chains,
             panels: component.panels().panels().iter().map(panel).collect(),
             levels: levels(component),
             height_mm: component.top_mm() - component.bottom_mm(),
@@ -70,9 +74,21 @@ impl ComponentMotion {
 
     /// Height of the top panel over the bottom panel at `folded`, from 0 (deployed) to 1 (flat). It
     /// falls as the cosine of a quarter turn: a straight wall then bends evenly, although its height
-    /// hardly changes at first.
+    /// hardly changes at first. Boards that lie between the two keep them apart; where chains have to
+    /// rise first, it rises.
     pub fn height_at_mm(&self, folded: f64) -> f64 {
-        if folded >= 1.0 { 0.0 } else { self.height_mm * (FRAC_PI_2 * folded).cos() }
+        let (way_mm, peak_mm) = (self.way_at_mm(folded), self.height_mm + self.rise_mm);
+        if way_mm > peak_mm { 2.0 * peak_mm - way_mm } else { way_mm }
+    }
+
+    /// The height, counted on beyond the peak while it rises.
+    fn way_at_mm(&self, folded: f64) -> f64 {
+        let flat_mm = self.chains[0].motion.flat_height_mm();
+        if folded >= 1.0 {
+            flat_mm
+        } else {
+            flat_mm + (self.height_mm + 2.0 * self.rise_mm - flat_mm) * (FRAC_PI_2 * folded).cos()
+        }
     }
 
     /// How many layers lie under each panel when flat, counted within the component, where it has
@@ -83,14 +99,14 @@ impl ComponentMotion {
 
     /// How far each chain is at `folded`.
     pub fn shares(&self, folded: f64) -> Vec<Shares> {
-        let height_mm = self.height_at_mm(folded);
-        self.chains.iter().map(|c| c.motion.at_height(height_mm)).collect()
+        let way_mm = self.way_at_mm(folded);
+        self.chains.iter().map(|c| c.motion.at_height(way_mm)).collect()
     }
 
     /// The same, found faster from a moment that is near.
     pub(super) fn shares_near(&self, folded: f64, near: &[Shares]) -> Vec<Shares> {
-        let height_mm = self.height_at_mm(folded);
-        self.chains.iter().zip(near).map(|(c, near)| c.motion.at_height_near(height_mm, *near)).collect()
+        let way_mm = self.way_at_mm(folded);
+        self.chains.iter().zip(near).map(|(c, near)| c.motion.at_height_near(way_mm, *near)).collect()
     }
 
     /// The pose at `folded`.

@@ -4,6 +4,7 @@
 use super::check::{Checker, Clash, Overlap, overlaps};
 use super::pose::{ModelMotion, ancestors, root_of};
 use super::stack::{Stack, stacks};
+use crate::model::Model;
 use crate::progress::{Cancelled, Progress};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -26,6 +27,13 @@ pub struct FoldPlan {
 }
 
 impl FoldPlan {
+    /// The order of folding before anything is checked: children before those that carry them.
+    pub fn unchecked(model: &Model, thickness_mm: f64) -> Self {
+        let mut order: Vec<usize> = (0..model.parts().len()).collect();
+        order.sort_by_key(|&part| std::cmp::Reverse(ancestors(model, part).len()));
+        Self { thickness_mm, order, clashes: Vec::new(), overlaps: Vec::new(), stacks: Vec::new() }
+    }
+
     /// Looks for an order for a model of paper of a thickness.
     ///
     /// # Errors

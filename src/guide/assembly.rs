@@ -64,8 +64,11 @@ fn spread(joined: &Joined, share: impl Fn(HingeId) -> f64, places: &mut [Option<
 /// From the coordinates of the panel on the other side of a hinge to those of the panel on `side`,
 /// folded by a share of the deployed angle.
 fn across(set: &PanelSet, hinge: HingeId, side: usize, share: f64) -> DAffine3 {
-    let Hinge { sides, deployed_rad, .. } = set.hinges()[hinge.0];
-    bend(layout::edge(set, sides[side]), deployed_rad * share) * in_space(layout::across(set, hinge, side))
+    let Hinge { sides, deployed_rad, lift_mm, .. } = set.hinges()[hinge.0];
+    let [down, up] = [-lift_mm, lift_mm].map(|mm| DAffine3::from_translation(DVec3::Z * mm));
+    up * bend(layout::edge(set, sides[side]), deployed_rad * share)
+        * down
+        * in_space(layout::across(set, hinge, side))
 }
 
 /// A motion of the plane as one of space.

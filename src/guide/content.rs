@@ -216,8 +216,12 @@ impl Writer<'_> {
                 sentences.extend(is_complete.then(|| words.fold.none.clone()));
                 (fill(&words.fold.title, &[("part", part)]), sentences)
             }
-            Action::Glue { label, has_tab, access, .. } => {
-                let mut glued = self.glued(label, *has_tab, *access);
+            Action::Glue { hinge, label, has_tab, access } => {
+                let is_outside = self.output.nets()[step.part].panels().hinges()[hinge.0].lift_mm > 0.0;
+                let mut glued = match has_tab {
+                    true => self.glued(label, *access),
+                    false => self.taped(label, is_outside),
+                };
                 if is_complete {
                     glued.1.push(fill(&words.glue.slits, &[("part", part)]));
                 }
@@ -248,12 +252,16 @@ impl Writer<'_> {
         }
     }
 
-    fn glued(&self, label: &str, has_tab: bool, access: Access) -> (String, Vec<String>) {
+    fn taped(&self, label: &str, is_outside: bool) -> (String, Vec<String>) {
         let words = &self.words.glue;
         let say = |text: &str| fill(text, &[("label", label)]);
-        if !has_tab {
-            return (say(&words.tape_title), vec![say(&words.tape), say(&words.tape_behind)]);
-        }
+        let side = if is_outside { &words.tape_outside } else { &words.tape_behind };
+        (say(&words.tape_title), vec![say(&words.tape), say(side)])
+    }
+
+    fn glued(&self, label: &str, access: Access) -> (String, Vec<String>) {
+        let words = &self.words.glue;
+        let say = |text: &str| fill(text, &[("label", label)]);
         let press = match access {
             Access::Free => &words.free,
             Access::Finger => &words.finger,

@@ -183,6 +183,7 @@ pub struct GlueWords {
     pub tape_title: String,
     pub tape: String,
     pub tape_behind: String,
+    pub tape_outside: String,
     pub slits: String,
 }
 

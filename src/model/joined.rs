@@ -54,14 +54,26 @@ impl Model {
         Self { parts: placed.into_iter().flatten().collect() }.with_support()
     }
 
-    /// The same with another component in the place of one that nothing is joined to, in axes that
-    /// `frame` maps to the mesh's.
+    /// The same with another component in the place of one, in axes that `frame` maps to the mesh's;
+    /// `became` has the joint panels of the old one, each with the panel of the new one that lies in
+    /// its plane.
     #[must_use]
-    pub fn with_component(mut self, part: usize, component: Component, frame: DAffine3) -> Self {
-        let flat = DAffine3::from_translation(DVec3::Z * -component.bottom_mm());
-        let old = &self.parts[part];
-        self.parts[part] = ModelPart { component, frame, flat, ..old.clone() };
-        self
+    pub fn with_component(
+        mut self,
+        part: usize,
+        component: Component,
+        frame: DAffine3,
+        became: &[(PanelId, PanelId)],
+    ) -> Self {
+        let of = |p: &ModelPart| (0..p.component.panels().panels().len()).map(PanelId).collect();
+        let mut components: Vec<(Component, Vec<PanelId>)> =
+            self.parts.iter().map(|p| (p.component.clone(), of(p))).collect();
+        components[part].0 = component;
+        for &(old, new) in became {
+            components[part].1[old.0] = new;
+        }
+        self.parts[part].frame = frame;
+        self.with_components(components)
     }
 
     /// The same with other components in the same places, each with the panel that every panel of

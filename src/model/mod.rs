@@ -79,6 +79,13 @@ impl Model {
         &self.parts
     }
 
+    /// The panels of a component that are glued to others, its own joint's first.
+    pub fn joint_panels(&self, part: usize) -> Vec<PanelId> {
+        let own = self.parts[part].joint.iter().map(|joint| joint.child_panel);
+        let joints = self.parts.iter().filter_map(|other| other.joint.as_ref());
+        own.chain(joints.filter(|joint| joint.parent == part).map(|joint| joint.parent_panel)).collect()
+    }
+
     /// Whether any crease is folded towards the viewer outside.
     pub fn has_valleys(&self) -> bool {
         self.parts.iter().any(|part| part.component.panels().hinges().iter().any(|h| h.is_valley()))

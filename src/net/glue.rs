@@ -27,7 +27,9 @@ pub(super) fn areas(set: &PanelSet, layout: &Layout, glued: &[Placed]) -> Vec<Gl
         let mate: DAffine2 = layout.place(sides[1 - glued.side].panel)?;
         let to_piece = mate * across(set, glued.hinge, glued.side).inverse();
         let outline = glued.shape.outline(edge(set, sides[glued.side]));
-        Some(GlueArea { hinge: glued.hinge, outline: outline.map(|p| to_piece.transform_point2(p)) })
+        let is_outside = set.hinges()[glued.hinge.0].lift_mm > 0.0;
+        let outline = outline.map(|p| to_piece.transform_point2(p));
+        Some(GlueArea { hinge: glued.hinge, outline, is_outside })
     };
     glued.iter().filter_map(area).collect()
 }

@@ -106,6 +106,9 @@ impl Piece {
         for area in &self.glue_areas {
             let [start, end, far, near] = area.outline;
             marks.push(path(Layer::Glue, Polyline::open(vec![end, far, near, start]), "tab".to_owned()));
+            if area.is_outside {
+                marks.push(path(Layer::Glue, Polyline::open(vec![start, far]), "tape outside".to_owned()));
+            }
         }
         for crease in self.crease_lines.iter().filter(|c| c.is_drawn) {
             let line = Polyline::open(crease.ends.to_vec());

@@ -110,7 +110,7 @@ pub struct Leader {
     pub to: DVec2,
 }
 
-/// Where glue or tape goes: behind a panel's cut edge.
+/// Where glue or tape goes: along a panel's cut edge, behind it unless that is said.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GlueArea {
     /// The cut hinge.
@@ -118,6 +118,8 @@ pub struct GlueArea {
     /// Trapezoid in the piece's coordinates, counter-clockwise seen from outside; the first edge
     /// is the hinge.
     pub outline: [DVec2; 4],
+    /// Whether it is on the outer face: the tape of a valley between boards.
+    pub is_outside: bool,
 }
 
 /// A text on a piece.

@@ -146,6 +146,7 @@ impl Work {
             is_fold: false,
             deployed_rad: 0.0,
             flat_rad: 0.0,
+            lift_mm: 0.0,
         });
         other
     }
@@ -202,7 +203,7 @@ mod tests {
             flat: DAffine3::IDENTITY,
         };
         let sides = [(0, 2), (1, 0)].map(|(panel, edge)| HingeSide { panel: PanelId(panel), edge });
-        let hinge = Hinge { sides, is_fold: true, deployed_rad: 0.3, flat_rad: 3.0 };
+        let hinge = Hinge { sides, is_fold: true, deployed_rad: 0.3, flat_rad: 3.0, lift_mm: 0.0 };
         PanelSet::new(vec![panel(PanelKind::Top), panel(PanelKind::Bottom)], vec![hinge])
     }
 

@@ -34,6 +34,11 @@ impl Hulls {
         Ok(Self { names: solid.names(divided.names()), solid, links })
     }
 
+    /// No hulls; drawn components have names alone.
+    pub(super) fn drawn(names: Vec<String>) -> Self {
+        Self { names, ..Self::default() }
+    }
+
     /// The hulls, clipped where joints are.
     pub fn hulls(&self) -> &[Hull] {
         &self.solid.hulls

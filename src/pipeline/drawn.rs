@@ -20,6 +20,21 @@ pub fn run_drawn(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Output, Error> {
+    let shaped = shape_drawn(sketches, size_mm, options, progress)?;
+    let engine = Engine::new(Cow::Owned(shaped.divided().mesh().clone()));
+    engine.finish(shaped, progress)
+}
+
+/// Makes the components of drawings, as [`Engine::shape`] does of a mesh.
+///
+/// # Errors
+/// [`Error::Design`], [`Error::Cancelled`].
+pub fn shape_drawn(
+    sketches: &[Sketch],
+    size_mm: Option<f64>,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Shaped, Error> {
     progress.stage("components");
     let min_panel_mm = options.min_panel_width_mm;
     let mut drawn = design(sketches, min_panel_mm, progress)?;
@@ -33,11 +48,10 @@ pub fn run_drawn(
     let options = Options { size_mm: surface.size_mm(), ..options.clone() };
     let Surface { mesh, face_part } = surface;
     let notes = drawn.notes.into_iter().map(|(code, message)| Warning { code, message }).collect();
-    let parts = drawn.model.parts().len();
-    let engine = Engine::new(Cow::Owned(mesh.clone()));
-    let divided = Arc::new(Divided::drawn(mesh, face_part, parts));
-    let shaped = Shaped { options: Arc::new(options), divided, model: Arc::new(drawn.model), notes };
-    engine.finish(shaped, progress)
+    let names = sketches.iter().map(|sketch| sketch.name().to_owned()).collect();
+    let divided = Arc::new(Divided::drawn(mesh, face_part, names));
+    let (model, remarks) = (Arc::new(drawn.model), Vec::new());
+    Ok(Shaped { options: Arc::new(options), divided, model, notes, remarks })
 }
 
 /// The deployed panels as a mesh.

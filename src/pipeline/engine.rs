@@ -126,9 +126,9 @@ impl<'m> Engine<'m> {
         let least_mm = options.min_panel_width_mm;
         let model = model::build(bodies.parts(), bodies.links(), least_mm, &self.components, progress)?;
         let (mesh, face_parts) = (divided.mesh(), divided.face_parts());
-        let (model, mut notes) = concave::refitted(model, mesh, face_parts, options, progress)?;
+        let (model, mut notes, remarks) = concave::refitted(model, mesh, face_parts, options, progress)?;
         notes.extend(not_joined(&model));
-        Ok(Shaped { options: Arc::new(options.clone()), divided, model: Arc::new(model), notes })
+        Ok(Shaped { options: Arc::new(options.clone()), divided, model: Arc::new(model), notes, remarks })
     }
 
     /// Makes one component, by its index, and what carries it: sooner than the whole model.
@@ -165,17 +165,26 @@ impl<'m> Engine<'m> {
         })
     }
 
-    /// From the components to sheets.
+    /// From the components to sheets, with the order of folding.
     ///
     /// # Errors
-    /// [`Error::Net`], [`Error::Layout`], [`Error::Cancelled`].
+    /// [`Error::Thick`], [`Error::Net`], [`Error::Layout`], [`Error::Cancelled`].
     pub fn finish(&self, shaped: Shaped, progress: &dyn Progress) -> Result<Output, Error> {
+        self.fold(self.lay_out(shaped, progress)?, progress)
+    }
+
+    /// From the components to sheets; in which order they fold is not known yet.
+    ///
+    /// # Errors
+    /// [`Error::Thick`], [`Error::Net`], [`Error::Layout`], [`Error::Cancelled`].
+    pub fn lay_out(&self, shaped: Shaped, progress: &dyn Progress) -> Result<Output, Error> {
         let options = &*shaped.options;
-        let mut model = shaped.model.clone();
+        let (mut model, mut notes) = (shaped.model.clone(), shaped.notes.clone());
         if options.is_thick {
-            model = Arc::new(thick(&model, options.thickness_mm, options.min_panel_width_mm)?);
+            let (boards, thick) = thick(&model, options.thickness_mm, options.min_panel_width_mm)?;
+            model = Arc::new(boards);
+            notes.extend(thick.into_iter().map(|(code, message)| Warning { code, message }));
         }
-        let fold_plan = self.plan(&model, options.thickness_mm, progress)?;
         let sheets = SheetOptions {
             paper: options.paper,
             margin_mm: options.margin_mm,
@@ -197,12 +206,24 @@ impl<'m> Engine<'m> {
             let laid = Layout::of_alternatives(&alternatives, &sheets, &options.pins, progress)?;
             Ok::<_, Error>((Arc::new(laid.0), Arc::new(laid.1)))
         })?;
-        let mut warnings = shaped.notes.clone();
+        let mut warnings = notes;
         warnings.extend(warning::warnings(&model, &nets, shaped.divided.hulls().flat_faces(), options));
         warnings.extend(pin_warnings(&layout));
-        let advice = fold_plan.advice(&model, options.untangles).into_iter();
-        warnings.extend(advice.map(|(code, message)| Warning { code, message }));
+        let fold_plan = Arc::new(FoldPlan::unchecked(&model, options.thickness_mm));
         let shaped = Shaped { model, ..shaped };
         Ok(Output { shaped, fold_plan, nets, layout, warnings: Arc::new(warnings) })
+    }
+
+    /// Finds the order of folding.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`].
+    pub fn fold(&self, laid: Output, progress: &dyn Progress) -> Result<Output, Error> {
+        let options = laid.options();
+        let fold_plan = self.plan(&laid.shaped.model, options.thickness_mm, progress)?;
+        let advice = fold_plan.advice(&laid.shaped.model, options.untangles).into_iter();
+        let advice = advice.map(|(code, message)| Warning { code, message });
+        let warnings = laid.warnings.iter().cloned().chain(advice).collect();
+        Ok(Output { fold_plan, warnings: Arc::new(warnings), ..laid })
     }
 }

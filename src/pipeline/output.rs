@@ -33,10 +33,10 @@ impl Divided {
     }
 
     /// The surface of drawn components, which nothing was divided into.
-    pub(super) fn drawn(mesh: Mesh, face_part: Vec<Option<u32>>, parts: usize) -> Self {
-        let mut part_faces = vec![0; parts];
+    pub(super) fn drawn(mesh: Mesh, face_part: Vec<Option<u32>>, names: Vec<String>) -> Self {
+        let mut part_faces = vec![0; names.len()];
         face_part.iter().flatten().for_each(|&p| part_faces[p as usize] += 1);
-        Self { mesh, to_model: DAffine3::IDENTITY, hulls: Hulls::default(), face_part, part_faces }
+        Self { mesh, to_model: DAffine3::IDENTITY, hulls: Hulls::drawn(names), face_part, part_faces }
     }
 
     /// The hulls of the parts.
@@ -68,6 +68,8 @@ pub struct Shaped {
     pub(super) model: Arc<Model>,
     /// What is to be told of the components.
     pub(super) notes: Vec<Warning>,
+    /// What was done as it was asked for.
+    pub(super) remarks: Vec<String>,
 }
 
 impl Shaped {
@@ -146,6 +148,11 @@ impl Output {
     /// The pieces on their sheets.
     pub fn layout(&self) -> &Layout {
         &self.layout
+    }
+
+    /// What was done as the user asked for it, such as a component with dents.
+    pub fn remarks(&self) -> &[String] {
+        &self.shaped.remarks
     }
 
     /// What the user should know.

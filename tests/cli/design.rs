@@ -41,7 +41,11 @@ fn what_is_wrong_with_a_drawing_is_said() {
         ("name = 'box'", "name = 'box'\nfolds = ['uu']", ["folds \"uu\"", "facing down"]),
         ("name = 'box'", "name = 'box'\nfolds = ['ud^']", ["\"ud^\"", "--list-configurations"]),
         ("name = 'box'", "name = 'box'\njoint = { to = 'lid', panel = 'top' }", ["\"lid\"", "not drawn"]),
-        ("[25, 20]", "[-40, 20]", ["no way to fold profile 1", "rise"]),
+        (
+            "profiles = [[[0, 50], [25, 20], [5, 0]]]",
+            "folds = ['ud', '^']\nprofiles = [[[0, 50], [-10, 25], [0, 0]], [[0, 50], [0, 0]]]",
+            ["rise", "other profiles"],
+        ),
     ] {
         let text = BOX.replace(from, to);
         assert_refused(&[("a.toml", text.as_bytes())], &["design", "a.toml"], &words);
@@ -49,5 +53,18 @@ fn what_is_wrong_with_a_drawing_is_said() {
     let mesh: [(&str, &[u8]); 1] = [("a.obj", TETRAHEDRON.as_bytes())];
     assert_refused(&mesh, &["design", "a.obj", "--list-configurations"], &["no drawn components"]);
     let drawn: [(&str, &[u8]); 1] = [("a.toml", BOX.as_bytes())];
+    for flag in [
+        "--parts=3",
+        "--detail=0.7",
+        "--smoothing=0.5",
+        "--up=z",
+        "--direction=box=10",
+        "--concave=box",
+        "--top-edges=5",
+        "--tolerance=1mm",
+    ] {
+        let name = flag.split('=').next().unwrap_or_default();
+        assert_refused(&drawn, &["make", "a.toml", flag], &["drawn", name]);
+    }
     assert_refused(&drawn, &["segment", "a.toml", "-o", "a.png"], &["no mesh"]);
 }

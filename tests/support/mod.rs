@@ -150,6 +150,7 @@ impl Prism {
                 is_fold: i == fold,
                 deployed_rad: new_slope - slope_rad,
                 flat_rad: if i == fold { std::f64::consts::PI } else { 0.0 },
+                lift_mm: 0.0,
             });
             slope_rad = new_slope;
             above = HingeSide { panel: id, edge: 0 };
@@ -162,6 +163,7 @@ impl Prism {
             is_fold: false,
             deployed_rad: std::f64::consts::PI - slope_rad,
             flat_rad: 0.0,
+            lift_mm: 0.0,
         });
     }
 

@@ -170,6 +170,16 @@ fn of_model(args: &PlotArgs, path: &Path, machine: &PltOptions) -> Result<Vec<Sh
 
 /// The sheets on which there is something for the machine.
 pub fn of_drawings(title: &str, pages: &[Drawing], machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
+    Ok(of_drawings_while(title, pages, machine, &|| true)?.unwrap_or_default())
+}
+
+/// The same; `goes_on` is asked after each page, and there are no sheets if it says no.
+pub fn of_drawings_while(
+    title: &str,
+    pages: &[Drawing],
+    machine: &PltOptions,
+    goes_on: &dyn Fn() -> bool,
+) -> Result<Option<Vec<Sheet>>, CliError> {
     let mut plans = Vec::new();
     for (k, page) in pages.iter().enumerate() {
         match Plan::new(page, &machine.cutter, &machine.media) {
@@ -181,11 +191,14 @@ pub fn of_drawings(title: &str, pages: &[Drawing], machine: &PltOptions) -> Resu
                 return Err(CliError::Sheet { sheet, reason: error.to_string() });
             }
         }
+        if !goes_on() {
+            return Ok(None);
+        }
     }
     let name = |k: usize| match plans.len() {
         1 => title.to_owned(),
         count => format!("{title}, sheet {} of {count}", k + 1),
     };
     let sheet = |(k, (page, plan)): (usize, &(&Drawing, Plan))| Sheet::of_plan(name(k), page, plan, machine);
-    plans.iter().enumerate().map(sheet).collect()
+    plans.iter().enumerate().map(sheet).collect::<Result<_, _>>().map(Some)
 }

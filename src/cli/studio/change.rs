@@ -60,6 +60,18 @@ pub enum Change {
 }
 
 impl Change {
+    /// Whether it is about the shape of components, which those that are drawn have from their file.
+    pub fn is_of_parts(&self) -> bool {
+        match self {
+            Change::Set { table, key, .. } => {
+                matches!(*table, "segmentation")
+                    || matches!(*key, "up" | "top_edges" | "profile_vertices" | "tolerance_mm")
+            }
+            Change::Pin { .. } => false,
+            _ => true,
+        }
+    }
+
     /// What it does, for the menu.
     pub fn label(&self) -> String {
         match self {

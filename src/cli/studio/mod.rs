@@ -11,6 +11,7 @@ mod change;
 mod document;
 mod opened;
 mod pages;
+mod planning;
 mod plotting;
 mod results;
 mod scene;

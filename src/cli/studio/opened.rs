@@ -2,14 +2,17 @@
 
 use crate::cli::error::CliError;
 use crate::cli::formats::FileArgs;
+use crate::cli::input::Shape;
 use crate::cli::{init, input};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use tatamu::design::Sketch;
 use tatamu::export::FormatOptions;
 use tatamu::mesh::Repairs;
-use tatamu::pipeline::{Engine, Options, Output};
+use tatamu::pipeline::{Engine, Options, Output, shape_drawn};
 use tatamu::product::Product;
+use tatamu::progress::Silent;
 use tatamu::project::Project;
 use tatamu::report::Run;
 
@@ -17,7 +20,9 @@ use tatamu::report::Run;
 pub struct Opened {
     /// What the user opened: a mesh or a project file.
     pub source: PathBuf,
-    /// The mesh file.
+    /// The drawings, where the components are drawn.
+    pub drawn: Option<Arc<Vec<Sketch>>>,
+    /// The mesh file, or the project file that holds the drawings.
     pub mesh_path: PathBuf,
     /// What was done to the mesh to make it clean.
     pub repairs: Repairs,
@@ -36,7 +41,15 @@ impl Opened {
     /// A message that says what is wrong with which file.
     pub fn read(source: &Path) -> Result<Self, String> {
         let input = input::read(source).map_err(|error| error.to_string())?;
-        let mesh = input.mesh().map_err(|error| error.to_string())?.clone();
+        let (mesh, drawn) = match input.shape {
+            Shape::Mesh(mesh) => (mesh, None),
+            Shape::Drawn(sketches) => {
+                let options = Options::default();
+                let shaped =
+                    shape_drawn(&sketches, None, &options, &Silent).map_err(|error| error.to_string())?;
+                (shaped.divided().mesh().clone(), Some(Arc::new(sketches)))
+            }
+        };
         let is_project = input.project.is_some();
         let text = if is_project {
             let bytes = input::read_file(source).map_err(|error| error.to_string())?;
@@ -48,6 +61,7 @@ impl Opened {
         };
         Ok(Self {
             source: source.to_owned(),
+            drawn,
             mesh_path: input.mesh_path,
             repairs: input.repairs,
             engine: Arc::new(Engine::new(Cow::Owned(mesh))),

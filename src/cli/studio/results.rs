@@ -20,6 +20,8 @@ pub struct Shown {
     /// A component that is newer than the model.
     pub(super) ahead: Option<(usize, ModelPart)>,
     pub(super) output: Option<Output>,
+    /// Whether the order of folding of `output` is known.
+    pub(super) is_folded: bool,
     pub(super) distances: Option<Distances>,
     /// Changes whenever what is shown does.
     pub(super) version: u64,
@@ -47,6 +49,11 @@ impl Shown {
     /// All results.
     pub fn output(&self) -> Option<&Output> {
         self.output.as_ref()
+    }
+
+    /// Whether it is known in which order the results fold, and what clashes.
+    pub fn is_folded(&self) -> bool {
+        self.is_folded
     }
 
     /// Distances between surface and components, where they are of this model.

@@ -12,7 +12,7 @@ use crate::cli::init;
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tatamu::pipeline::Output;
+use tatamu::pipeline::{Options, Output};
 
 /// The studio without its window.
 pub struct Studio {
@@ -97,10 +97,28 @@ impl Studio {
         self.store.recent()
     }
 
-    /// The results, where they are those of the project as it is now.
+    /// The results, where they are those of the project as it is now, and whole.
     pub fn finished(&self) -> Option<&Output> {
-        let document = self.document.as_ref()?;
-        self.shown.output.as_ref().filter(|output| output.options() == document.options())
+        self.laid().filter(|_| self.shown.is_folded)
+    }
+
+    /// The sheets of the project as it is now; perhaps it is not known yet how the model folds.
+    pub fn laid(&self) -> Option<&Output> {
+        let (opened, document) = (self.opened.as_ref()?, self.document.as_ref()?);
+        let is_of = |output: &&Output| match opened.drawn {
+            None => output.options() == document.options(),
+            // Its size is what the drawing measures.
+            Some(_) => {
+                let size_mm = output.options().size_mm;
+                *output.options() == Options { size_mm, ..document.options().clone() }
+            }
+        };
+        self.shown.output.as_ref().filter(is_of)
+    }
+
+    /// Whether the components are drawn in the project file: then they change there alone.
+    pub fn is_drawn(&self) -> bool {
+        self.opened.as_ref().is_some_and(|opened| opened.drawn.is_some())
     }
 
     /// Begins to read a file.
@@ -151,8 +169,12 @@ impl Studio {
                 self.shown.distances = Some(distances);
                 self.shown.version += 1;
             }
+            News::Laid(output) => {
+                (self.shown.output, self.shown.is_folded) = (Some(*output), false);
+                self.shown.version += 1;
+            }
             News::Done(output) => {
-                self.shown.output = Some(*output);
+                (self.shown.output, self.shown.is_folded) = (Some(*output), true);
                 self.shown.version += 1;
                 (self.busy, self.problem) = (None, None);
             }
@@ -188,7 +210,9 @@ impl Studio {
         (self.problem, self.missing) = (None, None);
         self.busy = Some(Busy { stage: "starting", fraction: None });
         let (engine, options) = (opened.engine.clone(), document.options().clone());
-        self.worker.start(Order { engine, options, first, measures: self.measures });
+        let size_mm = document.project().size_mm;
+        let drawn = opened.drawn.clone().map(|sketches| (sketches, size_mm));
+        self.worker.start(Order { engine, drawn, options, first, measures: self.measures });
     }
 
     /// Stops the work; what is shown stays.
@@ -211,6 +235,11 @@ impl Studio {
 
     /// Changes the project. Changes of one gesture are undone together.
     pub fn change(&mut self, change: &Change, gesture: Option<&str>) {
+        if self.is_drawn() && change.is_of_parts() {
+            self.notice =
+                Some("these components are drawn: change their shape in the project file".to_owned());
+            return;
+        }
         let Some(document) = &mut self.document else { return };
         match document.change(change, gesture) {
             Ok(()) => {
@@ -318,16 +347,20 @@ impl Studio {
     /// Writes the project file under a name.
     pub fn save_as(&mut self, path: &Path) {
         let (Some(opened), Some(document)) = (&self.opened, &mut self.document) else { return };
-        let written = init::mesh_from(path, &opened.mesh_path)
-            .map_err(|error| error.to_string())
-            .and_then(|mesh| document.text_with_mesh(&mesh))
-            .and_then(|text| {
-                let files = [(path.to_owned(), text.clone().into_bytes())];
-                crate::cli::output::check_places(&[path.to_owned()], &[&opened.mesh_path])
-                    .and_then(|()| crate::cli::output::write(&files))
-                    .map_err(|error| error.to_string())
-                    .map(|()| text)
-            });
+        let text = match opened.drawn {
+            Some(_) => Ok(document.text().to_owned()),
+            None => init::mesh_from(path, &opened.mesh_path)
+                .map_err(|error| error.to_string())
+                .and_then(|mesh| document.text_with_mesh(&mesh)),
+        };
+        let mesh: &[&Path] = if opened.drawn.is_some() { &[] } else { &[&opened.mesh_path] };
+        let written = text.and_then(|text| {
+            let files = [(path.to_owned(), text.clone().into_bytes())];
+            crate::cli::output::check_places(&[path.to_owned()], mesh)
+                .and_then(|()| crate::cli::output::write(&files))
+                .map_err(|error| error.to_string())
+                .map(|()| text)
+        });
         match written {
             Ok(text) => {
                 self.store.forget(&opened.source);

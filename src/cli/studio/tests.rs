@@ -164,3 +164,39 @@ fn distances_are_measured_when_asked_for() {
     // Of faces' middles only, but of the mesh rather than of its hull, which is farther inside.
     assert!(distances.most_mm > 0.0 && f64::from(distances.most_mm) < 20.0 * worst);
 }
+
+#[test]
+fn sheets_are_there_before_the_folding_is_known() {
+    let Desk { mut studio, folder: _folder } = desk();
+    studio.turn(1, 25.0);
+    wait(&mut studio, "the sheets", |s| s.laid().is_some());
+    // News come one by one, but several may be taken at once.
+    let is_whole = studio.shown().is_folded();
+    assert_eq!(studio.finished().is_some(), is_whole);
+    let sheets = studio.laid().unwrap().layout().sheet_count();
+    wait(&mut studio, "the model", |s| s.finished().is_some());
+    assert_eq!(studio.finished().unwrap().layout().sheet_count(), sheets);
+    assert_eq!(studio.finished().unwrap().fold_plan().stacks().len(), 1, "it is checked now");
+}
+
+#[test]
+fn a_drawn_model_opens_and_keeps_its_shape() {
+    let folder = tempfile::tempdir().unwrap();
+    let project = folder.path().join("gift-box.toml");
+    std::fs::write(&project, include_bytes!("../../../samples/gift-box.toml")).unwrap();
+    let mut studio = Studio::new(Store::at(&folder.path().join("state")), Arc::new(|| {}));
+    studio.open(&project);
+    wait(&mut studio, "a model", |s| s.finished().is_some() || s.problem().is_some());
+    assert_eq!(studio.problem(), None);
+    assert_eq!(studio.shown().names(), ["box", "lid", "knob"]);
+    let before = studio.document().unwrap().text().to_owned();
+    studio.turn(0, 5.0);
+    assert!(studio.notice().is_some_and(|notice| notice.contains("drawn")));
+    assert_eq!(studio.document().unwrap().text(), before);
+    studio.change(&Change::Set { table: "paper", key: "size", value: Some("a3".into()) }, None);
+    wait(&mut studio, "larger sheets", |s| s.finished().is_some());
+    assert!(studio.save());
+    assert!(
+        Project::parse(&std::fs::read_to_string(&project).unwrap()).unwrap().sketches().unwrap().len() == 3
+    );
+}

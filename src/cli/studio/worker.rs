@@ -5,14 +5,17 @@ use super::surface::{self, Distances};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
+use tatamu::design::Sketch;
 use tatamu::model::ModelPart;
-use tatamu::pipeline::{Engine, Error, Options, Output, Shaped};
+use tatamu::pipeline::{Engine, Error, Options, Output, Shaped, shape_drawn};
 use tatamu::progress::Progress;
 
 /// What is to be made.
 pub struct Order {
     /// The mesh, with all that was made of it.
     pub engine: Arc<Engine<'static>>,
+    /// The drawings that the components are made of, if they are drawn, with their size, mm.
+    pub drawn: Option<(Arc<Vec<Sketch>>, Option<f64>)>,
     /// What is asked for.
     pub options: Options,
     /// The component that is wanted first.
@@ -33,6 +36,8 @@ pub enum News {
     Shaped(Shaped),
     /// Distances between the surface and the components.
     Measured(Distances),
+    /// Everything but the order of folding.
+    Laid(Box<Output>),
     /// Everything.
     Done(Box<Output>),
     /// There is no result; perhaps because of what was set for a component that is no more.
@@ -127,7 +132,7 @@ impl Line {
 
     fn look_ahead(&self, (number, order): &(u64, Order)) {
         let watch = Watch { line: self, number: *number, is_silent: true };
-        let Some(part) = order.first else { return };
+        let Some(part) = order.first.filter(|_| order.drawn.is_none()) else { return };
         // What fails here fails in the other thread, too, which says so.
         if let Ok(component) = order.engine.component(&order.options, part, &watch) {
             self.tell(*number, News::Component(part, Box::new(component)));
@@ -140,12 +145,18 @@ impl Line {
             return;
         }
         let engine = &order.engine;
-        let result = engine.shape(&order.options, &watch).and_then(|shaped| {
+        let shaped = match &order.drawn {
+            None => engine.shape(&order.options, &watch),
+            Some((sketches, size_mm)) => shape_drawn(sketches, *size_mm, &order.options, &watch),
+        };
+        let result = shaped.and_then(|shaped| {
             self.tell(number, News::Shaped(shaped.clone()));
             if order.measures {
                 self.tell(number, News::Measured(surface::distances(&shaped)));
             }
-            engine.finish(shaped, &watch)
+            let laid = engine.lay_out(shaped, &watch)?;
+            self.tell(number, News::Laid(Box::new(laid.clone())));
+            engine.fold(laid, &watch)
         });
         match result {
             Ok(output) => self.tell(number, News::Done(Box::new(output))),

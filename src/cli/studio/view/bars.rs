@@ -179,6 +179,7 @@ fn summary(window: &mut Window, ui: &mut Ui) {
     let pieces: usize = output.nets().iter().map(|net| net.pieces().len()).sum();
     let parts = output.model().parts().len();
     let text = match count {
+        0 if !window.studio.shown().is_folded() => "folding not checked yet".to_owned(),
         0 => "no warnings".to_owned(),
         1 => "1 warning".to_owned(),
         n => format!("{n} warnings"),
@@ -220,6 +221,9 @@ fn warnings(window: &mut Window, ui: &mut Ui) {
         .zip(output.shaped().divided().hulls().names())
         .map(|(part, name)| (part.name.clone(), name.clone()))
         .collect();
+    for remark in output.remarks() {
+        ui.weak(remark);
+    }
     for warning in output.warnings() {
         ui.horizontal_wrapped(|ui| {
             // The longest name that it mentions, so that part-1 is not taken for part-12.

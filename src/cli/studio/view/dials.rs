@@ -56,6 +56,10 @@ const TOLERANCE: Number = number(
 /// The dials of the whole model, as rows of a grid.
 pub fn model(studio: &mut Studio, ui: &mut Ui) {
     let Some(options) = studio.document().map(|d| d.options().clone()) else { return };
+    if studio.is_drawn() {
+        let size_mm = studio.shown().shaped().map_or(options.size_mm, |shaped| shaped.options().size_mm);
+        return SIZE.row(studio, ui, size_mm);
+    }
     SIZE.row(studio, ui, options.size_mm);
     let up = match options.up {
         Up::X => "x",

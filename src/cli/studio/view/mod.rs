@@ -13,6 +13,7 @@ mod space;
 #[cfg(all(test, feature = "studio-test"))]
 mod tests;
 mod values;
+mod wheel;
 
 use super::state::Studio;
 use browser::{Browser, Purpose};

@@ -23,6 +23,8 @@ pub struct PartsPanel {
 struct Split {
     axis: usize,
     share: f64,
+    /// Whether it has not been seen yet.
+    is_new: bool,
 }
 
 const AXES: [(&str, DVec3); 4] = [
@@ -43,16 +45,19 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
         let title = studio.shown().part(index).map_or(String::new(), |part| part.name.clone());
         CollapsingHeader::new(RichText::new(title).strong()).id_salt("own").default_open(true).show(
             ui,
-            |ui| {
-                own(panel, studio, ui, index);
-                splitting(panel, studio, space, ui, index);
+            |ui| match studio.is_drawn() {
+                true => drop(ui.weak("drawn in the project file")),
+                false => {
+                    own(panel, studio, ui, index);
+                    splitting(panel, studio, space, ui, index);
+                }
             },
         );
     } else {
         panel.split = None;
         space.show_split(None);
     }
-    if studio.selection.names().len() > 1 {
+    if studio.selection.names().len() > 1 && !studio.is_drawn() {
         let names = studio.selection.names().join(" and ");
         if ui.button("Merge").on_hover_text(format!("makes one part of {names} (M)")).clicked() {
             studio.merge_selected();
@@ -79,8 +84,10 @@ fn components(studio: &mut Studio, ui: &mut Ui) {
             if ui.selectable_label(studio.selection.has(name), &part.name).clicked() {
                 clicked = Some(name.clone());
             }
-            ui.weak(format!("{:.1} mm", part.component.hausdorff_mm()))
-                .on_hover_text("how far the component is from its part's hull, at most");
+            if !studio.is_drawn() {
+                ui.weak(format!("{:.1} mm", part.component.hausdorff_mm()))
+                    .on_hover_text("how far the component is from its part's hull, at most");
+            }
         });
     }
     if let Some(name) = clicked {
@@ -187,13 +194,14 @@ fn splitting(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui:
     let Some(mut split) = panel.split else {
         space.show_split(None);
         if ui.button("Split …").on_hover_text("divides this part by a plane").clicked() {
-            panel.split = Some(Split { axis: 2, share: 0.5 });
+            panel.split = Some(Split { axis: 2, share: 0.5, is_new: true });
         }
         return;
     };
     let plane = plane(studio, index, split);
     space.show_split(plane);
-    ui.group(|ui| {
+    let is_new = std::mem::take(&mut split.is_new);
+    let group = ui.group(|ui| {
         egui::ComboBox::from_id_salt("axis").selected_text(AXES[split.axis].0).show_ui(ui, |ui| {
             for (k, (name, _)) in AXES.iter().enumerate() {
                 ui.selectable_value(&mut split.axis, k, *name);
@@ -213,6 +221,9 @@ fn splitting(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui:
             }
         });
     });
+    if is_new {
+        group.response.scroll_to_me(None);
+    }
 }
 
 /// The plane across a part's hull, in the model's axes.

@@ -1,17 +1,14 @@
 //! The cutter: machine, medium, port, a picture of the job, and its progress.
 
-use super::super::pages;
+use super::super::planning::{Plan, Planning, Wish};
 use super::super::plotting::Plotting;
 use super::super::state::Studio;
+use super::super::worker::Wake;
 use super::picture::Picture;
-use crate::cli::cutters::{self, CutterArgs};
-use crate::cli::plot::jobs::{self, Sheet};
+use crate::cli::cutters;
 use crate::cli::ports;
 use eframe::egui::{self, Color32, Rect, Sense, Ui};
 use std::sync::Arc;
-use tatamu::drawing::Drawing;
-use tatamu::export::PltOptions;
-use tatamu::plotter::preview;
 
 /// The panel of the cutter.
 pub struct PlotPanel {
@@ -25,6 +22,8 @@ pub struct PlotPanel {
     only: Option<usize>,
     shown: usize,
     plan: Option<(Key, Result<Plan, String>)>,
+    /// The plan that is being made.
+    planning: Option<(Key, Planning)>,
     picture: Picture,
     running: Option<Plotting>,
 }
@@ -35,13 +34,6 @@ struct Key {
     version: u64,
     cutter: String,
     media: String,
-}
-
-/// The job as it would be sent.
-struct Plan {
-    machine: PltOptions,
-    sheets: Vec<Sheet>,
-    previews: Vec<Drawing>,
 }
 
 impl Default for PlotPanel {
@@ -56,6 +48,7 @@ impl Default for PlotPanel {
             only: None,
             shown: 0,
             plan: None,
+            planning: None,
             picture: Picture::default(),
             running: None,
         }
@@ -101,9 +94,17 @@ impl PlotPanel {
     fn dials(&mut self, studio: &mut Studio, ui: &mut Ui) {
         let is_running = self.is_running();
         ui.add_enabled_ui(!is_running, |ui| self.choices(ui));
-        self.refresh(studio);
+        self.refresh(studio, ui.ctx());
         ui.separator();
+        if let Some((_, planning)) = &self.planning {
+            ui.label("planning the job …");
+            ui.add(egui::ProgressBar::new(planning.share()));
+            if ui.button("Cancel").on_hover_text("any change of machine or model plans anew").clicked() {
+                self.cancel();
+            }
+        }
         match &self.plan {
+            None if self.planning.is_some() => {}
             None => drop(ui.weak("as soon as the model is finished")),
             Some((_, Err(problem))) => drop(ui.colored_label(ui.visuals().error_fg_color, problem)),
             Some((_, Ok(plan))) => {
@@ -170,28 +171,34 @@ impl PlotPanel {
         }
     }
 
-    /// Plans the job where model or machine have changed.
-    fn refresh(&mut self, studio: &Studio) {
+    /// Plans the job in the background where model or machine have changed.
+    fn refresh(&mut self, studio: &Studio, ctx: &egui::Context) {
+        if let Some(plan) = self.planning.as_ref().and_then(|(_, planning)| planning.made()) {
+            let count = plan.as_ref().map_or(0, |plan| plan.sheets.len());
+            self.shown = self.shown.min(count.saturating_sub(1));
+            self.plan = self.planning.take().map(|(key, _)| (key, plan));
+            self.picture = Picture::default();
+        }
         let Some(output) = studio.finished() else { return };
         let (Some(opened), Some(document)) = (studio.opened(), studio.document()) else { return };
         let version = studio.shown().version();
         let key = Key { version, cutter: self.cutter.clone(), media: self.media.clone() };
-        if self.plan.as_ref().is_some_and(|(old, _)| *old == key) || self.is_running() {
+        let is_known = self.plan.as_ref().is_some_and(|(old, _)| *old == key);
+        let is_begun = self.planning.as_ref().is_some_and(|(begun, _)| *begun == key);
+        if is_known || is_begun || self.is_running() {
             return;
         }
-        let plan = || {
-            let machine = CutterArgs::of(&self.cutter, &self.media).choice().map_err(|e| e.to_string())?;
-            let drawings = pages::drawings(opened, document.project(), output)?;
-            let sheets =
-                jobs::of_drawings(&opened.title(), &drawings, &machine).map_err(|e| e.to_string())?;
-            let previews = sheets.iter().map(|s| preview(s.job(), &machine.cutter, s.placement())).collect();
-            Ok(Plan { machine, sheets, previews })
-        };
-        let plan: Result<Plan, String> = plan();
-        let count = plan.as_ref().map_or(0, |plan| plan.sheets.len());
-        self.shown = self.shown.min(count.saturating_sub(1));
-        self.plan = Some((key, plan));
-        self.picture = Picture::default();
+        let (cutter, media) = (self.cutter.clone(), self.media.clone());
+        let (opened, project) = (opened.clone(), document.project().clone());
+        let wish = Wish { opened, project, output: output.clone(), cutter, media };
+        self.plan = None;
+        self.planning = Some((key, Planning::start(wish, wake(ctx))));
+    }
+
+    /// Stops the planning.
+    fn cancel(&mut self) {
+        let stopped = self.planning.take();
+        self.plan = stopped.map(|(key, _)| (key, Err("planning was cancelled".to_owned())));
     }
 
     fn start(&mut self, studio: &Studio, ui: &mut Ui) {
@@ -207,9 +214,7 @@ impl PlotPanel {
             None => &plan.sheets,
         };
         let journal = opened.source.with_extension("tatamu-job");
-        let ctx = ui.ctx().clone();
-        let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(move || ctx.request_repaint());
-        let port = self.port.trim();
+        let (port, wake) = (self.port.trim(), wake(ui.ctx()));
         self.running = Some(Plotting::start(&plan.machine.cutter, port, self.copies, sheets, journal, wake));
     }
 
@@ -253,6 +258,12 @@ impl PlotPanel {
             ui.painter().image(texture.id(), rect, whole, Color32::WHITE);
         }
     }
+}
+
+/// Draws the window again when a thread has something to tell.
+fn wake(ctx: &egui::Context) -> Wake {
+    let ctx = ctx.clone();
+    Arc::new(move || ctx.request_repaint())
 }
 
 fn names_row(ui: &mut Ui, label: &str, names: &[String], chosen: &mut String) {

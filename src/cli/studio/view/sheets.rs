@@ -147,7 +147,7 @@ impl SheetsPanel {
         let Some(id) = net.and_then(|net| pages::named(output, net, &piece)) else { return };
         let pins = studio.document().map(|d| &d.project().pins);
         let is_pinned = pins.is_some_and(|pins| pins.iter().any(|pin| pin.piece() == piece));
-        let is_current = studio.finished().is_some();
+        let is_current = studio.laid().is_some();
         if is_pinned && ui.button("Let go").on_hover_text("the layout decides again where it lies").clicked()
         {
             studio.change(&Change::Pin { piece: piece.clone(), place: None }, None);
@@ -181,7 +181,7 @@ impl SheetsPanel {
             let sheets = layout.sheet_count();
             let name = layout.options().paper.name();
             ui.label(format!("{sheets} sheets of {name}, {:.0} % used", 100.0 * layout.utilisation()));
-            if studio.finished().is_none() {
+            if studio.laid().is_none() {
                 ui.spinner();
                 ui.weak("of the model before");
             }
@@ -236,7 +236,7 @@ impl SheetsPanel {
             }
         }
         let grabbed = response.interact_pointer_pos().filter(|_| response.drag_started());
-        if let Some(at) = grabbed.filter(|_| studio.finished().is_some()) {
+        if let Some(at) = grabbed.filter(|_| studio.laid().is_some()) {
             // Where the button was pressed, not where the mouse is by now.
             let at = ui.input(|i| i.pointer.press_origin()).unwrap_or(at);
             let from_mm = to_mm(rect, scale, at);

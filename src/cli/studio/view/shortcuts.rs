@@ -69,13 +69,14 @@ const LIST: &[Shortcut] = &[
 ];
 
 /// What the mouse does.
-const MOUSE: [(&str, &str); 7] = [
+const MOUSE: [(&str, &str); 8] = [
     ("drag", "turn the view"),
     ("right or middle button, or Shift and drag", "move the view"),
     ("wheel", "magnify"),
     ("click", "select a component and a panel"),
     ("Shift and click", "select several components"),
-    ("wheel over a selected component", "turn its fold direction by 5°, with Shift by 1°"),
+    ("two fingers on a trackpad", "move the view; pinched, magnify"),
+    ("a click of the wheel over a selected component", "turn its fold direction by 5°, with Shift by 1°"),
     ("drop a file", "open it"),
 ];
 

@@ -2,6 +2,7 @@
 
 use super::super::scene::{self, Layers, Setting, Tag};
 use super::super::state::Studio;
+use super::wheel::Wheel;
 use eframe::egui::containers::menu::{MenuButton, MenuConfig};
 use eframe::egui::{self, Color32, CursorIcon, PointerButton, Sense, TextureHandle, TextureOptions, Vec2};
 use glam::{DVec2, DVec3};
@@ -12,10 +13,8 @@ use tatamu::render::zbuffer::{Frame, Solids};
 
 /// Turn of the view for a drag over the window's shorter side, radians.
 const DRAG_RAD: f64 = 4.0;
-/// Turn of a fold direction for a notch of the wheel, degrees; with Shift the smaller one.
-const NOTCH_DEG: [f64; 2] = [5.0, 1.0];
-/// Points of a trackpad that are a notch.
-const NOTCH_POINTS: f32 = 40.0;
+/// Turn of a fold direction for a click of the wheel, degrees; with Shift the smaller one.
+const STEP_DEG: [f64; 2] = [5.0, 1.0];
 /// Seconds that folding a component takes.
 const FOLD_S: f64 = 1.4;
 /// Pictures of more pixels are not drawn at twice the size.
@@ -32,6 +31,7 @@ pub struct Space {
     drawn: Option<Drawn>,
     solids: Option<(u64, String, Setting, Solids)>,
     last_turn_s: f64,
+    wheel: Wheel,
 }
 
 #[derive(Clone, PartialEq)]
@@ -58,6 +58,7 @@ impl Default for Space {
             drawn: None,
             solids: None,
             last_turn_s: f64::NEG_INFINITY,
+            wheel: Wheel::default(),
         }
     }
 }
@@ -270,7 +271,7 @@ impl Space {
             self.fit();
         }
         if let Some(at) = response.hover_pos() {
-            self.wheel(studio, ui, over, (at - rect.center()) / side as f32);
+            self.wheel(studio, ui, over, (at - rect.center()) / side as f32, side);
             self.tip(studio, ui, response, over);
         }
         self.orbit != before
@@ -281,38 +282,32 @@ impl Space {
         self.frame.as_ref()?.tag_at(x, y).and_then(Tag::of_number)
     }
 
-    /// Over a selected component the wheel turns its fold direction; elsewhere it magnifies.
-    fn wheel(&mut self, studio: &mut Studio, ui: &egui::Ui, over: Option<Tag>, at: Vec2) {
-        let (notches, zoom, shift, now) = ui.input(|i| {
-            let wheel = i.events.iter().filter_map(|event| match event {
-                egui::Event::MouseWheel { unit: egui::MouseWheelUnit::Point, delta, .. } => {
-                    Some((delta.y + delta.x) / NOTCH_POINTS)
-                }
-                // With Shift some systems turn the wheel sideways.
-                egui::Event::MouseWheel { delta, .. } => Some(delta.y + delta.x),
-                _ => None,
-            });
-            (f64::from(wheel.sum::<f32>()), f64::from(i.zoom_delta()), i.modifiers.shift, i.time)
+    /// Over a selected component the wheel turns its fold direction; elsewhere it magnifies. Two
+    /// fingers on a trackpad move the view.
+    fn wheel(&mut self, studio: &mut Studio, ui: &egui::Ui, over: Option<Tag>, at: Vec2, side: f64) {
+        let is_selected =
+            |tag: &Tag| studio.shown().names().get(tag.part).is_some_and(|name| studio.selection.has(name));
+        let over = over.filter(is_selected);
+        let (motion, zoom, shift, now) = ui.input(|i| {
+            let zoom = f64::from(i.zoom_delta());
+            // A pinch, or the wheel with Ctrl, comes as wheel and as zoom.
+            let events = i.events.iter().filter(|_| zoom == 1.0);
+            (self.wheel.read(events, i.time, over.is_some()), zoom, i.modifiers.shift, i.time)
         });
         if now - self.last_turn_s > 1.0 && self.last_turn_s.is_finite() {
             studio.end_gesture();
             self.last_turn_s = f64::NEG_INFINITY;
         }
-        let is_selected =
-            |tag: &Tag| studio.shown().names().get(tag.part).is_some_and(|name| studio.selection.has(name));
-        match over.filter(is_selected) {
-            Some(tag) if notches != 0.0 && zoom == 1.0 => {
-                self.setting.folded = 0.0;
-                self.last_turn_s = now;
-                studio.turn(tag.part, notches * NOTCH_DEG[usize::from(shift)]);
-            }
-            _ => {
-                let factor = zoom * if zoom == 1.0 { 1.12f64.powf(notches) } else { 1.0 };
-                if factor != 1.0
-                    && let Some(orbit) = &mut self.orbit
-                {
-                    orbit.zoom_at(factor, DVec2::new(f64::from(at.x), -f64::from(at.y)));
-                }
+        if let Some(tag) = over.filter(|_| motion.turn != 0.0) {
+            self.setting.folded = 0.0;
+            self.last_turn_s = now;
+            studio.turn(tag.part, motion.turn * STEP_DEG[usize::from(shift)]);
+        }
+        let factor = zoom * 1.12f64.powf(motion.zoom);
+        if let Some(orbit) = &mut self.orbit {
+            orbit.shift += DVec2::new(f64::from(motion.pan.x), -f64::from(motion.pan.y)) / side;
+            if factor != 1.0 {
+                orbit.zoom_at(factor, DVec2::new(f64::from(at.x), -f64::from(at.y)));
             }
         }
     }
@@ -323,7 +318,11 @@ impl Space {
         let panel = tag.panel.and_then(|id| part.component.panels().panels().get(id.0));
         let what = panel.map_or(String::new(), |panel| format!(" · {}", panel.kind));
         let is_selected = studio.shown().names().get(tag.part).is_some_and(|name| studio.selection.has(name));
-        let hint = if is_selected { "wheel: turn its fold direction" } else { "click: select" };
+        let hint = match is_selected {
+            true if studio.is_drawn() => "drawn in the project file",
+            true => "wheel: turn its fold direction, 5° a click, with Shift 1°",
+            false => "click: select",
+        };
         ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
         let place = response.rect.left_bottom() + egui::vec2(10.0, -10.0);
         let text = format!("{}{what}   ({hint})", part.name);
