@@ -11,7 +11,7 @@ use super::hinged::{Chain, Hinged, Unhinged};
 use super::overlap::Solid;
 use crate::component::{AssembleError, Component, Panel, PanelId, PanelKind, Profile};
 use crate::model::Model;
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 /// Why a model cannot be made of thick panels.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -201,9 +201,8 @@ impl Boards<'_> {
     /// No two boards are in one place, standing or flat.
     fn check(&self, inner: &Component) -> Result<(), ThickError> {
         let panels = inner.panels().panels();
-        let states: [(&str, fn(&Panel) -> DAffine3); 2] =
-            [("it stands", |p| p.deployed), ("folded flat", |p| p.flat)];
-        for (state, place) in states {
+        for (state, is_flat) in [("it stands", false), ("folded flat", true)] {
+            let place = |p: &Panel| if is_flat { p.flat } else { p.deployed };
             let solid = |p: &Panel| Solid::prism(&p.outline, place(p), self.thickness_mm);
             let solids: Vec<Solid> = panels.iter().map(solid).collect();
             for (a, b) in (0..solids.len()).flat_map(|b| (0..b).map(move |a| (a, b))) {
