@@ -4,6 +4,7 @@ use super::*;
 use crate::design::{Sketch, design};
 use crate::fold::ComponentMotion;
 use crate::progress::Silent;
+use glam::DAffine3;
 
 fn barrel() -> Model {
     let top = (0..6).map(|k| DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 6.0) * 40.0);
