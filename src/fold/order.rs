@@ -13,6 +13,10 @@ use std::collections::BTreeSet;
 const SWEEPS_FOR_EACH: usize = 1;
 /// And after so many states of the model.
 const MOST_STATES: usize = 20_000;
+/// Where no order is free of clashes, components are compared at every step until so many motions
+/// were worked out for each, and at least this number in all; the rest follows as listed.
+const COMPARED_FOR_EACH: usize = 3;
+const COMPARED: usize = 150;
 /// An order is changed for another one that does less harm by more than this.
 const LEAST_GAIN_MM: f64 = 0.01;
 
@@ -212,11 +216,16 @@ impl Search<'_> {
         Ok(false)
     }
 
-    /// Folds at every step what clashes least.
+    /// Folds at every step what clashes least, while that takes not too long.
     fn least_bad(&mut self, parts: &[usize]) -> Result<Vec<usize>, Cancelled> {
         let mut is_flat = vec![false; self.motion.model().parts().len()];
         let mut order = Vec::new();
+        let most_sweeps = self.checker.sweeps() + COMPARED.max(COMPARED_FOR_EACH * parts.len());
         while order.len() < parts.len() {
+            if self.checker.sweeps() > most_sweeps {
+                order.extend(parts.iter().filter(|&&p| !is_flat[p]));
+                break;
+            }
             let mut best: Option<(f64, usize)> = None;
             for &part in parts.iter().filter(|&&p| !is_flat[p]) {
                 self.progress.check()?;
