@@ -31,7 +31,7 @@ impl Solid {
     pub(super) fn overlaps(&self, other: &Self, touch_mm: f64) -> bool {
         let crossed = self.edges.iter().flat_map(|a| other.edges.iter().map(|b| a.cross(*b)));
         let axes = self.normals.iter().chain(&other.normals).copied().chain(crossed);
-        let mut axes = axes.filter_map(|axis| (axis.length() > PARALLEL).then(|| axis.normalize()));
+        let mut axes = axes.filter(|axis| axis.length() > PARALLEL).map(|axis| axis.normalize());
         axes.all(|axis| {
             let ((a, b), (c, d)) = (self.reach(axis), other.reach(axis));
             b.min(d) - a.max(c) > touch_mm

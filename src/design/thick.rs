@@ -201,8 +201,8 @@ impl Boards<'_> {
     /// No two boards are in one place, standing or flat.
     fn check(&self, inner: &Component) -> Result<(), ThickError> {
         let panels = inner.panels().panels();
-        let states: [(&str, fn(&Panel) -> DAffine3); 2] =
-            [("it stands", |p| p.deployed), ("folded flat", |p| p.flat)];
+        type Place = fn(&Panel) -> DAffine3;
+        let states: [(&str, Place); 2] = [("it stands", |p| p.deployed), ("folded flat", |p| p.flat)];
         for (state, place) in states {
             let solid = |p: &Panel| Solid::prism(&p.outline, place(p), self.thickness_mm);
             let solids: Vec<Solid> = panels.iter().map(solid).collect();
