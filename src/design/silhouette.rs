@@ -129,23 +129,24 @@ impl Silhouette {
 
     /// The levels between which every section is at least so wide at every edge.
     fn usable(&self, least_mm: f64) -> Option<(usize, usize)> {
-        let is_wide = |k: &usize| self.width(*k) >= least_mm;
+        // Where joint panels end, it is as wide as it is.
+        let is_wide = |k: &usize| self.width(*k) >= least_mm || (self.is_kept(*k) && self.width(*k) > 0.0);
         let levels = 0..self.heights.len();
         let first = levels.clone().find(is_wide)?;
         let last = levels.clone().rfind(is_wide)?;
-        let is_needed = |k: &usize| self.kept.heights().any(|v| v == self.heights[*k]);
-        let is_lost = levels.filter(is_needed).any(|k| k < first || k > last);
+        let is_lost = levels.filter(|&k| self.is_kept(k)).any(|k| k < first || k > last);
         (last > first && !is_lost && (first..=last).all(|k| is_wide(&k))).then_some((first, last))
     }
 
     /// Profiles with `count` vertices each, all at the same heights, so that no panel has a neighbour
     /// that bends beside it: the heights for which the farthest distance of any profile from its
-    /// silhouette is least. Their reach from its middle is `scale` times that of the body, but for
-    /// joint panels, which stay whole where they are.
+    /// silhouette is least. Their reach from its middle is `scale` times that of the body, but at the
+    /// ends of joint panels, which stay whole where they are.
     pub(super) fn profiles(&self, count: usize, scale: f64, least_mm: f64) -> Option<Vec<Drawn>> {
         let (first, last) = self.usable(least_mm)?;
         let levels = self.best_levels(first, last, count)?;
         let point = |j: usize, k: usize| {
+            let scale = if self.is_kept(k) { 1.0 } else { scale };
             let middle = self.normals[j].dot(self.middle);
             let scaled = DVec2::new(middle + scale * (self.reaches[j][k] - middle), self.heights[k]);
             self.kept.at(j, self.heights[k]).unwrap_or(scaled)
@@ -187,6 +188,11 @@ impl Silhouette {
             levels.push(best[length][levels[levels.len() - 1]].1);
         }
         Some(levels.into_iter().rev().map(|level| first + level).collect())
+    }
+
+    /// Whether a level is one that needs a vertex.
+    fn is_kept(&self, k: usize) -> bool {
+        self.kept.heights().any(|v| v == self.heights[k])
     }
 
     /// Whether a height that needs a vertex lies between two levels.

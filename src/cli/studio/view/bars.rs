@@ -14,7 +14,7 @@ pub fn top(window: &mut Window, ui: &mut Ui) {
             ui.menu_button("Edit", |ui| edit_menu(window, ui));
             ui.menu_button("View", |ui| view_menu(window, ui));
             ui.menu_button("Help", |ui| {
-                if ui.button("Shortcuts …  F1").clicked() {
+                if ui.add(egui::Button::new("Shortcuts …").shortcut_text("F1")).clicked() {
                     window.shows_shortcuts = true;
                     ui.close();
                 }
@@ -38,7 +38,7 @@ pub fn top(window: &mut Window, ui: &mut Ui) {
 }
 
 fn file_menu(window: &mut Window, ui: &mut Ui) {
-    if ui.button("Open …  Ctrl+O").clicked() {
+    if ui.add(egui::Button::new("Open …").shortcut_text("Ctrl+O")).clicked() {
         window.ask_open();
         ui.close();
     }
@@ -49,7 +49,7 @@ fn file_menu(window: &mut Window, ui: &mut Ui) {
         }
     });
     let has_file = window.studio.document().is_some();
-    if ui.add_enabled(has_file, egui::Button::new("Save project  Ctrl+S")).clicked() {
+    if ui.add_enabled(has_file, egui::Button::new("Save project").shortcut_text("Ctrl+S")).clicked() {
         window.save();
         ui.close();
     }
@@ -58,7 +58,7 @@ fn file_menu(window: &mut Window, ui: &mut Ui) {
         ui.close();
     }
     ui.separator();
-    if ui.button("Quit  Ctrl+Q").clicked() {
+    if ui.add(egui::Button::new("Quit").shortcut_text("Ctrl+Q")).clicked() {
         ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
     }
 }
@@ -83,29 +83,36 @@ fn edit_menu(window: &mut Window, ui: &mut Ui) {
         Some(label) => format!("{word}: {label}"),
         None => word.to_owned(),
     };
-    if ui.add_enabled(undo.is_some(), egui::Button::new(text("Undo", &undo) + "  Ctrl+Z")).clicked() {
+    if ui
+        .add_enabled(undo.is_some(), egui::Button::new(text("Undo", &undo)).shortcut_text("Ctrl+Z"))
+        .clicked()
+    {
         window.studio.undo();
     }
-    if ui.add_enabled(redo.is_some(), egui::Button::new(text("Redo", &redo) + "  Ctrl+Shift+Z")).clicked() {
+    if ui
+        .add_enabled(redo.is_some(), egui::Button::new(text("Redo", &redo)).shortcut_text("Ctrl+Shift+Z"))
+        .clicked()
+    {
         window.studio.redo();
     }
     ui.separator();
     let several = window.studio.selection.names().len() > 1;
-    if ui.add_enabled(several, egui::Button::new("Merge selected components  M")).clicked() {
+    if ui.add_enabled(several, egui::Button::new("Merge selected components").shortcut_text("M")).clicked() {
         window.studio.merge_selected();
         ui.close();
     }
 }
 
 fn view_menu(window: &mut Window, ui: &mut Ui) {
-    let sides = [("Front  1", 0.0, 0.0), ("Side  2", std::f64::consts::FRAC_PI_2, 0.0), ("Top  3", 0.0, 1.5)];
-    for (name, azimuth, elevation) in sides {
-        if ui.button(name).clicked() {
+    let sides =
+        [("Front", "1", 0.0, 0.0), ("Side", "2", std::f64::consts::FRAC_PI_2, 0.0), ("Top", "3", 0.0, 1.5)];
+    for (name, key, azimuth, elevation) in sides {
+        if ui.add(egui::Button::new(name).shortcut_text(key)).clicked() {
             window.space.look_from(azimuth, elevation);
             ui.close();
         }
     }
-    if ui.button("Fit  F").clicked() {
+    if ui.add(egui::Button::new("Fit").shortcut_text("F")).clicked() {
         window.space.fit();
         ui.close();
     }
@@ -189,7 +196,9 @@ fn summary(window: &mut Window, ui: &mut Ui) {
     } else {
         ui.weak(text);
     }
-    ui.weak(format!("{parts} components · {pieces} pieces · {sheets} sheets ·"));
+    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
+    let counts = [(parts, "component"), (pieces, "piece"), (sheets, "sheet")].map(|(n, what)| count(n, what));
+    ui.weak(format!("{} ·", counts.join(" · ")));
 }
 
 /// Each warning with a button that goes to the place.
