@@ -1,6 +1,7 @@
 //! Orders of folding: models whose answer is known, and brute force.
 
 use glam::{DAffine3, DVec2, DVec3};
+use std::collections::BTreeSet;
 use tatamu::component::{Panel, PanelId, PanelKind};
 use tatamu::fold::{FoldPlan, ModelMotion, ModelPose, Sequence};
 use tatamu::geom::{self, Hull, Plane};
@@ -125,6 +126,8 @@ fn ears_too_near_to_each_other_clash_in_any_order() {
     order.sort_unstable();
     assert_eq!(order, [0, 1, 2], "a model is made all the same");
     let advice = plan.advice(&model, false);
+    let pairs: BTreeSet<[usize; 2]> = plan.clashes().iter().map(|c| c.parts).collect();
+    assert_eq!(advice.len(), pairs.len() + plan.overlaps().len(), "each pair is told of once");
     let (code, message) = advice.iter().find(|(code, _)| *code == "fold_clash").expect("a warning");
     for word in ["left", "right", "--direction"] {
         assert!(message.contains(word), "{code}: {message}");

@@ -4,21 +4,34 @@ use super::check::{Clash, Overlap};
 use super::order::FoldPlan;
 use crate::component::PanelKind;
 use crate::model::Model;
+use std::collections::BTreeMap;
 
 /// A short constant name for programs, and a sentence.
 pub type Advice = (&'static str, String);
 
 impl FoldPlan {
-    /// One piece of advice for each clash and each overlap. `is_untangled` tells that other fold
-    /// directions were tried already.
+    /// One piece of advice for each pair that clashes, where it is deepest, and for each overlap.
+    /// `is_untangled` tells that other fold directions were tried already.
     pub fn advice(&self, model: &Model, is_untangled: bool) -> Vec<Advice> {
         let overlaps = self.overlaps().iter().map(|overlap| of_overlap(model, overlap));
-        let clashes = self.clashes().iter().map(|clash| match clash.depth_mm {
+        let clashes = deepest(self.clashes()).map(|clash| match clash.depth_mm {
             depth_mm if depth_mm <= self.thickness_mm() => of_rub(model, clash),
             _ => of_clash(model, clash, is_untangled),
         });
         overlaps.chain(clashes).collect()
     }
+}
+
+/// Of clashes of the same two components the deepest one.
+fn deepest(clashes: &[Clash]) -> impl Iterator<Item = &Clash> {
+    let mut of_pair: BTreeMap<[usize; 2], &Clash> = BTreeMap::new();
+    for clash in clashes {
+        let kept = of_pair.entry(clash.parts).or_insert(clash);
+        if clash.depth_mm > kept.depth_mm {
+            *kept = clash;
+        }
+    }
+    of_pair.into_values()
 }
 
 fn of_overlap(model: &Model, overlap: &Overlap) -> Advice {

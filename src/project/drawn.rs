@@ -1,6 +1,6 @@
 //! Components that are drawn in the project file.
 
-use super::{Component, Project, ProjectError};
+use super::{Component, Project, ProjectError, Segmentation};
 use crate::design::{Attachment, Sketch, Way, parse_panel};
 use glam::DVec2;
 use serde::Deserialize;
@@ -117,6 +117,20 @@ impl Joint {
 }
 
 impl Project {
+    /// The keys in the file that are about a mesh.
+    pub(super) fn mesh_keys(&self) -> Vec<&'static str> {
+        let defaults = &self.defaults;
+        let keys = [
+            ("up", self.up.is_some()),
+            ("[segmentation]", self.segmentation != Segmentation::default()),
+            ("[[edit]]", !self.edits.is_empty()),
+            ("top_edges", defaults.top_edges.is_some()),
+            ("profile_vertices", defaults.profile_vertices.is_some()),
+            ("tolerance", defaults.tolerance_mm.is_some()),
+        ];
+        keys.into_iter().filter(|key| key.1).map(|key| key.0).collect()
+    }
+
     /// The drawn components; none where the project has a mesh.
     ///
     /// # Errors
@@ -172,6 +186,14 @@ turn = 45
             let found = Project::parse(&text).and_then(|project| project.sketches());
             let message = found.unwrap_err().to_string();
             assert!(message.contains(word), "{to}: {message}");
+        }
+        for (text, keys) in [
+            ("up = 'z'", "so up would"),
+            ("[segmentation]\nparts = 3", "so [segmentation] would"),
+            ("[defaults]\ntop_edges = 3\ntolerance = '2mm'", "so top_edges, tolerance would"),
+        ] {
+            let message = Project::parse(&format!("{text}\n{BOX}")).unwrap_err().to_string();
+            assert!(message.contains(keys), "{message}");
         }
         let mixed = format!("mesh = 'a.obj'\n{BOX}");
         assert!(Project::parse(&mixed).unwrap_err().to_string().contains("two projects"));

@@ -51,6 +51,9 @@ pub enum ProjectError {
         /// The component.
         name: String,
     },
+    /// Keys that have no meaning for components that are drawn.
+    #[error("its components are made as they are drawn, so {} would do nothing; leave out what is named", .0.join(", "))]
+    MeshOnly(Vec<&'static str>),
     /// A drawing that is none.
     #[error("component \"{name}\": {reason}")]
     Drawing {
@@ -229,7 +232,11 @@ impl Project {
         match (&project.mesh, drawn) {
             (None, None) => Err(ProjectError::Nothing),
             (Some(_), Some(component)) => Err(ProjectError::Mixed { name: component.name.clone() }),
-            _ => Ok(project),
+            (None, Some(_)) => match project.mesh_keys() {
+                keys if keys.is_empty() => Ok(project),
+                keys => Err(ProjectError::MeshOnly(keys)),
+            },
+            (Some(_), None) => Ok(project),
         }
     }
 }
