@@ -85,8 +85,11 @@ impl Space {
         self.setting.clash
     }
 
-    /// Shows where a part would be split.
+    /// Shows where a part would be split, on the standing model.
     pub fn show_split(&mut self, plane: Option<(DVec3, DVec3)>) {
+        if plane.is_some() && self.setting.split.is_none() {
+            (self.setting.folded, self.is_playing) = (0.0, false);
+        }
         self.setting.split = plane;
     }
 
