@@ -6,6 +6,8 @@ use glam::DVec3;
 
 /// Bodies smaller than this share of the area join the nearest body.
 const CRUMB: f64 = 0.02;
+/// Where so many parts are asked for that this share of a mean part is less, bodies smaller than that.
+const CRUMB_OF_PART: f64 = 0.5;
 
 const LEAF: usize = 8;
 const MIXED: u32 = u32::MAX;
@@ -131,10 +133,16 @@ pub(super) fn nearest_links(surface: &Surface) -> Vec<[u32; 2]> {
 }
 
 /// Joins each body that is too small for a segment, whole, to the set at the other end of its
-/// shortest link. `links` are those of [`nearest_links`].
-pub(super) fn join_crumbs(surface: &Surface, mut partition: Partition, links: &[[u32; 2]]) -> Partition {
+/// shortest link. `links` are those of [`nearest_links`]; `parts` is the number that is asked for.
+pub(super) fn join_crumbs(
+    surface: &Surface,
+    mut partition: Partition,
+    links: &[[u32; 2]],
+    parts: Option<usize>,
+) -> Partition {
     let (body, count) = surface.components(|_| 0);
-    let least = CRUMB * surface.total_area();
+    let share = parts.map_or(CRUMB, |parts| CRUMB.min(CRUMB_OF_PART / parts as f64));
+    let least = share * surface.total_area();
     let mut areas = Partition { of_cell: body.clone(), count }.areas(surface);
     let mut root: Vec<u32> = (0..count as u32).collect();
     // The cell whose set a body joins.

@@ -64,7 +64,7 @@ pub fn segment(
             progress.stage("patches");
             let patches = over_segment(&coarse, diameters.as_deref(), options.parts);
             let gaps = bodies::nearest_links(&coarse);
-            let patches = bodies::join_crumbs(&coarse, patches, &gaps);
+            let patches = bodies::join_crumbs(&coarse, patches, &gaps, options.parts);
             progress.stage("parts");
             let ground = Ground { positions, faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
             let solid = Solid::filled(positions, &faces, grid::CELLS);

@@ -164,6 +164,17 @@ fn bodies_are_segments_and_crumbs_join_the_nearest() {
     assert_ne!(ids[0], ids[per_ball]);
 }
 
+/// Each has less than a fiftieth of the area, and they were joined once.
+#[test]
+fn sixty_bodies_are_sixty_parts_where_so_many_are_asked_for() {
+    let ball = balls_in_a_row(&[(0.0, 1.0)], 8, 8);
+    let at = |k: usize| DVec3::new((k % 4) as f64, (k / 4 % 4) as f64, (k / 16) as f64) * 2.1;
+    let bodies: Vec<Shape> = (0..60).map(|k| moved(&ball, |p| p + at(k))).collect();
+    let options = SegmentOptions { parts: Some(60), ..Default::default() };
+    let found = segment(&mesh(&together(&bodies)), &options, &Silent).unwrap();
+    assert_eq!(found.count(), 60);
+}
+
 #[test]
 fn what_cannot_be_segmented_is_told() {
     let sheet = |n: u32| -> Shape {
