@@ -46,6 +46,17 @@ fn click(desk: &mut Desk, label: &str) {
     desk.run_ok();
 }
 
+/// Clicks on what appears as soon as something in the background is ready.
+fn click_when_there(desk: &mut Desk, label: &str) {
+    let start = Instant::now();
+    while desk.query_by_label(label).is_none() {
+        assert!(start.elapsed() < Duration::from_secs(60), "\"{label}\" does not come");
+        std::thread::sleep(Duration::from_millis(5));
+        desk.run_steps(1);
+    }
+    click(desk, label);
+}
+
 /// The middle of the view in space, and a point of it where a component is seen.
 fn on_component(desk: &Desk, part: usize) -> Pos2 {
     let rect = desk.get_by_label("Model in space").rect();
@@ -239,7 +250,7 @@ fn a_job_goes_to_the_virtual_plotter() {
     desk.state_mut().plot_mut().choose("generic-hpgl", &port);
     desk.run_ok();
     click(&mut desk, "all of them");
-    click(&mut desk, "Start");
+    click_when_there(&mut desk, "Start");
     let start = Instant::now();
     let state = loop {
         assert!(start.elapsed() < Duration::from_secs(60), "the job hangs");
