@@ -3,7 +3,7 @@
 use super::error::CliError;
 use super::options::ModelArgs;
 use super::progress::TerminalProgress;
-use super::{input, output, terminal};
+use super::{input, names, output, terminal};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use tatamu::pipeline::Options;
@@ -50,11 +50,7 @@ Examples:
 pub fn run(args: &InitArgs) -> Result<(), CliError> {
     let path = match &args.output {
         Some(path) => path.clone(),
-        None => {
-            let mut name = args.mesh.file_stem().unwrap_or("model".as_ref()).to_owned();
-            name.push(".toml");
-            PathBuf::from(name)
-        }
+        None => names::default(&args.mesh, "toml"),
     };
     output::check_places(std::slice::from_ref(&path), &[&args.mesh])?;
     if path.is_file() && !args.force {

@@ -3,6 +3,8 @@
 use super::error::{CliError, reason};
 use super::options::ModelArgs;
 use super::progress::TerminalProgress;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Component, Path, PathBuf};
 use tatamu::design::Sketch;
 use tatamu::drawing::LineStyles;
@@ -66,10 +68,17 @@ impl Input {
     }
 }
 
+/// A project file shows within so many bytes that it is one.
+const HEAD_BYTES: u64 = 1 << 16;
+
 /// The files that are read for an input, as far as they can be told without reading a mesh: itself,
 /// and the mesh of a project.
 pub fn files(path: &Path) -> Vec<PathBuf> {
-    let text = std::fs::read(path).ok().filter(|bytes| is_project(path, bytes)).map(String::from_utf8);
+    let mut head = Vec::new();
+    // Of a mesh, which may be large, the beginning is enough.
+    let read = File::open(path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head));
+    let whole = read.ok().filter(|_| is_project(path, &head)).and_then(|_| std::fs::read(path).ok());
+    let text = whole.map(String::from_utf8);
     let project = text.and_then(Result::ok).and_then(|text| Project::parse(&text).ok());
     let mesh = project.and_then(|project| project.mesh).map(|mesh| path.with_file_name(mesh));
     std::iter::once(path.to_owned()).chain(mesh).collect()

@@ -308,7 +308,7 @@ fn is_held(sketch: &Sketch, ranked: &Ranked) -> bool {
 }
 
 /// Vertices that moved by less are where they were drawn.
-const MOVED_MM: f64 = 0.05;
+pub(super) const MOVED_MM: f64 = 0.05;
 /// Hinges that come inwards by less need no help.
 const INWARD_MM: f64 = 0.5;
 

@@ -12,7 +12,7 @@
 
 use super::closing::{Closed, close};
 use super::ranking::rank;
-use super::thick::{STRAIGHT, facets};
+use super::thick::{STRAIGHT, facets, turn};
 use super::way::{Segment, Way};
 use crate::component::{Fold, Profile};
 use crate::fold::ChainMotion;
@@ -61,12 +61,11 @@ pub(super) enum Unhinged {
 impl Chain {
     /// The ways to fold it, best first: that of the chain of paper, if it moves nothing, then as they
     /// are ranked for paper, those that move nothing first.
-    pub(super) fn hinged(&self, paper: Profile) -> Result<Vec<Hinged>, Unhinged> {
-        let mut ways: Vec<Way> = own_way(&paper).into_iter().collect();
-        let ranked = rank(&self.corners, &self.whole, self.min_panel_mm).ranked;
-        ways.extend(
-            ranked.into_iter().map(|ranked| ranked.way).filter(|way| Some(way) != own_way(&paper).as_ref()),
-        );
+    pub(super) fn hinged(&self, paper: &Profile) -> Result<Vec<Hinged>, Unhinged> {
+        let own = own_way(paper);
+        let ranked = rank(&self.corners, &self.whole, self.min_panel_mm).ranked.into_iter();
+        let others = ranked.map(|ranked| ranked.way).filter(|way| Some(way) != own.as_ref());
+        let ways: Vec<Way> = own.iter().cloned().chain(others).collect();
         let tried: Vec<Result<Hinged, Unhinged>> = ways.iter().map(|way| self.folded(way)).collect();
         let is_against = tried.iter().any(|tried| tried.as_ref().err() == Some(&Unhinged::Against));
         let mut hinged: Vec<Hinged> = tried.into_iter().flatten().collect();
@@ -81,7 +80,7 @@ impl Chain {
     fn folded(&self, way: &Way) -> Result<Hinged, Unhinged> {
         let segments = way.segments();
         let is_against = |(w, s): (&[DVec2], &[Segment])| {
-            let turn = (w[1] - w[0]).normalize_or_zero().perp_dot((w[2] - w[1]).normalize_or_zero());
+            let turn = turn(w[0], w[1], w[2]);
             match (s[0].ends_up(), s[1].begins_up()) {
                 (true, false) => turn > STRAIGHT,
                 (false, true) => turn < -STRAIGHT,

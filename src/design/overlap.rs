@@ -1,5 +1,6 @@
 //! Whether two boards are in one place.
 
+use super::thick::board;
 use glam::{DAffine3, DVec2, DVec3};
 
 /// A convex prism in space.
@@ -19,10 +20,9 @@ impl Solid {
         let inner: Vec<DVec3> = outline.iter().map(|p| place.transform_point3(p.extend(0.0))).collect();
         let next = inner.iter().cycle().skip(1);
         let along: Vec<DVec3> = inner.iter().zip(next).map(|(a, b)| (*b - *a).normalize_or_zero()).collect();
-        let outer = inner.iter().map(|p| *p + outward * thickness_mm).collect::<Vec<_>>();
         let normals = along.iter().map(|e| e.cross(outward)).chain([outward]).collect();
         let edges = along.into_iter().chain([outward]).collect();
-        Self { corners: inner.into_iter().chain(outer).collect(), normals, edges }
+        Self { corners: board(&inner, outward, thickness_mm), normals, edges }
     }
 
     /// Whether the two come into each other by more than `touch_mm`, by the theorem of the separating

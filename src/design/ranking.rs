@@ -6,6 +6,7 @@ use super::way::Way;
 use crate::component::Profile;
 use crate::fold::ChainMotion;
 use glam::DVec2;
+use std::cmp::Ordering;
 
 /// What things cost in a score; lengths are shares of the chain's length.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,6 +80,13 @@ pub struct Ranked {
     pub source: Vec<usize>,
 }
 
+impl Ranked {
+    /// The lower score first, then the way that reads first.
+    fn order(&self, other: &Self) -> Ordering {
+        self.score.total().total_cmp(&other.score.total()).then_with(|| self.way.cmp(&other.way))
+    }
+}
+
 /// Why a way to fold is none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, thiserror::Error)]
 pub enum Refusal {
@@ -125,9 +133,7 @@ pub fn rank(points: &[DVec2], whole: &[bool], min_panel_mm: f64) -> Ranking {
             Err(refusal) => ranking.refused.push((way, refusal)),
         }
     }
-    ranking
-        .ranked
-        .sort_by(|a, b| a.score.total().total_cmp(&b.score.total()).then_with(|| a.way.cmp(&b.way)));
+    ranking.ranked.sort_by(Ranked::order);
     ranking
 }
 
@@ -150,17 +156,15 @@ pub(super) fn best(
     let ways = promising(points, Limits { whole, min_panel_mm });
     let measured = ways.iter().filter_map(|way| measured(points, way, min_panel_mm).ok());
     let mut wanted: Vec<Ranked> = measured.filter(is_wanted).collect();
-    let order =
-        |a: &Ranked, b: &Ranked| a.score.total().total_cmp(&b.score.total()).then_with(|| a.way.cmp(&b.way));
-    wanted.sort_by(order);
+    wanted.sort_by(Ranked::order);
     let mut best: Option<Ranked> = None;
     for ranked in wanted {
         // What its motion adds is not less than 0.
-        if best.as_ref().is_some_and(|best| order(best, &ranked).is_lt()) {
+        if best.as_ref().is_some_and(|best| best.order(&ranked).is_lt()) {
             break;
         }
         let Some(ranked) = moving(ranked).ok().filter(|ranked| ranked.score.rise_mm == 0.0) else { continue };
-        if best.as_ref().is_none_or(|best| order(&ranked, best).is_lt()) {
+        if best.as_ref().is_none_or(|best| ranked.order(best).is_lt()) {
             best = Some(ranked);
         }
     }

@@ -7,6 +7,7 @@
 //! a hinge a wedge stays open.
 
 use super::Note;
+use super::build::MOVED_MM;
 use super::hinged::{Chain, Hinged, Unhinged};
 use super::overlap::Solid;
 use crate::component::{AssembleError, Component, Panel, PanelId, PanelKind, Profile};
@@ -101,8 +102,6 @@ pub fn thick(model: &Model, thickness_mm: f64, min_panel_mm: f64) -> Result<(Mod
     Ok((model.with_components(made), notes))
 }
 
-/// Vertices that moved by less are where they were.
-const MOVED_MM: f64 = 0.05;
 /// Turns with a smaller sine are creases in a straight wall.
 pub(super) const STRAIGHT: f64 = 1e-9;
 /// Boards that come into each other by less touch.
@@ -162,13 +161,10 @@ impl Boards<'_> {
                 continue;
             }
             let name = self.name.to_owned();
-            let hinged =
-                chain.hinged(self.component.profiles()[j].clone()).map_err(|reason| match reason {
-                    Unhinged::Against => ThickError::Against { name, chain: j },
-                    Unhinged::NoRoom => {
-                        ThickError::NoRoom { name, chain: j, thickness_mm: self.thickness_mm }
-                    }
-                })?;
+            let hinged = chain.hinged(&self.component.profiles()[j]).map_err(|reason| match reason {
+                Unhinged::Against => ThickError::Against { name, chain: j },
+                Unhinged::NoRoom => ThickError::NoRoom { name, chain: j, thickness_mm: self.thickness_mm },
+            })?;
             found.push(known.len());
             known.push((chain, hinged));
         }
@@ -223,7 +219,7 @@ impl Boards<'_> {
 }
 
 /// Sine of the turn at b; positive where it is inwards.
-fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+pub(super) fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).normalize_or_zero().perp_dot((c - b).normalize_or_zero())
 }
 

@@ -34,7 +34,7 @@ impl FoldPlan {
     /// The order of folding before anything is checked: children before those that carry them.
     pub fn unchecked(model: &Model, thickness_mm: f64) -> Self {
         let mut order: Vec<usize> = (0..model.parts().len()).collect();
-        order.sort_by_key(|&part| std::cmp::Reverse(ancestors(model, part).len()));
+        outermost_first(model, &mut order);
         Self { thickness_mm, order, clashes: Vec::new(), overlaps: Vec::new(), stacks: Vec::new() }
     }
 
@@ -89,6 +89,12 @@ impl FoldPlan {
     }
 }
 
+/// Sorts components, which come in the order of their numbers, so that children come before those that
+/// carry them.
+fn outermost_first(model: &Model, parts: &mut [usize]) {
+    parts.sort_by_key(|&part| std::cmp::Reverse(ancestors(model, part).len()));
+}
+
 struct Search<'a> {
     motion: &'a ModelMotion<'a>,
     checker: Checker<'a>,
@@ -102,7 +108,7 @@ impl Search<'_> {
     fn tree(&mut self, root: usize) -> Result<(Vec<usize>, Vec<Clash>), Cancelled> {
         let model = self.motion.model();
         let mut parts: Vec<usize> = (0..model.parts().len()).filter(|&p| root_of(model, p) == root).collect();
-        parts.sort_by_key(|&p| (std::cmp::Reverse(ancestors(model, p).len()), p));
+        outermost_first(model, &mut parts);
         self.look_ahead(&parts);
         self.most_sweeps = self.checker.sweeps() + SWEEPS_FOR_EACH * parts.len();
         let (mut order, mut is_flat) = (Vec::new(), vec![false; model.parts().len()]);

@@ -42,17 +42,20 @@ struct Grown {
     loose: Vec<usize>,
 }
 
+impl Grown {
+    fn with(mut self, other: Self) -> Self {
+        self.made.extend(other.made);
+        self.loose.extend(other.loose);
+        self
+    }
+}
+
 impl Growth<'_> {
     /// Makes some parts and all that they carry. The error is that of the first that has one.
     fn all(&self, roots: Vec<usize>, links: &[Link], carrier: Option<&Made>) -> Result<Grown, ModelError> {
         let grown: Vec<Result<Grown, ModelError>> =
             roots.into_par_iter().map(|p| self.one(p, links, carrier)).collect();
-        grown.into_iter().try_fold(Grown::default(), |mut all, grown| {
-            let Grown { made, loose } = grown?;
-            all.made.extend(made);
-            all.loose.extend(loose);
-            Ok(all)
-        })
+        grown.into_iter().try_fold(Grown::default(), |all, grown| Ok(all.with(grown?)))
     }
 
     fn one(&self, part: usize, links: &[Link], carrier: Option<&Made>) -> Result<Grown, ModelError> {
@@ -65,12 +68,8 @@ impl Growth<'_> {
         let carried = links.iter().filter(|l| l.parent == part).map(|l| l.child).collect();
         let on_own = || self.all(loose.clone(), &links, None);
         let (on_it, beside) = rayon::join(|| self.all(carried, &links, Some(&made)), on_own);
-        let (mut grown, beside) = (on_it?, beside?);
-        grown.made.extend(beside.made);
-        grown.loose.extend(beside.loose);
-        grown.made.push((part, made));
-        grown.loose.extend(loose);
-        Ok(grown)
+        let below = on_it?.with(beside?);
+        Ok(below.with(Grown { made: vec![(part, made)], loose }))
     }
 }
 

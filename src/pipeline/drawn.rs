@@ -21,8 +21,8 @@ pub fn run_drawn(
     progress: &dyn Progress,
 ) -> Result<Output, Error> {
     let shaped = shape_drawn(sketches, size_mm, options, progress)?;
-    let engine = Engine::new(Cow::Owned(shaped.divided().mesh().clone()));
-    engine.finish(shaped, progress)
+    let divided = shaped.divided.clone();
+    Engine::new(Cow::Borrowed(divided.mesh())).finish(shaped, progress)
 }
 
 /// Makes the components of drawings, as [`Engine::shape`] does of a mesh.

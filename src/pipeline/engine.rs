@@ -71,11 +71,11 @@ impl<'m> Engine<'m> {
     /// # Errors
     /// See [`Error`].
     pub fn run(&self, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
-        let options = match options.untangles {
-            true => Cow::Owned(self.untangled(options, progress)?),
-            false => Cow::Borrowed(options),
+        let shaped = match options.untangles {
+            true => self.untangled(options, progress)?,
+            false => self.shape(options, progress)?,
         };
-        self.finish(self.shape(&options, progress)?, progress)
+        self.finish(shaped, progress)
     }
 
     /// The mesh at the model's size, its parts and their hulls.

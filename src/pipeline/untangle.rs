@@ -3,7 +3,7 @@
 //! The worst pair comes first: each of the two is tried in other directions, the model is made and
 //! folded anew, and what folds with the least harm is kept, until nothing bumps or nothing helps.
 
-use super::{Engine, Error, Options};
+use super::{Engine, Error, Options, Shaped};
 use crate::fold::FoldPlan;
 use crate::model::Model;
 use crate::progress::{Beside, Progress};
@@ -27,22 +27,22 @@ const LOOSE_PRICE: f64 = 100.0;
 const LEAST_GAIN: f64 = 0.5;
 
 impl Engine<'_> {
-    /// The options with directions, for components that have none yet, in which the model folds
-    /// with as little harm as was found.
+    /// The components with directions, for those that were given none, in which the model folds with
+    /// as little harm as was found.
     ///
     /// # Errors
     /// As [`Engine::shape`].
-    pub(super) fn untangled(&self, options: &Options, progress: &dyn Progress) -> Result<Options, Error> {
+    pub(super) fn untangled(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
         self.divide(options, progress)?;
         progress.stage("untangling");
-        let mut best = Attempt::new(self, options.clone(), &Beside(progress))?;
+        let mut best = Attempt::new(self, options, &Beside(progress))?;
         let mut hopeless = BTreeSet::new();
         for round in 0..ROUNDS {
             progress.fraction(round as f64 / ROUNDS as f64);
             let Some(pair) = best.worst_pair(&hopeless) else { break };
             let others = best.others(pair, options).into_par_iter();
             let others: Vec<Result<Attempt, Error>> =
-                others.map(|options| Attempt::new(self, options, &Beside(progress))).collect();
+                others.map(|options| Attempt::new(self, &options, &Beside(progress))).collect();
             progress.check()?;
             // A direction that leaves no room for a joint is none; the first of equals is taken.
             let cheapest = others.into_iter().flatten().min_by(|a, b| a.cost.total_cmp(&b.cost));
@@ -53,29 +53,25 @@ impl Engine<'_> {
                 }
             }
         }
-        Ok(best.options)
+        Ok(best.shaped)
     }
 }
 
 /// A model that was made and folded.
 struct Attempt {
-    options: Options,
-    /// Names of the components that options go by, and their directions.
-    components: Vec<(String, f64)>,
+    shaped: Shaped,
     /// How deep the panels of two components get into each other, mm.
     bumps: BTreeMap<[usize; 2], f64>,
     cost: f64,
 }
 
 impl Attempt {
-    fn new(engine: &Engine<'_>, options: Options, progress: &dyn Progress) -> Result<Self, Error> {
-        let shaped = engine.shape(&options, progress)?;
+    fn new(engine: &Engine<'_>, options: &Options, progress: &dyn Progress) -> Result<Self, Error> {
+        let shaped = engine.shape(options, progress)?;
         let plan = engine.plan(&shaped.model, options.thickness_mm, progress)?;
         let bumps = bumps(&plan);
-        let names = shaped.divided.hulls().names().iter().cloned();
-        let components = names.zip(shaped.model.parts().iter().map(|part| part.direction_rad)).collect();
         let cost = bumps.values().sum::<f64>() + own_cost(&shaped.model);
-        Ok(Self { options, components, bumps, cost })
+        Ok(Self { shaped, bumps, cost })
     }
 
     fn worst_pair(&self, hopeless: &BTreeSet<[usize; 2]>) -> Option<[usize; 2]> {
@@ -86,15 +82,17 @@ impl Attempt {
     /// The options with another direction for one of a pair, but not for those that the user gave one.
     fn others(&self, pair: [usize; 2], wishes: &Options) -> Vec<Options> {
         let pair: BTreeSet<usize> = pair.into();
+        // The names that options go by.
+        let names = self.shaped.divided.hulls().names();
         let is_free = |p: &usize| {
-            let wish = wishes.components.get(&self.components[*p].0);
+            let wish = wishes.components.get(&names[*p]);
             wish.is_none_or(|component| component.direction_rad.is_none())
         };
         let turned = |p: usize| {
-            let (name, own_rad) = &self.components[p];
+            let own_rad = self.shaped.model.parts()[p].direction_rad;
             (1..DIRECTIONS).map(move |k| {
-                let mut options = self.options.clone();
-                let component = options.components.entry(name.clone()).or_default();
+                let mut options = self.shaped.options().clone();
+                let component = options.components.entry(names[p].clone()).or_default();
                 component.direction_rad = Some((own_rad + PI * k as f64 / DIRECTIONS as f64).rem_euclid(PI));
                 options
             })

@@ -187,8 +187,8 @@ pub fn nest(
 }
 
 /// As [`nest`], of groups that may be cut in several ways: `groups[g][a]` are the pieces of group g
-/// in its alternative a, each with as many, and g as the number of their group. Gives the alternative of each group, the first where
-/// others save no sheet, and the placements of its pieces.
+/// in its alternative a, each with as many, and g as the number of their group. Gives the alternative
+/// of each group, the first where others save no sheet, and the placements of its pieces.
 ///
 /// # Errors
 /// As [`nest`]; of first alternatives. Others that fit no sheet are not used.

@@ -63,7 +63,7 @@ impl Planning {
         };
         let own = hand.clone();
         std::thread::spawn(move || {
-            if let Some(plan) = own.plan(&wish, &wake) {
+            if let Some(plan) = own.plan(&wish, &wake).transpose() {
                 // Nobody waits for a plan that was stopped.
                 let _ = sender.send(plan);
                 wake();
@@ -96,15 +96,9 @@ impl Drop for Planning {
 
 impl Hand {
     /// The plan; nothing where nobody wants it any more.
-    fn plan(&self, wish: &Wish, wake: &Wake) -> Option<Result<Plan, String>> {
-        let machine = match CutterArgs::of(&wish.cutter, &wish.media).choice() {
-            Ok(machine) => machine,
-            Err(error) => return Some(Err(error.to_string())),
-        };
-        let drawings = match pages::drawings(&wish.opened, &wish.project, &wish.output) {
-            Ok(drawings) => drawings,
-            Err(problem) => return Some(Err(problem)),
-        };
+    fn plan(&self, wish: &Wish, wake: &Wake) -> Result<Option<Plan>, String> {
+        let machine = CutterArgs::of(&wish.cutter, &wish.media).choice().map_err(|e| e.to_string())?;
+        let drawings = pages::drawings(&wish.opened, &wish.project, &wish.output)?;
         // Each sheet is planned, then drawn.
         let _ = self.all.set(2 * drawings.len());
         let step = || {
@@ -113,17 +107,14 @@ impl Hand {
             !self.is_stopped.load(Ordering::Relaxed)
         };
         let sheets = jobs::of_drawings_while(&wish.opened.title(), &drawings, &machine, &step);
-        let sheets = match sheets {
-            Ok(sheets) => sheets?,
-            Err(error) => return Some(Err(error.to_string())),
-        };
+        let Some(sheets) = sheets.map_err(|e| e.to_string())? else { return Ok(None) };
         let mut previews = Vec::new();
         for sheet in &sheets {
             previews.push(preview(sheet.job(), &machine.cutter, sheet.placement()));
             if !step() {
-                return None;
+                return Ok(None);
             }
         }
-        Some(Ok(Plan { machine, sheets, previews }))
+        Ok(Some(Plan { machine, sheets, previews }))
     }
 }

@@ -288,9 +288,7 @@ impl Space {
     /// Over a selected component the wheel turns its fold direction; elsewhere it magnifies. Two
     /// fingers on a trackpad move the view.
     fn wheel(&mut self, studio: &mut Studio, ui: &egui::Ui, over: Option<Tag>, at: Vec2, side: f64) {
-        let is_selected =
-            |tag: &Tag| studio.shown().names().get(tag.part).is_some_and(|name| studio.selection.has(name));
-        let over = over.filter(is_selected);
+        let over = over.filter(|tag| is_selected(studio, tag));
         let (motion, zoom, shift, now) = ui.input(|i| {
             let zoom = f64::from(i.zoom_delta());
             // A pinch, or the wheel with Ctrl, comes as wheel and as zoom.
@@ -320,8 +318,7 @@ impl Space {
         let Some(part) = studio.shown().part(tag.part) else { return };
         let panel = tag.panel.and_then(|id| part.component.panels().panels().get(id.0));
         let what = panel.map_or(String::new(), |panel| format!(" · {}", panel.kind));
-        let is_selected = studio.shown().names().get(tag.part).is_some_and(|name| studio.selection.has(name));
-        let hint = match is_selected {
+        let hint = match is_selected(studio, &tag) {
             true if studio.is_drawn() => "drawn in the project file",
             true => "wheel: turn its fold direction, 5° a click, with Shift 1°",
             false => "click: select",
@@ -398,4 +395,9 @@ pub fn folding_bar(space: &mut Space, studio: &mut Studio, ui: &mut egui::Ui) {
         }
     });
     ui.add_space(2.0);
+}
+
+/// Whether what is pointed at belongs to a selected component.
+fn is_selected(studio: &Studio, tag: &Tag) -> bool {
+    studio.shown().names().get(tag.part).is_some_and(|name| studio.selection.has(name))
 }
