@@ -10,7 +10,7 @@ use crate::memory::Memory;
 use crate::mesh::{Mesh, Up};
 use crate::model::{self, Known, Model, ModelPart};
 use crate::net::{KnownNets, Net, NetChoices, NetOptions, develop_model};
-use crate::progress::Progress;
+use crate::progress::{Beside, Progress};
 use crate::segment::{self, Edit, Parts, SegmentOptions};
 use crate::sheet::{Layout, Pin, SheetOptions};
 use glam::DAffine3;
@@ -165,12 +165,22 @@ impl<'m> Engine<'m> {
         })
     }
 
-    /// From the components to sheets, with the order of folding.
+    /// From the components to sheets, with the order of folding, which is looked for meanwhile: as
+    /// a stage it is only what is left of that when the sheets are done.
     ///
     /// # Errors
     /// [`Error::Thick`], [`Error::Net`], [`Error::Layout`], [`Error::Cancelled`].
     pub fn finish(&self, shaped: Shaped, progress: &dyn Progress) -> Result<Output, Error> {
-        self.fold(self.lay_out(shaped, progress)?, progress)
+        let shaped = of_boards(shaped)?;
+        let (model, thickness_mm) = (shaped.model.clone(), shaped.options.thickness_mm);
+        let lay_out = || {
+            let laid = self.lay_out_paper(shaped, progress);
+            progress.stage("folding");
+            laid
+        };
+        let (laid, plan) =
+            rayon::join(lay_out, || self.plan(&model, thickness_mm, &Beside(progress)));
+        Ok(laid?.with_plan(plan?))
     }
 
     /// From the components to sheets; in which order they fold is not known yet.
@@ -178,13 +188,11 @@ impl<'m> Engine<'m> {
     /// # Errors
     /// [`Error::Thick`], [`Error::Net`], [`Error::Layout`], [`Error::Cancelled`].
     pub fn lay_out(&self, shaped: Shaped, progress: &dyn Progress) -> Result<Output, Error> {
-        let options = &*shaped.options;
-        let (mut model, mut notes) = (shaped.model.clone(), shaped.notes.clone());
-        if options.is_thick {
-            let (boards, thick) = thick(&model, options.thickness_mm, options.min_panel_width_mm)?;
-            model = Arc::new(boards);
-            notes.extend(thick.into_iter().map(|(code, message)| Warning { code, message }));
-        }
+        self.lay_out_paper(of_boards(shaped)?, progress)
+    }
+
+    fn lay_out_paper(&self, shaped: Shaped, progress: &dyn Progress) -> Result<Output, Error> {
+        let (options, model) = (&*shaped.options, &shaped.model);
         let sheets = SheetOptions {
             paper: options.paper,
             margin_mm: options.margin_mm,
@@ -197,7 +205,7 @@ impl<'m> Engine<'m> {
             choices: NetChoices { is_separate: options.is_thick, ..options.nets },
         };
         progress.stage("nets");
-        let alternatives = develop_model(&model, &net_options, &self.nets, progress)
+        let alternatives = develop_model(model, &net_options, &self.nets, progress)
             .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
         let alternatives = Arc::new(alternatives);
         let key = (sheets, options.pins.clone(), alternatives.clone());
@@ -206,11 +214,10 @@ impl<'m> Engine<'m> {
             let laid = Layout::of_alternatives(&alternatives, &sheets, &options.pins, progress)?;
             Ok::<_, Error>((Arc::new(laid.0), Arc::new(laid.1)))
         })?;
-        let mut warnings = notes;
-        warnings.extend(warning::warnings(&model, &nets, shaped.divided.hulls().flat_faces(), options));
+        let mut warnings = shaped.notes.clone();
+        warnings.extend(warning::warnings(model, &nets, shaped.divided.hulls().flat_faces(), options));
         warnings.extend(pin_warnings(&layout));
-        let fold_plan = Arc::new(FoldPlan::unchecked(&model, options.thickness_mm));
-        let shaped = Shaped { model, ..shaped };
+        let fold_plan = Arc::new(FoldPlan::unchecked(model, options.thickness_mm));
         Ok(Output { shaped, fold_plan, nets, layout, warnings: Arc::new(warnings) })
     }
 
@@ -219,11 +226,20 @@ impl<'m> Engine<'m> {
     /// # Errors
     /// [`Error::Cancelled`].
     pub fn fold(&self, laid: Output, progress: &dyn Progress) -> Result<Output, Error> {
-        let options = laid.options();
-        let fold_plan = self.plan(&laid.shaped.model, options.thickness_mm, progress)?;
-        let advice = fold_plan.advice(&laid.shaped.model, options.untangles).into_iter();
-        let advice = advice.map(|(code, message)| Warning { code, message });
-        let warnings = laid.warnings.iter().cloned().chain(advice).collect();
-        Ok(Output { fold_plan, warnings: Arc::new(warnings), ..laid })
+        let thickness_mm = laid.options().thickness_mm;
+        let plan = self.plan(&laid.shaped.model, thickness_mm, progress)?;
+        Ok(laid.with_plan(plan))
     }
+}
+
+/// Of boards as thick as they are, where that was asked for.
+fn of_boards(shaped: Shaped) -> Result<Shaped, Error> {
+    let options = &*shaped.options;
+    if !options.is_thick {
+        return Ok(shaped);
+    }
+    let (boards, thick) = thick(&shaped.model, options.thickness_mm, options.min_panel_width_mm)?;
+    let mut notes = shaped.notes.clone();
+    notes.extend(thick.into_iter().map(|(code, message)| Warning { code, message }));
+    Ok(Shaped { model: Arc::new(boards), notes, ..shaped })
 }

@@ -155,6 +155,14 @@ impl Output {
         &self.shaped.remarks
     }
 
+    /// With the order of folding, and what that means for the user.
+    pub(super) fn with_plan(self, fold_plan: Arc<FoldPlan>) -> Self {
+        let advice = fold_plan.advice(self.model(), self.options().untangles).into_iter();
+        let advice = advice.map(|(code, message)| Warning { code, message });
+        let warnings = self.warnings.iter().cloned().chain(advice).collect();
+        Self { fold_plan, warnings: Arc::new(warnings), ..self }
+    }
+
     /// What the user should know.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
