@@ -228,9 +228,7 @@ fn nest_items(
         .collect();
     let items = items.into_iter().collect::<Result<Vec<_>, _>>()?;
     let start = Start::new(&pins, &frame.grid);
-    let free = start.free().count();
-    let orders = options.effort / free.max(1);
-    let found = search::search(&items, &frame.grid, &start, orders, progress)?;
+    let found = search::search(&items, &frame.grid, &start, options.effort, progress)?;
     let mut placements = vec![None; items.len()];
     for (index, pin) in pins.iter().enumerate().filter(|(index, _)| !start.is_free(*index)) {
         placements[index] = pin.as_ref().map(|pin| frame.placement(pin.sheet, &pin.pose, &pin.spot));

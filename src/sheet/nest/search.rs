@@ -9,7 +9,7 @@ use crate::progress::{Cancelled, Progress};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
 
 /// Orders that are tried at once; fixed, so that the result does not hang on the machine.
@@ -33,10 +33,23 @@ pub(super) struct Placed {
     pub spot: Spot,
 }
 
-/// How pieces are put on sheets, one after the other.
+/// What is tried: some pieces stay, the others are put on sheets, one after the other.
 #[derive(Debug, Clone)]
 struct Plan {
+    /// What stays where it is, on each sheet.
+    kept: Vec<Vec<Placed>>,
+    /// The sheets that may take more; new ones come after them.
+    open: Vec<usize>,
+    /// The pieces to be placed.
     order: Vec<usize>,
+    way: Way,
+    /// Alternative of each group.
+    chosen: Vec<usize>,
+}
+
+/// Which of the free places a piece gets.
+#[derive(Debug, Clone, Copy)]
+struct Way {
     /// Direction away from which pieces are drawn; both parts at least 0.
     pull: DVec2,
     /// How much a pose's own extent counts against it, from 0 to 1: with 0 the near edge of a
@@ -44,14 +57,13 @@ struct Plan {
     lean: f64,
     /// Chooses the poses that are tried; the common ones for 0.
     poses: u64,
-    /// Alternative of each group.
-    chosen: Vec<usize>,
 }
 
 /// What came out of a plan.
 #[derive(Debug, Clone)]
 struct Layout {
-    plan: Plan,
+    way: Way,
+    chosen: Vec<usize>,
     /// Sheets in their final order.
     sheets: Vec<Vec<Placed>>,
     /// Groups that are not in their first alternative.
@@ -80,7 +92,8 @@ impl Layout {
         let used = sheets.iter().map(|s| area_mm2(s, items));
         Self {
             replaced: plan.chosen.iter().filter(|&&c| c > 0).count(),
-            plan,
+            way: plan.way,
+            chosen: plan.chosen,
             spread: range.values().map(|(first, last)| last - first).sum(),
             fullness: used.map(|a| a * a).sum(),
             sheets,
@@ -100,6 +113,15 @@ impl Layout {
         let together = self.spread.cmp(&other.spread);
         count.then(best_cut).then(together).then(self.promise(other))
     }
+
+    /// The sheets that hold something, the emptiest first.
+    fn emptiest_first(&self, items: &[Item]) -> Vec<usize> {
+        let mut sheets: Vec<usize> = (0..self.sheets.len()).filter(|&k| !self.sheets[k].is_empty()).collect();
+        sheets.sort_by(|&a, &b| {
+            area_mm2(&self.sheets[a], items).total_cmp(&area_mm2(&self.sheets[b], items))
+        });
+        sheets
+    }
 }
 
 fn area_mm2(sheet: &[Placed], items: &[Item]) -> f64 {
@@ -116,13 +138,13 @@ pub(super) struct Found {
     pub sheets: Vec<Vec<Placed>>,
 }
 
-/// Tries the standard orders, then `orders` varied ones, and gives the sheets of the best. Stops
-/// early where the area of the pieces allows no fewer sheets.
+/// Tries the standard orders, then changes of the best layouts until `effort` pieces were placed,
+/// and gives the best. Stops early where the area of the pieces allows no fewer sheets.
 pub(super) fn search(
     items: &[Item],
     grid: &Grid,
     start: &Start,
-    orders: usize,
+    effort: usize,
     progress: &dyn Progress,
 ) -> Result<Found, Cancelled> {
     let mut rng = fastrand::Rng::with_seed(SEED);
@@ -130,12 +152,12 @@ pub(super) fn search(
     let fewest = (area / (DENSEST * grid.sheet_mm.element_product())).ceil() as usize;
     let alternatives = alternatives(items);
     let mut batch = standard_plans(items, start, alternatives.len());
-    let mut left = orders;
+    let mut left = effort;
     let mut pool: Vec<Layout> = Vec::new();
     let mut best: Option<Layout> = None;
     loop {
         progress.check()?;
-        progress.fraction(1.0 - left as f64 / orders.max(1) as f64);
+        progress.fraction(1.0 - left as f64 / effort.max(1) as f64);
         let most = best.as_ref().map_or(usize::MAX, |b| b.sheets.len());
         let found: Vec<Option<Layout>> =
             batch.into_par_iter().map(|plan| lay_out(items, grid, start, plan, most)).collect();
@@ -146,12 +168,12 @@ pub(super) fn search(
         let is_least = best.as_ref().is_none_or(|b| b.sheets.len() <= fewest);
         let is_all_pinned = start.free().next().is_none();
         if left == 0 || is_least || is_all_pinned {
-            let found = best.map(|b| Found { chosen: b.plan.chosen, sheets: b.sheets });
+            let found = best.map(|b| Found { chosen: b.chosen, sheets: b.sheets });
             return Ok(found.unwrap_or(Found { chosen: Vec::new(), sheets: Vec::new() }));
         }
-        let count = left.min(BATCH);
-        left -= count;
-        batch = (0..count).map(|_| varied(&pool, &alternatives, &mut rng)).collect();
+        batch = (0..BATCH).map(|_| varied(&pool, items, start, &alternatives, &mut rng)).collect();
+        let placed: usize = batch.iter().map(|plan| plan.order.len()).sum();
+        left = left.saturating_sub(placed.max(1));
     }
 }
 
@@ -182,102 +204,171 @@ fn standard_plans(items: &[Item], start: &Start, groups: usize) -> Vec<Plan> {
     let pulls = [(0.1, 1.0), (1.0, 0.1), (1.0, 1.0)].map(DVec2::from);
     let chosen = vec![0; groups];
     let plan = |pull, order: &Vec<usize>| Plan {
+        kept: vec![Vec::new(); start.stock().len()],
+        open: (0..start.stock().len()).collect(),
         order: order.clone(),
-        pull,
-        lean: 0.5,
-        poses: 0,
+        way: Way { pull, lean: 0.5, poses: 0 },
         chosen: chosen.clone(),
     };
     pulls.iter().flat_map(|&pull| orders.iter().map(move |order| plan(pull, order))).collect()
 }
 
-/// A plan near one of the best: some pieces of its emptiest sheet come earlier, some change
-/// places, and now and then the pull changes, or groups are cut in another way.
-fn varied(pool: &[Layout], alternatives: &[usize], rng: &mut fastrand::Rng) -> Plan {
+/// A plan near one of the best layouts.
+fn varied(
+    pool: &[Layout],
+    items: &[Item],
+    start: &Start,
+    alternatives: &[usize],
+    rng: &mut fastrand::Rng,
+) -> Plan {
     let parent = &pool[rng.usize(..pool.len())];
-    let mut plan = parent.plan.clone();
-    let emptiest = parent.sheets.iter().min_by_key(|s| s.len());
-    for placed in emptiest.into_iter().flatten() {
-        if rng.bool()
-            && let Some(from) = plan.order.iter().position(|&i| i == placed.item)
-        {
-            let item = plan.order.remove(from);
-            plan.order.insert(rng.usize(..=from), item);
-        }
-    }
-    for _ in 0..=rng.usize(..=plan.order.len() / 8) {
-        let (a, b) = (rng.usize(..plan.order.len()), rng.usize(..plan.order.len()));
-        plan.order.swap(a, b);
+    let mut plan = match rng.u8(..3) {
+        0 => reordered(parent, items, start, rng),
+        _ => ruined(parent, items, start, rng),
+    };
+    if rng.u8(..3) == 0 {
+        plan.way.pull = DVec2::from_angle(rng.f64() * FRAC_PI_2);
     }
     if rng.u8(..3) == 0 {
-        plan.pull = DVec2::from_angle(rng.f64() * FRAC_PI_2);
-    }
-    if rng.u8(..3) == 0 {
-        plan.lean = rng.f64();
+        plan.way.lean = rng.f64();
     }
     if rng.u8(..2) == 0 {
-        plan.poses = rng.u64(..);
+        plan.way.poses = rng.u64(..);
     }
     if rng.u8(..3) == 0 {
+        let kept: BTreeSet<usize> = plan.kept.iter().flatten().map(|p| items[p.item].group()).collect();
         for _ in 0..=rng.usize(..=1 + alternatives.len() / 4) {
             let group = rng.usize(..alternatives.len());
-            plan.chosen[group] = rng.usize(..alternatives[group]);
+            if !kept.contains(&group) {
+                plan.chosen[group] = rng.usize(..alternatives[group]);
+            }
         }
     }
     plan
 }
 
-/// The poses of an item that a plan tries.
-fn chosen_poses(item: usize, count: usize, plan: &Plan) -> Vec<usize> {
+/// All pieces anew, in an order in which some pieces of the emptiest sheet come earlier and some
+/// change places.
+fn reordered(parent: &Layout, items: &[Item], start: &Start, rng: &mut fastrand::Rng) -> Plan {
+    let sheets = parent.emptiest_first(items);
+    let mut order: Vec<usize> =
+        sheets.iter().rev().flat_map(|&k| parent.sheets[k].iter().map(|p| p.item)).collect();
+    for placed in sheets.first().into_iter().flat_map(|&k| &parent.sheets[k]) {
+        if rng.bool()
+            && let Some(from) = order.iter().position(|&i| i == placed.item)
+        {
+            let item = order.remove(from);
+            order.insert(rng.usize(..=from), item);
+        }
+    }
+    for _ in 0..=rng.usize(..=order.len() / 8) {
+        let (a, b) = (rng.usize(..order.len()), rng.usize(..order.len()));
+        order.swap(a, b);
+    }
+    Plan {
+        kept: vec![Vec::new(); start.stock().len()],
+        open: (0..start.stock().len()).collect(),
+        order,
+        way: parent.way,
+        chosen: parent.chosen.clone(),
+    }
+}
+
+/// The emptiest sheet is cleared, one or two others in part, and their pieces are placed anew: the
+/// large ones first, more or less.
+fn ruined(parent: &Layout, items: &[Item], start: &Start, rng: &mut fastrand::Rng) -> Plan {
+    let sheets = parent.emptiest_first(items);
+    let mut others: Vec<usize> = sheets.iter().skip(1).copied().collect();
+    rng.shuffle(&mut others);
+    others.truncate(rng.usize(1..=2));
+    let mut kept = parent.sheets.clone();
+    let mut removed: Vec<(f64, usize)> = Vec::new();
+    for (k, &sheet) in sheets[..1].iter().chain(&others).enumerate() {
+        let share = if k == 0 { 1.0 } else { [0.3, 0.6, 1.0][rng.usize(..3)] };
+        kept[sheet].retain(|placed| {
+            let stays = rng.f64() >= share;
+            if !stays {
+                removed.push((items[placed.item].area_mm2() * (0.5 + rng.f64()), placed.item));
+            }
+            stays
+        });
+    }
+    removed.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let pinned = start.stock().len();
+    let mut sheet = 0..kept.len();
+    let stays: Vec<bool> = kept.iter().enumerate().map(|(k, s)| k < pinned || !s.is_empty()).collect();
+    let open: Vec<usize> = (0..stays.len())
+        .filter(|k| stays[*k] && (others.contains(k) || *k == sheets[0]))
+        .map(|k| stays[..k].iter().filter(|s| **s).count())
+        .collect();
+    kept.retain(|_| sheet.next().is_some_and(|k| stays[k]));
+    Plan {
+        kept,
+        open,
+        order: removed.into_iter().map(|(_, item)| item).collect(),
+        way: parent.way,
+        chosen: parent.chosen.clone(),
+    }
+}
+
+/// The poses of an item that are tried.
+fn chosen_poses(item: usize, count: usize, way: &Way) -> Vec<usize> {
     let mut indices: Vec<usize> = (0..count).collect();
-    if plan.poses != 0 && count > POSES {
+    if way.poses != 0 && count > POSES {
         // A stream of its own for each item, so that it does not matter which come before it.
-        let mut rng = fastrand::Rng::with_seed(plan.poses.wrapping_add(item as u64));
+        let mut rng = fastrand::Rng::with_seed(way.poses.wrapping_add(item as u64));
         rng.shuffle(&mut indices[COMMON_POSES..]);
     }
     indices.truncate(POSES);
     indices
 }
 
-/// Puts the pieces on sheets in the order of a plan; `None` where that takes more than `most`.
-fn lay_out(items: &[Item], grid: &Grid, start: &Start, plan: Plan, most: usize) -> Option<Layout> {
-    let mut stock: Vec<Occupancy> = start.stock().to_vec();
-    let mut sheets: Vec<Vec<Placed>> = vec![Vec::new(); stock.len()];
+/// Carries out a plan; `None` where that takes more than `most` sheets.
+fn lay_out(items: &[Item], grid: &Grid, start: &Start, mut plan: Plan, most: usize) -> Option<Layout> {
+    let mut sheets = std::mem::take(&mut plan.kept);
+    let mut stock: Vec<(usize, Occupancy)> = Vec::new();
+    let piece = |item: usize| items[item].alternative(plan.chosen[items[item].group()]);
+    for &k in &plan.open {
+        let mut occupancy = start.stock().get(k).cloned().unwrap_or_else(|| Occupancy::new(grid));
+        sheets[k].iter().for_each(|p| occupancy.place(piece(p.item).pose(p.pose), &p.spot));
+        stock.push((k, occupancy));
+    }
     for &item in &plan.order {
-        let piece = items[item].alternative(plan.chosen[items[item].group()]);
-        let chosen = chosen_poses(item, piece.len(), &plan);
-        let place = |sheet: &Occupancy| best_pose(sheet, piece, &chosen, &plan);
-        let found = (0..stock.len()).find_map(|k| Some((k, place(&stock[k])?)));
+        let piece = piece(item);
+        let chosen = chosen_poses(item, piece.len(), &plan.way);
+        let place = |sheet: &Occupancy| best_pose(sheet, piece, &chosen, &plan.way);
+        let found = stock.iter().enumerate().find_map(|(k, (_, sheet))| Some((k, place(sheet)?)));
         let (k, (pose, spot)) = match found {
             Some(found) => found,
-            None if stock.len() >= most => return None,
+            None if sheets.len() >= most => return None,
             None => {
                 let empty = Occupancy::new(grid);
                 let first = place(&empty)?;
-                stock.push(empty);
+                stock.push((sheets.len(), empty));
                 sheets.push(Vec::new());
                 (stock.len() - 1, first)
             }
         };
-        stock[k].place(piece.pose(pose), &spot);
-        sheets[k].push(Placed { item, pose, spot });
+        let (sheet, occupancy) = &mut stock[k];
+        occupancy.place(piece.pose(pose), &spot);
+        sheets[*sheet].push(Placed { item, pose, spot });
     }
     Some(Layout::new(plan, sheets, items, start.stock().len()))
 }
 
 /// The cheapest place for a piece on a sheet, over the chosen poses.
-fn best_pose(sheet: &Occupancy, piece: &Alternative, chosen: &[usize], plan: &Plan) -> Option<(usize, Spot)> {
+fn best_pose(sheet: &Occupancy, piece: &Alternative, chosen: &[usize], way: &Way) -> Option<(usize, Spot)> {
     let mut best: Option<(usize, Spot)> = None;
     for &k in chosen {
         let limit = best.map_or(f64::INFINITY, |(_, spot)| spot.cost);
-        if least_cost(piece.extent(k), plan.pull, plan.lean) >= limit {
+        if least_cost(piece.extent(k), way.pull, way.lean) >= limit {
             continue;
         }
         let pose = piece.pose(k);
         if sheet.is_too_full_for(pose) {
             continue;
         }
-        if let Some(spot) = sheet.best_spot(pose, plan.pull, plan.lean, limit) {
+        if let Some(spot) = sheet.best_spot(pose, way.pull, way.lean, limit) {
             best = Some((k, spot));
         }
     }
