@@ -178,8 +178,7 @@ impl<'m> Engine<'m> {
             progress.stage("folding");
             laid
         };
-        let (laid, plan) =
-            rayon::join(lay_out, || self.plan(&model, thickness_mm, &Beside(progress)));
+        let (laid, plan) = rayon::join(lay_out, || self.plan(&model, thickness_mm, &Beside(progress)));
         Ok(laid?.with_plan(plan?))
     }
 

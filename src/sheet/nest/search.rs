@@ -1,5 +1,7 @@
 //! The order in which pieces are put on sheets: the first sheet with room takes a piece; several
-//! orders are tried, and the best of them are varied.
+//! orders are tried. Then the layout nearest to fewer sheets is changed again and again: its emptiest
+//! sheet is cleared, others in part, and their pieces are placed anew ("ruin and recreate", Schrimpf
+//! et al. 2000).
 
 use super::item::{Alternative, Item};
 use super::occupancy::{Occupancy, Spot, least_cost};
@@ -19,8 +21,11 @@ const BATCH: usize = 8;
 const POSES: usize = 28;
 const COMMON_POSES: usize = 8;
 
-/// The best orders, which are varied further.
-const POOL: usize = 4;
+/// One in so many changes places all pieces anew.
+const FRESH: u8 = 8;
+
+/// Shares of the pieces of a sheet that are placed anew.
+const SHARES: [f64; 3] = [0.3, 0.6, 1.0];
 
 /// Any number does, as long as it stays.
 const SEED: u64 = 0x7461_7461_6d75;
@@ -76,8 +81,10 @@ struct Layout {
 }
 
 impl Layout {
-    /// The first `pinned` sheets stay where they are.
+    /// The first `pinned` sheets stay where they are; of the others those without pieces go.
     fn new(plan: Plan, mut sheets: Vec<Vec<Placed>>, items: &[Item], pinned: usize) -> Self {
+        let others = sheets.split_off(pinned);
+        sheets.extend(others.into_iter().filter(|sheet| !sheet.is_empty()));
         let mean_group = |sheet: &Vec<Placed>| {
             let sum: usize = sheet.iter().map(|p| items[p.item].group()).sum();
             sum as f64 / sheet.len() as f64
@@ -117,9 +124,8 @@ impl Layout {
     /// The sheets that hold something, the emptiest first.
     fn emptiest_first(&self, items: &[Item]) -> Vec<usize> {
         let mut sheets: Vec<usize> = (0..self.sheets.len()).filter(|&k| !self.sheets[k].is_empty()).collect();
-        sheets.sort_by(|&a, &b| {
-            area_mm2(&self.sheets[a], items).total_cmp(&area_mm2(&self.sheets[b], items))
-        });
+        sheets
+            .sort_by(|&a, &b| area_mm2(&self.sheets[a], items).total_cmp(&area_mm2(&self.sheets[b], items)));
         sheets
     }
 }
@@ -153,25 +159,26 @@ pub(super) fn search(
     let alternatives = alternatives(items);
     let mut batch = standard_plans(items, start, alternatives.len());
     let mut left = effort;
-    let mut pool: Vec<Layout> = Vec::new();
-    let mut best: Option<Layout> = None;
+    // Where the changes begin, and what is given in the end.
+    let (mut nearest, mut best): (Option<Layout>, Option<Layout>) = (None, None);
     loop {
         progress.check()?;
         progress.fraction(1.0 - left as f64 / effort.max(1) as f64);
         let most = best.as_ref().map_or(usize::MAX, |b| b.sheets.len());
         let found: Vec<Option<Layout>> =
             batch.into_par_iter().map(|plan| lay_out(items, grid, start, plan, most)).collect();
-        pool.extend(found.into_iter().flatten());
-        pool.sort_by(Layout::promise);
-        best = pool.iter().chain(&best).min_by(|a, b| a.merit(b)).cloned();
-        pool.truncate(POOL);
-        let is_least = best.as_ref().is_none_or(|b| b.sheets.len() <= fewest);
+        best = best.iter().chain(found.iter().flatten()).min_by(|a, b| a.merit(b)).cloned();
+        // Of equal ones the new one, so that changes add up.
+        nearest = found.into_iter().flatten().chain(nearest).min_by(Layout::promise);
+        let (Some(best), Some(nearest)) = (&best, &nearest) else {
+            return Ok(Found { chosen: Vec::new(), sheets: Vec::new() });
+        };
+        let is_least = best.sheets.len() <= fewest;
         let is_all_pinned = start.free().next().is_none();
         if left == 0 || is_least || is_all_pinned {
-            let found = best.map(|b| Found { chosen: b.chosen, sheets: b.sheets });
-            return Ok(found.unwrap_or(Found { chosen: Vec::new(), sheets: Vec::new() }));
+            return Ok(Found { chosen: best.chosen.clone(), sheets: best.sheets.clone() });
         }
-        batch = (0..BATCH).map(|_| varied(&pool, items, start, &alternatives, &mut rng)).collect();
+        batch = (0..BATCH).map(|_| varied(nearest, items, start, &alternatives, &mut rng)).collect();
         let placed: usize = batch.iter().map(|plan| plan.order.len()).sum();
         left = left.saturating_sub(placed.max(1));
     }
@@ -213,18 +220,17 @@ fn standard_plans(items: &[Item], start: &Start, groups: usize) -> Vec<Plan> {
     pulls.iter().flat_map(|&pull| orders.iter().map(move |order| plan(pull, order))).collect()
 }
 
-/// A plan near one of the best layouts.
+/// A plan near a layout.
 fn varied(
-    pool: &[Layout],
+    parent: &Layout,
     items: &[Item],
     start: &Start,
     alternatives: &[usize],
     rng: &mut fastrand::Rng,
 ) -> Plan {
-    let parent = &pool[rng.usize(..pool.len())];
-    let mut plan = match rng.u8(..3) {
+    let mut plan = match rng.u8(..FRESH) {
         0 => reordered(parent, items, start, rng),
-        _ => ruined(parent, items, start, rng),
+        _ => ruined(parent, items, rng),
     };
     if rng.u8(..3) == 0 {
         plan.way.pull = DVec2::from_angle(rng.f64() * FRAC_PI_2);
@@ -276,15 +282,15 @@ fn reordered(parent: &Layout, items: &[Item], start: &Start, rng: &mut fastrand:
 
 /// The emptiest sheet is cleared, one or two others in part, and their pieces are placed anew: the
 /// large ones first, more or less.
-fn ruined(parent: &Layout, items: &[Item], start: &Start, rng: &mut fastrand::Rng) -> Plan {
-    let sheets = parent.emptiest_first(items);
-    let mut others: Vec<usize> = sheets.iter().skip(1).copied().collect();
+fn ruined(parent: &Layout, items: &[Item], rng: &mut fastrand::Rng) -> Plan {
+    let mut others = parent.emptiest_first(items);
+    let emptiest = others.remove(0);
     rng.shuffle(&mut others);
     others.truncate(rng.usize(1..=2));
     let mut kept = parent.sheets.clone();
     let mut removed: Vec<(f64, usize)> = Vec::new();
-    for (k, &sheet) in sheets[..1].iter().chain(&others).enumerate() {
-        let share = if k == 0 { 1.0 } else { [0.3, 0.6, 1.0][rng.usize(..3)] };
+    for sheet in [emptiest].into_iter().chain(others.iter().copied()) {
+        let share = if sheet == emptiest { 1.0 } else { SHARES[rng.usize(..SHARES.len())] };
         kept[sheet].retain(|placed| {
             let stays = rng.f64() >= share;
             if !stays {
@@ -294,17 +300,9 @@ fn ruined(parent: &Layout, items: &[Item], start: &Start, rng: &mut fastrand::Rn
         });
     }
     removed.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let pinned = start.stock().len();
-    let mut sheet = 0..kept.len();
-    let stays: Vec<bool> = kept.iter().enumerate().map(|(k, s)| k < pinned || !s.is_empty()).collect();
-    let open: Vec<usize> = (0..stays.len())
-        .filter(|k| stays[*k] && (others.contains(k) || *k == sheets[0]))
-        .map(|k| stays[..k].iter().filter(|s| **s).count())
-        .collect();
-    kept.retain(|_| sheet.next().is_some_and(|k| stays[k]));
     Plan {
         kept,
-        open,
+        open: others.into_iter().chain([emptiest]).collect(),
         order: removed.into_iter().map(|(_, item)| item).collect(),
         way: parent.way,
         chosen: parent.chosen.clone(),
