@@ -5,10 +5,11 @@
 use divan::Bencher;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use tatamu::fold::{FoldPlan, ModelMotion};
 use tatamu::mesh::{self, Mesh};
 use tatamu::model::Model;
-use tatamu::net::{KnownNets, Net, NetOptions, develop_model};
+use tatamu::net::{BlankNet, KnownNets, NetOptions, develop_model};
 use tatamu::pipeline::{self, Engine, Options};
 use tatamu::progress::Silent;
 use tatamu::sheet::{Layout, SheetOptions};
@@ -46,7 +47,7 @@ fn sheet_options() -> SheetOptions {
     SheetOptions::new(Paper::default(), Options::default().margin_mm)
 }
 
-fn alternatives(model: &Model) -> Option<Vec<Vec<Net>>> {
+fn alternatives(model: &Model) -> Option<Vec<Vec<Arc<BlankNet>>>> {
     let options = NetOptions::new(Options::default().tab_width_mm, sheet_options().room_mm());
     develop_model(model, &options, &KnownNets::default(), &Silent).ok()
 }

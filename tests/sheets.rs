@@ -5,9 +5,10 @@ mod support;
 use geo::{Area, BooleanOps, BoundingRect, Contains, Intersects};
 use glam::{DAffine2, DVec2};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use support::Prism;
 use tatamu::drawing::{Drawing, Layer, LineStyles, Mark, Shape, Text, text};
-use tatamu::net::{LabelKind, Naming, Net, NetOptions, Side, alternatives, check::faults};
+use tatamu::net::{BlankNet, LabelKind, Naming, Net, NetOptions, Side, alternatives, check::faults};
 use tatamu::progress::Silent;
 use tatamu::sheet::fit::Rotation;
 use tatamu::sheet::{Calibration, Layout, PiecePlace, Pin, Registration, SheetOptions, Unheeded};
@@ -46,17 +47,27 @@ struct Made {
     layout: Layout,
 }
 
+/// The nets of prisms, each with its alternatives.
+fn alternatives_of(
+    prisms: &[Prism],
+    sheets: &SheetOptions,
+    change: impl Fn(&mut NetOptions),
+) -> Vec<Vec<Arc<BlankNet>>> {
+    let mut options = NetOptions::new(6.0, sheets.room_mm());
+    change(&mut options);
+    let nets = |(k, prism): (usize, &Prism)| {
+        let letter = char::from(b'A' + k as u8).to_string();
+        let name = format!("part-{k}");
+        let naming = Naming { name: &name, prefix: &letter };
+        let nets = alternatives(&prism.panel_set(), naming, &[], &options).expect("nets");
+        nets.into_iter().map(Arc::new).collect()
+    };
+    prisms.iter().enumerate().map(nets).collect()
+}
+
 impl Made {
     fn new(prisms: &[Prism], sheets: &SheetOptions, change: impl Fn(&mut NetOptions)) -> Self {
-        let mut options = NetOptions::new(6.0, sheets.room_mm());
-        change(&mut options);
-        let net = |(k, prism): (usize, &Prism)| {
-            let letter = char::from(b'A' + k as u8).to_string();
-            let name = format!("part-{k}");
-            let naming = Naming { name: &name, prefix: &letter };
-            alternatives(&prism.panel_set(), naming, &[], &options).expect("nets")
-        };
-        let nets: Vec<Vec<Net>> = prisms.iter().enumerate().map(net).collect();
+        let nets = alternatives_of(prisms, sheets, change);
         let (layout, nets) =
             Layout::of_alternatives(&nets, sheets, &BTreeMap::new(), &Silent).expect("a layout");
         Self { nets, layout }
@@ -337,7 +348,8 @@ fn pinned_pieces_lie_where_they_are_pinned_and_the_others_round_them() {
         (names[2].clone(), pin(0, 60.0, 90.0, 0.0)),
         ("gone".to_owned(), pin(0, 50.0, 50.0, 0.0)),
     ]);
-    let nets: Vec<Vec<Net>> = made.nets.into_iter().map(|net| vec![net]).collect();
+    let mut nets = alternatives_of(&prisms()[..7], &sheets, |_| {});
+    nets.iter_mut().for_each(|alternatives| alternatives.truncate(1));
     let (layout, nets) = Layout::of_alternatives(&nets, &sheets, &pins, &Silent).expect("a layout");
     let pinned = Made { nets, layout };
     for name in &names[..2] {

@@ -1,9 +1,9 @@
 //! From a component's panels to its net.
 
+use super::blank::BlankNet;
 use super::chains::Chains;
 use super::cuts::{Candidate, Problem};
 use super::divide::divide;
-use super::finish::finish;
 use super::glue;
 use super::grow::grow;
 use super::layout::{self, Layout, best_turn, hinge_length};
@@ -121,7 +121,7 @@ pub fn develop(
     options: &NetOptions,
 ) -> Result<Net, NetError> {
     let (split, mut drafts) = drafts(set, naming.name, options)?;
-    Ok(finish(split, drafts.swap_remove(0), naming, joints, options))
+    Ok(BlankNet::new(split, drafts.swap_remove(0), naming, joints, options).finished().clone())
 }
 
 /// The net of [`develop`], then others that are nearly as good, have as many pieces and are cut
@@ -134,9 +134,10 @@ pub fn alternatives(
     naming: Naming<'_>,
     joints: &[JointMark],
     options: &NetOptions,
-) -> Result<Vec<Net>, NetError> {
+) -> Result<Vec<BlankNet>, NetError> {
     let (split, drafts) = drafts(set, naming.name, options)?;
-    Ok(drafts.into_iter().map(|draft| finish(split.clone(), draft, naming, joints, options)).collect())
+    let blank = |draft| BlankNet::new(split.clone(), draft, naming, joints, options);
+    Ok(drafts.into_iter().map(blank).collect())
 }
 
 /// The best draft and alternatives to it, at least one in all.

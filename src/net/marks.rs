@@ -98,26 +98,26 @@ impl Piece {
         let closed = |points: &[DVec2]| Polyline::closed(points.to_vec());
         let mut marks = Vec::new();
         for joint in &self.joints {
-            let panel = self.panels.iter().find(|p| p.panel == joint.panel);
+            let panel = self.blank.panels.iter().find(|p| p.panel == joint.panel);
             let panel = panel.map_or_else(String::new, |p| p.kind.short_name());
             marks.push(path(Layer::Glue, closed(&joint.outline), panel.clone()));
             marks.push(path(Layer::Glue, closed(&joint.key), format!("{panel} key")));
         }
-        for area in &self.glue_areas {
+        for area in &self.blank.glue_areas {
             let [start, end, far, near] = area.outline;
             marks.push(path(Layer::Glue, Polyline::open(vec![end, far, near, start]), "tab".to_owned()));
             if area.is_outside {
                 marks.push(path(Layer::Glue, Polyline::open(vec![start, far]), "tape outside".to_owned()));
             }
         }
-        for crease in self.crease_lines.iter().filter(|c| c.is_drawn) {
+        for crease in self.blank.crease_lines.iter().filter(|c| c.is_drawn) {
             let line = Polyline::open(crease.ends.to_vec());
             marks.push(path(crease.layer(side), line, crease.between.clone()));
         }
-        for slit in &self.slits {
+        for slit in &self.blank.slits {
             marks.push(path(Layer::Slit, Polyline::open(slit.clone()), "inside".to_owned()));
         }
-        marks.push(path(Layer::Cut, closed(&self.outline), "outline".to_owned()));
+        marks.push(path(Layer::Cut, closed(&self.blank.outline), "outline".to_owned()));
         for leader in &self.leaders {
             let line = Polyline::open(vec![leader.from, leader.to]);
             marks.push(path(Layer::Label, line, "leader".to_owned()));
@@ -126,7 +126,7 @@ impl Piece {
             marks.push(dot.of_part("leader"));
         }
         marks.extend(self.labels.iter().map(|label| label_mark(label, &stroke_of)));
-        marks.into_iter().map(|mark| mark.of_piece(&*self.name)).collect()
+        marks.into_iter().map(|mark| mark.of_piece(self.name())).collect()
     }
 }
 

@@ -8,6 +8,7 @@
 //! it: one chain stays whole, each other chain is cut at one hinge and glued there by a tab. Where
 //! a panel had to be split to fit the sheet the graph is any graph, and pieces are grown.
 
+mod blank;
 mod chains;
 pub mod check;
 mod contour;
@@ -26,6 +27,7 @@ mod of_model;
 mod split;
 mod tabs;
 
+pub use blank::{Blank, BlankNet};
 pub use develop::{Naming, NetChoices, NetError, NetOptions, alternatives, develop};
 pub use marks::Side;
 pub use mesh::{Corner, Edge, EdgeKind, Face, FaceKind, PieceMesh, Vertex};
@@ -146,40 +148,37 @@ pub struct Label {
 /// fits the sheet that the net was made for; the outline is one closed walk.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Piece {
-    name: String,
-    panels: Vec<PlacedPanel>,
-    creases: Vec<HingeId>,
-    tabs: Vec<Tab>,
+    blank: Blank,
     joints: Vec<PlacedJoint>,
     labels: Vec<Label>,
     leaders: Vec<Leader>,
-    glue_areas: Vec<GlueArea>,
     unplaced_labels: Vec<String>,
-    mesh: PieceMesh,
-    crease_lines: Vec<marks::Crease>,
-    outline: Vec<DVec2>,
-    slits: Vec<Vec<DVec2>>,
 }
 
 impl Piece {
+    /// The piece without its texts.
+    pub fn blank(&self) -> &Blank {
+        &self.blank
+    }
+
     /// `head 1/2`, or `head` where there is only one.
     pub fn name(&self) -> &str {
-        &self.name
+        self.blank.name()
     }
 
     /// Its panels.
     pub fn panels(&self) -> &[PlacedPanel] {
-        &self.panels
+        &self.blank.panels
     }
 
     /// Hinges that stay joined in it.
     pub fn creases(&self) -> &[HingeId] {
-        &self.creases
+        &self.blank.creases
     }
 
     /// Its tabs.
     pub fn tabs(&self) -> &[Tab] {
-        &self.tabs
+        &self.blank.tabs
     }
 
     /// What is glued on its panels.
@@ -199,7 +198,7 @@ impl Piece {
 
     /// Where tabs come to lie behind its panels, if that was asked for, and where tape goes.
     pub fn glue_areas(&self) -> &[GlueArea] {
-        &self.glue_areas
+        &self.blank.glue_areas
     }
 
     /// Texts that found no place on it; they must be listed on the sheet.
@@ -209,34 +208,34 @@ impl Piece {
 
     /// Panels and tabs as faces that share vertices where paper joins them.
     pub fn mesh(&self) -> &PieceMesh {
-        &self.mesh
+        &self.blank.mesh
     }
 
     /// The outer contour of panels and tabs, counter-clockwise: what nesting has to place.
     pub fn outline(&self) -> &[DVec2] {
-        &self.outline
+        self.blank.outline()
     }
 
     /// Cuts that lie inside the outline: slits whose two sides touch.
     pub fn slits(&self) -> &[Vec<DVec2>] {
-        &self.slits
+        &self.blank.slits
     }
 
     /// Length of everything that is cut, mm.
     pub fn cut_mm(&self) -> f64 {
-        let outline: f64 = crate::geom::polygon::edges(&self.outline).map(|(a, b)| a.distance(b)).sum();
-        let slits = self.slits.iter().flat_map(|slit| slit.windows(2));
+        let outline: f64 = crate::geom::polygon::edges(self.outline()).map(|(a, b)| a.distance(b)).sum();
+        let slits = self.blank.slits.iter().flat_map(|slit| slit.windows(2));
         outline + slits.map(|w| w[0].distance(w[1])).sum::<f64>()
     }
 
     /// Length of everything that is folded, mm: hinges and the bases of tabs.
     pub fn crease_mm(&self) -> f64 {
-        self.crease_lines.iter().map(marks::Crease::length_mm).sum()
+        self.blank.crease_lines.iter().map(marks::Crease::length_mm).sum()
     }
 
     /// Width and height of the bounding box, mm.
     pub fn size_mm(&self) -> DVec2 {
-        crate::geom::polygon::bounds(self.outline.iter().copied()).map_or(DVec2::ZERO, |(lo, hi)| hi - lo)
+        crate::geom::polygon::bounds(self.outline().iter().copied()).map_or(DVec2::ZERO, |(lo, hi)| hi - lo)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Nets of all components of a model, with the marks of its joints.
 
-use super::{JointMark, Naming, Net, NetError, NetOptions, alternatives};
+use super::{BlankNet, JointMark, Naming, NetError, NetOptions, alternatives};
 use crate::component::{PanelId, PanelSet};
 use crate::geom::polygon;
 use crate::memory::Memory;
@@ -8,6 +8,7 @@ use crate::model::Model;
 use crate::progress::{Cancelled, Progress};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Why a model has no nets.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -26,7 +27,7 @@ const MOST_KNOWN: usize = 200;
 /// Nets that were made before, so that a change to one component leaves those of others as they
 /// are.
 #[derive(Debug)]
-pub struct KnownNets(Memory<Wish, Vec<Net>>);
+pub struct KnownNets(Memory<Wish, Vec<Arc<BlankNet>>>);
 
 /// Everything that a net depends on.
 #[derive(Debug, PartialEq)]
@@ -45,7 +46,7 @@ impl Default for KnownNets {
 }
 
 impl KnownNets {
-    fn nets(&self, model: &Model, p: usize, options: &NetOptions) -> Result<Vec<Net>, NetError> {
+    fn nets(&self, model: &Model, p: usize, options: &NetOptions) -> Result<Vec<Arc<BlankNet>>, NetError> {
         let part = &model.parts()[p];
         let (prefix, marks) = (prefix(p), joint_marks(model, p));
         let wish = Wish {
@@ -56,7 +57,10 @@ impl KnownNets {
             panels: part.component.panels().clone(),
         };
         let naming = Naming { name: &part.name, prefix: &prefix };
-        self.0.get_or(wish, || alternatives(part.component.panels(), naming, &marks, options))
+        self.0.get_or(wish, || {
+            let nets = alternatives(part.component.panels(), naming, &marks, options)?;
+            Ok(nets.into_iter().map(Arc::new).collect())
+        })
     }
 }
 
@@ -70,15 +74,15 @@ pub fn develop_model(
     options: &NetOptions,
     known: &KnownNets,
     progress: &dyn Progress,
-) -> Result<Vec<Vec<Net>>, NetsError> {
-    let nets: Vec<Result<Vec<Net>, NetsError>> = (0..model.parts().len())
+) -> Result<Vec<Vec<Arc<BlankNet>>>, NetsError> {
+    let nets: Vec<Result<Vec<Arc<BlankNet>>, NetsError>> = (0..model.parts().len())
         .into_par_iter()
         .map(|p| {
             progress.check()?;
             Ok(known.nets(model, p, options)?)
         })
         .collect();
-    let scale = |net: &Result<Vec<Net>, NetsError>| match net {
+    let scale = |net: &Result<Vec<Arc<BlankNet>>, NetsError>| match net {
         Err(NetsError::Net(NetError::PanelTooLarge { scale, .. })) => *scale,
         _ => f64::INFINITY,
     };

@@ -9,7 +9,7 @@ use crate::fold::{FoldPlan, ModelMotion};
 use crate::memory::Memory;
 use crate::mesh::{Mesh, Up};
 use crate::model::{self, Known, Model, ModelPart};
-use crate::net::{KnownNets, Net, NetChoices, NetOptions, develop_model};
+use crate::net::{BlankNet, KnownNets, Net, NetChoices, NetOptions, develop_model};
 use crate::progress::{Beside, Progress};
 use crate::segment::{self, Edit, Parts, SegmentOptions};
 use crate::sheet::{Layout, Pin, SheetOptions};
@@ -37,7 +37,7 @@ pub struct Engine<'m> {
 }
 
 /// What decides a layout: sheets, pins, and the nets with their alternatives.
-type LayoutKey = (SheetOptions, BTreeMap<String, Pin>, Arc<Vec<Vec<Net>>>);
+type LayoutKey = (SheetOptions, BTreeMap<String, Pin>, Arc<Vec<Vec<Arc<BlankNet>>>>);
 
 /// What decides the parts before they are changed by hand: size, axis and segmentation.
 type Found = (f64, Up, SegmentOptions);

@@ -4,10 +4,12 @@ use super::SheetOptions;
 use super::nest::{NestError, Placement, Shape, nest_alternatives};
 use super::pin::{Pin, Unheeded, unheeded};
 use crate::geom::polygon;
-use crate::net::{Net, Piece};
+use crate::net::{Blank, BlankNet, Net, Piece};
 use crate::progress::Progress;
 use glam::DAffine2;
+use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Where a piece lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,8 +56,9 @@ impl Layout {
     /// # Errors
     /// See [`LayoutError`].
     pub fn new(nets: &[Net], options: &SheetOptions, progress: &dyn Progress) -> Result<Self, LayoutError> {
-        let alternatives: Vec<&[Net]> = nets.iter().map(std::slice::from_ref).collect();
-        Ok(Self::nested(&alternatives, options, &BTreeMap::new(), progress)?.0)
+        let groups: Vec<Vec<Vec<&Blank>>> =
+            nets.iter().map(|net| vec![net.pieces().iter().map(Piece::blank).collect()]).collect();
+        Ok(Self::nested(&groups, options, &BTreeMap::new(), progress)?.0)
     }
 
     /// Nests the pieces of one net of each list, which are alternatives with as many pieces, the
@@ -65,24 +68,36 @@ impl Layout {
     /// # Errors
     /// See [`LayoutError`].
     pub fn of_alternatives(
-        nets: &[Vec<Net>],
+        nets: &[Vec<Arc<BlankNet>>],
         options: &SheetOptions,
         pins: &BTreeMap<String, Pin>,
         progress: &dyn Progress,
     ) -> Result<(Self, Vec<Net>), LayoutError> {
-        let has_pin = |net: &Net| net.pieces().iter().any(|piece| pins.contains_key(piece.name()));
-        let usable = |nets: &[Net]| if nets.first().is_some_and(has_pin) { 1 } else { nets.len() };
-        let alternatives: Vec<&[Net]> = nets.iter().map(|nets| &nets[..usable(nets)]).collect();
-        let (layout, taken) = Self::nested(&alternatives, options, pins, progress)?;
-        Ok((layout, taken.into_iter().cloned().collect()))
+        let groups: Vec<Vec<Vec<&Blank>>> = nets
+            .iter()
+            .map(|nets| {
+                let mut alternatives: Vec<Vec<&Blank>> =
+                    nets.iter().map(|net| net.blanks().iter().collect()).collect();
+                let is_pinned = |blank: &&Blank| pins.contains_key(blank.name());
+                if alternatives.first().is_some_and(|first| first.iter().any(is_pinned)) {
+                    alternatives.truncate(1);
+                }
+                alternatives
+            })
+            .collect();
+        let (layout, taken) = Self::nested(&groups, options, pins, progress)?;
+        let nets = nets.par_iter().zip(taken).map(|(nets, taken)| nets[taken].finished().clone()).collect();
+        Ok((layout, nets))
     }
 
-    fn nested<'n>(
-        nets: &[&'n [Net]],
+    /// Nests the pieces `groups[g][a]` of alternative a of each group g; also gives which alternative
+    /// was taken.
+    fn nested(
+        groups: &[Vec<Vec<&Blank>>],
         options: &SheetOptions,
         pins: &BTreeMap<String, Pin>,
         progress: &dyn Progress,
-    ) -> Result<(Self, Vec<&'n Net>), LayoutError> {
+    ) -> Result<(Self, Vec<usize>), LayoutError> {
         let room = options.room_mm();
         if room.min_element() <= 0.0 {
             let size = options.size_mm();
@@ -92,12 +107,24 @@ impl Layout {
                 margin_mm: options.border_mm(),
             });
         }
-        let groups: Vec<Vec<Vec<Shape>>> = nets
+        let shape = |n: usize, blank: &Blank| {
+            let shape = Shape::new(blank.outline().to_vec(), n)?;
+            Some(match pins.get(blank.name()) {
+                Some(pin) => shape.pinned(pin.placement(blank.outline(), options.origin_mm())),
+                None => shape,
+            })
+        };
+        let shapes = |n: usize, blanks: &[&Blank]| -> Vec<Shape> {
+            let shapes: Vec<Shape> = blanks.iter().filter_map(|blank| shape(n, blank)).collect();
+            debug_assert_eq!(shapes.len(), blanks.len(), "every piece has an area");
+            shapes
+        };
+        let shapes: Vec<Vec<Vec<Shape>>> = groups
             .iter()
             .enumerate()
-            .map(|(n, nets)| nets.iter().map(|net| shapes(net, n, pins, options)).collect())
+            .map(|(n, alternatives)| alternatives.iter().map(|blanks| shapes(n, blanks)).collect())
             .collect();
-        let placed = nest_alternatives(&groups, &options.nesting(), progress)?;
+        let placed = nest_alternatives(&shapes, &options.nesting(), progress)?;
         let place = |p: &Placement| PiecePlace {
             sheet: p.sheet,
             place: DAffine2::from_translation(options.origin_mm()) * p.motion(),
@@ -105,12 +132,11 @@ impl Layout {
         let places: Vec<Vec<PiecePlace>> =
             placed.iter().map(|(_, placements)| placements.iter().map(place).collect()).collect();
         let sheets = places.iter().flatten().map(|p| p.sheet + 1).max().unwrap_or(0);
-        let taken: Vec<&Net> = nets.iter().zip(&placed).map(|(nets, (chosen, _))| &nets[*chosen]).collect();
-        let pieces = taken.iter().flat_map(|net| net.pieces());
-        let area: f64 = pieces.map(|p| polygon::area(p.outline())).sum();
+        let taken: Vec<usize> = placed.iter().map(|(chosen, _)| *chosen).collect();
+        let blanks = || groups.iter().zip(&taken).flat_map(|(group, &taken)| group[taken].iter().copied());
+        let area: f64 = blanks().map(|blank| polygon::area(blank.outline())).sum();
         let utilisation = area / (room.x * room.y * sheets.max(1) as f64);
-        let pieces = taken.iter().flat_map(|net| net.pieces());
-        let unheeded = unheeded(pins, pieces.zip(places.iter().flatten()));
+        let unheeded = unheeded(pins, blanks().zip(places.iter().flatten()));
         Ok((Self { options: *options, places, sheets, utilisation, unheeded }, taken))
     }
 
@@ -138,18 +164,4 @@ impl Layout {
     pub fn utilisation(&self) -> f64 {
         self.utilisation
     }
-}
-
-/// The pieces of net `n` as the nesting sees them.
-fn shapes(net: &Net, n: usize, pins: &BTreeMap<String, Pin>, options: &SheetOptions) -> Vec<Shape> {
-    let shape = |piece: &Piece| {
-        let shape = Shape::new(piece.outline().to_vec(), n)?;
-        Some(match pins.get(piece.name()) {
-            Some(pin) => shape.pinned(pin.placement(piece.outline(), options.origin_mm())),
-            None => shape,
-        })
-    };
-    let shapes: Vec<Shape> = net.pieces().iter().filter_map(shape).collect();
-    debug_assert_eq!(shapes.len(), net.pieces().len(), "every piece has an area");
-    shapes
 }

@@ -3,7 +3,7 @@
 use super::layout::PiecePlace;
 use super::nest::Placement;
 use crate::geom::polygon;
-use crate::net::Piece;
+use crate::net::Blank;
 use glam::DVec2;
 use std::collections::BTreeMap;
 
@@ -51,10 +51,10 @@ impl Pin {
 /// The pins that no piece, or none at its place, has.
 pub(super) fn unheeded<'a>(
     pins: &BTreeMap<String, Pin>,
-    places: impl Iterator<Item = (&'a Piece, &'a PiecePlace)>,
+    places: impl Iterator<Item = (&'a Blank, &'a PiecePlace)>,
 ) -> Vec<Unheeded> {
     let places: BTreeMap<&str, Pin> =
-        places.map(|(piece, place)| (piece.name(), Pin::of_place(piece.outline(), place))).collect();
+        places.map(|(blank, place)| (blank.name(), Pin::of_place(blank.outline(), place))).collect();
     let fault = |(name, pin): (&String, &Pin)| match places.get(name.as_str()) {
         None => Some(Unheeded::NoPiece(name.clone())),
         // A sheet with a lower number may have become empty.
