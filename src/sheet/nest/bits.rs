@@ -33,14 +33,12 @@ impl Probe {
         let size = 1 << layer;
         let block = |cell: i32| (cell.max(0) as usize).div_ceil(size);
         let rows = body.iter().filter(|r| r.row >= 0 && r.row % size as i32 == 0);
-        let probes: Vec<Self> = rows
-            .filter(|r| block(r.start) < block(r.end))
-            .map(|r| {
-                let (start, end) = (block(r.start), block(r.end).min(COLUMNS));
-                let level = (end - start).ilog2() as usize;
-                Self { row: r.row as usize / size, level, starts: [start, end - (1 << level)] }
-            })
-            .collect();
+        let mut probes: Vec<Self> = Vec::with_capacity(body.len());
+        probes.extend(rows.filter(|r| block(r.start) < block(r.end)).map(|r| {
+            let (start, end) = (block(r.start), block(r.end).min(COLUMNS));
+            let level = (end - start).ilog2() as usize;
+            Self { row: r.row as usize / size, level, starts: [start, end - (1 << level)] }
+        }));
         // Rows far apart first: they find a clash sooner than neighbours do.
         let mut sorted = Vec::with_capacity(probes.len());
         for zeros in (0..=FAR_APART).rev() {
@@ -53,16 +51,18 @@ impl Probe {
 /// Taken cells of a sheet, or blocks of 2^k × 2^k cells that are taken whole.
 #[derive(Debug, Clone)]
 pub(super) struct Layer {
-    levels: [Vec<Row>; LEVELS],
+    rows: usize,
+    /// Level after level.
+    levels: Vec<Row>,
 }
 
 impl Layer {
     pub fn new(rows: usize) -> Self {
-        Self { levels: std::array::from_fn(|_| vec![[0; 2 * WORDS]; rows]) }
+        Self { rows, levels: vec![[0; 2 * WORDS]; LEVELS * rows] }
     }
 
     pub fn rows(&self) -> usize {
-        self.levels[0].len()
+        self.rows
     }
 
     /// Of the positions of one word, those at which no probe meets a taken cell.
@@ -72,7 +72,7 @@ impl Layer {
             if free == 0 {
                 break;
             }
-            let taken = &self.levels[probe.level][row + probe.row];
+            let taken = &self.levels[probe.level * self.rows + row + probe.row];
             free &= !(shifted(taken, probe.starts[0], word) | shifted(taken, probe.starts[1], word));
         }
         free
@@ -82,7 +82,7 @@ impl Layer {
     /// [`Layer::finish`] of the row.
     pub fn take(&mut self, row: usize, start: usize, end: usize) -> usize {
         let mut gained = 0;
-        for (k, word) in self.levels[0][row].iter_mut().take(WORDS).enumerate() {
+        for (k, word) in self.levels[row].iter_mut().take(WORDS).enumerate() {
             let bits = stretch(start, end, k);
             gained += (bits & !*word).count_ones() as usize;
             *word |= bits;
@@ -93,19 +93,20 @@ impl Layer {
     /// Makes the levels of a row right after its cells changed.
     pub fn finish(&mut self, row: usize) {
         for level in 1..LEVELS {
-            let below = self.levels[level - 1][row];
+            let below = self.levels[(level - 1) * self.rows + row];
+            let at = level * self.rows + row;
             for k in 0..WORDS {
-                self.levels[level][row][k] = below[k] | shifted(&below, 1 << (level - 1), k);
+                self.levels[at][k] = below[k] | shifted(&below, 1 << (level - 1), k);
             }
         }
     }
 
     /// Sets a row of blocks from two rows of a layer with blocks half as large.
     pub fn merge_from(&mut self, finer: &Self, row: usize) {
-        let [a, b] = [2 * row, 2 * row + 1].map(|r| finer.levels[0][r]);
+        let [a, b] = [2 * row, 2 * row + 1].map(|r| finer.levels[r]);
         for k in 0..WORDS / 2 {
             let halves = [2 * k, 2 * k + 1].map(|k| u64::from(halved(a[k] & b[k])));
-            self.levels[0][row][k] = halves[0] | halves[1] << 32;
+            self.levels[row][k] = halves[0] | halves[1] << 32;
         }
         self.finish(row);
     }

@@ -111,7 +111,7 @@ impl Alternative<'_> {
 const EDGES: usize = 5;
 
 /// Angles in steps of a right angle by this number, tried beside those.
-const STEPS: usize = 18;
+const STEPS: usize = 9;
 
 /// Angles nearer than this are tried once.
 const SAME_RAD: f64 = 0.02;

@@ -195,7 +195,8 @@ impl Cells {
     }
 
     fn runs(&self) -> Vec<Run> {
-        let mut runs = Vec::new();
+        // Two runs to a row, mostly fewer.
+        let mut runs = Vec::with_capacity(2 * self.bits.len() / self.words);
         for (row, words) in (self.low.y..).zip(self.bits.chunks_exact(self.words)) {
             let mut start = None;
             for (k, &word) in words.iter().enumerate() {
