@@ -20,9 +20,10 @@ const COLUMNS: [(&str, &[&str]); 7] = [
     ("read", &["read"]),
     ("parts", &["thickness", "patches", "parts", "borders", "hulls"]),
     ("components", &["components"]),
-    ("folding", &["folding"]),
     ("nets", &["nets"]),
     ("sheets", &["sheets"]),
+    // What is left of it when the sheets are done.
+    ("folding", &["folding"]),
     ("PDF", &["PDF"]),
 ];
 
