@@ -10,7 +10,8 @@ use super::track::Track;
 use crate::component::{Panel, PanelId, PanelKind};
 use glam::DAffine3;
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
+use smallvec::SmallVec;
+use std::collections::{BTreeSet, HashMap};
 
 /// Two components that bump into each other, or two chains of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,8 +37,11 @@ pub struct Overlap {
     pub depth_mm: f64,
 }
 
-/// The component that moves, the pair, and the states of all parts between them.
-type Question = (usize, [usize; 2], Vec<bool>);
+/// The component that moves, the pair, and the states of all parts on the way to each of the two.
+type Question = (usize, [usize; 2], [States; 2]);
+
+/// Which parts on the way from one part to another are flat, a bit each.
+type States = SmallVec<[u64; 1]>;
 
 /// Samples over the rest of the motion that tell how bad a clash becomes.
 const DEPTH_SAMPLES: usize = 16;
@@ -56,7 +60,11 @@ pub(super) struct Checker<'a> {
     thickness_mm: f64,
     roots: Vec<usize>,
     ignored: BTreeSet<[usize; 2]>,
-    known: BTreeMap<Question, Option<Clash>>,
+    /// `ways[a][b]` are the parts on the way from a to b, without a and with b.
+    ways: Vec<Vec<Vec<usize>>>,
+    known: HashMap<Question, Option<Clash>>,
+    /// Clashes of a component's motion, by the states on the way to each part.
+    listed: HashMap<(usize, Vec<States>), Vec<Clash>>,
     accepted: BTreeSet<(usize, [usize; 2])>,
     sweeps: usize,
 }
@@ -66,14 +74,18 @@ impl<'a> Checker<'a> {
     pub(super) fn new(motion: &'a ModelMotion<'a>, thickness_mm: f64, overlaps: &[Overlap]) -> Self {
         let model = motion.model();
         let parts = 0..model.parts().len();
-        let tracks = parts.into_par_iter().map(|p| Track::new(motion.component(p))).collect();
+        let tracks = parts.clone().into_par_iter().map(|p| Track::new(motion.component(p))).collect();
+        let above: Vec<Vec<usize>> = parts.clone().map(|p| ancestors(model, p)).collect();
+        let ways_from = |a: usize| parts.clone().map(|b| between(&above[a], a, &above[b], b)).collect();
         Self {
             motion,
             tracks,
             thickness_mm,
-            roots: (0..model.parts().len()).map(|p| root_of(model, p)).collect(),
+            roots: parts.clone().map(|p| root_of(model, p)).collect(),
             ignored: overlaps.iter().map(|o| o.parts).collect(),
-            known: BTreeMap::new(),
+            ways: parts.clone().map(ways_from).collect(),
+            known: HashMap::new(),
+            listed: HashMap::new(),
             accepted: BTreeSet::new(),
             sweeps: 0,
         }
@@ -89,17 +101,23 @@ impl<'a> Checker<'a> {
 
     /// All clashes, those accepted too.
     pub(super) fn all_clashes(&mut self, mover: usize, is_flat: &[bool]) -> Vec<Clash> {
+        let key = (mover, self.states(mover, is_flat));
+        if let Some(clashes) = self.listed.get(&key) {
+            return clashes.clone();
+        }
         let answers = self.answers(mover, is_flat);
         self.learn(answers);
-        let questions = self.questions(mover, is_flat);
-        questions.iter().filter_map(|q| self.known.get(q).copied().flatten()).collect()
+        let questions = self.questions(mover, &key.1);
+        let clashes: Vec<Clash> = questions.filter_map(|q| self.known.get(&q).copied().flatten()).collect();
+        self.listed.insert(key, clashes.clone());
+        clashes
     }
 
     /// Accepts a clash that happens whatever the states of the parts between are, since no order
     /// can help. Gives up, and does not accept it, where there are too many of them.
     pub(super) fn accept_if_unavoidable(&mut self, clash: &Clash, is_flat: &[bool]) {
         let (mover, parts) = (clash.mover, clash.parts);
-        let mut free: Vec<usize> = parts.iter().flat_map(|&p| self.between(mover, p)).collect();
+        let mut free: Vec<usize> = parts.iter().flat_map(|&p| &self.ways[mover][p]).copied().collect();
         free.sort_unstable();
         free.dedup();
         if free.len() > MOST_BETWEEN {
@@ -108,7 +126,7 @@ impl<'a> Checker<'a> {
         let is_always = (0..1_usize << free.len()).all(|states| {
             let mut is_flat = is_flat.to_vec();
             free.iter().enumerate().for_each(|(k, &p)| is_flat[p] = states >> k & 1 == 1);
-            let question = self.question(mover, parts, &is_flat);
+            let question = (mover, parts, parts.map(|p| self.states_on_way(mover, p, &is_flat)));
             if !self.known.contains_key(&question) {
                 let answers = self.ask(vec![question.clone()], mover, &is_flat);
                 self.learn(answers);
@@ -133,9 +151,9 @@ impl<'a> Checker<'a> {
 
     /// Answers what is not known yet of one component's motion.
     pub(super) fn answers(&self, mover: usize, is_flat: &[bool]) -> Vec<(Question, Option<Clash>)> {
-        let mut open = self.questions(mover, is_flat);
-        open.retain(|question| !self.known.contains_key(question));
-        self.ask(open, mover, is_flat)
+        let states = self.states(mover, is_flat);
+        let open = self.questions(mover, &states).filter(|question| !self.known.contains_key(question));
+        self.ask(open.collect(), mover, is_flat)
     }
 
     fn ask(&self, open: Vec<Question>, mover: usize, is_flat: &[bool]) -> Vec<(Question, Option<Clash>)> {
@@ -155,26 +173,22 @@ impl<'a> Checker<'a> {
         open.into_iter().zip(found.collect::<Vec<_>>()).collect()
     }
 
-    fn between(&self, mover: usize, part: usize) -> Vec<usize> {
-        let model = self.motion.model();
-        between(&ancestors(model, mover), mover, &ancestors(model, part), part)
+    fn states_on_way(&self, mover: usize, part: usize, is_flat: &[bool]) -> States {
+        let way = self.ways[mover][part].chunks(u64::BITS as usize);
+        way.map(|parts| parts.iter().fold(0, |bits, &p| bits << 1 | u64::from(is_flat[p]))).collect()
     }
 
-    fn question(&self, mover: usize, parts: [usize; 2], is_flat: &[bool]) -> Question {
-        let between = parts.iter().flat_map(|&p| self.between(mover, p));
-        (mover, parts, between.map(|p| is_flat[p]).collect())
+    /// The states on the way from a component to each part.
+    fn states(&self, mover: usize, is_flat: &[bool]) -> Vec<States> {
+        (0..self.roots.len()).map(|p| self.states_on_way(mover, p, is_flat)).collect()
     }
 
-    fn questions(&self, mover: usize, is_flat: &[bool]) -> Vec<Question> {
-        let tree: Vec<usize> =
-            (0..self.roots.len()).filter(|&p| self.roots[p] == self.roots[mover]).collect();
-        let mut questions = Vec::new();
-        for (k, &a) in tree.iter().enumerate() {
-            for &b in tree[k + 1..].iter().filter(|&&b| !self.ignored.contains(&[a, b])) {
-                questions.push(self.question(mover, [a, b], is_flat));
-            }
-        }
-        questions
+    /// What must be known of a component's motion.
+    fn questions<'q>(&'q self, mover: usize, states: &'q [States]) -> impl Iterator<Item = Question> + 'q {
+        let tree = move || (0..self.roots.len()).filter(move |&p| self.roots[p] == self.roots[mover]);
+        let pairs = tree().flat_map(move |a| tree().filter(move |&b| a < b).map(move |b| [a, b]));
+        let pairs = pairs.filter(|pair| !self.ignored.contains(pair));
+        pairs.map(move |pair| (mover, pair, pair.map(|p| states[p].clone())))
     }
 
     /// What rides on the mover's panels: each of them, and each other part of its tree; with the

@@ -176,7 +176,7 @@ impl Studio {
             News::Done(output) => {
                 (self.shown.output, self.shown.is_folded) = (Some(*output), true);
                 self.shown.version += 1;
-                (self.busy, self.problem) = (None, None);
+                self.busy = None;
             }
             News::Failed(problem, missing) => {
                 (self.busy, self.problem, self.missing) = (None, Some(problem), missing);

@@ -139,6 +139,17 @@ fn what_goes_wrong_is_told_and_the_last_result_stays() {
     assert!(studio.finished().is_some());
 }
 
+/// The message was lost when the model that was being made meanwhile was done.
+#[test]
+fn that_a_file_cannot_be_read_is_told_though_other_work_ends_well() {
+    let Desk { mut studio, folder } = desk();
+    studio.change(&Change::Set { table: "defaults", key: "top_edges", value: Some(5.into()) }, None);
+    studio.open(&folder.path().join("missing.obj"));
+    wait(&mut studio, "a problem", |s| s.problem().is_some());
+    wait(&mut studio, "the model", |s| s.finished().is_some() && s.busy().is_none());
+    assert!(studio.problem().unwrap().contains("missing.obj"));
+}
+
 #[test]
 fn work_can_be_stopped() {
     let Desk { mut studio, folder: _folder } = desk();
