@@ -27,7 +27,7 @@ pub struct SheetArgs {
     #[arg(long, help_heading = "Sheets", value_name = "LENGTH", value_parser = parse_length_or_zero_mm)]
     spacing: Option<f64>,
 
-    /// How long to look for fewer sheets: pieces placed in trials [default: 3000]
+    /// How long to look for fewer sheets: pieces placed in trials [default: 2000]
     ///
     /// Ten times the number takes ten times as long and saves a sheet now and then; 0 is quick.
     /// The same number gives the same sheets on any machine. Example: --effort 20000
