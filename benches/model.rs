@@ -2,12 +2,14 @@
 //! `cargo bench --bench model`. With the environment variable `TATAMU_MESHES`, a folder, the models are
 //! those of its meshes `*.off` instead of the samples.
 
+mod input;
+
 use divan::Bencher;
+use input::read;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tatamu::fold::{FoldPlan, ModelMotion};
-use tatamu::mesh::{self, Mesh};
 use tatamu::model::Model;
 use tatamu::net::{BlankNet, KnownNets, NetOptions, develop_model};
 use tatamu::pipeline::{self, Engine, Options};
@@ -30,12 +32,6 @@ fn meshes() -> Vec<String> {
     let mut names: Vec<String> = of_kind.map(|path| path.display().to_string()).collect();
     names.sort();
     names
-}
-
-/// The mesh of a file; none where it is not one that can be made.
-fn read(path: &str) -> Option<Mesh> {
-    let soup = mesh::read(&std::fs::read(path).ok()?).ok()?;
-    Some(Mesh::from_soup(&soup).ok()?.0)
 }
 
 fn model(path: &str) -> Option<Model> {

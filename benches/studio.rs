@@ -3,11 +3,13 @@
 //! With the variable `TATAMU_MESHES` set to a folder, its meshes whose names stand in `NAMES` are
 //! measured, too.
 
+mod input;
+
 use divan::Bencher;
+use input::read;
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use tatamu::drawing::Rgb;
-use tatamu::mesh::{self, Mesh};
 use tatamu::pipeline::{ComponentOptions, Engine, Options};
 use tatamu::progress::Silent;
 use tatamu::render::Orbit;
@@ -31,11 +33,6 @@ fn meshes() -> Vec<String> {
     }
     found.sort();
     found
-}
-
-fn read(path: &str) -> Option<Mesh> {
-    let soup = mesh::read(&std::fs::read(path).ok()?).ok()?;
-    Some(Mesh::from_soup(&soup).ok()?.0)
 }
 
 /// From a turn of the biggest component's direction to the new component.

@@ -3,13 +3,15 @@
 //! `cargo run --release --example fidelity -- bunny.off:5 teapot.off`.
 //! A number after a colon is the number of parts.
 
+mod input;
+
+use input::path_and_options;
 use std::error::Error;
 use std::time::Instant;
 use tatamu::mesh::{self, Mesh};
 use tatamu::model::{self, Known, Model, Part};
-use tatamu::pipeline::{self, Bodies, Hulls, Options};
+use tatamu::pipeline::{self, Bodies, Hulls};
 use tatamu::progress::Silent;
-use tatamu::segment::SegmentOptions;
 
 /// Edges of top panels and vertices of profiles, with the average and the worst Hausdorff ratio that
 /// the paper has for the bunny, where it tells.
@@ -26,13 +28,8 @@ const RUNS: usize = 3;
 
 fn main() -> Result<(), Box<dyn Error>> {
     for argument in std::env::args().skip(1) {
-        let (path, parts) = match argument.rsplit_once(':') {
-            Some((path, parts)) => (path, Some(parts.parse()?)),
-            None => (argument.as_str(), None),
-        };
+        let (path, options) = path_and_options(&argument)?;
         let (mesh, _) = Mesh::from_soup(&mesh::read(&std::fs::read(path)?)?)?;
-        let segmentation = SegmentOptions { parts, ..SegmentOptions::default() };
-        let options = Options { segmentation, ..Options::default() };
         let (divided, _) = pipeline::find_parts(&mesh, &options, &Silent)?;
         let bodies = Bodies::new(&Hulls::new(&divided)?, &options)?;
         println!("{path}: {} components, thousandths of the diagonal", bodies.parts().len());

@@ -4,24 +4,25 @@
 //! `cargo run --release --example plot_figures -- FOLDER/snowman.off:6 bunny.off:5`
 //! A number after a colon is the number of parts.
 
+mod input;
 #[path = "../tests/plotting/measure.rs"]
 mod measure;
 #[path = "../tests/plotting/rehearsal.rs"]
 mod rehearsal;
 
+use input::path_and_options;
 use measure::Figures;
 use rehearsal::Rehearsal;
 use std::error::Error;
 use tatamu::drawing::Drawing;
 use tatamu::mesh::{self, Mesh};
-use tatamu::pipeline::{self, Options};
+use tatamu::pipeline;
 use tatamu::plotter::profile::{CUTTERS, Handshake, MEDIA};
 use tatamu::plotter::session::SLOWNESS;
 use tatamu::plotter::{Cutter, Faults, Job, Media, Plan, VirtualOptions, test_cut};
 use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::report::Run;
-use tatamu::segment::SegmentOptions;
 use tatamu::toolpath::{Operation, tasks};
 
 /// Machines and media of the first table.
@@ -64,13 +65,9 @@ fn media_of(name: &str) -> Result<Media, Box<dyn Error>> {
 
 /// The sheets of a mesh.
 fn pages(argument: &str) -> Result<Vec<Drawing>, Box<dyn Error>> {
-    let (path, parts) = match argument.rsplit_once(':') {
-        Some((path, parts)) => (path, Some(parts.parse()?)),
-        None => (argument, None),
-    };
+    let (path, options) = path_and_options(argument)?;
     let (mesh, repairs) = Mesh::from_soup(&mesh::read(&std::fs::read(path)?)?)?;
-    let segmentation = SegmentOptions { parts, ..SegmentOptions::default() };
-    let output = pipeline::run(&mesh, &Options { segmentation, ..Options::default() }, &Silent)?;
+    let output = pipeline::run(&mesh, &options, &Silent)?;
     let run = Run { path, repairs: &repairs, stages: &[], warnings: &[] };
     let mut pages = Product::new(&output, path, run).pages()?.drawings().to_vec();
     // Sheets that only have words on them are nothing for a cutter.

@@ -1,8 +1,12 @@
 //! How good nets and sheets are, in figures, against a packing of the pieces' rectangles.
 //!
-//! `cargo run --release --example sheet_figures -- MESH...`
+//! `cargo run --release --example sheet_figures -- snowman.off:6 bunny.off`
+//! A number after a colon is the number of parts.
+
+mod input;
 
 use glam::DVec2;
+use input::path_and_options;
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::time::Instant;
@@ -16,9 +20,10 @@ use tatamu::sheet::{Layout, SheetOptions, fit};
 fn main() -> Result<(), Box<dyn Error>> {
     let (mut sheets, mut rectangles) = (0, 0);
     println!("components  one piece  pieces  sheets  of rectangles  leaders  listed  seconds");
-    for path in std::env::args().skip(1) {
-        let figures = Figures::of(&std::fs::read(&path)?)?;
-        println!("{figures}  {path}");
+    for argument in std::env::args().skip(1) {
+        let (path, options) = path_and_options(&argument)?;
+        let figures = Figures::of(&std::fs::read(path)?, &options)?;
+        println!("{figures}  {argument}");
         sheets += figures.sheets;
         rectangles += figures.rectangle_sheets;
     }
@@ -38,10 +43,9 @@ struct Figures {
 }
 
 impl Figures {
-    fn of(bytes: &[u8]) -> Result<Self, Box<dyn Error>> {
+    fn of(bytes: &[u8], options: &Options) -> Result<Self, Box<dyn Error>> {
         let (mesh, _) = Mesh::from_soup(&mesh::read(bytes)?)?;
-        let options = Options::default();
-        let output = pipeline::run(&mesh, &options, &Silent)?;
+        let output = pipeline::run(&mesh, options, &Silent)?;
         // Once more, to measure these two stages alone.
         let sheets =
             SheetOptions { choices: options.sheets, ..SheetOptions::new(options.paper, options.margin_mm) };

@@ -2,6 +2,9 @@
 //! `cargo run --release --example stages -- snowman.off:6 bunny.off:5`.
 //! A number after a colon is the number of parts. Each row is the fastest of three runs.
 
+mod input;
+
+use input::path_and_options;
 use std::error::Error;
 use std::sync::Mutex;
 use std::time::Instant;
@@ -11,7 +14,6 @@ use tatamu::pipeline::{self, Options};
 use tatamu::product::Product;
 use tatamu::progress::Progress;
 use tatamu::report::Run;
-use tatamu::segment::SegmentOptions;
 
 const RUNS: usize = 3;
 
@@ -55,11 +57,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let names = COLUMNS.map(|(name, _)| name).join(" | ");
     println!("| mesh | faces | components | {names} | all, s |\n|{}", "---|".repeat(4 + COLUMNS.len()));
     for argument in std::env::args().skip(1) {
-        let (path, parts) = match argument.rsplit_once(':') {
-            Some((path, parts)) => (path, Some(parts.parse()?)),
-            None => (argument.as_str(), None),
-        };
-        let runs = (0..RUNS).map(|_| time(path, parts)).collect::<Result<Vec<_>, _>>()?;
+        let (path, options) = path_and_options(&argument)?;
+        let runs = (0..RUNS).map(|_| time(path, &options)).collect::<Result<Vec<_>, _>>()?;
         let fastest = runs.iter().min_by(|a, b| a.total().total_cmp(&b.total())).ok_or("no run")?;
         let seconds: Vec<String> = fastest.seconds.iter().map(|s| format!("{s:.2}")).collect();
         println!(
@@ -73,12 +72,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn time(path: &str, parts: Option<usize>) -> Result<Timed, Box<dyn Error>> {
+fn time(path: &str, options: &Options) -> Result<Timed, Box<dyn Error>> {
     let clock = Clock::default();
     clock.stage("read");
     let (mesh, repairs) = Mesh::from_soup(&mesh::read(&std::fs::read(path)?)?)?;
-    let segmentation = SegmentOptions { parts, ..SegmentOptions::default() };
-    let output = pipeline::run(&mesh, &Options { segmentation, ..Options::default() }, &clock)?;
+    let output = pipeline::run(&mesh, options, &clock)?;
     clock.stage("PDF");
     let run = Run { path, repairs: &repairs, stages: &[], warnings: &[] };
     let pdf = format_of("pdf").ok_or("no PDF")?;

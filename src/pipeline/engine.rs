@@ -173,9 +173,12 @@ impl<'m> Engine<'m> {
     pub fn finish(&self, shaped: Shaped, progress: &dyn Progress) -> Result<Output, Error> {
         let shaped = of_boards(shaped)?;
         let (model, thickness_mm) = (shaped.model.clone(), shaped.options.thickness_mm);
+        let is_known = self.plans.get(&(model.clone(), thickness_mm)).is_some();
         let lay_out = || {
             let laid = self.lay_out_paper(shaped, progress);
-            progress.stage("folding");
+            if !is_known {
+                progress.stage("folding");
+            }
             laid
         };
         let (laid, plan) = rayon::join(lay_out, || self.plan(&model, thickness_mm, &Beside(progress)));
