@@ -69,11 +69,12 @@ impl Text {
 }
 
 impl Text {
-    /// Middle of its capitals.
+    /// Middle of its box, from its lowest letters to the top of its capitals.
     pub fn middle(&self) -> DVec2 {
         let along = DVec2::from_angle(self.angle_rad);
         let width_mm = text::width_mm(&self.content, self.cap_height_mm);
-        self.start() + along * (width_mm / 2.0) + along.perp() * (self.cap_height_mm / 2.0)
+        let depth_mm = text::depth_mm(&self.content, self.cap_height_mm);
+        self.start() + along * (width_mm / 2.0) + along.perp() * ((self.cap_height_mm - depth_mm) / 2.0)
     }
 }
 
@@ -262,7 +263,7 @@ impl Drawing {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::FRAC_PI_2;
+    use std::f64::consts::{FRAC_PI_2, PI};
 
     fn stroke() -> Stroke {
         Stroke::solid(0.25, Rgb::BLACK)
@@ -277,6 +278,20 @@ mod tests {
         // The letter stands on the vertical line x = 5 and rises to the left.
         assert!((hi.x - 5.0).abs() < 1e-9 && (lo.x - 2.0).abs() < 0.01, "{lo} {hi}");
         assert!(lo.y > 15.0 && hi.y < 15.0 + text::width_mm("H", 3.0));
+    }
+
+    /// Letters that reach below the base line crossed a crease beside them when they were turned.
+    #[test]
+    fn a_text_that_is_righted_keeps_to_its_box() {
+        for content in ["part-7", "gap", "HEAD", "(Q)"] {
+            let text = Text::new(content, DVec2::new(20.0, 10.0), 3.0);
+            let turned = Mark::text(Layer::Label, Text { angle_rad: PI, ..text }).righted();
+            let (lo, hi) = turned.bounds().expect("letters have outlines");
+            let depth_mm = text::depth_mm(content, 3.0);
+            // Upside down, the box hung from the base line; round letters go a little beyond.
+            assert!(lo.y >= 7.0 - 0.15 && hi.y <= 10.0 + depth_mm + 0.15, "{content}: {lo} {hi}");
+            assert!(lo.x >= 20.0 - text::width_mm(content, 3.0) && hi.x <= 20.0, "{content}: {lo} {hi}");
+        }
     }
 
     #[test]

@@ -21,6 +21,10 @@ const REPLACEMENT: char = '?';
 /// Where the font's characters may be: up to the end of arrows and mathematical signs.
 const CHARACTERS: std::ops::Range<char> = ' '..'\u{2400}';
 
+/// Letters that reach below the base line, and how far, as a share of a capital's height.
+const DESCENDING: &str = "gjpqy,;()/Q_";
+const DESCENT: f64 = 0.3;
+
 /// A step of an outline, in page coordinates (mm).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PathCommand {
@@ -158,6 +162,11 @@ pub fn em_mm(cap_height_mm: f64) -> f64 {
 /// Length of a line of text, mm.
 pub fn width_mm(content: &str, cap_height_mm: f64) -> f64 {
     content.chars().map(|c| TYPEFACE.glyph(c).advance).sum::<f64>() * em_mm(cap_height_mm)
+}
+
+/// How far a line of text reaches below its base line, mm.
+pub fn depth_mm(content: &str, cap_height_mm: f64) -> f64 {
+    if content.contains(|c: char| DESCENDING.contains(c)) { DESCENT * cap_height_mm } else { 0.0 }
 }
 
 /// The text, or as much of its beginning as fits in `max_width_mm`, with an ellipsis; empty where

@@ -23,9 +23,6 @@ const NAME_CAPS_MM: [f64; 5] = [4.0, 3.5, 3.0, 2.5, 2.0];
 const LINE_GAP_MM: f64 = 0.4;
 /// Paper between two texts.
 const TEXT_GAP_MM: f64 = 0.6;
-/// Letters that reach below the base line, and how far, as a share of a capital's height.
-const DESCENDING: &str = "gjpqy,;()/Q_";
-const DESCENT: f64 = 0.3;
 /// Places across a panel, each way, that are tried for its name.
 const GRID: usize = 12;
 
@@ -50,9 +47,8 @@ struct Wanted<'t> {
 
 impl<'t> Wanted<'t> {
     fn new(text: &'t str, kind: LabelKind, cap_mm: f64) -> Self {
-        let reaches_below = text.contains(|c: char| DESCENDING.contains(c));
-        let below = if reaches_below { 0.5 + DESCENT } else { 0.5 };
-        Self { text, kind, cap_mm, width_mm: text::width_mm(text, cap_mm), below_mm: below * cap_mm }
+        let below_mm = cap_mm / 2.0 + text::depth_mm(text, cap_mm);
+        Self { text, kind, cap_mm, width_mm: text::width_mm(text, cap_mm), below_mm }
     }
 }
 
