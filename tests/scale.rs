@@ -1,6 +1,4 @@
 //! Models of many components and layouts of many sheets.
-//!
-//! They take longer than the others do: `cargo test --release --test scale -- --ignored`.
 
 #[expect(dead_code, reason = "boxes are enough here")]
 mod support;
@@ -35,7 +33,6 @@ fn tower(storeys: usize) -> String {
 }
 
 #[test]
-#[ignore = "takes long"]
 fn a_hundred_components() {
     let sketches = Project::parse(&tower(100)).unwrap().sketches().unwrap();
     let output = pipeline::run_drawn(&sketches, None, &Options::default(), &Silent).unwrap();
@@ -52,7 +49,6 @@ fn a_hundred_components() {
 }
 
 #[test]
-#[ignore = "takes long"]
 fn two_hundred_sheets() {
     // Each net needs more than half of a sheet.
     let options = SheetOptions::new(Paper::default(), 10.0);

@@ -105,7 +105,7 @@ impl<'a> Checker<'a> {
         if let Some(clashes) = self.listed.get(&key) {
             return clashes.clone();
         }
-        let answers = self.answers(mover, is_flat);
+        let answers = self.ask(self.open(mover, &key.1), mover, is_flat);
         self.learn(answers);
         let questions = self.questions(mover, &key.1);
         let clashes: Vec<Clash> = questions.filter_map(|q| self.known.get(&q).copied().flatten()).collect();
@@ -151,9 +151,12 @@ impl<'a> Checker<'a> {
 
     /// Answers what is not known yet of one component's motion.
     pub(super) fn answers(&self, mover: usize, is_flat: &[bool]) -> Vec<(Question, Option<Clash>)> {
-        let states = self.states(mover, is_flat);
-        let open = self.questions(mover, &states).filter(|question| !self.known.contains_key(question));
-        self.ask(open.collect(), mover, is_flat)
+        self.ask(self.open(mover, &self.states(mover, is_flat)), mover, is_flat)
+    }
+
+    /// What is not known yet of one component's motion.
+    fn open(&self, mover: usize, states: &[States]) -> Vec<Question> {
+        self.questions(mover, states).filter(|question| !self.known.contains_key(question)).collect()
     }
 
     fn ask(&self, open: Vec<Question>, mover: usize, is_flat: &[bool]) -> Vec<(Question, Option<Clash>)> {

@@ -52,6 +52,14 @@ struct Plan {
     chosen: Vec<usize>,
 }
 
+impl Plan {
+    /// All pieces, on sheets that are as they were at the start.
+    fn anew(start: &Start, order: Vec<usize>, way: Way, chosen: Vec<usize>) -> Self {
+        let pinned = start.stock().len();
+        Self { kept: vec![Vec::new(); pinned], open: (0..pinned).collect(), order, way, chosen }
+    }
+}
+
 /// Which of the free places a piece gets.
 #[derive(Debug, Clone, Copy)]
 struct Way {
@@ -210,12 +218,8 @@ fn standard_plans(items: &[Item], start: &Start, groups: usize) -> Vec<Plan> {
     ];
     let pulls = [(0.1, 1.0), (1.0, 0.1), (1.0, 1.0)].map(DVec2::from);
     let chosen = vec![0; groups];
-    let plan = |pull, order: &Vec<usize>| Plan {
-        kept: vec![Vec::new(); start.stock().len()],
-        open: (0..start.stock().len()).collect(),
-        order: order.clone(),
-        way: Way { pull, lean: 0.5, poses: 0 },
-        chosen: chosen.clone(),
+    let plan = |pull, order: &Vec<usize>| {
+        Plan::anew(start, order.clone(), Way { pull, lean: 0.5, poses: 0 }, chosen.clone())
     };
     pulls.iter().flat_map(|&pull| orders.iter().map(move |order| plan(pull, order))).collect()
 }
@@ -271,13 +275,7 @@ fn reordered(parent: &Layout, items: &[Item], start: &Start, rng: &mut fastrand:
         let (a, b) = (rng.usize(..order.len()), rng.usize(..order.len()));
         order.swap(a, b);
     }
-    Plan {
-        kept: vec![Vec::new(); start.stock().len()],
-        open: (0..start.stock().len()).collect(),
-        order,
-        way: parent.way,
-        chosen: parent.chosen.clone(),
-    }
+    Plan::anew(start, order, parent.way, parent.chosen.clone())
 }
 
 /// The emptiest sheet is cleared, one or two others in part, and their pieces are placed anew: the
