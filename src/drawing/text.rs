@@ -5,9 +5,9 @@
 
 use super::{Polyline, Text};
 use glam::{DAffine2, DVec2};
-use skrifa::{DrawMemory, Font, PathSink, ScalerFont};
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
+use ttf_parser::{Face, OutlineBuilder};
 
 /// The font file, for formats that embed it.
 pub const FONT_FILE: &[u8] = include_bytes!("font/inter-subset.ttf");
@@ -81,22 +81,21 @@ impl Typeface {
     /// Decodes the embedded font. It is part of the program, so a fault in it is a fault of the
     /// build, which a test catches.
     fn embedded() -> Self {
-        let font = Font::new(FONT_FILE.to_vec(), 0).expect("the embedded font can be read");
-        let em = f64::from(font.metrics().units_per_em);
-        let charmap = font.charmap();
-        let scaler = ScalerFont::unhinted(font.clone(), None);
-        let metrics = scaler.linear_glyph_metrics();
+        let face = Face::parse(FONT_FILE, 0).expect("the embedded font can be read");
+        let em = f64::from(face.units_per_em());
         let glyphs = CHARACTERS
             .filter_map(|c| {
-                let id = charmap.map_unicode(c)?;
+                let id = face.glyph_index(c)?;
                 let mut pen = Pen { em, outline: Vec::new() };
-                if let Some(outline) = scaler.outline(id) {
-                    outline.draw(DrawMemory::Scratch, &mut pen).ok()?;
-                }
-                Some((c, Glyph { advance: f64::from(metrics.h_advance(id)) / em, outline: pen.outline }))
+                // Spaces have none.
+                let _ = face.outline_glyph(id, &mut pen);
+                Some((
+                    c,
+                    Glyph { advance: f64::from(face.glyph_hor_advance(id)?) / em, outline: pen.outline },
+                ))
             })
             .collect();
-        let cap_height = scaler.metrics().cap_height().expect("the embedded font has capitals");
+        let cap_height = face.capital_height().expect("the embedded font has capitals");
         Self { cap_height: f64::from(cap_height) / em, glyphs }
     }
 
@@ -125,7 +124,7 @@ impl Pen {
     }
 }
 
-impl PathSink for Pen {
+impl OutlineBuilder for Pen {
     fn move_to(&mut self, x: f32, y: f32) {
         self.outline.push(PathCommand::MoveTo(self.at(x, y)));
     }
