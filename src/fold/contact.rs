@@ -33,10 +33,14 @@ pub struct Gap {
 /// The signed gap. The search begins with direction `first` and ends as soon as the gap is known
 /// to be above `enough_mm`.
 pub fn gap(a: &Sheet, b: &Sheet, enough_mm: f64, first: usize) -> Gap {
-    let count = 3 + a.corners.len() + b.corners.len() + a.corners.len() * b.corners.len();
+    let (m, n) = (a.corners.len(), b.corners.len());
+    let simple = 3 + m + n;
+    let first = first.min(simple + m * n - 1);
+    let begin = std::iter::once(first).chain(0..simple).map(|axis| (axis, gap_in(a, b, axis)));
+    let edges = (0..m).flat_map(|k| (0..n).map(move |l| gap_between_edges(a, k, b, l)));
     let mut best = Gap { mm: f64::NEG_INFINITY, axis: 0 };
-    for axis in std::iter::once(first.min(count - 1)).chain(0..count) {
-        if let Some(mm) = gap_in(a, b, axis).filter(|mm| *mm > best.mm) {
+    for (axis, found) in begin.chain((simple..).zip(edges)) {
+        if let Some(mm) = found.filter(|mm| *mm > best.mm) {
             best = Gap { mm, axis };
             if mm > enough_mm {
                 break;
@@ -79,17 +83,21 @@ fn gap_beside(a: &Sheet, k: usize, b: &Sheet) -> Option<f64> {
 }
 
 /// The gap across two edges. A convex sheet lies on one side of each of its edges, so that the
-/// edges are ends of the two in this direction, and face each other or not.
+/// edges are ends of the two in this direction, and face each other or not: that depends on whether
+/// each edge goes up or down as seen from the other sheet.
 fn gap_between_edges(a: &Sheet, k: usize, b: &Sheet, l: usize) -> Option<f64> {
     let (e, f) = (edge(a, k), edge(b, l));
-    let across = e.cross(f);
-    let length = across.length();
-    if length <= PARALLEL * (e.length_squared() * f.length_squared()).sqrt() {
+    let (e_up, f_up) = (e.dot(b.normal), f.dot(a.normal));
+    if e_up * f_up < 0.0 {
         return None;
     }
-    let (into_a, into_b) = (across.dot(a.normal.cross(e)), across.dot(b.normal.cross(f)));
-    let way = across.dot(b.corners[l] - a.corners[k]) / length;
-    match (into_a <= 0.0 && into_b >= 0.0, into_a >= 0.0 && into_b <= 0.0) {
+    let across = e.cross(f);
+    let length_squared = across.length_squared();
+    if length_squared <= PARALLEL * PARALLEL * (e.length_squared() * f.length_squared()) {
+        return None;
+    }
+    let way = across.dot(b.corners[l] - a.corners[k]) / length_squared.sqrt();
+    match (e_up >= 0.0 && f_up >= 0.0, e_up <= 0.0 && f_up <= 0.0) {
         (true, true) => Some(way.abs()),
         (true, false) => Some(way),
         (false, true) => Some(-way),
