@@ -1,11 +1,11 @@
 //! Pictures: what is seen where, by pixels.
 
-use std::f64::consts::{FRAC_PI_4, FRAC_PI_6};
+use std::f64::consts::{FRAC_PI_4, FRAC_PI_6, PI};
 
 use glam::{DVec2, DVec3};
 use tatamu::drawing::{Align, Drawing, Layer, Mark, Polyline, Rgb, Stroke, Text};
 use tatamu::export::png;
-use tatamu::render::{Camera, Edge, Face, Look, Scene, View, light, palette, picture};
+use tatamu::render::{Camera, Edge, Face, Look, Scene, View, light, palette, picture, proxy};
 
 const SIZE: DVec2 = DVec2::new(60.0, 50.0);
 const DPI: f64 = 254.0;
@@ -137,4 +137,46 @@ fn letters_are_filled_at_their_place() {
     let at = |x, y| pixel(&pixmap, DVec2::new(x, y)).0;
     assert_eq!([at(30.0, 10.5), at(30.0, 29.5)], [ink; 2]);
     assert_eq!([at(30.0, 9.5), at(30.0, 30.5), at(20.0, 20.0)], [Rgb(255, 255, 255); 3]);
+}
+
+/// A ball of 80,000 triangles was drawn one by one, and dark strokes stood on what was drawn for it.
+#[test]
+fn a_mesh_of_many_faces_is_drawn_by_few_without_holes_or_strokes() {
+    const RINGS: u32 = 200;
+    let at = |i: u32, j: u32| i * RINGS + j % RINGS;
+    let vertices: Vec<DVec3> = (0..=RINGS)
+        .flat_map(|i| (0..RINGS).map(move |j| (f64::from(i) / f64::from(RINGS), f64::from(j))))
+        .map(|(share, j)| {
+            let (polar, around) = (PI * share, 2.0 * PI * j / f64::from(RINGS));
+            10.0 * DVec3::new(polar.sin() * around.sin(), polar.cos(), polar.sin() * around.cos())
+        })
+        .collect();
+    let triangles: Vec<[u32; 3]> = (0..RINGS)
+        .flat_map(|i| (0..RINGS).map(move |j| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]))
+        .flat_map(|[a, b, c, d]| [[a, b, c], [a, c, d]])
+        .collect();
+    let few = proxy(&vertices, &triangles, 9_000);
+    assert!((3_000..=9_000).contains(&few.triangles.len()));
+    // The upper half has another colour than the lower one.
+    let half = |face: usize| palette::colour(usize::from(face >= triangles.len() / 2));
+    let mut scene = Scene::new();
+    scene.push_proxy(&few, half, None).unwrap();
+    let view = view(&scene, 0.0, 0.0);
+    let drawing = drawn(&scene, &view);
+    let pixmap = png::rasterise(&drawing, DPI).unwrap();
+    for k in 0..2000 {
+        // Evenly over the disc but for its rim and the middle line (Vogel 1979).
+        let (share, turn) = (f64::from(k) / 2000.0, f64::from(k) * 2.399963);
+        let place = DVec2::from_angle(turn) * share.sqrt() * 9.0;
+        if place.y.abs() < 0.6 {
+            continue;
+        }
+        let out = DVec3::new(place.x, place.y, (100.0 - place.length_squared()).sqrt());
+        let (found, opacity) = pixel(&pixmap, view.project(out));
+        let lit =
+            light::shaded(palette::colour(usize::from(place.y < 0.0)), view.camera().direction(out / 10.0));
+        let off = |a: u8, b: u8| (i32::from(a) - i32::from(b)).abs();
+        let most = off(found.0, lit.0).max(off(found.1, lit.1)).max(off(found.2, lit.2));
+        assert!(opacity >= 250 && most < 40, "{place}: {found:?} {opacity} instead of {lit:?}");
+    }
 }

@@ -32,7 +32,8 @@ pub struct ShowArgs {
     /// What is shown [default: components]
     ///
     /// mesh: the input; segments: its parts; hulls: the convex hull of each part; components: the
-    /// paper model; flat: the same, folded. Example: --stage hulls
+    /// paper model; flat: the same, folded. Meshes of more than 50,000 faces are drawn by fewer.
+    /// Example: --stage hulls
     #[arg(long, value_name = "STAGE", value_enum)]
     stage: Option<Stage>,
 

@@ -4,12 +4,11 @@ use super::callouts::{Callout, callouts};
 use super::palette;
 use super::picture::{Look, picture};
 use super::proxy::{Proxy, proxy};
-use super::scene::{Edge, Face, Scene, SceneError};
+use super::scene::{Scene, SceneError};
 use super::view::{Camera, View, ViewError};
 use crate::drawing::{Drawing, Rgb};
 use crate::mesh::Mesh;
 use glam::{DAffine2, DVec2, DVec3};
-use std::collections::BTreeMap;
 
 /// One of the two sides with its names, mm; the width of the columns of names; free border.
 const SIDE_MM: DVec2 = DVec2::new(150.0, 110.0);
@@ -56,12 +55,8 @@ pub fn parts_picture(
     let few = proxy(&upright, mesh.faces(), MOST_FACES);
     let part = |triangle: usize| part_of_face[few.origin[triangle] as usize] as usize;
     let mut scene = Scene::new();
-    if few.triangles.len() == mesh.faces().len() {
-        let inside = Rgb(235, 235, 235);
-        scene.push_mesh(&few.vertices, &few.triangles, |t| palette::colour(part(t)), Some(inside))?;
-    } else {
-        push_smooth(&mut scene, &few, &part)?;
-    }
+    let colour_of = |face: usize| palette::colour(part_of_face[face] as usize);
+    scene.push_proxy(&few, colour_of, Some(Rgb(235, 235, 235)))?;
     let mut drawing = Drawing::new("", SIDE_MM * DVec2::new(2.0, 1.0));
     drawing.ground = Some(Rgb::WHITE);
     let room = SIDE_MM - DVec2::X * (2.0 * COLUMN_MM);
@@ -83,35 +78,6 @@ pub fn parts_picture(
         drawing.place(marks, DAffine2::from_translation(corner + DVec2::X * MARGIN_MM));
     }
     Ok(drawing)
-}
-
-/// Adds the triangles of a proxy: its surface is dented and has small holes, so that only borders
-/// of parts are drawn, and the inside looks like the outside.
-fn push_smooth(scene: &mut Scene, mesh: &Proxy, part: &dyn Fn(usize) -> usize) -> Result<(), SceneError> {
-    let mut owner_of_edge = BTreeMap::new();
-    for (t, corners) in mesh.triangles.iter().enumerate() {
-        for k in 0..3 {
-            owner_of_edge.insert([corners[k], corners[(k + 1) % 3]], t);
-        }
-    }
-    for (t, triangle) in mesh.triangles.iter().enumerate() {
-        let corners = triangle.map(|v| mesh.vertices[v as usize]);
-        let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
-        let edge = |k: usize| {
-            let across = owner_of_edge.get(&[triangle[(k + 1) % 3], triangle[k]]);
-            match across {
-                Some(&other) if part(other) != part(t) => Edge::Crease(normal),
-                _ => Edge::Smooth(normal),
-            }
-        };
-        let colour = palette::colour(part(t));
-        match Face::new(corners.to_vec(), (0..3).map(edge).collect(), colour, Some(colour)) {
-            Ok(face) => scene.push(face),
-            Err(SceneError::NoArea) => {}
-            Err(error) => return Err(error),
-        }
-    }
-    Ok(())
 }
 
 /// Which part is seen at each pixel of a small picture.

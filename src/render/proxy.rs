@@ -17,6 +17,8 @@ pub struct Proxy {
     pub triangles: Vec<[u32; 3]>,
     /// Index of the triangle that each one stands for.
     pub origin: Vec<u32>,
+    /// Whether it is the mesh itself.
+    pub is_whole: bool,
 }
 
 /// The mesh itself where it has at most `most` triangles, else one whose vertices are joined by
@@ -24,7 +26,7 @@ pub struct Proxy {
 pub fn proxy(vertices: &[DVec3], triangles: &[[u32; 3]], most: usize) -> Proxy {
     if triangles.len() <= most {
         let origin = (0..triangles.len() as u32).collect();
-        return Proxy { vertices: vertices.to_vec(), triangles: triangles.to_vec(), origin };
+        return Proxy { vertices: vertices.to_vec(), triangles: triangles.to_vec(), origin, is_whole: true };
     }
     let mut fineness = FINEST;
     loop {
@@ -71,7 +73,7 @@ fn cluster(vertices: &[DVec3], triangles: &[[u32; 3]], fineness: f64) -> Proxy {
         }
     }
     let vertices = sums.into_iter().map(|(sum, n)| sum / n).collect();
-    Proxy { vertices, triangles: kept, origin }
+    Proxy { vertices, triangles: kept, origin, is_whole: false }
 }
 
 #[cfg(test)]

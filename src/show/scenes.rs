@@ -7,11 +7,14 @@ use crate::geom::Hull;
 use crate::mesh::Mesh;
 use crate::model::Model;
 use crate::pipeline::Output;
-use crate::render::{Edge, Face, Scene, SceneError, light, palette};
+use crate::render::{Edge, Face, Scene, SceneError, light, palette, proxy};
 use glam::{DAffine3, DMat3, DVec3};
 
 /// The input, and faces of segments without volume.
 const PLAIN: Rgb = Rgb(200, 200, 204);
+/// Meshes of more faces are drawn by fewer: a picture of a million would take half a minute, and most
+/// of them would be smaller than a pixel.
+const MOST_FACES: usize = 50_000;
 /// The inside of paper is paler than the printed side.
 const INSIDE: f64 = 0.4;
 
@@ -39,8 +42,9 @@ pub fn segments_scene(output: &Output) -> Result<Scene, SceneError> {
 
 fn coloured_mesh(mesh: &Mesh, colour_of: impl Fn(usize) -> Rgb) -> Result<Scene, SceneError> {
     let vertices: Vec<DVec3> = mesh.positions().iter().map(|p| upright().transform_point3(*p)).collect();
+    let few = proxy(&vertices, mesh.faces(), MOST_FACES);
     let mut scene = Scene::new();
-    scene.push_mesh(&vertices, mesh.faces(), colour_of, Some(PLAIN))?;
+    scene.push_proxy(&few, colour_of, Some(PLAIN))?;
     Ok(scene)
 }
 
