@@ -161,6 +161,15 @@ fn a_mesh_of_many_faces_is_drawn_by_few_without_holes_or_strokes() {
     let half = |face: usize| palette::colour(usize::from(face >= triangles.len() / 2));
     let mut scene = Scene::new();
     scene.push_proxy(&few, half, None).unwrap();
+    // Lines are drawn only between the halves: at borders, and where a neighbour faces away.
+    for face in scene.faces() {
+        let is_drawn = |edge: &Edge| match *edge {
+            Edge::Smooth(across) => across != face.normal(),
+            Edge::Crease(_) | Edge::Border => true,
+        };
+        let middle = face.corners().iter().map(|c| c.y).sum::<f64>() / 3.0;
+        assert!(middle.abs() < 1.0 || !face.edges().iter().any(is_drawn), "at {middle} of 10");
+    }
     let view = view(&scene, 0.0, 0.0);
     let drawing = drawn(&scene, &view);
     let pixmap = png::rasterise(&drawing, DPI).unwrap();
