@@ -1,6 +1,8 @@
 //! How long work tells of its progress and learns that it should stop. The library itself never
 //! prints.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 /// Work was stopped at the user's wish.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("stopped at your request")]
@@ -30,11 +32,26 @@ pub trait Progress: Sync {
 }
 
 /// Passes on nothing but the wish to stop: for work that goes on beside the stage that is shown.
-pub struct Beside<'a>(pub &'a dyn Progress);
+pub struct Beside<'a> {
+    shown: &'a dyn Progress,
+    is_futile: AtomicBool,
+}
+
+impl<'a> Beside<'a> {
+    /// For work beside what tells its progress to `shown`.
+    pub fn new(shown: &'a dyn Progress) -> Self {
+        Self { shown, is_futile: AtomicBool::new(false) }
+    }
+
+    /// Stops the work, since nobody will want what it finds.
+    pub fn give_up(&self) {
+        self.is_futile.store(true, Ordering::Relaxed);
+    }
+}
 
 impl Progress for Beside<'_> {
     fn is_cancelled(&self) -> bool {
-        self.0.is_cancelled()
+        self.is_futile.load(Ordering::Relaxed) || self.shown.is_cancelled()
     }
 }
 
@@ -43,3 +60,16 @@ impl Progress for Beside<'_> {
 pub struct Silent;
 
 impl Progress for Silent {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_beside_stops_when_it_is_given_up_and_what_is_shown_goes_on() {
+        let beside = Beside::new(&Silent);
+        assert_eq!(beside.check(), Ok(()));
+        beside.give_up();
+        assert_eq!((beside.check(), Silent.check()), (Err(Cancelled), Ok(())));
+    }
+}

@@ -109,7 +109,7 @@ impl Search<'_> {
         let model = self.motion.model();
         let mut parts: Vec<usize> = (0..model.parts().len()).filter(|&p| root_of(model, p) == root).collect();
         outermost_first(model, &mut parts);
-        self.look_ahead(&parts);
+        self.look_ahead(&parts)?;
         self.most_sweeps = self.checker.sweeps() + SWEEPS_FOR_EACH * parts.len();
         let (mut order, mut is_flat) = (Vec::new(), vec![false; model.parts().len()]);
         if !self.extend(&parts, &mut order, &mut is_flat)? {
@@ -168,25 +168,28 @@ impl Search<'_> {
     }
 
     /// Answers, in parallel, what the order "as listed" asks, and accepts what no order avoids.
-    fn look_ahead(&mut self, parts: &[usize]) {
-        let checker = &self.checker;
+    fn look_ahead(&mut self, parts: &[usize]) -> Result<(), Cancelled> {
+        let (checker, progress) = (&self.checker, self.progress);
         let count = self.motion.model().parts().len();
         let answers: Vec<_> = (0..parts.len())
             .into_par_iter()
             .map(|k| {
+                progress.check()?;
                 let mut is_flat = vec![false; count];
                 parts[..k].iter().for_each(|&p| is_flat[p] = true);
-                checker.answers(parts[k], &is_flat)
+                Ok(checker.answers(parts[k], &is_flat))
             })
-            .collect();
+            .collect::<Result<_, Cancelled>>()?;
         answers.into_iter().for_each(|a| self.checker.learn(a));
         let mut is_flat = vec![false; count];
         for &part in parts {
             for clash in self.checker.all_clashes(part, &is_flat) {
+                progress.check()?;
                 self.checker.accept_if_unavoidable(&clash, &is_flat);
             }
             is_flat[part] = true;
         }
+        Ok(())
     }
 
     /// Folds what is left, depth first; false where there is no way.

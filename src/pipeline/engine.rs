@@ -174,14 +174,17 @@ impl<'m> Engine<'m> {
         let shaped = of_boards(shaped)?;
         let (model, thickness_mm) = (shaped.model.clone(), shaped.options.thickness_mm);
         let is_known = self.plans.get(&(model.clone(), thickness_mm)).is_some();
+        let beside = Beside::new(progress);
         let lay_out = || {
             let laid = self.lay_out_paper(shaped, progress);
-            if !is_known {
-                progress.stage("folding");
+            match &laid {
+                Ok(_) if !is_known => progress.stage("folding"),
+                Ok(_) => {}
+                Err(_) => beside.give_up(),
             }
             laid
         };
-        let (laid, plan) = rayon::join(lay_out, || self.plan(&model, thickness_mm, &Beside(progress)));
+        let (laid, plan) = rayon::join(lay_out, || self.plan(&model, thickness_mm, &beside));
         Ok(laid?.with_plan(plan?))
     }
 

@@ -35,14 +35,14 @@ impl Engine<'_> {
     pub(super) fn untangled(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
         self.divide(options, progress)?;
         progress.stage("untangling");
-        let mut best = Attempt::new(self, options, &Beside(progress))?;
+        let mut best = Attempt::new(self, options, &Beside::new(progress))?;
         let mut hopeless = BTreeSet::new();
         for round in 0..ROUNDS {
             progress.fraction(round as f64 / ROUNDS as f64);
             let Some(pair) = best.worst_pair(&hopeless) else { break };
             let others = best.others(pair, options).into_par_iter();
             let others: Vec<Result<Attempt, Error>> =
-                others.map(|options| Attempt::new(self, &options, &Beside(progress))).collect();
+                others.map(|options| Attempt::new(self, &options, &Beside::new(progress))).collect();
             progress.check()?;
             // A direction that leaves no room for a joint is none; the first of equals is taken.
             let cheapest = others.into_iter().flatten().min_by(|a, b| a.cost.total_cmp(&b.cost));
