@@ -166,12 +166,18 @@ const FITS: f64 = 0.985;
 fn too_large(error: &NetsError, size_mm: f64) -> String {
     match error {
         NetsError::Net(crate::net::NetError::PanelTooLarge {
-            name, size_mm: panel, sheet_mm, scale, ..
+            name,
+            size_mm: panel,
+            sheet_mm,
+            scale,
+            may_split,
+            ..
         }) => {
             let fits = (size_mm * scale * FITS).floor();
+            let or_split = if *may_split { "" } else { ", or do without --no-split" };
             format!(
                 "a panel of \"{name}\" measures {:.0} × {:.0} mm and does not fit the {:.0} × {:.0} mm within the \
-                 sheet's margins; use --size {fits}mm at most, or larger --paper, or do without --no-split",
+                 sheet's margins; use --size {fits}mm at most, or larger --paper{or_split}",
                 panel.x, panel.y, sheet_mm.x, sheet_mm.y
             )
         }

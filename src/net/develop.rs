@@ -49,6 +49,8 @@ pub enum NetError {
         sheet_mm: DVec2,
         /// Factor, below 1, by which the model must shrink for this panel to fit.
         scale: f64,
+        /// Whether it would have been split where the sheet has room for that.
+        may_split: bool,
     },
     /// The panels are not a top panel, chains and a bottom panel.
     #[error("the panels do not make chains from top to bottom: {what} is missing")]
@@ -143,7 +145,7 @@ pub fn alternatives(
 /// The best draft and alternatives to it, at least one in all.
 fn drafts(set: &PanelSet, name: &str, options: &NetOptions) -> Result<(Split, Vec<Draft>), NetError> {
     let chains = Chains::of(set)?;
-    let Err(error) = check_panels(set, name, options.sheet_mm) else {
+    let Err(error) = check_panels(set, name, options) else {
         let source = (0..set.panels().len()).map(PanelId).collect();
         return Ok((Split { set: set.clone(), source }, drafts_of_chains(set, &chains, options)));
     };
@@ -194,7 +196,8 @@ pub(super) struct Draft {
     pub(super) tapes: Vec<Placed>,
 }
 
-fn check_panels(set: &PanelSet, name: &str, sheet_mm: DVec2) -> Result<(), NetError> {
+fn check_panels(set: &PanelSet, name: &str, options: &NetOptions) -> Result<(), NetError> {
+    let sheet_mm = options.sheet_mm;
     let turns = set.panels().iter().map(|p| best_turn(&p.outline, sheet_mm)).enumerate();
     match turns.min_by(|a, b| a.1.scale.total_cmp(&b.1.scale)) {
         Some((panel, best)) if !best.fits() => Err(NetError::PanelTooLarge {
@@ -203,6 +206,7 @@ fn check_panels(set: &PanelSet, name: &str, sheet_mm: DVec2) -> Result<(), NetEr
             size_mm: best.size_mm,
             sheet_mm,
             scale: best.scale,
+            may_split: options.choices.may_split,
         }),
         _ => Ok(()),
     }

@@ -136,9 +136,19 @@ fn what_does_not_fit_the_paper_is_refused_with_a_size_that_fits() {
     assert_refused(&files, &["make", "cube.off", "--size", "1m", "--no-split"], &["does not fit", "--size"]);
     let folder = folder_with(&files);
     let message = run(folder.path(), &["make", "cube.off", "--size", "1m", "--no-split"]).err;
+    assert!(message.contains("do without --no-split"), "{message}");
     assert_eq!(std::fs::read(folder.path().join("cube.pdf")).unwrap(), b"old");
     let size = message.split("--size ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
     let whole = run(folder.path(), &["make", "cube.off", "--size", size, "--no-split"]);
     assert_eq!(whole.code, Some(0), "--size {size}: {}", whole.err);
     assert!(std::fs::read(folder.path().join("cube.pdf")).unwrap().starts_with(b"%PDF"), "--size {size}");
+}
+
+/// The message spoke of an option that was not there.
+#[test]
+fn paper_too_small_for_parts_of_panels_is_refused_without_a_word_of_no_split() {
+    let files: [(&str, &[u8]); 1] = [("cube.off", cube::OFF.as_bytes())];
+    assert_refused(&files, &["make", "cube.off", "--paper", "40x40"], &["does not fit", "--size", "--paper"]);
+    let message = run(folder_with(&files).path(), &["make", "cube.off", "--paper", "40x40"]).err;
+    assert!(!message.contains("--no-split"), "{message}");
 }
