@@ -178,10 +178,15 @@ impl ChainMotion {
 
     /// The derivative of the height by the upper share.
     fn rise_rate(&self, above: f64) -> f64 {
-        let below = if above == 1.0 { 1.0 } else { self.closed(above, above).below };
+        self.height_and_rate(if above == 1.0 { Shares::DEPLOYED } else { self.closed(above, above) }).1
+    }
+
+    /// The height of a pose that closes, and its derivative by the upper share.
+    fn height_and_rate(&self, Shares { above, below }: Shares) -> (f64, f64) {
+        let (upper, lower) = (rise(&self.up, above), rise(&self.down, below));
         let d_sag = sag(&self.up, above).1 * self.balance;
         let d_below = d_sag / sag(&self.down, below).1.max(f64::MIN_POSITIVE);
-        rise(&self.up, above).1 + rise(&self.down, below).1 * d_below
+        (upper.0 + lower.0, upper.1 + lower.1 * d_below)
     }
 
     /// How far the top has to rise before it comes down, mm.
@@ -261,11 +266,8 @@ impl ChainMotion {
         // While it rises a height that is counted on stands for one below the peak.
         let wanted_mm = if sign > 0.0 { height_mm } else { 2.0 * self.peak.height_mm - height_mm };
         let above = increasing_root(near.above, range, |s| {
-            let shares = self.closed(s, ratio * s);
-            let (upper, lower) = (rise(&self.up, s), rise(&self.down, shares.below));
-            let d_sag = sag(&self.up, s).1 * self.balance;
-            let d_below = d_sag / sag(&self.down, shares.below).1.max(f64::MIN_POSITIVE);
-            (sign * (upper.0 + lower.0 - wanted_mm), sign * (upper.1 + lower.1 * d_below))
+            let (now_mm, rate) = self.height_and_rate(self.closed(s, ratio * s));
+            (sign * (now_mm - wanted_mm), sign * rate)
         });
         self.closed(above, ratio * above)
     }

@@ -54,12 +54,15 @@ fn coloured_mesh(mesh: &Mesh, colour_of: impl Fn(usize) -> Rgb) -> Result<Scene,
 /// As [`mesh_scene`].
 pub fn hulls_scene(output: &Output) -> Result<Scene, SceneError> {
     let mesh = output.mesh();
+    let mut points = vec![Vec::new(); output.model().parts().len()];
+    for (face, part) in output.face_parts().iter().enumerate() {
+        if let Some(own) = part.and_then(|part| points.get_mut(part as usize)) {
+            own.extend(mesh.corners(face).map(|p| upright().transform_point3(p)));
+        }
+    }
     let mut scene = Scene::new();
-    for part in 0..output.model().parts().len() {
-        let own = (0..mesh.faces().len()).filter(|&f| output.face_parts()[f] == Some(part as u32));
-        let points: Vec<DVec3> =
-            own.flat_map(|f| mesh.corners(f)).map(|p| upright().transform_point3(p)).collect();
-        if let Ok(hull) = Hull::of_points(&points) {
+    for (part, points) in points.iter().enumerate() {
+        if let Ok(hull) = Hull::of_points(points) {
             let triangles: Vec<[u32; 3]> = hull.triangles().collect();
             scene.push_mesh(hull.vertices(), &triangles, |_| palette::colour(part), None)?;
         }
