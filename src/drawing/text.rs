@@ -89,10 +89,8 @@ impl Typeface {
                 let mut pen = Pen { em, outline: Vec::new() };
                 // Spaces have none.
                 let _ = face.outline_glyph(id, &mut pen);
-                Some((
-                    c,
-                    Glyph { advance: f64::from(face.glyph_hor_advance(id)?) / em, outline: pen.outline },
-                ))
+                let advance = f64::from(face.glyph_hor_advance(id)?) / em;
+                Some((c, Glyph { advance, outline: pen.outline }))
             })
             .collect();
         let cap_height = face.capital_height().expect("the embedded font has capitals");

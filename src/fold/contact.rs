@@ -88,21 +88,18 @@ fn gap_beside(a: &Sheet, k: usize, b: &Sheet) -> Option<f64> {
 fn gap_between_edges(a: &Sheet, k: usize, b: &Sheet, l: usize) -> Option<f64> {
     let (e, f) = (edge(a, k), edge(b, l));
     let (e_up, f_up) = (e.dot(b.normal), f.dot(a.normal));
-    if e_up * f_up < 0.0 {
-        return None;
-    }
+    let signed: fn(f64) -> f64 = match (e_up >= 0.0 && f_up >= 0.0, e_up <= 0.0 && f_up <= 0.0) {
+        (true, true) => f64::abs,
+        (true, false) => |way| way,
+        (false, true) => |way| -way,
+        (false, false) => return None,
+    };
     let across = e.cross(f);
     let length_squared = across.length_squared();
     if length_squared <= PARALLEL * PARALLEL * (e.length_squared() * f.length_squared()) {
         return None;
     }
-    let way = across.dot(b.corners[l] - a.corners[k]) / length_squared.sqrt();
-    match (e_up >= 0.0 && f_up >= 0.0, e_up <= 0.0 && f_up <= 0.0) {
-        (true, true) => Some(way.abs()),
-        (true, false) => Some(way),
-        (false, true) => Some(-way),
-        (false, false) => None,
-    }
+    Some(signed(across.dot(b.corners[l] - a.corners[k]) / length_squared.sqrt()))
 }
 
 fn edge(sheet: &Sheet, k: usize) -> DVec3 {

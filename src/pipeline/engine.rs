@@ -177,10 +177,10 @@ impl<'m> Engine<'m> {
         let beside = Beside::new(progress);
         let lay_out = || {
             let laid = self.lay_out_paper(shaped, progress);
-            match &laid {
-                Ok(_) if !is_known => progress.stage("folding"),
-                Ok(_) => {}
-                Err(_) => beside.give_up(),
+            if laid.is_err() {
+                beside.give_up();
+            } else if !is_known {
+                progress.stage("folding");
             }
             laid
         };

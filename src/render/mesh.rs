@@ -25,16 +25,12 @@ impl Scene {
         back: Option<Rgb>,
     ) -> Result<(), SceneError> {
         let normals = normals(vertices, triangles);
-        let owner_of_edge = owners(triangles);
-        let edge = |t: usize, k: usize| match owner_of_edge.get(&reversed(triangles[t], k)) {
+        let edge = |t: usize, across: Option<usize>| match across {
             None => Edge::Border,
-            Some(&other) if colour_of(other) == colour_of(t) => Edge::Smooth(normals[other]),
-            Some(&other) => Edge::Crease(normals[other]),
+            Some(other) if colour_of(other) == colour_of(t) => Edge::Smooth(normals[other]),
+            Some(other) => Edge::Crease(normals[other]),
         };
-        for (t, triangle) in triangles.iter().enumerate() {
-            self.push_triangle(vertices, *triangle, |k| edge(t, k), colour_of(t), back)?;
-        }
-        Ok(())
+        self.push_triangles(vertices, triangles, |t| (colour_of(t), back), edge)
     }
 
     /// Adds what stands for a mesh, `colour_of(k)` being the colour of the mesh's triangle `k`. Where
@@ -56,33 +52,36 @@ impl Scene {
             return self.push_mesh(vertices, triangles, colour_of, back);
         }
         let normals = normals(vertices, triangles);
-        let owner_of_edge = owners(triangles);
         // A neighbour that faces the same way makes no silhouette.
-        let edge = |t: usize, k: usize| match owner_of_edge.get(&reversed(triangles[t], k)) {
-            Some(&other) if colour_of(other) != colour_of(t) => Edge::Crease(normals[t]),
+        let edge = |t: usize, across: Option<usize>| match across {
+            Some(other) if colour_of(other) != colour_of(t) => Edge::Crease(normals[t]),
             _ => Edge::Smooth(normals[t]),
         };
-        for (t, triangle) in triangles.iter().enumerate() {
-            let colour = colour_of(t);
-            self.push_triangle(vertices, *triangle, |k| edge(t, k), colour, Some(colour))?;
-        }
-        Ok(())
+        self.push_triangles(vertices, triangles, |t| (colour_of(t), Some(colour_of(t))), edge)
     }
 
-    /// Adds a triangle, unless it has no area.
-    fn push_triangle(
+    /// Adds triangles with the colours of their two sides and their edges, which depend on the
+    /// triangle across; those without area are left out.
+    fn push_triangles(
         &mut self,
         vertices: &[DVec3],
-        triangle: [u32; 3],
-        edge: impl Fn(usize) -> Edge,
-        front: Rgb,
-        back: Option<Rgb>,
+        triangles: &[[u32; 3]],
+        colours: impl Fn(usize) -> (Rgb, Option<Rgb>),
+        edge: impl Fn(usize, Option<usize>) -> Edge,
     ) -> Result<(), SceneError> {
-        let corners = triangle.map(|v| vertices[v as usize]).to_vec();
-        match Face::new(corners, (0..3).map(edge).collect(), front, back) {
-            Ok(face) => self.push(face),
-            Err(SceneError::NoArea) => {}
-            Err(error) => return Err(error),
+        let sides = |t: &[u32; 3]| [[t[0], t[1]], [t[1], t[2]], [t[2], t[0]]];
+        let all = triangles.iter().enumerate();
+        let owner: BTreeMap<[u32; 2], usize> =
+            all.clone().flat_map(|(t, triangle)| sides(triangle).map(|side| (side, t))).collect();
+        for (t, triangle) in all {
+            let corners = triangle.map(|v| vertices[v as usize]).to_vec();
+            let edges = sides(triangle).map(|[from, to]| edge(t, owner.get(&[to, from]).copied())).to_vec();
+            let (front, back) = colours(t);
+            match Face::new(corners, edges, front, back) {
+                Ok(face) => self.push(face),
+                Err(SceneError::NoArea) => {}
+                Err(error) => return Err(error),
+            }
         }
         Ok(())
     }
@@ -91,15 +90,4 @@ impl Scene {
 fn normals(vertices: &[DVec3], triangles: &[[u32; 3]]) -> Vec<DVec3> {
     let corners = triangles.iter().map(|t| t.map(|v| vertices[v as usize]));
     corners.map(|[a, b, c]| (b - a).cross(c - a).normalize_or_zero()).collect()
-}
-
-/// The triangle of each directed edge.
-fn owners(triangles: &[[u32; 3]]) -> BTreeMap<[u32; 2], usize> {
-    let edges = triangles.iter().enumerate();
-    edges.flat_map(|(t, corners)| (0..3).map(move |k| ([corners[k], corners[(k + 1) % 3]], t))).collect()
-}
-
-/// Edge k as the neighbour across has it.
-fn reversed(triangle: [u32; 3], k: usize) -> [u32; 2] {
-    [triangle[(k + 1) % 3], triangle[k]]
 }
