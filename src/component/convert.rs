@@ -216,6 +216,42 @@ pub fn choose(targets: &[(Target, f64)]) -> Result<(usize, Component), ConvertEr
     Ok((k, component))
 }
 
+/// A finished component of one of several targets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finished {
+    /// Index of its target.
+    pub target: usize,
+    /// The component.
+    pub component: Component,
+    /// What finished components are compared by, mm.
+    pub cost_mm: f64,
+}
+
+/// Stub.
+pub fn finished(targets: &[(Target, f64)], most: usize) -> Result<Vec<Finished>, ConvertError> {
+    use rayon::prelude::*;
+    let all: Vec<Result<Finished, ConvertError>> = (0..targets.len())
+        .into_par_iter()
+        .map(|k| {
+            let found = search::best(&targets[k..k + 1])?;
+            let cost_mm = found.cost();
+            let (_, component) = choose(&targets[k..k + 1])?;
+            Ok(Finished { target: k, component, cost_mm })
+        })
+        .collect();
+    let mut error = ConvertError::Hull(HullError::Flat);
+    let mut good = Vec::new();
+    for one in all {
+        match one {
+            Ok(f) => good.push(f),
+            Err(e) => error = e,
+        }
+    }
+    good.sort_by(|a, b| a.cost_mm.total_cmp(&b.cost_mm));
+    good.truncate(most);
+    if good.is_empty() { Err(error) } else { Ok(good) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

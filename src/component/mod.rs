@@ -24,10 +24,10 @@ mod tolerance;
 mod walls;
 
 pub use assemble::AssembleError;
-pub use convert::{Component, ConvertError, choose, convert};
+pub use convert::{Component, ConvertError, Finished, choose, convert, finished};
 pub use direction::PrincipalAxis;
 pub use panel::{Hinge, HingeId, HingeSide, Panel, PanelId, PanelKind, PanelSet};
 pub use profile::{Fold, Profile, ProfileError};
 pub use solid::{Chain, Clearance, Corner, FaceId, SideFacet, Solid};
 pub use target::{JointTarget, Seat, Target};
-pub use tolerance::fewest;
+pub use tolerance::{Counts, fewest};

@@ -75,6 +75,12 @@ pub(super) struct Found {
     cost_mm: f64,
 }
 
+impl Found {
+    pub(super) fn cost(&self) -> f64 {
+        self.cost_mm
+    }
+}
+
 /// Shapes with more top edges or profile vertices than this are also tried with no more: the search
 /// finds its way more surely among few, and more of either shall not make the error larger.
 const SURE: usize = 6;

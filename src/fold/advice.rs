@@ -11,12 +11,11 @@ pub type Advice = (&'static str, String);
 
 impl FoldPlan {
     /// One piece of advice for each pair that clashes, where it is deepest, and for each overlap.
-    /// `is_untangled` tells that other fold directions were tried already.
-    pub fn advice(&self, model: &Model, is_untangled: bool) -> Vec<Advice> {
+    pub fn advice(&self, model: &Model) -> Vec<Advice> {
         let overlaps = self.overlaps().iter().map(|overlap| of_overlap(model, overlap));
         let clashes = deepest(self.clashes()).map(|clash| match clash.depth_mm {
             depth_mm if depth_mm <= self.thickness_mm() => of_rub(model, clash),
-            _ => of_clash(model, clash, is_untangled),
+            _ => of_clash(model, clash),
         });
         overlaps.chain(clashes).collect()
     }
@@ -61,7 +60,7 @@ fn of_rub(model: &Model, clash: &Clash) -> Advice {
     ("fold_rub", message)
 }
 
-fn of_clash(model: &Model, clash: &Clash, is_untangled: bool) -> Advice {
+fn of_clash(model: &Model, clash: &Clash) -> Advice {
     let names = clash.parts.map(|p| model.parts()[p].name.as_str());
     let kinds: [PanelKind; 2] =
         [0, 1].map(|k| model.parts()[clash.parts[k]].component.panels().panel(clash.panels[k]).kind);
@@ -75,11 +74,9 @@ fn of_clash(model: &Model, clash: &Clash, is_untangled: bool) -> Advice {
         return ("own_fold_clash", message);
     }
     let mover = &model.parts()[clash.mover].name;
-    let remedy = if is_untangled { "another --direction" } else { "--untangle or another --direction" };
     let message = format!(
         "{} and {} bump into each other, and no order of folding was found that avoids it: {} of {} and {} of {} get \
-         {depth_mm:.1} mm into each other when {mover} is {percent:.0}% folded; try {remedy} for one of \
-         them, or another number of --parts",
+         {depth_mm:.1} mm into each other when {mover} is {percent:.0}% folded",
         names[0], names[1], kinds[0], names[0], kinds[1], names[1]
     );
     ("fold_clash", message)

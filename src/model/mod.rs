@@ -1,17 +1,21 @@
 //! Joints between components, their tree, and the model's two end states.
 
 mod build;
-mod grow;
+mod candidate;
+mod choice;
 mod joined;
 mod known;
 mod link;
+mod pair;
+mod part;
 mod seat;
 
-pub use build::{ModelError, Part, PartOptions};
-pub use grow::build;
+pub use build::{Assembly, Built, Judge, Unjudged, build};
+pub use choice::Bump;
 pub use joined::{JoinedPart, Seam};
-pub use known::{Known, build_one};
+pub use known::Known;
 pub use link::{Contact, Link, link_tree, parted};
+pub use part::{ModelError, Part, PartOptions};
 
 use crate::component::{Component, PanelId};
 use crate::geom::polygon;
@@ -28,6 +32,8 @@ pub struct Joint {
     pub child_panel: PanelId,
     /// Share of the child's joint panel that lies on the parent's.
     pub support_ratio: f64,
+    /// Area in which the two panels lie on each other, mm².
+    pub glue_mm2: f64,
 }
 
 /// A component in its place.

@@ -7,7 +7,7 @@
 
 use crate::component::Seat;
 use crate::geom::Plane;
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 /// A joint plane within this angle of horizontal is made the top or bottom panel.
 const LEVEL_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
@@ -16,16 +16,16 @@ const SHARE_CHAIN_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
 /// Joint panels of one chain differ in slope by at least this; closer ones are merged.
 const SHARE_PANEL_RAD: f64 = 12.0 * std::f64::consts::PI / 180.0;
 
-/// A joint plane to be seated: plane with outward normal in the component's axes, a point where
-/// the joint is, and whether the plane may still be turned.
+/// A joint plane to be seated: plane with outward normal in the component's axes, and a point where
+/// the joint is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seating {
     /// Plane, normal out of the component.
     pub plane: Plane,
     /// Centre of the interface.
     pub centre: DVec3,
-    /// Planes towards the parent are fixed: the parent was made first.
-    pub is_fixed: bool,
+    /// The plane towards the parent keeps its place where others have to be turned to share a panel.
+    pub comes_first: bool,
 }
 
 impl Seating {
@@ -42,14 +42,14 @@ impl Seating {
     }
 }
 
-/// The seat of every joint of a component, in order. A fixed plane that is almost but not exactly
-/// horizontal gets a horizontal seat: the component itself is then turned to sit on it.
+/// The seat of every joint of a component, in order. A plane that is almost but not exactly horizontal
+/// gets a horizontal seat: the other part is then turned with it.
 pub fn seats(joints: &[Seating]) -> Vec<Seat> {
     let mut out: Vec<Option<Seat>> = joints.iter().map(fixed_seat).collect();
     for up in [true, false] {
         let level = |k: &usize| joints[*k].is_level() && (joints[*k].plane.normal().z > 0.0) == up;
         let members: Vec<usize> = (0..joints.len()).filter(level).collect();
-        let fixed = members.iter().find(|&&k| joints[k].is_fixed).map(|&k| joints[k].centre.z);
+        let fixed = members.iter().find(|&&k| joints[k].comes_first).map(|&k| joints[k].centre.z);
         let mean = members.iter().map(|&k| joints[k].centre.z).sum::<f64>() / members.len().max(1) as f64;
         let height_mm = fixed.unwrap_or(mean);
         for k in members {
@@ -66,7 +66,7 @@ pub fn seats(joints: &[Seating]) -> Vec<Seat> {
 
 /// A fixed sloped plane keeps its direction exactly.
 fn fixed_seat(joint: &Seating) -> Option<Seat> {
-    (joint.is_fixed && !joint.is_level()).then(|| Seat::Side {
+    (joint.comes_first && !joint.is_level()).then(|| Seat::Side {
         angle_rad: joint.angle_rad(),
         slope_rad: joint.slope_rad(),
         offset_mm: joint.plane.offset(),
@@ -121,21 +121,12 @@ pub fn level_axis(axis: DVec3, plane_normal: DVec3) -> DVec3 {
     }
 }
 
-/// The rigid motion about `centre` that turns plane `from` into plane `to`.
-pub fn turn_onto(from: &Plane, to: &Plane, centre: DVec3) -> DAffine3 {
-    let turn = glam::DQuat::from_rotation_arc(from.normal(), to.normal());
-    let about =
-        DAffine3::from_translation(centre) * DAffine3::from_quat(turn) * DAffine3::from_translation(-centre);
-    let turned = from.moved(&about);
-    DAffine3::from_translation(to.normal() * (to.offset() - turned.offset())) * about
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn seating(normal: DVec3, centre: DVec3, is_fixed: bool) -> Seating {
-        Seating { plane: Plane::through(centre, normal).unwrap(), centre, is_fixed }
+    fn seating(normal: DVec3, centre: DVec3, comes_first: bool) -> Seating {
+        Seating { plane: Plane::through(centre, normal).unwrap(), centre, comes_first }
     }
 
     #[test]
@@ -163,16 +154,5 @@ mod tests {
         };
         assert_eq!(angle(&seats[0]), angle(&seats[1]));
         assert!(seat_plane(&seats[0]).distance(b.centre).abs() < 1e-9);
-    }
-
-    #[test]
-    fn turning_takes_one_plane_onto_another() {
-        let from = Plane::through(DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.1, 0.2, 1.0)).unwrap();
-        let to = Plane::through(DVec3::new(1.0, 2.0, 3.5), DVec3::new(0.0, -0.1, 1.0)).unwrap();
-        let motion = turn_onto(&from, &to, DVec3::new(1.0, 2.0, 3.0));
-        let moved = from.moved(&motion);
-        assert!(
-            (moved.normal() - to.normal()).length() < 1e-12 && (moved.offset() - to.offset()).abs() < 1e-12
-        );
     }
 }

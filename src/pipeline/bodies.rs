@@ -3,7 +3,7 @@
 use super::{Error, Options};
 use crate::geom::Hull;
 use crate::mesh::Mesh;
-use crate::model::{self, Contact, Link, Part, PartOptions};
+use crate::model::{self, Assembly, Contact, Link, Part, PartOptions};
 use crate::segment::{self, Parts, SegmentId, Segmentation};
 use glam::DVec3;
 use std::collections::BTreeSet;
@@ -74,6 +74,11 @@ impl Bodies {
     /// [`Error::NoComponent`], [`Error::SameName`].
     pub fn new(hulls: &Hulls, options: &Options) -> Result<Self, Error> {
         Ok(Self { parts: parts(hulls, options)?, links: hulls.links.clone() })
+    }
+
+    /// What a model is built from.
+    pub fn assembly(&self, min_panel_mm: f64) -> Assembly<'_> {
+        Assembly { parts: &self.parts, links: &self.links, min_panel_mm }
     }
 
     /// The parts; a component is made of each.

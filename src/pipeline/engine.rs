@@ -2,13 +2,14 @@
 //! The command line runs an engine once; the studio keeps one and changes a little at a time.
 
 use super::concave;
+use super::judge::FoldJudge;
 use super::warning::{self, not_joined, pin_warnings};
 use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
 use crate::design::thick;
 use crate::fold::{FoldPlan, ModelMotion};
 use crate::memory::Memory;
 use crate::mesh::{Mesh, Up};
-use crate::model::{self, Known, Model, ModelPart};
+use crate::model::{self, Known, Model, ModelPart, Unjudged};
 use crate::net::{BlankNet, KnownNets, Net, NetChoices, NetOptions, develop_model};
 use crate::progress::{Beside, Progress};
 use crate::segment::{self, Edit, Parts, SegmentOptions};
@@ -71,11 +72,7 @@ impl<'m> Engine<'m> {
     /// # Errors
     /// See [`Error`].
     pub fn run(&self, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
-        let shaped = match options.untangles {
-            true => self.untangled(options, progress)?,
-            false => self.shape(options, progress)?,
-        };
-        self.finish(shaped, progress)
+        self.finish(self.shape(options, progress)?, progress)
     }
 
     /// The mesh at the model's size, its parts and their hulls.
@@ -123,15 +120,17 @@ impl<'m> Engine<'m> {
         let divided = self.divide(options, progress)?;
         let bodies = Bodies::new(divided.hulls(), options)?;
         progress.stage("components");
-        let least_mm = options.min_panel_width_mm;
-        let model = model::build(bodies.parts(), bodies.links(), least_mm, &self.components, progress)?;
+        let assembly = bodies.assembly(options.min_panel_width_mm);
+        let judge = FoldJudge { thickness_mm: options.thickness_mm, progress };
+        let model = model::build(&assembly, &self.components, &judge, progress)?.model;
         let (mesh, face_parts) = (divided.mesh(), divided.face_parts());
         let (model, mut notes, remarks) = concave::refitted(model, mesh, face_parts, options, progress)?;
         notes.extend(not_joined(&model));
         Ok(Shaped { options: Arc::new(options.clone()), divided, model: Arc::new(model), notes, remarks })
     }
 
-    /// Makes one component, by its index, and what carries it: sooner than the whole model.
+    /// Makes one component, by its index, as parts and joints alone decide it: sooner than the model that
+    /// is best to fold.
     ///
     /// # Errors
     /// As [`Engine::shape`]; [`Error::NoComponent`] where there are not so many.
@@ -147,9 +146,9 @@ impl<'m> Engine<'m> {
             let known = divided.hulls().names().join(", ");
             return Err(Error::NoComponent { name: format!("number {}", part + 1), known });
         }
-        let least_mm = options.min_panel_width_mm;
-        let (parts, links) = (bodies.parts(), bodies.links());
-        Ok(model::build_one(parts, links, part, least_mm, &self.components, progress)?)
+        let assembly = bodies.assembly(options.min_panel_width_mm);
+        let built = model::build(&assembly, &self.components, &Unjudged, progress)?;
+        Ok(built.model.parts()[part].clone())
     }
 
     /// How the components fold.
