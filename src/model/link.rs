@@ -1,5 +1,6 @@
 //! Contact planes between neighbouring segments, and the tree of joints (§4.2.1).
 
+use super::plane;
 use crate::geom::{Hull, Plane};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -33,11 +34,13 @@ pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact]) -> Vec<Link> {
     order.sort_by(|a, b| b.length_mm.total_cmp(&a.length_mm).then(a.parts.cmp(&b.parts)));
     let mut group: Vec<usize> = (0..part_hulls.len()).collect();
     let mut neighbours: BTreeMap<usize, Vec<(usize, &Contact)>> = BTreeMap::new();
+    let mut joints = Vec::new();
     for contact in order {
         let (a, b) = contact.parts;
         let (ga, gb) = (group[a], group[b]);
         if ga != gb {
             group.iter_mut().filter(|g| **g == gb).for_each(|g| *g = ga);
+            joints.push(contact);
             neighbours.entry(a).or_default().push((b, contact));
             neighbours.entry(b).or_default().push((a, contact));
         }
@@ -54,7 +57,7 @@ pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact]) -> Vec<Link> {
             for &(child, contact) in neighbours.get(&parent).map_or(&[][..], Vec::as_slice) {
                 if !seen[child] {
                     seen[child] = true;
-                    let (plane, _) = contact_plane(contact, part_hulls[parent], part_hulls[child]);
+                    let (plane, _) = contact_plane(contact, [parent, child], part_hulls, &joints);
                     links.push(Link { parent, child, plane });
                     queue.push_back(child);
                 }
@@ -69,12 +72,14 @@ pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact]) -> Vec<Link> {
 /// stay whole.
 pub fn parted(part_hulls: &[&Hull], contacts: &[Contact], links: &[Link]) -> Vec<Hull> {
     let mut hulls: Vec<Hull> = part_hulls.iter().map(|&hull| hull.clone()).collect();
-    for contact in contacts {
+    let is_joint = |contact: &&Contact| {
         let (a, b) = contact.parts;
-        if links.iter().any(|l| (l.parent, l.child) == (a, b) || (l.parent, l.child) == (b, a)) {
-            continue;
-        }
-        let (plane, cut_off) = contact_plane(contact, part_hulls[a], part_hulls[b]);
+        links.iter().any(|l| (l.parent, l.child) == (a, b) || (l.parent, l.child) == (b, a))
+    };
+    let (joints, others): (Vec<&Contact>, Vec<&Contact>) = contacts.iter().partition(is_joint);
+    for contact in others {
+        let (a, b) = contact.parts;
+        let (plane, cut_off) = contact_plane(contact, [a, b], part_hulls, &joints);
         if cut_off <= CLIP_SHARE
             && let (Some(first), Some(second)) = (hulls[a].clip(&plane), hulls[b].clip(&plane.flipped()))
         {
@@ -84,45 +89,23 @@ pub fn parted(part_hulls: &[&Hull], contacts: &[Contact], links: &[Link]) -> Vec
     hulls
 }
 
-/// A least-squares plane may cut off at most this share of a hull before it is moved.
+/// A plane between neighbours without a joint may cut off at most this share of either.
 const CLIP_SHARE: f64 = 0.2;
-/// Places tried for a poor plane.
-const SLIDES: usize = 17;
 
-/// The plane between two parts: least squares through the interface, moved along its normal where
-/// it would cut off too much; and the share that it cuts off.
-fn contact_plane(contact: &Contact, parent: &Hull, child: &Hull) -> (Plane, f64) {
-    let towards = child.centroid() - parent.centroid();
-    let centre = contact.points.iter().sum::<DVec3>() / contact.points.len().max(1) as f64;
-    let fitted = Plane::fit(&contact.points).map(|(plane, _)| plane);
-    let plane = fitted.or_else(|| Plane::through(centre, towards)).unwrap_or_else(|| fallback(centre));
-    let plane = if plane.normal().dot(towards) < 0.0 { plane.flipped() } else { plane };
-    let as_fitted = (plane, cut_off(&plane, parent, child));
-    if as_fitted.1 <= CLIP_SHARE {
-        return as_fitted;
-    }
-    let heights = contact.points.iter().map(|p| plane.distance(*p));
-    let (low, high) = heights.fold((0.0f64, 0.0f64), |(l, h), d| (l.min(d), h.max(d)));
-    (0..SLIDES)
-        .filter_map(|k| {
-            let shift = low + (high - low) * k as f64 / (SLIDES - 1) as f64;
-            Plane::through(centre + plane.normal() * shift, plane.normal())
-        })
-        .map(|p| (p, cut_off(&p, parent, child)))
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-        .unwrap_or(as_fitted)
-}
-
-fn fallback(centre: DVec3) -> Plane {
-    let plane = Plane::through(centre, DVec3::Z);
-    plane.unwrap_or_else(|| Plane::horizontal(0.0))
-}
-
-/// The larger share of volume that the plane cuts off either hull.
-fn cut_off(plane: &Plane, parent: &Hull, child: &Hull) -> f64 {
-    let lost =
-        |hull: &Hull, plane: &Plane| 1.0 - hull.clip(plane).map_or(0.0, |h| h.volume()) / hull.volume();
-    lost(parent, plane).max(lost(child, &plane.flipped()))
+/// The plane of a contact, from the first of two parts to the second, and the share of either that it
+/// cuts off. It spares the other places where they are joined, those of `joints` that are not this one.
+fn contact_plane(
+    contact: &Contact,
+    [from, to]: [usize; 2],
+    part_hulls: &[&Hull],
+    joints: &[&Contact],
+) -> (Plane, f64) {
+    let kept = |part: usize| -> Vec<DVec3> {
+        let others = joints.iter().filter(|c| c.parts != contact.parts);
+        let own = others.filter(|c| c.parts.0 == part || c.parts.1 == part);
+        own.flat_map(|c| c.points.iter().copied()).collect()
+    };
+    plane::between(&contact.points, part_hulls[from], part_hulls[to], [&kept(from), &kept(to)])
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod known;
 mod link;
 mod pair;
 mod part;
+mod plane;
 mod seat;
 
 pub use build::{Assembly, Built, Judge, Unjudged, build};
