@@ -94,6 +94,7 @@ struct Joint {
     parent_panel: String,
     child_panel: String,
     support_ratio: f64,
+    glue_mm2: f64,
 }
 
 /// How the model folds.
@@ -276,6 +277,7 @@ fn component<'a>(output: &'a Output, p: usize, part: &'a ModelPart, diagonal_mm:
             parent_panel: panel_name(&parts[j.parent], j.parent_panel),
             child_panel: panel_name(part, j.child_panel),
             support_ratio: j.support_ratio,
+            glue_mm2: j.glue_mm2,
         }),
         placement: glam::DMat4::from(part.placement).to_cols_array(),
     }

@@ -98,6 +98,14 @@ impl Model {
         self.parts.iter().any(|part| part.component.panels().hinges().iter().any(|h| h.is_valley()))
     }
 
+    /// The area over which a part's joint would hold well, mm²; `None` for a root.
+    pub fn needed_glue_mm2(&self, part: usize) -> Option<f64> {
+        let joint = self.parts[part].joint.as_ref()?;
+        let area = |p: usize, id| polygon::area(&self.parts[p].component.panels().panel(id).outline).abs();
+        let [own, below] = [area(part, joint.child_panel), area(joint.parent, joint.parent_panel)];
+        Some(pair::needed_glue_mm2(own, below))
+    }
+
     /// Corners of a panel in the deployed model.
     pub fn deployed_outline(&self, part: usize, panel: PanelId) -> Vec<DVec3> {
         let part = &self.parts[part];

@@ -47,7 +47,7 @@ impl Seated {
         let above = flat(&mut outline.iter().map(|p| turn.transform_point3(*p)));
         let glue_mm2 = polygon::area(&polygon::intersect_convex(&above, &below)).max(0.0);
         let (own_mm2, parent_mm2) = (polygon::area(&above), polygon::area(&below));
-        let needed_mm2 = LEAST_GLUE_MM2.max(LEAST_GLUE_SHARE * own_mm2.min(parent_mm2));
+        let needed_mm2 = needed_glue_mm2(own_mm2, parent_mm2);
         let lack = (1.0 - glue_mm2 / needed_mm2).max(0.0);
         let overhang = (1.0 - glue_mm2 / own_mm2.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         let cost_mm =
@@ -59,6 +59,11 @@ impl Seated {
     pub(super) fn cost_mm(&self) -> f64 {
         self.cost_mm
     }
+}
+
+/// The area over which two panels must be glued, mm².
+pub(super) fn needed_glue_mm2(one_mm2: f64, other_mm2: f64) -> f64 {
+    LEAST_GLUE_MM2.max(LEAST_GLUE_SHARE * one_mm2.min(other_mm2))
 }
 
 /// How far a part's corners move, at most.
