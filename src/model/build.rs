@@ -179,6 +179,7 @@ impl Builder<'_> {
         Target {
             hull: &candidate.hull,
             joints: candidate.joints.iter().map(|j| j.1.clone()).collect(),
+            symmetry: None,
             top_edges: options.top_edges,
             profile_vertices: options.profile_vertices,
             min_panel_mm: self.min_panel_mm,
