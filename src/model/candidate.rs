@@ -7,7 +7,7 @@ use super::link::Link;
 use super::seat::{Seating, level_axis, seat_plane, seats};
 use super::{ModelError, ModelPart, Part};
 use crate::component::{
-    Component, Finished, JointTarget, PanelId, PrincipalAxis, Target, fewest, finished,
+    Component, Finished, JointTarget, PanelId, PrincipalAxis, Target, choose, fewest, finished,
 };
 use crate::geom::{Hull, Plane};
 use glam::{DAffine3, DVec3};
@@ -99,6 +99,7 @@ impl<'a> Builder<'a> {
             self.axes(&principal).par_iter().map(|&a| self.direction(principal.frame(a))).collect();
         let mut targets: Vec<(Target, f64)> =
             directions.iter().map(|d| (self.target(d), PLANE_PRICE * d.plane_shift_mm)).collect();
+        let lost = || ModelError::NoJointPanel(part.options.name.clone());
         let fail = |error| ModelError::Component { name: part.options.name.clone(), error };
         if let Some(tolerance_mm) = part.options.tolerance_mm {
             let (top_edges, profile_vertices) = fewest(&targets, tolerance_mm).map_err(fail)?;
@@ -106,7 +107,10 @@ impl<'a> Builder<'a> {
                 (target.top_edges, target.profile_vertices) = (top_edges, profile_vertices);
             }
         }
-        let found = finished(&targets, FINISHED).map_err(fail)?;
+        let found = finished(&targets, FINISHED);
+        if found.is_empty() {
+            return Err(choose(&targets).map_or_else(fail, |_| lost()));
+        }
         let made = |finished: Finished| {
             let (direction, target) = (&directions[finished.target], &targets[finished.target].0);
             let seated = |(other, joint): &(usize, JointTarget)| {
@@ -126,10 +130,7 @@ impl<'a> Builder<'a> {
             })
         };
         let candidates: Vec<Made> = found.into_iter().filter_map(made).collect();
-        if candidates.is_empty() {
-            return Err(ModelError::NoJointPanel(part.options.name.clone()));
-        }
-        Ok(candidates)
+        if candidates.is_empty() { Err(lost()) } else { Ok(candidates) }
     }
 
     /// The fold axes to try: the user's, or some about the principal axis, turned so that joint planes
@@ -165,6 +166,7 @@ impl<'a> Builder<'a> {
             profile_vertices: options.profile_vertices,
             min_panel_mm: self.min_panel_mm,
             comfortable_mm: options.comfortable_mm,
+            symmetry: None,
         }
     }
 
