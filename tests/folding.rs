@@ -125,11 +125,11 @@ fn ears_too_near_to_each_other_clash_in_any_order() {
     let mut order = plan.order().to_vec();
     order.sort_unstable();
     assert_eq!(order, [0, 1, 2], "a model is made all the same");
-    let advice = plan.advice(&model, false);
+    let advice = plan.advice(&model);
     let pairs: BTreeSet<[usize; 2]> = plan.clashes().iter().map(|c| c.parts).collect();
     assert_eq!(advice.len(), pairs.len() + plan.overlaps().len(), "each pair is told of once");
     let (code, message) = advice.iter().find(|(code, _)| *code == "fold_clash").expect("a warning");
-    for word in ["left", "right", "--direction"] {
+    for word in ["left", "right", " mm when "] {
         assert!(message.contains(word), "{code}: {message}");
     }
 }
@@ -140,7 +140,7 @@ fn plans_agree_with_brute_force() {
         let model = ears(EAR_MM * (0.35 + 0.08 * f64::from(k)));
         let motion = ModelMotion::new(&model);
         let plan = plan(&motion);
-        let sequence = Sequence::new(plan.order());
+        let sequence = Sequence::new(plan.steps());
         let poses = (0..=240).map(|k| motion.pose(&sequence.folded(f64::from(k) / 240.0)));
         let (mut deep, mut any) = (Vec::new(), Vec::new());
         for pose in poses {
