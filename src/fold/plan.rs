@@ -168,6 +168,6 @@ impl FoldPlan {
 
     /// Sum of [`FoldPlan::bumps`], mm.
     pub fn harm_mm(&self) -> f64 {
-        self.bumps().iter().map(|(_, excess_mm)| excess_mm).sum()
+        self.bumps().iter().fold(0.0, |sum, (_, excess_mm)| sum + excess_mm)
     }
 }

@@ -27,7 +27,7 @@ use std::ops::Range;
 /// motion hardly a pair can be let go.
 const FIRST_SPANS: usize = 2;
 /// A cell is looked at so many times to tell how deep a contact becomes in it, ends included.
-const DEPTH_SAMPLES: usize = 5;
+const DEPTH_SAMPLES: usize = 3;
 /// Spans are not halved more often than this, 1e-6 of the motion.
 const MOST_HALVINGS: usize = 16;
 /// Sheets nearer to one plane than this are on neither side of each other.
