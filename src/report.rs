@@ -1,7 +1,7 @@
 //! The report: what was made, in numbers, as JSON.
 
 use crate::component::PanelId;
-use crate::fold::{Clash, Overlap, Stack};
+use crate::fold::{Clash, Overlap, Stack, Step};
 use crate::geom::polygon;
 use crate::mesh::Repairs;
 use crate::model::ModelPart;
@@ -102,9 +102,17 @@ struct Joint {
 struct Fold<'a> {
     thickness_mm: f64,
     order: Vec<&'a str>,
+    steps: Vec<FoldStep<'a>>,
     clashes: Vec<FoldClash<'a>>,
     deployed_overlaps: Vec<DeployedOverlap<'a>>,
     flat: Vec<Flat<'a>>,
+}
+
+#[derive(Serialize)]
+struct FoldStep<'a> {
+    component: &'a str,
+    from: f64,
+    to: f64,
 }
 
 #[derive(Serialize)]
@@ -222,6 +230,7 @@ fn fold(output: &Output) -> Fold<'_> {
     let (parts, plan) = (output.model().parts(), output.fold_plan());
     let name = |part: usize| parts[part].name.as_str();
     let panel = |part: usize, panel: PanelId| parts[part].component.panels().panel(panel).kind.to_string();
+    let step = |step: &Step| FoldStep { component: name(step.part), from: step.from, to: step.to };
     let clash = |clash: &Clash| FoldClash {
         components: clash.parts.map(name),
         panels: [0, 1].map(|k| panel(clash.parts[k], clash.panels[k])),
@@ -242,6 +251,7 @@ fn fold(output: &Output) -> Fold<'_> {
     Fold {
         thickness_mm: plan.thickness_mm(),
         order: plan.order().iter().map(|&p| name(p)).collect(),
+        steps: plan.steps().iter().map(step).collect(),
         clashes: plan.clashes().iter().map(clash).collect(),
         deployed_overlaps: plan.overlaps().iter().map(overlap).collect(),
         flat: plan.stacks().iter().map(flat).collect(),
