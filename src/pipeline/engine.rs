@@ -6,7 +6,7 @@ use super::judge::FoldJudge;
 use super::warning::{self, not_joined, pin_warnings};
 use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
 use crate::design::thick;
-use crate::fold::{FoldPlan, ModelMotion};
+use crate::fold::{FoldPlan, ModelMotion, SweepMemory};
 use crate::memory::Memory;
 use crate::mesh::{Mesh, Up};
 use crate::model::{self, Known, Model, ModelPart, Unjudged};
@@ -32,6 +32,9 @@ pub struct Engine<'m> {
     segmented: Memory<Found, Arc<(Parts, DAffine3)>>,
     divided: Memory<(Found, Vec<Edit>, Option<String>), Arc<Divided>>,
     components: Known,
+    sweeps: SweepMemory,
+    /// What the parts of the models of last time are known by in `sweeps`.
+    ids: Memory<Arc<Model>, Vec<u64>>,
     plans: Memory<(Arc<Model>, f64), Arc<FoldPlan>>,
     nets: KnownNets,
     layouts: Memory<LayoutKey, (Arc<Layout>, Arc<Vec<Net>>)>,
@@ -51,6 +54,8 @@ impl<'m> Engine<'m> {
             segmented: Memory::new(FEW),
             divided: Memory::new(FEW),
             components: Known::default(),
+            sweeps: SweepMemory::default(),
+            ids: Memory::new(FEW),
             plans: Memory::new(FEW),
             nets: KnownNets::default(),
             layouts: Memory::new(FEW),
@@ -121,7 +126,7 @@ impl<'m> Engine<'m> {
         let bodies = Bodies::new(divided.hulls(), options)?;
         progress.stage("components");
         let assembly = bodies.assembly(options.min_panel_width_mm);
-        let judge = FoldJudge { thickness_mm: options.thickness_mm, progress };
+        let judge = FoldJudge { thickness_mm: options.thickness_mm, memory: &self.sweeps, progress };
         let model = model::build(&assembly, &self.components, &judge, progress)?.model;
         let (mesh, face_parts) = (divided.mesh(), divided.face_parts());
         let (model, mut notes, remarks) = concave::refitted(model, mesh, face_parts, options, progress)?;
