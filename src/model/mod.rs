@@ -6,12 +6,14 @@ mod joined;
 mod known;
 mod link;
 mod seat;
+mod symmetry;
 
 pub use build::{ModelError, Part, PartOptions};
 pub use grow::build;
 pub use joined::{JoinedPart, Seam};
 pub use known::{Known, build_one};
 pub use link::{Contact, Link, link_tree, parted};
+pub use symmetry::Symmetry;
 
 use crate::component::{Component, PanelId};
 use crate::geom::polygon;
