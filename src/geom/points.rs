@@ -9,19 +9,19 @@ const LEAF: usize = 8;
 ///
 /// # Guarantees
 /// Each range of more than a leaf, from the whole downwards, is halved: what is before its middle
-/// lies not farther along the middle's axis, what is behind not less far.
+/// lies not farther along the axis of its split, what is behind not less far.
 #[derive(Debug, Clone)]
 pub(crate) struct PointTree {
     points: Vec<(DVec3, u32)>,
-    /// For each point that is the middle of a range, the axis along which it halves it.
-    axes: Vec<u8>,
+    /// At the middle of each range the axis along which it is halved, and where.
+    splits: Vec<(u8, f64)>,
 }
 
 impl PointTree {
     /// A tree of points with the numbers that searches give back.
     pub(crate) fn new(points: Vec<(DVec3, u32)>) -> Self {
-        let axes = vec![0; points.len()];
-        let mut tree = Self { points, axes };
+        let splits = vec![(0, 0.0); points.len()];
+        let mut tree = Self { points, splits };
         let mut todo = vec![(0, tree.points.len())];
         while let Some((start, end)) = todo.pop() {
             if end - start <= LEAF {
@@ -33,7 +33,7 @@ impl PointTree {
             let axis = (hi - lo).max_position();
             let half = own.len() / 2;
             own.select_nth_unstable_by(half, |a, b| a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1)));
-            tree.axes[start + half] = axis as u8;
+            tree.splits[start + half] = (axis as u8, own[half].0[axis]);
             todo.extend([(start, start + half), (start + half, end)]);
         }
         tree
@@ -60,8 +60,8 @@ impl PointTree {
                 continue;
             }
             let middle = start + (end - start) / 2;
-            let axis = self.axes[middle] as usize;
-            let off = p[axis] - self.points[middle].0[axis];
+            let (axis, place) = self.splits[middle];
+            let off = p[axis as usize] - place;
             let (before, behind) = ((start, middle), (middle, end));
             let (near, far) = if off < 0.0 { (before, behind) } else { (behind, before) };
             todo.push((far.0, far.1, gap.max(off * off)));

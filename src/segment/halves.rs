@@ -49,10 +49,9 @@ impl Halves {
 
     /// The patches of the front half and their images, with the twin of each.
     pub fn patches(&self, surface: &Surface, patches: &Partition) -> (Partition, Vec<u32>) {
-        let half = |c: usize| if self.is_front(c) { patches.of_cell[c] } else { u32::MAX };
-        let (piece, count) = surface.components(half);
-        // The piece of the front half that a cell, or its image, is on.
-        let of_cell: Vec<u32> = self.source.iter().map(|&s| piece[s as usize]).collect();
+        let count = patches.count;
+        // The patch of the cell in front, whichever of a cell and its image that is.
+        let of_cell: Vec<u32> = self.source.iter().map(|&s| patches.of_cell[s as usize]).collect();
         let mut front_area = vec![0.0; count];
         let mut has_image = vec![false; count];
         for (c, &p) in of_cell.iter().enumerate() {
@@ -134,6 +133,14 @@ impl Halves {
         let areas = Partition { of_cell: piece.clone(), count }.areas(surface);
         let mut set_of = vec![0; count];
         piece.iter().zip(&sets.of_cell).for_each(|(&p, &set)| set_of[p as usize] = set);
+        // A body by itself has no neighbour that it could go to, and stays.
+        let mut has_border = vec![false; count];
+        for link in surface.links() {
+            let [a, b] = link.cells.map(|c| piece[c as usize] as usize);
+            if a != b {
+                (has_border[a], has_border[b]) = (true, true);
+            }
+        }
         let mut largest: BTreeMap<u32, [usize; 2]> = BTreeMap::new();
         for p in 0..count {
             let two = largest.entry(set_of[p]).or_insert([p, p]);
@@ -145,7 +152,7 @@ impl Halves {
         }
         let mut new_set = vec![None; count];
         for [first, second] in largest.into_values() {
-            if first != second && areas[second] >= PIECE * areas[first] {
+            if first != second && has_border[second] && areas[second] >= PIECE * areas[first] {
                 new_set[second] = Some(sets.count as u32);
                 sets.count += 1;
             }

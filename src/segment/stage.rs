@@ -72,7 +72,7 @@ pub fn segment(
             let gaps = bodies::nearest_links(&coarse);
             let patches = bodies::join_crumbs(&coarse, patches, &gaps, options.parts);
             progress.stage("parts");
-            let ground = Ground { positions, faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
+            let ground = Ground { faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
             let solid = Solid::filled(positions, &faces, grid::CELLS);
             let part_cost = PART_COST / DETAIL_RANGE.powf(options.detail);
             let choose = |tree: Tree| match options.parts {
@@ -175,7 +175,6 @@ fn over_segment(surface: &Surface, values: Option<&[f64]>, parts: Option<usize>)
 
 /// What the patches are made of.
 struct Ground<'a> {
-    positions: &'a [DVec3],
     faces: &'a [[u32; 3]],
     surface: &'a Surface,
     cell_of_face: &'a [u32],
