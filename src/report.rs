@@ -3,7 +3,7 @@
 use crate::component::PanelId;
 use crate::fold::{Clash, Overlap, Stack, Step};
 use crate::geom::polygon;
-use crate::mesh::Repairs;
+use crate::mesh::{MirrorPlane, Repairs};
 use crate::model::ModelPart;
 use crate::net::{Net, Piece};
 use crate::pipeline::{Output, Warning};
@@ -44,7 +44,16 @@ struct Input<'a> {
     faces: usize,
     vertices: usize,
     diagonal_mm: f64,
+    symmetry: Option<SymmetryNumbers>,
     repairs: RepairNumbers,
+}
+
+/// The mirror plane of the model.
+#[derive(Serialize)]
+struct SymmetryNumbers {
+    normal: [f64; 3],
+    offset_mm: f64,
+    error_percent: f64,
 }
 
 #[derive(Serialize)]
@@ -185,6 +194,7 @@ pub fn to_json(output: &Output, run: &Run<'_>) -> Result<Vec<u8>, serde_json::Er
             faces: output.mesh().faces().len(),
             vertices: output.mesh().positions().len(),
             diagonal_mm,
+            symmetry: output.mirror_plane().map(symmetry),
             repairs: repairs(run.repairs),
         },
         stages: run.stages.iter().map(|&(name, seconds)| Stage { name, seconds }).collect(),
@@ -211,6 +221,12 @@ pub fn to_json(output: &Output, run: &Run<'_>) -> Result<Vec<u8>, serde_json::Er
     let mut bytes = serde_json::to_vec_pretty(&report)?;
     bytes.push(b'\n');
     Ok(bytes)
+}
+
+fn symmetry(found: &MirrorPlane) -> SymmetryNumbers {
+    let plane = found.mirror.plane();
+    let (normal, offset_mm) = (plane.normal().to_array(), plane.offset());
+    SymmetryNumbers { normal, offset_mm, error_percent: found.error_percent }
 }
 
 fn repairs(repairs: &Repairs) -> RepairNumbers {

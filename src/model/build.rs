@@ -1,11 +1,12 @@
 //! Parts into a model: candidates for each, one combination of them, and everything in its place.
 
+use super::bond::Bond;
 use super::candidate::{Builder, Made};
 use super::choice::{Bump, Choice};
 use super::known::Known;
 use super::link::Link;
 use super::pair::Seated;
-use super::{Joint, Model, ModelError, ModelPart, Part};
+use super::{Joint, Model, ModelError, ModelPart, Part, Symmetry};
 use crate::progress::{Cancelled, Progress};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -18,6 +19,8 @@ pub struct Assembly<'a> {
     pub parts: &'a [Part],
     /// The joints between them, as [`super::link_tree`] gives them.
     pub links: &'a [Link],
+    /// Which parts are mirror images of each other.
+    pub symmetry: Option<&'a Symmetry>,
     /// Least width and height of panels, mm.
     pub min_panel_mm: f64,
 }
@@ -62,10 +65,9 @@ pub fn build(
     judge: &dyn Judge,
     progress: &dyn Progress,
 ) -> Result<Built, ModelError> {
-    let Candidates { of, links } = Candidates::new(assembly, known, progress)?;
+    let Candidates { of: candidates, links, bonds } = Candidates::new(assembly, known, progress)?;
     let parts = assembly.parts;
-    let candidates: Vec<Vec<Made>> = of.iter().map(|made| made.to_vec()).collect();
-    let choice = Choice::new(&candidates, &weights(parts), &links);
+    let choice = Choice::new(&candidates, &weights(parts), &links, &bonds);
     let chosen = |of: &[usize]| -> Vec<&Made> { of.iter().zip(&candidates).map(|(&k, made)| &made[k]).collect() };
     let ids = |made: &[&Made]| made.iter().map(|m| m.id).collect::<Vec<u64>>();
     let bumps = |of: &[usize]| {
@@ -88,21 +90,27 @@ fn weights(parts: &[Part]) -> Vec<f64> {
 
 /// The candidates of all parts, and the joints that they have room for.
 struct Candidates {
-    of: Vec<Arc<Vec<Made>>>,
+    of: Vec<Vec<Made>>,
     links: Vec<Link>,
+    bonds: Vec<Bond>,
 }
 
 impl Candidates {
     /// Where no shape of a part has room for all its joints, the children with the smallest
     /// interfaces are let go, one by one, to stand for themselves.
     fn new(assembly: &Assembly<'_>, known: &Known, progress: &dyn Progress) -> Result<Self, ModelError> {
-        let Assembly { parts, min_panel_mm, .. } = *assembly;
+        let Assembly { parts, symmetry, min_panel_mm, .. } = *assembly;
         let mut links = assembly.links.to_vec();
         loop {
             let done = AtomicUsize::new(0);
+            let bonds = Bond::of_parts(parts, &links, symmetry);
             let make = |part: usize| {
                 progress.check()?;
-                let made = known.make(&Builder { parts, links: &links, part, min_panel_mm });
+                if let Bond::ImageOf(_) = bonds[part] {
+                    return Ok(Arc::default());
+                }
+                let symmetry = symmetry.filter(|_| bonds[part] == Bond::Across);
+                let made = known.make(&Builder { parts, links: &links, part, symmetry, min_panel_mm });
                 let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                 progress.fraction(count as f64 / parts.len() as f64);
                 made
@@ -111,11 +119,21 @@ impl Candidates {
             let Some((part, error)) =
                 made.iter().enumerate().find_map(|(p, made)| Some((p, made.as_ref().err()?.clone())))
             else {
-                return Ok(Self { of: made.into_iter().flatten().collect(), links });
+                let mut of: Vec<Vec<Made>> = made.into_iter().flatten().map(|made| made.to_vec()).collect();
+                for (part, bond) in bonds.iter().enumerate() {
+                    if let (Bond::ImageOf(first), Some(symmetry)) = (bond, symmetry) {
+                        of[part] = of[*first].iter().map(|made| made.mirrored(symmetry, &parts[part])).collect();
+                    }
+                }
+                return Ok(Self { of, links, bonds });
             };
             // A part's links come longest interface first.
             let Some(smallest) = links.iter().rposition(|l| l.parent == part) else { return Err(error) };
-            links.remove(smallest);
+            let gone = links.remove(smallest);
+            if let Some(symmetry) = symmetry {
+                let image = [gone.parent, gone.child].map(|p| symmetry.twin(p));
+                links.retain(|l| [l.parent, l.child] != image);
+            }
         }
     }
 }

@@ -5,12 +5,12 @@
 
 use super::link::Link;
 use super::seat::{Seating, level_axis, seat_plane, seats};
-use super::{ModelError, ModelPart, Part};
+use super::{ModelError, ModelPart, Part, Symmetry};
 use crate::component::{
-    Component, Finished, JointTarget, PanelId, PrincipalAxis, Target, choose, fewest, finished,
+    self, Component, Finished, JointTarget, PanelId, PrincipalAxis, Target, choose, fewest, finished,
 };
-use crate::geom::{Hull, Plane};
-use glam::{DAffine3, DVec3};
+use crate::geom::{Hull, Plane, polygon};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
 /// Directions tried about the principal axis, evenly over a half turn.
@@ -25,6 +25,11 @@ const PLANE_PRICE: f64 = 0.3;
 const JOINT_PRICE: f64 = 0.3;
 /// A joint plane that leaves less than this share of a hull is not used to clip it.
 const LEAST_SHARE: f64 = 0.15;
+
+/// Set in the ids of mirror images.
+const IMAGE: u64 = 1 << 63;
+/// Directions nearer to a mirror plane than this lie in it.
+const IN_PLANE: f64 = 1e-6;
 
 /// A part's component in one fold direction, before it is placed.
 #[derive(Debug, Clone)]
@@ -42,6 +47,29 @@ pub(super) struct Made {
 }
 
 impl Made {
+    /// The mirror image, for the twin of its part.
+    pub(super) fn mirrored(&self, symmetry: &Symmetry, twin: &Part) -> Self {
+        let mirror = symmetry.mirror();
+        let (component, ids) = self.component.mirrored();
+        let column = |k: usize| mirror.direction(self.frame.matrix3.col(k));
+        let frame = DAffine3::from_mat3_translation(
+            DMat3::from_cols(-column(0), column(1), column(2)),
+            mirror.point(self.frame.translation),
+        );
+        let joint = |&(other, plane, panel): &(usize, Plane, PanelId)| {
+            (symmetry.twin(other), mirror.image(&plane), ids[panel.0])
+        };
+        let principal = PrincipalAxis::of_hull(&twin.hull);
+        Self {
+            id: self.id | IMAGE,
+            component,
+            frame,
+            direction_rad: principal.angle_rad(frame.transform_vector3(DVec3::Z)),
+            cost_mm: self.cost_mm,
+            joints: self.joints.iter().map(joint).collect(),
+        }
+    }
+
     pub(super) fn joint(&self, other: usize) -> Option<(Plane, PanelId)> {
         self.joints.iter().find(|j| j.0 == other).map(|j| (j.1, j.2))
     }
@@ -73,6 +101,8 @@ pub(super) struct Builder<'a> {
     /// All joints.
     pub(super) links: &'a [Link],
     pub(super) part: usize,
+    /// Of parts whose component is to be its own mirror image.
+    pub(super) symmetry: Option<&'a Symmetry>,
     pub(super) min_panel_mm: f64,
 }
 
@@ -107,7 +137,11 @@ impl<'a> Builder<'a> {
                 (target.top_edges, target.profile_vertices) = (top_edges, profile_vertices);
             }
         }
-        let found = finished(&targets, FINISHED);
+        let mut found = finished(&targets, FINISHED);
+        if found.is_empty() && self.symmetry.is_some() {
+            targets.iter_mut().for_each(|(target, _)| target.symmetry = None);
+            found = finished(&targets, FINISHED);
+        }
         if found.is_empty() {
             return Err(choose(&targets).map_or_else(fail, |_| lost()));
         }
@@ -139,9 +173,20 @@ impl<'a> Builder<'a> {
         if let Some(angle) = self.parts[self.part].options.direction_rad {
             return vec![principal.fold_axis(angle)];
         }
-        let mut axes: Vec<DVec3> = Vec::with_capacity(DIRECTIONS);
-        for k in 0..DIRECTIONS {
-            let axis = principal.fold_axis(std::f64::consts::PI * k as f64 / DIRECTIONS as f64);
+        let angle = |k: usize| std::f64::consts::PI * k as f64 / DIRECTIONS as f64;
+        let mirror = self.symmetry.map(Symmetry::mirror);
+        let tried: Vec<DVec3> = match mirror.map(|mirror| mirror.plane().normal()) {
+            None => (0..DIRECTIONS).map(|k| principal.fold_axis(angle(k))).collect(),
+            Some(across) => {
+                let up = mirror.map_or(DVec3::Z, |mirror| mirror.along(DVec3::Z));
+                let up = if up.length() > 1e-3 { up.normalize() } else { across.any_orthonormal_vector() };
+                let side = across.cross(up);
+                let in_plane = (0..DIRECTIONS).map(|k| up * angle(k).cos() + side * angle(k).sin());
+                std::iter::once(across).chain(in_plane).collect()
+            }
+        };
+        let mut axes: Vec<DVec3> = Vec::with_capacity(tried.len());
+        for axis in tried {
             let axis = self.settled(axis);
             if axes.iter().all(|a| a.dot(axis).abs() < SAME_RAD.cos()) {
                 axes.push(axis);
@@ -153,6 +198,12 @@ impl<'a> Builder<'a> {
     /// An axis turned onto the normal of the nearest joint plane, where that is almost level for it.
     fn settled(&self, axis: DVec3) -> DVec3 {
         let normals = self.own_links().map(|l| l.plane.normal());
+        // The axis of a component that is its own image stays in the mirror plane or at a right angle to it.
+        let keeps = |normal: &DVec3| {
+            let across = self.symmetry.map(|s| normal.dot(s.mirror().plane().normal()).abs());
+            across.is_none_or(|across| across < IN_PLANE)
+        };
+        let normals = normals.filter(keeps);
         let nearest = normals.max_by(|a, b| axis.dot(*a).abs().total_cmp(&axis.dot(*b).abs()));
         nearest.map_or(axis, |normal| level_axis(axis, normal))
     }
@@ -166,14 +217,26 @@ impl<'a> Builder<'a> {
             profile_vertices: options.profile_vertices,
             min_panel_mm: self.min_panel_mm,
             comfortable_mm: options.comfortable_mm,
-            symmetry: None,
+            symmetry: self.mirror_plane(&direction.frame),
         }
+    }
+
+    /// The mirror plane in the axes of `frame`.
+    fn mirror_plane(&self, frame: &DAffine3) -> Option<component::Symmetry> {
+        let plane = self.symmetry?.mirror().plane().moved(&frame.inverse());
+        let (normal, offset_mm) = (plane.normal(), plane.offset());
+        Some(match normal.z.abs() > 0.5 {
+            true => component::Symmetry::Level { height_mm: offset_mm * normal.z.signum() },
+            false => {
+                component::Symmetry::Upright { angle_rad: normal.truncate().to_angle(), offset_mm }
+            }
+        })
     }
 
     /// Seats of all joints in the axes of `frame`, and the hull clipped by them.
     fn direction(&self, frame: DAffine3) -> Direction {
         let to_local = frame.inverse();
-        let mut others = Vec::new();
+        let mut others: Vec<usize> = Vec::new();
         let mut seatings = Vec::new();
         for link in self.own_links() {
             let is_child = link.child == self.part;
@@ -183,8 +246,14 @@ impl<'a> Builder<'a> {
             seatings.push(Seating {
                 plane: plane.moved(&to_local),
                 centre: to_local.transform_point3(centre),
+                image: None,
                 comes_first: is_child,
             });
+        }
+        if let Some(symmetry) = self.symmetry {
+            for (seating, &other) in seatings.iter_mut().zip(&others) {
+                seating.image = others.iter().position(|o| *o == symmetry.twin(other));
+            }
         }
         let seats = seats(&seatings);
         let mut hull = self.parts[self.part].hull.moved(&to_local);
@@ -196,7 +265,7 @@ impl<'a> Builder<'a> {
             if let Some(clipped) = hull.clip(&plane).filter(|h| h.volume() > LEAST_SHARE * whole) {
                 hull = clipped;
             }
-            let section = few_corners(self.parts[other].hull.section(&plane.moved(&frame)));
+            let section = self.section(other, &plane.moved(&frame));
             let section: Vec<DVec3> = section.into_iter().map(|p| to_local.transform_point3(p)).collect();
             plane_shift_mm += shift_mm(&section, seating);
             let (cover, within) = match seating.comes_first {
@@ -206,6 +275,25 @@ impl<'a> Builder<'a> {
             joints.push((other, JointTarget { seat, cover, within, price: JOINT_PRICE }));
         }
         Direction { frame, hull, joints, plane_shift_mm }
+    }
+
+    /// Corners of the section of another part's hull by a joint plane. Those of images are images.
+    fn section(&self, other: usize, plane: &Plane) -> Vec<DVec3> {
+        let cut = |p: usize, plane: &Plane| few_corners(self.parts[p].hull.section(plane));
+        let Some(symmetry) = self.symmetry else { return cut(other, plane) };
+        let (mirror, twin) = (symmetry.mirror(), symmetry.twin(other));
+        if twin < other {
+            return cut(twin, &mirror.image(plane)).into_iter().map(|p| mirror.point(p)).collect();
+        }
+        let own = cut(other, plane);
+        if twin != other {
+            return own;
+        }
+        let (x, y) = plane.basis();
+        let both: Vec<DVec3> = own.iter().copied().chain(own.iter().map(|p| mirror.point(*p))).collect();
+        let flat: Vec<DVec2> = both.iter().map(|p| DVec2::new(x.dot(*p), y.dot(*p))).collect();
+        let at = |q: DVec2| x * q.x + y * q.y + plane.normal() * plane.offset();
+        polygon::convex_hull(&flat).into_iter().map(at).collect()
     }
 
     /// Middle of the place where two parts meet: of the sections of their hulls by the plane.

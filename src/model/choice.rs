@@ -8,6 +8,7 @@
 //! cheaper. So the result is exact where nothing bumps, and never worse than the tree's best; it need
 //! not be the best of all where something does.
 
+use super::bond::Bond;
 use super::candidate::Made;
 use super::link::Link;
 use super::pair::Seated;
@@ -29,64 +30,114 @@ const AT_ONCE: usize = 4;
 pub type Bump = ([usize; 2], f64);
 
 /// Candidates of all parts and what they cost.
-pub(super) struct Choice<'a> {
-    candidates: &'a [Vec<Made>],
-    /// Cost of the candidates of each part.
+///
+/// Parts that are images of each other share a variable, as candidate k of one is the image of
+/// candidate k of the other; costs of a part and of a joint with its own image are those of the variable.
+pub(super) struct Choice {
+    /// The variable of each part: the part of which it is the image, or itself.
+    variable: Vec<usize>,
+    /// Cost of the candidates of each variable.
     own: Vec<Vec<f64>>,
-    /// Cost of each link: by the parent's candidate and the child's.
-    pairs: Vec<(usize, usize, Vec<Vec<f64>>)>,
-    /// Parents before their children.
+    /// Joints of two variables: by the parent's candidate and the child's.
+    pairs: Vec<Pair>,
+    /// Variables, parents before their children.
     downwards: Vec<usize>,
+    /// The parent of each part.
+    parents: Vec<Option<usize>>,
 }
 
-/// A candidate for each part.
+/// What joints between the parts of two variables cost.
+struct Pair {
+    parent: usize,
+    child: usize,
+    costs: Vec<Vec<f64>>,
+}
+
+/// A candidate for each part, of which images have the same.
 pub(super) type Combination = Vec<usize>;
 
-impl<'a> Choice<'a> {
+impl Choice {
     /// `weights` say how much each part counts; `links` have a parent's own link before its children's.
-    pub(super) fn new(candidates: &'a [Vec<Made>], weights: &[f64], links: &[Link]) -> Self {
-        let own = candidates.iter().zip(weights);
-        let own = own.map(|(made, weight)| made.iter().map(|m| weight * m.cost_mm).collect()).collect();
-        let pair = |link: &Link| {
-            let cost = |parent: &Made, child: &Made| {
-                Seated::new(link, parent, child).map_or(f64::INFINITY, |seated| seated.cost_mm())
-            };
-            let of_parent =
-                |parent: &Made| candidates[link.child].iter().map(|child| cost(parent, child)).collect();
-            (link.parent, link.child, candidates[link.parent].iter().map(of_parent).collect())
+    pub(super) fn new(candidates: &[Vec<Made>], weights: &[f64], links: &[Link], bonds: &[Bond]) -> Self {
+        let variable: Vec<usize> = bonds
+            .iter()
+            .enumerate()
+            .map(|(part, bond)| if let Bond::ImageOf(first) = bond { *first } else { part })
+            .collect();
+        let mut own: Vec<Vec<f64>> = candidates.iter().map(|made| vec![0.0; made.len()]).collect();
+        for (part, made) in candidates.iter().enumerate() {
+            for (cost, m) in own[variable[part]].iter_mut().zip(made) {
+                *cost += weights[part] * m.cost_mm;
+            }
+        }
+        let cost = |link: &Link, parent: &Made, child: &Made| {
+            Seated::new(link, parent, child).map_or(f64::INFINITY, |seated| seated.cost_mm())
         };
-        let roots = (0..candidates.len()).filter(|p| links.iter().all(|l| l.child != *p));
-        let downwards = roots.chain(links.iter().map(|l| l.child)).collect();
-        Self { candidates, own, pairs: links.par_iter().map(pair).collect(), downwards }
+        let of_link = |link: &Link| -> Vec<Vec<f64>> {
+            let [parents, children] = [&candidates[link.parent], &candidates[link.child]];
+            let of_parent = |parent: &Made| children.iter().map(|child| cost(link, parent, child)).collect();
+            parents.iter().map(of_parent).collect()
+        };
+        let costs: Vec<Vec<Vec<f64>>> = links.par_iter().map(of_link).collect();
+        let mut pairs: Vec<Pair> = Vec::new();
+        for (link, costs) in links.iter().zip(costs) {
+            let (parent, child) = (variable[link.parent], variable[link.child]);
+            if parent == child {
+                own[parent].iter_mut().enumerate().for_each(|(k, own)| *own += costs[k][k]);
+                continue;
+            }
+            match pairs.iter_mut().find(|pair| (pair.parent, pair.child) == (parent, child)) {
+                Some(pair) => {
+                    let sums = pair.costs.iter_mut().flatten();
+                    sums.zip(costs.iter().flatten()).for_each(|(sum, cost)| *sum += cost);
+                }
+                None => pairs.push(Pair { parent, child, costs }),
+            }
+        }
+        let parents: Vec<Option<usize>> = (0..candidates.len())
+            .map(|part| links.iter().find(|l| l.child == part).map(|l| l.parent))
+            .collect();
+        let is_own = |part: &usize| variable[*part] == *part;
+        let roots = (0..candidates.len()).filter(|p| pairs.iter().all(|pair| pair.child != *p));
+        let downwards = roots.filter(is_own).chain(pairs.iter().map(|pair| pair.child)).collect();
+        Self { variable, own, pairs, downwards, parents }
     }
 
     /// What a combination costs by its parts and joints alone.
     pub(super) fn cost_mm(&self, of: &[usize]) -> f64 {
-        let own: f64 = self.own.iter().zip(of).map(|(costs, &k)| costs[k]).sum();
-        own + self.pairs.iter().map(|(parent, child, costs)| costs[of[*parent]][of[*child]]).sum::<f64>()
+        let own: f64 = self.downwards.iter().map(|&v| self.own[v][of[v]]).sum();
+        own + self.pairs.iter().map(|pair| pair.costs[of[pair.parent]][of[pair.child]]).sum::<f64>()
     }
 
     /// The combination that costs least by its parts and joints, with some candidates given.
     fn cheapest(&self, given: &[(usize, usize)]) -> Combination {
         let mut below = self.own.clone();
         for &(part, only) in given {
-            let others = below[part].iter_mut().enumerate().filter(|(k, _)| *k != only);
+            let others = below[self.variable[part]].iter_mut().enumerate().filter(|(k, _)| *k != only);
             others.for_each(|(_, cost)| *cost = f64::INFINITY);
         }
         for &child in self.downwards.iter().rev() {
-            let Some((parent, _, costs)) = self.pairs.iter().find(|pair| pair.1 == child) else { continue };
-            for (k, row) in costs.iter().enumerate() {
+            let Some(pair) = self.pairs.iter().find(|pair| pair.child == child) else { continue };
+            for (k, row) in pair.costs.iter().enumerate() {
                 let best = row.iter().zip(&below[child]).map(|(pair, own)| pair + own);
                 let best = best.fold(f64::INFINITY, f64::min);
-                below[*parent][k] += best;
+                below[pair.parent][k] += best;
             }
         }
         let mut of = vec![0; self.own.len()];
         for &part in &self.downwards {
-            let above = self.pairs.iter().find(|pair| pair.1 == part);
-            let cost = |k: usize| below[part][k] + above.map_or(0.0, |(p, _, costs)| costs[of[*p]][k]);
+            let above = self.pairs.iter().find(|pair| pair.child == part);
+            let cost = |k: usize| below[part][k] + above.map_or(0.0, |pair| pair.costs[of[pair.parent]][k]);
             let least = (0..below[part].len()).min_by(|&a, &b| cost(a).total_cmp(&cost(b)));
             of[part] = least.unwrap_or(0);
+        }
+        self.spread(of)
+    }
+
+    /// The same with the candidates of variables given to all their parts.
+    fn spread(&self, mut of: Combination) -> Combination {
+        for part in 0..of.len() {
+            of[part] = of[self.variable[part]];
         }
         of
     }
@@ -128,13 +179,14 @@ impl<'a> Choice<'a> {
     /// Combinations in which a part that bumps, or one between two that do, has another candidate: the
     /// cheapest first.
     fn proposals(&self, from: &Look) -> Vec<Combination> {
-        let involved: BTreeSet<usize> = from.bumps.iter().flat_map(|b| self.way(b.0)).collect();
+        let involved = from.bumps.iter().flat_map(|b| self.way(b.0)).map(|part| self.variable[part]);
+        let involved: BTreeSet<usize> = involved.collect();
         let mut proposals: BTreeSet<Combination> = BTreeSet::new();
         for part in involved {
-            for k in (0..self.candidates[part].len()).filter(|k| *k != from.of[part]) {
+            for k in (0..self.own[part].len()).filter(|k| *k != from.of[part]) {
                 let mut only = from.of.clone();
                 only[part] = k;
-                proposals.insert(only);
+                proposals.insert(self.spread(only));
                 proposals.insert(self.cheapest(&[(part, k)]));
             }
         }
@@ -145,8 +197,7 @@ impl<'a> Choice<'a> {
 
     /// Two parts and those between them.
     fn way(&self, [a, b]: [usize; 2]) -> Vec<usize> {
-        let parent = |p: &usize| self.pairs.iter().find(|pair| pair.1 == *p).map(|pair| pair.0);
-        let line = |p: usize| std::iter::successors(Some(p), parent).collect::<Vec<_>>();
+        let line = |p: usize| std::iter::successors(Some(p), |p| self.parents[*p]).collect::<Vec<_>>();
         let (a, b) = (line(a), line(b));
         let shared = a.iter().rev().zip(b.iter().rev()).take_while(|(x, y)| x == y).count();
         // The last shared one is between them.

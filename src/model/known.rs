@@ -2,7 +2,7 @@
 
 use super::candidate::{Builder, Made};
 use super::link::Link;
-use super::{ModelError, Part};
+use super::{ModelError, Part, Symmetry};
 use crate::geom::Hull;
 use crate::memory::Memory;
 use std::sync::Arc;
@@ -20,6 +20,7 @@ struct Wish {
     own: Part,
     /// Its joints, with the hulls of the others.
     links: Vec<(Link, Hull)>,
+    symmetry: Option<Symmetry>,
 }
 
 impl Wish {
@@ -31,7 +32,13 @@ impl Wish {
             let other = if link.parent == part { link.child } else { link.parent };
             (link.clone(), builder.parts[other].hull.clone())
         };
-        Self { part, min_panel_mm: builder.min_panel_mm, own, links: builder.own_links().map(with_hull).collect() }
+        Self {
+            part,
+            min_panel_mm: builder.min_panel_mm,
+            own,
+            links: builder.own_links().map(with_hull).collect(),
+            symmetry: builder.symmetry.cloned(),
+        }
     }
 }
 

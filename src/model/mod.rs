@@ -1,5 +1,6 @@
 //! Joints between components, their tree, and the model's two end states.
 
+mod bond;
 mod build;
 mod candidate;
 mod choice;
@@ -10,6 +11,7 @@ mod pair;
 mod part;
 mod plane;
 mod seat;
+mod symmetry;
 
 pub use build::{Assembly, Built, Judge, Unjudged, build};
 pub use choice::Bump;
@@ -17,6 +19,7 @@ pub use joined::{JoinedPart, Seam};
 pub use known::Known;
 pub use link::{Contact, Link, link_tree, parted};
 pub use part::{ModelError, Part, PartOptions};
+pub use symmetry::Symmetry;
 
 use crate::component::{Component, PanelId};
 use crate::geom::polygon;

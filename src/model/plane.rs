@@ -1,9 +1,12 @@
 //! The plane of a joint between two parts (§4.2.1): least squares through the interface, moved or
 //! turned where that takes less off the two.
 
-use crate::geom::{Hull, Plane, polygon};
+use crate::geom::{Hull, Mirror, Plane, polygon};
 use glam::{DVec2, DVec3};
 
+/// A fitted plane's normal has at least this share along the mirror plane, else it is one between two
+/// sides and not between two parts across.
+const UPRIGHT: f64 = 0.5;
 /// Samples along the longest side of the box round both hulls. With 8 a thin limb has too few to
 /// count; 16 takes eight times as long as 8 and gives the same planes as 12 on the cat and the bunny.
 const SAMPLES: usize = 12;
@@ -23,12 +26,23 @@ const ENOUGH_GLUE: f64 = 0.5;
 const MOVE_PRICE: f64 = 0.05;
 
 /// The plane between two parts, its normal from `parent` to `child`, and the share of either that it
-/// takes off. `points` are where the two meet; `kept` where either meets others.
-pub(super) fn between(points: &[DVec3], parent: &Hull, child: &Hull, kept: [&[DVec3]; 2]) -> (Plane, f64) {
-    let towards = child.centroid() - parent.centroid();
+/// takes off. `points` are where the two meet; `kept` where either meets others. Between parts that
+/// lie `across` a mirror plane it is its own image.
+pub(super) fn between(
+    points: &[DVec3],
+    parent: &Hull,
+    child: &Hull,
+    kept: [&[DVec3]; 2],
+    across: Option<&Mirror>,
+) -> (Plane, f64) {
+    let along = |direction: DVec3| across.map_or(direction, |mirror| mirror.along(direction));
+    let towards = along(child.centroid() - parent.centroid());
     let centre = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
+    let centre = across.map_or(centre, |mirror| mirror.plane().project(centre));
     let facing = |plane: Plane| if plane.normal().dot(towards) < 0.0 { plane.flipped() } else { plane };
-    let fitted = Plane::fit(points).map(|(plane, _)| facing(plane));
+    let is_upright = |normal: &DVec3| normal.length() >= UPRIGHT;
+    let fitted = Plane::fit(points).map(|(plane, _)| along(plane.normal())).filter(is_upright);
+    let fitted = fitted.and_then(|normal| Plane::through(centre, normal)).map(facing);
     let straight = Plane::through(centre, towards);
     let Some(first) = fitted.or(straight) else { return (Plane::horizontal(centre.z), 0.0) };
     let size = points.iter().map(|p| p.distance(centre)).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
@@ -53,7 +67,7 @@ pub(super) fn between(points: &[DVec3], parent: &Hull, child: &Hull, kept: [&[DV
 }
 
 /// The larger share of volume that the plane cuts off either hull.
-fn cut_off(plane: &Plane, parent: &Hull, child: &Hull) -> f64 {
+pub(super) fn cut_off(plane: &Plane, parent: &Hull, child: &Hull) -> f64 {
     let lost =
         |hull: &Hull, plane: &Plane| 1.0 - hull.clip(plane).map_or(0.0, |h| h.volume()) / hull.volume();
     lost(parent, plane).max(lost(child, &plane.flipped()))

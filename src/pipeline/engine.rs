@@ -104,16 +104,20 @@ impl<'m> Engine<'m> {
         let found = (options.size_mm, options.up, options.segmentation);
         let segmented = self.segmented.get_or(found, || {
             let (mesh, to_model) = self.mesh.scaled(options.size_mm, options.up);
-            let segmentation = segment::segment(&mesh, &options.segmentation, progress)?;
+            let symmetry = options.segmentation.symmetry.moved(&to_model);
+            let wanted = SegmentOptions { symmetry, ..options.segmentation };
+            let segmentation = segment::segment(&mesh, &wanted, progress)?;
             Ok::<_, Error>(Arc::new((Parts::new(mesh, segmentation), to_model)))
         })?;
         let (mut parts, to_model) = Arc::unwrap_or_clone(segmented);
         for edit in &options.edits {
             parts = parts.edited(&edit.moved(&to_model))?;
         }
-        if let Some(root) = &options.root {
-            parts = parts.with_root(root)?;
-        }
+        parts = match &options.root {
+            Some(root) => parts.with_root(root)?,
+            None if options.edits.is_empty() => parts,
+            None => parts.with_root_across(),
+        };
         Ok((parts, to_model))
     }
 

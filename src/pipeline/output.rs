@@ -2,7 +2,7 @@
 
 use super::{Error, Hulls, Options, Warning};
 use crate::fold::FoldPlan;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, MirrorPlane};
 use crate::model::Model;
 use crate::net::Net;
 use crate::segment::Parts;
@@ -118,6 +118,11 @@ impl Output {
     /// From the file's coordinates to those of [`Output::mesh`].
     pub fn to_model(&self) -> &DAffine3 {
         self.shaped.divided.to_model()
+    }
+
+    /// The mirror plane of the model; none where it is not symmetric.
+    pub fn mirror_plane(&self) -> Option<&MirrorPlane> {
+        self.shaped.divided.hulls().mirror_plane()
     }
 
     /// The component of each face of [`Output::mesh`]; none where its segment became none.
