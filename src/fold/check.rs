@@ -8,7 +8,7 @@ use super::memory::{Answer, Key, Meeting, SweepMemory};
 use super::overlap::Overlap;
 use super::pose::{ModelMotion, ancestors, root_of};
 use super::step::{FLAT, Level, Levels, Move, share};
-use super::sweep::{Body, Contacts, SheetId, Sweep};
+use super::sweep::{Body, Care, Contacts, SheetId, Sweep};
 use super::track::{Track, table};
 use crate::component::{Panel, PanelId, PanelKind};
 use glam::DAffine3;
@@ -64,7 +64,7 @@ pub(super) struct Checker<'a> {
     ids: &'a [u64],
     memory: &'a SweepMemory,
     tracks: Vec<Track<'a>>,
-    thickness_mm: f64,
+    care: Care,
     /// Each component with those above it.
     above: Vec<Vec<usize>>,
     roots: Vec<usize>,
@@ -80,11 +80,11 @@ pub(super) struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
-    /// Checks for paper of a thickness. Of pairs that stand in each other when deployed only what is
+    /// Checks with some care. Of pairs that stand in each other when deployed only what is
     /// deeper than that is told of.
     pub(super) fn new(
         motion: &'a ModelMotion<'a>,
-        thickness_mm: f64,
+        care: Care,
         overlaps: &[Overlap],
         ids: &'a [u64],
         memory: &'a SweepMemory,
@@ -102,7 +102,7 @@ impl<'a> Checker<'a> {
             ids,
             memory,
             tracks: parts.clone().into_par_iter().map(track).collect(),
-            thickness_mm,
+            care,
             roots: parts.clone().map(|p| root_of(model, p)).collect(),
             above,
             ways,
@@ -171,7 +171,7 @@ impl<'a> Checker<'a> {
         let (mover, pair, _) = question;
         let pair = &self.watched[*mover][*pair];
         let clash = clash(step, pair.parts, self.known.get(question)?)?;
-        let told_mm = pair.overlap_mm.map_or(0.0, |mm| mm + self.thickness_mm / 2.0);
+        let told_mm = pair.overlap_mm.map_or(0.0, |mm| mm + self.care.allowed_mm());
         (clash.depth_mm > told_mm).then_some(clash)
     }
 
@@ -247,7 +247,7 @@ impl<'a> Checker<'a> {
     /// Works out what pairs do while a component moves.
     fn swept(&self, mover: usize, pairs: &[[usize; 2]], levels: &[Level]) -> Vec<Answer> {
         let (bodies, owners) = self.bodies(mover, pairs, levels);
-        let sweep = Sweep::new(&self.tracks[mover], &bodies, self.thickness_mm);
+        let sweep = Sweep::new(&self.tracks[mover], &bodies, self.care);
         let lists: Vec<Vec<[usize; 2]>> = pairs.iter().map(|&pair| moving(pair, &bodies, &owners)).collect();
         let shares = lists.par_chunks(lists.len().div_ceil(SHARES_OF_SWEEP));
         let contacts: Vec<Vec<Contacts>> = shares.map(|lists| sweep.contacts(lists)).collect();
@@ -266,7 +266,7 @@ impl<'a> Checker<'a> {
 
     /// All that decides the answer to a question: paper, mover, and the components on both ways from it.
     fn key(&self, (mover, pair, _): &Question, levels: &[Level]) -> Key {
-        let mut key = vec![self.thickness_mm.to_bits(), self.ids[*mover]];
+        let mut key = vec![self.care.key(), self.ids[*mover]];
         for part in self.watched[*mover][*pair].parts {
             let way = &self.ways[*mover][part];
             key.push(way.len() as u64);
@@ -321,7 +321,7 @@ impl<'a> Checker<'a> {
 
     /// Clash of two chains of one component, whatever the others do.
     pub(super) fn own_clash(&self, mover: usize) -> Option<Clash> {
-        let key = [self.thickness_mm.to_bits(), self.ids[mover]];
+        let key = [self.care.key(), self.ids[mover]];
         let answer = self.memory.own().get_or(key, || self.own_answer(mover));
         clash(Move::whole(mover), [mover; 2], &answer)
     }
@@ -346,7 +346,7 @@ impl<'a> Checker<'a> {
             .clone()
             .flat_map(|(a, i)| sides.clone().filter(move |&(_, j)| i < j).map(move |(b, _)| [a, b]))
             .collect();
-        let sweep = Sweep::new(track, &bodies, self.thickness_mm);
+        let sweep = Sweep::new(track, &bodies, self.care);
         sweep.contacts(&[list]).first().and_then(|contacts| answer(contacts, &owners))
     }
 }

@@ -42,6 +42,8 @@ pub(super) struct Search<'s, 'a> {
     motion: &'s ModelMotion<'a>,
     checker: &'s mut Checker<'a>,
     progress: &'s dyn Progress,
+    /// Whether a long search for the least harm is worth its time.
+    is_thorough: bool,
     dead_ends: BTreeSet<Vec<Level>>,
     most_sweeps: usize,
 }
@@ -51,8 +53,9 @@ impl<'s, 'a> Search<'s, 'a> {
         motion: &'s ModelMotion<'a>,
         checker: &'s mut Checker<'a>,
         progress: &'s dyn Progress,
+        is_thorough: bool,
     ) -> Self {
-        Self { motion, checker, progress, dead_ends: BTreeSet::new(), most_sweeps: 0 }
+        Self { motion, checker, progress, is_thorough, dead_ends: BTreeSet::new(), most_sweeps: 0 }
     }
 
     /// An order for the tree of a root.
@@ -77,7 +80,8 @@ impl<'s, 'a> Search<'s, 'a> {
     fn fallback(&mut self, parts: &[usize]) -> Result<Vec<usize>, Cancelled> {
         let greedy = self.least_bad(parts)?;
         let (as_listed_mm, greedy_mm) = (self.harm_mm(parts), self.harm_mm(&greedy));
-        self.improved(if as_listed_mm <= greedy_mm { parts.to_vec() } else { greedy })
+        let better = if as_listed_mm <= greedy_mm { parts.to_vec() } else { greedy };
+        if self.is_thorough { self.improved(better) } else { Ok(better) }
     }
 
     fn replay(&mut self, order: &[usize]) -> Vec<Clash> {
@@ -177,7 +181,8 @@ impl<'s, 'a> Search<'s, 'a> {
     fn least_bad(&mut self, parts: &[usize]) -> Result<Vec<usize>, Cancelled> {
         let mut levels = self.deployed();
         let mut order = Vec::new();
-        let most_sweeps = self.checker.sweeps() + COMPARED.max(COMPARED_FOR_EACH * parts.len());
+        let compared = if self.is_thorough { COMPARED.max(COMPARED_FOR_EACH * parts.len()) } else { parts.len() };
+        let most_sweeps = self.checker.sweeps() + compared;
         while order.len() < parts.len() {
             if self.checker.sweeps() > most_sweeps {
                 order.extend(parts.iter().filter(|&&p| levels[p] == 0));

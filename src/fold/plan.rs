@@ -8,6 +8,7 @@ use super::overlap::{Overlap, overlaps};
 use super::pose::{ModelMotion, root_of};
 use super::stack::{Stack, stacks};
 use super::step::{Move, Step};
+use super::sweep::Care;
 use crate::model::Model;
 use crate::progress::{Cancelled, Progress};
 use rayon::prelude::*;
@@ -27,7 +28,7 @@ pub struct FoldPlan {
 /// How far the search goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Effort {
-    /// The best order, one component after another.
+    /// A good order, one component after another, by samples.
     Order,
     /// Steps of several components in turn, where no order is free; and the flat stacks.
     Whole,
@@ -71,8 +72,8 @@ impl FoldPlan {
         Self::searched(motion, thickness_mm, ids, memory, progress, Effort::Whole)
     }
 
-    /// A plan for the comparison of many models: the best order, without steps of several components
-    /// in turn, and without stacks. Ids and memory as for [`FoldPlan::with_memory`].
+    /// A plan for the comparison of many models: a good order by samples of the motions, without steps
+    /// of several components in turn, and without stacks. Ids and memory as for [`FoldPlan::with_memory`].
     ///
     /// # Errors
     /// [`Cancelled`] at the user's wish.
@@ -96,13 +97,17 @@ impl FoldPlan {
     ) -> Result<Self, Cancelled> {
         let overlaps = overlaps(motion, thickness_mm / 2.0, ids, memory);
         let parts = motion.model().parts().len();
-        let mut checker = Checker::new(motion, thickness_mm, &overlaps, ids, memory);
+        let care = match effort {
+            Effort::Order => Care::rough(thickness_mm),
+            Effort::Whole => Care::exact(thickness_mm),
+        };
+        let mut checker = Checker::new(motion, care, &overlaps, ids, memory);
         let own: Vec<Option<Clash>> = (0..parts).into_par_iter().map(|p| checker.own_clash(p)).collect();
         let mut clashes: Vec<Clash> = own.into_iter().flatten().collect();
         progress.check()?;
         let mut moves = Vec::new();
         for root in (0..parts).filter(|&p| root_of(motion.model(), p) == p) {
-            let order = Search::new(motion, &mut checker, progress).tree(root)?;
+            let order = Search::new(motion, &mut checker, progress, effort == Effort::Whole).tree(root)?;
             let mut tree: Vec<Move> = order.into_iter().map(Move::whole).collect();
             if effort == Effort::Whole {
                 tree = interleaved(&mut checker, tree, parts, thickness_mm, progress)?;

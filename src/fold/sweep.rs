@@ -30,6 +30,8 @@ const FIRST_SPANS: usize = 2;
 const DEPTH_SAMPLES: usize = 3;
 /// Spans are not halved more often than this, 1e-6 of the motion.
 const MOST_HALVINGS: usize = 16;
+/// For a comparison of models they are halved so often: 64 samples of a motion.
+const ROUGH_HALVINGS: usize = 2;
 /// Sheets nearer to one plane than this are on neither side of each other.
 const SAME_PLANE_MM: f64 = 1e-6;
 /// Gaps are computed for spans in which sheets move less than this share of their size: in longer
@@ -115,13 +117,44 @@ pub(super) struct Contact {
 /// Contacts in each cell.
 pub(super) type Contacts = [Option<Contact>; FLAT as usize];
 
+/// How closely motions are looked at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Care {
+    /// Contacts up to this depth are none, mm.
+    allowed_mm: f64,
+    /// Spans are not halved more often than this.
+    most_halvings: usize,
+}
+
+impl Care {
+    /// Nothing deeper than half the paper's thickness slips through.
+    pub(super) fn exact(thickness_mm: f64) -> Self {
+        Self { allowed_mm: thickness_mm / 2.0, most_halvings: MOST_HALVINGS }
+    }
+
+    /// Samples, for the comparison of many models: what two panels do to each other for a moment may
+    /// be missed, and what paper gives way to is none.
+    pub(super) fn rough(thickness_mm: f64) -> Self {
+        Self { allowed_mm: thickness_mm, most_halvings: ROUGH_HALVINGS }
+    }
+
+    /// Words that stand for it.
+    pub(super) fn key(self) -> u64 {
+        self.allowed_mm.to_bits() ^ self.most_halvings as u64
+    }
+
+    /// See [`Care`].
+    pub(super) fn allowed_mm(self) -> f64 {
+        self.allowed_mm
+    }
+}
+
 /// One component's motion with everything that rides on it.
 #[derive(Debug)]
 pub(super) struct Sweep<'a> {
     track: &'a Track<'a>,
     bodies: &'a [Body],
-    /// Contacts up to this depth are none.
-    allowed_mm: f64,
+    care: Care,
 }
 
 /// Two bodies, or two sheets of theirs, that may meet, and the list that they belong to.
@@ -134,9 +167,9 @@ struct Pair<T> {
 }
 
 impl<'a> Sweep<'a> {
-    /// The motion of a component with bodies that may meet, for paper of a thickness.
-    pub(super) fn new(track: &'a Track<'a>, bodies: &'a [Body], thickness_mm: f64) -> Self {
-        Self { track, bodies, allowed_mm: thickness_mm / 2.0 }
+    /// The motion of a component with bodies that may meet.
+    pub(super) fn new(track: &'a Track<'a>, bodies: &'a [Body], care: Care) -> Self {
+        Self { track, bodies, care }
     }
 
     /// For each list of pairs of bodies the contacts in each cell.
@@ -172,7 +205,7 @@ impl<'a> Sweep<'a> {
     fn deepest(&self, first: First, list: &[[usize; 2]], cell: Range<f64>) -> Contact {
         // What has changed sides has no depth, but is no lighter than what is just too deep.
         let mut deepest =
-            Contact { folded: first.folded, sheets: first.sheets, depth_mm: self.allowed_mm };
+            Contact { folded: first.folded, sheets: first.sheets, depth_mm: self.care.allowed_mm };
         let mut scratch = Default::default();
         for k in 0..DEPTH_SAMPLES {
             let part = k as f64 / (DEPTH_SAMPLES - 1) as f64;
@@ -316,15 +349,15 @@ impl Run<'_> {
             self.sides.remove(&pair.members);
             return None;
         }
-        if way > SHORT * (balls[0].1.radius_mm + balls[1].1.radius_mm) && halvings < MOST_HALVINGS {
+        if way > SHORT * (balls[0].1.radius_mm + balls[1].1.radius_mm) && halvings < sweep.care.most_halvings {
             return Some(pair);
         }
         sweep.pose(pair.members, span[1], &mut self.scratch);
-        let enough = way - sweep.allowed_mm;
+        let enough = way - sweep.care.allowed_mm;
         let gap = gap(&self.scratch[0], &self.scratch[1], enough, pair.axis);
         pair.axis = gap.axis;
-        let is_settled = gap.mm > enough || halvings == MOST_HALVINGS;
-        if gap.mm < -sweep.allowed_mm || (is_settled && self.has_changed_sides(&pair, gap.mm <= way)) {
+        let is_settled = gap.mm > enough || halvings == sweep.care.most_halvings;
+        if gap.mm < -sweep.care.allowed_mm || (is_settled && self.has_changed_sides(&pair, gap.mm <= way)) {
             self.found[pair.list] = Some(First { sheets: pair.members, folded: span[1].folded });
             return None;
         }
@@ -337,7 +370,7 @@ impl Run<'_> {
             self.sides.remove(&pair.members);
             return false;
         }
-        match facing_mm(&self.scratch[0], &self.scratch[1], self.sweep.allowed_mm) {
+        match facing_mm(&self.scratch[0], &self.scratch[1], self.sweep.care.allowed_mm) {
             Some(height_mm) if height_mm.abs() < SAME_PLANE_MM => false,
             Some(height_mm) => {
                 let is_above = height_mm > 0.0;
