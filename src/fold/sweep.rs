@@ -21,7 +21,6 @@ use super::track::{Moment, Track};
 use crate::component::PanelId;
 use glam::DVec3;
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 /// Spans that each cell between two levels is divided into at first: in spans of more than a 16th of the
 /// motion hardly a pair can be let go.
@@ -30,8 +29,9 @@ const FIRST_SPANS: usize = 2;
 const DEPTH_SAMPLES: usize = 3;
 /// Spans are not halved more often than this, 1e-6 of the motion.
 const MOST_HALVINGS: usize = 16;
-/// For a comparison of models they are halved so often: 64 samples of a motion.
-const ROUGH_HALVINGS: usize = 2;
+/// For a comparison of models a cell is looked at so many times: 24 samples of a motion, as a person
+/// would step through it.
+const ROUGH_SAMPLES: usize = 3;
 /// Sheets nearer to one plane than this are on neither side of each other.
 const SAME_PLANE_MM: f64 = 1e-6;
 /// Gaps are computed for spans in which sheets move less than this share of their size: in longer
@@ -122,28 +122,27 @@ pub(super) type Contacts = [Option<Contact>; FLAT as usize];
 pub(super) struct Care {
     /// Contacts up to this depth are none, mm.
     allowed_mm: f64,
-    /// Spans are not halved more often than this.
-    most_halvings: usize,
+    is_exact: bool,
 }
 
 impl Care {
     /// Nothing deeper than half the paper's thickness slips through.
     pub(super) fn exact(thickness_mm: f64) -> Self {
-        Self { allowed_mm: thickness_mm / 2.0, most_halvings: MOST_HALVINGS }
+        Self { allowed_mm: thickness_mm / 2.0, is_exact: true }
     }
 
     /// Samples, for the comparison of many models: what two panels do to each other for a moment may
     /// be missed, and what paper gives way to is none.
     pub(super) fn rough(thickness_mm: f64) -> Self {
-        Self { allowed_mm: thickness_mm, most_halvings: ROUGH_HALVINGS }
+        Self { allowed_mm: thickness_mm, is_exact: false }
     }
 
-    /// Words that stand for it.
+    /// A word that stands for it.
     pub(super) fn key(self) -> u64 {
-        self.allowed_mm.to_bits() ^ self.most_halvings as u64
+        self.allowed_mm.to_bits() ^ u64::from(self.is_exact)
     }
 
-    /// See [`Care`].
+    /// Contacts up to this depth are none, mm.
     pub(super) fn allowed_mm(self) -> f64 {
         self.allowed_mm
     }
@@ -174,6 +173,11 @@ impl<'a> Sweep<'a> {
 
     /// For each list of pairs of bodies the contacts in each cell.
     pub(super) fn contacts(&self, lists: &[Vec<[usize; 2]>]) -> Vec<Contacts> {
+        if self.care.is_exact { self.followed(lists) } else { self.sampled(lists) }
+    }
+
+    /// Contacts by halving the time.
+    fn followed(&self, lists: &[Vec<[usize; 2]>]) -> Vec<Contacts> {
         let pairs: Vec<Pair<usize>> = lists
             .iter()
             .enumerate()
@@ -194,43 +198,77 @@ impl<'a> Sweep<'a> {
                 run.span(&from, &to, &pairs, &[], 0);
                 from = to;
             }
-            for (list, found) in run.next_cell() {
-                contacts[list][usize::from(cell)] = Some(self.deepest(found, &lists[list], low..high));
+            let found = run.next_cell();
+            if found.is_empty() {
+                continue;
+            }
+            let sample = |k: usize| self.track.at(low + (high - low) * k as f64 / (DEPTH_SAMPLES - 1) as f64);
+            let moments: Vec<Moment<'_>> = (0..DEPTH_SAMPLES).map(sample).collect();
+            for (list, First { sheets, folded }) in found {
+                // What has changed sides has no depth, but is no lighter than what is just too deep.
+                let mut deepest = Contact { folded, sheets, depth_mm: self.care.allowed_mm };
+                for moment in &moments {
+                    if let Some((sheets, depth_mm)) = self.deepest(&lists[list], moment, deepest.depth_mm) {
+                        deepest = Contact { sheets, depth_mm, ..deepest };
+                    }
+                }
+                contacts[list][usize::from(cell)] = Some(deepest);
             }
         }
         contacts
     }
 
-    /// The first contact of a list with the depth that is reached in its cell.
-    fn deepest(&self, first: First, list: &[[usize; 2]], cell: Range<f64>) -> Contact {
-        // What has changed sides has no depth, but is no lighter than what is just too deep.
-        let mut deepest =
-            Contact { folded: first.folded, sheets: first.sheets, depth_mm: self.care.allowed_mm };
-        let mut scratch = Default::default();
-        for k in 0..DEPTH_SAMPLES {
-            let part = k as f64 / (DEPTH_SAMPLES - 1) as f64;
-            let moment = self.track.at(cell.start + part * (cell.end - cell.start));
-            for &[a, b] in list {
-                let bodies = [a, b].map(|body| &self.bodies[body]);
-                if are_far(bodies.map(|body| (body, &body.ball)), &moment, 0.0) {
-                    continue;
-                }
-                for (i, p) in bodies[0].sheets.iter().enumerate() {
-                    for (j, q) in bodies[1].sheets.iter().enumerate() {
-                        if are_far([(bodies[0], &p.1), (bodies[1], &q.1)], &moment, 0.0) {
-                            continue;
-                        }
-                        let sheets = [(a, i), (b, j)];
-                        self.pose(sheets, &moment, &mut scratch);
-                        let depth_mm = -gap(&scratch[0], &scratch[1], -deepest.depth_mm, 0).mm;
-                        if depth_mm > deepest.depth_mm {
-                            deepest = Contact { sheets, depth_mm, ..deepest };
-                        }
+    /// Contacts at a few moments of each cell.
+    fn sampled(&self, lists: &[Vec<[usize; 2]>]) -> Vec<Contacts> {
+        let mut contacts: Vec<Contacts> = vec![[None; FLAT as usize]; lists.len()];
+        for cell in 0..FLAT {
+            let (low, high) = (share(cell), share(cell + 1));
+            for k in 1..=ROUGH_SAMPLES {
+                let moment = self.track.at(low + (high - low) * k as f64 / ROUGH_SAMPLES as f64);
+                for (list, contacts) in lists.iter().zip(&mut contacts) {
+                    let contact = &mut contacts[usize::from(cell)];
+                    let least_mm = contact.map_or(self.care.allowed_mm, |contact| contact.depth_mm);
+                    if let Some((sheets, depth_mm)) = self.deepest(list, &moment, least_mm) {
+                        let folded = contact.map_or(moment.folded, |contact| contact.folded);
+                        *contact = Some(Contact { folded, sheets, depth_mm });
                     }
                 }
             }
         }
-        deepest
+        contacts
+    }
+
+    /// The sheets of a list that are deepest in each other at some moment, and how deep, where that is
+    /// more than `least_mm`.
+    fn deepest(
+        &self,
+        list: &[[usize; 2]],
+        moment: &Moment<'_>,
+        least_mm: f64,
+    ) -> Option<([SheetId; 2], f64)> {
+        let mut deepest = None;
+        let mut deepest_mm = least_mm;
+        let mut scratch = Default::default();
+        for &[a, b] in list {
+            let bodies = [a, b].map(|body| &self.bodies[body]);
+            if are_far(bodies.map(|body| (body, &body.ball)), moment, 0.0) {
+                continue;
+            }
+            for (i, p) in bodies[0].sheets.iter().enumerate() {
+                for (j, q) in bodies[1].sheets.iter().enumerate() {
+                    if are_far([(bodies[0], &p.1), (bodies[1], &q.1)], moment, 0.0) {
+                        continue;
+                    }
+                    let sheets = [(a, i), (b, j)];
+                    self.pose(sheets, moment, &mut scratch);
+                    let depth_mm = -gap(&scratch[0], &scratch[1], -deepest_mm, 0).mm;
+                    if depth_mm > deepest_mm {
+                        (deepest, deepest_mm) = (Some(sheets), depth_mm);
+                    }
+                }
+            }
+        }
+        deepest.map(|sheets| (sheets, deepest_mm))
     }
 
     fn pose(&self, sheets: [SheetId; 2], at: &Moment<'_>, scratch: &mut [Sheet; 2]) {
@@ -349,14 +387,14 @@ impl Run<'_> {
             self.sides.remove(&pair.members);
             return None;
         }
-        if way > SHORT * (balls[0].1.radius_mm + balls[1].1.radius_mm) && halvings < sweep.care.most_halvings {
+        if way > SHORT * (balls[0].1.radius_mm + balls[1].1.radius_mm) && halvings < MOST_HALVINGS {
             return Some(pair);
         }
         sweep.pose(pair.members, span[1], &mut self.scratch);
         let enough = way - sweep.care.allowed_mm;
         let gap = gap(&self.scratch[0], &self.scratch[1], enough, pair.axis);
         pair.axis = gap.axis;
-        let is_settled = gap.mm > enough || halvings == sweep.care.most_halvings;
+        let is_settled = gap.mm > enough || halvings == MOST_HALVINGS;
         if gap.mm < -sweep.care.allowed_mm || (is_settled && self.has_changed_sides(&pair, gap.mm <= way)) {
             self.found[pair.list] = Some(First { sheets: pair.members, folded: span[1].folded });
             return None;
