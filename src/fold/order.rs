@@ -186,7 +186,8 @@ impl<'s, 'a> Search<'s, 'a> {
             let mut best: Option<(f64, usize)> = None;
             for &part in parts.iter().filter(|&&p| levels[p] == 0) {
                 self.progress.check()?;
-                let harm: f64 = self.checker.clashes(Move::whole(part), &levels).iter().map(|c| c.depth_mm).sum();
+                let harm: f64 =
+                    self.checker.clashes(Move::whole(part), &levels).iter().map(|c| c.depth_mm).sum();
                 if best.is_none_or(|b| harm < b.0) {
                     best = Some((harm, part));
                 }

@@ -171,8 +171,7 @@ impl<'a> Sweep<'a> {
     /// The first contact of a list with the depth that is reached in its cell.
     fn deepest(&self, first: First, list: &[[usize; 2]], cell: Range<f64>) -> Contact {
         // What has changed sides has no depth, but is no lighter than what is just too deep.
-        let mut deepest =
-            Contact { folded: first.folded, sheets: first.sheets, depth_mm: self.allowed_mm };
+        let mut deepest = Contact { folded: first.folded, sheets: first.sheets, depth_mm: self.allowed_mm };
         let mut scratch = Default::default();
         for k in 0..DEPTH_SAMPLES {
             let part = k as f64 / (DEPTH_SAMPLES - 1) as f64;
