@@ -29,6 +29,9 @@ const AT_ONCE: usize = 4;
 /// What two parts do to each other: their numbers, and how deep they bump, mm.
 pub type Bump = ([usize; 2], f64);
 
+/// Tells what the parts of a combination do to each other.
+type Bumping<'a> = dyn Fn(&[usize]) -> Result<Vec<Bump>, Cancelled> + Sync + 'a;
+
 /// Candidates of all parts and what they cost.
 ///
 /// Parts that are images of each other share a variable, as candidate k of one is the image of
@@ -79,9 +82,22 @@ impl Choice {
             parents.iter().map(of_parent).collect()
         };
         let costs: Vec<Vec<Vec<f64>>> = links.par_iter().map(of_link).collect();
+        let joints = links.iter().map(|link| [link.parent, link.child]).zip(costs).collect();
+        Self::of_costs(variable, own, joints)
+    }
+
+    /// `own` has what variables cost, in the places of their parts; `joints` have parent and child, a
+    /// parent's own joint before its children's, and their costs by the parent's candidate and the child's.
+    fn of_costs(
+        variable: Vec<usize>,
+        mut own: Vec<Vec<f64>>,
+        joints: Vec<([usize; 2], Vec<Vec<f64>>)>,
+    ) -> Self {
+        let mut parents: Vec<Option<usize>> = vec![None; variable.len()];
         let mut pairs: Vec<Pair> = Vec::new();
-        for (link, costs) in links.iter().zip(costs) {
-            let (parent, child) = (variable[link.parent], variable[link.child]);
+        for ([parent, child], costs) in joints {
+            parents[child] = Some(parent);
+            let (parent, child) = (variable[parent], variable[child]);
             if parent == child {
                 own[parent].iter_mut().enumerate().for_each(|(k, own)| *own += costs[k][k]);
                 continue;
@@ -94,11 +110,8 @@ impl Choice {
                 None => pairs.push(Pair { parent, child, costs }),
             }
         }
-        let parents: Vec<Option<usize>> = (0..candidates.len())
-            .map(|part| links.iter().find(|l| l.child == part).map(|l| l.parent))
-            .collect();
         let is_own = |part: &usize| variable[*part] == *part;
-        let roots = (0..candidates.len()).filter(|p| pairs.iter().all(|pair| pair.child != *p));
+        let roots = (0..variable.len()).filter(|p| pairs.iter().all(|pair| pair.child != *p));
         let downwards = roots.filter(is_own).chain(pairs.iter().map(|pair| pair.child)).collect();
         Self { variable, own, pairs, downwards, parents }
     }
@@ -143,10 +156,7 @@ impl Choice {
     }
 
     /// The best combination found; `bumps` tells what parts of one do to each other while they fold.
-    pub(super) fn best(
-        &self,
-        bumps: &(dyn Fn(&[usize]) -> Result<Vec<Bump>, Cancelled> + Sync),
-    ) -> Result<Combination, Cancelled> {
+    pub(super) fn best(&self, bumps: &Bumping<'_>) -> Result<Combination, Cancelled> {
         let look = |of: Combination| {
             let bumps = bumps(&of)?;
             let harm: f64 = bumps.iter().map(|b| BUMP_PRICE_MM + DEPTH_PRICE * b.1).sum();

@@ -247,9 +247,11 @@ pub fn parted(
 
 /// A plane between neighbours without a joint may cut off at most this share of either.
 const CLIP_SHARE: f64 = 0.2;
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::Mirror;
 
     fn cube(at: DVec3, side: f64) -> Hull {
         let points: Vec<DVec3> = (0..8)
