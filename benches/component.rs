@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use tatamu::component::{Target, convert};
 use tatamu::geom::{Hull, directions};
 use tatamu::mesh::{self, Mesh};
-use tatamu::model::{self, Known};
+use tatamu::model::{self, Known, Unjudged};
 use tatamu::pipeline::{self, Bodies, Hulls, Options};
 use tatamu::progress::Silent;
 
@@ -65,5 +65,5 @@ fn bodies(path: &Path) -> Option<Bodies> {
 #[divan::bench(args = meshes())]
 fn whole_model(bencher: Bencher, mesh: &Named) {
     let Some(bodies) = bodies(&mesh.0) else { return };
-    bencher.bench(|| model::build(bodies.parts(), bodies.links(), 3.0, &Known::default(), &Silent).is_ok());
+    bencher.bench(|| model::build(&bodies.assembly(3.0), &Known::default(), &Unjudged, &Silent).is_ok());
 }

@@ -9,7 +9,7 @@ use input::path_and_options;
 use std::error::Error;
 use std::time::Instant;
 use tatamu::mesh::{self, Mesh};
-use tatamu::model::{self, Known, Model, Part};
+use tatamu::model::{self, Assembly, Known, Model, Part, Unjudged};
 use tatamu::pipeline::{self, Bodies, Hulls};
 use tatamu::progress::Silent;
 
@@ -51,11 +51,12 @@ fn measure(
     for part in &mut parts {
         (part.options.top_edges, part.options.profile_vertices) = (edges, vertices);
     }
+    let assembly = Assembly { parts: &parts, ..bodies.assembly(least_mm) };
     let mut fastest_ms = f64::INFINITY;
     let mut made: Option<Model> = None;
     for _ in 0..RUNS {
         let start = Instant::now();
-        made = Some(model::build(&parts, bodies.links(), least_mm, &Known::default(), &Silent)?);
+        made = Some(model::build(&assembly, &Known::default(), &Unjudged, &Silent)?.model);
         fastest_ms = fastest_ms.min(start.elapsed().as_secs_f64() * 1e3);
     }
     let Some(model) = made else { return Ok(()) };

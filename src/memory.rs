@@ -37,10 +37,16 @@ impl<K: PartialEq, V: Clone> Memory<K, V> {
             return Ok(value);
         }
         let value = make()?;
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.push_front((key, value.clone()));
-        kept.truncate(self.most);
+        self.keep(key, value.clone());
         Ok(value)
+    }
+
+    /// Keeps a result that was made elsewhere, in the place of what was known for the same input.
+    pub fn keep(&self, key: K, value: V) {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.retain(|(known, _)| *known != key);
+        kept.push_front((key, value));
+        kept.truncate(self.most);
     }
 }
 
@@ -68,5 +74,8 @@ mod tests {
         assert_eq!(made, [1, 2, 3, 2]);
         assert_eq!(memory.get_or(7, || Err("no")), Err("no"));
         assert_eq!(memory.get(&7), None);
+        memory.keep(7, 71);
+        memory.keep(7, 72);
+        assert_eq!(memory.get(&7), Some(72), "the last one counts");
     }
 }

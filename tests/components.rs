@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::mem::discriminant;
 use tatamu::component::distance::{Polytope, hausdorff};
-use tatamu::component::{Component, JointTarget, Panel, Seat, Target, convert, fewest};
+use tatamu::component::{Component, JointTarget, Panel, Seat, Target, choose, convert, fewest};
 use tatamu::geom::{Hull, Plane, directions, polygon};
 
 const LEAST_MM: f64 = 3.0;
@@ -242,14 +242,22 @@ fn a_tolerance_is_reached_with_the_fewest_edges_and_vertices() {
     let hull = Hull::of_points(&points).expect("an egg");
     let body = Body { name: "egg".into(), hull, joints: Vec::new(), edges: 9, vertices: 8 };
     let targets = [(body.target(), 0.0)];
+    let error_mm = |top_edges: usize, profile_vertices: usize| {
+        let target = Target { top_edges, profile_vertices, ..body.target() };
+        choose(&[(target, 0.0)]).map_or(f64::INFINITY, |chosen| chosen.1.hausdorff_mm())
+    };
     let [coarse, fine] = [9.0, 4.0].map(|tolerance_mm| {
-        let (_, component) = fewest(&targets, tolerance_mm).expect("a component");
-        assert!(component.hausdorff_mm() <= tolerance_mm, "{}", component.hausdorff_mm());
-        component.panels().panels().len()
+        let (edges, vertices) = fewest(&targets, tolerance_mm).expect("counts");
+        assert!(error_mm(edges, vertices) <= tolerance_mm, "{}", error_mm(edges, vertices));
+        for (fewer, counts) in [(edges, (edges - 1, vertices)), (vertices, (edges, vertices - 1))] {
+            assert!(fewer == 3 || error_mm(counts.0, counts.1) > tolerance_mm, "{counts:?} would do");
+        }
+        edges + vertices
     });
     assert!(coarse < fine, "{coarse} {fine}");
-    let (_, closest) = fewest(&targets, 1e-3).expect("a component");
-    assert!(closest.hausdorff_mm() > 1e-3 && closest.hausdorff_mm() < 4.0);
+    let (edges, vertices) = fewest(&targets, 1e-3).expect("counts");
+    let closest_mm = error_mm(edges, vertices);
+    assert!(closest_mm > 1e-3 && closest_mm < 4.0, "{closest_mm} mm");
 }
 
 /// Exact distances of random polytopes, against sampled directions from below and against sampled

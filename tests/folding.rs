@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use tatamu::component::{Panel, PanelId, PanelKind};
 use tatamu::fold::{FoldPlan, ModelMotion, ModelPose, Sequence, SweepMemory};
 use tatamu::geom::{self, Hull, Plane};
-use tatamu::model::{Known, Link, Model, Part, PartOptions, build};
+use tatamu::model::{Assembly, Known, Link, Model, Part, PartOptions, Unjudged, build};
 use tatamu::progress::Silent;
 
 const THICKNESS_MM: f64 = 0.25;
@@ -26,6 +26,11 @@ fn cuboid(name: &str, low: DVec3, size: DVec3) -> Part {
     Part { hull: Hull::of_points(&corners).unwrap(), options }
 }
 
+fn built(parts: &[Part], links: &[Link]) -> Model {
+    let assembly = Assembly { parts, links, symmetry: None, min_panel_mm: 3.0 };
+    build(&assembly, &Known::default(), &Unjudged, &Silent).unwrap().model
+}
+
 /// A head with two ears on its top, `gap_mm` apart. All fold downwards.
 fn ears(gap_mm: f64) -> Model {
     let head = cuboid("head", DVec3::new(-80.0, -35.0, -40.0), DVec3::new(160.0, 70.0, 40.0));
@@ -34,7 +39,7 @@ fn ears(gap_mm: f64) -> Model {
     let right = cuboid("right", DVec3::new(0.5 * gap_mm, -22.0, 0.0), size);
     let plane = Plane::horizontal(0.0);
     let links = [1, 2].map(|child| Link { parent: 0, child, plane });
-    build(&[head, left, right], &links, 3.0, &Known::default(), &Silent).unwrap()
+    built(&[head, left, right], &links)
 }
 
 fn plan(motion: &ModelMotion<'_>) -> FoldPlan {
@@ -186,7 +191,7 @@ fn bulges() -> Vec<Model> {
     pairs
         .map(|[left, right]| {
             let parts = [head.clone(), part("left", left), part("right", right)];
-            build(&parts, &links, 3.0, &Known::default(), &Silent).unwrap()
+            built(&parts, &links)
         })
         .into()
 }
@@ -220,7 +225,7 @@ fn cap_on_post() -> Model {
     ];
     let links = [(0, 1, 0.0), (1, 2, 51.0), (0, 3, 0.0)];
     let links = links.map(|(parent, child, z)| Link { parent, child, plane: Plane::horizontal(z) });
-    build(&parts, &links, 3.0, &Known::default(), &Silent).unwrap()
+    built(&parts, &links)
 }
 
 /// All orders of so many components.
@@ -296,7 +301,7 @@ fn chains_of_one_component_agree_with_brute_force() {
         part.hull = Hull::of_points(&points).unwrap();
         part.options.direction_rad = Some(6.0 * rng.f64());
         (part.options.top_edges, part.options.profile_vertices) = (3 + rng.usize(..5), 3 + rng.usize(..4));
-        let model = build(&[part], &[], 3.0, &Known::default(), &Silent).unwrap();
+        let model = built(&[part], &[]);
         let motion = ModelMotion::new(&model);
         let told = !plan(&motion).clashes().is_empty();
         let poses = || (1..200).map(|k| chains(&model, &motion.pose(&[f64::from(k) / 200.0])));

@@ -7,7 +7,7 @@ use lopdf::content::Content;
 use lopdf::{Document, Object};
 use made::{Fold, Made, samples};
 use tatamu::check;
-use tatamu::component::FaceId;
+use tatamu::component::{FaceId, PanelId};
 use tatamu::geom::Hull;
 use tatamu::pipeline::Options;
 
@@ -265,4 +265,34 @@ fn bars(content: &[u8]) -> Vec<[DVec2; 2]> {
         }
     }
     out
+}
+
+/// Not of all: a handle is on one side.
+#[test]
+fn models_of_symmetric_meshes_are_their_own_mirror_images() {
+    let mut symmetric = Vec::new();
+    for Made { name, output, .. } in samples() {
+        let hulls = output.shaped().divided().hulls();
+        let Some(symmetry) = hulls.symmetry() else { continue };
+        symmetric.push(*name);
+        let (model, mirror) = (output.model(), symmetry.mirror());
+        let outlines = |part: usize| -> Vec<Vec<DVec3>> {
+            let count = model.parts()[part].component.panels().panels().len();
+            (0..count).map(|panel| model.deployed_outline(part, PanelId(panel))).collect()
+        };
+        for part in 0..model.parts().len() {
+            let twins = outlines(symmetry.twin(part));
+            assert_eq!(outlines(part).len(), twins.len(), "{name}: panels of part {part}");
+            for outline in outlines(part) {
+                let image: Vec<DVec3> = outline.iter().map(|p| mirror.point(*p)).collect();
+                let is_near =
+                    |p: &DVec3, outline: &[DVec3]| outline.iter().any(|q| q.distance(*p) <= TOLERANCE_MM);
+                let is_image = |twin: &Vec<DVec3>| {
+                    image.iter().all(|p| is_near(p, twin)) && twin.iter().all(|p| is_near(p, &image))
+                };
+                assert!(twins.iter().any(is_image), "{name}: a panel of part {part} has no image");
+            }
+        }
+    }
+    assert!(["teddy", "rabbit", "box"].iter().all(|name| symmetric.contains(name)), "{symmetric:?}");
 }

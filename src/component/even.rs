@@ -106,7 +106,7 @@ pub(super) fn vertices(planes: usize) -> usize {
 
 /// Where a level chain of so many planes folds: in its middle.
 pub(super) fn middle(planes: usize) -> FoldSpot {
-    if planes % 2 == 0 { FoldSpot::Bend(planes / 2 - 1) } else { FoldSpot::Inside(planes / 2) }
+    if planes.is_multiple_of(2) { FoldSpot::Bend(planes / 2 - 1) } else { FoldSpot::Inside(planes / 2) }
 }
 
 /// The planes above z = 0 with their images, and the upright one, if any.

@@ -42,7 +42,7 @@ impl Freedom {
         let twins: Vec<usize> = (0..solid.chains.len()).map(|j| twin(solid, symmetry, j)).collect();
         let mut angles: Vec<Parameter> = Vec::with_capacity(twins.len());
         for (j, chain) in solid.chains.iter().enumerate() {
-            let is_free = !chain.is_locked && !(is_upright && twins[j] == j);
+            let is_free = !(chain.is_locked || is_upright && twins[j] == j);
             angles.push(if twins[j] < j { image(angles[twins[j]]) } else { take(is_free) });
         }
         let mut facets: Vec<Vec<[Parameter; 2]>> = Vec::with_capacity(twins.len());

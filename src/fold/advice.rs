@@ -51,7 +51,9 @@ fn of_rub(model: &Model, clash: &Clash) -> Advice {
     let message = if a == b {
         format!("two panels of {a} rub against each other ({depth_mm:.2} mm) when {when}: fold it with care")
     } else {
-        format!("{a} and {b} rub against each other ({depth_mm:.2} mm) when {when}: bend them apart a little there")
+        format!(
+            "{a} and {b} rub against each other ({depth_mm:.2} mm) when {when}: bend them apart a little there"
+        )
     };
     ("fold_rub", message)
 }
@@ -60,7 +62,8 @@ fn of_clash(model: &Model, clash: &Clash) -> Advice {
     let (depth_mm, when) = (clash.depth_mm, moment(model, clash));
     let [a, b] = [0, 1].map(|k| place(model, clash.parts[k], clash.panels[k]));
     if clash.parts[0] == clash.parts[1] {
-        let message = format!("{a} and {b} bump by {depth_mm:.1} mm when {when}: cut the slit between them wider");
+        let message =
+            format!("{a} and {b} bump by {depth_mm:.1} mm when {when}: cut the slit between them wider");
         return ("own_fold_clash", message);
     }
     ("fold_clash", format!("{a} and {b} bump by {depth_mm:.1} mm when {when}: fold by hand with care there"))
@@ -82,7 +85,13 @@ fn place(model: &Model, part: usize, panel: PanelId) -> String {
 /// How far the component that moves is folded when the two meet, to the quarter.
 fn moment(model: &Model, clash: &Clash) -> String {
     let mover = &model.parts()[clash.mover].name;
-    let quarters = ["begins to fold", "is a quarter folded", "is half folded", "is three quarters folded", "is almost flat"];
+    let quarters = [
+        "begins to fold",
+        "is a quarter folded",
+        "is half folded",
+        "is three quarters folded",
+        "is almost flat",
+    ];
     let quarter = (4.0 * clash.folded).round().clamp(0.0, 4.0) as usize;
     format!("{mover} {}", quarters[quarter])
 }

@@ -112,8 +112,7 @@ impl<'a> Checker<'a> {
             accepted: BTreeSet::new(),
             sweeps: 0,
         };
-        let deployed_mm: BTreeMap<[usize; 2], f64> =
-            overlaps.iter().map(|o| (o.parts, o.depth_mm)).collect();
+        let deployed_mm: BTreeMap<[usize; 2], f64> = overlaps.iter().map(|o| (o.parts, o.depth_mm)).collect();
         checker.watched = parts.map(|mover| checker.watched_pairs(mover, &deployed_mm)).collect();
         checker
     }
@@ -130,8 +129,12 @@ impl<'a> Checker<'a> {
                     continue;
                 }
                 let parts = [tree[k], tree[l]];
-                let context: BTreeSet<usize> =
-                    parts.iter().flat_map(|&p| &self.ways[mover][p]).copied().filter(|&p| p != mover).collect();
+                let context: BTreeSet<usize> = parts
+                    .iter()
+                    .flat_map(|&p| &self.ways[mover][p])
+                    .copied()
+                    .filter(|&p| p != mover)
+                    .collect();
                 let context = context.into_iter().collect();
                 pairs.push(Watched { parts, context, overlap_mm: deployed_mm.get(&parts).copied() });
             }
@@ -186,7 +189,9 @@ impl<'a> Checker<'a> {
         }
         let is_always = (0..1_usize << free.len()).all(|states| {
             let mut levels = levels.to_vec();
-            free.iter().enumerate().for_each(|(k, &p)| levels[p] = if states >> k & 1 == 1 { FLAT } else { 0 });
+            free.iter()
+                .enumerate()
+                .for_each(|(k, &p)| levels[p] = if states >> k & 1 == 1 { FLAT } else { 0 });
             let question = self.question(mover, pair, &levels);
             if !self.known.contains_key(&question) {
                 let answers = self.ask(vec![question.clone()], mover, &levels);

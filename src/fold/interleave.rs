@@ -48,7 +48,8 @@ pub(super) fn interleaved(
             let Some(lattice) = Lattice::new(&moves, turns, levels, parts) else { continue };
             let Some(path) = lattice.cheapest(checker, thickness_mm, progress)? else { continue };
             let left = replay(checker, &path, parts);
-            let gain_mm = harm_mm(&replay(checker, &moves, parts), thickness_mm) - harm_mm(&left, thickness_mm);
+            let gain_mm =
+                harm_mm(&replay(checker, &moves, parts), thickness_mm) - harm_mm(&left, thickness_mm);
             let more = path.len().saturating_sub(moves.len());
             let is_free = left.iter().all(|clash| clash.depth_mm <= thickness_mm);
             let price_mm = if is_free { 0.0 } else { GAIN_FOR_STEP_MM * more as f64 };
@@ -173,7 +174,8 @@ impl Lattice {
     /// The next places, each with the move that leads to it.
     fn next<'p>(&'p self, place: &'p Place) -> impl Iterator<Item = (Place, Move)> + 'p {
         let other = self.others.get(place.done);
-        let other = other.map(|&step| (Place { done: place.done + 1, last: self.turns.len(), ..*place }, step));
+        let other =
+            other.map(|&step| (Place { done: place.done + 1, last: self.turns.len(), ..*place }, step));
         let in_turn = self.turns.iter().enumerate().filter_map(move |(k, &part)| {
             let from = place.levels[k];
             let to = from + self.stride;
@@ -213,7 +215,8 @@ impl Lattice {
     /// The moves to a place, those of one component after another put together.
     fn path(&self, best: &[Option<(Cost, Option<usize>)>], end: usize) -> Vec<Move> {
         let before = |index: &usize| best[*index].and_then(|(_, from)| from);
-        let mut places: Vec<Place> = std::iter::successors(Some(end), before).map(|k| self.place(k)).collect();
+        let mut places: Vec<Place> =
+            std::iter::successors(Some(end), before).map(|k| self.place(k)).collect();
         places.reverse();
         let mut moves: Vec<Move> = Vec::new();
         for pair in places.windows(2) {

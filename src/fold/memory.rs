@@ -1,7 +1,7 @@
 //! What is known of motions, for all models that share components.
 
-use super::track::Table;
 use super::step::FLAT;
+use super::track::Table;
 use crate::component::PanelId;
 use std::collections::HashMap;
 use std::fmt;

@@ -181,7 +181,8 @@ impl<'s, 'a> Search<'s, 'a> {
     fn least_bad(&mut self, parts: &[usize]) -> Result<Vec<usize>, Cancelled> {
         let mut levels = self.deployed();
         let mut order = Vec::new();
-        let compared = if self.is_thorough { COMPARED.max(COMPARED_FOR_EACH * parts.len()) } else { parts.len() };
+        let compared =
+            if self.is_thorough { COMPARED.max(COMPARED_FOR_EACH * parts.len()) } else { parts.len() };
         let most_sweeps = self.checker.sweeps() + compared;
         while order.len() < parts.len() {
             if self.checker.sweeps() > most_sweeps {
@@ -191,7 +192,8 @@ impl<'s, 'a> Search<'s, 'a> {
             let mut best: Option<(f64, usize)> = None;
             for &part in parts.iter().filter(|&&p| levels[p] == 0) {
                 self.progress.check()?;
-                let harm: f64 = self.checker.clashes(Move::whole(part), &levels).iter().map(|c| c.depth_mm).sum();
+                let harm: f64 =
+                    self.checker.clashes(Move::whole(part), &levels).iter().map(|c| c.depth_mm).sum();
                 if best.is_none_or(|b| harm < b.0) {
                     best = Some((harm, part));
                 }

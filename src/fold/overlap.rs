@@ -33,10 +33,8 @@ pub(super) fn overlaps(
 ) -> Vec<Overlap> {
     let model = motion.model();
     let parts = model.parts();
-    let solids: Vec<Solid> = parts
-        .iter()
-        .map(|part| solid(part.component.panels().panels(), part.deployed()))
-        .collect();
+    let solids: Vec<Solid> =
+        parts.iter().map(|part| solid(part.component.panels().panels(), part.deployed())).collect();
     let above: Vec<Vec<usize>> = (0..parts.len()).map(|p| ancestors(model, p)).collect();
     let (ways, deployed) = (ways(&above), vec![0; parts.len()]);
     let pairs: Vec<[usize; 2]> = (0..parts.len())

@@ -22,9 +22,8 @@ impl Bond {
         let mut bonds = vec![Self::Free; parts.len()];
         let Some(symmetry) = symmetry else { return bonds };
         let parent = |p: usize| links.iter().find(|l| l.child == p).map(|l| l.parent);
-        let are_bound = |bonds: &[Self], p: usize, q: usize| {
-            bonds[p] == Self::ImageOf(q) || bonds[q] == Self::ImageOf(p)
-        };
+        let are_bound =
+            |bonds: &[Self], p: usize, q: usize| bonds[p] == Self::ImageOf(q) || bonds[q] == Self::ImageOf(p);
         // Parents come before their children in the links.
         let roots = (0..parts.len()).filter(|&p| parent(p).is_none());
         let downwards: Vec<usize> = roots.chain(links.iter().map(|l| l.child)).collect();

@@ -68,7 +68,8 @@ pub fn build(
     let Candidates { of: candidates, links, bonds } = Candidates::new(assembly, known, progress)?;
     let parts = assembly.parts;
     let choice = Choice::new(&candidates, &weights(parts), &links, &bonds);
-    let chosen = |of: &[usize]| -> Vec<&Made> { of.iter().zip(&candidates).map(|(&k, made)| &made[k]).collect() };
+    let chosen =
+        |of: &[usize]| -> Vec<&Made> { of.iter().zip(&candidates).map(|(&k, made)| &made[k]).collect() };
     let ids = |made: &[&Made]| made.iter().map(|m| m.id).collect::<Vec<u64>>();
     let bumps = |of: &[usize]| {
         progress.check()?;
@@ -122,7 +123,8 @@ impl Candidates {
                 let mut of: Vec<Vec<Made>> = made.into_iter().flatten().map(|made| made.to_vec()).collect();
                 for (part, bond) in bonds.iter().enumerate() {
                     if let (Bond::ImageOf(first), Some(symmetry)) = (bond, symmetry) {
-                        of[part] = of[*first].iter().map(|made| made.mirrored(symmetry, &parts[part])).collect();
+                        of[part] =
+                            of[*first].iter().map(|made| made.mirrored(symmetry, &parts[part])).collect();
                     }
                 }
                 return Ok(Self { of, links, bonds });
@@ -150,8 +152,7 @@ fn place(parts: &[Part], links: &[Link], made: &[&Made]) -> Result<Model, ModelE
         child.placement = parent.placement * seated.turn;
         let panel = |p: &ModelPart, panel| p.component.panels().panel(panel).clone();
         let (above, below) = (panel(child, seated.child_panel), panel(&parent, seated.parent_panel));
-        let relation =
-            (parent.deployed() * below.deployed).inverse() * child.deployed() * above.deployed;
+        let relation = (parent.deployed() * below.deployed).inverse() * child.deployed() * above.deployed;
         child.flat = parent.flat * below.flat * relation * above.flat.inverse();
         child.joint = Some(Joint {
             parent: link.parent,

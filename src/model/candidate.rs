@@ -227,9 +227,7 @@ impl<'a> Builder<'a> {
         let (normal, offset_mm) = (plane.normal(), plane.offset());
         Some(match normal.z.abs() > 0.5 {
             true => component::Symmetry::Level { height_mm: offset_mm * normal.z.signum() },
-            false => {
-                component::Symmetry::Upright { angle_rad: normal.truncate().to_angle(), offset_mm }
-            }
+            false => component::Symmetry::Upright { angle_rad: normal.truncate().to_angle(), offset_mm },
         })
     }
 

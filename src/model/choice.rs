@@ -29,6 +29,9 @@ const AT_ONCE: usize = 4;
 /// What two parts do to each other: their numbers, and how deep they bump, mm.
 pub type Bump = ([usize; 2], f64);
 
+/// Tells what the parts of a combination do to each other.
+type Bumping<'a> = dyn Fn(&[usize]) -> Result<Vec<Bump>, Cancelled> + Sync + 'a;
+
 /// Candidates of all parts and what they cost.
 ///
 /// Parts that are images of each other share a variable, as candidate k of one is the image of
@@ -79,9 +82,22 @@ impl Choice {
             parents.iter().map(of_parent).collect()
         };
         let costs: Vec<Vec<Vec<f64>>> = links.par_iter().map(of_link).collect();
+        let joints = links.iter().map(|link| [link.parent, link.child]).zip(costs).collect();
+        Self::of_costs(variable, own, joints)
+    }
+
+    /// `own` has what variables cost, in the places of their parts; `joints` have parent and child, a
+    /// parent's own joint before its children's, and their costs by the parent's candidate and the child's.
+    fn of_costs(
+        variable: Vec<usize>,
+        mut own: Vec<Vec<f64>>,
+        joints: Vec<([usize; 2], Vec<Vec<f64>>)>,
+    ) -> Self {
+        let mut parents: Vec<Option<usize>> = vec![None; variable.len()];
         let mut pairs: Vec<Pair> = Vec::new();
-        for (link, costs) in links.iter().zip(costs) {
-            let (parent, child) = (variable[link.parent], variable[link.child]);
+        for ([parent, child], costs) in joints {
+            parents[child] = Some(parent);
+            let (parent, child) = (variable[parent], variable[child]);
             if parent == child {
                 own[parent].iter_mut().enumerate().for_each(|(k, own)| *own += costs[k][k]);
                 continue;
@@ -94,11 +110,8 @@ impl Choice {
                 None => pairs.push(Pair { parent, child, costs }),
             }
         }
-        let parents: Vec<Option<usize>> = (0..candidates.len())
-            .map(|part| links.iter().find(|l| l.child == part).map(|l| l.parent))
-            .collect();
         let is_own = |part: &usize| variable[*part] == *part;
-        let roots = (0..candidates.len()).filter(|p| pairs.iter().all(|pair| pair.child != *p));
+        let roots = (0..variable.len()).filter(|p| pairs.iter().all(|pair| pair.child != *p));
         let downwards = roots.filter(is_own).chain(pairs.iter().map(|pair| pair.child)).collect();
         Self { variable, own, pairs, downwards, parents }
     }
@@ -143,10 +156,7 @@ impl Choice {
     }
 
     /// The best combination found; `bumps` tells what parts of one do to each other while they fold.
-    pub(super) fn best(
-        &self,
-        bumps: &(dyn Fn(&[usize]) -> Result<Vec<Bump>, Cancelled> + Sync),
-    ) -> Result<Combination, Cancelled> {
+    pub(super) fn best(&self, bumps: &Bumping<'_>) -> Result<Combination, Cancelled> {
         let look = |of: Combination| {
             let bumps = bumps(&of)?;
             let harm: f64 = bumps.iter().map(|b| BUMP_PRICE_MM + DEPTH_PRICE * b.1).sum();
@@ -211,4 +221,187 @@ struct Look {
     of: Combination,
     bumps: Vec<Bump>,
     cost_mm: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fastrand::Rng;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    /// A random tree, partly symmetric, with what its candidates cost.
+    struct Tree {
+        variable: Vec<usize>,
+        /// Of each part's candidates; images have the same number of them.
+        own: Vec<Vec<f64>>,
+        joints: Vec<([usize; 2], Vec<Vec<f64>>)>,
+    }
+
+    impl Tree {
+        fn random(rng: &mut Rng) -> Self {
+            // Parts, or pairs of them, above which others stand: their numbers on both sides.
+            let mut sides: Vec<[usize; 2]> = Vec::new();
+            let mut ends: Vec<[usize; 2]> = Vec::new();
+            let mut count = 0;
+            for v in 0..rng.usize(1..8) {
+                let below = (v > 0 && rng.f64() < 0.9).then(|| sides[rng.usize(..v)]);
+                let is_pair = below.is_some_and(|b| b[0] != b[1]) || rng.f64() < 0.3;
+                sides.push(if is_pair { [count, count + 1] } else { [count; 2] });
+                count += 1 + usize::from(is_pair);
+                match below {
+                    Some(below) => {
+                        ends.extend((0..1 + usize::from(is_pair)).map(|s| [below[s], sides[v][s]]))
+                    }
+                    // A pair whose parts are joined to each other.
+                    None => ends.extend((is_pair && rng.bool()).then_some(sides[v])),
+                }
+            }
+            let mut numbers: Vec<usize> = (0..count).collect();
+            rng.shuffle(&mut numbers);
+            let mut variable = vec![0; count];
+            let mut own: Vec<Vec<f64>> = vec![Vec::new(); count];
+            for both in sides {
+                let both = both.map(|p| numbers[p]);
+                let candidates = rng.usize(1..6);
+                for part in both {
+                    variable[part] = both[0].min(both[1]);
+                    own[part] = (0..candidates).map(|_| 5.0 * rng.f64()).collect();
+                }
+            }
+            let mut cost = || if rng.f64() < 0.05 { f64::INFINITY } else { 5.0 * rng.f64() };
+            let joints = ends.into_iter().map(|ends| {
+                let ends = ends.map(|p| numbers[p]);
+                let mut row = |_| (0..own[ends[1]].len()).map(|_| cost()).collect();
+                (ends, (0..own[ends[0]].len()).map(&mut row).collect())
+            });
+            let joints = joints.collect();
+            Self { variable, own, joints }
+        }
+
+        fn choice(&self) -> Choice {
+            let mut own: Vec<Vec<f64>> = self.own.iter().map(|own| vec![0.0; own.len()]).collect();
+            for (part, costs) in self.own.iter().enumerate() {
+                own[self.variable[part]].iter_mut().zip(costs).for_each(|(sum, cost)| *sum += cost);
+            }
+            Choice::of_costs(self.variable.clone(), own, self.joints.clone())
+        }
+
+        /// What a combination costs, by all parts and joints.
+        fn cost_mm(&self, of: &[usize]) -> f64 {
+            let own: f64 = of.iter().zip(&self.own).map(|(&k, own)| own[k]).sum();
+            own + self.joints.iter().map(|([a, b], costs)| costs[of[*a]][of[*b]]).sum::<f64>()
+        }
+
+        fn are_alike(&self, of: &[usize]) -> bool {
+            (0..of.len()).all(|part| of[part] == of[self.variable[part]])
+        }
+
+        /// All combinations, or a thousand random ones where they are many.
+        fn combinations(&self, rng: &mut Rng) -> Vec<Combination> {
+            let counts: Vec<usize> = self.own.iter().map(Vec::len).collect();
+            let is_own = |part: &usize| self.variable[*part] == *part;
+            let all: usize = (0..counts.len()).filter(is_own).map(|part| counts[part]).product();
+            let pick = |mut digit: Box<dyn FnMut(usize) -> usize + '_>| {
+                let mut of: Combination =
+                    (0..counts.len()).map(|p| if is_own(&p) { digit(counts[p]) } else { 0 }).collect();
+                (0..of.len()).for_each(|part| of[part] = of[self.variable[part]]);
+                of
+            };
+            if all > 1000 {
+                return (0..1000).map(|_| pick(Box::new(|count| rng.usize(..count)))).collect();
+            }
+            let of_number = |mut number: usize| {
+                pick(Box::new(move |count| {
+                    let digit = number % count;
+                    number /= count;
+                    digit
+                }))
+            };
+            (0..all).map(of_number).collect()
+        }
+    }
+
+    #[test]
+    fn no_combination_is_cheaper_than_that_of_the_tree() {
+        let mut rng = Rng::with_seed(1);
+        for _ in 0..300 {
+            let tree = Tree::random(&mut rng);
+            let choice = tree.choice();
+            let best = choice.cheapest(&[]);
+            assert!(tree.are_alike(&best), "images have the same candidate");
+            let (part, k) = (rng.usize(..best.len()), 0);
+            let given = choice.cheapest(&[(part, k)]);
+            assert!(given[part] == k && tree.are_alike(&given));
+            let [best_mm, given_mm] = [&best, &given].map(|of| tree.cost_mm(of));
+            for of in tree.combinations(&mut rng) {
+                let cost_mm = tree.cost_mm(&of);
+                assert!(cost_mm == choice.cost_mm(&of) || (cost_mm - choice.cost_mm(&of)).abs() < 1e-9);
+                assert!(best_mm <= cost_mm + 1e-9, "{best_mm} {cost_mm}");
+                assert!(of[part] != k || given_mm <= cost_mm + 1e-9, "{given_mm} {cost_mm}");
+            }
+        }
+    }
+
+    /// Bumps make things worse, but never so that the best without regard to them would be better.
+    #[test]
+    fn with_bumps_the_search_is_never_worse_than_the_tree() {
+        let mut rng = Rng::with_seed(2);
+        let (mut worse, mut best_of_all) = (0, 0);
+        for seed in 0..300 {
+            let tree = Tree::random(&mut rng);
+            let choice = tree.choice();
+            let is_bumping = seed % 3 > 0;
+            let looks = AtomicUsize::new(0);
+            // Any two parts bump or not by their own candidates and by that of the first part.
+            let bumps = |of: &[usize]| -> Vec<Bump> {
+                let pairs = (0..of.len()).flat_map(|b| (0..b).map(move |a| [a, b]));
+                let bump = |[a, b]: [usize; 2]| {
+                    let key = [seed, a, b, of[a], of[b], of[0]];
+                    let mut rng = Rng::with_seed(key.iter().fold(7, |h, k| h * 31 + *k as u64));
+                    (rng.f64() < 0.3).then(|| ([a, b], 4.0 * rng.f64()))
+                };
+                pairs.filter(|_| is_bumping).filter_map(bump).collect()
+            };
+            let total_mm = |of: &[usize]| {
+                let harm_mm: f64 = bumps(of).iter().map(|b| BUMP_PRICE_MM + DEPTH_PRICE * b.1).sum();
+                tree.cost_mm(of) + harm_mm
+            };
+            let found = choice.best(&|of| {
+                looks.fetch_add(1, Ordering::Relaxed);
+                assert!(tree.are_alike(of), "images have the same candidate");
+                Ok(bumps(of))
+            });
+            let found = found.unwrap();
+            let (found_mm, tree_mm) = (total_mm(&found), total_mm(&choice.cheapest(&[])));
+            assert!(tree.are_alike(&found));
+            assert!(found_mm <= tree_mm, "{found_mm} {tree_mm}");
+            assert!(is_bumping || found == choice.cheapest(&[]));
+            assert!(looks.into_inner() <= 1 + LOOKS + LOOKS_FOR_EACH * found.len());
+            worse += usize::from(found_mm < tree_mm);
+            let least_mm =
+                tree.combinations(&mut rng).iter().map(|of| total_mm(of)).fold(f64::INFINITY, f64::min);
+            best_of_all += usize::from(found_mm <= least_mm + 1e-9);
+        }
+        // Bumps are many here, and of any kind: it helps, and most often nothing better was to be found.
+        assert!(worse > 100 && best_of_all > 200, "{worse} {best_of_all}");
+    }
+
+    #[test]
+    fn the_search_can_be_stopped() {
+        let tree = Tree::random(&mut Rng::with_seed(3));
+        assert!(tree.choice().best(&|_| Err(Cancelled)).is_err());
+    }
+
+    #[test]
+    fn a_way_has_the_parts_between() {
+        // 0 carries 1 and 2, 1 carries 3; 4 stands by itself.
+        let joints = [[0, 1], [0, 2], [1, 3]].map(|ends| (ends, vec![vec![0.0]]));
+        let choice = Choice::of_costs((0..5).collect(), vec![vec![0.0]; 5], joints.to_vec());
+        let way = |a, b| choice.way([a, b]).into_iter().collect::<BTreeSet<usize>>();
+        assert_eq!(way(3, 2), BTreeSet::from([0, 1, 2, 3]));
+        assert_eq!(way(0, 3), BTreeSet::from([0, 1, 3]));
+        assert_eq!(way(1, 3), BTreeSet::from([1, 3]));
+        assert_eq!(way(2, 2), BTreeSet::from([2]));
+        assert!(way(3, 4).is_superset(&BTreeSet::from([3, 4])));
+    }
 }

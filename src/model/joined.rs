@@ -151,6 +151,12 @@ fn on_parent(part: &JoinedPart, seam: &Seam, parent: &ModelPart) -> ModelPart {
         placement: DAffine3::IDENTITY,
         flat: parent.flat * below.flat * seam.relation * above.flat.inverse(),
         direction_rad: 0.0,
-        joint: Some(Joint { parent: seam.parent, parent_panel, child_panel, support_ratio: 0.0, glue_mm2: 0.0 }),
+        joint: Some(Joint {
+            parent: seam.parent,
+            parent_panel,
+            child_panel,
+            support_ratio: 0.0,
+            glue_mm2: 0.0,
+        }),
     }
 }

@@ -49,4 +49,3 @@ pub enum ModelError {
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
 }
-

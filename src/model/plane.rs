@@ -143,7 +143,8 @@ fn samples(hull: &Hull) -> Vec<DVec3> {
     let step = (high - low).max_element() / SAMPLES as f64;
     let count = ((high - low) / step).ceil().max(DVec3::ONE).as_u64vec3();
     let cell = (high - low) / count.as_dvec3();
-    let grid = (0..count.x)
-        .flat_map(move |x| (0..count.y).flat_map(move |y| (0..count.z).map(move |z| DVec3::new(x as f64, y as f64, z as f64))));
+    let grid = (0..count.x).flat_map(move |x| {
+        (0..count.y).flat_map(move |y| (0..count.z).map(move |z| DVec3::new(x as f64, y as f64, z as f64)))
+    });
     grid.map(|k| low + (k + 0.5) * cell).filter(|p| is_inside(hull, *p)).collect()
 }

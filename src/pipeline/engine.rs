@@ -9,7 +9,7 @@ use crate::design::thick;
 use crate::fold::{FoldPlan, ModelMotion, SweepMemory};
 use crate::memory::Memory;
 use crate::mesh::{Mesh, Up};
-use crate::model::{self, Known, Model, ModelPart, Unjudged};
+use crate::model::{self, Built, Known, Model, ModelPart, Unjudged};
 use crate::net::{BlankNet, KnownNets, Net, NetChoices, NetOptions, develop_model};
 use crate::progress::{Beside, Progress};
 use crate::segment::{self, Edit, Parts, SegmentOptions};
@@ -131,7 +131,8 @@ impl<'m> Engine<'m> {
         progress.stage("components");
         let assembly = bodies.assembly(options.min_panel_width_mm);
         let judge = FoldJudge { thickness_mm: options.thickness_mm, memory: &self.sweeps, progress };
-        let model = model::build(&assembly, &self.components, &judge, progress)?.model;
+        let Built { model, ids } = model::build(&assembly, &self.components, &judge, progress)?;
+        self.ids.keep(Arc::new(model.clone()), ids);
         let (mesh, face_parts) = (divided.mesh(), divided.face_parts());
         let (model, mut notes, remarks) = concave::refitted(model, mesh, face_parts, options, progress)?;
         notes.extend(not_joined(&model));
@@ -169,7 +170,13 @@ impl<'m> Engine<'m> {
     ) -> Result<Arc<FoldPlan>, Error> {
         self.plans.get_or((model.clone(), thickness_mm), || {
             progress.stage("folding");
-            Ok(Arc::new(FoldPlan::new(&ModelMotion::new(model), thickness_mm, progress)?))
+            let motion = ModelMotion::new(model);
+            // Of models that were changed since they were built nothing is known.
+            let plan = match self.ids.get(model) {
+                Some(ids) => FoldPlan::with_memory(&motion, thickness_mm, &ids, &self.sweeps, progress),
+                None => FoldPlan::new(&motion, thickness_mm, progress),
+            };
+            Ok(Arc::new(plan?))
         })
     }
 

@@ -21,12 +21,7 @@ const SHAFT: f64 = 0.2;
 const LIFT_MM: f64 = 0.3;
 
 /// A component folds up to a share of the way: `folded` tells how far all were folded before.
-pub fn flattening(
-    output: &Output,
-    part: usize,
-    folded: &[f64],
-    to: f64,
-) -> Result<Drawing, PictureError> {
+pub fn flattening(output: &Output, part: usize, folded: &[f64], to: f64) -> Result<Drawing, PictureError> {
     let at = |share: f64| folded[part] + share * (to - folded[part]);
     moving(output, part, folded, [at(NOW), at(SOON)])
 }
