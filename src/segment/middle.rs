@@ -88,12 +88,9 @@ mod tests {
 
     #[test]
     fn the_middle_is_not_the_biggest_nor_a_neck() {
-        for (radii, expected) in [
-            (&[1.0, 1.4, 1.0][..], 1),
-            (&[1.5, 1.0, 0.9, 0.7], 1),
-            (&[1.0, 0.4, 1.2], 2),
-            (&[0.6, 1.0], 1),
-        ] {
+        for (radii, expected) in
+            [(&[1.0, 1.4, 1.0][..], 1), (&[1.5, 1.0, 0.9, 0.7], 1), (&[1.0, 0.4, 1.2], 2), (&[0.6, 1.0], 1)]
+        {
             let (mesh, segmentation) = row(radii);
             let areas: Vec<f64> = radii.iter().map(|r| r * r).collect();
             assert_eq!(middle(&mesh, &segmentation, &areas), expected, "{radii:?}");
