@@ -250,6 +250,7 @@ const CLIP_SHARE: f64 = 0.2;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::Mirror;
 
     fn cube(at: DVec3, side: f64) -> Hull {
         let points: Vec<DVec3> = (0..8)
@@ -286,11 +287,13 @@ mod tests {
         let ends = |hulls: &[Hull]| (hulls[0].support(DVec3::X), -hulls[1].support(-DVec3::X));
         let apart = parted(&hulls, std::slice::from_ref(&contact), &[], None);
         assert!((ends(&apart).0 - 9.5).abs() < 1e-9 && (ends(&apart).1 - 9.5).abs() < 1e-9);
-        // A joint has its own plane; and a plane that would halve a hull is not heeded.
+        // A joint has its own plane.
         let links = link_tree(&hulls, std::slice::from_ref(&contact), None);
         assert_eq!(ends(&parted(&hulls, std::slice::from_ref(&contact), &links, None)), (10.0, 9.0));
+        // Where the fitted plane would halve a hull, one that takes less is found.
         let points = face.map(|p| p - DVec3::X * 5.0).to_vec();
-        assert_eq!(ends(&parted(&hulls, &[Contact { points, ..contact }], &[], None)), (10.0, 9.0));
+        let (end, start) = ends(&parted(&hulls, &[Contact { points, ..contact }], &[], None));
+        assert!((8.0..9.0).contains(&end) && start == 9.0, "{end} {start}");
     }
 
     /// A body across x = 0 with arms and a pair of feet that touch each other.
