@@ -16,8 +16,9 @@ pub struct MirrorPlane {
 }
 
 /// A mesh whose image is farther from it than this on average, in percent of the diagonal, is not
-/// symmetric. Scans and models drawn by hand that people call symmetric have up to 0.3; those whose
-/// limbs are posed differently have 0.6 and more.
+/// symmetric. Measured: koala, cow, fish and scorpion 0.03 to 0.05, a broken truck 0.19, a penguin
+/// 0.42. The best plane along the axes gives a slice of pizza 0.53, a goat's head 0.77, an armadillo
+/// 1.05 and a bunny 1.86: they have none.
 const MOST_PERCENT: f64 = 0.5;
 
 /// Where more than `MOST_FAR` of the image is farther from the mesh than `FAR` of the diagonal, a limb

@@ -116,7 +116,7 @@ impl<'m> Engine<'m> {
         parts = match &options.root {
             Some(root) => parts.with_root(root)?,
             None if options.edits.is_empty() => parts,
-            None => parts.with_root_across(),
+            None => parts.with_root_in_the_middle(),
         };
         Ok((parts, to_model))
     }

@@ -35,7 +35,7 @@ impl TryFrom<Table> for Edit {
         match (table.merge, table.split) {
             (Some(parts), None) if !has_plane => {
                 if parts.len() < 2 {
-                    return Err("merge needs two or more names, such as [\"body\", \"part-2\"]");
+                    return Err("merge needs two or more names, such as [\"body\", \"top\"]");
                 }
                 Ok(Self(segment::Edit::Merge { parts }))
             }
@@ -72,10 +72,10 @@ mod tests {
 
     #[test]
     fn merges_and_splits_in_their_order() {
-        let text = "merge = ['body', 'part-3']\n[[edit]]\nsplit = 'body'\npoint = [0, 2, 0]\n\
+        let text = "merge = ['body', 'top']\n[[edit]]\nsplit = 'body'\npoint = [0, 2, 0]\n\
                     normal = [0, 5, 0]\nfront = 'head'";
         let project = parse(text).unwrap();
-        let parts = vec!["body".to_owned(), "part-3".to_owned()];
+        let parts = vec!["body".to_owned(), "top".to_owned()];
         assert_eq!(project.edits[0].change(), &segment::Edit::Merge { parts });
         let segment::Edit::Split { part, plane, front } = project.edits[1].change() else {
             panic!("the second is a split");

@@ -90,14 +90,14 @@ size = "{size}mm"
 {method_comment}method = "{method}"
 {method_comment}clusters = {clusters}
 {method_comment}smoothing = {smoothing}
-# The component that all others hang on; without this line the biggest.
+# The component that all others hang on; without this line the one in the middle.
 # root = "body"
 
 # Changes by hand, made in their order; "tatamu segment" shows the names in a picture.
 # A merge keeps the first name. A split cuts along a plane, in the mesh file's coordinates; what is
 # on the side that the normal points to gets the name after front.
 # [[edit]]
-# merge = ["part-2", "part-3"]
+# merge = ["left", "top"]
 # [[edit]]
 # split = "body"
 # point = [0, 0, 0]

@@ -4,6 +4,7 @@ use super::surface::Surface;
 use super::{SegmentId, Segmentation};
 use crate::mesh::Mesh;
 use glam::DVec3;
+use rayon::prelude::*;
 use std::collections::{BTreeMap, HashMap};
 
 /// Bodies nearer to each other than this share of the diagonal touch. Models made for screens push
@@ -41,17 +42,22 @@ pub fn near_contacts(
     for (i, s) in samples.iter().enumerate() {
         grid.entry(cell(s.at)).or_default().push(i as u32);
     }
-    for s in &samples {
-        let [x, y, z] = cell(s.at);
+    // All samples of a cell have the same cells around them.
+    let nearest_of = |(&[x, y, z], own): (&[i64; 3], &Vec<u32>)| {
         let cells = (0..27).filter_map(|k| grid.get(&[x + k / 9 - 1, y + k / 3 % 3 - 1, z + k % 3 - 1]));
-        let others = cells.flatten().map(|&i| (&samples[i as usize], i)).filter(|(o, _)| o.body != s.body);
-        let nearest = others
-            .map(|(o, i)| (o.at.distance_squared(s.at), i))
-            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let Some((_, other)) = nearest.filter(|n| n.0 <= reach * reach) else {
-            continue;
+        let around: Vec<u32> = cells.flatten().copied().collect();
+        let nearest = |&i: &u32| {
+            let s = &samples[i as usize];
+            let others = around.iter().filter(|&&o| samples[o as usize].body != s.body);
+            let apart = others.map(|&o| (samples[o as usize].at.distance_squared(s.at), o));
+            let nearest = apart.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            nearest.filter(|n| n.0 <= reach * reach).map(|n| (i, n.1))
         };
-        let other = &samples[other as usize];
+        own.iter().filter_map(nearest).collect::<Vec<_>>()
+    };
+    let mut near: Vec<(u32, u32)> = grid.par_iter().flat_map_iter(nearest_of).collect();
+    near.sort_unstable();
+    for [s, other] in near.into_iter().map(|(i, o)| [i, o].map(|k| &samples[k as usize])) {
         if other.segment != s.segment {
             let pair = (s.segment.min(other.segment), s.segment.max(other.segment));
             contacts.entry(pair).or_default().push(s.at.midpoint(other.at));

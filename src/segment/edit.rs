@@ -223,24 +223,24 @@ mod tests {
     fn merging_keeps_the_first_name_and_all_others() {
         let whole = parts();
         let area = whole.area_shares();
-        let merged = whole.edited(&merge(&["part-2", "part-3"])).unwrap();
-        assert_eq!(merged.names(), ["body", "part-2"]);
-        assert!((merged.area_shares()[1] - area[1] - area[2]).abs() < 1e-12);
+        let merged = whole.edited(&merge(&["top", "bottom"])).unwrap();
+        assert_eq!(merged.names(), ["top", "body"]);
+        assert!((merged.area_shares()[0] - area[1] - area[2]).abs() < 1e-12);
     }
 
     #[test]
     fn splitting_cuts_faces_exactly_along_the_plane() {
         let before = parts();
         let (faces, shares) = (before.mesh().faces().len(), before.area_shares());
-        let after = before.edited(&split("body", 0.123, Some("chest"))).unwrap();
+        let after = before.edited(&split("body", 1.623, Some("chest"))).unwrap();
         assert_eq!(after.names().iter().filter(|n| *n == "chest" || *n == "body").count(), 2);
         assert!(after.mesh().faces().len() > faces);
         let chest = after.names().iter().position(|n| n == "chest").unwrap() as u32;
         let body = after.names().iter().position(|n| n == "body").unwrap() as u32;
         for (f, id) in after.segmentation().face_segments().iter().enumerate() {
             for corner in after.mesh().corners(f) {
-                assert!(id.0 != chest || corner.z > 0.123 - 1e-9);
-                assert!(id.0 != body || corner.z < 0.123 + 1e-9);
+                assert!(id.0 != chest || corner.z > 1.623 - 1e-9);
+                assert!(id.0 != body || corner.z < 1.623 + 1e-9);
             }
         }
         let [a, b] = [chest, body].map(|p| after.area_shares()[p as usize]);
@@ -254,7 +254,7 @@ mod tests {
 
     #[test]
     fn pieces_of_a_side_are_parts_of_their_own() {
-        let whole = parts().edited(&merge(&["body", "part-2", "part-3"])).unwrap();
+        let whole = parts().edited(&merge(&["body", "bottom", "top"])).unwrap();
         let plane = Plane::through(DVec3::X * 0.55, DVec3::X).unwrap();
         let edit = Edit::Split { part: "body".to_owned(), plane, front: None };
         let names = whole.edited(&edit).unwrap().names().to_vec();
@@ -267,10 +267,10 @@ mod tests {
 
     #[test]
     fn the_root_comes_first_and_the_others_keep_their_order() {
-        let parts = parts().with_root("part-3").unwrap();
-        assert_eq!(parts.names(), ["part-3", "body", "part-2"]);
+        let parts = parts().with_root("top").unwrap();
+        assert_eq!(parts.names(), ["top", "body", "bottom"]);
         let shares = parts.area_shares();
-        assert!(shares[1] > shares[2] && shares[2] > shares[0]);
+        assert!(shares[2] > shares[1] && shares[1] > shares[0]);
     }
 
     #[test]
@@ -278,12 +278,12 @@ mod tests {
         let failed = |edit: Edit| parts().edited(&edit).unwrap_err();
         let unknown = failed(merge(&["body", "head"]));
         assert!(
-            unknown.to_string().contains("\"head\"") && unknown.to_string().contains("part-3"),
+            unknown.to_string().contains("\"head\"") && unknown.to_string().contains("bottom"),
             "{unknown}"
         );
         assert_eq!(failed(merge(&["body", "body"])), EditError::Few);
         assert_eq!(failed(split("body", 9.0, None)), EditError::OneSide("body".to_owned()));
-        assert_eq!(failed(split("body", 0.0, Some("part-2"))), EditError::Taken("part-2".to_owned()));
+        assert_eq!(failed(split("body", 1.5, Some("top"))), EditError::Taken("top".to_owned()));
         assert!(parts().with_root("tail").is_err());
     }
 }

@@ -17,6 +17,8 @@ mod hollow;
 mod interface;
 mod maxflow;
 mod merge;
+mod middle;
+mod naming;
 mod overlap;
 mod parts;
 mod patches;
@@ -36,7 +38,7 @@ pub use contact::near_contacts;
 pub use edit::{Edit, EditError};
 pub use interface::Interface;
 pub use overlap::{Overlap, overlap};
-pub use parts::{Parts, default_name};
+pub use parts::Parts;
 pub use stage::segment;
 pub use symmetry::{Axis, SymmetryChoice};
 

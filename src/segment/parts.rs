@@ -1,7 +1,8 @@
 //! A mesh divided into named parts.
 
+use super::middle::middle;
 use super::surface::Surface;
-use super::{SegmentId, Segmentation};
+use super::{SegmentId, Segmentation, naming};
 use crate::geom::{Hull, HullError};
 use crate::mesh::{Mesh, MirrorPlane};
 use glam::DVec3;
@@ -11,8 +12,7 @@ use rayon::prelude::*;
 ///
 /// # Guarantees
 /// One name for each segment, all different. The parts are in the order of their area, biggest
-/// first, but for the root, which is the first: one that was chosen, or the biggest across the mirror
-/// plane.
+/// first, but for the root, which is the first: one that was chosen, or the one in the middle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parts {
     mesh: Mesh,
@@ -20,17 +20,13 @@ pub struct Parts {
     names: Vec<String>,
 }
 
-/// Name of a part that was not given another: the first, biggest one is the body.
-pub fn default_name(index: usize) -> String {
-    if index == 0 { "body".to_owned() } else { format!("part-{}", index + 1) }
-}
-
 impl Parts {
-    /// Names the segments of a mesh in their order.
+    /// Makes the segment in the middle the first, and names all by their place. The viewer looks
+    /// along +y, with z up.
     pub fn new(mesh: Mesh, segmentation: Segmentation) -> Self {
-        let names = (0..segmentation.count()).map(default_name).collect();
-        let mut parts = Self { mesh, segmentation, names }.with_root_across();
-        parts.names = (0..parts.names.len()).map(default_name).collect();
+        let names = vec![String::new(); segmentation.count()];
+        let mut parts = Self { mesh, segmentation, names }.with_root_in_the_middle();
+        parts.names = naming::names(&parts.mesh, &parts.segmentation, &parts.area_shares());
         parts
     }
 
@@ -68,15 +64,12 @@ impl Parts {
         self
     }
 
-    /// The same parts with the biggest that lies across the mirror plane first, where there is one:
-    /// what hangs on it is symmetric then.
+    /// The same parts with the one in the middle first.
     #[must_use]
-    pub fn with_root_across(self) -> Self {
-        let twins = self.segmentation.twins(&self.mesh);
-        let across = twins.and_then(|twins| (0..twins.len()).find(|&k| twins[k].0 as usize == k));
-        match across {
-            Some(part) if part > 0 => self.with_first(part),
-            _ => self,
+    pub fn with_root_in_the_middle(self) -> Self {
+        match middle(&self.mesh, &self.segmentation, &self.area_shares()) {
+            0 => self,
+            part => self.with_first(part),
         }
     }
 

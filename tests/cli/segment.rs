@@ -21,7 +21,7 @@ fn picture_segments_and_report_are_written() {
     assert_eq!(segments.lines().count(), faces);
     assert!(segments.lines().all(|l| ("0"..="4").contains(&l)));
     let report = report(&folder, "a.json");
-    assert_eq!(part_names(&report), ["body", "part-2", "part-3", "part-4", "part-5"]);
+    assert_eq!(part_names(&report), ["body", "bottom", "top", "right", "left"]);
     let shares = report["parts"].as_array().unwrap().iter().map(|p| p["area_share"].as_f64().unwrap());
     assert_near(Some(shares.sum()), 1.0);
     assert!(report["overlap"]["iou"].as_f64().unwrap() > 0.9, "{report}");
