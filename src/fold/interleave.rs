@@ -16,10 +16,12 @@ use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 /// So many components go in turn, at most, by so many levels each: first halves for all that have to
 /// do with a bump, then finer ones for fewer. Two that must move together do so by eighths.
 const LATTICES: [(usize, Level); 3] = [(5, 2), (3, 4), (2, 8)];
+/// Bumps up to so many times the paper's thickness, half a mm, are left to the hand: a second step is
+/// more trouble than to bend a panel aside.
+const WORTH_TURNS: f64 = 2.0;
 /// A lattice has at most so many places; that is enough for 5 by halves in a model of 18 parts.
 const MOST_PLACES: usize = 4_500;
-/// A lattice is left where it takes more sweeps than this, some 0.3 s: the bumps of the bunny and the
-/// armadillo cannot be avoided, and are looked at for nothing.
+/// A lattice is left where it takes more sweeps than this.
 const MOST_SWEEPS: usize = 120;
 /// A plan is changed for another one that does less harm by more than this for each step that it has
 /// more, or for one without bumps: ten steps that still bump by 4 instead of 6 mm help nobody.
@@ -65,7 +67,8 @@ pub(super) fn interleaved(
 }
 
 fn worst_bump(clashes: &[Clash], thickness_mm: f64, looked_at: &BTreeSet<[usize; 2]>) -> Option<Clash> {
-    let bumps = clashes.iter().filter(|c| c.depth_mm > thickness_mm && !looked_at.contains(&c.parts));
+    let least_mm = WORTH_TURNS * thickness_mm;
+    let bumps = clashes.iter().filter(|c| c.depth_mm > least_mm && !looked_at.contains(&c.parts));
     bumps.copied().max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm).then(b.parts.cmp(&a.parts)))
 }
 

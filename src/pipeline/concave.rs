@@ -8,8 +8,23 @@ use crate::model::Model;
 use crate::progress::{Cancelled, Progress};
 use glam::DVec3;
 
-/// What came of it: the model, what the user should know, and what was done as it was asked for.
-pub(super) type Refitted = (Model, Vec<Warning>, Vec<String>);
+/// What came of it.
+pub(super) struct Refitted {
+    /// The model.
+    pub(super) model: Model,
+    /// What the user should know.
+    pub(super) warnings: Vec<Warning>,
+    /// What was done as it was asked for.
+    pub(super) remarks: Vec<String>,
+    /// Components that stay convex, by the names that options go by.
+    pub(super) refused: Vec<String>,
+}
+
+/// Directions in which a component that was given none may have its dents, evenly over a half turn.
+pub(super) fn directions_rad() -> impl Iterator<Item = f64> {
+    const COUNT: usize = 12;
+    (0..COUNT).map(|k| std::f64::consts::PI * k as f64 / COUNT as f64)
+}
 
 /// The model with concave components where they are asked for and better.
 pub(super) fn refitted(
@@ -19,13 +34,13 @@ pub(super) fn refitted(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Refitted, Cancelled> {
-    let (mut warnings, mut remarks) = (Vec::new(), Vec::new());
+    let (mut warnings, mut remarks, mut refusals) = (Vec::new(), Vec::new(), Vec::new());
     for p in 0..model.parts().len() {
         let part = &model.parts()[p];
         let is_wanted = |(key, c): (&String, &super::ComponentOptions)| {
             c.is_concave && c.rename.as_ref().unwrap_or(key) == &part.name
         };
-        let Some((_, choice)) = options.components.iter().find(|entry| is_wanted(*entry)) else { continue };
+        let Some((key, choice)) = options.components.iter().find(|entry| is_wanted(*entry)) else { continue };
         progress.check()?;
         let name = part.name.clone();
         let body = Body {
@@ -36,7 +51,10 @@ pub(super) fn refitted(
         };
         let joints = model.joint_panels(p);
         match refit(&body, &part.component, &part.frame, &joints) {
-            Err(reason) => warnings.push(refused(&name, &reason.to_string())),
+            Err(reason) => {
+                warnings.push(refused(&name, &reason.to_string()));
+                refusals.push(key.clone());
+            }
             Ok((concave, convex_mm)) => {
                 let concave_mm = concave.component.hausdorff_mm();
                 remarks.push(format!(
@@ -48,7 +66,7 @@ pub(super) fn refitted(
             }
         }
     }
-    Ok((model, warnings, remarks))
+    Ok(Refitted { model, warnings, remarks, refused: refusals })
 }
 
 fn refused(name: &str, reason: &str) -> Warning {

@@ -1,7 +1,7 @@
 //! The stages, with a memory for what each of them made: what is asked for again is not made again.
 //! The command line runs an engine once; the studio keeps one and changes a little at a time.
 
-use super::concave;
+use super::concave::{self, Refitted};
 use super::judge::FoldJudge;
 use super::warning::{self, not_joined, pin_warnings};
 use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
@@ -127,16 +127,58 @@ impl<'m> Engine<'m> {
     /// As [`Engine::divide`], and [`Error::Model`], [`Error::NoComponent`], [`Error::SameName`].
     pub fn shape(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
         let divided = self.divide(options, progress)?;
-        let bodies = Bodies::new(divided.hulls(), options)?;
         progress.stage("components");
+        let mut found = self.refitted(&divided, options, progress)?;
+        for name in found.refused.clone() {
+            if options.components.get(&name).is_some_and(|own| own.direction_rad.is_none())
+                && let Some(other) = self.dented(&divided, options, &name, progress)?
+            {
+                found = other;
+            }
+        }
+        let Refitted { model, warnings: mut notes, remarks, .. } = found;
+        notes.extend(not_joined(&model));
+        Ok(Shaped { options: Arc::new(options.clone()), divided, model: Arc::new(model), notes, remarks })
+    }
+
+    /// The components, with dents where they may have them.
+    fn refitted(
+        &self,
+        divided: &Divided,
+        options: &Options,
+        progress: &dyn Progress,
+    ) -> Result<Refitted, Error> {
+        let bodies = Bodies::new(divided.hulls(), options)?;
         let assembly = bodies.assembly(options.min_panel_width_mm);
         let judge = FoldJudge { thickness_mm: options.thickness_mm, memory: &self.sweeps, progress };
         let Built { model, ids } = model::build(&assembly, &self.components, &judge, progress)?;
         self.ids.keep(Arc::new(model.clone()), ids);
         let (mesh, face_parts) = (divided.mesh(), divided.face_parts());
-        let (model, mut notes, remarks) = concave::refitted(model, mesh, face_parts, options, progress)?;
-        notes.extend(not_joined(&model));
-        Ok(Shaped { options: Arc::new(options.clone()), divided, model: Arc::new(model), notes, remarks })
+        Ok(concave::refitted(model, mesh, face_parts, options, progress)?)
+    }
+
+    /// The components in the first direction of one of them in which it has dents; none where it has them
+    /// in no direction. Directions are chosen for convex shapes, and a dent need not fold in these.
+    fn dented(
+        &self,
+        divided: &Divided,
+        options: &Options,
+        name: &String,
+        progress: &dyn Progress,
+    ) -> Result<Option<Refitted>, Error> {
+        for direction_rad in concave::directions_rad() {
+            let mut options = options.clone();
+            if let Some(own) = options.components.get_mut(name) {
+                own.direction_rad = Some(direction_rad);
+            }
+            match self.refitted(divided, &options, progress) {
+                Ok(found) if !found.refused.contains(name) => return Ok(Some(found)),
+                // Not every direction has room for all joints.
+                Ok(_) | Err(Error::Model(_)) => progress.check()?,
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(None)
     }
 
     /// Makes one component, by its index, as parts and joints alone decide it: sooner than the model that
