@@ -9,6 +9,7 @@ mod fit;
 mod gradient;
 mod grow;
 mod layer;
+mod likeness;
 mod panel;
 mod profile;
 mod qp;

@@ -1,8 +1,9 @@
 //! One step of the fit: the quadratic programme around the present solid.
 
 use super::distance::{Feature, Position};
-use super::fit::{Fitted, MARGIN, MEAN_WEIGHT, SIZE_PRICE, Task, rooms};
+use super::fit::{Fitted, LIKE_WEIGHT, MARGIN, MEAN_WEIGHT, SIZE_PRICE, Task, WORST_WEIGHT, rooms};
 use super::gradient::{Freedom, ProfileLength, Terms};
+use super::likeness::{Figure, faces, faces_inside};
 use super::qp::Programme;
 use super::seated;
 use super::shape::Shape;
@@ -19,6 +20,11 @@ const REACH: f64 = 6.0;
 const NEAR_JOINT: f64 = 0.3;
 /// Curvature of the variables that bound others, over the radius: the programme needs some.
 const BOUND_CURVATURE: f64 = 0.02;
+/// The mass of a face is as far from its middle as points at this share of the way to its corners.
+const SPREAD: f64 = 0.6;
+/// Price of a step's square over its length. A face has a small share of the volume: with 0.1 and more
+/// the fit stops before it is there, with 0.02 more steps are taken back.
+const STEP_PRICE: f64 = 0.05;
 /// No parameter changes by more than this many times the length of the step.
 const LONGEST: f64 = 3.0;
 
@@ -54,6 +60,7 @@ impl Task<'_> {
         };
         model.prices(step_mm);
         model.error_rows(step_mm);
+        model.likeness(step_mm);
         model.size_rows(step_mm);
         model.order_rows();
         for (k, joint) in self.target.joints.iter().enumerate() {
@@ -74,12 +81,12 @@ impl Model<'_> {
     fn prices(&mut self, step_mm: f64) {
         let longest = LONGEST * step_mm;
         for k in 0..self.freedom.count() {
-            self.programme.add_cost(k, 0.0, 1.0 / step_mm);
+            self.programme.add_cost(k, 0.0, STEP_PRICE / step_mm);
             self.programme.at_most([(k, 1.0)], longest);
             self.programme.at_most([(k, -1.0)], longest);
         }
         let curvature = BOUND_CURVATURE / self.task.radius_mm;
-        self.bound(self.worst, 1.0, curvature);
+        self.bound(self.worst, WORST_WEIGHT, curvature);
         let lack_price = SIZE_PRICE * self.at.lack_mm.max(1e-3);
         self.bound(self.lack, lack_price, lack_price * 0.1);
         for k in 0..self.task.target.joints.len() {
@@ -116,6 +123,35 @@ impl Model<'_> {
                 let mut terms = self.reach(position, corner, direction);
                 terms.iter_mut().for_each(|t| t.1 = -t.1);
                 self.error_row(terms, distance, weight);
+            }
+        }
+    }
+
+    /// The volume that the solid and the hull do not share. The rate of each face is that of its
+    /// area outside of the hull less that inside, the mean of what it is with the hull `step_mm`
+    /// larger and smaller; between the two it changes with the face's place.
+    fn likeness(&mut self, step_mm: f64) {
+        let (shape, task) = (&self.at.shape, self.task);
+        let weight = LIKE_WEIGHT / task.hull_mm2;
+        let whole = faces(&shape.polytope);
+        let [larger, smaller] = faces_inside(&shape.polytope, &task.hull, [step_mm, -step_mm]);
+        for (k, whole) in whole.iter().enumerate() {
+            let face = shape.face(k);
+            let mut rate = |figure: &Figure, sign: f64| {
+                for (variable, rate) in self.freedom.plane(shape, face, figure.centroid()) {
+                    self.programme.add_cost(variable, weight * sign * figure.area_mm2 * rate, 0.0);
+                }
+            };
+            rate(whole, 1.0);
+            rate(&larger[k], -1.0);
+            rate(&smaller[k], -1.0);
+            let near_mm2 = (larger[k].area_mm2 - smaller[k].area_mm2).max(0.0);
+            let corners = shape.polytope.outline_corners(k);
+            let curvature = weight * near_mm2 / (step_mm * corners.len() as f64);
+            let middle = whole.centroid();
+            for corner in shape.polytope.outline(k).filter(|_| near_mm2 > 0.0) {
+                let terms = self.freedom.plane(shape, face, middle.lerp(corner, SPREAD));
+                self.programme.add_square(&terms, 0.0, curvature);
             }
         }
     }

@@ -7,7 +7,7 @@ use super::fit::{Fit, Fitted};
 use super::grow::grown;
 use super::profile::{balance, imbalance};
 use super::seated::support;
-use super::start::{boxed, circumscribe, fold_spots, simplify};
+use super::start::{boxed, circumscribe, fold_spots, simplify, without_chain, without_plane};
 use super::target::{FoldSpot, Target};
 use crate::geom::{self, Hull, HullError, polygon};
 use glam::DVec3;
@@ -56,12 +56,21 @@ const REPAIRS: usize = 40;
 const REPAIR_STEPS: usize = 8;
 /// A shape that misses a limit by less is as good as one that keeps it.
 const NEAR_ENOUGH_MM: f64 = 1e-3;
+/// A panel that makes a component less alike by less than this share of its size, the cube root of
+/// its volume, is left out.
+const PANEL_WORTH: f64 = 0.0015;
+/// Steps after one was left out.
+const PRUNE_STEPS: usize = 8;
 /// Price of a mm of spread when flat, against a mm of error: directions that fold smaller win
 /// where the error is alike (Figure 8).
 const SPREAD_PRICE: f64 = 0.03;
 /// Price of an opening in a finished shape, against a mm of error, for each mm that a square of its
 /// area measures.
 const TRIM_PRICE: f64 = 0.5;
+/// Openings of more than this are seen as holes; each mm² over it costs so many mm, so that any other
+/// shape is better.
+const MOST_TRIMMED_MM2: f64 = 10.0;
+const OVER_PRICE: f64 = 0.5;
 /// Price of a mm that a shape lacks to be valid, while directions are compared.
 const LACK_PRICE: f64 = 2.0;
 
@@ -101,8 +110,10 @@ pub(super) fn best(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
     }
     let target = best.as_ref().map_or(0, |b| b.target);
     match as_box(&targets[target].0) {
-        Some((fitted, made)) if best.as_ref().map_or(true, |b| fitted.error_mm < b.fitted.error_mm) => {
-            Ok(Found { target, cost_mm: fitted.error_mm, fitted, made })
+        Some((fitted, made))
+            if best.as_ref().map_or(true, |b| fitted.likeness_mm() < b.fitted.likeness_mm()) =>
+        {
+            Ok(Found { target, cost_mm: fitted.likeness_mm(), fitted, made })
         }
         _ => best,
     }
@@ -130,7 +141,27 @@ fn best_of_counts(targets: &[(Target, f64)], hulls: &[Simpler]) -> Result<Found,
     );
     runs.extend(fewer);
     let finished = if targets.len() == 1 { FINISHED_OF_ONE } else { FINISHED };
-    let runs = ranked(runs, targets, LAST_STEPS, finished);
+    let mut runs = ranked(runs, targets, LAST_STEPS, LEFT_FULL + LEFT_FEWER);
+    let others = runs.split_off(finished.min(runs.len()));
+    let best = best_finished(runs, targets, hulls);
+    let best = if best.as_ref().is_ok_and(|b| b.made.trimmed_mm2 <= MOST_TRIMMED_MM2) {
+        best
+    } else {
+        match (best, best_finished(others, targets, hulls)) {
+            (Ok(a), Ok(b)) => Ok(if b.cost_mm < a.cost_mm { b } else { a }),
+            (Ok(a), Err(_)) => Ok(a),
+            (Err(_), other) => other,
+        }
+    };
+    best.map(|found| pruned(found, targets, hulls))
+}
+
+/// The best of these fits, finished.
+fn best_finished(
+    runs: Vec<(usize, Fit)>,
+    targets: &[(Target, f64)],
+    hulls: &[Simpler],
+) -> Result<Found, ConvertError> {
     let finished = runs.into_par_iter().map(|(k, fit)| (k, finish(&targets[k].0, hulls[k].fine(), fit)));
     let finished: Vec<(usize, Result<_, AssembleError>)> = finished.collect();
     let mut best = Err(ConvertError::Hull(HullError::Flat));
@@ -149,15 +180,47 @@ fn best_of_counts(targets: &[(Target, f64)], hulls: &[Simpler]) -> Result<Found,
     best
 }
 
+/// The same with the planes and chains left out that add little to the likeness, one by one, where
+/// the user has not set how many there are to be.
+fn pruned(mut found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Found {
+    let target = &targets[found.target];
+    if target.0.comfortable_mm <= target.0.min_panel_mm {
+        return found;
+    }
+    let fine = hulls[found.target].fine();
+    let goal = Target { hull: fine, ..goal(&target.0, fine) };
+    let worth_mm = PANEL_WORTH * fine.volume().cbrt();
+    for way in [without_plane, without_chain] {
+        while let Some((solid, spots)) = way(&found.fitted, &goal) {
+            let fit = Fit::new(goal.clone(), solid, spots).run(PRUNE_STEPS);
+            let Ok(made) = assemble_unbroken(fit.best()) else { break };
+            let saved = found.made.panels.panels().len().saturating_sub(made.panels.panels().len());
+            let cost_mm = finished_cost(fit.best(), &made, target);
+            let is_valid = fit.best().lack_mm < NEAR_ENOUGH_MM;
+            if saved == 0 || !is_valid || cost_mm > found.cost_mm + saved as f64 * worth_mm {
+                break;
+            }
+            found = Found { fitted: fit.into_best(), made, cost_mm, ..found };
+        }
+    }
+    found
+}
+
 /// What finished shapes are compared by: the error first, then good joints, a small spread, and small
 /// openings where slits were widened so that the flat layers do not overlap.
 fn finished_cost(fitted: &Fitted, made: &Assembled, (target, own_mm): &(Target, f64)) -> f64 {
-    fitted.error_mm
+    fitted.likeness_mm()
         + LACK_PRICE * fitted.lack_mm
         + SPREAD_PRICE * spread_mm(fitted)
         + SUPPORT_PRICE * height_mm(target.hull) * short_of_support(fitted, target)
         + own_mm
-        + TRIM_PRICE * made.trimmed_mm2.sqrt()
+        + opening_cost(made)
+}
+
+/// What the openings of a finished shape cost, mm.
+fn opening_cost(made: &Assembled) -> f64 {
+    let over_mm2 = (made.trimmed_mm2 - MOST_TRIMMED_MM2).max(0.0);
+    TRIM_PRICE * made.trimmed_mm2.sqrt() + OVER_PRICE * over_mm2
 }
 
 /// Goes on with fits, each with the index of its target, and keeps the best.
@@ -188,7 +251,7 @@ fn as_box(target: &Target) -> Option<(Fitted, Assembled)> {
 
 /// What directions are compared by, while they are fitted.
 fn cost(fitted: &Fitted) -> f64 {
-    fitted.error_mm + LACK_PRICE * fitted.lack_mm + fitted.miss_mm + SPREAD_PRICE * spread_mm(fitted)
+    fitted.likeness_mm() + LACK_PRICE * fitted.lack_mm + fitted.miss_mm + SPREAD_PRICE * spread_mm(fitted)
 }
 
 /// How far the longest chain reaches from the axis when flat.
@@ -255,7 +318,9 @@ fn finish(target: &Target, hull: &Hull, fit: Fit) -> Result<(Fitted, Assembled),
             break;
         }
         match settle(target, next) {
-            Ok(next) if cost(&next.0) < cost(&best.0) => best = next,
+            Ok(next) if cost(&next.0) + opening_cost(&next.1) < cost(&best.0) + opening_cost(&best.1) => {
+                best = next;
+            }
             _ => break,
         }
     }
@@ -289,7 +354,7 @@ fn settle(target: &Target, fit: Fit) -> Result<(Fitted, Assembled), AssembleErro
         let is_valid = fit.best().lack_mm < NEAR_ENOUGH_MM;
         match assemble_unbroken(fit.best()) {
             Ok(made) => {
-                let merit = fit.best().error_mm + 10.0 * fit.best().lack_mm;
+                let merit = fit.best().likeness_mm() + 10.0 * fit.best().lack_mm;
                 if best.as_ref().is_none_or(|b| merit < b.0) {
                     best = Some((merit, fit.best().clone(), made));
                 }

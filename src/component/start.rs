@@ -328,6 +328,45 @@ pub(super) fn simplify(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<F
     Some((simpler, spots))
 }
 
+/// A shape without the plane that adds least to it; `None` where none can be spared.
+pub(super) fn without_plane(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<FoldSpot>)> {
+    let shape = &fitted.shape;
+    let mut solid = shape.solid.clone();
+    let ends = (solid.top_mm, solid.bottom_mm);
+    let mut least: Option<(f64, usize, usize)> = None;
+    for (j, chain) in solid.chains.iter().enumerate() {
+        let others = chain.facets.iter().filter(|f| !f.is_joint).count();
+        for k in (0..chain.facets.len()).filter(|&k| others > 1 && !chain.facets[k].is_joint) {
+            let profile = &shape.chains[j].profile;
+            let width_mm = shape.width_at(j, (profile[k].y + profile[k + 1].y) / 2.0);
+            let volume_mm3 = width_mm * bulge(&shape.chains[j].lines, k, ends).0;
+            if least.is_none_or(|l| volume_mm3 < l.0) {
+                least = Some((volume_mm3, j, k));
+            }
+        }
+    }
+    let (_, j, k) = least?;
+    solid.chains[j].facets.remove(k);
+    let spots = fold_spots(&mut solid, target.profile_vertices);
+    Some((solid, spots))
+}
+
+/// A shape without the chain that has the least area; `None` where none can be spared.
+pub(super) fn without_chain(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<FoldSpot>)> {
+    let shape = &fitted.shape;
+    let mut solid = shape.solid.clone();
+    let area = |j: usize| -> f64 {
+        let parts = shape.chains[j].profile.windows(2);
+        parts.map(|w| w[0].distance(w[1]) * shape.width_at(j, (w[0].y + w[1].y) / 2.0)).sum()
+    };
+    let least = (0..solid.chains.len())
+        .filter(|&j| can_go(&solid, j))
+        .min_by(|&a, &b| area(a).total_cmp(&area(b)))?;
+    solid.chains.remove(least);
+    let spots = fold_spots(&mut solid, target.profile_vertices);
+    Some((solid, spots))
+}
+
 /// Whether a solid stays closed without chain j.
 fn can_go(solid: &Solid, j: usize) -> bool {
     let (before, after) = (&solid.chains[solid.previous(j)], &solid.chains[solid.next(j)]);
