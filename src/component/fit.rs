@@ -34,8 +34,7 @@ pub(super) const SIZE_PRICE: f64 = 20.0;
 /// Weight of the mean distance, the volume of the symmetric difference over the hull's area: it is
 /// what is seen. Alone it gives the bunny's volume but lets corners stand out of its outlines.
 pub(super) const LIKE_WEIGHT: f64 = 2.0;
-/// Weight of the largest distance: with 0.4 the outlines of koala and bunny are further off, without
-/// it one corner may be far out.
+/// Weight of the largest distance, so that no corner is far out; not bounded by a case of its own yet.
 pub(super) const WORST_WEIGHT: f64 = 0.15;
 /// Weight of the mean of squares over corners, which are what outlines are made of: with 0.5 the
 /// silhouettes of bunny and fish are worse, with 1.5 no volume is lost yet.
