@@ -4,8 +4,8 @@ mod bodies;
 mod concave;
 mod drawn;
 mod engine;
+mod judge;
 mod output;
-mod untangle;
 mod warning;
 
 pub use bodies::{Bodies, Hulls};
@@ -39,8 +39,6 @@ pub struct Options {
     pub edits: Vec<Edit>,
     /// The part that all others hang on; without it the biggest.
     pub root: Option<String>,
-    /// Whether other fold directions are tried where components bump into each other.
-    pub untangles: bool,
     /// What differs for components of these names.
     pub components: BTreeMap<String, ComponentOptions>,
     /// Edges of top panels, at least 3.
@@ -78,7 +76,6 @@ impl Default for Options {
             segmentation: SegmentOptions::default(),
             edits: Vec::new(),
             root: None,
-            untangles: false,
             components: BTreeMap::new(),
             top_edges: 6,
             profile_vertices: 6,

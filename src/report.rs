@@ -1,9 +1,9 @@
 //! The report: what was made, in numbers, as JSON.
 
 use crate::component::PanelId;
-use crate::fold::{Clash, Overlap, Stack};
+use crate::fold::{Clash, Overlap, Stack, Step};
 use crate::geom::polygon;
-use crate::mesh::Repairs;
+use crate::mesh::{MirrorPlane, Repairs};
 use crate::model::ModelPart;
 use crate::net::{Net, Piece};
 use crate::pipeline::{Output, Warning};
@@ -44,7 +44,16 @@ struct Input<'a> {
     faces: usize,
     vertices: usize,
     diagonal_mm: f64,
+    symmetry: Option<SymmetryNumbers>,
     repairs: RepairNumbers,
+}
+
+/// The mirror plane of the model.
+#[derive(Serialize)]
+struct SymmetryNumbers {
+    normal: [f64; 3],
+    offset_mm: f64,
+    error_percent: f64,
 }
 
 #[derive(Serialize)]
@@ -94,6 +103,7 @@ struct Joint {
     parent_panel: String,
     child_panel: String,
     support_ratio: f64,
+    glue_mm2: f64,
 }
 
 /// How the model folds.
@@ -101,9 +111,17 @@ struct Joint {
 struct Fold<'a> {
     thickness_mm: f64,
     order: Vec<&'a str>,
+    steps: Vec<FoldStep<'a>>,
     clashes: Vec<FoldClash<'a>>,
     deployed_overlaps: Vec<DeployedOverlap<'a>>,
     flat: Vec<Flat<'a>>,
+}
+
+#[derive(Serialize)]
+struct FoldStep<'a> {
+    component: &'a str,
+    from: f64,
+    to: f64,
 }
 
 #[derive(Serialize)]
@@ -176,6 +194,7 @@ pub fn to_json(output: &Output, run: &Run<'_>) -> Result<Vec<u8>, serde_json::Er
             faces: output.mesh().faces().len(),
             vertices: output.mesh().positions().len(),
             diagonal_mm,
+            symmetry: output.mirror_plane().map(symmetry),
             repairs: repairs(run.repairs),
         },
         stages: run.stages.iter().map(|&(name, seconds)| Stage { name, seconds }).collect(),
@@ -204,6 +223,12 @@ pub fn to_json(output: &Output, run: &Run<'_>) -> Result<Vec<u8>, serde_json::Er
     Ok(bytes)
 }
 
+fn symmetry(found: &MirrorPlane) -> SymmetryNumbers {
+    let plane = found.mirror.plane();
+    let (normal, offset_mm) = (plane.normal().to_array(), plane.offset());
+    SymmetryNumbers { normal, offset_mm, error_percent: found.error_percent }
+}
+
 fn repairs(repairs: &Repairs) -> RepairNumbers {
     RepairNumbers {
         input_faces: repairs.input_faces,
@@ -221,6 +246,7 @@ fn fold(output: &Output) -> Fold<'_> {
     let (parts, plan) = (output.model().parts(), output.fold_plan());
     let name = |part: usize| parts[part].name.as_str();
     let panel = |part: usize, panel: PanelId| parts[part].component.panels().panel(panel).kind.to_string();
+    let step = |step: &Step| FoldStep { component: name(step.part), from: step.from, to: step.to };
     let clash = |clash: &Clash| FoldClash {
         components: clash.parts.map(name),
         panels: [0, 1].map(|k| panel(clash.parts[k], clash.panels[k])),
@@ -241,6 +267,7 @@ fn fold(output: &Output) -> Fold<'_> {
     Fold {
         thickness_mm: plan.thickness_mm(),
         order: plan.order().iter().map(|&p| name(p)).collect(),
+        steps: plan.steps().iter().map(step).collect(),
         clashes: plan.clashes().iter().map(clash).collect(),
         deployed_overlaps: plan.overlaps().iter().map(overlap).collect(),
         flat: plan.stacks().iter().map(flat).collect(),
@@ -276,6 +303,7 @@ fn component<'a>(output: &'a Output, p: usize, part: &'a ModelPart, diagonal_mm:
             parent_panel: panel_name(&parts[j.parent], j.parent_panel),
             child_panel: panel_name(part, j.child_panel),
             support_ratio: j.support_ratio,
+            glue_mm2: j.glue_mm2,
         }),
         placement: glam::DMat4::from(part.placement).to_cols_array(),
     }

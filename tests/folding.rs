@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec2, DVec3};
 use std::collections::BTreeSet;
 use tatamu::component::{Panel, PanelId, PanelKind};
-use tatamu::fold::{FoldPlan, ModelMotion, ModelPose, Sequence};
+use tatamu::fold::{FoldPlan, ModelMotion, ModelPose, Sequence, SweepMemory};
 use tatamu::geom::{self, Hull, Plane};
 use tatamu::model::{Known, Link, Model, Part, PartOptions, build};
 use tatamu::progress::Silent;
@@ -125,11 +125,11 @@ fn ears_too_near_to_each_other_clash_in_any_order() {
     let mut order = plan.order().to_vec();
     order.sort_unstable();
     assert_eq!(order, [0, 1, 2], "a model is made all the same");
-    let advice = plan.advice(&model, false);
+    let advice = plan.advice(&model);
     let pairs: BTreeSet<[usize; 2]> = plan.clashes().iter().map(|c| c.parts).collect();
     assert_eq!(advice.len(), pairs.len() + plan.overlaps().len(), "each pair is told of once");
     let (code, message) = advice.iter().find(|(code, _)| *code == "fold_clash").expect("a warning");
-    for word in ["left", "right", "--direction"] {
+    for word in ["left", "right", " mm when "] {
         assert!(message.contains(word), "{code}: {message}");
     }
 }
@@ -140,7 +140,7 @@ fn plans_agree_with_brute_force() {
         let model = ears(EAR_MM * (0.35 + 0.08 * f64::from(k)));
         let motion = ModelMotion::new(&model);
         let plan = plan(&motion);
-        let sequence = Sequence::new(plan.order());
+        let sequence = Sequence::new(plan.steps());
         let poses = (0..=240).map(|k| motion.pose(&sequence.folded(f64::from(k) / 240.0)));
         let (mut deep, mut any) = (Vec::new(), Vec::new());
         for pose in poses {
@@ -151,6 +151,135 @@ fn plans_agree_with_brute_force() {
         let told: Vec<[usize; 2]> = plan.clashes().iter().map(|c| c.parts).collect();
         assert!(deep.iter().all(|pair| told.contains(pair)), "not told of {deep:?}, only of {told:?}");
         assert!(told.iter().all(|pair| any.contains(pair)), "told of {told:?}, but only {any:?} happen");
+    }
+}
+
+/// A body on the head: rectangles of half-widths `wide_mm` at its bottom, at a share of its height and
+/// at its top.
+fn bulge(name: &str, x_mm: f64, wide_mm: [f64; 3], deep_mm: f64, height_mm: f64, middle: f64) -> Part {
+    let levels = [0.0, middle * height_mm, height_mm];
+    let corners: Vec<DVec3> = levels
+        .iter()
+        .zip(wide_mm)
+        .flat_map(|(&z, wide)| {
+            [(-wide, -deep_mm), (wide, -deep_mm), (wide, deep_mm), (-wide, deep_mm)]
+                .map(|(x, y)| DVec3::new(x_mm + x, y, z))
+        })
+        .collect();
+    let mut part = cuboid(name, DVec3::ZERO, DVec3::ONE);
+    part.hull = Hull::of_points(&corners).unwrap();
+    part.options.profile_vertices = 4;
+    part
+}
+
+/// Two bodies that no order folds without harm.
+fn bulges() -> Vec<Model> {
+    let head = cuboid("head", DVec3::new(-90.0, -60.0, -40.0), DVec3::new(180.0, 120.0, 40.0));
+    let pairs = [
+        [(-13.0, [8.0, 13.0, 4.5], 31.5, 64.5, 0.15), (19.5, [13.5, 13.5, 7.5], 24.5, 39.0, 0.7)],
+        [(-28.0, [19.0, 28.0, 12.0], 16.0, 42.0, 0.35), (12.0, [5.5, 13.0, 4.5], 30.5, 46.0, 0.1)],
+        [(-18.0, [10.5, 17.5, 18.0], 17.5, 69.5, 0.15), (33.5, [19.5, 29.5, 7.0], 40.0, 65.0, 0.15)],
+    ];
+    let plane = Plane::horizontal(0.0);
+    let links = [1, 2].map(|child| Link { parent: 0, child, plane });
+    let part = |name: &str, (x, wide, deep, height, middle)| bulge(name, x, wide, deep, height, middle);
+    pairs
+        .map(|[left, right]| {
+            let parts = [head.clone(), part("left", left), part("right", right)];
+            build(&parts, &links, 3.0, &Known::default(), &Silent).unwrap()
+        })
+        .into()
+}
+
+/// Every component goes from deployed to flat and never back, and no pose has a cut that is not told of.
+fn assert_sound(model: &Model, plan: &FoldPlan) {
+    let motion = ModelMotion::new(model);
+    let mut folded = vec![0.0; model.parts().len()];
+    for step in plan.steps() {
+        assert!(step.from == folded[step.part] && step.to > step.from, "{:?}", plan.steps());
+        folded[step.part] = step.to;
+    }
+    assert!(folded.iter().all(|share| *share == 1.0), "all are flat in the end");
+    let sequence = Sequence::new(plan.steps());
+    let told: BTreeSet<[usize; 2]> =
+        plan.clashes().iter().map(|c| c.parts).chain(plan.overlaps().iter().map(|o| o.parts)).collect();
+    for k in 0..=240 {
+        let pose = motion.pose(&sequence.folded(f64::from(k) / 240.0));
+        let happen = cuts(&triangles(model, &pose), THICKNESS_MM);
+        assert!(happen.iter().all(|pair| told.contains(pair)), "not told of {happen:?} at {k}");
+    }
+}
+
+/// A post with a cap on it, and a body beside them that both reach when they fold.
+fn cap_on_post() -> Model {
+    let parts = [
+        cuboid("head", DVec3::new(-90.0, -60.0, -40.0), DVec3::new(180.0, 120.0, 40.0)),
+        cuboid("post", DVec3::new(-39.0, -20.0, 0.0), DVec3::new(39.0, 40.0, 51.0)),
+        cuboid("cap", DVec3::new(-41.0, -20.0, 51.0), DVec3::new(53.5, 40.0, 37.0)),
+        cuboid("body", DVec3::new(21.5, -20.0, 0.0), DVec3::new(19.0, 40.0, 73.5)),
+    ];
+    let links = [(0, 1, 0.0), (1, 2, 51.0), (0, 3, 0.0)];
+    let links = links.map(|(parent, child, z)| Link { parent, child, plane: Plane::horizontal(z) });
+    build(&parts, &links, 3.0, &Known::default(), &Silent).unwrap()
+}
+
+/// All orders of so many components.
+fn orders(count: usize) -> Vec<Vec<usize>> {
+    let Some(last) = count.checked_sub(1) else { return vec![Vec::new()] };
+    let shorter = orders(last);
+    let longer = |order: &Vec<usize>| -> Vec<Vec<usize>> {
+        (0..count).map(|at| [&order[..at], &[last], &order[at..]].concat()).collect()
+    };
+    shorter.iter().flat_map(longer).collect()
+}
+
+#[test]
+fn a_model_that_no_order_folds_is_folded_in_turn() {
+    let model = cap_on_post();
+    let motion = ModelMotion::new(&model);
+    for order in orders(4) {
+        let sequence = Sequence::of_order(&order);
+        let mut poses = (0..=200).map(|k| motion.pose(&sequence.folded(f64::from(k) / 200.0)));
+        let cuts = poses.any(|pose| !cuts(&triangles(&model, &pose), THICKNESS_MM).is_empty());
+        assert!(cuts, "{order:?} is free");
+    }
+    let plan = plan(&motion);
+    assert_eq!(plan.clashes(), []);
+    assert_eq!(plan.overlaps(), []);
+    assert_eq!(plan.harm_mm(), 0.0);
+    assert_eq!(plan.steps().len(), 5, "one component goes half way first: {:?}", plan.steps());
+    assert_sound(&model, &plan);
+}
+
+#[test]
+fn steps_in_turn_do_no_more_harm_than_an_order_and_are_told_as_they_are() {
+    for model in bulges() {
+        let motion = ModelMotion::new(&model);
+        let (memory, ids) = (SweepMemory::default(), [0, 1, 2]);
+        let quick = FoldPlan::quick(&motion, THICKNESS_MM, &ids, &memory, &Silent).unwrap();
+        let plan = plan(&motion);
+        assert!(quick.is_order() && quick.harm_mm() > 0.0, "no order is free");
+        assert!(plan.harm_mm() <= quick.harm_mm());
+        assert_sound(&model, &quick);
+        assert_sound(&model, &plan);
+        let order: BTreeSet<usize> = plan.order().iter().copied().collect();
+        assert_eq!(order.len(), 3, "each becomes flat once");
+    }
+}
+
+#[test]
+fn a_memory_changes_nothing_but_the_time() {
+    let memory = SweepMemory::default();
+    for (k, model) in bulges().into_iter().enumerate() {
+        let motion = ModelMotion::new(&model);
+        // The head is the same for all, the bodies on it are not.
+        let ids = [0, 2 * k as u64 + 1, 2 * k as u64 + 2];
+        let with = || FoldPlan::with_memory(&motion, THICKNESS_MM, &ids, &memory, &Silent).unwrap();
+        let (first, alone) = (with(), plan(&motion));
+        assert_eq!(first, alone);
+        let known = memory.len();
+        assert_eq!(with(), alone);
+        assert_eq!(memory.len(), known, "nothing is worked out twice");
     }
 }
 

@@ -39,13 +39,6 @@ pub struct ModelArgs {
     #[arg(long, value_name = "NAME=DEGREES", value_parser = direction)]
     direction: Vec<(String, f64)>,
 
-    /// Tries other fold directions where components bump into each other while they fold
-    ///
-    /// Takes some seconds; directions given by --direction stay. "init" writes those that were
-    /// found into the project file, and the report has them. Example: --untangle
-    #[arg(long)]
-    untangle: bool,
-
     /// Component that may have dents, such as a bottle with --parts 1
     ///
     /// Its profiles follow the shape itself rather than its convex hull. It stays convex, with a
@@ -177,7 +170,6 @@ impl ModelArgs {
         set(&mut options.margin_mm, self.margin);
         set(&mut options.thickness_mm, self.thickness);
         options.is_thick |= self.thick;
-        options.untangles = self.untangle;
         self.nets.merge(project.map(|p| &p.nets), &mut options.nets);
         self.sheets.merge(project.map(|p| &p.sheets), &mut options.sheets);
         options.up = self.up.unwrap_or(options.up);
@@ -225,7 +217,6 @@ impl ModelArgs {
         let flags = [
             ("--up", self.up.is_some()),
             ("--direction", !self.direction.is_empty()),
-            ("--untangle", self.untangle),
             ("--concave", !self.concave.is_empty()),
             ("--top-edges", self.top_edges.is_some()),
             ("--profile-vertices", self.profile_vertices.is_some()),

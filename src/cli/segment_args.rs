@@ -3,8 +3,10 @@
 use super::error::CliError;
 use super::options::{number, parts};
 use clap::Args;
-use tatamu::project::{MethodName, Project, check_clusters, check_detail, check_smoothing, parse_method};
-use tatamu::segment::{Method, SegmentOptions};
+use tatamu::project::{
+    MethodName, Project, check_clusters, check_detail, check_smoothing, parse_method, parse_symmetry,
+};
+use tatamu::segment::{Method, SegmentOptions, SymmetryChoice};
 
 /// How the mesh is divided.
 #[derive(Debug, Clone, Default, Args)]
@@ -22,6 +24,14 @@ pub struct SegmentArgs {
     /// Example: --detail 0.8
     #[arg(long, value_name = "0..1", value_parser = detail, conflicts_with = "parts")]
     detail: Option<f64>,
+
+    /// Whether the two sides are mirror images: auto, off, x, y or z [default: auto]
+    ///
+    /// "auto" looks for a mirror plane of the mesh. x, y and z mirror it in the plane through its
+    /// middle with that normal, in the axes of its file, even where it is symmetric only roughly.
+    /// Example: --symmetry off
+    #[arg(long, value_name = "HOW", value_parser = parse_symmetry)]
+    symmetry: Option<SymmetryChoice>,
 
     /// How parts are found: merge or sdf [default: merge]
     ///
@@ -66,6 +76,7 @@ impl SegmentArgs {
         let flags = [
             ("--parts", self.parts.is_some()),
             ("--detail", self.detail.is_some()),
+            ("--symmetry", self.symmetry.is_some()),
             ("--method", self.method.is_some()),
             ("--clusters", self.clusters.is_some()),
             ("--smoothing", self.smoothing.is_some()),
@@ -95,6 +106,7 @@ impl SegmentArgs {
             },
         };
         let detail = self.detail.or(table.detail).unwrap_or(defaults.detail);
-        Ok(SegmentOptions { parts, detail, method })
+        let symmetry = self.symmetry.or(table.symmetry).unwrap_or_default();
+        Ok(SegmentOptions { parts, detail, method, symmetry })
     }
 }

@@ -6,6 +6,7 @@ use super::panel::{Hinge, HingeSide, Panel, PanelId, PanelKind, PanelSet};
 use super::profile::{Fold, Profile, ProfileError, balance};
 use super::solid::Solid;
 use super::spans::{Span, common, edge_of, set_span, span};
+use super::symmetry::Symmetry;
 use super::target::FoldSpot;
 use super::walls::Walls;
 use crate::geom::polygon;
@@ -58,13 +59,19 @@ pub(super) struct Assembled {
 }
 
 /// Profiles with fold vertices, panels trimmed where they would collide when flat, hinges.
-pub(super) fn assemble(solid: &Solid, spots: &[FoldSpot]) -> Result<Assembled, AssembleError> {
+/// They are their own mirror image where the solid is.
+pub(super) fn assemble(
+    solid: &Solid,
+    spots: &[FoldSpot],
+    symmetry: Option<Symmetry>,
+) -> Result<Assembled, AssembleError> {
     let profiles = (0..solid.chains.len())
         .map(|chain| {
             profile(solid, chain, spots[chain]).map_err(|error| AssembleError::Profile { chain, error })
         })
         .collect::<Result<Vec<_>, _>>()?;
-    panels(&Walls::new(solid.chains.iter().map(|c| c.normal()).collect(), profiles))
+    let normals = solid.chains.iter().map(|c| c.normal()).collect();
+    panels(&Walls::new(normals, profiles).mirrored_in(symmetry))
 }
 
 /// Panels of walls, trimmed where they would collide when flat, hinges.

@@ -12,6 +12,7 @@ use super::target::{JointTarget, Target};
 use super::walls::Walls;
 use crate::geom::{HullError, polygon};
 use glam::DVec2;
+use rayon::prelude::*;
 
 /// Why a hull becomes no component.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -22,6 +23,9 @@ pub enum ConvertError {
     /// No shape tried gives panels.
     #[error("no foldable shape was found for it; the last try failed because {0}")]
     Assemble(#[from] AssembleError),
+    /// A joint has no image in the mirror plane, or would be creased by it.
+    #[error("its joints are not mirror images of one another as the component is to be")]
+    Lopsided,
 }
 
 /// Walls narrower than this vanish.
@@ -78,6 +82,40 @@ impl Component {
         }
         let Assembled { profiles, panels, trimmed_mm2 } = assemble::panels(&walls)?;
         Ok(Self { solid: None, normals, profiles, panels, error_mm: 0.0, trimmed_mm2 })
+    }
+
+    /// What the search found for one of these targets.
+    fn of_found(found: Found, targets: &[(Target, f64)]) -> Self {
+        let Found { target, fitted, made, .. } = found;
+        let error_mm = hausdorff(&fitted.shape.polytope, &Polytope::of_hull(targets[target].0.hull));
+        let solid = fitted.shape.solid;
+        Self {
+            normals: solid.chains.iter().map(|chain| chain.normal()).collect(),
+            solid: Some(solid),
+            profiles: made.profiles,
+            panels: made.panels,
+            error_mm,
+            trimmed_mm2: made.trimmed_mm2,
+        }
+    }
+
+    /// Its image in its own plane x = 0, and for each of its panels the panel of the image that is
+    /// its image. Chain j of the image is that of chain N − j, of N in all; chain 0 stays chain 0.
+    /// The image of the image is the component itself, up to the rounding of its solid's angles.
+    #[must_use]
+    pub fn mirrored(&self) -> (Self, Vec<PanelId>) {
+        let count = self.normals.len();
+        let image = |j: usize| (count - j) % count;
+        let (panels, ids) = self.panels.mirrored(image);
+        let mirrored = Self {
+            solid: self.solid.as_ref().map(Solid::mirrored),
+            normals: (0..count).map(|j| self.normals[image(j)] * DVec2::new(-1.0, 1.0)).collect(),
+            profiles: (0..count).map(|j| self.profiles[image(j)].clone()).collect(),
+            panels,
+            error_mm: self.error_mm,
+            trimmed_mm2: self.trimmed_mm2,
+        };
+        (mirrored, ids)
     }
 
     /// The same, with its Hausdorff distance to what it stands for.
@@ -202,22 +240,36 @@ pub fn convert(target: &Target) -> Result<Component, ConvertError> {
 /// # Errors
 /// As [`convert`], where no target gives a component.
 pub fn choose(targets: &[(Target, f64)]) -> Result<(usize, Component), ConvertError> {
-    let Found { target: k, fitted, made, .. } = search::best(targets)?;
-    let error_mm = hausdorff(&fitted.shape.polytope, &Polytope::of_hull(targets[k].0.hull));
-    let solid = fitted.shape.solid;
-    let component = Component {
-        normals: solid.chains.iter().map(|chain| chain.normal()).collect(),
-        solid: Some(solid),
-        profiles: made.profiles,
-        panels: made.panels,
-        error_mm,
-        trimmed_mm2: made.trimmed_mm2,
-    };
-    Ok((k, component))
+    let found = search::best(targets)?;
+    Ok((found.target, Component::of_found(found, targets)))
+}
+
+/// A finished component for one of several targets.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Finished {
+    /// Index of the target.
+    pub target: usize,
+    /// Its best component.
+    pub component: Component,
+    /// What components of different targets are compared by: the error, joints that are not well
+    /// supported, the spread when flat, what was trimmed and the target's own cost, mm.
+    pub cost_mm: f64,
+}
+
+/// The best component for each of the `most` most promising of several targets (as for [`choose`]),
+/// those of the least cost first. Targets for which nothing has room are left out.
+pub fn finished(targets: &[(Target, f64)], most: usize) -> Vec<Finished> {
+    let found = search::each(targets, most).into_par_iter();
+    let finished = found.map(|found| Finished {
+        target: found.target,
+        cost_mm: found.cost_mm(),
+        component: Component::of_found(found, targets),
+    });
+    finished.collect()
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::component::Seat;
     use crate::geom::{self, Hull};
@@ -225,12 +277,20 @@ mod tests {
     use proptest::prelude::*;
 
     /// Points spread over an ellipsoid: round, needle-like and plate-like hulls.
-    fn blob(axes: DVec3, count: usize) -> Vec<DVec3> {
+    pub(crate) fn blob(axes: DVec3, count: usize) -> Vec<DVec3> {
         geom::directions(count).map(|d| d * axes).collect()
     }
 
-    fn target(hull: &Hull, joints: Vec<JointTarget>) -> Target<'_> {
-        Target { hull, joints, top_edges: 6, profile_vertices: 6, min_panel_mm: 3.0, comfortable_mm: 6.0 }
+    pub(crate) fn target(hull: &Hull, joints: Vec<JointTarget>) -> Target<'_> {
+        Target {
+            hull,
+            joints,
+            symmetry: None,
+            top_edges: 6,
+            profile_vertices: 6,
+            min_panel_mm: 3.0,
+            comfortable_mm: 6.0,
+        }
     }
 
     fn close(a: DVec3, b: DVec3) -> bool {
@@ -256,7 +316,7 @@ mod tests {
     }
 
     /// All that must hold for any component.
-    fn check(component: &Component) {
+    pub(crate) fn check(component: &Component) {
         assert_eq!(flat_overlaps(component), 0);
         for profile in component.profiles() {
             assert!(profile.gap_mm().abs() <= 1e-9 * profile.mean_segment_mm());

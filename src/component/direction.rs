@@ -22,6 +22,11 @@ impl PrincipalAxis {
         Self { axis, zero, centre: hull.centroid() }
     }
 
+    /// The axis about which fold directions turn.
+    pub fn axis(&self) -> DVec3 {
+        self.axis
+    }
+
     /// The fold axis at an angle about the principal axis.
     pub fn fold_axis(&self, angle_rad: f64) -> DVec3 {
         self.zero * angle_rad.cos() + self.axis.cross(self.zero) * angle_rad.sin()

@@ -2,72 +2,110 @@
 
 use super::shape::{ChainShape, Line, Shape};
 use super::solid::{Corner, FaceId, Solid};
+use super::symmetry::{Symmetry, twin};
 use glam::{DMat3, DVec2, DVec3};
 use smallvec::SmallVec;
 
 /// Which parameters of a solid are free, and where they stand in the vector of changes.
 ///
-/// Angles and slopes are measured in mm at `radius_mm`, so that all changes are of one kind.
+/// Angles and slopes are measured in mm at `radius_mm`, so that all changes are of one kind. In a
+/// solid that is its own mirror image, a parameter and its image share a variable.
 #[derive(Debug, Clone)]
 pub(super) struct Freedom {
     radius_mm: f64,
     count: usize,
-    angles: Vec<Option<usize>>,
-    facets: Vec<Vec<Option<usize>>>,
-    top: Option<usize>,
-    bottom: Option<usize>,
+    angles: Vec<Parameter>,
+    /// Slope and offset of each facet.
+    facets: Vec<Vec<[Parameter; 2]>>,
+    top: Parameter,
+    bottom: Parameter,
 }
+
+/// The variable of a free parameter, and the parameter's change with it: 1 or −1.
+pub(super) type Parameter = Option<(usize, f64)>;
 
 /// A linear form over the free parameters.
 pub(super) type Terms = SmallVec<[(usize, f64); 16]>;
 
 impl Freedom {
-    pub(super) fn of(solid: &Solid, radius_mm: f64) -> Self {
+    pub(super) fn of(solid: &Solid, radius_mm: f64, symmetry: Option<Symmetry>) -> Self {
         let mut count = 0;
-        let mut take = |is_free: bool, width: usize| {
+        let mut take = |is_free: bool| {
             is_free.then(|| {
-                count += width;
-                count - width
+                count += 1;
+                (count - 1, 1.0)
             })
         };
-        let angles = solid.chains.iter().map(|c| take(!c.is_locked, 1)).collect();
-        let facets =
-            solid.chains.iter().map(|c| c.facets.iter().map(|f| take(!f.is_joint, 2)).collect()).collect();
-        let top = take(!solid.is_top_joint, 1);
-        let bottom = take(!solid.is_bottom_joint, 1);
+        let is_level = symmetry.is_some_and(Symmetry::is_level);
+        let is_upright = symmetry.is_some_and(Symmetry::is_upright);
+        let image = |parameter: Parameter| parameter.map(|(k, sign)| (k, -sign));
+        let twins: Vec<usize> = (0..solid.chains.len()).map(|j| twin(solid, symmetry, j)).collect();
+        let mut angles: Vec<Parameter> = Vec::with_capacity(twins.len());
+        for (j, chain) in solid.chains.iter().enumerate() {
+            let is_free = !chain.is_locked && !(is_upright && twins[j] == j);
+            angles.push(if twins[j] < j { image(angles[twins[j]]) } else { take(is_free) });
+        }
+        let mut facets: Vec<Vec<[Parameter; 2]>> = Vec::with_capacity(twins.len());
+        for (j, chain) in solid.chains.iter().enumerate() {
+            if twins[j] < j {
+                facets.push(facets[twins[j]].clone());
+                continue;
+            }
+            let mut own: Vec<[Parameter; 2]> = Vec::with_capacity(chain.facets.len());
+            for (i, facet) in chain.facets.iter().enumerate() {
+                let other = chain.facets.len() - 1 - i;
+                own.push(if is_level && other < i {
+                    [image(own[other][0]), own[other][1]]
+                } else {
+                    let is_upright_plane = is_level && other == i;
+                    [take(!facet.is_joint && !is_upright_plane), take(!facet.is_joint)]
+                });
+            }
+            facets.push(own);
+        }
+        let top = take(!solid.is_top_joint);
+        let bottom = if is_level { image(top) } else { take(!solid.is_bottom_joint) };
         Self { radius_mm, count, angles, facets, top, bottom }
     }
 
-    /// Number of parameters.
+    /// Number of variables.
     pub(super) fn count(&self) -> usize {
         self.count
     }
 
-    /// The solid after a change of its parameters.
+    /// Number of parameters that each variable stands for.
+    pub(super) fn weights(&self) -> Vec<f64> {
+        let mut weights = vec![0.0; self.count];
+        let facets = self.facets.iter().flatten().flatten();
+        let all = self.angles.iter().chain(facets).chain([&self.top, &self.bottom]);
+        all.flatten().for_each(|&(k, _)| weights[k] += 1.0);
+        weights
+    }
+
+    /// The solid after a change of its variables.
     pub(super) fn apply(&self, solid: &Solid, change: &[f64]) -> Solid {
         let mut out = solid.clone();
+        let of = |parameter: Parameter| parameter.map_or(0.0, |(k, sign)| sign * change[k]);
         for (j, chain) in out.chains.iter_mut().enumerate() {
-            chain.angle_rad += self.angles[j].map_or(0.0, |k| change[k] / self.radius_mm);
-            for (i, facet) in chain.facets.iter_mut().enumerate() {
-                if let Some(k) = self.facets[j][i] {
-                    facet.slope_rad += change[k] / self.radius_mm;
-                    facet.offset_mm += change[k + 1];
-                }
+            chain.angle_rad += of(self.angles[j]) / self.radius_mm;
+            for (facet, [slope, offset]) in chain.facets.iter_mut().zip(&self.facets[j]) {
+                facet.slope_rad += of(*slope) / self.radius_mm;
+                facet.offset_mm += of(*offset);
             }
         }
-        out.top_mm += self.top.map_or(0.0, |k| change[k]);
-        out.bottom_mm += self.bottom.map_or(0.0, |k| change[k]);
+        out.top_mm += of(self.top);
+        out.bottom_mm += of(self.bottom);
         out
     }
 
-    /// Index of the direction of chain j, if free.
-    pub(super) fn angle(&self, j: usize) -> Option<usize> {
+    /// The direction of chain j, if free.
+    pub(super) fn angle(&self, j: usize) -> Parameter {
         self.angles[j]
     }
 
-    /// Index of the slope of a facet, if free; its offset is the next one.
-    pub(super) fn slope(&self, j: usize, i: usize) -> Option<usize> {
-        self.facets[j][i]
+    /// The slope of a facet, if free.
+    pub(super) fn slope(&self, j: usize, i: usize) -> Parameter {
+        self.facets[j][i][0]
     }
 
     /// Radius at which angles are measured.
@@ -78,19 +116,20 @@ impl Freedom {
     /// Change of `offset − normal · point` of a face, for a fixed point on it.
     pub(super) fn plane(&self, shape: &Shape, face: FaceId, point: DVec3) -> Terms {
         match face {
-            FaceId::Top => self.top.map(|k| (k, 1.0)).into_iter().collect(),
-            FaceId::Bottom => self.bottom.map(|k| (k, -1.0)).into_iter().collect(),
+            FaceId::Top => self.top.into_iter().collect(),
+            FaceId::Bottom => self.bottom.map(|(k, sign)| (k, -sign)).into_iter().collect(),
             FaceId::Side(j, i) => {
                 let chain = &shape.chains[j];
                 let Line { sin, cos, .. } = chain.lines[i];
                 let (u, t) = (chain.normal.dot(point.truncate()), chain.tangent().dot(point.truncate()));
                 let mut terms = Terms::new();
-                if let Some(k) = self.facets[j][i] {
-                    terms.push((k, (sin * u - cos * point.z) / self.radius_mm));
-                    terms.push((k + 1, 1.0));
+                let [slope, offset] = self.facets[j][i];
+                if let Some((k, sign)) = slope {
+                    terms.push((k, sign * (sin * u - cos * point.z) / self.radius_mm));
                 }
-                if let Some(k) = self.angles[j] {
-                    terms.push((k, -cos * t / self.radius_mm));
+                terms.extend(offset);
+                if let Some((k, sign)) = self.angles[j] {
+                    terms.push((k, sign * -cos * t / self.radius_mm));
                 }
                 terms
             }
@@ -128,8 +167,8 @@ impl Freedom {
             parts.push((1.0 / sin, self.reach(shape, k, v_mm)));
             parts.push((-cos / sin, self.reach(shape, j, v_mm)));
             let turn = (u_here - u_other * cos) / (sin * sin) * sign / self.radius_mm;
-            parts.push((turn, self.angles[k].map(|a| (a, 1.0)).into_iter().collect()));
-            parts.push((-turn, self.angles[j].map(|a| (a, 1.0)).into_iter().collect()));
+            parts.push((turn, self.angles[k].into_iter().collect()));
+            parts.push((-turn, self.angles[j].into_iter().collect()));
         }
         sum(parts.iter().map(|(w, t)| (*w, t)))
     }
@@ -140,13 +179,14 @@ impl Freedom {
         let i = chain.facet_at(v_mm);
         let Line { sin, cos, offset } = chain.lines[i];
         let mut terms = Terms::new();
-        if let Some(k) = self.facets[j][i] {
-            terms.push((k, (offset * sin - v_mm) / (cos * cos) / self.radius_mm));
-            terms.push((k + 1, 1.0 / cos));
+        let [slope, shift] = self.facets[j][i];
+        if let Some((k, sign)) = slope {
+            terms.push((k, sign * (offset * sin - v_mm) / (cos * cos) / self.radius_mm));
         }
+        terms.extend(shift.map(|(k, sign)| (k, sign / cos)));
         for (end, variable) in [(shape.solid.top_mm, self.top), (shape.solid.bottom_mm, self.bottom)] {
-            if let Some(k) = variable.filter(|_| end == v_mm) {
-                terms.push((k, -sin / cos));
+            if let Some((k, sign)) = variable.filter(|_| end == v_mm) {
+                terms.push((k, sign * -sin / cos));
             }
         }
         terms
@@ -157,9 +197,9 @@ impl Freedom {
         let chain = &shape.chains[j];
         let pull = length.pull(&chain.profile);
         let mut terms = Terms::new();
-        let mut push = |variable: Option<usize>, change: f64| {
-            if let Some(k) = variable.filter(|_| change != 0.0) {
-                terms.push((k, change));
+        let mut push = |parameter: Parameter, change: f64| {
+            if let Some((k, sign)) = parameter.filter(|_| change != 0.0) {
+                terms.push((k, sign * change));
             }
         };
         let last = chain.lines.len();
@@ -181,9 +221,9 @@ impl Freedom {
             let second_share = DVec2::new(cos, sin).perp_dot(pull) / det;
             let mut of_line = |i: usize, share: f64| {
                 let Line { sin, cos, .. } = chain.lines[i];
-                let slope = self.facets[j][i];
+                let [slope, offset] = self.facets[j][i];
                 push(slope, -share * (cos * at.y - sin * at.x) / self.radius_mm);
-                push(slope.map(|k| k + 1), share);
+                push(offset, share);
             };
             of_line(first, first_share);
             match second {
@@ -292,7 +332,7 @@ pub(crate) mod tests {
     #[test]
     fn corners_move_as_their_derivatives_say() {
         let shape = Shape::of(skewed());
-        let freedom = Freedom::of(&shape.solid, 40.0);
+        let freedom = Freedom::of(&shape.solid, 40.0, None);
         let direction = DVec3::new(0.3, -0.5, 0.8);
         for j in 0..5 {
             for (k, corner) in shape.solid.corners(j).iter().enumerate() {
@@ -306,7 +346,7 @@ pub(crate) mod tests {
     fn widths_change_as_their_derivatives_say() {
         let shape = Shape::of(skewed());
         let solid = &shape.solid;
-        let freedom = Freedom::of(solid, 40.0);
+        let freedom = Freedom::of(solid, 40.0, None);
         for j in 0..5 {
             check(&freedom.width(&shape, j, 3.0), &freedom, solid, |s| s.width_at(j, 3.0));
             check(&freedom.width(&shape, j, solid.top_mm), &freedom, solid, |s| s.width_at(j, s.top_mm));
@@ -316,7 +356,7 @@ pub(crate) mod tests {
     #[test]
     fn lengths_change_as_their_derivatives_say() {
         let shape = Shape::of(skewed());
-        let freedom = Freedom::of(&shape.solid, 40.0);
+        let freedom = Freedom::of(&shape.solid, 40.0, None);
         for j in 0..5 {
             let chain = &shape.chains[j];
             for i in 0..3 {
@@ -335,7 +375,7 @@ pub(crate) mod tests {
     #[test]
     fn distances_to_edges_change_as_their_derivatives_say() {
         let shape = Shape::of(skewed());
-        let freedom = Freedom::of(&shape.solid, 40.0);
+        let freedom = Freedom::of(&shape.solid, 40.0, None);
         let mut edges = 0;
         for d in crate::geom::directions(200) {
             let point = d * 70.0;

@@ -7,6 +7,7 @@
 //! from the corner between their edges. What lies between the two is free to lie in any order
 //! against other chains, unless it is of boards, which have a layer each.
 
+use super::symmetry::Symmetry;
 use super::walls::Walls;
 use crate::geom::polygon;
 use glam::{DAffine2, DVec2};
@@ -80,7 +81,8 @@ const RAYS: usize = 33;
 
 /// Trims panels that overlap when flat: first only between the chains concerned, and where that
 /// is not enough at every corner, which always suffices: the rays then part the plane round the
-/// convex polygon. Returns the area that was cut away, mm².
+/// convex polygon. Walls that are their own mirror image are trimmed so that they stay so. Returns
+/// the area that was cut away, mm².
 pub(super) fn trim(walls: &Walls, sides: &mut [Side]) -> f64 {
     let mut trimmed = 0.0;
     let mut layers = vec![Layer::Top, Layer::Bottom];
@@ -90,15 +92,27 @@ pub(super) fn trim(walls: &Walls, sides: &mut [Side]) -> f64 {
         between.dedup();
         layers.extend(between.into_iter().filter(|layer| matches!(layer, Layer::Between { .. })));
     }
+    let is_level = walls.symmetry().is_some_and(Symmetry::is_level);
+    if is_level {
+        // What is cut from the top panel's layer is cut from its image too.
+        layers.retain(|layer| *layer != Layer::Bottom);
+    }
     for layer in layers {
         for everywhere in [false, true] {
             let clashes = overlaps(sides, layer);
             if clashes.is_empty() {
                 break;
             }
-            for j in 0..walls.count() {
+            let clash = |j: usize| {
                 let k = walls.next(j);
-                if everywhere || clashes.contains(&(j.min(k), j.max(k))) {
+                clashes.contains(&(j.min(k), j.max(k)))
+            };
+            for j in 0..walls.count() {
+                let image = corner_image(walls, j);
+                if image.is_some_and(|image| image < j) {
+                    continue;
+                }
+                if everywhere || clash(j) || image.is_some_and(clash) {
                     trimmed += trim_corner(walls, sides, layer, j);
                 }
             }
@@ -124,28 +138,71 @@ pub(super) fn overlaps(sides: &[Side], layer: Layer) -> Vec<(usize, usize)> {
     pairs
 }
 
-/// Cuts chains j and j + 1 back to the ray from their corner that costs the least area.
+/// The chain whose corner with the next is the image, in an upright plane, of that of chain j.
+fn corner_image(walls: &Walls, j: usize) -> Option<usize> {
+    walls.symmetry().filter(|symmetry| symmetry.is_upright()).map(|_| walls.twin(walls.next(j)))
+}
+
+/// Cuts chains j and j + 1 back to the ray from their corner that costs the least area, and their
+/// image to its image.
 fn trim_corner(walls: &Walls, sides: &mut [Side], layer: Layer, j: usize) -> f64 {
-    let k = walls.next(j);
-    let corner = walls.corner_at(j, if layer == Layer::Bottom { walls.bottom_mm() } else { walls.top_mm() });
-    let from = walls.normal(j).to_angle();
-    let turn = (walls.normal(k).to_angle() - from).rem_euclid(std::f64::consts::TAU);
-    let normal = |chain: usize, ray: usize| {
+    let image = corner_image(walls, j);
+    let costs: Vec<f64> = (0..RAYS).map(|ray| Cut { walls, layer, j, ray }.area(sides)).collect();
+    let best = match image {
+        // Of the rays from a corner in the plane, one is its own image.
+        Some(image) if image == j => RAYS / 2,
+        _ => (0..RAYS).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(RAYS / 2),
+    };
+    let other = match walls.symmetry() {
+        Some(Symmetry::Level { .. }) => Some(Cut { walls, layer: Layer::Bottom, j, ray: best }),
+        _ => image.filter(|&i| i != j).map(|j| Cut { walls, layer, j, ray: RAYS - 1 - best }),
+    };
+    let own = Cut { walls, layer, j, ray: best };
+    own.make(sides);
+    let area = costs[best].max(0.0);
+    other.map_or(area, |other| {
+        other.make(sides);
+        2.0 * area
+    })
+}
+
+/// A cut along one of the rays from the corner of chain j with the next.
+#[derive(Clone, Copy)]
+struct Cut<'a> {
+    walls: &'a Walls,
+    layer: Layer,
+    j: usize,
+    ray: usize,
+}
+
+impl Cut<'_> {
+    /// What it leaves of a side panel; `None` for those that it does not concern.
+    fn left(&self, side: &Side) -> Option<Vec<DVec2>> {
+        let Self { walls, layer, j, ray } = *self;
+        let k = walls.next(j);
+        if side.layer != layer || (side.chain != j && side.chain != k) {
+            return None;
+        }
+        let corner =
+            walls.corner_at(j, if layer == Layer::Bottom { walls.bottom_mm() } else { walls.top_mm() });
+        let from = walls.normal(j).to_angle();
+        let turn = (walls.normal(k).to_angle() - from).rem_euclid(std::f64::consts::TAU);
         let direction = DVec2::from_angle(from + turn * ray as f64 / (RAYS - 1) as f64);
-        if chain == j { direction.perp() } else { -direction.perp() }
-    };
-    let concerned = |s: &&mut Side| s.layer == layer && (s.chain == j || s.chain == k);
-    let cost = |ray: usize, sides: &mut [Side]| -> f64 {
-        sides
-            .iter_mut()
-            .filter(concerned)
-            .map(|s| polygon::area(&s.outline) - polygon::area(&s.clipped(corner, normal(s.chain, ray))))
-            .sum()
-    };
-    let costs: Vec<f64> = (0..RAYS).map(|ray| cost(ray, sides)).collect();
-    let best = (0..RAYS).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(RAYS / 2);
-    for side in sides.iter_mut().filter(concerned) {
-        side.outline = side.clipped(corner, normal(side.chain, best));
+        let normal = if side.chain == j { direction.perp() } else { -direction.perp() };
+        Some(side.clipped(corner, normal))
     }
-    costs[best].max(0.0)
+
+    /// The area that it takes, mm².
+    fn area(&self, sides: &[Side]) -> f64 {
+        let cut = sides.iter().filter_map(|s| Some((s, self.left(s)?)));
+        cut.map(|(s, left)| polygon::area(&s.outline) - polygon::area(&left)).sum()
+    }
+
+    fn make(&self, sides: &mut [Side]) {
+        for side in sides {
+            if let Some(left) = self.left(side) {
+                side.outline = left;
+            }
+        }
+    }
 }

@@ -182,7 +182,7 @@ mod tests {
     fn rates_are_those_of_finite_differences() {
         let shape = Shape::of(skewed());
         let ball = ball(32.0, 200);
-        let freedom = Freedom::of(&shape.solid, 40.0);
+        let freedom = Freedom::of(&shape.solid, 40.0, None);
         let whole = faces(&shape.polytope);
         let [inside] = faces_inside(&shape.polytope, &ball, [0.0]);
         let mut rates = vec![0.0; freedom.count()];

@@ -1,6 +1,6 @@
 //! Rigid panels and the hinges between them: what nets, poses and pictures are made from.
 
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 /// Index of a panel in its [`PanelSet`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -70,6 +70,38 @@ impl Panel {
     /// Corners in the deployed state, in the component's axes.
     pub fn deployed_outline(&self) -> Vec<DVec3> {
         self.outline.iter().map(|p| self.deployed.transform_point3(p.extend(0.0))).collect()
+    }
+
+    /// Index in the outline of the image of corner k; the other way round, too. The first edge of a
+    /// side panel stays the first, as does the chain that the last edge of an end belongs to.
+    fn image_of_corner(&self, k: usize) -> usize {
+        let n = self.outline.len();
+        match self.kind {
+            PanelKind::Side { .. } => (n + 1 - k) % n,
+            _ => n - 1 - k,
+        }
+    }
+
+    /// Edge of the outline that is the image of edge k.
+    fn image_of_edge(&self, k: usize) -> usize {
+        self.image_of_corner((k + 1) % self.outline.len())
+    }
+
+    /// Its image in the plane x = 0, its own x turned round so that outside stays +z.
+    fn mirrored(&self, image: impl Fn(usize) -> usize) -> Self {
+        let corner = |k: usize| self.outline[self.image_of_corner(k)] * DVec2::new(-1.0, 1.0);
+        let across = |p: DVec3| p * DVec3::new(-1.0, 1.0, 1.0);
+        let placed = |placement: &DAffine3| {
+            let DMat3 { x_axis, y_axis, z_axis } = placement.matrix3;
+            let axes = DMat3::from_cols(-across(x_axis), across(y_axis), across(z_axis));
+            DAffine3::from_mat3_translation(axes, across(placement.translation))
+        };
+        let kind = match self.kind {
+            PanelKind::Side { chain, index } => PanelKind::Side { chain: image(chain), index },
+            end => end,
+        };
+        let outline = (0..self.outline.len()).map(corner).collect();
+        Self { kind, outline, deployed: placed(&self.deployed), flat: placed(&self.flat) }
     }
 
     /// Edge `k` of the outline: from corner k to corner k + 1.
@@ -143,6 +175,37 @@ impl PanelSet {
             ((a[1] - a[0]).length() - (b[1] - b[0]).length()).abs() < 1e-9
         }));
         set
+    }
+
+    /// Its image in the plane x = 0, with the chains renumbered by `image`, which is its own inverse,
+    /// and the id in it of each panel's image.
+    pub(super) fn mirrored(&self, image: impl Fn(usize) -> usize) -> (Self, Vec<PanelId>) {
+        let key = |panel: &Panel| match panel.kind {
+            PanelKind::Top => (0, 0, 0),
+            PanelKind::Bottom => (1, 0, 0),
+            PanelKind::Side { chain, index } => (2, image(chain), index),
+        };
+        let mut order: Vec<usize> = (0..self.panels.len()).collect();
+        order.sort_by_key(|&k| key(&self.panels[k]));
+        let mut ids = vec![PanelId(0); order.len()];
+        order.iter().enumerate().for_each(|(place, &k)| ids[k] = PanelId(place));
+        let panels = order.iter().map(|&k| self.panels[k].mirrored(&image)).collect();
+        let turned = |side: HingeSide| {
+            let edge = self.panels[side.panel.0].image_of_edge(side.edge);
+            HingeSide { panel: ids[side.panel.0], edge }
+        };
+        let mut hinges: Vec<Hinge> =
+            self.hinges.iter().map(|hinge| Hinge { sides: hinge.sides.map(turned), ..*hinge }).collect();
+        let chain = |hinge: &Hinge| {
+            let kinds = hinge.sides.map(|side| self.panels[order[side.panel.0]].kind);
+            kinds.into_iter().find_map(|kind| match kind {
+                PanelKind::Side { chain, .. } => Some(image(chain)),
+                _ => None,
+            })
+        };
+        // The sort is stable: hinges of one chain stay in their order.
+        hinges.sort_by_key(chain);
+        (Self { panels, hinges }, ids)
     }
 
     /// All panels, by id.

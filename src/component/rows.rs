@@ -2,13 +2,14 @@
 
 use super::distance::{Feature, Position};
 use super::fit::{Fitted, LIKE_WEIGHT, MARGIN, MEAN_WEIGHT, SIZE_PRICE, Task, WORST_WEIGHT, rooms};
-use super::gradient::{Freedom, ProfileLength, Terms};
+use super::gradient::{Freedom, Parameter, ProfileLength, Terms, sum};
 use super::likeness::{Figure, faces, faces_inside};
 use super::qp::Programme;
 use super::seated;
 use super::shape::Shape;
 use super::solid::Solid;
 use super::start::{MAX_SLOPE_RAD, MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD};
+use super::symmetry::Symmetry;
 use super::target::FoldSpot;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -47,7 +48,7 @@ struct Model<'a> {
 impl Task<'_> {
     /// The best solid near the present one, by the linear model.
     pub(super) fn step(&self, at: &Fitted, step_mm: f64) -> Option<Solid> {
-        let freedom = Freedom::of(&at.shape.solid, self.radius_mm);
+        let freedom = Freedom::of(&at.shape.solid, self.radius_mm, self.target.symmetry);
         let count = freedom.count();
         let size = count + 2 + self.target.joints.len();
         let mut model = Model {
@@ -81,8 +82,8 @@ impl Model<'_> {
 
     fn prices(&mut self, step_mm: f64) {
         let longest = LONGEST * step_mm;
-        for k in 0..self.freedom.count() {
-            self.programme.add_cost(k, 0.0, STEP_PRICE / step_mm);
+        for (k, weight) in self.freedom.weights().into_iter().enumerate() {
+            self.programme.add_cost(k, 0.0, STEP_PRICE * weight / step_mm);
             self.programme.at_most([(k, 1.0)], longest);
             self.programme.at_most([(k, -1.0)], longest);
         }
@@ -199,6 +200,8 @@ impl Model<'_> {
         let least = self.task.target.min_panel_mm * MARGIN;
         let at = self.at;
         let shape = &at.shape;
+        // A level profile is in balance in its middle, whatever changes.
+        let is_level = self.task.target.symmetry.is_some_and(Symmetry::is_level);
         for j in 0..shape.chains.len() {
             for v in shape.heights_about(j) {
                 let width = shape.width_at(j, v);
@@ -214,7 +217,7 @@ impl Model<'_> {
                     self.at_least(terms, now, least);
                 }
             }
-            if let FoldSpot::Bend(i) = at.spots[j] {
+            if let (FoldSpot::Bend(i), false) = (at.spots[j], is_level) {
                 let beyond = ProfileLength::beyond_balance(&shape.chains[j], i + 1);
                 for length in [beyond.clone().reversed(), beyond] {
                     let now = length.value(&shape.chains[j].profile);
@@ -237,9 +240,9 @@ impl Model<'_> {
         let r = self.freedom.radius_mm();
         let solid = &self.at.shape.solid;
         let (freedom, programme) = (&self.freedom, &mut self.programme);
-        let mut difference = |a: Option<usize>, b: Option<usize>, room: f64| {
-            let terms = [(a, 1.0), (b, -1.0)];
-            programme.at_most(terms.into_iter().filter_map(|(k, a)| Some((k?, a))), room.max(0.0) * r);
+        let mut difference = |a: Parameter, b: Parameter, room: f64| {
+            let [a, b] = [a, b].map(|parameter| parameter.into_iter().collect::<Terms>());
+            programme.at_most(sum([(1.0, &a), (-1.0, &b)]), room.max(0.0) * r);
         };
         for (j, chain) in solid.chains.iter().enumerate() {
             for (i, w) in chain.facets.windows(2).enumerate() {

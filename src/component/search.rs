@@ -8,6 +8,7 @@ use super::grow::grown;
 use super::profile::{balance, imbalance};
 use super::seated::support;
 use super::start::{boxed, circumscribe, fold_spots, simplify, without_chain, without_plane};
+use super::symmetry::{Straight, Symmetry};
 use super::target::{FoldSpot, Target};
 use crate::geom::{self, Hull, HullError, polygon};
 use glam::DVec3;
@@ -88,44 +89,153 @@ pub(super) struct Found {
 /// finds its way more surely among few, and more of either shall not make the error larger.
 const SURE: usize = 6;
 
+impl Found {
+    /// What it is compared by, mm.
+    pub(super) fn cost_mm(&self) -> f64 {
+        self.cost_mm
+    }
+
+    /// Whether it is to be preferred, of two found with different counts.
+    fn is_better(&self, than: &Found) -> bool {
+        self.cost_mm < than.cost_mm
+    }
+
+    /// It, or the box round its target's hull where that comes closer.
+    fn or_box(self, targets: &[(Target, f64)]) -> Self {
+        let target = self.target;
+        match as_box(&targets[target].0) {
+            Some((fitted, made)) if fitted.likeness_mm() < self.fitted.likeness_mm() => {
+                Found { target, cost_mm: fitted.likeness_mm(), fitted, made }
+            }
+            _ => self,
+        }
+    }
+}
+
 /// The best component.
 pub(super) fn best(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
-    let hulls: Vec<Simpler> = targets.par_iter().map(|t| Simpler::of(t.0.hull)).collect();
+    let straightened = Straightened::of(targets)?;
+    let targets = &straightened.targets();
+    let hulls: Vec<Simpler> = targets.par_iter().map(|t| Simpler::of(&t.0)).collect();
     let mut best = best_of_counts(targets, &hulls);
-    if targets.iter().any(|t| t.0.top_edges > SURE || t.0.profile_vertices > SURE) {
-        let fewer: Vec<(Target, f64)> = targets
-            .iter()
-            .map(|(target, cost_mm)| {
-                let top_edges = target.top_edges.min(SURE);
-                let profile_vertices = target.profile_vertices.min(SURE);
-                (Target { top_edges, profile_vertices, ..target.clone() }, *cost_mm)
-            })
-            .collect();
+    if let Some(fewer) = with_sure_counts(targets) {
         let other = best_of_counts(&fewer, &hulls);
-        let is_better = |other: &Found| {
-            best.as_ref()
-                .map_or(true, |b| other.cost_mm < b.cost_mm || other.fitted.error_mm < b.fitted.error_mm)
-        };
+        let is_better = |other: &Found| best.as_ref().map_or(true, |b| other.is_better(b));
         best = if other.as_ref().is_ok_and(is_better) { other } else { best };
     }
-    let target = best.as_ref().map_or(0, |b| b.target);
-    match as_box(&targets[target].0) {
-        Some((fitted, made))
-            if best.as_ref().map_or(true, |b| fitted.likeness_mm() < b.fitted.likeness_mm()) =>
-        {
-            Ok(Found { target, cost_mm: fitted.likeness_mm(), fitted, made })
+    let best = match best {
+        Ok(best) => Ok(pruned(best, targets, &hulls).or_box(targets)),
+        Err(error) => as_box(&targets[0].0)
+            .map(|(fitted, made)| Found { target: 0, cost_mm: fitted.likeness_mm(), fitted, made })
+            .ok_or(error),
+    };
+    straightened.back(best?)
+}
+
+/// The best components for each of the `most` most promising targets, those of the least cost first.
+pub(super) fn each(targets: &[(Target, f64)], most: usize) -> Vec<Found> {
+    let Ok(straightened) = Straightened::of(targets) else { return Vec::new() };
+    let targets = &straightened.targets();
+    let hulls: Vec<Simpler> = targets.par_iter().map(|t| Simpler::of(&t.0)).collect();
+    let mut found: Vec<Option<Found>> = targets.iter().map(|_| None).collect();
+    let of_counts = |targets: &[(Target, f64)]| finished_of_counts(targets, &hulls, Some(most));
+    let all = of_counts(targets)
+        .into_iter()
+        .chain(with_sure_counts(targets).into_iter().flat_map(|t| of_counts(&t)));
+    for next in all.filter_map(Result::ok) {
+        let best = &mut found[next.target];
+        if best.as_ref().is_none_or(|best| next.is_better(best)) {
+            *best = Some(next);
         }
-        _ => best,
     }
+    let found: Vec<Found> = found.into_iter().flatten().collect();
+    let finish = |found: Found| pruned(found, targets, &hulls).or_box(targets);
+    let mut found: Vec<Found> = found.into_par_iter().map(finish).collect();
+    found.sort_by(|a, b| a.cost_mm.total_cmp(&b.cost_mm));
+    found.truncate(most);
+    found.into_par_iter().filter_map(|found| straightened.back(found).ok()).collect()
+}
+
+/// Targets whose mirror planes, if any, go through the origin, and where they come from. Those whose
+/// joints have no images are left out.
+struct Straightened<'t> {
+    own: &'t [(Target<'t>, f64)],
+    kept: Vec<(usize, Option<Straight>)>,
+}
+
+impl<'t> Straightened<'t> {
+    fn of(own: &'t [(Target<'t>, f64)]) -> Result<Self, ConvertError> {
+        let kept = own.iter().enumerate().filter_map(|(k, (target, _))| match target.symmetry {
+            None => Some((k, None)),
+            Some(symmetry) => Some((k, Some(Straight::of(target, symmetry)?))),
+        });
+        let kept: Vec<_> = kept.collect();
+        if kept.is_empty() && !own.is_empty() {
+            return Err(ConvertError::Lopsided);
+        }
+        Ok(Self { own, kept })
+    }
+
+    fn targets(&self) -> Vec<(Target<'_>, f64)> {
+        let kept = self.kept.iter().map(|(k, straight)| {
+            let (own, cost_mm) = &self.own[*k];
+            (straight.as_ref().map_or_else(|| own.clone(), |straight| straight.target(own)), *cost_mm)
+        });
+        kept.collect()
+    }
+
+    /// What was found, in the axes of its own target.
+    fn back(&self, found: Found) -> Result<Found, ConvertError> {
+        let (target, straight) = &self.kept[found.target];
+        let Some(straight) = straight else { return Ok(Found { target: *target, ..found }) };
+        let own = &self.own[*target].0;
+        let solid = straight.back(found.fitted.shape.solid, own);
+        let fitted = Fit::new(own.clone(), solid, found.fitted.spots).into_best();
+        let made = assemble_unbroken(&fitted, own.symmetry)?;
+        Ok(Found { target: *target, fitted, made, cost_mm: found.cost_mm })
+    }
+}
+
+/// The targets with no more top edges and profile vertices than the search is sure among; `None`
+/// where none has more.
+fn with_sure_counts<'h>(targets: &[(Target<'h>, f64)]) -> Option<Vec<(Target<'h>, f64)>> {
+    let sure = |(target, cost_mm): &(Target<'h>, f64)| {
+        let top_edges = target.top_edges.min(SURE);
+        let profile_vertices = target.profile_vertices.min(SURE);
+        (Target { top_edges, profile_vertices, ..target.clone() }, *cost_mm)
+    };
+    let has_more = targets.iter().any(|t| t.0.top_edges > SURE || t.0.profile_vertices > SURE);
+    has_more.then(|| targets.iter().map(sure).collect())
 }
 
 /// The best component found from starts with the targets' counts, or a few less.
 fn best_of_counts(targets: &[(Target, f64)], hulls: &[Simpler]) -> Result<Found, ConvertError> {
+    let mut best = Err(ConvertError::Hull(HullError::Flat));
+    for result in finished_of_counts(targets, hulls, None) {
+        match result {
+            Ok(found) if best.as_ref().map_or(true, |b: &Found| found.cost_mm < b.cost_mm) => {
+                best = Ok(found);
+            }
+            Err(error) if best.is_err() => best = Err(ConvertError::Assemble(error)),
+            _ => {}
+        }
+    }
+    best
+}
+
+/// Components finished from the most promising starts with the targets' counts, or a few less: of
+/// whatever targets or, with `most`, of so many different ones.
+fn finished_of_counts(
+    targets: &[(Target, f64)],
+    hulls: &[Simpler],
+    most: Option<usize>,
+) -> Vec<Result<Found, AssembleError>> {
+    let at_least = most.unwrap_or(0);
     let goals: Vec<Target> = targets.iter().zip(hulls).map(|(t, hull)| goal(&t.0, &hull.rough)).collect();
     let starts = || {
         let runs = goals.par_iter().enumerate();
         let runs = runs.map(|(k, goal)| (k, start(goal, (goal.top_edges, goal.profile_vertices))));
-        ranked(runs.collect(), targets, FIRST_STEPS, LEFT)
+        ranked(runs.collect(), targets, FIRST_STEPS, LEFT.max(at_least))
     };
     // A single start leaves other threads idle, and its hull is certain to be needed.
     let ahead = || if let [only] = hulls { Some(only.fine()) } else { None };
@@ -136,48 +246,24 @@ fn best_of_counts(targets: &[(Target, f64)], hulls: &[Simpler]) -> Result<Found,
     };
     let fewer: Vec<(usize, Fit)> = runs.par_iter().take(RETRIED).flat_map_iter(with_fewer).collect();
     let (mut runs, fewer) = rayon::join(
-        || ranked(runs, targets, MORE_STEPS, LEFT_FULL),
+        || ranked(runs, targets, MORE_STEPS, LEFT_FULL.max(at_least)),
         || ranked(fewer, targets, FIRST_STEPS + MORE_STEPS, LEFT_FEWER),
     );
     runs.extend(fewer);
     let finished = if targets.len() == 1 { FINISHED_OF_ONE } else { FINISHED };
-    let mut runs = ranked(runs, targets, LAST_STEPS, LEFT_FULL + LEFT_FEWER);
-    let others = runs.split_off(finished.min(runs.len()));
-    let best = best_finished(runs, targets, hulls);
-    let best = if best.as_ref().is_ok_and(|b| b.made.trimmed_mm2 <= MOST_TRIMMED_MM2) {
-        best
-    } else {
-        match (best, best_finished(others, targets, hulls)) {
-            (Ok(a), Ok(b)) => Ok(if b.cost_mm < a.cost_mm { b } else { a }),
-            (Ok(a), Err(_)) => Ok(a),
-            (Err(_), other) => other,
-        }
-    };
-    best.map(|found| pruned(found, targets, hulls))
-}
-
-/// The best of these fits, finished.
-fn best_finished(
-    runs: Vec<(usize, Fit)>,
-    targets: &[(Target, f64)],
-    hulls: &[Simpler],
-) -> Result<Found, ConvertError> {
-    let finished = runs.into_par_iter().map(|(k, fit)| (k, finish(&targets[k].0, hulls[k].fine(), fit)));
-    let finished: Vec<(usize, Result<_, AssembleError>)> = finished.collect();
-    let mut best = Err(ConvertError::Hull(HullError::Flat));
-    for (target, result) in finished {
-        match result {
-            Ok((fitted, made)) => {
-                let cost_mm = finished_cost(&fitted, &made, &targets[target]);
-                if best.as_ref().map_or(true, |b: &Found| cost_mm < b.cost_mm) {
-                    best = Ok(Found { target, fitted, made, cost_mm });
-                }
-            }
-            Err(error) if best.is_err() => best = Err(ConvertError::Assemble(error)),
-            Err(_) => {}
-        }
+    let left = if most.is_some() { runs.len() } else { finished };
+    let mut runs = ranked(runs, targets, LAST_STEPS, left);
+    if let Some(most) = most {
+        let mut is_taken = vec![false; targets.len()];
+        runs.retain(|(k, _)| !std::mem::replace(&mut is_taken[*k], true));
+        runs.truncate(most);
     }
-    best
+    let finished = runs.into_par_iter().map(|(k, fit)| {
+        let (fitted, made) = finish(&targets[k].0, hulls[k].fine(), fit)?;
+        let cost_mm = finished_cost(&fitted, &made, &targets[k]);
+        Ok(Found { target: k, fitted, made, cost_mm })
+    });
+    finished.collect()
 }
 
 /// The same with the planes and chains left out that add little to the likeness, one by one, where
@@ -193,7 +279,7 @@ fn pruned(mut found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Fou
     for way in [without_plane, without_chain] {
         while let Some((solid, spots)) = way(&found.fitted, &goal) {
             let fit = Fit::new(goal.clone(), solid, spots).run(PRUNE_STEPS);
-            let Ok(made) = assemble_unbroken(fit.best()) else { break };
+            let Ok(made) = assemble_unbroken(fit.best(), goal.symmetry) else { break };
             let saved = found.made.panels.panels().len().saturating_sub(made.panels.panels().len());
             let cost_mm = finished_cost(fit.best(), &made, target);
             let is_valid = fit.best().lack_mm < NEAR_ENOUGH_MM;
@@ -243,9 +329,9 @@ fn ranked<'h>(
 /// room either, or joints at its sides.
 fn as_box(target: &Target) -> Option<(Fitted, Assembled)> {
     let mut solid = boxed(target)?;
-    let spots = fold_spots(&mut solid, target.profile_vertices);
+    let spots = fold_spots(&mut solid, target);
     let fitted = Fit::new(target.clone(), solid, spots).into_best();
-    let made = assemble_unbroken(&fitted).ok()?;
+    let made = assemble_unbroken(&fitted, target.symmetry).ok()?;
     (fitted.lack_mm < NEAR_ENOUGH_MM).then_some((fitted, made))
 }
 
@@ -283,6 +369,7 @@ fn goal<'h>(target: &Target, hull: &'h Hull) -> Target<'h> {
     Target {
         hull,
         joints: target.joints.clone(),
+        symmetry: target.symmetry,
         top_edges: target.top_edges.min(at_most(0.5 * girth)).max(target.locked_angles().len().max(3)),
         profile_vertices: target.profile_vertices.min(1 + at_most(0.7 * height)).max(3),
         min_panel_mm: target.comfortable_mm,
@@ -302,7 +389,7 @@ fn fewer(goal: &Target) -> Vec<(usize, usize)> {
 
 fn start<'h>(goal: &Target<'h>, (edges, vertices): (usize, usize)) -> Fit<'h> {
     let mut solid = circumscribe(&Target { profile_vertices: vertices, ..goal.clone() }, edges);
-    let spots = fold_spots(&mut solid, goal.profile_vertices);
+    let spots = fold_spots(&mut solid, goal);
     Fit::new(goal.clone(), solid, spots)
 }
 
@@ -352,7 +439,7 @@ fn settle(target: &Target, fit: Fit) -> Result<(Fitted, Assembled), AssembleErro
     let mut failure = AssembleError::NoRoom;
     for _ in 0..REPAIRS {
         let is_valid = fit.best().lack_mm < NEAR_ENOUGH_MM;
-        match assemble_unbroken(fit.best()) {
+        match assemble_unbroken(fit.best(), fit.target().symmetry) {
             Ok(made) => {
                 let merit = fit.best().likeness_mm() + 10.0 * fit.best().lack_mm;
                 if best.as_ref().is_none_or(|b| merit < b.0) {
@@ -393,7 +480,7 @@ const EXACT: f64 = 1e-11;
 const SLIVER_MM: f64 = 0.1;
 
 /// Panels of a fitted solid, folded at the balance points, whose joint panels are uncreased.
-fn assemble_unbroken(fitted: &Fitted) -> Result<Assembled, AssembleError> {
+fn assemble_unbroken(fitted: &Fitted, symmetry: Option<Symmetry>) -> Result<Assembled, AssembleError> {
     let solid = &fitted.shape.solid;
     let size = solid.top_mm - solid.bottom_mm;
     let clearance = solid.clearance();
@@ -411,31 +498,38 @@ fn assemble_unbroken(fitted: &Fitted) -> Result<Assembled, AssembleError> {
         }
     });
     let spots = spots.collect::<Result<Vec<_>, _>>()?;
-    assemble(solid, &spots)
+    assemble(solid, &spots, symmetry)
 }
 
 /// A hull with few corners, and one with more that is made when it is needed.
 struct Simpler<'h> {
     hull: &'h Hull,
+    symmetry: Option<Symmetry>,
     rough: Hull,
     fine: OnceLock<Hull>,
 }
 
 impl<'h> Simpler<'h> {
-    fn of(hull: &'h Hull) -> Self {
-        Self { hull, rough: simplified(hull, ROUGH_DIRECTIONS), fine: OnceLock::new() }
+    fn of(target: &Target<'h>) -> Self {
+        let (hull, symmetry) = (target.hull, target.symmetry);
+        Self { hull, symmetry, rough: simplified(hull, symmetry, ROUGH_DIRECTIONS), fine: OnceLock::new() }
     }
 
     fn fine(&self) -> &Hull {
-        self.fine.get_or_init(|| simplified(self.hull, FIT_DIRECTIONS))
+        self.fine.get_or_init(|| simplified(self.hull, self.symmetry, FIT_DIRECTIONS))
     }
 }
 
-/// Hull of the extreme points in evenly spread directions.
-fn simplified(hull: &Hull, directions: usize) -> Hull {
+/// Hull of the extreme points in evenly spread directions, and their images in a straight plane.
+fn simplified(hull: &Hull, symmetry: Option<Symmetry>, directions: usize) -> Hull {
     if hull.vertices().len() <= directions {
         return hull.clone();
     }
-    let points: Vec<DVec3> = geom::directions(directions).map(|d| hull.farthest(d)).collect();
+    let across = symmetry.map(|s| if s.is_level() { DVec3::Z } else { DVec3::Y });
+    let one_side = geom::directions(directions).filter(|d| across.is_none_or(|n| n.dot(*d) >= 0.0));
+    let mut points: Vec<DVec3> = one_side.map(|d| hull.farthest(d)).collect();
+    if let Some(n) = across {
+        points.extend(points.clone().into_iter().map(|p| p - n * (2.0 * n.dot(p))));
+    }
     Hull::of_points(&points).unwrap_or_else(|_| hull.clone())
 }

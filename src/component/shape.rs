@@ -138,11 +138,16 @@ fn face_index(chains: &[ChainShape], face: FaceId) -> usize {
 
 /// The planes of a chain.
 pub(super) fn lines(chain: &Chain) -> Vec<Line> {
+    lines_of(&chain.facets)
+}
+
+/// Side planes with their sines and cosines.
+pub(super) fn lines_of(facets: &[SideFacet]) -> Vec<Line> {
     let line = |f: &SideFacet| {
         let (sin, cos) = f.slope_rad.sin_cos();
         Line { cos, sin, offset: f.offset_mm }
     };
-    chain.facets.iter().map(line).collect()
+    facets.iter().map(line).collect()
 }
 
 /// Ends and bends of a chain with these planes, (u, v) from top to bottom.

@@ -233,6 +233,17 @@ impl Solid {
         heights
     }
 
+    /// Its image in the plane x = 0. Chain j of the image is that of chain N − j.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let count = self.chains.len();
+        let chains = (0..count).map(|j| {
+            let chain = &self.chains[(count - j) % count];
+            Chain { angle_rad: std::f64::consts::PI - chain.angle_rad, ..chain.clone() }
+        });
+        Self { chains: chains.collect(), ..*self }
+    }
+
     /// Least width and length over all side panels. Between two heights of [`Solid::heights`]
     /// widths are linear, so this is exact (the exact form of Eq. (14)).
     pub fn clearance(&self) -> Clearance {

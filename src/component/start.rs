@@ -1,16 +1,18 @@
 //! First guess of a component's half-spaces: tangent planes of the hull in well-chosen directions.
 
+use super::even::{choose_pairs, drop_pair, levelled, middle, pair_bulge, thin_out_level};
 use super::fit::{Fitted, rooms};
 use super::profile::{Balance, balance, imbalance};
-use super::shape::Line;
+use super::shape::{Line, Shape};
 use super::solid::{Chain, SideFacet, Solid};
+use super::symmetry::{Symmetry, evened, twin};
 use super::target::{FoldSpot, Seat, Target};
 use crate::geom::polygon;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
 
 /// Angle between neighbouring candidates for top edges and for slopes.
-const STEP_RAD: f64 = PI / 36.0;
+pub(super) const STEP_RAD: f64 = PI / 36.0;
 /// Free top edges keep this far from fixed ones and from each other.
 pub(super) const MIN_TURN_RAD: f64 = PI / 10.0;
 /// Neighbouring top edges turn by at most this, so that corners stay well defined.
@@ -26,7 +28,11 @@ pub(super) fn circumscribe(target: &Target, edges: usize) -> Solid {
     let points = target.hull.vertices();
     let flat: Vec<DVec2> = points.iter().map(|p| p.truncate()).collect();
     let locked: Vec<f64> = target.locked_angles();
-    let angles = choose_angles(&polygon::convex_hull(&flat), &locked, edges);
+    let outline = polygon::convex_hull(&flat);
+    let angles = match target.symmetry {
+        Some(Symmetry::Upright { .. }) => choose_pairs(&outline, &locked, edges),
+        _ => choose_angles(&outline, &locked, edges),
+    };
     let chains = angles
         .iter()
         .map(|&angle_rad| Chain {
@@ -35,10 +41,11 @@ pub(super) fn circumscribe(target: &Target, edges: usize) -> Solid {
             facets: tangents(target, angle_rad),
         })
         .collect();
-    let mut solid = with_ends(target, chains);
+    let mut solid = evened(with_ends(target, chains), target.symmetry);
     lower_ends(&mut solid, target.min_panel_mm);
+    solid = evened(solid, target.symmetry);
     for j in 0..solid.chains.len() {
-        thin_out(&mut solid, j, target.profile_vertices - 1);
+        thin_out(&mut solid, j, target);
     }
     solid
 }
@@ -54,7 +61,7 @@ pub(super) fn boxed(target: &Target) -> Option<Solid> {
         let side = SideFacet { slope_rad: 0.0, offset_mm: target.hull.support(normal), is_joint: false };
         Chain { angle_rad, is_locked: false, facets: vec![side] }
     };
-    Some(with_ends(target, (0..4).map(chain).collect()))
+    Some(evened(with_ends(target, (0..4).map(chain).collect()), target.symmetry))
 }
 
 /// A solid with these chains, as high as the hull or up to the joints at its ends.
@@ -72,7 +79,7 @@ fn with_ends(target: &Target, chains: Vec<Chain>) -> Solid {
 }
 
 /// A top edge whose loss adds less than this share of the area is not worth a chain: a box has four.
-const WORTH_SHARE: f64 = 0.002;
+pub(super) const WORTH_SHARE: f64 = 0.002;
 
 /// Directions of the top edges: all candidates, thinned out where that adds the least area to
 /// the circumscribed polygon (in the spirit of Dyken et al. 2009, §4.2).
@@ -127,21 +134,23 @@ fn choose_angles(outline: &[DVec2], locked: &[f64], edges: usize) -> Vec<f64> {
 }
 
 /// A candidate for an edge of the top polygon.
-struct Edge {
-    angle_rad: f64,
-    normal: DVec2,
-    support: f64,
-    is_locked: bool,
+pub(super) struct Edge {
+    pub(super) angle_rad: f64,
+    pub(super) normal: DVec2,
+    pub(super) support: f64,
+    pub(super) is_locked: bool,
+}
+
+/// Where the lines of two edges meet.
+pub(super) fn meet(a: &Edge, b: &Edge) -> DVec2 {
+    let (na, nb) = (a.normal, b.normal);
+    DVec2::new(a.support * nb.y - b.support * na.y, na.x * b.support - nb.x * a.support) / na.perp_dot(nb)
 }
 
 /// Area between an edge and the corner that its neighbours would make without it.
 fn area_added(set: &[Edge], k: usize) -> f64 {
     let n = set.len();
     let (before, line, after) = (&set[(k + n - 1) % n], &set[k], &set[(k + 1) % n]);
-    let meet = |a: &Edge, b: &Edge| {
-        let (na, nb) = (a.normal, b.normal);
-        DVec2::new(a.support * nb.y - b.support * na.y, na.x * b.support - nb.x * a.support) / na.perp_dot(nb)
-    };
     polygon::cross3(meet(before, line), meet(before, after), meet(line, after)).abs() / 2.0
 }
 
@@ -173,7 +182,7 @@ pub(super) fn tangents(target: &Target, angle_rad: f64) -> Vec<SideFacet> {
         }
     }
     facets.sort_by(|a, b| b.slope_rad.total_cmp(&a.slope_rad));
-    facets
+    if target.symmetry.is_some_and(Symmetry::is_level) { levelled(facets) } else { facets }
 }
 
 /// Moves free ends inwards until all side panels there have a useful width.
@@ -195,11 +204,16 @@ fn lower_ends(solid: &mut Solid, min_panel_mm: f64) {
 }
 
 /// A plane that keeps the profile from bulging by less than this on average is not worth a crease.
-const WORTH_MM: f64 = 0.05;
+pub(super) const WORTH_MM: f64 = 0.05;
 
-/// Drops planes of chain j until `count` are left and all are worth having: first those outside
-/// the heights, then those whose loss adds the least area to the profile. Joint panels stay.
-pub(super) fn thin_out(solid: &mut Solid, j: usize, count: usize) {
+/// Drops planes of chain j until its profile has no more vertices than `target` allows and all are
+/// worth having: first those outside the heights, then those whose loss adds the least area to the
+/// profile. Joint panels stay.
+pub(super) fn thin_out(solid: &mut Solid, j: usize, target: &Target) {
+    if target.symmetry.is_some_and(Symmetry::is_level) {
+        return thin_out_level(solid, j, target.profile_vertices);
+    }
+    let count = target.profile_vertices - 1;
     let ends = (solid.top_mm, solid.bottom_mm);
     let mut lines = super::shape::lines(&solid.chains[j]);
     let facets = &mut solid.chains[j].facets;
@@ -224,7 +238,7 @@ pub(super) fn thin_out(solid: &mut Solid, j: usize, count: usize) {
 }
 
 /// Area by which the profile would grow without plane k, mm², and its mean width, mm.
-fn bulge(lines: &[Line], k: usize, (top, bottom): (f64, f64)) -> (f64, f64) {
+pub(super) fn bulge(lines: &[Line], k: usize, (top, bottom): (f64, f64)) -> (f64, f64) {
     let bend = |k: usize| lines[k].meets(&lines[k + 1]);
     let upper = if k == 0 { top } else { bend(k - 1).min(top) };
     let lower = if k + 1 == lines.len() { bottom } else { bend(k).max(bottom) };
@@ -245,8 +259,12 @@ fn bulge(lines: &[Line], k: usize, (top, bottom): (f64, f64)) -> (f64, f64) {
 /// Where each chain's fold vertex should be. With fewer planes than `vertices` allows it is in the
 /// plane where the balance point lies; else, or where that is a joint panel, which must stay
 /// uncreased, it is at the nearest bend. A chain that is nothing but a joint panel gets a second
-/// plane, at whose meeting it can fold.
-pub(super) fn fold_spots(solid: &mut Solid, vertices: usize) -> Vec<FoldSpot> {
+/// plane, at whose meeting it can fold. Level chains fold in their middle.
+pub(super) fn fold_spots(solid: &mut Solid, target: &Target) -> Vec<FoldSpot> {
+    if target.symmetry.is_some_and(Symmetry::is_level) {
+        return solid.chains.iter().map(|chain| middle(chain.facets.len())).collect();
+    }
+    let vertices = target.profile_vertices;
     (0..solid.chains.len())
         .map(|j| {
             let profile = solid.profile(j);
@@ -302,74 +320,128 @@ pub(super) fn simplify(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<F
         chains.filter(|c| tight(c.0)).max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))).map(|c| c.1)
     };
     let mut simpler = solid.clone();
+    let symmetry = target.symmetry;
     let spare = |j: usize| {
         let facets = &solid.chains[j].facets;
         // A joint panel needs a plane beside it, for the chain to fold at.
-        let has_other =
-            facets.iter().filter(|f| !f.is_joint).count() > 1 || facets.iter().all(|f| !f.is_joint);
-        let free = (0..facets.len()).filter(|&k| facets.len() > 1 && has_other && !facets[k].is_joint);
-        free.min_by(|&a, &b| {
-            let area = |k: usize| bulge(&shape.chains[j].lines, k, (solid.top_mm, solid.bottom_mm)).0;
-            area(a).total_cmp(&area(b))
-        })
+        let others = facets.iter().filter(|f| !f.is_joint).count();
+        let is_level = symmetry.is_some_and(Symmetry::is_level);
+        let has_other = is_level || others > 1 || others == facets.len();
+        let free = spare_planes(facets, symmetry)
+            .filter(|&k| has_other && facets.len() > pair(facets, symmetry, k));
+        let area = |k: usize| bulge_without(shape, symmetry, j, k);
+        free.min_by(|&a, &b| area(a).total_cmp(&area(b)))
     };
+    let can_go = |j: usize| can_go(solid, j, twin(solid, symmetry, j));
     if let Some(j) = worst(&low, &|j| spare(j).is_some()) {
-        simpler.chains[j].facets.remove(spare(j)?);
-    } else if let Some(j) = worst(&narrow, &|j| can_go(solid, j)) {
-        simpler.chains.remove(j);
+        drop_plane(&mut simpler, symmetry, j, spare(j)?);
+    } else if let Some(j) = worst(&narrow, &can_go) {
+        drop_chain(&mut simpler, symmetry, j);
     } else if let Some(j) = (0..solid.chains.len()).find(|&j| fitted.lack_mm > 0.0 && spare(j).is_some()) {
-        simpler.chains[j].facets.remove(spare(j)?);
-    } else if let Some(j) = (0..solid.chains.len()).find(|&j| fitted.lack_mm > 0.0 && can_go(solid, j)) {
-        simpler.chains.remove(j);
+        drop_plane(&mut simpler, symmetry, j, spare(j)?);
+    } else if let Some(j) = (0..solid.chains.len()).find(|&j| fitted.lack_mm > 0.0 && can_go(j)) {
+        drop_chain(&mut simpler, symmetry, j);
     } else {
         return None;
     }
-    let spots = fold_spots(&mut simpler, target.profile_vertices);
+    let spots = fold_spots(&mut simpler, target);
     Some((simpler, spots))
 }
 
 /// A shape without the plane that adds least to it; `None` where none can be spared.
 pub(super) fn without_plane(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<FoldSpot>)> {
-    let shape = &fitted.shape;
-    let mut solid = shape.solid.clone();
-    let ends = (solid.top_mm, solid.bottom_mm);
+    let (shape, symmetry) = (&fitted.shape, target.symmetry);
     let mut least: Option<(f64, usize, usize)> = None;
-    for (j, chain) in solid.chains.iter().enumerate() {
+    for (j, chain) in shape.solid.chains.iter().enumerate() {
         let others = chain.facets.iter().filter(|f| !f.is_joint).count();
-        for k in (0..chain.facets.len()).filter(|&k| others > 1 && !chain.facets[k].is_joint) {
+        let spare = spare_planes(&chain.facets, symmetry);
+        for k in spare.filter(|&k| others > pair(&chain.facets, symmetry, k)) {
             let profile = &shape.chains[j].profile;
             let width_mm = shape.width_at(j, (profile[k].y + profile[k + 1].y) / 2.0);
-            let volume_mm3 = width_mm * bulge(&shape.chains[j].lines, k, ends).0;
+            let volume_mm3 = width_mm * bulge_without(shape, symmetry, j, k);
             if least.is_none_or(|l| volume_mm3 < l.0) {
                 least = Some((volume_mm3, j, k));
             }
         }
     }
     let (_, j, k) = least?;
-    solid.chains[j].facets.remove(k);
-    let spots = fold_spots(&mut solid, target.profile_vertices);
+    let mut solid = shape.solid.clone();
+    drop_plane(&mut solid, symmetry, j, k);
+    let spots = fold_spots(&mut solid, target);
     Some((solid, spots))
 }
 
 /// A shape without the chain that has the least area; `None` where none can be spared.
 pub(super) fn without_chain(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<FoldSpot>)> {
-    let shape = &fitted.shape;
+    let (shape, symmetry) = (&fitted.shape, target.symmetry);
     let mut solid = shape.solid.clone();
     let area = |j: usize| -> f64 {
         let parts = shape.chains[j].profile.windows(2);
         parts.map(|w| w[0].distance(w[1]) * shape.width_at(j, (w[0].y + w[1].y) / 2.0)).sum()
     };
     let least = (0..solid.chains.len())
-        .filter(|&j| can_go(&solid, j))
+        .filter(|&j| can_go(&solid, j, twin(&solid, symmetry, j)))
         .min_by(|&a, &b| area(a).total_cmp(&area(b)))?;
-    solid.chains.remove(least);
-    let spots = fold_spots(&mut solid, target.profile_vertices);
+    drop_chain(&mut solid, symmetry, least);
+    let spots = fold_spots(&mut solid, target);
     Some((solid, spots))
 }
 
-/// Whether a solid stays closed without chain j.
-fn can_go(solid: &Solid, j: usize) -> bool {
-    let (before, after) = (&solid.chains[solid.previous(j)], &solid.chains[solid.next(j)]);
-    let gap = (after.angle_rad - before.angle_rad).rem_euclid(TAU);
-    solid.chains.len() > 3 && !solid.chains[j].is_locked && gap <= MAX_TURN_RAD
+/// Planes of a chain that are no joint panels; of a level one, those of its upper half.
+fn spare_planes(facets: &[SideFacet], symmetry: Option<Symmetry>) -> impl Iterator<Item = usize> + '_ {
+    let is_level = symmetry.is_some_and(Symmetry::is_level);
+    let count = if is_level { facets.len().div_ceil(2) } else { facets.len() };
+    (0..count).filter(|&k| !facets[k].is_joint)
+}
+
+/// Number of planes that go from a chain with its plane k.
+fn pair(facets: &[SideFacet], symmetry: Option<Symmetry>, k: usize) -> usize {
+    let has_image = symmetry.is_some_and(Symmetry::is_level) && 2 * k + 1 != facets.len();
+    if has_image { 2 } else { 1 }
+}
+
+/// Area by which the profile of chain j would grow without plane k and its image, mm².
+fn bulge_without(shape: &Shape, symmetry: Option<Symmetry>, j: usize, k: usize) -> f64 {
+    let (lines, ends) = (&shape.chains[j].lines, (shape.solid.top_mm, shape.solid.bottom_mm));
+    if symmetry.is_some_and(Symmetry::is_level) { pair_bulge(lines, k, ends).0 } else { bulge(lines, k, ends).0 }
+}
+
+/// Drops a plane and its images.
+fn drop_plane(solid: &mut Solid, symmetry: Option<Symmetry>, j: usize, k: usize) {
+    let other = twin(solid, symmetry, j);
+    let facets = &mut solid.chains[j].facets;
+    if symmetry.is_some_and(Symmetry::is_level) {
+        drop_pair(facets, k);
+    } else {
+        facets.remove(k);
+    }
+    if other != j {
+        solid.chains[other].facets = solid.chains[j].facets.clone();
+    }
+}
+
+/// Drops a chain and its image.
+fn drop_chain(solid: &mut Solid, symmetry: Option<Symmetry>, j: usize) {
+    let other = twin(solid, symmetry, j);
+    solid.chains.remove(j.max(other));
+    if other != j {
+        solid.chains.remove(j.min(other));
+    }
+}
+
+/// Whether a solid stays closed without chain j and its image.
+fn can_go(solid: &Solid, j: usize, image: usize) -> bool {
+    let gap_without = |k: usize| {
+        let beside = |mut next: usize, step: &dyn Fn(usize) -> usize| {
+            while next == j || next == image {
+                next = step(next);
+            }
+            solid.chains[next].angle_rad
+        };
+        let (before, after) = (beside(k, &|c| solid.previous(c)), beside(k, &|c| solid.next(c)));
+        (after - before).rem_euclid(TAU)
+    };
+    let left = solid.chains.len() - if image == j { 1 } else { 2 };
+    let is_closed = left >= 3 && [j, image].into_iter().all(|k| gap_without(k) <= MAX_TURN_RAD);
+    is_closed && !solid.chains[j].is_locked
 }

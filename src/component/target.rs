@@ -1,6 +1,7 @@
 //! What a component has to match: a hull, its joints, and the user's limits.
 
 use super::solid::{FaceId, SideFacet, Solid};
+use super::symmetry::Symmetry;
 use crate::geom::Hull;
 use glam::DVec3;
 
@@ -50,6 +51,9 @@ pub struct Target<'a> {
     pub hull: &'a Hull,
     /// Its joints.
     pub joints: Vec<JointTarget>,
+    /// The plane in which the component must be its own mirror image. The hull and the set of all
+    /// joints are so within rounding; joints of one chain have exactly one direction.
+    pub symmetry: Option<Symmetry>,
     /// Number of top edges wanted (joints may need more).
     pub top_edges: usize,
     /// Most vertices of a profile, at least 3.

@@ -1,51 +1,56 @@
 //! The fewest top edges and profile vertices that come close enough.
 
-use super::convert::{Component, ConvertError, choose};
+use super::convert::{ConvertError, choose};
 use super::target::Target;
 
 /// Fewest top edges, and fewest profile vertices, of any component.
 const LEAST: usize = 3;
 
-/// The component for the best of several targets (see [`choose`]) with so few top edges and profile
-/// vertices that one less of either misses the tolerance. The targets' own counts are the most that
-/// is tried; where they do not reach it either, the closest component that was found.
+/// Top edges and profile vertices.
+pub type Counts = (usize, usize);
+
+/// The number of top edges and of profile vertices with which the best of several targets (see
+/// [`choose`]) comes close enough, where one less of either misses the tolerance. The targets' own
+/// counts are the most that is tried; where they do not reach it either, those that came closest.
 ///
 /// # Errors
 /// As [`choose`].
-pub fn fewest(targets: &[(Target, f64)], tolerance_mm: f64) -> Result<(usize, Component), ConvertError> {
+pub fn fewest(targets: &[(Target, f64)], tolerance_mm: f64) -> Result<Counts, ConvertError> {
     let most = targets.iter().map(|t| (t.0.top_edges, t.0.profile_vertices));
     let most = most.fold((LEAST, LEAST), |m, t| (m.0.max(t.0), m.1.max(t.1)));
-    let at = |counts: Counts| {
+    let error_mm = |counts: Counts| {
         let (top_edges, profile_vertices) = counts;
         let with_counts =
             targets.iter().map(|t| (Target { top_edges, profile_vertices, ..t.0.clone() }, t.1));
-        choose(&with_counts.collect::<Vec<_>>())
+        choose(&with_counts.collect::<Vec<_>>()).map(|found| found.1.hausdorff_mm())
     };
-    let reaches = |found: &(usize, Component)| found.1.hausdorff_mm() <= tolerance_mm;
     let mut counts = (LEAST, LEAST);
-    let mut best = at(counts);
-    while counts != most && !best.as_ref().is_ok_and(reaches) {
+    let mut closest = (error_mm(counts), counts);
+    let reaches = |error_mm: &Result<f64, ConvertError>| error_mm.as_ref().is_ok_and(|e| *e <= tolerance_mm);
+    while counts != most && !reaches(&closest.0) {
         counts = more(counts, most);
-        best = closer(best, at(counts));
+        let next = error_mm(counts);
+        let is_closer = match (&closest.0, &next) {
+            (Ok(least), Ok(next)) => next < least,
+            (Ok(_), Err(_)) => false,
+            (Err(_), _) => true,
+        };
+        if is_closer {
+            closest = (next, counts);
+        }
     }
-    if !best.as_ref().is_ok_and(reaches) {
-        return best;
+    if !reaches(&closest.0) {
+        return closest.0.map(|_| closest.1);
     }
     loop {
         let fewer = [(counts.0, counts.1 - 1), (counts.0 - 1, counts.1)];
-        let reached = fewer.into_iter().filter(|c| c.0 >= LEAST && c.1 >= LEAST).find_map(|c| {
-            let found = at(c).ok().filter(reaches)?;
-            Some((c, found))
-        });
-        match reached {
-            Some((c, found)) => (counts, best) = (c, Ok(found)),
-            None => return best,
+        let enough = |c: &Counts| c.0 >= LEAST && c.1 >= LEAST && reaches(&error_mm(*c));
+        match fewer.into_iter().find(enough) {
+            Some(fewer) => counts = fewer,
+            None => return Ok(counts),
         }
     }
 }
-
-/// Top edges and profile vertices.
-type Counts = (usize, usize);
 
 /// One more of what there is less of.
 fn more(counts: Counts, most: Counts) -> Counts {
@@ -54,15 +59,5 @@ fn more(counts: Counts, most: Counts) -> Counts {
         (edges + 1, vertices)
     } else {
         (edges, vertices + 1)
-    }
-}
-
-type Found = Result<(usize, Component), ConvertError>;
-
-fn closer(a: Found, b: Found) -> Found {
-    match (&a, &b) {
-        (Ok(x), Ok(y)) if x.1.hausdorff_mm() <= y.1.hausdorff_mm() => a,
-        (Ok(_), Err(_)) => a,
-        _ => b,
     }
 }

@@ -3,6 +3,7 @@
 
 use super::boards::Outside;
 use super::profile::Profile;
+use super::symmetry::Symmetry;
 use glam::DVec2;
 
 /// Profiles with the directions of their edges.
@@ -16,18 +17,37 @@ pub(super) struct Walls {
     profiles: Vec<Profile>,
     /// What boards keep within; none for paper.
     outside: Option<Outside>,
+    /// The plane in which they are their own mirror image.
+    symmetry: Option<Symmetry>,
 }
 
 impl Walls {
     /// Takes directions of the edges' outward normals and profiles that keep the guarantees.
     pub(super) fn new(normals: Vec<DVec2>, profiles: Vec<Profile>) -> Self {
         debug_assert!(normals.len() == profiles.len() && normals.len() > 2);
-        Self { normals, profiles, outside: None }
+        Self { normals, profiles, outside: None, symmetry: None }
     }
 
     /// The same, made of boards.
     pub(super) fn within(self, outside: Outside) -> Self {
         Self { outside: Some(outside), ..self }
+    }
+
+    /// The same, known to be their own mirror image.
+    pub(super) fn mirrored_in(self, symmetry: Option<Symmetry>) -> Self {
+        Self { symmetry, ..self }
+    }
+
+    /// The plane in which they are their own mirror image.
+    pub(super) fn symmetry(&self) -> Option<Symmetry> {
+        self.symmetry
+    }
+
+    /// The chain that is the image of chain j.
+    pub(super) fn twin(&self, j: usize) -> usize {
+        let image = self.symmetry.map_or(self.normals[j], |symmetry| symmetry.image(self.normals[j]));
+        let chains = 0..self.count();
+        chains.max_by(|&a, &b| image.dot(self.normals[a]).total_cmp(&image.dot(self.normals[b]))).unwrap_or(j)
     }
 
     /// What boards keep within.

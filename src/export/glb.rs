@@ -8,7 +8,7 @@
 use super::gltf::{self, Material, Mesh, Node, Scene, Track};
 use super::{ExportError, ExportFile, Format, FormatOptions, Source};
 use crate::component::{PanelId, PanelSet};
-use crate::fold::{ModelMotion, ModelPose, Sequence};
+use crate::fold::{ModelMotion, ModelPose, Sequence, Step};
 use crate::model::{Model, ModelPart};
 use crate::product::Product;
 use crate::render::palette;
@@ -23,7 +23,7 @@ pub const FORMAT: Format = Format {
     source: Source::Model(write),
 };
 
-/// Keyframes for each component's folding. Between them players turn every hinge evenly.
+/// Keyframes for each component's folding, shared out over its steps. Between them players turn every hinge evenly.
 const KEYS: usize = 12;
 /// Time that a component takes to fold, and rest when deployed and when flat, seconds.
 const FOLD_S: f64 = 1.0;
@@ -40,7 +40,7 @@ pub struct GlbOptions {
 
 fn write(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
     let output = product.output();
-    let mut scene = animated(output.model(), output.fold_plan().order(), product.title());
+    let mut scene = animated(output.model(), output.fold_plan().steps(), product.title());
     if options.glb.is_static {
         // Nodes stand where they do when deployed.
         scene.tracks.clear();
@@ -49,10 +49,10 @@ fn write(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFil
     Ok(vec![ExportFile::single(bytes)])
 }
 
-/// A model that folds in an order, rests, and is deployed again.
-pub fn animated(model: &Model, order: &[usize], title: &str) -> Scene {
+/// A model that folds in some steps, rests, and is deployed again.
+pub fn animated(model: &Model, steps: &[Step], title: &str) -> Scene {
     let motion = ModelMotion::new(model);
-    let keys = Keys::new(&motion, order);
+    let keys = Keys::new(&motion, &Sequence::new(steps));
     let mut scene = Scene { title: title.to_owned(), materials: materials(model), ..Scene::default() };
     let limbs: Vec<Limbs> = model.parts().iter().map(Limbs::of_part).collect();
     let mut first_node = Vec::new();
@@ -91,15 +91,20 @@ struct Keys {
 }
 
 impl Keys {
-    fn new(motion: &ModelMotion<'_>, order: &[usize]) -> Self {
-        let sequence = Sequence::new(order);
-        let last = KEYS * order.len();
-        let way_s = FOLD_S * order.len() as f64;
-        let at = |k: usize| k as f64 / last.max(1) as f64;
-        let pose = |k: usize| motion.pose_on_ground(&sequence.folded(at(k)), LIFT_MM);
-        let there: Vec<ModelPose> = (0..=last).map(pose).collect();
-        let mut times_s: Vec<f64> = (0..=last).map(|k| REST_S + way_s * at(k)).collect();
-        times_s.extend((0..=last).map(|k| 2.0 * REST_S + way_s * (1.0 + at(k))));
+    fn new(motion: &ModelMotion<'_>, sequence: &Sequence) -> Self {
+        let way_s = FOLD_S * sequence.parts() as f64;
+        let marks = sequence.marks();
+        let mut places = vec![0.0];
+        for (step, ends) in sequence.steps().iter().zip(marks.windows(2)) {
+            let keys = ((step.to - step.from) * KEYS as f64).ceil() as usize;
+            let at = |k: usize| ends[0] + (ends[1] - ends[0]) * k as f64 / keys as f64;
+            places.extend((1..=keys).map(at));
+        }
+        let pose = |at: &f64| motion.pose_on_ground(&sequence.folded(*at), LIFT_MM);
+        let there: Vec<ModelPose> = places.iter().map(pose).collect();
+        let mut times_s: Vec<f64> = places.iter().map(|at| REST_S + way_s * at).collect();
+        // Back at the same pace.
+        times_s.extend(places.iter().rev().map(|at| 2.0 * REST_S + way_s * (2.0 - at)));
         let back = there.iter().rev().cloned();
         let poses: Vec<ModelPose> = there.iter().cloned().chain(back).collect();
         Self { poses, times_s }

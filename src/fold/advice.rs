@@ -1,8 +1,9 @@
-//! What the user should know about the folding, and what to change.
+//! What the user should know about the folding.
 
-use super::check::{Clash, Overlap};
-use super::order::FoldPlan;
-use crate::component::PanelKind;
+use super::check::Clash;
+use super::overlap::Overlap;
+use super::plan::FoldPlan;
+use crate::component::{PanelId, PanelKind};
 use crate::model::Model;
 use std::collections::BTreeMap;
 
@@ -11,12 +12,11 @@ pub type Advice = (&'static str, String);
 
 impl FoldPlan {
     /// One piece of advice for each pair that clashes, where it is deepest, and for each overlap.
-    /// `is_untangled` tells that other fold directions were tried already.
-    pub fn advice(&self, model: &Model, is_untangled: bool) -> Vec<Advice> {
+    pub fn advice(&self, model: &Model) -> Vec<Advice> {
         let overlaps = self.overlaps().iter().map(|overlap| of_overlap(model, overlap));
         let clashes = deepest(self.clashes()).map(|clash| match clash.depth_mm {
             depth_mm if depth_mm <= self.thickness_mm() => of_rub(model, clash),
-            _ => of_clash(model, clash, is_untangled),
+            _ => of_clash(model, clash),
         });
         overlaps.chain(clashes).collect()
     }
@@ -37,8 +37,8 @@ fn deepest(clashes: &[Clash]) -> impl Iterator<Item = &Clash> {
 fn of_overlap(model: &Model, overlap: &Overlap) -> Advice {
     let [a, b] = overlap.parts.map(|p| &model.parts()[p].name);
     let message = format!(
-        "{a} and {b} stand in each other by {:.1} mm when deployed, though no joint connects them; cut a notch into \
-         one of them there, or try another number of --parts",
+        "{a} and {b} stand {:.1} mm in each other when the model stands, and no joint connects them: cut a notch into \
+         one of them there",
         overlap.depth_mm
     );
     ("deployed_overlap", message)
@@ -47,40 +47,42 @@ fn of_overlap(model: &Model, overlap: &Overlap) -> Advice {
 /// Paper gives way by its own thickness.
 fn of_rub(model: &Model, clash: &Clash) -> Advice {
     let [a, b] = clash.parts.map(|p| &model.parts()[p].name);
-    let depth_mm = clash.depth_mm;
+    let (depth_mm, when) = (clash.depth_mm, moment(model, clash));
     let message = if a == b {
-        format!(
-            "{a}: two of its panels rub against each other ({depth_mm:.2} mm) while it folds; fold it with care"
-        )
+        format!("two panels of {a} rub against each other ({depth_mm:.2} mm) when {when}: fold it with care")
     } else {
-        let mover = &model.parts()[clash.mover].name;
-        format!(
-            "{a} and {b} rub against each other ({depth_mm:.2} mm) while {mover} folds; bend them apart a little there"
-        )
+        format!("{a} and {b} rub against each other ({depth_mm:.2} mm) when {when}: bend them apart a little there")
     };
     ("fold_rub", message)
 }
 
-fn of_clash(model: &Model, clash: &Clash, is_untangled: bool) -> Advice {
-    let names = clash.parts.map(|p| model.parts()[p].name.as_str());
-    let kinds: [PanelKind; 2] =
-        [0, 1].map(|k| model.parts()[clash.parts[k]].component.panels().panel(clash.panels[k]).kind);
-    let (percent, depth_mm) = (100.0 * clash.folded, clash.depth_mm);
+fn of_clash(model: &Model, clash: &Clash) -> Advice {
+    let (depth_mm, when) = (clash.depth_mm, moment(model, clash));
+    let [a, b] = [0, 1].map(|k| place(model, clash.parts[k], clash.panels[k]));
     if clash.parts[0] == clash.parts[1] {
-        let message = format!(
-            "{}: {} and {} get {depth_mm:.1} mm into each other when it is {percent:.0}% folded; cut the slit between \
-             them wider, or use fewer top edges for it",
-            names[0], kinds[0], kinds[1]
-        );
+        let message = format!("{a} and {b} bump by {depth_mm:.1} mm when {when}: cut the slit between them wider");
         return ("own_fold_clash", message);
     }
+    ("fold_clash", format!("{a} and {b} bump by {depth_mm:.1} mm when {when}: fold by hand with care there"))
+}
+
+/// A panel in words.
+fn place(model: &Model, part: usize, panel: PanelId) -> String {
+    let part = &model.parts()[part];
+    let is_joint = part.joint.as_ref().is_some_and(|joint| joint.child_panel == panel);
+    let what = match part.component.panels().panel(panel).kind {
+        _ if is_joint => "the joint panel".to_owned(),
+        PanelKind::Top => "the top panel".to_owned(),
+        PanelKind::Bottom => "the bottom panel".to_owned(),
+        side @ PanelKind::Side { .. } => side.to_string(),
+    };
+    format!("{what} of {}", part.name)
+}
+
+/// How far the component that moves is folded when the two meet, to the quarter.
+fn moment(model: &Model, clash: &Clash) -> String {
     let mover = &model.parts()[clash.mover].name;
-    let remedy = if is_untangled { "another --direction" } else { "--untangle or another --direction" };
-    let message = format!(
-        "{} and {} bump into each other, and no order of folding was found that avoids it: {} of {} and {} of {} get \
-         {depth_mm:.1} mm into each other when {mover} is {percent:.0}% folded; try {remedy} for one of \
-         them, or another number of --parts",
-        names[0], names[1], kinds[0], names[0], kinds[1], names[1]
-    );
-    ("fold_clash", message)
+    let quarters = ["begins to fold", "is a quarter folded", "is half folded", "is three quarters folded", "is almost flat"];
+    let quarter = (4.0 * clash.folded).round().clamp(0.0, 4.0) as usize;
+    format!("{mover} {}", quarters[quarter])
 }

@@ -1,50 +1,52 @@
-//! What bumps into what while one component folds, with all others deployed or flat.
+//! What bumps into what while one component folds, with all others at rest at some level.
 //!
 //! Whether two components meet depends on the states of those between them and the one that moves,
 //! not on the rest. Answers are kept by these states, so that a search asks for each only once.
 
-use super::contact::{Sheet, gap};
+use super::contact::Sheet;
+use super::memory::{Answer, Key, Meeting, SweepMemory};
+use super::overlap::Overlap;
 use super::pose::{ModelMotion, ancestors, root_of};
-use super::sweep::{Body, Contact, SheetId, Sweep};
-use super::track::Track;
+use super::step::{FLAT, Level, Levels, Move, share};
+use super::sweep::{Body, Contacts, SheetId, Sweep};
+use super::track::{Track, table};
 use crate::component::{Panel, PanelId, PanelKind};
 use glam::DAffine3;
 use rayon::prelude::*;
-use smallvec::SmallVec;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::sync::Arc;
 
 /// Two components that bump into each other, or two chains of one component.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clash {
     /// The component that folds.
     pub mover: usize,
+    /// How far it is folded before and after the step in which they meet: 0 deployed, 1 flat.
+    pub from: f64,
+    /// See [`Clash::from`].
+    pub to: f64,
     /// The two that meet, the smaller index first; equal for two chains of the one that folds.
     pub parts: [usize; 2],
-    /// The panels that meet.
+    /// The panels that get deepest into each other.
     pub panels: [PanelId; 2],
-    /// How far the component is folded when they meet: 0 deployed, 1 flat.
+    /// How far the component is folded when the two meet.
     pub folded: f64,
-    /// How deep these panels get into each other, mm.
+    /// How deep these panels get into each other in this step, mm.
     pub depth_mm: f64,
 }
 
-/// Two components that stand in each other when all are deployed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Overlap {
-    /// The two, the smaller index first.
-    pub parts: [usize; 2],
-    /// How deep two of their panels are in each other, at most, mm.
-    pub depth_mm: f64,
+/// The component that moves, the pair by its index, and the levels of the pair's context.
+type Question = (usize, usize, Levels);
+
+/// A pair that moves against each other while a component does.
+#[derive(Debug)]
+struct Watched {
+    parts: [usize; 2],
+    /// All but the mover whose levels decide where the two are against each other.
+    context: Vec<usize>,
+    /// How deep the two are in each other when all are deployed, if they are.
+    overlap_mm: Option<f64>,
 }
-
-/// The component that moves, the pair, and the states of all parts on the way to each of the two.
-type Question = (usize, [usize; 2], [States; 2]);
-
-/// Which parts on the way from one part to another are flat, a bit each.
-type States = SmallVec<[u64; 1]>;
-
-/// Samples over the rest of the motion that tell how bad a clash becomes.
-const DEPTH_SAMPLES: usize = 16;
 
 /// The pairs of one sweep are shared out in so many shares, for several threads.
 const SHARES_OF_SWEEP: usize = 4;
@@ -52,161 +54,239 @@ const SHARES_OF_SWEEP: usize = 4;
 /// All states of so many parts are tried to see whether a clash can be avoided.
 const MOST_BETWEEN: usize = 4;
 
+/// Depths are kept to this, so that models that lie a little otherwise in space get the same.
+const DEPTH_GRID_MM: f64 = 1e-6;
+
 /// Answers with a memory.
 #[derive(Debug)]
 pub(super) struct Checker<'a> {
     motion: &'a ModelMotion<'a>,
+    ids: &'a [u64],
+    memory: &'a SweepMemory,
     tracks: Vec<Track<'a>>,
     thickness_mm: f64,
+    /// Each component with those above it.
+    above: Vec<Vec<usize>>,
     roots: Vec<usize>,
-    ignored: BTreeSet<[usize; 2]>,
     /// `ways[a][b]` are the parts on the way from a to b, without a and with b.
     ways: Vec<Vec<Vec<usize>>>,
-    known: HashMap<Question, Option<Clash>>,
-    /// Clashes of a component's motion, by the states on the way to each part.
-    listed: HashMap<(usize, Vec<States>), Vec<Clash>>,
+    /// By mover.
+    watched: Vec<Vec<Watched>>,
+    known: HashMap<Question, Answer>,
+    /// Clashes of moves, by the levels of all.
+    listed: HashMap<(Move, Levels), Arc<[Clash]>>,
     accepted: BTreeSet<(usize, [usize; 2])>,
     sweeps: usize,
 }
 
 impl<'a> Checker<'a> {
-    /// Checks for paper of a thickness; pairs in `ignored` may do what they like.
-    pub(super) fn new(motion: &'a ModelMotion<'a>, thickness_mm: f64, overlaps: &[Overlap]) -> Self {
+    /// Checks for paper of a thickness. Of pairs that stand in each other when deployed only what is
+    /// deeper than that is told of.
+    pub(super) fn new(
+        motion: &'a ModelMotion<'a>,
+        thickness_mm: f64,
+        overlaps: &[Overlap],
+        ids: &'a [u64],
+        memory: &'a SweepMemory,
+    ) -> Self {
         let model = motion.model();
         let parts = 0..model.parts().len();
-        let tracks = parts.clone().into_par_iter().map(|p| Track::new(motion.component(p))).collect();
+        let track = |p: usize| {
+            let motion = motion.component(p);
+            Track::new(motion, memory.tables().get_or(ids[p], || Arc::new(table(motion))))
+        };
         let above: Vec<Vec<usize>> = parts.clone().map(|p| ancestors(model, p)).collect();
-        let ways_from = |a: usize| parts.clone().map(|b| between(&above[a], a, &above[b], b)).collect();
-        Self {
+        let ways = ways(&above);
+        let mut checker = Self {
             motion,
-            tracks,
+            ids,
+            memory,
+            tracks: parts.clone().into_par_iter().map(track).collect(),
             thickness_mm,
             roots: parts.clone().map(|p| root_of(model, p)).collect(),
-            ignored: overlaps.iter().map(|o| o.parts).collect(),
-            ways: parts.clone().map(ways_from).collect(),
+            above,
+            ways,
+            watched: Vec::new(),
             known: HashMap::new(),
             listed: HashMap::new(),
             accepted: BTreeSet::new(),
             sweeps: 0,
-        }
+        };
+        let deployed_mm: BTreeMap<[usize; 2], f64> =
+            overlaps.iter().map(|o| (o.parts, o.depth_mm)).collect();
+        checker.watched = parts.map(|mover| checker.watched_pairs(mover, &deployed_mm)).collect();
+        checker
     }
 
-    /// All clashes while `mover` folds but for accepted ones; `is_flat` tells the state of the
-    /// others.
-    pub(super) fn clashes(&mut self, mover: usize, is_flat: &[bool]) -> Vec<Clash> {
-        let mut clashes = self.all_clashes(mover, is_flat);
-        clashes.retain(|clash| !self.accepted.contains(&(mover, clash.parts)));
+    /// Pairs of the mover's tree that do not ride on the same panel of it.
+    fn watched_pairs(&self, mover: usize, deployed_mm: &BTreeMap<[usize; 2], f64>) -> Vec<Watched> {
+        let tree: Vec<usize> =
+            (0..self.roots.len()).filter(|&p| self.roots[p] == self.roots[mover]).collect();
+        let carriers: Vec<Option<PanelId>> = tree.iter().map(|&p| self.carrier(mover, p)).collect();
+        let mut pairs = Vec::new();
+        for k in 0..tree.len() {
+            for l in k + 1..tree.len() {
+                if carriers[k] == carriers[l] {
+                    continue;
+                }
+                let parts = [tree[k], tree[l]];
+                let context: BTreeSet<usize> =
+                    parts.iter().flat_map(|&p| &self.ways[mover][p]).copied().filter(|&p| p != mover).collect();
+                let context = context.into_iter().collect();
+                pairs.push(Watched { parts, context, overlap_mm: deployed_mm.get(&parts).copied() });
+            }
+        }
+        pairs
+    }
+
+    /// Clashes of a move that an order could avoid: without accepted ones and without pairs that stand
+    /// in each other when deployed.
+    pub(super) fn clashes(&mut self, step: Move, levels: &[Level]) -> Vec<Clash> {
+        let mut clashes = self.all_clashes(step, levels).to_vec();
+        clashes.retain(|clash| {
+            let pair = self.watched[step.part].iter().find(|pair| pair.parts == clash.parts);
+            pair.is_none_or(|pair| pair.overlap_mm.is_none())
+                && !self.accepted.contains(&(step.part, clash.parts))
+        });
         clashes
     }
 
-    /// All clashes, those accepted too.
-    pub(super) fn all_clashes(&mut self, mover: usize, is_flat: &[bool]) -> Vec<Clash> {
-        let key = (mover, self.states(mover, is_flat));
+    /// All clashes of a move; `levels` tells where the others are.
+    pub(super) fn all_clashes(&mut self, step: Move, levels: &[Level]) -> Arc<[Clash]> {
+        let mut key = (step, Levels::from_slice(levels));
+        key.1[step.part] = step.from;
         if let Some(clashes) = self.listed.get(&key) {
             return clashes.clone();
         }
-        let answers = self.ask(self.open(mover, &key.1), mover, is_flat);
+        let answers = self.answers(step.part, levels);
         self.learn(answers);
-        let questions = self.questions(mover, &key.1);
-        let clashes: Vec<Clash> = questions.filter_map(|q| self.known.get(&q).copied().flatten()).collect();
+        let clashes: Arc<[Clash]> =
+            self.questions(step.part, levels).filter_map(|question| self.clash(step, &question)).collect();
         self.listed.insert(key, clashes.clone());
         clashes
     }
 
+    /// What a pair does in a step, as far as that is worse than what it does when deployed.
+    fn clash(&self, step: Move, question: &Question) -> Option<Clash> {
+        let (mover, pair, _) = question;
+        let pair = &self.watched[*mover][*pair];
+        let clash = clash(step, pair.parts, self.known.get(question)?)?;
+        let told_mm = pair.overlap_mm.map_or(0.0, |mm| mm + self.thickness_mm / 2.0);
+        (clash.depth_mm > told_mm).then_some(clash)
+    }
+
     /// Accepts a clash that happens whatever the states of the parts between are, since no order
     /// can help. Gives up, and does not accept it, where there are too many of them.
-    pub(super) fn accept_if_unavoidable(&mut self, clash: &Clash, is_flat: &[bool]) {
+    pub(super) fn accept_if_unavoidable(&mut self, clash: &Clash, levels: &[Level]) {
         let (mover, parts) = (clash.mover, clash.parts);
-        let mut free: Vec<usize> = parts.iter().flat_map(|&p| &self.ways[mover][p]).copied().collect();
-        free.sort_unstable();
-        free.dedup();
+        let Some(pair) = self.watched[mover].iter().position(|pair| pair.parts == parts) else { return };
+        let free = self.watched[mover][pair].context.clone();
         if free.len() > MOST_BETWEEN {
             return;
         }
         let is_always = (0..1_usize << free.len()).all(|states| {
-            let mut is_flat = is_flat.to_vec();
-            free.iter().enumerate().for_each(|(k, &p)| is_flat[p] = states >> k & 1 == 1);
-            let question = (mover, parts, parts.map(|p| self.states_on_way(mover, p, &is_flat)));
+            let mut levels = levels.to_vec();
+            free.iter().enumerate().for_each(|(k, &p)| levels[p] = if states >> k & 1 == 1 { FLAT } else { 0 });
+            let question = self.question(mover, pair, &levels);
             if !self.known.contains_key(&question) {
-                let answers = self.ask(vec![question.clone()], mover, &is_flat);
+                let answers = self.ask(vec![question.clone()], mover, &levels);
                 self.learn(answers);
             }
-            self.known.get(&question).copied().flatten().is_some()
+            self.known.get(&question).is_some_and(Option::is_some)
         });
         if is_always {
             self.accepted.insert((mover, parts));
         }
     }
 
+    /// The components that a clash has to do with: the two that meet, the one that moves, and those
+    /// between them.
+    pub(super) fn involved(&self, clash: &Clash) -> Vec<usize> {
+        let [a, b] = clash.parts;
+        let mut involved = vec![a, b, clash.mover];
+        involved.extend(&self.ways[a][b]);
+        let mut seen = BTreeSet::new();
+        involved.retain(|part| seen.insert(*part));
+        involved
+    }
+
     /// Keeps answers.
-    pub(super) fn learn(&mut self, answers: Vec<(Question, Option<Clash>)>) {
+    pub(super) fn learn(&mut self, answers: Vec<(Question, Answer)>) {
         self.sweeps += usize::from(!answers.is_empty());
         self.known.extend(answers);
     }
 
-    /// How often answers had to be worked out.
+    /// How often answers had to be found, whether the memory had them or not: what a search may cost
+    /// must not depend on that.
     pub(super) fn sweeps(&self) -> usize {
         self.sweeps
     }
 
     /// Answers what is not known yet of one component's motion.
-    pub(super) fn answers(&self, mover: usize, is_flat: &[bool]) -> Vec<(Question, Option<Clash>)> {
-        self.ask(self.open(mover, &self.states(mover, is_flat)), mover, is_flat)
+    pub(super) fn answers(&self, mover: usize, levels: &[Level]) -> Vec<(Question, Answer)> {
+        let open = self.questions(mover, levels).filter(|question| !self.known.contains_key(question));
+        self.ask(open.collect(), mover, levels)
     }
 
-    /// What is not known yet of one component's motion.
-    fn open(&self, mover: usize, states: &[States]) -> Vec<Question> {
-        self.questions(mover, states).filter(|question| !self.known.contains_key(question)).collect()
-    }
-
-    fn ask(&self, open: Vec<Question>, mover: usize, is_flat: &[bool]) -> Vec<(Question, Option<Clash>)> {
-        if open.is_empty() {
-            return Vec::new();
+    fn ask(&self, open: Vec<Question>, mover: usize, levels: &[Level]) -> Vec<(Question, Answer)> {
+        let keys: Vec<Key> = open.iter().map(|question| self.key(question, levels)).collect();
+        let mut answers: Vec<Option<Answer>> =
+            keys.iter().map(|key| self.memory.answers().get(key)).collect();
+        let missing: Vec<usize> = (0..open.len()).filter(|&k| answers[k].is_none()).collect();
+        if !missing.is_empty() {
+            let pairs: Vec<[usize; 2]> =
+                missing.iter().map(|&k| self.watched[mover][open[k].1].parts).collect();
+            for (&k, answer) in missing.iter().zip(self.swept(mover, &pairs, levels)) {
+                self.memory.answers().insert(keys[k].clone(), answer.clone());
+                answers[k] = Some(answer);
+            }
         }
-        let mut states = is_flat.to_vec();
-        states[mover] = false;
-        let (bodies, owners) = self.bodies(mover, &states);
+        open.into_iter().zip(answers.into_iter().flatten()).collect()
+    }
+
+    /// Works out what pairs do while a component moves.
+    fn swept(&self, mover: usize, pairs: &[[usize; 2]], levels: &[Level]) -> Vec<Answer> {
+        let (bodies, owners) = self.bodies(mover, pairs, levels);
         let sweep = Sweep::new(&self.tracks[mover], &bodies, self.thickness_mm);
-        let lists: Vec<Vec<[usize; 2]>> =
-            open.iter().map(|(_, parts, _)| pairs(*parts, &bodies, &owners)).collect();
+        let lists: Vec<Vec<[usize; 2]>> = pairs.iter().map(|&pair| moving(pair, &bodies, &owners)).collect();
         let shares = lists.par_chunks(lists.len().div_ceil(SHARES_OF_SWEEP));
-        let contacts: Vec<Vec<Option<Contact>>> = shares.map(|lists| sweep.contacts(lists)).collect();
-        let found = contacts.into_iter().flatten();
-        let found = found.map(|contact| contact.map(|c| clash(mover, &sweep, c, &owners)));
-        open.into_iter().zip(found.collect::<Vec<_>>()).collect()
+        let contacts: Vec<Vec<Contacts>> = shares.map(|lists| sweep.contacts(lists)).collect();
+        contacts.into_iter().flatten().map(|contacts| answer(&contacts, &owners)).collect()
     }
 
-    fn states_on_way(&self, mover: usize, part: usize, is_flat: &[bool]) -> States {
-        let way = self.ways[mover][part].chunks(u64::BITS as usize);
-        way.map(|parts| parts.iter().fold(0, |bits, &p| bits << 1 | u64::from(is_flat[p]))).collect()
-    }
-
-    /// The states on the way from a component to each part.
-    fn states(&self, mover: usize, is_flat: &[bool]) -> Vec<States> {
-        (0..self.roots.len()).map(|p| self.states_on_way(mover, p, is_flat)).collect()
+    fn question(&self, mover: usize, pair: usize, levels: &[Level]) -> Question {
+        let context = &self.watched[mover][pair].context;
+        (mover, pair, context.iter().map(|&p| levels[p]).collect())
     }
 
     /// What must be known of a component's motion.
-    fn questions<'q>(&'q self, mover: usize, states: &'q [States]) -> impl Iterator<Item = Question> + 'q {
-        let tree = move || (0..self.roots.len()).filter(move |&p| self.roots[p] == self.roots[mover]);
-        let pairs = tree().flat_map(move |a| tree().filter(move |&b| a < b).map(move |b| [a, b]));
-        let pairs = pairs.filter(|pair| !self.ignored.contains(pair));
-        pairs.map(move |pair| (mover, pair, pair.map(|p| states[p].clone())))
+    fn questions<'q>(&'q self, mover: usize, levels: &'q [Level]) -> impl Iterator<Item = Question> + 'q {
+        (0..self.watched[mover].len()).map(move |pair| self.question(mover, pair, levels))
     }
 
-    /// What rides on the mover's panels: each of them, and each other part of its tree; with the
+    /// All that decides the answer to a question: paper, mover, and the components on both ways from it.
+    fn key(&self, (mover, pair, _): &Question, levels: &[Level]) -> Key {
+        let mut key = vec![self.thickness_mm.to_bits(), self.ids[*mover]];
+        for part in self.watched[*mover][*pair].parts {
+            let way = &self.ways[*mover][part];
+            key.push(way.len() as u64);
+            push_way(&mut key, way, &self.above[*mover], self.ids, levels);
+        }
+        key.into_boxed_slice()
+    }
+
+    /// What rides on the mover's panels: each of them, and each other part of the pairs; with the
     /// part and the first panel of each.
-    fn bodies(&self, mover: usize, is_flat: &[bool]) -> (Vec<Body>, Vec<Owner>) {
+    fn bodies(&self, mover: usize, pairs: &[[usize; 2]], levels: &[Level]) -> (Vec<Body>, Vec<Owner>) {
         let motion = self.tracks[mover].motion();
-        let folded: Vec<f64> = is_flat.iter().map(|&flat| f64::from(u8::from(flat))).collect();
+        let mut folded: Vec<f64> = levels.iter().map(|&level| share(level)).collect();
+        folded[mover] = 0.0;
         let pose = self.motion.pose(&folded);
         let to_mover = pose.parts[mover].frame.inverse();
         let (mut bodies, mut owners) = (Vec::new(), Vec::new());
-        for (p, part) in self.motion.model().parts().iter().enumerate() {
-            if self.roots[p] != self.roots[mover] {
-                continue;
-            }
-            let panels = part.component.panels().panels().iter().enumerate();
+        let asked: BTreeSet<usize> = pairs.iter().flatten().copied().collect();
+        for p in asked {
+            let panels = self.motion.model().parts()[p].component.panels().panels().iter().enumerate();
             let sheets = panels.map(|(k, panel)| sheet(panel, to_mover * pose.parts[p].panel(PanelId(k))));
             match self.carrier(mover, p) {
                 Some(carrier) => {
@@ -231,7 +311,7 @@ impl<'a> Checker<'a> {
             return None;
         }
         let mut line = vec![part];
-        line.extend(ancestors(self.motion.model(), part));
+        line.extend(&self.above[part]);
         let below = line.iter().position(|&p| p == mover).map(|at| line[at - 1]);
         match below {
             Some(child) => parts[child].joint.as_ref().map(|j| j.parent_panel),
@@ -241,6 +321,12 @@ impl<'a> Checker<'a> {
 
     /// Clash of two chains of one component, whatever the others do.
     pub(super) fn own_clash(&self, mover: usize) -> Option<Clash> {
+        let key = [self.thickness_mm.to_bits(), self.ids[mover]];
+        let answer = self.memory.own().get_or(key, || self.own_answer(mover));
+        clash(Move::whole(mover), [mover; 2], &answer)
+    }
+
+    fn own_answer(&self, mover: usize) -> Answer {
         let panels = self.motion.model().parts()[mover].component.panels().panels();
         let track = &self.tracks[mover];
         let body = |(k, panel): (usize, &Panel)| {
@@ -261,8 +347,7 @@ impl<'a> Checker<'a> {
             .flat_map(|(a, i)| sides.clone().filter(move |&(_, j)| i < j).map(move |(b, _)| [a, b]))
             .collect();
         let sweep = Sweep::new(track, &bodies, self.thickness_mm);
-        let contact = sweep.contacts(&[list]).into_iter().next().flatten()?;
-        Some(clash(mover, &sweep, contact, &owners))
+        sweep.contacts(&[list]).first().and_then(|contacts| answer(contacts, &owners))
     }
 }
 
@@ -274,30 +359,63 @@ struct Owner {
 }
 
 /// Pairs of bodies of two parts that move against each other.
-fn pairs([a, b]: [usize; 2], bodies: &[Body], owners: &[Owner]) -> Vec<[usize; 2]> {
+fn moving([a, b]: [usize; 2], bodies: &[Body], owners: &[Owner]) -> Vec<[usize; 2]> {
     let of = |part: usize| (0..owners.len()).filter(move |&k| owners[k].part == part);
     let all = of(a).flat_map(|p| of(b).map(move |q| [p, q]));
     all.filter(|[p, q]| bodies[*p].carrier() != bodies[*q].carrier()).collect()
 }
 
-fn clash(mover: usize, sweep: &Sweep<'_>, contact: Contact, owners: &[Owner]) -> Clash {
-    let rest = 1.0 - contact.folded;
-    let at = |k: usize| contact.folded + rest * k as f64 / DEPTH_SAMPLES as f64;
-    let depth = |k: usize| sweep.depth_mm(contact.sheets, at(k));
-    let panel = |(body, sheet): SheetId| PanelId(owners[body].first_panel + sheet);
-    Clash {
-        mover,
-        parts: contact.sheets.map(|(body, _)| owners[body].part),
-        panels: contact.sheets.map(panel),
-        folded: contact.folded,
-        depth_mm: (0..DEPTH_SAMPLES).map(depth).fold(0.0, f64::max),
+fn answer(contacts: &Contacts, owners: &[Owner]) -> Answer {
+    if contacts.iter().all(Option::is_none) {
+        return None;
     }
+    let panel = |(body, sheet): SheetId| PanelId(owners[body].first_panel + sheet);
+    let meetings = contacts.map(|contact| {
+        contact.map(|contact| Meeting {
+            folded: contact.folded,
+            panels: contact.sheets.map(panel),
+            depth_mm: (contact.depth_mm / DEPTH_GRID_MM).round() * DEPTH_GRID_MM,
+        })
+    });
+    Some(Arc::new(meetings))
+}
+
+/// What an answer says about a step.
+fn clash(step: Move, parts: [usize; 2], answer: &Answer) -> Option<Clash> {
+    let cells = answer.as_ref()?.get(usize::from(step.from)..usize::from(step.to))?;
+    let mut meetings = cells.iter().flatten();
+    let first = meetings.next()?;
+    let deepest = meetings.fold(first, |a, b| if b.depth_mm > a.depth_mm { b } else { a });
+    let Move { part: mover, from, to } = step;
+    let (panels, folded, depth_mm) = (deepest.panels, first.folded, deepest.depth_mm);
+    Some(Clash { mover, from: share(from), to: share(to), parts, panels, folded, depth_mm })
 }
 
 fn sheet(panel: &Panel, placement: DAffine3) -> Sheet {
     Sheet {
         corners: panel.outline.iter().map(|p| placement.transform_point3(p.extend(0.0))).collect(),
         normal: placement.matrix3.z_axis,
+    }
+}
+
+/// The ways between all components, from those above each.
+pub(super) fn ways(above: &[Vec<usize>]) -> Vec<Vec<Vec<usize>>> {
+    let parts = 0..above.len();
+    let from = |a: usize| parts.clone().map(|b| between(&above[a], a, &above[b], b)).collect();
+    parts.clone().map(from).collect()
+}
+
+/// Says what stands on a way: each component, its level, and whether the way goes up to it.
+pub(super) fn push_way(
+    key: &mut Vec<u64>,
+    way: &[usize],
+    above_start: &[usize],
+    ids: &[u64],
+    levels: &[Level],
+) {
+    for &part in way {
+        let goes_up = u64::from(above_start.contains(&part));
+        key.extend([ids[part], u64::from(levels[part]) << 1 | goes_up]);
     }
 }
 
@@ -316,31 +434,4 @@ fn between(above_from: &[usize], from: usize, above_to: &[usize], to: usize) -> 
     let mut way: Vec<usize> = up.chain(&b[shared..]).copied().collect();
     way.retain(|&p| p != from);
     way
-}
-
-/// Pairs of components that stand in each other by more than `tolerance_mm` when deployed.
-pub(super) fn overlaps(motion: &ModelMotion<'_>, tolerance_mm: f64) -> Vec<Overlap> {
-    let model = motion.model();
-    let parts = model.parts();
-    let sheets: Vec<Vec<Sheet>> = parts
-        .iter()
-        .map(|part| {
-            let panels = part.component.panels().panels();
-            panels.iter().map(|p| sheet(p, part.deployed() * p.deployed)).collect()
-        })
-        .collect();
-    let mut overlaps = Vec::new();
-    for a in 0..parts.len() {
-        for b in a + 1..parts.len() {
-            if root_of(model, a) != root_of(model, b) {
-                continue;
-            }
-            let pairs = sheets[a].iter().flat_map(|p| sheets[b].iter().map(move |q| (p, q)));
-            let depth_mm = pairs.map(|(p, q)| -gap(p, q, -tolerance_mm, 0).mm).fold(0.0, f64::max);
-            if depth_mm > tolerance_mm {
-                overlaps.push(Overlap { parts: [a, b], depth_mm });
-            }
-        }
-    }
-    overlaps
 }

@@ -1,27 +1,35 @@
 //! Folding: how components move between deployed and flat, whether they bump into one another, and
-//! in which order they fold.
+//! in which steps they fold.
 
 mod advice;
 mod chain;
 mod check;
 pub mod contact;
 mod ground;
+mod interleave;
+mod memory;
 mod motion;
 mod order;
+mod overlap;
+mod plan;
 mod pose;
 mod sequence;
 mod stack;
+mod step;
 mod sweep;
 mod track;
 
 pub use advice::Advice;
 pub use chain::{ChainMotion, Course, Shares};
-pub use check::{Clash, Overlap};
+pub use check::Clash;
+pub use memory::SweepMemory;
 pub use motion::{ComponentMotion, ComponentPose};
-pub use order::FoldPlan;
+pub use overlap::Overlap;
+pub use plan::FoldPlan;
 pub use pose::{ModelMotion, ModelPose, PartPose, ancestors, root_of};
 pub use sequence::Sequence;
 pub use stack::Stack;
+pub use step::Step;
 
 #[cfg(test)]
 mod tests;

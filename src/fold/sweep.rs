@@ -7,19 +7,27 @@
 //! that slips through. A deeper gap is a clash. Sheets that change sides of each other from one
 //! span to the next have gone through each other, however parallel they were.
 //!
+//! The motion is divided at the levels at which components may rest, and contacts are told for each
+//! cell between two levels, so that one sweep answers for all steps between levels.
+//!
 //! The broad phase is a tree of balls of two levels, over the sheets of a component and over each
 //! sheet.
 
 use super::chain::Sway;
 use super::contact::{Sheet, facing_mm, gap};
 use super::motion::{ComponentMotion, End};
+use super::step::{FLAT, share};
 use super::track::{Moment, Track};
 use crate::component::PanelId;
 use glam::DVec3;
 use std::collections::BTreeMap;
+use std::ops::Range;
 
-/// Spans that the motion is divided into at first; in longer ones hardly a pair can be let go.
-const FIRST_SPANS: usize = 16;
+/// Spans that each cell between two levels is divided into at first: in spans of more than a 16th of the
+/// motion hardly a pair can be let go.
+const FIRST_SPANS: usize = 2;
+/// A cell is looked at so many times to tell how deep a contact becomes in it, ends included.
+const DEPTH_SAMPLES: usize = 3;
 /// Spans are not halved more often than this, 1e-6 of the motion.
 const MOST_HALVINGS: usize = 16;
 /// Sheets nearer to one plane than this are on neither side of each other.
@@ -93,14 +101,19 @@ impl Body {
 /// One sheet of a body.
 pub(super) type SheetId = (usize, usize);
 
-/// The first contact of two sheets.
+/// Contact in a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Contact {
-    /// The two sheets.
-    pub(super) sheets: [SheetId; 2],
-    /// How far the component is folded.
+    /// How far the component is folded at the first contact.
     pub(super) folded: f64,
+    /// The two sheets that are deepest in each other.
+    pub(super) sheets: [SheetId; 2],
+    /// How deep, mm.
+    pub(super) depth_mm: f64,
 }
+
+/// Contacts in each cell.
+pub(super) type Contacts = [Option<Contact>; FLAT as usize];
 
 /// One component's motion with everything that rides on it.
 #[derive(Debug)]
@@ -126,8 +139,8 @@ impl<'a> Sweep<'a> {
         Self { track, bodies, allowed_mm: thickness_mm / 2.0 }
     }
 
-    /// For each list of pairs of bodies the first contact, if there is any.
-    pub(super) fn contacts(&self, lists: &[Vec<[usize; 2]>]) -> Vec<Option<Contact>> {
+    /// For each list of pairs of bodies the contacts in each cell.
+    pub(super) fn contacts(&self, lists: &[Vec<[usize; 2]>]) -> Vec<Contacts> {
         let pairs: Vec<Pair<usize>> = lists
             .iter()
             .enumerate()
@@ -139,20 +152,52 @@ impl<'a> Sweep<'a> {
             sides: BTreeMap::new(),
             scratch: Default::default(),
         };
+        let mut contacts = vec![[None; FLAT as usize]; lists.len()];
         let mut from = self.track.at(0.0);
-        for k in 1..=FIRST_SPANS {
-            let to = self.track.at(k as f64 / FIRST_SPANS as f64);
-            run.span(&from, &to, &pairs, &[], 0);
-            from = to;
+        for cell in 0..FLAT {
+            let (low, high) = (share(cell), share(cell + 1));
+            for k in 1..=FIRST_SPANS {
+                let to = self.track.at(low + (high - low) * k as f64 / FIRST_SPANS as f64);
+                run.span(&from, &to, &pairs, &[], 0);
+                from = to;
+            }
+            for (list, found) in run.next_cell() {
+                contacts[list][usize::from(cell)] = Some(self.deepest(found, &lists[list], low..high));
+            }
         }
-        run.found
+        contacts
     }
 
-    /// How deep two sheets are in each other at some time; negative where they are apart.
-    pub(super) fn depth_mm(&self, sheets: [SheetId; 2], folded: f64) -> f64 {
+    /// The first contact of a list with the depth that is reached in its cell.
+    fn deepest(&self, first: First, list: &[[usize; 2]], cell: Range<f64>) -> Contact {
+        // What has changed sides has no depth, but is no lighter than what is just too deep.
+        let mut deepest =
+            Contact { folded: first.folded, sheets: first.sheets, depth_mm: self.allowed_mm };
         let mut scratch = Default::default();
-        self.pose(sheets, &self.track.at(folded), &mut scratch);
-        -gap(&scratch[0], &scratch[1], f64::INFINITY, 0).mm
+        for k in 0..DEPTH_SAMPLES {
+            let part = k as f64 / (DEPTH_SAMPLES - 1) as f64;
+            let moment = self.track.at(cell.start + part * (cell.end - cell.start));
+            for &[a, b] in list {
+                let bodies = [a, b].map(|body| &self.bodies[body]);
+                if are_far(bodies.map(|body| (body, &body.ball)), &moment, 0.0) {
+                    continue;
+                }
+                for (i, p) in bodies[0].sheets.iter().enumerate() {
+                    for (j, q) in bodies[1].sheets.iter().enumerate() {
+                        if are_far([(bodies[0], &p.1), (bodies[1], &q.1)], &moment, 0.0) {
+                            continue;
+                        }
+                        let sheets = [(a, i), (b, j)];
+                        self.pose(sheets, &moment, &mut scratch);
+                        let depth_mm = -gap(&scratch[0], &scratch[1], -deepest.depth_mm, 0).mm;
+                        if depth_mm > deepest.depth_mm {
+                            deepest = Contact { sheets, depth_mm, ..deepest };
+                        }
+                    }
+                }
+            }
+        }
+        deepest
     }
 
     fn pose(&self, sheets: [SheetId; 2], at: &Moment<'_>, scratch: &mut [Sheet; 2]) {
@@ -183,16 +228,32 @@ fn are_far([a, b]: [(&Body, &Ball); 2], at: &Moment<'_>, way_mm: f64) -> bool {
     p.distance_squared(q) > reach * reach
 }
 
+/// The first contact of a list in a cell.
+#[derive(Debug, Clone, Copy)]
+struct First {
+    sheets: [SheetId; 2],
+    folded: f64,
+}
+
 /// A sweep under way, in the order of time.
 struct Run<'a> {
     sweep: &'a Sweep<'a>,
-    found: Vec<Option<Contact>>,
-    /// Side of each other that sheets were on when last seen facing each other closely.
-    sides: BTreeMap<[SheetId; 2], bool>,
+    /// Of each list the first contact in this cell.
+    found: Vec<Option<First>>,
+    /// Side of each other that sheets were on when last seen facing each other closely, and their list.
+    sides: BTreeMap<[SheetId; 2], (usize, bool)>,
     scratch: [Sheet; 2],
 }
 
 impl Run<'_> {
+    /// What was found in a cell, by list. Lists are not watched after a contact, so that nothing is
+    /// known of their sides where the next cell begins.
+    fn next_cell(&mut self) -> Vec<(usize, First)> {
+        let found = &mut self.found;
+        self.sides.retain(|_, (list, _)| found[*list].is_none());
+        found.iter_mut().enumerate().filter_map(|(list, first)| Some((list, first.take()?))).collect()
+    }
+
     fn span(
         &mut self,
         from: &Moment<'_>,
@@ -264,7 +325,7 @@ impl Run<'_> {
         pair.axis = gap.axis;
         let is_settled = gap.mm > enough || halvings == MOST_HALVINGS;
         if gap.mm < -sweep.allowed_mm || (is_settled && self.has_changed_sides(&pair, gap.mm <= way)) {
-            self.found[pair.list] = Some(Contact { sheets: pair.members, folded: span[1].folded });
+            self.found[pair.list] = Some(First { sheets: pair.members, folded: span[1].folded });
             return None;
         }
         (!is_settled).then_some(pair)
@@ -280,7 +341,8 @@ impl Run<'_> {
             Some(height_mm) if height_mm.abs() < SAME_PLANE_MM => false,
             Some(height_mm) => {
                 let is_above = height_mm > 0.0;
-                self.sides.insert(pair.members, is_above).is_some_and(|before| before != is_above)
+                let before = self.sides.insert(pair.members, (pair.list, is_above));
+                before.is_some_and(|(_, was_above)| was_above != is_above)
             }
             None => {
                 self.sides.remove(&pair.members);

@@ -29,6 +29,7 @@ pub(super) fn components() -> impl Strategy<Value = Component> {
             convert(&Target {
                 hull: &hull,
                 joints,
+                symmetry: None,
                 top_edges,
                 profile_vertices,
                 min_panel_mm: limits.0,
@@ -142,6 +143,7 @@ fn walls_of_a_box_bend_evenly() {
     let target = Target {
         hull: &hull,
         joints: vec![],
+        symmetry: None,
         top_edges: 4,
         profile_vertices: 3,
         min_panel_mm: 3.0,

@@ -5,26 +5,36 @@ use super::motion::ComponentMotion;
 use crate::component::PanelId;
 use glam::DAffine3;
 use std::cell::OnceCell;
+use std::sync::Arc;
 
 /// Spans of the table. Between their ends shares are interpolated; for links of 100 mm they are
 /// off by less than 1e-3 mm but for chains that are almost straight, which bend by up to 0.02 mm
 /// beside their course in the first span.
 const SPANS: usize = 512;
 
+/// How far each chain is at each moment of the table.
+pub(super) type Table = Vec<Vec<Shares>>;
+
+/// Tables a component's motion.
+pub(super) fn table(motion: &ComponentMotion) -> Table {
+    let mut shares = vec![motion.shares(0.0)];
+    for k in 1..=SPANS {
+        let next = motion.shares_near(k as f64 / SPANS as f64, &shares[k - 1]);
+        shares.push(next);
+    }
+    shares
+}
+
 /// A component's motion with a table of its course.
 #[derive(Debug)]
 pub(super) struct Track<'a> {
     motion: &'a ComponentMotion,
-    shares: Vec<Vec<Shares>>,
+    shares: Arc<Table>,
 }
 
 impl<'a> Track<'a> {
-    pub(super) fn new(motion: &'a ComponentMotion) -> Self {
-        let mut shares = vec![motion.shares(0.0)];
-        for k in 1..=SPANS {
-            let next = motion.shares_near(k as f64 / SPANS as f64, &shares[k - 1]);
-            shares.push(next);
-        }
+    /// Takes the motion's table.
+    pub(super) fn new(motion: &'a ComponentMotion, shares: Arc<Table>) -> Self {
         Self { motion, shares }
     }
 

@@ -2,7 +2,7 @@
 
 mod clip;
 
-use super::{Plane, directions, quickhull};
+use super::{Mirror, Plane, directions, quickhull};
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
@@ -140,6 +140,16 @@ impl Hull {
         let vertices = self.vertices.iter().map(|v| motion.transform_point3(*v)).collect();
         let facets =
             self.facets.iter().map(|f| Facet { plane: f.plane.moved(motion), outline: f.outline.clone() });
+        Self { vertices, facets: facets.collect() }
+    }
+
+    /// The mirror image of the hull, its facets facing outwards.
+    pub fn reflected(&self, mirror: &Mirror) -> Self {
+        let vertices = self.vertices.iter().map(|&v| mirror.point(v)).collect();
+        let facets = self.facets.iter().map(|f| Facet {
+            plane: mirror.image(&f.plane),
+            outline: f.outline.iter().rev().copied().collect(),
+        });
         Self { vertices, facets: facets.collect() }
     }
 

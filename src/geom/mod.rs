@@ -2,12 +2,15 @@
 
 pub mod eigen;
 mod hull;
+mod mirror;
 pub(crate) mod nearest;
 mod plane;
+pub(crate) mod points;
 pub mod polygon;
 mod quickhull;
 mod sphere;
 
 pub use hull::{Facet, Hull, HullError};
+pub use mirror::Mirror;
 pub use plane::Plane;
 pub use sphere::directions;

@@ -74,7 +74,17 @@ impl Tree {
 
     /// The point nearest to `p`. Search is quick where `guess` is a triangle near it.
     pub(crate) fn nearest(&self, p: DVec3, guess: usize) -> Nearest {
-        let mut best = self.on_triangle(guess, p);
+        self.nearer(p, self.on_triangle(guess, p))
+    }
+
+    /// The point nearest to `p`, where one is nearer than `limit`.
+    pub(crate) fn nearest_within(&self, p: DVec3, limit: f64) -> Option<Nearest> {
+        let none = Nearest { triangle: usize::MAX, weights: DVec3::ZERO, distance_squared: limit * limit };
+        Some(self.nearer(p, none)).filter(|found| found.triangle != usize::MAX)
+    }
+
+    /// The point nearest to `p`, where one is nearer than `best`.
+    fn nearer(&self, p: DVec3, mut best: Nearest) -> Nearest {
         let mut todo = vec![0];
         while let Some(index) = todo.pop() {
             let node = &self.nodes[index];
@@ -96,6 +106,12 @@ impl Tree {
             todo.extend(if is_left_nearer { [right, left] } else { [left, right] });
         }
         best
+    }
+
+    /// Where a point that was found is.
+    pub(crate) fn point(&self, found: &Nearest) -> DVec3 {
+        let [a, b, c] = self.triangles[found.triangle];
+        a * found.weights.x + b * found.weights.y + c * found.weights.z
     }
 
     fn on_triangle(&self, triangle: usize, p: DVec3) -> Nearest {
@@ -162,6 +178,9 @@ mod tests {
             let all = (0..300).map(|t| tree.on_triangle(t, p).distance_squared);
             let least = all.fold(f64::INFINITY, f64::min);
             assert!((found.distance_squared - least).abs() < 1e-12);
+            let within = |limit: f64| tree.nearest_within(p, limit).map(|n| n.distance_squared);
+            assert_eq!(within(least.sqrt() * 0.999), None);
+            assert!(within(least.sqrt() * 1.001 + 1e-9).is_some_and(|d| (d - least).abs() < 1e-12));
         }
     }
 

@@ -193,10 +193,16 @@ impl Writer<'_> {
                 let joined = joint.map(|joint| picture::joined(output, part, joint, &is_there));
                 joined.collect::<Result<_, _>>()?
             }
-            Action::Flatten => {
-                vec![picture::flattening(output, part, &with(&|action| *action == Action::Flatten))?]
+            Action::Bend { .. } | Action::Flatten => {
+                let mut folded = vec![0.0; output.nets().len()];
+                done.iter().for_each(|step| folded[step.part] = step.action.folded());
+                vec![picture::flattening(output, part, &folded, steps[k].action.folded())?]
             }
-            Action::Deploy => vec![picture::deploying(output, part)?],
+            Action::Deploy => {
+                let bends = |step: &&Step| step.part == part && matches!(step.action, Action::Bend { .. });
+                let to = done.iter().rev().find(bends).map_or(0.0, |step| step.action.folded());
+                vec![picture::deploying(output, part, to)?]
+            }
         })
     }
 
@@ -232,23 +238,49 @@ impl Writer<'_> {
                 let texts = [&words.join.find, &words.join.glue, &words.join.place];
                 (fill(&words.join.title, &values), texts.map(|text| fill(text, &values)).to_vec())
             }
+            Action::Bend { percent } => {
+                let (words, share) = (&words.flatten, self.share(*percent));
+                let values = [("part", part), ("share", share.as_str())];
+                let mut sentences = vec![fill(&words.bend, &values), words.rest.clone()];
+                if k == 0 || !steps[k - 1].action.folds_model() {
+                    sentences.insert(0, words.wait.clone());
+                }
+                (fill(&words.bend_title, &values), sentences)
+            }
             Action::Flatten => {
-                let is_first = k == 0 || steps[k - 1].action != Action::Flatten;
+                let is_first = k == 0 || !steps[k - 1].action.folds_model();
                 let text = if is_first { &words.flatten.first } else { &words.flatten.next };
                 let mut sentences = vec![fill(text, &[("part", part)])];
                 if is_first {
                     sentences.insert(0, words.flatten.wait.clone());
                 }
-                let is_last = steps.get(k + 1).is_none_or(|next| next.action != Action::Flatten);
+                let is_last = steps.get(k + 1).is_none_or(|next| !next.action.folds_model());
                 sentences.extend(is_last.then(|| words.flatten.last.clone()));
                 (fill(&words.flatten.title, &[("part", part)]), sentences)
             }
             Action::Deploy => {
-                let order = self.output.fold_plan().order().iter().rev();
-                let parts: Vec<&str> = order.map(|&part| self.name(part)).collect();
+                let pulled = |step: &crate::fold::Step| match (100.0 * step.from).round() as u8 {
+                    0 => self.name(step.part).to_owned(),
+                    percent => {
+                        let share = self.share(percent);
+                        fill(&words.deploy.until, &[("part", self.name(step.part)), ("share", &share)])
+                    }
+                };
+                let parts: Vec<String> = self.output.fold_plan().steps().iter().rev().map(pulled).collect();
                 let order = fill(&words.deploy.order, &[("parts", &parts.join(", "))]);
                 (words.deploy.title.clone(), vec![order])
             }
+        }
+    }
+
+    /// A share of the way to flat in words.
+    fn share(&self, percent: u8) -> String {
+        let words = &self.words.flatten;
+        match percent {
+            25 => words.quarter.clone(),
+            50 => words.half.clone(),
+            75 => words.three_quarters.clone(),
+            _ => fill(&words.percent, &[("percent", &percent.to_string())]),
         }
     }
 
@@ -276,7 +308,7 @@ impl Writer<'_> {
         let title = |step: &Step| match step.action {
             Action::Fold | Action::Glue { .. } => fill(&words.part, &[("part", self.name(step.part))]),
             Action::Join { .. } => words.join.clone(),
-            Action::Flatten | Action::Deploy => words.flatten.clone(),
+            Action::Bend { .. } | Action::Flatten | Action::Deploy => words.flatten.clone(),
         };
         let mut chapters: Vec<Chapter> = Vec::new();
         for (k, step) in steps.iter().enumerate() {

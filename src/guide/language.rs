@@ -206,6 +206,13 @@ pub struct FlattenWords {
     pub first: String,
     pub next: String,
     pub last: String,
+    pub bend_title: String,
+    pub bend: String,
+    pub rest: String,
+    pub quarter: String,
+    pub half: String,
+    pub three_quarters: String,
+    pub percent: String,
 }
 
 /// Deploying it again. The fields are named in the language files.
@@ -214,6 +221,7 @@ pub struct FlattenWords {
 pub struct DeployWords {
     pub title: String,
     pub order: String,
+    pub until: String,
     pub slider: String,
     pub slider_text: String,
 }

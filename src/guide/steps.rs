@@ -28,10 +28,31 @@ pub enum Action {
         /// The parent.
         parent: usize,
     },
+    /// The component is folded within the model, but not flat yet.
+    Bend {
+        /// How far, afterwards, percent.
+        percent: u8,
+    },
     /// The component is folded flat within the model.
     Flatten,
     /// The model is deployed again, beginning with this component.
     Deploy,
+}
+
+impl Action {
+    /// Whether the joined model is folded.
+    pub fn folds_model(&self) -> bool {
+        matches!(self, Self::Bend { .. } | Self::Flatten)
+    }
+
+    /// How far the component is folded within the model afterwards: 0 deployed, 1 flat.
+    pub fn folded(&self) -> f64 {
+        match self {
+            Self::Bend { percent } => f64::from(*percent) / 100.0,
+            Self::Flatten => 1.0,
+            _ => 0.0,
+        }
+    }
 }
 
 /// One step.
@@ -44,7 +65,7 @@ pub struct Step {
 }
 
 /// The steps: each component is folded and glued; then components are joined from the roots
-/// outwards; then the model is folded flat in the order that [`crate::fold::FoldPlan`] found, and
+/// outwards; then the model is folded flat in the steps that [`crate::fold::FoldPlan`] found, and
 /// deployed in the reverse order.
 pub fn steps(output: &Output) -> Vec<Step> {
     let model = output.model();
@@ -59,9 +80,13 @@ pub fn steps(output: &Output) -> Vec<Step> {
             steps.push(Step { part, action: Action::Join { parent: joint.parent } });
         }
     }
-    let order = output.fold_plan().order();
-    steps.extend(order.iter().map(|&part| Step { part, action: Action::Flatten }));
-    steps.extend(order.last().map(|&part| Step { part, action: Action::Deploy }));
+    let plan = output.fold_plan();
+    steps.extend(plan.steps().iter().map(|step| {
+        let percent = (100.0 * step.to).round() as u8;
+        let action = if step.ends_flat() { Action::Flatten } else { Action::Bend { percent } };
+        Step { part: step.part, action }
+    }));
+    steps.extend(plan.order().last().map(|&part| Step { part, action: Action::Deploy }));
     steps
 }
 

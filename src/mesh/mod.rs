@@ -11,12 +11,14 @@ mod placement;
 mod read;
 mod repair;
 mod soup;
+mod symmetry;
 
 pub use edges::Edges;
 pub use placement::Up;
 pub use read::{ColourError, Format, Place, ReadError, read, read_painting, read_with_siblings};
 pub use repair::{MeshError, Repairs};
 pub use soup::{Soup, SoupError};
+pub use symmetry::MirrorPlane;
 
 use glam::DVec3;
 

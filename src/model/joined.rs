@@ -113,8 +113,9 @@ impl Model {
             let Some(joint) = self.parts[p].joint.clone() else { continue };
             let own = self.outline_on((p, joint.child_panel), (joint.parent, joint.parent_panel));
             let base = &self.parts[joint.parent].component.panels().panel(joint.parent_panel).outline;
-            let ratio = polygon::area(&polygon::intersect_convex(&own, base)) / polygon::area(&own);
-            self.parts[p].joint = Some(Joint { support_ratio: ratio.abs().min(1.0), ..joint });
+            let glue_mm2 = polygon::area(&polygon::intersect_convex(&own, base)).abs();
+            let support_ratio = (glue_mm2 / polygon::area(&own)).abs().min(1.0);
+            self.parts[p].joint = Some(Joint { support_ratio, glue_mm2, ..joint });
         }
         self
     }
@@ -150,6 +151,6 @@ fn on_parent(part: &JoinedPart, seam: &Seam, parent: &ModelPart) -> ModelPart {
         placement: DAffine3::IDENTITY,
         flat: parent.flat * below.flat * seam.relation * above.flat.inverse(),
         direction_rad: 0.0,
-        joint: Some(Joint { parent: seam.parent, parent_panel, child_panel, support_ratio: 0.0 }),
+        joint: Some(Joint { parent: seam.parent, parent_panel, child_panel, support_ratio: 0.0, glue_mm2: 0.0 }),
     }
 }

@@ -1,28 +1,26 @@
-//! Components that were made before, so that a change to one part leaves the others as they are.
+//! Candidates that were made before, so that a change to one part leaves the others as they are.
 
-use super::build::{Builder, Made, seat_on};
-use super::grow::make_joined;
+use super::candidate::{Builder, Made};
 use super::link::Link;
-use super::{ModelError, ModelPart, Part};
-use crate::geom::{Hull, Plane};
+use super::{ModelError, Part, Symmetry};
+use crate::geom::Hull;
 use crate::memory::Memory;
-use crate::progress::Progress;
-use glam::DVec3;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-/// So many components are kept: a few dozen turns of a few dozen components.
-const MOST: usize = 400;
+/// The candidates of so many parts are kept: a few turns of a few dozen parts.
+const MOST: usize = 200;
 
-/// Everything that a component depends on.
+/// Everything that the candidates of a part depend on.
 #[derive(Debug, PartialEq)]
 struct Wish {
     part: usize,
     min_panel_mm: f64,
     /// The part, without its name.
     own: Part,
-    /// The joint plane and panel that the parent has for it.
-    parent: Option<(Plane, Vec<DVec3>)>,
     /// Its joints, with the hulls of the others.
     links: Vec<(Link, Hull)>,
+    symmetry: Option<Symmetry>,
 }
 
 impl Wish {
@@ -30,64 +28,42 @@ impl Wish {
         let part = builder.part;
         let mut own = builder.parts[part].clone();
         own.options.name.clear();
-        let joint = builder.carrier().and_then(|(_, made)| Some((made, made.joint(part)?)));
-        let parent = joint.map(|(made, (plane, panel))| (plane, made.panel_outline(panel)));
-        let links = builder.links.iter().filter(|l| l.parent == part || l.child == part);
         let with_hull = |link: &Link| {
             let other = if link.parent == part { link.child } else { link.parent };
             (link.clone(), builder.parts[other].hull.clone())
         };
-        Self { part, min_panel_mm: builder.min_panel_mm, own, parent, links: links.map(with_hull).collect() }
+        Self {
+            part,
+            min_panel_mm: builder.min_panel_mm,
+            own,
+            links: builder.own_links().map(with_hull).collect(),
+            symmetry: builder.symmetry.cloned(),
+        }
     }
 }
 
-/// Components that were made before.
+/// Candidates that were made before.
 #[derive(Debug)]
-pub struct Known(Memory<Wish, Made>);
+pub struct Known {
+    made: Memory<Wish, Arc<Vec<Made>>>,
+    next_id: AtomicU64,
+}
 
 impl Default for Known {
     fn default() -> Self {
-        Self(Memory::new(MOST))
+        Self { made: Memory::new(MOST), next_id: AtomicU64::new(0) }
     }
 }
 
 impl Known {
-    /// Makes a component, or takes the one that was made of the same.
-    pub(super) fn make(&self, builder: &Builder<'_>) -> Result<Made, ModelError> {
-        self.0.get_or(Wish::new(builder), || builder.make())
+    /// Makes candidates, or takes those that were made of the same.
+    pub(super) fn make(&self, builder: &Builder<'_>) -> Result<Arc<Vec<Made>>, ModelError> {
+        self.made.get_or(Wish::new(builder), || {
+            let mut made = builder.make()?;
+            for candidate in &mut made {
+                candidate.id = self.next_id.fetch_add(1, Ordering::Relaxed);
+            }
+            Ok(Arc::new(made))
+        })
     }
-}
-
-/// One component alone, in its place on those that carry it: what the whole model will have there,
-/// known before the components that it carries are made.
-///
-/// # Errors
-/// As [`super::build`].
-pub fn build_one(
-    parts: &[Part],
-    links: &[Link],
-    part: usize,
-    min_panel_mm: f64,
-    known: &Known,
-    progress: &dyn Progress,
-) -> Result<ModelPart, ModelError> {
-    let mut links = links.to_vec();
-    let up = |p: &usize| links.iter().find(|l| l.child == *p).map(|l| l.parent);
-    let mut path: Vec<usize> = std::iter::successors(Some(part), up).collect();
-    path.reverse();
-    let mut last: Option<(ModelPart, Made)> = None;
-    for &p in &path {
-        let builder =
-            Builder { parts, links: &links, part: p, carrier: last.as_ref().map(|l| &l.1), min_panel_mm };
-        let (own, loose) = make_joined(&builder, known, progress)?;
-        let mut placed = own.unplaced(&parts[p]);
-        if let (Some((link, carrier)), Some((parent, _))) = (builder.carrier(), &last) {
-            let joint = seat_on(link, parent, &mut placed, [carrier, &own]);
-            let lost = || ModelError::NoJointPanel(parts[p].options.name.clone());
-            placed.joint = Some(joint.ok_or_else(lost)?);
-        }
-        last = Some((placed, own));
-        links.retain(|l| !loose.contains(&l.child));
-    }
-    last.map(|l| l.0).ok_or_else(|| ModelError::NoJointPanel(parts[part].options.name.clone()))
 }

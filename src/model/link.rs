@@ -1,5 +1,6 @@
 //! Contact planes between neighbouring segments, and the tree of joints (§4.2.1).
 
+use super::{Symmetry, plane};
 use crate::geom::{Hull, Plane};
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -28,33 +29,36 @@ pub struct Link {
 
 /// Spanning trees of the interface graph, largest interfaces first (Kruskal), each rooted at its
 /// smallest index. Links are ordered so that a parent's own link comes before its children's.
-pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact]) -> Vec<Link> {
-    let mut order: Vec<&Contact> = contacts.iter().collect();
-    order.sort_by(|a, b| b.length_mm.total_cmp(&a.length_mm).then(a.parts.cmp(&b.parts)));
-    let mut group: Vec<usize> = (0..part_hulls.len()).collect();
-    let mut neighbours: BTreeMap<usize, Vec<(usize, &Contact)>> = BTreeMap::new();
-    for contact in order {
-        let (a, b) = contact.parts;
-        let (ga, gb) = (group[a], group[b]);
-        if ga != gb {
-            group.iter_mut().filter(|g| **g == gb).for_each(|g| *g = ga);
-            neighbours.entry(a).or_default().push((b, contact));
-            neighbours.entry(b).or_default().push((a, contact));
-        }
+///
+/// With a symmetry the trees are their own mirror images, and so are the planes: mirrored contacts
+/// are taken together; twins are joined to each other only where nothing across the mirror plane
+/// joins them. Roots, but for the first part, then are parts across the plane where there are some.
+pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact], symmetry: Option<&Symmetry>) -> Vec<Link> {
+    let mirrored = symmetry.map(|symmetry| mirrored_contacts(contacts, symmetry));
+    let contacts = mirrored.as_deref().unwrap_or(contacts);
+    let mut neighbours: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    let joints = joined(contacts, part_hulls.len(), symmetry);
+    for &(a, b) in &joints {
+        neighbours.entry(a).or_default().push(b);
+        neighbours.entry(b).or_default().push(a);
     }
+    let between = Between::new(part_hulls, contacts, &joints, symmetry);
+    let mut roots: Vec<usize> = (0..part_hulls.len()).collect();
+    roots.sort_by_key(|&p| p != 0 && symmetry.is_some_and(|s| !s.is_across(p)));
     let mut seen = vec![false; part_hulls.len()];
     let mut links = Vec::new();
-    for root in 0..part_hulls.len() {
+    for root in roots {
         if seen[root] {
             continue;
         }
         seen[root] = true;
         let mut queue = std::collections::VecDeque::from([root]);
         while let Some(parent) = queue.pop_front() {
-            for &(child, contact) in neighbours.get(&parent).map_or(&[][..], Vec::as_slice) {
-                if !seen[child] {
+            for &child in neighbours.get(&parent).map_or(&[][..], Vec::as_slice) {
+                if !seen[child]
+                    && let Some((plane, _)) = between.plane(parent, child)
+                {
                     seen[child] = true;
-                    let (plane, _) = contact_plane(contact, part_hulls[parent], part_hulls[child]);
                     links.push(Link { parent, child, plane });
                     queue.push_back(child);
                 }
@@ -64,67 +68,185 @@ pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact]) -> Vec<Link> {
     links
 }
 
+/// Pairs that are joined, largest interfaces first.
+fn joined(contacts: &[Contact], parts: usize, symmetry: Option<&Symmetry>) -> Vec<(usize, usize)> {
+    let mut order: Vec<&Contact> = contacts.iter().collect();
+    order.sort_by(|a, b| b.length_mm.total_cmp(&a.length_mm).then(a.parts.cmp(&b.parts)));
+    let twin = |p: usize| symmetry.map_or(p, |s| s.twin(p));
+    // A part and its twin count as one at first.
+    let mut group: Vec<usize> = (0..parts).map(|p| p.min(twin(p))).collect();
+    let mut pairs = Vec::new();
+    for contact in &order {
+        let image = image_of(contact.parts, symmetry);
+        if contact.parts <= image && join(&mut group, contact.parts) {
+            pairs.push(contact.parts);
+            if image != contact.parts {
+                pairs.push(image);
+            }
+        }
+    }
+    let mut group: Vec<usize> = (0..parts).collect();
+    for &pair in &pairs {
+        join(&mut group, pair);
+    }
+    let (twins, others): (Vec<&Contact>, Vec<&Contact>) =
+        order.into_iter().partition(|c| twin(c.parts.0) == c.parts.1);
+    let rest = twins.into_iter().chain(others).map(|c| c.parts);
+    pairs.extend(rest.filter(|&pair| join(&mut group, pair)));
+    pairs
+}
+
+/// Makes one group of those of two parts; `false` where it was one.
+fn join(group: &mut [usize], (a, b): (usize, usize)) -> bool {
+    let (ga, gb) = (group[a], group[b]);
+    group.iter_mut().filter(|g| **g == gb).for_each(|g| *g = ga);
+    ga != gb
+}
+
+/// The mirror image of a pair, smaller index first.
+fn image_of((a, b): (usize, usize), symmetry: Option<&Symmetry>) -> (usize, usize) {
+    let (a, b) = symmetry.map_or((a, b), |s| (s.twin(a), s.twin(b)));
+    (a.min(b), a.max(b))
+}
+
+/// The contacts so that each one's image is one too, of the same length and with the images of its
+/// points.
+fn mirrored_contacts(contacts: &[Contact], symmetry: &Symmetry) -> Vec<Contact> {
+    let mirror = symmetry.mirror();
+    // Of a pair and its image, the smaller: its points, the sum of lengths and their number.
+    let mut orbits: BTreeMap<(usize, usize), (Vec<DVec3>, f64, usize)> = BTreeMap::new();
+    for contact in contacts {
+        let image = image_of(contact.parts, Some(symmetry));
+        let (points, length_mm, count) = orbits.entry(contact.parts.min(image)).or_default();
+        *length_mm += contact.length_mm;
+        *count += 1;
+        if contact.parts <= image {
+            points.extend(&contact.points);
+        }
+        if contact.parts >= image {
+            points.extend(contact.points.iter().map(|&p| mirror.point(p)));
+        }
+    }
+    let both = orbits.into_iter().flat_map(|(parts, (points, sum_mm, count))| {
+        let (image, length_mm) = (image_of(parts, Some(symmetry)), sum_mm / count as f64);
+        let other = (image != parts).then(|| {
+            let points = points.iter().map(|&p| mirror.point(p)).collect();
+            Contact { parts: image, points, length_mm }
+        });
+        [Some(Contact { parts, points, length_mm }), other].into_iter().flatten()
+    });
+    both.collect()
+}
+
+/// The planes between parts that touch.
+struct Between<'a> {
+    part_hulls: &'a [&'a Hull],
+    contacts: BTreeMap<(usize, usize), &'a Contact>,
+    /// Pairs that are joined, smaller index first.
+    joints: &'a [(usize, usize)],
+    symmetry: Option<&'a Symmetry>,
+}
+
+impl<'a> Between<'a> {
+    fn new(
+        part_hulls: &'a [&'a Hull],
+        contacts: &'a [Contact],
+        joints: &'a [(usize, usize)],
+        symmetry: Option<&'a Symmetry>,
+    ) -> Self {
+        let contacts = contacts.iter().map(|c| (c.parts, c)).collect();
+        Self { part_hulls, contacts, joints, symmetry }
+    }
+
+    /// Where a part is joined to others than one.
+    fn kept(&self, part: usize, other: usize) -> Vec<DVec3> {
+        let is_other = |pair: &&(usize, usize)| **pair != (part.min(other), part.max(other));
+        let own = self.joints.iter().filter(is_other).filter(|p| p.0 == part || p.1 == part);
+        own.filter_map(|pair| self.contacts.get(pair)).flat_map(|c| c.points.iter().copied()).collect()
+    }
+
+    /// The plane between two parts, normal from the first to the second, and the larger share that
+    /// it cuts off either hull; `None` where they do not touch.
+    fn plane(&self, from: usize, to: usize) -> Option<(Plane, f64)> {
+        let contact = self.contacts.get(&(from.min(to), from.max(to)))?;
+        let [first, second] = [from, to].map(|p| self.part_hulls[p]);
+        let kept = [self.kept(from, to), self.kept(to, from)];
+        let fitted = |across| plane::between(&contact.points, first, second, [&kept[0], &kept[1]], across);
+        let Some(symmetry) = self.symmetry else {
+            return Some(fitted(None));
+        };
+        let (mirror, image) = (symmetry.mirror(), (symmetry.twin(from), symmetry.twin(to)));
+        if image == (to, from) {
+            let plane = *mirror.plane();
+            let is_ahead = plane.distance(second.centroid()) > plane.distance(first.centroid());
+            let plane = if is_ahead { plane } else { plane.flipped() };
+            return Some((plane, plane::cut_off(&plane, first, second)));
+        }
+        if image < (from, to) {
+            let (plane, cut_off) = self.plane(image.0, image.1)?;
+            return Some((mirror.image(&plane), cut_off));
+        }
+        Some(fitted((image == (from, to)).then_some(mirror)))
+    }
+}
+
 /// The hulls, of which those of neighbours without a joint end at the plane between them, so that
 /// their components do not stand in each other. Where that plane would take much of either, both
-/// stay whole.
-pub fn parted(part_hulls: &[&Hull], contacts: &[Contact], links: &[Link]) -> Vec<Hull> {
+/// stay whole. Hulls that are mirror images of each other stay so.
+pub fn parted(
+    part_hulls: &[&Hull],
+    contacts: &[Contact],
+    links: &[Link],
+    symmetry: Option<&Symmetry>,
+) -> Vec<Hull> {
+    let mirrored = symmetry.map(|symmetry| mirrored_contacts(contacts, symmetry));
+    let contacts = mirrored.as_deref().unwrap_or(contacts);
+    let joints: Vec<(usize, usize)> =
+        links.iter().map(|l| (l.parent.min(l.child), l.parent.max(l.child))).collect();
+    let between = Between::new(part_hulls, contacts, &joints, symmetry);
     let mut hulls: Vec<Hull> = part_hulls.iter().map(|&hull| hull.clone()).collect();
     for contact in contacts {
         let (a, b) = contact.parts;
-        if links.iter().any(|l| (l.parent, l.child) == (a, b) || (l.parent, l.child) == (b, a)) {
+        let image = image_of((a, b), symmetry);
+        if image < (a, b) || joints.contains(&(a, b)) {
             continue;
         }
-        let (plane, cut_off) = contact_plane(contact, part_hulls[a], part_hulls[b]);
-        if cut_off <= CLIP_SHARE
-            && let (Some(first), Some(second)) = (hulls[a].clip(&plane), hulls[b].clip(&plane.flipped()))
+        let Some((plane, _)) = between.plane(a, b).filter(|(_, cut_off)| *cut_off <= CLIP_SHARE) else {
+            continue;
+        };
+        let mut clips = vec![(a, plane), (b, plane.flipped())];
+        if let Some(symmetry) = symmetry
+            && image != (a, b)
         {
-            (hulls[a], hulls[b]) = (first, second);
+            let other = symmetry.mirror().image(&plane);
+            clips.extend([(symmetry.twin(a), other), (symmetry.twin(b), other.flipped())]);
+        }
+        let mut clipped: BTreeMap<usize, Option<Hull>> = BTreeMap::new();
+        for (part, plane) in clips {
+            let hull = clipped.remove(&part).unwrap_or_else(|| Some(hulls[part].clone()));
+            clipped.insert(part, hull.and_then(|hull| hull.clip(&plane)));
+        }
+        if clipped.values().all(Option::is_some) {
+            clipped.into_iter().for_each(|(part, hull)| hulls[part] = hull.unwrap_or(hulls[part].clone()));
+        }
+    }
+    if let Some(symmetry) = symmetry {
+        for part in 0..hulls.len() {
+            let twin = symmetry.twin(part);
+            if twin > part {
+                hulls[twin] = hulls[part].reflected(symmetry.mirror());
+            } else if twin == part
+                && let Ok(hull) = symmetry.mirror().symmetrized(&hulls[part])
+            {
+                hulls[part] = hull;
+            }
         }
     }
     hulls
 }
 
-/// A least-squares plane may cut off at most this share of a hull before it is moved.
+/// A plane between neighbours without a joint may cut off at most this share of either.
 const CLIP_SHARE: f64 = 0.2;
-/// Places tried for a poor plane.
-const SLIDES: usize = 17;
-
-/// The plane between two parts: least squares through the interface, moved along its normal where
-/// it would cut off too much; and the share that it cuts off.
-fn contact_plane(contact: &Contact, parent: &Hull, child: &Hull) -> (Plane, f64) {
-    let towards = child.centroid() - parent.centroid();
-    let centre = contact.points.iter().sum::<DVec3>() / contact.points.len().max(1) as f64;
-    let fitted = Plane::fit(&contact.points).map(|(plane, _)| plane);
-    let plane = fitted.or_else(|| Plane::through(centre, towards)).unwrap_or_else(|| fallback(centre));
-    let plane = if plane.normal().dot(towards) < 0.0 { plane.flipped() } else { plane };
-    let as_fitted = (plane, cut_off(&plane, parent, child));
-    if as_fitted.1 <= CLIP_SHARE {
-        return as_fitted;
-    }
-    let heights = contact.points.iter().map(|p| plane.distance(*p));
-    let (low, high) = heights.fold((0.0f64, 0.0f64), |(l, h), d| (l.min(d), h.max(d)));
-    (0..SLIDES)
-        .filter_map(|k| {
-            let shift = low + (high - low) * k as f64 / (SLIDES - 1) as f64;
-            Plane::through(centre + plane.normal() * shift, plane.normal())
-        })
-        .map(|p| (p, cut_off(&p, parent, child)))
-        .min_by(|a, b| a.1.total_cmp(&b.1))
-        .unwrap_or(as_fitted)
-}
-
-fn fallback(centre: DVec3) -> Plane {
-    let plane = Plane::through(centre, DVec3::Z);
-    plane.unwrap_or_else(|| Plane::horizontal(0.0))
-}
-
-/// The larger share of volume that the plane cuts off either hull.
-fn cut_off(plane: &Plane, parent: &Hull, child: &Hull) -> f64 {
-    let lost =
-        |hull: &Hull, plane: &Plane| 1.0 - hull.clip(plane).map_or(0.0, |h| h.volume()) / hull.volume();
-    lost(parent, plane).max(lost(child, &plane.flipped()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -147,7 +269,7 @@ mod tests {
             Contact { parts: (0, 1), points: face(10.0), length_mm: 40.0 },
             Contact { parts: (0, 2), points: face(15.0), length_mm: 1.0 },
         ];
-        let links = link_tree(&hulls.iter().collect::<Vec<_>>(), &contacts);
+        let links = link_tree(&hulls.iter().collect::<Vec<_>>(), &contacts, None);
         assert_eq!(links.iter().map(|l| (l.parent, l.child)).collect::<Vec<_>>(), [(0, 1), (1, 2)]);
         for (link, x) in links.iter().zip([10.0, 20.0]) {
             assert!((link.plane.normal() - DVec3::X).length() < 1e-9);
@@ -162,12 +284,48 @@ mod tests {
         let face = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(y, z)| DVec3::new(9.5, y, z));
         let contact = Contact { parts: (0, 1), points: face.to_vec(), length_mm: 40.0 };
         let ends = |hulls: &[Hull]| (hulls[0].support(DVec3::X), -hulls[1].support(-DVec3::X));
-        let apart = parted(&hulls, std::slice::from_ref(&contact), &[]);
+        let apart = parted(&hulls, std::slice::from_ref(&contact), &[], None);
         assert!((ends(&apart).0 - 9.5).abs() < 1e-9 && (ends(&apart).1 - 9.5).abs() < 1e-9);
         // A joint has its own plane; and a plane that would halve a hull is not heeded.
-        let links = link_tree(&hulls, std::slice::from_ref(&contact));
-        assert_eq!(ends(&parted(&hulls, std::slice::from_ref(&contact), &links)), (10.0, 9.0));
+        let links = link_tree(&hulls, std::slice::from_ref(&contact), None);
+        assert_eq!(ends(&parted(&hulls, std::slice::from_ref(&contact), &links, None)), (10.0, 9.0));
         let points = face.map(|p| p - DVec3::X * 5.0).to_vec();
-        assert_eq!(ends(&parted(&hulls, &[Contact { points, ..contact }], &[])), (10.0, 9.0));
+        assert_eq!(ends(&parted(&hulls, &[Contact { points, ..contact }], &[], None)), (10.0, 9.0));
+    }
+
+    /// A body across x = 0 with arms and a pair of feet that touch each other.
+    #[test]
+    fn mirrored_contacts_make_mirrored_joints() {
+        let mirror = Mirror::new(Plane::through(DVec3::ZERO, DVec3::X).unwrap());
+        let symmetry = Symmetry::new(mirror, vec![0, 2, 1, 4, 3, 5]).unwrap();
+        let arm = cube(DVec3::new(5.0, -5.0, 2.0), 10.0);
+        let foot = cube(DVec3::new(0.0, -5.0, -10.0), 10.0);
+        let body = cube(DVec3::new(-5.0, -5.0, 0.0), 10.0);
+        let head = cube(DVec3::new(-5.0, -5.0, 10.0), 10.0);
+        let hulls = [body, arm.clone(), arm.reflected(&mirror), foot.clone(), foot.reflected(&mirror), head];
+        let square = |at: DVec3, u: DVec3, v: DVec3| vec![at + u + v, at + u - v, at - u - v, at - u + v];
+        let contact = |parts, points, length_mm| Contact { parts, points, length_mm };
+        let contacts = [
+            contact((0, 1), square(DVec3::new(5.0, 0.0, 6.0), DVec3::new(0.2, 3.0, 0.0), DVec3::Z), 30.0),
+            contact((0, 2), square(DVec3::new(-5.1, 0.0, 6.0), DVec3::Y * 3.0, DVec3::Z), 20.0),
+            contact((0, 3), square(DVec3::new(3.0, 0.0, 0.0), DVec3::Y * 3.0, DVec3::X), 9.0),
+            contact((3, 4), square(DVec3::new(0.1, 0.0, -5.0), DVec3::Y, DVec3::Z), 50.0),
+            contact((0, 5), square(DVec3::new(0.3, 0.0, 10.0), DVec3::new(4.0, 0.0, 0.3), DVec3::Y), 40.0),
+        ];
+        let hulls: Vec<&Hull> = hulls.iter().collect();
+        let links = link_tree(&hulls, &contacts, Some(&symmetry));
+        assert_eq!(links.len(), 5);
+        for link in &links {
+            assert_eq!(link.parent, 0);
+            let image = links.iter().find(|l| l.child == symmetry.twin(link.child)).unwrap();
+            let plane = mirror.image(&link.plane);
+            assert!((image.plane.normal() - plane.normal()).length() < 1e-12);
+            assert!((image.plane.offset() - plane.offset()).abs() < 1e-12);
+        }
+        assert!(links.iter().find(|l| l.child == 5).unwrap().plane.normal().x.abs() < 1e-12);
+        // Nothing else joins the feet.
+        let feet = link_tree(&hulls, &contacts[3..4], Some(&symmetry));
+        assert_eq!(feet.len(), 1);
+        assert!(feet[0].plane.normal() == -DVec3::X && feet[0].plane.offset() == 0.0);
     }
 }

@@ -1,17 +1,25 @@
 //! Joints between components, their tree, and the model's two end states.
 
+mod bond;
 mod build;
-mod grow;
+mod candidate;
+mod choice;
 mod joined;
 mod known;
 mod link;
+mod pair;
+mod part;
+mod plane;
 mod seat;
+mod symmetry;
 
-pub use build::{ModelError, Part, PartOptions};
-pub use grow::build;
+pub use build::{Assembly, Built, Judge, Unjudged, build};
+pub use choice::Bump;
 pub use joined::{JoinedPart, Seam};
-pub use known::{Known, build_one};
+pub use known::Known;
 pub use link::{Contact, Link, link_tree, parted};
+pub use part::{ModelError, Part, PartOptions};
+pub use symmetry::Symmetry;
 
 use crate::component::{Component, PanelId};
 use crate::geom::polygon;
@@ -28,6 +36,8 @@ pub struct Joint {
     pub child_panel: PanelId,
     /// Share of the child's joint panel that lies on the parent's.
     pub support_ratio: f64,
+    /// Area in which the two panels lie on each other, mm².
+    pub glue_mm2: f64,
 }
 
 /// A component in its place.
@@ -89,6 +99,14 @@ impl Model {
     /// Whether any crease is folded towards the viewer outside.
     pub fn has_valleys(&self) -> bool {
         self.parts.iter().any(|part| part.component.panels().hinges().iter().any(|h| h.is_valley()))
+    }
+
+    /// The area over which a part's joint would hold well, mm²; `None` for a root.
+    pub fn needed_glue_mm2(&self, part: usize) -> Option<f64> {
+        let joint = self.parts[part].joint.as_ref()?;
+        let area = |p: usize, id| polygon::area(&self.parts[p].component.panels().panel(id).outline).abs();
+        let [own, below] = [area(part, joint.child_panel), area(joint.parent, joint.parent_panel)];
+        Some(pair::needed_glue_mm2(own, below))
     }
 
     /// Corners of a panel in the deployed model.

@@ -7,7 +7,7 @@
 
 use crate::component::Seat;
 use crate::geom::Plane;
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DVec2, DVec3};
 
 /// A joint plane within this angle of horizontal is made the top or bottom panel.
 const LEVEL_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
@@ -16,16 +16,19 @@ const SHARE_CHAIN_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
 /// Joint panels of one chain differ in slope by at least this; closer ones are merged.
 const SHARE_PANEL_RAD: f64 = 12.0 * std::f64::consts::PI / 180.0;
 
-/// A joint plane to be seated: plane with outward normal in the component's axes, a point where
-/// the joint is, and whether the plane may still be turned.
+/// A joint plane to be seated: plane with outward normal in the component's axes, and a point where
+/// the joint is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seating {
     /// Plane, normal out of the component.
     pub plane: Plane,
     /// Centre of the interface.
     pub centre: DVec3,
-    /// Planes towards the parent are fixed: the parent was made first.
-    pub is_fixed: bool,
+    /// In a component that is its own mirror image, the index of the joint that is the image of this
+    /// one, or of this one itself.
+    pub image: Option<usize>,
+    /// The plane towards the parent keeps its place where others have to be turned to share a panel.
+    pub comes_first: bool,
 }
 
 impl Seating {
@@ -42,21 +45,25 @@ impl Seating {
     }
 }
 
-/// The seat of every joint of a component, in order. A fixed plane that is almost but not exactly
-/// horizontal gets a horizontal seat: the component itself is then turned to sit on it.
+/// The seat of every joint of a component, in order. A plane that is almost but not exactly horizontal
+/// gets a horizontal seat: the other part is then turned with it.
 pub fn seats(joints: &[Seating]) -> Vec<Seat> {
+    let joints = &evened(joints)[..];
     let mut out: Vec<Option<Seat>> = joints.iter().map(fixed_seat).collect();
     for up in [true, false] {
         let level = |k: &usize| joints[*k].is_level() && (joints[*k].plane.normal().z > 0.0) == up;
         let members: Vec<usize> = (0..joints.len()).filter(level).collect();
-        let fixed = members.iter().find(|&&k| joints[k].is_fixed).map(|&k| joints[k].centre.z);
+        let fixed = members.iter().find(|&&k| joints[k].comes_first).map(|&k| joints[k].centre.z);
         let mean = members.iter().map(|&k| joints[k].centre.z).sum::<f64>() / members.len().max(1) as f64;
         let height_mm = fixed.unwrap_or(mean);
         for k in members {
             out[k] = Some(if up { Seat::Top { height_mm } } else { Seat::Bottom { height_mm } });
         }
     }
-    for k in 0..joints.len() {
+    // Joints that are their own images first, so that others that share with them stay images.
+    let mut order: Vec<usize> = (0..joints.len()).collect();
+    order.sort_by_key(|&k| joints[k].image != Some(k));
+    for k in order {
         if out[k].is_none() {
             out[k] = Some(side_seat(&joints[k], &out));
         }
@@ -64,9 +71,40 @@ pub fn seats(joints: &[Seating]) -> Vec<Seat> {
     out.into_iter().flatten().collect()
 }
 
+/// The joints, of which images of each other that would share a chain or a panel are turned halfway to
+/// one another.
+fn evened(joints: &[Seating]) -> Vec<Seating> {
+    let mut evened = joints.to_vec();
+    for k in 0..joints.len() {
+        let Some(image) = joints[k].image.filter(|&image| image > k) else { continue };
+        let (own, other) = (&joints[k], &joints[image]);
+        if own.is_level() || other.is_level() || !is_near(own.angle_rad(), other.angle_rad(), SHARE_CHAIN_RAD)
+        {
+            continue;
+        }
+        let across = own.plane.normal().truncate().normalize_or_zero()
+            + other.plane.normal().truncate().normalize_or_zero();
+        let (own_slope, other_slope) = (own.slope_rad(), other.slope_rad());
+        let slopes = match is_near(own_slope, other_slope, SHARE_PANEL_RAD) {
+            true => [0.5 * (own_slope + other_slope); 2],
+            false => [own_slope, other_slope],
+        };
+        for (joint, slope_rad) in [k, image].into_iter().zip(slopes) {
+            let normal = (across.normalize_or(DVec2::X) * slope_rad.cos()).extend(slope_rad.sin());
+            let plane = Plane::through(evened[joint].centre, normal);
+            evened[joint].plane = plane.unwrap_or(evened[joint].plane);
+        }
+    }
+    evened
+}
+
+fn is_near(a: f64, b: f64, limit: f64) -> bool {
+    DVec2::from_angle(a).angle_to(DVec2::from_angle(b)).abs() < limit
+}
+
 /// A fixed sloped plane keeps its direction exactly.
 fn fixed_seat(joint: &Seating) -> Option<Seat> {
-    (joint.is_fixed && !joint.is_level()).then(|| Seat::Side {
+    (joint.comes_first && !joint.is_level()).then(|| Seat::Side {
         angle_rad: joint.angle_rad(),
         slope_rad: joint.slope_rad(),
         offset_mm: joint.plane.offset(),
@@ -76,20 +114,19 @@ fn fixed_seat(joint: &Seating) -> Option<Seat> {
 /// The side panel of a free joint: its own direction, or that of a seat close to it.
 fn side_seat(joint: &Seating, others: &[Option<Seat>]) -> Seat {
     let (own_angle, own_slope) = (joint.angle_rad(), joint.slope_rad());
-    let near = |a: f64, b: f64, limit: f64| DVec2::from_angle(a).angle_to(DVec2::from_angle(b)).abs() < limit;
     let sides = || {
         others.iter().flatten().filter_map(|seat| match *seat {
             Seat::Side { angle_rad, slope_rad, .. } => Some((angle_rad, slope_rad, *seat)),
             _ => None,
         })
     };
-    let chain = sides().filter(|s| near(s.0, own_angle, SHARE_CHAIN_RAD));
+    let chain = sides().filter(|s| is_near(s.0, own_angle, SHARE_CHAIN_RAD));
     let chain = chain.min_by(|a, b| {
         let off = |s: &(f64, f64, Seat)| DVec2::from_angle(s.0).angle_to(DVec2::from_angle(own_angle)).abs();
         off(a).total_cmp(&off(b))
     });
     let angle_rad = chain.map_or(own_angle, |c| c.0);
-    if let Some(same) = sides().find(|s| s.0 == angle_rad && near(s.1, own_slope, SHARE_PANEL_RAD)) {
+    if let Some(same) = sides().find(|s| s.0 == angle_rad && is_near(s.1, own_slope, SHARE_PANEL_RAD)) {
         return same.2;
     }
     let normal = side_normal(angle_rad, own_slope);
@@ -121,21 +158,12 @@ pub fn level_axis(axis: DVec3, plane_normal: DVec3) -> DVec3 {
     }
 }
 
-/// The rigid motion about `centre` that turns plane `from` into plane `to`.
-pub fn turn_onto(from: &Plane, to: &Plane, centre: DVec3) -> DAffine3 {
-    let turn = glam::DQuat::from_rotation_arc(from.normal(), to.normal());
-    let about =
-        DAffine3::from_translation(centre) * DAffine3::from_quat(turn) * DAffine3::from_translation(-centre);
-    let turned = from.moved(&about);
-    DAffine3::from_translation(to.normal() * (to.offset() - turned.offset())) * about
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn seating(normal: DVec3, centre: DVec3, is_fixed: bool) -> Seating {
-        Seating { plane: Plane::through(centre, normal).unwrap(), centre, is_fixed }
+    fn seating(normal: DVec3, centre: DVec3, comes_first: bool) -> Seating {
+        Seating { plane: Plane::through(centre, normal).unwrap(), centre, image: None, comes_first }
     }
 
     #[test]
@@ -163,16 +191,5 @@ mod tests {
         };
         assert_eq!(angle(&seats[0]), angle(&seats[1]));
         assert!(seat_plane(&seats[0]).distance(b.centre).abs() < 1e-9);
-    }
-
-    #[test]
-    fn turning_takes_one_plane_onto_another() {
-        let from = Plane::through(DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.1, 0.2, 1.0)).unwrap();
-        let to = Plane::through(DVec3::new(1.0, 2.0, 3.5), DVec3::new(0.0, -0.1, 1.0)).unwrap();
-        let motion = turn_onto(&from, &to, DVec3::new(1.0, 2.0, 3.0));
-        let moved = from.moved(&motion);
-        assert!(
-            (moved.normal() - to.normal()).length() < 1e-12 && (moved.offset() - to.offset()).abs() < 1e-12
-        );
     }
 }

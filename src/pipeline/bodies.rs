@@ -1,9 +1,9 @@
 //! From parts to hulls with joints between them.
 
 use super::{Error, Options};
-use crate::geom::Hull;
-use crate::mesh::Mesh;
-use crate::model::{self, Contact, Link, Part, PartOptions};
+use crate::geom::{Hull, Mirror};
+use crate::mesh::{Mesh, MirrorPlane};
+use crate::model::{self, Assembly, Contact, Link, Part, PartOptions, Symmetry};
 use crate::segment::{self, Parts, SegmentId, Segmentation};
 use glam::DVec3;
 use std::collections::BTreeSet;
@@ -14,6 +14,8 @@ pub struct Hulls {
     solid: Solid,
     names: Vec<String>,
     links: Vec<Link>,
+    symmetry: Option<Symmetry>,
+    mirror_plane: Option<MirrorPlane>,
 }
 
 impl Hulls {
@@ -23,15 +25,18 @@ impl Hulls {
     /// [`Error::NothingSolid`].
     pub fn new(divided: &Parts) -> Result<Self, Error> {
         let mut solid = hulls(divided);
+        let segmentation = divided.segmentation();
+        let symmetry = segmentation.mirror().and_then(|plane| solid.mirrored(divided, &plane.mirror));
         if solid.hulls.is_empty() {
             return Err(Error::NothingSolid);
         }
-        let contacts = contacts(divided.mesh(), divided.segmentation(), &solid.part_of_segment);
+        let contacts = contacts(divided.mesh(), segmentation, &solid.part_of_segment);
         let hulls: Vec<&Hull> = solid.hulls.iter().collect();
-        let links = model::link_tree(&hulls, &contacts);
-        let parted = model::parted(&hulls, &contacts, &links);
+        let links = model::link_tree(&hulls, &contacts, symmetry.as_ref());
+        let parted = model::parted(&hulls, &contacts, &links, symmetry.as_ref());
         solid.hulls = parted;
-        Ok(Self { names: solid.names(divided.names()), solid, links })
+        let mirror_plane = segmentation.mirror().filter(|_| symmetry.is_some()).copied();
+        Ok(Self { names: solid.names(divided.names()), solid, links, symmetry, mirror_plane })
     }
 
     /// No hulls; drawn components have names alone.
@@ -42,6 +47,16 @@ impl Hulls {
     /// The hulls, clipped where joints are.
     pub fn hulls(&self) -> &[Hull] {
         &self.solid.hulls
+    }
+
+    /// Which hulls are mirror images of each other, where the mesh has a mirror plane.
+    pub fn symmetry(&self) -> Option<&Symmetry> {
+        self.symmetry.as_ref()
+    }
+
+    /// The mirror plane of the mesh, where the hulls are mirror images of each other.
+    pub fn mirror_plane(&self) -> Option<&MirrorPlane> {
+        self.mirror_plane.as_ref()
     }
 
     /// The names of the parts before they are renamed: those that options and edits go by.
@@ -65,6 +80,7 @@ impl Hulls {
 pub struct Bodies {
     parts: Vec<Part>,
     links: Vec<Link>,
+    symmetry: Option<Symmetry>,
 }
 
 impl Bodies {
@@ -73,7 +89,13 @@ impl Bodies {
     /// # Errors
     /// [`Error::NoComponent`], [`Error::SameName`].
     pub fn new(hulls: &Hulls, options: &Options) -> Result<Self, Error> {
-        Ok(Self { parts: parts(hulls, options)?, links: hulls.links.clone() })
+        let (links, symmetry) = (hulls.links.clone(), hulls.symmetry.clone());
+        Ok(Self { parts: parts(hulls, options)?, links, symmetry })
+    }
+
+    /// What a model is built from.
+    pub fn assembly(&self, min_panel_mm: f64) -> Assembly<'_> {
+        Assembly { parts: &self.parts, links: &self.links, symmetry: self.symmetry(), min_panel_mm }
     }
 
     /// The parts; a component is made of each.
@@ -84,6 +106,12 @@ impl Bodies {
     /// The tree of joints between them.
     pub fn links(&self) -> &[Link] {
         &self.links
+    }
+
+    /// Which parts are mirror images of each other, where the mesh has a mirror plane: their hulls
+    /// are, and so are the planes of their joints.
+    pub fn symmetry(&self) -> Option<&Symmetry> {
+        self.symmetry.as_ref()
     }
 }
 
@@ -101,6 +129,30 @@ impl Solid {
     fn names(&self, of_segment: &[String]) -> Vec<String> {
         let has_hull = self.part_of_segment.iter().zip(of_segment);
         has_hull.filter(|(part, _)| part.is_some()).map(|(_, name)| name.clone()).collect()
+    }
+
+    /// Makes the hulls of twins images of each other, each round its own points and the images of
+    /// its twin's, and the others their own images; `None`, and all as they were, where not every
+    /// hull has a twin.
+    fn mirrored(&mut self, divided: &Parts, mirror: &Mirror) -> Option<Symmetry> {
+        let twins = divided.segmentation().twins(divided.mesh())?;
+        let of_segment = self.part_of_segment.iter().zip(twins);
+        let twin = of_segment.filter_map(|(part, twin)| part.map(|_| self.part_of_segment[twin.0 as usize]));
+        let symmetry = Symmetry::new(*mirror, twin.collect::<Option<Vec<usize>>>()?)?;
+        let mut hulls = self.hulls.clone();
+        for (part, hull) in self.hulls.iter().enumerate() {
+            let twin = symmetry.twin(part);
+            if twin == part {
+                hulls[part] = mirror.symmetrized(hull).ok()?;
+            } else if part < twin {
+                let images = self.hulls[twin].vertices().iter().map(|&p| mirror.point(p));
+                let points: Vec<DVec3> = hull.vertices().iter().copied().chain(images).collect();
+                hulls[part] = Hull::of_points(&points).ok()?;
+                hulls[twin] = hulls[part].reflected(mirror);
+            }
+        }
+        self.hulls = hulls;
+        Some(symmetry)
     }
 }
 

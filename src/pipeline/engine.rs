@@ -2,13 +2,14 @@
 //! The command line runs an engine once; the studio keeps one and changes a little at a time.
 
 use super::concave;
+use super::judge::FoldJudge;
 use super::warning::{self, not_joined, pin_warnings};
 use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
 use crate::design::thick;
-use crate::fold::{FoldPlan, ModelMotion};
+use crate::fold::{FoldPlan, ModelMotion, SweepMemory};
 use crate::memory::Memory;
 use crate::mesh::{Mesh, Up};
-use crate::model::{self, Known, Model, ModelPart};
+use crate::model::{self, Known, Model, ModelPart, Unjudged};
 use crate::net::{BlankNet, KnownNets, Net, NetChoices, NetOptions, develop_model};
 use crate::progress::{Beside, Progress};
 use crate::segment::{self, Edit, Parts, SegmentOptions};
@@ -31,6 +32,9 @@ pub struct Engine<'m> {
     segmented: Memory<Found, Arc<(Parts, DAffine3)>>,
     divided: Memory<(Found, Vec<Edit>, Option<String>), Arc<Divided>>,
     components: Known,
+    sweeps: SweepMemory,
+    /// What the parts of the models of last time are known by in `sweeps`.
+    ids: Memory<Arc<Model>, Vec<u64>>,
     plans: Memory<(Arc<Model>, f64), Arc<FoldPlan>>,
     nets: KnownNets,
     layouts: Memory<LayoutKey, (Arc<Layout>, Arc<Vec<Net>>)>,
@@ -50,6 +54,8 @@ impl<'m> Engine<'m> {
             segmented: Memory::new(FEW),
             divided: Memory::new(FEW),
             components: Known::default(),
+            sweeps: SweepMemory::default(),
+            ids: Memory::new(FEW),
             plans: Memory::new(FEW),
             nets: KnownNets::default(),
             layouts: Memory::new(FEW),
@@ -71,11 +77,7 @@ impl<'m> Engine<'m> {
     /// # Errors
     /// See [`Error`].
     pub fn run(&self, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
-        let shaped = match options.untangles {
-            true => self.untangled(options, progress)?,
-            false => self.shape(options, progress)?,
-        };
-        self.finish(shaped, progress)
+        self.finish(self.shape(options, progress)?, progress)
     }
 
     /// The mesh at the model's size, its parts and their hulls.
@@ -102,16 +104,20 @@ impl<'m> Engine<'m> {
         let found = (options.size_mm, options.up, options.segmentation);
         let segmented = self.segmented.get_or(found, || {
             let (mesh, to_model) = self.mesh.scaled(options.size_mm, options.up);
-            let segmentation = segment::segment(&mesh, &options.segmentation, progress)?;
+            let symmetry = options.segmentation.symmetry.moved(&to_model);
+            let wanted = SegmentOptions { symmetry, ..options.segmentation };
+            let segmentation = segment::segment(&mesh, &wanted, progress)?;
             Ok::<_, Error>(Arc::new((Parts::new(mesh, segmentation), to_model)))
         })?;
         let (mut parts, to_model) = Arc::unwrap_or_clone(segmented);
         for edit in &options.edits {
             parts = parts.edited(&edit.moved(&to_model))?;
         }
-        if let Some(root) = &options.root {
-            parts = parts.with_root(root)?;
-        }
+        parts = match &options.root {
+            Some(root) => parts.with_root(root)?,
+            None if options.edits.is_empty() => parts,
+            None => parts.with_root_across(),
+        };
         Ok((parts, to_model))
     }
 
@@ -123,15 +129,17 @@ impl<'m> Engine<'m> {
         let divided = self.divide(options, progress)?;
         let bodies = Bodies::new(divided.hulls(), options)?;
         progress.stage("components");
-        let least_mm = options.min_panel_width_mm;
-        let model = model::build(bodies.parts(), bodies.links(), least_mm, &self.components, progress)?;
+        let assembly = bodies.assembly(options.min_panel_width_mm);
+        let judge = FoldJudge { thickness_mm: options.thickness_mm, memory: &self.sweeps, progress };
+        let model = model::build(&assembly, &self.components, &judge, progress)?.model;
         let (mesh, face_parts) = (divided.mesh(), divided.face_parts());
         let (model, mut notes, remarks) = concave::refitted(model, mesh, face_parts, options, progress)?;
         notes.extend(not_joined(&model));
         Ok(Shaped { options: Arc::new(options.clone()), divided, model: Arc::new(model), notes, remarks })
     }
 
-    /// Makes one component, by its index, and what carries it: sooner than the whole model.
+    /// Makes one component, by its index, as parts and joints alone decide it: sooner than the model that
+    /// is best to fold.
     ///
     /// # Errors
     /// As [`Engine::shape`]; [`Error::NoComponent`] where there are not so many.
@@ -147,9 +155,9 @@ impl<'m> Engine<'m> {
             let known = divided.hulls().names().join(", ");
             return Err(Error::NoComponent { name: format!("number {}", part + 1), known });
         }
-        let least_mm = options.min_panel_width_mm;
-        let (parts, links) = (bodies.parts(), bodies.links());
-        Ok(model::build_one(parts, links, part, least_mm, &self.components, progress)?)
+        let assembly = bodies.assembly(options.min_panel_width_mm);
+        let built = model::build(&assembly, &self.components, &Unjudged, progress)?;
+        Ok(built.model.parts()[part].clone())
     }
 
     /// How the components fold.

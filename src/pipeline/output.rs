@@ -2,7 +2,7 @@
 
 use super::{Error, Hulls, Options, Warning};
 use crate::fold::FoldPlan;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, MirrorPlane};
 use crate::model::Model;
 use crate::net::Net;
 use crate::segment::Parts;
@@ -120,6 +120,11 @@ impl Output {
         self.shaped.divided.to_model()
     }
 
+    /// The mirror plane of the model; none where it is not symmetric.
+    pub fn mirror_plane(&self) -> Option<&MirrorPlane> {
+        self.shaped.divided.hulls().mirror_plane()
+    }
+
     /// The component of each face of [`Output::mesh`]; none where its segment became none.
     pub fn face_parts(&self) -> &[Option<u32>] {
         self.shaped.divided.face_parts()
@@ -157,7 +162,7 @@ impl Output {
 
     /// With the order of folding, and what that means for the user.
     pub(super) fn with_plan(self, fold_plan: Arc<FoldPlan>) -> Self {
-        let advice = fold_plan.advice(self.model(), self.options().untangles).into_iter();
+        let advice = fold_plan.advice(self.model()).into_iter();
         let advice = advice.map(|(code, message)| Warning { code, message });
         let warnings = self.warnings.iter().cloned().chain(advice).collect();
         Self { fold_plan, warnings: Arc::new(warnings), ..self }

@@ -16,9 +16,6 @@ pub struct Warning {
     pub message: String,
 }
 
-/// Joint panels that carry less than this of their child are worth a warning.
-const GOOD_SUPPORT: f64 = 0.8;
-
 /// An error of this share of its thickness changes a component's looks,
 const SWOLLEN: f64 = 0.3;
 /// and comes from the least size of panels where it is thinner than so many of them.
@@ -34,7 +31,8 @@ pub(super) fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Op
             message: format!("{count} flat parts of {faces} faces in all have no volume and were left out"),
         });
     }
-    out.extend(model.parts().iter().flat_map(|part| part_warnings(model, part, options)));
+    out.extend(model.parts().iter().flat_map(|part| part_warnings(part, options)));
+    out.extend((0..model.parts().len()).filter_map(|part| weak_joint(model, part)));
     // Board is taped at all hinges.
     for net in nets.iter().filter(|_| !options.is_thick) {
         out.extend(net.warnings().iter().map(|w| Warning { code: w.code(), message: w.to_string() }));
@@ -43,7 +41,7 @@ pub(super) fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Op
 }
 
 /// What is to be known about one component.
-fn part_warnings(model: &Model, part: &ModelPart, options: &Options) -> Vec<Warning> {
+fn part_warnings(part: &ModelPart, options: &Options) -> Vec<Warning> {
     let min_panel_mm = options.min_panel_width_mm;
     let mut out = Vec::new();
     let mut warn = |code, message| out.push(Warning { code, message });
@@ -84,19 +82,22 @@ fn part_warnings(model: &Model, part: &ModelPart, options: &Options) -> Vec<Warn
             ),
         );
     }
-    if let Some(joint) = part.joint.as_ref().filter(|j| j.support_ratio < GOOD_SUPPORT) {
-        let parent = &model.parts()[joint.parent].name;
-        warn(
-            "weak_joint",
-            format!(
-                "{}: only {:.0}% of its joint panel lies on {parent}; try another direction for either of them, \
-                 or more top edges for {parent}",
-                part.name,
-                joint.support_ratio * 100.0
-            ),
-        );
-    }
     out
+}
+
+/// A joint with too little glue.
+fn weak_joint(model: &Model, part: usize) -> Option<Warning> {
+    let joint = model.parts()[part].joint.as_ref()?;
+    let needed_mm2 = model.needed_glue_mm2(part).filter(|needed| joint.glue_mm2 < *needed)?;
+    let [name, parent] = [part, joint.parent].map(|p| &model.parts()[p].name);
+    Some(Warning {
+        code: "weak_joint",
+        message: format!(
+            "{name}: its joint with {parent} has {:.0} mm² to glue, and holds well from {needed_mm2:.0} mm²; tape it as \
+             well, or use a larger --size",
+            joint.glue_mm2
+        ),
+    })
 }
 
 /// Least distance between parallel planes with the whole standing component between them, of those

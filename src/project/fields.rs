@@ -3,7 +3,7 @@
 use super::MethodName;
 use crate::export::PngOptions;
 use crate::mesh::Up;
-use crate::segment::MOST_CLUSTERS;
+use crate::segment::{MOST_CLUSTERS, SymmetryChoice};
 use crate::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, Visitor};
@@ -97,6 +97,16 @@ pub fn parse_method(text: &str) -> Result<MethodName, String> {
         "sdf" => Ok(MethodName::Sdf),
         _ => Err("the method is merge or sdf".to_owned()),
     }
+}
+
+/// Reads whether the two sides are mirror images.
+///
+/// # Errors
+/// A message for other texts than `auto`, `off`, `x`, `y`, `z`.
+pub fn parse_symmetry(text: &str) -> Result<SymmetryChoice, String> {
+    let text = text.to_ascii_lowercase();
+    let found = SymmetryChoice::ALL.into_iter().find(|choice| choice.name() == text);
+    found.ok_or_else(|| "the symmetry is auto, off, x, y or z".to_owned())
 }
 
 fn in_range(count: u64, least: usize, most: usize) -> Result<usize, String> {
@@ -230,6 +240,13 @@ pub(super) fn method<'de, D: Deserializer<'de>>(d: D) -> Result<Option<MethodNam
     visit(d, "\"merge\" or \"sdf\"", |raw| match raw {
         Raw::Number(x) => parse_method(&x.to_string()),
         Raw::Text(text) => parse_method(text),
+    })
+}
+
+pub(super) fn symmetry<'de, D: Deserializer<'de>>(d: D) -> Result<Option<SymmetryChoice>, D::Error> {
+    visit(d, "\"auto\", \"off\", \"x\", \"y\" or \"z\"", |raw| match raw {
+        Raw::Number(x) => parse_symmetry(&x.to_string()),
+        Raw::Text(text) => parse_symmetry(text),
     })
 }
 

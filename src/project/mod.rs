@@ -16,13 +16,14 @@ pub use edit::Edit;
 pub use export::ExportTable;
 pub use fields::{
     LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_clusters, check_count, check_degrees, check_detail,
-    check_parts, check_smoothing, parse_method, parse_thickness_mm, parse_up,
+    check_parts, check_smoothing, parse_method, parse_symmetry, parse_thickness_mm, parse_up,
 };
 pub use pin::PinTable;
 pub use sheet_fields::{Nets, Sheets, check_effort, check_hidden_degrees, parse_marks, parse_side};
 pub use template::{Template, TemplateComponent, to_toml};
 
 use crate::mesh::Up;
+use crate::segment::SymmetryChoice;
 use crate::units::Paper;
 use serde::Deserialize;
 use std::collections::BTreeSet;
@@ -115,6 +116,9 @@ pub struct Segmentation {
     /// From 0, few components, to 1, many.
     #[serde(default, deserialize_with = "fields::detail")]
     pub detail: Option<f64>,
+    /// Whether the two sides are mirror images.
+    #[serde(default, deserialize_with = "fields::symmetry")]
+    pub symmetry: Option<SymmetryChoice>,
     /// Whether the paper's own method is used.
     #[serde(default, deserialize_with = "fields::method")]
     pub method: Option<MethodName>,

@@ -3,7 +3,7 @@
 use super::LEAST_COUNT;
 use crate::mesh::Up;
 use crate::net::{NetChoices, Side};
-use crate::segment::{Method, SegmentOptions};
+use crate::segment::{Method, SegmentOptions, SymmetryChoice};
 use crate::sheet::fit::Rotation;
 use crate::sheet::{Registration, SheetChoices};
 use crate::units::Paper;
@@ -84,6 +84,8 @@ size = "{size}mm"
 {parts_comment}parts = {parts}
 # Where the shape decides: from 0, few components, to 1, many.
 {detail_comment}detail = {detail}
+# Whether the two sides are mirror images: "auto", "off", or "x", "y" or "z", the normal of the plane.
+{symmetry_comment}symmetry = "{symmetry}"
 # "merge", or "sdf": the method of the paper, with its classes of thickness and cost of borders.
 {method_comment}method = "{method}"
 {method_comment}clusters = {clusters}
@@ -153,6 +155,8 @@ thick = {thick}
         parts = template.segmentation.parts.unwrap_or(template.components.len().max(1)),
         detail_comment = unless(template.segmentation.detail != SegmentOptions::default().detail),
         detail = template.segmentation.detail,
+        symmetry_comment = unless(template.segmentation.symmetry != SymmetryChoice::Auto),
+        symmetry = template.segmentation.symmetry.name(),
         method_comment = unless(template.segmentation.method != Method::Merge),
         top_edges = template.top_edges,
         profile_vertices = template.profile_vertices,
@@ -260,7 +264,11 @@ mod tests {
             is_thick: true,
             nets: NetChoices { angles: true, ..NetChoices::default() },
             sheets: SheetChoices { registration: Some(Registration::Silhouette), ..SheetChoices::default() },
-            segmentation: SegmentOptions { detail: 0.25, ..Default::default() },
+            segmentation: SegmentOptions {
+                detail: 0.25,
+                symmetry: SymmetryChoice::Off,
+                ..Default::default()
+            },
             components: &components,
         };
         let text = to_toml(&template);
@@ -273,6 +281,7 @@ mod tests {
         assert_eq!(project.sheets.marks, Some(Some(Registration::Silhouette)));
         assert_eq!(project.sheets.calibrate, Some(template.sheets.calibration));
         assert_eq!((project.segmentation.detail, project.segmentation.parts), (Some(0.25), None));
+        assert_eq!(project.segmentation.symmetry, Some(SymmetryChoice::Off));
         assert_eq!((project.segmentation.method, project.edits.len()), (None, 0));
         assert_eq!(project.components[1].name, "he\"ad");
         assert_eq!(project.components[0].direction_deg, None);

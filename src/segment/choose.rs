@@ -15,9 +15,12 @@ const MOST_AUTOMATIC: usize = 48;
 pub(super) struct Node {
     /// Cells that its hull covers.
     pub runs: Vec<Run>,
-    /// The two that it was merged from, with smaller numbers than its own.
-    pub children: Option<[usize; 2]>,
-    /// What it costs to cut along the border of the two.
+    /// What it was merged from, with smaller numbers than its own: two, or three where twins were
+    /// merged with what is between them; none for a patch.
+    pub children: Vec<usize>,
+    /// The mirror image, which is merged and split together with it; else itself.
+    pub twin: usize,
+    /// What it costs to cut along the borders of the children.
     pub border: f64,
     /// Whether the merge bridged a gap between bodies.
     pub over_gap: bool,
@@ -27,6 +30,12 @@ pub(super) struct Node {
 pub(super) struct Tree {
     pub patches: Partition,
     pub nodes: Vec<Node>,
+}
+
+/// Parts, with what they are worth: their overlap with the solid less what they cost.
+pub(super) struct Chosen {
+    pub partition: Partition,
+    pub worth: f64,
 }
 
 /// How often each cell of the grid is covered by a hull.
@@ -75,32 +84,29 @@ impl<'a> Cover<'a> {
         self.inside as f64 / (self.solid.inside() + self.outside).max(1) as f64
     }
 
-    fn split(&mut self, tree: &Tree, node: usize, children: [usize; 2]) {
-        children.iter().for_each(|&c| self.add(&tree.nodes[c].runs));
+    fn split(&mut self, tree: &Tree, node: usize) {
+        tree.nodes[node].children.iter().for_each(|&c| self.add(&tree.nodes[c].runs));
         self.remove(&tree.nodes[node].runs);
     }
 
-    fn unsplit(&mut self, tree: &Tree, node: usize, children: [usize; 2]) {
+    fn unsplit(&mut self, tree: &Tree, node: usize) {
         self.add(&tree.nodes[node].runs);
-        children.iter().for_each(|&c| self.remove(&tree.nodes[c].runs));
+        tree.nodes[node].children.iter().for_each(|&c| self.remove(&tree.nodes[c].runs));
     }
 }
 
 impl Tree {
-    /// As many parts as asked for, or as near to it as there are.
-    pub fn parts(
-        &self,
-        solid: &Solid,
-        count: usize,
-        progress: &dyn Progress,
-    ) -> Result<Partition, Cancelled> {
+    /// As many parts as asked for, or as near to it as there are without splitting one of twins
+    /// alone.
+    pub fn parts(&self, solid: &Solid, count: usize, progress: &dyn Progress) -> Result<Chosen, Cancelled> {
         let mut cover = Cover::new(solid);
         let mut front = self.roots();
         front.iter().for_each(|&r| cover.add(&self.nodes[r].runs));
-        while front.len() < count && self.split_best(&mut cover, &mut front) {
+        while front.len() < count && self.split_best(&mut cover, &mut front, count) {
             progress.check()?;
         }
-        Ok(self.partition(&front))
+        let worth = cover.iou() - BORDER_COST * self.borders(&front);
+        Ok(Chosen { partition: self.partition(&front), worth })
     }
 
     /// The number of parts that is worth most: each part more has to raise the intersection over
@@ -110,26 +116,26 @@ impl Tree {
         solid: &Solid,
         part_cost: f64,
         progress: &dyn Progress,
-    ) -> Result<Partition, Cancelled> {
+    ) -> Result<Chosen, Cancelled> {
         let mut cover = Cover::new(solid);
         let mut front = self.roots();
         while let Some(k) = front.iter().position(|&n| self.nodes[n].over_gap) {
             let node = front.swap_remove(k);
-            front.extend(self.nodes[node].children.iter().flatten());
+            front.extend(&self.nodes[node].children);
         }
         front.iter().for_each(|&n| cover.add(&self.nodes[n].runs));
         let worth = |cover: &Cover, parts: &[usize]| {
             cover.iou() - part_cost * parts.len() as f64 - BORDER_COST * self.borders(parts)
         };
         let mut best = (worth(&cover, &front), front.clone());
-        while front.len() < MOST_AUTOMATIC && self.split_best(&mut cover, &mut front) {
+        while front.len() < MOST_AUTOMATIC && self.split_best(&mut cover, &mut front, usize::MAX) {
             progress.check()?;
             let now = worth(&cover, &front);
             if now > best.0 {
                 best = (now, front.clone());
             }
         }
-        Ok(self.partition(&best.1))
+        Ok(Chosen { partition: self.partition(&best.1), worth: best.0 })
     }
 
     /// What all borders between parts cost.
@@ -137,45 +143,58 @@ impl Tree {
         let mut above = vec![true; self.nodes.len()];
         front.iter().for_each(|&n| above[n] = false);
         for n in (0..self.nodes.len()).rev() {
-            if let Some(children) = self.nodes[n].children
-                && !above[n]
-            {
-                children.iter().for_each(|&c| above[c] = false);
+            if !above[n] {
+                self.nodes[n].children.iter().for_each(|&c| above[c] = false);
             }
         }
-        let split = self.nodes.iter().zip(above).filter(|(n, above)| *above && n.children.is_some());
+        let split = self.nodes.iter().zip(above).filter(|(n, above)| *above && !n.children.is_empty());
         split.map(|(n, _)| n.border).sum()
     }
 
     fn roots(&self) -> Vec<usize> {
         let mut is_root = vec![true; self.nodes.len()];
-        for child in self.nodes.iter().filter_map(|n| n.children).flatten() {
+        for &child in self.nodes.iter().flat_map(|n| &n.children) {
             is_root[child] = false;
         }
         (0..self.nodes.len()).filter(|&n| is_root[n]).collect()
     }
 
-    /// Makes the best split; of equal ones that of the node that was merged last. `false` where
-    /// only patches are left.
-    fn split_best(&self, cover: &mut Cover, front: &mut Vec<usize>) -> bool {
-        let mut best: Option<(f64, usize, [usize; 2], usize)> = None;
-        for (k, &node) in front.iter().enumerate() {
-            let Some(children) = self.nodes[node].children else {
+    /// Makes the best split that gives `most` parts at most; of equal ones that of the node that was
+    /// merged last. Twins are split together. `false` where there is none.
+    fn split_best(&self, cover: &mut Cover, front: &mut Vec<usize>, most: usize) -> bool {
+        let before = cover.iou();
+        let mut best: Option<(f64, usize, [Option<usize>; 2])> = None;
+        for &node in front.iter() {
+            let Node { children, twin, border, .. } = &self.nodes[node];
+            // Twins are looked at once.
+            if children.is_empty() || *twin > node {
                 continue;
-            };
-            cover.split(self, node, children);
-            let worth = cover.iou() - BORDER_COST * self.nodes[node].border;
-            cover.unsplit(self, node, children);
+            }
+            let split = [Some(node), (*twin != node).then_some(*twin)];
+            let more: usize = split.iter().flatten().map(|&n| self.nodes[n].children.len() - 1).sum();
+            if front.len() + more > most {
+                continue;
+            }
+            split.iter().flatten().for_each(|&n| cover.split(self, n));
+            let borders = border + if *twin == node { 0.0 } else { self.nodes[*twin].border };
+            let after = cover.iou() - BORDER_COST * borders;
+            split.iter().flatten().for_each(|&n| cover.unsplit(self, n));
+            // Splits that give more parts are worth what each part more adds.
+            let worth = if more == 1 { after } else { before + (after - before) / more as f64 };
             if best.is_none_or(|b| worth > b.0 || (worth == b.0 && node > b.1)) {
-                best = Some((worth, node, children, k));
+                best = Some((worth, node, split));
             }
         }
-        let Some((_, node, children, k)) = best else {
+        let Some((.., split)) = best else {
             return false;
         };
-        cover.split(self, node, children);
-        front.swap_remove(k);
-        front.extend(children);
+        for node in split.into_iter().flatten() {
+            cover.split(self, node);
+            if let Some(k) = front.iter().position(|&n| n == node) {
+                front.swap_remove(k);
+            }
+            front.extend(&self.nodes[node].children);
+        }
         true
     }
 
@@ -185,10 +204,8 @@ impl Tree {
             of_node[n] = part as u32 + 1;
         }
         for n in (0..self.nodes.len()).rev() {
-            if let Some(children) = self.nodes[n].children
-                && of_node[n] > 0
-            {
-                children.iter().for_each(|&c| of_node[c] = of_node[n]);
+            if of_node[n] > 0 {
+                self.nodes[n].children.iter().for_each(|&c| of_node[c] = of_node[n]);
             }
         }
         let of_cell = self.patches.of_cell.iter().map(|&p| of_node[p as usize]).collect();

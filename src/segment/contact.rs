@@ -93,7 +93,7 @@ mod tests {
     fn segments(shapes: &[Shape]) -> (Mesh, Segmentation) {
         let of_shape = |(k, s): (usize, &Shape)| vec![SegmentId(k as u32); s.1.len()];
         let face_segment = shapes.iter().enumerate().flat_map(of_shape).collect();
-        (mesh(&together(shapes)), Segmentation { face_segment, count: shapes.len() })
+        (mesh(&together(shapes)), Segmentation { face_segment, count: shapes.len(), mirror: None })
     }
 
     fn cube(low: DVec3, side: f64) -> Shape {

@@ -112,7 +112,8 @@ impl Parts {
                 *label = found[0] as u32;
             }
         }
-        Ok(Self::of_labels(self.mesh().clone(), &labels, self.names()))
+        let mirror = self.segmentation().mirror().copied();
+        Ok(Self::of_labels(self.mesh().clone(), &labels, self.names(), mirror))
     }
 
     fn split(self, name: &str, plane: &Plane, front: Option<&str>) -> Result<Self, EditError> {
@@ -159,7 +160,8 @@ impl Parts {
         for (label, new) in labels.iter_mut().zip(new) {
             *label = new.unwrap_or(*label);
         }
-        Ok(Self::of_labels(mesh, &labels, &names))
+        let mirror = self.segmentation().mirror().copied();
+        Ok(Self::of_labels(mesh, &labels, &names, mirror))
     }
 }
 
@@ -205,7 +207,7 @@ mod tests {
             _ => SegmentId(2),
         };
         let face_segment = (0..row.faces().len()).map(ball).collect();
-        Parts::new(row, Segmentation { face_segment, count: 3 })
+        Parts::new(row, Segmentation { face_segment, count: 3, mirror: None })
     }
 
     fn merge(names: &[&str]) -> Edit {

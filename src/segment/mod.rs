@@ -12,6 +12,7 @@ mod cut;
 mod edit;
 mod gmm;
 mod grid;
+mod halves;
 mod hollow;
 mod interface;
 mod maxflow;
@@ -27,6 +28,7 @@ mod shapes;
 mod smooth;
 mod stage;
 mod surface;
+mod symmetry;
 #[cfg(test)]
 mod tests;
 
@@ -36,8 +38,9 @@ pub use interface::Interface;
 pub use overlap::{Overlap, overlap};
 pub use parts::{Parts, default_name};
 pub use stage::segment;
+pub use symmetry::{Axis, SymmetryChoice};
 
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, MirrorPlane};
 use crate::progress::Cancelled;
 use std::collections::BTreeMap;
 
@@ -75,11 +78,13 @@ pub struct SegmentOptions {
     pub detail: f64,
     /// How segments are found.
     pub method: Method,
+    /// Whether the segments are mirror images of each other. Only [`Method::Merge`] heeds it.
+    pub symmetry: SymmetryChoice,
 }
 
 impl Default for SegmentOptions {
     fn default() -> Self {
-        Self { parts: None, detail: 0.5, method: Method::Merge }
+        Self { parts: None, detail: 0.5, method: Method::Merge, symmetry: SymmetryChoice::Auto }
     }
 }
 
@@ -146,6 +151,7 @@ impl SegmentOptions {
 pub struct Segmentation {
     face_segment: Vec<SegmentId>,
     count: usize,
+    mirror: Option<MirrorPlane>,
 }
 
 impl Segmentation {
@@ -163,7 +169,7 @@ impl Segmentation {
             id[set] = SegmentId(i as u32);
         }
         let face_segment = set_of_face.iter().map(|&s| id[s as usize]).collect();
-        Self { face_segment, count: ranking.len() }
+        Self { face_segment, count: ranking.len(), mirror: None }
     }
 
     /// The segment of each face.
@@ -174,6 +180,26 @@ impl Segmentation {
     /// Number of segments.
     pub fn count(&self) -> usize {
         self.count
+    }
+
+    /// The same segments, with the mirror plane that they were made for.
+    #[must_use]
+    fn mirrored_in(self, mirror: Option<MirrorPlane>) -> Self {
+        Self { mirror, ..self }
+    }
+
+    /// The mirror plane that the segments were made for.
+    pub fn mirror(&self) -> Option<&MirrorPlane> {
+        self.mirror.as_ref()
+    }
+
+    /// The mirror image of each segment, itself for one across the mirror plane; `None` where there
+    /// is no plane, or where some segment has no image, as after a change by hand to one side.
+    ///
+    /// # Guarantees
+    /// The twin of a twin is the segment itself.
+    pub fn twins(&self, mesh: &Mesh) -> Option<Vec<SegmentId>> {
+        symmetry::twins(self, mesh, &self.mirror?.mirror)
     }
 
     /// Vertices (indices into `mesh.positions()`) on the interface of each pair of neighbouring

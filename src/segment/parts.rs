@@ -3,7 +3,7 @@
 use super::surface::Surface;
 use super::{SegmentId, Segmentation};
 use crate::geom::{Hull, HullError};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, MirrorPlane};
 use glam::DVec3;
 use rayon::prelude::*;
 
@@ -11,7 +11,8 @@ use rayon::prelude::*;
 ///
 /// # Guarantees
 /// One name for each segment, all different. The parts are in the order of their area, biggest
-/// first, but for a root that was chosen, which is the first.
+/// first, but for the root, which is the first: one that was chosen, or the biggest across the mirror
+/// plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parts {
     mesh: Mesh,
@@ -28,14 +29,21 @@ impl Parts {
     /// Names the segments of a mesh in their order.
     pub fn new(mesh: Mesh, segmentation: Segmentation) -> Self {
         let names = (0..segmentation.count()).map(default_name).collect();
-        Self { mesh, segmentation, names }
+        let mut parts = Self { mesh, segmentation, names }.with_root_across();
+        parts.names = (0..parts.names.len()).map(default_name).collect();
+        parts
     }
 
     /// Parts from a label for each face and a name for each label; labels without a face are
     /// dropped.
-    pub(super) fn of_labels(mesh: Mesh, labels: &[u32], names: &[String]) -> Self {
+    pub(super) fn of_labels(
+        mesh: Mesh,
+        labels: &[u32],
+        names: &[String],
+        mirror: Option<MirrorPlane>,
+    ) -> Self {
         let areas = face_areas(&mesh);
-        let segmentation = Segmentation::numbered(labels, names.len(), &areas);
+        let segmentation = Segmentation::numbered(labels, names.len(), &areas).mirrored_in(mirror);
         let mut ordered = vec![String::new(); segmentation.count()];
         for (id, &label) in segmentation.face_segments().iter().zip(labels) {
             let name = &mut ordered[id.0 as usize];
@@ -58,6 +66,18 @@ impl Parts {
         }
         self.names[..=part].rotate_right(1);
         self
+    }
+
+    /// The same parts with the biggest that lies across the mirror plane first, where there is one:
+    /// what hangs on it is symmetric then.
+    #[must_use]
+    pub fn with_root_across(self) -> Self {
+        let twins = self.segmentation.twins(&self.mesh);
+        let across = twins.and_then(|twins| (0..twins.len()).find(|&k| twins[k].0 as usize == k));
+        match across {
+            Some(part) if part > 0 => self.with_first(part),
+            _ => self,
+        }
     }
 
     /// The mesh. Where a part was split, its faces are cut.

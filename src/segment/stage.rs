@@ -1,19 +1,22 @@
 //! The stage as a whole.
 
-use super::choose::Tree;
+use super::choose::{Chosen, Tree};
 use super::coarsen::{Coarse, coarsen};
 use super::cut::soft_labels;
 use super::gmm::Mixture;
 use super::grid::Solid;
-use super::merge::{Scene, merge_all};
+use super::halves::Halves;
+use super::merge::{Patches, SIDES, Scene, merge_all};
 use super::patches::{Partition, absorb_small, connected, split_large};
 use super::sdf::{Probe, Target};
 use super::surface::{Surface, outward_faces};
-use super::{Method, SegmentError, SegmentOptions, Segmentation};
-use super::{bodies, grid, refine, smooth};
-use crate::mesh::Mesh;
+use super::{Method, SegmentError, SegmentOptions, Segmentation, SymmetryChoice};
+use super::{bodies, grid, halves, refine, smooth};
+use crate::geom::Mirror;
+use crate::mesh::{Mesh, MirrorPlane};
 use crate::progress::{Cancelled, Progress};
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// Clusters and smoothing of the over-segmentation: many clusters, cheap borders.
 const FINE_CLUSTERS: usize = 8;
@@ -50,9 +53,12 @@ pub fn segment(
     }
     progress.stage("thickness");
     let (faces, fine) = outward_faces(positions, mesh.faces());
-    let (target, [borders, Coarse { surface: coarse, cell_of: cell_of_face }]) =
-        rayon::join(|| Target::new(positions, &faces), || coarsen(&fine));
+    let (target, ([borders, Coarse { surface: coarse, cell_of: cell_of_face }], plane)) = rayon::join(
+        || Target::new(positions, &faces),
+        || rayon::join(|| coarsen(&fine), || mirror_plane(mesh, options)),
+    );
     progress.check()?;
+    let mirror = plane.map(|plane| plane.mirror);
     let diameters = target.and_then(|target| shape_diameters(&target, &fine, &coarse, &cell_of_face));
     progress.check()?;
     let cells = match options.method {
@@ -66,13 +72,28 @@ pub fn segment(
             let gaps = bodies::nearest_links(&coarse);
             let patches = bodies::join_crumbs(&coarse, patches, &gaps, options.parts);
             progress.stage("parts");
-            let ground = Ground { positions, faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
+            let ground = Ground { faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
             let solid = Solid::filled(positions, &faces, grid::CELLS);
-            let tree = ground.merge(&solid, patches, &gaps, progress)?;
             let part_cost = PART_COST / DETAIL_RANGE.powf(options.detail);
-            match options.parts {
-                Some(count) => tree.parts(&solid, count, progress)?,
-                None => tree.best_parts(&solid, part_cost, progress)?,
+            let choose = |tree: Tree| match options.parts {
+                Some(count) => tree.parts(&solid, count, progress),
+                None => tree.best_parts(&solid, part_cost, progress),
+            };
+            let merged = |halves: Option<&Halves>, sides| {
+                let patches = ground.patches(patches.clone(), &gaps, halves);
+                let scene = Scene { positions, solid: &solid, sides };
+                choose(merge_all(&scene, patches, progress)?)
+            };
+            // Either half could be the one that the other is made like.
+            let planes = mirror.map(|mirror| [*mirror.plane(), mirror.plane().flipped()]);
+            let halves: Vec<Halves> =
+                planes.iter().flatten().filter_map(|p| Halves::new(&coarse, &Mirror::new(*p))).collect();
+            let ways: Vec<_> = halves.iter().flat_map(|half| SIDES.map(|sides| (half, sides))).collect();
+            let chosen: Result<Vec<Chosen>, Cancelled> =
+                ways.into_par_iter().map(|(half, sides)| merged(Some(half), sides)).collect();
+            match chosen?.into_iter().reduce(|best, next| if next.worth > best.worth { next } else { best }) {
+                Some(best) => best.partition,
+                None => merged(None, SIDES[0])?.partition,
             }
         }
     };
@@ -81,14 +102,28 @@ pub fn segment(
     for (&cell, &coarse) in borders.cell_of.iter().zip(&cell_of_face) {
         of_cell[cell as usize] = cells.of_cell[coarse as usize];
     }
-    let refined = refine::refine_borders(&borders.surface, Partition { of_cell, count: cells.count });
+    let found = Partition { of_cell, count: cells.count };
+    let refined = refine::refine_borders(&borders.surface, found.clone());
     // Borders that moved may have left slivers; a number that was asked for stands.
     let refined = match options.parts {
         None => absorb_small(&borders.surface, refined, LEAST_SEGMENT * fine.total_area()),
         Some(_) => refined,
     };
+    let refined = match mirror.and_then(|mirror| Halves::new(&borders.surface, &mirror)) {
+        Some(halves) => halves.alike(&borders.surface, &found, refined),
+        None => refined,
+    };
     let of_face: Vec<u32> = borders.cell_of.iter().map(|&cell| refined.of_cell[cell as usize]).collect();
-    Ok(Segmentation::numbered(&of_face, refined.count, fine.areas()))
+    Ok(Segmentation::numbered(&of_face, refined.count, fine.areas()).mirrored_in(plane))
+}
+
+/// The plane that the parts are mirrored in.
+fn mirror_plane(mesh: &Mesh, options: &SegmentOptions) -> Option<MirrorPlane> {
+    match (options.method, options.symmetry) {
+        (Method::Sdf { .. }, _) | (_, SymmetryChoice::Off) => None,
+        (_, SymmetryChoice::Auto) => mesh.mirror_plane(),
+        (_, SymmetryChoice::Across(axis)) => mesh.mirror_plane_across(axis.index()),
+    }
 }
 
 fn is_flat(positions: &[DVec3]) -> bool {
@@ -140,20 +175,21 @@ fn over_segment(surface: &Surface, values: Option<&[f64]>, parts: Option<usize>)
 
 /// What the patches are made of.
 struct Ground<'a> {
-    positions: &'a [DVec3],
     faces: &'a [[u32; 3]],
     surface: &'a Surface,
     cell_of_face: &'a [u32],
 }
 
 impl Ground<'_> {
-    fn merge(
-        &self,
-        solid: &Solid,
-        patches: Partition,
-        gaps: &[[u32; 2]],
-        progress: &dyn Progress,
-    ) -> Result<Tree, Cancelled> {
+    /// What merging has to know; with halves the patches of one are the images of the other's.
+    fn patches(&self, patches: Partition, gaps: &[[u32; 2]], halves: Option<&Halves>) -> Patches {
+        let (patches, twin) = match halves {
+            Some(halves) => halves.patches(self.surface, &patches),
+            None => {
+                let itself = (0..patches.count as u32).collect();
+                (patches, itself)
+            }
+        };
         let body = bodies::body_of_sets(self.surface, &patches);
         let vertices = self.vertices(&patches);
         let borders = patches.border_costs(self.surface);
@@ -165,8 +201,10 @@ impl Ground<'_> {
                 neighbours.push(([a.min(b), a.max(b)], 0.0));
             }
         }
-        let scene = Scene { positions: self.positions, solid };
-        merge_all(&scene, patches, &vertices, &neighbours, &body, progress)
+        if halves.is_some() {
+            neighbours = halves::mirrored_costs(&neighbours, &twin);
+        }
+        Patches { partition: patches, twin, vertices, neighbours, body }
     }
 
     /// The vertices of each patch.

@@ -237,3 +237,69 @@ fn stops_when_asked() {
     let found = segment(&mesh(&row()), &SegmentOptions::default(), &Stop);
     assert_eq!(found, Err(SegmentError::Cancelled(Cancelled)));
 }
+
+/// A body of balls with an arm on either side, each a body of its own; mirrored in x.
+fn figure() -> Shape {
+    let arm = moved(&balls_in_a_row(&[(0.0, 0.35), (0.5, 0.25)], 20, 16), |p| {
+        DVec3::new(p.z * 1.6 + 1.2, p.x + 0.1, p.y + 0.4)
+    });
+    let image = moved(&arm, |p| DVec3::new(-p.x, p.y, p.z));
+    let image = (image.0, image.1.iter().map(|f| [f[0], f[2], f[1]]).collect());
+    let body = moved(&row(), |p| DVec3::new(p.x, p.y * 1.1 + 0.1 * p.z, p.z));
+    together(&[body, arm, image])
+}
+
+#[test]
+fn the_parts_of_a_symmetric_mesh_are_twins_or_across() {
+    let turn = DQuat::from_euler(glam::EulerRot::XYZ, 0.3, -1.2, 2.1);
+    for (shape, normal) in [(figure(), DVec3::X), (moved(&figure(), |p| turn * p * 50.0), turn * DVec3::X)] {
+        let mesh = mesh(&shape);
+        for parts in [None, Some(3), Some(7), Some(12)] {
+            let options = SegmentOptions { parts, ..Default::default() };
+            let found = segment(&mesh, &options, &Silent).unwrap();
+            let plane = *found.mirror().unwrap().mirror.plane();
+            assert!(plane.normal().dot(normal).abs() > 0.9999, "{}", plane.normal());
+            let twins = found.twins(&mesh).unwrap();
+            assert!((0..).zip(&twins).all(|(k, twin)| twins[twin.0 as usize] == SegmentId(k)));
+            assert!(twins.iter().enumerate().any(|(k, twin)| twin.0 as usize != k));
+            assert!(parts.is_none_or(|n| n.abs_diff(found.count()) <= 1), "{parts:?}: {}", found.count());
+            // Twins have the same area.
+            let shares = Parts::new(mesh.clone(), found.clone());
+            let twins = shares.segmentation().twins(&mesh).unwrap();
+            let shares = shares.area_shares();
+            for (k, twin) in twins.iter().enumerate() {
+                assert!((shares[k] - shares[twin.0 as usize]).abs() < 0.01);
+            }
+        }
+    }
+}
+
+#[test]
+fn without_symmetry_there_are_no_twins() {
+    let mesh = mesh(&figure());
+    let options = SegmentOptions { symmetry: SymmetryChoice::Off, ..Default::default() };
+    let found = segment(&mesh, &options, &Silent).unwrap();
+    assert!(found.mirror().is_none() && found.twins(&mesh).is_none());
+}
+
+#[test]
+fn a_mirrored_mesh_gives_mirrored_parts() {
+    let shape = moved(&figure(), |p| DVec3::new(p.x, p.y, p.z + 0.02 * (p.x * 3.0).sin()));
+    let flipped = moved(&shape, |p| DVec3::new(-p.x, p.y, p.z));
+    let flipped = (flipped.0, flipped.1.iter().map(|f| [f[0], f[2], f[1]]).collect());
+    assert!(rand_index(run(&shape).face_segments(), run(&flipped).face_segments()) > 0.97);
+}
+
+#[test]
+fn changes_to_one_side_end_the_symmetry_and_to_both_bring_it_back() {
+    let whole = mesh(&figure());
+    let parts = Parts::new(whole.clone(), run(&figure()));
+    let twins = parts.segmentation().twins(&whole).unwrap();
+    let one = (0..twins.len()).find(|&k| twins[k].0 as usize > k).unwrap();
+    let other = twins[one].0 as usize;
+    let merge = |names: [usize; 2]| Edit::Merge { parts: names.map(|k| parts.names()[k].clone()).to_vec() };
+    let lopsided = parts.clone().edited(&merge([0, one])).unwrap();
+    assert_eq!(lopsided.segmentation().twins(lopsided.mesh()), None);
+    let even = lopsided.edited(&merge([0, other])).unwrap();
+    assert!(even.segmentation().twins(even.mesh()).is_some());
+}

@@ -1,11 +1,11 @@
-//! The film of a model that folds, one component after another, rests flat, and is deployed again.
+//! The film of a model that folds, one step after another, rests flat, and is deployed again.
 
 use super::angle::ViewAngle;
 use super::scenes::pose_scene;
 use super::still::{ShowError, Still, framed};
 use crate::drawing::Rgb;
 use crate::export::png;
-use crate::fold::{ModelMotion, Sequence};
+use crate::fold::{ModelMotion, Sequence, Step};
 use crate::model::Model;
 use crate::pipeline::Output;
 use crate::render::{Scene, View};
@@ -96,13 +96,13 @@ pub struct Film {
 }
 
 impl Film {
-    /// Takes the pictures of a model that folds in an order. All are opaque.
+    /// Takes the pictures of a model that folds in some steps. All are opaque.
     ///
     /// # Errors
     /// See [`ShowError`]; no model is known that brings one about.
-    pub fn shoot(model: &Model, order: &[usize], options: &FilmOptions) -> Result<Self, ShowError> {
+    pub fn shoot(model: &Model, steps: &[Step], options: &FilmOptions) -> Result<Self, ShowError> {
         let motion = ModelMotion::new(model);
-        let sequence = Sequence::new(order);
+        let sequence = Sequence::new(steps);
         let last = options.frames / 2;
         let scenes: Vec<Scene> = (0..=last)
             .into_par_iter()
@@ -113,7 +113,7 @@ impl Film {
         let pictures: Vec<Result<Pixmap, ShowError>> =
             scenes.par_iter().map(|scene| shot(scene, &view)).collect();
         let pictures = pictures.into_iter().collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { shots: shots(last, order.len()), pictures })
+        Ok(Self { shots: shots(last, sequence.parts()), pictures })
     }
 
     /// The pictures, all of one size.
@@ -130,7 +130,7 @@ impl Film {
 /// A model at some progress of its folding, from 0 (deployed) to 1 (flat), on the ground.
 pub fn staged_scene(output: &Output, progress: f64) -> Scene {
     let motion = ModelMotion::new(output.model());
-    scene_at(&motion, &Sequence::new(output.fold_plan().order()), progress)
+    scene_at(&motion, &Sequence::new(output.fold_plan().steps()), progress)
 }
 
 fn scene_at(motion: &ModelMotion<'_>, sequence: &Sequence, progress: f64) -> Scene {

@@ -38,7 +38,7 @@ impl Layers {
 pub struct Setting {
     /// What is to be seen.
     pub layers: Layers,
-    /// How far the model is folded, 0 to 1, one component after the other.
+    /// How far the model is folded, 0 to 1, one step after the other.
     pub folded: f64,
     /// What the mouse is over.
     pub hover: Option<Tag>,
@@ -165,34 +165,33 @@ fn push_edges(solids: &mut Solids, outline: &[DVec3], colour: Rgb, width_px: f32
     solids.lines.extend(ends.map(|(&a, &b)| Line { ends: [a, b], colour, width_px }));
 }
 
-/// How far each component is folded: in the order that was found, as long as it is known.
+/// How far each component is folded: in the steps that were found, as long as it is known.
 pub fn folded(studio: &Studio, progress: f64) -> Option<Vec<f64>> {
     let shaped = studio.shown().shaped()?;
     let count = shaped.model().parts().len();
-    let plan = studio.shown().output().map(|output| output.fold_plan().order());
-    let order = match plan.filter(|order| order.len() == count) {
-        Some(order) => order.to_vec(),
-        None => (0..count).rev().collect(),
+    let plan = studio.shown().output().map(|output| output.fold_plan());
+    let sequence = match plan.filter(|plan| plan.order().len() == count) {
+        Some(plan) => Sequence::new(plan.steps()),
+        None => Sequence::of_order(&(0..count).rev().collect::<Vec<_>>()),
     };
-    Some(Sequence::new(&order).folded(progress))
+    Some(sequence.folded(progress))
 }
 
 /// The moment at which a clash happens, as a progress of the folding.
 pub fn moment(studio: &Studio, clash: &Clash) -> Option<f64> {
-    let order = studio.shown().output()?.fold_plan().order();
-    let step = order.iter().position(|&p| p == clash.mover)? as f64;
-    let sequence = Sequence::new(order);
-    let at = |share: f64| (step + share) / order.len() as f64;
-    let (mut low, mut high) = (0.0, 1.0);
+    let steps = studio.shown().output()?.fold_plan().steps();
+    let sequence = Sequence::new(steps);
+    let step = steps.iter().position(|step| step.part == clash.mover && step.to >= clash.folded)?;
+    let (mut low, mut high) = (sequence.marks()[step], sequence.marks()[step + 1]);
     for _ in 0..30 {
         let middle = 0.5 * (low + high);
-        if sequence.folded(at(middle))[clash.mover] < clash.folded {
+        if sequence.folded(middle)[clash.mover] < clash.folded {
             low = middle;
         } else {
             high = middle;
         }
     }
-    Some(at(low))
+    Some(low)
 }
 
 fn push_components(solids: &mut Solids, studio: &Studio, setting: &Setting) {

@@ -20,26 +20,33 @@ const SHAFT: f64 = 0.2;
 /// Flat components lie so far off their parents: enough to see what lies on what.
 const LIFT_MM: f64 = 0.3;
 
-/// A component folds flat: `is_flat` tells which were folded before.
-pub fn flattening(output: &Output, part: usize, is_flat: &[bool]) -> Result<Drawing, PictureError> {
-    moving(output, part, is_flat, [NOW, SOON])
+/// A component folds up to a share of the way: `folded` tells how far all were folded before.
+pub fn flattening(
+    output: &Output,
+    part: usize,
+    folded: &[f64],
+    to: f64,
+) -> Result<Drawing, PictureError> {
+    let at = |share: f64| folded[part] + share * (to - folded[part]);
+    moving(output, part, folded, [at(NOW), at(SOON)])
 }
 
 /// The whole is flat, and a component is pulled up.
-pub fn deploying(output: &Output, part: usize) -> Result<Drawing, PictureError> {
-    moving(output, part, &vec![true; output.nets().len()], [SOON, NOW])
+pub fn deploying(output: &Output, part: usize, to: f64) -> Result<Drawing, PictureError> {
+    let at = |share: f64| to + share * (1.0 - to);
+    moving(output, part, &vec![1.0; output.nets().len()], [at(SOON), at(NOW)])
 }
 
 fn moving(
     output: &Output,
     part: usize,
-    is_flat: &[bool],
+    folded: &[f64],
     [now, soon]: [f64; 2],
 ) -> Result<Drawing, PictureError> {
     let motion = ModelMotion::new(output.model());
-    let pose_at = |folded: f64| {
-        let share = |p: usize| if p == part { folded } else { f64::from(u8::from(is_flat[p])) };
-        let folded: Vec<f64> = (0..is_flat.len()).map(share).collect();
+    let pose_at = |share: f64| {
+        let mut folded = folded.to_vec();
+        folded[part] = share;
         motion.pose_on_ground(&folded, LIFT_MM)
     };
     let (pose, next) = (pose_at(now), pose_at(soon));

@@ -5,7 +5,7 @@ use super::values::{Number, choice_row, tick_row};
 use eframe::egui::Ui;
 use tatamu::mesh::Up;
 use tatamu::net::Side;
-use tatamu::segment::{Method, SegmentOptions};
+use tatamu::segment::{Method, SegmentOptions, SymmetryChoice};
 use tatamu::sheet::Registration;
 use tatamu::sheet::fit::Rotation;
 
@@ -94,6 +94,9 @@ fn division(studio: &mut Studio, ui: &mut Ui, segmentation: SegmentOptions) {
         return;
     }
     let found = studio.shown().names().len().max(1) as f64;
+    let names = SymmetryChoice::ALL.map(SymmetryChoice::name);
+    let what = ("Symmetry", "whether the two sides are mirror images, and in which plane");
+    choice_row(studio, ui, what, ("segmentation", "symmetry"), segmentation.symmetry.name(), &names);
     PARTS.optional_row(studio, ui, segmentation.parts.map(|n| n as f64), found);
     if segmentation.parts.is_none() {
         DETAIL.row(studio, ui, segmentation.detail);

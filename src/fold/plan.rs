@@ -1,0 +1,173 @@
+//! How a model folds.
+
+use super::check::{Checker, Clash};
+use super::interleave::interleaved;
+use super::memory::SweepMemory;
+use super::order::{Search, outermost_first, replay};
+use super::overlap::{Overlap, overlaps};
+use super::pose::{ModelMotion, root_of};
+use super::stack::{Stack, stacks};
+use super::step::{Move, Step};
+use crate::model::Model;
+use crate::progress::{Cancelled, Progress};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// How a model folds: steps that take every component from deployed to flat.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FoldPlan {
+    thickness_mm: f64,
+    steps: Vec<Step>,
+    order: Vec<usize>,
+    clashes: Vec<Clash>,
+    overlaps: Vec<Overlap>,
+    stacks: Vec<Stack>,
+}
+
+/// How far the search goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Effort {
+    /// The best order, one component after another.
+    Order,
+    /// Steps of several components in turn, where no order is free; and the flat stacks.
+    Whole,
+}
+
+impl FoldPlan {
+    /// The order of folding before anything is checked: children before those that carry them.
+    pub fn unchecked(model: &Model, thickness_mm: f64) -> Self {
+        let mut order: Vec<usize> = (0..model.parts().len()).collect();
+        outermost_first(model, &mut order);
+        let steps = order.iter().map(|&part| Step::whole(part)).collect();
+        let (clashes, overlaps, stacks) = (Vec::new(), Vec::new(), Vec::new());
+        Self { thickness_mm, steps, order, clashes, overlaps, stacks }
+    }
+
+    /// Looks for a plan for a model of paper of a thickness.
+    ///
+    /// # Errors
+    /// [`Cancelled`] at the user's wish.
+    pub fn new(
+        motion: &ModelMotion<'_>,
+        thickness_mm: f64,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let ids: Vec<u64> = (0..motion.model().parts().len() as u64).collect();
+        Self::with_memory(motion, thickness_mm, &ids, &SweepMemory::default(), progress)
+    }
+
+    /// The same with a memory of what was found out about other models. `ids[p]` stands for component
+    /// p's shape and the way it sits on its parent: where those of two models are equal, so are these.
+    ///
+    /// # Errors
+    /// [`Cancelled`] at the user's wish.
+    pub fn with_memory(
+        motion: &ModelMotion<'_>,
+        thickness_mm: f64,
+        ids: &[u64],
+        memory: &SweepMemory,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        Self::searched(motion, thickness_mm, ids, memory, progress, Effort::Whole)
+    }
+
+    /// A plan for the comparison of many models: the best order, without steps of several components
+    /// in turn, and without stacks. Ids and memory as for [`FoldPlan::with_memory`].
+    ///
+    /// # Errors
+    /// [`Cancelled`] at the user's wish.
+    pub fn quick(
+        motion: &ModelMotion<'_>,
+        thickness_mm: f64,
+        ids: &[u64],
+        memory: &SweepMemory,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        Self::searched(motion, thickness_mm, ids, memory, progress, Effort::Order)
+    }
+
+    fn searched(
+        motion: &ModelMotion<'_>,
+        thickness_mm: f64,
+        ids: &[u64],
+        memory: &SweepMemory,
+        progress: &dyn Progress,
+        effort: Effort,
+    ) -> Result<Self, Cancelled> {
+        let overlaps = overlaps(motion, thickness_mm / 2.0, ids, memory);
+        let parts = motion.model().parts().len();
+        let mut checker = Checker::new(motion, thickness_mm, &overlaps, ids, memory);
+        let own: Vec<Option<Clash>> = (0..parts).into_par_iter().map(|p| checker.own_clash(p)).collect();
+        let mut clashes: Vec<Clash> = own.into_iter().flatten().collect();
+        progress.check()?;
+        let mut moves = Vec::new();
+        for root in (0..parts).filter(|&p| root_of(motion.model(), p) == p) {
+            let order = Search::new(motion, &mut checker, progress).tree(root)?;
+            let mut tree: Vec<Move> = order.into_iter().map(Move::whole).collect();
+            if effort == Effort::Whole {
+                tree = interleaved(&mut checker, tree, parts, thickness_mm, progress)?;
+            }
+            clashes.extend(replay(&mut checker, &tree, parts));
+            moves.extend(tree);
+        }
+        let steps: Vec<Step> = moves.iter().map(Move::step).collect();
+        let order = steps.iter().filter(|step| step.ends_flat()).map(|step| step.part).collect();
+        let stacks = if effort == Effort::Whole { stacks(motion, thickness_mm) } else { Vec::new() };
+        Ok(Self { thickness_mm, steps, order, clashes, overlaps, stacks })
+    }
+
+    /// Thickness of the paper, mm.
+    pub fn thickness_mm(&self) -> f64 {
+        self.thickness_mm
+    }
+
+    /// What is done, one after another; deploying is the reverse.
+    pub fn steps(&self) -> &[Step] {
+        &self.steps
+    }
+
+    /// All components, in the order in which they become flat.
+    pub fn order(&self) -> &[usize] {
+        &self.order
+    }
+
+    /// Whether every component folds in one step.
+    pub fn is_order(&self) -> bool {
+        self.steps.len() == self.order.len()
+    }
+
+    /// What bumps into what in these steps.
+    pub fn clashes(&self) -> &[Clash] {
+        &self.clashes
+    }
+
+    /// What stands in each other before anything folds.
+    pub fn overlaps(&self) -> &[Overlap] {
+        &self.overlaps
+    }
+
+    /// The flat model: one stack for each group of joined components.
+    pub fn stacks(&self) -> &[Stack] {
+        &self.stacks
+    }
+
+    /// Pairs that get deeper into each other than the paper is thick, deployed or while they fold, and
+    /// by how much, mm. The two are equal where chains of one component do.
+    pub fn bumps(&self) -> Vec<([usize; 2], f64)> {
+        let mut bumps: BTreeMap<[usize; 2], f64> = BTreeMap::new();
+        let clashes = self.clashes.iter().map(|clash| (clash.parts, clash.depth_mm));
+        for (parts, depth_mm) in clashes.chain(self.overlaps.iter().map(|o| (o.parts, o.depth_mm))) {
+            let excess_mm = depth_mm - self.thickness_mm;
+            if excess_mm > 0.0 {
+                let worst_mm = bumps.entry(parts).or_insert(0.0);
+                *worst_mm = worst_mm.max(excess_mm);
+            }
+        }
+        bumps.into_iter().collect()
+    }
+
+    /// Sum of [`FoldPlan::bumps`], mm.
+    pub fn harm_mm(&self) -> f64 {
+        self.bumps().iter().fold(0.0, |sum, (_, excess_mm)| sum + excess_mm)
+    }
+}

@@ -1,0 +1,73 @@
+//! How the choice of a part is bound by the symmetry of the whole.
+
+use super::link::Link;
+use super::{Part, PartOptions, Symmetry};
+
+/// What symmetry asks of a part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Bond {
+    /// Nothing.
+    Free,
+    /// Its component is its own mirror image.
+    Across,
+    /// Its component is the mirror image of another part's.
+    ImageOf(usize),
+    /// Another part is its image.
+    HasImage,
+}
+
+impl Bond {
+    /// The bonds of all parts. What the user wants of one part alone, or of its parent, frees it.
+    pub(super) fn of_parts(parts: &[Part], links: &[Link], symmetry: Option<&Symmetry>) -> Vec<Self> {
+        let mut bonds = vec![Self::Free; parts.len()];
+        let Some(symmetry) = symmetry else { return bonds };
+        let parent = |p: usize| links.iter().find(|l| l.child == p).map(|l| l.parent);
+        let are_bound = |bonds: &[Self], p: usize, q: usize| {
+            bonds[p] == Self::ImageOf(q) || bonds[q] == Self::ImageOf(p)
+        };
+        // Parents come before their children in the links.
+        let roots = (0..parts.len()).filter(|&p| parent(p).is_none());
+        let downwards: Vec<usize> = roots.chain(links.iter().map(|l| l.child)).collect();
+        for &part in &downwards {
+            let twin = symmetry.twin(part);
+            if twin == part {
+                let is_free = parts[part].options.direction_rad.is_none();
+                let has_image = |other: usize| others(links, part).any(|o| o == symmetry.twin(other));
+                if is_free && others(links, part).all(has_image) {
+                    bonds[part] = Self::Across;
+                }
+                continue;
+            }
+            let (first, second) = (part.min(twin), part.max(twin));
+            let is_alike = |(a, b): (&PartOptions, &PartOptions)| {
+                let unnamed = |o: &PartOptions| PartOptions { name: String::new(), ..o.clone() };
+                a.direction_rad.is_none() && unnamed(a) == unnamed(b)
+            };
+            let of_parents = match (parent(first), parent(second)) {
+                (None, None) => true,
+                (Some(p), Some(q)) => p == q || are_bound(&bonds, p, q),
+                // The parent of one is the other.
+                (Some(p), None) => p == second,
+                (None, Some(q)) => q == first,
+            };
+            let images = |p: usize, q: usize| {
+                others(links, p).all(|o| others(links, q).any(|image| image == symmetry.twin(o)))
+            };
+            let has_same_joints = images(first, second) && images(second, first);
+            if is_alike((&parts[first].options, &parts[second].options)) && of_parents && has_same_joints {
+                bonds[first] = Self::HasImage;
+                bonds[second] = Self::ImageOf(first);
+            }
+        }
+        bonds
+    }
+}
+
+/// The parts that a part is joined to.
+fn others(links: &[Link], part: usize) -> impl Iterator<Item = usize> + '_ {
+    links.iter().filter_map(move |link| match part {
+        p if p == link.parent => Some(link.child),
+        p if p == link.child => Some(link.parent),
+        _ => None,
+    })
+}

@@ -1,0 +1,346 @@
+//! A part's candidates: finished components in several fold directions, each with its joint planes.
+//!
+//! Joint planes are known before, from where the parts touch, so that the candidates of one part do
+//! not depend on those of another; what two of them do to each other is priced by [`super::pair`].
+
+use super::link::Link;
+use super::seat::{Seating, level_axis, seat_plane, seats};
+use super::{ModelError, ModelPart, Part, Symmetry};
+use crate::component::{
+    self, Component, Finished, JointTarget, PanelId, PrincipalAxis, Target, choose, fewest, finished,
+};
+use crate::geom::{Hull, Plane, polygon};
+use glam::{DAffine3, DMat3, DVec2, DVec3};
+use rayon::prelude::*;
+
+/// Directions tried about the principal axis, evenly over a half turn.
+const DIRECTIONS: usize = 12;
+/// Directions nearer to each other than this are one.
+const SAME_RAD: f64 = std::f64::consts::PI / 180.0;
+/// So many of them are finished at most.
+const FINISHED: usize = 8;
+/// Price of a mm by which joint planes are moved off their interfaces.
+const PLANE_PRICE: f64 = 0.3;
+/// Price of a mm by which a joint panel misses its partner.
+const JOINT_PRICE: f64 = 0.3;
+/// A joint plane that leaves less than this share of a hull is not used to clip it.
+const LEAST_SHARE: f64 = 0.15;
+
+/// Set in the ids of mirror images.
+const IMAGE: u64 = 1 << 63;
+/// Directions nearer to a mirror plane than this lie in it.
+const IN_PLANE: f64 = 1e-6;
+
+/// A part's component in one fold direction, before it is placed.
+#[derive(Debug, Clone)]
+pub(super) struct Made {
+    /// Unlike that of every other candidate that one [`super::Known`] has made.
+    pub(super) id: u64,
+    pub(super) component: Component,
+    /// From the component's axes to the mesh's.
+    pub(super) frame: DAffine3,
+    pub(super) direction_rad: f64,
+    /// What the shape costs by itself, mm of error.
+    pub(super) cost_mm: f64,
+    /// Joint planes in the mesh's axes, outwards, and the panels on them: by the other part.
+    joints: Vec<(usize, Plane, PanelId)>,
+}
+
+impl Made {
+    /// The mirror image, for the twin of its part.
+    pub(super) fn mirrored(&self, symmetry: &Symmetry, twin: &Part) -> Self {
+        let mirror = symmetry.mirror();
+        let (component, ids) = self.component.mirrored();
+        let column = |k: usize| mirror.direction(self.frame.matrix3.col(k));
+        let frame = DAffine3::from_mat3_translation(
+            DMat3::from_cols(-column(0), column(1), column(2)),
+            mirror.point(self.frame.translation),
+        );
+        let joint = |&(other, plane, panel): &(usize, Plane, PanelId)| {
+            (symmetry.twin(other), mirror.image(&plane), ids[panel.0])
+        };
+        let principal = PrincipalAxis::of_hull(&twin.hull);
+        Self {
+            id: self.id | IMAGE,
+            component,
+            frame,
+            direction_rad: principal.angle_rad(frame.transform_vector3(DVec3::Z)),
+            cost_mm: self.cost_mm,
+            joints: self.joints.iter().map(joint).collect(),
+        }
+    }
+
+    pub(super) fn joint(&self, other: usize) -> Option<(Plane, PanelId)> {
+        self.joints.iter().find(|j| j.0 == other).map(|j| (j.1, j.2))
+    }
+
+    /// The part before it is placed.
+    pub(super) fn unplaced(&self, part: &Part) -> ModelPart {
+        ModelPart {
+            name: part.options.name.clone(),
+            component: self.component.clone(),
+            frame: self.frame,
+            placement: DAffine3::IDENTITY,
+            flat: DAffine3::from_translation(DVec3::Z * -self.component.bottom_mm()),
+            direction_rad: self.direction_rad,
+            joint: None,
+        }
+    }
+
+    /// Corners of a panel in the mesh's axes.
+    pub(super) fn panel_outline(&self, panel: PanelId) -> Vec<DVec3> {
+        let panel = self.component.panels().panel(panel);
+        panel.deployed_outline().into_iter().map(|p| self.frame.transform_point3(p)).collect()
+    }
+}
+
+/// What the candidates of one part are made from.
+#[derive(Clone, Copy)]
+pub(super) struct Builder<'a> {
+    pub(super) parts: &'a [Part],
+    /// All joints.
+    pub(super) links: &'a [Link],
+    pub(super) part: usize,
+    /// Of parts whose component is to be its own mirror image.
+    pub(super) symmetry: Option<&'a Symmetry>,
+    pub(super) min_panel_mm: f64,
+}
+
+/// A fold direction with what follows from it.
+struct Direction {
+    frame: DAffine3,
+    hull: Hull,
+    joints: Vec<(usize, JointTarget)>,
+    plane_shift_mm: f64,
+}
+
+impl<'a> Builder<'a> {
+    /// The part's joints.
+    pub(super) fn own_links(&self) -> impl Iterator<Item = &'a Link> + use<'a> {
+        let part = self.part;
+        self.links.iter().filter(move |l| l.parent == part || l.child == part)
+    }
+
+    /// The candidates, the cheapest first; their ids are for the caller to give.
+    pub(super) fn make(&self) -> Result<Vec<Made>, ModelError> {
+        let part = &self.parts[self.part];
+        let principal = PrincipalAxis::of_hull(&part.hull);
+        let directions: Vec<Direction> =
+            self.axes(&principal).par_iter().map(|&a| self.direction(principal.frame(a))).collect();
+        let mut targets: Vec<(Target, f64)> =
+            directions.iter().map(|d| (self.target(d), PLANE_PRICE * d.plane_shift_mm)).collect();
+        let lost = || ModelError::NoJointPanel(part.options.name.clone());
+        let fail = |error| ModelError::Component { name: part.options.name.clone(), error };
+        if let Some(tolerance_mm) = part.options.tolerance_mm {
+            let (top_edges, profile_vertices) = fewest(&targets, tolerance_mm).map_err(fail)?;
+            for (target, _) in &mut targets {
+                (target.top_edges, target.profile_vertices) = (top_edges, profile_vertices);
+            }
+        }
+        let mut found = finished(&targets, FINISHED);
+        if found.is_empty() && self.symmetry.is_some() {
+            targets.iter_mut().for_each(|(target, _)| target.symmetry = None);
+            found = finished(&targets, FINISHED);
+        }
+        if found.is_empty() {
+            return Err(choose(&targets).map_or_else(fail, |_| lost()));
+        }
+        let made = |finished: Finished| {
+            let (direction, target) = (&directions[finished.target], &targets[finished.target].0);
+            let seated = |(other, joint): &(usize, JointTarget)| {
+                let panel = finished.component.joint_panel(target, joint)?;
+                Some((*other, seat_plane(&joint.seat).moved(&direction.frame), panel))
+            };
+            let joints = direction.joints.iter().map(seated).collect::<Option<Vec<_>>>()?;
+            let axis = direction.frame.transform_vector3(DVec3::Z);
+            let direction_rad = part.options.direction_rad.unwrap_or_else(|| principal.angle_rad(axis));
+            Some(Made {
+                id: 0,
+                component: finished.component,
+                frame: direction.frame,
+                direction_rad,
+                cost_mm: finished.cost_mm,
+                joints,
+            })
+        };
+        let candidates: Vec<Made> = found.into_iter().filter_map(made).collect();
+        if candidates.is_empty() { Err(lost()) } else { Ok(candidates) }
+    }
+
+    /// The fold axes to try: the user's, or some about the principal axis, turned so that joint planes
+    /// that they almost cross at a right angle are crossed exactly.
+    fn axes(&self, principal: &PrincipalAxis) -> Vec<DVec3> {
+        if let Some(angle) = self.parts[self.part].options.direction_rad {
+            return vec![principal.fold_axis(angle)];
+        }
+        let angle = |k: usize| std::f64::consts::PI * k as f64 / DIRECTIONS as f64;
+        let mirror = self.symmetry.map(Symmetry::mirror);
+        let tried: Vec<DVec3> = match mirror.map(|mirror| mirror.plane().normal()) {
+            None => (0..DIRECTIONS).map(|k| principal.fold_axis(angle(k))).collect(),
+            Some(across) => {
+                let up = mirror.map_or(DVec3::Z, |mirror| mirror.along(DVec3::Z));
+                let up = if up.length() > 1e-3 { up.normalize() } else { across.any_orthonormal_vector() };
+                let side = across.cross(up);
+                let in_plane = (0..DIRECTIONS).map(|k| up * angle(k).cos() + side * angle(k).sin());
+                std::iter::once(across).chain(in_plane).collect()
+            }
+        };
+        let mut axes: Vec<DVec3> = Vec::with_capacity(tried.len());
+        for axis in tried {
+            let axis = self.settled(axis);
+            if axes.iter().all(|a| a.dot(axis).abs() < SAME_RAD.cos()) {
+                axes.push(axis);
+            }
+        }
+        axes
+    }
+
+    /// An axis turned onto the normal of the nearest joint plane, where that is almost level for it.
+    fn settled(&self, axis: DVec3) -> DVec3 {
+        let normals = self.own_links().map(|l| l.plane.normal());
+        // The axis of a component that is its own image stays in the mirror plane or at a right angle to it.
+        let keeps = |normal: &DVec3| {
+            let across = self.symmetry.map(|s| normal.dot(s.mirror().plane().normal()).abs());
+            across.is_none_or(|across| across < IN_PLANE)
+        };
+        let normals = normals.filter(keeps);
+        let nearest = normals.max_by(|a, b| axis.dot(*a).abs().total_cmp(&axis.dot(*b).abs()));
+        nearest.map_or(axis, |normal| level_axis(axis, normal))
+    }
+
+    fn target<'h>(&self, direction: &'h Direction) -> Target<'h> {
+        let options = &self.parts[self.part].options;
+        Target {
+            hull: &direction.hull,
+            joints: direction.joints.iter().map(|j| j.1.clone()).collect(),
+            top_edges: options.top_edges,
+            profile_vertices: options.profile_vertices,
+            min_panel_mm: self.min_panel_mm,
+            comfortable_mm: options.comfortable_mm,
+            symmetry: self.mirror_plane(&direction.frame),
+        }
+    }
+
+    /// The mirror plane in the axes of `frame`.
+    fn mirror_plane(&self, frame: &DAffine3) -> Option<component::Symmetry> {
+        let plane = self.symmetry?.mirror().plane().moved(&frame.inverse());
+        let (normal, offset_mm) = (plane.normal(), plane.offset());
+        Some(match normal.z.abs() > 0.5 {
+            true => component::Symmetry::Level { height_mm: offset_mm * normal.z.signum() },
+            false => {
+                component::Symmetry::Upright { angle_rad: normal.truncate().to_angle(), offset_mm }
+            }
+        })
+    }
+
+    /// Seats of all joints in the axes of `frame`, and the hull clipped by them.
+    fn direction(&self, frame: DAffine3) -> Direction {
+        let to_local = frame.inverse();
+        let mut others: Vec<usize> = Vec::new();
+        let mut seatings = Vec::new();
+        for link in self.own_links() {
+            let is_child = link.child == self.part;
+            let plane = if is_child { link.plane.flipped() } else { link.plane };
+            let centre = self.centre(link);
+            others.push(if is_child { link.parent } else { link.child });
+            seatings.push(Seating {
+                plane: plane.moved(&to_local),
+                centre: to_local.transform_point3(centre),
+                image: None,
+                comes_first: is_child,
+            });
+        }
+        if let Some(symmetry) = self.symmetry {
+            for (seating, &other) in seatings.iter_mut().zip(&others) {
+                seating.image = others.iter().position(|o| *o == symmetry.twin(other));
+            }
+        }
+        let seats = seats(&seatings);
+        let mut hull = self.parts[self.part].hull.moved(&to_local);
+        let whole = hull.volume();
+        let mut plane_shift_mm = 0.0;
+        let mut joints = Vec::new();
+        for ((&other, seating), &seat) in others.iter().zip(&seatings).zip(&seats) {
+            let plane = seat_plane(&seat);
+            if let Some(clipped) = hull.clip(&plane).filter(|h| h.volume() > LEAST_SHARE * whole) {
+                hull = clipped;
+            }
+            let section = self.section(other, &plane.moved(&frame));
+            let section: Vec<DVec3> = section.into_iter().map(|p| to_local.transform_point3(p)).collect();
+            plane_shift_mm += shift_mm(&section, seating);
+            let (cover, within) = match seating.comes_first {
+                true => (Vec::new(), borders(&section, &plane)),
+                false => (section, Vec::new()),
+            };
+            joints.push((other, JointTarget { seat, cover, within, price: JOINT_PRICE }));
+        }
+        Direction { frame, hull, joints, plane_shift_mm }
+    }
+
+    /// Corners of the section of another part's hull by a joint plane. Those of images are images.
+    fn section(&self, other: usize, plane: &Plane) -> Vec<DVec3> {
+        let cut = |p: usize, plane: &Plane| few_corners(self.parts[p].hull.section(plane));
+        let Some(symmetry) = self.symmetry else { return cut(other, plane) };
+        let (mirror, twin) = (symmetry.mirror(), symmetry.twin(other));
+        if twin < other {
+            return cut(twin, &mirror.image(plane)).into_iter().map(|p| mirror.point(p)).collect();
+        }
+        let own = cut(other, plane);
+        if twin != other {
+            return own;
+        }
+        let (x, y) = plane.basis();
+        let both: Vec<DVec3> = own.iter().copied().chain(own.iter().map(|p| mirror.point(*p))).collect();
+        let flat: Vec<DVec2> = both.iter().map(|p| DVec2::new(x.dot(*p), y.dot(*p))).collect();
+        let at = |q: DVec2| x * q.x + y * q.y + plane.normal() * plane.offset();
+        polygon::convex_hull(&flat).into_iter().map(at).collect()
+    }
+
+    /// Middle of the place where two parts meet: of the sections of their hulls by the plane.
+    fn centre(&self, link: &Link) -> DVec3 {
+        let sections = [link.parent, link.child].map(|p| self.parts[p].hull.section(&link.plane));
+        let smaller =
+            sections.into_iter().filter(|s| s.len() >= 3).min_by(|a, b| radius(a).total_cmp(&radius(b)));
+        let fallback = link.plane.normal() * link.plane.offset();
+        smaller.map_or(fallback, |s| s.iter().sum::<DVec3>() / s.len() as f64)
+    }
+}
+
+/// Half-spaces in whose intersection a convex polygon lies in its plane.
+fn borders(outline: &[DVec3], plane: &Plane) -> Vec<(DVec3, f64)> {
+    let centre = outline.iter().sum::<DVec3>() / outline.len().max(1) as f64;
+    let edges = (0..outline.len()).filter_map(|k| {
+        let (a, b) = (outline[k], outline[(k + 1) % outline.len()]);
+        let across = plane.normal().cross(b - a).try_normalize()?;
+        let outward = if across.dot(a - centre) < 0.0 { -across } else { across };
+        Some((outward, outward.dot(a)))
+    });
+    edges.collect()
+}
+
+/// Sections of round hulls are handled by so many of their corners.
+const SECTION_CORNERS: usize = 24;
+
+/// Corners of a convex polygon that are about evenly spread along its outline.
+fn few_corners(outline: Vec<DVec3>) -> Vec<DVec3> {
+    let count = outline.len();
+    if count <= SECTION_CORNERS {
+        return outline;
+    }
+    let ends = outline.iter().zip(outline.iter().cycle().skip(1));
+    let mut along = 0.0;
+    let lengths: Vec<f64> = ends.map(|(a, b)| (along, along += a.distance(*b)).0).collect();
+    let place = |length: f64| (length / along * SECTION_CORNERS as f64) as usize;
+    let is_first = |k: &usize| *k == 0 || place(lengths[*k]) != place(lengths[*k - 1]);
+    (0..count).filter(is_first).map(|k| outline[k]).collect()
+}
+
+fn radius(points: &[DVec3]) -> f64 {
+    let centre = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
+    points.iter().map(|p| p.distance(centre)).fold(0.0, f64::max)
+}
+
+/// How far a joint's points are off its own plane, at most: turning the plane has moved them.
+fn shift_mm(points: &[DVec3], seating: &Seating) -> f64 {
+    points.iter().map(|p| seating.plane.distance(*p).abs()).fold(0.0, f64::max)
+}

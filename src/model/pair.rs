@@ -1,0 +1,99 @@
+//! What two candidates do to each other along the joint between them: how the child is turned to sit
+//! flush, and how much glue the joint gets.
+
+use super::candidate::Made;
+use super::link::Link;
+use crate::component::PanelId;
+use crate::geom::{Plane, polygon};
+use glam::{DAffine3, DVec2, DVec3};
+
+/// A joint is glued over at least this area, mm²: the tip of a glue stick,
+const LEAST_GLUE_MM2: f64 = 40.0;
+/// and over this share of the smaller of its two panels.
+const LEAST_GLUE_SHARE: f64 = 0.1;
+/// Price of a joint without any glue, mm of error. Nothing that is seen is worth a part that falls off.
+const GLUE_PRICE_MM: f64 = 60.0;
+/// Price of a mm by which a child is turned off its shape, at its far end.
+const TURN_PRICE: f64 = 0.5;
+/// Price of the share of a child's joint panel that lies beside its parent's: it shows.
+const OVERHANG_PRICE_MM: f64 = 1.0;
+
+/// A child seated on its parent.
+pub(super) struct Seated {
+    /// How the child moves in the mesh's axes, so that the two joint panels lie in one plane.
+    pub(super) turn: DAffine3,
+    pub(super) parent_panel: PanelId,
+    pub(super) child_panel: PanelId,
+    cost_mm: f64,
+}
+
+impl Seated {
+    /// Seats `child` on `parent`; `None` where one has no panel for the joint.
+    pub(super) fn new(link: &Link, parent: &Made, child: &Made) -> Option<Self> {
+        let (up_plane, parent_panel) = parent.joint(link.child)?;
+        let (own_plane, child_panel) = child.joint(link.parent)?;
+        let outline = child.panel_outline(child_panel);
+        let centre = outline.iter().sum::<DVec3>() / outline.len() as f64;
+        let turn = turn_onto(&own_plane, &up_plane.flipped(), centre);
+        let basis = up_plane.basis();
+        let flat = |points: &mut dyn Iterator<Item = DVec3>| -> Vec<DVec2> {
+            let mut flat: Vec<DVec2> = points.map(|p| DVec2::new(basis.0.dot(p), basis.1.dot(p))).collect();
+            if polygon::area(&flat) < 0.0 {
+                flat.reverse();
+            }
+            flat
+        };
+        let below = flat(&mut parent.panel_outline(parent_panel).into_iter());
+        let above = flat(&mut outline.iter().map(|p| turn.transform_point3(*p)));
+        let glue_mm2 = polygon::area(&polygon::intersect_convex(&above, &below)).max(0.0);
+        let (own_mm2, parent_mm2) = (polygon::area(&above), polygon::area(&below));
+        let needed_mm2 = needed_glue_mm2(own_mm2, parent_mm2);
+        let lack = (1.0 - glue_mm2 / needed_mm2).max(0.0);
+        let overhang = (1.0 - glue_mm2 / own_mm2.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let cost_mm =
+            GLUE_PRICE_MM * lack + OVERHANG_PRICE_MM * overhang + TURN_PRICE * moved_mm(child, &turn);
+        Some(Self { turn, parent_panel, child_panel, cost_mm })
+    }
+
+    /// What the joint costs, mm of error.
+    pub(super) fn cost_mm(&self) -> f64 {
+        self.cost_mm
+    }
+}
+
+/// The area over which two panels must be glued, mm².
+pub(super) fn needed_glue_mm2(one_mm2: f64, other_mm2: f64) -> f64 {
+    LEAST_GLUE_MM2.max(LEAST_GLUE_SHARE * one_mm2.min(other_mm2))
+}
+
+/// How far a part's corners move, at most.
+fn moved_mm(made: &Made, motion: &DAffine3) -> f64 {
+    let panels = made.component.panels().panels().iter();
+    let corners = panels.flat_map(|p| p.deployed_outline()).map(|p| made.frame.transform_point3(p));
+    corners.map(|p| motion.transform_point3(p).distance(p)).fold(0.0, f64::max)
+}
+
+/// The rigid motion about `centre` that turns plane `from` into plane `to`.
+fn turn_onto(from: &Plane, to: &Plane, centre: DVec3) -> DAffine3 {
+    let turn = glam::DQuat::from_rotation_arc(from.normal(), to.normal());
+    let about =
+        DAffine3::from_translation(centre) * DAffine3::from_quat(turn) * DAffine3::from_translation(-centre);
+    let turned = from.moved(&about);
+    DAffine3::from_translation(to.normal() * (to.offset() - turned.offset())) * about
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn turning_takes_one_plane_onto_another() {
+        let from = Plane::through(DVec3::new(1.0, 2.0, 3.0), DVec3::new(0.1, 0.2, 1.0)).unwrap();
+        let to = Plane::through(DVec3::new(1.0, 2.0, 3.5), DVec3::new(0.0, -0.1, 1.0)).unwrap();
+        let motion = turn_onto(&from, &to, DVec3::new(1.0, 2.0, 3.0));
+        let moved = from.moved(&motion);
+        assert!(
+            (moved.normal() - to.normal()).length() < 1e-12 && (moved.offset() - to.offset()).abs() < 1e-12
+        );
+    }
+}

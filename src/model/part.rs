@@ -1,0 +1,52 @@
+//! Parts, as the model takes them.
+
+use crate::component::ConvertError;
+use crate::geom::Hull;
+use crate::progress::Cancelled;
+
+/// What the user may set for one part.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartOptions {
+    /// Name.
+    pub name: String,
+    /// Angle of the fold axis about the hull's first principal axis; found when not given.
+    pub direction_rad: Option<f64>,
+    /// Number of top edges.
+    pub top_edges: usize,
+    /// Most vertices of a profile.
+    pub profile_vertices: usize,
+    /// Distance from the hull that is close enough; then the two numbers above are the most that
+    /// is used, and as few are used as will do.
+    pub tolerance_mm: Option<f64>,
+    /// Size below which panels are made fewer rather than smaller, mm.
+    pub comfortable_mm: f64,
+}
+
+/// One segment to become a component.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// Convex hull of the segment, in the mesh's scaled axes.
+    pub hull: Hull,
+    /// The user's wishes.
+    pub options: PartOptions,
+}
+
+/// Why no model could be built.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// A component failed.
+    #[error("component \"{name}\": {error}")]
+    Component {
+        /// Its name.
+        name: String,
+        /// What went wrong.
+        error: ConvertError,
+    },
+    /// A joint panel got lost in the conversion.
+    #[error("component \"{0}\" has no panel for its joint; give it another direction or more top edges")]
+    NoJointPanel(String),
+    /// The user stopped the work.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
