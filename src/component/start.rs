@@ -327,8 +327,8 @@ pub(super) fn simplify(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<F
         let others = facets.iter().filter(|f| !f.is_joint).count();
         let is_level = symmetry.is_some_and(Symmetry::is_level);
         let has_other = is_level || others > 1 || others == facets.len();
-        let free = spare_planes(facets, symmetry)
-            .filter(|&k| has_other && facets.len() > pair(facets, symmetry, k));
+        let free =
+            spare_planes(facets, symmetry).filter(|&k| has_other && facets.len() > pair(facets, symmetry, k));
         let area = |k: usize| bulge_without(shape, symmetry, j, k);
         free.min_by(|&a, &b| area(a).total_cmp(&area(b)))
     };
@@ -403,7 +403,11 @@ fn pair(facets: &[SideFacet], symmetry: Option<Symmetry>, k: usize) -> usize {
 /// Area by which the profile of chain j would grow without plane k and its image, mm².
 fn bulge_without(shape: &Shape, symmetry: Option<Symmetry>, j: usize, k: usize) -> f64 {
     let (lines, ends) = (&shape.chains[j].lines, (shape.solid.top_mm, shape.solid.bottom_mm));
-    if symmetry.is_some_and(Symmetry::is_level) { pair_bulge(lines, k, ends).0 } else { bulge(lines, k, ends).0 }
+    if symmetry.is_some_and(Symmetry::is_level) {
+        pair_bulge(lines, k, ends).0
+    } else {
+        bulge(lines, k, ends).0
+    }
 }
 
 /// Drops a plane and its images.

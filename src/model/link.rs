@@ -250,6 +250,7 @@ const CLIP_SHARE: f64 = 0.2;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::Mirror;
 
     fn cube(at: DVec3, side: f64) -> Hull {
         let points: Vec<DVec3> = (0..8)
