@@ -419,4 +419,20 @@ pub(crate) mod tests {
             check(&component);
         }
     }
+
+    /// A bowl whose chains overlap when flat, with the numbers that the program takes by itself: what
+    /// is trimmed must not be seen as a hole.
+    #[test]
+    fn a_flaring_bowl_has_no_holes() {
+        let mut points = blob(DVec3::new(60.0, 60.0, 20.0), 200);
+        points.retain(|p| p.z > -1.0);
+        points.extend(blob(DVec3::new(20.0, 80.0, 20.0), 100));
+        let hull = Hull::of_points(&points).unwrap();
+        for turn in 0..6 {
+            let motion = glam::DAffine3::from_rotation_x(f64::from(turn) * 0.5);
+            let component = convert(&target(&hull.moved(&motion), vec![])).unwrap();
+            check(&component);
+            assert!(component.trimmed_mm2() <= 10.0, "{turn}: {} mm2", component.trimmed_mm2());
+        }
+    }
 }

@@ -88,8 +88,13 @@ impl Polytope {
 
     /// Corners of face `k`, counter-clockwise.
     pub fn outline(&self, k: usize) -> impl Iterator<Item = DVec3> + '_ {
+        self.outline_corners(k).iter().map(|&c| self.corners[c as usize])
+    }
+
+    /// Indices of the corners of face `k`, counter-clockwise.
+    pub fn outline_corners(&self, k: usize) -> &[u32] {
         let face = &self.faces[k];
-        self.outlines[face.start as usize..face.end as usize].iter().map(|&c| self.corners[c as usize])
+        &self.outlines[face.start as usize..face.end as usize]
     }
 
     /// Outward normal and offset of face `k`.
@@ -141,7 +146,7 @@ impl Polytope {
 
     fn nearest_on(&self, k: usize, point: DVec3) -> (DVec3, Feature) {
         let face = &self.faces[k];
-        let outline = &self.outlines[face.start as usize..face.end as usize];
+        let outline = self.outline_corners(k);
         let foot = point - face.normal * face.depth_mm(point);
         let mut best = (f64::INFINITY, foot, Feature::Face(k));
         let mut is_inside = true;

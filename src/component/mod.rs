@@ -10,6 +10,7 @@ mod fit;
 mod gradient;
 mod grow;
 mod layer;
+mod likeness;
 #[cfg(test)]
 mod mirror_tests;
 mod panel;

@@ -1,8 +1,9 @@
 //! One step of the fit: the quadratic programme around the present solid.
 
 use super::distance::{Feature, Position};
-use super::fit::{Fitted, MARGIN, MEAN_WEIGHT, SIZE_PRICE, Task, rooms};
+use super::fit::{Fitted, MARGIN, SIZE_PRICE, Task, rooms};
 use super::gradient::{Freedom, Parameter, ProfileLength, Terms, sum};
+use super::likeness::{Figure, faces, faces_inside};
 use super::qp::Programme;
 use super::seated;
 use super::shape::Shape;
@@ -20,6 +21,8 @@ const REACH: f64 = 6.0;
 const NEAR_JOINT: f64 = 0.3;
 /// Curvature of the variables that bound others, over the radius: the programme needs some.
 const BOUND_CURVATURE: f64 = 0.02;
+/// The mass of a face is as far from its middle as points at this share of the way to its corners.
+const SPREAD: f64 = 0.6;
 /// No parameter changes by more than this many times the length of the step.
 const LONGEST: f64 = 3.0;
 
@@ -55,6 +58,9 @@ impl Task<'_> {
         };
         model.prices(step_mm);
         model.error_rows(step_mm);
+        if self.aim.has_volume() {
+            model.likeness(step_mm);
+        }
         model.size_rows(step_mm);
         model.order_rows();
         for (k, joint) in self.target.joints.iter().enumerate() {
@@ -75,12 +81,12 @@ impl Model<'_> {
     fn prices(&mut self, step_mm: f64) {
         let longest = LONGEST * step_mm;
         for (k, weight) in self.freedom.weights().into_iter().enumerate() {
-            self.programme.add_cost(k, 0.0, weight / step_mm);
+            self.programme.add_cost(k, 0.0, self.task.aim.step * weight / step_mm);
             self.programme.at_most([(k, 1.0)], longest);
             self.programme.at_most([(k, -1.0)], longest);
         }
         let curvature = BOUND_CURVATURE / self.task.radius_mm;
-        self.bound(self.worst, 1.0, curvature);
+        self.bound(self.worst, self.task.aim.worst, curvature);
         let lack_price = SIZE_PRICE * self.at.lack_mm.max(1e-3);
         self.bound(self.lack, lack_price, lack_price * 0.1);
         for k in 0..self.task.target.joints.len() {
@@ -101,7 +107,7 @@ impl Model<'_> {
         let (at, task) = (self.at, self.task);
         let corners = task.hull.corners();
         let count = (at.own.len() + at.hulls.len()) as f64;
-        let weight = MEAN_WEIGHT / (count * task.mean_scale_mm());
+        let weight = task.aim.mean / (count * task.mean_scale_mm());
         for (corner, position) in at.shape.corners.iter().zip(&at.own) {
             if position.depth_mm > lowest {
                 let (distance, direction) =
@@ -117,6 +123,36 @@ impl Model<'_> {
                 let mut terms = self.reach(position, corner, direction);
                 terms.iter_mut().for_each(|t| t.1 = -t.1);
                 self.error_row(terms, distance, weight);
+            }
+        }
+    }
+
+    /// The volume that the solid and the hull do not share. The rate of each face is that of its
+    /// area outside of the hull less that inside, the mean of what it is with the hull `step_mm`
+    /// larger and smaller; between the two it changes with the face's place.
+    fn likeness(&mut self, step_mm: f64) {
+        let (shape, task) = (&self.at.shape, self.task);
+        let out = task.aim.out / task.hull_mm2;
+        let both = (task.aim.out + task.aim.short) / 2.0 / task.hull_mm2;
+        let whole = faces(&shape.polytope);
+        let [larger, smaller] = faces_inside(&shape.polytope, &task.hull, [step_mm, -step_mm]);
+        for (k, whole) in whole.iter().enumerate() {
+            let face = shape.face(k);
+            let mut rate = |figure: &Figure, weight: f64| {
+                for (variable, rate) in self.freedom.plane(shape, face, figure.centroid()) {
+                    self.programme.add_cost(variable, weight * figure.area_mm2 * rate, 0.0);
+                }
+            };
+            rate(whole, out);
+            rate(&larger[k], -both);
+            rate(&smaller[k], -both);
+            let near_mm2 = (larger[k].area_mm2 - smaller[k].area_mm2).max(0.0);
+            let corners = shape.polytope.outline_corners(k);
+            let curvature = both * near_mm2 / (step_mm * corners.len() as f64);
+            let middle = whole.centroid();
+            for corner in shape.polytope.outline(k).filter(|_| near_mm2 > 0.0) {
+                let terms = self.freedom.plane(shape, face, middle.lerp(corner, SPREAD));
+                self.programme.add_square(&terms, 0.0, curvature);
             }
         }
     }

@@ -3,7 +3,7 @@
 use super::even::{choose_pairs, drop_pair, levelled, middle, pair_bulge, thin_out_level};
 use super::fit::{Fitted, rooms};
 use super::profile::{Balance, balance, imbalance};
-use super::shape::Line;
+use super::shape::{Line, Shape};
 use super::solid::{Chain, SideFacet, Solid};
 use super::symmetry::{Symmetry, evened, twin};
 use super::target::{FoldSpot, Seat, Target};
@@ -321,58 +321,116 @@ pub(super) fn simplify(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<F
     };
     let mut simpler = solid.clone();
     let symmetry = target.symmetry;
-    let is_level = symmetry.is_some_and(Symmetry::is_level);
     let spare = |j: usize| {
         let facets = &solid.chains[j].facets;
-        if is_level {
-            let pair = |k: usize| if 2 * k + 1 == facets.len() { 1 } else { 2 };
-            let upper = 0..facets.len().div_ceil(2);
-            let free = upper.filter(|&k| facets.len() > pair(k) && !facets[k].is_joint);
-            let area = |k: usize| pair_bulge(&shape.chains[j].lines, k, (solid.top_mm, solid.bottom_mm)).0;
-            return free.min_by(|&a, &b| area(a).total_cmp(&area(b)));
-        }
         // A joint panel needs a plane beside it, for the chain to fold at.
-        let has_other =
-            facets.iter().filter(|f| !f.is_joint).count() > 1 || facets.iter().all(|f| !f.is_joint);
-        let free = (0..facets.len()).filter(|&k| facets.len() > 1 && has_other && !facets[k].is_joint);
-        free.min_by(|&a, &b| {
-            let area = |k: usize| bulge(&shape.chains[j].lines, k, (solid.top_mm, solid.bottom_mm)).0;
-            area(a).total_cmp(&area(b))
-        })
+        let others = facets.iter().filter(|f| !f.is_joint).count();
+        let is_level = symmetry.is_some_and(Symmetry::is_level);
+        let has_other = is_level || others > 1 || others == facets.len();
+        let free =
+            spare_planes(facets, symmetry).filter(|&k| has_other && facets.len() > pair(facets, symmetry, k));
+        let area = |k: usize| bulge_without(shape, symmetry, j, k);
+        free.min_by(|&a, &b| area(a).total_cmp(&area(b)))
     };
     let can_go = |j: usize| can_go(solid, j, twin(solid, symmetry, j));
-    let drop_plane = |simpler: &mut Solid, j: usize, k: usize| {
-        let facets = &mut simpler.chains[j].facets;
-        if is_level {
-            drop_pair(facets, k);
-        } else {
-            facets.remove(k);
-        }
-        let other = twin(solid, symmetry, j);
-        if other != j {
-            simpler.chains[other].facets = simpler.chains[j].facets.clone();
-        }
-    };
-    let drop_chain = |simpler: &mut Solid, j: usize| {
-        let other = twin(solid, symmetry, j);
-        simpler.chains.remove(j.max(other));
-        if other != j {
-            simpler.chains.remove(j.min(other));
-        }
-    };
     if let Some(j) = worst(&low, &|j| spare(j).is_some()) {
-        drop_plane(&mut simpler, j, spare(j)?);
+        drop_plane(&mut simpler, symmetry, j, spare(j)?);
     } else if let Some(j) = worst(&narrow, &can_go) {
-        drop_chain(&mut simpler, j);
+        drop_chain(&mut simpler, symmetry, j);
     } else if let Some(j) = (0..solid.chains.len()).find(|&j| fitted.lack_mm > 0.0 && spare(j).is_some()) {
-        drop_plane(&mut simpler, j, spare(j)?);
+        drop_plane(&mut simpler, symmetry, j, spare(j)?);
     } else if let Some(j) = (0..solid.chains.len()).find(|&j| fitted.lack_mm > 0.0 && can_go(j)) {
-        drop_chain(&mut simpler, j);
+        drop_chain(&mut simpler, symmetry, j);
     } else {
         return None;
     }
     let spots = fold_spots(&mut simpler, target);
     Some((simpler, spots))
+}
+
+/// A shape without the plane that adds least to it; `None` where none can be spared.
+pub(super) fn without_plane(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<FoldSpot>)> {
+    let (shape, symmetry) = (&fitted.shape, target.symmetry);
+    let mut least: Option<(f64, usize, usize)> = None;
+    for (j, chain) in shape.solid.chains.iter().enumerate() {
+        let others = chain.facets.iter().filter(|f| !f.is_joint).count();
+        let spare = spare_planes(&chain.facets, symmetry);
+        for k in spare.filter(|&k| others > pair(&chain.facets, symmetry, k)) {
+            let profile = &shape.chains[j].profile;
+            let width_mm = shape.width_at(j, (profile[k].y + profile[k + 1].y) / 2.0);
+            let volume_mm3 = width_mm * bulge_without(shape, symmetry, j, k);
+            if least.is_none_or(|l| volume_mm3 < l.0) {
+                least = Some((volume_mm3, j, k));
+            }
+        }
+    }
+    let (_, j, k) = least?;
+    let mut solid = shape.solid.clone();
+    drop_plane(&mut solid, symmetry, j, k);
+    let spots = fold_spots(&mut solid, target);
+    Some((solid, spots))
+}
+
+/// A shape without the chain that has the least area; `None` where none can be spared.
+pub(super) fn without_chain(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<FoldSpot>)> {
+    let (shape, symmetry) = (&fitted.shape, target.symmetry);
+    let mut solid = shape.solid.clone();
+    let area = |j: usize| -> f64 {
+        let parts = shape.chains[j].profile.windows(2);
+        parts.map(|w| w[0].distance(w[1]) * shape.width_at(j, (w[0].y + w[1].y) / 2.0)).sum()
+    };
+    let least = (0..solid.chains.len())
+        .filter(|&j| can_go(&solid, j, twin(&solid, symmetry, j)))
+        .min_by(|&a, &b| area(a).total_cmp(&area(b)))?;
+    drop_chain(&mut solid, symmetry, least);
+    let spots = fold_spots(&mut solid, target);
+    Some((solid, spots))
+}
+
+/// Planes of a chain that are no joint panels; of a level one, those of its upper half.
+fn spare_planes(facets: &[SideFacet], symmetry: Option<Symmetry>) -> impl Iterator<Item = usize> + '_ {
+    let is_level = symmetry.is_some_and(Symmetry::is_level);
+    let count = if is_level { facets.len().div_ceil(2) } else { facets.len() };
+    (0..count).filter(|&k| !facets[k].is_joint)
+}
+
+/// Number of planes that go from a chain with its plane k.
+fn pair(facets: &[SideFacet], symmetry: Option<Symmetry>, k: usize) -> usize {
+    let has_image = symmetry.is_some_and(Symmetry::is_level) && 2 * k + 1 != facets.len();
+    if has_image { 2 } else { 1 }
+}
+
+/// Area by which the profile of chain j would grow without plane k and its image, mm².
+fn bulge_without(shape: &Shape, symmetry: Option<Symmetry>, j: usize, k: usize) -> f64 {
+    let (lines, ends) = (&shape.chains[j].lines, (shape.solid.top_mm, shape.solid.bottom_mm));
+    if symmetry.is_some_and(Symmetry::is_level) {
+        pair_bulge(lines, k, ends).0
+    } else {
+        bulge(lines, k, ends).0
+    }
+}
+
+/// Drops a plane and its images.
+fn drop_plane(solid: &mut Solid, symmetry: Option<Symmetry>, j: usize, k: usize) {
+    let other = twin(solid, symmetry, j);
+    let facets = &mut solid.chains[j].facets;
+    if symmetry.is_some_and(Symmetry::is_level) {
+        drop_pair(facets, k);
+    } else {
+        facets.remove(k);
+    }
+    if other != j {
+        solid.chains[other].facets = solid.chains[j].facets.clone();
+    }
+}
+
+/// Drops a chain and its image.
+fn drop_chain(solid: &mut Solid, symmetry: Option<Symmetry>, j: usize) {
+    let other = twin(solid, symmetry, j);
+    solid.chains.remove(j.max(other));
+    if other != j {
+        solid.chains.remove(j.min(other));
+    }
 }
 
 /// Whether a solid stays closed without chain j and its image.
