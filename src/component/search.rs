@@ -60,6 +60,9 @@ const NEAR_ENOUGH_MM: f64 = 1e-3;
 const PANEL_WORTH: f64 = 0.0015;
 /// Steps after one was left out.
 const PRUNE_STEPS: usize = 8;
+/// Of the finished shapes of several directions, so many are looked through for needless panels: the
+/// others are hardly ever taken, and panels count in what they are compared by.
+const PRUNED: usize = 2;
 /// Price of a mm of spread when flat, against a mm of error: directions that fold smaller win
 /// where the error is alike (Figure 8).
 const SPREAD_PRICE: f64 = 0.03;
@@ -103,7 +106,7 @@ impl Found {
         let target = self.target;
         match as_box(&targets[target].0) {
             Some((fitted, made)) if fitted.unlike_mm < self.fitted.unlike_mm => {
-                Found { target, cost_mm: fitted.unlike_mm, fitted, made }
+                Found { target, cost_mm: finished_cost(&fitted, &made, &targets[target]), fitted, made }
             }
             _ => self,
         }
@@ -124,7 +127,12 @@ pub(super) fn best(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
     let best = match best {
         Ok(best) => Ok(pruned(best, targets, &hulls).or_box(targets)),
         Err(error) => as_box(&targets[0].0)
-            .map(|(fitted, made)| Found { target: 0, cost_mm: fitted.unlike_mm, fitted, made })
+            .map(|(fitted, made)| Found {
+                target: 0,
+                cost_mm: finished_cost(&fitted, &made, &targets[0]),
+                fitted,
+                made,
+            })
             .ok_or(error),
     };
     straightened.back(best?)
@@ -146,11 +154,18 @@ pub(super) fn each(targets: &[(Target, f64)], most: usize) -> Vec<Found> {
             *best = Some(next);
         }
     }
-    let found: Vec<Found> = found.into_iter().flatten().collect();
-    let finish = |found: Found| pruned(found, targets, &hulls).or_box(targets);
-    let mut found: Vec<Found> = found.into_par_iter().map(finish).collect();
+    let mut found: Vec<Found> = found.into_iter().flatten().collect();
     found.sort_by(|a, b| a.cost_mm.total_cmp(&b.cost_mm));
     found.truncate(most);
+    let finish = |(place, found): (usize, Found)| {
+        let found = if place < PRUNED { pruned(found, targets, &hulls) } else { found };
+        let mut found = found.or_box(targets);
+        let (target, panels) = (&targets[found.target].0, found.made.panels.panels().len());
+        found.cost_mm += panel_worth_mm(target.hull) * panels as f64;
+        found
+    };
+    let mut found: Vec<Found> = found.into_par_iter().enumerate().map(finish).collect();
+    found.sort_by(|a, b| a.cost_mm.total_cmp(&b.cost_mm));
     found.into_par_iter().filter_map(|found| straightened.back(found).ok()).collect()
 }
 
@@ -273,7 +288,7 @@ fn pruned(mut found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Fou
     }
     let fine = hulls[found.target].fine();
     let goal = Target { hull: fine, ..goal(&target.0, fine) };
-    let worth_mm = PANEL_WORTH * fine.volume().cbrt();
+    let worth_mm = panel_worth_mm(fine);
     for way in [without_plane, without_chain] {
         while let Some((solid, spots)) = way(&found.fitted, &goal) {
             let fit = Fit::new(goal.clone(), Aim::LIKENESS, solid, spots).run(PRUNE_STEPS);
@@ -288,6 +303,11 @@ fn pruned(mut found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Fou
         }
     }
     found
+}
+
+/// What a panel less may cost, mm.
+fn panel_worth_mm(hull: &Hull) -> f64 {
+    PANEL_WORTH * hull.volume().cbrt()
 }
 
 /// What finished shapes are compared by: the error first, then good joints, a small spread, and small

@@ -18,7 +18,7 @@ const DIRECTIONS: usize = 12;
 /// Directions nearer to each other than this are one.
 const SAME_RAD: f64 = std::f64::consts::PI / 180.0;
 /// So many of them are finished at most.
-const FINISHED: usize = 8;
+const FINISHED: usize = 6;
 /// Price of a mm by which joint planes are moved off their interfaces.
 const PLANE_PRICE: f64 = 0.3;
 /// Price of a mm by which a joint panel misses its partner.

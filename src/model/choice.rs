@@ -17,14 +17,14 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// A pair that bumps costs this much, mm of error,
-const BUMP_PRICE_MM: f64 = 3.0;
+const BUMP_PRICE_MM: f64 = 10.0;
 /// and this for each mm that it bumps deeper.
-const DEPTH_PRICE: f64 = 1.0;
+const DEPTH_PRICE: f64 = 3.0;
 /// Models that are looked at for each part, and for all.
 const LOOKS_FOR_EACH: usize = 8;
 const LOOKS: usize = 24;
 /// Models that are looked at together.
-const AT_ONCE: usize = 4;
+const AT_ONCE: usize = 2;
 
 /// What two parts do to each other: their numbers, and how deep they bump, mm.
 pub type Bump = ([usize; 2], f64);

@@ -13,6 +13,10 @@ const LEAST_GLUE_MM2: f64 = 40.0;
 const LEAST_GLUE_SHARE: f64 = 0.1;
 /// Price of a joint without any glue, mm of error. Nothing that is seen is worth a part that falls off.
 const GLUE_PRICE_MM: f64 = 60.0;
+/// Price of a joint that lacks any.
+const WEAK_PRICE_MM: f64 = 5.0;
+/// Joints with just enough would lack some after rounding and another choice of tabs.
+const GLUE_MARGIN: f64 = 1.1;
 /// Price of a mm by which a child is turned off its shape, at its far end.
 const TURN_PRICE: f64 = 0.5;
 /// Price of the share of a child's joint panel that lies beside its parent's: it shows.
@@ -48,10 +52,10 @@ impl Seated {
         let glue_mm2 = polygon::area(&polygon::intersect_convex(&above, &below)).max(0.0);
         let (own_mm2, parent_mm2) = (polygon::area(&above), polygon::area(&below));
         let needed_mm2 = needed_glue_mm2(own_mm2, parent_mm2);
-        let lack = (1.0 - glue_mm2 / needed_mm2).max(0.0);
+        let lack = (1.0 - glue_mm2 / (GLUE_MARGIN * needed_mm2)).max(0.0);
+        let lack_mm = if lack > 0.0 { WEAK_PRICE_MM + GLUE_PRICE_MM * lack } else { 0.0 };
         let overhang = (1.0 - glue_mm2 / own_mm2.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        let cost_mm =
-            GLUE_PRICE_MM * lack + OVERHANG_PRICE_MM * overhang + TURN_PRICE * moved_mm(child, &turn);
+        let cost_mm = lack_mm + OVERHANG_PRICE_MM * overhang + TURN_PRICE * moved_mm(child, &turn);
         Some(Self { turn, parent_panel, child_panel, cost_mm })
     }
 
