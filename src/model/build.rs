@@ -9,6 +9,7 @@ use super::pair::Seated;
 use super::{Joint, Model, ModelError, ModelPart, Part, Symmetry};
 use crate::progress::{Cancelled, Progress};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -65,7 +66,23 @@ pub fn build(
     judge: &dyn Judge,
     progress: &dyn Progress,
 ) -> Result<Built, ModelError> {
-    let Candidates { of: candidates, links, bonds } = Candidates::new(assembly, known, progress)?;
+    let (built, troubled) = built(assembly, &BTreeSet::new(), known, judge, progress)?;
+    if troubled.is_empty() {
+        return Ok(built);
+    }
+    Ok(self::built(assembly, &troubled, known, judge, progress)?.0)
+}
+
+/// The model from candidates in all directions for the parts in `wide`, and in the most promising ones
+/// for the others; and the parts that could do with more.
+fn built(
+    assembly: &Assembly<'_>,
+    wide: &BTreeSet<usize>,
+    known: &Known,
+    judge: &dyn Judge,
+    progress: &dyn Progress,
+) -> Result<(Built, BTreeSet<usize>), ModelError> {
+    let Candidates { of: candidates, links, bonds } = Candidates::new(assembly, wide, known, progress)?;
     let parts = assembly.parts;
     let choice = Choice::new(&candidates, &weights(parts), &links, &bonds);
     let chosen =
@@ -77,9 +94,9 @@ pub fn build(
         // A combination that cannot be joined costs too much to be looked at.
         place(parts, &links, &made).map_or(Ok(Vec::new()), |model| judge.bumps(&model, &ids(&made)))
     };
-    let best = choice.best(&bumps)?;
+    let (best, troubled) = choice.best(&bumps)?;
     let made = chosen(&best);
-    Ok(Built { model: place(parts, &links, &made)?, ids: ids(&made) })
+    Ok((Built { model: place(parts, &links, &made)?, ids: ids(&made) }, troubled))
 }
 
 /// How much the cost of each part counts: by its size, about 1 on average.
@@ -99,7 +116,12 @@ struct Candidates {
 impl Candidates {
     /// Where no shape of a part has room for all its joints, the children with the smallest
     /// interfaces are let go, one by one, to stand for themselves.
-    fn new(assembly: &Assembly<'_>, known: &Known, progress: &dyn Progress) -> Result<Self, ModelError> {
+    fn new(
+        assembly: &Assembly<'_>,
+        wide: &BTreeSet<usize>,
+        known: &Known,
+        progress: &dyn Progress,
+    ) -> Result<Self, ModelError> {
         let Assembly { parts, symmetry, min_panel_mm, .. } = *assembly;
         let mut links = assembly.links.to_vec();
         loop {
@@ -111,7 +133,9 @@ impl Candidates {
                     return Ok(Arc::default());
                 }
                 let symmetry = symmetry.filter(|_| bonds[part] == Bond::Across);
-                let made = known.make(&Builder { parts, links: &links, part, symmetry, min_panel_mm });
+                let is_wide = wide.contains(&part);
+                let made =
+                    known.make(&Builder { parts, links: &links, part, symmetry, is_wide, min_panel_mm });
                 let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                 progress.fraction(count as f64 / parts.len() as f64);
                 made

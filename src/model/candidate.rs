@@ -17,7 +17,7 @@ use rayon::prelude::*;
 const DIRECTIONS: usize = 12;
 /// Directions nearer to each other than this are one.
 const SAME_RAD: f64 = std::f64::consts::PI / 180.0;
-/// So many of them are finished at most.
+/// So many of them are finished.
 const FINISHED: usize = 6;
 /// Price of a mm by which joint planes are moved off their interfaces.
 const PLANE_PRICE: f64 = 0.3;
@@ -103,6 +103,8 @@ pub(super) struct Builder<'a> {
     pub(super) part: usize,
     /// Of parts whose component is to be its own mirror image.
     pub(super) symmetry: Option<&'a Symmetry>,
+    /// Whether all directions are finished, rather than those that promise most.
+    pub(super) is_wide: bool,
     pub(super) min_panel_mm: f64,
 }
 
@@ -137,10 +139,11 @@ impl<'a> Builder<'a> {
                 (target.top_edges, target.profile_vertices) = (top_edges, profile_vertices);
             }
         }
-        let mut found = finished(&targets, FINISHED);
+        let most = if self.is_wide { targets.len() } else { FINISHED };
+        let mut found = finished(&targets, most);
         if found.is_empty() && self.symmetry.is_some() {
             targets.iter_mut().for_each(|(target, _)| target.symmetry = None);
-            found = finished(&targets, FINISHED);
+            found = finished(&targets, most);
         }
         if found.is_empty() {
             return Err(choose(&targets).map_or_else(fail, |_| lost()));

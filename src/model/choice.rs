@@ -11,7 +11,7 @@
 use super::bond::Bond;
 use super::candidate::Made;
 use super::link::Link;
-use super::pair::Seated;
+use super::pair::{Seated, WEAK_PRICE_MM};
 use crate::progress::Cancelled;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -155,8 +155,10 @@ impl Choice {
         of
     }
 
-    /// The best combination found; `bumps` tells what parts of one do to each other while they fold.
-    pub(super) fn best(&self, bumps: &Bumping<'_>) -> Result<Combination, Cancelled> {
+    /// The best combination found, and the parts that could do with more candidates: those that bump in
+    /// it, or are between two that do, or whose joint is weak. `bumps` tells what parts of one do to each
+    /// other while they fold.
+    pub(super) fn best(&self, bumps: &Bumping<'_>) -> Result<(Combination, BTreeSet<usize>), Cancelled> {
         let look = |of: Combination| {
             let bumps = bumps(&of)?;
             let harm: f64 = bumps.iter().map(|b| BUMP_PRICE_MM + DEPTH_PRICE * b.1).sum();
@@ -182,17 +184,24 @@ impl Choice {
                     continue 'better;
                 }
             }
-            return Ok(best.of);
+            let mut troubled = self.involved(&best);
+            let is_weak =
+                |pair: &&Pair| pair.costs[best.of[pair.parent]][best.of[pair.child]] > WEAK_PRICE_MM;
+            troubled.extend(self.pairs.iter().filter(is_weak).flat_map(|pair| [pair.parent, pair.child]));
+            return Ok((best.of, troubled));
         }
+    }
+
+    /// Variables of the parts that bump, and of those between them.
+    fn involved(&self, look: &Look) -> BTreeSet<usize> {
+        look.bumps.iter().flat_map(|b| self.way(b.0)).map(|part| self.variable[part]).collect()
     }
 
     /// Combinations in which a part that bumps, or one between two that do, has another candidate: the
     /// cheapest first.
     fn proposals(&self, from: &Look) -> Vec<Combination> {
-        let involved = from.bumps.iter().flat_map(|b| self.way(b.0)).map(|part| self.variable[part]);
-        let involved: BTreeSet<usize> = involved.collect();
         let mut proposals: BTreeSet<Combination> = BTreeSet::new();
-        for part in involved {
+        for part in self.involved(from) {
             for k in (0..self.own[part].len()).filter(|k| *k != from.of[part]) {
                 let mut only = from.of.clone();
                 only[part] = k;
@@ -371,7 +380,8 @@ mod tests {
                 assert!(tree.are_alike(of), "images have the same candidate");
                 Ok(bumps(of))
             });
-            let found = found.unwrap();
+            let (found, troubled) = found.unwrap();
+            assert!(bumps(&found).is_empty() || !troubled.is_empty(), "parts that bump are named");
             let (found_mm, tree_mm) = (total_mm(&found), total_mm(&choice.cheapest(&[])));
             assert!(tree.are_alike(&found));
             assert!(found_mm <= tree_mm, "{found_mm} {tree_mm}");

@@ -21,6 +21,7 @@ struct Wish {
     /// Its joints, with the hulls of the others.
     links: Vec<(Link, Hull)>,
     symmetry: Option<Symmetry>,
+    is_wide: bool,
 }
 
 impl Wish {
@@ -38,6 +39,7 @@ impl Wish {
             own,
             links: builder.own_links().map(with_hull).collect(),
             symmetry: builder.symmetry.cloned(),
+            is_wide: builder.is_wide,
         }
     }
 }

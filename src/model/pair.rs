@@ -14,7 +14,7 @@ const LEAST_GLUE_SHARE: f64 = 0.1;
 /// Price of a joint without any glue, mm of error. Nothing that is seen is worth a part that falls off.
 const GLUE_PRICE_MM: f64 = 60.0;
 /// Price of a joint that lacks any.
-const WEAK_PRICE_MM: f64 = 5.0;
+pub(super) const WEAK_PRICE_MM: f64 = 5.0;
 /// Joints with just enough would lack some after rounding and another choice of tabs.
 const GLUE_MARGIN: f64 = 1.1;
 /// Price of a mm by which a child is turned off its shape, at its far end.

@@ -25,8 +25,8 @@ const ENOUGH_GLUE: f64 = 0.5;
 /// fitted plane wins.
 const MOVE_PRICE: f64 = 0.05;
 
-/// The plane between two parts, its normal from `parent` to `child`, and the share of either that it
-/// takes off. `points` are where the two meet; `kept` where either meets others. Between parts that
+/// The plane between two parts, its normal from `parent` to `child`, and the larger share of either that
+/// it takes off and the other does not have. `points` are where the two meet; `kept` where either meets others. Between parts that
 /// lie `across` a mirror plane it is its own image.
 pub(super) fn between(
     points: &[DVec3],
@@ -63,7 +63,8 @@ pub(super) fn between(
     });
     let priced = candidates.map(|(plane, price)| (price + ground.price(&plane), plane));
     let best = priced.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(first, |best| best.1);
-    (best, cut_off(&best, parent, child))
+    let lost = ground.lost(&best);
+    (best, lost[0].max(lost[1]))
 }
 
 /// The larger share of volume that the plane cuts off either hull.
@@ -103,17 +104,22 @@ impl<'a> Ground<'a> {
     fn price(&self, plane: &Plane) -> f64 {
         let sides = [*plane, plane.flipped()];
         let is_off = |own: usize, p: &DVec3| sides[own].distance(*p) > 0.0;
-        let lost = |own: usize| {
-            let lost = self.alone[own].iter().filter(|p| is_off(own, p)).count() as f64;
-            lost / self.counts[own].max(1.0)
-        };
         let joints = |own: usize| {
             let lost = self.kept[own].iter().filter(|p| is_off(own, p)).count() as f64;
             lost / self.kept[own].len().max(1) as f64
         };
         let enough = ENOUGH_GLUE * self.most_glue;
         let lack = (1.0 - self.common(plane) / enough.max(f64::MIN_POSITIVE)).max(0.0);
-        lost(0) + lost(1) + JOINT_PRICE * (joints(0) + joints(1)) + GLUE_PRICE * lack
+        self.lost(plane).iter().sum::<f64>() + JOINT_PRICE * (joints(0) + joints(1)) + GLUE_PRICE * lack
+    }
+
+    /// The share of each hull that a plane takes off and the other does not have.
+    fn lost(&self, plane: &Plane) -> [f64; 2] {
+        let sides = [*plane, plane.flipped()];
+        [0, 1].map(|own| {
+            let lost = self.alone[own].iter().filter(|p| sides[own].distance(**p) > 0.0).count();
+            lost as f64 / self.counts[own].max(1.0)
+        })
     }
 
     /// Area that the sections of both hulls share.
