@@ -291,11 +291,19 @@ mod tests {
         // A joint has its own plane.
         let links = link_tree(&hulls, std::slice::from_ref(&contact), None);
         assert_eq!(ends(&parted(&hulls, std::slice::from_ref(&contact), &links, None)), (10.0, 9.0));
-        // Where the two share so much that any plane takes much of either, both stay whole.
+        // What both have is lost to neither: each gets half of it.
         let hulls = [cube(DVec3::ZERO, 10.0), cube(DVec3::X * 4.0, 10.0)];
         let hulls: Vec<&Hull> = hulls.iter().collect();
-        let points = face.map(|p| p - DVec3::X * 2.5).to_vec();
-        assert_eq!(ends(&parted(&hulls, &[Contact { points, ..contact }], &[], None)), (10.0, 4.0));
+        let points: Vec<DVec3> = face.map(|p| p - DVec3::X * 2.5).to_vec();
+        let (end, start) = ends(&parted(&hulls, &[Contact { points, ..contact.clone() }], &[], None));
+        assert!((end - 7.0).abs() < 1e-9 && (start - 7.0).abs() < 1e-9, "{end} {start}");
+        // A bar that goes through a cube stays whole: any plane would take much of it.
+        let corner = |k: usize| DVec3::new([-20.0, 30.0][k & 1], [4.0, 6.0][k >> 1 & 1], [4.0, 6.0][k >> 2]);
+        let bar = Hull::of_points(&(0..8).map(corner).collect::<Vec<_>>()).unwrap();
+        let hulls = [bar, cube(DVec3::ZERO, 10.0)];
+        let hulls: Vec<&Hull> = hulls.iter().collect();
+        let points = face.map(|p| p - DVec3::X * 4.5).to_vec();
+        assert_eq!(ends(&parted(&hulls, &[Contact { points, ..contact }], &[], None)), (30.0, 0.0));
     }
 
     /// A body across x = 0 with arms and a pair of feet that touch each other.
