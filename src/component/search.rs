@@ -283,7 +283,9 @@ fn finished_of_counts(
 /// the user has not set how many there are to be.
 fn pruned(mut found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Found {
     let target = &targets[found.target];
-    if target.0.comfortable_mm <= target.0.min_panel_mm {
+    // Who asks for many panels wants them.
+    let asks_for_many = target.0.top_edges > SURE || target.0.profile_vertices > SURE;
+    if asks_for_many || target.0.comfortable_mm <= target.0.min_panel_mm {
         return found;
     }
     let fine = hulls[found.target].fine();
