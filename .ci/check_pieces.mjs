@@ -90,8 +90,12 @@ function checkFlat(piece, flat, name) {
   }
 }
 
-const [masterPath, ...paths] = process.argv.slice(2);
+const [masterPath, ...given] = process.argv.slice(2);
 const master = read(masterPath);
+// Files come by their names; the master has the pieces in the order of its components.
+const components = [...new Set(master["faces_tatamu:component"])];
+const place = (path) => components.indexOf(read(path).frame_title.replace(/ \d+\/\d+$/, ""));
+const paths = given.map((path) => [place(path), path]).sort(([a], [b]) => a - b).map(([, path]) => path);
 const flat = master.file_frames.find((frame) => frame.frame_title === "flat").vertices_coords;
 let first = 0;
 for (const path of paths) {
