@@ -5,12 +5,14 @@ mod concave;
 mod drawn;
 mod engine;
 mod judge;
+mod level;
 mod output;
 mod warning;
 
 pub use bodies::{Bodies, Hulls};
 pub use drawn::{run_drawn, shape_drawn};
 pub use engine::Engine;
+pub use level::Level;
 pub use output::{Divided, Output, Shaped};
 pub use warning::Warning;
 
@@ -41,10 +43,12 @@ pub struct Options {
     pub root: Option<String>,
     /// What differs for components of these names.
     pub components: BTreeMap<String, ComponentOptions>,
+    /// How many panels there may be, where the two numbers below leave it open.
+    pub level: Level,
     /// Edges of top panels, at least 3.
-    pub top_edges: usize,
+    pub top_edges: Option<usize>,
     /// Vertices of profiles, at least 3.
-    pub profile_vertices: usize,
+    pub profile_vertices: Option<usize>,
     /// Distance between component and hull that is close enough, mm: then as few edges and
     /// vertices are used as reach it, and the two numbers above are the most.
     pub tolerance_mm: Option<f64>,
@@ -77,8 +81,9 @@ impl Default for Options {
             edits: Vec::new(),
             root: None,
             components: BTreeMap::new(),
-            top_edges: 6,
-            profile_vertices: 6,
+            level: Level::default(),
+            top_edges: None,
+            profile_vertices: None,
             tolerance_mm: None,
             min_panel_width_mm: 3.0,
             tab_width_mm: 6.0,
@@ -92,6 +97,22 @@ impl Default for Options {
         }
     }
 }
+
+impl Options {
+    /// Top edges and profile vertices of a part, by the square root of its share of the surface of all.
+    fn counts(&self, size_share: f64) -> (usize, usize) {
+        let by_level = if self.tolerance_mm.is_some() { MOST_COUNTS } else { self.level.counts(size_share) };
+        (self.top_edges.unwrap_or(by_level.0), self.profile_vertices.unwrap_or(by_level.1))
+    }
+
+    /// Whether the program chooses the number of panels by what they are worth.
+    fn counts_are_chosen(&self) -> bool {
+        self.top_edges.is_none() && self.profile_vertices.is_none()
+    }
+}
+
+/// Most top edges and profile vertices with a tolerance.
+const MOST_COUNTS: (usize, usize) = (12, 10);
 
 /// What the user chose for one component.
 #[derive(Debug, Clone, PartialEq, Default)]

@@ -29,6 +29,7 @@ impl Body {
             top_edges: self.edges,
             profile_vertices: self.vertices,
             min_panel_mm: LEAST_MM,
+            is_pruned: true,
             comfortable_mm: 1.5 * LEAST_MM,
         }
     }

@@ -209,7 +209,7 @@ fn a_component_with_joints_keeps_them_when_it_may_have_dents() {
         let components = [("body".to_owned(), choice)].into();
         let segmentation = SegmentOptions { parts: Some(2), ..SegmentOptions::default() };
         let options =
-            Options { components, segmentation, up: Up::Z, profile_vertices: 8, ..Options::default() };
+            Options { components, segmentation, up: Up::Z, profile_vertices: Some(8), ..Options::default() };
         pipeline::run(&mesh, &options, &Silent).expect("a model")
     };
     let concave = run(true, None);

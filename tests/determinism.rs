@@ -18,8 +18,8 @@ fn files(threads: usize) -> Vec<(&'static str, Vec<u8>)> {
         let (mesh, repairs) = Mesh::from_soup(&mesh::read(SAMPLE).expect("OBJ")).expect("a mesh");
         let options = Options {
             segmentation: SegmentOptions { parts: Some(2), ..Default::default() },
-            top_edges: 4,
-            profile_vertices: 4,
+            top_edges: Some(4),
+            profile_vertices: Some(4),
             ..Options::default()
         };
         let output = pipeline::run(&mesh, &options, &Silent).expect("a model");

@@ -17,8 +17,8 @@ fn bottle() -> Mesh {
 fn options() -> Options {
     Options {
         segmentation: SegmentOptions { parts: Some(2), ..Default::default() },
-        top_edges: 4,
-        profile_vertices: 4,
+        top_edges: Some(4),
+        profile_vertices: Some(4),
         ..Options::default()
     }
 }

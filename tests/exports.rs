@@ -20,7 +20,7 @@ const CUBE: &str = "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 2 2 0\nv 0 0 2\nv 2 0 2\nv 0 2 
 /// A cube of 60 mm with four chains.
 fn output(bytes: &[u8]) -> (Output, tatamu::mesh::Repairs) {
     let (mesh, repairs) = Mesh::from_soup(&mesh::read(bytes).expect("a mesh")).expect("a solid");
-    let options = Options { size_mm: 60.0, top_edges: 4, ..Options::default() };
+    let options = Options { size_mm: 60.0, top_edges: Some(4), ..Options::default() };
     (pipeline::run(&mesh, &options, &Silent).expect("a model"), repairs)
 }
 

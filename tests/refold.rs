@@ -9,7 +9,7 @@ use made::{Fold, Made, samples};
 use tatamu::check;
 use tatamu::component::{FaceId, PanelId};
 use tatamu::geom::Hull;
-use tatamu::pipeline::Options;
+use tatamu::pipeline::{Bodies, Options};
 
 /// Rounding of lengths.
 const TOLERANCE_MM: f64 = 1e-6;
@@ -151,16 +151,18 @@ fn joints_hold_from_deployed_to_flat() {
 fn profiles_are_within_their_limits_and_have_no_gap() {
     let options = Options::default();
     for Made { name, output, .. } in samples() {
-        for part in output.model().parts() {
+        let bodies = Bodies::new(output.shaped().divided().hulls(), &options).unwrap();
+        for (part, body) in output.model().parts().iter().zip(bodies.parts()) {
+            let limits = &body.options;
             let profiles = part.component.profiles();
-            assert!((3..=options.top_edges).contains(&profiles.len()), "{name}, {}", part.name);
+            assert!((3..=limits.top_edges).contains(&profiles.len()), "{name}, {}", part.name);
             for profile in profiles {
                 let points = profile.points();
                 let [fold] = profile.fold_vertices().collect::<Vec<_>>()[..] else {
                     panic!("{name}: one fold")
                 };
                 let last = points.len() - 1;
-                assert!(last < options.profile_vertices, "{name}, {}: {last} segments", part.name);
+                assert!(last < limits.profile_vertices, "{name}, {}: {last} segments", part.name);
                 let length = |part: &[DVec2]| part.windows(2).map(|w| w[0].distance(w[1])).sum::<f64>();
                 let (above, below) = (length(&points[..=fold]), length(&points[fold..]));
                 let gap = above - below - (points[last].x - points[0].x);

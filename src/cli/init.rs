@@ -93,6 +93,7 @@ pub fn project_text(mesh: &str, options: &Options, components: &[TemplateCompone
         up: options.up,
         size_mm: options.size_mm,
         segmentation: options.segmentation,
+        level: options.level,
         top_edges: options.top_edges,
         profile_vertices: options.profile_vertices,
         tolerance_mm: options.tolerance_mm,

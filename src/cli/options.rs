@@ -7,9 +7,9 @@ use super::segment_args::SegmentArgs;
 use super::sheet_args::SheetArgs;
 use clap::Args;
 use tatamu::mesh::Up;
-use tatamu::pipeline::{ComponentOptions, Options};
+use tatamu::pipeline::{ComponentOptions, Level, Options};
 use tatamu::project::{
-    Defaults, Project, check_count, check_degrees, check_parts, parse_thickness_mm, parse_up,
+    Project, check_count, check_degrees, check_parts, parse_level, parse_thickness_mm, parse_up,
 };
 use tatamu::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};
 
@@ -47,13 +47,20 @@ pub struct ModelArgs {
     #[arg(long, value_name = "NAME")]
     concave: Vec<String>,
 
-    /// Edges of each component's top panel, 3 or more [default: 6]
+    /// How much work the model may be: easy, normal or fine [default: normal]
+    ///
+    /// "easy" has about half as many panels, "fine" about twice as many. Big parts get most of them.
+    /// Example: --level easy
+    #[arg(long, value_name = "LEVEL", value_parser = parse_level, hide_possible_values = true)]
+    level: Option<Level>,
+
+    /// Edges of each component's top panel, 3 or more [default: by --level and the part's size]
     ///
     /// More edges follow the shape better; fewer fold faster. Example: --top-edges 8
     #[arg(long, value_name = "N", value_parser = count)]
     top_edges: Option<usize>,
 
-    /// Vertices of each profile at most, 3 or more [default: 6]
+    /// Vertices of each profile at most, 3 or more [default: by --level and the part's size]
     ///
     /// A profile is the outline of a strip of side panels. More vertices follow the shape better;
     /// fewer fold faster. Example: --profile-vertices 4
@@ -114,10 +121,6 @@ pub struct ModelArgs {
     sheets: SheetArgs,
 }
 
-/// With a tolerance, the most top edges and profile vertices of a component that says nothing else.
-const MOST_EDGES: usize = 12;
-const MOST_VERTICES: usize = 10;
-
 /// Reads a whole number.
 pub fn number(text: &str) -> Result<u64, String> {
     let message = |_| "this must be a whole number such as 6".to_owned();
@@ -175,18 +178,9 @@ impl ModelArgs {
         options.up = self.up.unwrap_or(options.up);
         options.segmentation = self.segmentation.merge(project)?;
         options.tolerance_mm = self.tolerance.or(options.tolerance_mm);
-        if options.tolerance_mm.is_some() {
-            let defaults = project.map(|project| &project.defaults);
-            let is_default = |of: fn(&Defaults) -> Option<usize>| defaults.and_then(of).is_none();
-            if is_default(|d| d.top_edges) {
-                options.top_edges = MOST_EDGES;
-            }
-            if is_default(|d| d.profile_vertices) {
-                options.profile_vertices = MOST_VERTICES;
-            }
-        }
-        options.top_edges = self.top_edges.unwrap_or(options.top_edges);
-        options.profile_vertices = self.profile_vertices.unwrap_or(options.profile_vertices);
+        options.level = self.level.unwrap_or(options.level);
+        options.top_edges = self.top_edges.or(options.top_edges);
+        options.profile_vertices = self.profile_vertices.or(options.profile_vertices);
         options.paper = self.paper.unwrap_or(options.paper);
         if self.top_edges.is_some() || self.profile_vertices.is_some() {
             for component in options.components.values_mut() {
@@ -218,6 +212,7 @@ impl ModelArgs {
             ("--up", self.up.is_some()),
             ("--direction", !self.direction.is_empty()),
             ("--concave", !self.concave.is_empty()),
+            ("--level", self.level.is_some()),
             ("--top-edges", self.top_edges.is_some()),
             ("--profile-vertices", self.profile_vertices.is_some()),
             ("--tolerance", self.tolerance.is_some()),
@@ -249,9 +244,9 @@ fn merge_project(project: &Project, options: &mut Options) {
     options.up = project.up.unwrap_or(options.up);
     options.edits = project.edits.iter().map(|edit| edit.change().clone()).collect();
     options.root = project.segmentation.root.clone();
-    options.top_edges = defaults.top_edges.unwrap_or(options.top_edges);
-    let vertices = defaults.profile_vertices;
-    options.profile_vertices = vertices.unwrap_or(options.profile_vertices);
+    options.level = defaults.level.unwrap_or(options.level);
+    options.top_edges = defaults.top_edges;
+    options.profile_vertices = defaults.profile_vertices;
     options.paper = project.paper.size.unwrap_or(options.paper);
     options.pins = project.pins.iter().map(|table| (table.piece().to_owned(), table.pin())).collect();
     for component in &project.components {

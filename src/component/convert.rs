@@ -289,6 +289,7 @@ pub(crate) mod tests {
             top_edges: 6,
             profile_vertices: 6,
             min_panel_mm: 3.0,
+            is_pruned: true,
             comfortable_mm: 6.0,
         }
     }

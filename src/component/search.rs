@@ -86,19 +86,14 @@ pub(super) struct Found {
     cost_mm: f64,
 }
 
-/// Shapes with more top edges or profile vertices than this are also tried with no more: the search
-/// finds its way more surely among few, and more of either shall not make the error larger.
+/// Fits start with no more top edges and profile vertices than this, and add the others where they are
+/// worth most: the search finds its way more surely among few.
 const SURE: usize = 6;
 
 impl Found {
     /// What it is compared by, mm.
     pub(super) fn cost_mm(&self) -> f64 {
         self.cost_mm
-    }
-
-    /// Whether it is to be preferred, of two found with different counts.
-    fn is_better(&self, than: &Found) -> bool {
-        self.cost_mm < than.cost_mm
     }
 
     /// It, or the box round its target's hull where that comes closer.
@@ -118,13 +113,7 @@ pub(super) fn best(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
     let straightened = Straightened::of(targets)?;
     let targets = &straightened.targets();
     let hulls: Vec<Simpler> = targets.par_iter().map(|t| Simpler::of(&t.0)).collect();
-    let mut best = best_of_counts(targets, &hulls);
-    if let Some(fewer) = with_sure_counts(targets) {
-        let other = best_of_counts(&fewer, &hulls);
-        let is_better = |other: &Found| best.as_ref().map_or(true, |b| other.is_better(b));
-        best = if other.as_ref().is_ok_and(is_better) { other } else { best };
-    }
-    let best = match best {
+    let best = match best_of(targets, &hulls) {
         Ok(best) => Ok(pruned(best, targets, &hulls).or_box(targets)),
         Err(error) => as_box(&targets[0].0)
             .map(|(fitted, made)| Found {
@@ -143,20 +132,9 @@ pub(super) fn each(targets: &[(Target, f64)], most: usize) -> Vec<Found> {
     let Ok(straightened) = Straightened::of(targets) else { return Vec::new() };
     let targets = &straightened.targets();
     let hulls: Vec<Simpler> = targets.par_iter().map(|t| Simpler::of(&t.0)).collect();
-    let mut found: Vec<Option<Found>> = targets.iter().map(|_| None).collect();
-    let of_counts = |targets: &[(Target, f64)]| finished_of_counts(targets, &hulls, Some(most));
-    let all = of_counts(targets)
-        .into_iter()
-        .chain(with_sure_counts(targets).into_iter().flat_map(|t| of_counts(&t)));
-    for next in all.filter_map(Result::ok) {
-        let best = &mut found[next.target];
-        if best.as_ref().is_none_or(|best| next.is_better(best)) {
-            *best = Some(next);
-        }
-    }
-    let mut found: Vec<Found> = found.into_iter().flatten().collect();
+    let all = most_promising(targets, &hulls, Some(most));
+    let mut found: Vec<Found> = all.into_iter().filter_map(Result::ok).collect();
     found.sort_by(|a, b| a.cost_mm.total_cmp(&b.cost_mm));
-    found.truncate(most);
     let finish = |(place, found): (usize, Found)| {
         let found = if place < PRUNED { pruned(found, targets, &hulls) } else { found };
         let mut found = found.or_box(targets);
@@ -209,22 +187,10 @@ impl<'t> Straightened<'t> {
     }
 }
 
-/// The targets with no more top edges and profile vertices than the search is sure among; `None`
-/// where none has more.
-fn with_sure_counts<'h>(targets: &[(Target<'h>, f64)]) -> Option<Vec<(Target<'h>, f64)>> {
-    let sure = |(target, cost_mm): &(Target<'h>, f64)| {
-        let top_edges = target.top_edges.min(SURE);
-        let profile_vertices = target.profile_vertices.min(SURE);
-        (Target { top_edges, profile_vertices, ..target.clone() }, *cost_mm)
-    };
-    let has_more = targets.iter().any(|t| t.0.top_edges > SURE || t.0.profile_vertices > SURE);
-    has_more.then(|| targets.iter().map(sure).collect())
-}
-
-/// The best component found from starts with the targets' counts, or a few less.
-fn best_of_counts(targets: &[(Target, f64)], hulls: &[Simpler]) -> Result<Found, ConvertError> {
+/// The best component found.
+fn best_of(targets: &[(Target, f64)], hulls: &[Simpler]) -> Result<Found, ConvertError> {
     let mut best = Err(ConvertError::Hull(HullError::Flat));
-    for result in finished_of_counts(targets, hulls, None) {
+    for result in most_promising(targets, hulls, None) {
         match result {
             Ok(found) if best.as_ref().map_or(true, |b: &Found| found.cost_mm < b.cost_mm) => {
                 best = Ok(found);
@@ -236,9 +202,9 @@ fn best_of_counts(targets: &[(Target, f64)], hulls: &[Simpler]) -> Result<Found,
     best
 }
 
-/// Components finished from the most promising starts with the targets' counts, or a few less: of
-/// whatever targets or, with `most`, of so many different ones.
-fn finished_of_counts(
+/// Components finished from the most promising starts: of whatever targets or, with `most`, of so many
+/// different ones.
+fn most_promising(
     targets: &[(Target, f64)],
     hulls: &[Simpler],
     most: Option<usize>,
@@ -247,7 +213,7 @@ fn finished_of_counts(
     let goals: Vec<Target> = targets.iter().zip(hulls).map(|(t, hull)| goal(&t.0, &hull.rough)).collect();
     let starts = || {
         let runs = goals.par_iter().enumerate();
-        let runs = runs.map(|(k, goal)| (k, start(goal, (goal.top_edges, goal.profile_vertices))));
+        let runs = runs.map(|(k, goal)| (k, start(goal, sure_counts(goal))));
         ranked(runs.collect(), targets, FIRST_STEPS, LEFT.max(at_least))
     };
     // A single start leaves other threads idle, and its hull is certain to be needed.
@@ -279,13 +245,10 @@ fn finished_of_counts(
     finished.collect()
 }
 
-/// The same with the planes and chains left out that add little to the likeness, one by one, where
-/// the user has not set how many there are to be.
+/// The same with the planes and chains left out that add little to the likeness, one by one.
 fn pruned(mut found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Found {
     let target = &targets[found.target];
-    // Who asks for many panels wants them.
-    let asks_for_many = target.0.top_edges > SURE || target.0.profile_vertices > SURE;
-    if asks_for_many || target.0.comfortable_mm <= target.0.min_panel_mm {
+    if !target.0.is_pruned {
         return found;
     }
     let fine = hulls[found.target].fine();
@@ -393,13 +356,19 @@ fn goal<'h>(target: &Target, hull: &'h Hull) -> Target<'h> {
         top_edges: target.top_edges.min(at_most(0.5 * girth)).max(target.locked_angles().len().max(3)),
         profile_vertices: target.profile_vertices.min(1 + at_most(0.7 * height)).max(3),
         min_panel_mm: target.comfortable_mm,
+        is_pruned: target.is_pruned,
         comfortable_mm: target.comfortable_mm,
     }
 }
 
-/// Top edges and profile vertices to start with, fewer than there may be.
+/// Top edges and profile vertices to start with.
+fn sure_counts(goal: &Target) -> (usize, usize) {
+    (goal.top_edges.min(SURE), goal.profile_vertices.min(SURE))
+}
+
+/// The same, but fewer.
 fn fewer(goal: &Target) -> Vec<(usize, usize)> {
-    let (edges, vertices) = (goal.top_edges, goal.profile_vertices);
+    let (edges, vertices) = sure_counts(goal);
     let least = goal.locked_angles().len().max(3);
     let fewer_edges = FEWER_EDGES.into_iter().filter(|less| edges >= least + less);
     let fewer_vertices = (vertices as f64 * FEWER_VERTICES).ceil() as usize;

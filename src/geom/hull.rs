@@ -101,6 +101,15 @@ impl Hull {
         self.facets.iter().flat_map(|f| f.outline.windows(2).skip(1).map(|w| [f.outline[0], w[0], w[1]]))
     }
 
+    /// Surface area, mm².
+    pub fn area(&self) -> f64 {
+        let triangle = |t: [u32; 3]| {
+            let [a, b, c] = t.map(|v| self.vertices[v as usize]);
+            (b - a).cross(c - a).length() / 2.0
+        };
+        self.triangles().map(triangle).sum()
+    }
+
     /// Enclosed volume.
     pub fn volume(&self) -> f64 {
         let o = self.vertices[0];

@@ -68,6 +68,11 @@ impl Plane {
         Self { normal: -self.normal, offset: -self.offset }
     }
 
+    /// The same plane moved along its normal.
+    pub fn shifted(&self, distance: f64) -> Self {
+        Self { offset: self.offset + distance, ..*self }
+    }
+
     /// The nearest point of the plane.
     pub fn project(&self, point: DVec3) -> DVec3 {
         point - self.normal * self.distance(point)

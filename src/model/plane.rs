@@ -74,6 +74,23 @@ pub(super) fn cut_off(plane: &Plane, parent: &Hull, child: &Hull) -> f64 {
     lost(parent, plane).max(lost(child, &plane.flipped()))
 }
 
+/// The plane in the middle of where two hulls overlap least, normal from the first to the second, and how
+/// deep they do; `None` where they do not. Only the directions of their faces are tried.
+pub(super) fn apart(first: &Hull, second: &Hull) -> Option<(Plane, f64)> {
+    let [own, other] = [first, second].map(|hull| hull.facets().iter().map(|f| f.plane().normal()));
+    let mut least: Option<(Plane, f64)> = None;
+    for normal in own.chain(other.map(|n| -n)) {
+        let (end, start) = (first.support(normal), -second.support(-normal));
+        if end <= start {
+            return None;
+        }
+        if least.as_ref().is_none_or(|least| end - start < least.1) {
+            least = Some((Plane::through(normal * ((start + end) / 2.0), normal)?, end - start));
+        }
+    }
+    least
+}
+
 /// Samples of two hulls, for the price of many planes between them.
 struct Ground<'a> {
     hulls: [&'a Hull; 2],

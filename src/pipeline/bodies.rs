@@ -182,18 +182,21 @@ fn parts(hulls: &Hulls, options: &Options) -> Result<Vec<Part>, Error> {
     if let Some(name) = options.components.keys().find(|name| !names.contains(name)) {
         return Err(Error::NoComponent { name: name.clone(), known: names.join(", ") });
     }
+    let all_mm2: f64 = hulls.hulls().iter().map(Hull::area).sum();
     let part = |(hull, name): (&Hull, &String)| {
         let own = options.components.get(name).cloned().unwrap_or_default();
         let is_set = own.top_edges.is_some() || own.profile_vertices.is_some();
         let comfortable_mm = options.min_panel_width_mm * if is_set { 1.0 } else { COMFORTABLE };
+        let (top_edges, profile_vertices) = options.counts((hull.area() / all_mm2).sqrt());
         Part {
             hull: hull.clone(),
             options: PartOptions {
                 name: own.rename.unwrap_or_else(|| name.clone()),
                 direction_rad: own.direction_rad,
-                top_edges: own.top_edges.unwrap_or(options.top_edges),
-                profile_vertices: own.profile_vertices.unwrap_or(options.profile_vertices),
+                top_edges: own.top_edges.unwrap_or(top_edges),
+                profile_vertices: own.profile_vertices.unwrap_or(profile_vertices),
                 tolerance_mm: options.tolerance_mm,
+                is_pruned: !is_set && options.counts_are_chosen(),
                 comfortable_mm,
             },
         }

@@ -27,6 +27,9 @@ pub(super) fn directions_rad() -> impl Iterator<Item = f64> {
 }
 
 /// The model with concave components where they are asked for and better.
+/// Top edges and profile vertices, where the user says none: dents need few.
+const COUNTS: (usize, usize) = (6, 6);
+
 pub(super) fn refitted(
     mut model: Model,
     mesh: &Mesh,
@@ -45,8 +48,8 @@ pub(super) fn refitted(
         let name = part.name.clone();
         let body = Body {
             triangles: triangles(mesh, face_part, p as u32),
-            top_edges: choice.top_edges.unwrap_or(options.top_edges),
-            profile_vertices: choice.profile_vertices.unwrap_or(options.profile_vertices),
+            top_edges: choice.top_edges.or(options.top_edges).unwrap_or(COUNTS.0),
+            profile_vertices: choice.profile_vertices.or(options.profile_vertices).unwrap_or(COUNTS.1),
             min_panel_mm: options.min_panel_width_mm,
         };
         let joints = model.joint_panels(p);

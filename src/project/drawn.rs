@@ -124,6 +124,7 @@ impl Project {
             ("up", self.up.is_some()),
             ("[segmentation]", self.segmentation != Segmentation::default()),
             ("[[edit]]", !self.edits.is_empty()),
+            ("level", defaults.level.is_some()),
             ("top_edges", defaults.top_edges.is_some()),
             ("profile_vertices", defaults.profile_vertices.is_some()),
             ("tolerance", defaults.tolerance_mm.is_some()),

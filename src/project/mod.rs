@@ -16,13 +16,14 @@ pub use edit::Edit;
 pub use export::ExportTable;
 pub use fields::{
     LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_clusters, check_count, check_degrees, check_detail,
-    check_parts, check_smoothing, parse_method, parse_symmetry, parse_thickness_mm, parse_up,
+    check_parts, check_smoothing, parse_level, parse_method, parse_symmetry, parse_thickness_mm, parse_up,
 };
 pub use pin::PinTable;
 pub use sheet_fields::{Nets, Sheets, check_effort, check_hidden_degrees, parse_marks, parse_side};
 pub use template::{Template, TemplateComponent, to_toml};
 
 use crate::mesh::Up;
+use crate::pipeline::Level;
 use crate::segment::SymmetryChoice;
 use crate::units::Paper;
 use serde::Deserialize;
@@ -146,6 +147,9 @@ pub enum MethodName {
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Defaults {
+    /// How much work the model may be.
+    #[serde(default, deserialize_with = "fields::level")]
+    pub level: Option<Level>,
     /// Edges of top panels.
     #[serde(default, deserialize_with = "fields::count")]
     pub top_edges: Option<usize>,

@@ -3,6 +3,7 @@
 use super::LEAST_COUNT;
 use crate::mesh::Up;
 use crate::net::{NetChoices, Side};
+use crate::pipeline::Level;
 use crate::segment::{Method, SegmentOptions, SymmetryChoice};
 use crate::sheet::fit::Rotation;
 use crate::sheet::{Registration, SheetChoices};
@@ -17,10 +18,12 @@ pub struct Template<'a> {
     pub up: Up,
     /// Longest side of the model, mm.
     pub size_mm: f64,
-    /// Edges of top panels.
-    pub top_edges: usize,
-    /// Vertices of profiles.
-    pub profile_vertices: usize,
+    /// How much work the model may be.
+    pub level: Level,
+    /// Edges of top panels, if they were chosen.
+    pub top_edges: Option<usize>,
+    /// Vertices of profiles, if they were chosen.
+    pub profile_vertices: Option<usize>,
     /// How close components must come to their shapes, mm, if it was chosen.
     pub tolerance_mm: Option<f64>,
     /// Least width and height of panels, mm.
@@ -105,10 +108,12 @@ size = "{size}mm"
 # front = "chest"
 
 [defaults]
-# Edges of each component's top panel, {LEAST_COUNT} or more: more follow the shape better, fewer fold faster.
-top_edges = {top_edges}
-# Vertices of each profile at most, {LEAST_COUNT} or more: more follow the shape better, fewer fold faster.
-profile_vertices = {profile_vertices}
+# How much work the model may be: "easy", "normal" or "fine". Big parts get most of the panels.
+level = "{level}"
+# The same number of edges for each component's top panel, {LEAST_COUNT} or more.
+{edges_comment}top_edges = {top_edges}
+# The same number of vertices for each profile at most, {LEAST_COUNT} or more.
+{vertices_comment}profile_vertices = {profile_vertices}
 # How close each component must come to its shape: then as few edges and vertices are used as reach
 # it, and the two numbers above are the most.
 {tolerance_comment}tolerance = "{tolerance}mm"
@@ -158,8 +163,11 @@ thick = {thick}
         symmetry_comment = unless(template.segmentation.symmetry != SymmetryChoice::Auto),
         symmetry = template.segmentation.symmetry.name(),
         method_comment = unless(template.segmentation.method != Method::Merge),
-        top_edges = template.top_edges,
-        profile_vertices = template.profile_vertices,
+        level = template.level.name(),
+        edges_comment = unless(template.top_edges.is_some()),
+        top_edges = template.top_edges.unwrap_or(6),
+        vertices_comment = unless(template.profile_vertices.is_some()),
+        profile_vertices = template.profile_vertices.unwrap_or(6),
         tolerance_comment = unless(template.tolerance_mm.is_some()),
         tolerance = template.tolerance_mm.unwrap_or(2.0),
         min_panel_width = template.min_panel_width_mm,
@@ -179,8 +187,8 @@ thick = {thick}
             quoted(&component.name),
             unless(component.is_chosen),
             component.direction_deg,
-            template.top_edges,
-            template.profile_vertices,
+            template.top_edges.unwrap_or(6),
+            template.profile_vertices.unwrap_or(6),
             unless(component.is_concave)
         );
     }
@@ -253,8 +261,9 @@ mod tests {
             mesh: "a \"b\"\\c.obj",
             up: Up::X,
             size_mm: 123.5,
-            top_edges: 7,
-            profile_vertices: 4,
+            level: Level::Fine,
+            top_edges: Some(7),
+            profile_vertices: Some(4),
             tolerance_mm: Some(1.5),
             min_panel_width_mm: 3.0,
             tab_width_mm: 6.5,

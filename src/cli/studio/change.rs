@@ -65,7 +65,7 @@ impl Change {
         match self {
             Change::Set { table, key, .. } => {
                 matches!(*table, "segmentation")
-                    || matches!(*key, "up" | "top_edges" | "profile_vertices" | "tolerance_mm")
+                    || matches!(*key, "up" | "level" | "top_edges" | "profile_vertices" | "tolerance")
             }
             Change::Pin { .. } => false,
             _ => true,

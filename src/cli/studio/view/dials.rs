@@ -5,6 +5,7 @@ use super::values::{Number, choice_row, tick_row};
 use eframe::egui::Ui;
 use tatamu::mesh::Up;
 use tatamu::net::Side;
+use tatamu::pipeline::Level;
 use tatamu::segment::{Method, SegmentOptions, SymmetryChoice};
 use tatamu::sheet::Registration;
 use tatamu::sheet::fit::Rotation;
@@ -45,6 +46,8 @@ const SMOOTHING: Number = number(
 const EDGES: Number = number(["Top edges", MORE], ["defaults", "top_edges"], (3.0, 64.0), None, "");
 const VERTICES: Number =
     number(["Profile vertices", MORE], ["defaults", "profile_vertices"], (3.0, 64.0), None, "");
+/// Where edges and vertices start that one sets by hand.
+const COUNT: f64 = 6.0;
 const TOLERANCE: Number = number(
     ["Tolerance", "with a tick: as few edges and vertices as come so close to the shape"],
     ["defaults", "tolerance"],
@@ -75,8 +78,11 @@ pub fn model(studio: &mut Studio, ui: &mut Ui) {
         &["x", "y", "z"],
     );
     division(studio, ui, options.segmentation);
-    EDGES.row(studio, ui, options.top_edges as f64);
-    VERTICES.row(studio, ui, options.profile_vertices as f64);
+    let what = ("Level", "how much work the model may be: big parts get most of the panels");
+    let levels = Level::ALL.map(Level::name);
+    choice_row(studio, ui, what, ("defaults", "level"), options.level.name(), &levels);
+    EDGES.optional_row(studio, ui, options.top_edges.map(|n| n as f64), COUNT);
+    VERTICES.optional_row(studio, ui, options.profile_vertices.map(|n| n as f64), COUNT);
     TOLERANCE.optional_row(studio, ui, options.tolerance_mm, 2.0);
 }
 

@@ -123,9 +123,14 @@ fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: usize) {
             digits: None,
             unit: "",
         };
-        let edges = own.top_edges.unwrap_or(options.top_edges) as f64;
+        let made = studio.shown().shaped().and_then(|shaped| shaped.model().parts().get(index));
+        let made = made.map_or((3, 3), |part| {
+            let profiles = part.component.profiles();
+            (profiles.len(), profiles.iter().map(|profile| profile.points().len()).max().unwrap_or(3))
+        });
+        let edges = own.top_edges.or(options.top_edges).unwrap_or(made.0) as f64;
         count("Top edges", "top_edges").component_row(studio, ui, &name, (edges, own.top_edges.is_some()));
-        let vertices = own.profile_vertices.unwrap_or(options.profile_vertices) as f64;
+        let vertices = own.profile_vertices.or(options.profile_vertices).unwrap_or(made.1) as f64;
         let row = count("Profile vertices", "profile_vertices");
         row.component_row(studio, ui, &name, (vertices, own.profile_vertices.is_some()));
         figures(studio, ui, index);
