@@ -70,7 +70,7 @@ fn every_module_has_a_layer_and_uses_none_above_it() {
     let mut count = 0;
     for path in source_files(root().join("src")) {
         let name = path.file_stem().unwrap().to_string_lossy();
-        if !path.extension().is_some_and(|e| e == "rs") || name.ends_with("tests") || name == "fixture" {
+        if path.extension().is_none_or(|e| e != "rs") || name.ends_with("tests") || name == "fixture" {
             continue;
         }
         let user = module(&path);
