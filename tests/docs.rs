@@ -1,8 +1,10 @@
 //! The book and the README are true: their commands run, their links lead somewhere, and the
-//! reference names every key.
+//! reference names every key and every option.
 //!
-//! Each document has a folder of its own, with the samples, and what earlier commands of the same
-//! document made or its text shows as a file (a fenced block with `file=NAME` behind its language).
+//! Each document has a folder of its own that looks like the root of the repository: with the samples,
+//! and what earlier commands of the same document made or its text shows as a file (a fenced block with
+//! `file=NAME` behind its language). A comment `<!-- not run: REASON -->` before a block of commands
+//! keeps it from being run.
 #![cfg(unix)]
 
 use serde_json::Value;
@@ -13,21 +15,14 @@ use std::process::{Child, Command, Stdio};
 use std::sync::Mutex;
 use tempfile::TempDir;
 
-/// Commands that are not run, as they stand in the text without their comments, with the reason.
-const SKIPPED: &[(&str, &str)] = &[
-    ("tatamu make INPUT... [options]", "a synopsis"),
-    ("tatamu segment INPUT [options]", "a synopsis"),
-    ("tatamu init MESH [options]", "a synopsis"),
-    ("tatamu plot INPUT [options]", "a synopsis"),
-    ("tatamu check FILE.fold", "a synopsis"),
-    ("tatamu show INPUT [options]", "a synopsis"),
-    ("tatamu studio [INPUT]", "a synopsis"),
-    ("tatamu studio samples/teddy.obj", "opens a window, and is not in the usual build"),
-    ("tatamu design FILE.toml", "a synopsis"),
-];
+/// What is before the reason in the comment that keeps a block from being run.
+const NOT_RUN: &str = "<!-- not run: ";
 
-/// Meshes of the reader's own, and the small samples that stand for them.
-const STAND_INS: [(&str, &str); 1] = [("teddy.obj", "samples/box.obj")];
+/// Programs that the text may call only in blocks that are not run.
+const FOREIGN: [&str; 7] = ["cargo ", ".ci/", "sudo ", "cat ", "git ", "mkdir ", "TATAMU_MESHES="];
+
+/// The most words of the README.
+const README_WORDS: usize = 1000;
 
 /// The port in the text, in whose place each command gets a virtual plotter of its own.
 const PORT: &str = "/dev/ttyUSB0";
@@ -72,10 +67,10 @@ fn files_under(folder: &str, extension: &str) -> Vec<PathBuf> {
     found
 }
 
-/// README.md and the pages of the book.
+/// The pages of the book, and those at the root.
 fn documents() -> Vec<PathBuf> {
     let mut found = files_under("docs", "md");
-    found.push(root().join("README.md"));
+    found.extend(["README.md", "CONTRIBUTING.md", "ARCHITECTURE.md"].map(|name| root().join(name)));
     found
 }
 
@@ -84,43 +79,75 @@ fn command(line: &str) -> Option<String> {
     let run = line.trim_start().strip_prefix("cargo run ").filter(|rest| !rest.contains("--example"));
     let run = run.and_then(|rest| rest.split_once("-- ")).map(|(_, words)| format!("tatamu {words}"));
     let line = run.unwrap_or_else(|| line.to_owned());
-    let code = line.split(" #").next().unwrap_or_default();
-    let code = code.split("  ").next().unwrap_or_default().trim();
+    let code = line.split(" #").next().unwrap_or_default().trim();
     code.starts_with("tatamu ").then(|| code.to_owned())
+}
+
+/// A block of code: what stands behind its fence, its lines, and whether a comment before it says
+/// that it is not run.
+#[derive(Default)]
+struct Block<'a> {
+    info: &'a str,
+    lines: Vec<&'a str>,
+    is_skipped: bool,
+}
+
+/// The blocks of a document, fenced or indented by four spaces, in their order.
+fn blocks(text: &str) -> Vec<Block<'_>> {
+    let mut blocks: Vec<Block<'_>> = Vec::new();
+    let (mut is_fenced, mut is_indented, mut is_skipped) = (false, false, false);
+    for line in text.lines() {
+        if let Some(info) = line.strip_prefix("```") {
+            if !is_fenced {
+                blocks.push(Block { info, is_skipped, ..Block::default() });
+            }
+            is_fenced = !is_fenced;
+            (is_indented, is_skipped) = (false, false);
+        } else if is_fenced {
+            blocks.last_mut().expect("a fence").lines.push(line);
+        } else if let Some(code) = line.strip_prefix("    ") {
+            if !is_indented {
+                blocks.push(Block { is_skipped, ..Block::default() });
+            }
+            blocks.last_mut().expect("a block").lines.push(code);
+            (is_indented, is_skipped) = (true, false);
+        } else {
+            is_indented = false;
+            is_skipped |= line.starts_with(NOT_RUN);
+            assert!(!is_skipped || line.is_empty() || line.starts_with(NOT_RUN), "no block before: {line}");
+        }
+    }
+    assert!(!is_fenced, "a fenced block has no end");
+    blocks
 }
 
 /// What a document asks its reader to do, in its order.
 fn steps(text: &str) -> Vec<Step> {
     let mut steps = Vec::new();
-    let mut fence: Option<(Option<String>, Vec<&str>)> = None;
-    for line in text.lines() {
-        match (&mut fence, line.strip_prefix("```")) {
-            (None, Some(info)) => {
-                let name = info.split_whitespace().find_map(|word| word.strip_prefix("file="));
-                fence = Some((name.map(str::to_owned), Vec::new()));
-            }
-            (None, None) => steps.extend(line.strip_prefix("    ").and_then(command).map(Step::Command)),
-            (Some((_, lines)), None) => lines.push(line),
-            (Some((Some(name), lines)), Some(_)) => {
-                steps.push(Step::File(name.clone(), lines.join("\n") + "\n"));
-                fence = None;
-            }
-            (Some((None, lines)), Some(_)) => {
-                steps.extend(lines.iter().filter_map(|line| command(line)).map(Step::Command));
-                fence = None;
-            }
+    for block in blocks(text).iter().filter(|block| !block.is_skipped) {
+        let name = block.info.split_whitespace().find_map(|word| word.strip_prefix("file="));
+        if let Some(name) = name {
+            steps.push(Step::File(name.to_owned(), block.lines.join("\n") + "\n"));
+            continue;
+        }
+        assert!(!block.info.starts_with("toml"), "a project file without a name: {:?}", block.lines);
+        for line in &block.lines {
+            let ours = command(line);
+            let is_foreign = FOREIGN.iter().any(|program| line.starts_with(program));
+            assert!(ours.is_some() || !is_foreign, "{line}: neither run nor marked as \"not run\"");
+            steps.extend(ours.map(Step::Command));
         }
     }
-    assert!(fence.is_none(), "a fenced block has no end");
     steps
 }
 
-/// A folder in which the commands of a document find what they name.
+/// A folder in which the commands of a document find what they find at the root.
 fn workplace() -> TempDir {
     let folder = tempfile::tempdir().unwrap();
-    std::os::unix::fs::symlink(root().join("samples"), folder.path().join("samples")).unwrap();
-    for (name, sample) in STAND_INS {
-        std::fs::copy(root().join(sample), folder.path().join(name)).unwrap();
+    let samples = folder.path().join("samples");
+    std::fs::create_dir(&samples).unwrap();
+    for path in ["obj", "toml"].into_iter().flat_map(|extension| files_under("samples", extension)) {
+        std::fs::copy(&path, samples.join(path.file_name().unwrap())).unwrap();
     }
     folder
 }
@@ -205,13 +232,20 @@ fn run(folder: &Path, line: &str) {
     let output = tatamu(folder).args(&words).output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{line}\n{said}");
+    // A pin that is without effect is only a warning.
+    assert!(!said.contains("[[pin]]") && !said.contains("pinned"), "{line}\n{said}");
     if let Some(file) = redirect {
         std::fs::write(folder.join(file), &output.stdout).unwrap();
     }
     let names = ["-o", "--output", "--guide", "--report", "--segments", "--preview"];
     let stem = words.get(1).and_then(|input| Path::new(input).file_stem()).unwrap_or_default();
     let stem = stem.to_string_lossy();
-    for name in option(&words, &names) {
+    let mut written: Vec<String> = option(&words, &names).into_iter().map(str::to_owned).collect();
+    let makes = ["make", "design"].contains(&words[0]) && !words.contains(&"--list-configurations");
+    if makes && option(&words, &["-o", "--output"]).is_empty() {
+        written.push(format!("{stem}.pdf"));
+    }
+    for name in &written {
         let is_folder = folder.join(name).is_dir();
         let name = if is_folder { format!("{name}/{stem}.pdf") } else { name.replace("{name}", &stem) };
         assert!(is_written(folder, &name), "{line}: no {name}");
@@ -234,23 +268,20 @@ fn is_written(folder: &Path, name: &str) -> bool {
 
 #[test]
 fn every_command_in_the_book_and_the_readme_runs() {
-    let mut jobs: Vec<(PathBuf, Vec<Step>)> =
-        documents().into_iter().map(|path| (path.clone(), steps(&read(&path)))).collect();
+    let of = |path: &PathBuf| std::panic::catch_unwind(|| steps(&read(path)));
+    let of = |path: PathBuf| (of(&path).unwrap_or_else(|_| panic!("in {}", path.display())), path);
+    let mut jobs: Vec<(Vec<Step>, PathBuf)> = documents().into_iter().map(of).collect();
     // Popped from the end, so that the longest goes first.
-    jobs.sort_by_key(|(_, steps)| steps.len());
-    let command = |step: &Step| if let Step::Command(line) = step { Some(line.clone()) } else { None };
-    let all: Vec<String> = jobs.iter().flat_map(|(_, steps)| steps).filter_map(command).collect();
-    assert!(all.len() > 60, "only {} commands were found", all.len());
-    for (skipped, reason) in SKIPPED {
-        assert!(all.iter().any(|line| line == skipped), "nothing to skip: {skipped} ({reason})");
-    }
+    jobs.sort_by_key(|(steps, _)| steps.len());
+    let count = jobs.iter().flat_map(|(steps, _)| steps).filter(|s| matches!(s, Step::Command(_))).count();
+    assert!(count > 80, "only {count} commands were found");
     let jobs = Mutex::new(jobs);
     let workers = std::thread::available_parallelism().map_or(2, |n| n.get());
     let next = || jobs.lock().unwrap().pop();
     std::thread::scope(|scope| {
         for _ in 0..workers {
             scope.spawn(|| {
-                while let Some((path, steps)) = next() {
+                while let Some((steps, path)) = next() {
                     println!("{}: {} steps", path.display(), steps.len());
                     follow(&steps);
                 }
@@ -261,13 +292,103 @@ fn every_command_in_the_book_and_the_readme_runs() {
 
 fn follow(steps: &[Step]) {
     let folder = workplace();
-    for step in steps {
+    for (k, step) in steps.iter().enumerate() {
         match step {
-            Step::File(name, content) => std::fs::write(folder.path().join(name), content).unwrap(),
-            Step::Command(line) if SKIPPED.iter().any(|(skipped, _)| line == skipped) => {}
+            Step::File(name, content) => {
+                let is_use = |later: &Step| matches!(later, Step::Command(line) if line.contains(name));
+                assert!(steps[k..].iter().any(is_use), "no command uses {name}");
+                std::fs::write(folder.path().join(name), content).unwrap();
+            }
             Step::Command(line) => run(folder.path(), line),
         }
     }
+}
+
+#[test]
+fn blocks_are_run_unless_a_comment_says_why_not() {
+    let text = "Text\n\n    tatamu formats\n    e = 0\n\n<!-- not run: opens a window -->\n```sh\ncargo run -- studio\n```\n\
+                \n```toml file=a.toml\nsize = 1\n```\n```sh\ncargo run --release -- make a.toml  # now\n```\n";
+    let said: Vec<String> = steps(text)
+        .iter()
+        .map(|step| match step {
+            Step::File(name, content) => format!("{name}: {content}"),
+            Step::Command(line) => line.clone(),
+        })
+        .collect();
+    assert_eq!(said, ["tatamu formats", "a.toml: size = 1\n", "tatamu make a.toml"]);
+    for bad in
+        ["```sh\nsudo reboot\n```\n", "    cargo test\n", "```toml\nsize = 1\n```\n", "```sh\ntatamu\n"]
+    {
+        assert!(std::panic::catch_unwind(|| steps(bad)).is_err(), "{bad} was accepted");
+    }
+}
+
+#[test]
+fn the_readme_is_short() {
+    let count = read(&root().join("README.md")).split_whitespace().count();
+    assert!(count <= README_WORDS, "{count} words");
+}
+
+/// Words that CONTRIBUTING.md asks not to use.
+const STILTED: [&str; 12] = [
+    "so many",
+    "anew",
+    "heed",
+    "is told",
+    "are told",
+    "tell so",
+    "comes to lie",
+    "stand in each other",
+    "stand for themselves",
+    "must do",
+    "not there",
+    "if you do not say",
+];
+
+#[test]
+fn documents_are_in_plain_english() {
+    let pages = documents().into_iter().chain([root().join("CHANGELOG.md")]);
+    for path in pages.filter(|path| !path.ends_with("CONTRIBUTING.md")) {
+        let text = read(&path).split_whitespace().collect::<Vec<_>>().join(" ");
+        let found: Vec<_> = STILTED.iter().filter(|words| text.contains(**words)).collect();
+        assert!(found.is_empty(), "{}: {found:?}; see CONTRIBUTING.md", path.display());
+    }
+}
+
+/// The names of the commands, by `tatamu --help`.
+fn commands() -> Vec<String> {
+    let output = tatamu(root()).arg("--help").output().unwrap();
+    let help = String::from_utf8(output.stdout).unwrap();
+    let list = help.split_once("Commands:\n").unwrap().1.split_once("\n\n").unwrap().0;
+    let name = |line: &str| {
+        line.strip_prefix("  ").filter(|l| !l.starts_with(' '))?.split(' ').next().map(str::to_owned)
+    };
+    list.lines().filter_map(name).filter(|name| name != "help").collect()
+}
+
+#[test]
+fn every_command_and_option_is_in_the_reference() {
+    let page = read(&root().join("docs/reference/command-line.md"));
+    let mut count = 0;
+    for command in commands() {
+        let named =
+            page.contains(&format!("`tatamu {command}")) || page.contains(&format!("### {command}\n"));
+        assert!(named, "{command} is not explained");
+        let output = tatamu(root()).args([&command, "--help"]).output().unwrap();
+        let help = String::from_utf8(output.stdout).unwrap();
+        let flags = help.lines().filter_map(|line| {
+            let line = line.trim_start();
+            let long = line.strip_prefix("-").and_then(|l| l.split_once(", ")).map_or(line, |(_, long)| long);
+            let name = long.strip_prefix("--")?;
+            Some(name.chars().take_while(|c| c.is_ascii_lowercase() || *c == '-').collect::<String>())
+        });
+        for flag in flags.filter(|flag| !["help", "version"].contains(&flag.as_str())) {
+            count += 1;
+            let is_named = ["`", " ", "[", "="].iter().any(|end| page.contains(&format!("--{flag}{end}")));
+            assert!(is_named, "{command} --{flag} is not explained");
+        }
+    }
+    assert!(count > 60, "only {count} options");
 }
 
 /// A report of a sample.
