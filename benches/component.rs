@@ -27,7 +27,7 @@ fn one_component(bencher: Bencher, (top_edges, profile_vertices): (usize, usize)
         top_edges,
         profile_vertices,
         min_panel_mm: 3.0,
-        is_pruned: true,
+        panel_worth: 0.0015,
         comfortable_mm: 4.5,
     };
     bencher.bench(|| convert(&target).expect("a component"));

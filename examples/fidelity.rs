@@ -50,6 +50,7 @@ fn measure(
     let mut parts: Vec<Part> = bodies.parts().to_vec();
     for part in &mut parts {
         (part.options.top_edges, part.options.profile_vertices) = (edges, vertices);
+        part.options.panel_worth = 0.0;
     }
     let assembly = Assembly { parts: &parts, ..bodies.assembly(least_mm) };
     let mut fastest_ms = f64::INFINITY;

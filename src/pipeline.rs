@@ -105,9 +105,10 @@ impl Options {
         (self.top_edges.unwrap_or(by_level.0), self.profile_vertices.unwrap_or(by_level.1))
     }
 
-    /// Whether the program chooses the number of panels by what they are worth.
-    fn counts_are_chosen(&self) -> bool {
-        self.top_edges.is_none() && self.profile_vertices.is_none()
+    /// What a panel must be worth to be there: who asks for a number of them gets it.
+    fn panel_worth(&self) -> f64 {
+        let is_chosen = self.top_edges.is_none() && self.profile_vertices.is_none();
+        if is_chosen { self.level.panel_worth() } else { 0.0 }
     }
 }
 

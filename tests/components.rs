@@ -29,7 +29,7 @@ impl Body {
             top_edges: self.edges,
             profile_vertices: self.vertices,
             min_panel_mm: LEAST_MM,
-            is_pruned: true,
+            panel_worth: 0.0015,
             comfortable_mm: 1.5 * LEAST_MM,
         }
     }

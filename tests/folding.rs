@@ -21,7 +21,7 @@ fn cuboid(name: &str, low: DVec3, size: DVec3) -> Part {
         top_edges: 4,
         profile_vertices: 3,
         tolerance_mm: None,
-        is_pruned: true,
+        panel_worth: 0.0015,
         comfortable_mm: 3.0,
     };
     Part { hull: Hull::of_points(&corners).unwrap(), options }

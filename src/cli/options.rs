@@ -49,7 +49,7 @@ pub struct ModelArgs {
 
     /// How much work the model may be: easy, normal or fine [default: normal]
     ///
-    /// "easy" has about half as many panels, "fine" about twice as many. Big parts get most of them.
+    /// "easy" has about two thirds of the panels, "fine" about twice as many. Big parts get most of them.
     /// Example: --level easy
     #[arg(long, value_name = "LEVEL", value_parser = parse_level, hide_possible_values = true)]
     level: Option<Level>,

@@ -289,7 +289,7 @@ pub(crate) mod tests {
             top_edges: 6,
             profile_vertices: 6,
             min_panel_mm: 3.0,
-            is_pruned: true,
+            panel_worth: 0.0015,
             comfortable_mm: 6.0,
         }
     }

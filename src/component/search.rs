@@ -55,9 +55,6 @@ const REPAIRS: usize = 40;
 const REPAIR_STEPS: usize = 8;
 /// A shape that misses a limit by less is as good as one that keeps it.
 const NEAR_ENOUGH_MM: f64 = 1e-3;
-/// A panel that makes a component less alike by less than this share of its size, the cube root of
-/// its volume, is left out.
-const PANEL_WORTH: f64 = 0.0015;
 /// Steps after one was left out.
 const PRUNE_STEPS: usize = 8;
 /// Of the finished shapes of several directions, so many are looked through for needless panels: the
@@ -139,7 +136,7 @@ pub(super) fn each(targets: &[(Target, f64)], most: usize) -> Vec<Found> {
         let found = if place < PRUNED { pruned(found, targets, &hulls) } else { found };
         let mut found = found.or_box(targets);
         let (target, panels) = (&targets[found.target].0, found.made.panels.panels().len());
-        found.cost_mm += panel_worth_mm(target.hull) * panels as f64;
+        found.cost_mm += panel_worth_mm(target) * panels as f64;
         found
     };
     let mut found: Vec<Found> = found.into_par_iter().enumerate().map(finish).collect();
@@ -248,12 +245,12 @@ fn most_promising(
 /// The same with the planes and chains left out that add little to the likeness, one by one.
 fn pruned(mut found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Found {
     let target = &targets[found.target];
-    if !target.0.is_pruned {
+    if target.0.panel_worth == 0.0 {
         return found;
     }
     let fine = hulls[found.target].fine();
     let goal = Target { hull: fine, ..goal(&target.0, fine) };
-    let worth_mm = panel_worth_mm(fine);
+    let worth_mm = panel_worth_mm(&target.0);
     for way in [without_plane, without_chain] {
         while let Some((solid, spots)) = way(&found.fitted, &goal) {
             let fit = Fit::new(goal.clone(), Aim::LIKENESS, solid, spots).run(PRUNE_STEPS);
@@ -271,8 +268,8 @@ fn pruned(mut found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Fou
 }
 
 /// What a panel less may cost, mm.
-fn panel_worth_mm(hull: &Hull) -> f64 {
-    PANEL_WORTH * hull.volume().cbrt()
+fn panel_worth_mm(target: &Target) -> f64 {
+    target.panel_worth * target.hull.volume().cbrt()
 }
 
 /// What finished shapes are compared by: the error first, then good joints, a small spread, and small
@@ -356,7 +353,7 @@ fn goal<'h>(target: &Target, hull: &'h Hull) -> Target<'h> {
         top_edges: target.top_edges.min(at_most(0.5 * girth)).max(target.locked_angles().len().max(3)),
         profile_vertices: target.profile_vertices.min(1 + at_most(0.7 * height)).max(3),
         min_panel_mm: target.comfortable_mm,
-        is_pruned: target.is_pruned,
+        panel_worth: target.panel_worth,
         comfortable_mm: target.comfortable_mm,
     }
 }

@@ -205,7 +205,7 @@ impl Straight {
             top_edges: own.top_edges,
             profile_vertices: own.profile_vertices,
             min_panel_mm: own.min_panel_mm,
-            is_pruned: own.is_pruned,
+            panel_worth: own.panel_worth,
             comfortable_mm: own.comfortable_mm,
         }
     }

@@ -60,8 +60,9 @@ pub struct Target<'a> {
     pub profile_vertices: usize,
     /// Least width and height of a side panel.
     pub min_panel_mm: f64,
-    /// Whether planes that add little are left out.
-    pub is_pruned: bool,
+    /// A panel that makes the component less alike by less than this share of its size, the cube root of
+    /// its volume, is left out; 0 keeps all.
+    pub panel_worth: f64,
     /// Width and height from which panels are comfortable to fold and to glue: fewer edges and
     /// vertices are used where that many would be smaller.
     pub comfortable_mm: f64,

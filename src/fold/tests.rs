@@ -33,7 +33,7 @@ pub(super) fn components() -> impl Strategy<Value = Component> {
                 top_edges,
                 profile_vertices,
                 min_panel_mm: limits.0,
-                is_pruned: true,
+                panel_worth: 0.0015,
                 comfortable_mm: limits.1,
             })
             .ok()
@@ -148,7 +148,7 @@ fn walls_of_a_box_bend_evenly() {
         top_edges: 4,
         profile_vertices: 3,
         min_panel_mm: 3.0,
-        is_pruned: true,
+        panel_worth: 0.0015,
         comfortable_mm: 3.0,
     };
     let component = convert(&target).unwrap();

@@ -219,7 +219,7 @@ impl<'a> Builder<'a> {
             top_edges: options.top_edges,
             profile_vertices: options.profile_vertices,
             min_panel_mm: self.min_panel_mm,
-            is_pruned: options.is_pruned,
+            panel_worth: options.panel_worth,
             comfortable_mm: options.comfortable_mm,
             symmetry: self.mirror_plane(&direction.frame),
         }

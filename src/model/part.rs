@@ -18,8 +18,9 @@ pub struct PartOptions {
     /// Distance from the hull that is close enough; then the two numbers above are the most that
     /// is used, and as few are used as will do.
     pub tolerance_mm: Option<f64>,
-    /// Whether panels that add little are left out.
-    pub is_pruned: bool,
+    /// A panel that makes the component less alike by less than this share of its size, the cube root of
+    /// its volume, is left out; 0 keeps all.
+    pub panel_worth: f64,
     /// Size below which panels are made fewer rather than smaller, mm.
     pub comfortable_mm: f64,
 }

@@ -196,7 +196,7 @@ fn parts(hulls: &Hulls, options: &Options) -> Result<Vec<Part>, Error> {
                 top_edges: own.top_edges.unwrap_or(top_edges),
                 profile_vertices: own.profile_vertices.unwrap_or(profile_vertices),
                 tolerance_mm: options.tolerance_mm,
-                is_pruned: !is_set && options.counts_are_chosen(),
+                panel_worth: if is_set { 0.0 } else { options.panel_worth() },
                 comfortable_mm,
             },
         }

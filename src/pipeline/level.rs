@@ -59,6 +59,15 @@ impl Level {
         }
     }
 
+    /// What a panel must add to the likeness to be there, as a share of its component's size.
+    pub(super) fn panel_worth(self) -> f64 {
+        match self {
+            Self::Easy => 0.003,
+            Self::Normal => 0.0015,
+            Self::Fine => 0.0005,
+        }
+    }
+
     /// Top edges and profile vertices of a part, by the square root of its share of the surface of all.
     ///
     /// With n panels the outline of a round part of radius r is off by an area of about r²/n: the sum
