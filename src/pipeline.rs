@@ -7,6 +7,7 @@ mod engine;
 mod judge;
 mod level;
 mod output;
+mod remedy;
 mod warning;
 
 pub use bodies::{Bodies, Hulls};
@@ -210,6 +211,15 @@ fn too_large(error: &NetsError, size_mm: f64) -> String {
 /// See [`Error`].
 pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
     Engine::for_one_division(Cow::Borrowed(mesh)).run(options, progress)
+}
+
+/// The same, and where problems are left, tries other options: [`Engine::advise`].
+///
+/// # Errors
+/// See [`Error`].
+pub fn run_and_advise(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
+    let engine = Engine::for_one_division(Cow::Borrowed(mesh));
+    engine.advise(engine.run(options, progress)?, progress)
 }
 
 /// Divides a mesh at the model's size into parts; also gives the transform from the coordinates of

@@ -1,9 +1,10 @@
 //! The engine remembers, and what it remembers is what would be made anew.
 
 use std::borrow::Cow;
+use std::str::FromStr;
 use std::sync::Mutex;
 use tatamu::mesh::{self, Mesh};
-use tatamu::pipeline::{ComponentOptions, Engine, Options, Output};
+use tatamu::pipeline::{ComponentOptions, Level, Engine, Options, Output};
 use tatamu::progress::{Progress, Silent};
 use tatamu::segment::{Edit, SegmentOptions};
 use tatamu::units::parse_paper;
@@ -118,4 +119,53 @@ fn directions_are_those_in_which_nothing_bumps_but_not_against_the_users_wish() 
     for part in stays.model().parts() {
         assert_eq!(Some(part.direction_rad), fixed.components[&part.name].direction_rad, "{}", part.name);
     }
+}
+
+/// Overlaps, clashes and weak joints.
+fn problems(output: &Output) -> usize {
+    let codes = ["deployed_overlap", "fold_clash", "own_fold_clash", "weak_joint"];
+    output.warnings().iter().filter(|warning| codes.contains(&warning.code)).count()
+}
+
+/// At 40 mm the joints of the snowman are too small to hold.
+#[test]
+fn what_is_advised_leaves_as_few_problems_as_the_advice_says() {
+    let bytes = include_bytes!("../samples/snowman.obj");
+    let snowman = Mesh::from_soup(&mesh::read(bytes).expect("OBJ")).expect("a mesh").0;
+    let engine = Engine::new(Cow::Borrowed(&snowman));
+    let small = Options { size_mm: 40.0, ..Options::default() };
+    let made = engine.run(&small, &Silent).expect("a model");
+    let before = problems(&made);
+    assert!(before > 0, "{:?}", made.warnings());
+    let advised = engine.advise(made.clone(), &Silent).expect("advice");
+    let [kept @ .., last] = advised.warnings() else { panic!("no warnings") };
+    assert_eq!(kept, made.warnings(), "one warning more");
+    assert_eq!(last.code, "remedy", "{last:?}");
+    let words: Vec<&str> = last.message.split_whitespace().collect();
+    let number = |text: &str| f64::from_str(text.trim_end_matches("mm")).expect("a number");
+    let mut options = small;
+    match words[0] {
+        "--size" => options.size_mm = number(words[1]),
+        "--parts" => options.segmentation.parts = Some(number(words[1]) as usize),
+        "--top-edges" => options.top_edges = Some(number(words[1]) as usize),
+        "--profile-vertices" => options.profile_vertices = Some(number(words[1]) as usize),
+        "--level" => options.level = Level::ALL.into_iter().find(|l| l.name() == words[1]).expect("a level"),
+        other => panic!("{other}"),
+    }
+    let left = problems(&Engine::new(Cow::Borrowed(&snowman)).run(&options, &Silent).expect("a model"));
+    assert!(left < before, "{left} of {before}: {last:?}");
+    let said = if left == 0 { "without".to_owned() } else { format!("leaves {left} ") };
+    assert!(last.message.contains(&said), "{left} left: {last:?}");
+}
+
+#[test]
+fn a_model_without_problems_gets_no_advice() {
+    let mesh = bottle();
+    let engine = Engine::new(Cow::Borrowed(&mesh));
+    let made = engine.run(&options(), &Silent).expect("a model");
+    assert_eq!(problems(&made), 0, "{:?}", made.warnings());
+    let stages = Stages::default();
+    let advised = engine.advise(made.clone(), &stages).expect("advice");
+    assert_same(&made, &advised);
+    assert!(stages.0.lock().expect("no panic").is_empty(), "nothing is tried");
 }

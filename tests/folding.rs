@@ -135,8 +135,35 @@ fn ears_too_near_to_each_other_clash_in_any_order() {
     let pairs: BTreeSet<[usize; 2]> = plan.clashes().iter().map(|c| c.parts).collect();
     assert_eq!(advice.len(), pairs.len() + plan.overlaps().len(), "each pair is told of once");
     let (code, message) = advice.iter().find(|(code, _)| *code == "fold_clash").expect("a warning");
-    for word in ["left", "right", " mm when "] {
-        assert!(message.contains(word), "{code}: {message}");
+    for words in ["left's right panel", "right's left panel", " mm when "] {
+        assert!(message.contains(words), "{code}: {message}");
+    }
+}
+
+#[test]
+fn an_encounter_is_where_and_when_the_two_panels_are_in_each_other() {
+    let model = ears(0.3 * EAR_MM);
+    let motion = ModelMotion::new(&model);
+    let plan = plan(&motion);
+    let encounters = plan.encounters(&motion);
+    assert!(encounters.iter().any(|encounter| encounter.parts == [1, 2]), "{encounters:?}");
+    for encounter in encounters {
+        let pose = motion.pose(&encounter.folded);
+        let panels = [0, 1].map(|k| {
+            let part = encounter.parts[k];
+            let panel = model.parts()[part].component.panels().panel(encounter.panels[k]);
+            (panel, pose.parts[part].panel(encounter.panels[k]))
+        });
+        let fans = panels.map(|(panel, placement)| vec![fan(panel, &placement)]);
+        let all: Vec<Vec<[DVec3; 3]>> = fans.into_iter().flatten().collect();
+        assert_eq!(cuts(&all, 0.5 * THICKNESS_MM), [[0, 1]], "they cut through each other");
+        for (panel, placement) in panels {
+            for end in encounter.line {
+                let here = placement.inverse().transform_point3(end);
+                assert!(here.z.abs() < 1e-6, "the place is in both planes: {here}");
+                assert!(geom::polygon::depth_outside(&panel.outline, here.truncate()) < 1e-6);
+            }
+        }
     }
 }
 

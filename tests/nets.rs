@@ -10,10 +10,13 @@ use tatamu::component::{HingeId, PanelId, PanelSet};
 use tatamu::drawing::{Layer, Polyline, Rgb, Shape, Stroke};
 use tatamu::export::fold::{self, FoldComponent, FoldModel};
 use tatamu::geom::polygon;
+use tatamu::mesh::{self, Mesh};
 use tatamu::net::{
-    BlankNet, EdgeKind, JointMark, Naming, Net, NetError, NetOptions, Side, alternatives, check::faults,
-    develop,
+    BlankNet, EdgeKind, JointMark, Label, LabelKind, Naming, Net, NetError, NetOptions, Side, alternatives,
+    check::faults, develop,
 };
+use tatamu::pipeline::{self, Options};
+use tatamu::progress::Silent;
 use tatamu::sheet::PiecePlace;
 
 const A4: DVec2 = DVec2::new(190.0, 277.0);
@@ -291,4 +294,73 @@ fn files_that_are_no_masters_are_refused() {
     file["edges_tatamu:kind"].as_array_mut().expect("a list").pop();
     let found = check::fold(file.to_string().as_bytes());
     assert!(matches!(found, Err(check::FoldCheckError::Length { .. })));
+}
+
+/// Corners of a label from its base line to the top of its capitals.
+fn letters(label: &Label) -> [DVec2; 4] {
+    let along = DVec2::from_angle(label.angle_rad);
+    let (aside, rise) = (along * label.width_mm / 2.0, along.perp() * label.cap_height_mm);
+    let [low, high] = [label.anchor, label.anchor + rise];
+    [low - aside, low + aside, high + aside, high - aside]
+}
+
+/// Distance of a point from a text; 0 within it.
+fn distance_mm(text: &[DVec2; 4], point: DVec2) -> f64 {
+    if polygon::contains(text, point) {
+        return 0.0;
+    }
+    polygon::edges(text).map(|(a, b)| polygon::distance_to_segment(point, a, b)).fold(f64::INFINITY, f64::min)
+}
+
+/// The labels D5 and F2 of the snowman had the beginning of another label's leader line beside them; D2
+/// and E5 of the rabbit had no place.
+#[test]
+fn no_label_of_the_samples_can_be_read_for_another_edge() {
+    for name in ["snowman", "rabbit"] {
+        let path = format!("{}/samples/{name}.obj", env!("CARGO_MANIFEST_DIR"));
+        let (mesh, _) = Mesh::from_soup(&mesh::read(&std::fs::read(path).unwrap()).unwrap()).unwrap();
+        let output = pipeline::run(&mesh, &Options::default(), &Silent).unwrap();
+        for net in output.nets() {
+            for piece in net.pieces() {
+                assert_eq!(piece.unplaced_labels(), [] as [String; 0], "{name}: {}", piece.name());
+                assert_readable(net, piece, name);
+            }
+        }
+    }
+}
+
+fn assert_readable(net: &Net, piece: &tatamu::net::Piece, model: &str) {
+    let texts: Vec<(&Label, [DVec2; 4])> = piece.labels().iter().map(|l| (l, letters(l))).collect();
+    // A leader line begins 0.5 mm from its own text, whose descenders count.
+    let own = |from: DVec2| {
+        let distances = texts.iter().map(|(_, text)| distance_mm(text, from)).enumerate();
+        distances.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
+    };
+    let led: Vec<usize> = piece.leaders().iter().filter_map(|leader| own(leader.from)).collect();
+    for (k, (label, text)) in texts.iter().enumerate() {
+        for (leader, &owner) in piece.leaders().iter().zip(&led) {
+            let distance_mm = distance_mm(text, leader.from);
+            assert!(
+                owner == k || distance_mm > 1.2,
+                "{model}: a line begins {distance_mm} mm from {}",
+                label.text
+            );
+        }
+        if label.kind != LabelKind::Mate || led.contains(&k) {
+            continue;
+        }
+        let edges = piece.mesh().edges().iter().filter_map(|edge| match edge.kind {
+            EdgeKind::Tab(h) | EdgeKind::Mate(h) => Some((net.label(h)?, edge)),
+            _ => None,
+        });
+        let middle = text.iter().sum::<DVec2>() / 4.0;
+        let on_its_panel = |face: &usize| polygon::contains(&piece.mesh().outline(*face), middle);
+        let beside = edges.filter(|(_, edge)| edge.faces.iter().any(on_its_panel));
+        let distance_mm = |edge| {
+            let [a, b] = piece.mesh().segment(edge);
+            polygon::distance_to_segment(middle, a, b)
+        };
+        let nearest = beside.min_by(|a, b| distance_mm(a.1).total_cmp(&distance_mm(b.1)));
+        assert_eq!(nearest.map(|(text, _)| text), Some(label.text.as_str()), "{model}: {}", piece.name());
+    }
 }

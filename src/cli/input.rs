@@ -11,6 +11,7 @@ use tatamu::drawing::LineStyles;
 use tatamu::mesh::painting::Painting;
 use tatamu::mesh::{self, Mesh, Repairs};
 use tatamu::pipeline::{self, Options, Output, Warning};
+use tatamu::progress::Progress;
 use tatamu::project::Project;
 
 /// What a model is made of, with where it comes from.
@@ -60,8 +61,28 @@ impl Input {
         options: &Options,
         progress: &TerminalProgress,
     ) -> Result<Output, CliError> {
+        self.run_by(pipeline::run, model, options, progress)
+    }
+
+    /// The same, and tries what helps where problems are left. Drawings are made as they are drawn.
+    pub fn run_and_advise(
+        &self,
+        model: &ModelArgs,
+        options: &Options,
+        progress: &TerminalProgress,
+    ) -> Result<Output, CliError> {
+        self.run_by(pipeline::run_and_advise, model, options, progress)
+    }
+
+    fn run_by(
+        &self,
+        run: impl Fn(&Mesh, &Options, &dyn Progress) -> Result<Output, pipeline::Error>,
+        model: &ModelArgs,
+        options: &Options,
+        progress: &TerminalProgress,
+    ) -> Result<Output, CliError> {
         let result = match &self.shape {
-            Shape::Mesh(mesh) => pipeline::run(mesh, options, progress),
+            Shape::Mesh(mesh) => run(mesh, options, progress),
             Shape::Drawn(sketches) => pipeline::run_drawn(sketches, model.size_mm(self), options, progress),
         };
         result.map_err(|error| CliError::of_run(error, progress))

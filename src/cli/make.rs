@@ -166,7 +166,7 @@ pub fn make(
     let warnings = input.warnings();
     warnings.iter().for_each(|warning| tell(&warning.message));
 
-    let result = input.run(&args.model, &options, progress)?;
+    let result = input.run_and_advise(&args.model, &options, progress)?;
     let stages = progress.finish();
     terminal::first_of_each_kind(result.warnings()).iter().for_each(|message| tell(message));
 

@@ -4,15 +4,17 @@ use super::error::CliError;
 use super::film::size_px;
 use super::options::ModelArgs;
 use super::progress::TerminalProgress;
-use super::{input, output, terminal};
+use super::{input, names, output, terminal};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
-use tatamu::drawing::{LineStyles, Pages, Rgb};
-use tatamu::export::{FORMATS, FormatOptions, Source, png};
+use tatamu::drawing::{Drawing, LineStyles, Pages, Rgb};
+use tatamu::export::{ExportError, ExportFile, FORMATS, FormatOptions, Source, png};
+use tatamu::fold::ModelMotion;
 use tatamu::pipeline::Output;
 use tatamu::render::Scene;
 use tatamu::show::{
-    ShowError, Still, ViewAngle, components_scene, hulls_scene, mesh_scene, segments_scene, staged_scene,
+    ShowError, Still, ViewAngle, captioned, clash_picture, components_scene, hulls_scene, mesh_scene,
+    segments_scene, staged_scene,
 };
 
 /// Shows a mesh, or a stage of its way to a paper model, as a picture.
@@ -43,7 +45,15 @@ pub struct ShowArgs {
     #[arg(long, value_name = "SHARE", value_parser = share, conflicts_with = "stage")]
     pose: Option<f64>,
 
-    /// Where it is seen from [default: corner]
+    /// Where components clash or overlap, one picture for each place
+    ///
+    /// The two components have their colours, and the place is red; below it is written what to do.
+    /// Several pictures become numbered files, or pages of a PDF. Where nothing clashes it is the
+    /// paper model. Example: --clashes -o clashes.png
+    #[arg(long, conflicts_with_all = ["stage", "pose"])]
+    clashes: bool,
+
+    /// Where it is seen from [default: corner; with --clashes: where the place is seen best]
     ///
     /// corner, front, back, left, right, top, or two angles in degrees: round the model from its
     /// front to its left, and up. Example: --view 30,20
@@ -84,7 +94,8 @@ const EXAMPLES: &str = "\
 Examples:
   tatamu show teddy.obj                                teddy.png, the paper model
   tatamu show teddy.obj --stage segments -o parts.svg
-  tatamu show teddy.obj --pose 0.5 --view left -o half.png";
+  tatamu show teddy.obj --pose 0.5 --view left -o half.png
+  tatamu show teddy.obj --clashes -o clashes.png";
 
 const SIZE_PX: u32 = 800;
 
@@ -106,26 +117,48 @@ pub fn run(args: &ShowArgs) -> Result<(), CliError> {
     output::check_places(std::slice::from_ref(&path), &[&args.input, &input.mesh_path])?;
     input.notes.iter().for_each(terminal::warn);
     let options = args.model.merge(input.project.as_ref())?;
-    let scene = if args.stage == Some(Stage::Mesh) {
-        mesh_scene(&input.mesh()?.scaled(options.size_mm, options.up).0).map_err(ShowError::from)?
-    } else {
-        let progress = TerminalProgress::new(args.quiet);
-        let result = input.run(&args.model, &options, &progress)?;
-        progress.finish();
-        scene(args, &result)?
-    };
     let still = Still {
         size_px: args.size_px.unwrap_or(SIZE_PX),
         angle: args.view.unwrap_or_default(),
         ground: (!args.transparent).then_some(Rgb::WHITE),
     };
+    let drawings = if args.stage == Some(Stage::Mesh) {
+        let mesh = input.mesh()?.scaled(options.size_mm, options.up).0;
+        vec![still.take(&mesh_scene(&mesh).map_err(ShowError::from)?)?]
+    } else {
+        let progress = TerminalProgress::new(args.quiet);
+        let result = input.run(&args.model, &options, &progress)?;
+        progress.finish();
+        if args.clashes { clashes(args, &still, &result)? } else { vec![still.take(&scene(args, &result)?)?] }
+    };
     let title = terminal::printable(&args.input.file_stem().unwrap_or_default().to_string_lossy());
-    let bytes = write(title, &still, &scene)?;
-    output::write(&[(path.clone(), bytes)])?;
+    let files = write(title, drawings)?.into_iter();
+    let files: Vec<_> = files.map(|file| (names::with_suffix(&path, &file.suffix), file.bytes)).collect();
+    output::write(&files)?;
     if !args.quiet {
-        terminal::say(&format!("written     {}", path.display()));
+        let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
+        terminal::say(&format!("written     {}", written.join(", ")));
     }
     Ok(())
+}
+
+/// A picture of each place where components are in each other; of the model where there is none, so that
+/// no picture of an earlier run is taken for this one's.
+fn clashes(args: &ShowArgs, still: &Still, result: &Output) -> Result<Vec<Drawing>, CliError> {
+    let motion = ModelMotion::new(result.model());
+    let encounters = result.fold_plan().encounters(&motion);
+    if encounters.is_empty() {
+        if !args.quiet {
+            terminal::say("clashes     none; the picture shows the model");
+        }
+        return Ok(vec![still.take(&components_scene(result.model()))?]);
+    }
+    let drawn = |encounter| {
+        let drawing = clash_picture(&motion, encounter, args.view, still.landscape_mm())?;
+        let captioned = captioned(drawing, &encounter.advice(result.model()).1);
+        Ok(Drawing { ground: still.ground, ..captioned })
+    };
+    encounters.iter().map(drawn).collect()
 }
 
 fn scene(args: &ShowArgs, result: &Output) -> Result<Scene, ShowError> {
@@ -139,8 +172,8 @@ fn scene(args: &ShowArgs, result: &Output) -> Result<Scene, ShowError> {
     })
 }
 
-/// Draws a still and turns it into a file.
-type Writer = Box<dyn Fn(String, &Still, &Scene) -> Result<Vec<u8>, CliError>>;
+/// Turns pictures into files.
+type Writer = Box<dyn Fn(String, Vec<Drawing>) -> Result<Vec<ExportFile>, CliError>>;
 
 /// The writer for a file name: the formats that are made of pages can hold a picture.
 fn format_of(path: &std::path::Path, input: &std::path::Path) -> Result<Writer, CliError> {
@@ -157,15 +190,13 @@ fn format_of(path: &std::path::Path, input: &std::path::Path) -> Result<Writer, 
     let format = target.first().ok_or_else(unknown)?.format;
     let Source::Pages(write) = format.source else { return Err(unknown()) };
     let is_png = format.name == png::FORMAT.name;
-    Ok(Box::new(move |title, still, scene| {
-        let drawing = still.take(scene)?;
+    Ok(Box::new(move |title, drawings| {
         if is_png {
             // A picture is measured in pixels, whatever the resolution of sheets.
-            return Ok(png::render(&drawing, Still::dots_per_inch()).map_err(ShowError::from)?);
+            let pixels = drawings.iter().map(|drawing| png::render(drawing, Still::dots_per_inch()));
+            return Ok(ExportFile::of_pages(pixels.collect::<Result<_, _>>().map_err(ShowError::from)?));
         }
-        let pages = Pages::new(title, vec![drawing], LineStyles::standard())
-            .map_err(tatamu::export::ExportError::from)?;
-        let files = write(&pages, &FormatOptions::default())?;
-        Ok(files.into_iter().next().map(|file| file.bytes).unwrap_or_default())
+        let pages = Pages::new(title, drawings, LineStyles::standard()).map_err(ExportError::from)?;
+        Ok(write(&pages, &FormatOptions::default())?)
     }))
 }

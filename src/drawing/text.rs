@@ -178,6 +178,22 @@ pub fn shortened(content: &str, cap_height_mm: f64, max_width_mm: f64) -> String
         .unwrap_or_default()
 }
 
+/// Text in lines of at most a width; a longer word is shortened.
+pub fn wrapped(words: &str, cap_height_mm: f64, max_width_mm: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in words.split_whitespace() {
+        let word = shortened(word, cap_height_mm, max_width_mm);
+        match lines.last_mut() {
+            Some(line) if width_mm(&format!("{line} {word}"), cap_height_mm) <= max_width_mm => {
+                line.push(' ');
+                line.push_str(&word);
+            }
+            _ => lines.push(word),
+        }
+    }
+    lines
+}
+
 /// Outlines of the letters at their place on the page, to be filled by the non-zero rule.
 pub fn outlines(text: &Text) -> Vec<PathCommand> {
     let em = em_mm(text.cap_height_mm);

@@ -1,53 +1,63 @@
-//! What the user should know about the folding.
+//! What the user should know about the folding, in words for what can be seen.
 
 use super::check::Clash;
-use super::overlap::Overlap;
+use super::encounter::{Encounter, deepest};
 use super::plan::FoldPlan;
+use super::pose::ModelMotion;
 use crate::component::{PanelId, PanelKind};
 use crate::model::Model;
-use std::collections::BTreeMap;
 
 /// A short constant name for programs, and a sentence.
 pub type Advice = (&'static str, String);
 
 impl FoldPlan {
-    /// One piece of advice for each pair that clashes, where it is deepest, and for each overlap.
+    /// One piece of advice for each overlap and for each pair that clashes, where it is deepest.
     pub fn advice(&self, model: &Model) -> Vec<Advice> {
-        let overlaps = self.overlaps().iter().map(|overlap| of_overlap(model, overlap));
-        let clashes = deepest(self.clashes()).map(|clash| match clash.depth_mm {
-            depth_mm if depth_mm <= self.thickness_mm() => of_rub(model, clash),
-            _ => of_clash(model, clash),
-        });
-        overlaps.chain(clashes).collect()
+        let encounters = self.encounters(&ModelMotion::new(model)).into_iter();
+        let rubs = deepest(self.clashes()).filter(|clash| clash.depth_mm <= self.thickness_mm());
+        let rubs = rubs.map(|clash| of_rub(model, clash));
+        encounters.map(|encounter| encounter.advice(model)).chain(rubs).collect()
     }
 }
 
-/// Of clashes of the same two components the deepest one.
-fn deepest(clashes: &[Clash]) -> impl Iterator<Item = &Clash> {
-    let mut of_pair: BTreeMap<[usize; 2], &Clash> = BTreeMap::new();
-    for clash in clashes {
-        let kept = of_pair.entry(clash.parts).or_insert(clash);
-        if clash.depth_mm > kept.depth_mm {
-            *kept = clash;
+impl Encounter {
+    /// What is in what, when, by how much, and what can be done by hand.
+    pub fn advice(&self, model: &Model) -> Advice {
+        let [a, b] = self.parts.map(|p| &model.parts()[p].name);
+        let [p, q] = [0, 1].map(|k| place(model, self.parts[k], self.panels[k]));
+        let depth_mm = self.depth_mm;
+        let Some(mover) = self.mover else {
+            let message = format!(
+                "{a} and {b} overlap by {depth_mm:.1} mm when unfolded, {p} and {q} most: cut a notch into one of them \
+                 there"
+            );
+            return ("deployed_overlap", message);
+        };
+        let when = moment(model, mover, self.folded[mover]);
+        if a == b {
+            let message =
+                format!("{p} and {q} bump by {depth_mm:.1} mm when {when}: cut the slit between them wider");
+            return ("own_fold_clash", message);
         }
+        let message = format!(
+            "{p} and {q} bump by {depth_mm:.1} mm when {when}: bend one of them aside by hand there, or leave out the part {}",
+            model.parts()[self.outer(model)].name
+        );
+        ("fold_clash", message)
     }
-    of_pair.into_values()
-}
 
-fn of_overlap(model: &Model, overlap: &Overlap) -> Advice {
-    let [a, b] = overlap.parts.map(|p| &model.parts()[p].name);
-    let message = format!(
-        "{a} and {b} stand {:.1} mm in each other when the model stands, and no joint connects them: cut a notch into \
-         one of them there",
-        overlap.depth_mm
-    );
-    ("deployed_overlap", message)
+    /// The one of the two that is nearer to the end of the tree of joints.
+    fn outer(&self, model: &Model) -> usize {
+        let [a, b] = self.parts;
+        let depth = |part| super::ancestors(model, part).len();
+        if depth(a) > depth(b) { a } else { b }
+    }
 }
 
 /// Paper gives way by its own thickness.
 fn of_rub(model: &Model, clash: &Clash) -> Advice {
     let [a, b] = clash.parts.map(|p| &model.parts()[p].name);
-    let (depth_mm, when) = (clash.depth_mm, moment(model, clash));
+    let (depth_mm, when) = (clash.depth_mm, moment(model, clash.mover, clash.folded));
     let message = if a == b {
         format!("two panels of {a} rub against each other ({depth_mm:.2} mm) when {when}: fold it with care")
     } else {
@@ -58,33 +68,27 @@ fn of_rub(model: &Model, clash: &Clash) -> Advice {
     ("fold_rub", message)
 }
 
-fn of_clash(model: &Model, clash: &Clash) -> Advice {
-    let (depth_mm, when) = (clash.depth_mm, moment(model, clash));
-    let [a, b] = [0, 1].map(|k| place(model, clash.parts[k], clash.panels[k]));
-    if clash.parts[0] == clash.parts[1] {
-        let message =
-            format!("{a} and {b} bump by {depth_mm:.1} mm when {when}: cut the slit between them wider");
-        return ("own_fold_clash", message);
-    }
-    ("fold_clash", format!("{a} and {b} bump by {depth_mm:.1} mm when {when}: fold by hand with care there"))
-}
-
-/// A panel in words.
+/// A panel by where it is on the unfolded model, as seen from the front, as parts are named.
 fn place(model: &Model, part: usize, panel: PanelId) -> String {
-    let part = &model.parts()[part];
-    let is_joint = part.joint.as_ref().is_some_and(|joint| joint.child_panel == panel);
-    let what = match part.component.panels().panel(panel).kind {
-        _ if is_joint => "the joint panel".to_owned(),
-        PanelKind::Top => "the top panel".to_owned(),
-        PanelKind::Bottom => "the bottom panel".to_owned(),
-        side @ PanelKind::Side { .. } => side.to_string(),
+    let own = &model.parts()[part];
+    if let Some(joint) = own.joint.as_ref().filter(|joint| joint.child_panel == panel) {
+        return format!("{}'s panel that is glued to {}", own.name, model.parts()[joint.parent].name);
+    }
+    let panel = own.component.panels().panel(panel);
+    let outward = (own.deployed() * panel.deployed).matrix3.z_axis;
+    let axis = outward.abs().max_position();
+    let side =
+        [["left", "right"], ["front", "back"], ["lower", "upper"]][axis][usize::from(outward[axis] > 0.0)];
+    let end = match panel.kind {
+        PanelKind::Top | PanelKind::Bottom => "end ",
+        PanelKind::Side { .. } => "",
     };
-    format!("{what} of {}", part.name)
+    format!("{}'s {side} {end}panel", own.name)
 }
 
-/// How far the component that moves is folded when the two meet, to the quarter.
-fn moment(model: &Model, clash: &Clash) -> String {
-    let mover = &model.parts()[clash.mover].name;
+/// How far a component that moves is folded, to the quarter.
+fn moment(model: &Model, mover: usize, folded: f64) -> String {
+    let mover = &model.parts()[mover].name;
     let quarters = [
         "begins to fold",
         "is a quarter folded",
@@ -92,6 +96,6 @@ fn moment(model: &Model, clash: &Clash) -> String {
         "is three quarters folded",
         "is almost flat",
     ];
-    let quarter = (4.0 * clash.folded).round().clamp(0.0, 4.0) as usize;
+    let quarter = (4.0 * folded).round().clamp(0.0, 4.0) as usize;
     format!("{mover} {}", quarters[quarter])
 }

@@ -30,6 +30,13 @@ pub fn centroid(polygon: &[DVec2]) -> DVec2 {
     if weight.abs() > f64::MIN_POSITIVE { sum / weight } else { mean }
 }
 
+/// Distance of a point from the segment between two others.
+pub fn distance_to_segment(point: DVec2, a: DVec2, b: DVec2) -> f64 {
+    let way = b - a;
+    let share = ((point - a).dot(way) / way.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    point.distance(a + share * way)
+}
+
 /// Whether a point lies inside of a ring (even–odd).
 pub fn contains(ring: &[DVec2], p: DVec2) -> bool {
     let edges = ring.iter().zip(ring.iter().cycle().skip(1));

@@ -7,10 +7,12 @@ use super::order::Access;
 use super::picture::{self, PictureError};
 use super::steps::{Action, Step, steps};
 use crate::drawing::{Align, Drawing, Layer, LineStyles, Mark, PagesError, Stroke, Text};
+use crate::fold::{Encounter, ModelMotion};
 use crate::net::Side;
 use crate::pipeline::Output;
 use crate::product;
 use crate::render::palette;
+use crate::show::{ShowError, clash_picture};
 use glam::DVec2;
 use rayon::prelude::*;
 
@@ -30,6 +32,9 @@ pub enum GuideError {
     /// A picture cannot be drawn.
     #[error("a picture of the guide cannot be drawn: {0}")]
     Picture(#[from] PictureError),
+    /// The picture of a clash cannot be drawn.
+    #[error("a picture of the guide cannot be drawn: {0}")]
+    Clash(#[from] ShowError),
     /// The pages cannot be printed.
     #[error(transparent)]
     Pages(#[from] PagesError),
@@ -92,6 +97,8 @@ pub struct Guide {
     pub words: Words,
     /// Paragraphs of the first page, each with a title.
     pub facts: Vec<(String, Vec<String>)>,
+    /// Where parts are in each other: what to do, and a picture.
+    pub clashes: Vec<(String, Drawing)>,
     /// Kinds of lines.
     pub lines: Vec<Line>,
     /// Components.
@@ -124,6 +131,7 @@ impl Guide {
         Ok(Self {
             title: title.to_owned(),
             facts: writer.facts(),
+            clashes: writer.clashes()?,
             lines: writer.lines(),
             parts: (0..output.nets().len()).map(|part| writer.part_row(part)).collect(),
             chapters: writer.chapters(&steps),
@@ -354,6 +362,34 @@ impl Writer<'_> {
             (words.tools_title.clone(), vec![words.tools.clone(), say(&words.glue)]),
             (words.time_title.clone(), vec![say(&words.time), say(&words.time_formula)]),
         ]
+    }
+
+    /// The places where components or chains are in each other.
+    fn clashes(&self) -> Result<Vec<(String, Drawing)>, ShowError> {
+        let motion = ModelMotion::new(self.output.model());
+        let drawn = |encounter: &Encounter| {
+            let drawing = clash_picture(&motion, encounter, None, picture::SIZE_MM)?;
+            Ok((self.clash(encounter), drawing))
+        };
+        self.output.fold_plan().encounters(&motion).par_iter().map(drawn).collect()
+    }
+
+    fn clash(&self, encounter: &Encounter) -> String {
+        let [a, b] = encounter.parts.map(|part| self.name(part));
+        let depth = format!("{:.1}", encounter.depth_mm);
+        let words = &self.words.clash;
+        let Some(mover) = encounter.mover else {
+            return fill(&words.unfolded, &[("part", a), ("other", b), ("depth", &depth)]);
+        };
+        let share = match (4.0 * encounter.folded[mover]).round() as u8 * 25 {
+            0 => words.little.clone(),
+            100 => words.almost.clone(),
+            percent => self.share(percent),
+        };
+        let text = if a == b { &words.own } else { &words.folding };
+        let mover = self.name(mover);
+        let values = [("part", a), ("other", b), ("depth", &depth), ("mover", mover), ("share", &share)];
+        fill(text, &values)
     }
 
     fn part_row(&self, part: usize) -> PartRow {

@@ -93,7 +93,22 @@ fn push_cover(out: &mut String, guide: &Guide) {
         }
         out.push_str("</div>\n");
     }
-    let _ = write!(out, "</div>\n<p class=\"hint\">{}</p>\n</section>\n", escaped(&guide.words.page.hint));
+    out.push_str("</div>\n");
+    push_clashes(out, guide);
+    let _ = write!(out, "<p class=\"hint\">{}</p>\n</section>\n", escaped(&guide.words.page.hint));
+}
+
+/// Where parts are in each other.
+fn push_clashes(out: &mut String, guide: &Guide) {
+    if guide.clashes.is_empty() {
+        return;
+    }
+    let _ = write!(out, "<h3>{}</h3>\n<div class=\"pictures\">", escaped(&guide.words.clash.title));
+    for (sentence, picture) in &guide.clashes {
+        let words = escaped(sentence);
+        let _ = write!(out, "<figure>{}<figcaption>{words}</figcaption></figure>", svg(picture, sentence));
+    }
+    out.push_str("</div>\n");
 }
 
 /// The model that folds under a slider, deployed at first.

@@ -76,6 +76,8 @@ pub struct Words {
     pub page: PageWords,
     /// The first page.
     pub cover: CoverWords,
+    /// Where parts are in each other.
+    pub clash: ClashWords,
     /// What lines mean.
     pub lines: LinesWords,
     /// Titles of chapters.
@@ -132,6 +134,18 @@ pub struct CoverWords {
     pub time_formula: String,
     pub parts_title: String,
     pub pieces: String,
+}
+
+/// Where parts are in each other. The fields are named in the language files.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ClashWords {
+    pub title: String,
+    pub unfolded: String,
+    pub folding: String,
+    pub own: String,
+    pub little: String,
+    pub almost: String,
 }
 
 /// What lines mean. The fields are named in the language files.

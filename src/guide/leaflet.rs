@@ -62,7 +62,7 @@ impl Block {
 
     /// Lines of text below what is there.
     fn write(&mut self, words: &str, cap_mm: f64, width_mm: f64, left_mm: f64, colour: Rgb) {
-        for line in wrapped(words, cap_mm, width_mm) {
+        for line in text::wrapped(words, cap_mm, width_mm) {
             let anchor = DVec2::new(left_mm, -self.height_mm - cap_mm);
             let text = Text::new(line, anchor, cap_mm).coloured(colour);
             self.marks.push(Mark::text(Layer::Picture, text));
@@ -76,22 +76,6 @@ impl Block {
         let place = DAffine2::from_translation(shift);
         self.marks.extend(drawing.marks.iter().map(|mark| mark.clone().scaled(factor).placed(place)));
     }
-}
-
-/// Text in lines of at most a width; a longer word is shortened.
-fn wrapped(words: &str, cap_mm: f64, width_mm: f64) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in words.split_whitespace() {
-        let word = text::shortened(word, cap_mm, width_mm);
-        match lines.last_mut() {
-            Some(line) if text::width_mm(&format!("{line} {word}"), cap_mm) <= width_mm => {
-                line.push(' ');
-                line.push_str(&word);
-            }
-            _ => lines.push(word),
-        }
-    }
-    lines
 }
 
 /// Pages while they are filled from top to bottom.
@@ -196,6 +180,7 @@ impl<'a> Book<'a> {
             };
             self.put(pair.iter().enumerate().map(|(k, f)| (k as f64 * (column + GAP_MM), fact(f))).collect());
         }
+        self.clashes(column);
         self.heading(&words.lines.title, STEP_MM);
         for line in &guide.lines {
             let mut block = Block::new();
@@ -204,6 +189,28 @@ impl<'a> Book<'a> {
             block.draw(&line.sample, 1.0, DVec2::ZERO);
             block.height_mm = block.height_mm.max(line.sample.size_mm.y);
             self.put(vec![(0.0, block)]);
+        }
+    }
+
+    /// Where parts are in each other, two beside each other.
+    fn clashes(&mut self, column_mm: f64) {
+        let guide = self.guide;
+        if guide.clashes.is_empty() {
+            return;
+        }
+        self.heading(&guide.words.clash.title, STEP_MM);
+        for pair in guide.clashes.chunks(2) {
+            let block = |(sentence, picture): &(String, Drawing)| {
+                let mut block = Block::new();
+                block.draw(picture, PICTURE, DVec2::ZERO);
+                block.height_mm = picture.size_mm.y * PICTURE + 1.0;
+                block.write(sentence, TEXT_MM, column_mm, 0.0, Rgb::BLACK);
+                block.height_mm += 4.0;
+                block
+            };
+            let blocks =
+                pair.iter().enumerate().map(|(k, clash)| (k as f64 * (column_mm + GAP_MM), block(clash)));
+            self.put(blocks.collect());
         }
     }
 

@@ -29,8 +29,9 @@ fn piece(made: &Made, blank: &Blank, joints: &[JointMark]) -> Piece {
         EdgeKind::Tab(h) | EdgeKind::Mate(h) => made.labels.get(h).cloned(),
         _ => None,
     });
-    placer.name(&blank.name);
+    placer.joint_texts();
     placer.lead();
+    placer.name(&blank.name);
     if made.options.choices.angles {
         placer.angles(|kind| angle(made, kind));
     }

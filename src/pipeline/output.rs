@@ -168,6 +168,12 @@ impl Output {
         Self { fold_plan, warnings: Arc::new(warnings), ..self }
     }
 
+    /// With one warning more.
+    pub(super) fn with_warning(self, warning: Warning) -> Self {
+        let warnings = self.warnings.iter().cloned().chain([warning]).collect();
+        Self { warnings: Arc::new(warnings), ..self }
+    }
+
     /// What the user should know.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings

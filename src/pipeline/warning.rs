@@ -86,15 +86,15 @@ fn part_warnings(part: &ModelPart, options: &Options) -> Vec<Warning> {
 }
 
 /// A joint with too little glue.
-fn weak_joint(model: &Model, part: usize) -> Option<Warning> {
+pub(super) fn weak_joint(model: &Model, part: usize) -> Option<Warning> {
     let joint = model.parts()[part].joint.as_ref()?;
     let needed_mm2 = model.needed_glue_mm2(part).filter(|needed| joint.glue_mm2 < *needed)?;
     let [name, parent] = [part, joint.parent].map(|p| &model.parts()[p].name);
     Some(Warning {
         code: "weak_joint",
         message: format!(
-            "{name}: its joint with {parent} has {:.0} mm² to glue, and holds well from {needed_mm2:.0} mm²; tape it as \
-             well, or use a larger --size",
+            "{name}: its joint with {parent} has {:.0} mm² to glue, and holds well from {needed_mm2:.0} mm²: tape it as \
+             well",
             joint.glue_mm2
         ),
     })

@@ -5,6 +5,7 @@
 //! What hides what is exact: faces are sorted, and where need be cut, by a BSP tree. The model's y
 //! axis points up in the picture.
 
+mod best_view;
 mod bsp;
 mod callouts;
 pub mod light;
@@ -14,16 +15,19 @@ pub mod palette;
 mod parts;
 mod picture;
 mod proxy;
+mod prune;
 mod scene;
 mod shadow;
 mod view;
 pub mod zbuffer;
 
+pub use best_view::{Spot, best_view};
 pub use callouts::{Callout, callouts};
 pub use orbit::{Eye, Orbit};
 pub use parts::{PartsPictureError, parts_picture};
 pub use picture::{Look, picture};
 pub use proxy::{Proxy, proxy};
+pub use prune::seen;
 pub use scene::{Edge, Face, Scene, SceneError};
 pub use shadow::contact_shadow;
 pub use view::{Camera, View, ViewError};

@@ -3,11 +3,13 @@
 //! Scenes have y up, as pictures do; models have z up.
 
 mod angle;
+mod clash;
 mod film;
 mod scenes;
 mod still;
 
 pub use angle::ViewAngle;
+pub use clash::{captioned, clash_picture};
 pub use film::{Film, FilmOptions, Shot, staged_scene};
 pub(crate) use scenes::{Paint, push_panels};
 pub use scenes::{components_scene, hulls_scene, mesh_scene, pose_scene, segments_scene, upright};

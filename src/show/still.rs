@@ -44,6 +44,11 @@ impl Still {
         DOTS_PER_INCH
     }
 
+    /// The size of a picture of four to three, mm.
+    pub fn landscape_mm(&self) -> DVec2 {
+        DVec2::new(1.0, 0.75) * f64::from(self.size_px) / DOTS_PER_INCH * MM_PER_INCH
+    }
+
     /// The view of some points that fills the picture, which is cut to their shape.
     ///
     /// # Errors

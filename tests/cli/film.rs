@@ -72,6 +72,29 @@ fn stages_and_poses_are_shown() {
 }
 
 #[test]
+fn clashes_get_a_picture_each_and_a_model_without_any_is_shown() {
+    let crushed =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/samples/figure-5.toml")).unwrap();
+    let crushed = crushed.replace("chain1.1", "chain1.2");
+    let folder = folder_with(&[("a.obj", TETRAHEDRON.as_bytes()), ("b.toml", crushed.as_bytes())]);
+    let free = run(folder.path(), &["show", "a.obj", "--clashes", "-o", "free.png"]);
+    assert!(free.code == Some(0) && free.out.contains("clashes     none"), "{}{}", free.out, free.err);
+    let made = run(folder.path(), &["make", "b.toml", "-o", "b.json"]);
+    assert_eq!(made.code, Some(0), "{}", made.err);
+    let is_clash = |line: &&str| line.contains(" bump by ") || line.contains(" overlap by ");
+    let warned = made.err.lines().filter(is_clash).count();
+    assert!(warned > 0, "{}", made.err);
+    let shown = run(folder.path(), &["show", "b.toml", "--clashes", "-o", "clash.svg"]);
+    assert_eq!(shown.code, Some(0), "{}", shown.err);
+    let files = shown.out.lines().find_map(|line| line.strip_prefix("written     ")).expect("files");
+    for name in files.split(", ") {
+        let svg = std::fs::read_to_string(folder.path().join(name)).unwrap();
+        assert!(svg.contains("bump by") || svg.contains("overlap by"), "{name} says what it shows");
+    }
+    assert!(files.split(", ").count() <= warned, "no more pictures than warnings");
+}
+
+#[test]
 fn animations_that_cannot_be_shown_are_refused() {
     let folder = folder_with(&[("a.obj", TETRAHEDRON.as_bytes())]);
     for arguments in [
@@ -82,6 +105,7 @@ fn animations_that_cannot_be_shown_are_refused() {
         &["make", "a.obj", "--thickness", "1m"],
         &["show", "a.obj", "--pose", "1.5"],
         &["show", "a.obj", "--pose", "0.5", "--stage", "flat"],
+        &["show", "a.obj", "--pose", "0.5", "--clashes"],
     ] {
         let result = run(folder.path(), arguments);
         assert_eq!(result.code, Some(2), "{arguments:?}: {}", result.err);

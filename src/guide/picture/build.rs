@@ -1,14 +1,13 @@
 //! Pictures of one component that is folded and glued.
 
-use super::camera::{Spot, best_view};
-use super::{GLUED, PictureError, SIZE_MM, THERE, overlay, taken};
+use super::{GLUED, MARGIN_MM, PictureError, SIZE_MM, THERE, overlay, taken};
 use crate::component::{HingeId, PanelId};
 use crate::drawing::{Drawing, Rgb};
 use crate::geom::polygon;
 use crate::guide::assembly::{Pose, bend, in_space};
 use crate::guide::joined::Joined;
 use crate::net::{Net, Piece, Tab};
-use crate::render::{Camera, Edge, Face, Scene, View};
+use crate::render::{Camera, Edge, Face, Scene, Spot, View, best_view};
 use crate::show::{Paint, push_panels, upright};
 use glam::{DAffine3, DVec2, DVec3};
 
@@ -59,7 +58,7 @@ pub fn folded(net: &Net, colour: Rgb) -> Result<Drawing, PictureError> {
         right_mm += (high - low) * 1.08;
     }
     let camera = Camera::new(0.35, 0.85, 0.2)?;
-    let view = View::fit(camera, scene.points(), SIZE_MM, super::MARGIN_MM)?;
+    let view = View::fit(camera, scene.points(), SIZE_MM, MARGIN_MM)?;
     Ok(taken(&scene, &view, Vec::new()))
 }
 
@@ -166,7 +165,7 @@ pub fn glued(
     let spots = [pair.spot(now, 0), pair.spot(now, 1)];
     let mut points: Vec<DVec3> = scene.points().collect();
     points.extend(way.iter().flat_map(|pose| [pair.spot(pose, 0).at, pair.spot(pose, 1).at]));
-    let view = best_view(&scene, &points, &spots)?;
+    let view = best_view(&scene, &points, &spots, (SIZE_MM, MARGIN_MM))?;
     let seen = |pose: &Pose, side: usize| view.project(pair.spot(pose, side).at);
     let length = |side: usize| seen(&way[WAY], side).distance(seen(now, side));
     let mover = if length(0) >= length(1) { 0 } else { 1 };

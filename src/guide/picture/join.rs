@@ -1,7 +1,6 @@
 //! Pictures of a component that is glued on its parent.
 
-use super::camera::{Spot, best_view};
-use super::{PictureError, THERE, overlay, taken};
+use super::{MARGIN_MM, PictureError, SIZE_MM, THERE, overlay, taken};
 use crate::component::PanelId;
 use crate::drawing::Drawing;
 use crate::fold::root_of;
@@ -9,7 +8,7 @@ use crate::geom::polygon;
 use crate::model::Joint;
 use crate::net::{Net, PlacedJoint};
 use crate::pipeline::Output;
-use crate::render::{Scene, palette};
+use crate::render::{Scene, Spot, best_view, palette};
 use crate::show::{Paint, push_panels, upright};
 use glam::{DAffine3, DVec2, DVec3};
 
@@ -46,7 +45,7 @@ pub fn joined(
     let own_points = corners().map(|c| (hover * own).transform_point3(c));
     let near = scene.points().filter(|p| p.distance(centre) < reach);
     let points: Vec<DVec3> = own_points.chain(near).chain([centre]).collect();
-    let view = best_view(&scene, &points, &spots)?;
+    let view = best_view(&scene, &points, &spots, (SIZE_MM, MARGIN_MM))?;
     let mut over = Vec::new();
     if let Some(Marked { outline, key }) = &below {
         let flat = |points: &[DVec3]| -> Vec<DVec2> {

@@ -1,11 +1,9 @@
 //! The pictures of the steps, by the 3D renderer: what is there is grey, what is new has its colour.
 
 mod build;
-mod camera;
 mod join;
 mod overlay;
 mod paper;
-mod prune;
 mod whole;
 
 pub use build::{folded, glued};
@@ -14,7 +12,7 @@ pub use paper::{net, sheet_map, sheets_of};
 pub use whole::{deploying, flattening, frames};
 
 use crate::drawing::{Drawing, Mark, Rgb};
-use crate::render::{Look, Scene, View, ViewError, picture};
+use crate::render::{Look, Scene, View, ViewError, picture, seen};
 use glam::DVec2;
 
 /// Size of a step's picture, mm.
@@ -32,7 +30,7 @@ const GLUED: Rgb = Rgb(255, 226, 120);
 fn taken(scene: &Scene, view: &View, over: Vec<Mark>) -> Drawing {
     let look = Look { relief: RELIEF, ..Look::for_size(view.size_mm()) };
     let mut drawing = picture(scene, view, &look, None, Vec::new());
-    drawing.marks = prune::seen(drawing.marks, view.size_mm());
+    drawing.marks = seen(drawing.marks, view.size_mm());
     drawing.marks.extend(over);
     drawing
 }

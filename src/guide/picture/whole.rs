@@ -1,13 +1,12 @@
 //! Pictures of the whole model while it is folded flat and deployed again.
 
-use super::camera::{Spot, best_view};
 use super::{MARGIN_MM, PictureError, SIZE_MM, THERE, overlay, taken};
 use crate::component::{PanelId, PanelKind};
 use crate::drawing::Drawing;
 use crate::fold::{ModelMotion, ModelPose};
 use crate::geom::polygon;
 use crate::pipeline::Output;
-use crate::render::{Scene, View, palette};
+use crate::render::{Scene, Spot, View, best_view, palette};
 use crate::show::{Paint, ViewAngle, push_panels, staged_scene, upright};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -66,7 +65,7 @@ fn moving(
     // It begins outside, as a hand does that pushes, or inside where it pulls.
     let [start, tip] = if now < soon { [from - shaft, from] } else { [from, from + shaft] };
     let points: Vec<DVec3> = scene.points().chain([start, tip]).collect();
-    let view = best_view(&scene, &points, &spots)?;
+    let view = best_view(&scene, &points, &spots, (SIZE_MM, MARGIN_MM))?;
     Ok(taken(&scene, &view, overlay::arrow(&[view.project(start), view.project(tip)])))
 }
 

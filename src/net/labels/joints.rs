@@ -1,18 +1,20 @@
 //! Marks and texts where components are glued together.
 
 use super::leader::Waiting;
-use super::{LabelKind, NAME_CAPS_MM, Placer};
+use super::{LabelKind, NAME_CAPS_MM, Placer, spots};
 use crate::component::PanelId;
-use crate::geom::polygon::{self, intersect_convex};
+use crate::geom::polygon::{self, depth_outside, intersect_convex};
 use crate::net::{JointMark, PlacedJoint};
 use glam::{DAffine2, DVec2};
 
+/// A leader line ends so far within an outline, mm, at one of the first so many places in it.
+const TARGET_MM: f64 = 0.3;
+const TARGETS: usize = 40;
 /// Size of the triangle that shows which way round a joint goes, mm.
 const KEY_MM: f64 = 4.0;
 
 impl Placer<'_> {
-    /// Draws the joints of this piece's panels, each with its text. The outline is clipped to
-    /// the panel.
+    /// Draws the joints of this piece's panels. The outline is clipped to the panel.
     pub(crate) fn joints(
         &mut self,
         marks: &[JointMark],
@@ -33,14 +35,23 @@ impl Placer<'_> {
             let key = key_triangle(&inside, place.transform_point2(mark.key));
             self.avoid(polygon::edges(&inside).map(|(a, b)| [a, b]));
             self.avoid(polygon::edges(&key).map(|(a, b)| [a, b]));
-            if !self.in_area(&inside, &mark.text, &NAME_CAPS_MM, LabelKind::Joint) {
-                let targets = vec![polygon::centroid(&inside)];
-                self.waiting.push(Waiting { text: mark.text.clone(), kind: LabelKind::Joint, targets });
-            }
             self.covered.push(inside.clone());
+            self.joint_texts.push((mark.text.clone(), inside.clone()));
             out.push(PlacedJoint { panel: mark.panel, outline: inside, key });
         }
         out
+    }
+
+    /// The text of each joint in its outline; after the labels of edges, which have less choice.
+    pub(crate) fn joint_texts(&mut self) {
+        for (text, area) in std::mem::take(&mut self.joint_texts) {
+            if !self.in_area(&area, &text, &NAME_CAPS_MM, LabelKind::Joint) {
+                // Those nearest to its middle; one that a line reaches is often farther out.
+                let targets = spots(&area).into_iter().filter(|&at| depth_outside(&area, at) < -TARGET_MM);
+                let targets = targets.take(TARGETS).collect();
+                self.waiting.push(Waiting { text, kind: LabelKind::Joint, targets });
+            }
+        }
     }
 }
 

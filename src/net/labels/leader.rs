@@ -1,12 +1,17 @@
 //! Leader lines: a text that has no room where it belongs stands elsewhere on the piece, with a
 //! line to its place.
 
-use super::{LINE_GAP_MM, LabelKind, Leader, NAME_CAPS_MM, Placer, Wanted, longest_edge, spots, text_box};
+use super::{
+    FOREIGN_MM, LINE_GAP_MM, LabelKind, Leader, NAME_CAPS_MM, Placer, Wanted, is_foreign, longest_edge,
+    spots, text_box,
+};
 use crate::geom::polygon::{convex_overlap, depth_outside};
 use glam::DVec2;
 
-/// Heights of texts with a leader line, mm.
+/// Heights of texts with a leader line, mm; and of those that have no room at these. The last is that of
+/// print of 6 points, the smallest that is read without a glass.
 const CAPS_MM: [f64; 2] = [2.5, 2.0];
+const SMALL_CAPS_MM: [f64; 2] = [1.75, 1.5];
 /// Distance between a text and its leader line.
 const START_GAP_MM: f64 = 0.5;
 /// Distance between the points of a line that are tested for lying on paper.
@@ -33,7 +38,14 @@ impl Placer<'_> {
     /// possible.
     pub(crate) fn lead(&mut self) {
         for waiting in std::mem::take(&mut self.waiting) {
-            if !self.lead_one(&waiting) && !self.beside_target(&waiting) {
+            let ways =
+                [CAPS_MM, SMALL_CAPS_MM].map(|caps| [FOREIGN_MM, FOREIGN_MM / 2.0].map(|mm| (caps, mm)));
+            let is_led = ways.into_iter().flatten().any(|(caps_mm, foreign_mm)| {
+                self.foreign_mm = foreign_mm;
+                self.lead_one(&waiting, caps_mm)
+            });
+            self.foreign_mm = FOREIGN_MM;
+            if !is_led && !self.beside_target(&waiting) {
                 self.unplaced.push(waiting.text);
             }
         }
@@ -49,12 +61,12 @@ impl Placer<'_> {
         panel.is_some_and(|p| self.in_area(&p, &waiting.text, &NAME_CAPS_MM, waiting.kind))
     }
 
-    fn lead_one(&mut self, waiting: &Waiting) -> bool {
+    fn lead_one(&mut self, waiting: &Waiting, caps_mm: [f64; 2]) -> bool {
         let Some(&first) = waiting.targets.first() else {
             return false;
         };
         let spots = self.spots_near(first);
-        for cap_mm in CAPS_MM {
+        for cap_mm in caps_mm {
             let wanted = Wanted::new(&waiting.text, waiting.kind, cap_mm);
             for spot in &spots {
                 let letters = text_box(spot.centre, spot.direction, wanted);
@@ -96,7 +108,7 @@ impl Placer<'_> {
         let segment = [line.from, line.to];
         let is_clear = |letters: &[DVec2]| !convex_overlap(&segment, letters, -LINE_GAP_MM);
         is_clear(own)
-            && self.taken.iter().all(|t| is_clear(t))
+            && self.taken.iter().all(|t| is_clear(t) && is_foreign(t, line.from, self.foreign_mm))
             && self.leaders.iter().all(|l| !convex_overlap(&segment, &[l.from, l.to], -LINE_GAP_MM))
             && self.is_on_paper(line)
     }

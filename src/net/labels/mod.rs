@@ -19,6 +19,9 @@ use leader::Waiting;
 const LABEL_CAPS_MM: [f64; 5] = [3.0, 2.75, 2.5, 2.25, 2.0];
 /// Heights for the piece's name and joint texts.
 const NAME_CAPS_MM: [f64; 5] = [4.0, 3.5, 3.0, 2.5, 2.0];
+/// A leader line begins this far from texts that are not its own: from 2.2 mm on, the label D5 of the
+/// snowman was read for the one whose line began there. Where that cannot be, it is half of it.
+const FOREIGN_MM: f64 = 2.6;
 /// Paper between a text and any line.
 const LINE_GAP_MM: f64 = 0.4;
 /// Paper between two texts.
@@ -60,10 +63,14 @@ pub(crate) struct Placer<'a> {
     taken: Vec<Vec<DVec2>>,
     /// What is glued on: only labels of the edges in it and its own text go there.
     covered: Vec<Vec<DVec2>>,
+    /// Texts of joints, each with its outline.
+    joint_texts: Vec<(String, Vec<DVec2>)>,
     /// Lines within panels that no text may cross.
     lines: Vec<[DVec2; 2]>,
     labels: Vec<Label>,
     leaders: Vec<Leader>,
+    /// How far leader lines begin from the texts of others, mm.
+    foreign_mm: f64,
     waiting: Vec<Waiting>,
     unplaced: Vec<String>,
 }
@@ -75,9 +82,11 @@ impl<'a> Placer<'a> {
             outlines: (0..mesh.faces().len()).map(|f| mesh.outline(f)).collect(),
             taken: Vec::new(),
             covered: Vec::new(),
+            joint_texts: Vec::new(),
             lines: Vec::new(),
             labels: Vec::new(),
             leaders: Vec::new(),
+            foreign_mm: FOREIGN_MM,
             waiting: Vec::new(),
             unplaced: Vec::new(),
         }
@@ -150,6 +159,7 @@ impl<'a> Placer<'a> {
         letters.iter().all(|&p| depth_outside(area, p) <= -LINE_GAP_MM)
             && !self.taken.iter().any(|t| convex_overlap(letters, t, -TEXT_GAP_MM))
             && !self.lines.iter().any(|l| convex_overlap(letters, l, -LINE_GAP_MM))
+            && self.leaders.iter().all(|l| is_foreign(letters, l.from, self.foreign_mm))
     }
 
     fn accept(&mut self, centre: DVec2, direction: DVec2, wanted: Wanted) {
@@ -173,6 +183,11 @@ fn text_box(centre: DVec2, direction: DVec2, wanted: Wanted) -> [DVec2; 4] {
     let aside = along * (wanted.width_mm / 2.0);
     let (low, high) = (along.perp() * -wanted.below_mm, along.perp() * (wanted.cap_mm / 2.0));
     [low - aside, low + aside, high + aside, high - aside].map(|corner| centre + corner)
+}
+
+/// Whether a leader line that begins at a point cannot be taken for the one of a text.
+fn is_foreign(letters: &[DVec2], from: DVec2, foreign_mm: f64) -> bool {
+    polygon::edges(letters).all(|(a, b)| polygon::distance_to_segment(from, a, b) > foreign_mm)
 }
 
 /// Points all over an area, its middle first and then from there outwards.

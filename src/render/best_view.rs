@@ -1,8 +1,8 @@
-//! From where a step is seen: so that its labels are.
+//! From where a scene is seen: so that the places that matter are.
 
-use super::{MARGIN_MM, SIZE_MM};
-use crate::render::{Camera, Face, Scene, View, ViewError};
-use glam::DVec3;
+use super::scene::{Face, Scene};
+use super::view::{Camera, View, ViewError};
+use glam::{DVec2, DVec3};
 
 /// Mild perspective.
 const FIELD_OF_VIEW_RAD: f64 = 0.2;
@@ -27,13 +27,21 @@ pub struct Spot {
     pub weight: f64,
 }
 
-/// The view of some points that shows the spots best.
-pub fn best_view(scene: &Scene, points: &[DVec3], spots: &[Spot]) -> Result<View, ViewError> {
+/// The view of some points, in a picture of this size with a free border, that shows the spots best.
+///
+/// # Errors
+/// [`ViewError`] where there are no points.
+pub fn best_view(
+    scene: &Scene,
+    points: &[DVec3],
+    spots: &[Spot],
+    (size_mm, margin_mm): (DVec2, f64),
+) -> Result<View, ViewError> {
     let mut best: Option<(f64, View)> = None;
     for (a, azimuth) in AZIMUTHS_DEG.into_iter().enumerate() {
         for (e, elevation) in ELEVATIONS_DEG.into_iter().enumerate() {
             let camera = Camera::new(azimuth.to_radians(), elevation.to_radians(), FIELD_OF_VIEW_RAD)?;
-            let view = View::fit(camera, points.iter().copied(), SIZE_MM, MARGIN_MM)?;
+            let view = View::fit(camera, points.iter().copied(), size_mm, margin_mm)?;
             let seen: f64 = spots.iter().map(|spot| spot.weight * clearness(scene, &view, spot)).sum();
             let value = seen - STEP_COST * a.div_ceil(2) as f64 - ELEVATION_COST[e];
             if best.as_ref().is_none_or(|(most, _)| value > *most) {
