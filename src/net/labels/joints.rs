@@ -38,7 +38,8 @@ impl Placer<'_> {
                 self.waiting.push(Waiting { text: mark.text.clone(), kind: LabelKind::Joint, targets });
             }
             self.covered.push(inside.clone());
-            out.push(PlacedJoint { panel: mark.panel, outline: inside, key });
+            let is_glued = mark.plug.is_none();
+            out.push(PlacedJoint { panel: mark.panel, outline: inside, key, is_glued });
         }
         out
     }
