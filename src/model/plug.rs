@@ -214,7 +214,8 @@ impl Room {
         let Some((low, high)) = polygon::bounds(self.overlap.iter().copied()) else { return Vec::new() };
         let middle = polygon::centroid(&self.overlap);
         let share = |k: usize| (k as f64 + 0.5) / GRID as f64;
-        let grid = (0..GRID * GRID).map(|k| low + (high - low) * DVec2::new(share(k % GRID), share(k / GRID)));
+        let grid =
+            (0..GRID * GRID).map(|k| low + (high - low) * DVec2::new(share(k % GRID), share(k / GRID)));
         let mut spots: Vec<DVec2> = std::iter::once(middle).chain(grid).collect();
         spots.sort_by(|a, b| a.distance_squared(middle).total_cmp(&b.distance_squared(middle)));
         let longest = polygon::edges(&self.overlap)

@@ -102,9 +102,11 @@ mod tests {
 
     #[test]
     fn lines_across_a_seam_are_shared_out() {
-        let half = |x: f64| [(0.0, 0.0), (10.0, 0.0), (10.0, 9.0), (0.0, 9.0)].map(|(u, v)| DVec2::new(x + u, v));
+        let half =
+            |x: f64| [(0.0, 0.0), (10.0, 0.0), (10.0, 9.0), (0.0, 9.0)].map(|(u, v)| DVec2::new(x + u, v));
         let line = vec![DVec2::new(4.0, 4.0), DVec2::new(14.0, 4.0), DVec2::new(14.0, 8.0)];
-        let lines = PlugLines { cuts: vec![line], foot: Some([DVec2::new(12.0, 1.0), DVec2::new(15.0, 1.0)]) };
+        let lines =
+            PlugLines { cuts: vec![line], foot: Some([DVec2::new(12.0, 1.0), DVec2::new(15.0, 1.0)]) };
         let [left, right] = [0.0, 10.0].map(|x| lines.within(&half(x)));
         let length = |lines: &PlugLines| lines.segments().map(|[a, b]| a.distance(b)).sum::<f64>();
         assert_eq!((left.cuts.len(), left.foot), (1, None));

@@ -64,8 +64,7 @@ pub(super) fn freed(
     let plugs: Vec<Option<Plug>> = (0..model.parts().len()).map(|p| plug_of(model, p, options)).collect();
     let motion = ModelMotion::new(model);
     for parts in candidates(model, &planned.plan, &plugs).into_iter().take(MOST_TRIALS) {
-        let plan =
-            FoldPlan::unplugged(&motion, &parts, thickness_mm, known.ids, known.memory, progress)?;
+        let plan = FoldPlan::unplugged(&motion, &parts, thickness_mm, known.ids, known.memory, progress)?;
         if let Some(plan) = plan.filter(FoldPlan::is_free) {
             let with = |model: Model, &part: &usize| match &plugs[part] {
                 Some(plug) => model.with_plug(part, plug.clone()),
@@ -91,7 +90,8 @@ fn plug_of(model: &Model, part: usize, options: &Options) -> Option<Plug> {
 /// Sets of components, in the order in which they are unplugged, that part every two that bump; the
 /// best first.
 fn candidates(model: &Model, plan: &FoldPlan, plugs: &[Option<Plug>]) -> Vec<Vec<usize>> {
-    let bumps = plan.clashes().iter().filter(|c| c.parts[0] != c.parts[1] && c.depth_mm > plan.thickness_mm());
+    let bumps =
+        plan.clashes().iter().filter(|c| c.parts[0] != c.parts[1] && c.depth_mm > plan.thickness_mm());
     let bumps: Vec<[usize; 2]> = bumps.map(|clash| clash.parts).collect();
     let line = |p: usize| -> Vec<usize> { std::iter::once(p).chain(ancestors(model, p)).collect() };
     let parts = |p: usize, [a, b]: [usize; 2]| line(a).contains(&p) != line(b).contains(&p);
@@ -126,8 +126,8 @@ pub(super) fn remarks(before: &Model, after: &Model) -> Vec<String> {
     new.filter_map(|(part, _)| {
         let parent = &after.parts()[part.joint.as_ref()?.parent].name;
         Some(format!(
-            "{}: it is plugged into {parent}, not glued, since the model folds flat only when it is unplugged; joint = \
-             \"glue\" in its table keeps it glued",
+            "{}: it is plugged into {parent}, not glued, since the model folds flat only when it is unplugged; to keep it \
+             glued, write joint = \"glue\" in its table, or hold = \"glue\" where its joint is drawn",
             part.name
         ))
     })

@@ -2,8 +2,8 @@
 
 use super::{Component, Project, ProjectError, Segmentation};
 use crate::design::{Attachment, Sketch, Way, parse_panel};
-use glam::DVec2;
 use crate::model::JointChoice;
+use glam::DVec2;
 use serde::Deserialize;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};
@@ -149,9 +149,10 @@ impl Component {
         let sketch = sketch.with_ways(ways.collect::<Result<_, _>>()?).map_err(|e| e.to_string())?;
         match &self.joint {
             None => Ok(sketch),
-            Some(JointKey::Hold(_)) => {
-                Err("a drawn component has a table [component.joint]; write hold = \"plug\" or \"glue\" there".to_owned())
-            }
+            Some(JointKey::Hold(_)) => Err(
+                "a drawn component has a table [component.joint]; write hold = \"plug\" or \"glue\" there"
+                    .to_owned(),
+            ),
             Some(JointKey::Place(joint)) => sketch.attached(joint.attachment()?).map_err(|e| e.to_string()),
         }
     }
@@ -223,6 +224,29 @@ turn = 45
         assert_eq!(sketches.len(), 2);
         assert!(sketches[0].top().iter().all(|c| (c.abs() - DVec2::splat(30.0)).length() < 1e-9));
         assert_eq!(sketches[1].attachment().unwrap().to, "box");
+    }
+
+    #[test]
+    fn joints_are_glued_or_plugged() {
+        let hold = |text: &str, component: usize| {
+            let project = Project::parse(text).unwrap();
+            project.components[component].joint.as_ref().and_then(JointKey::hold)
+        };
+        assert_eq!(hold(BOX, 1), None);
+        assert_eq!(hold(&format!("{BOX}hold = 'plug'\n"), 1), Some(JointChoice::Plug));
+        let mesh = |value: &str| format!("mesh = 'a.obj'\n[[component]]\nname = 'arm'\njoint = {value}\n");
+        assert_eq!(hold(&mesh("'glue'"), 0), Some(JointChoice::Glue));
+        for (text, word) in [
+            (mesh("'tape'"), "a joint is \"glue\" or \"plug\""),
+            (mesh("3"), "[component.joint]"),
+            (format!("{BOX}hold = 'tape'\n"), "a joint is"),
+            (format!("{BOX}held = 'plug'\n"), "unknown field `held`"),
+            (BOX.replacen("name = 'box'", "name = 'box'\njoint = 'plug'", 1), "hold ="),
+        ] {
+            let found = Project::parse(&text).and_then(|project| project.sketches());
+            let message = found.unwrap_err().to_string();
+            assert!(message.contains(word), "{text}: {message}");
+        }
     }
 
     #[test]

@@ -180,9 +180,7 @@ pub fn folded(studio: &Studio, progress: f64) -> Option<Moment> {
 /// The moment at which a clash happens, as a progress of the folding.
 pub fn moment(studio: &Studio, clash: &Clash) -> Option<f64> {
     let sequence = Sequence::of_plan(studio.shown().output()?.fold_plan());
-    let reaches = |motion: &Motion| {
-        matches!(motion, Motion::Fold(step) if step.part == clash.mover && step.to >= clash.folded)
-    };
+    let reaches = |motion: &Motion| matches!(motion, Motion::Fold(step) if step.part == clash.mover && step.to >= clash.folded);
     let step = sequence.motions().iter().position(reaches)?;
     let (mut low, mut high) = (sequence.marks()[step], sequence.marks()[step + 1]);
     for _ in 0..30 {
