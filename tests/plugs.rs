@@ -259,7 +259,7 @@ fn pieces_have_the_lines_of_plugs_off_creases_and_glue_tabs() {
     }
 }
 
-/// Pairs of numbers that follow one another.
+/// Whether one of some points is near a place.
 fn near(points: &[DVec2], wanted: DVec2, tolerance_mm: f64) -> bool {
     points.iter().any(|p| p.distance(wanted) < tolerance_mm)
 }
@@ -296,12 +296,12 @@ fn all_files_have_the_cut_lines_of_plugs() {
     assert_eq!(svg.iter().map(|text| text.matches("-plug").count()).sum::<usize>(), cuts + 2, "and two feet");
 }
 
-/// Points of a DXF file: the values of codes 10 and 20.
+/// Points of a DXF file: the values of codes 10 and 20, or 11 and 21.
 fn dxf_points(text: &str) -> Vec<DVec2> {
     let lines: Vec<&str> = text.lines().map(str::trim).collect();
     let pairs: Vec<(&str, &str)> = lines.chunks_exact(2).map(|pair| (pair[0], pair[1])).collect();
     let point = |w: &[(&str, &str)]| match (w[0].0, w[1].0) {
-        ("10", "20") => Some(DVec2::new(w[0].1.parse().ok()?, w[1].1.parse().ok()?)),
+        ("10", "20") | ("11", "21") => Some(DVec2::new(w[0].1.parse().ok()?, w[1].1.parse().ok()?)),
         _ => None,
     };
     pairs.windows(2).filter_map(point).collect()

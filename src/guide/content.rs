@@ -385,6 +385,7 @@ impl Writer<'_> {
             ("pieces", estimate.pieces.to_string()),
             ("labels", estimate.labels.to_string()),
             ("joints", estimate.joints.to_string()),
+            ("glued", estimate.glued_joints.to_string()),
             ("time", estimate.time()),
         ];
         let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();

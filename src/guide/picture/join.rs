@@ -1,4 +1,4 @@
-//! Pictures of a component that is glued on its parent.
+//! Pictures of a component that is glued on its parent, or plugged into it.
 
 use super::camera::{Spot, best_view};
 use super::{PictureError, THERE, overlay, taken};
@@ -53,7 +53,11 @@ pub fn joined(
             points.iter().map(|p| view.project(base.transform_point3(*p))).collect()
         };
         if view.towards_eye(centre).dot(normal) > 0.0 {
-            over.extend(overlay::joint(flat(outline), flat(key)));
+            let at = |p: DVec2| view.project(on_parent.transform_point3(p.extend(0.0)));
+            over.extend(match joint.plug() {
+                None => overlay::joint(flat(outline), flat(key)),
+                Some(plug) => overlay::slits(&plug.slits().map(|slit| slit.map(at)), flat(key)),
+            });
         }
         let tip = base.transform_point3(key[0]);
         over.extend(overlay::meetings(&[[view.project(tip), view.project(hover.transform_point3(tip))]]));
