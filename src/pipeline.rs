@@ -7,6 +7,7 @@ mod engine;
 mod judge;
 mod level;
 mod output;
+mod plugs;
 mod remedy;
 mod warning;
 
@@ -19,7 +20,7 @@ pub use warning::Warning;
 
 use crate::design::{DesignError, ThickError};
 use crate::mesh::{Mesh, Up};
-use crate::model::ModelError;
+use crate::model::{JointChoice, ModelError};
 use crate::net::{NetChoices, NetsError};
 use crate::progress::{Cancelled, Progress};
 use crate::segment::{Edit, EditError, Parts, SegmentError, SegmentOptions};
@@ -129,6 +130,17 @@ pub struct ComponentOptions {
     pub profile_vertices: Option<usize>,
     /// Whether it may have dents, where that brings it nearer to its shape.
     pub is_concave: bool,
+    /// How it is held on its parent; where that is left out, it is glued unless that leaves no free
+    /// way to fold.
+    pub joint: Option<JointChoice>,
+}
+
+impl Options {
+    /// How the component of a name is held, if that was chosen.
+    fn joint_choice(&self, name: &str) -> Option<JointChoice> {
+        let is_its = |(key, own): &(&String, &ComponentOptions)| own.rename.as_ref().unwrap_or(key) == name;
+        self.components.iter().find(is_its).and_then(|(_, own)| own.joint)
+    }
 }
 
 /// Why there is no model.
@@ -152,6 +164,14 @@ pub enum Error {
     /// Thick panels have no room.
     #[error(transparent)]
     Thick(#[from] ThickError),
+    /// A joint cannot be unplugged.
+    #[error("{name}: it cannot be plugged: {reason}")]
+    NoPlug {
+        /// The component.
+        name: String,
+        /// Why, and what to do.
+        reason: &'static str,
+    },
     /// Drawings make no model.
     #[error(transparent)]
     Design(#[from] DesignError),

@@ -1,10 +1,10 @@
 //! The report: what was made, in numbers, as JSON.
 
 use crate::component::PanelId;
-use crate::fold::{Clash, Overlap, Stack, Step};
+use crate::fold::{Clash, Overlap, Pull, Stack, Step};
 use crate::geom::polygon;
 use crate::mesh::{MirrorPlane, Repairs};
-use crate::model::ModelPart;
+use crate::model::{ModelPart, Plug};
 use crate::net::{Net, Piece};
 use crate::pipeline::{Output, Warning};
 use glam::DAffine2;
@@ -104,6 +104,17 @@ struct Joint {
     child_panel: String,
     support_ratio: f64,
     glue_mm2: f64,
+    plug: Option<PlugNumbers>,
+}
+
+/// A tab and its slits.
+#[derive(Serialize)]
+struct PlugNumbers {
+    slit_mm: f64,
+    cross_mm: f64,
+    foot_mm: f64,
+    head_mm: f64,
+    length_mm: f64,
 }
 
 /// How the model folds.
@@ -111,10 +122,17 @@ struct Joint {
 struct Fold<'a> {
     thickness_mm: f64,
     order: Vec<&'a str>,
+    unplugged: Vec<Unplugged<'a>>,
     steps: Vec<FoldStep<'a>>,
     clashes: Vec<FoldClash<'a>>,
     deployed_overlaps: Vec<DeployedOverlap<'a>>,
     flat: Vec<Flat<'a>>,
+}
+
+#[derive(Serialize)]
+struct Unplugged<'a> {
+    component: &'a str,
+    way_mm: f64,
 }
 
 #[derive(Serialize)]
@@ -247,6 +265,7 @@ fn fold(output: &Output) -> Fold<'_> {
     let name = |part: usize| parts[part].name.as_str();
     let panel = |part: usize, panel: PanelId| parts[part].component.panels().panel(panel).kind.to_string();
     let step = |step: &Step| FoldStep { component: name(step.part), from: step.from, to: step.to };
+    let unplugged = |pull: &Pull| Unplugged { component: name(pull.part), way_mm: pull.way_mm };
     let clash = |clash: &Clash| FoldClash {
         components: clash.parts.map(name),
         panels: [0, 1].map(|k| panel(clash.parts[k], clash.panels[k])),
@@ -267,6 +286,7 @@ fn fold(output: &Output) -> Fold<'_> {
     Fold {
         thickness_mm: plan.thickness_mm(),
         order: plan.order().iter().map(|&p| name(p)).collect(),
+        unplugged: plan.pulls().iter().map(unplugged).collect(),
         steps: plan.steps().iter().map(step).collect(),
         clashes: plan.clashes().iter().map(clash).collect(),
         deployed_overlaps: plan.overlaps().iter().map(overlap).collect(),
@@ -304,8 +324,19 @@ fn component<'a>(output: &'a Output, p: usize, part: &'a ModelPart, diagonal_mm:
             child_panel: panel_name(part, j.child_panel),
             support_ratio: j.support_ratio,
             glue_mm2: j.glue_mm2,
+            plug: j.plug().map(plug),
         }),
         placement: glam::DMat4::from(part.placement).to_cols_array(),
+    }
+}
+
+fn plug(plug: &Plug) -> PlugNumbers {
+    PlugNumbers {
+        slit_mm: plug.slit_mm(),
+        cross_mm: plug.cross_mm(),
+        foot_mm: plug.foot_mm(),
+        head_mm: plug.head_mm(),
+        length_mm: plug.length_mm(),
     }
 }
 

@@ -14,7 +14,7 @@ use tatamu::project::Project;
 use tatamu::report::Run;
 use tatamu::segment::SegmentOptions;
 
-const SAMPLES: [&str; 6] = ["gift-box", "lamp", "vase", "insert", "figure-1", "figure-5"];
+const SAMPLES: [&str; 7] = ["gift-box", "lamp", "vase", "insert", "towers", "figure-1", "figure-5"];
 
 fn text(name: &str) -> String {
     let path = format!("{}/samples/{name}.toml", env!("CARGO_MANIFEST_DIR"));

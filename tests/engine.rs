@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::str::FromStr;
 use std::sync::Mutex;
 use tatamu::mesh::{self, Mesh};
-use tatamu::pipeline::{ComponentOptions, Level, Engine, Options, Output};
+use tatamu::pipeline::{ComponentOptions, Engine, Level, Options, Output};
 use tatamu::progress::{Progress, Silent};
 use tatamu::segment::{Edit, SegmentOptions};
 use tatamu::units::parse_paper;

@@ -280,8 +280,50 @@ fn a_model_that_no_order_folds_is_folded_in_turn() {
     assert_eq!(plan.clashes(), []);
     assert_eq!(plan.overlaps(), []);
     assert_eq!(plan.harm_mm(), 0.0);
+    assert!(plan.is_free() && plan.pulls().is_empty(), "nothing has to be unplugged");
     assert_eq!(plan.steps().len(), 5, "one component goes half way first: {:?}", plan.steps());
     assert_sound(&model, &plan);
+}
+
+/// A plan in which some components are unplugged.
+fn unplugged(motion: &ModelMotion<'_>, parts: &[usize]) -> Option<FoldPlan> {
+    let ids: Vec<u64> = (0..motion.model().parts().len() as u64).collect();
+    FoldPlan::unplugged(motion, parts, THICKNESS_MM, &ids, &SweepMemory::default(), &Silent).unwrap()
+}
+
+#[test]
+fn ears_that_clash_in_any_order_fold_when_one_is_unplugged() {
+    let model = ears(0.3 * EAR_MM);
+    let motion = ModelMotion::new(&model);
+    assert!(!plan(&motion).is_free());
+    for ear in [1, 2] {
+        let plan = unplugged(&motion, &[ear]).unwrap();
+        assert!(plan.is_free() && plan.overlaps().is_empty(), "{:?}", plan.clashes());
+        assert_eq!(plan.steps()[0].part, ear, "what is pulled off folds first");
+        let sequence = Sequence::of_plan(&plan);
+        for k in 0..=400 {
+            let pose = motion.pose_at(&sequence.moment(f64::from(k) / 400.0));
+            assert_eq!(cuts(&triangles(&model, &pose), THICKNESS_MM), Vec::<[usize; 2]>::new(), "{k}");
+        }
+    }
+}
+
+#[test]
+fn what_is_shut_in_is_not_unplugged() {
+    let parts = [
+        cuboid("head", DVec3::new(-90.0, -60.0, -40.0), DVec3::new(180.0, 120.0, 40.0)),
+        cuboid("post", DVec3::new(-39.0, -20.0, 0.0), DVec3::new(39.0, 40.0, 51.0)),
+        cuboid("cap", DVec3::new(-41.0, -20.0, 51.0), DVec3::new(90.0, 40.0, 37.0)),
+        cuboid("body", DVec3::new(5.0, -20.0, 0.0), DVec3::new(30.0, 40.0, 50.0)),
+    ];
+    let links = [(0, 1, 0.0), (1, 2, 51.0), (0, 3, 0.0)];
+    let links = links.map(|(parent, child, z)| Link { parent, child, plane: Plane::horizontal(z) });
+    let model = built(&parts, &links);
+    let motion = ModelMotion::new(&model);
+    assert_eq!(unplugged(&motion, &[3]), None, "the cap is over it");
+    let plan = unplugged(&motion, &[2]).unwrap();
+    let above_mm = plan.pulls()[0].way_mm;
+    assert!(above_mm > 20.0, "off all that folds below it: {above_mm}");
 }
 
 #[test]

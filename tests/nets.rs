@@ -197,6 +197,7 @@ fn joint_marks_lie_on_their_panel_with_their_text() {
         outline: square.iter().map(|&p| p.into()).collect(),
         key: DVec2::new(30.0, 0.0),
         text: "head".into(),
+        plug: None,
     };
     let options = NetOptions::new(6.0, A4);
     let naming = Naming { name: "body", prefix: "B" };

@@ -1,7 +1,7 @@
 //! What `make` made of one input.
 
 use std::path::{Path, PathBuf};
-use tatamu::fold::{Stack, Step};
+use tatamu::fold::{Motion, Stack};
 use tatamu::pipeline::Output;
 use tatamu::product;
 
@@ -52,11 +52,13 @@ impl Made {
 fn folding(result: &Output) -> String {
     let plan = result.fold_plan();
     let parts = result.model().parts();
-    let told = |step: &Step| match (&parts[step.part].name, step.ends_flat()) {
-        (name, true) => name.clone(),
-        (name, false) => format!("{name} to {:.0}%", 100.0 * step.to),
+    let told = |motion: &Motion| match (motion, &parts[motion.part()].name) {
+        (Motion::Fold(step), name) if step.ends_flat() => name.clone(),
+        (Motion::Fold(step), name) => format!("{name} to {:.0}%", 100.0 * step.to),
+        (Motion::Unplug(_), name) => format!("unplug {name}"),
+        (Motion::Plug(_), name) => format!("plug in {name}"),
     };
-    let order: Vec<String> = plan.steps().iter().map(told).collect();
+    let order: Vec<String> = plan.motions().iter().map(told).collect();
     let flat = |s: &Stack| format!("{:.0} × {:.0} mm, {} layers", s.size_mm.x, s.size_mm.y, s.layers);
     let sizes: Vec<String> = plan.stacks().iter().map(flat).collect();
     format!("to {}, in the order {}", sizes.join(" and "), order.join(", "))

@@ -17,7 +17,7 @@ pub const FORMAT: Format = Format {
 fn write(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
     let failed = |error: &dyn std::fmt::Display| ExportError::writer(&FORMAT, error);
     let (model, plan) = (product.output().model(), product.output().fold_plan());
-    let film = Film::shoot(model, plan.steps(), &options.film).map_err(|e| failed(&e))?;
+    let film = Film::shoot(model, plan, &options.film).map_err(|e| failed(&e))?;
     let bytes = encode(&film).map_err(|e| failed(&e))?;
     Ok(vec![ExportFile::single(bytes)])
 }

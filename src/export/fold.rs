@@ -41,9 +41,9 @@ const SHEET_GAP_MM: f64 = 20.0;
 /// The panels of all components in evenly spread poses between deployed and flat.
 fn poses_between(output: &Output, PoseCount(count): PoseCount) -> Vec<Vec<Vec<DAffine3>>> {
     let motion = ModelMotion::new(output.model());
-    let sequence = Sequence::new(output.fold_plan().steps());
+    let sequence = Sequence::of_plan(output.fold_plan());
     let poses: Vec<_> =
-        (1..=count).map(|k| motion.pose(&sequence.folded(k as f64 / (count + 1) as f64))).collect();
+        (1..=count).map(|k| motion.pose_at(&sequence.moment(k as f64 / (count + 1) as f64))).collect();
     let panels = |part: &PartPose| -> Vec<DAffine3> {
         part.pose.placements.iter().map(|placement| part.frame * *placement).collect()
     };

@@ -8,7 +8,7 @@
 use super::gltf::{self, Material, Mesh, Node, Scene, Track};
 use super::{ExportError, ExportFile, Format, FormatOptions, Source};
 use crate::component::{PanelId, PanelSet};
-use crate::fold::{ModelMotion, ModelPose, Sequence, Step};
+use crate::fold::{FoldPlan, ModelMotion, ModelPose, Sequence};
 use crate::model::{Model, ModelPart};
 use crate::product::Product;
 use crate::render::palette;
@@ -40,7 +40,7 @@ pub struct GlbOptions {
 
 fn write(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
     let output = product.output();
-    let mut scene = animated(output.model(), output.fold_plan().steps(), product.title());
+    let mut scene = animated(output.model(), output.fold_plan(), product.title());
     if options.glb.is_static {
         // Nodes stand where they do when deployed.
         scene.tracks.clear();
@@ -49,10 +49,10 @@ fn write(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFil
     Ok(vec![ExportFile::single(bytes)])
 }
 
-/// A model that folds in some steps, rests, and is deployed again.
-pub fn animated(model: &Model, steps: &[Step], title: &str) -> Scene {
+/// A model that folds as planned, rests, and is deployed again.
+pub fn animated(model: &Model, plan: &FoldPlan, title: &str) -> Scene {
     let motion = ModelMotion::new(model);
-    let keys = Keys::new(&motion, &Sequence::new(steps));
+    let keys = Keys::new(&motion, &Sequence::of_plan(plan));
     let mut scene = Scene { title: title.to_owned(), materials: materials(model), ..Scene::default() };
     let limbs: Vec<Limbs> = model.parts().iter().map(Limbs::of_part).collect();
     let mut first_node = Vec::new();
@@ -92,15 +92,15 @@ struct Keys {
 
 impl Keys {
     fn new(motion: &ModelMotion<'_>, sequence: &Sequence) -> Self {
-        let way_s = FOLD_S * sequence.parts() as f64;
+        let way_s = FOLD_S * sequence.length();
         let marks = sequence.marks();
         let mut places = vec![0.0];
-        for (step, ends) in sequence.steps().iter().zip(marks.windows(2)) {
-            let keys = ((step.to - step.from) * KEYS as f64).ceil() as usize;
+        for (motion, ends) in sequence.motions().iter().zip(marks.windows(2)) {
+            let keys = (motion.length() * KEYS as f64).ceil() as usize;
             let at = |k: usize| ends[0] + (ends[1] - ends[0]) * k as f64 / keys as f64;
             places.extend((1..=keys).map(at));
         }
-        let pose = |at: &f64| motion.pose_on_ground(&sequence.folded(*at), LIFT_MM);
+        let pose = |at: &f64| motion.pose_on_ground(&sequence.moment(*at), LIFT_MM);
         let there: Vec<ModelPose> = places.iter().map(pose).collect();
         let mut times_s: Vec<f64> = places.iter().map(|at| REST_S + way_s * at).collect();
         // Back at the same pace.

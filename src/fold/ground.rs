@@ -1,6 +1,7 @@
 //! A model on the table: it stands while its outer components fold, and is laid down while its
 //! root folds, so that it ends as a flat pile.
 
+use super::moment::Moment;
 use super::motion::ComponentPose;
 use super::pose::{ModelMotion, ModelPose, root_of};
 use crate::component::PanelId;
@@ -9,9 +10,10 @@ use glam::{DAffine3, DMat3, DQuat, DVec3};
 impl ModelMotion<'_> {
     /// The pose for pictures: z is up, the lowest point of all is as low as when deployed. Flat
     /// components lie `lift_mm` off the panels that carry them, as paper has a thickness.
-    pub fn pose_on_ground(&self, folded: &[f64], lift_mm: f64) -> ModelPose {
+    pub fn pose_on_ground(&self, moment: &Moment, lift_mm: f64) -> ModelPose {
+        let folded = &moment.folded;
         let mut pose =
-            self.pose_from(folded, lift_mm, |part, pose| self.root_frame(part, folded[part], pose));
+            self.pose_from(moment, lift_mm, |part, pose| self.root_frame(part, folded[part], pose));
         let count = self.model().parts().len();
         let floor = (0..count).map(|p| self.deployed_low_mm(p)).fold(f64::INFINITY, f64::min);
         for root in (0..count).filter(|&p| root_of(self.model(), p) == p) {

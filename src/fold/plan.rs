@@ -6,8 +6,10 @@ use super::memory::SweepMemory;
 use super::order::{Search, outermost_first, replay};
 use super::overlap::{Overlap, overlaps};
 use super::pose::{ModelMotion, root_of};
+use super::pull;
+use super::sequence::Motion;
 use super::stack::{Stack, stacks};
-use super::step::{Move, Step};
+use super::step::{Move, Pull, Step};
 use super::sweep::Care;
 use crate::model::Model;
 use crate::progress::{Cancelled, Progress};
@@ -18,6 +20,7 @@ use std::collections::BTreeMap;
 #[derive(Debug, Clone, PartialEq)]
 pub struct FoldPlan {
     thickness_mm: f64,
+    pulls: Vec<Pull>,
     steps: Vec<Step>,
     order: Vec<usize>,
     clashes: Vec<Clash>,
@@ -40,8 +43,8 @@ impl FoldPlan {
         let mut order: Vec<usize> = (0..model.parts().len()).collect();
         outermost_first(model, &mut order);
         let steps = order.iter().map(|&part| Step::whole(part)).collect();
-        let (clashes, overlaps, stacks) = (Vec::new(), Vec::new(), Vec::new());
-        Self { thickness_mm, steps, order, clashes, overlaps, stacks }
+        let (pulls, clashes, overlaps, stacks) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { thickness_mm, pulls, steps, order, clashes, overlaps, stacks }
     }
 
     /// Looks for a plan for a model of paper of a thickness.
@@ -87,6 +90,35 @@ impl FoldPlan {
         Self::searched(motion, thickness_mm, ids, memory, progress, Effort::Order)
     }
 
+    /// A plan in which some components are unplugged, outer ones after those that carry them, fold
+    /// beside the rest, and are plugged in again in the same order. None where something is in their
+    /// way out or back. Ids and memory as for [`FoldPlan::with_memory`].
+    ///
+    /// # Errors
+    /// [`Cancelled`] at the user's wish.
+    pub fn unplugged(
+        motion: &ModelMotion<'_>,
+        parts: &[usize],
+        thickness_mm: f64,
+        ids: &[u64],
+        memory: &SweepMemory,
+        progress: &dyn Progress,
+    ) -> Result<Option<Self>, Cancelled> {
+        let apart = motion.model().clone().taken_apart(parts);
+        let beside = ModelMotion::new(&apart);
+        let mut plan = Self::with_memory(&beside, thickness_mm, ids, memory, progress)?;
+        // What was pulled off is folded first.
+        let group = |part: usize| parts.iter().position(|&p| p == root_of(&apart, part));
+        let rank = |part: usize| group(part).map_or(0, |at| at as isize - parts.len() as isize);
+        plan.steps.sort_by_key(|step| rank(step.part));
+        plan.order.sort_by_key(|&part| rank(part));
+        plan.pulls = pull::pulls(motion, parts, &plan.steps);
+        plan.overlaps = overlaps(motion, thickness_mm / 2.0, ids, memory);
+        let is_free = pull::are_free(motion, &plan.pulls, thickness_mm, &plan.overlaps);
+        plan.stacks = stacks(motion, thickness_mm);
+        Ok(is_free.then_some(plan))
+    }
+
     fn searched(
         motion: &ModelMotion<'_>,
         thickness_mm: f64,
@@ -118,7 +150,7 @@ impl FoldPlan {
         let steps: Vec<Step> = moves.iter().map(Move::step).collect();
         let order = steps.iter().filter(|step| step.ends_flat()).map(|step| step.part).collect();
         let stacks = if effort == Effort::Whole { stacks(motion, thickness_mm) } else { Vec::new() };
-        Ok(Self { thickness_mm, steps, order, clashes, overlaps, stacks })
+        Ok(Self { thickness_mm, pulls: Vec::new(), steps, order, clashes, overlaps, stacks })
     }
 
     /// Thickness of the paper, mm.
@@ -126,7 +158,21 @@ impl FoldPlan {
         self.thickness_mm
     }
 
-    /// What is done, one after another; deploying is the reverse.
+    /// What is unplugged before the first step, in this order, and plugged in again after the last
+    /// one in the same order.
+    pub fn pulls(&self) -> &[Pull] {
+        &self.pulls
+    }
+
+    /// All that moves, one after another: what is unplugged, the steps, and what is plugged in again.
+    pub fn motions(&self) -> Vec<Motion> {
+        let folds = self.steps.iter().map(|&step| Motion::Fold(step));
+        let off = self.pulls.iter().map(|&pull| Motion::Unplug(pull));
+        let on = self.pulls.iter().map(|&pull| Motion::Plug(pull));
+        off.chain(folds).chain(on).collect()
+    }
+
+    /// How components fold, one after another; deploying is the reverse.
     pub fn steps(&self) -> &[Step] {
         &self.steps
     }
@@ -169,6 +215,12 @@ impl FoldPlan {
             }
         }
         bumps.into_iter().collect()
+    }
+
+    /// Whether no two components bump by more than the paper is thick while they fold.
+    pub fn is_free(&self) -> bool {
+        let is_bump = |clash: &Clash| clash.parts[0] != clash.parts[1] && clash.depth_mm > self.thickness_mm;
+        !self.clashes.iter().any(is_bump)
     }
 
     /// Sum of [`FoldPlan::bumps`], mm.

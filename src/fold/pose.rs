@@ -1,6 +1,7 @@
 //! Poses of a model: one number for each component, from 0 (deployed) to 1 (flat). A child rides
 //! rigidly on its parent's joint panel.
 
+use super::moment::Moment;
 use super::motion::{ComponentMotion, ComponentPose};
 use crate::component::PanelId;
 use crate::model::{Model, ModelPart};
@@ -76,7 +77,12 @@ impl<'a> ModelMotion<'a> {
     /// The pose in which component p is folded by `folded[p]`. The bottom panels of roots stay
     /// where they are when deployed.
     pub fn pose(&self, folded: &[f64]) -> ModelPose {
-        self.pose_from(folded, 0.0, |part, _| self.model.parts()[part].deployed())
+        self.pose_at(&Moment::joined(folded.to_vec()))
+    }
+
+    /// The pose of a moment in which components may be pulled off their parents.
+    pub fn pose_at(&self, moment: &Moment) -> ModelPose {
+        self.pose_from(moment, 0.0, |part, _| self.model.parts()[part].deployed())
     }
 
     /// The same with roots placed by the caller, given the root's index and pose. Components are
@@ -84,10 +90,11 @@ impl<'a> ModelMotion<'a> {
     /// `lift_mm` when flat.
     pub fn pose_from(
         &self,
-        folded: &[f64],
+        moment: &Moment,
         lift_mm: f64,
         place_root: impl Fn(usize, &ComponentPose) -> DAffine3,
     ) -> ModelPose {
+        let Moment { folded, pulled_mm } = moment;
         let lifted = |(motion, &folded): (&ComponentMotion, &f64)| {
             let mut pose = motion.pose(folded);
             for (placement, &level) in pose.placements.iter_mut().zip(motion.levels()) {
@@ -103,7 +110,7 @@ impl<'a> ModelMotion<'a> {
                 None => place_root(p, &parts[p].pose),
                 Some(joint) => {
                     let carrier = parts[joint.parent].panel(joint.parent_panel);
-                    let lift = DAffine3::from_translation(DVec3::Z * (lift_mm * folded[p]));
+                    let lift = DAffine3::from_translation(DVec3::Z * (lift_mm * folded[p] + pulled_mm[p]));
                     carrier
                         * lift
                         * self.relations[p]

@@ -1,13 +1,56 @@
-//! Folding as a sequence in time: one step after another.
+//! Folding as a sequence in time: one motion after another.
 
-use super::step::Step;
+use super::moment::Moment;
+use super::plan::FoldPlan;
+use super::step::{Pull, Step};
 
-/// The steps of a folding, over a progress from 0 (deployed) to 1 (flat). Each takes as much of it as
-/// its component moves.
+/// What moves at a time; all else rests.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Motion {
+    /// A component folds.
+    Fold(Step),
+    /// A component is unplugged and pulled off.
+    Unplug(Pull),
+    /// A component comes back and is plugged in.
+    Plug(Pull),
+}
+
+/// Pulling takes as long as this share of folding a component.
+const PULL_LENGTH: f64 = 0.5;
+
+impl Motion {
+    /// How long it takes, in times that a component takes to fold.
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Fold(step) => step.to - step.from,
+            Self::Unplug(_) | Self::Plug(_) => PULL_LENGTH,
+        }
+    }
+
+    /// What moves.
+    pub fn part(&self) -> usize {
+        match self {
+            Self::Fold(step) => step.part,
+            Self::Unplug(pull) | Self::Plug(pull) => pull.part,
+        }
+    }
+
+    /// Sets what it has done by some share of its time.
+    fn apply(&self, share: f64, moment: &mut Moment) {
+        match self {
+            Self::Fold(step) => moment.folded[step.part] = step.from + (step.to - step.from) * share,
+            Self::Unplug(pull) => moment.pulled_mm[pull.part] = pull.way_mm * share,
+            Self::Plug(pull) => moment.pulled_mm[pull.part] = pull.way_mm * (1.0 - share),
+        }
+    }
+}
+
+/// The motions of a folding, over a progress from 0 (deployed) to 1 (flat). Each takes as much of it as
+/// it is long.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sequence {
-    steps: Vec<Step>,
-    /// Sum of the steps' lengths before each step, and of all.
+    motions: Vec<Motion>,
+    /// Sum of the motions' lengths before each motion, and of all.
     begins: Vec<f64>,
     parts: usize,
 }
@@ -15,12 +58,7 @@ pub struct Sequence {
 impl Sequence {
     /// Takes steps that fold every component from deployed to flat.
     pub fn new(steps: &[Step]) -> Self {
-        let mut begins = vec![0.0];
-        for step in steps {
-            begins.push(begins[begins.len() - 1] + (step.to - step.from));
-        }
-        let parts = steps.iter().map(|step| step.part + 1).max().unwrap_or(0);
-        Self { steps: steps.to_vec(), begins, parts }
+        Self::of_motions(steps.iter().map(|&step| Motion::Fold(step)).collect())
     }
 
     /// Components that fold one after another, in an order that names each of them once.
@@ -28,33 +66,51 @@ impl Sequence {
         Self::new(&order.iter().map(|&part| Step::whole(part)).collect::<Vec<_>>())
     }
 
-    /// The steps.
-    pub fn steps(&self) -> &[Step] {
-        &self.steps
+    /// A plan: its steps, and before and after them what is unplugged meanwhile.
+    pub fn of_plan(plan: &FoldPlan) -> Self {
+        Self::of_motions(plan.motions())
     }
 
-    /// Number of components: as long as the folding takes, in times that one takes.
-    pub fn parts(&self) -> usize {
-        self.parts
+    fn of_motions(motions: Vec<Motion>) -> Self {
+        let mut begins = vec![0.0];
+        for motion in &motions {
+            begins.push(begins[begins.len() - 1] + motion.length());
+        }
+        let parts = motions.iter().map(|motion| motion.part() + 1).max().unwrap_or(0);
+        Self { motions, begins, parts }
     }
 
-    /// Progress at the beginning of each step, and 1.
+    /// The motions.
+    pub fn motions(&self) -> &[Motion] {
+        &self.motions
+    }
+
+    /// As long as the folding takes, in times that one component takes.
+    pub fn length(&self) -> f64 {
+        self.begins[self.begins.len() - 1]
+    }
+
+    /// Progress at the beginning of each motion, and 1.
     pub fn marks(&self) -> Vec<f64> {
-        let all = self.begins[self.begins.len() - 1];
+        let all = self.length();
         self.begins.iter().map(|begin| if all > 0.0 { begin / all } else { 1.0 }).collect()
     }
 
-    /// How far each component is folded at some progress. Each step begins and ends gently.
-    pub fn folded(&self, progress: f64) -> Vec<f64> {
-        let place = progress.clamp(0.0, 1.0) * self.begins[self.begins.len() - 1];
-        let mut folded = vec![0.0; self.parts];
-        for (step, begin) in self.steps.iter().zip(&self.begins) {
+    /// Where all components are at some progress. Each motion begins and ends gently.
+    pub fn moment(&self, progress: f64) -> Moment {
+        let place = progress.clamp(0.0, 1.0) * self.length();
+        let mut moment = Moment::joined(vec![0.0; self.parts]);
+        for (motion, begin) in self.motions.iter().zip(&self.begins) {
             if place > *begin {
-                let way = step.to - step.from;
-                folded[step.part] = step.from + way * eased(((place - begin) / way).min(1.0));
+                motion.apply(eased(((place - begin) / motion.length()).min(1.0)), &mut moment);
             }
         }
-        folded
+        moment
+    }
+
+    /// How far each component is folded at some progress.
+    pub fn folded(&self, progress: f64) -> Vec<f64> {
+        self.moment(progress).folded
     }
 }
 

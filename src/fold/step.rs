@@ -25,6 +25,16 @@ impl Step {
     }
 }
 
+/// A component that is unplugged before all steps, and plugged in again after them.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pull {
+    /// The component; what hangs on it comes with it.
+    pub part: usize,
+    /// How far it is pulled off along the normal of its parent's joint panel, mm: farther than
+    /// anything on either side of that panel reaches while it folds.
+    pub way_mm: f64,
+}
+
 /// A share of the way from deployed to flat at which components may rest, in parts of [`FLAT`].
 pub(super) type Level = u8;
 /// The levels of some components.

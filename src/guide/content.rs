@@ -7,7 +7,7 @@ use super::order::Access;
 use super::picture::{self, PictureError};
 use super::steps::{Action, Step, steps};
 use crate::drawing::{Align, Drawing, Layer, LineStyles, Mark, PagesError, Stroke, Text};
-use crate::fold::{Encounter, ModelMotion};
+use crate::fold::{Encounter, ModelMotion, Moment};
 use crate::net::Side;
 use crate::pipeline::Output;
 use crate::product;
@@ -159,6 +159,10 @@ impl Writer<'_> {
         &self.output.model().parts()[part].name
     }
 
+    fn is_plugged(&self, part: usize) -> bool {
+        self.output.model().parts()[part].joint.as_ref().is_some_and(|joint| joint.plug().is_some())
+    }
+
     fn side(&self) -> Side {
         self.output.layout().options().choices.side
     }
@@ -202,16 +206,30 @@ impl Writer<'_> {
                 joined.collect::<Result<_, _>>()?
             }
             Action::Bend { .. } | Action::Flatten => {
-                let mut folded = vec![0.0; output.nets().len()];
-                done.iter().for_each(|step| folded[step.part] = step.action.folded());
-                vec![picture::flattening(output, part, &folded, steps[k].action.folded())?]
+                vec![picture::flattening(output, part, &self.moment(done), steps[k].action.folded())?]
             }
+            Action::Unplug { .. } => vec![picture::pulling(output, part, &self.moment(done), true)?],
+            Action::PlugIn { .. } => vec![picture::pulling(output, part, &self.moment(done), false)?],
             Action::Deploy => {
                 let bends = |step: &&Step| step.part == part && matches!(step.action, Action::Bend { .. });
                 let to = done.iter().rev().find(bends).map_or(0.0, |step| step.action.folded());
                 vec![picture::deploying(output, part, to)?]
             }
         })
+    }
+
+    /// Where all components are after some steps.
+    fn moment(&self, done: &[Step]) -> Moment {
+        let mut moment = Moment::joined(vec![0.0; self.output.nets().len()]);
+        for Step { part, action } in done.iter().filter(|step| step.action.folds_model()) {
+            let pull = self.output.fold_plan().pulls().iter().find(|pull| pull.part == *part);
+            match action {
+                Action::Unplug { .. } => moment.pulled_mm[*part] = pull.map_or(0.0, |pull| pull.way_mm),
+                Action::PlugIn { .. } => moment.pulled_mm[*part] = 0.0,
+                _ => moment.folded[*part] = action.folded(),
+            }
+        }
+        moment
     }
 
     /// Title and sentences of a step.
@@ -243,8 +261,26 @@ impl Writer<'_> {
             }
             Action::Join { parent } => {
                 let values = [("part", part), ("parent", self.name(*parent))];
-                let texts = [&words.join.find, &words.join.glue, &words.join.place];
-                (fill(&words.join.title, &values), texts.map(|text| fill(text, &values)).to_vec())
+                let (title, texts) = match self.is_plugged(step.part) {
+                    false => (&words.join.title, [&words.join.find, &words.join.glue, &words.join.place]),
+                    true => (&words.plug.title, [&words.plug.tab, &words.plug.push, &words.plug.place]),
+                };
+                (fill(title, &values), texts.map(|text| fill(text, &values)).to_vec())
+            }
+            Action::Unplug { parent } => {
+                let values = [("part", part), ("parent", self.name(*parent))];
+                let mut sentences = vec![fill(&words.plug.pull, &values), words.plug.aside.clone()];
+                if k == 0 || !steps[k - 1].action.folds_model() {
+                    sentences.insert(0, words.flatten.wait.clone());
+                }
+                (fill(&words.plug.pull_title, &values), sentences)
+            }
+            Action::PlugIn { parent } => {
+                let values = [("part", part), ("parent", self.name(*parent))];
+                let mut sentences = vec![fill(&words.plug.back, &values)];
+                let is_last = steps.get(k + 1).is_none_or(|next| !next.action.folds_model());
+                sentences.extend(is_last.then(|| words.flatten.last.clone()));
+                (fill(&words.plug.back_title, &values), sentences)
             }
             Action::Bend { percent } => {
                 let (words, share) = (&words.flatten, self.share(*percent));
@@ -276,7 +312,11 @@ impl Writer<'_> {
                 };
                 let parts: Vec<String> = self.output.fold_plan().steps().iter().rev().map(pulled).collect();
                 let order = fill(&words.deploy.order, &[("parts", &parts.join(", "))]);
-                (words.deploy.title.clone(), vec![order])
+                let pulls = self.output.fold_plan().pulls();
+                let plugged: Vec<&str> = pulls.iter().map(|pull| self.name(pull.part)).collect();
+                let plugged = fill(&words.plug.deploy, &[("parts", &plugged.join(", "))]);
+                let first = (!pulls.is_empty()).then_some(plugged);
+                (words.deploy.title.clone(), first.into_iter().chain([order]).collect())
             }
         }
     }
@@ -316,7 +356,7 @@ impl Writer<'_> {
         let title = |step: &Step| match step.action {
             Action::Fold | Action::Glue { .. } => fill(&words.part, &[("part", self.name(step.part))]),
             Action::Join { .. } => words.join.clone(),
-            Action::Bend { .. } | Action::Flatten | Action::Deploy => words.flatten.clone(),
+            _ => words.flatten.clone(),
         };
         let mut chapters: Vec<Chapter> = Vec::new();
         for (k, step) in steps.iter().enumerate() {
@@ -352,6 +392,7 @@ impl Writer<'_> {
             ("pieces", estimate.pieces.to_string()),
             ("labels", estimate.labels.to_string()),
             ("joints", estimate.joints.to_string()),
+            ("glued", estimate.glued_joints.to_string()),
             ("time", estimate.time()),
         ];
         let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();

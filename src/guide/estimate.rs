@@ -36,6 +36,8 @@ pub struct Estimate {
     pub labels: usize,
     /// Number of joints.
     pub joints: usize,
+    /// Number of those that are glued; the others are plugged.
+    pub glued_joints: usize,
     /// Weight of the paper, g/m².
     pub weight: f64,
 }
@@ -48,6 +50,7 @@ impl Estimate {
             let hinges = (0..net.panels().hinges().len()).map(HingeId);
             hinges.filter(|&h| net.label(h).is_some()).map(|h| hinge_length(net.panels(), h))
         });
+        let joints = || output.model().parts().iter().filter_map(|part| part.joint.as_ref());
         let lengths: Vec<f64> = glued_mm.collect();
         let weight = output.options().thickness_mm * CARD_G_PER_M2_MM / WEIGHT_STEP;
         Self {
@@ -56,7 +59,8 @@ impl Estimate {
             glue_m: lengths.iter().sum::<f64>() / 1000.0,
             pieces: pieces().count(),
             labels: lengths.len(),
-            joints: output.model().parts().iter().filter(|part| part.joint.is_some()).count(),
+            joints: joints().count(),
+            glued_joints: joints().filter(|joint| joint.plug().is_none()).count(),
             weight: weight.round().max(1.0) * WEIGHT_STEP,
         }
     }

@@ -88,6 +88,8 @@ pub struct Words {
     pub glue: GlueWords,
     /// Gluing components together.
     pub join: JoinWords,
+    /// Joints that can be unplugged.
+    pub plug: PlugWords,
     /// Folding the model flat.
     pub flatten: FlattenWords,
     /// Deploying it again.
@@ -209,6 +211,22 @@ pub struct JoinWords {
     pub find: String,
     pub glue: String,
     pub place: String,
+}
+
+/// Joints that can be unplugged. The fields are named in the language files.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlugWords {
+    pub title: String,
+    pub tab: String,
+    pub push: String,
+    pub place: String,
+    pub pull_title: String,
+    pub pull: String,
+    pub aside: String,
+    pub back_title: String,
+    pub back: String,
+    pub deploy: String,
 }
 
 /// Folding the model flat. The fields are named in the language files.

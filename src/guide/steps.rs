@@ -2,8 +2,8 @@
 
 use super::order::{Access, gluing_order};
 use crate::component::HingeId;
-use crate::fold::ancestors;
-use crate::model::Model;
+use crate::fold::{Motion, ancestors};
+use crate::model::{Joint, Model};
 use crate::net::Net;
 use crate::pipeline::Output;
 
@@ -23,8 +23,13 @@ pub enum Action {
         /// How it is pressed.
         access: Access,
     },
-    /// The component is glued on its parent.
+    /// The component is glued on its parent, or plugged into it.
     Join {
+        /// The parent.
+        parent: usize,
+    },
+    /// The component is unplugged from the deployed model.
+    Unplug {
         /// The parent.
         parent: usize,
     },
@@ -35,6 +40,11 @@ pub enum Action {
     },
     /// The component is folded flat within the model.
     Flatten,
+    /// The flat component is plugged into the flat model again.
+    PlugIn {
+        /// The parent.
+        parent: usize,
+    },
     /// The model is deployed again, beginning with this component.
     Deploy,
 }
@@ -42,7 +52,7 @@ pub enum Action {
 impl Action {
     /// Whether the joined model is folded.
     pub fn folds_model(&self) -> bool {
-        matches!(self, Self::Bend { .. } | Self::Flatten)
+        matches!(self, Self::Unplug { .. } | Self::Bend { .. } | Self::Flatten | Self::PlugIn { .. })
     }
 
     /// How far the component is folded within the model afterwards: 0 deployed, 1 flat.
@@ -81,13 +91,21 @@ pub fn steps(output: &Output) -> Vec<Step> {
         }
     }
     let plan = output.fold_plan();
-    steps.extend(plan.steps().iter().map(|step| {
-        let percent = (100.0 * step.to).round() as u8;
-        let action = if step.ends_flat() { Action::Flatten } else { Action::Bend { percent } };
-        Step { part: step.part, action }
+    steps.extend(plan.motions().iter().filter_map(|motion| {
+        let part = motion.part();
+        Some(Step { part, action: folding(motion, model.parts()[part].joint.as_ref())? })
     }));
     steps.extend(plan.order().last().map(|&part| Step { part, action: Action::Deploy }));
     steps
+}
+
+fn folding(motion: &Motion, joint: Option<&Joint>) -> Option<Action> {
+    Some(match motion {
+        Motion::Fold(step) if step.ends_flat() => Action::Flatten,
+        Motion::Fold(step) => Action::Bend { percent: (100.0 * step.to).round() as u8 },
+        Motion::Unplug(_) => Action::Unplug { parent: joint?.parent },
+        Motion::Plug(_) => Action::PlugIn { parent: joint?.parent },
+    })
 }
 
 /// Components, roots first, and each after its parent.

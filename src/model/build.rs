@@ -6,7 +6,7 @@ use super::choice::{Bump, Choice};
 use super::known::Known;
 use super::link::Link;
 use super::pair::Seated;
-use super::{Joint, Model, ModelError, ModelPart, Part, Symmetry};
+use super::{Hold, Joint, Model, ModelError, ModelPart, Part, Symmetry};
 use crate::progress::{Cancelled, Progress};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -184,6 +184,7 @@ fn place(parts: &[Part], links: &[Link], made: &[&Made]) -> Result<Model, ModelE
             child_panel: seated.child_panel,
             support_ratio: 0.0,
             glue_mm2: 0.0,
+            hold: Hold::Glue,
         });
     }
     Ok(Model { parts: placed }.with_support())

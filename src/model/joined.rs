@@ -1,6 +1,6 @@
 //! Components joined where the user says.
 
-use super::{Joint, Model, ModelPart};
+use super::{Hold, Joint, Model, ModelPart};
 use crate::component::{Component, PanelId};
 use crate::geom::polygon;
 use glam::{DAffine3, DVec3};
@@ -157,6 +157,7 @@ fn on_parent(part: &JoinedPart, seam: &Seam, parent: &ModelPart) -> ModelPart {
             child_panel,
             support_ratio: 0.0,
             glue_mm2: 0.0,
+            hold: Hold::Glue,
         }),
     }
 }

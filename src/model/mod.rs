@@ -10,6 +10,7 @@ mod link;
 mod pair;
 mod part;
 mod plane;
+mod plug;
 mod seat;
 mod symmetry;
 
@@ -19,13 +20,23 @@ pub use joined::{JoinedPart, Seam};
 pub use known::Known;
 pub use link::{Contact, Link, link_tree, parted};
 pub use part::{ModelError, Part, PartOptions};
+pub use plug::{JointChoice, Plug};
 pub use symmetry::Symmetry;
 
 use crate::component::{Component, PanelId};
 use crate::geom::polygon;
 use glam::{DAffine3, DVec2, DVec3};
 
-/// Where a component sits on its parent: one panel of each, glued face to face.
+/// What holds a component on its parent.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Hold {
+    /// Glue between the two panels.
+    Glue,
+    /// A tab that can be pulled out of its slits.
+    Plug(Plug),
+}
+
+/// Where a component sits on its parent: one panel of each, face to face.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
     /// Index of the parent in the model.
@@ -38,6 +49,18 @@ pub struct Joint {
     pub support_ratio: f64,
     /// Area in which the two panels lie on each other, mm².
     pub glue_mm2: f64,
+    /// What holds it.
+    pub hold: Hold,
+}
+
+impl Joint {
+    /// Its plug; none where it is glued.
+    pub fn plug(&self) -> Option<&Plug> {
+        match &self.hold {
+            Hold::Glue => None,
+            Hold::Plug(plug) => Some(plug),
+        }
+    }
 }
 
 /// A component in its place.
@@ -98,7 +121,9 @@ impl Model {
 
     /// Whether any crease is folded towards the viewer outside.
     pub fn has_valleys(&self) -> bool {
-        self.parts.iter().any(|part| part.component.panels().hinges().iter().any(|h| h.is_valley()))
+        let is_plugged = |part: &ModelPart| part.joint.as_ref().is_some_and(|joint| joint.plug().is_some());
+        let has_valley = |part: &ModelPart| part.component.panels().hinges().iter().any(|h| h.is_valley());
+        self.parts.iter().any(|part| is_plugged(part) || has_valley(part))
     }
 
     /// The area over which a part's joint would hold well, mm²; `None` for a root.

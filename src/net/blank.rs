@@ -5,10 +5,11 @@ use super::develop::{Draft, Naming, NetOptions};
 use super::layout::{Layout, across, best_turn, edge, measured, turn};
 use super::marks::{Crease, creases};
 use super::mesh::PieceMesh;
+use super::plugs::{PlugLines, lines_of_piece};
 use super::split::Split;
 use super::tabs::Placed;
 use super::{GlueArea, JointMark, Net, PlacedPanel, Tab, finish, glue};
-use crate::component::{HingeId, PanelId, PanelSet};
+use crate::component::{HingeId, PanelId};
 use crate::geom::polygon;
 use glam::{DAffine2, DVec2};
 use std::collections::BTreeMap;
@@ -29,6 +30,7 @@ pub struct Blank {
     pub(super) crease_lines: Vec<Crease>,
     pub(super) outline: Vec<DVec2>,
     pub(super) slits: Vec<Vec<DVec2>>,
+    pub(super) plugs: Vec<PlugLines>,
 }
 
 impl Blank {
@@ -81,7 +83,7 @@ impl BlankNet {
         let numbered = draft.cut.iter().zip(1..);
         let labels: BTreeMap<HingeId, String> =
             numbered.map(|(&h, number)| (h, format!("{}{number}", naming.prefix))).collect();
-        let cutter = Cutter { set: &split.set, draft: &draft, options, labels: &labels };
+        let cutter = Cutter { split: &split, draft: &draft, joints, options, labels: &labels };
         let count = draft.layouts.len();
         let name = |k: usize| match count {
             1 => naming.name.to_owned(),
@@ -114,15 +116,16 @@ impl BlankNet {
 
 /// What all pieces of a net are made from.
 struct Cutter<'a> {
-    set: &'a PanelSet,
+    split: &'a Split,
     draft: &'a Draft,
+    joints: &'a [JointMark],
     options: &'a NetOptions,
     labels: &'a BTreeMap<HingeId, String>,
 }
 
 impl Cutter<'_> {
     fn blank(&self, layout: &Layout, name: String) -> Blank {
-        let Self { set, options, .. } = *self;
+        let Self { split: Split { set, source }, options, .. } = *self;
         let own = self.own_tabs(layout);
         let mesh = PieceMesh::new(set, layout, &own);
         let hide_below_rad = options.choices.hide_below_rad;
@@ -141,13 +144,18 @@ impl Cutter<'_> {
         }
         glue_areas.iter_mut().for_each(|area| area.outline = area.outline.map(at));
         let lines = cut_lines(mesh.border());
+        let panels: Vec<PlacedPanel> = layout.panels.iter().map(place).collect();
+        let plugs = lines_of_piece(self.joints, &panels, source, |p| set.panel(p).outline.clone());
+        let mut crease_lines = creases(set, &mesh, hide_below_rad);
+        crease_lines.extend(plugs.iter().filter_map(|plug| plug.foot).map(Crease::of_foot));
         Blank {
             name,
-            panels: layout.panels.iter().map(place).collect(),
+            panels,
+            plugs,
             creases: layout.creases.clone(),
             tabs: own.iter().map(|(t, outline)| self.tab(t, outline.map(at))).collect(),
             glue_areas,
-            crease_lines: creases(set, &mesh, hide_below_rad),
+            crease_lines,
             outline: lines.outline,
             slits: lines.slits,
             mesh,
@@ -157,22 +165,23 @@ impl Cutter<'_> {
     /// The tabs on panels of a piece, with their outlines in the layout.
     fn own_tabs(&self, layout: &Layout) -> Vec<(Placed, [DVec2; 4])> {
         let on_panel = |t: &Placed| {
-            let side = self.set.hinges()[t.hinge.0].sides[t.side];
+            let side = self.split.set.hinges()[t.hinge.0].sides[t.side];
             let place = layout.place(side.panel)?;
-            let outline = t.shape.outline(edge(self.set, side));
+            let outline = t.shape.outline(edge(&self.split.set, side));
             Some((t.clone(), outline.map(|p| place.transform_point2(p))))
         };
         self.draft.tabs.iter().filter_map(on_panel).collect()
     }
 
     fn tab(&self, placed: &Placed, outline: [DVec2; 4]) -> Tab {
-        let side = self.set.hinges()[placed.hinge.0].sides[placed.side];
-        let to_mate = across(self.set, placed.hinge, placed.side).inverse();
+        let set = &self.split.set;
+        let side = set.hinges()[placed.hinge.0].sides[placed.side];
+        let to_mate = across(set, placed.hinge, placed.side).inverse();
         Tab {
             hinge: placed.hinge,
             side: placed.side,
             outline,
-            on_mate: placed.shape.outline(edge(self.set, side)).map(|p| to_mate.transform_point2(p)),
+            on_mate: placed.shape.outline(edge(set, side)).map(|p| to_mate.transform_point2(p)),
             label: self.labels.get(&placed.hinge).cloned().unwrap_or_default(),
         }
     }

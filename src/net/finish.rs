@@ -3,6 +3,7 @@
 use super::blank::{Blank, Made};
 use super::labels::{Placer, Texts};
 use super::mesh::EdgeKind;
+use super::plugs::PlugLines;
 use super::split::Split;
 use super::tabs::{Placed, USEFUL_WIDTH_MM};
 use super::{JointMark, Net, NetWarning, Piece};
@@ -23,6 +24,7 @@ pub(super) fn net(made: &Made) -> Net {
 fn piece(made: &Made, blank: &Blank, joints: &[JointMark]) -> Piece {
     let mut placer = Placer::new(&blank.mesh);
     placer.avoid(blank.glue_areas.iter().flat_map(|a| polygon::edges(&a.outline).map(|(p, q)| [p, q])));
+    placer.avoid(blank.plugs.iter().flat_map(PlugLines::segments));
     let place_of = |id| blank.panels.iter().find(|p| p.panel == id).map(|p| p.place);
     let joints = placer.joints(joints, place_of);
     placer.glued(&blank.tabs, |kind| match kind {

@@ -21,7 +21,7 @@ enum Fold {
     Seam,
 }
 
-/// A crease to draw: a hinge that stays joined, or the base of a tab.
+/// A crease to draw: a hinge that stays joined, or the base of a tab or of a plug.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Crease {
     ends: [DVec2; 2],
@@ -32,6 +32,11 @@ pub(crate) struct Crease {
 }
 
 impl Crease {
+    /// The foot of a plug's tab, which is folded out.
+    pub(crate) fn of_foot(ends: [DVec2; 2]) -> Self {
+        Self { ends, fold: Fold::Forth, is_drawn: true, between: "plug".to_owned() }
+    }
+
     pub(crate) fn direction(&self) -> DVec2 {
         (self.ends[1] - self.ends[0]).normalize_or(DVec2::X)
     }
@@ -100,7 +105,9 @@ impl Piece {
         for joint in &self.joints {
             let panel = self.blank.panels.iter().find(|p| p.panel == joint.panel);
             let panel = panel.map_or_else(String::new, |p| p.kind.short_name());
-            marks.push(path(Layer::Glue, closed(&joint.outline), panel.clone()));
+            if joint.is_glued {
+                marks.push(path(Layer::Glue, closed(&joint.outline), panel.clone()));
+            }
             marks.push(path(Layer::Glue, closed(&joint.key), format!("{panel} key")));
         }
         for area in &self.blank.glue_areas {
@@ -116,6 +123,9 @@ impl Piece {
         }
         for slit in &self.blank.slits {
             marks.push(path(Layer::Slit, Polyline::open(slit.clone()), "inside".to_owned()));
+        }
+        for cut in self.blank.plugs.iter().flat_map(|plug| &plug.cuts) {
+            marks.push(path(Layer::Slit, Polyline::open(cut.clone()), "plug".to_owned()));
         }
         marks.push(path(Layer::Cut, closed(&self.blank.outline), "outline".to_owned()));
         for leader in &self.leaders {

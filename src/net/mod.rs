@@ -24,6 +24,7 @@ pub(crate) mod layout;
 mod marks;
 mod mesh;
 mod of_model;
+mod plugs;
 mod split;
 mod tabs;
 
@@ -32,6 +33,7 @@ pub use develop::{Naming, NetChoices, NetError, NetOptions, alternatives, develo
 pub use marks::Side;
 pub use mesh::{Corner, Edge, EdgeKind, Face, FaceKind, PieceMesh, Vertex};
 pub use of_model::{KnownNets, NetsError, develop_model};
+pub use plugs::PlugLines;
 
 use crate::component::{HingeId, PanelId, PanelKind, PanelSet};
 use glam::{DAffine2, DVec2};
@@ -63,7 +65,7 @@ pub struct Tab {
     pub label: String,
 }
 
-/// The outline of a panel that is glued on this one (or that this one is glued on).
+/// The outline of a panel that lies on this one (or that this one lies on).
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointMark {
     /// The panel that carries the mark.
@@ -75,6 +77,8 @@ pub struct JointMark {
     pub key: DVec2,
     /// Text: the partner's name.
     pub text: String,
+    /// What is cut there; none where the two are glued.
+    pub plug: Option<PlugLines>,
 }
 
 /// A joint mark at its place on a piece.
@@ -84,8 +88,10 @@ pub struct PlacedJoint {
     pub panel: PanelId,
     /// The part of the partner's outline that lies on the panel, in the piece's coordinates.
     pub outline: Vec<DVec2>,
-    /// Triangle whose first corner points to the key: the two partners' tips meet when glued.
+    /// Triangle whose first corner points to the key: the two partners' tips meet when joined.
     pub key: [DVec2; 3],
+    /// Whether it is glued; else it is plugged in.
+    pub is_glued: bool,
 }
 
 /// What a label is for.
@@ -181,7 +187,7 @@ impl Piece {
         &self.blank.tabs
     }
 
-    /// What is glued on its panels.
+    /// What lies on its panels.
     pub fn joints(&self) -> &[PlacedJoint] {
         &self.joints
     }
@@ -221,14 +227,20 @@ impl Piece {
         &self.blank.slits
     }
 
+    /// Lines of joints that can be unplugged.
+    pub fn plugs(&self) -> &[PlugLines] {
+        &self.blank.plugs
+    }
+
     /// Length of everything that is cut, mm.
     pub fn cut_mm(&self) -> f64 {
         let outline: f64 = crate::geom::polygon::edges(self.outline()).map(|(a, b)| a.distance(b)).sum();
-        let slits = self.blank.slits.iter().flat_map(|slit| slit.windows(2));
+        let plugs = self.blank.plugs.iter().flat_map(|plug| &plug.cuts);
+        let slits = self.blank.slits.iter().chain(plugs).flat_map(|slit| slit.windows(2));
         outline + slits.map(|w| w[0].distance(w[1])).sum::<f64>()
     }
 
-    /// Length of everything that is folded, mm: hinges and the bases of tabs.
+    /// Length of everything that is folded, mm: hinges, and the bases of tabs and plugs.
     pub fn crease_mm(&self) -> f64 {
         self.blank.crease_lines.iter().map(marks::Crease::length_mm).sum()
     }

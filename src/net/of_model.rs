@@ -1,5 +1,6 @@
 //! Nets of all components of a model, with the marks of its joints.
 
+use super::plugs::PlugLines;
 use super::{BlankNet, JointMark, Naming, NetError, NetOptions, alternatives};
 use crate::component::{PanelId, PanelSet};
 use crate::geom::polygon;
@@ -98,7 +99,7 @@ fn prefix(p: usize) -> String {
     if p < 26 { letter.to_string() } else { format!("{}{letter}", prefix(p / 26 - 1)) }
 }
 
-/// Marks on the panels of part `p`: what is glued on them, and what they are glued on.
+/// Marks on the panels of part `p`: what lies on them, and what they lie on.
 fn joint_marks(model: &Model, p: usize) -> Vec<JointMark> {
     let parts = model.parts();
     let mut marks = Vec::new();
@@ -116,6 +117,7 @@ fn joint_marks(model: &Model, p: usize) -> Vec<JointMark> {
             outline: model.outline_on(partner, own),
             key: on_panel(model, own, key_point(model, above)),
             text: parts[partner.0].name.clone(),
+            plug: PlugLines::of(joint, p == child),
         });
     }
     marks

@@ -1,6 +1,6 @@
 //! The way from drawings to sheets.
 
-use super::{Divided, Engine, Error, Options, Output, Shaped, Warning};
+use super::{Divided, Engine, Error, Options, Output, Shaped, Warning, plugs};
 use crate::design::{DesignError, Sketch, design};
 use crate::mesh::{Mesh, Soup};
 use crate::model::Model;
@@ -28,7 +28,7 @@ pub fn run_drawn(
 /// Makes the components of drawings, as [`Engine::shape`] does of a mesh.
 ///
 /// # Errors
-/// [`Error::Design`], [`Error::Cancelled`].
+/// [`Error::Design`], [`Error::NoPlug`], [`Error::Cancelled`].
 pub fn shape_drawn(
     sketches: &[Sketch],
     size_mm: Option<f64>,
@@ -50,7 +50,8 @@ pub fn shape_drawn(
     let notes = drawn.notes.into_iter().map(|(code, message)| Warning { code, message }).collect();
     let names = sketches.iter().map(|sketch| sketch.name().to_owned()).collect();
     let divided = Arc::new(Divided::drawn(mesh, face_part, names));
-    let (model, remarks) = (Arc::new(drawn.model), Vec::new());
+    let model = Arc::new(plugs::as_chosen(drawn.model, &options)?);
+    let remarks = Vec::new();
     Ok(Shaped { options: Arc::new(options), divided, model, notes, remarks })
 }
 

@@ -3,15 +3,16 @@
 
 use super::concave::{self, Refitted};
 use super::judge::FoldJudge;
+use super::plugs::{self, Planned};
 use super::warning::{self, not_joined, pin_warnings};
 use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
 use crate::design::thick;
 use crate::fold::{FoldPlan, ModelMotion, SweepMemory};
 use crate::memory::Memory;
 use crate::mesh::{Mesh, Up};
-use crate::model::{self, Built, Known, Model, ModelPart, Unjudged};
+use crate::model::{self, Built, JointChoice, Known, Model, ModelPart, Unjudged};
 use crate::net::{BlankNet, KnownNets, Net, NetChoices, NetOptions, develop_model};
-use crate::progress::{Beside, Progress};
+use crate::progress::{Beside, Cancelled, Progress};
 use crate::segment::{self, Edit, Parts, SegmentOptions};
 use crate::sheet::{Layout, Pin, SheetOptions};
 use glam::DAffine3;
@@ -35,13 +36,17 @@ pub struct Engine<'m> {
     sweeps: SweepMemory,
     /// What the parts of the models of last time are known by in `sweeps`.
     ids: Memory<Arc<Model>, Vec<u64>>,
-    plans: Memory<(Arc<Model>, f64), Arc<FoldPlan>>,
+    plans: Memory<PlanKey, Planned>,
     nets: KnownNets,
     layouts: Memory<LayoutKey, (Arc<Layout>, Arc<Vec<Net>>)>,
 }
 
 /// What decides a layout: sheets, pins, and the nets with their alternatives.
 type LayoutKey = (SheetOptions, BTreeMap<String, Pin>, Arc<Vec<Vec<Arc<BlankNet>>>>);
+
+/// What decides a plan: the model, the thickness, the width of tabs, which plugs keep off, and the
+/// components that must stay glued.
+type PlanKey = (Arc<Model>, f64, f64, Vec<bool>);
 
 /// What decides the parts before they are changed by hand: size, axis and segmentation.
 type Found = (f64, Up, SegmentOptions);
@@ -124,7 +129,8 @@ impl<'m> Engine<'m> {
     /// Makes the components.
     ///
     /// # Errors
-    /// As [`Engine::divide`], and [`Error::Model`], [`Error::NoComponent`], [`Error::SameName`].
+    /// As [`Engine::divide`], and [`Error::Model`], [`Error::NoComponent`], [`Error::SameName`],
+    /// [`Error::NoPlug`].
     pub fn shape(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
         let divided = self.divide(options, progress)?;
         progress.stage("components");
@@ -138,7 +144,13 @@ impl<'m> Engine<'m> {
         }
         let Refitted { model, warnings: mut notes, remarks, .. } = found;
         notes.extend(not_joined(&model));
-        Ok(Shaped { options: Arc::new(options.clone()), divided, model: Arc::new(model), notes, remarks })
+        let glued = Arc::new(model);
+        let model = Arc::new(plugs::as_chosen(Model::clone(&glued), options)?);
+        if let Some(ids) = self.ids.get(&glued) {
+            // How parts are held changes nothing about how they fold.
+            self.ids.keep(model.clone(), ids);
+        }
+        Ok(Shaped { options: Arc::new(options.clone()), divided, model, notes, remarks })
     }
 
     /// The components, with dents where they may have them.
@@ -203,22 +215,26 @@ impl<'m> Engine<'m> {
         Ok(built.model.parts()[part].clone())
     }
 
-    /// How the components fold.
+    /// How the components fold; some of them are plugged, where nothing else is free.
     pub(super) fn plan(
         &self,
         model: &Arc<Model>,
-        thickness_mm: f64,
+        options: &Options,
         progress: &dyn Progress,
-    ) -> Result<Arc<FoldPlan>, Error> {
-        self.plans.get_or((model.clone(), thickness_mm), || {
+    ) -> Result<Planned, Cancelled> {
+        self.plans.get_or(plan_key(model, options), || {
             progress.stage("folding");
-            let motion = ModelMotion::new(model);
             // Of models that were changed since they were built nothing is known.
-            let plan = match self.ids.get(model) {
-                Some(ids) => FoldPlan::with_memory(&motion, thickness_mm, &ids, &self.sweeps, progress),
-                None => FoldPlan::new(&motion, thickness_mm, progress),
+            let own = SweepMemory::default();
+            let (ids, memory) = match self.ids.get(model) {
+                Some(ids) => (ids, &self.sweeps),
+                None => ((0..model.parts().len() as u64).collect(), &own),
             };
-            Ok(Arc::new(plan?))
+            let motion = ModelMotion::new(model);
+            let plan = FoldPlan::with_memory(&motion, options.thickness_mm, &ids, memory, progress)?;
+            let planned = Planned { model: model.clone(), plan: Arc::new(plan) };
+            let known = plugs::Known { ids: &ids, memory };
+            Ok(plugs::freed(&planned, &known, options, progress)?.unwrap_or(planned))
         })
     }
 
@@ -229,8 +245,8 @@ impl<'m> Engine<'m> {
     /// [`Error::Thick`], [`Error::Net`], [`Error::Layout`], [`Error::Cancelled`].
     pub fn finish(&self, shaped: Shaped, progress: &dyn Progress) -> Result<Output, Error> {
         let shaped = of_boards(shaped)?;
-        let (model, thickness_mm) = (shaped.model.clone(), shaped.options.thickness_mm);
-        let is_known = self.plans.get(&(model.clone(), thickness_mm)).is_some();
+        let (model, options) = (shaped.model.clone(), shaped.options.clone());
+        let is_known = self.plans.get(&plan_key(&model, &options)).is_some();
         let beside = Beside::new(progress);
         let lay_out = || {
             let laid = self.lay_out_paper(shaped, progress);
@@ -241,8 +257,19 @@ impl<'m> Engine<'m> {
             }
             laid
         };
-        let (laid, plan) = rayon::join(lay_out, || self.plan(&model, thickness_mm, &beside));
-        Ok(laid?.with_plan(plan?))
+        let (laid, planned) = rayon::join(lay_out, || self.plan(&model, &options, &beside));
+        self.with_plan(laid?, planned?, progress)
+    }
+
+    /// With a plan, and laid out again where that needs other pieces.
+    fn with_plan(&self, laid: Output, planned: Planned, progress: &dyn Progress) -> Result<Output, Error> {
+        if planned.model == laid.shaped.model {
+            return Ok(laid.with_plan(planned.plan));
+        }
+        let mut shaped = laid.shaped;
+        shaped.remarks.extend(plugs::remarks(&shaped.model, &planned.model));
+        shaped.model = planned.model;
+        Ok(self.lay_out_paper(shaped, progress)?.with_plan(planned.plan))
     }
 
     /// From the components to sheets; in which order they fold is not known yet.
@@ -286,12 +313,17 @@ impl<'m> Engine<'m> {
     /// Finds the order of folding.
     ///
     /// # Errors
-    /// [`Error::Cancelled`].
+    /// [`Error::Cancelled`]; where plugs change pieces, those of [`Engine::lay_out`], too.
     pub fn fold(&self, laid: Output, progress: &dyn Progress) -> Result<Output, Error> {
-        let thickness_mm = laid.options().thickness_mm;
-        let plan = self.plan(&laid.shaped.model, thickness_mm, progress)?;
-        Ok(laid.with_plan(plan))
+        let planned = self.plan(&laid.shaped.model, laid.options(), progress)?;
+        self.with_plan(laid, planned, progress)
     }
+}
+
+fn plan_key(model: &Arc<Model>, options: &Options) -> PlanKey {
+    let is_glued = |part: &ModelPart| options.joint_choice(&part.name) == Some(JointChoice::Glue);
+    let must_be_glued = model.parts().iter().map(|part| options.is_thick || is_glued(part)).collect();
+    (model.clone(), options.thickness_mm, options.tab_width_mm, must_be_glued)
 }
 
 /// Of boards as thick as they are, where that was asked for.

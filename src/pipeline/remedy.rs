@@ -60,8 +60,8 @@ impl Engine<'_> {
         progress: &dyn Progress,
     ) -> Result<Option<usize>, Error> {
         let shaped = self.shape(options, progress)?;
-        let plan = self.plan(&shaped.model, options.thickness_mm, progress)?;
-        Ok(Some(problems(&shaped.model, &plan)).filter(|left| *left < least))
+        let planned = self.plan(&shaped.model, options, progress)?;
+        Ok(Some(problems(&planned.model, &planned.plan)).filter(|left| *left < least))
     }
 }
 

@@ -87,7 +87,7 @@ fn part_warnings(part: &ModelPart, options: &Options) -> Vec<Warning> {
 
 /// A joint with too little glue.
 pub(super) fn weak_joint(model: &Model, part: usize) -> Option<Warning> {
-    let joint = model.parts()[part].joint.as_ref()?;
+    let joint = model.parts()[part].joint.as_ref().filter(|joint| joint.plug().is_none())?;
     let needed_mm2 = model.needed_glue_mm2(part).filter(|needed| joint.glue_mm2 < *needed)?;
     let [name, parent] = [part, joint.parent].map(|p| &model.parts()[p].name);
     Some(Warning {

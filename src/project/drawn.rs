@@ -2,8 +2,11 @@
 
 use super::{Component, Project, ProjectError, Segmentation};
 use crate::design::{Attachment, Sketch, Way, parse_panel};
+use crate::model::JointChoice;
 use glam::DVec2;
 use serde::Deserialize;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
 /// The top panel of a drawn component.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -28,6 +31,49 @@ pub struct Regular {
     pub radius: f64,
 }
 
+/// What stands after `joint`.
+#[derive(Debug, Clone, PartialEq)]
+pub enum JointKey {
+    /// A component of a mesh: how it is held.
+    Hold(JointChoice),
+    /// A drawn component: where it sits.
+    Place(Joint),
+}
+
+impl JointKey {
+    /// How the component is held, if that is said.
+    pub fn hold(&self) -> Option<JointChoice> {
+        match self {
+            Self::Hold(choice) => Some(*choice),
+            Self::Place(joint) => joint.hold,
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for JointKey {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(JointVisitor)
+    }
+}
+
+struct JointVisitor;
+
+impl<'de> Visitor<'de> for JointVisitor {
+    type Value = JointKey;
+
+    fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("\"glue\", \"plug\", or a table [component.joint]")
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<JointKey, E> {
+        text.parse().map(JointKey::Hold).map_err(E::custom)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<JointKey, A::Error> {
+        Joint::deserialize(MapAccessDeserializer::new(map)).map(JointKey::Place)
+    }
+}
+
 /// The table `[component.joint]`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -44,6 +90,9 @@ pub struct Joint {
     /// Angle by which it is turned there, degrees.
     #[serde(default)]
     pub turn: f64,
+    /// Whether it is glued or can be unplugged.
+    #[serde(default, deserialize_with = "super::fields::named")]
+    pub hold: Option<JointChoice>,
 }
 
 /// The most edges of a regular top panel.
@@ -73,7 +122,8 @@ impl Top {
 impl Component {
     /// Whether the file holds its shape.
     pub(super) fn is_drawn(&self) -> bool {
-        self.top.is_some() || !self.profiles.is_empty() || !self.folds.is_empty() || self.joint.is_some()
+        let is_placed = matches!(self.joint, Some(JointKey::Place(_)));
+        self.top.is_some() || !self.profiles.is_empty() || !self.folds.is_empty() || is_placed
     }
 
     fn sketch(&self) -> Result<Sketch, String> {
@@ -99,7 +149,11 @@ impl Component {
         let sketch = sketch.with_ways(ways.collect::<Result<_, _>>()?).map_err(|e| e.to_string())?;
         match &self.joint {
             None => Ok(sketch),
-            Some(joint) => sketch.attached(joint.attachment()?).map_err(|e| e.to_string()),
+            Some(JointKey::Hold(_)) => Err(
+                "a drawn component has a table [component.joint]; write hold = \"plug\" or \"glue\" there"
+                    .to_owned(),
+            ),
+            Some(JointKey::Place(joint)) => sketch.attached(joint.attachment()?).map_err(|e| e.to_string()),
         }
     }
 }
@@ -171,6 +225,29 @@ turn = 45
         assert_eq!(sketches.len(), 2);
         assert!(sketches[0].top().iter().all(|c| (c.abs() - DVec2::splat(30.0)).length() < 1e-9));
         assert_eq!(sketches[1].attachment().unwrap().to, "box");
+    }
+
+    #[test]
+    fn joints_are_glued_or_plugged() {
+        let hold = |text: &str, component: usize| {
+            let project = Project::parse(text).unwrap();
+            project.components[component].joint.as_ref().and_then(JointKey::hold)
+        };
+        assert_eq!(hold(BOX, 1), None);
+        assert_eq!(hold(&format!("{BOX}hold = 'plug'\n"), 1), Some(JointChoice::Plug));
+        let mesh = |value: &str| format!("mesh = 'a.obj'\n[[component]]\nname = 'arm'\njoint = {value}\n");
+        assert_eq!(hold(&mesh("'glue'"), 0), Some(JointChoice::Glue));
+        for (text, word) in [
+            (mesh("'tape'"), "a joint is \"glue\" or \"plug\""),
+            (mesh("3"), "[component.joint]"),
+            (format!("{BOX}hold = 'tape'\n"), "a joint is"),
+            (format!("{BOX}held = 'plug'\n"), "unknown field `held`"),
+            (BOX.replacen("name = 'box'", "name = 'box'\njoint = 'plug'", 1), "hold ="),
+        ] {
+            let found = Project::parse(&text).and_then(|project| project.sketches());
+            let message = found.unwrap_err().to_string();
+            assert!(message.contains(word), "{text}: {message}");
+        }
     }
 
     #[test]

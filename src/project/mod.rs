@@ -11,7 +11,7 @@ mod pin;
 mod sheet_fields;
 mod template;
 
-pub use drawn::{Joint, Top};
+pub use drawn::{Joint, JointKey, Top};
 pub use edit::Edit;
 pub use export::ExportTable;
 pub use fields::{
@@ -214,9 +214,9 @@ pub struct Component {
     /// How the profiles fold flat: one for all, or one for each.
     #[serde(default)]
     pub folds: Vec<String>,
-    /// What a drawn component is glued to.
+    /// How it is held on its parent, or where a drawn component sits.
     #[serde(default)]
-    pub joint: Option<Joint>,
+    pub joint: Option<JointKey>,
 }
 
 impl Project {

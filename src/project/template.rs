@@ -148,6 +148,8 @@ thick = {thick}
 # direction: angle of the fold axis about the component's longest axis, in degrees;
 # without it the best direction is searched for.
 # concave: whether it may have dents, if it is the only component or joined to no other.
+# joint: "glue", or "plug" for a tab in slits that can be unplugged; without it a joint is glued
+# unless only a plug leaves a free way to fold.
 "#,
         mesh = quoted(template.mesh),
         up = match template.up {
@@ -183,7 +185,7 @@ thick = {thick}
     for component in template.components {
         text += &format!(
             "\n[[component]]\nname = {0}\n# rename = {0}\n{1}direction = {2:.1}\n# top_edges = {3}\n\
-             # profile_vertices = {4}\n{5}concave = true\n",
+             # profile_vertices = {4}\n{5}concave = true\n# joint = \"plug\"\n",
             quoted(&component.name),
             unless(component.is_chosen),
             component.direction_deg,

@@ -5,7 +5,7 @@ use super::scenes::pose_scene;
 use super::still::{ShowError, Still, framed};
 use crate::drawing::Rgb;
 use crate::export::png;
-use crate::fold::{ModelMotion, Sequence, Step};
+use crate::fold::{FoldPlan, ModelMotion, Sequence};
 use crate::model::Model;
 use crate::pipeline::Output;
 use crate::render::{Scene, View};
@@ -96,13 +96,13 @@ pub struct Film {
 }
 
 impl Film {
-    /// Takes the pictures of a model that folds in some steps. All are opaque.
+    /// Takes the pictures of a model that folds as planned. All are opaque.
     ///
     /// # Errors
     /// See [`ShowError`]; no model is known that brings one about.
-    pub fn shoot(model: &Model, steps: &[Step], options: &FilmOptions) -> Result<Self, ShowError> {
+    pub fn shoot(model: &Model, plan: &FoldPlan, options: &FilmOptions) -> Result<Self, ShowError> {
         let motion = ModelMotion::new(model);
-        let sequence = Sequence::new(steps);
+        let sequence = Sequence::of_plan(plan);
         let last = options.frames / 2;
         let scenes: Vec<Scene> = (0..=last)
             .into_par_iter()
@@ -113,7 +113,7 @@ impl Film {
         let pictures: Vec<Result<Pixmap, ShowError>> =
             scenes.par_iter().map(|scene| shot(scene, &view)).collect();
         let pictures = pictures.into_iter().collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { shots: shots(last, sequence.parts()), pictures })
+        Ok(Self { shots: shots(last, sequence.length()), pictures })
     }
 
     /// The pictures, all of one size.
@@ -130,11 +130,11 @@ impl Film {
 /// A model at some progress of its folding, from 0 (deployed) to 1 (flat), on the ground.
 pub fn staged_scene(output: &Output, progress: f64) -> Scene {
     let motion = ModelMotion::new(output.model());
-    scene_at(&motion, &Sequence::new(output.fold_plan().steps()), progress)
+    scene_at(&motion, &Sequence::of_plan(output.fold_plan()), progress)
 }
 
 fn scene_at(motion: &ModelMotion<'_>, sequence: &Sequence, progress: f64) -> Scene {
-    let pose = motion.pose_on_ground(&sequence.folded(progress), LIFT_MM);
+    let pose = motion.pose_on_ground(&sequence.moment(progress), LIFT_MM);
     pose_scene(motion.model(), &pose)
 }
 
@@ -143,8 +143,8 @@ fn shot(scene: &Scene, view: &View) -> Result<Pixmap, ShowError> {
 }
 
 /// There, a rest, back, a rest.
-fn shots(last: usize, components: usize) -> Vec<Shot> {
-    let way_s = FOLD_S * components as f64 + EXTRA_S;
+fn shots(last: usize, length: f64) -> Vec<Shot> {
+    let way_s = FOLD_S * length + EXTRA_S;
     let frame_s = (way_s / last as f64).clamp(FRAME_S[0], FRAME_S[1]);
     let there_and_back = (0..=last).chain((1..last).rev());
     let duration_s = |picture: usize| if picture == 0 || picture == last { REST_S } else { frame_s };
@@ -159,7 +159,7 @@ mod tests {
 
     #[test]
     fn films_go_there_and_back_and_rest_at_both_ends() {
-        let shots = shots(3, 2);
+        let shots = shots(3, 2.0);
         assert_eq!(shots.iter().map(|s| s.picture).collect::<Vec<_>>(), [0, 1, 2, 3, 2, 1]);
         assert!(shots[0].duration_ms > 1000 && shots[3].duration_ms > 1000);
         assert_eq!(shots[1].duration_ms, 250);

@@ -5,7 +5,7 @@ use super::state::Studio;
 use glam::{DAffine3, DVec3};
 use tatamu::component::{PanelId, PanelSet};
 use tatamu::drawing::Rgb;
-use tatamu::fold::{Clash, ModelMotion, ModelPose, Sequence};
+use tatamu::fold::{Clash, ModelMotion, ModelPose, Moment, Motion, Sequence};
 use tatamu::mesh::Mesh;
 use tatamu::model::ModelPart;
 use tatamu::render::zbuffer::{Frame, Line, Solids};
@@ -165,23 +165,23 @@ fn push_edges(solids: &mut Solids, outline: &[DVec3], colour: Rgb, width_px: f32
     solids.lines.extend(ends.map(|(&a, &b)| Line { ends: [a, b], colour, width_px }));
 }
 
-/// How far each component is folded: in the steps that were found, as long as it is known.
-pub fn folded(studio: &Studio, progress: f64) -> Option<Vec<f64>> {
+/// Where all components are: in the steps that were found, as long as they are known.
+pub fn folded(studio: &Studio, progress: f64) -> Option<Moment> {
     let shaped = studio.shown().shaped()?;
     let count = shaped.model().parts().len();
     let plan = studio.shown().output().map(|output| output.fold_plan());
     let sequence = match plan.filter(|plan| plan.order().len() == count) {
-        Some(plan) => Sequence::new(plan.steps()),
+        Some(plan) => Sequence::of_plan(plan),
         None => Sequence::of_order(&(0..count).rev().collect::<Vec<_>>()),
     };
-    Some(sequence.folded(progress))
+    Some(sequence.moment(progress))
 }
 
 /// The moment at which a clash happens, as a progress of the folding.
 pub fn moment(studio: &Studio, clash: &Clash) -> Option<f64> {
-    let steps = studio.shown().output()?.fold_plan().steps();
-    let sequence = Sequence::new(steps);
-    let step = steps.iter().position(|step| step.part == clash.mover && step.to >= clash.folded)?;
+    let sequence = Sequence::of_plan(studio.shown().output()?.fold_plan());
+    let reaches = |motion: &Motion| matches!(motion, Motion::Fold(step) if step.part == clash.mover && step.to >= clash.folded);
+    let step = sequence.motions().iter().position(reaches)?;
     let (mut low, mut high) = (sequence.marks()[step], sequence.marks()[step + 1]);
     for _ in 0..30 {
         let middle = 0.5 * (low + high);
@@ -198,9 +198,9 @@ fn push_components(solids: &mut Solids, studio: &Studio, setting: &Setting) {
     let shown = studio.shown();
     let Some(shaped) = shown.shaped() else { return };
     let is_moving = setting.folded > 0.0 && shown.ahead().is_none();
-    let pose: Option<ModelPose> = is_moving.then(|| folded(studio, setting.folded)).flatten().map(|folded| {
+    let pose: Option<ModelPose> = is_moving.then(|| folded(studio, setting.folded)).flatten().map(|moment| {
         let motion = ModelMotion::new(shaped.model());
-        motion.pose_from(&folded, LIFT_MM, |root, _| shaped.model().parts()[root].deployed())
+        motion.pose_from(&moment, LIFT_MM, |root, _| shaped.model().parts()[root].deployed())
     });
     for index in 0..shaped.model().parts().len() {
         let Some(part) = shown.part(index) else { continue };

@@ -1,4 +1,4 @@
-//! Pictures of a component that is glued on its parent.
+//! Pictures of a component that is glued on its parent, or plugged into it.
 
 use super::{MARGIN_MM, PictureError, SIZE_MM, THERE, overlay, taken};
 use crate::component::PanelId;
@@ -46,19 +46,25 @@ pub fn joined(
     let near = scene.points().filter(|p| p.distance(centre) < reach);
     let points: Vec<DVec3> = own_points.chain(near).chain([centre]).collect();
     let view = best_view(&scene, &points, &spots, (SIZE_MM, MARGIN_MM))?;
-    let mut over = Vec::new();
+    // Slits are small, so that nothing is drawn over them.
+    let (mut over, mut slits) = (Vec::new(), Vec::new());
     if let Some(Marked { outline, key }) = &below {
         let flat = |points: &[DVec3]| -> Vec<DVec2> {
             points.iter().map(|p| view.project(base.transform_point3(*p))).collect()
         };
         if view.towards_eye(centre).dot(normal) > 0.0 {
-            over.extend(overlay::joint(flat(outline), flat(key)));
+            let at = |p: DVec2| view.project(on_parent.transform_point3(p.extend(0.0)));
+            match joint.plug() {
+                None => over.extend(overlay::joint(flat(outline), flat(key))),
+                Some(plug) => slits = overlay::slits(&plug.slits().map(|slit| slit.map(at)), flat(key)),
+            }
         }
         let tip = base.transform_point3(key[0]);
         over.extend(overlay::meetings(&[[view.project(tip), view.project(hover.transform_point3(tip))]]));
     }
     let [from, to] = [hover.transform_point3(centre), centre].map(|p| view.project(p));
     over.extend(overlay::arrow(&[from, to]));
+    over.append(&mut slits);
     let mut drawing = taken(&scene, &view, over);
     let at = |p: usize, place: &DAffine3| {
         let panels = parts[p].component.panels().panels();

@@ -9,7 +9,7 @@ mod whole;
 pub use build::{folded, glued};
 pub use join::joined;
 pub use paper::{net, sheet_map, sheets_of};
-pub use whole::{deploying, flattening, frames};
+pub use whole::{deploying, flattening, frames, pulling};
 
 use crate::drawing::{Drawing, Mark, Rgb};
 use crate::render::{Look, Scene, View, ViewError, picture, seen};

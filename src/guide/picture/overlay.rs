@@ -130,6 +130,17 @@ pub fn joint(outline: Vec<DVec2>, key: Vec<DVec2>) -> Vec<Mark> {
     ]
 }
 
+/// The slits that a tab is pushed through, with their mark of orientation.
+pub fn slits(lines: &[[DVec2; 2]], key: Vec<DVec2>) -> Vec<Mark> {
+    let line = |stroke: Stroke| {
+        lines.iter().map(move |[a, b]| Mark::line(Layer::Picture, *a, *b, &stroke)).collect::<Vec<_>>()
+    };
+    let mut marks = line(Stroke::solid(1.4, Rgb::WHITE));
+    marks.extend(line(Stroke::solid(0.6, GLUE)));
+    marks.push(Mark::filled(Layer::Picture, key, GLUE));
+    marks
+}
+
 /// Thin lines between places that meet.
 pub fn meetings(lines: &[[DVec2; 2]]) -> Vec<Mark> {
     let dotted = Stroke { width_mm: 0.35, colour: GLUE, dash_mm: vec![0.8, 1.2] };

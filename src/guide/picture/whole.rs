@@ -3,7 +3,7 @@
 use super::{MARGIN_MM, PictureError, SIZE_MM, THERE, overlay, taken};
 use crate::component::{PanelId, PanelKind};
 use crate::drawing::Drawing;
-use crate::fold::{ModelMotion, ModelPose};
+use crate::fold::{ModelMotion, ModelPose, Moment};
 use crate::geom::polygon;
 use crate::pipeline::Output;
 use crate::render::{Scene, Spot, View, best_view, palette};
@@ -19,31 +19,51 @@ const SHAFT: f64 = 0.2;
 /// Flat components lie so far off their parents: enough to see what lies on what.
 const LIFT_MM: f64 = 0.3;
 
-/// A component folds up to a share of the way: `folded` tells how far all were folded before.
-pub fn flattening(output: &Output, part: usize, folded: &[f64], to: f64) -> Result<Drawing, PictureError> {
-    let at = |share: f64| folded[part] + share * (to - folded[part]);
-    moving(output, part, folded, [at(NOW), at(SOON)])
+/// A component folds up to a share of the way: `before` tells where all were before.
+pub fn flattening(output: &Output, part: usize, before: &Moment, to: f64) -> Result<Drawing, PictureError> {
+    let at = |share: f64| before.folded[part] + share * (to - before.folded[part]);
+    moving(output, part, before, [at(NOW), at(SOON)])
 }
 
 /// The whole is flat, and a component is pulled up.
 pub fn deploying(output: &Output, part: usize, to: f64) -> Result<Drawing, PictureError> {
     let at = |share: f64| to + share * (1.0 - to);
-    moving(output, part, &vec![1.0; output.nets().len()], [at(SOON), at(NOW)])
+    moving(output, part, &Moment::joined(vec![1.0; output.nets().len()]), [at(SOON), at(NOW)])
 }
 
-fn moving(
+/// A component is pulled off its parent, or comes back to it.
+pub fn pulling(output: &Output, part: usize, before: &Moment, is_off: bool) -> Result<Drawing, PictureError> {
+    let corners = output.model().parts()[part].component.panels().panels().iter();
+    let corners: Vec<DVec3> = corners.flat_map(|p| p.deployed_outline()).collect();
+    let low = corners.iter().copied().reduce(DVec3::min).unwrap_or_default();
+    let high = corners.into_iter().reduce(DVec3::max).unwrap_or_default();
+    let at = |share: f64| {
+        let mut moment = before.clone();
+        moment.pulled_mm[part] = share * low.distance(high);
+        moment
+    };
+    let ends = if is_off { [NOW, SOON] } else { [SOON, NOW] };
+    between(output, part, ends.map(at), !is_off)
+}
+
+fn moving(output: &Output, part: usize, before: &Moment, ends: [f64; 2]) -> Result<Drawing, PictureError> {
+    let at = |share: f64| {
+        let mut moment = before.clone();
+        moment.folded[part] = share;
+        moment
+    };
+    between(output, part, ends.map(at), ends[0] < ends[1])
+}
+
+/// A component on its way from one moment to another one, and an arrow that pushes or pulls it.
+fn between(
     output: &Output,
     part: usize,
-    folded: &[f64],
-    [now, soon]: [f64; 2],
+    moments: [Moment; 2],
+    is_pushed: bool,
 ) -> Result<Drawing, PictureError> {
     let motion = ModelMotion::new(output.model());
-    let pose_at = |share: f64| {
-        let mut folded = folded.to_vec();
-        folded[part] = share;
-        motion.pose_on_ground(&folded, LIFT_MM)
-    };
-    let (pose, next) = (pose_at(now), pose_at(soon));
+    let [pose, next] = moments.map(|moment| motion.pose_on_ground(&moment, LIFT_MM));
     let mut scene = Scene::new();
     for (p, posed) in pose.parts.iter().enumerate() {
         let colour = if p == part { palette::colour(p) } else { THERE };
@@ -63,7 +83,7 @@ fn moving(
     let [from, to] = ends(output, part, [&pose, &next]);
     let shaft = SHAFT * low.distance(high) * (to - from).normalize_or(DVec3::NEG_Y);
     // It begins outside, as a hand does that pushes, or inside where it pulls.
-    let [start, tip] = if now < soon { [from - shaft, from] } else { [from, from + shaft] };
+    let [start, tip] = if is_pushed { [from - shaft, from] } else { [from, from + shaft] };
     let points: Vec<DVec3> = scene.points().chain([start, tip]).collect();
     let view = best_view(&scene, &points, &spots, (SIZE_MM, MARGIN_MM))?;
     Ok(taken(&scene, &view, overlay::arrow(&[view.project(start), view.project(tip)])))

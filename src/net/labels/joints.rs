@@ -37,7 +37,8 @@ impl Placer<'_> {
             self.avoid(polygon::edges(&key).map(|(a, b)| [a, b]));
             self.covered.push(inside.clone());
             self.joint_texts.push((mark.text.clone(), inside.clone()));
-            out.push(PlacedJoint { panel: mark.panel, outline: inside, key });
+            let is_glued = mark.plug.is_none();
+            out.push(PlacedJoint { panel: mark.panel, outline: inside, key, is_glued });
         }
         out
     }
