@@ -13,6 +13,7 @@ use super::overlap::Solid;
 use crate::component::{AssembleError, Component, Panel, PanelId, PanelKind, Profile};
 use crate::model::Model;
 use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 /// Why a model cannot be made of thick panels.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -89,8 +90,8 @@ pub fn thick(model: &Model, thickness_mm: f64, min_panel_mm: f64) -> Result<(Mod
         let joints = model.joint_panels(p);
         let boards =
             Boards { name: &part.name, component: &part.component, joints, thickness_mm, min_panel_mm };
-        let (inner, moved_mm) = boards.inner()?;
-        made.push(inner);
+        let ((inner, became), moved_mm) = boards.inner()?;
+        made.push((Arc::new(inner), became));
         if moved_mm > MOVED_MM {
             let message = format!(
                 "{}: so that boards of {thickness_mm} mm fold flat, vertices were moved by up to {moved_mm:.1} mm",

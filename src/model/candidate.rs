@@ -12,6 +12,7 @@ use crate::component::{
 use crate::geom::{Hull, Plane, polygon};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Directions tried about the principal axis, evenly over a half turn.
 const DIRECTIONS: usize = 12;
@@ -36,7 +37,7 @@ const IN_PLANE: f64 = 1e-6;
 pub(super) struct Made {
     /// Unlike that of every other candidate that one [`super::Known`] has made.
     pub(super) id: u64,
-    pub(super) component: Component,
+    pub(super) component: Arc<Component>,
     /// From the component's axes to the mesh's.
     pub(super) frame: DAffine3,
     pub(super) direction_rad: f64,
@@ -62,7 +63,7 @@ impl Made {
         let principal = PrincipalAxis::of_hull(&twin.hull);
         Self {
             id: self.id | IMAGE,
-            component,
+            component: Arc::new(component),
             frame,
             direction_rad: principal.angle_rad(frame.transform_vector3(DVec3::Z)),
             cost_mm: self.cost_mm,
@@ -159,7 +160,7 @@ impl<'a> Builder<'a> {
             let direction_rad = part.options.direction_rad.unwrap_or_else(|| principal.angle_rad(axis));
             Some(Made {
                 id: 0,
-                component: finished.component,
+                component: Arc::new(finished.component),
                 frame: direction.frame,
                 direction_rad,
                 cost_mm: finished.cost_mm,

@@ -4,6 +4,7 @@ use super::{Hold, Joint, Model, ModelPart};
 use crate::component::{Component, PanelId};
 use crate::geom::polygon;
 use glam::{DAffine3, DVec3};
+use std::sync::Arc;
 
 /// How a component lies on another one.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,9 +67,9 @@ impl Model {
         became: &[(PanelId, PanelId)],
     ) -> Self {
         let of = |p: &ModelPart| (0..p.component.panels().panels().len()).map(PanelId).collect();
-        let mut components: Vec<(Component, Vec<PanelId>)> =
+        let mut components: Vec<(Arc<Component>, Vec<PanelId>)> =
             self.parts.iter().map(|p| (p.component.clone(), of(p))).collect();
-        components[part].0 = component;
+        components[part].0 = Arc::new(component);
         for &(old, new) in became {
             components[part].1[old.0] = new;
         }
@@ -79,7 +80,7 @@ impl Model {
     /// The same with other components in the same places, each with the panel that every panel of
     /// the one before has become: joint panels keep their distance.
     #[must_use]
-    pub fn with_components(&self, components: Vec<(Component, Vec<PanelId>)>) -> Self {
+    pub fn with_components(&self, components: Vec<(Arc<Component>, Vec<PanelId>)>) -> Self {
         let mut parts = self.parts.clone();
         for (part, (component, successors)) in parts.iter_mut().zip(&components) {
             part.component = component.clone();
@@ -131,7 +132,7 @@ fn standing(part: &JoinedPart, next_mm: &mut f64) -> ModelPart {
     *next_mm = high + shift_mm + APART_MM;
     ModelPart {
         name: part.name.clone(),
-        component: part.component.clone(),
+        component: Arc::new(part.component.clone()),
         frame: DAffine3::from_translation(lift + DVec3::X * shift_mm),
         placement: DAffine3::IDENTITY,
         flat: DAffine3::from_translation(lift),
@@ -146,7 +147,7 @@ fn on_parent(part: &JoinedPart, seam: &Seam, parent: &ModelPart) -> ModelPart {
     let (parent_panel, child_panel) = (seam.parent_panel, seam.child_panel);
     ModelPart {
         name: part.name.clone(),
-        component: part.component.clone(),
+        component: Arc::new(part.component.clone()),
         frame: parent.deployed() * below.deployed * seam.relation * above.deployed.inverse(),
         placement: DAffine3::IDENTITY,
         flat: parent.flat * below.flat * seam.relation * above.flat.inverse(),

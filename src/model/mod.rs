@@ -26,6 +26,7 @@ pub use symmetry::Symmetry;
 use crate::component::{Component, PanelId};
 use crate::geom::polygon;
 use glam::{DAffine3, DVec2, DVec3};
+use std::sync::Arc;
 
 /// What holds a component on its parent.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,8 +69,8 @@ impl Joint {
 pub struct ModelPart {
     /// Name, unique in the model.
     pub name: String,
-    /// Its shape, in its own axes.
-    pub component: Component,
+    /// Its shape, in its own axes; models that share it are cheap to compare.
+    pub component: Arc<Component>,
     /// From the component's axes to the mesh's scaled axes.
     pub frame: DAffine3,
     /// From the mesh's scaled axes to the model: not the identity where the component had to be
