@@ -104,7 +104,7 @@ pub(super) struct Builder<'a> {
     pub(super) part: usize,
     /// Of parts whose component is to be its own mirror image.
     pub(super) symmetry: Option<&'a Symmetry>,
-    /// Whether all directions are finished, rather than those that promise most.
+    /// Whether all directions are finished, rather than those that promise most alone.
     pub(super) is_wide: bool,
     pub(super) min_panel_mm: f64,
 }
@@ -124,8 +124,9 @@ impl<'a> Builder<'a> {
         self.links.iter().filter(move |l| l.parent == part || l.child == part)
     }
 
-    /// The candidates, the cheapest first; their ids are for the caller to give.
-    pub(super) fn make(&self) -> Result<Vec<Made>, ModelError> {
+    /// The candidates, the cheapest first, but those in directions that `before` has; their ids are for the
+    /// caller to give.
+    pub(super) fn make(&self, before: &[Made]) -> Result<Vec<Made>, ModelError> {
         let part = &self.parts[self.part];
         let principal = PrincipalAxis::of_hull(&part.hull);
         let directions: Vec<Direction> =
@@ -140,17 +141,26 @@ impl<'a> Builder<'a> {
                 (target.top_edges, target.profile_vertices) = (top_edges, profile_vertices);
             }
         }
+        let is_new = |direction: &Direction| {
+            let axis = direction.frame.matrix3.z_axis;
+            before.iter().all(|made| axis.dot(made.frame.matrix3.z_axis).abs() < SAME_RAD.cos())
+        };
+        let (directions, mut targets): (Vec<&Direction>, Vec<(Target, f64)>) =
+            directions.iter().zip(targets).filter(|(direction, _)| is_new(direction)).unzip();
         let most = if self.is_wide { targets.len() } else { FINISHED };
         let mut found = finished(&targets, most);
         if found.is_empty() && self.symmetry.is_some() {
             targets.iter_mut().for_each(|(target, _)| target.symmetry = None);
             found = finished(&targets, most);
         }
+        if found.is_empty() && !before.is_empty() {
+            return Ok(Vec::new());
+        }
         if found.is_empty() {
             return Err(choose(&targets).map_or_else(fail, |_| lost()));
         }
         let made = |finished: Finished| {
-            let (direction, target) = (&directions[finished.target], &targets[finished.target].0);
+            let (direction, target) = (directions[finished.target], &targets[finished.target].0);
             let seated = |(other, joint): &(usize, JointTarget)| {
                 let panel = finished.component.joint_panel(target, joint)?;
                 Some((*other, seat_plane(&joint.seat).moved(&direction.frame), panel))
@@ -168,7 +178,7 @@ impl<'a> Builder<'a> {
             })
         };
         let candidates: Vec<Made> = found.into_iter().filter_map(made).collect();
-        if candidates.is_empty() { Err(lost()) } else { Ok(candidates) }
+        if candidates.is_empty() && before.is_empty() { Err(lost()) } else { Ok(candidates) }
     }
 
     /// The fold axes to try: the user's, or some about the principal axis, turned so that joint planes

@@ -60,11 +60,17 @@ impl Default for Known {
 impl Known {
     /// Makes candidates, or takes those that were made of the same.
     pub(super) fn make(&self, builder: &Builder<'_>) -> Result<Arc<Vec<Made>>, ModelError> {
+        let before = match builder.is_wide {
+            true => self.make(&Builder { is_wide: false, ..*builder })?,
+            false => Arc::default(),
+        };
         self.made.get_or(Wish::new(builder), || {
-            let mut made = builder.make()?;
+            let mut made = builder.make(&before)?;
             for candidate in &mut made {
                 candidate.id = self.next_id.fetch_add(1, Ordering::Relaxed);
             }
+            made.extend(before.iter().cloned());
+            made.sort_by(|a, b| a.cost_mm.total_cmp(&b.cost_mm));
             Ok(Arc::new(made))
         })
     }
