@@ -29,7 +29,8 @@ impl Body {
             top_edges: self.edges,
             profile_vertices: self.vertices,
             min_panel_mm: LEAST_MM,
-            panel_worth: 0.0015,
+            // Who asks for many panels gets them.
+            panel_worth: if self.edges.max(self.vertices) > 6 { 0.0 } else { 0.0015 },
             comfortable_mm: 1.5 * LEAST_MM,
         }
     }

@@ -84,7 +84,8 @@ pub(super) struct Found {
 }
 
 /// Fits start with no more top edges and profile vertices than this, and add the others where they are
-/// worth most: the search finds its way more surely among few.
+/// worth most: the search finds its way more surely among few. Where as many as there may be are wanted,
+/// that is tried as well as a start with all, so that more of either make the error no larger.
 const SURE: usize = 6;
 
 impl Found {
@@ -110,7 +111,14 @@ pub(super) fn best(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
     let straightened = Straightened::of(targets)?;
     let targets = &straightened.targets();
     let hulls: Vec<Simpler> = targets.par_iter().map(|t| Simpler::of(&t.0)).collect();
-    let best = match best_of(targets, &hulls) {
+    let mut best = best_of(targets, &hulls);
+    if let Some(fewer) = with_sure_counts(targets)
+        && let Ok(other) = best_of(&fewer, &hulls)
+        && best.as_ref().map_or(true, |best| other.cost_mm < best.cost_mm)
+    {
+        best = Ok(other);
+    }
+    let best = match best {
         Ok(best) => Ok(pruned(best, targets, &hulls).or_box(targets)),
         Err(error) => as_box(&targets[0].0)
             .map(|(fitted, made)| Found {
@@ -129,9 +137,13 @@ pub(super) fn each(targets: &[(Target, f64)], most: usize) -> Vec<Found> {
     let Ok(straightened) = Straightened::of(targets) else { return Vec::new() };
     let targets = &straightened.targets();
     let hulls: Vec<Simpler> = targets.par_iter().map(|t| Simpler::of(&t.0)).collect();
-    let all = most_promising(targets, &hulls, Some(most));
+    let mut all = most_promising(targets, &hulls, Some(most));
+    all.extend(with_sure_counts(targets).into_iter().flat_map(|t| most_promising(&t, &hulls, Some(most))));
     let mut found: Vec<Found> = all.into_iter().filter_map(Result::ok).collect();
     found.sort_by(|a, b| a.cost_mm.total_cmp(&b.cost_mm));
+    let mut is_taken = vec![false; targets.len()];
+    found.retain(|found| !std::mem::replace(&mut is_taken[found.target], true));
+    found.truncate(most);
     let finish = |(place, found): (usize, Found)| {
         let found = if place < PRUNED { pruned(found, targets, &hulls) } else { found };
         let mut found = found.or_box(targets);
@@ -184,6 +196,21 @@ impl<'t> Straightened<'t> {
     }
 }
 
+/// The targets with no more top edges and profile vertices than the search is sure among; `None` where
+/// it starts with no more than that anyway.
+fn with_sure_counts<'h>(targets: &[(Target<'h>, f64)]) -> Option<Vec<(Target<'h>, f64)>> {
+    let sure = |(target, cost_mm): &(Target<'h>, f64)| {
+        let top_edges = target.top_edges.min(SURE);
+        let profile_vertices = target.profile_vertices.min(SURE);
+        (Target { top_edges, profile_vertices, ..target.clone() }, *cost_mm)
+    };
+    let starts_with_more = |target: &Target| {
+        let (edges, vertices) = first_counts(target);
+        edges.max(vertices) > SURE
+    };
+    targets.iter().any(|t| starts_with_more(&t.0)).then(|| targets.iter().map(sure).collect())
+}
+
 /// The best component found.
 fn best_of(targets: &[(Target, f64)], hulls: &[Simpler]) -> Result<Found, ConvertError> {
     let mut best = Err(ConvertError::Hull(HullError::Flat));
@@ -210,7 +237,7 @@ fn most_promising(
     let goals: Vec<Target> = targets.iter().zip(hulls).map(|(t, hull)| goal(&t.0, &hull.rough)).collect();
     let starts = || {
         let runs = goals.par_iter().enumerate();
-        let runs = runs.map(|(k, goal)| (k, start(goal, sure_counts(goal))));
+        let runs = runs.map(|(k, goal)| (k, start(goal, first_counts(goal))));
         ranked(runs.collect(), targets, FIRST_STEPS, LEFT.max(at_least))
     };
     // A single start leaves other threads idle, and its hull is certain to be needed.
@@ -358,14 +385,15 @@ fn goal<'h>(target: &Target, hull: &'h Hull) -> Target<'h> {
     }
 }
 
-/// Top edges and profile vertices to start with.
-fn sure_counts(goal: &Target) -> (usize, usize) {
-    (goal.top_edges.min(SURE), goal.profile_vertices.min(SURE))
+/// Top edges and profile vertices to start with: all, where none is to be left out.
+fn first_counts(goal: &Target) -> (usize, usize) {
+    let most = if goal.panel_worth == 0.0 { usize::MAX } else { SURE };
+    (goal.top_edges.min(most), goal.profile_vertices.min(most))
 }
 
 /// The same, but fewer.
 fn fewer(goal: &Target) -> Vec<(usize, usize)> {
-    let (edges, vertices) = sure_counts(goal);
+    let (edges, vertices) = first_counts(goal);
     let least = goal.locked_angles().len().max(3);
     let fewer_edges = FEWER_EDGES.into_iter().filter(|less| edges >= least + less);
     let fewer_vertices = (vertices as f64 * FEWER_VERTICES).ceil() as usize;
