@@ -112,6 +112,16 @@ impl Options {
         let is_chosen = self.top_edges.is_none() && self.profile_vertices.is_none();
         if is_chosen { self.level.panel_worth() } else { 0.0 }
     }
+
+    /// What was chosen for the component of a name, and the name before it was renamed.
+    fn component(&self, name: &str) -> Option<(&String, &ComponentOptions)> {
+        self.components.iter().find(|(key, own)| own.rename.as_ref().unwrap_or(key) == name)
+    }
+
+    /// How the component of a name is held, if that was chosen.
+    fn joint_choice(&self, name: &str) -> Option<JointChoice> {
+        self.component(name).and_then(|(_, own)| own.joint)
+    }
 }
 
 /// Most top edges and profile vertices with a tolerance.
@@ -133,14 +143,6 @@ pub struct ComponentOptions {
     /// How it is held on its parent; where that is left out, it is glued unless that leaves no free
     /// way to fold.
     pub joint: Option<JointChoice>,
-}
-
-impl Options {
-    /// How the component of a name is held, if that was chosen.
-    fn joint_choice(&self, name: &str) -> Option<JointChoice> {
-        let is_its = |(key, own): &(&String, &ComponentOptions)| own.rename.as_ref().unwrap_or(key) == name;
-        self.components.iter().find(is_its).and_then(|(_, own)| own.joint)
-    }
 }
 
 /// Why there is no model.

@@ -6,11 +6,10 @@ use super::net_args::NetArgs;
 use super::segment_args::SegmentArgs;
 use super::sheet_args::SheetArgs;
 use clap::Args;
+use std::str::FromStr;
 use tatamu::mesh::Up;
 use tatamu::pipeline::{ComponentOptions, Level, Options};
-use tatamu::project::{
-    Project, check_count, check_degrees, check_parts, parse_level, parse_thickness_mm, parse_up,
-};
+use tatamu::project::{Project, check_count, check_degrees, check_parts, parse_thickness_mm, parse_up};
 use tatamu::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};
 
 /// Options of the model.
@@ -51,7 +50,7 @@ pub struct ModelArgs {
     ///
     /// "easy" has about two thirds of the panels, "fine" about twice as many. Big parts get most of them.
     /// Example: --level easy
-    #[arg(long, value_name = "LEVEL", value_parser = parse_level, hide_possible_values = true)]
+    #[arg(long, value_name = "LEVEL", value_parser = Level::from_str, hide_possible_values = true)]
     level: Option<Level>,
 
     /// Edges of each component's top panel, 3 or more [default: by --level and the part's size]

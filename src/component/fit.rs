@@ -57,10 +57,10 @@ impl Aim {
     /// is missing: with 2 for both the silhouettes of snowman, teapot, bunny, penguin and cat are 0.916,
     /// with 4 for `out` 0.922; with 16 those of bunny, snowman and spot are worse than with 8. With 0.15
     /// for `worst` and 1.5 for `mean` the bunny at (5, 6) of Table 2 is 0.021 of the diagonal off instead
-    /// of 0.017; with 0.6 and 1 the silhouette of the armadillo is 0.871 instead of 0.908; with 1 and 0.5 three
-    /// pairs more of 21 meshes bump. A face has a
-    /// small share of the volume: with 1 for `step` the fit stops long before it is there (silhouettes of
-    /// snowman, bunny, koala and fish 0.894 against 0.914).
+    /// of 0.017; with 0.6 and 1 the silhouette of the armadillo is 0.871 instead of 0.908; with 1 and 0.5
+    /// three pairs more of 21 meshes bump. A face has a small share of the volume: with 1 for `step` the
+    /// fit stops long before it is there (silhouettes of snowman, bunny, koala and fish 0.894 against
+    /// 0.914).
     pub(super) const LIKENESS: Self = Self { out: 6.0, short: 2.0, worst: 0.6, mean: 0.8, step: 0.05 };
 
     /// Whether volumes count.

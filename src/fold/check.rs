@@ -11,7 +11,6 @@ use super::step::{FLAT, Level, Levels, Move, share};
 use super::sweep::{Body, Care, Contacts, SheetId, Sweep};
 use super::track::{Track, table};
 use crate::component::{Panel, PanelId, PanelKind};
-use glam::DAffine3;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
@@ -292,7 +291,8 @@ impl<'a> Checker<'a> {
         let asked: BTreeSet<usize> = pairs.iter().flatten().copied().collect();
         for p in asked {
             let panels = self.motion.model().parts()[p].component.panels().panels().iter().enumerate();
-            let sheets = panels.map(|(k, panel)| sheet(panel, to_mover * pose.parts[p].panel(PanelId(k))));
+            let sheets =
+                panels.map(|(k, panel)| Sheet::of_panel(panel, to_mover * pose.parts[p].panel(PanelId(k))));
             match self.carrier(mover, p) {
                 Some(carrier) => {
                     bodies.push(Body::new(sheets.collect(), carrier, motion));
@@ -335,7 +335,7 @@ impl<'a> Checker<'a> {
         let panels = self.motion.model().parts()[mover].component.panels().panels();
         let track = &self.tracks[mover];
         let body = |(k, panel): (usize, &Panel)| {
-            Body::new(vec![sheet(panel, panel.deployed)], PanelId(k), track.motion())
+            Body::new(vec![Sheet::of_panel(panel, panel.deployed)], PanelId(k), track.motion())
         };
         let bodies: Vec<Body> = panels.iter().enumerate().map(body).collect();
         let owners: Vec<Owner> =
@@ -394,13 +394,6 @@ fn clash(step: Move, parts: [usize; 2], answer: &Answer) -> Option<Clash> {
     let Move { part: mover, from, to } = step;
     let (panels, folded, depth_mm) = (deepest.panels, first.folded, deepest.depth_mm);
     Some(Clash { mover, from: share(from), to: share(to), parts, panels, folded, depth_mm })
-}
-
-fn sheet(panel: &Panel, placement: DAffine3) -> Sheet {
-    Sheet {
-        corners: panel.outline.iter().map(|p| placement.transform_point3(p.extend(0.0))).collect(),
-        normal: placement.matrix3.z_axis,
-    }
 }
 
 /// The ways between all components, from those above each.

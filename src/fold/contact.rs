@@ -5,7 +5,8 @@
 //! these, the directions of the separating axis theorem, find the least way that parts two sheets
 //! that cut through each other exactly.
 
-use glam::DVec3;
+use crate::component::Panel;
+use glam::{DAffine3, DVec3};
 
 /// Two edges are parallel where the sine of their angle is below this; their product has no
 /// direction then, and the other axes suffice.
@@ -18,6 +19,16 @@ pub struct Sheet {
     pub corners: Vec<DVec3>,
     /// Unit normal.
     pub normal: DVec3,
+}
+
+impl Sheet {
+    /// A panel at its place in a pose.
+    pub fn of_panel(panel: &Panel, place: DAffine3) -> Self {
+        Self {
+            corners: panel.outline.iter().map(|p| place.transform_point3(p.extend(0.0))).collect(),
+            normal: place.matrix3.z_axis,
+        }
+    }
 }
 
 /// A signed gap between two polygons, and the direction in which it was found.

@@ -35,8 +35,17 @@ impl FoldPlan {
     /// Each overlap, and of each pair that clashes by more than the paper's thickness the worst clash.
     pub fn encounters(&self, motion: &ModelMotion<'_>) -> Vec<Encounter> {
         let overlaps = self.overlaps().iter().map(|overlap| unfolded(motion, overlap));
-        let clashes = deepest(self.clashes()).filter(|clash| clash.depth_mm > self.thickness_mm());
-        overlaps.chain(clashes.map(|clash| folding(motion, self.steps(), clash))).collect()
+        overlaps.chain(self.worst_clashes().map(|clash| folding(motion, self.steps(), clash))).collect()
+    }
+
+    /// Number of [`FoldPlan::encounters`].
+    pub fn encounter_count(&self) -> usize {
+        self.overlaps().len() + self.worst_clashes().count()
+    }
+
+    /// Of each pair that clashes by more than the paper's thickness the worst clash.
+    fn worst_clashes(&self) -> impl Iterator<Item = &Clash> {
+        deepest(self.clashes()).filter(|clash| clash.depth_mm > self.thickness_mm())
     }
 }
 
@@ -99,9 +108,7 @@ fn sheets(motion: &ModelMotion<'_>, folded: &[f64], parts: [usize; 2], panels: [
     let pose = motion.pose(folded);
     [0, 1].map(|k| {
         let place = pose.parts[parts[k]].panel(panels[k]);
-        let panel = motion.model().parts()[parts[k]].component.panels().panel(panels[k]);
-        let corners = panel.outline.iter().map(|p| place.transform_point3(p.extend(0.0))).collect();
-        Sheet { corners, normal: place.matrix3.z_axis }
+        Sheet::of_panel(motion.model().parts()[parts[k]].component.panels().panel(panels[k]), place)
     })
 }
 

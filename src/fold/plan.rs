@@ -217,10 +217,15 @@ impl FoldPlan {
         bumps.into_iter().collect()
     }
 
-    /// Whether no two components bump by more than the paper is thick while they fold.
+    /// Pairs of components that bump by more than the paper is thick while they fold.
+    pub fn bumping_pairs(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let is_bump = |clash: &&Clash| clash.parts[0] != clash.parts[1] && clash.depth_mm > self.thickness_mm;
+        self.clashes.iter().filter(is_bump).map(|clash| clash.parts)
+    }
+
+    /// Whether there are none of these.
     pub fn is_free(&self) -> bool {
-        let is_bump = |clash: &Clash| clash.parts[0] != clash.parts[1] && clash.depth_mm > self.thickness_mm;
-        !self.clashes.iter().any(is_bump)
+        self.bumping_pairs().next().is_none()
     }
 
     /// Sum of [`FoldPlan::bumps`], mm.

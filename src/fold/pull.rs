@@ -139,10 +139,5 @@ fn is_of_tree(motion: &ModelMotion<'_>, p: usize, part: usize) -> bool {
 
 fn sheets(motion: &ModelMotion<'_>, part: usize, pose: &ModelPose) -> Vec<Sheet> {
     let panels = motion.model().parts()[part].component.panels().panels().iter().enumerate();
-    let sheet = |(k, panel): (usize, &crate::component::Panel)| {
-        let place = pose.parts[part].panel(PanelId(k));
-        let corners = panel.outline.iter().map(|q| place.transform_point3(q.extend(0.0))).collect();
-        Sheet { corners, normal: place.matrix3.z_axis }
-    };
-    panels.map(sheet).collect()
+    panels.map(|(k, panel)| Sheet::of_panel(panel, pose.parts[part].panel(PanelId(k)))).collect()
 }

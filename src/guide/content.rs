@@ -159,10 +159,6 @@ impl Writer<'_> {
         &self.output.model().parts()[part].name
     }
 
-    fn is_plugged(&self, part: usize) -> bool {
-        self.output.model().parts()[part].joint.as_ref().is_some_and(|joint| joint.plug().is_some())
-    }
-
     fn side(&self) -> Side {
         self.output.layout().options().choices.side
     }
@@ -261,7 +257,7 @@ impl Writer<'_> {
             }
             Action::Join { parent } => {
                 let values = [("part", part), ("parent", self.name(*parent))];
-                let (title, texts) = match self.is_plugged(step.part) {
+                let (title, texts) = match self.output.model().parts()[step.part].is_plugged() {
                     false => (&words.join.title, [&words.join.find, &words.join.glue, &words.join.place]),
                     true => (&words.plug.title, [&words.plug.tab, &words.plug.push, &words.plug.place]),
                 };

@@ -149,12 +149,12 @@ impl<'a> Builder<'a> {
             directions.iter().zip(targets).filter(|(direction, _)| is_new(direction)).unzip();
         let most = if self.is_wide { targets.len() } else { FINISHED };
         let mut found = finished(&targets, most);
+        if !before.is_empty() && found.is_empty() {
+            return Ok(Vec::new());
+        }
         if found.is_empty() && self.symmetry.is_some() {
             targets.iter_mut().for_each(|(target, _)| target.symmetry = None);
             found = finished(&targets, most);
-        }
-        if found.is_empty() && !before.is_empty() {
-            return Ok(Vec::new());
         }
         if found.is_empty() {
             return Err(choose(&targets).map_or_else(fail, |_| lost()));

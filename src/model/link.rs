@@ -177,9 +177,7 @@ impl<'a> Between<'a> {
         };
         let (mirror, image) = (symmetry.mirror(), (symmetry.twin(from), symmetry.twin(to)));
         if image == (to, from) {
-            let plane = *mirror.plane();
-            let is_ahead = plane.distance(second.centroid()) > plane.distance(first.centroid());
-            let plane = if is_ahead { plane } else { plane.flipped() };
+            let plane = mirror_plane_between(symmetry, first, second);
             return Some((plane, plane::cut_off(&plane, first, second)));
         }
         if image < (from, to) {
@@ -250,6 +248,13 @@ pub fn parted(
     hulls
 }
 
+/// The mirror plane, its normal from a hull to its image.
+fn mirror_plane_between(symmetry: &Symmetry, first: &Hull, second: &Hull) -> Plane {
+    let plane = *symmetry.mirror().plane();
+    let is_ahead = plane.distance(second.centroid()) > plane.distance(first.centroid());
+    if is_ahead { plane } else { plane.flipped() }
+}
+
 /// The plane between two hulls that overlap where their joints leave them, normal from the first to the
 /// second, and the larger share that it cuts off either; `None` where they do not overlap by much.
 fn overlap(
@@ -269,11 +274,7 @@ fn overlap(
     let (first, second) = (left(a), left(b));
     let (plane, depth_mm) = plane::apart(&first, &second)?;
     let twins = symmetry.filter(|symmetry| symmetry.twin(a) == b);
-    let plane = match twins.map(|symmetry| *symmetry.mirror().plane()) {
-        Some(mirror) if mirror.normal().dot(plane.normal()) > 0.0 => mirror,
-        Some(mirror) => mirror.flipped(),
-        None => plane,
-    };
+    let plane = twins.map_or(plane, |symmetry| mirror_plane_between(symmetry, &first, &second));
     (depth_mm > LEAST_OVERLAP_MM).then(|| (plane, plane::cut_off(&plane, &first, &second)))
 }
 

@@ -90,6 +90,11 @@ impl ModelPart {
         self.placement * self.frame
     }
 
+    /// Whether it can be unplugged from its parent.
+    pub fn is_plugged(&self) -> bool {
+        self.joint.as_ref().is_some_and(|joint| joint.plug().is_some())
+    }
+
     /// Fold axis in the mesh's axes.
     pub fn fold_axis(&self) -> DVec3 {
         self.frame.transform_vector3(DVec3::Z)
@@ -122,9 +127,8 @@ impl Model {
 
     /// Whether any crease is folded towards the viewer outside.
     pub fn has_valleys(&self) -> bool {
-        let is_plugged = |part: &ModelPart| part.joint.as_ref().is_some_and(|joint| joint.plug().is_some());
         let has_valley = |part: &ModelPart| part.component.panels().hinges().iter().any(|h| h.is_valley());
-        self.parts.iter().any(|part| is_plugged(part) || has_valley(part))
+        self.parts.iter().any(|part| part.is_plugged() || has_valley(part))
     }
 
     /// The area over which a part's joint would hold well, mm²; `None` for a root.

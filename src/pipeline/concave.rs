@@ -26,10 +26,10 @@ pub(super) fn directions_rad() -> impl Iterator<Item = f64> {
     (0..COUNT).map(|k| std::f64::consts::PI * k as f64 / COUNT as f64)
 }
 
-/// The model with concave components where they are asked for and better.
 /// Top edges and profile vertices, where the user says none: dents need few.
 const COUNTS: (usize, usize) = (6, 6);
 
+/// The model with concave components where they are asked for and better.
 pub(super) fn refitted(
     mut model: Model,
     mesh: &Mesh,
@@ -40,10 +40,9 @@ pub(super) fn refitted(
     let (mut warnings, mut remarks, mut refusals) = (Vec::new(), Vec::new(), Vec::new());
     for p in 0..model.parts().len() {
         let part = &model.parts()[p];
-        let is_wanted = |(key, c): (&String, &super::ComponentOptions)| {
-            c.is_concave && c.rename.as_ref().unwrap_or(key) == &part.name
+        let Some((key, choice)) = options.component(&part.name).filter(|own| own.1.is_concave) else {
+            continue;
         };
-        let Some((key, choice)) = options.components.iter().find(|entry| is_wanted(*entry)) else { continue };
         progress.check()?;
         let name = part.name.clone();
         let body = Body {

@@ -1,5 +1,7 @@
 //! How many panels a model has: the big parts of a model get most of them.
 
+use std::str::FromStr;
+
 /// Least panels of a component that has not fewer because it is small.
 const LEAST_PANELS: f64 = 12.0;
 
@@ -76,6 +78,16 @@ impl Level {
         let wanted = (self.panels_of_whole() * size_share).max(LEAST_PANELS);
         let off = |counts: &&(usize, usize)| (panels(**counts) / wanted).ln().abs();
         *COUNTS.iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(&COUNTS[0])
+    }
+}
+
+impl FromStr for Level {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let text = text.to_ascii_lowercase();
+        let found = Self::ALL.into_iter().find(|level| level.name() == text);
+        found.ok_or_else(|| "the level is easy, normal or fine".to_owned())
     }
 }
 

@@ -90,9 +90,7 @@ fn plug_of(model: &Model, part: usize, options: &Options) -> Option<Plug> {
 /// Sets of components, in the order in which they are unplugged, that part every two that bump; the
 /// best first.
 fn candidates(model: &Model, plan: &FoldPlan, plugs: &[Option<Plug>]) -> Vec<Vec<usize>> {
-    let bumps =
-        plan.clashes().iter().filter(|c| c.parts[0] != c.parts[1] && c.depth_mm > plan.thickness_mm());
-    let bumps: Vec<[usize; 2]> = bumps.map(|clash| clash.parts).collect();
+    let bumps: Vec<[usize; 2]> = plan.bumping_pairs().collect();
     let line = |p: usize| -> Vec<usize> { std::iter::once(p).chain(ancestors(model, p)).collect() };
     let parts = |p: usize, [a, b]: [usize; 2]| line(a).contains(&p) != line(b).contains(&p);
     let depth = |p: usize| ancestors(model, p).len();

@@ -67,8 +67,8 @@ impl Engine<'_> {
 
 /// Overlaps, pairs that clash, and weak joints.
 fn problems(model: &Model, plan: &FoldPlan) -> usize {
-    let bumps = plan.advice(model).iter().filter(|(code, _)| *code != "fold_rub").count();
-    bumps + (0..model.parts().len()).filter(|&part| weak_joint(model, part).is_some()).count()
+    plan.encounter_count()
+        + (0..model.parts().len()).filter(|&part| weak_joint(model, part).is_some()).count()
 }
 
 /// What is tried: what changes the least of the model comes first.

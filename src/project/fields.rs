@@ -3,7 +3,6 @@
 use super::MethodName;
 use crate::export::PngOptions;
 use crate::mesh::Up;
-use crate::pipeline::Level;
 use crate::segment::{MOST_CLUSTERS, SymmetryChoice};
 use crate::units::{Paper, parse_length_mm, parse_length_or_zero_mm, parse_paper};
 use serde::Deserialize;
@@ -108,16 +107,6 @@ pub fn parse_symmetry(text: &str) -> Result<SymmetryChoice, String> {
     let text = text.to_ascii_lowercase();
     let found = SymmetryChoice::ALL.into_iter().find(|choice| choice.name() == text);
     found.ok_or_else(|| "the symmetry is auto, off, x, y or z".to_owned())
-}
-
-/// Reads a level.
-///
-/// # Errors
-/// A message for other texts than `easy`, `normal`, `fine`.
-pub fn parse_level(text: &str) -> Result<Level, String> {
-    let text = text.to_ascii_lowercase();
-    let found = Level::ALL.into_iter().find(|level| level.name() == text);
-    found.ok_or_else(|| "the level is easy, normal or fine".to_owned())
 }
 
 fn in_range(count: u64, least: usize, most: usize) -> Result<usize, String> {
@@ -245,13 +234,6 @@ pub(super) fn parts<'de, D: Deserializer<'de>>(d: D) -> Result<Option<usize>, D:
 
 pub(super) fn detail<'de, D: Deserializer<'de>>(d: D) -> Result<Option<f64>, D::Error> {
     visit(d, "a number from 0 to 1", |raw| real(&raw).and_then(check_detail))
-}
-
-pub(super) fn level<'de, D: Deserializer<'de>>(d: D) -> Result<Option<Level>, D::Error> {
-    visit(d, "\"easy\", \"normal\" or \"fine\"", |raw| match raw {
-        Raw::Number(x) => parse_level(&x.to_string()),
-        Raw::Text(text) => parse_level(text),
-    })
 }
 
 pub(super) fn method<'de, D: Deserializer<'de>>(d: D) -> Result<Option<MethodName>, D::Error> {

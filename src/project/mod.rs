@@ -16,7 +16,7 @@ pub use edit::Edit;
 pub use export::ExportTable;
 pub use fields::{
     LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_clusters, check_count, check_degrees, check_detail,
-    check_parts, check_smoothing, parse_level, parse_method, parse_symmetry, parse_thickness_mm, parse_up,
+    check_parts, check_smoothing, parse_method, parse_symmetry, parse_thickness_mm, parse_up,
 };
 pub use pin::PinTable;
 pub use sheet_fields::{Nets, Sheets, check_effort, check_hidden_degrees, parse_marks, parse_side};
@@ -148,7 +148,7 @@ pub enum MethodName {
 #[serde(deny_unknown_fields)]
 pub struct Defaults {
     /// How much work the model may be.
-    #[serde(default, deserialize_with = "fields::level")]
+    #[serde(default, deserialize_with = "fields::named")]
     pub level: Option<Level>,
     /// Edges of top panels.
     #[serde(default, deserialize_with = "fields::count")]

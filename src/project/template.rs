@@ -9,6 +9,9 @@ use crate::sheet::fit::Rotation;
 use crate::sheet::{Registration, SheetChoices};
 use crate::units::Paper;
 
+/// What lines about edges and vertices show that are comments, as nothing was chosen.
+const EXAMPLE_COUNT: usize = 6;
+
 /// What `init` writes into a fresh project file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Template<'a> {
@@ -167,9 +170,9 @@ thick = {thick}
         method_comment = unless(template.segmentation.method != Method::Merge),
         level = template.level.name(),
         edges_comment = unless(template.top_edges.is_some()),
-        top_edges = template.top_edges.unwrap_or(6),
+        top_edges = template.top_edges.unwrap_or(EXAMPLE_COUNT),
         vertices_comment = unless(template.profile_vertices.is_some()),
-        profile_vertices = template.profile_vertices.unwrap_or(6),
+        profile_vertices = template.profile_vertices.unwrap_or(EXAMPLE_COUNT),
         tolerance_comment = unless(template.tolerance_mm.is_some()),
         tolerance = template.tolerance_mm.unwrap_or(2.0),
         min_panel_width = template.min_panel_width_mm,
@@ -189,8 +192,8 @@ thick = {thick}
             quoted(&component.name),
             unless(component.is_chosen),
             component.direction_deg,
-            template.top_edges.unwrap_or(6),
-            template.profile_vertices.unwrap_or(6),
+            template.top_edges.unwrap_or(EXAMPLE_COUNT),
+            template.profile_vertices.unwrap_or(EXAMPLE_COUNT),
             unless(component.is_concave)
         );
     }
