@@ -272,7 +272,7 @@ pub fn finished(targets: &[(Target, f64)], most: usize) -> Vec<Finished> {
 pub(crate) mod tests {
     use super::*;
     use crate::component::Seat;
-    use crate::geom::{self, Hull};
+    use crate::geom::{self, Hull, Plane};
     use glam::DVec3;
     use proptest::prelude::*;
 
@@ -285,6 +285,7 @@ pub(crate) mod tests {
         Target {
             hull,
             joints,
+            borders: Vec::new(),
             symmetry: None,
             top_edges: 6,
             profile_vertices: 6,
@@ -292,6 +293,23 @@ pub(crate) mod tests {
             panel_worth: 0.0015,
             comfortable_mm: 6.0,
         }
+    }
+
+    #[test]
+    fn a_component_stays_within_its_borders() {
+        let (mut free, mut held) = (0.0, 0.0);
+        for count in [40, 60, 90, 140] {
+            let whole = Hull::of_points(&blob(DVec3::new(30.0, 20.0, 25.0), count)).unwrap();
+            let hull = whole.clip(&Plane::through(DVec3::X * 20.0, DVec3::X).unwrap()).unwrap();
+            let reach = |borders: Vec<(DVec3, f64)>| {
+                let component = convert(&Target { borders, ..target(&hull, vec![]) }).unwrap();
+                let corners = component.panels().panels().iter().flat_map(|p| p.deployed_outline());
+                corners.map(|p| p.x - 20.5).fold(f64::NEG_INFINITY, f64::max).max(0.0)
+            };
+            free += reach(vec![]);
+            held += reach(vec![(DVec3::X, 20.5)]);
+        }
+        assert!(held < 0.5 && held < 0.5 * free, "beyond by {held} mm with borders, {free} mm without");
     }
 
     fn close(a: DVec3, b: DVec3) -> bool {

@@ -1,7 +1,7 @@
 //! One step of the fit: the quadratic programme around the present solid.
 
 use super::distance::{Feature, Position};
-use super::fit::{Fitted, MARGIN, SIZE_PRICE, Task, rooms};
+use super::fit::{BORDER_PRICE, Fitted, MARGIN, SIZE_PRICE, Task, rooms};
 use super::gradient::{Freedom, Parameter, ProfileLength, Terms, sum};
 use super::likeness::{Figure, faces, faces_inside};
 use super::qp::Programme;
@@ -17,7 +17,8 @@ use std::f64::consts::TAU;
 /// Places that are less far out than the worst one by more than so many steps cannot become the
 /// worst within a step.
 const REACH: f64 = 6.0;
-/// Places farther than this share of the radius inside a joint panel cannot leave it within a step.
+/// Places farther than this share of the radius inside a joint panel or a border cannot leave it within a
+/// step.
 const NEAR_JOINT: f64 = 0.3;
 /// Curvature of the variables that bound others, over the radius: the programme needs some.
 const BOUND_CURVATURE: f64 = 0.02;
@@ -39,6 +40,8 @@ struct Model<'a> {
     lack: usize,
     /// For each joint, how far its panel misses its partner.
     first_miss: usize,
+    /// How far the solid reaches beyond its borders.
+    beyond: usize,
 }
 
 impl Task<'_> {
@@ -46,15 +49,16 @@ impl Task<'_> {
     pub(super) fn step(&self, at: &Fitted, step_mm: f64) -> Option<Solid> {
         let freedom = Freedom::of(&at.shape.solid, self.radius_mm, self.target.symmetry);
         let count = freedom.count();
-        let size = count + 2 + self.target.joints.len();
+        let beyond = count + 2 + self.target.joints.len();
         let mut model = Model {
             task: self,
             at,
             freedom,
-            programme: Programme::new(size),
+            programme: Programme::new(beyond + 1),
             worst: count,
             lack: count + 1,
             first_miss: count + 2,
+            beyond,
         };
         model.prices(step_mm);
         model.error_rows(step_mm);
@@ -63,6 +67,7 @@ impl Task<'_> {
         }
         model.size_rows(step_mm);
         model.order_rows();
+        model.border_rows();
         for (k, joint) in self.target.joints.iter().enumerate() {
             let shape = (&at.shape, &model.freedom);
             let near_mm = NEAR_JOINT * self.radius_mm;
@@ -93,6 +98,7 @@ impl Model<'_> {
             let price = self.task.target.joints[k].price.max(1e-6);
             self.bound(self.first_miss + k, price, price * curvature);
         }
+        self.bound(self.beyond, BORDER_PRICE, BORDER_PRICE * curvature);
     }
 
     /// A variable that is not negative.
@@ -232,6 +238,18 @@ impl Model<'_> {
         let lacking = (least - now).max(0.0);
         let terms = terms.into_iter().map(|(k, a)| (k, -a)).chain([(self.lack, -lacking)]);
         self.programme.at_most(terms, now - least);
+    }
+
+    /// Corners stay within the borders.
+    fn border_rows(&mut self) {
+        let (shape, near_mm) = (&self.at.shape, NEAR_JOINT * self.task.radius_mm);
+        for &(n, c) in &self.task.target.borders {
+            for corner in shape.corners.iter().filter(|corner| c - n.dot(corner.point) < near_mm) {
+                let mut terms = self.freedom.corner(shape, corner, n);
+                terms.push((self.beyond, -1.0));
+                self.programme.at_most(terms, c - n.dot(corner.point));
+            }
+        }
     }
 
     /// Slopes fall from top to bottom, directions turn counter-clockwise.

@@ -376,6 +376,7 @@ fn goal<'h>(target: &Target, hull: &'h Hull) -> Target<'h> {
     Target {
         hull,
         joints: target.joints.clone(),
+        borders: target.borders.clone(),
         symmetry: target.symmetry,
         top_edges: target.top_edges.min(at_most(0.5 * girth)).max(target.locked_angles().len().max(3)),
         profile_vertices: target.profile_vertices.min(1 + at_most(0.7 * height)).max(3),

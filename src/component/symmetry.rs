@@ -166,11 +166,12 @@ pub(super) fn evened(mut solid: Solid, symmetry: Option<Symmetry>) -> Solid {
     solid
 }
 
-/// A target's hull and joints, moved so that its mirror plane is straight.
+/// A target's hull, joints and borders, moved so that its mirror plane is straight.
 pub(super) struct Straight {
     symmetry: Symmetry,
     hull: Hull,
     joints: Vec<JointTarget>,
+    borders: Vec<(DVec3, f64)>,
 }
 
 impl Straight {
@@ -180,20 +181,21 @@ impl Straight {
         let (turn_rad, shift) = symmetry.motion();
         let motion = DAffine3::from_mat3_translation(DMat3::from_rotation_z(turn_rad), shift);
         let moved: Vec<Seat> = target.joints.iter().map(|j| symmetry.moved(j.seat)).collect();
+        let half_spaces = |own: &[(DVec3, f64)]| -> Vec<(DVec3, f64)> {
+            let turned = own.iter().map(|&(n, c)| (motion.transform_vector3(n), c));
+            turned.map(|(n, c)| (n, c + n.dot(shift))).collect()
+        };
         let joints = target.joints.iter().zip(&moved).map(|(joint, &seat)| {
-            let within = joint.within.iter().map(|&(n, c)| {
-                let n = motion.transform_vector3(n);
-                (n, c + n.dot(shift))
-            });
             Some(JointTarget {
                 seat: paired(symmetry, &moved, seat)?,
                 cover: joint.cover.iter().map(|&p| motion.transform_point3(p)).collect(),
-                within: within.collect(),
+                within: half_spaces(&joint.within),
                 price: joint.price,
             })
         });
         let joints = joints.collect::<Option<Vec<_>>>()?;
-        Some(Self { symmetry, hull: target.hull.moved(&motion), joints })
+        let borders = half_spaces(&target.borders);
+        Some(Self { symmetry, hull: target.hull.moved(&motion), joints, borders })
     }
 
     /// The target moved.
@@ -201,6 +203,7 @@ impl Straight {
         Target {
             hull: &self.hull,
             joints: self.joints.clone(),
+            borders: self.borders.clone(),
             symmetry: Some(self.symmetry.straight()),
             top_edges: own.top_edges,
             profile_vertices: own.profile_vertices,

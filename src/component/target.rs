@@ -51,6 +51,8 @@ pub struct Target<'a> {
     pub hull: &'a Hull,
     /// Its joints.
     pub joints: Vec<JointTarget>,
+    /// Half-spaces `n·x <= c` that the component should stay within: other parts are beyond them.
+    pub borders: Vec<(DVec3, f64)>,
     /// The plane in which the component must be its own mirror image. The hull and the set of all
     /// joints are so within rounding; joints of one chain have exactly one direction.
     pub symmetry: Option<Symmetry>,

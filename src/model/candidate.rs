@@ -227,6 +227,7 @@ impl<'a> Builder<'a> {
         Target {
             hull: &direction.hull,
             joints: direction.joints.iter().map(|j| j.1.clone()).collect(),
+            borders: self.borders(&direction.frame),
             top_edges: options.top_edges,
             profile_vertices: options.profile_vertices,
             min_panel_mm: self.min_panel_mm,
@@ -234,6 +235,13 @@ impl<'a> Builder<'a> {
             comfortable_mm: options.comfortable_mm,
             symmetry: self.mirror_plane(&direction.frame),
         }
+    }
+
+    /// The part's borders in the axes of `frame`.
+    fn borders(&self, frame: &DAffine3) -> Vec<(DVec3, f64)> {
+        let to_local = frame.inverse();
+        let local = self.parts[self.part].borders.iter().map(|plane| plane.moved(&to_local));
+        local.map(|plane| (plane.normal(), plane.offset())).collect()
     }
 
     /// The mirror plane in the axes of `frame`.

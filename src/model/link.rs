@@ -104,14 +104,14 @@ fn join(group: &mut [usize], (a, b): (usize, usize)) -> bool {
 }
 
 /// The mirror image of a pair, smaller index first.
-fn image_of((a, b): (usize, usize), symmetry: Option<&Symmetry>) -> (usize, usize) {
+pub(super) fn image_of((a, b): (usize, usize), symmetry: Option<&Symmetry>) -> (usize, usize) {
     let (a, b) = symmetry.map_or((a, b), |s| (s.twin(a), s.twin(b)));
     (a.min(b), a.max(b))
 }
 
 /// The contacts so that each one's image is one too, of the same length and with the images of its
 /// points.
-fn mirrored_contacts(contacts: &[Contact], symmetry: &Symmetry) -> Vec<Contact> {
+pub(super) fn mirrored_contacts(contacts: &[Contact], symmetry: &Symmetry) -> Vec<Contact> {
     let mirror = symmetry.mirror();
     // Of a pair and its image, the smaller: its points, the sum of lengths and their number.
     let mut orbits: BTreeMap<(usize, usize), (Vec<DVec3>, f64, usize)> = BTreeMap::new();
@@ -139,7 +139,7 @@ fn mirrored_contacts(contacts: &[Contact], symmetry: &Symmetry) -> Vec<Contact> 
 }
 
 /// The planes between parts that touch.
-struct Between<'a> {
+pub(super) struct Between<'a> {
     part_hulls: &'a [&'a Hull],
     contacts: BTreeMap<(usize, usize), &'a Contact>,
     /// Pairs that are joined, smaller index first.
@@ -148,7 +148,7 @@ struct Between<'a> {
 }
 
 impl<'a> Between<'a> {
-    fn new(
+    pub(super) fn new(
         part_hulls: &'a [&'a Hull],
         contacts: &'a [Contact],
         joints: &'a [(usize, usize)],
@@ -167,7 +167,7 @@ impl<'a> Between<'a> {
 
     /// The plane between two parts, normal from the first to the second, and the larger share that
     /// it cuts off either hull; `None` where they do not touch.
-    fn plane(&self, from: usize, to: usize) -> Option<(Plane, f64)> {
+    pub(super) fn plane(&self, from: usize, to: usize) -> Option<(Plane, f64)> {
         let contact = self.contacts.get(&(from.min(to), from.max(to)))?;
         let [first, second] = [from, to].map(|p| self.part_hulls[p]);
         let kept = [self.kept(from, to), self.kept(to, from)];
@@ -188,105 +188,12 @@ impl<'a> Between<'a> {
     }
 }
 
-/// The hulls, of which those of neighbours without a joint end at the plane between them, and others
-/// that overlap in the middle of the overlap, so that their components do not stand in each other. Where
-/// such a plane would take much of either, both stay whole. Hulls that are mirror images of each other
-/// stay so.
-pub fn parted(
-    part_hulls: &[&Hull],
-    contacts: &[Contact],
-    links: &[Link],
-    symmetry: Option<&Symmetry>,
-) -> Vec<Hull> {
-    let mirrored = symmetry.map(|symmetry| mirrored_contacts(contacts, symmetry));
-    let contacts = mirrored.as_deref().unwrap_or(contacts);
-    let joints: Vec<(usize, usize)> =
-        links.iter().map(|l| (l.parent.min(l.child), l.parent.max(l.child))).collect();
-    let between = Between::new(part_hulls, contacts, &joints, symmetry);
-    let mut hulls: Vec<Hull> = part_hulls.iter().map(|&hull| hull.clone()).collect();
-    let is_first = |pair: &(usize, usize)| image_of(*pair, symmetry) >= *pair && !joints.contains(pair);
-    let touching = contacts.iter().map(|contact| (contact.parts, true));
-    let all = (0..hulls.len()).flat_map(|b| (0..b).map(move |a| ((a, b), false)));
-    for ((a, b), is_touching) in touching.chain(all).filter(|(pair, _)| is_first(pair)) {
-        let image = image_of((a, b), symmetry);
-        let plane = match is_touching {
-            true => between.plane(a, b),
-            false => overlap(&hulls, links, (a, b), symmetry),
-        };
-        let Some((plane, _)) = plane.filter(|(_, cut_off)| *cut_off <= CLIP_SHARE) else {
-            continue;
-        };
-        let gap_mm = GAP * hulls[a].volume().min(hulls[b].volume()).cbrt();
-        let mut clips = vec![(a, plane.shifted(-gap_mm)), (b, plane.flipped().shifted(-gap_mm))];
-        if let Some(symmetry) = symmetry
-            && image != (a, b)
-        {
-            let twins = clips.clone().into_iter();
-            clips.extend(twins.map(|(part, plane)| (symmetry.twin(part), symmetry.mirror().image(&plane))));
-        }
-        let mut clipped: BTreeMap<usize, Option<Hull>> = BTreeMap::new();
-        for (part, plane) in clips {
-            let hull = clipped.remove(&part).unwrap_or_else(|| Some(hulls[part].clone()));
-            clipped.insert(part, hull.and_then(|hull| hull.clip(&plane)));
-        }
-        if clipped.values().all(Option::is_some) {
-            clipped.into_iter().for_each(|(part, hull)| hulls[part] = hull.unwrap_or(hulls[part].clone()));
-        }
-    }
-    if let Some(symmetry) = symmetry {
-        for part in 0..hulls.len() {
-            let twin = symmetry.twin(part);
-            if twin > part {
-                hulls[twin] = hulls[part].reflected(symmetry.mirror());
-            } else if twin == part
-                && let Ok(hull) = symmetry.mirror().symmetrized(&hulls[part])
-            {
-                hulls[part] = hull;
-            }
-        }
-    }
-    hulls
-}
-
 /// The mirror plane, its normal from a hull to its image.
-fn mirror_plane_between(symmetry: &Symmetry, first: &Hull, second: &Hull) -> Plane {
+pub(super) fn mirror_plane_between(symmetry: &Symmetry, first: &Hull, second: &Hull) -> Plane {
     let plane = *symmetry.mirror().plane();
     let is_ahead = plane.distance(second.centroid()) > plane.distance(first.centroid());
     if is_ahead { plane } else { plane.flipped() }
 }
-
-/// The plane between two hulls that overlap where their joints leave them, normal from the first to the
-/// second, and the larger share that it cuts off either; `None` where they do not overlap by much.
-fn overlap(
-    hulls: &[Hull],
-    links: &[Link],
-    (a, b): (usize, usize),
-    symmetry: Option<&Symmetry>,
-) -> Option<(Plane, f64)> {
-    let left = |part: usize| {
-        let own = links.iter().filter_map(|link| match part {
-            _ if link.parent == part => Some(link.plane),
-            _ if link.child == part => Some(link.plane.flipped()),
-            _ => None,
-        });
-        own.fold(hulls[part].clone(), |hull, plane| hull.clip(&plane).unwrap_or(hull))
-    };
-    let (first, second) = (left(a), left(b));
-    let (plane, depth_mm) = plane::apart(&first, &second)?;
-    let twins = symmetry.filter(|symmetry| symmetry.twin(a) == b);
-    let plane = twins.map_or(plane, |symmetry| mirror_plane_between(symmetry, &first, &second));
-    (depth_mm > LEAST_OVERLAP_MM).then(|| (plane, plane::cut_off(&plane, &first, &second)))
-}
-
-/// So far from that plane either ends, as a share of the smaller one's size: components stand out of hulls.
-/// Without it the bunny's feet stand 1.6 mm in its body.
-const GAP: f64 = 0.02;
-
-/// Hulls that overlap by less are left: components follow them no more exactly.
-const LEAST_OVERLAP_MM: f64 = 0.3;
-
-/// A plane between neighbours without a joint may cut off at most this share of either.
-const CLIP_SHARE: f64 = 0.2;
 
 #[cfg(test)]
 mod tests {
@@ -317,37 +224,6 @@ mod tests {
             assert!((link.plane.normal() - DVec3::X).length() < 1e-9);
             assert!((link.plane.offset() - x).abs() < 1e-9);
         }
-    }
-
-    #[test]
-    fn neighbours_without_a_joint_end_where_they_meet() {
-        let hulls = [cube(DVec3::ZERO, 10.0), cube(DVec3::X * 9.0, 10.0), cube(DVec3::X * 30.0, 10.0)];
-        let hulls: Vec<&Hull> = hulls.iter().collect();
-        let face = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(y, z)| DVec3::new(9.5, y, z));
-        let contact = Contact { parts: (0, 1), points: face.to_vec(), length_mm: 40.0 };
-        let ends = |hulls: &[Hull]| (hulls[0].support(DVec3::X), -hulls[1].support(-DVec3::X));
-        let apart = parted(&hulls, std::slice::from_ref(&contact), &[], None);
-        let gap = 10.0 * GAP;
-        assert!((ends(&apart).0 - 9.5 + gap).abs() < 1e-9 && (ends(&apart).1 - 9.5 - gap).abs() < 1e-9);
-        // Those that overlap without touching, too.
-        let apart = parted(&hulls, &[], &[], None);
-        assert!((ends(&apart).0 - 9.5 + gap).abs() < 1e-9 && (ends(&apart).1 - 9.5 - gap).abs() < 1e-9);
-        // A joint has its own plane.
-        let links = link_tree(&hulls, std::slice::from_ref(&contact), None);
-        assert_eq!(ends(&parted(&hulls, std::slice::from_ref(&contact), &links, None)), (10.0, 9.0));
-        // What both have is lost to neither: each gets half of it.
-        let hulls = [cube(DVec3::ZERO, 10.0), cube(DVec3::X * 4.0, 10.0)];
-        let hulls: Vec<&Hull> = hulls.iter().collect();
-        let points: Vec<DVec3> = face.map(|p| p - DVec3::X * 2.5).to_vec();
-        let (end, start) = ends(&parted(&hulls, &[Contact { points, ..contact.clone() }], &[], None));
-        assert!((end - 7.0 + gap).abs() < 1e-9 && (start - 7.0 - gap).abs() < 1e-9, "{end} {start}");
-        // A bar that goes through a cube stays whole: any plane would take much of it.
-        let corner = |k: usize| DVec3::new([-20.0, 30.0][k & 1], [4.0, 6.0][k >> 1 & 1], [4.0, 6.0][k >> 2]);
-        let bar = Hull::of_points(&(0..8).map(corner).collect::<Vec<_>>()).unwrap();
-        let hulls = [bar, cube(DVec3::ZERO, 10.0)];
-        let hulls: Vec<&Hull> = hulls.iter().collect();
-        let points = face.map(|p| p - DVec3::X * 4.5).to_vec();
-        assert_eq!(ends(&parted(&hulls, &[Contact { points, ..contact }], &[], None)), (30.0, 0.0));
     }
 
     /// A body across x = 0 with arms and a pair of feet that touch each other.

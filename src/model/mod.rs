@@ -9,18 +9,22 @@ mod known;
 mod link;
 mod pair;
 mod part;
+mod parted;
 mod plane;
 mod plug;
 mod seat;
+mod sturdy;
 mod symmetry;
 
 pub use build::{Assembly, Built, Judge, Unjudged, build};
 pub use choice::Bump;
 pub use joined::{JoinedPart, Seam};
 pub use known::Known;
-pub use link::{Contact, Link, link_tree, parted};
+pub use link::{Contact, Link, link_tree};
 pub use part::{ModelError, Part, PartOptions};
+pub use parted::{Parted, parted};
 pub use plug::{JointChoice, Plug};
+pub use sturdy::sturdy;
 pub use symmetry::Symmetry;
 
 use crate::component::{Component, PanelId};

@@ -1,7 +1,7 @@
 //! Parts, as the model takes them.
 
 use crate::component::ConvertError;
-use crate::geom::Hull;
+use crate::geom::{Hull, Plane};
 use crate::progress::Cancelled;
 
 /// What the user may set for one part.
@@ -30,6 +30,8 @@ pub struct PartOptions {
 pub struct Part {
     /// Convex hull of the segment, in the mesh's scaled axes.
     pub hull: Hull,
+    /// Planes beyond which other parts are that it is not joined to, in the same axes, normals outwards.
+    pub borders: Vec<Plane>,
     /// The user's wishes.
     pub options: PartOptions,
 }

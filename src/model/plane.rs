@@ -141,18 +141,24 @@ impl<'a> Ground<'a> {
 
     /// Area that the sections of both hulls share.
     fn common(&self, plane: &Plane) -> f64 {
-        let (x, y) = plane.basis();
-        let section = |hull: &Hull| {
-            let mut flat: Vec<DVec2> =
-                hull.section(plane).iter().map(|p| DVec2::new(x.dot(*p), y.dot(*p))).collect();
-            if polygon::area(&flat) < 0.0 {
-                flat.reverse();
-            }
-            flat
-        };
-        let [a, b] = self.hulls.map(section);
-        if a.len() < 3 || b.len() < 3 { 0.0 } else { polygon::area(&polygon::intersect_convex(&a, &b)) }
+        polygon::area(&shared_section(plane, self.hulls[0], self.hulls[1]))
     }
+}
+
+/// What the sections of two hulls share, in the plane's [`Plane::basis`]; empty where that is nothing.
+pub(super) fn shared_section(plane: &Plane, first: &Hull, second: &Hull) -> Vec<DVec2> {
+    let (x, y) = plane.basis();
+    let section = |hull: &Hull| {
+        let mut flat: Vec<DVec2> =
+            hull.section(plane).iter().map(|p| DVec2::new(x.dot(*p), y.dot(*p))).collect();
+        if polygon::area(&flat) < 0.0 {
+            flat.reverse();
+        }
+        flat
+    };
+    let [first, second] = [first, second].map(section);
+    let is_nothing = first.len() < 3 || second.len() < 3;
+    if is_nothing { Vec::new() } else { polygon::intersect_convex(&first, &second) }
 }
 
 fn is_inside(hull: &Hull, point: DVec3) -> bool {

@@ -1,6 +1,6 @@
 //! Which parts of a model are mirror images of each other.
 
-use crate::geom::Mirror;
+use crate::geom::{Hull, Mirror};
 
 /// The mirror plane of a model, and what becomes of each part in it.
 ///
@@ -38,6 +38,20 @@ impl Symmetry {
     /// Whether a part is its own mirror image.
     pub fn is_across(&self, part: usize) -> bool {
         self.twin[part] == part
+    }
+
+    /// Makes hulls that are almost mirror images of each other, or of themselves, exactly so.
+    pub(super) fn make_alike(&self, hulls: &mut [Hull]) {
+        for part in 0..hulls.len() {
+            let twin = self.twin(part);
+            if twin > part {
+                hulls[twin] = hulls[part].reflected(&self.mirror);
+            } else if twin == part
+                && let Ok(hull) = self.mirror.symmetrized(&hulls[part])
+            {
+                hulls[part] = hull;
+            }
+        }
     }
 }
 

@@ -1,9 +1,9 @@
 //! From parts to hulls with joints between them.
 
 use super::{Error, Options};
-use crate::geom::{Hull, Mirror};
+use crate::geom::{Hull, Mirror, Plane};
 use crate::mesh::{Mesh, MirrorPlane};
-use crate::model::{self, Assembly, Contact, Link, Part, PartOptions, Symmetry};
+use crate::model::{self, Assembly, Contact, Link, Part, PartOptions, Parted, Symmetry};
 use crate::segment::{self, Parts, SegmentId, Segmentation};
 use glam::DVec3;
 use std::collections::BTreeSet;
@@ -12,6 +12,8 @@ use std::collections::BTreeSet;
 #[derive(Debug, Clone, Default)]
 pub struct Hulls {
     solid: Solid,
+    /// Of each hull the planes beyond which others are.
+    borders: Vec<Vec<Plane>>,
     names: Vec<String>,
     links: Vec<Link>,
     symmetry: Option<Symmetry>,
@@ -33,10 +35,10 @@ impl Hulls {
         let contacts = contacts(divided.mesh(), segmentation, &solid.part_of_segment);
         let hulls: Vec<&Hull> = solid.hulls.iter().collect();
         let links = model::link_tree(&hulls, &contacts, symmetry.as_ref());
-        let parted = model::parted(&hulls, &contacts, &links, symmetry.as_ref());
-        solid.hulls = parted;
+        let Parted { hulls, borders } = model::parted(&hulls, &contacts, &links, symmetry.as_ref());
+        solid.hulls = model::sturdy(hulls, &links, symmetry.as_ref());
         let mirror_plane = segmentation.mirror().filter(|_| symmetry.is_some()).copied();
-        Ok(Self { names: solid.names(divided.names()), solid, links, symmetry, mirror_plane })
+        Ok(Self { names: solid.names(divided.names()), solid, borders, links, symmetry, mirror_plane })
     }
 
     /// No hulls; drawn components have names alone.
@@ -183,13 +185,14 @@ fn parts(hulls: &Hulls, options: &Options) -> Result<Vec<Part>, Error> {
         return Err(Error::NoComponent { name: name.clone(), known: names.join(", ") });
     }
     let all_mm2: f64 = hulls.hulls().iter().map(Hull::area).sum();
-    let part = |(hull, name): (&Hull, &String)| {
+    let part = |((hull, borders), name): ((&Hull, &Vec<Plane>), &String)| {
         let own = options.components.get(name).cloned().unwrap_or_default();
         let is_set = own.top_edges.is_some() || own.profile_vertices.is_some();
         let comfortable_mm = options.min_panel_width_mm * if is_set { 1.0 } else { COMFORTABLE };
         let (top_edges, profile_vertices) = options.counts((hull.area() / all_mm2).sqrt());
         Part {
             hull: hull.clone(),
+            borders: borders.clone(),
             options: PartOptions {
                 name: own.rename.unwrap_or_else(|| name.clone()),
                 direction_rad: own.direction_rad,
@@ -201,7 +204,7 @@ fn parts(hulls: &Hulls, options: &Options) -> Result<Vec<Part>, Error> {
             },
         }
     };
-    let parts: Vec<Part> = hulls.hulls().iter().zip(names).map(part).collect();
+    let parts: Vec<Part> = hulls.hulls().iter().zip(&hulls.borders).zip(names).map(part).collect();
     let mut seen = BTreeSet::new();
     match parts.iter().find(|part| !seen.insert(part.options.name.as_str())) {
         Some(part) => Err(Error::SameName(part.options.name.clone())),

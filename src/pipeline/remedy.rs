@@ -11,8 +11,8 @@ use crate::segment::Method;
 /// How much larger the model becomes: a joint gets half as much glue again. With a tenth, joints that
 /// miss half of what they need stay weak; at twice the size the model needs four times the paper.
 const LARGER: f64 = 1.25;
-/// Models of more components are not made again: the four tries of one with 20 take a minute.
-const MOST_PARTS: usize = 12;
+/// Models of more components are not made again: the four tries of one with 11 take 20 s.
+const MOST_PARTS: usize = 8;
 /// Sizes are multiples of this, mm.
 const ROUND_MM: f64 = 5.0;
 

@@ -1,0 +1,111 @@
+//! Hulls that are thick enough at their joints to be glued there.
+
+use super::pair::LEAST_GLUE_MM2;
+use super::{Link, Symmetry, plane};
+use crate::geom::{Hull, Plane, polygon};
+use glam::{DMat2, DVec2, DVec3};
+
+/// The sections of two hulls have this many times the area that is glued in the end: components have few
+/// corners, and turn. With 1.5 the wrists and ankles of two humans are glued over 33 and 28 mm².
+const SPARE: f64 = 1.8;
+/// A section grows to at most this many times its length and width: the end of a lion's tail, 3 mm thick,
+/// to 9 mm, as much as paper needs. What is smaller is a point.
+const MOST_GROWTH: f64 = 3.0;
+
+/// The hulls, of which those that meet in a section too small for glue are thicker there. Hulls that are
+/// mirror images of each other stay so.
+pub fn sturdy(mut hulls: Vec<Hull>, links: &[Link], symmetry: Option<&Symmetry>) -> Vec<Hull> {
+    for link in links {
+        let [parent, child] = [link.parent, link.child];
+        let pad = pad(&plane::shared_section(&link.plane, &hulls[parent], &hulls[child]));
+        let corners: Vec<DVec3> = pad.into_iter().map(|p| in_space(&link.plane, p)).collect();
+        for part in [parent, child].into_iter().filter(|_| !corners.is_empty()) {
+            let points: Vec<DVec3> = hulls[part].vertices().iter().chain(&corners).copied().collect();
+            if let Ok(hull) = Hull::of_points(&points) {
+                hulls[part] = hull;
+            }
+        }
+    }
+    if let Some(symmetry) = symmetry {
+        symmetry.make_alike(&mut hulls);
+    }
+    hulls
+}
+
+fn in_space(plane: &Plane, point: DVec2) -> DVec3 {
+    let (x, y) = plane.basis();
+    x * point.x + y * point.y + plane.normal() * plane.offset()
+}
+
+/// A section made as large as a joint needs, its thin side first; empty where it is large enough, or next
+/// to nothing.
+fn pad(section: &[DVec2]) -> Vec<DVec2> {
+    let area = polygon::area(section);
+    let growth = SPARE * LEAST_GLUE_MM2 / area.max(f64::MIN_POSITIVE);
+    if growth <= 1.0 || growth > MOST_GROWTH * MOST_GROWTH {
+        return Vec::new();
+    }
+    let centre = polygon::centroid(section);
+    let axes = axes(section, centre);
+    let local: Vec<DVec2> = section.iter().map(|p| axes.transpose() * (*p - centre)).collect();
+    let Some((low, high)) = polygon::bounds(local.iter().copied()) else { return Vec::new() };
+    let size = high - low;
+    let thicker = growth.min(size.x / size.y.max(f64::MIN_POSITIVE)).max(1.0);
+    let both = (growth / thicker).sqrt();
+    let scale = DVec2::new(both, both * thicker).min(DVec2::splat(MOST_GROWTH));
+    local.into_iter().map(|p| centre + axes * (p * scale)).collect()
+}
+
+/// The long and the short axis of a polygon, as columns.
+fn axes(polygon: &[DVec2], centre: DVec2) -> DMat2 {
+    let moment = polygon
+        .iter()
+        .map(|p| *p - centre)
+        .fold(DVec2::ZERO, |sum, d| sum + DVec2::new(d.x * d.x - d.y * d.y, 2.0 * d.x * d.y));
+    let long = DVec2::from_angle(moment.to_angle() / 2.0);
+    DMat2::from_cols(long, long.perp())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bar(half: DVec3, at: DVec3) -> Hull {
+        let corner = |k: usize| at + half * DVec3::new(SIGN[k & 1], SIGN[k >> 1 & 1], SIGN[k >> 2]);
+        Hull::of_points(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
+    }
+
+    const SIGN: [f64; 2] = [-1.0, 1.0];
+
+    fn shared_mm2(link: &Link, hulls: &[Hull]) -> f64 {
+        polygon::area(&plane::shared_section(&link.plane, &hulls[0], &hulls[1]))
+    }
+
+    #[test]
+    fn thin_joints_become_thick_enough_and_others_stay() {
+        let link = Link { parent: 0, child: 1, plane: Plane::through(DVec3::ZERO, DVec3::X).unwrap() };
+        for (width, thickness) in [(2.0, 2.0), (5.0, 4.0), (3.0, 2.9)] {
+            let half = DVec3::new(10.0, width / 2.0, thickness / 2.0);
+            let hulls = vec![bar(half, -9.0 * DVec3::X), bar(half, 9.0 * DVec3::X)];
+            let made = sturdy(hulls.clone(), std::slice::from_ref(&link), None);
+            let (before, after) = (shared_mm2(&link, &hulls), shared_mm2(&link, &made));
+            let most = before * MOST_GROWTH * MOST_GROWTH;
+            let wanted = SPARE * LEAST_GLUE_MM2;
+            // A section that would have to grow more is left.
+            let expected = if most < wanted { before } else { wanted };
+            assert!((after - expected).abs() < 1e-6 * expected, "{before} becomes {after}, not {expected}");
+            assert!(hulls.iter().zip(&made).all(|(a, b)| {
+                a.vertices().iter().all(|v| b.facets().iter().all(|f| f.plane().distance(*v) < 1e-9))
+            }));
+        }
+        let thick = vec![bar(DVec3::splat(10.0), -9.0 * DVec3::X), bar(DVec3::splat(10.0), 9.0 * DVec3::X)];
+        assert_eq!(sturdy(thick.clone(), &[link], None), thick);
+    }
+
+    #[test]
+    fn a_thin_section_grows_across_first() {
+        let flat = [(-10.0, -1.0), (10.0, -1.0), (10.0, 1.0), (-10.0, 1.0)].map(DVec2::from);
+        let (low, high) = polygon::bounds(pad(&flat)).unwrap();
+        assert!(((high - low) - DVec2::new(20.0, 3.0)).length() < 1e-9, "{low} {high}");
+    }
+}
