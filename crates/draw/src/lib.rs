@@ -1,0 +1,6 @@
+//! The display list of **tatamu**, and scenes in space drawn on it.
+
+pub mod drawing;
+pub mod render;
+
+use tatamu_core::{geom, mesh};
