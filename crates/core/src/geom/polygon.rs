@@ -121,6 +121,33 @@ pub fn depth_outside(polygon: &[DVec2], point: DVec2) -> f64 {
         .fold(f64::NEG_INFINITY, f64::max)
 }
 
+/// A rectangle is less than another if it is so by this share: rounding is not a reason.
+const ROUNDING: f64 = 1e-10;
+
+/// The bounding rectangle of least area: the angle that brings it parallel to the axes, with its
+/// long side along x, and its size there. One side lies on an edge of the hull (Freeman and
+/// Shapira 1975).
+pub fn least_rectangle(outline: &[DVec2]) -> (f64, DVec2) {
+    let hull = convex_hull(outline);
+    let mut best = (0.0, extent(&hull, 0.0));
+    for (a, b) in edges(&hull) {
+        let angle = -(b - a).to_angle();
+        let size = extent(&hull, angle);
+        if size.element_product() < best.1.element_product() * (1.0 - ROUNDING) {
+            best = (angle, size);
+        }
+    }
+    let (angle, size) = best;
+    if size.y > size.x { (angle + std::f64::consts::FRAC_PI_2, DVec2::new(size.y, size.x)) } else { best }
+}
+
+/// Width and height of the bounding box of points turned by an angle, radians.
+pub fn extent(points: &[DVec2], angle_rad: f64) -> DVec2 {
+    let turn = DVec2::from_angle(angle_rad);
+    let turned = points.iter().map(|&p| turn.rotate(p));
+    bounds(turned).map_or(DVec2::ZERO, |(lo, hi)| hi - lo)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -157,5 +184,15 @@ mod tests {
         let mut points = square(0.0, 0.0, 2.0);
         points.extend([DVec2::new(1.0, 0.0), DVec2::new(1.0, 1.0)]);
         assert_eq!(convex_hull(&points).len(), 4);
+    }
+
+    #[test]
+    fn the_least_rectangle_of_a_turned_bar_is_the_bar() {
+        let turn = DVec2::from_angle(0.7);
+        let corners = [(0.0, 0.0), (30.0, 0.0), (30.0, 80.0), (0.0, 80.0)].map(DVec2::from);
+        let bar = corners.map(|p| turn.rotate(p));
+        let (angle, size) = least_rectangle(&bar);
+        assert!((size - DVec2::new(80.0, 30.0)).abs().max_element() < 1e-9);
+        assert!((extent(&bar, angle) - size).abs().max_element() < 1e-9);
     }
 }

@@ -4,13 +4,13 @@ use super::angle::ViewAngle;
 use super::scenes::pose_scene;
 use super::still::{ShowError, Still, framed};
 use crate::drawing::Rgb;
-use crate::export::png;
 use crate::fold::{FoldPlan, ModelMotion, Sequence};
 use crate::model::Model;
 use crate::pipeline::Output;
 use crate::render::{Scene, View};
 use glam::DVec3;
 use rayon::prelude::*;
+use tatamu_draw::pixels::rasterise;
 use tiny_skia::Pixmap;
 
 /// Fewest and most frames of a film.
@@ -139,7 +139,7 @@ fn scene_at(motion: &ModelMotion<'_>, sequence: &Sequence, progress: f64) -> Sce
 }
 
 fn shot(scene: &Scene, view: &View) -> Result<Pixmap, ShowError> {
-    Ok(png::rasterise(&framed(scene, view, Some(Rgb::WHITE)), Still::dots_per_inch())?)
+    Ok(rasterise(&framed(scene, view, Some(Rgb::WHITE)), Still::dots_per_inch())?)
 }
 
 /// There, a rest, back, a rest.

@@ -24,7 +24,7 @@ pub enum ShowError {
     Scene(#[from] crate::render::SceneError),
     /// The picture cannot be made of pixels.
     #[error(transparent)]
-    Pixels(#[from] crate::export::png::PngError),
+    Pixels(#[from] tatamu_draw::pixels::PngError),
 }
 
 /// How a still is taken.

@@ -154,7 +154,7 @@ impl Work {
 
 /// The cut across the middle of a convex outline's length, moved to keep away from corners.
 fn best_cut(outline: &[DVec2]) -> Option<[Crossing; 2]> {
-    let (angle_rad, _) = crate::sheet::fit::least_rectangle(outline);
+    let (angle_rad, _) = crate::geom::polygon::least_rectangle(outline);
     let along = DVec2::from_angle(-angle_rad);
     let reach = |p: &DVec2| along.dot(*p);
     let lo = outline.iter().map(reach).fold(f64::INFINITY, f64::min);

@@ -6,7 +6,7 @@
 //! the sheet that the piece needs, `max(width / sheet width, height / sheet height)`, is reached
 //! at one of these angles or where the two shares are equal: a finite list of candidates, exact.
 
-use crate::geom::polygon;
+use crate::geom::polygon::{self, extent};
 use glam::DVec2;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -53,30 +53,6 @@ pub fn best_fit(outline: &[DVec2], width_mm: f64, height_mm: f64, rotation: Rota
 pub fn fits(outline: &[DVec2], width_mm: f64, height_mm: f64, rotation: Rotation) -> Option<f64> {
     let fit = best_fit(outline, width_mm, height_mm, rotation);
     (fit.scale >= 1.0 - ROUNDING).then_some(fit.angle_rad)
-}
-
-/// The bounding rectangle of least area: the angle that brings it parallel to the axes, with its
-/// long side along x, and its size there. One side lies on an edge of the hull (Freeman and
-/// Shapira 1975).
-pub fn least_rectangle(outline: &[DVec2]) -> (f64, DVec2) {
-    let hull = polygon::convex_hull(outline);
-    let mut best = (0.0, extent(&hull, 0.0));
-    for (a, b) in polygon::edges(&hull) {
-        let angle = -(b - a).to_angle();
-        let size = extent(&hull, angle);
-        if size.element_product() < best.1.element_product() * (1.0 - ROUNDING) {
-            best = (angle, size);
-        }
-    }
-    let (angle, size) = best;
-    if size.y > size.x { (angle + FRAC_PI_2, DVec2::new(size.y, size.x)) } else { best }
-}
-
-/// Width and height of the bounding box of points turned by an angle.
-pub(super) fn extent(points: &[DVec2], angle_rad: f64) -> DVec2 {
-    let turn = DVec2::from_angle(angle_rad);
-    let turned = points.iter().map(|&p| turn.rotate(p));
-    polygon::bounds(turned).map_or(DVec2::ZERO, |(lo, hi)| hi - lo)
 }
 
 /// Whether an extent fits the sheet within rounding.
@@ -164,15 +140,6 @@ mod tests {
         let quarter = Rotation::QuarterTurns;
         assert!(fits(&rectangle(277.1, thick), width, height, quarter).is_none());
         assert!(fits(&rectangle(276.9, thick), width, height, quarter).is_some());
-    }
-
-    #[test]
-    fn the_least_rectangle_of_a_turned_bar_is_the_bar() {
-        let turn = DVec2::from_angle(0.7);
-        let bar: Vec<_> = rectangle(30.0, 80.0).into_iter().map(|p| turn.rotate(p)).collect();
-        let (angle, size) = least_rectangle(&bar);
-        assert!((size - DVec2::new(80.0, 30.0)).abs().max_element() < 1e-9);
-        assert!((extent(&bar, angle) - size).abs().max_element() < 1e-9);
     }
 
     proptest! {

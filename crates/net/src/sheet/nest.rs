@@ -272,7 +272,7 @@ impl Frame {
         let item = Item::new(shapes, options.rotation, options.spacing_mm, &self.grid);
         if item.alternative(0).is_empty() {
             let DVec2 { x, y } = self.grid.sheet_mm;
-            let (_, least) = fit::least_rectangle(&shapes[0].outline);
+            let (_, least) = polygon::least_rectangle(&shapes[0].outline);
             let scale = fit::best_fit(&shapes[0].outline, x, y, options.rotation).scale;
             return Err(NestError::TooLarge { index, long_mm: least.x, short_mm: least.y, scale });
         }
@@ -289,7 +289,7 @@ impl Frame {
             }
         };
         let DVec2 { x, y } = self.grid.sheet_mm;
-        let is_within = fit::is_within(fit::extent(&shape.outline, angle_rad), x, y);
+        let is_within = fit::is_within(polygon::extent(&shape.outline, angle_rad), x, y);
         let pose = is_within.then(|| Pose::new(&shape.outline, angle_rad, options.spacing_mm, &self.grid))?;
         let spot = pose.nearest((at - pose.origin) / self.grid.cell_mm);
         Some(Pinned { sheet: pin.sheet, pose, spot })

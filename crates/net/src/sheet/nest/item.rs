@@ -22,7 +22,7 @@ impl<'a> Item<'a> {
         let alternative = |&shape| Alternative { shape, rotation, spacing_mm, grid, angles: OnceLock::new() };
         Self {
             area_mm2: polygon::area(shapes[0].outline()),
-            longest_mm: fit::least_rectangle(shapes[0].outline()).1.x,
+            longest_mm: polygon::least_rectangle(shapes[0].outline()).1.x,
             alternatives: shapes.iter().map(alternative).collect(),
         }
     }
@@ -97,11 +97,14 @@ impl Alternative<'_> {
             let outline = self.shape.outline();
             let DVec2 { x, y } = self.grid.sheet_mm;
             let best = fit::best_fit(outline, x, y, self.rotation);
-            let (least_angle, _) = fit::least_rectangle(outline);
+            let (least_angle, _) = polygon::least_rectangle(outline);
             let hull = polygon::convex_hull(outline);
             let all = angles(&hull, &[best.angle_rad, least_angle], self.rotation).into_iter();
-            let angle =
-                |angle_rad| Angle { angle_rad, extent: fit::extent(&hull, angle_rad), pose: OnceLock::new() };
+            let angle = |angle_rad| Angle {
+                angle_rad,
+                extent: polygon::extent(&hull, angle_rad),
+                pose: OnceLock::new(),
+            };
             all.map(angle).filter(|a| fit::is_within(a.extent, x, y)).collect()
         })
     }

@@ -7,7 +7,7 @@
 
 use super::bits::{Layer, Positions, Probe, WORDS, doubled, first_positions};
 use super::raster::{COLUMNS, Grid, Run, runs};
-use crate::sheet::fit::extent;
+use crate::geom::polygon::extent;
 use glam::DVec2;
 use std::sync::OnceLock;
 

@@ -179,7 +179,7 @@ fn true_shapes_need_at_most_four_fifths_of_the_sheets_of_their_rectangles() {
     let rectangles: Vec<Shape> = pieces
         .iter()
         .map(|p| {
-            let (_, size) = fit::least_rectangle(p.outline());
+            let (_, size) = polygon::least_rectangle(p.outline());
             rectangle(size.x, size.y, p.group())
         })
         .collect();
