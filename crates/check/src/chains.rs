@@ -1,6 +1,8 @@
 //! Chains of side panels: whether they are whole, close when flat, and are wide enough.
 
-use super::fold::{FoldReport, Model, area_vector};
+use super::area::area_vector;
+use super::model::Model;
+use super::report::FoldReport;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 

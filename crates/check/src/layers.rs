@@ -4,7 +4,8 @@
 //! lie beside the top panel, those in the last one beside the bottom panel, whichever chain they
 //! belong to; what lies between can take any order against other chains.
 
-use super::fold::{Model, area_vector, overlapping};
+use super::area::{area, area_vector, overlapping};
+use super::model::Model;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
@@ -33,7 +34,7 @@ pub(super) fn overlaps(model: &Model) -> Vec<(usize, usize)> {
                 .map(|&f| {
                     let mut polygon: Vec<DVec2> =
                         corners(f).map(|p| DVec2::new(x.dot(p), y.dot(p))).collect();
-                    if super::fold::area(&polygon) < 0.0 {
+                    if area(&polygon) < 0.0 {
                         polygon.reverse();
                     }
                     polygon

@@ -1,6 +1,6 @@
 //! What a report comes to, measure by measure.
 
-use super::fold::FoldReport;
+use super::report::FoldReport;
 
 /// What is still accepted.
 #[derive(Debug, Clone, Copy, PartialEq)]
