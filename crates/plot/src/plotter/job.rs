@@ -3,19 +3,9 @@
 
 use super::dialect::{Dialect, Meaning, Pen};
 use super::job_error::{JobError, LONGEST_FOREIGN_COMMAND};
+use super::motion::Motion;
 use super::pace::Pace;
 use super::{Cutter, OffBed, Point};
-
-/// One straight move.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
-    /// Where it begins.
-    pub from: Point,
-    /// Where it ends.
-    pub to: Point,
-    /// Whether the pen is down.
-    pub is_down: bool,
-}
 
 /// One whole command.
 #[derive(Debug, Clone, PartialEq)]

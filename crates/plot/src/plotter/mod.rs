@@ -15,6 +15,7 @@ mod frame;
 mod job;
 mod job_error;
 pub mod journal;
+mod motion;
 mod pace;
 mod plan;
 mod preview;
@@ -24,8 +25,9 @@ mod virtual_plotter;
 
 pub use encode::{Placement, encode};
 pub use frame::{Direction, Frame, OffBed, Origin, Point, Ratio};
-pub use job::{Command, Job, Motion};
+pub use job::{Command, Job};
 pub use job_error::JobError;
+pub use motion::Motion;
 pub use plan::{Plan, PlanError, test_cut, toolset};
 pub use preview::preview;
 pub use profile::{Cutter, Media, ProfileError};

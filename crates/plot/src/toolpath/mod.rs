@@ -15,6 +15,7 @@ mod strokes;
 mod task;
 mod tip;
 mod tooling;
+mod tooling_error;
 mod visit;
 
 pub use blade::ARC_TOLERANCE_MM;
@@ -23,4 +24,5 @@ pub use perforation::Perforation;
 pub use strokes::{Stroke, Toolpath, travel_between_mm};
 pub use task::{Operation, Task, tasks};
 pub use tip::{Tip, deviation_mm};
-pub use tooling::{Tooling, ToolingError, Toolset};
+pub use tooling::{Tooling, Toolset};
+pub use tooling_error::ToolingError;

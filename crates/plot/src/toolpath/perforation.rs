@@ -1,6 +1,6 @@
 //! Creases as rows of short cuts.
 
-use super::ToolingError;
+use super::tooling_error::ToolingError;
 use glam::DVec2;
 
 /// Dashes and gaps of a perforated crease.
