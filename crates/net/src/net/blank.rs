@@ -1,19 +1,19 @@
 //! From cuts, layouts and tabs to pieces as they leave the cutter, before any text is on them.
 
 use super::contour::cut_lines;
-use super::develop::{Draft, Naming, NetOptions};
+use super::draft::Draft;
 use super::layout::{Layout, across, best_turn, edge, measured, turn};
 use super::marks::{Crease, creases};
 use super::mesh::PieceMesh;
+use super::options::{Naming, NetOptions};
 use super::plugs::{PlugLines, lines_of_piece};
 use super::split::Split;
 use super::tabs::Placed;
-use super::{GlueArea, JointMark, Net, PlacedPanel, Tab, finish, glue};
+use super::{GlueArea, JointMark, PlacedPanel, Tab, glue};
 use crate::component::{HingeId, PanelId};
 use crate::geom::polygon;
 use glam::{DAffine2, DVec2};
 use std::collections::BTreeMap;
-use std::sync::OnceLock;
 
 /// A bounding box may be larger by this factor where the piece then lies straight.
 const NEAT_FACTOR: f64 = 1.12;
@@ -45,13 +45,6 @@ impl Blank {
     }
 }
 
-/// A net whose pieces have no texts yet: those of nets that are not taken are never made.
-#[derive(Debug)]
-pub struct BlankNet {
-    made: Made,
-    finished: OnceLock<Net>,
-}
-
 /// What texts are made from.
 #[derive(Debug, PartialEq)]
 pub(super) struct Made {
@@ -64,14 +57,7 @@ pub(super) struct Made {
     pub(super) options: NetOptions,
 }
 
-impl PartialEq for BlankNet {
-    /// Texts follow from the rest.
-    fn eq(&self, other: &Self) -> bool {
-        self.made == other.made
-    }
-}
-
-impl BlankNet {
+impl Made {
     pub(super) fn new(
         split: Split,
         mut draft: Draft,
@@ -91,7 +77,7 @@ impl BlankNet {
         };
         let blanks = draft.layouts.iter().enumerate().map(|(k, layout)| cutter.blank(layout, name(k)));
         let blanks = blanks.collect();
-        let made = Made {
+        Self {
             name: naming.name.to_owned(),
             split,
             tabs: draft.tabs,
@@ -99,18 +85,7 @@ impl BlankNet {
             labels,
             joints: joints.to_vec(),
             options: options.clone(),
-        };
-        Self { made, finished: OnceLock::new() }
-    }
-
-    /// The pieces, most panels first.
-    pub fn blanks(&self) -> &[Blank] {
-        &self.made.blanks
-    }
-
-    /// The net with its texts, which are made when they are asked for first.
-    pub fn finished(&self) -> &Net {
-        self.finished.get_or_init(|| finish::net(&self.made))
+        }
     }
 }
 

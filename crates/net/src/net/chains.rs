@@ -1,6 +1,6 @@
 //! A panel set read as what it is: a top panel, a bottom panel, and chains between them.
 
-use super::NetError;
+use super::net_error::NetError;
 use crate::component::{HingeId, PanelId, PanelKind, PanelSet};
 use std::collections::BTreeMap;
 

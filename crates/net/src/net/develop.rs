@@ -1,12 +1,15 @@
 //! From a component's panels to its net.
 
-use super::blank::BlankNet;
+use super::blank_net::BlankNet;
 use super::chains::Chains;
 use super::cuts::{Candidate, Problem};
 use super::divide::divide;
+use super::draft::Draft;
 use super::glue;
 use super::grow::grow;
 use super::layout::{self, Layout, best_turn, hinge_length};
+use super::net_error::NetError;
+use super::options::{Naming, NetOptions};
 use super::split::{Split, split};
 use super::tabs::{self, Placed, Shapes, USEFUL_WIDTH_MM};
 use super::{JointMark, Net};
@@ -28,87 +31,6 @@ const ALTERNATIVES: usize = 5;
 const ALLOWANCE: f64 = 6.0;
 /// They cut so many chains elsewhere, at least.
 const APART: usize = 2;
-
-/// Why a component has no net.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum NetError {
-    /// A single panel is larger than the sheet.
-    #[error(
-        "a panel of {name} measures {:.0} × {:.0} mm and does not fit the sheet of \
-         {:.0} × {:.0} mm; make the model smaller by a factor of {scale:.3}, or the paper larger",
-        size_mm.x, size_mm.y, sheet_mm.x, sheet_mm.y
-    )]
-    PanelTooLarge {
-        /// The component.
-        name: String,
-        /// The panel.
-        panel: PanelId,
-        /// Its bounding box in the best position, mm.
-        size_mm: DVec2,
-        /// Room on the sheet, mm.
-        sheet_mm: DVec2,
-        /// Factor, below 1, by which the model must shrink for this panel to fit.
-        scale: f64,
-        /// Whether it would have been split where the sheet has room for that.
-        may_split: bool,
-    },
-    /// The panels are not a top panel, chains and a bottom panel.
-    #[error("the panels do not make chains from top to bottom: {what} is missing")]
-    NotChains {
-        /// What is missing.
-        what: String,
-    },
-}
-
-/// How nets are made.
-#[derive(Debug, Clone, PartialEq)]
-pub struct NetOptions {
-    /// Width of tabs, mm; less on short edges.
-    pub tab_width_mm: f64,
-    /// Room for pieces on a sheet: width and height within the margins, mm.
-    pub sheet_mm: DVec2,
-    /// What else is chosen.
-    pub choices: NetChoices,
-}
-
-/// What the user may choose about nets.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NetChoices {
-    /// Whether a panel larger than the sheet may be split.
-    pub may_split: bool,
-    /// Whether the place of each tab behind its mate is drawn.
-    pub glue_marks: bool,
-    /// Whether the angle of each crease is written beside it.
-    pub angles: bool,
-    /// Creases that are folded by less, when deployed, are not drawn; fold hinges always are.
-    pub hide_below_rad: f64,
-    /// Whether every panel is a piece of its own, with places for tape along its hinges: board
-    /// cannot be creased.
-    pub is_separate: bool,
-}
-
-impl Default for NetChoices {
-    /// Panels may be split, and nothing is drawn but what must be.
-    fn default() -> Self {
-        Self { may_split: true, glue_marks: false, angles: false, hide_below_rad: 0.0, is_separate: false }
-    }
-}
-
-impl NetOptions {
-    /// The standard choices.
-    pub fn new(tab_width_mm: f64, sheet_mm: DVec2) -> Self {
-        Self { tab_width_mm, sheet_mm, choices: NetChoices::default() }
-    }
-}
-
-/// Names that appear on the pieces of a component.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Naming<'a> {
-    /// The component's name.
-    pub name: &'a str,
-    /// Beginning of its labels: `A` gives `A1`, `A2`, …
-    pub prefix: &'a str,
-}
 
 /// Makes the net of a component: the best one-piece net that fits the sheet with all its tabs;
 /// where there is none, two pieces, then more. A panel that is larger than the sheet is split.
@@ -185,15 +107,6 @@ fn drafts_of_chains(set: &PanelSet, chains: &Chains, options: &NetOptions) -> Ve
                 .find(|drafts| !drafts.is_empty())
         })
         .unwrap_or_else(|| vec![last_resort(&problem(true), &shapes)])
-}
-
-/// Cuts, layouts and tabs, before texts.
-pub(super) struct Draft {
-    pub(super) layouts: Vec<Layout>,
-    pub(super) cut: Vec<HingeId>,
-    pub(super) tabs: Vec<Placed>,
-    /// Halves of strips of tape over cut hinges without a tab.
-    pub(super) tapes: Vec<Placed>,
 }
 
 fn check_panels(set: &PanelSet, name: &str, options: &NetOptions) -> Result<(), NetError> {

@@ -9,12 +9,14 @@
 //! a panel had to be split to fit the sheet the graph is any graph, and pieces are grown.
 
 mod blank;
+mod blank_net;
 mod chains;
 pub mod check;
 mod contour;
 mod cuts;
 mod develop;
 mod divide;
+mod draft;
 mod extent;
 mod finish;
 mod glue;
@@ -23,16 +25,21 @@ mod labels;
 pub mod layout;
 mod marks;
 mod mesh;
+mod net_error;
 mod of_model;
+mod options;
 mod plugs;
 mod split;
 mod tabs;
 
-pub use blank::{Blank, BlankNet};
-pub use develop::{Naming, NetChoices, NetError, NetOptions, alternatives, develop};
+pub use blank::Blank;
+pub use blank_net::BlankNet;
+pub use develop::{alternatives, develop};
 pub use marks::Side;
 pub use mesh::{Corner, Edge, EdgeKind, Face, FaceKind, PieceMesh, Vertex};
+pub use net_error::NetError;
 pub use of_model::{KnownNets, NetsError, develop_model};
+pub use options::{Naming, NetChoices, NetOptions};
 pub use plugs::PlugLines;
 
 use crate::component::{HingeId, PanelId, PanelKind, PanelSet};

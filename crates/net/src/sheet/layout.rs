@@ -3,6 +3,7 @@
 use super::SheetOptions;
 use super::nest::{NestError, Placement, Shape, nest_alternatives};
 use super::pin::{Pin, Unheeded, unheeded};
+use super::place::PiecePlace;
 use crate::geom::polygon;
 use crate::net::{Blank, BlankNet, Net, Piece};
 use crate::progress::Progress;
@@ -10,15 +11,6 @@ use glam::DAffine2;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-
-/// Where a piece lies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PiecePlace {
-    /// Index of the sheet.
-    pub sheet: usize,
-    /// Rigid motion from the piece's coordinates to the sheet's, mm.
-    pub place: DAffine2,
-}
 
 /// Why there is no layout.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -8,10 +8,12 @@ pub mod nest;
 mod options;
 mod pages;
 mod pin;
+mod place;
 mod registration;
 
 pub use calibration::{Calibration, CalibrationError};
-pub use layout::{Layout, LayoutError, PiecePlace};
+pub use layout::{Layout, LayoutError};
 pub use options::{SheetChoices, SheetOptions};
 pub use pin::{Pin, Unheeded};
+pub use place::PiecePlace;
 pub use registration::Registration;

@@ -1,7 +1,7 @@
 //! Places of pieces that the user chose.
 
-use super::layout::PiecePlace;
 use super::nest::Placement;
+use super::place::PiecePlace;
 use crate::geom::polygon;
 use crate::net::Blank;
 use glam::DVec2;
