@@ -21,6 +21,7 @@ mod stack;
 mod step;
 mod sweep;
 mod track;
+mod way;
 
 pub use advice::Advice;
 pub use chain::{ChainMotion, Course, Shares};

@@ -1,9 +1,9 @@
 //! What stands in each other before anything folds.
 
-use super::check::{push_way, ways};
 use super::contact::{Sheet, gap};
 use super::memory::{Key, SweepMemory};
 use super::pose::{ModelMotion, ancestors, root_of};
+use super::way::{push_way, ways};
 use crate::component::Panel;
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;

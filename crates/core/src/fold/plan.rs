@@ -7,7 +7,7 @@ use super::order::{Search, outermost_first, replay};
 use super::overlap::{Overlap, overlaps};
 use super::pose::{ModelMotion, root_of};
 use super::pull;
-use super::sequence::Motion;
+use super::sequence::{Motion, Sequence};
 use super::stack::{Stack, stacks};
 use super::step::{Move, Pull, Step};
 use super::sweep::Care;
@@ -231,5 +231,12 @@ impl FoldPlan {
     /// Sum of [`FoldPlan::bumps`], mm.
     pub fn harm_mm(&self) -> f64 {
         self.bumps().iter().fold(0.0, |sum, (_, excess_mm)| sum + excess_mm)
+    }
+}
+
+impl Sequence {
+    /// A plan: its steps, and before and after them what is unplugged meanwhile.
+    pub fn of_plan(plan: &FoldPlan) -> Self {
+        Self::of_motions(plan.motions())
     }
 }

@@ -1,7 +1,6 @@
 //! Folding as a sequence in time: one motion after another.
 
 use super::moment::Moment;
-use super::plan::FoldPlan;
 use super::step::{Pull, Step};
 
 /// What moves at a time; all else rests.
@@ -66,12 +65,7 @@ impl Sequence {
         Self::new(&order.iter().map(|&part| Step::whole(part)).collect::<Vec<_>>())
     }
 
-    /// A plan: its steps, and before and after them what is unplugged meanwhile.
-    pub fn of_plan(plan: &FoldPlan) -> Self {
-        Self::of_motions(plan.motions())
-    }
-
-    fn of_motions(motions: Vec<Motion>) -> Self {
+    pub(super) fn of_motions(motions: Vec<Motion>) -> Self {
         let mut begins = vec![0.0];
         for motion in &motions {
             begins.push(begins[begins.len() - 1] + motion.length());

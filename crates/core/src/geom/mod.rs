@@ -9,6 +9,7 @@ pub(crate) mod points;
 pub mod polygon;
 mod quickhull;
 mod sphere;
+mod symmetrized;
 
 pub use hull::{Facet, Hull, HullError};
 pub use mirror::Mirror;
