@@ -11,8 +11,8 @@
 //! boards leads outwards by an excess over that of the outside; creases are found anew for it.
 
 use super::closing::{Closed, close};
+use super::facet::{STRAIGHT, facets, turn};
 use super::ranking::rank;
-use super::thick::{STRAIGHT, facets, turn};
 use super::way::{Segment, Way};
 use crate::component::{Fold, Profile};
 use crate::fold::ChainMotion;

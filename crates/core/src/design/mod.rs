@@ -6,8 +6,10 @@
 //! Sketch (checked) -> ways to fold each profile -> closed exactly -> ranked -> Component -> Model
 //! ```
 
+mod board;
 mod build;
 mod closing;
+mod facet;
 mod hinged;
 mod overlap;
 mod ranking;
@@ -18,13 +20,16 @@ mod sketch;
 mod surface_distance;
 mod thick;
 mod way;
+mod weights;
 
+pub use board::board;
 pub use build::{Design, DesignError, Note, design, rankings};
-pub use ranking::{Ranked, Ranking, Refusal, Score, WEIGHTS, Weights, rank};
+pub use ranking::{Ranked, Ranking, Refusal, Score, rank};
 pub use refit::{Body, Concave, RefitError, refit};
 pub use sketch::{Attachment, MOST_VERTICES, Sketch, SketchError, parse_panel};
-pub use thick::{ThickError, board, thick};
+pub use thick::{ThickError, thick};
 pub use way::{Segment, Way};
+pub use weights::{WEIGHTS, Weights};
 
 #[cfg(test)]
 mod tests;

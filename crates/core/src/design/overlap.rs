@@ -1,6 +1,6 @@
 //! Whether two boards are in one place.
 
-use super::thick::board;
+use super::board::board;
 use glam::{DAffine3, DVec2, DVec3};
 
 /// A convex prism in space.

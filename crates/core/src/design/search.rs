@@ -8,8 +8,8 @@
 //! panel up, and every upper part is tried with every lower part. Only the ways with the least
 //! price so far are kept; a branch also ends where its folds alone cost more.
 
-use super::ranking::WEIGHTS;
 use super::way::{Segment, Way};
+use super::weights::WEIGHTS;
 use glam::DVec2;
 use std::collections::BTreeSet;
 

@@ -8,11 +8,12 @@
 
 use super::Note;
 use super::build::MOVED_MM;
+use super::facet::{corners, facets};
 use super::hinged::{Chain, Hinged, Unhinged};
 use super::overlap::Solid;
 use crate::component::{AssembleError, Component, Panel, PanelId, PanelKind, Profile};
 use crate::model::Model;
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 use std::sync::Arc;
 
 /// Why a model cannot be made of thick panels.
@@ -103,8 +104,6 @@ pub fn thick(model: &Model, thickness_mm: f64, min_panel_mm: f64) -> Result<(Mod
     Ok((model.with_components(made), notes))
 }
 
-/// Turns with a smaller sine are creases in a straight wall.
-pub(super) const STRAIGHT: f64 = 1e-9;
 /// Boards that come into each other by less touch.
 const TOUCH_MM: f64 = 1e-5;
 
@@ -217,33 +216,6 @@ impl Boards<'_> {
         }
         Ok(())
     }
-}
-
-/// Sine of the turn at b; positive where it is inwards.
-pub(super) fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
-    (b - a).normalize_or_zero().perp_dot((c - b).normalize_or_zero())
-}
-
-fn is_corner(points: &[DVec2], i: usize) -> bool {
-    i == 0 || i + 1 == points.len() || turn(points[i - 1], points[i], points[i + 1]).abs() > STRAIGHT
-}
-
-/// The vertices of a profile without creases in straight walls.
-fn corners(profile: &Profile) -> Vec<DVec2> {
-    let points = profile.points();
-    (0..points.len()).filter(|&i| is_corner(points, i)).map(|i| points[i]).collect()
-}
-
-/// For each segment of a profile the segment between corners that it belongs to.
-pub(super) fn facets(profile: &Profile) -> Vec<usize> {
-    let points = profile.points();
-    (0..points.len() - 1).map(|i| (1..=i).filter(|&k| is_corner(points, k)).count()).collect()
-}
-
-/// The corners of a board: its inner face, then its outer one, in the component's axes deployed.
-pub fn board(outline: &[DVec3], outward: DVec3, thickness_mm: f64) -> Vec<DVec3> {
-    let outer = outline.iter().map(|&p| p + outward * thickness_mm);
-    outline.iter().copied().chain(outer).collect()
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! Boards against the faces that they stand for, and against one another.
 
 use super::*;
-use crate::design::{Sketch, design};
+use crate::design::{Sketch, board, design};
 use crate::fold::ComponentMotion;
 use crate::progress::Silent;
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
 fn barrel() -> Model {
     let top = (0..6).map(|k| DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 6.0) * 40.0);
