@@ -1,6 +1,8 @@
 //! From walls to rigid panels: outlines, placements in both end states, hinges. The walls are those
 //! of half-spaces with their fold vertices, or drawn.
 
+use super::assemble_error::AssembleError;
+use super::boards::Outside;
 use super::layer::{self, Layer, Side};
 use super::panel::{Hinge, HingeSide, Panel, PanelId, PanelKind, PanelSet};
 use super::profile::{Fold, Profile, ProfileError, balance};
@@ -11,44 +13,6 @@ use super::target::FoldSpot;
 use super::walls::Walls;
 use crate::geom::polygon;
 use glam::{DAffine2, DAffine3, DMat2, DMat3, DVec2, DVec3};
-
-/// Why a solid makes no panels.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum AssembleError {
-    /// A profile is not valid.
-    #[error("chain {chain}: {error}")]
-    Profile {
-        /// The chain.
-        chain: usize,
-        /// What is wrong.
-        error: ProfileError,
-    },
-    /// The fold hinge would cut through a joint panel.
-    #[error("the fold hinge of chain {0} lies in a joint panel")]
-    CreasedJoint(usize),
-    /// A chain does not close when folded.
-    #[error("chain {0} cannot be made to fold flat at one of its bends")]
-    OutOfBalance(usize),
-    /// Some panel has no width or height at some place.
-    #[error("not all of its panels have room")]
-    NoRoom,
-    /// Neighbouring walls meet in front of a wall.
-    #[error(
-        "edge {} has no width left at height {height_mm:.1} mm: the walls beside it meet there ({width_mm:.1} mm); draw \
-         profiles that differ less, or a longer edge", chain + 1
-    )]
-    Pinched {
-        /// The chain.
-        chain: usize,
-        /// Where it is narrowest.
-        height_mm: f64,
-        /// Its width there, negative where the walls have crossed.
-        width_mm: f64,
-    },
-    /// Nothing of a panel is left.
-    #[error("a panel of chain {0} vanished")]
-    Vanished(usize),
-}
 
 /// Panels of one component.
 #[derive(Debug, Clone)]
@@ -71,23 +35,24 @@ pub(super) fn assemble(
         })
         .collect::<Result<Vec<_>, _>>()?;
     let normals = solid.chains.iter().map(|c| c.normal()).collect();
-    panels(&Walls::new(normals, profiles).mirrored_in(symmetry))
+    panels(&Walls::new(normals, profiles).mirrored_in(symmetry), None)
 }
 
-/// Panels of walls, trimmed where they would collide when flat, hinges.
-pub(super) fn panels(walls: &Walls) -> Result<Assembled, AssembleError> {
+/// Panels of walls, trimmed where they would collide when flat, hinges. Boards keep within what is outside
+/// of them.
+pub(super) fn panels(walls: &Walls, outside: Option<&Outside>) -> Result<Assembled, AssembleError> {
     let mut sides: Vec<Side> = Vec::new();
     let mut trimmed_mm2 = 0.0;
     for (j, profile) in walls.profiles().iter().enumerate() {
         for i in 0..profile.points().len() - 1 {
-            let mut side = side(walls, j, i);
+            let mut side = side(walls, outside, j, i);
             let whole_mm2 = polygon::area(&side.outline);
             side.outline = convex(side.outline);
             trimmed_mm2 += whole_mm2 - polygon::area(&side.outline);
             sides.push(side);
         }
     }
-    trimmed_mm2 += layer::trim(walls, &mut sides);
+    trimmed_mm2 += layer::trim(walls, &mut sides, outside.is_some());
     let mut build = Builder { walls, sides, panels: Vec::new(), hinges: Vec::new() };
     let spans = build.match_hinges()?;
     let ends = build.ends(&spans);
@@ -109,9 +74,9 @@ fn profile(solid: &Solid, chain: usize, spot: FoldSpot) -> Result<Profile, Profi
 }
 
 /// Outline and layer placement of panel i of chain j.
-fn side(walls: &Walls, j: usize, i: usize) -> Side {
+fn side(walls: &Walls, outside: Option<&Outside>, j: usize, i: usize) -> Side {
     let profile = walls.profile(j);
-    let outline = match walls.outside() {
+    let outline = match outside {
         None => outline(walls, j, i),
         Some(outside) => outside.outline(j, profile.face(i)),
     };

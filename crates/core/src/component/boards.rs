@@ -3,7 +3,7 @@
 //! the two edges there; each board keeps to its own side of these lines with its whole thickness, so
 //! that boards of neighbouring chains, dented ones too, do not meet.
 
-use super::assemble::AssembleError;
+use super::assemble_error::AssembleError;
 use super::profile::{Profile, ProfileError};
 use super::walls::Walls;
 use glam::DVec2;
@@ -11,14 +11,14 @@ use glam::DVec2;
 /// The faces outside, and how thick boards are.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Outside {
-    walls: Box<Walls>,
+    walls: Walls,
     thickness_mm: f64,
 }
 
 impl Outside {
     /// Takes the profiles of the faces outside.
     pub(super) fn new(normals: Vec<DVec2>, profiles: Vec<Profile>, thickness_mm: f64) -> Self {
-        Self { walls: Box::new(Walls::new(normals, profiles)), thickness_mm }
+        Self { walls: Walls::new(normals, profiles), thickness_mm }
     }
 
     /// Outline of a board of chain j whose inner face is this segment of its profile, in the board's

@@ -1,8 +1,10 @@
 //! One hull into one component: first guess, fit, panels; simpler shapes where the limits leave
 //! no room.
 
-use super::assemble::{self, AssembleError, Assembled};
+use super::assemble::{self, Assembled};
+use super::assemble_error::AssembleError;
 use super::boards::{self, Outside};
+use super::convert_error::ConvertError;
 use super::distance::{Polytope, hausdorff};
 use super::panel::{PanelId, PanelKind, PanelSet};
 use super::profile::Profile;
@@ -10,23 +12,9 @@ use super::search::{self, Found};
 use super::solid::{FaceId, Solid};
 use super::target::{JointTarget, Target};
 use super::walls::Walls;
-use crate::geom::{HullError, polygon};
+use crate::geom::polygon;
 use glam::DVec2;
 use rayon::prelude::*;
-
-/// Why a hull becomes no component.
-#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
-pub enum ConvertError {
-    /// The hull has no volume.
-    #[error(transparent)]
-    Hull(#[from] HullError),
-    /// No shape tried gives panels.
-    #[error("no foldable shape was found for it; the last try failed because {0}")]
-    Assemble(#[from] AssembleError),
-    /// A joint has no image in the mirror plane, or would be creased by it.
-    #[error("its joints are not mirror images of one another as the component is to be")]
-    Lopsided,
-}
 
 /// Walls narrower than this vanish.
 const LEAST_WIDTH_MM: f64 = 0.1;
@@ -59,7 +47,7 @@ impl Component {
         if width_mm <= LEAST_WIDTH_MM {
             return Err(AssembleError::Pinched { chain, height_mm, width_mm });
         }
-        let Assembled { profiles, panels, trimmed_mm2 } = assemble::panels(&walls)?;
+        let Assembled { profiles, panels, trimmed_mm2 } = assemble::panels(&walls, None)?;
         Ok(Self { solid: None, normals, profiles, panels, error_mm: 0.0, trimmed_mm2 })
     }
 
@@ -75,12 +63,12 @@ impl Component {
         thickness_mm: f64,
     ) -> Result<Self, AssembleError> {
         let outside = Outside::new(normals.clone(), outside, thickness_mm);
-        let walls = Walls::new(normals.clone(), profiles).within(outside);
+        let walls = Walls::new(normals.clone(), profiles);
         let (chain, height_mm, width_mm) = boards::inner(&walls)?.narrowest();
         if width_mm <= LEAST_WIDTH_MM {
             return Err(AssembleError::Pinched { chain, height_mm, width_mm });
         }
-        let Assembled { profiles, panels, trimmed_mm2 } = assemble::panels(&walls)?;
+        let Assembled { profiles, panels, trimmed_mm2 } = assemble::panels(&walls, Some(&outside))?;
         Ok(Self { solid: None, normals, profiles, panels, error_mm: 0.0, trimmed_mm2 })
     }
 

@@ -1,12 +1,11 @@
 //! First guesses that are their own mirror image, in a plane that is straight (see
 //! [`super::symmetry`]): directions in pairs, and planes in pairs.
 
+use super::angles::{MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD, STEP_RAD, turn};
 use super::shape;
 use super::solid::{SideFacet, Solid};
-use super::start::{
-    Edge, MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD, STEP_RAD, WORTH_MM, WORTH_SHARE, bulge, meet, turn,
-};
 use super::target::FoldSpot;
+use super::worth::{Edge, WORTH_MM, WORTH_SHARE, bulge, meet};
 use crate::geom::polygon;
 use glam::DVec2;
 use std::f64::consts::PI;

@@ -1,9 +1,10 @@
 //! One plane more where a component stands out farthest from its hull.
 
+use super::angles::{MAX_SLOPE_RAD, MIN_BEND_RAD, MIN_TURN_RAD, turn};
 use super::even;
 use super::fit::Fitted;
 use super::solid::{Chain, SideFacet, Solid};
-use super::start::{MAX_SLOPE_RAD, MIN_BEND_RAD, MIN_TURN_RAD, fold_spots, tangents, thin_out, turn};
+use super::start::{fold_spots, tangents, thin_out};
 use super::symmetry::{Symmetry, settled, twin};
 use super::target::{FoldSpot, Target};
 use glam::{DVec2, DVec3};

@@ -83,10 +83,10 @@ const RAYS: usize = 33;
 /// is not enough at every corner, which always suffices: the rays then part the plane round the
 /// convex polygon. Walls that are their own mirror image are trimmed so that they stay so. Returns
 /// the area that was cut away, mm².
-pub(super) fn trim(walls: &Walls, sides: &mut [Side]) -> f64 {
+pub(super) fn trim(walls: &Walls, sides: &mut [Side], are_boards: bool) -> f64 {
     let mut trimmed = 0.0;
     let mut layers = vec![Layer::Top, Layer::Bottom];
-    if walls.outside().is_some() {
+    if are_boards {
         let mut between: Vec<Layer> = sides.iter().map(|side| side.layer).collect();
         between.sort_unstable();
         between.dedup();

@@ -1,5 +1,6 @@
 //! One step of the fit: the quadratic programme around the present solid.
 
+use super::angles::{MAX_SLOPE_RAD, MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD};
 use super::distance::{Feature, Position};
 use super::fit::{Fitted, MARGIN, SIZE_PRICE, Task, rooms};
 use super::gradient::{Freedom, Parameter, ProfileLength, Terms, sum};
@@ -8,7 +9,6 @@ use super::qp::Programme;
 use super::seated;
 use super::shape::Shape;
 use super::solid::Solid;
-use super::start::{MAX_SLOPE_RAD, MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD};
 use super::symmetry::Symmetry;
 use super::target::FoldSpot;
 use glam::DVec3;

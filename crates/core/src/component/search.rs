@@ -1,14 +1,16 @@
 //! The search for the best component: several starts, of which the promising ones are gone on with;
 //! simpler shapes where the limits leave no room.
 
-use super::assemble::{AssembleError, Assembled, assemble};
-use super::convert::ConvertError;
+use super::assemble::{Assembled, assemble};
+use super::assemble_error::AssembleError;
+use super::convert_error::ConvertError;
 use super::fit::{Aim, Fit, Fitted};
 use super::grow::grown;
 use super::profile::{balance, imbalance};
 use super::seated::support;
 use super::start::{boxed, circumscribe, fold_spots, simplify, without_chain, without_plane};
-use super::symmetry::{Straight, Symmetry};
+use super::straight::Straight;
+use super::symmetry::Symmetry;
 use super::target::{FoldSpot, Target};
 use crate::geom::{self, Hull, HullError, polygon};
 use glam::DVec3;

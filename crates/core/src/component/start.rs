@@ -1,26 +1,17 @@
 //! First guess of a component's half-spaces: tangent planes of the hull in well-chosen directions.
 
+use super::angles::{MAX_SLOPE_RAD, MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD, STEP_RAD, turn};
 use super::even::{choose_pairs, drop_pair, levelled, middle, pair_bulge, thin_out_level};
 use super::fit::{Fitted, rooms};
 use super::profile::{Balance, balance, imbalance};
-use super::shape::{Line, Shape};
+use super::shape::Shape;
 use super::solid::{Chain, SideFacet, Solid};
 use super::symmetry::{Symmetry, evened, twin};
 use super::target::{FoldSpot, Seat, Target};
+use super::worth::{Edge, WORTH_MM, WORTH_SHARE, bulge, meet};
 use crate::geom::polygon;
 use glam::{DVec2, DVec3};
 use std::f64::consts::{PI, TAU};
-
-/// Angle between neighbouring candidates for top edges and for slopes.
-pub(super) const STEP_RAD: f64 = PI / 36.0;
-/// Free top edges keep this far from fixed ones and from each other.
-pub(super) const MIN_TURN_RAD: f64 = PI / 10.0;
-/// Neighbouring top edges turn by at most this, so that corners stay well defined.
-pub(super) const MAX_TURN_RAD: f64 = PI * 0.85;
-/// Steepest slope of a side panel: beyond it the panel would be a second top or bottom.
-pub(super) const MAX_SLOPE_RAD: f64 = PI * 80.0 / 180.0;
-/// Neighbouring planes of a profile differ by at least this.
-pub(super) const MIN_BEND_RAD: f64 = PI / 60.0;
 
 /// Circumscribes the hull of `target` with `edges` chains, each with as many planes as the limit
 /// on profile vertices allows.
@@ -78,9 +69,6 @@ fn with_ends(target: &Target, chains: Vec<Chain>) -> Solid {
     Solid { chains, top_mm, bottom_mm, is_top_joint, is_bottom_joint }
 }
 
-/// A top edge whose loss adds less than this share of the area is not worth a chain: a box has four.
-pub(super) const WORTH_SHARE: f64 = 0.002;
-
 /// Directions of the top edges: all candidates, thinned out where that adds the least area to
 /// the circumscribed polygon (in the spirit of Dyken et al. 2009, §4.2).
 fn choose_angles(outline: &[DVec2], locked: &[f64], edges: usize) -> Vec<f64> {
@@ -133,31 +121,11 @@ fn choose_angles(outline: &[DVec2], locked: &[f64], edges: usize) -> Vec<f64> {
     }
 }
 
-/// A candidate for an edge of the top polygon.
-pub(super) struct Edge {
-    pub(super) angle_rad: f64,
-    pub(super) normal: DVec2,
-    pub(super) support: f64,
-    pub(super) is_locked: bool,
-}
-
-/// Where the lines of two edges meet.
-pub(super) fn meet(a: &Edge, b: &Edge) -> DVec2 {
-    let (na, nb) = (a.normal, b.normal);
-    DVec2::new(a.support * nb.y - b.support * na.y, na.x * b.support - nb.x * a.support) / na.perp_dot(nb)
-}
-
 /// Area between an edge and the corner that its neighbours would make without it.
 fn area_added(set: &[Edge], k: usize) -> f64 {
     let n = set.len();
     let (before, line, after) = (&set[(k + n - 1) % n], &set[k], &set[(k + 1) % n]);
     polygon::cross3(meet(before, line), meet(before, after), meet(line, after)).abs() / 2.0
-}
-
-/// Signed difference of two directions, in (−π, π].
-pub(super) fn turn(a: f64, b: f64) -> f64 {
-    let d = (a - b).rem_euclid(TAU);
-    if d > PI { d - TAU } else { d }
 }
 
 /// Tangent planes of the hull's silhouette in one direction, from steep-up to steep-down, with
@@ -203,9 +171,6 @@ fn lower_ends(solid: &mut Solid, min_panel_mm: f64) {
     }
 }
 
-/// A plane that keeps the profile from bulging by less than this on average is not worth a crease.
-pub(super) const WORTH_MM: f64 = 0.05;
-
 /// Drops planes of chain j until its profile has no more vertices than `target` allows and all are
 /// worth having: first those outside the heights, then those whose loss adds the least area to the
 /// profile. Joint panels stay.
@@ -235,25 +200,6 @@ pub(super) fn thin_out(solid: &mut Solid, j: usize, target: &Target) {
             _ => return,
         }
     }
-}
-
-/// Area by which the profile would grow without plane k, mm², and its mean width, mm.
-pub(super) fn bulge(lines: &[Line], k: usize, (top, bottom): (f64, f64)) -> (f64, f64) {
-    let bend = |k: usize| lines[k].meets(&lines[k + 1]);
-    let upper = if k == 0 { top } else { bend(k - 1).min(top) };
-    let lower = if k + 1 == lines.len() { bottom } else { bend(k).max(bottom) };
-    if upper <= lower {
-        return (0.0, 0.0);
-    }
-    let steps = 12;
-    let gaps = (0..steps).map(|s| {
-        let v = lower + (upper - lower) * (f64::from(s) + 0.5) / f64::from(steps);
-        let above = if k > 0 { lines[k - 1].u_at(v) } else { f64::INFINITY };
-        let below = lines.get(k + 1).map_or(f64::INFINITY, |f| f.u_at(v));
-        (above.min(below) - lines[k].u_at(v)).clamp(0.0, 1e6)
-    });
-    let mean_mm = gaps.sum::<f64>() / f64::from(steps);
-    (mean_mm * (upper - lower), mean_mm)
 }
 
 /// Where each chain's fold vertex should be. With fewer planes than `vertices` allows it is in the

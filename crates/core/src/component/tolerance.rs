@@ -1,6 +1,7 @@
 //! The fewest top edges and profile vertices that come close enough.
 
-use super::convert::{ConvertError, choose};
+use super::convert::choose;
+use super::convert_error::ConvertError;
 use super::target::Target;
 
 /// Fewest top edges, and fewest profile vertices, of any component.

@@ -1,7 +1,6 @@
 //! The walls of a component: chains of panels extruded from profiles along the edges of the top
 //! panel and trimmed with one another. At height v the component is { x : n_j·x <= u_j(v) }.
 
-use super::boards::Outside;
 use super::profile::Profile;
 use super::symmetry::Symmetry;
 use glam::DVec2;
@@ -15,8 +14,6 @@ use glam::DVec2;
 pub(super) struct Walls {
     normals: Vec<DVec2>,
     profiles: Vec<Profile>,
-    /// What boards keep within; none for paper.
-    outside: Option<Outside>,
     /// The plane in which they are their own mirror image.
     symmetry: Option<Symmetry>,
 }
@@ -25,12 +22,7 @@ impl Walls {
     /// Takes directions of the edges' outward normals and profiles that keep the guarantees.
     pub(super) fn new(normals: Vec<DVec2>, profiles: Vec<Profile>) -> Self {
         debug_assert!(normals.len() == profiles.len() && normals.len() > 2);
-        Self { normals, profiles, outside: None, symmetry: None }
-    }
-
-    /// The same, made of boards.
-    pub(super) fn within(self, outside: Outside) -> Self {
-        Self { outside: Some(outside), ..self }
+        Self { normals, profiles, symmetry: None }
     }
 
     /// The same, known to be their own mirror image.
@@ -48,11 +40,6 @@ impl Walls {
         let image = self.symmetry.map_or(self.normals[j], |symmetry| symmetry.image(self.normals[j]));
         let chains = 0..self.count();
         chains.max_by(|&a, &b| image.dot(self.normals[a]).total_cmp(&image.dot(self.normals[b]))).unwrap_or(j)
-    }
-
-    /// What boards keep within.
-    pub(super) fn outside(&self) -> Option<&Outside> {
-        self.outside.as_ref()
     }
 
     /// Number of chains.
