@@ -1,5 +1,5 @@
-//! The table of crates in ARCHITECTURE.md is true: the compiler keeps the borders between crates, these
-//! tests the order of the modules in each.
+//! The table of crates in ARCHITECTURE.md is true, and nothing goes round in a circle: the compiler keeps
+//! the borders between crates, these tests the order of the modules in each, and of the files in those.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -178,4 +178,39 @@ fn a_module_uses_only_modules_of_lower_layers_of_its_crate() {
         }
     }
     assert!(count > 100, "only {count} uses were found");
+}
+/// What is left of a graph without all that is in no circle.
+fn circles(mut edges: BTreeSet<(String, String)>) -> BTreeSet<(String, String)> {
+    loop {
+        let is_kept = |edge: &&(String, String)| {
+            edges.iter().any(|e| e.0 == edge.1) && edges.iter().any(|e| e.1 == edge.0)
+        };
+        let kept: BTreeSet<(String, String)> = edges.iter().filter(is_kept).cloned().collect();
+        if kept.len() == edges.len() {
+            return kept;
+        }
+        edges = kept;
+    }
+}
+
+/// A file may use its folder's `mod.rs`, which gives on what the files in it have.
+#[test]
+fn no_files_of_a_folder_use_each_other_in_a_circle() {
+    let mut count = 0;
+    for name in table().keys().filter(|name| *name != "the program") {
+        let mut of_folder: BTreeMap<Name, BTreeSet<(String, String)>> = BTreeMap::new();
+        for (from, to) in uses(&modules(name)) {
+            let common = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+            if let (Some(user), Some(used)) = (from.get(common), to.get(common)) {
+                let edges = of_folder.entry(from[..common].to_vec()).or_default();
+                edges.insert((user.clone(), used.clone()));
+                count += 1;
+            }
+        }
+        for (folder, edges) in of_folder {
+            let circles = circles(edges);
+            assert!(circles.is_empty(), "{name}, {}: {circles:?}", folder.join("/"));
+        }
+    }
+    assert!(count > 300, "only {count} uses were found");
 }
