@@ -1,8 +1,8 @@
 //! The report on the parts of a mesh, as JSON.
 
-use crate::geom::Hull;
-use crate::segment::{Overlap, Parts, SegmentId};
 use serde::Serialize;
+use tatamu_core::geom::Hull;
+use tatamu_core::segment::{Overlap, Parts, SegmentId};
 
 /// Version of the report's structure.
 const SCHEMA: u32 = 1;

@@ -1,12 +1,12 @@
 //! A finished run, from which every format takes what it needs when it is asked for.
 
-use crate::drawing::{Chapter, Drawing, LineStyles, Pages, PagesError};
-use crate::model::ModelPart;
-use crate::net::Net;
 use crate::paint;
-use crate::pipeline::Output;
 use crate::report::Run;
 use std::cell::OnceCell;
+use tatamu_core::model::ModelPart;
+use tatamu_draw::drawing::{Chapter, Drawing, LineStyles, Pages, PagesError};
+use tatamu_net::net::Net;
+use tatamu_pipeline::Output;
 use tatamu_read::painting::Painting;
 
 /// What is drawn on the pages.

@@ -1,14 +1,14 @@
 //! The report: what was made, in numbers, as JSON.
 
-use crate::component::PanelId;
-use crate::fold::{Clash, Overlap, Pull, Stack, Step};
-use crate::geom::polygon;
-use crate::mesh::{MirrorPlane, Repairs};
-use crate::model::{ModelPart, Plug};
-use crate::net::{Net, Piece};
-use crate::pipeline::{Output, Warning};
 use glam::DAffine2;
 use serde::Serialize;
+use tatamu_core::component::PanelId;
+use tatamu_core::fold::{Clash, Overlap, Pull, Stack, Step};
+use tatamu_core::geom::polygon;
+use tatamu_core::mesh::{MirrorPlane, Repairs};
+use tatamu_core::model::{ModelPart, Plug};
+use tatamu_net::net::{Net, Piece};
+use tatamu_pipeline::{Output, Warning};
 
 /// Version of the report's structure.
 const SCHEMA: u32 = 1;

@@ -1,12 +1,12 @@
 //! From parts to hulls with joints between them.
 
 use super::{Error, Options};
-use crate::geom::{Hull, Mirror};
-use crate::mesh::{Mesh, MirrorPlane};
-use crate::model::{self, Assembly, Contact, Link, Part, PartOptions, Symmetry};
-use crate::segment::{self, Parts, SegmentId, Segmentation};
 use glam::DVec3;
 use std::collections::BTreeSet;
+use tatamu_core::geom::{Hull, Mirror};
+use tatamu_core::mesh::{Mesh, MirrorPlane};
+use tatamu_core::model::{self, Assembly, Contact, Link, Part, PartOptions, Symmetry};
+use tatamu_core::segment::{self, Parts, SegmentId, Segmentation};
 
 /// Hulls of the parts of a mesh with the joints between them, as the shape alone decides them.
 #[derive(Debug, Clone, Default)]

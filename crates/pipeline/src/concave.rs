@@ -1,12 +1,12 @@
 //! Concave components in the place of convex ones, where the user asks for them.
 
 use super::{Options, Warning};
-use crate::component::PanelId;
-use crate::design::{Body, refit};
-use crate::mesh::Mesh;
-use crate::model::Model;
-use crate::progress::{Cancelled, Progress};
 use glam::DVec3;
+use tatamu_core::component::PanelId;
+use tatamu_core::design::{Body, refit};
+use tatamu_core::mesh::Mesh;
+use tatamu_core::model::Model;
+use tatamu_core::progress::{Cancelled, Progress};
 
 /// What came of it.
 pub(super) struct Refitted {

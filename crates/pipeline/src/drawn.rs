@@ -1,13 +1,13 @@
 //! The way from drawings to sheets.
 
 use super::{Divided, Engine, Error, Options, Output, Shaped, Warning, plugs};
-use crate::design::{DesignError, Sketch, design};
-use crate::mesh::{Mesh, Soup};
-use crate::model::Model;
-use crate::progress::Progress;
 use glam::DVec3;
 use std::borrow::Cow;
 use std::sync::Arc;
+use tatamu_core::design::{DesignError, Sketch, design};
+use tatamu_core::mesh::{Mesh, Soup};
+use tatamu_core::model::Model;
+use tatamu_core::progress::Progress;
 
 /// Runs all stages on drawn components. They have the size that they are drawn in, or their longest
 /// side is made `size_mm`.

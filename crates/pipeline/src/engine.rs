@@ -6,19 +6,19 @@ use super::judge::FoldJudge;
 use super::plugs::{self, Planned};
 use super::warning::{self, not_joined, pin_warnings};
 use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
-use crate::design::thick;
-use crate::fold::{FoldPlan, ModelMotion, SweepMemory};
-use crate::memory::Memory;
-use crate::mesh::{Mesh, Up};
-use crate::model::{self, Built, JointChoice, Known, Model, ModelPart, Unjudged};
-use crate::net::{BlankNet, KnownNets, Net, NetChoices, NetOptions, develop_model};
-use crate::progress::{Beside, Cancelled, Progress};
-use crate::segment::{self, Edit, Parts, SegmentOptions};
-use crate::sheet::{Layout, Pin, SheetOptions};
 use glam::DAffine3;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use tatamu_core::design::thick;
+use tatamu_core::fold::{FoldPlan, ModelMotion, SweepMemory};
+use tatamu_core::memory::Memory;
+use tatamu_core::mesh::{Mesh, Up};
+use tatamu_core::model::{self, Built, JointChoice, Known, Model, ModelPart, Unjudged};
+use tatamu_core::progress::{Beside, Cancelled, Progress};
+use tatamu_core::segment::{self, Edit, Parts, SegmentOptions};
+use tatamu_net::net::{BlankNet, KnownNets, Net, NetChoices, NetOptions, develop_model};
+use tatamu_net::sheet::{Layout, Pin, SheetOptions};
 
 /// So many results of whole stages are kept, for going back and forth between a few choices.
 const FEW: usize = 4;

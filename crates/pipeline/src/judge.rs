@@ -1,8 +1,8 @@
 //! What the parts of a model do to each other while they fold, for the choice between models.
 
-use crate::fold::{FoldPlan, ModelMotion, SweepMemory};
-use crate::model::{Bump, Judge, Model};
-use crate::progress::{Beside, Cancelled, Progress};
+use tatamu_core::fold::{FoldPlan, ModelMotion, SweepMemory};
+use tatamu_core::model::{Bump, Judge, Model};
+use tatamu_core::progress::{Beside, Cancelled, Progress};
 
 /// Folds models, and tells where they bump.
 pub(super) struct FoldJudge<'a> {

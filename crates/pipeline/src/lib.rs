@@ -1,4 +1,20 @@
 //! The way from a mesh to sheets, stage by stage. Reading [`Engine`] is reading the program.
+//!
+//! [`run`] is for one run; an [`Engine`] remembers the result of each stage for the next.
+//!
+//! ```
+//! use glam::DVec3;
+//! use tatamu_core::mesh::{Mesh, Soup};
+//! use tatamu_core::progress::Silent;
+//!
+//! let corner = |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2));
+//! let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+//! let (mesh, _) = Mesh::from_soup(&Soup::new((0..8).map(corner).collect(), faces)?)?;
+//! let output = tatamu_pipeline::run(&mesh, &tatamu_pipeline::Options::default(), &Silent)?;
+//! assert_eq!(output.model().parts().len(), 1);
+//! assert!(output.layout().sheet_count() > 0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod bodies;
 mod concave;
@@ -18,20 +34,17 @@ pub use level::Level;
 pub use output::{Divided, Output, Shaped};
 pub use warning::Warning;
 
-use tatamu_core::{component, design, fold, geom, memory, mesh, model, progress, segment, units};
-use tatamu_net::{net, sheet};
-
-use crate::design::{DesignError, ThickError};
-use crate::mesh::{Mesh, Up};
-use crate::model::{JointChoice, ModelError};
-use crate::net::{NetChoices, NetsError};
-use crate::progress::{Cancelled, Progress};
-use crate::segment::{Edit, EditError, Parts, SegmentError, SegmentOptions};
-use crate::sheet::{LayoutError, Pin, SheetChoices};
-use crate::units::Paper;
 use glam::DAffine3;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use tatamu_core::design::{DesignError, ThickError};
+use tatamu_core::mesh::{Mesh, Up};
+use tatamu_core::model::{JointChoice, ModelError};
+use tatamu_core::progress::{Cancelled, Progress};
+use tatamu_core::segment::{Edit, EditError, Parts, SegmentError, SegmentOptions};
+use tatamu_core::units::Paper;
+use tatamu_net::net::{NetChoices, NetsError};
+use tatamu_net::sheet::{LayoutError, Pin, SheetChoices};
 
 /// What the user chose.
 #[derive(Debug, Clone, PartialEq)]
@@ -210,7 +223,7 @@ const FITS: f64 = 0.985;
 /// The message of a failed net, with the largest size that fits where that is the matter.
 fn too_large(error: &NetsError, size_mm: f64) -> String {
     match error {
-        NetsError::Net(crate::net::NetError::PanelTooLarge {
+        NetsError::Net(tatamu_net::net::NetError::PanelTooLarge {
             name,
             size_mm: panel,
             sheet_mm,

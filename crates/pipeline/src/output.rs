@@ -1,14 +1,14 @@
 //! Results.
 
 use super::{Error, Hulls, Options, Warning};
-use crate::fold::FoldPlan;
-use crate::mesh::{Mesh, MirrorPlane};
-use crate::model::Model;
-use crate::net::Net;
-use crate::segment::Parts;
-use crate::sheet::Layout;
 use glam::DAffine3;
 use std::sync::Arc;
+use tatamu_core::fold::FoldPlan;
+use tatamu_core::mesh::{Mesh, MirrorPlane};
+use tatamu_core::model::Model;
+use tatamu_core::segment::Parts;
+use tatamu_net::net::Net;
+use tatamu_net::sheet::Layout;
 
 /// A mesh at the size of the model with its parts and their hulls.
 #[derive(Debug)]

@@ -2,10 +2,10 @@
 //! that make one free.
 
 use super::{Error, Options};
-use crate::fold::{FoldPlan, ModelMotion, SweepMemory, ancestors};
-use crate::model::{JointChoice, Model, Plug};
-use crate::progress::{Cancelled, Progress};
 use std::sync::Arc;
+use tatamu_core::fold::{FoldPlan, ModelMotion, SweepMemory, ancestors};
+use tatamu_core::model::{JointChoice, Model, Plug};
+use tatamu_core::progress::{Cancelled, Progress};
 
 /// So many components are unplugged at most: with more the model is put together anew each time.
 const MOST_PLUGS: usize = 2;

@@ -3,10 +3,10 @@
 
 use super::warning::weak_joint;
 use super::{Engine, Error, Level, Options, Output, Warning};
-use crate::fold::FoldPlan;
-use crate::model::Model;
-use crate::progress::{Beside, Progress};
-use crate::segment::Method;
+use tatamu_core::fold::FoldPlan;
+use tatamu_core::model::Model;
+use tatamu_core::progress::{Beside, Progress};
+use tatamu_core::segment::Method;
 
 /// How much larger the model becomes: a joint gets half as much glue again. With a tenth, joints that
 /// miss half of what they need stay weak; at twice the size the model needs four times the paper.

@@ -1,11 +1,11 @@
 //! What the user should know about a model that was made all the same.
 
 use super::Options;
-use crate::component::{Component, Panel};
-use crate::model::{Model, ModelPart};
-use crate::net::Net;
-use crate::sheet::{Layout, Unheeded};
 use glam::DVec3;
+use tatamu_core::component::{Component, Panel};
+use tatamu_core::model::{Model, ModelPart};
+use tatamu_net::net::Net;
+use tatamu_net::sheet::{Layout, Unheeded};
 
 /// Something that the user should know about a model that was made all the same.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,5 +1,13 @@
 //! Mesh files, one format per file here, told apart by their content.
 //!
+//! [`read`] gives the polygons of a file, [`read_painting`] its colours.
+//!
+//! ```
+//! let soup = tatamu_read::read(b"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")?;
+//! assert_eq!(soup.polygon_count(), 1);
+//! # Ok::<(), tatamu_read::ReadError>(())
+//! ```
+//!
 //! No reader allocates from a count in the file without first comparing it with the bytes that
 //! there are.
 

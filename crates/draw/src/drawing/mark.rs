@@ -2,8 +2,8 @@
 
 use super::text::{self, PathCommand};
 use super::{Align, Drawing, Image, Layer, Mark, Polyline, Rgb, Shape, Stroke, Text};
-use crate::geom::polygon;
 use glam::{DAffine2, DVec2};
+use tatamu_core::geom::polygon;
 
 /// How far the matrix of a placement may be from a rotation.
 const RIGID_TOLERANCE: f64 = 1e-9;

@@ -105,7 +105,7 @@ pub fn polylines(text: &Text) -> Vec<Polyline> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::polygon;
+    use tatamu_core::geom::polygon;
 
     fn bounds(text: &Text) -> (DVec2, DVec2) {
         let strokes = polylines(text);

@@ -247,7 +247,7 @@ fn on_curve(control: &[DVec2], t: f64) -> DVec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::polygon;
+    use tatamu_core::geom::polygon;
 
     fn bounds(text: &Text) -> (DVec2, DVec2) {
         let points = outlines(text).iter().flat_map(PathCommand::points).collect::<Vec<_>>();

@@ -256,9 +256,9 @@ fn halves(fragments: &[Fragment], plane: &Plane) -> bool {
 mod tests {
     use super::*;
     use crate::drawing::Rgb;
-    use crate::geom::polygon;
     use crate::render::{Camera, Edge, Face};
     use glam::DVec2;
+    use tatamu_core::geom::polygon;
 
     const SIZE: DVec2 = DVec2::splat(100.0);
     /// Numbers in −1..1, always the same ones.

@@ -7,8 +7,8 @@ use super::proxy::{Proxy, proxy};
 use super::scene::{Scene, SceneError};
 use super::view::{Camera, View, ViewError};
 use crate::drawing::{Drawing, Rgb};
-use crate::mesh::Mesh;
 use glam::{DAffine2, DVec2, DVec3};
+use tatamu_core::mesh::Mesh;
 
 /// One of the two sides with its names, mm; the width of the columns of names; free border.
 const SIDE_MM: DVec2 = DVec2::new(150.0, 110.0);

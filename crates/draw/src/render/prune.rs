@@ -1,8 +1,8 @@
 //! Leaves out what is painted over or beyond the picture's border.
 
 use crate::drawing::{Mark, Shape};
-use crate::geom::polygon;
 use glam::DVec2;
+use tatamu_core::geom::polygon;
 
 /// Pixels along the longer side of the picture that tells what is seen.
 const PIXELS: f64 = 700.0;

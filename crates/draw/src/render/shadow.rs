@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::light::mixed;
 use super::view::View;
 use crate::drawing::{Layer, Mark, Rgb};
-use crate::geom::polygon::convex_hull;
+use tatamu_core::geom::polygon::convex_hull;
 
 /// Steps from the ground's colour to the darkest.
 const STEPS: u32 = 12;

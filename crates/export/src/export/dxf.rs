@@ -4,12 +4,12 @@
 //! afterwards, see [`mended`].
 
 use super::{ExportError, ExportFile, Format, FormatOptions, Source, TextMode};
-use crate::drawing::{Drawing, Layer, LineStyles, Mark, Pages, Polyline, Shape, Text, strokes, text};
 use dxf::entities::{Entity, EntityType, Line, LwPolyline, Polyline as OldPolyline, Vertex};
 use dxf::enums::{AcadVersion, Units};
 use dxf::tables::{Layer as DxfLayer, LineType};
 use dxf::{Color, LwPolylineVertex, Point};
 use glam::{DAffine2, DVec2};
+use tatamu_draw::drawing::{Drawing, Layer, LineStyles, Mark, Pages, Polyline, Shape, Text, strokes, text};
 
 /// The registry's entry.
 pub const FORMAT: Format = Format {

@@ -1,8 +1,8 @@
 //! A small sheet with every kind of mark, for the tests of the formats.
 
-use crate::drawing::{Align, Drawing, Layer, LineStyles, Mark, Pages, Polyline, Rgb, Text};
-use crate::sheet::furniture::Furniture;
 use glam::{DAffine2, DVec2};
+use tatamu_draw::drawing::{Align, Drawing, Layer, LineStyles, Mark, Pages, Polyline, Rgb, Text};
+use tatamu_net::sheet::furniture::Furniture;
 
 /// The sheets' kinds of lines.
 pub const LEGEND: [Layer; 5] = [Layer::Cut, Layer::Slit, Layer::Mountain, Layer::FoldHinge, Layer::Glue];

@@ -13,14 +13,14 @@ pub use options::{FoldOptions, PoseCount};
 pub use pieces::write_piece;
 
 use super::{ExportError, ExportFile, Format, FormatOptions, Source};
-use crate::component::{HingeId, PanelId, PanelKind, PanelSet};
-use crate::fold::{ModelMotion, PartPose, Sequence};
-use crate::net::{Corner, EdgeKind, FaceKind, Net, Piece, PieceMesh};
-use crate::pipeline::Output;
 use crate::product::Product;
-use crate::sheet::PiecePlace;
 use glam::{DAffine3, DVec2, DVec3};
 use serde::Serialize;
+use tatamu_core::component::{HingeId, PanelId, PanelKind, PanelSet};
+use tatamu_core::fold::{ModelMotion, PartPose, Sequence};
+use tatamu_net::net::{Corner, EdgeKind, FaceKind, Net, Piece, PieceMesh};
+use tatamu_net::sheet::PiecePlace;
+use tatamu_pipeline::Output;
 
 /// The registry's entry.
 pub const FORMAT: Format = Format {

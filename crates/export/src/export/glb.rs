@@ -7,13 +7,13 @@
 
 use super::gltf::{self, Material, Mesh, Node, Scene, Track};
 use super::{ExportError, ExportFile, Format, FormatOptions, Source};
-use crate::component::{PanelId, PanelSet};
-use crate::fold::{FoldPlan, ModelMotion, ModelPose, Sequence};
-use crate::model::{Model, ModelPart};
 use crate::product::Product;
-use crate::render::palette;
 use crate::show::upright;
 use glam::{DAffine3, DQuat, DVec2, DVec3};
+use tatamu_core::component::{PanelId, PanelSet};
+use tatamu_core::fold::{FoldPlan, ModelMotion, ModelPose, Sequence};
+use tatamu_core::model::{Model, ModelPart};
+use tatamu_draw::render::palette;
 
 /// The registry's entry.
 pub const FORMAT: Format = Format {

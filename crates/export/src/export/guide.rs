@@ -3,7 +3,7 @@
 use super::{ExportError, ExportFile, Format, FormatOptions, Source, pdf};
 use crate::guide::{Guide, Language, html, leaflet};
 use crate::product::Product;
-use crate::units::Paper;
+use tatamu_core::units::Paper;
 
 /// The web page.
 pub const HTML: Format = Format {

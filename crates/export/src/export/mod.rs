@@ -33,8 +33,8 @@ pub use plt::PltOptions;
 pub use png::PngOptions;
 pub use svg::{SvgOptions, SvgStroke};
 
-use crate::drawing::{Pages, PagesError};
 use crate::product::Product;
+use tatamu_draw::drawing::{Pages, PagesError};
 
 /// All formats, in the order of help texts.
 pub const FORMATS: &[Format] = &[

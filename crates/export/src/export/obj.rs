@@ -5,13 +5,13 @@
 //! of vertices, as MeshLab and Blender read them.
 
 use super::{ExportError, ExportFile, Format, FormatOptions, Source, prism};
-use crate::component::PanelId;
-use crate::design::board;
-use crate::drawing::Rgb;
-use crate::model::Model;
 use crate::product::Product;
-use crate::render::palette;
 use std::fmt::Write;
+use tatamu_core::component::PanelId;
+use tatamu_core::design::board;
+use tatamu_core::model::Model;
+use tatamu_draw::drawing::Rgb;
+use tatamu_draw::render::palette;
 
 /// The registry's entry.
 pub const FORMAT: Format = Format {

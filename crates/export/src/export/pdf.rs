@@ -12,13 +12,13 @@ mod tile;
 pub use date::Timestamp;
 
 use super::{ExportError, ExportFile, Format, FormatOptions, Source};
-use crate::drawing::text::{FONT_FILE, FONT_NAME};
-use crate::drawing::{Layer, LineStyles, Pages};
-use crate::units::Paper;
 use glam::DVec2;
 use lopdf::{Dictionary, Document, Object, ObjectId};
 use page::Builder;
 use printpdf::{FontId, LayerInternalId, ParsedFont, PdfDocument, PdfFont, PdfSaveOptions};
+use tatamu_core::units::Paper;
+use tatamu_draw::drawing::text::{FONT_FILE, FONT_NAME};
+use tatamu_draw::drawing::{Layer, LineStyles, Pages};
 use tile::{Grid, Tile};
 
 /// The registry's entry.

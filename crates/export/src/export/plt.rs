@@ -1,8 +1,8 @@
 //! Files for cutters and plotters in their own language, one a sheet.
 
 use super::{ExportError, ExportFile, Format, FormatOptions, Source};
-use crate::drawing::Pages;
-use crate::plotter::{Cutter, Media, Plan, PlanError};
+use tatamu_draw::drawing::Pages;
+use tatamu_plot::plotter::{Cutter, Media, Plan, PlanError};
 
 /// The registry's entry.
 pub const FORMAT: Format = Format {

@@ -1,7 +1,7 @@
 //! PNG pictures of drawings.
 
 use super::{ExportError, ExportFile, Format, FormatOptions, Source};
-use crate::drawing::{Drawing, Pages, Rgb};
+use tatamu_draw::drawing::{Drawing, Pages, Rgb};
 pub use tatamu_draw::pixels::{PngError, of_raster, rasterise, render};
 
 /// The registry's entry.

@@ -4,9 +4,9 @@
 //! thick as the paper. Every panel is a closed body of its own.
 
 use super::{ExportError, ExportFile, Format, FormatOptions, Source, prism};
-use crate::pipeline::Output;
 use crate::product::Product;
 use glam::{DVec2, DVec3};
+use tatamu_pipeline::Output;
 
 /// The registry's entry.
 pub const FORMAT: Format = Format {

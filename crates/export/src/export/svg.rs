@@ -6,15 +6,17 @@
 //! order in which they first occur. Path data is written here, since the crate's own is `f32`.
 
 use super::{ExportError, ExportFile, Format, FormatOptions, Source, TextMode, png};
-use crate::drawing::text::{self, FONT_FAMILY, PathCommand};
-use crate::drawing::{Drawing, Image, LineStyles, Mark, Pages, Polyline, Rgb, Shape, Stroke, Text, strokes};
-use crate::units::MM_PER_INCH;
 use base64::Engine;
 use glam::DVec2;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use svg::node::element::{self, ClipPath, Element, Group, Path, Rectangle, Title};
 use svg::{Document, Node};
+use tatamu_core::units::MM_PER_INCH;
+use tatamu_draw::drawing::text::{self, FONT_FAMILY, PathCommand};
+use tatamu_draw::drawing::{
+    Drawing, Image, LineStyles, Mark, Pages, Polyline, Rgb, Shape, Stroke, Text, strokes,
+};
 
 /// The registry's entry.
 pub const FORMAT: Format = Format {

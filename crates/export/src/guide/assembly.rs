@@ -1,9 +1,9 @@
 //! Where the panels of a component are while it is built.
 
 use super::joined::Joined;
-use crate::component::{Hinge, HingeId, PanelId, PanelSet};
-use crate::net::layout;
 use glam::{DAffine2, DAffine3, DMat3, DVec2, DVec3};
+use tatamu_core::component::{Hinge, HingeId, PanelId, PanelSet};
+use tatamu_net::net::layout;
 
 /// Panels at their places, in the component's axes.
 #[derive(Debug, Clone)]

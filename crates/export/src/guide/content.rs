@@ -6,15 +6,15 @@ use super::language::{Language, Words, fill};
 use super::order::Access;
 use super::picture::{self, PictureError};
 use super::steps::{Action, Step, steps};
-use crate::drawing::{Align, Drawing, Layer, LineStyles, Mark, PagesError, Stroke, Text};
-use crate::fold::{Encounter, ModelMotion, Moment};
-use crate::net::Side;
-use crate::pipeline::Output;
 use crate::product;
-use crate::render::palette;
 use crate::show::{ShowError, clash_picture};
 use glam::DVec2;
 use rayon::prelude::*;
+use tatamu_core::fold::{Encounter, ModelMotion, Moment};
+use tatamu_draw::drawing::{Align, Drawing, Layer, LineStyles, Mark, PagesError, Stroke, Text};
+use tatamu_draw::render::palette;
+use tatamu_net::net::Side;
+use tatamu_pipeline::Output;
 
 /// Frames of the folding, from deployed to flat.
 const FRAMES: usize = 25;
@@ -299,7 +299,7 @@ impl Writer<'_> {
                 (fill(&words.flatten.title, &[("part", part)]), sentences)
             }
             Action::Deploy => {
-                let pulled = |step: &crate::fold::Step| match (100.0 * step.from).round() as u8 {
+                let pulled = |step: &tatamu_core::fold::Step| match (100.0 * step.from).round() as u8 {
                     0 => self.name(step.part).to_owned(),
                     percent => {
                         let share = self.share(percent);

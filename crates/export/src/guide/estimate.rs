@@ -1,8 +1,8 @@
 //! What the building takes: lengths, and minutes by a stated formula.
 
-use crate::component::HingeId;
-use crate::net::layout::hinge_length;
-use crate::pipeline::Output;
+use tatamu_core::component::HingeId;
+use tatamu_net::net::layout::hinge_length;
+use tatamu_pipeline::Output;
 
 /// Minutes for a metre of cutting, by hand, round corners.
 pub const CUT_MIN_PER_M: f64 = 1.0 / 0.6;

@@ -4,8 +4,8 @@ use super::content::{Entry, Guide, PartRow};
 use super::language::fill;
 use super::steps::Action;
 use super::vector::{escaped, reference, svg, symbol};
-use crate::drawing::Drawing;
 use std::fmt::Write;
+use tatamu_draw::drawing::Drawing;
 
 /// Looks for screens, light and dark, and for paper.
 const CSS: &str = include_str!("guide.css");

@@ -1,9 +1,9 @@
 //! Which hinges of a net are joined at some time of the gluing, and what that leaves open.
 
-use crate::component::{HingeId, PanelId, PanelKind, PanelSet};
-use crate::geom::polygon;
-use crate::net::Net;
 use glam::{DVec2, DVec3};
+use tatamu_core::component::{HingeId, PanelId, PanelKind, PanelSet};
+use tatamu_core::geom::polygon;
+use tatamu_net::net::Net;
 
 /// A component while it is glued.
 #[derive(Debug, Clone)]

@@ -289,7 +289,7 @@ mod tests {
                 assert_eq!(*key, other_key);
                 assert_eq!(places(text), places(&other), "{key}");
                 assert!(!other.trim().is_empty());
-                assert_eq!(crate::drawing::text::printable(&other), other, "the font has all letters");
+                assert_eq!(tatamu_draw::drawing::text::printable(&other), other, "the font has all letters");
             }
         }
         assert!("fr".parse::<Language>().is_err());

@@ -2,9 +2,11 @@
 
 use super::content::{Entry, Guide, GuideError};
 use super::language::fill;
-use crate::drawing::{Align, Chapter, Drawing, Layer, LineStyles, Mark, Pages, Rgb, Stroke, Text, text};
-use crate::units::Paper;
 use glam::{DAffine2, DVec2};
+use tatamu_core::units::Paper;
+use tatamu_draw::drawing::{
+    Align, Chapter, Drawing, Layer, LineStyles, Mark, Pages, Rgb, Stroke, Text, text,
+};
 
 /// Border of the pages, mm.
 const MARGIN_MM: f64 = 12.0;

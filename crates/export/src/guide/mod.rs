@@ -27,17 +27,17 @@ pub use steps::{Action, Step, outwards, steps};
 
 #[cfg(test)]
 mod tests {
-    use crate::mesh::Mesh;
-    use crate::pipeline::{self, Options, Output};
     use std::sync::LazyLock;
+    use tatamu_core::mesh::Mesh;
     use tatamu_core::progress::Silent;
+    use tatamu_pipeline::{Options, Output};
 
     /// The snowman, made once.
     pub(super) fn sample() -> &'static Output {
         static SAMPLE: LazyLock<Output> = LazyLock::new(|| {
             let bytes = include_bytes!("../../../../samples/snowman.obj");
             let (mesh, _) = Mesh::from_soup(&tatamu_read::read(bytes).unwrap()).unwrap();
-            pipeline::run(&mesh, &Options::default(), &Silent).unwrap()
+            tatamu_pipeline::run(&mesh, &Options::default(), &Silent).unwrap()
         });
         &SAMPLE
     }

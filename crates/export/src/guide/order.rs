@@ -13,10 +13,10 @@
 //! the closing tab comes last, at the widest side.
 
 use super::joined::{Joined, Opening};
-use crate::component::{HingeId, PanelId};
-use crate::geom::polygon;
-use crate::net::Net;
 use glam::{DVec2, DVec3};
+use tatamu_core::component::{HingeId, PanelId};
+use tatamu_core::geom::polygon;
+use tatamu_net::net::Net;
 
 /// A finger needs an opening this wide, and reaches so far.
 pub const FINGER_MM: f64 = 16.0;

@@ -1,11 +1,11 @@
 //! All steps of building a model, in their order.
 
 use super::order::{Access, gluing_order};
-use crate::component::HingeId;
-use crate::fold::{Motion, ancestors};
-use crate::model::{Joint, Model};
-use crate::net::Net;
-use crate::pipeline::Output;
+use tatamu_core::component::HingeId;
+use tatamu_core::fold::{Motion, ancestors};
+use tatamu_core::model::{Joint, Model};
+use tatamu_net::net::Net;
+use tatamu_pipeline::Output;
 
 /// What is done in a step.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -75,7 +75,7 @@ pub struct Step {
 }
 
 /// The steps: each component is folded and glued; then components are joined from the roots
-/// outwards; then the model is folded flat in the steps that [`crate::fold::FoldPlan`] found, and
+/// outwards; then the model is folded flat in the steps that [`tatamu_core::fold::FoldPlan`] found, and
 /// deployed in the reverse order.
 pub fn steps(output: &Output) -> Vec<Step> {
     let model = output.model();

@@ -1,9 +1,9 @@
 //! Drawings as small SVG inside a web page. Pictures of a guide are many, and nobody measures them:
 //! whole steps of a twentieth of a millimetre do, and moves are relative.
 
-use crate::drawing::{Align, Drawing, Mark, Polyline, Rgb, Shape, Stroke, text};
 use glam::DVec2;
 use std::fmt::Write;
+use tatamu_draw::drawing::{Align, Drawing, Mark, Polyline, Rgb, Shape, Stroke, text};
 
 /// Steps in a millimetre.
 const STEPS: f64 = 20.0;
@@ -148,7 +148,7 @@ fn steps(drawing: &Drawing, p: DVec2) -> [i64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{Layer, Text};
+    use tatamu_draw::drawing::{Layer, Text};
 
     #[test]
     fn moves_are_relative_and_end_where_they_should() {

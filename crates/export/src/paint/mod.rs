@@ -5,8 +5,8 @@ mod panel;
 
 pub use panel::pictures;
 
-use crate::drawing::{Drawing, Layer, Mark, Rgb, Shape, Stroke, text};
-use crate::pipeline::Output;
+use tatamu_draw::drawing::{Drawing, Layer, Mark, Rgb, Shape, Stroke, text};
+use tatamu_pipeline::Output;
 use tatamu_read::painting::Painting;
 
 /// Width of the white line round letters on coloured panels, mm, so that they can be read.

@@ -1,15 +1,15 @@
 //! Pictures of panels at their places on the sheets.
 
-use crate::component::PanelSet;
-use crate::drawing::{Image, Layer, Mark, Polyline, Raster, Rgb};
-use crate::geom::nearest::Tree;
-use crate::geom::polygon;
-use crate::model::ModelPart;
-use crate::net::{Piece, PlacedPanel, Tab};
-use crate::pipeline::Output;
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 use std::sync::Arc;
+use tatamu_core::component::PanelSet;
+use tatamu_core::geom::nearest::Tree;
+use tatamu_core::geom::polygon;
+use tatamu_core::model::ModelPart;
+use tatamu_draw::drawing::{Image, Layer, Mark, Polyline, Raster, Rgb};
+use tatamu_net::net::{Piece, PlacedPanel, Tab};
+use tatamu_pipeline::Output;
 use tatamu_read::painting::Painting;
 
 /// Side of a pixel, mm: 76 dots per inch.

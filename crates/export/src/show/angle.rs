@@ -1,7 +1,7 @@
 //! From where pictures are taken, as users say it.
 
-use crate::render::{Camera, ViewError};
 use std::str::FromStr;
+use tatamu_draw::render::{Camera, ViewError};
 
 /// Mild perspective.
 const FIELD_OF_VIEW_RAD: f64 = 0.3;

@@ -4,11 +4,11 @@
 use super::angle::ViewAngle;
 use super::scenes::{Paint, push_panels, upright};
 use super::still::ShowError;
-use crate::component::PanelId;
-use crate::drawing::{Drawing, Layer, Mark, Rgb, Stroke, Text, text};
-use crate::fold::{Encounter, ModelMotion, ModelPose};
-use crate::render::{Look, Scene, Spot, View, best_view, light, palette, picture, seen};
 use glam::{DAffine2, DVec2, DVec3};
+use tatamu_core::component::PanelId;
+use tatamu_core::fold::{Encounter, ModelMotion, ModelPose};
+use tatamu_draw::drawing::{Drawing, Layer, Mark, Rgb, Stroke, Text, text};
+use tatamu_draw::render::{Look, Scene, Spot, View, best_view, light, palette, picture, seen};
 
 /// The other components.
 const PALE: Rgb = Rgb(234, 234, 237);

@@ -3,14 +3,14 @@
 use super::angle::ViewAngle;
 use super::scenes::pose_scene;
 use super::still::{ShowError, Still, framed};
-use crate::drawing::Rgb;
-use crate::fold::{FoldPlan, ModelMotion, Sequence};
-use crate::model::Model;
-use crate::pipeline::Output;
-use crate::render::{Scene, View};
 use glam::DVec3;
 use rayon::prelude::*;
+use tatamu_core::fold::{FoldPlan, ModelMotion, Sequence};
+use tatamu_core::model::Model;
+use tatamu_draw::drawing::Rgb;
 use tatamu_draw::pixels::rasterise;
+use tatamu_draw::render::{Scene, View};
+use tatamu_pipeline::Output;
 use tiny_skia::Pixmap;
 
 /// Fewest and most frames of a film.

@@ -1,14 +1,14 @@
 //! What is to be seen at each stage.
 
-use crate::component::{HingeId, PanelId, PanelSet};
-use crate::drawing::Rgb;
-use crate::fold::{ModelMotion, ModelPose};
-use crate::geom::Hull;
-use crate::mesh::Mesh;
-use crate::model::Model;
-use crate::pipeline::Output;
-use crate::render::{Edge, Face, Scene, SceneError, light, palette, proxy};
 use glam::{DAffine3, DMat3, DVec3};
+use tatamu_core::component::{HingeId, PanelId, PanelSet};
+use tatamu_core::fold::{ModelMotion, ModelPose};
+use tatamu_core::geom::Hull;
+use tatamu_core::mesh::Mesh;
+use tatamu_core::model::Model;
+use tatamu_draw::drawing::Rgb;
+use tatamu_draw::render::{Edge, Face, Scene, SceneError, light, palette, proxy};
+use tatamu_pipeline::Output;
 
 /// The input, and faces of segments without volume.
 const PLAIN: Rgb = Rgb(200, 200, 204);

@@ -1,10 +1,10 @@
 //! One picture: a scene, framed and lit, with its shadow on the ground.
 
 use super::angle::ViewAngle;
-use crate::drawing::{Drawing, Rgb};
-use crate::render::{Look, Scene, View, ViewError, contact_shadow, picture};
-use crate::units::MM_PER_INCH;
 use glam::{DVec2, DVec3};
+use tatamu_core::units::MM_PER_INCH;
+use tatamu_draw::drawing::{Drawing, Rgb};
+use tatamu_draw::render::{Look, Scene, View, ViewError, contact_shadow, picture};
 
 /// Pictures measured in pixels have so many to the inch.
 const DOTS_PER_INCH: f64 = 96.0;
@@ -21,7 +21,7 @@ pub enum ShowError {
     View(#[from] ViewError),
     /// The scene is not possible.
     #[error(transparent)]
-    Scene(#[from] crate::render::SceneError),
+    Scene(#[from] tatamu_draw::render::SceneError),
     /// The picture cannot be made of pixels.
     #[error(transparent)]
     Pixels(#[from] tatamu_draw::pixels::PngError),
@@ -59,7 +59,7 @@ impl Still {
         let margin_mm = MARGIN * side_mm;
         let square = View::fit(camera, points.iter().copied(), DVec2::splat(side_mm), margin_mm)?;
         let seen = points.iter().map(|&p| square.project(p));
-        let (low, high) = crate::geom::polygon::bounds(seen).unwrap_or_default();
+        let (low, high) = tatamu_core::geom::polygon::bounds(seen).unwrap_or_default();
         let wanted = (high - low + DVec2::splat(2.0 * margin_mm)).max(DVec2::splat(SLIMMEST * side_mm));
         let pixels = (wanted / side_mm * f64::from(self.size_px)).round().max(DVec2::ONE);
         let size_mm = (pixels / DOTS_PER_INCH * MM_PER_INCH).min(DVec2::splat(side_mm));

@@ -10,10 +10,10 @@ use super::plugs::{PlugLines, lines_of_piece};
 use super::split::Split;
 use super::tabs::Placed;
 use super::{GlueArea, JointMark, PlacedPanel, Tab, glue};
-use crate::component::{HingeId, PanelId};
-use crate::geom::polygon;
 use glam::{DAffine2, DVec2};
 use std::collections::BTreeMap;
+use tatamu_core::component::{HingeId, PanelId};
+use tatamu_core::geom::polygon;
 
 /// A bounding box may be larger by this factor where the piece then lies straight.
 const NEAT_FACTOR: f64 = 1.12;

@@ -1,8 +1,8 @@
 //! A panel set read as what it is: a top panel, a bottom panel, and chains between them.
 
 use super::net_error::NetError;
-use crate::component::{HingeId, PanelId, PanelKind, PanelSet};
 use std::collections::BTreeMap;
+use tatamu_core::component::{HingeId, PanelId, PanelKind, PanelSet};
 
 /// One chain from the top panel down to the bottom panel.
 ///

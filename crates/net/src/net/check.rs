@@ -2,11 +2,11 @@
 //! the labels.
 
 use super::{FaceKind, LabelKind, Net, Piece, Tab};
-use crate::component::{HingeId, PanelId, PanelSet};
-use crate::geom::polygon::{area, depth_outside, intersect_convex};
 use glam::DVec2;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
+use tatamu_core::component::{HingeId, PanelId, PanelSet};
+use tatamu_core::geom::polygon::{area, depth_outside, intersect_convex};
 
 /// Polygons that share less than this area touch and do not overlap.
 const OVERLAP_MM2: f64 = 1e-5;

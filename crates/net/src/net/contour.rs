@@ -61,7 +61,7 @@ mod tests {
         let lines = cut_lines(walk);
         assert_eq!(lines.slits, vec![vec![at(4.0, 4.0), at(5.0, 7.0), at(5.0, 10.0)]]);
         assert_eq!(lines.outline.len(), 5);
-        assert_eq!(crate::geom::polygon::area(&lines.outline), 100.0);
+        assert_eq!(tatamu_core::geom::polygon::area(&lines.outline), 100.0);
     }
 
     #[test]
@@ -78,6 +78,6 @@ mod tests {
         ];
         let lines = cut_lines(walk);
         assert_eq!(lines.slits, vec![vec![at(5.0, 3.0), at(5.0, 7.0)]]);
-        assert!((crate::geom::polygon::area(&lines.outline) - (9.0 * 9.0 - 5.0 * 2.0)).abs() < 1e-12);
+        assert!((tatamu_core::geom::polygon::area(&lines.outline) - (9.0 * 9.0 - 5.0 * 2.0)).abs() < 1e-12);
     }
 }

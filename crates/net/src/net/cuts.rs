@@ -9,8 +9,8 @@
 use super::chains::{Chain, Chains};
 use super::extent::Extent;
 use super::layout::{across, best_turn, clash, placed_outline};
-use crate::component::{HingeId, PanelSet};
 use glam::{DAffine2, DVec2};
+use tatamu_core::component::{HingeId, PanelSet};
 
 /// Nodes visited for one choice of the uncut chain.
 const NODE_BUDGET: usize = 20_000;
@@ -158,7 +158,7 @@ impl<'a> Mode<'a> {
             fixed,
             fixed_items: items.len(),
             items,
-            area_mm2: set.panels().iter().map(|p| crate::geom::polygon::area(&p.outline)).sum(),
+            area_mm2: set.panels().iter().map(|p| tatamu_core::geom::polygon::area(&p.outline)).sum(),
             cheapest_from: Vec::new(),
         };
         for j in (0..chains.chains.len()).filter(|&j| Some(j) != uncut) {

@@ -13,8 +13,8 @@ use super::options::{Naming, NetOptions};
 use super::split::{Split, split};
 use super::tabs::{self, Placed, Shapes, USEFUL_WIDTH_MM};
 use super::{JointMark, Net};
-use crate::component::{Hinge, HingeId, PanelId, PanelKind, PanelSet};
 use glam::DVec2;
+use tatamu_core::component::{Hinge, HingeId, PanelId, PanelKind, PanelSet};
 
 /// Hinges shorter than this cost extra to glue.
 const LONG_HINGE_MM: f64 = 15.0;

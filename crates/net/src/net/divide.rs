@@ -2,8 +2,8 @@
 
 use super::cuts::{PANEL_GAP_MM, Problem};
 use super::layout::{self, best_turn, clash};
-use crate::component::{HingeId, PanelId, PanelSet};
 use glam::DVec2;
+use tatamu_core::component::{HingeId, PanelId, PanelSet};
 
 /// Pieces that result from cutting where a piece is no good: starting with `is_cut`, cuts one
 /// more hinge of each bad piece, the one whose halves are best, until every piece is good or a

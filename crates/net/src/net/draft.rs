@@ -2,7 +2,7 @@
 
 use super::layout::Layout;
 use super::tabs::Placed;
-use crate::component::HingeId;
+use tatamu_core::component::HingeId;
 
 /// Cuts, layouts and tabs, before texts.
 pub(super) struct Draft {

@@ -7,8 +7,8 @@ use super::plugs::PlugLines;
 use super::split::Split;
 use super::tabs::{Placed, USEFUL_WIDTH_MM};
 use super::{JointMark, Net, NetWarning, Piece};
-use crate::component::PanelId;
-use crate::geom::polygon::{self, intersect_convex};
+use tatamu_core::component::PanelId;
+use tatamu_core::geom::polygon::{self, intersect_convex};
 
 /// The least area of a joint on a part of a split panel that is worth a mark, mm².
 const LEAST_MARK_MM2: f64 = 4.0;

@@ -3,8 +3,8 @@
 use super::GlueArea;
 use super::layout::{Layout, across, edge};
 use super::tabs::{Placed, Shapes};
-use crate::component::{HingeId, PanelSet};
 use glam::DAffine2;
+use tatamu_core::component::{HingeId, PanelSet};
 
 /// The two halves of a strip of tape over a hinge without a tab, each as if it were the tab of the
 /// other side; nothing for a side where not even the narrowest would fit.

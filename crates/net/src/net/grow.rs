@@ -6,8 +6,8 @@
 use super::divide::badness;
 use super::layout;
 use super::split::is_seam;
-use crate::component::{HingeId, PanelSet};
 use glam::DVec2;
+use tatamu_core::component::{HingeId, PanelSet};
 
 /// The hinges to cut. Pieces leave room for tabs of `tab_width_mm` all round on the sheet; hinges
 /// that cost most to cut are joined first, seams never.

@@ -1,9 +1,9 @@
 //! Laying panels out flat: across hinges, into pieces, and on a sheet of given size.
 
-use crate::component::{HingeId, HingeSide, PanelId, PanelSet};
-use crate::geom::polygon;
 use glam::{DAffine2, DMat2, DVec2};
 use std::f64::consts::PI;
+use tatamu_core::component::{HingeId, HingeSide, PanelId, PanelSet};
+use tatamu_core::geom::polygon;
 
 /// Turns tried between those of the hull's edges, so that a slanted position is found within
 /// half a step: at worst 0.03% of the size is lost.

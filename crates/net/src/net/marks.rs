@@ -3,10 +3,10 @@
 use super::mesh::EdgeKind;
 use super::split::is_seam;
 use super::{FaceKind, Label, LabelKind, Piece};
-use crate::component::PanelSet;
-use crate::drawing::{Align, Layer, Mark, Polyline, Stroke, Text};
 use glam::DVec2;
 use std::f64::consts::FRAC_PI_4;
+use tatamu_core::component::PanelSet;
+use tatamu_draw::drawing::{Align, Layer, Mark, Polyline, Stroke, Text};
 
 /// How a crease is folded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

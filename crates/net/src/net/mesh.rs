@@ -2,9 +2,9 @@
 
 use super::layout::{Layout, placed_outline};
 use super::tabs::Placed;
-use crate::component::{HingeId, PanelId, PanelSet};
 use glam::DVec2;
 use std::collections::BTreeMap;
+use tatamu_core::component::{HingeId, PanelId, PanelSet};
 
 /// What a vertex is a corner of. A vertex that several panels share names one of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -42,9 +42,9 @@ pub use of_model::{KnownNets, NetsError, develop_model};
 pub use options::{Naming, NetChoices, NetOptions};
 pub use plugs::PlugLines;
 
-use crate::component::{HingeId, PanelId, PanelKind, PanelSet};
 use glam::{DAffine2, DVec2};
 use std::collections::BTreeMap;
+use tatamu_core::component::{HingeId, PanelId, PanelKind, PanelSet};
 
 /// One panel at its place in the development of a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -241,7 +241,8 @@ impl Piece {
 
     /// Length of everything that is cut, mm.
     pub fn cut_mm(&self) -> f64 {
-        let outline: f64 = crate::geom::polygon::edges(self.outline()).map(|(a, b)| a.distance(b)).sum();
+        let outline: f64 =
+            tatamu_core::geom::polygon::edges(self.outline()).map(|(a, b)| a.distance(b)).sum();
         let plugs = self.blank.plugs.iter().flat_map(|plug| &plug.cuts);
         let slits = self.blank.slits.iter().chain(plugs).flat_map(|slit| slit.windows(2));
         outline + slits.map(|w| w[0].distance(w[1])).sum::<f64>()
@@ -254,7 +255,8 @@ impl Piece {
 
     /// Width and height of the bounding box, mm.
     pub fn size_mm(&self) -> DVec2 {
-        crate::geom::polygon::bounds(self.outline().iter().copied()).map_or(DVec2::ZERO, |(lo, hi)| hi - lo)
+        tatamu_core::geom::polygon::bounds(self.outline().iter().copied())
+            .map_or(DVec2::ZERO, |(lo, hi)| hi - lo)
     }
 }
 

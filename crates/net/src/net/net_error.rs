@@ -1,7 +1,7 @@
 //! Why there is no net.
 
-use crate::component::PanelId;
 use glam::DVec2;
+use tatamu_core::component::PanelId;
 
 /// Why a component has no net.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

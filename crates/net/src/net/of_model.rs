@@ -2,14 +2,14 @@
 
 use super::plugs::PlugLines;
 use super::{BlankNet, JointMark, Naming, NetError, NetOptions, alternatives};
-use crate::component::{PanelId, PanelSet};
-use crate::geom::polygon;
-use crate::memory::Memory;
-use crate::model::Model;
-use crate::progress::{Cancelled, Progress};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::sync::Arc;
+use tatamu_core::component::{PanelId, PanelSet};
+use tatamu_core::geom::polygon;
+use tatamu_core::memory::Memory;
+use tatamu_core::model::Model;
+use tatamu_core::progress::{Cancelled, Progress};
 
 /// Why a model has no nets.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,10 +1,10 @@
 //! What joints that can be unplugged cut into the pieces.
 
 use super::{JointMark, PlacedPanel};
-use crate::component::PanelId;
-use crate::geom::polygon;
-use crate::model::{Joint, Plug};
 use glam::{DAffine2, DVec2};
+use tatamu_core::component::PanelId;
+use tatamu_core::geom::polygon;
+use tatamu_core::model::{Joint, Plug};
 
 /// Corners this near to an edge count as inside.
 const ROUNDING_MM: f64 = 1e-6;

@@ -5,9 +5,9 @@
 //! two, and the panel on its other side gets a corner between them.
 
 use super::layout::best_turn;
-use crate::component::{Hinge, HingeId, HingeSide, Panel, PanelId, PanelSet};
-use crate::geom::polygon;
 use glam::DVec2;
+use tatamu_core::component::{Hinge, HingeId, HingeSide, Panel, PanelId, PanelSet};
+use tatamu_core::geom::polygon;
 
 /// Most parts of a component's panels: a sheet that needs more is far too small.
 const MOST_PARTS: usize = 200;
@@ -154,7 +154,7 @@ impl Work {
 
 /// The cut across the middle of a convex outline's length, moved to keep away from corners.
 fn best_cut(outline: &[DVec2]) -> Option<[Crossing; 2]> {
-    let (angle_rad, _) = crate::geom::polygon::least_rectangle(outline);
+    let (angle_rad, _) = tatamu_core::geom::polygon::least_rectangle(outline);
     let along = DVec2::from_angle(-angle_rad);
     let reach = |p: &DVec2| along.dot(*p);
     let lo = outline.iter().map(reach).fold(f64::INFINITY, f64::min);
@@ -189,8 +189,8 @@ fn crossings(outline: &[DVec2], normal: DVec2, offset: f64) -> Option<[Crossing;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::component::PanelKind;
     use glam::DAffine3;
+    use tatamu_core::component::PanelKind;
 
     /// Two rectangles of 300 × 100 mm, joined along the long sides.
     fn two_planks() -> PanelSet {

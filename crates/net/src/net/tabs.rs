@@ -1,9 +1,9 @@
 //! Glue tabs: a trapezoid on one side of each cut hinge, which goes behind the other panel.
 
 use super::layout::{Layout, across, best_turn, edge, hinge_length, placed_outline};
-use crate::component::{HingeId, PanelId, PanelKind, PanelSet};
-use crate::geom::polygon::{convex_overlap, depth_outside};
 use glam::{DAffine2, DVec2};
+use tatamu_core::component::{HingeId, PanelId, PanelKind, PanelSet};
+use tatamu_core::geom::polygon::{convex_overlap, depth_outside};
 
 /// Narrower than this nobody can glue.
 pub(crate) const USEFUL_WIDTH_MM: f64 = 2.0;

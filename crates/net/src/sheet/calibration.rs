@@ -1,7 +1,7 @@
 //! What a printer makes of a length, and how to make up for it.
 
-use crate::drawing::Drawing;
 use glam::DVec2;
+use tatamu_draw::drawing::Drawing;
 
 /// The length of the scale bars that are measured.
 const BAR_MM: f64 = 100.0;

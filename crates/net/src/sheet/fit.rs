@@ -6,9 +6,9 @@
 //! the sheet that the piece needs, `max(width / sheet width, height / sheet height)`, is reached
 //! at one of these angles or where the two shares are equal: a finite list of candidates, exact.
 
-use crate::geom::polygon::{self, extent};
 use glam::DVec2;
 use std::f64::consts::{FRAC_PI_2, PI};
+use tatamu_core::geom::polygon::{self, extent};
 
 /// Angles at which a piece may stand on the sheet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -4,9 +4,9 @@
 //! mistake with paper models, so the scale bar comes first: a narrow sheet loses its legend before
 //! its bar.
 
-use crate::drawing::text::{shortened, width_mm};
-use crate::drawing::{Align, Layer, LineStyles, Mark, Text};
 use glam::DVec2;
+use tatamu_draw::drawing::text::{shortened, width_mm};
+use tatamu_draw::drawing::{Align, Layer, LineStyles, Mark, Text};
 
 /// Capital height of all texts in the strip.
 const CAP_MM: f64 = 1.9;
@@ -258,7 +258,7 @@ impl Strip {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::Shape;
+    use tatamu_draw::drawing::Shape;
 
     const LEGEND: [Layer; 5] = [Layer::Cut, Layer::Slit, Layer::Mountain, Layer::FoldHinge, Layer::Glue];
     const SHEETS: [[f64; 2]; 6] =

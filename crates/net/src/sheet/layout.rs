@@ -4,13 +4,13 @@ use super::SheetOptions;
 use super::nest::{NestError, Placement, Shape, nest_alternatives};
 use super::pin::{Pin, Unheeded, unheeded};
 use super::place::PiecePlace;
-use crate::geom::polygon;
 use crate::net::{Blank, BlankNet, Net, Piece};
-use crate::progress::Progress;
 use glam::DAffine2;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use tatamu_core::geom::polygon;
+use tatamu_core::progress::Progress;
 
 /// Why there is no layout.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -25,8 +25,6 @@ mod tests;
 pub use check::{NestFault, check};
 
 use super::fit::{self, Rotation};
-use crate::geom::polygon;
-use crate::progress::{Cancelled, Progress};
 use glam::{DAffine2, DVec2};
 use item::Item;
 use occupancy::{Pose, Spot};
@@ -35,6 +33,8 @@ use raster::Grid;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::f64::consts::FRAC_PI_2;
+use tatamu_core::geom::polygon;
+use tatamu_core::progress::{Cancelled, Progress};
 
 /// The outline of one piece.
 ///

@@ -5,10 +5,10 @@ use super::fit::Rotation;
 use super::furniture;
 use super::nest::{DEFAULT_EFFORT, DEFAULT_SPACING_MM, NestOptions};
 use super::registration::Registration;
-use crate::drawing::Layer;
 use crate::net::Side;
-use crate::units::Paper;
 use glam::DVec2;
+use tatamu_core::units::Paper;
+use tatamu_draw::drawing::Layer;
 
 /// What sheets are like, and how pieces are put on them.
 #[derive(Debug, Clone, Copy, PartialEq)]

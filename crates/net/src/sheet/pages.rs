@@ -2,9 +2,9 @@
 
 use super::furniture::Furniture;
 use super::{Layout, SheetOptions};
-use crate::drawing::{Drawing, Layer, LineStyles, Mark, Text, text};
 use crate::net::{Net, Side};
 use glam::DVec2;
+use tatamu_draw::drawing::{Drawing, Layer, LineStyles, Mark, Text, text};
 
 /// Height of capitals in the list of labels without a place.
 const LOST_CAP_MM: f64 = 2.0;

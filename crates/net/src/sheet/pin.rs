@@ -2,10 +2,10 @@
 
 use super::nest::Placement;
 use super::place::PiecePlace;
-use crate::geom::polygon;
 use crate::net::Blank;
 use glam::DVec2;
 use std::collections::BTreeMap;
+use tatamu_core::geom::polygon;
 
 /// A piece is where it was pinned if it is not farther from there, mm: the layout works on a
 /// lattice, whose cells are about 0.8 mm wide on A4 and 5 mm on the largest sheets.

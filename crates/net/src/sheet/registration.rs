@@ -1,7 +1,7 @@
 //! Registration marks: by them a cutter finds what a printer has put on the sheet.
 
-use crate::drawing::{Layer, LineStyles, Mark};
 use glam::DVec2;
+use tatamu_draw::drawing::{Layer, LineStyles, Mark};
 
 /// The kind of registration marks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,8 +77,8 @@ impl Registration {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::Shape;
-    use crate::geom::polygon;
+    use tatamu_core::geom::polygon;
+    use tatamu_draw::drawing::Shape;
 
     const A4: DVec2 = DVec2::new(210.0, 297.0);
 

@@ -1,9 +1,9 @@
 //! From a sheet to the bytes that a machine is sent.
 
 use super::{Cutter, Media, OffBed, Placement, Point, encode};
-use crate::drawing::{Drawing, Layer, Mark, Stroke as Look};
 use crate::toolpath::{Operation, Perforation, Tooling, ToolingError, Toolpath, Toolset};
 use glam::DVec2;
+use tatamu_draw::drawing::{Drawing, Layer, Mark, Stroke as Look};
 
 /// Dashes and gaps of creases where nothing but a full cut is possible, mm.
 const STOPGAP_MM: [f64; 2] = [1.5, 1.5];
@@ -137,7 +137,7 @@ const TEST_INSET_MM: f64 = 12.0;
 
 /// A test cut: a square of 10 mm with a triangle in it, and a crease beside them.
 pub fn test_cut() -> Drawing {
-    let look = Look { width_mm: 0.2, colour: crate::drawing::Rgb::BLACK, dash_mm: Vec::new() };
+    let look = Look { width_mm: 0.2, colour: tatamu_draw::drawing::Rgb::BLACK, dash_mm: Vec::new() };
     let mut sheet = Drawing::new("test cut", DVec2::new(1.8, 1.0) * TEST_SIDE_MM + 2.0 * TEST_INSET_MM);
     let at = |x: f64, y: f64| DVec2::splat(TEST_INSET_MM) + DVec2::new(x, y) * TEST_SIDE_MM;
     let square = vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)];
@@ -168,7 +168,7 @@ mod tests {
 
     /// A sheet of 30 × 40 mm with a square cut and a crease.
     fn sheet() -> Drawing {
-        let look = Look { width_mm: 0.2, colour: crate::drawing::Rgb::BLACK, dash_mm: Vec::new() };
+        let look = Look { width_mm: 0.2, colour: tatamu_draw::drawing::Rgb::BLACK, dash_mm: Vec::new() };
         let mut sheet = Drawing::new("sheet", DVec2::new(30.0, 40.0));
         let square = [[10.0, 10.0], [20.0, 10.0], [20.0, 20.0], [10.0, 20.0]].map(DVec2::from).to_vec();
         sheet.marks = vec![
@@ -284,7 +284,7 @@ mod tests {
         let mut tall = sheet();
         tall.size_mm = DVec2::new(210.0, 297.0);
         tall.marks.clear();
-        let look = Look { width_mm: 0.2, colour: crate::drawing::Rgb::BLACK, dash_mm: Vec::new() };
+        let look = Look { width_mm: 0.2, colour: tatamu_draw::drawing::Rgb::BLACK, dash_mm: Vec::new() };
         tall.marks.push(Mark::line(Layer::Slit, DVec2::new(12.0, 15.0), DVec2::new(12.0, 280.0), &look));
         let plan = Plan::new(&tall, &cutter("hp-7475a"), &media("pen")).unwrap();
         assert!(plan.placement().is_turned());

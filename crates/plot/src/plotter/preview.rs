@@ -1,9 +1,9 @@
 //! A picture of a job: where the machine goes, in which order, and where the tip cuts.
 
 use super::{Command, Cutter, Job, Motion, Placement, Point};
-use crate::drawing::{Align, Drawing, Layer, Mark, Polyline, Rgb, Stroke, Text};
 use crate::toolpath::{Operation, Tip};
 use glam::DVec2;
+use tatamu_draw::drawing::{Align, Drawing, Layer, Mark, Polyline, Rgb, Stroke, Text};
 
 /// Border round the sheet, and the strip for the legend, mm.
 const BORDER_MM: f64 = 8.0;

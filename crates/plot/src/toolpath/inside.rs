@@ -1,8 +1,8 @@
 //! Which lines lie inside which closed lines.
 
 use super::Task;
-use crate::geom::polygon;
 use glam::DVec2;
+use tatamu_core::geom::polygon;
 
 /// For each task the closed tasks that it lies inside of, by index.
 pub(super) fn containers(tasks: &[Task]) -> Vec<Vec<usize>> {

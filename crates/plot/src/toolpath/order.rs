@@ -297,7 +297,7 @@ fn inner_first(tasks: &[Task]) -> Vec<Vec<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::Polyline;
+    use tatamu_draw::drawing::Polyline;
 
     fn square(corner: [f64; 2], side: f64) -> Task {
         let [x, y] = corner;

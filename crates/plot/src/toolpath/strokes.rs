@@ -2,8 +2,8 @@
 
 use super::blade::Blade;
 use super::{Operation, Task, Tooling, Toolset, in_order, tasks};
-use crate::drawing::Drawing;
 use glam::DVec2;
+use tatamu_draw::drawing::Drawing;
 
 /// Arms of the angle that is cut first of all, so that a drag knife points the right way, mm.
 const ALIGN_MM: f64 = 4.0;
@@ -185,8 +185,8 @@ fn corner_free_of(work: &[Task], size_mm: DVec2) -> Option<Vec<DVec2>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{Layer, LineStyles, Mark};
     use crate::toolpath::{Perforation, Tip, deviation_mm};
+    use tatamu_draw::drawing::{Layer, LineStyles, Mark};
 
     fn page(contours: &[(Layer, Vec<DVec2>, bool)]) -> Drawing {
         let styles = LineStyles::standard();

@@ -1,7 +1,7 @@
 //! The lines of a drawing, sorted by what is done to them.
 
-use crate::drawing::{Drawing, Layer, Polyline, Shape, strokes};
 use glam::DVec2;
+use tatamu_draw::drawing::{Drawing, Layer, Polyline, Shape, strokes};
 
 /// Corners nearer to each other are one corner: a hundredth of the finest device unit.
 const SAME_POINT_MM: f64 = 2.5e-4;
@@ -152,7 +152,7 @@ pub fn tasks(drawing: &Drawing, wanted: &[Operation]) -> Vec<Task> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{LineStyles, Mark, Text};
+    use tatamu_draw::drawing::{LineStyles, Mark, Text};
 
     #[test]
     fn only_what_belongs_to_pieces_becomes_work() {

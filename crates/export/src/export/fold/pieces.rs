@@ -2,10 +2,10 @@
 //! that read one connected sheet and the top frame alone (Flat-Folder, Origami Simulator).
 
 use super::{CREATOR, Edges, FoldComponent, FoldModel, Graph, SPEC};
-use crate::net::Piece;
-use crate::sheet::PiecePlace;
 use glam::DAffine2;
 use serde::Serialize;
+use tatamu_net::net::Piece;
+use tatamu_net::sheet::PiecePlace;
 
 #[derive(Serialize)]
 struct Single<'a> {

@@ -56,7 +56,7 @@ fn node(node: &Node) -> Value {
 }
 
 fn material(material: &Material) -> Value {
-    let crate::drawing::Rgb(red, green, blue) = material.colour;
+    let tatamu_draw::drawing::Rgb(red, green, blue) = material.colour;
     let [red, green, blue] = [red, green, blue].map(linear);
     json!({
         "name": material.name,

@@ -6,8 +6,8 @@
 mod buffer;
 mod json;
 
-use crate::drawing::Rgb;
 use glam::{DQuat, DVec3};
+use tatamu_draw::drawing::Rgb;
 
 /// Name and colour of a surface.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,10 +3,10 @@
 
 use super::Leaf;
 use super::page::PT_PER_MM;
-use crate::drawing::{Mark, Pages};
-use crate::geom::polygon;
 use glam::DVec2;
 use lopdf::{Dictionary, Document, Object, ObjectId, text_string};
+use tatamu_core::geom::polygon;
+use tatamu_draw::drawing::{Mark, Pages};
 
 /// Free space round a piece when a bookmark shows it, mm.
 const AROUND_MM: f64 = 5.0;

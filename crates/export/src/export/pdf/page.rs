@@ -2,8 +2,6 @@
 
 use super::tile::Tile;
 use super::{font_id, layer_id};
-use crate::drawing::text;
-use crate::drawing::{Drawing, Image, LineStyles, Mark, Pages, Polyline, Rgb, Shape, Stroke, Text};
 use glam::DVec2;
 use printpdf::{
     Color, CurTransMat, DictItem, ExternalStream, ExternalXObject, Greyscale, Line, LineDashPattern,
@@ -11,6 +9,8 @@ use printpdf::{
     Rect, TextItem, TextMatrix, WindingOrder, XObject, XObjectId, XObjectMap, XObjectTransform,
 };
 use std::collections::BTreeMap;
+use tatamu_draw::drawing::text;
+use tatamu_draw::drawing::{Drawing, Image, LineStyles, Mark, Pages, Polyline, Rgb, Shape, Stroke, Text};
 
 /// Points in a millimetre.
 pub(super) const PT_PER_MM: f64 = 72.0 / 25.4;

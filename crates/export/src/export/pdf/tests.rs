@@ -1,9 +1,9 @@
 use super::*;
-use crate::drawing::{Chapter, Drawing, Image, Mark, Polyline, Raster, Rgb};
 use crate::export::fixture::{A4_MM, LEGEND, model};
-use crate::units::parse_paper;
 use glam::DAffine2;
 use lopdf::content::{Content, Operation};
+use tatamu_core::units::parse_paper;
+use tatamu_draw::drawing::{Chapter, Drawing, Image, Mark, Polyline, Raster, Rgb};
 
 const MM_PER_PT: f64 = 25.4 / 72.0;
 

@@ -3,10 +3,10 @@
 //! Neighbours share a strip. Both show the same match marks in it: trim one page along its frame,
 //! lay its marks on those of the other, and glue.
 
-use crate::drawing::text::{shortened, width_mm};
-use crate::drawing::{Align, Drawing, Layer, LineStyles, Mark, Pages, Polyline, Text};
-use crate::units::Paper;
 use glam::DVec2;
+use tatamu_core::units::Paper;
+use tatamu_draw::drawing::text::{shortened, width_mm};
+use tatamu_draw::drawing::{Align, Drawing, Layer, LineStyles, Mark, Pages, Polyline, Text};
 
 /// Border of a page that stays free of the sheet: most printers reach no further.
 const MARGIN_MM: f64 = 10.0;
@@ -210,7 +210,7 @@ impl Tile {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::units::parse_paper;
+    use tatamu_core::units::parse_paper;
 
     fn grid(sheet: [f64; 2], paper: &str) -> Option<Grid> {
         Grid::new(DVec2::from(sheet), parse_paper(paper).expect("valid"))

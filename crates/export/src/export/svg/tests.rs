@@ -1,9 +1,9 @@
 use super::*;
-use crate::drawing::{Layer, Raster};
 use crate::export::fixture::{A4_MM, model};
 use glam::DAffine2;
 use roxmltree::{Document as Xml, Node as XmlNode};
 use std::sync::Arc;
+use tatamu_draw::drawing::{Layer, Raster};
 
 const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
 

@@ -1,15 +1,15 @@
 //! Pictures of one component that is folded and glued.
 
 use super::{GLUED, MARGIN_MM, PictureError, SIZE_MM, THERE, overlay, taken};
-use crate::component::{HingeId, PanelId};
-use crate::drawing::{Drawing, Rgb};
-use crate::geom::polygon;
 use crate::guide::assembly::{Pose, bend, in_space};
 use crate::guide::joined::Joined;
-use crate::net::{Net, Piece, Tab};
-use crate::render::{Camera, Edge, Face, Scene, Spot, View, best_view};
 use crate::show::{Paint, push_panels, upright};
 use glam::{DAffine3, DVec2, DVec3};
+use tatamu_core::component::{HingeId, PanelId};
+use tatamu_core::geom::polygon;
+use tatamu_draw::drawing::{Drawing, Rgb};
+use tatamu_draw::render::{Camera, Edge, Face, Scene, Spot, View, best_view};
+use tatamu_net::net::{Net, Piece, Tab};
 
 /// How far creases are folded in the picture of the pieces.
 const HALF: f64 = 0.5;
@@ -33,7 +33,8 @@ pub fn folded(net: &Net, colour: Rgb) -> Result<Drawing, PictureError> {
     let mut scene = Scene::new();
     let mut right_mm = 0.0;
     for piece in net.pieces() {
-        let area = |panel: &&crate::net::PlacedPanel| polygon::area(&net.panels().panel(panel.panel).outline);
+        let area =
+            |panel: &&tatamu_net::net::PlacedPanel| polygon::area(&net.panels().panel(panel.panel).outline);
         let middle = piece.panels().iter().max_by(|a, b| area(a).total_cmp(&area(b)));
         let Some(middle) = middle.map(|panel| panel.panel) else { continue };
         let pose = Pose::folded(&joined, middle, |_| HALF);
@@ -188,7 +189,7 @@ fn chain_of(joined: &Joined, hinge: HingeId) -> Option<Vec<PanelId>> {
     let panels = hinges.filter(|&h| joined.chain_of(h) == Some(chain));
     let panels = panels.flat_map(|h| joined.set().hinges()[h.0].sides).map(|side| side.panel);
     let is_side =
-        |p: &PanelId| matches!(joined.set().panel(*p).kind, crate::component::PanelKind::Side { .. });
+        |p: &PanelId| matches!(joined.set().panel(*p).kind, tatamu_core::component::PanelKind::Side { .. });
     Some(panels.filter(is_side).collect())
 }
 

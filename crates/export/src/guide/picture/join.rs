@@ -1,16 +1,16 @@
 //! Pictures of a component that is glued on its parent, or plugged into it.
 
 use super::{MARGIN_MM, PictureError, SIZE_MM, THERE, overlay, taken};
-use crate::component::PanelId;
-use crate::drawing::Drawing;
-use crate::fold::root_of;
-use crate::geom::polygon;
-use crate::model::Joint;
-use crate::net::{Net, PlacedJoint};
-use crate::pipeline::Output;
-use crate::render::{Scene, Spot, best_view, palette};
 use crate::show::{Paint, push_panels, upright};
 use glam::{DAffine3, DVec2, DVec3};
+use tatamu_core::component::PanelId;
+use tatamu_core::fold::root_of;
+use tatamu_core::geom::polygon;
+use tatamu_core::model::Joint;
+use tatamu_draw::drawing::Drawing;
+use tatamu_draw::render::{Scene, Spot, best_view, palette};
+use tatamu_net::net::{Net, PlacedJoint};
+use tatamu_pipeline::Output;
 
 /// A component hovers over its place by this share of its size.
 const HOVER: f64 = 0.45;

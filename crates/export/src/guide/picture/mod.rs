@@ -11,9 +11,9 @@ pub use join::joined;
 pub use paper::{net, sheet_map, sheets_of};
 pub use whole::{deploying, flattening, frames, pulling};
 
-use crate::drawing::{Drawing, Mark, Rgb};
-use crate::render::{Look, Scene, View, ViewError, picture, seen};
 use glam::DVec2;
+use tatamu_draw::drawing::{Drawing, Mark, Rgb};
+use tatamu_draw::render::{Look, Scene, View, ViewError, picture, seen};
 
 /// Size of a step's picture, mm.
 pub const SIZE_MM: DVec2 = DVec2::new(84.0, 63.0);

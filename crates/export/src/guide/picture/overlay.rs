@@ -1,8 +1,8 @@
 //! Arrows, labels and dotted lines over pictures.
 
-use crate::drawing::{Align, Layer, Mark, Rgb, Stroke, Text, text};
-use crate::geom::polygon;
 use glam::DVec2;
+use tatamu_core::geom::polygon;
+use tatamu_draw::drawing::{Align, Layer, Mark, Rgb, Stroke, Text, text};
 
 /// Of arrows and of labels.
 const INK: Rgb = Rgb(16, 84, 160);

@@ -1,11 +1,11 @@
 //! Flat pictures: nets, and where pieces lie on the sheets.
 
-use crate::drawing::{Align, Drawing, Layer, LineStyles, Mark, Rgb, Shape, Stroke, Text};
-use crate::geom::polygon;
-use crate::net::{Net, Side};
-use crate::pipeline::Output;
-use crate::render::palette;
 use glam::{DAffine2, DVec2};
+use tatamu_core::geom::polygon;
+use tatamu_draw::drawing::{Align, Drawing, Layer, LineStyles, Mark, Rgb, Shape, Stroke, Text};
+use tatamu_draw::render::palette;
+use tatamu_net::net::{Net, Side};
+use tatamu_pipeline::Output;
 
 /// Free border, mm.
 const BORDER_MM: f64 = 2.0;

@@ -1,15 +1,15 @@
 //! Pictures of the whole model while it is folded flat and deployed again.
 
 use super::{MARGIN_MM, PictureError, SIZE_MM, THERE, overlay, taken};
-use crate::component::{PanelId, PanelKind};
-use crate::drawing::Drawing;
-use crate::fold::{ModelMotion, ModelPose, Moment};
-use crate::geom::polygon;
-use crate::pipeline::Output;
-use crate::render::{Scene, Spot, View, best_view, palette};
 use crate::show::{Paint, ViewAngle, push_panels, staged_scene, upright};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use tatamu_core::component::{PanelId, PanelKind};
+use tatamu_core::fold::{ModelMotion, ModelPose, Moment};
+use tatamu_core::geom::polygon;
+use tatamu_draw::drawing::Drawing;
+use tatamu_draw::render::{Scene, Spot, View, best_view, palette};
+use tatamu_pipeline::Output;
 
 /// How far the component that folds now is folded, and where its arrow ends.
 const NOW: f64 = 0.4;

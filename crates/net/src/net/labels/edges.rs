@@ -2,10 +2,10 @@
 
 use super::leader::Waiting;
 use super::{LABEL_CAPS_MM, LabelKind, Placer, Wanted};
-use crate::geom::polygon;
 use crate::net::Tab;
 use crate::net::mesh::EdgeKind;
 use glam::DVec2;
+use tatamu_core::geom::polygon;
 
 /// Places along an edge, as shares of its length, that are tried.
 const ALONG: [f64; 9] = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88];

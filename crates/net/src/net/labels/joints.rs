@@ -2,10 +2,10 @@
 
 use super::leader::Waiting;
 use super::{LabelKind, NAME_CAPS_MM, Placer, spots};
-use crate::component::PanelId;
-use crate::geom::polygon::{self, depth_outside, intersect_convex};
 use crate::net::{JointMark, PlacedJoint};
 use glam::{DAffine2, DVec2};
+use tatamu_core::component::PanelId;
+use tatamu_core::geom::polygon::{self, depth_outside, intersect_convex};
 
 /// A leader line ends so far within an outline, mm, at one of the first so many places in it.
 const TARGET_MM: f64 = 0.3;

@@ -5,8 +5,8 @@ use super::{
     FOREIGN_MM, LINE_GAP_MM, LabelKind, Leader, NAME_CAPS_MM, Placer, Wanted, is_foreign, longest_edge,
     spots, text_box,
 };
-use crate::geom::polygon::{convex_overlap, depth_outside};
 use glam::DVec2;
+use tatamu_core::geom::polygon::{convex_overlap, depth_outside};
 
 /// Heights of texts with a leader line, mm; and of those that have no room at these. The last is that of
 /// print of 6 points, the smallest that is read without a glass.

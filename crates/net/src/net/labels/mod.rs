@@ -9,11 +9,11 @@ mod leader;
 
 use super::mesh::{FaceKind, PieceMesh};
 use super::{Label, LabelKind, Leader};
-use crate::component::PanelId;
-use crate::drawing::text;
-use crate::geom::polygon::{self, convex_overlap, depth_outside};
 use glam::DVec2;
 use leader::Waiting;
+use tatamu_core::component::PanelId;
+use tatamu_core::geom::polygon::{self, convex_overlap, depth_outside};
+use tatamu_draw::drawing::text;
 
 /// Heights of capitals that are tried for labels, mm.
 const LABEL_CAPS_MM: [f64; 5] = [3.0, 2.75, 2.5, 2.25, 2.0];

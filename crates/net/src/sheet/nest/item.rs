@@ -3,11 +3,11 @@
 use super::occupancy::Pose;
 use super::raster::Grid;
 use super::{Rotation, Shape};
-use crate::geom::polygon;
 use crate::sheet::fit;
 use glam::DVec2;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
+use tatamu_core::geom::polygon;
 
 /// A piece in all alternatives of its group, at least one.
 pub(super) struct Item<'a> {

@@ -7,9 +7,9 @@
 
 use super::bits::{Layer, Positions, Probe, WORDS, doubled, first_positions};
 use super::raster::{COLUMNS, Grid, Run, runs};
-use crate::geom::polygon::extent;
 use glam::DVec2;
 use std::sync::OnceLock;
+use tatamu_core::geom::polygon::extent;
 
 /// Cells, then blocks of 2, 4 and 8 cells.
 const LAYERS: usize = 4;

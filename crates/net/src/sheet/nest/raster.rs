@@ -5,8 +5,8 @@
 //! body of one misses the halo of another, their distance is at least the spacing: no tolerance
 //! is involved, so a layout on the lattice is valid in exact geometry.
 
-use crate::geom::polygon;
 use glam::{DVec2, IVec2};
+use tatamu_core::geom::polygon;
 
 /// Most cells across the sheet, so that a row is four machine words.
 pub(super) const COLUMNS: usize = 256;
@@ -230,9 +230,9 @@ pub(super) fn stretch(start: usize, end: usize, k: usize) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::polygon::cross3;
     use proptest::prelude::*;
     use std::f64::consts::TAU;
+    use tatamu_core::geom::polygon::cross3;
 
     fn contains(runs: &[Run], p: DVec2, cell_mm: f64) -> bool {
         let cell = (p / cell_mm).floor().as_ivec2();

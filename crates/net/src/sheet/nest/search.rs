@@ -7,12 +7,12 @@ use super::item::{Alternative, Item};
 use super::occupancy::{Occupancy, Spot, least_cost};
 use super::pins::Start;
 use super::raster::Grid;
-use crate::progress::{Cancelled, Progress};
 use glam::DVec2;
 use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::FRAC_PI_2;
+use tatamu_core::progress::{Cancelled, Progress};
 
 /// Orders that are tried at once; fixed, so that the result does not hang on the machine.
 const BATCH: usize = 8;

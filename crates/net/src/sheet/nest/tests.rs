@@ -1,6 +1,6 @@
 use super::*;
-use crate::progress::Silent;
 use proptest::prelude::*;
+use tatamu_core::progress::Silent;
 
 const TOLERANCE_MM: f64 = 1e-6;
 
