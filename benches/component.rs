@@ -23,6 +23,7 @@ fn one_component(bencher: Bencher, (top_edges, profile_vertices): (usize, usize)
     let target = Target {
         hull: &hull,
         joints: Vec::new(),
+        borders: Vec::new(),
         symmetry: None,
         top_edges,
         profile_vertices,

@@ -10,12 +10,13 @@ use input::path_and_options;
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::time::Instant;
+use tatamu::geom::polygon;
 use tatamu::mesh::{self, Mesh};
 use tatamu::net::{KnownNets, Net, NetOptions, Piece, develop_model};
 use tatamu::pipeline::{self, Options};
 use tatamu::progress::Silent;
 use tatamu::sheet::nest::{NestOptions, Shape, nest};
-use tatamu::sheet::{Layout, SheetOptions, fit};
+use tatamu::sheet::{Layout, SheetOptions};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let (mut sheets, mut rectangles) = (0, 0);
@@ -91,7 +92,7 @@ fn rectangle_sheets(nets: &[Net], room_mm: DVec2) -> Result<usize, Box<dyn Error
     let mut rectangles = Vec::new();
     for (group, net) in nets.iter().enumerate() {
         for piece in net.pieces() {
-            let (_, least) = fit::least_rectangle(piece.outline());
+            let (_, least) = polygon::least_rectangle(piece.outline());
             let fits = least.cmple(room_mm).all() || DVec2::new(least.y, least.x).cmple(room_mm).all();
             let size = if fits { least } else { piece.size_mm() };
             let corners = [DVec2::ZERO, DVec2::new(size.x, 0.0), size, DVec2::new(0.0, size.y)];

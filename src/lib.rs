@@ -12,29 +12,20 @@
 //! Polygonal Model"; section and equation numbers in these docs are that paper's. Lengths are millimetres, angles radians, unless a name says otherwise.
 #![warn(missing_docs, clippy::print_stdout, clippy::print_stderr)]
 
-pub mod check;
-pub mod component;
-pub mod design;
-pub mod drawing;
-pub mod export;
-pub mod fold;
-pub mod geom;
-pub mod guide;
-pub mod memory;
-pub mod mesh;
-pub mod model;
-pub mod net;
-pub mod paint;
-pub mod parts_report;
-pub mod pipeline;
-pub mod plotter;
-pub mod product;
-pub mod progress;
 pub mod project;
-pub mod render;
-pub mod report;
-pub mod segment;
-pub mod sheet;
-pub mod show;
-pub mod toolpath;
-pub mod units;
+
+pub use tatamu_check as check;
+pub use tatamu_core::{colour, component, design, fold, geom, memory, model, progress, segment, units};
+pub use tatamu_draw::{drawing, pixels, render};
+pub use tatamu_export::{export, guide, paint, parts_report, product, report, show};
+pub use tatamu_net::{net, sheet};
+pub use tatamu_pipeline as pipeline;
+pub use tatamu_plot::{plotter, toolpath};
+
+/// Meshes, and the files that they are read from.
+pub mod mesh {
+    pub use tatamu_core::mesh::*;
+    pub use tatamu_read::{
+        ColourError, Format, Place, ReadError, painting, read, read_painting, read_with_siblings,
+    };
+}

@@ -25,6 +25,7 @@ impl Body {
         Target {
             hull: &self.hull,
             joints: self.joints.clone(),
+            borders: Vec::new(),
             symmetry: None,
             top_edges: self.edges,
             profile_vertices: self.vertices,

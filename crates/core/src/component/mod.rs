@@ -1,0 +1,45 @@
+//! One flat-foldable component: convex ones fitted to hulls (§4.2–4.4), and drawn ones of any shape.
+
+mod angles;
+mod assemble;
+mod assemble_error;
+mod boards;
+mod convert;
+mod convert_error;
+mod direction;
+pub mod distance;
+mod even;
+mod fit;
+mod gradient;
+mod grow;
+mod layer;
+mod likeness;
+#[cfg(test)]
+mod mirror_tests;
+mod panel;
+mod profile;
+mod qp;
+mod rows;
+mod search;
+mod seated;
+mod shape;
+mod solid;
+mod spans;
+mod start;
+mod straight;
+mod symmetry;
+mod target;
+mod tolerance;
+mod walls;
+mod worth;
+
+pub use assemble_error::AssembleError;
+pub use convert::{Component, Finished, choose, convert, finished};
+pub use convert_error::ConvertError;
+pub use direction::PrincipalAxis;
+pub use panel::{Hinge, HingeId, HingeSide, Panel, PanelId, PanelKind, PanelSet};
+pub use profile::{Fold, Profile, ProfileError};
+pub use solid::{Chain, Clearance, Corner, FaceId, SideFacet, Solid};
+pub use symmetry::Symmetry;
+pub use target::{JointTarget, Seat, Target};
+pub use tolerance::{Counts, fewest};

@@ -1,0 +1,397 @@
+//! First guess of a component's half-spaces: tangent planes of the hull in well-chosen directions.
+
+use super::angles::{MAX_SLOPE_RAD, MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD, STEP_RAD, turn};
+use super::even::{choose_pairs, drop_pair, levelled, middle, pair_bulge, thin_out_level};
+use super::fit::{Fitted, rooms};
+use super::profile::{Balance, balance, imbalance};
+use super::shape::Shape;
+use super::solid::{Chain, SideFacet, Solid};
+use super::symmetry::{Symmetry, evened, twin};
+use super::target::{FoldSpot, Seat, Target};
+use super::worth::{Edge, WORTH_MM, WORTH_SHARE, bulge, meet};
+use crate::geom::polygon;
+use glam::{DVec2, DVec3};
+use std::f64::consts::{PI, TAU};
+
+/// Circumscribes the hull of `target` with `edges` chains, each with as many planes as the limit
+/// on profile vertices allows.
+pub(super) fn circumscribe(target: &Target, edges: usize) -> Solid {
+    let points = target.hull.vertices();
+    let flat: Vec<DVec2> = points.iter().map(|p| p.truncate()).collect();
+    let locked: Vec<f64> = target.locked_angles();
+    let outline = polygon::convex_hull(&flat);
+    let angles = match target.symmetry {
+        Some(Symmetry::Upright { .. }) => choose_pairs(&outline, &locked, edges),
+        _ => choose_angles(&outline, &locked, edges),
+    };
+    let chains = angles
+        .iter()
+        .map(|&angle_rad| Chain {
+            angle_rad,
+            is_locked: locked.contains(&angle_rad),
+            facets: tangents(target, angle_rad),
+        })
+        .collect();
+    let mut solid = evened(with_ends(target, chains), target.symmetry);
+    lower_ends(&mut solid, target.min_panel_mm);
+    solid = evened(solid, target.symmetry);
+    for j in 0..solid.chains.len() {
+        thin_out(&mut solid, j, target);
+    }
+    solid
+}
+
+/// The box round a hull; `None` for joints at its sides, and where four edges are too many.
+pub(super) fn boxed(target: &Target) -> Option<Solid> {
+    if !target.locked_angles().is_empty() || target.top_edges < 4 {
+        return None;
+    }
+    let chain = |k: usize| {
+        let angle_rad = PI / 2.0 * k as f64;
+        let normal = DVec2::from_angle(angle_rad).extend(0.0);
+        let side = SideFacet { slope_rad: 0.0, offset_mm: target.hull.support(normal), is_joint: false };
+        Chain { angle_rad, is_locked: false, facets: vec![side] }
+    };
+    Some(evened(with_ends(target, (0..4).map(chain).collect()), target.symmetry))
+}
+
+/// A solid with these chains, as high as the hull or up to the joints at its ends.
+fn with_ends(target: &Target, chains: Vec<Chain>) -> Solid {
+    let (mut top_mm, mut bottom_mm) = (target.hull.support(DVec3::Z), -target.hull.support(-DVec3::Z));
+    let (mut is_top_joint, mut is_bottom_joint) = (false, false);
+    for joint in &target.joints {
+        match joint.seat {
+            Seat::Top { height_mm } => (top_mm, is_top_joint) = (height_mm, true),
+            Seat::Bottom { height_mm } => (bottom_mm, is_bottom_joint) = (height_mm, true),
+            Seat::Side { .. } => {}
+        }
+    }
+    Solid { chains, top_mm, bottom_mm, is_top_joint, is_bottom_joint }
+}
+
+/// Directions of the top edges: all candidates, thinned out where that adds the least area to
+/// the circumscribed polygon (in the spirit of Dyken et al. 2009, §4.2).
+fn choose_angles(outline: &[DVec2], locked: &[f64], edges: usize) -> Vec<f64> {
+    let mut candidates: Vec<f64> = (0..72).map(|k| f64::from(k) * STEP_RAD).collect();
+    let perimeter: f64 = polygon::edges(outline).map(|(a, b)| a.distance(b)).sum();
+    candidates.extend(
+        polygon::edges(outline)
+            .filter(|(a, b)| a.distance(*b) > 0.05 * perimeter)
+            .map(|(a, b)| (-(b - a).perp()).to_angle().rem_euclid(TAU)),
+    );
+    candidates.retain(|&a| locked.iter().all(|&l| turn(a, l).abs() >= MIN_TURN_RAD));
+    candidates.extend_from_slice(locked);
+    candidates.sort_by(f64::total_cmp);
+    candidates.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+    let whole = polygon::area(outline);
+    let support = |a: f64| {
+        let n = DVec2::from_angle(a);
+        outline.iter().map(|p| n.dot(*p)).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let mut set: Vec<Edge> = candidates
+        .into_iter()
+        .map(|angle_rad| Edge {
+            angle_rad,
+            normal: DVec2::from_angle(angle_rad),
+            support: support(angle_rad),
+            is_locked: locked.contains(&angle_rad),
+        })
+        .collect();
+    let mut costs: Vec<f64> = (0..set.len()).map(|k| area_added(&set, k)).collect();
+    loop {
+        let n = set.len();
+        let removable = (0..n).filter(|&k| !set[k].is_locked).filter_map(|k| {
+            let (before, after) = (set[(k + n - 1) % n].angle_rad, set[(k + 1) % n].angle_rad);
+            let gap = (after - before).rem_euclid(TAU);
+            let own = set[k].angle_rad;
+            let near = (own - before).rem_euclid(TAU).min((after - own).rem_euclid(TAU));
+            (gap <= MAX_TURN_RAD && n > 3).then_some((near >= MIN_TURN_RAD, costs[k], k))
+        });
+        let best = removable.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+        match best {
+            Some((is_spread, area, k)) if n > edges || !is_spread || area < WORTH_SHARE * whole => {
+                set.remove(k);
+                costs.remove(k);
+                for changed in [(k + n - 2) % (n - 1), k % (n - 1)] {
+                    costs[changed] = area_added(&set, changed);
+                }
+            }
+            _ => return set.into_iter().map(|s| s.angle_rad).collect(),
+        };
+    }
+}
+
+/// Area between an edge and the corner that its neighbours would make without it.
+fn area_added(set: &[Edge], k: usize) -> f64 {
+    let n = set.len();
+    let (before, line, after) = (&set[(k + n - 1) % n], &set[k], &set[(k + 1) % n]);
+    polygon::cross3(meet(before, line), meet(before, after), meet(line, after)).abs() / 2.0
+}
+
+/// Tangent planes of the hull's silhouette in one direction, from steep-up to steep-down, with
+/// the joint panels of that direction among them.
+pub(super) fn tangents(target: &Target, angle_rad: f64) -> Vec<SideFacet> {
+    let n = DVec2::from_angle(angle_rad);
+    let silhouette: Vec<DVec2> =
+        target.hull.vertices().iter().map(|p| DVec2::new(n.dot(p.truncate()), p.z)).collect();
+    let silhouette = polygon::convex_hull(&silhouette);
+    let mut facets: Vec<SideFacet> = target.side_joints(angle_rad).collect();
+    let length: f64 = polygon::edges(&silhouette).map(|(a, b)| a.distance(b)).sum();
+    let own = polygon::edges(&silhouette)
+        .filter(|(a, b)| a.distance(*b) > 0.04 * length)
+        .map(|(a, b)| (-(b - a).perp()).to_angle());
+    let slopes: Vec<f64> = (-15..=15).map(|k| f64::from(k) * STEP_RAD).chain(own).collect();
+    for slope_rad in slopes {
+        let clear = facets.iter().all(|f| (f.slope_rad - slope_rad).abs() >= MIN_BEND_RAD * 1.2);
+        if clear && slope_rad.abs() < MAX_SLOPE_RAD {
+            let d = DVec2::from_angle(slope_rad);
+            let offset_mm = silhouette.iter().map(|p| d.dot(*p)).fold(f64::NEG_INFINITY, f64::max);
+            facets.push(SideFacet { slope_rad, offset_mm, is_joint: false });
+        }
+    }
+    facets.sort_by(|a, b| b.slope_rad.total_cmp(&a.slope_rad));
+    if target.symmetry.is_some_and(Symmetry::is_level) { levelled(facets) } else { facets }
+}
+
+/// Moves free ends inwards until all side panels there have a useful width.
+fn lower_ends(solid: &mut Solid, min_panel_mm: f64) {
+    let (high, low) = (solid.top_mm, solid.bottom_mm);
+    let height = high - low;
+    let widest = super::shape::Shape::of(solid.clone());
+    let narrowest =
+        |v: f64| (0..widest.chains.len()).map(|j| widest.width_at(j, v)).fold(f64::INFINITY, f64::min);
+    let useful = narrowest((high + low) / 2.0).min(8.0 * min_panel_mm) * 0.4;
+    for share in [0.0, 0.03, 0.06, 0.1, 0.15, 0.2, 0.25, 0.3] {
+        if !solid.is_top_joint && narrowest(solid.top_mm) < useful {
+            solid.top_mm = high - share * height;
+        }
+        if !solid.is_bottom_joint && narrowest(solid.bottom_mm) < useful {
+            solid.bottom_mm = low + share * height;
+        }
+    }
+}
+
+/// Drops planes of chain j until its profile has no more vertices than `target` allows and all are
+/// worth having: first those outside the heights, then those whose loss adds the least area to the
+/// profile. Joint panels stay.
+pub(super) fn thin_out(solid: &mut Solid, j: usize, target: &Target) {
+    if target.symmetry.is_some_and(Symmetry::is_level) {
+        return thin_out_level(solid, j, target.profile_vertices);
+    }
+    let count = target.profile_vertices - 1;
+    let ends = (solid.top_mm, solid.bottom_mm);
+    let mut lines = super::shape::lines(&solid.chains[j]);
+    let facets = &mut solid.chains[j].facets;
+    let mut bulges: Vec<(f64, f64)> = (0..lines.len()).map(|k| bulge(&lines, k, ends)).collect();
+    loop {
+        let best = (0..facets.len())
+            .filter(|&k| !facets[k].is_joint)
+            .min_by(|&a, &b| bulges[a].0.total_cmp(&bulges[b].0).then(a.cmp(&b)));
+        match best {
+            Some(k) if facets.len() > 1 && (facets.len() > count || bulges[k].1 < WORTH_MM) => {
+                facets.remove(k);
+                lines.remove(k);
+                bulges.remove(k);
+                let beside = [k.checked_sub(1), Some(k).filter(|&k| k < lines.len())];
+                for changed in beside.into_iter().flatten() {
+                    bulges[changed] = bulge(&lines, changed, ends);
+                }
+            }
+            _ => return,
+        }
+    }
+}
+
+/// Where each chain's fold vertex should be. With fewer planes than `vertices` allows it is in the
+/// plane where the balance point lies; else, or where that is a joint panel, which must stay
+/// uncreased, it is at the nearest bend. A chain that is nothing but a joint panel gets a second
+/// plane, at whose meeting it can fold. Level chains fold in their middle.
+pub(super) fn fold_spots(solid: &mut Solid, target: &Target) -> Vec<FoldSpot> {
+    if target.symmetry.is_some_and(Symmetry::is_level) {
+        return solid.chains.iter().map(|chain| middle(chain.facets.len())).collect();
+    }
+    let vertices = target.profile_vertices;
+    (0..solid.chains.len())
+        .map(|j| {
+            let profile = solid.profile(j);
+            let at = balance(&profile);
+            let facets = &solid.chains[j].facets;
+            let is_full = facets.len() + 2 > vertices;
+            if !is_full && !facets[at.segment].is_joint {
+                return FoldSpot::Inside(at.segment);
+            }
+            let can_fold = |i: &usize| !(facets[*i].is_joint && facets[i + 1].is_joint);
+            let distance = |i: usize| imbalance(&profile, i + 1).abs();
+            let nearest =
+                (0..facets.len() - 1).filter(can_fold).min_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+            nearest.map_or_else(|| add_plane(solid, j, at), FoldSpot::Bend)
+        })
+        .collect()
+}
+
+/// Bend of a plane added beside a joint panel, on the side where the balance point is nearer.
+const ADDED_BEND_RAD: f64 = PI / 12.0;
+
+fn add_plane(solid: &mut Solid, j: usize, at: Balance) -> FoldSpot {
+    let share = if at.share < 0.5 { 0.3 } else { 0.7 };
+    let v = solid.top_mm + (solid.bottom_mm - solid.top_mm) * share;
+    let facets = &mut solid.chains[j].facets;
+    let joint = facets[at.segment];
+    let slope_rad = joint.slope_rad + if share < 0.5 { ADDED_BEND_RAD } else { -ADDED_BEND_RAD };
+    let offset_mm = DVec2::from_angle(slope_rad).dot(DVec2::new(joint.u_at(v), v));
+    let place = if share < 0.5 { at.segment } else { at.segment + 1 };
+    facets.insert(place, SideFacet { slope_rad, offset_mm, is_joint: false });
+    FoldSpot::Bend(at.segment)
+}
+
+/// A shape with one panel or chain less in a place where panels are too small; `None` where nothing
+/// can be spared.
+pub(super) fn simplify(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<FoldSpot>)> {
+    let shape = &fitted.shape;
+    let solid = &shape.solid;
+    let least = target.min_panel_mm;
+    let tight = |lack: f64| lack > 0.0;
+    let narrow = |j: usize| shape.heights_about(j).map(|v| least - shape.width_at(j, v)).fold(0.0, f64::max);
+    let low = |j: usize| {
+        let rooms =
+            rooms(shape, &fitted.spots, j).map(|r| (least - r.value(&shape.chains[j].profile)).max(0.0));
+        let off = match fitted.spots[j] {
+            FoldSpot::Bend(i) => imbalance(&shape.chains[j].profile, i + 1).abs(),
+            FoldSpot::Inside(_) => 0.0,
+        };
+        rooms.sum::<f64>() + off
+    };
+    let worst = |measure: &dyn Fn(usize) -> f64, may: &dyn Fn(usize) -> bool| {
+        let chains = (0..solid.chains.len()).filter(|&j| may(j)).map(|j| (measure(j), j));
+        chains.filter(|c| tight(c.0)).max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))).map(|c| c.1)
+    };
+    let mut simpler = solid.clone();
+    let symmetry = target.symmetry;
+    let spare = |j: usize| {
+        let facets = &solid.chains[j].facets;
+        // A joint panel needs a plane beside it, for the chain to fold at.
+        let others = facets.iter().filter(|f| !f.is_joint).count();
+        let is_level = symmetry.is_some_and(Symmetry::is_level);
+        let has_other = is_level || others > 1 || others == facets.len();
+        let free =
+            spare_planes(facets, symmetry).filter(|&k| has_other && facets.len() > pair(facets, symmetry, k));
+        let area = |k: usize| bulge_without(shape, symmetry, j, k);
+        free.min_by(|&a, &b| area(a).total_cmp(&area(b)))
+    };
+    let can_go = |j: usize| can_go(solid, j, twin(solid, symmetry, j));
+    if let Some(j) = worst(&low, &|j| spare(j).is_some()) {
+        drop_plane(&mut simpler, symmetry, j, spare(j)?);
+    } else if let Some(j) = worst(&narrow, &can_go) {
+        drop_chain(&mut simpler, symmetry, j);
+    } else if let Some(j) = (0..solid.chains.len()).find(|&j| fitted.lack_mm > 0.0 && spare(j).is_some()) {
+        drop_plane(&mut simpler, symmetry, j, spare(j)?);
+    } else if let Some(j) = (0..solid.chains.len()).find(|&j| fitted.lack_mm > 0.0 && can_go(j)) {
+        drop_chain(&mut simpler, symmetry, j);
+    } else {
+        return None;
+    }
+    let spots = fold_spots(&mut simpler, target);
+    Some((simpler, spots))
+}
+
+/// A shape without the plane that adds least to it; `None` where none can be spared.
+pub(super) fn without_plane(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<FoldSpot>)> {
+    let (shape, symmetry) = (&fitted.shape, target.symmetry);
+    let mut least: Option<(f64, usize, usize)> = None;
+    for (j, chain) in shape.solid.chains.iter().enumerate() {
+        let others = chain.facets.iter().filter(|f| !f.is_joint).count();
+        let spare = spare_planes(&chain.facets, symmetry);
+        for k in spare.filter(|&k| others > pair(&chain.facets, symmetry, k)) {
+            let profile = &shape.chains[j].profile;
+            let width_mm = shape.width_at(j, (profile[k].y + profile[k + 1].y) / 2.0);
+            let volume_mm3 = width_mm * bulge_without(shape, symmetry, j, k);
+            if least.is_none_or(|l| volume_mm3 < l.0) {
+                least = Some((volume_mm3, j, k));
+            }
+        }
+    }
+    let (_, j, k) = least?;
+    let mut solid = shape.solid.clone();
+    drop_plane(&mut solid, symmetry, j, k);
+    let spots = fold_spots(&mut solid, target);
+    Some((solid, spots))
+}
+
+/// A shape without the chain that has the least area; `None` where none can be spared.
+pub(super) fn without_chain(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<FoldSpot>)> {
+    let (shape, symmetry) = (&fitted.shape, target.symmetry);
+    let mut solid = shape.solid.clone();
+    let area = |j: usize| -> f64 {
+        let parts = shape.chains[j].profile.windows(2);
+        parts.map(|w| w[0].distance(w[1]) * shape.width_at(j, (w[0].y + w[1].y) / 2.0)).sum()
+    };
+    let least = (0..solid.chains.len())
+        .filter(|&j| can_go(&solid, j, twin(&solid, symmetry, j)))
+        .min_by(|&a, &b| area(a).total_cmp(&area(b)))?;
+    drop_chain(&mut solid, symmetry, least);
+    let spots = fold_spots(&mut solid, target);
+    Some((solid, spots))
+}
+
+/// Planes of a chain that are no joint panels; of a level one, those of its upper half.
+fn spare_planes(facets: &[SideFacet], symmetry: Option<Symmetry>) -> impl Iterator<Item = usize> + '_ {
+    let is_level = symmetry.is_some_and(Symmetry::is_level);
+    let count = if is_level { facets.len().div_ceil(2) } else { facets.len() };
+    (0..count).filter(|&k| !facets[k].is_joint)
+}
+
+/// Number of planes that go from a chain with its plane k.
+fn pair(facets: &[SideFacet], symmetry: Option<Symmetry>, k: usize) -> usize {
+    let has_image = symmetry.is_some_and(Symmetry::is_level) && 2 * k + 1 != facets.len();
+    if has_image { 2 } else { 1 }
+}
+
+/// Area by which the profile of chain j would grow without plane k and its image, mm².
+fn bulge_without(shape: &Shape, symmetry: Option<Symmetry>, j: usize, k: usize) -> f64 {
+    let (lines, ends) = (&shape.chains[j].lines, (shape.solid.top_mm, shape.solid.bottom_mm));
+    if symmetry.is_some_and(Symmetry::is_level) {
+        pair_bulge(lines, k, ends).0
+    } else {
+        bulge(lines, k, ends).0
+    }
+}
+
+/// Drops a plane and its images.
+fn drop_plane(solid: &mut Solid, symmetry: Option<Symmetry>, j: usize, k: usize) {
+    let other = twin(solid, symmetry, j);
+    let facets = &mut solid.chains[j].facets;
+    if symmetry.is_some_and(Symmetry::is_level) {
+        drop_pair(facets, k);
+    } else {
+        facets.remove(k);
+    }
+    if other != j {
+        solid.chains[other].facets = solid.chains[j].facets.clone();
+    }
+}
+
+/// Drops a chain and its image.
+fn drop_chain(solid: &mut Solid, symmetry: Option<Symmetry>, j: usize) {
+    let other = twin(solid, symmetry, j);
+    solid.chains.remove(j.max(other));
+    if other != j {
+        solid.chains.remove(j.min(other));
+    }
+}
+
+/// Whether a solid stays closed without chain j and its image.
+fn can_go(solid: &Solid, j: usize, image: usize) -> bool {
+    let gap_without = |k: usize| {
+        let beside = |mut next: usize, step: &dyn Fn(usize) -> usize| {
+            while next == j || next == image {
+                next = step(next);
+            }
+            solid.chains[next].angle_rad
+        };
+        let (before, after) = (beside(k, &|c| solid.previous(c)), beside(k, &|c| solid.next(c)));
+        (after - before).rem_euclid(TAU)
+    };
+    let left = solid.chains.len() - if image == j { 1 } else { 2 };
+    let is_closed = left >= 3 && [j, image].into_iter().all(|k| gap_without(k) <= MAX_TURN_RAD);
+    is_closed && !solid.chains[j].is_locked
+}

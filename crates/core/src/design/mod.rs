@@ -1,0 +1,35 @@
+//! Models that are drawn rather than made from a mesh (§3.2, Kase et al. 2015): the user draws the
+//! top panel and a profile for each of its edges, concave ones too, and chooses among the ways in
+//! which the chains can fold flat.
+//!
+//! ```text
+//! Sketch (checked) -> ways to fold each profile -> closed exactly -> ranked -> Component -> Model
+//! ```
+
+mod board;
+mod build;
+mod closing;
+mod facet;
+mod hinged;
+mod overlap;
+mod ranking;
+mod refit;
+mod search;
+mod silhouette;
+mod sketch;
+mod surface_distance;
+mod thick;
+mod way;
+mod weights;
+
+pub use board::board;
+pub use build::{Design, DesignError, Note, design, rankings};
+pub use ranking::{Ranked, Ranking, Refusal, Score, rank};
+pub use refit::{Body, Concave, RefitError, refit};
+pub use sketch::{Attachment, MOST_VERTICES, Sketch, SketchError, parse_panel};
+pub use thick::{ThickError, thick};
+pub use way::{Segment, Way};
+pub use weights::{WEIGHTS, Weights};
+
+#[cfg(test)]
+mod tests;

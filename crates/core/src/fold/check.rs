@@ -1,0 +1,398 @@
+//! What bumps into what while one component folds, with all others at rest at some level.
+//!
+//! Whether two components meet depends on the states of those between them and the one that moves,
+//! not on the rest. Answers are kept by these states, so that a search asks for each only once.
+
+use super::contact::Sheet;
+use super::memory::{Answer, Key, Meeting, SweepMemory};
+use super::overlap::Overlap;
+use super::pose::{ModelMotion, ancestors, root_of};
+use super::step::{FLAT, Level, Levels, Move, share};
+use super::sweep::{Body, Care, Contacts, SheetId, Sweep};
+use super::track::{Track, table};
+use super::way::{push_way, ways};
+use crate::component::{Panel, PanelId, PanelKind};
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::sync::Arc;
+
+/// Two components that bump into each other, or two chains of one component.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Clash {
+    /// The component that folds.
+    pub mover: usize,
+    /// How far it is folded before and after the step in which they meet: 0 deployed, 1 flat.
+    pub from: f64,
+    /// See [`Clash::from`].
+    pub to: f64,
+    /// The two that meet, the smaller index first; equal for two chains of the one that folds.
+    pub parts: [usize; 2],
+    /// The panels that get deepest into each other.
+    pub panels: [PanelId; 2],
+    /// How far the component is folded when the two meet.
+    pub folded: f64,
+    /// How deep these panels get into each other in this step, mm.
+    pub depth_mm: f64,
+}
+
+/// The component that moves, the pair by its index, and the levels of the pair's context.
+type Question = (usize, usize, Levels);
+
+/// A pair that moves against each other while a component does.
+#[derive(Debug)]
+struct Watched {
+    parts: [usize; 2],
+    /// All but the mover whose levels decide where the two are against each other.
+    context: Vec<usize>,
+    /// How deep the two are in each other when all are deployed, if they are.
+    overlap_mm: Option<f64>,
+}
+
+/// The pairs of one sweep are shared out in so many shares, for several threads.
+const SHARES_OF_SWEEP: usize = 4;
+
+/// All states of so many parts are tried to see whether a clash can be avoided.
+const MOST_BETWEEN: usize = 4;
+
+/// Depths are kept to this, so that models that lie a little otherwise in space get the same.
+const DEPTH_GRID_MM: f64 = 1e-6;
+
+/// Answers with a memory.
+#[derive(Debug)]
+pub(super) struct Checker<'a> {
+    motion: &'a ModelMotion<'a>,
+    ids: &'a [u64],
+    memory: &'a SweepMemory,
+    tracks: Vec<Track<'a>>,
+    care: Care,
+    /// Each component with those above it.
+    above: Vec<Vec<usize>>,
+    roots: Vec<usize>,
+    /// `ways[a][b]` are the parts on the way from a to b, without a and with b.
+    ways: Vec<Vec<Vec<usize>>>,
+    /// By mover.
+    watched: Vec<Vec<Watched>>,
+    known: HashMap<Question, Answer>,
+    /// Clashes of moves, by the levels of all.
+    listed: HashMap<(Move, Levels), Arc<[Clash]>>,
+    accepted: BTreeSet<(usize, [usize; 2])>,
+    sweeps: usize,
+}
+
+impl<'a> Checker<'a> {
+    /// Checks with some care. Of pairs that stand in each other when deployed only what is
+    /// deeper than that is told of.
+    pub(super) fn new(
+        motion: &'a ModelMotion<'a>,
+        care: Care,
+        overlaps: &[Overlap],
+        ids: &'a [u64],
+        memory: &'a SweepMemory,
+    ) -> Self {
+        let model = motion.model();
+        let parts = 0..model.parts().len();
+        let track = |p: usize| {
+            let motion = motion.component(p);
+            Track::new(motion, memory.tables().get_or(ids[p], || Arc::new(table(motion))))
+        };
+        let above: Vec<Vec<usize>> = parts.clone().map(|p| ancestors(model, p)).collect();
+        let ways = ways(&above);
+        let mut checker = Self {
+            motion,
+            ids,
+            memory,
+            tracks: parts.clone().into_par_iter().map(track).collect(),
+            care,
+            roots: parts.clone().map(|p| root_of(model, p)).collect(),
+            above,
+            ways,
+            watched: Vec::new(),
+            known: HashMap::new(),
+            listed: HashMap::new(),
+            accepted: BTreeSet::new(),
+            sweeps: 0,
+        };
+        let deployed_mm: BTreeMap<[usize; 2], f64> = overlaps.iter().map(|o| (o.parts, o.depth_mm)).collect();
+        checker.watched = parts.map(|mover| checker.watched_pairs(mover, &deployed_mm)).collect();
+        checker
+    }
+
+    /// Pairs of the mover's tree that do not ride on the same panel of it.
+    fn watched_pairs(&self, mover: usize, deployed_mm: &BTreeMap<[usize; 2], f64>) -> Vec<Watched> {
+        let tree: Vec<usize> =
+            (0..self.roots.len()).filter(|&p| self.roots[p] == self.roots[mover]).collect();
+        let carriers: Vec<Option<PanelId>> = tree.iter().map(|&p| self.carrier(mover, p)).collect();
+        let mut pairs = Vec::new();
+        for k in 0..tree.len() {
+            for l in k + 1..tree.len() {
+                if carriers[k] == carriers[l] {
+                    continue;
+                }
+                let parts = [tree[k], tree[l]];
+                let context: BTreeSet<usize> = parts
+                    .iter()
+                    .flat_map(|&p| &self.ways[mover][p])
+                    .copied()
+                    .filter(|&p| p != mover)
+                    .collect();
+                let context = context.into_iter().collect();
+                pairs.push(Watched { parts, context, overlap_mm: deployed_mm.get(&parts).copied() });
+            }
+        }
+        pairs
+    }
+
+    /// Clashes of a move that an order could avoid: without accepted ones and without pairs that stand
+    /// in each other when deployed.
+    pub(super) fn clashes(&mut self, step: Move, levels: &[Level]) -> Vec<Clash> {
+        let mut clashes = self.all_clashes(step, levels).to_vec();
+        clashes.retain(|clash| {
+            let pair = self.watched[step.part].iter().find(|pair| pair.parts == clash.parts);
+            pair.is_none_or(|pair| pair.overlap_mm.is_none())
+                && !self.accepted.contains(&(step.part, clash.parts))
+        });
+        clashes
+    }
+
+    /// All clashes of a move; `levels` tells where the others are.
+    pub(super) fn all_clashes(&mut self, step: Move, levels: &[Level]) -> Arc<[Clash]> {
+        let mut key = (step, Levels::from_slice(levels));
+        key.1[step.part] = step.from;
+        if let Some(clashes) = self.listed.get(&key) {
+            return clashes.clone();
+        }
+        let answers = self.answers(step.part, levels);
+        self.learn(answers);
+        let clashes: Arc<[Clash]> =
+            self.questions(step.part, levels).filter_map(|question| self.clash(step, &question)).collect();
+        self.listed.insert(key, clashes.clone());
+        clashes
+    }
+
+    /// What a pair does in a step, as far as that is worse than what it does when deployed.
+    fn clash(&self, step: Move, question: &Question) -> Option<Clash> {
+        let (mover, pair, _) = question;
+        let pair = &self.watched[*mover][*pair];
+        let clash = clash(step, pair.parts, self.known.get(question)?)?;
+        let told_mm = pair.overlap_mm.map_or(0.0, |mm| mm + self.care.allowed_mm());
+        (clash.depth_mm > told_mm).then_some(clash)
+    }
+
+    /// Accepts a clash that happens whatever the states of the parts between are, since no order
+    /// can help. Gives up, and does not accept it, where there are too many of them.
+    pub(super) fn accept_if_unavoidable(&mut self, clash: &Clash, levels: &[Level]) {
+        let (mover, parts) = (clash.mover, clash.parts);
+        let Some(pair) = self.watched[mover].iter().position(|pair| pair.parts == parts) else { return };
+        let free = self.watched[mover][pair].context.clone();
+        if free.len() > MOST_BETWEEN {
+            return;
+        }
+        let is_always = (0..1_usize << free.len()).all(|states| {
+            let mut levels = levels.to_vec();
+            free.iter()
+                .enumerate()
+                .for_each(|(k, &p)| levels[p] = if states >> k & 1 == 1 { FLAT } else { 0 });
+            let question = self.question(mover, pair, &levels);
+            if !self.known.contains_key(&question) {
+                let answers = self.ask(vec![question.clone()], mover, &levels);
+                self.learn(answers);
+            }
+            self.known.get(&question).is_some_and(Option::is_some)
+        });
+        if is_always {
+            self.accepted.insert((mover, parts));
+        }
+    }
+
+    /// The components that a clash has to do with: the two that meet, the one that moves, and those
+    /// between them.
+    pub(super) fn involved(&self, clash: &Clash) -> Vec<usize> {
+        let [a, b] = clash.parts;
+        let mut involved = vec![a, b, clash.mover];
+        involved.extend(&self.ways[a][b]);
+        let mut seen = BTreeSet::new();
+        involved.retain(|part| seen.insert(*part));
+        involved
+    }
+
+    /// Keeps answers.
+    pub(super) fn learn(&mut self, answers: Vec<(Question, Answer)>) {
+        self.sweeps += usize::from(!answers.is_empty());
+        self.known.extend(answers);
+    }
+
+    /// How often answers had to be found, whether the memory had them or not: what a search may cost
+    /// must not depend on that.
+    pub(super) fn sweeps(&self) -> usize {
+        self.sweeps
+    }
+
+    /// Answers what is not known yet of one component's motion.
+    pub(super) fn answers(&self, mover: usize, levels: &[Level]) -> Vec<(Question, Answer)> {
+        let open = self.questions(mover, levels).filter(|question| !self.known.contains_key(question));
+        self.ask(open.collect(), mover, levels)
+    }
+
+    fn ask(&self, open: Vec<Question>, mover: usize, levels: &[Level]) -> Vec<(Question, Answer)> {
+        let keys: Vec<Key> = open.iter().map(|question| self.key(question, levels)).collect();
+        let mut answers: Vec<Option<Answer>> =
+            keys.iter().map(|key| self.memory.answers().get(key)).collect();
+        let missing: Vec<usize> = (0..open.len()).filter(|&k| answers[k].is_none()).collect();
+        if !missing.is_empty() {
+            let pairs: Vec<[usize; 2]> =
+                missing.iter().map(|&k| self.watched[mover][open[k].1].parts).collect();
+            for (&k, answer) in missing.iter().zip(self.swept(mover, &pairs, levels)) {
+                self.memory.answers().insert(keys[k].clone(), answer.clone());
+                answers[k] = Some(answer);
+            }
+        }
+        open.into_iter().zip(answers.into_iter().flatten()).collect()
+    }
+
+    /// Works out what pairs do while a component moves.
+    fn swept(&self, mover: usize, pairs: &[[usize; 2]], levels: &[Level]) -> Vec<Answer> {
+        let (bodies, owners) = self.bodies(mover, pairs, levels);
+        let sweep = Sweep::new(&self.tracks[mover], &bodies, self.care);
+        let lists: Vec<Vec<[usize; 2]>> = pairs.iter().map(|&pair| moving(pair, &bodies, &owners)).collect();
+        let shares = lists.par_chunks(lists.len().div_ceil(SHARES_OF_SWEEP));
+        let contacts: Vec<Vec<Contacts>> = shares.map(|lists| sweep.contacts(lists)).collect();
+        contacts.into_iter().flatten().map(|contacts| answer(&contacts, &owners)).collect()
+    }
+
+    fn question(&self, mover: usize, pair: usize, levels: &[Level]) -> Question {
+        let context = &self.watched[mover][pair].context;
+        (mover, pair, context.iter().map(|&p| levels[p]).collect())
+    }
+
+    /// What must be known of a component's motion.
+    fn questions<'q>(&'q self, mover: usize, levels: &'q [Level]) -> impl Iterator<Item = Question> + 'q {
+        (0..self.watched[mover].len()).map(move |pair| self.question(mover, pair, levels))
+    }
+
+    /// All that decides the answer to a question: paper, mover, and the components on both ways from it.
+    fn key(&self, (mover, pair, _): &Question, levels: &[Level]) -> Key {
+        let mut key = vec![self.care.key(), self.ids[*mover]];
+        for part in self.watched[*mover][*pair].parts {
+            let way = &self.ways[*mover][part];
+            key.push(way.len() as u64);
+            push_way(&mut key, way, &self.above[*mover], self.ids, levels);
+        }
+        key.into_boxed_slice()
+    }
+
+    /// What rides on the mover's panels: each of them, and each other part of the pairs; with the
+    /// part and the first panel of each.
+    fn bodies(&self, mover: usize, pairs: &[[usize; 2]], levels: &[Level]) -> (Vec<Body>, Vec<Owner>) {
+        let motion = self.tracks[mover].motion();
+        let mut folded: Vec<f64> = levels.iter().map(|&level| share(level)).collect();
+        folded[mover] = 0.0;
+        let pose = self.motion.pose(&folded);
+        let to_mover = pose.parts[mover].frame.inverse();
+        let (mut bodies, mut owners) = (Vec::new(), Vec::new());
+        let asked: BTreeSet<usize> = pairs.iter().flatten().copied().collect();
+        for p in asked {
+            let panels = self.motion.model().parts()[p].component.panels().panels().iter().enumerate();
+            let sheets =
+                panels.map(|(k, panel)| Sheet::of_panel(panel, to_mover * pose.parts[p].panel(PanelId(k))));
+            match self.carrier(mover, p) {
+                Some(carrier) => {
+                    bodies.push(Body::new(sheets.collect(), carrier, motion));
+                    owners.push(Owner { part: p, first_panel: 0 });
+                }
+                None => {
+                    for (k, sheet) in sheets.enumerate() {
+                        bodies.push(Body::new(vec![sheet], PanelId(k), motion));
+                        owners.push(Owner { part: p, first_panel: k });
+                    }
+                }
+            }
+        }
+        (bodies, owners)
+    }
+
+    /// The mover's panel that another part hangs on; none for the mover itself.
+    fn carrier(&self, mover: usize, part: usize) -> Option<PanelId> {
+        let parts = self.motion.model().parts();
+        if part == mover {
+            return None;
+        }
+        let mut line = vec![part];
+        line.extend(&self.above[part]);
+        let below = line.iter().position(|&p| p == mover).map(|at| line[at - 1]);
+        match below {
+            Some(child) => parts[child].joint.as_ref().map(|j| j.parent_panel),
+            None => parts[mover].joint.as_ref().map(|j| j.child_panel),
+        }
+    }
+
+    /// Clash of two chains of one component, whatever the others do.
+    pub(super) fn own_clash(&self, mover: usize) -> Option<Clash> {
+        let key = [self.care.key(), self.ids[mover]];
+        let answer = self.memory.own().get_or(key, || self.own_answer(mover));
+        clash(Move::whole(mover), [mover; 2], &answer)
+    }
+
+    fn own_answer(&self, mover: usize) -> Answer {
+        let panels = self.motion.model().parts()[mover].component.panels().panels();
+        let track = &self.tracks[mover];
+        let body = |(k, panel): (usize, &Panel)| {
+            Body::new(vec![Sheet::of_panel(panel, panel.deployed)], PanelId(k), track.motion())
+        };
+        let bodies: Vec<Body> = panels.iter().enumerate().map(body).collect();
+        let owners: Vec<Owner> =
+            (0..panels.len()).map(|first_panel| Owner { part: mover, first_panel }).collect();
+        // Chains go down all the way in every pose and lie between top and bottom, so that only
+        // different chains can meet.
+        let chain = |k: usize| match panels[k].kind {
+            PanelKind::Side { chain, .. } => Some(chain),
+            PanelKind::Top | PanelKind::Bottom => None,
+        };
+        let sides = (0..panels.len()).filter_map(|k| Some((k, chain(k)?)));
+        let list = sides
+            .clone()
+            .flat_map(|(a, i)| sides.clone().filter(move |&(_, j)| i < j).map(move |(b, _)| [a, b]))
+            .collect();
+        let sweep = Sweep::new(track, &bodies, self.care);
+        sweep.contacts(&[list]).first().and_then(|contacts| answer(contacts, &owners))
+    }
+}
+
+/// Whose sheets a body has: those of a part from one panel on.
+#[derive(Debug, Clone, Copy)]
+struct Owner {
+    part: usize,
+    first_panel: usize,
+}
+
+/// Pairs of bodies of two parts that move against each other.
+fn moving([a, b]: [usize; 2], bodies: &[Body], owners: &[Owner]) -> Vec<[usize; 2]> {
+    let of = |part: usize| (0..owners.len()).filter(move |&k| owners[k].part == part);
+    let all = of(a).flat_map(|p| of(b).map(move |q| [p, q]));
+    all.filter(|[p, q]| bodies[*p].carrier() != bodies[*q].carrier()).collect()
+}
+
+fn answer(contacts: &Contacts, owners: &[Owner]) -> Answer {
+    if contacts.iter().all(Option::is_none) {
+        return None;
+    }
+    let panel = |(body, sheet): SheetId| PanelId(owners[body].first_panel + sheet);
+    let meetings = contacts.map(|contact| {
+        contact.map(|contact| Meeting {
+            folded: contact.folded,
+            panels: contact.sheets.map(panel),
+            depth_mm: (contact.depth_mm / DEPTH_GRID_MM).round() * DEPTH_GRID_MM,
+        })
+    });
+    Some(Arc::new(meetings))
+}
+
+/// What an answer says about a step.
+fn clash(step: Move, parts: [usize; 2], answer: &Answer) -> Option<Clash> {
+    let cells = answer.as_ref()?.get(usize::from(step.from)..usize::from(step.to))?;
+    let mut meetings = cells.iter().flatten();
+    let first = meetings.next()?;
+    let deepest = meetings.fold(first, |a, b| if b.depth_mm > a.depth_mm { b } else { a });
+    let Move { part: mover, from, to } = step;
+    let (panels, folded, depth_mm) = (deepest.panels, first.folded, deepest.depth_mm);
+    Some(Clash { mover, from: share(from), to: share(to), parts, panels, folded, depth_mm })
+}

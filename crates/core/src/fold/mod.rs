@@ -1,0 +1,41 @@
+//! Folding: how components move between deployed and flat, whether they bump into one another, and
+//! in which steps they fold.
+
+mod advice;
+mod chain;
+mod check;
+pub mod contact;
+mod encounter;
+mod ground;
+mod interleave;
+mod memory;
+mod moment;
+mod motion;
+mod order;
+mod overlap;
+mod plan;
+mod pose;
+mod pull;
+mod sequence;
+mod stack;
+mod step;
+mod sweep;
+mod track;
+mod way;
+
+pub use advice::Advice;
+pub use chain::{ChainMotion, Course, Shares};
+pub use check::Clash;
+pub use encounter::Encounter;
+pub use memory::SweepMemory;
+pub use moment::Moment;
+pub use motion::{ComponentMotion, ComponentPose};
+pub use overlap::Overlap;
+pub use plan::FoldPlan;
+pub use pose::{ModelMotion, ModelPose, PartPose, ancestors, root_of};
+pub use sequence::{Motion, Sequence};
+pub use stack::Stack;
+pub use step::{Pull, Step};
+
+#[cfg(test)]
+mod tests;

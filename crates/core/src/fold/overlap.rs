@@ -1,0 +1,86 @@
+//! What stands in each other before anything folds.
+
+use super::contact::{Sheet, gap};
+use super::memory::{Key, SweepMemory};
+use super::pose::{ModelMotion, ancestors, root_of};
+use super::way::{push_way, ways};
+use crate::component::Panel;
+use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
+
+/// Two components that stand in each other when all are deployed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Overlap {
+    /// The two, the smaller index first.
+    pub parts: [usize; 2],
+    /// How deep two of their panels are in each other, at most, mm.
+    pub depth_mm: f64,
+}
+
+/// A component's panels in the model, each with a ball round it.
+struct Solid {
+    sheets: Vec<(Sheet, DVec3, f64)>,
+    low: DVec3,
+    high: DVec3,
+}
+
+/// Pairs of components that stand in each other by more than `tolerance_mm` when deployed.
+pub(super) fn overlaps(
+    motion: &ModelMotion<'_>,
+    tolerance_mm: f64,
+    ids: &[u64],
+    memory: &SweepMemory,
+) -> Vec<Overlap> {
+    let model = motion.model();
+    let parts = model.parts();
+    let solids: Vec<Solid> =
+        parts.iter().map(|part| solid(part.component.panels().panels(), part.deployed())).collect();
+    let above: Vec<Vec<usize>> = (0..parts.len()).map(|p| ancestors(model, p)).collect();
+    let (ways, deployed) = (ways(&above), vec![0; parts.len()]);
+    let pairs: Vec<[usize; 2]> = (0..parts.len())
+        .flat_map(|a| (a + 1..parts.len()).map(move |b| [a, b]))
+        .filter(|&[a, b]| root_of(model, a) == root_of(model, b))
+        .collect();
+    let depth_mm = |&[a, b]: &[usize; 2]| {
+        let (p, q) = (&solids[a], &solids[b]);
+        if (p.low.cmpgt(q.high) | q.low.cmpgt(p.high)).any() {
+            return 0.0;
+        }
+        let mut key = vec![tolerance_mm.to_bits(), ids[a]];
+        push_way(&mut key, &ways[a][b], &above[a], ids, &deployed);
+        let key: Key = key.into_boxed_slice();
+        memory.overlaps().get_or(key, || depth_mm(p, q, tolerance_mm))
+    };
+    let depths: Vec<f64> = pairs.par_iter().map(depth_mm).collect();
+    let found = pairs.into_iter().zip(depths).filter(|(_, depth_mm)| *depth_mm > tolerance_mm);
+    found.map(|(parts, depth_mm)| Overlap { parts, depth_mm }).collect()
+}
+
+fn solid(panels: &[Panel], deployed: DAffine3) -> Solid {
+    let sheet = |panel: &Panel| {
+        let placement = deployed * panel.deployed;
+        let corner = |p: &glam::DVec2| placement.transform_point3(p.extend(0.0));
+        let corners: Vec<DVec3> = panel.outline.iter().map(corner).collect();
+        let centre = corners.iter().sum::<DVec3>() / corners.len() as f64;
+        let radius_mm = corners.iter().map(|c| c.distance(centre)).fold(0.0, f64::max);
+        (Sheet { corners, normal: placement.matrix3.z_axis }, centre, radius_mm)
+    };
+    let sheets: Vec<(Sheet, DVec3, f64)> = panels.iter().map(sheet).collect();
+    let corners = || sheets.iter().flat_map(|s| &s.0.corners).copied();
+    let low = corners().fold(DVec3::INFINITY, DVec3::min);
+    let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+    Solid { sheets, low, high }
+}
+
+/// How deep two panels of two components are in each other at most, as far as above the tolerance.
+fn depth_mm(a: &Solid, b: &Solid, tolerance_mm: f64) -> f64 {
+    let mut deepest_mm = 0.0_f64;
+    for (p, p_centre, p_radius) in &a.sheets {
+        for (q, q_centre, q_radius) in &b.sheets {
+            if p_centre.distance(*q_centre) < p_radius + q_radius {
+                deepest_mm = deepest_mm.max(-gap(p, q, -tolerance_mm, 0).mm);
+            }
+        }
+    }
+    deepest_mm
+}

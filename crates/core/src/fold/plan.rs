@@ -1,0 +1,242 @@
+//! How a model folds.
+
+use super::check::{Checker, Clash};
+use super::interleave::interleaved;
+use super::memory::SweepMemory;
+use super::order::{Search, outermost_first, replay};
+use super::overlap::{Overlap, overlaps};
+use super::pose::{ModelMotion, root_of};
+use super::pull;
+use super::sequence::{Motion, Sequence};
+use super::stack::{Stack, stacks};
+use super::step::{Move, Pull, Step};
+use super::sweep::Care;
+use crate::model::Model;
+use crate::progress::{Cancelled, Progress};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// How a model folds: steps that take every component from deployed to flat.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FoldPlan {
+    thickness_mm: f64,
+    pulls: Vec<Pull>,
+    steps: Vec<Step>,
+    order: Vec<usize>,
+    clashes: Vec<Clash>,
+    overlaps: Vec<Overlap>,
+    stacks: Vec<Stack>,
+}
+
+/// How far the search goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Effort {
+    /// A good order, one component after another, by samples.
+    Order,
+    /// Steps of several components in turn, where no order is free; and the flat stacks.
+    Whole,
+}
+
+impl FoldPlan {
+    /// The order of folding before anything is checked: children before those that carry them.
+    pub fn unchecked(model: &Model, thickness_mm: f64) -> Self {
+        let mut order: Vec<usize> = (0..model.parts().len()).collect();
+        outermost_first(model, &mut order);
+        let steps = order.iter().map(|&part| Step::whole(part)).collect();
+        let (pulls, clashes, overlaps, stacks) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { thickness_mm, pulls, steps, order, clashes, overlaps, stacks }
+    }
+
+    /// Looks for a plan for a model of paper of a thickness.
+    ///
+    /// # Errors
+    /// [`Cancelled`] at the user's wish.
+    pub fn new(
+        motion: &ModelMotion<'_>,
+        thickness_mm: f64,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let ids: Vec<u64> = (0..motion.model().parts().len() as u64).collect();
+        Self::with_memory(motion, thickness_mm, &ids, &SweepMemory::default(), progress)
+    }
+
+    /// The same with a memory of what was found out about other models. `ids[p]` stands for component
+    /// p's shape and the way it sits on its parent: where those of two models are equal, so are these.
+    ///
+    /// # Errors
+    /// [`Cancelled`] at the user's wish.
+    pub fn with_memory(
+        motion: &ModelMotion<'_>,
+        thickness_mm: f64,
+        ids: &[u64],
+        memory: &SweepMemory,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        Self::searched(motion, thickness_mm, ids, memory, progress, Effort::Whole)
+    }
+
+    /// A plan for the comparison of many models: a good order by samples of the motions, without steps
+    /// of several components in turn, and without stacks. Ids and memory as for [`FoldPlan::with_memory`].
+    ///
+    /// # Errors
+    /// [`Cancelled`] at the user's wish.
+    pub fn quick(
+        motion: &ModelMotion<'_>,
+        thickness_mm: f64,
+        ids: &[u64],
+        memory: &SweepMemory,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        Self::searched(motion, thickness_mm, ids, memory, progress, Effort::Order)
+    }
+
+    /// A plan in which some components are unplugged, outer ones after those that carry them, fold
+    /// beside the rest, and are plugged in again in the same order. None where something is in their
+    /// way out or back. Ids and memory as for [`FoldPlan::with_memory`].
+    ///
+    /// # Errors
+    /// [`Cancelled`] at the user's wish.
+    pub fn unplugged(
+        motion: &ModelMotion<'_>,
+        parts: &[usize],
+        thickness_mm: f64,
+        ids: &[u64],
+        memory: &SweepMemory,
+        progress: &dyn Progress,
+    ) -> Result<Option<Self>, Cancelled> {
+        let apart = motion.model().clone().taken_apart(parts);
+        let beside = ModelMotion::new(&apart);
+        let mut plan = Self::with_memory(&beside, thickness_mm, ids, memory, progress)?;
+        // What was pulled off is folded first.
+        let group = |part: usize| parts.iter().position(|&p| p == root_of(&apart, part));
+        let rank = |part: usize| group(part).map_or(0, |at| at as isize - parts.len() as isize);
+        plan.steps.sort_by_key(|step| rank(step.part));
+        plan.order.sort_by_key(|&part| rank(part));
+        plan.pulls = pull::pulls(motion, parts, &plan.steps);
+        plan.overlaps = overlaps(motion, thickness_mm / 2.0, ids, memory);
+        let is_free = pull::are_free(motion, &plan.pulls, thickness_mm, &plan.overlaps);
+        plan.stacks = stacks(motion, thickness_mm);
+        Ok(is_free.then_some(plan))
+    }
+
+    fn searched(
+        motion: &ModelMotion<'_>,
+        thickness_mm: f64,
+        ids: &[u64],
+        memory: &SweepMemory,
+        progress: &dyn Progress,
+        effort: Effort,
+    ) -> Result<Self, Cancelled> {
+        let overlaps = overlaps(motion, thickness_mm / 2.0, ids, memory);
+        let parts = motion.model().parts().len();
+        let care = match effort {
+            Effort::Order => Care::rough(thickness_mm),
+            Effort::Whole => Care::exact(thickness_mm),
+        };
+        let mut checker = Checker::new(motion, care, &overlaps, ids, memory);
+        let own: Vec<Option<Clash>> = (0..parts).into_par_iter().map(|p| checker.own_clash(p)).collect();
+        let mut clashes: Vec<Clash> = own.into_iter().flatten().collect();
+        progress.check()?;
+        let mut moves = Vec::new();
+        for root in (0..parts).filter(|&p| root_of(motion.model(), p) == p) {
+            let order = Search::new(motion, &mut checker, progress, effort == Effort::Whole).tree(root)?;
+            let mut tree: Vec<Move> = order.into_iter().map(Move::whole).collect();
+            if effort == Effort::Whole {
+                tree = interleaved(&mut checker, tree, parts, thickness_mm, progress)?;
+            }
+            clashes.extend(replay(&mut checker, &tree, parts));
+            moves.extend(tree);
+        }
+        let steps: Vec<Step> = moves.iter().map(Move::step).collect();
+        let order = steps.iter().filter(|step| step.ends_flat()).map(|step| step.part).collect();
+        let stacks = if effort == Effort::Whole { stacks(motion, thickness_mm) } else { Vec::new() };
+        Ok(Self { thickness_mm, pulls: Vec::new(), steps, order, clashes, overlaps, stacks })
+    }
+
+    /// Thickness of the paper, mm.
+    pub fn thickness_mm(&self) -> f64 {
+        self.thickness_mm
+    }
+
+    /// What is unplugged before the first step, in this order, and plugged in again after the last
+    /// one in the same order.
+    pub fn pulls(&self) -> &[Pull] {
+        &self.pulls
+    }
+
+    /// All that moves, one after another: what is unplugged, the steps, and what is plugged in again.
+    pub fn motions(&self) -> Vec<Motion> {
+        let folds = self.steps.iter().map(|&step| Motion::Fold(step));
+        let off = self.pulls.iter().map(|&pull| Motion::Unplug(pull));
+        let on = self.pulls.iter().map(|&pull| Motion::Plug(pull));
+        off.chain(folds).chain(on).collect()
+    }
+
+    /// How components fold, one after another; deploying is the reverse.
+    pub fn steps(&self) -> &[Step] {
+        &self.steps
+    }
+
+    /// All components, in the order in which they become flat.
+    pub fn order(&self) -> &[usize] {
+        &self.order
+    }
+
+    /// Whether every component folds in one step.
+    pub fn is_order(&self) -> bool {
+        self.steps.len() == self.order.len()
+    }
+
+    /// What bumps into what in these steps.
+    pub fn clashes(&self) -> &[Clash] {
+        &self.clashes
+    }
+
+    /// What stands in each other before anything folds.
+    pub fn overlaps(&self) -> &[Overlap] {
+        &self.overlaps
+    }
+
+    /// The flat model: one stack for each group of joined components.
+    pub fn stacks(&self) -> &[Stack] {
+        &self.stacks
+    }
+
+    /// Pairs that get deeper into each other than the paper is thick, deployed or while they fold, and
+    /// by how much, mm. The two are equal where chains of one component do.
+    pub fn bumps(&self) -> Vec<([usize; 2], f64)> {
+        let mut bumps: BTreeMap<[usize; 2], f64> = BTreeMap::new();
+        let clashes = self.clashes.iter().map(|clash| (clash.parts, clash.depth_mm));
+        for (parts, depth_mm) in clashes.chain(self.overlaps.iter().map(|o| (o.parts, o.depth_mm))) {
+            let excess_mm = depth_mm - self.thickness_mm;
+            if excess_mm > 0.0 {
+                let worst_mm = bumps.entry(parts).or_insert(0.0);
+                *worst_mm = worst_mm.max(excess_mm);
+            }
+        }
+        bumps.into_iter().collect()
+    }
+
+    /// Pairs of components that bump by more than the paper is thick while they fold.
+    pub fn bumping_pairs(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        let is_bump = |clash: &&Clash| clash.parts[0] != clash.parts[1] && clash.depth_mm > self.thickness_mm;
+        self.clashes.iter().filter(is_bump).map(|clash| clash.parts)
+    }
+
+    /// Whether there are none of these.
+    pub fn is_free(&self) -> bool {
+        self.bumping_pairs().next().is_none()
+    }
+
+    /// Sum of [`FoldPlan::bumps`], mm.
+    pub fn harm_mm(&self) -> f64 {
+        self.bumps().iter().fold(0.0, |sum, (_, excess_mm)| sum + excess_mm)
+    }
+}
+
+impl Sequence {
+    /// A plan: its steps, and before and after them what is unplugged meanwhile.
+    pub fn of_plan(plan: &FoldPlan) -> Self {
+        Self::of_motions(plan.motions())
+    }
+}

@@ -1,0 +1,17 @@
+//! Planes, convex hulls and polygons: the geometry that every stage shares.
+
+pub mod eigen;
+mod hull;
+mod mirror;
+pub mod nearest;
+mod plane;
+pub(crate) mod points;
+pub mod polygon;
+mod quickhull;
+mod sphere;
+mod symmetrized;
+
+pub use hull::{Facet, Hull, HullError};
+pub use mirror::Mirror;
+pub use plane::Plane;
+pub use sphere::directions;

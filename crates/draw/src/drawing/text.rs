@@ -1,0 +1,309 @@
+//! The one font: metrics and outlines of letters.
+//!
+//! The font is a subset of Inter (Latin letters, digits, a few signs), embedded in the program;
+//! see `font/README.md`. Every back end draws text without kerning, so that all files agree.
+
+use super::{Polyline, Text};
+use glam::{DAffine2, DVec2};
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+use ttf_parser::{Face, OutlineBuilder};
+
+/// The font file, for formats that embed it.
+pub const FONT_FILE: &[u8] = include_bytes!("font/inter-subset.ttf");
+/// PostScript name of the font.
+pub const FONT_NAME: &str = "Inter-Regular";
+/// Family name of the font.
+pub const FONT_FAMILY: &str = "Inter";
+
+/// What stands for a character that the font lacks.
+const REPLACEMENT: char = '?';
+/// Where the font's characters may be: up to the end of arrows and mathematical signs.
+const CHARACTERS: std::ops::Range<char> = ' '..'\u{2400}';
+
+/// Letters that reach below the base line, and how far, as a share of a capital's height.
+const DESCENDING: &str = "gjpqy,;()/Q_";
+const DESCENT: f64 = 0.3;
+
+/// A step of an outline, in page coordinates (mm).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PathCommand {
+    /// Begins a contour.
+    MoveTo(DVec2),
+    /// Straight line.
+    LineTo(DVec2),
+    /// Quadratic Bézier curve: control point, end.
+    QuadTo(DVec2, DVec2),
+    /// Cubic Bézier curve: two control points, end.
+    CubicTo(DVec2, DVec2, DVec2),
+    /// Closes the contour.
+    Close,
+}
+
+impl PathCommand {
+    /// Control points and end.
+    pub fn points(&self) -> Vec<DVec2> {
+        match *self {
+            Self::MoveTo(p) | Self::LineTo(p) => vec![p],
+            Self::QuadTo(a, p) => vec![a, p],
+            Self::CubicTo(a, b, p) => vec![a, b, p],
+            Self::Close => Vec::new(),
+        }
+    }
+
+    fn transformed(&self, map: &DAffine2) -> Self {
+        let at = |p: DVec2| map.transform_point2(p);
+        match *self {
+            Self::MoveTo(p) => Self::MoveTo(at(p)),
+            Self::LineTo(p) => Self::LineTo(at(p)),
+            Self::QuadTo(a, p) => Self::QuadTo(at(a), at(p)),
+            Self::CubicTo(a, b, p) => Self::CubicTo(at(a), at(b), at(p)),
+            Self::Close => Self::Close,
+        }
+    }
+}
+
+/// One glyph, in units of the em.
+struct Glyph {
+    advance: f64,
+    outline: Vec<PathCommand>,
+}
+
+/// The font, decoded once.
+struct Typeface {
+    cap_height: f64,
+    glyphs: BTreeMap<char, Glyph>,
+}
+
+static TYPEFACE: LazyLock<Typeface> = LazyLock::new(Typeface::embedded);
+
+impl Typeface {
+    /// Decodes the embedded font. It is part of the program, so a fault in it is a fault of the
+    /// build, which a test catches.
+    fn embedded() -> Self {
+        let face = Face::parse(FONT_FILE, 0).expect("the embedded font can be read");
+        let em = f64::from(face.units_per_em());
+        let glyphs = CHARACTERS
+            .filter_map(|c| {
+                let id = face.glyph_index(c)?;
+                let mut pen = Pen { em, outline: Vec::new() };
+                // Spaces have none.
+                let _ = face.outline_glyph(id, &mut pen);
+                let advance = f64::from(face.glyph_hor_advance(id)?) / em;
+                Some((c, Glyph { advance, outline: pen.outline }))
+            })
+            .collect();
+        let cap_height = face.capital_height().expect("the embedded font has capitals");
+        Self { cap_height: f64::from(cap_height) / em, glyphs }
+    }
+
+    fn glyph(&self, c: char) -> &Glyph {
+        &self.glyphs[&self.available(c)]
+    }
+
+    fn available(&self, c: char) -> char {
+        match c {
+            _ if self.glyphs.contains_key(&c) => c,
+            _ if c.is_whitespace() => ' ',
+            _ => REPLACEMENT,
+        }
+    }
+}
+
+/// Collects an outline in units of the em.
+struct Pen {
+    em: f64,
+    outline: Vec<PathCommand>,
+}
+
+impl Pen {
+    fn at(&self, x: f32, y: f32) -> DVec2 {
+        DVec2::new(f64::from(x), f64::from(y)) / self.em
+    }
+}
+
+impl OutlineBuilder for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.outline.push(PathCommand::MoveTo(self.at(x, y)));
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.outline.push(PathCommand::LineTo(self.at(x, y)));
+    }
+
+    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
+        self.outline.push(PathCommand::QuadTo(self.at(cx, cy), self.at(x, y)));
+    }
+
+    fn curve_to(&mut self, ax: f32, ay: f32, bx: f32, by: f32, x: f32, y: f32) {
+        self.outline.push(PathCommand::CubicTo(self.at(ax, ay), self.at(bx, by), self.at(x, y)));
+    }
+
+    fn close(&mut self) {
+        self.outline.push(PathCommand::Close);
+    }
+}
+
+/// The text as it will be seen: characters that the font lacks become `?`, any white space a
+/// space.
+pub fn printable(content: &str) -> String {
+    content.chars().map(|c| TYPEFACE.available(c)).collect()
+}
+
+/// Size of the em, mm, at which capitals are `cap_height_mm` high: what other programs call the
+/// font size.
+pub fn em_mm(cap_height_mm: f64) -> f64 {
+    cap_height_mm / TYPEFACE.cap_height
+}
+
+/// Length of a line of text, mm.
+pub fn width_mm(content: &str, cap_height_mm: f64) -> f64 {
+    content.chars().map(|c| TYPEFACE.glyph(c).advance).sum::<f64>() * em_mm(cap_height_mm)
+}
+
+/// How far a line of text reaches below its base line, mm.
+pub fn depth_mm(content: &str, cap_height_mm: f64) -> f64 {
+    if content.contains(|c: char| DESCENDING.contains(c)) { DESCENT * cap_height_mm } else { 0.0 }
+}
+
+/// The text, or as much of its beginning as fits in `max_width_mm`, with an ellipsis; empty where
+/// not even that fits.
+pub fn shortened(content: &str, cap_height_mm: f64, max_width_mm: f64) -> String {
+    if width_mm(content, cap_height_mm) <= max_width_mm {
+        return content.to_owned();
+    }
+    let ends = content.char_indices().map(|(at, _)| at).rev();
+    ends.map(|end| format!("{}…", content[..end].trim_end()))
+        .find(|short| width_mm(short, cap_height_mm) <= max_width_mm)
+        .unwrap_or_default()
+}
+
+/// Text in lines of at most a width; a longer word is shortened.
+pub fn wrapped(words: &str, cap_height_mm: f64, max_width_mm: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in words.split_whitespace() {
+        let word = shortened(word, cap_height_mm, max_width_mm);
+        match lines.last_mut() {
+            Some(line) if width_mm(&format!("{line} {word}"), cap_height_mm) <= max_width_mm => {
+                line.push(' ');
+                line.push_str(&word);
+            }
+            _ => lines.push(word),
+        }
+    }
+    lines
+}
+
+/// Outlines of the letters at their place on the page, to be filled by the non-zero rule.
+pub fn outlines(text: &Text) -> Vec<PathCommand> {
+    let em = em_mm(text.cap_height_mm);
+    let mut pen = text.start();
+    let along = DVec2::from_angle(text.angle_rad);
+    let mut out = Vec::new();
+    for c in text.content.chars() {
+        let glyph = TYPEFACE.glyph(c);
+        let map = DAffine2::from_scale_angle_translation(DVec2::splat(em), text.angle_rad, pen);
+        out.extend(glyph.outline.iter().map(|command| command.transformed(&map)));
+        pen += along * (glyph.advance * em);
+    }
+    out
+}
+
+/// The outlines as closed polylines, each curve in the given number of straight steps: for
+/// machines that know no curves.
+pub fn contours(text: &Text, steps: usize) -> Vec<Polyline> {
+    let mut out: Vec<Polyline> = Vec::new();
+    for command in outlines(text) {
+        match (command, out.last_mut()) {
+            (PathCommand::MoveTo(p), _) => out.push(Polyline::closed(vec![p])),
+            (PathCommand::Close, _) | (_, None) => {}
+            (curve, Some(contour)) => {
+                let mut points = curve.points();
+                points.insert(0, contour.points[contour.points.len() - 1]);
+                let count = if points.len() == 2 { 1 } else { steps.max(1) };
+                let at = |step: usize| on_curve(&points, step as f64 / count as f64);
+                contour.points.extend((1..=count).map(at));
+            }
+        }
+    }
+    for contour in &mut out {
+        let ends_at_start = contour.points.len() > 1 && contour.points.first() == contour.points.last();
+        if ends_at_start {
+            contour.points.pop();
+        }
+    }
+    out
+}
+
+/// The point at `t` of the Bézier curve with these control points (de Casteljau).
+fn on_curve(control: &[DVec2], t: f64) -> DVec2 {
+    let mut points = control.to_vec();
+    while points.len() > 1 {
+        points = points.windows(2).map(|pair| pair[0].lerp(pair[1], t)).collect();
+    }
+    points[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tatamu_core::geom::polygon;
+
+    fn bounds(text: &Text) -> (DVec2, DVec2) {
+        let points = outlines(text).iter().flat_map(PathCommand::points).collect::<Vec<_>>();
+        polygon::bounds(points).expect("letters have outlines")
+    }
+
+    #[test]
+    fn the_font_has_what_labels_and_titles_need() {
+        for c in (' '..='~').chain("äöüßéèñçåøÅčśžő°×–—µ·→←±²½…−".chars()) {
+            assert!(TYPEFACE.glyphs.contains_key(&c), "{c:?} is missing");
+        }
+        assert!(FONT_FILE.len() <= 60_000);
+    }
+
+    #[test]
+    fn capitals_are_as_high_as_asked() {
+        let (lo, hi) = bounds(&Text::new("H", DVec2::new(20.0, 30.0), 3.0));
+        assert!((lo.y - 30.0).abs() < 1e-9 && (hi.y - 33.0).abs() < 0.005, "{lo} {hi}");
+    }
+
+    #[test]
+    fn width_is_the_sum_of_advances() {
+        let one = width_mm("H", 3.0);
+        assert!((width_mm("HHHH", 3.0) - 4.0 * one).abs() < 1e-12);
+        assert!((width_mm("H", 6.0) - 2.0 * one).abs() < 1e-12);
+        let (lo, hi) = bounds(&Text::new("HHHH", DVec2::ZERO, 3.0));
+        assert!(lo.x > 0.0 && hi.x < 4.0 * one && hi.x > 3.5 * one);
+    }
+
+    #[test]
+    fn missing_characters_are_seen_as_question_marks() {
+        assert_eq!(printable("畳 head\t1\u{7}"), "? head 1?");
+        assert_eq!(width_mm("畳", 2.0), width_mm("?", 2.0));
+    }
+
+    #[test]
+    fn shortening_keeps_the_beginning() {
+        let full = width_mm("armadillo", 2.0);
+        assert_eq!(shortened("armadillo", 2.0, full), "armadillo");
+        let short = shortened("armadillo", 2.0, full * 0.7);
+        assert!(short.starts_with("arm") && short.ends_with('…'), "{short}");
+        assert!(width_mm(&short, 2.0) <= full * 0.7);
+        assert_eq!(shortened("armadillo", 2.0, 0.1), "");
+    }
+
+    #[test]
+    fn flattened_letters_keep_their_area() {
+        // An "o" is two rings; the ring between them is what is inked.
+        let text = Text::new("o", DVec2::ZERO, 10.0);
+        let area = |steps| {
+            let rings = contours(&text, steps);
+            assert_eq!(rings.len(), 2);
+            rings.iter().map(|ring| polygon::area(&ring.points)).sum::<f64>().abs()
+        };
+        let (coarse, fine) = (area(4), area(64));
+        assert!((coarse - fine).abs() < 0.02 * fine, "{coarse} {fine}");
+        assert_eq!(contours(&Text::new("l", DVec2::ZERO, 10.0), 4)[0].points.len(), 4);
+    }
+}

@@ -1,0 +1,173 @@
+//! File formats, one file each, registered in one list.
+//!
+//! A format's function turns a finished model, or no more than its pages, into the bytes of files.
+//! Nothing is computed for a format that is not asked for. Adding a format is one file and one line
+//! in [`FORMATS`]; one with choices of its own adds their type to [`FormatOptions`].
+
+mod apng;
+mod dxf;
+#[cfg(test)]
+mod fixture;
+pub mod fold;
+mod gif;
+pub mod glb;
+pub mod gltf;
+mod guide;
+mod json;
+mod obj;
+mod options;
+mod pdf;
+mod plt;
+pub mod png;
+mod prism;
+mod stl;
+mod svg;
+
+pub use dxf::{DxfOptions, DxfSheets, DxfVersion};
+pub use fold::{FoldOptions, PoseCount};
+pub use glb::GlbOptions;
+pub use guide::{GUIDES, GuideOptions};
+pub use options::{FormatOptions, TextMode};
+pub use pdf::{PdfOptions, Timestamp};
+pub use plt::PltOptions;
+pub use png::PngOptions;
+pub use svg::{SvgOptions, SvgStroke};
+
+use crate::product::Product;
+use tatamu_draw::drawing::{Pages, PagesError};
+
+/// All formats, in the order of help texts.
+pub const FORMATS: &[Format] = &[
+    pdf::FORMAT,
+    svg::FORMAT,
+    dxf::FORMAT,
+    png::FORMAT,
+    plt::FORMAT,
+    gif::FORMAT,
+    apng::FORMAT,
+    glb::FORMAT,
+    obj::FORMAT,
+    stl::FORMAT,
+    fold::FORMAT,
+    guide::HTML,
+    json::FORMAT,
+];
+
+/// What cannot be exported.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ExportError {
+    /// The sheets cannot be drawn.
+    #[error(transparent)]
+    Pages(#[from] PagesError),
+    /// A library could not write the file.
+    #[error("the {format} file could not be written: {message}")]
+    Writer {
+        /// Name of the format.
+        format: &'static str,
+        /// What the library said.
+        message: String,
+    },
+}
+
+impl ExportError {
+    /// What a library said when it was to write this format.
+    pub fn writer(format: &Format, message: impl ToString) -> Self {
+        Self::Writer { format: format.name, message: message.to_string() }
+    }
+}
+
+/// One file of an export.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ExportFile {
+    /// What stands between the stem and the extension of the name that the user gave: nothing, or
+    /// `-1` for page 1.
+    pub suffix: String,
+    /// Its content.
+    pub bytes: Vec<u8>,
+}
+
+impl ExportFile {
+    /// The only file of an export.
+    pub fn single(bytes: Vec<u8>) -> Self {
+        Self { suffix: String::new(), bytes }
+    }
+
+    /// The file of a part with a name, of which letters and digits stay.
+    pub fn named(name: &str, bytes: Vec<u8>) -> Self {
+        let slug: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+        Self { suffix: format!("-{slug}"), bytes }
+    }
+
+    /// The files of all pages, numbered where there are several.
+    pub fn of_pages(pages: Vec<Vec<u8>>) -> Vec<Self> {
+        let is_one = pages.len() == 1;
+        let suffix = |k: usize| if is_one { String::new() } else { format!("-{}", k + 1) };
+        pages.into_iter().enumerate().map(|(k, bytes)| Self { suffix: suffix(k), bytes }).collect()
+    }
+}
+
+/// What a format is made of, and the function that makes it.
+#[derive(Debug, Clone, Copy)]
+pub enum Source {
+    /// Drawings, each of which becomes a page or a file.
+    Pages(fn(&Pages, &FormatOptions) -> Result<Vec<ExportFile>, ExportError>),
+    /// The whole model.
+    Model(fn(&Product<'_>, &FormatOptions) -> Result<Vec<ExportFile>, ExportError>),
+}
+
+/// One file format.
+#[derive(Debug, Clone, Copy)]
+pub struct Format {
+    /// Short name in small letters.
+    pub name: &'static str,
+    /// Extensions in small letters, without the dot; the first is the usual one.
+    pub extensions: &'static [&'static str],
+    /// One line for help texts.
+    pub description: &'static str,
+    /// How its files are made.
+    pub source: Source,
+}
+
+impl Format {
+    /// The files of a model in this format.
+    ///
+    /// # Errors
+    /// See [`ExportError`].
+    pub fn write(
+        &self,
+        product: &Product<'_>,
+        options: &FormatOptions,
+    ) -> Result<Vec<ExportFile>, ExportError> {
+        match self.source {
+            Source::Pages(write) => write(product.pages()?, options),
+            Source::Model(write) => write(product, options),
+        }
+    }
+}
+
+/// The format for a file name's extension (without the dot, in any case).
+pub fn format_of(extension: &str) -> Option<&'static Format> {
+    format_among(FORMATS, extension)
+}
+
+/// The same among some formats.
+pub fn format_among<'a>(formats: &'a [Format], extension: &str) -> Option<&'a Format> {
+    let extension = extension.to_ascii_lowercase();
+    formats.iter().find(|format| format.extensions.contains(&extension.as_str()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn extensions_lead_to_one_format_each() {
+        let all = FORMATS.iter().flat_map(|f| f.extensions).collect::<Vec<_>>();
+        assert_eq!(all.iter().collect::<BTreeSet<_>>().len(), all.len());
+        assert_eq!(format_of("PDF").map(|f| f.name), Some("pdf"));
+        assert_eq!(format_of("svg").map(|f| f.name), Some("svg"));
+        assert!(format_of("doc").is_none());
+        assert!(format_of("").is_none());
+    }
+}

@@ -1,0 +1,491 @@
+//! What the guide says and shows, for all formats alike.
+
+use super::estimate::Estimate;
+use super::joined::Joined;
+use super::language::{Language, Words, fill};
+use super::order::Access;
+use super::picture::{self, PictureError};
+use super::steps::{Action, Step, steps};
+use crate::product;
+use crate::show::{ShowError, clash_picture};
+use glam::DVec2;
+use rayon::prelude::*;
+use tatamu_core::fold::{Encounter, ModelMotion, Moment};
+use tatamu_draw::drawing::{Align, Drawing, Layer, LineStyles, Mark, PagesError, Stroke, Text};
+use tatamu_draw::render::palette;
+use tatamu_net::net::Side;
+use tatamu_pipeline::Output;
+
+/// Frames of the folding, from deployed to flat.
+const FRAMES: usize = 25;
+/// Size of cut-outs in the list of parts, and of samples of lines, mm.
+const THUMBNAIL_MM: DVec2 = DVec2::new(34.0, 26.0);
+const SAMPLE_MM: DVec2 = DVec2::new(20.0, 7.0);
+/// Hairlines are hard to see on a screen: samples are at least this wide.
+const SAMPLE_LINE_MM: f64 = 0.4;
+/// Height of maps of sheets, mm.
+const MAP_MM: f64 = 22.0;
+
+/// Why there is no guide.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum GuideError {
+    /// A picture cannot be drawn.
+    #[error("a picture of the guide cannot be drawn: {0}")]
+    Picture(#[from] PictureError),
+    /// The picture of a clash cannot be drawn.
+    #[error("a picture of the guide cannot be drawn: {0}")]
+    Clash(#[from] ShowError),
+    /// The pages cannot be printed.
+    #[error(transparent)]
+    Pages(#[from] PagesError),
+}
+
+/// A step as it is shown.
+#[derive(Debug, Clone)]
+pub struct Entry {
+    /// What is done.
+    pub step: Step,
+    /// A few words.
+    pub title: String,
+    /// Short sentences.
+    pub sentences: Vec<String>,
+    /// One picture or two.
+    pub pictures: Vec<Drawing>,
+}
+
+/// Steps under one title.
+#[derive(Debug, Clone)]
+pub struct Chapter {
+    /// The title.
+    pub title: String,
+    /// The steps, as indices of entries.
+    pub entries: std::ops::Range<usize>,
+}
+
+/// A component in the list of parts.
+#[derive(Debug, Clone)]
+pub struct PartRow {
+    /// Its name.
+    pub name: String,
+    /// Its cut-out.
+    pub picture: Drawing,
+    /// Number of pieces.
+    pub pieces: usize,
+    /// The sheets with its pieces, in words.
+    pub sheets: String,
+    /// Maps of those sheets.
+    pub maps: Vec<Drawing>,
+    /// What the maps show, in words.
+    pub map_text: String,
+}
+
+/// A kind of line with its meaning.
+#[derive(Debug, Clone)]
+pub struct Line {
+    /// A piece of it.
+    pub sample: Drawing,
+    /// What it means.
+    pub meaning: String,
+}
+
+/// The whole guide.
+#[derive(Debug, Clone)]
+pub struct Guide {
+    /// The model's title.
+    pub title: String,
+    /// The language's texts.
+    pub words: Words,
+    /// Paragraphs of the first page, each with a title.
+    pub facts: Vec<(String, Vec<String>)>,
+    /// Where parts are in each other: what to do, and a picture.
+    pub clashes: Vec<(String, Drawing)>,
+    /// Kinds of lines.
+    pub lines: Vec<Line>,
+    /// Components.
+    pub parts: Vec<PartRow>,
+    /// Chapters.
+    pub chapters: Vec<Chapter>,
+    /// Steps.
+    pub entries: Vec<Entry>,
+    /// The folding, from deployed to flat, all in one view.
+    pub frames: Vec<Drawing>,
+}
+
+impl Guide {
+    /// The guide of a model.
+    ///
+    /// # Errors
+    /// [`GuideError`]; no model is known that brings one about.
+    pub fn new(
+        output: &Output,
+        title: &str,
+        styles: &LineStyles,
+        language: Language,
+    ) -> Result<Self, GuideError> {
+        let words = language.words();
+        let writer = Writer { output, words: &words, styles };
+        let steps = steps(output);
+        let entries: Vec<Result<Entry, PictureError>> =
+            (0..steps.len()).into_par_iter().map(|k| writer.entry(&steps, k)).collect();
+        let entries = entries.into_iter().collect::<Result<Vec<_>, _>>()?;
+        Ok(Self {
+            title: title.to_owned(),
+            facts: writer.facts(),
+            clashes: writer.clashes()?,
+            lines: writer.lines(),
+            parts: (0..output.nets().len()).map(|part| writer.part_row(part)).collect(),
+            chapters: writer.chapters(&steps),
+            frames: picture::frames(output, FRAMES)?,
+            entries,
+            words,
+        })
+    }
+}
+
+/// With a capital at its beginning: A4, Letter.
+fn capital(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+struct Writer<'a> {
+    output: &'a Output,
+    words: &'a Words,
+    styles: &'a LineStyles,
+}
+
+impl Writer<'_> {
+    fn name(&self, part: usize) -> &str {
+        &self.output.model().parts()[part].name
+    }
+
+    fn side(&self) -> Side {
+        self.output.layout().options().choices.side
+    }
+
+    fn entry(&self, steps: &[Step], k: usize) -> Result<Entry, PictureError> {
+        let step = steps[k].clone();
+        let (title, sentences) = self.text(steps, k);
+        let pictures = self.pictures(steps, k)?;
+        Ok(Entry { step, title, sentences, pictures })
+    }
+
+    fn pictures(&self, steps: &[Step], k: usize) -> Result<Vec<Drawing>, PictureError> {
+        let (output, part) = (self.output, steps[k].part);
+        let net = &output.nets()[part];
+        let colour = palette::colour(part);
+        let done = &steps[..k];
+        let with = |action: &dyn Fn(&Action) -> bool| -> Vec<bool> {
+            let mut is_done = vec![false; output.nets().len()];
+            done.iter().filter(|step| action(&step.action)).for_each(|step| is_done[step.part] = true);
+            is_done
+        };
+        Ok(match &steps[k].action {
+            Action::Fold => vec![
+                picture::net(net, colour, self.side(), self.styles, picture::SIZE_MM),
+                picture::folded(net, colour)?,
+            ],
+            Action::Glue { hinge, label, .. } => {
+                let own = done.iter().filter(|step| step.part == part);
+                let before = own.fold(Joined::cut_out(net), |joined, step| match step.action {
+                    Action::Glue { hinge, .. } => joined.with(hinge),
+                    _ => joined,
+                });
+                vec![picture::glued(net, &before, *hinge, label, colour)?]
+            }
+            Action::Join { .. } => {
+                let mut is_there = with(&|action| matches!(action, Action::Join { .. }));
+                let parts = output.model().parts();
+                (0..parts.len()).filter(|&p| parts[p].joint.is_none()).for_each(|p| is_there[p] = true);
+                let joint = parts[part].joint.iter();
+                let joined = joint.map(|joint| picture::joined(output, part, joint, &is_there));
+                joined.collect::<Result<_, _>>()?
+            }
+            Action::Bend { .. } | Action::Flatten => {
+                vec![picture::flattening(output, part, &self.moment(done), steps[k].action.folded())?]
+            }
+            Action::Unplug { .. } => vec![picture::pulling(output, part, &self.moment(done), true)?],
+            Action::PlugIn { .. } => vec![picture::pulling(output, part, &self.moment(done), false)?],
+            Action::Deploy => {
+                let bends = |step: &&Step| step.part == part && matches!(step.action, Action::Bend { .. });
+                let to = done.iter().rev().find(bends).map_or(0.0, |step| step.action.folded());
+                vec![picture::deploying(output, part, to)?]
+            }
+        })
+    }
+
+    /// Where all components are after some steps.
+    fn moment(&self, done: &[Step]) -> Moment {
+        let mut moment = Moment::joined(vec![0.0; self.output.nets().len()]);
+        for Step { part, action } in done.iter().filter(|step| step.action.folds_model()) {
+            let pull = self.output.fold_plan().pulls().iter().find(|pull| pull.part == *part);
+            match action {
+                Action::Unplug { .. } => moment.pulled_mm[*part] = pull.map_or(0.0, |pull| pull.way_mm),
+                Action::PlugIn { .. } => moment.pulled_mm[*part] = 0.0,
+                _ => moment.folded[*part] = action.folded(),
+            }
+        }
+        moment
+    }
+
+    /// Title and sentences of a step.
+    fn text(&self, steps: &[Step], k: usize) -> (String, Vec<String>) {
+        let (words, step) = (self.words, &steps[k]);
+        let part = self.name(step.part);
+        let is_complete = !matches!(steps.get(k + 1), Some(Step { action: Action::Glue { .. }, .. }));
+        match &step.action {
+            Action::Fold => {
+                let pieces = self.output.nets()[step.part].pieces().len();
+                let first = if pieces == 1 { &words.fold.one } else { &words.fold.many };
+                let mut sentences = vec![
+                    fill(first, &[("part", part), ("pieces", &pieces.to_string())]),
+                    words.fold.fold.clone(),
+                ];
+                sentences.extend(is_complete.then(|| words.fold.none.clone()));
+                (fill(&words.fold.title, &[("part", part)]), sentences)
+            }
+            Action::Glue { hinge, label, has_tab, access } => {
+                let is_outside = self.output.nets()[step.part].panels().hinges()[hinge.0].lift_mm > 0.0;
+                let mut glued = match has_tab {
+                    true => self.glued(label, *access),
+                    false => self.taped(label, is_outside),
+                };
+                if is_complete {
+                    glued.1.push(fill(&words.glue.slits, &[("part", part)]));
+                }
+                glued
+            }
+            Action::Join { parent } => {
+                let values = [("part", part), ("parent", self.name(*parent))];
+                let (title, texts) = match self.output.model().parts()[step.part].is_plugged() {
+                    false => (&words.join.title, [&words.join.find, &words.join.glue, &words.join.place]),
+                    true => (&words.plug.title, [&words.plug.tab, &words.plug.push, &words.plug.place]),
+                };
+                (fill(title, &values), texts.map(|text| fill(text, &values)).to_vec())
+            }
+            Action::Unplug { parent } => {
+                let values = [("part", part), ("parent", self.name(*parent))];
+                let mut sentences = vec![fill(&words.plug.pull, &values), words.plug.aside.clone()];
+                if k == 0 || !steps[k - 1].action.folds_model() {
+                    sentences.insert(0, words.flatten.wait.clone());
+                }
+                (fill(&words.plug.pull_title, &values), sentences)
+            }
+            Action::PlugIn { parent } => {
+                let values = [("part", part), ("parent", self.name(*parent))];
+                let mut sentences = vec![fill(&words.plug.back, &values)];
+                let is_last = steps.get(k + 1).is_none_or(|next| !next.action.folds_model());
+                sentences.extend(is_last.then(|| words.flatten.last.clone()));
+                (fill(&words.plug.back_title, &values), sentences)
+            }
+            Action::Bend { percent } => {
+                let (words, share) = (&words.flatten, self.share(*percent));
+                let values = [("part", part), ("share", share.as_str())];
+                let mut sentences = vec![fill(&words.bend, &values), words.rest.clone()];
+                if k == 0 || !steps[k - 1].action.folds_model() {
+                    sentences.insert(0, words.wait.clone());
+                }
+                (fill(&words.bend_title, &values), sentences)
+            }
+            Action::Flatten => {
+                let is_first = k == 0 || !steps[k - 1].action.folds_model();
+                let text = if is_first { &words.flatten.first } else { &words.flatten.next };
+                let mut sentences = vec![fill(text, &[("part", part)])];
+                if is_first {
+                    sentences.insert(0, words.flatten.wait.clone());
+                }
+                let is_last = steps.get(k + 1).is_none_or(|next| !next.action.folds_model());
+                sentences.extend(is_last.then(|| words.flatten.last.clone()));
+                (fill(&words.flatten.title, &[("part", part)]), sentences)
+            }
+            Action::Deploy => {
+                let pulled = |step: &tatamu_core::fold::Step| match (100.0 * step.from).round() as u8 {
+                    0 => self.name(step.part).to_owned(),
+                    percent => {
+                        let share = self.share(percent);
+                        fill(&words.deploy.until, &[("part", self.name(step.part)), ("share", &share)])
+                    }
+                };
+                let parts: Vec<String> = self.output.fold_plan().steps().iter().rev().map(pulled).collect();
+                let order = fill(&words.deploy.order, &[("parts", &parts.join(", "))]);
+                let pulls = self.output.fold_plan().pulls();
+                let plugged: Vec<&str> = pulls.iter().map(|pull| self.name(pull.part)).collect();
+                let plugged = fill(&words.plug.deploy, &[("parts", &plugged.join(", "))]);
+                let first = (!pulls.is_empty()).then_some(plugged);
+                (words.deploy.title.clone(), first.into_iter().chain([order]).collect())
+            }
+        }
+    }
+
+    /// A share of the way to flat in words.
+    fn share(&self, percent: u8) -> String {
+        let words = &self.words.flatten;
+        match percent {
+            25 => words.quarter.clone(),
+            50 => words.half.clone(),
+            75 => words.three_quarters.clone(),
+            _ => fill(&words.percent, &[("percent", &percent.to_string())]),
+        }
+    }
+
+    fn taped(&self, label: &str, is_outside: bool) -> (String, Vec<String>) {
+        let words = &self.words.glue;
+        let say = |text: &str| fill(text, &[("label", label)]);
+        let side = if is_outside { &words.tape_outside } else { &words.tape_behind };
+        (say(&words.tape_title), vec![say(&words.tape), say(side)])
+    }
+
+    fn glued(&self, label: &str, access: Access) -> (String, Vec<String>) {
+        let words = &self.words.glue;
+        let say = |text: &str| fill(text, &[("label", label)]);
+        let press = match access {
+            Access::Free => &words.free,
+            Access::Finger => &words.finger,
+            Access::Stick => &words.stick,
+            Access::FoldFlat => &words.fold_flat,
+        };
+        (say(&words.title), [&words.tab, &words.behind, press].map(|text| say(text)).to_vec())
+    }
+
+    fn chapters(&self, steps: &[Step]) -> Vec<Chapter> {
+        let words = &self.words.chapter;
+        let title = |step: &Step| match step.action {
+            Action::Fold | Action::Glue { .. } => fill(&words.part, &[("part", self.name(step.part))]),
+            Action::Join { .. } => words.join.clone(),
+            _ => words.flatten.clone(),
+        };
+        let mut chapters: Vec<Chapter> = Vec::new();
+        for (k, step) in steps.iter().enumerate() {
+            let title = title(step);
+            match chapters.last_mut() {
+                Some(chapter) if chapter.title == title => chapter.entries.end = k + 1,
+                _ => chapters.push(Chapter { title, entries: k..k + 1 }),
+            }
+        }
+        chapters
+    }
+
+    fn facts(&self) -> Vec<(String, Vec<String>)> {
+        let (words, output) = (&self.words.cover, self.output);
+        let estimate = Estimate::new(output);
+        let metres = |m: f64| format!("{m:.1}");
+        let mut sizes = vec![fill(&words.size, &[("size", &product::size_note(output))])];
+        sizes.extend(output.fold_plan().stacks().iter().map(|stack| {
+            let [width, height] = stack.size_mm.to_array().map(|mm| format!("{mm:.0}"));
+            let thickness = format!("{:.0}", stack.height_mm.ceil());
+            fill(&words.flat_size, &[("width", &width), ("height", &height), ("thickness", &thickness)])
+        }));
+        let sheets = output.layout().sheet_count();
+        let paper = if sheets == 1 { &words.paper_one } else { &words.paper_many };
+        let values = [
+            ("sheets", sheets.to_string()),
+            ("paper", capital(&output.layout().options().paper.name())),
+            ("weight", format!("{:.0}", estimate.weight)),
+            ("thickness", output.options().thickness_mm.to_string()),
+            ("cut", metres(estimate.cut_m)),
+            ("crease", metres(estimate.crease_m)),
+            ("glue", metres(estimate.glue_m)),
+            ("pieces", estimate.pieces.to_string()),
+            ("labels", estimate.labels.to_string()),
+            ("joints", estimate.joints.to_string()),
+            ("glued", estimate.glued_joints.to_string()),
+            ("time", estimate.time()),
+        ];
+        let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
+        let say = |text: &str| fill(text, &values);
+        vec![
+            (words.size_title.clone(), sizes),
+            (words.paper_title.clone(), vec![say(paper), words.measure.clone()]),
+            (words.tools_title.clone(), vec![words.tools.clone(), say(&words.glue)]),
+            (words.time_title.clone(), vec![say(&words.time), say(&words.time_formula)]),
+        ]
+    }
+
+    /// The places where components or chains are in each other.
+    fn clashes(&self) -> Result<Vec<(String, Drawing)>, ShowError> {
+        let motion = ModelMotion::new(self.output.model());
+        let drawn = |encounter: &Encounter| {
+            let drawing = clash_picture(&motion, encounter, None, picture::SIZE_MM)?;
+            Ok((self.clash(encounter), drawing))
+        };
+        self.output.fold_plan().encounters(&motion).par_iter().map(drawn).collect()
+    }
+
+    fn clash(&self, encounter: &Encounter) -> String {
+        let [a, b] = encounter.parts.map(|part| self.name(part));
+        let depth = format!("{:.1}", encounter.depth_mm);
+        let words = &self.words.clash;
+        let Some(mover) = encounter.mover else {
+            return fill(&words.unfolded, &[("part", a), ("other", b), ("depth", &depth)]);
+        };
+        let share = match (4.0 * encounter.folded[mover]).round() as u8 * 25 {
+            0 => words.little.clone(),
+            100 => words.almost.clone(),
+            percent => self.share(percent),
+        };
+        let text = if a == b { &words.own } else { &words.folding };
+        let mover = self.name(mover);
+        let values = [("part", a), ("other", b), ("depth", &depth), ("mover", mover), ("share", &share)];
+        fill(text, &values)
+    }
+
+    fn part_row(&self, part: usize) -> PartRow {
+        let net = &self.output.nets()[part];
+        let colour = palette::colour(part);
+        let indices = picture::sheets_of(self.output, part);
+        let numbers: Vec<String> = indices.iter().map(|sheet| (sheet + 1).to_string()).collect();
+        let words = &self.words.page;
+        let sheets = if numbers.len() == 1 { &words.sheet } else { &words.sheets };
+        let sheets = fill(sheets, &[("sheets", &numbers.join(", "))]);
+        PartRow {
+            name: self.name(part).to_owned(),
+            picture: picture::net(net, colour, self.side(), self.styles, THUMBNAIL_MM),
+            pieces: net.pieces().len(),
+            map_text: fill(&words.map, &[("part", self.name(part)), ("sheets", &sheets)]),
+            maps: indices.iter().map(|&sheet| picture::sheet_map(self.output, sheet, part, MAP_MM)).collect(),
+            sheets,
+        }
+    }
+
+    /// Kinds of lines with their meanings.
+    fn lines(&self) -> Vec<Line> {
+        let words = &self.words.lines;
+        let mut folds = vec![(Layer::Mountain, &words.mountain), (Layer::Valley, &words.valley)];
+        if self.side() == Side::Inside {
+            folds.reverse();
+        }
+        folds.truncate(if self.output.model().has_valleys() { 2 } else { 1 });
+        let plain = |layer: Layer| {
+            let stroke = self.styles.stroke(layer);
+            Stroke { width_mm: stroke.width_mm.max(SAMPLE_LINE_MM), ..stroke.clone() }
+        };
+        let line = |layer: Layer| {
+            let [from, to] = [1.0, SAMPLE_MM.x - 1.0].map(|x| DVec2::new(x, SAMPLE_MM.y / 2.0));
+            Mark::line(Layer::Picture, from, to, &plain(layer))
+        };
+        let middle = SAMPLE_MM / 2.0;
+        let key = [DVec2::new(0.0, 2.0), DVec2::new(-2.0, -2.0), DVec2::new(2.0, -2.0)];
+        let key = key.map(|corner| middle + corner).to_vec();
+        let key = Mark::polygon(Layer::Picture, key, &plain(Layer::Glue));
+        let label = Text::new("A1", middle - DVec2::Y * 1.5, 3.0).aligned(Align::Middle);
+        let label = Mark::text(Layer::Picture, label.coloured(self.styles.colour(Layer::Label)));
+        let folds = folds.into_iter().map(|(layer, word)| (line(layer), word));
+        let first = [(line(Layer::Cut), &words.cut), (line(Layer::Slit), &words.slit)];
+        let last = [
+            (line(Layer::FoldHinge), &words.fold_hinge),
+            (line(Layer::Glue), &words.glue),
+            (label, &words.label),
+            (key, &words.key),
+        ];
+        first
+            .into_iter()
+            .chain(folds)
+            .chain(last)
+            .map(|(mark, meaning)| {
+                let mut sample = Drawing::new("", SAMPLE_MM);
+                sample.marks.push(mark);
+                Line { sample, meaning: meaning.clone() }
+            })
+            .collect()
+    }
+}

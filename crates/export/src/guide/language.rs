@@ -1,0 +1,303 @@
+//! Texts of the guide, one file a language.
+
+use serde::Deserialize;
+
+/// A language of the guide.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Language {
+    /// English.
+    #[default]
+    English,
+    /// German.
+    German,
+}
+
+impl Language {
+    /// All languages.
+    pub const ALL: [Self; 2] = [Self::English, Self::German];
+
+    /// The file of its texts.
+    fn file(self) -> &'static str {
+        match self {
+            Self::English => include_str!("language/en.toml"),
+            Self::German => include_str!("language/de.toml"),
+        }
+    }
+
+    /// Its code in web pages, and on the command line (ISO 639-1).
+    pub fn code(self) -> &'static str {
+        match self {
+            Self::English => "en",
+            Self::German => "de",
+        }
+    }
+
+    /// Its texts.
+    pub fn words(self) -> Words {
+        toml::from_str(self.file()).expect("the language files are complete, which a test checks")
+    }
+}
+
+impl std::str::FromStr for Language {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let known = || Self::ALL.map(Self::code).join(", ");
+        let found = Self::ALL.into_iter().find(|language| language.code().eq_ignore_ascii_case(text.trim()));
+        found.ok_or_else(|| format!("languages of the guide are: {}", known()))
+    }
+}
+
+/// A text with places to fill in: each name in braces becomes its value.
+pub fn fill(text: &str, values: &[(&str, &str)]) -> String {
+    let mut out = String::new();
+    let mut rest = text;
+    // One pass, so that a value with braces in it stays as it is.
+    while let Some(start) = rest.find('{') {
+        out.push_str(&rest[..start]);
+        rest = &rest[start..];
+        let found = values
+            .iter()
+            .find(|(name, _)| rest[1..].strip_prefix(name).is_some_and(|after| after.starts_with('}')));
+        let length = found.map_or(1, |(name, _)| name.len() + 2);
+        out.push_str(found.map_or("{", |(_, value)| value));
+        rest = &rest[length..];
+    }
+    out + rest
+}
+
+/// All texts of a language, by the part of the guide that they are in.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Words {
+    /// The language's code.
+    pub code: String,
+    /// On every page.
+    pub page: PageWords,
+    /// The first page.
+    pub cover: CoverWords,
+    /// Where parts are in each other.
+    pub clash: ClashWords,
+    /// What lines mean.
+    pub lines: LinesWords,
+    /// Titles of chapters.
+    pub chapter: ChapterWords,
+    /// Scoring and folding.
+    pub fold: FoldWords,
+    /// Gluing tabs.
+    pub glue: GlueWords,
+    /// Gluing components together.
+    pub join: JoinWords,
+    /// Joints that can be unplugged.
+    pub plug: PlugWords,
+    /// Folding the model flat.
+    pub flatten: FlattenWords,
+    /// Deploying it again.
+    pub deploy: DeployWords,
+}
+
+/// On every page. The fields are named in the language files.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PageWords {
+    pub heading: String,
+    pub contents: String,
+    pub skip: String,
+    pub step: String,
+    pub previous: String,
+    pub next: String,
+    pub done: String,
+    pub done_count: String,
+    pub hint: String,
+    pub sheet: String,
+    pub sheets: String,
+    pub map: String,
+    pub page: String,
+}
+
+/// The first page. The fields are named in the language files.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CoverWords {
+    pub deployed: String,
+    pub flat: String,
+    pub size_title: String,
+    pub size: String,
+    pub flat_size: String,
+    pub paper_title: String,
+    pub paper_one: String,
+    pub paper_many: String,
+    pub measure: String,
+    pub tools_title: String,
+    pub tools: String,
+    pub glue: String,
+    pub time_title: String,
+    pub time: String,
+    pub time_formula: String,
+    pub parts_title: String,
+    pub pieces: String,
+}
+
+/// Where parts are in each other. The fields are named in the language files.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ClashWords {
+    pub title: String,
+    pub unfolded: String,
+    pub folding: String,
+    pub own: String,
+    pub little: String,
+    pub almost: String,
+}
+
+/// What lines mean. The fields are named in the language files.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LinesWords {
+    pub title: String,
+    pub cut: String,
+    pub slit: String,
+    pub mountain: String,
+    pub valley: String,
+    pub fold_hinge: String,
+    pub glue: String,
+    pub label: String,
+    pub key: String,
+}
+
+/// Titles of chapters. The fields are named in the language files.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ChapterWords {
+    pub part: String,
+    pub join: String,
+    pub flatten: String,
+}
+
+/// Scoring and folding. The fields are named in the language files.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FoldWords {
+    pub title: String,
+    pub one: String,
+    pub many: String,
+    pub fold: String,
+    pub none: String,
+}
+
+/// Gluing tabs. The fields are named in the language files.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GlueWords {
+    pub title: String,
+    pub tab: String,
+    pub behind: String,
+    pub free: String,
+    pub finger: String,
+    pub stick: String,
+    pub fold_flat: String,
+    pub tape_title: String,
+    pub tape: String,
+    pub tape_behind: String,
+    pub tape_outside: String,
+    pub slits: String,
+}
+
+/// Gluing components together. The fields are named in the language files.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JoinWords {
+    pub title: String,
+    pub find: String,
+    pub glue: String,
+    pub place: String,
+}
+
+/// Joints that can be unplugged. The fields are named in the language files.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlugWords {
+    pub title: String,
+    pub tab: String,
+    pub push: String,
+    pub place: String,
+    pub pull_title: String,
+    pub pull: String,
+    pub aside: String,
+    pub back_title: String,
+    pub back: String,
+    pub deploy: String,
+}
+
+/// Folding the model flat. The fields are named in the language files.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FlattenWords {
+    pub title: String,
+    pub wait: String,
+    pub first: String,
+    pub next: String,
+    pub last: String,
+    pub bend_title: String,
+    pub bend: String,
+    pub rest: String,
+    pub quarter: String,
+    pub half: String,
+    pub three_quarters: String,
+    pub percent: String,
+}
+
+/// Deploying it again. The fields are named in the language files.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DeployWords {
+    pub title: String,
+    pub order: String,
+    pub until: String,
+    pub slider: String,
+    pub slider_text: String,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn languages_are_complete_and_fill_in_the_same_values() {
+        let texts = |language: Language| -> Vec<(String, String)> {
+            let table: toml::Table = toml::from_str(language.file()).unwrap();
+            let sections =
+                table.into_iter().filter_map(|(name, value)| Some((name, value.as_table()?.clone())));
+            sections
+                .flat_map(|(section, table)| {
+                    table.into_iter().map(move |(key, value)| {
+                        (format!("{section}.{key}"), value.as_str().unwrap().to_owned())
+                    })
+                })
+                .collect()
+        };
+        let places = |text: &str| -> BTreeSet<String> {
+            text.split('{').skip(1).filter_map(|rest| Some(rest.split_once('}')?.0.to_owned())).collect()
+        };
+        let english = texts(Language::English);
+        assert!(english.len() > 50);
+        for language in Language::ALL {
+            assert_eq!(language.words().code, language.code());
+            assert_eq!(language.code().parse(), Ok(language));
+            for ((key, text), (other_key, other)) in english.iter().zip(texts(language)) {
+                assert_eq!(*key, other_key);
+                assert_eq!(places(text), places(&other), "{key}");
+                assert!(!other.trim().is_empty());
+                assert_eq!(tatamu_draw::drawing::text::printable(&other), other, "the font has all letters");
+            }
+        }
+        assert!("fr".parse::<Language>().is_err());
+    }
+
+    #[test]
+    fn values_with_braces_stay_as_they_are() {
+        assert_eq!(fill("{a} and {b}, {c}", &[("a", "{b}"), ("b", "2")]), "{b} and 2, {c}");
+        assert_eq!(fill("no {", &[("a", "1")]), "no {");
+    }
+}

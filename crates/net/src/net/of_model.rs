@@ -1,0 +1,151 @@
+//! Nets of all components of a model, with the marks of its joints.
+
+use super::plugs::PlugLines;
+use super::{BlankNet, JointMark, Naming, NetError, NetOptions, alternatives};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use std::sync::Arc;
+use tatamu_core::component::{PanelId, PanelSet};
+use tatamu_core::geom::polygon;
+use tatamu_core::memory::Memory;
+use tatamu_core::model::Model;
+use tatamu_core::progress::{Cancelled, Progress};
+
+/// Why a model has no nets.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NetsError {
+    /// One component has none.
+    #[error(transparent)]
+    Net(#[from] NetError),
+    /// The user stopped the work.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// So many nets are kept: a few turns of a few dozen components.
+const MOST_KNOWN: usize = 200;
+
+/// Nets that were made before, so that a change to one component leaves those of others as they
+/// are.
+#[derive(Debug)]
+pub struct KnownNets(Memory<Wish, Vec<Arc<BlankNet>>>);
+
+/// Everything that a net depends on.
+#[derive(Debug, PartialEq)]
+struct Wish {
+    name: String,
+    prefix: String,
+    options: NetOptions,
+    marks: Vec<JointMark>,
+    panels: PanelSet,
+}
+
+impl Default for KnownNets {
+    fn default() -> Self {
+        Self(Memory::new(MOST_KNOWN))
+    }
+}
+
+impl KnownNets {
+    fn nets(&self, model: &Model, p: usize, options: &NetOptions) -> Result<Vec<Arc<BlankNet>>, NetError> {
+        let part = &model.parts()[p];
+        let (prefix, marks) = (prefix(p), joint_marks(model, p));
+        let wish = Wish {
+            name: part.name.clone(),
+            prefix: prefix.clone(),
+            options: options.clone(),
+            marks: marks.clone(),
+            panels: part.component.panels().clone(),
+        };
+        let naming = Naming { name: &part.name, prefix: &prefix };
+        self.0.get_or(wish, || {
+            let nets = alternatives(part.component.panels(), naming, &marks, options)?;
+            Ok(nets.into_iter().map(Arc::new).collect())
+        })
+    }
+}
+
+/// The net of every component with its alternatives ([`alternatives`]), in the model's order; taken
+/// from `known` where it was made before of the same.
+///
+/// # Errors
+/// The first component's error; of panels that are too large, the one that is the most so.
+pub fn develop_model(
+    model: &Model,
+    options: &NetOptions,
+    known: &KnownNets,
+    progress: &dyn Progress,
+) -> Result<Vec<Vec<Arc<BlankNet>>>, NetsError> {
+    let nets: Vec<Result<Vec<Arc<BlankNet>>, NetsError>> = (0..model.parts().len())
+        .into_par_iter()
+        .map(|p| {
+            progress.check()?;
+            Ok(known.nets(model, p, options)?)
+        })
+        .collect();
+    let scale = |net: &Result<Vec<Arc<BlankNet>>, NetsError>| match net {
+        Err(NetsError::Net(NetError::PanelTooLarge { scale, .. })) => *scale,
+        _ => f64::INFINITY,
+    };
+    match nets.iter().enumerate().min_by(|a, b| scale(a.1).total_cmp(&scale(b.1)).then(a.0.cmp(&b.0))) {
+        Some((worst, Err(_))) => nets.into_iter().nth(worst).into_iter().collect(),
+        _ => nets.into_iter().collect(),
+    }
+}
+
+/// Letters that begin the labels of component `p`: A … Z, AA, AB …
+fn prefix(p: usize) -> String {
+    let letter = char::from(b'A' + (p % 26) as u8);
+    if p < 26 { letter.to_string() } else { format!("{}{letter}", prefix(p / 26 - 1)) }
+}
+
+/// Marks on the panels of part `p`: what lies on them, and what they lie on.
+fn joint_marks(model: &Model, p: usize) -> Vec<JointMark> {
+    let parts = model.parts();
+    let mut marks = Vec::new();
+    for (child, part) in parts.iter().enumerate() {
+        let Some(joint) = &part.joint else { continue };
+        let below = (joint.parent, joint.parent_panel);
+        let above = (child, joint.child_panel);
+        let (own, partner) = match p {
+            _ if p == child => (above, below),
+            _ if p == joint.parent => (below, above),
+            _ => continue,
+        };
+        marks.push(JointMark {
+            panel: own.1,
+            outline: model.outline_on(partner, own),
+            key: on_panel(model, own, key_point(model, above)),
+            text: parts[partner.0].name.clone(),
+            plug: PlugLines::of(joint, p == child),
+        });
+    }
+    marks
+}
+
+/// A point of a joint that is the same for both partners: the corner of the child's panel that is
+/// farthest from its middle.
+fn key_point(model: &Model, (part, panel): (usize, PanelId)) -> DVec3 {
+    let outline = model.deployed_outline(part, panel);
+    let flat = &model.parts()[part].component.panels().panel(panel).outline;
+    let middle = polygon::centroid(flat);
+    let far = |k: &usize| flat[*k].distance_squared(middle);
+    let corner = (0..flat.len()).max_by(|a, b| far(a).total_cmp(&far(b)).then(b.cmp(a)));
+    corner.map_or(DVec3::ZERO, |k| outline[k])
+}
+
+fn on_panel(model: &Model, (part, panel): (usize, PanelId), point: DVec3) -> DVec2 {
+    let part = &model.parts()[part];
+    let motion = part.deployed() * part.component.panels().panel(panel).deployed;
+    motion.inverse().transform_point3(point).truncate()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prefixes_go_on_after_z() {
+        assert_eq!([0, 25, 26, 27, 52].map(prefix), ["A", "Z", "AA", "AB", "BA"]);
+    }
+}

@@ -1,0 +1,19 @@
+//! Pieces placed on sheets of paper, with page furniture.
+
+mod calibration;
+pub mod fit;
+pub mod furniture;
+mod layout;
+pub mod nest;
+mod options;
+mod pages;
+mod pin;
+mod place;
+mod registration;
+
+pub use calibration::{Calibration, CalibrationError};
+pub use layout::{Layout, LayoutError};
+pub use options::{SheetChoices, SheetOptions};
+pub use pin::{Pin, Unheeded};
+pub use place::PiecePlace;
+pub use registration::Registration;

@@ -1,0 +1,67 @@
+//! Places of pieces that the user chose.
+
+use super::nest::Placement;
+use super::place::PiecePlace;
+use crate::net::Blank;
+use glam::DVec2;
+use std::collections::BTreeMap;
+use tatamu_core::geom::polygon;
+
+/// A piece is where it was pinned if it is not farther from there, mm: the layout works on a
+/// lattice, whose cells are about 0.8 mm wide on A4 and 5 mm on the largest sheets.
+const NEAR_MM: f64 = 6.0;
+
+/// Where the user wants a piece.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pin {
+    /// Index of the sheet.
+    pub sheet: usize,
+    /// Lower left corner of the turned piece's bounding box on the sheet, seen from outside, mm.
+    pub at_mm: DVec2,
+    /// Its turn, counter-clockwise, radians.
+    pub turn_rad: f64,
+}
+
+/// A pin that could not be heeded.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Unheeded {
+    /// No piece has this name.
+    NoPiece(String),
+    /// Another pinned piece is there, or the piece does not fit the sheet at that angle.
+    NoRoom(String),
+}
+
+impl Pin {
+    /// The pin of a piece with this outline that lies at this place.
+    pub fn of_place(outline: &[DVec2], place: &PiecePlace) -> Self {
+        let on_sheet = outline.iter().map(|&p| place.place.transform_point2(p));
+        let (low, _) = polygon::bounds(on_sheet).unwrap_or_default();
+        Self { sheet: place.sheet, at_mm: low, turn_rad: place.place.matrix2.x_axis.to_angle() }
+    }
+
+    /// The place of a piece with this outline, from the lower left corner of the area for pieces.
+    pub(super) fn placement(&self, outline: &[DVec2], origin_mm: DVec2) -> Placement {
+        let turn = DVec2::from_angle(self.turn_rad);
+        let (low, _) = polygon::bounds(outline.iter().map(|&p| turn.rotate(p))).unwrap_or_default();
+        let translation = self.at_mm - low - origin_mm;
+        Placement { sheet: self.sheet, rotation_rad: self.turn_rad, translation }
+    }
+}
+
+/// The pins that no piece, or none at its place, has.
+pub(super) fn unheeded<'a>(
+    pins: &BTreeMap<String, Pin>,
+    places: impl Iterator<Item = (&'a Blank, &'a PiecePlace)>,
+) -> Vec<Unheeded> {
+    let places: BTreeMap<&str, Pin> =
+        places.map(|(blank, place)| (blank.name(), Pin::of_place(blank.outline(), place))).collect();
+    let fault = |(name, pin): (&String, &Pin)| match places.get(name.as_str()) {
+        None => Some(Unheeded::NoPiece(name.clone())),
+        // A sheet with a lower number may have become empty.
+        Some(found) if found.sheet > pin.sheet || found.at_mm.distance(pin.at_mm) > NEAR_MM => {
+            Some(Unheeded::NoRoom(name.clone()))
+        }
+        Some(_) => None,
+    };
+    pins.iter().filter_map(fault).collect()
+}

@@ -1,0 +1,241 @@
+//! From parts to hulls with joints between them.
+
+use super::{Error, Options};
+use glam::DVec3;
+use std::collections::BTreeSet;
+use tatamu_core::geom::{Hull, Mirror, Plane};
+use tatamu_core::mesh::{Mesh, MirrorPlane};
+use tatamu_core::model::{self, Assembly, Contact, Link, Part, PartOptions, Parted, Symmetry};
+use tatamu_core::segment::{self, Parts, SegmentId, Segmentation};
+
+/// Hulls of the parts of a mesh with the joints between them, as the shape alone decides them.
+#[derive(Debug, Clone, Default)]
+pub struct Hulls {
+    solid: Solid,
+    /// Of each hull the planes beyond which others are.
+    borders: Vec<Vec<Plane>>,
+    names: Vec<String>,
+    links: Vec<Link>,
+    symmetry: Option<Symmetry>,
+    mirror_plane: Option<MirrorPlane>,
+}
+
+impl Hulls {
+    /// The hulls of `divided`.
+    ///
+    /// # Errors
+    /// [`Error::NothingSolid`].
+    pub fn new(divided: &Parts) -> Result<Self, Error> {
+        let mut solid = hulls(divided);
+        let segmentation = divided.segmentation();
+        let symmetry = segmentation.mirror().and_then(|plane| solid.mirrored(divided, &plane.mirror));
+        if solid.hulls.is_empty() {
+            return Err(Error::NothingSolid);
+        }
+        let contacts = contacts(divided.mesh(), segmentation, &solid.part_of_segment);
+        let hulls: Vec<&Hull> = solid.hulls.iter().collect();
+        let links = model::link_tree(&hulls, &contacts, symmetry.as_ref());
+        let Parted { hulls, borders } = model::parted(&hulls, &contacts, &links, symmetry.as_ref());
+        solid.hulls = model::sturdy(hulls, &links, symmetry.as_ref());
+        let mirror_plane = segmentation.mirror().filter(|_| symmetry.is_some()).copied();
+        Ok(Self { names: solid.names(divided.names()), solid, borders, links, symmetry, mirror_plane })
+    }
+
+    /// No hulls; drawn components have names alone.
+    pub(super) fn drawn(names: Vec<String>) -> Self {
+        Self { names, ..Self::default() }
+    }
+
+    /// The hulls, clipped where joints are.
+    pub fn hulls(&self) -> &[Hull] {
+        &self.solid.hulls
+    }
+
+    /// Which hulls are mirror images of each other, where the mesh has a mirror plane.
+    pub fn symmetry(&self) -> Option<&Symmetry> {
+        self.symmetry.as_ref()
+    }
+
+    /// The mirror plane of the mesh, where the hulls are mirror images of each other.
+    pub fn mirror_plane(&self) -> Option<&MirrorPlane> {
+        self.mirror_plane.as_ref()
+    }
+
+    /// The names of the parts before they are renamed: those that options and edits go by.
+    pub fn names(&self) -> &[String] {
+        &self.names
+    }
+
+    /// The part that a segment is; none for one that is flat.
+    pub fn part_of(&self, segment: SegmentId) -> Option<usize> {
+        self.solid.part_of_segment[segment.0 as usize]
+    }
+
+    /// Number of faces of each segment that is flat.
+    pub fn flat_faces(&self) -> &[usize] {
+        &self.solid.flat
+    }
+}
+
+/// Hulls with what the user wants of each: what the components are made from.
+#[derive(Debug, Clone)]
+pub struct Bodies {
+    parts: Vec<Part>,
+    links: Vec<Link>,
+    symmetry: Option<Symmetry>,
+}
+
+impl Bodies {
+    /// The hulls with what `options` says of each.
+    ///
+    /// # Errors
+    /// [`Error::NoComponent`], [`Error::SameName`].
+    pub fn new(hulls: &Hulls, options: &Options) -> Result<Self, Error> {
+        let (links, symmetry) = (hulls.links.clone(), hulls.symmetry.clone());
+        Ok(Self { parts: parts(hulls, options)?, links, symmetry })
+    }
+
+    /// What a model is built from.
+    pub fn assembly(&self, min_panel_mm: f64) -> Assembly<'_> {
+        Assembly { parts: &self.parts, links: &self.links, symmetry: self.symmetry(), min_panel_mm }
+    }
+
+    /// The parts; a component is made of each.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// The tree of joints between them.
+    pub fn links(&self) -> &[Link] {
+        &self.links
+    }
+
+    /// Which parts are mirror images of each other, where the mesh has a mirror plane: their hulls
+    /// are, and so are the planes of their joints.
+    pub fn symmetry(&self) -> Option<&Symmetry> {
+        self.symmetry.as_ref()
+    }
+}
+
+/// Hulls of the segments that have one.
+#[derive(Debug, Clone, Default)]
+struct Solid {
+    hulls: Vec<Hull>,
+    part_of_segment: Vec<Option<usize>>,
+    /// Number of faces of each segment that is flat.
+    flat: Vec<usize>,
+}
+
+impl Solid {
+    /// The names of the segments that have a hull.
+    fn names(&self, of_segment: &[String]) -> Vec<String> {
+        let has_hull = self.part_of_segment.iter().zip(of_segment);
+        has_hull.filter(|(part, _)| part.is_some()).map(|(_, name)| name.clone()).collect()
+    }
+
+    /// Makes the hulls of twins images of each other, each round its own points and the images of
+    /// its twin's, and the others their own images; `None`, and all as they were, where not every
+    /// hull has a twin.
+    fn mirrored(&mut self, divided: &Parts, mirror: &Mirror) -> Option<Symmetry> {
+        let twins = divided.segmentation().twins(divided.mesh())?;
+        let of_segment = self.part_of_segment.iter().zip(twins);
+        let twin = of_segment.filter_map(|(part, twin)| part.map(|_| self.part_of_segment[twin.0 as usize]));
+        let symmetry = Symmetry::new(*mirror, twin.collect::<Option<Vec<usize>>>()?)?;
+        let mut hulls = self.hulls.clone();
+        for (part, hull) in self.hulls.iter().enumerate() {
+            let twin = symmetry.twin(part);
+            if twin == part {
+                hulls[part] = mirror.symmetrized(hull).ok()?;
+            } else if part < twin {
+                let images = self.hulls[twin].vertices().iter().map(|&p| mirror.point(p));
+                let points: Vec<DVec3> = hull.vertices().iter().copied().chain(images).collect();
+                hulls[part] = Hull::of_points(&points).ok()?;
+                hulls[twin] = hulls[part].reflected(mirror);
+            }
+        }
+        self.hulls = hulls;
+        Some(symmetry)
+    }
+}
+
+fn hulls(parts: &Parts) -> Solid {
+    let mut solid = Solid { hulls: Vec::new(), part_of_segment: Vec::new(), flat: Vec::new() };
+    for (hull, faces) in parts.hulls().into_iter().zip(parts.face_counts()) {
+        match hull {
+            Ok(hull) => {
+                solid.part_of_segment.push(Some(solid.hulls.len()));
+                solid.hulls.push(hull);
+            }
+            Err(_) => {
+                solid.part_of_segment.push(None);
+                solid.flat.push(faces);
+            }
+        }
+    }
+    solid
+}
+
+/// Panels are comfortable from this many times the least width; a component whose numbers the user
+/// has set gets them down to the least width.
+const COMFORTABLE: f64 = 1.5;
+
+fn parts(hulls: &Hulls, options: &Options) -> Result<Vec<Part>, Error> {
+    let names = hulls.names();
+    if let Some(name) = options.components.keys().find(|name| !names.contains(name)) {
+        return Err(Error::NoComponent { name: name.clone(), known: names.join(", ") });
+    }
+    let all_mm2: f64 = hulls.hulls().iter().map(Hull::area).sum();
+    let part = |((hull, borders), name): ((&Hull, &Vec<Plane>), &String)| {
+        let own = options.components.get(name).cloned().unwrap_or_default();
+        let is_set = own.top_edges.is_some() || own.profile_vertices.is_some();
+        let comfortable_mm = options.min_panel_width_mm * if is_set { 1.0 } else { COMFORTABLE };
+        let (top_edges, profile_vertices) = options.counts((hull.area() / all_mm2).sqrt());
+        Part {
+            hull: hull.clone(),
+            borders: borders.clone(),
+            options: PartOptions {
+                name: own.rename.unwrap_or_else(|| name.clone()),
+                direction_rad: own.direction_rad,
+                top_edges: own.top_edges.unwrap_or(top_edges),
+                profile_vertices: own.profile_vertices.unwrap_or(profile_vertices),
+                tolerance_mm: options.tolerance_mm,
+                panel_worth: if is_set { 0.0 } else { options.panel_worth() },
+                comfortable_mm,
+            },
+        }
+    };
+    let parts: Vec<Part> = hulls.hulls().iter().zip(&hulls.borders).zip(names).map(part).collect();
+    let mut seen = BTreeSet::new();
+    match parts.iter().find(|part| !seen.insert(part.options.name.as_str())) {
+        Some(part) => Err(Error::SameName(part.options.name.clone())),
+        None => Ok(parts),
+    }
+}
+
+fn contacts(mesh: &Mesh, segmentation: &Segmentation, part_of_segment: &[Option<usize>]) -> Vec<Contact> {
+    let part = |s: SegmentId| part_of_segment[s.0 as usize];
+    let borders = segmentation.borders(mesh);
+    let near = segment::near_contacts(mesh, segmentation);
+    let touching = near.into_iter().filter(|(pair, _)| !borders.contains_key(pair)).map(|(pair, points)| {
+        let length_mm = rim_mm(&points);
+        (pair, points, length_mm)
+    });
+    let bordering = borders.iter().map(|(&pair, interface)| {
+        let points = interface.vertices().iter().map(|&v| mesh.positions()[v as usize]).collect();
+        (pair, points, interface.length())
+    });
+    bordering
+        .chain(touching)
+        .filter_map(|((a, b), points, length_mm)| {
+            Some(Contact { parts: (part(a)?, part(b)?), points, length_mm })
+        })
+        .collect()
+}
+
+/// Length of the circle whose points are as far from their centre as these, on the whole.
+fn rim_mm(points: &[DVec3]) -> f64 {
+    let n = points.len().max(1) as f64;
+    let centre = points.iter().sum::<DVec3>() / n;
+    let square = points.iter().map(|p| p.distance_squared(centre)).sum::<f64>() / n;
+    std::f64::consts::TAU * square.sqrt()
+}

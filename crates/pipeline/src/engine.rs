@@ -1,0 +1,339 @@
+//! The stages, with a memory for what each of them made: what is asked for again is not made again.
+//! The command line runs an engine once; the studio keeps one and changes a little at a time.
+
+use super::concave::{self, Refitted};
+use super::judge::FoldJudge;
+use super::plugs::{self, Planned};
+use super::warning::{self, not_joined, pin_warnings};
+use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
+use glam::DAffine3;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use tatamu_core::design::thick;
+use tatamu_core::fold::{FoldPlan, ModelMotion, SweepMemory};
+use tatamu_core::memory::Memory;
+use tatamu_core::mesh::{Mesh, Up};
+use tatamu_core::model::{self, Built, JointChoice, Known, Model, ModelPart, Unjudged};
+use tatamu_core::progress::{Beside, Cancelled, Progress};
+use tatamu_core::segment::{self, Edit, Parts, SegmentOptions};
+use tatamu_net::net::{BlankNet, KnownNets, Net, NetChoices, NetOptions, develop_model};
+use tatamu_net::sheet::{Layout, Pin, SheetOptions};
+
+/// So many results of whole stages are kept, for going back and forth between a few choices.
+const FEW: usize = 4;
+
+/// All stages for one mesh.
+///
+/// # Guarantees
+/// A result depends on the mesh and the options alone, not on what was asked for before.
+#[derive(Debug)]
+pub struct Engine<'m> {
+    mesh: Cow<'m, Mesh>,
+    segmented: Memory<Found, Arc<(Parts, DAffine3)>>,
+    divided: Memory<(Found, Vec<Edit>, Option<String>), Arc<Divided>>,
+    components: Known,
+    sweeps: SweepMemory,
+    /// What the parts of the models of last time are known by in `sweeps`.
+    ids: Memory<Arc<Model>, Vec<u64>>,
+    plans: Memory<PlanKey, Planned>,
+    nets: KnownNets,
+    layouts: Memory<LayoutKey, (Arc<Layout>, Arc<Vec<Net>>)>,
+}
+
+/// What decides a layout: sheets, pins, and the nets with their alternatives.
+type LayoutKey = (SheetOptions, BTreeMap<String, Pin>, Arc<Vec<Vec<Arc<BlankNet>>>>);
+
+/// What decides a plan: the model, the thickness, the width of tabs, which plugs keep off, and the
+/// components that must stay glued.
+type PlanKey = (Arc<Model>, f64, f64, Vec<bool>);
+
+/// What decides the parts before they are changed by hand: size, axis and segmentation.
+type Found = (f64, Up, SegmentOptions);
+
+impl<'m> Engine<'m> {
+    /// An engine for a mesh as it was read.
+    pub fn new(mesh: Cow<'m, Mesh>) -> Self {
+        Self {
+            mesh,
+            segmented: Memory::new(FEW),
+            divided: Memory::new(FEW),
+            components: Known::default(),
+            sweeps: SweepMemory::default(),
+            ids: Memory::new(FEW),
+            plans: Memory::new(FEW),
+            nets: KnownNets::default(),
+            layouts: Memory::new(FEW),
+        }
+    }
+
+    /// An engine for a mesh that is divided in one way only: the parts need not be copied then.
+    pub(super) fn for_one_division(mesh: Cow<'m, Mesh>) -> Self {
+        Self { segmented: Memory::new(0), ..Self::new(mesh) }
+    }
+
+    /// The mesh as it was read.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// Runs all stages.
+    ///
+    /// # Errors
+    /// See [`Error`].
+    pub fn run(&self, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
+        self.finish(self.shape(options, progress)?, progress)
+    }
+
+    /// The mesh at the model's size, its parts and their hulls.
+    ///
+    /// # Errors
+    /// [`Error::Segment`], [`Error::Edit`], [`Error::NothingSolid`], [`Error::Cancelled`].
+    pub fn divide(&self, options: &Options, progress: &dyn Progress) -> Result<Arc<Divided>, Error> {
+        let found = (options.size_mm, options.up, options.segmentation);
+        self.divided.get_or((found, options.edits.clone(), options.root.clone()), || {
+            let parts = self.find_parts(options, progress)?;
+            progress.stage("hulls");
+            let divided = Divided::new(parts)?;
+            progress.check()?;
+            Ok(Arc::new(divided))
+        })
+    }
+
+    /// Divides the mesh at the model's size into parts; also gives the transform from the
+    /// coordinates of the mesh as it was read.
+    ///
+    /// # Errors
+    /// [`Error::Segment`], [`Error::Edit`], [`Error::Cancelled`].
+    pub fn find_parts(&self, options: &Options, progress: &dyn Progress) -> Result<(Parts, DAffine3), Error> {
+        let found = (options.size_mm, options.up, options.segmentation);
+        let segmented = self.segmented.get_or(found, || {
+            let (mesh, to_model) = self.mesh.scaled(options.size_mm, options.up);
+            let symmetry = options.segmentation.symmetry.moved(&to_model);
+            let wanted = SegmentOptions { symmetry, ..options.segmentation };
+            let segmentation = segment::segment(&mesh, &wanted, progress)?;
+            Ok::<_, Error>(Arc::new((Parts::new(mesh, segmentation), to_model)))
+        })?;
+        let (mut parts, to_model) = Arc::unwrap_or_clone(segmented);
+        for edit in &options.edits {
+            parts = parts.edited(&edit.moved(&to_model))?;
+        }
+        parts = match &options.root {
+            Some(root) => parts.with_root(root)?,
+            None if options.edits.is_empty() => parts,
+            None => parts.with_root_in_the_middle(),
+        };
+        Ok((parts, to_model))
+    }
+
+    /// Makes the components.
+    ///
+    /// # Errors
+    /// As [`Engine::divide`], and [`Error::Model`], [`Error::NoComponent`], [`Error::SameName`],
+    /// [`Error::NoPlug`].
+    pub fn shape(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
+        let divided = self.divide(options, progress)?;
+        progress.stage("components");
+        let mut found = self.refitted(&divided, options, progress)?;
+        for name in found.refused.clone() {
+            if options.components.get(&name).is_some_and(|own| own.direction_rad.is_none())
+                && let Some(other) = self.dented(&divided, options, &name, progress)?
+            {
+                found = other;
+            }
+        }
+        let Refitted { model, warnings: mut notes, remarks, .. } = found;
+        notes.extend(not_joined(&model));
+        let glued = Arc::new(model);
+        let model = Arc::new(plugs::as_chosen(Model::clone(&glued), options)?);
+        if let Some(ids) = self.ids.get(&glued) {
+            // How parts are held changes nothing about how they fold.
+            self.ids.keep(model.clone(), ids);
+        }
+        Ok(Shaped { options: Arc::new(options.clone()), divided, model, notes, remarks })
+    }
+
+    /// The components, with dents where they may have them.
+    fn refitted(
+        &self,
+        divided: &Divided,
+        options: &Options,
+        progress: &dyn Progress,
+    ) -> Result<Refitted, Error> {
+        let bodies = Bodies::new(divided.hulls(), options)?;
+        let assembly = bodies.assembly(options.min_panel_width_mm);
+        let judge = FoldJudge { thickness_mm: options.thickness_mm, memory: &self.sweeps, progress };
+        let Built { model, ids } = model::build(&assembly, &self.components, &judge, progress)?;
+        self.ids.keep(Arc::new(model.clone()), ids);
+        let (mesh, face_parts) = (divided.mesh(), divided.face_parts());
+        Ok(concave::refitted(model, mesh, face_parts, options, progress)?)
+    }
+
+    /// The components in the first direction of one of them in which it has dents; none where it has them
+    /// in no direction. Directions are chosen for convex shapes, and a dent need not fold in these.
+    fn dented(
+        &self,
+        divided: &Divided,
+        options: &Options,
+        name: &String,
+        progress: &dyn Progress,
+    ) -> Result<Option<Refitted>, Error> {
+        for direction_rad in concave::directions_rad() {
+            let mut options = options.clone();
+            if let Some(own) = options.components.get_mut(name) {
+                own.direction_rad = Some(direction_rad);
+            }
+            match self.refitted(divided, &options, progress) {
+                Ok(found) if !found.refused.contains(name) => return Ok(Some(found)),
+                // Not every direction has room for all joints.
+                Ok(_) | Err(Error::Model(_)) => progress.check()?,
+                Err(error) => return Err(error),
+            }
+        }
+        Ok(None)
+    }
+
+    /// Makes one component, by its index, as parts and joints alone decide it: sooner than the model that
+    /// is best to fold.
+    ///
+    /// # Errors
+    /// As [`Engine::shape`]; [`Error::NoComponent`] where there are not so many.
+    pub fn component(
+        &self,
+        options: &Options,
+        part: usize,
+        progress: &dyn Progress,
+    ) -> Result<ModelPart, Error> {
+        let divided = self.divide(options, progress)?;
+        let bodies = Bodies::new(divided.hulls(), options)?;
+        if part >= bodies.parts().len() {
+            let known = divided.hulls().names().join(", ");
+            return Err(Error::NoComponent { name: format!("number {}", part + 1), known });
+        }
+        let assembly = bodies.assembly(options.min_panel_width_mm);
+        let built = model::build(&assembly, &self.components, &Unjudged, progress)?;
+        Ok(built.model.parts()[part].clone())
+    }
+
+    /// How the components fold; some of them are plugged, where nothing else is free.
+    pub(super) fn plan(
+        &self,
+        model: &Arc<Model>,
+        options: &Options,
+        progress: &dyn Progress,
+    ) -> Result<Planned, Cancelled> {
+        self.plans.get_or(plan_key(model, options), || {
+            progress.stage("folding");
+            // Of models that were changed since they were built nothing is known.
+            let own = SweepMemory::default();
+            let (ids, memory) = match self.ids.get(model) {
+                Some(ids) => (ids, &self.sweeps),
+                None => ((0..model.parts().len() as u64).collect(), &own),
+            };
+            let motion = ModelMotion::new(model);
+            let plan = FoldPlan::with_memory(&motion, options.thickness_mm, &ids, memory, progress)?;
+            let planned = Planned { model: model.clone(), plan: Arc::new(plan) };
+            let known = plugs::Known { ids: &ids, memory };
+            Ok(plugs::freed(&planned, &known, options, progress)?.unwrap_or(planned))
+        })
+    }
+
+    /// From the components to sheets, with the order of folding, which is looked for meanwhile: as
+    /// a stage it is only what is left of that when the sheets are done.
+    ///
+    /// # Errors
+    /// [`Error::Thick`], [`Error::Net`], [`Error::Layout`], [`Error::Cancelled`].
+    pub fn finish(&self, shaped: Shaped, progress: &dyn Progress) -> Result<Output, Error> {
+        let shaped = of_boards(shaped)?;
+        let (model, options) = (shaped.model.clone(), shaped.options.clone());
+        let is_known = self.plans.get(&plan_key(&model, &options)).is_some();
+        let beside = Beside::new(progress);
+        let lay_out = || {
+            let laid = self.lay_out_paper(shaped, progress);
+            if laid.is_err() {
+                beside.give_up();
+            } else if !is_known {
+                progress.stage("folding");
+            }
+            laid
+        };
+        let (laid, planned) = rayon::join(lay_out, || self.plan(&model, &options, &beside));
+        self.with_plan(laid?, planned?, progress)
+    }
+
+    /// With a plan, and laid out again where that needs other pieces.
+    fn with_plan(&self, laid: Output, planned: Planned, progress: &dyn Progress) -> Result<Output, Error> {
+        if planned.model == laid.shaped.model {
+            return Ok(laid.with_plan(planned.plan));
+        }
+        let mut shaped = laid.shaped;
+        shaped.remarks.extend(plugs::remarks(&shaped.model, &planned.model));
+        shaped.model = planned.model;
+        Ok(self.lay_out_paper(shaped, progress)?.with_plan(planned.plan))
+    }
+
+    /// From the components to sheets; in which order they fold is not known yet.
+    ///
+    /// # Errors
+    /// [`Error::Thick`], [`Error::Net`], [`Error::Layout`], [`Error::Cancelled`].
+    pub fn lay_out(&self, shaped: Shaped, progress: &dyn Progress) -> Result<Output, Error> {
+        self.lay_out_paper(of_boards(shaped)?, progress)
+    }
+
+    fn lay_out_paper(&self, shaped: Shaped, progress: &dyn Progress) -> Result<Output, Error> {
+        let (options, model) = (&*shaped.options, &shaped.model);
+        let sheets = SheetOptions {
+            paper: options.paper,
+            margin_mm: options.margin_mm,
+            choices: options.sheets,
+            has_valleys: model.has_valleys(),
+        };
+        let net_options = NetOptions {
+            tab_width_mm: options.tab_width_mm,
+            sheet_mm: sheets.room_mm(),
+            choices: NetChoices { is_separate: options.is_thick, ..options.nets },
+        };
+        progress.stage("nets");
+        let alternatives = develop_model(model, &net_options, &self.nets, progress)
+            .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
+        let alternatives = Arc::new(alternatives);
+        let key = (sheets, options.pins.clone(), alternatives.clone());
+        let (layout, nets) = self.layouts.get_or(key, || {
+            progress.stage("sheets");
+            let laid = Layout::of_alternatives(&alternatives, &sheets, &options.pins, progress)?;
+            Ok::<_, Error>((Arc::new(laid.0), Arc::new(laid.1)))
+        })?;
+        let mut warnings = shaped.notes.clone();
+        warnings.extend(warning::warnings(model, &nets, shaped.divided.hulls().flat_faces(), options));
+        warnings.extend(pin_warnings(&layout));
+        let fold_plan = Arc::new(FoldPlan::unchecked(model, options.thickness_mm));
+        Ok(Output { shaped, fold_plan, nets, layout, warnings: Arc::new(warnings) })
+    }
+
+    /// Finds the order of folding.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`]; where plugs change pieces, those of [`Engine::lay_out`], too.
+    pub fn fold(&self, laid: Output, progress: &dyn Progress) -> Result<Output, Error> {
+        let planned = self.plan(&laid.shaped.model, laid.options(), progress)?;
+        self.with_plan(laid, planned, progress)
+    }
+}
+
+fn plan_key(model: &Arc<Model>, options: &Options) -> PlanKey {
+    let is_glued = |part: &ModelPart| options.joint_choice(&part.name) == Some(JointChoice::Glue);
+    let must_be_glued = model.parts().iter().map(|part| options.is_thick || is_glued(part)).collect();
+    (model.clone(), options.thickness_mm, options.tab_width_mm, must_be_glued)
+}
+
+/// Of boards as thick as they are, where that was asked for.
+fn of_boards(shaped: Shaped) -> Result<Shaped, Error> {
+    let options = &*shaped.options;
+    if !options.is_thick {
+        return Ok(shaped);
+    }
+    let (boards, thick) = thick(&shaped.model, options.thickness_mm, options.min_panel_width_mm)?;
+    let mut notes = shaped.notes.clone();
+    notes.extend(thick.into_iter().map(|(code, message)| Warning { code, message }));
+    Ok(Shaped { model: Arc::new(boards), notes, ..shaped })
+}

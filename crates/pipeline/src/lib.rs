@@ -1,0 +1,274 @@
+//! The way from a mesh to sheets, stage by stage. Reading [`Engine`] is reading the program.
+//!
+//! [`run`] is for one run; an [`Engine`] remembers the result of each stage for the next.
+//!
+//! ```
+//! use glam::DVec3;
+//! use tatamu_core::mesh::{Mesh, Soup};
+//! use tatamu_core::progress::Silent;
+//!
+//! let corner = |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2));
+//! let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+//! let (mesh, _) = Mesh::from_soup(&Soup::new((0..8).map(corner).collect(), faces)?)?;
+//! let output = tatamu_pipeline::run(&mesh, &tatamu_pipeline::Options::default(), &Silent)?;
+//! assert_eq!(output.model().parts().len(), 1);
+//! assert!(output.layout().sheet_count() > 0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod bodies;
+mod concave;
+mod drawn;
+mod engine;
+mod judge;
+mod level;
+mod output;
+mod plugs;
+mod remedy;
+mod warning;
+
+pub use bodies::{Bodies, Hulls};
+pub use drawn::{run_drawn, shape_drawn};
+pub use engine::Engine;
+pub use level::Level;
+pub use output::{Divided, Output, Shaped};
+pub use warning::Warning;
+
+use glam::DAffine3;
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use tatamu_core::design::{DesignError, ThickError};
+use tatamu_core::mesh::{Mesh, Up};
+use tatamu_core::model::{JointChoice, ModelError};
+use tatamu_core::progress::{Cancelled, Progress};
+use tatamu_core::segment::{Edit, EditError, Parts, SegmentError, SegmentOptions};
+use tatamu_core::units::Paper;
+use tatamu_net::net::{NetChoices, NetsError};
+use tatamu_net::sheet::{LayoutError, Pin, SheetChoices};
+
+/// What the user chose.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Options {
+    /// Longest side of the model's bounding box, mm.
+    pub size_mm: f64,
+    /// The axis of the mesh that points up.
+    pub up: Up,
+    /// How the mesh is divided.
+    pub segmentation: SegmentOptions,
+    /// Changes to the parts by hand, in the coordinates of the mesh as it was read.
+    pub edits: Vec<Edit>,
+    /// The part that all others hang on; without it the biggest.
+    pub root: Option<String>,
+    /// What differs for components of these names.
+    pub components: BTreeMap<String, ComponentOptions>,
+    /// How many panels there may be, where the two numbers below leave it open.
+    pub level: Level,
+    /// Edges of top panels, at least 3.
+    pub top_edges: Option<usize>,
+    /// Vertices of profiles, at least 3.
+    pub profile_vertices: Option<usize>,
+    /// Distance between component and hull that is close enough, mm: then as few edges and
+    /// vertices are used as reach it, and the two numbers above are the most.
+    pub tolerance_mm: Option<f64>,
+    /// Least width and height of panels, mm.
+    pub min_panel_width_mm: f64,
+    /// Width of glue tabs, mm.
+    pub tab_width_mm: f64,
+    /// Size of the sheets.
+    pub paper: Paper,
+    /// Border of the sheets that stays free, mm.
+    pub margin_mm: f64,
+    /// Thickness of the paper, mm.
+    pub thickness_mm: f64,
+    /// Whether panels are boards of that thickness, each cut by itself.
+    pub is_thick: bool,
+    /// What else is chosen about nets.
+    pub nets: NetChoices,
+    /// What else is chosen about sheets.
+    pub sheets: SheetChoices,
+    /// Pieces, by name, that lie where the user wants them.
+    pub pins: BTreeMap<String, Pin>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            size_mm: 200.0,
+            up: Up::Y,
+            segmentation: SegmentOptions::default(),
+            edits: Vec::new(),
+            root: None,
+            components: BTreeMap::new(),
+            level: Level::default(),
+            top_edges: None,
+            profile_vertices: None,
+            tolerance_mm: None,
+            min_panel_width_mm: 3.0,
+            tab_width_mm: 6.0,
+            paper: Paper::default(),
+            margin_mm: 10.0,
+            thickness_mm: 0.25,
+            is_thick: false,
+            nets: NetChoices::default(),
+            sheets: SheetChoices::default(),
+            pins: BTreeMap::new(),
+        }
+    }
+}
+
+impl Options {
+    /// Top edges and profile vertices of a part, by the square root of its share of the surface of all.
+    fn counts(&self, size_share: f64) -> (usize, usize) {
+        let by_level = if self.tolerance_mm.is_some() { MOST_COUNTS } else { self.level.counts(size_share) };
+        (self.top_edges.unwrap_or(by_level.0), self.profile_vertices.unwrap_or(by_level.1))
+    }
+
+    /// What a panel must be worth to be there: who asks for a number of them gets it.
+    fn panel_worth(&self) -> f64 {
+        let is_chosen = self.top_edges.is_none() && self.profile_vertices.is_none();
+        if is_chosen { self.level.panel_worth() } else { 0.0 }
+    }
+
+    /// What was chosen for the component of a name, and the name before it was renamed.
+    fn component(&self, name: &str) -> Option<(&String, &ComponentOptions)> {
+        self.components.iter().find(|(key, own)| own.rename.as_ref().unwrap_or(key) == name)
+    }
+
+    /// How the component of a name is held, if that was chosen.
+    fn joint_choice(&self, name: &str) -> Option<JointChoice> {
+        self.component(name).and_then(|(_, own)| own.joint)
+    }
+}
+
+/// Most top edges and profile vertices with a tolerance.
+const MOST_COUNTS: (usize, usize) = (12, 10);
+
+/// What the user chose for one component.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ComponentOptions {
+    /// Another name.
+    pub rename: Option<String>,
+    /// Angle of the fold axis about the hull's first principal axis, radians.
+    pub direction_rad: Option<f64>,
+    /// Edges of the top panel.
+    pub top_edges: Option<usize>,
+    /// Vertices of profiles.
+    pub profile_vertices: Option<usize>,
+    /// Whether it may have dents, where that brings it nearer to its shape.
+    pub is_concave: bool,
+    /// How it is held on its parent; where that is left out, it is glued unless that leaves no free
+    /// way to fold.
+    pub joint: Option<JointChoice>,
+}
+
+/// Why there is no model.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The user stopped the work.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+    /// Segmentation failed.
+    #[error("the mesh could not be divided into parts: {0}")]
+    Segment(#[from] SegmentError),
+    /// A change to the parts cannot be made.
+    #[error(transparent)]
+    Edit(#[from] EditError),
+    /// No part has a volume.
+    #[error("no part of the mesh has a volume; it is flat, so there is nothing to fold")]
+    NothingSolid,
+    /// A component failed.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// Thick panels have no room.
+    #[error(transparent)]
+    Thick(#[from] ThickError),
+    /// A joint cannot be unplugged.
+    #[error("{name}: it cannot be plugged: {reason}")]
+    NoPlug {
+        /// The component.
+        name: String,
+        /// Why, and what to do.
+        reason: &'static str,
+    },
+    /// Drawings make no model.
+    #[error(transparent)]
+    Design(#[from] DesignError),
+    /// A net failed.
+    #[error("{}", too_large(.error, *.size_mm))]
+    Net {
+        /// What went wrong.
+        error: NetsError,
+        /// The size that was asked for.
+        size_mm: f64,
+    },
+    /// The layout failed.
+    #[error(transparent)]
+    Layout(#[from] LayoutError),
+    /// Two components were given the same name.
+    #[error("two components are named \"{0}\"; give each a name of its own")]
+    SameName(String),
+    /// Options for a component that does not exist.
+    #[error("there is no component \"{name}\"; there are: {known}")]
+    NoComponent {
+        /// The name that was given.
+        name: String,
+        /// The names of all components.
+        known: String,
+    },
+}
+
+/// A model scaled to fit exactly would miss by a little: least panel sizes do not shrink with it.
+const FITS: f64 = 0.985;
+
+/// The message of a failed net, with the largest size that fits where that is the matter.
+fn too_large(error: &NetsError, size_mm: f64) -> String {
+    match error {
+        NetsError::Net(tatamu_net::net::NetError::PanelTooLarge {
+            name,
+            size_mm: panel,
+            sheet_mm,
+            scale,
+            may_split,
+            ..
+        }) => {
+            let fits = (size_mm * scale * FITS).floor();
+            let or_split = if *may_split { "" } else { ", or do without --no-split" };
+            format!(
+                "a panel of \"{name}\" measures {:.0} × {:.0} mm and does not fit the {:.0} × {:.0} mm within the \
+                 sheet's margins; use --size {fits}mm at most, or larger --paper{or_split}",
+                panel.x, panel.y, sheet_mm.x, sheet_mm.y
+            )
+        }
+        _ => error.to_string(),
+    }
+}
+
+/// Runs all stages on a mesh as it was read.
+///
+/// # Errors
+/// See [`Error`].
+pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
+    Engine::for_one_division(Cow::Borrowed(mesh)).run(options, progress)
+}
+
+/// The same, and where problems are left, tries other options: [`Engine::advise`].
+///
+/// # Errors
+/// See [`Error`].
+pub fn run_and_advise(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
+    let engine = Engine::for_one_division(Cow::Borrowed(mesh));
+    engine.advise(engine.run(options, progress)?, progress)
+}
+
+/// Divides a mesh at the model's size into parts; also gives the transform from the coordinates of
+/// the mesh as it was read.
+///
+/// # Errors
+/// [`Error::Segment`], [`Error::Edit`], [`Error::Cancelled`].
+pub fn find_parts(
+    mesh: &Mesh,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<(Parts, DAffine3), Error> {
+    Engine::for_one_division(Cow::Borrowed(mesh)).find_parts(options, progress)
+}
