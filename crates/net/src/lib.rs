@@ -7,6 +7,7 @@
 //! use glam::DVec2;
 //! use tatamu_core::component::{Component, Profile};
 //! use tatamu_core::progress::Silent;
+//! use tatamu_core::units::Paper;
 //! use tatamu_net::net::{Naming, NetOptions, develop};
 //! use tatamu_net::sheet::{Layout, SheetOptions};
 //!
@@ -14,7 +15,7 @@
 //! let wall = [40.0, 20.0, 0.0].map(|height_mm| DVec2::new(20.0, height_mm)).to_vec();
 //! let normals = vec![DVec2::X, DVec2::Y, -DVec2::X, -DVec2::Y];
 //! let component = Component::of_profiles(normals, vec![Profile::new(wall, 1)?; 4])?;
-//! let sheets = SheetOptions::default();
+//! let sheets = SheetOptions::new(Paper::default(), 10.0);
 //! let options = NetOptions::new(8.0, sheets.room_mm());
 //! let net = develop(component.panels(), Naming { name: "box", prefix: "A" }, &[], &options)?;
 //! assert_eq!(net.pieces().len(), 1);
