@@ -391,6 +391,19 @@ fn every_command_and_option_is_in_the_reference() {
     assert!(count > 60, "only {count} options");
 }
 
+#[test]
+fn tables_of_options_are_those_of_the_program() {
+    let pages: [(&str, fn(&str) -> String); 2] = [
+        ("command-line.md", tatamu::project::options::command_line_page),
+        ("project.md", tatamu::project::options::project_page),
+    ];
+    for (name, with_tables) in pages {
+        let page = read(&root().join("docs/reference").join(name));
+        assert!(page.matches("<!-- options: ").count() > 3, "{name} has no tables of options");
+        assert!(page == with_tables(&page), "{name} is stale; run: cargo run --example reference");
+    }
+}
+
 /// A report of a sample.
 fn report(sample: &str) -> Value {
     let folder = workplace();

@@ -1,4 +1,4 @@
-//! `tatamu profiles`, and the options that choose a cutter and a medium.
+//! `tatamu profiles`, and the profiles of a cutter and a medium.
 
 use super::error::{CliError, reason};
 use super::terminal;
@@ -8,50 +8,18 @@ use tatamu::export::PltOptions;
 use tatamu::plotter::profile::{CUTTERS, MEDIA, Profile};
 use tatamu::plotter::{Cutter, Media, ProfileError};
 
-/// Options that choose a machine.
-#[derive(Debug, Clone, Default, Args)]
-#[command(next_help_heading = "Options of cutters")]
-pub struct CutterArgs {
-    /// Cutter or plotter: the name of a profile, or a file (TOML) [default: generic-hpgl]
-    ///
-    /// "tatamu profiles list" names them; "tatamu profiles show NAME" prints one, to begin a file
-    /// of your own with. Example: --cutter hp-7475a, --cutter mine.toml
-    #[arg(long, value_name = "NAME|FILE")]
-    cutter: Option<String>,
-
-    /// What is cut: the name of a profile, or a file (TOML) [default: cardstock-200]
-    ///
-    /// It sets force, speed, passes, overcut and how creases are made.
-    /// Example: --media cardstock-300
-    #[arg(long, value_name = "NAME|FILE")]
-    media: Option<String>,
-}
-
-impl CutterArgs {
-    /// The profiles that were chosen.
-    pub fn choice(&self) -> Result<PltOptions, CliError> {
-        let mut choice = PltOptions::default();
-        if let Some(name) = &self.cutter {
-            let text = find(name, "cutters", CUTTERS)?;
-            choice.cutter = Cutter::parse(&text).map_err(|error| wrong(name, error))?;
-        }
-        if let Some(name) = &self.media {
-            let text = find(name, "media", MEDIA)?;
-            choice.media = Media::parse(&text).map_err(|error| wrong(name, error))?;
-        }
-        Ok(choice)
+/// The machine of these profiles; without a name the usual one.
+pub fn machine(cutter: Option<&str>, media: Option<&str>) -> Result<PltOptions, CliError> {
+    let mut choice = PltOptions::default();
+    if let Some(name) = cutter {
+        let text = find(name, "cutters", CUTTERS)?;
+        choice.cutter = Cutter::parse(&text).map_err(|error| wrong(name, error))?;
     }
-
-    /// The choice of these names.
-    #[cfg(feature = "studio")]
-    pub fn of(cutter: &str, media: &str) -> Self {
-        Self { cutter: Some(cutter.to_owned()), media: Some(media.to_owned()) }
+    if let Some(name) = media {
+        let text = find(name, "media", MEDIA)?;
+        choice.media = Media::parse(&text).map_err(|error| wrong(name, error))?;
     }
-
-    /// Whether the user chose a cutter.
-    pub fn has_cutter(&self) -> bool {
-        self.cutter.is_some()
-    }
+    Ok(choice)
 }
 
 fn wrong(name: &str, error: ProfileError) -> CliError {

@@ -1,5 +1,6 @@
 //! `tatamu design`
 
+use super::choice::Choice;
 use super::error::CliError;
 use super::input::{self, Shape};
 use super::make::{self, MakeArgs};
@@ -61,9 +62,9 @@ fn list_all(args: &DesignArgs, path: &Path) -> Result<(), CliError> {
             input.mesh_path.display()
         )));
     };
-    let options = args.make.model().merge(input.project.as_ref())?;
-    let rankings =
-        rankings(sketches, options.min_panel_width_mm).map_err(|error| CliError::Pipeline(error.into()))?;
+    let choice = Choice::new(input.project.as_ref(), &args.make.given())?;
+    let least_mm = choice.options().min_panel_width_mm;
+    let rankings = rankings(sketches, least_mm).map_err(|error| CliError::Pipeline(error.into()))?;
     for (sketch, rankings) in sketches.iter().zip(&rankings) {
         for (p, ranking) in rankings.iter().enumerate() {
             list(sketch, p, ranking);

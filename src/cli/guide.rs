@@ -1,16 +1,16 @@
 //! Options of the assembly guide.
 
 use super::error::CliError;
+use super::flags::{Flags, OfGuide};
 use super::names;
 use super::output::{self, Target};
 use clap::Args;
 use std::path::{Path, PathBuf};
-use tatamu::export::{FORMATS, Format, FormatOptions, GUIDES, GuideOptions};
-use tatamu::guide::Language;
-use tatamu::project::ExportTable;
+use tatamu::export::{FORMATS, Format, GUIDES};
+use tatamu::project::options::Given;
 
 /// Options of the assembly guide.
-#[derive(Debug, Clone, Default, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Assembly guide")]
 pub struct GuideArgs {
     /// Writes an assembly guide, too: FILE.html for a screen, FILE.pdf for paper
@@ -23,11 +23,8 @@ pub struct GuideArgs {
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "", value_parser = wanted)]
     guide: Vec<Wanted>,
 
-    /// Language of the guide: en or de [default: en]
-    ///
-    /// Example: --guide-language de
-    #[arg(long, value_name = "LANGUAGE")]
-    guide_language: Option<Language>,
+    #[command(flatten)]
+    language: Flags<OfGuide>,
 }
 
 /// Which file is to be a guide.
@@ -70,10 +67,8 @@ impl GuideArgs {
         Ok(targets)
     }
 
-    /// Puts the choices into those of the formats.
-    pub fn choose(&self, options: FormatOptions, project: Option<&ExportTable>) -> FormatOptions {
-        let of_project = project.and_then(|table| table.guide_language);
-        let language = self.guide_language.or(of_project).unwrap_or_default();
-        FormatOptions { guide: GuideOptions { language }, ..options }
+    /// The options of the guide that the user gave.
+    pub fn given(&self) -> &[Given] {
+        self.language.given()
     }
 }

@@ -1,18 +1,19 @@
 //! `tatamu init`
 
+use super::choice::Choice;
 use super::error::CliError;
-use super::options::ModelArgs;
+use super::flags::{Flags, OfModel};
 use super::progress::TerminalProgress;
 use super::{input, names, output, terminal};
 use clap::Args;
 use std::path::{Path, PathBuf};
-use tatamu::pipeline::Options;
+use tatamu::project::options::Settings;
 use tatamu::project::{Template, TemplateComponent, to_toml};
 
 /// Writes a project file for a mesh, to edit and to give to "make".
 ///
-/// The file holds every option with a comment, and a table for each component. The options given
-/// here become its values.
+/// The file holds all its keys with comments, and a table for each component. The options given here
+/// become its values.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct InitArgs {
@@ -33,7 +34,7 @@ pub struct InitArgs {
     force: bool,
 
     #[command(flatten)]
-    model: ModelArgs,
+    model: Flags<OfModel>,
 
     /// No summary and no progress bar; warnings and errors only
     #[arg(short, long)]
@@ -63,9 +64,9 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
             args.mesh.display()
         )));
     }
-    let options = args.model.merge(input.project.as_ref())?;
+    let choice = Choice::new(input.project.as_ref(), args.model.given())?;
     let progress = TerminalProgress::new(args.quiet);
-    let result = input.run(&args.model, &options, &progress)?;
+    let result = input.run(&choice, &progress)?;
     progress.finish();
     let components: Vec<TemplateComponent> = result
         .model()
@@ -75,10 +76,10 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
             name: part.name.clone(),
             direction_deg: part.direction_rad.to_degrees(),
             is_chosen: result.options().components.get(&part.name).is_some_and(|c| c.direction_rad.is_some()),
-            is_concave: options.components.get(&part.name).is_some_and(|c| c.is_concave),
+            is_concave: choice.options().components.get(&part.name).is_some_and(|c| c.is_concave),
         })
         .collect();
-    let text = project_text(&mesh_from(&path, &input.mesh_path)?, &options, &components);
+    let text = project_text(&mesh_from(&path, &input.mesh_path)?, choice.settings(), &components);
     output::write(&[(path.clone(), text.into_bytes())])?;
     if !args.quiet {
         terminal::say(&format!("wrote {}; edit it, then: tatamu make {0}", path.display()));
@@ -87,26 +88,8 @@ pub fn run(args: &InitArgs) -> Result<(), CliError> {
 }
 
 /// A fresh project file.
-pub fn project_text(mesh: &str, options: &Options, components: &[TemplateComponent]) -> String {
-    to_toml(&Template {
-        mesh,
-        up: options.up,
-        size_mm: options.size_mm,
-        segmentation: options.segmentation,
-        level: options.level,
-        top_edges: options.top_edges,
-        profile_vertices: options.profile_vertices,
-        tolerance_mm: options.tolerance_mm,
-        min_panel_width_mm: options.min_panel_width_mm,
-        tab_width_mm: options.tab_width_mm,
-        paper: options.paper,
-        margin_mm: options.margin_mm,
-        thickness_mm: options.thickness_mm,
-        is_thick: options.is_thick,
-        nets: options.nets,
-        sheets: options.sheets,
-        components,
-    })
+pub fn project_text(mesh: &str, settings: &Settings, components: &[TemplateComponent]) -> String {
+    to_toml(&Template { mesh, settings, components })
 }
 
 /// The name by which a project file finds its mesh: relative where the project file is in or

@@ -1,7 +1,7 @@
 //! Reading the input: a mesh, or a project file that names one.
 
+use super::choice::Choice;
 use super::error::{CliError, reason};
-use super::options::ModelArgs;
 use super::progress::TerminalProgress;
 use std::fs::File;
 use std::io::Read;
@@ -13,6 +13,7 @@ use tatamu::mesh::{self, Mesh, Repairs};
 use tatamu::pipeline::{self, Options, Output, Warning};
 use tatamu::progress::Progress;
 use tatamu::project::Project;
+use tatamu::project::options::STYLE;
 
 /// What a model is made of, with where it comes from.
 pub struct Input {
@@ -55,35 +56,25 @@ impl Input {
     }
 
     /// Runs all stages.
-    pub fn run(
-        &self,
-        model: &ModelArgs,
-        options: &Options,
-        progress: &TerminalProgress,
-    ) -> Result<Output, CliError> {
-        self.run_by(pipeline::run, model, options, progress)
+    pub fn run(&self, choice: &Choice, progress: &TerminalProgress) -> Result<Output, CliError> {
+        self.run_by(pipeline::run, choice, progress)
     }
 
     /// The same, and tries what helps where problems are left. Drawings are made as they are drawn.
-    pub fn run_and_advise(
-        &self,
-        model: &ModelArgs,
-        options: &Options,
-        progress: &TerminalProgress,
-    ) -> Result<Output, CliError> {
-        self.run_by(pipeline::run_and_advise, model, options, progress)
+    pub fn run_and_advise(&self, choice: &Choice, progress: &TerminalProgress) -> Result<Output, CliError> {
+        self.run_by(pipeline::run_and_advise, choice, progress)
     }
 
     fn run_by(
         &self,
         run: impl Fn(&Mesh, &Options, &dyn Progress) -> Result<Output, pipeline::Error>,
-        model: &ModelArgs,
-        options: &Options,
+        choice: &Choice,
         progress: &TerminalProgress,
     ) -> Result<Output, CliError> {
+        let options = choice.options();
         let result = match &self.shape {
             Shape::Mesh(mesh) => run(mesh, options, progress),
-            Shape::Drawn(sketches) => pipeline::run_drawn(sketches, model.size_mm(self), options, progress),
+            Shape::Drawn(sketches) => pipeline::run_drawn(sketches, choice.size_mm(), options, progress),
         };
         result.map_err(|error| CliError::of_run(error, progress))
     }
@@ -175,8 +166,8 @@ pub fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
 
 /// A project file may come from anybody: the user is told which files it has read from elsewhere.
 fn outside_notes(path: &Path, project: &Project) -> Vec<Warning> {
-    let style = project.export.style.as_deref().filter(|name| LineStyles::built_in(name).is_none());
-    let named = [("mesh", project.mesh.as_deref()), ("style file", style)];
+    let style = STYLE.text(&project.settings()).filter(|name| LineStyles::built_in(name).is_none());
+    let named = [("mesh", project.mesh.as_deref()), ("style file", style.as_deref())];
     let named = named.into_iter().filter_map(|(what, name)| Some((what, name?)));
     let outside = named.filter(|(_, name)| !is_within(&path.with_file_name(""), Path::new(name)));
     outside

@@ -1,21 +1,20 @@
 //! `tatamu make`
 
-use super::cutters::CutterArgs;
+use super::choice::Choice;
 use super::error::CliError;
-use super::film::FilmArgs;
-use super::formats::{self, FileArgs};
+use super::flags::{Flags, OfFiles, OfFilm, OfMachine, OfModel};
 use super::guide::GuideArgs;
 use super::made::Made;
-use super::options::ModelArgs;
 use super::output::{self, Target};
 use super::progress::TerminalProgress;
-use super::{batch, input, names, terminal};
+use super::{batch, formats, input, names, terminal};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use tatamu::export::{FormatOptions, Source};
 use tatamu::mesh::{Mesh, Repairs};
 use tatamu::net::Side;
 use tatamu::product::{Content, Product};
+use tatamu::project::options::Given;
 use tatamu::report::Run;
 
 /// Makes a model of a mesh, or of a project file.
@@ -34,7 +33,7 @@ pub struct MakeArgs {
     inputs: Vec<PathBuf>,
 
     #[command(flatten)]
-    model: ModelArgs,
+    model: Flags<OfModel>,
 
     /// File to write; may be given several times [default: the input's name with .pdf]
     ///
@@ -49,7 +48,7 @@ pub struct MakeArgs {
     guide: GuideArgs,
 
     #[command(flatten)]
-    film: FilmArgs,
+    film: Flags<OfFilm>,
 
     /// Writes what is printed and what is cut into two files, NAME-print and NAME-cut
     ///
@@ -68,10 +67,10 @@ pub struct MakeArgs {
     segments: Option<PathBuf>,
 
     #[command(flatten)]
-    files: FileArgs,
+    files: Flags<OfFiles>,
 
     #[command(flatten)]
-    cutter: CutterArgs,
+    machine: Flags<OfMachine>,
 
     /// No summary and no progress bar; warnings and errors only
     #[arg(short, long)]
@@ -89,9 +88,16 @@ impl MakeArgs {
         self.quiet
     }
 
-    /// Options of the model.
-    pub fn model(&self) -> &ModelArgs {
-        &self.model
+    /// The options that the user gave.
+    pub fn given(&self) -> Vec<Given> {
+        let lists = [
+            self.model.given(),
+            self.guide.given(),
+            self.film.given(),
+            self.files.given(),
+            self.machine.given(),
+        ];
+        lists.concat()
     }
 }
 
@@ -155,18 +161,17 @@ pub fn make(
     output::check_places(&places, &[task.input])?;
     let input = input::read(task.input)?;
     output::check_places(&places, &[task.input, &input.mesh_path])?;
-    let options = args.model.merge(input.project.as_ref())?;
-    let mut choice = args.files.merge(input.project.as_ref().map(|p| &p.export), task.input)?;
-    if choice.is_coloured && options.sheets.side == Side::Inside {
+    let choice = Choice::new(input.project.as_ref(), &args.given())?;
+    let files = choice.files(task.input)?;
+    if files.is_coloured && choice.options().sheets.side == Side::Inside {
         let reason = "--color is for the outside of the paper; leave out --side inside, or --color";
         return Err(CliError::Options(reason.to_owned()));
     }
-    let painting = choice.is_coloured.then(|| input::read_painting(&input.mesh_path)).transpose()?;
-    choice.formats.plt = args.cutter.choice()?;
+    let painting = files.is_coloured.then(|| input::read_painting(&input.mesh_path)).transpose()?;
     let warnings = input.warnings();
     warnings.iter().for_each(|warning| tell(&warning.message));
 
-    let result = input.run_and_advise(&args.model, &options, progress)?;
+    let result = input.run_and_advise(&choice, progress)?;
     let stages = progress.finish();
     terminal::first_of_each_kind(result.warnings()).iter().for_each(|message| tell(message));
 
@@ -180,7 +185,7 @@ pub fn make(
     let title = terminal::printable(&stem.to_string_lossy());
     let product = |content| {
         Product::new(&result, &title, run)
-            .with_styles(choice.styles.clone())
+            .with_styles(files.styles.clone())
             .with_painting(painting.as_ref())
             .with_content(content)
     };
@@ -188,13 +193,11 @@ pub fn make(
         false => vec![("", product(Content::All))],
         true => vec![("-print", product(Content::Print)), ("-cut", product(Content::Cut))],
     };
-    let formats = args.guide.choose(choice.formats, input.project.as_ref().map(|p| &p.export));
-    let formats = args.film.choose(formats)?;
-    let mut files = written(task.targets, &products, &formats)?;
+    let mut written = written(task.targets, &products, &files.formats)?;
     if let Some(path) = task.segments {
-        files.push((path, segments(result.mesh(), result.face_parts(), &input.repairs)));
+        written.push((path, segments(result.mesh(), result.face_parts(), &input.repairs)));
     }
-    Ok(Made::new(&result, files))
+    Ok(Made::new(&result, written))
 }
 
 /// The files of all targets; pages of each product, all else of the first.

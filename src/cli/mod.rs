@@ -2,10 +2,11 @@
 
 mod batch;
 mod check;
+mod choice;
 mod cutters;
 mod design;
 mod error;
-mod film;
+mod flags;
 mod formats;
 mod guide;
 mod init;
@@ -13,15 +14,11 @@ mod input;
 mod made;
 mod make;
 mod names;
-mod net_args;
-mod options;
 mod output;
 mod plot;
 mod ports;
 mod progress;
 mod segment;
-mod segment_args;
-mod sheet_args;
 mod shell;
 mod show;
 #[cfg(feature = "studio")]

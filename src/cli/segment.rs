@@ -1,26 +1,25 @@
 //! `tatamu segment`
 
+use super::choice::Choice;
 use super::error::CliError;
-use super::options::ModelArgs;
+use super::flags::{Flags, OfDivision};
 use super::progress::TerminalProgress;
-use super::segment_args::SegmentArgs;
 use super::{input, make, output, terminal};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use tatamu::export::png;
 use tatamu::geom::Hull;
-use tatamu::mesh::Up;
 use tatamu::parts_report::{self, PartsRun};
 use tatamu::pipeline;
 use tatamu::progress::Progress;
-use tatamu::project::parse_up;
 use tatamu::render::parts_picture;
 use tatamu::segment::{Overlap, Parts, overlap};
 
 /// Shows the parts that a mesh is divided into, without making a model.
 ///
 /// Each part becomes one component of the model. The picture shows the parts in colour from two
-/// sides with their names, by which a project file can merge, split and rename them.
+/// sides with their names, by which a project file can merge, split and rename them. --up turns only
+/// the picture.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct SegmentCommand {
@@ -49,14 +48,8 @@ pub struct SegmentCommand {
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
 
-    /// Axis of the mesh that points up: x, y or z [default: y]
-    ///
-    /// Only the picture depends on it. Example: --up z
-    #[arg(long, value_name = "AXIS", value_parser = parse_up)]
-    up: Option<Up>,
-
     #[command(flatten)]
-    segmentation: SegmentArgs,
+    division: Flags<OfDivision>,
 
     /// No summary and no progress bar; warnings and errors only
     #[arg(short, long)]
@@ -81,12 +74,11 @@ pub fn run(args: &SegmentCommand) -> Result<(), CliError> {
     output::check_places(&places, &[&args.input])?;
     let input = input::read(&args.input)?;
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
-    let model_args = ModelArgs::of_segmentation(args.up, args.segmentation.clone());
-    let options = model_args.merge(input.project.as_ref())?;
+    let choice = Choice::new(input.project.as_ref(), args.division.given())?;
     input.warnings().iter().for_each(terminal::warn);
 
     let progress = TerminalProgress::new(args.quiet);
-    let (parts, _) = pipeline::find_parts(input.mesh()?, &options, &progress)
+    let (parts, _) = pipeline::find_parts(input.mesh()?, choice.options(), &progress)
         .map_err(|error| CliError::of_run(error, &progress))?;
     progress.stage("hulls");
     let hulls: Vec<Option<Hull>> = parts.hulls().into_iter().map(Result::ok).collect();

@@ -1,8 +1,8 @@
 //! `tatamu show`
 
+use super::choice::Choice;
 use super::error::CliError;
-use super::film::size_px;
-use super::options::ModelArgs;
+use super::flags::{Flags, OfModel};
 use super::progress::TerminalProgress;
 use super::{input, names, output, terminal};
 use clap::{Args, ValueEnum};
@@ -13,8 +13,8 @@ use tatamu::fold::ModelMotion;
 use tatamu::pipeline::Output;
 use tatamu::render::Scene;
 use tatamu::show::{
-    ShowError, Still, ViewAngle, captioned, clash_picture, components_scene, hulls_scene, mesh_scene,
-    segments_scene, staged_scene,
+    FilmOptions, ShowError, Still, ViewAngle, captioned, clash_picture, components_scene, hulls_scene,
+    mesh_scene, segments_scene, staged_scene,
 };
 
 /// Shows a mesh, or a stage of its way to a paper model, as a picture.
@@ -73,7 +73,7 @@ pub struct ShowArgs {
     transparent: bool,
 
     #[command(flatten)]
-    model: ModelArgs,
+    model: Flags<OfModel>,
 
     /// No message and no progress bar; warnings and errors only
     #[arg(short, long)]
@@ -99,6 +99,11 @@ Examples:
 
 const SIZE_PX: u32 = 800;
 
+fn size_px(text: &str) -> Result<u32, String> {
+    let size_px = text.trim().parse().map_err(|_| "this must be a whole number such as 640".to_owned())?;
+    FilmOptions::default().with_size_px(size_px).map(|_| size_px)
+}
+
 fn share(text: &str) -> Result<f64, String> {
     let share: Option<f64> = text.trim().parse().ok();
     let share = share.filter(|share| (0.0..=1.0).contains(share));
@@ -116,7 +121,8 @@ pub fn run(args: &ShowArgs) -> Result<(), CliError> {
     let input = input::read(&args.input)?;
     output::check_places(std::slice::from_ref(&path), &[&args.input, &input.mesh_path])?;
     input.notes.iter().for_each(terminal::warn);
-    let options = args.model.merge(input.project.as_ref())?;
+    let choice = Choice::new(input.project.as_ref(), args.model.given())?;
+    let options = choice.options();
     let still = Still {
         size_px: args.size_px.unwrap_or(SIZE_PX),
         angle: args.view.unwrap_or_default(),
@@ -127,7 +133,7 @@ pub fn run(args: &ShowArgs) -> Result<(), CliError> {
         vec![still.take(&mesh_scene(&mesh).map_err(ShowError::from)?)?]
     } else {
         let progress = TerminalProgress::new(args.quiet);
-        let result = input.run(&args.model, &options, &progress)?;
+        let result = input.run(&choice, &progress)?;
         progress.finish();
         if args.clashes { clashes(args, &still, &result)? } else { vec![still.take(&scene(args, &result)?)?] }
     };

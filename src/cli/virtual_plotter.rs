@@ -1,7 +1,8 @@
 //! `tatamu virtual-plotter`
 
-use super::cutters::CutterArgs;
+use super::choice::Choice;
 use super::error::CliError;
+use super::flags::{Flags, OfMachine};
 use super::{names, output, progress, terminal};
 use clap::Args;
 use glam::DVec2;
@@ -24,7 +25,7 @@ use tatamu::plotter::{Cutter, Faults, VirtualOptions, VirtualPlotter};
 #[derive(Debug, Args)]
 pub struct VirtualPlotterArgs {
     #[command(flatten)]
-    cutter: CutterArgs,
+    machine: Flags<OfMachine>,
 
     /// Size of its buffer in bytes
     #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(256..))]
@@ -81,7 +82,7 @@ const LOOK: Duration = Duration::from_millis(1);
 
 /// Runs the command.
 pub fn run(args: &VirtualPlotterArgs) -> Result<(), CliError> {
-    let cutter = args.cutter.choice()?.cutter;
+    let cutter = Choice::new(None, args.machine.given())?.machine()?.cutter;
     if let Some(path) = &args.output {
         output::targets(std::slice::from_ref(path), &[])?;
     }

@@ -1,6 +1,7 @@
 //! From what the user gave to sheets that can be sent.
 
 use super::PlotArgs;
+use crate::cli::choice::Choice;
 use crate::cli::error::CliError;
 use crate::cli::progress::TerminalProgress;
 use crate::cli::{input, terminal};
@@ -154,10 +155,10 @@ pub fn sheets(args: &PlotArgs, machine: &PltOptions) -> Result<Vec<Sheet>, CliEr
 
 fn of_model(args: &PlotArgs, path: &Path, machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
     let input = input::read(path)?;
-    let options = args.model.merge(input.project.as_ref())?;
+    let choice = Choice::new(input.project.as_ref(), args.model.given())?;
     input.warnings().iter().for_each(terminal::warn);
     let progress = TerminalProgress::new(args.quiet);
-    let result = input.run(&args.model, &options, &progress)?;
+    let result = input.run(&choice, &progress)?;
     progress.finish();
     terminal::warn_by_kind(result.warnings());
     let title = terminal::printable(&path.file_stem().unwrap_or_default().to_string_lossy());

@@ -6,9 +6,9 @@ mod keys;
 pub mod live;
 pub mod operator;
 
-use super::cutters::CutterArgs;
+use super::choice::Choice;
 use super::error::CliError;
-use super::options::ModelArgs;
+use super::flags::{Flags, OfMachine, OfModel};
 use super::{names, output, terminal};
 use clap::Args;
 use jobs::Sheet;
@@ -30,10 +30,10 @@ pub struct PlotArgs {
     input: Vec<PathBuf>,
 
     #[command(flatten)]
-    model: ModelArgs,
+    model: Flags<OfModel>,
 
     #[command(flatten)]
-    cutter: CutterArgs,
+    machine: Flags<OfMachine>,
 
     /// Serial port of the machine, such as /dev/ttyUSB0 or COM3
     ///
@@ -107,13 +107,14 @@ pub fn run(args: &PlotArgs) -> Result<(), CliError> {
         let journal = journal::read(path)?;
         return live::resume(args, path, journal);
     }
-    let machine = args.cutter.choice()?;
+    let chosen = Choice::new(None, args.machine.given())?;
+    let machine = chosen.machine()?;
     let is_live = !args.dry_run && (args.port.is_some() || args.preview.is_none());
     if is_live && args.port.is_none() {
         let message = "give the machine's --port (\"tatamu ports\" lists them), or --dry-run or --preview";
         return Err(CliError::Options(message.to_owned()));
     }
-    if is_live && !args.cutter.has_cutter() {
+    if is_live && chosen.settings().files.cutter.is_none() {
         let message = "say which --cutter it is; \"tatamu profiles list\" names them";
         return Err(CliError::Options(message.to_owned()));
     }

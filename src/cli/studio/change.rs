@@ -2,27 +2,31 @@
 //! result is read by the same parser as any project file.
 
 use glam::DVec3;
+use tatamu::project::options::{DIRECTION, Entry, PROFILE_VERTICES, RENAME, Scope, TOP_EDGES};
 use tatamu::sheet::Pin;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value};
 
 /// One change.
 #[derive(Debug, Clone)]
 pub enum Change {
-    /// Sets a key of a table, or takes it away so that the default holds. The table "" is the file.
+    /// Sets an option, or takes it away so that the default holds.
     Set {
-        /// Name of the table.
-        table: &'static str,
-        /// The key.
-        key: &'static str,
+        /// The option.
+        option: &'static Entry,
         /// Its value.
         value: Option<Value>,
     },
-    /// Sets a key of a component's table, or takes it away.
+    /// Has the project name its mesh otherwise.
+    Mesh {
+        /// The mesh file, relative to the project file.
+        file: String,
+    },
+    /// Sets an option of a component, or takes it away.
     Component {
         /// The component's name, before it was renamed.
         name: String,
-        /// The key.
-        key: &'static str,
+        /// The option.
+        option: &'static Entry,
         /// Its value.
         value: Option<Value>,
     },
@@ -63,10 +67,7 @@ impl Change {
     /// Whether it is about the shape of components, which those that are drawn have from their file.
     pub fn is_of_parts(&self) -> bool {
         match self {
-            Change::Set { table, key, .. } => {
-                matches!(*table, "segmentation")
-                    || matches!(*key, "up" | "level" | "top_edges" | "profile_vertices" | "tolerance")
-            }
+            Change::Set { option, .. } => option.scope == Scope::Mesh,
             Change::Pin { .. } => false,
             _ => true,
         }
@@ -75,8 +76,9 @@ impl Change {
     /// What it does, for the menu.
     pub fn label(&self) -> String {
         match self {
-            Self::Set { key, .. } => key.replace('_', " "),
-            Self::Component { name, key, .. } => format!("{} of {name}", key.replace('_', " ")),
+            Self::Set { option, .. } => words(option),
+            Self::Mesh { .. } => "name of the mesh".to_owned(),
+            Self::Component { name, option, .. } => format!("{} of {name}", words(option)),
             Self::Reset { name } => format!("reset of {name}"),
             Self::Forget { name } => format!("what was set for {name}"),
             Self::Merge { names } => format!("merge of {}", names.join(" and ")),
@@ -93,13 +95,17 @@ impl Change {
         let mut document: DocumentMut = text.parse().map_err(|e: toml_edit::TomlError| e.to_string())?;
         let root = document.as_table_mut();
         match self {
-            Self::Set { table: "", key, value } => set(root, key, value.as_ref()),
-            Self::Set { table, key, value } => {
-                let item = root.entry(table).or_insert_with(toml_edit::table);
-                let inner = item.as_table_mut().ok_or_else(|| format!("[{table}] is not a table"))?;
-                set(inner, key, value.as_ref());
-            }
-            Self::Component { name, key, value } => {
+            Self::Set { option, value } => match option.key.map_or("", |key| key.table) {
+                "" => set(root, option.name(), value.as_ref()),
+                table => {
+                    let item = root.entry(table).or_insert_with(toml_edit::table);
+                    let inner = item.as_table_mut().ok_or_else(|| format!("[{table}] is not a table"))?;
+                    set(inner, option.name(), value.as_ref());
+                }
+            },
+            Self::Mesh { file } => set(root, "mesh", Some(&file.into())),
+            Self::Component { name, option, value } => {
+                let key = option.name();
                 let list = list(root, "component")?;
                 match (find(list, "name", name), value) {
                     (Some(place), _) => {
@@ -116,8 +122,8 @@ impl Change {
             Self::Reset { name } => {
                 let list = list(root, "component")?;
                 if let Some(table) = find(list, "name", name).and_then(|place| list.get_mut(place)) {
-                    let keys = ["rename", "direction", "top_edges", "profile_vertices"];
-                    keys.iter().for_each(|key| drop(table.remove(key)));
+                    let options = [&RENAME, &DIRECTION, &TOP_EDGES, &PROFILE_VERTICES];
+                    options.iter().for_each(|option| drop(table.remove(option.name())));
                 }
             }
             Self::Forget { name } => remove(list(root, "component")?, "name", name),
@@ -142,6 +148,11 @@ impl Change {
         }
         Ok(document.to_string())
     }
+}
+
+/// The name of an option in words.
+fn words(option: &Entry) -> String {
+    option.name().replace('_', " ")
 }
 
 fn set(table: &mut Table, key: &str, value: Option<&Value>) {
@@ -206,6 +217,7 @@ fn rounded(v: DVec3) -> Array {
 mod tests {
     use super::*;
     use tatamu::project::Project;
+    use tatamu::project::options::{LEVEL, MARGIN, PAPER, ROOT, SIZE, TOLERANCE, choose};
 
     const TEXT: &str = "mesh = 'a.obj' # the bear\n\n[paper]\nsize = \"a4\" # in the tray\n\n[[component]]\nname = \"body\"\n";
 
@@ -218,36 +230,43 @@ mod tests {
         (text, project)
     }
 
-    fn component(name: &str, key: &'static str, value: Option<Value>) -> Change {
-        Change::Component { name: name.to_owned(), key, value }
+    fn component(name: &str, option: &'static Entry, value: Option<Value>) -> Change {
+        Change::Component { name: name.to_owned(), option, value }
+    }
+
+    #[test]
+    fn what_shapes_components_is_no_change_for_drawn_ones() {
+        let of_parts = |option: &'static Entry| Change::Set { option, value: None }.is_of_parts();
+        assert!([&LEVEL, &TOP_EDGES, &TOLERANCE, &ROOT].into_iter().all(of_parts));
+        assert!(![&SIZE, &PAPER, &MARGIN].into_iter().any(of_parts));
     }
 
     #[test]
     fn comments_stay_where_they_are() {
         let (text, project) = changed(&[
-            Change::Set { table: "paper", key: "size", value: Some("a3".into()) },
-            Change::Set { table: "", key: "size", value: Some(150.0.into()) },
+            Change::Set { option: &PAPER, value: Some("a3".into()) },
+            Change::Set { option: &SIZE, value: Some(150.0.into()) },
         ]);
         assert!(text.contains("# the bear") && text.contains("size = \"a3\" # in the tray"), "{text}");
-        assert_eq!(project.size_mm, Some(150.0));
-        assert_eq!(project.paper.size.unwrap().name(), "a3");
+        let model = choose(Some(&project), &[]).unwrap().model;
+        assert_eq!((model.size_mm, model.paper.name().as_str()), (150.0, "a3"));
     }
 
     #[test]
     fn components_are_found_made_and_reset() {
         let (_, project) = changed(&[
-            component("body", "direction", Some(30.0.into())),
-            component("head", "top_edges", Some(5.into())),
-            component("head", "direction", Some(10.0.into())),
-            component("head", "direction", None),
-            component("leg", "direction", None),
+            component("body", &DIRECTION, Some(30.0.into())),
+            component("head", &TOP_EDGES, Some(5.into())),
+            component("head", &DIRECTION, Some(10.0.into())),
+            component("head", &DIRECTION, None),
+            component("leg", &DIRECTION, None),
         ]);
         assert_eq!(project.components.len(), 2);
         assert_eq!(project.components[0].direction_deg, Some(30.0));
         let head = &project.components[1];
         assert_eq!((head.top_edges, head.direction_deg), (Some(5), None));
         let (_, project) = changed(&[
-            component("body", "rename", Some("trunk".into())),
+            component("body", &RENAME, Some("trunk".into())),
             Change::Reset { name: "body".to_owned() },
         ]);
         assert_eq!(project.components[0].rename, None);
@@ -256,7 +275,7 @@ mod tests {
     #[test]
     fn parts_are_merged_and_split() {
         let (_, project) = changed(&[
-            component("part-2", "direction", Some(10.0.into())),
+            component("part-2", &DIRECTION, Some(10.0.into())),
             Change::Merge { names: vec!["body".to_owned(), "part-2".to_owned()] },
             Change::Split {
                 name: "body".to_owned(),
@@ -270,9 +289,9 @@ mod tests {
 
     #[test]
     fn what_is_no_table_is_told() {
-        let change = component("body", "direction", Some(3.0.into()));
+        let change = component("body", &DIRECTION, Some(3.0.into()));
         assert!(change.apply("mesh = 'a'\ncomponent = []\n").unwrap_err().contains("[[component]]"));
-        let set = Change::Set { table: "paper", key: "size", value: Some("a3".into()) };
+        let set = Change::Set { option: &PAPER, value: Some("a3".into()) };
         assert!(set.apply("paper = 3\n").unwrap_err().contains("[paper]"));
     }
 }

@@ -1,10 +1,10 @@
 //! The project that is open, with what it was before.
 
 use super::change::Change;
-use crate::cli::options::ModelArgs;
 use std::path::{Path, PathBuf};
 use tatamu::pipeline::Options;
 use tatamu::project::Project;
+use tatamu::project::options::{Settings, choose};
 
 /// The project that is open.
 ///
@@ -14,7 +14,7 @@ use tatamu::project::Project;
 pub struct Document {
     text: String,
     project: Project,
-    options: Options,
+    settings: Settings,
     /// The project file, once there is one.
     path: Option<PathBuf>,
     /// What is in the file, or what the project began with.
@@ -38,9 +38,9 @@ impl Document {
     /// # Errors
     /// A message where that is none.
     pub fn new(text: String, path: Option<PathBuf>) -> Result<Self, String> {
-        let (project, options) = read(&text)?;
+        let (project, settings) = read(&text)?;
         let saved = text.clone();
-        Ok(Self { text, project, options, path, saved, undo: Vec::new(), redo: Vec::new(), gesture: None })
+        Ok(Self { text, project, settings, path, saved, undo: Vec::new(), redo: Vec::new(), gesture: None })
     }
 
     /// The text of the file.
@@ -53,9 +53,14 @@ impl Document {
         &self.project
     }
 
-    /// What the project asks for.
+    /// All that the project asks for.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// What the project asks for in the model.
     pub fn options(&self) -> &Options {
-        &self.options
+        &self.settings.model
     }
 
     /// The project file, once there is one.
@@ -74,7 +79,7 @@ impl Document {
     /// A message where the project would be none; it stays as it is.
     pub fn change(&mut self, change: &Change, gesture: Option<&str>) -> Result<(), String> {
         let text = change.apply(&self.text)?;
-        let (project, options) = read(&text)?;
+        let (project, settings) = read(&text)?;
         if text == self.text {
             return Ok(());
         }
@@ -85,7 +90,7 @@ impl Document {
         }
         self.redo.clear();
         self.gesture = gesture.map(str::to_owned);
-        (self.project, self.options) = (project, options);
+        (self.project, self.settings) = (project, settings);
         Ok(())
     }
 
@@ -99,7 +104,7 @@ impl Document {
     /// # Errors
     /// A message where it is no project file.
     pub fn replace(&mut self, text: String, label: &str) -> Result<(), String> {
-        (self.project, self.options) = read(&text)?;
+        (self.project, self.settings) = read(&text)?;
         let before = std::mem::replace(&mut self.text, text);
         self.undo.push(Step { text: before, label: label.to_owned() });
         self.redo.clear();
@@ -136,8 +141,8 @@ impl Document {
     fn go_to(&mut self, step: Step) -> Step {
         self.gesture = None;
         // A text that was one before is one again.
-        if let Ok((project, options)) = read(&step.text) {
-            (self.project, self.options) = (project, options);
+        if let Ok((project, settings)) = read(&step.text) {
+            (self.project, self.settings) = (project, settings);
         }
         Step { text: std::mem::replace(&mut self.text, step.text), label: step.label }
     }
@@ -150,13 +155,13 @@ impl Document {
         if self.project.mesh.as_deref() == Some(mesh) {
             return Ok(self.text.clone());
         }
-        Change::Set { table: "", key: "mesh", value: Some(mesh.into()) }.apply(&self.text)
+        Change::Mesh { file: mesh.to_owned() }.apply(&self.text)
     }
 
     /// The text is in a file now.
     pub fn saved_as(&mut self, path: PathBuf, text: String) {
-        if let Ok((project, options)) = read(&text) {
-            (self.project, self.options) = (project, options);
+        if let Ok((project, settings)) = read(&text) {
+            (self.project, self.settings) = (project, settings);
             self.text.clone_from(&text);
         }
         self.saved = text;
@@ -164,18 +169,19 @@ impl Document {
     }
 }
 
-fn read(text: &str) -> Result<(Project, Options), String> {
+fn read(text: &str) -> Result<(Project, Settings), String> {
     let project = Project::parse(text).map_err(|error| error.to_string())?;
-    let options = ModelArgs::default().merge(Some(&project)).map_err(|error| error.to_string())?;
-    Ok((project, options))
+    let settings = choose(Some(&project), &[]).map_err(|error| error.to_string())?;
+    Ok((project, settings))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tatamu::project::options::{DIRECTION, MARGIN, SIZE};
 
     fn turn(degrees: f64) -> Change {
-        Change::Component { name: "head".to_owned(), key: "direction", value: Some(degrees.into()) }
+        Change::Component { name: "head".to_owned(), option: &DIRECTION, value: Some(degrees.into()) }
     }
 
     fn direction(document: &Document) -> Option<f64> {
@@ -217,9 +223,9 @@ mod tests {
     #[test]
     fn what_would_break_the_project_is_refused() {
         let mut document = Document::new("mesh = 'a.obj'\n".to_owned(), None).unwrap();
-        let wrong = Change::Set { table: "paper", key: "margin_mm", value: Some(400.0.into()) };
+        let wrong = Change::Set { option: &MARGIN, value: Some(400.0.into()) };
         assert!(document.change(&wrong, None).unwrap_err().contains("margin"));
-        let wrong = Change::Set { table: "", key: "size", value: Some((-1.0).into()) };
+        let wrong = Change::Set { option: &SIZE, value: Some((-1.0).into()) };
         assert!(document.change(&wrong, None).is_err());
         assert!(!document.is_changed() && document.undo_label().is_none());
     }

@@ -1,7 +1,7 @@
 //! A file that is open.
 
+use crate::cli::choice::Choice;
 use crate::cli::error::CliError;
-use crate::cli::formats::FileArgs;
 use crate::cli::input::Shape;
 use crate::cli::{init, input};
 use std::borrow::Cow;
@@ -14,6 +14,7 @@ use tatamu::pipeline::{Engine, Options, Output, shape_drawn};
 use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::project::Project;
+use tatamu::project::options::Settings;
 use tatamu::report::Run;
 
 /// A file that is open.
@@ -57,7 +58,7 @@ impl Opened {
         } else {
             let project = source.with_extension("toml");
             let name = init::mesh_from(&project, source).map_err(|error| error.to_string())?;
-            init::project_text(&name, &Options::default(), &[])
+            init::project_text(&name, Settings::standard(), &[])
         };
         Ok(Self {
             source: source.to_owned(),
@@ -81,7 +82,7 @@ impl Opened {
         output: &Output,
         give: impl FnOnce(Product<'_>, FormatOptions) -> T,
     ) -> Result<T, CliError> {
-        let choice = FileArgs::default().merge(Some(&project.export), &self.source)?;
+        let choice = Choice::new(Some(project), &[])?.files(&self.source)?;
         let painting = choice.is_coloured.then(|| input::read_painting(&self.mesh_path)).transpose()?;
         let warnings = input::repair_warnings(&self.repairs);
         let mesh_path = self.mesh_path.to_string_lossy();

@@ -3,7 +3,7 @@
 use super::opened::Opened;
 use super::pages;
 use super::worker::Wake;
-use crate::cli::cutters::CutterArgs;
+use crate::cli::cutters;
 use crate::cli::plot::jobs::{self, Sheet};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
@@ -97,7 +97,7 @@ impl Drop for Planning {
 impl Hand {
     /// The plan; nothing where nobody wants it any more.
     fn plan(&self, wish: &Wish, wake: &Wake) -> Result<Option<Plan>, String> {
-        let machine = CutterArgs::of(&wish.cutter, &wish.media).choice().map_err(|e| e.to_string())?;
+        let machine = cutters::machine(Some(&wish.cutter), Some(&wish.media)).map_err(|e| e.to_string())?;
         let drawings = pages::drawings(&wish.opened, &wish.project, &wish.output)?;
         // Each sheet is planned, then drawn.
         let _ = self.all.set(2 * drawings.len());

@@ -13,6 +13,7 @@ use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tatamu::pipeline::{Options, Output};
+use tatamu::project::options::{DIRECTION, SIZE};
 
 /// The studio without its window.
 pub struct Studio {
@@ -210,7 +211,8 @@ impl Studio {
         (self.problem, self.missing) = (None, None);
         self.busy = Some(Busy { stage: "starting", fraction: None });
         let (engine, options) = (opened.engine.clone(), document.options().clone());
-        let size_mm = document.project().size_mm;
+        let is_sized = document.project().has(&SIZE);
+        let size_mm = is_sized.then_some(document.options().size_mm);
         let drawn = opened.drawn.clone().map(|sketches| (sketches, size_mm));
         self.worker.start(Order { engine, drawn, options, first, measures: self.measures });
     }
@@ -311,7 +313,7 @@ impl Studio {
         let turned = to_digits((now + degrees + 180.0).rem_euclid(360.0) - 180.0, 1);
         let gesture = format!("turn {name}");
         self.change(
-            &Change::Component { name, key: "direction", value: Some(turned.into()) },
+            &Change::Component { name, option: &DIRECTION, value: Some(turned.into()) },
             Some(&gesture),
         );
     }

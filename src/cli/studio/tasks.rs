@@ -2,7 +2,6 @@
 
 use super::opened::Opened;
 use super::worker::Wake;
-use crate::cli::guide::GuideArgs;
 use crate::cli::make;
 use crate::cli::output::{self, Target};
 use std::path::{Path, PathBuf};
@@ -85,7 +84,6 @@ fn export(
         let paths: Vec<PathBuf> = targets.iter().map(|target| target.path.clone()).collect();
         output::check_places(&paths, &[&opened.source, &opened.mesh_path])?;
         let files = opened.with_product(project, output, |product, formats| {
-            let formats = GuideArgs::default().choose(formats, Some(&project.export));
             make::written(targets, &[("", product)], &formats)
         })??;
         output::write(&files)?;

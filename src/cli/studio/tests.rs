@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tatamu::project::Project;
+use tatamu::project::options::{DIRECTION, PAPER, TOP_EDGES};
 
 /// A studio with a small model, quick to make, in a folder of its own.
 pub struct Desk {
@@ -69,14 +70,14 @@ fn what_is_saved_is_what_the_command_line_reads() {
     let name = studio.shown().names()[2].clone();
     studio.selection.select(&name, None, false);
     studio.turn(2, 10.0);
-    studio.change(&Change::Set { table: "paper", key: "size", value: Some("a3".into()) }, None);
+    studio.change(&Change::Set { option: &PAPER, value: Some("a3".into()) }, None);
     assert!(studio.document().unwrap().is_changed());
     assert!(studio.save());
     assert!(!studio.document().unwrap().is_changed());
     let text = std::fs::read_to_string(folder.path().join("snowman.toml")).unwrap();
     assert!(text.starts_with("# of snow\n"));
     let project = Project::parse(&text).unwrap();
-    assert_eq!(project.paper.size.unwrap().name(), "a3");
+    assert_eq!(project.settings().model.paper.name(), "a3");
     assert_eq!(project.components[0].name, name);
     let elsewhere = folder.path().join("sub");
     std::fs::create_dir(&elsewhere).unwrap();
@@ -121,7 +122,7 @@ fn parts_are_merged_and_split() {
 #[test]
 fn what_goes_wrong_is_told_and_the_last_result_stays() {
     let Desk { mut studio, folder } = desk();
-    let none = Change::Component { name: "tail".to_owned(), key: "direction", value: Some(3.0.into()) };
+    let none = Change::Component { name: "tail".to_owned(), option: &DIRECTION, value: Some(3.0.into()) };
     studio.change(&none, None);
     wait(&mut studio, "a problem", |s| s.problem().is_some());
     assert!(studio.problem().unwrap().contains("no component \"tail\""));
@@ -143,7 +144,7 @@ fn what_goes_wrong_is_told_and_the_last_result_stays() {
 #[test]
 fn that_a_file_cannot_be_read_is_told_though_other_work_ends_well() {
     let Desk { mut studio, folder } = desk();
-    studio.change(&Change::Set { table: "defaults", key: "top_edges", value: Some(5.into()) }, None);
+    studio.change(&Change::Set { option: &TOP_EDGES, value: Some(5.into()) }, None);
     studio.open(&folder.path().join("missing.obj"));
     wait(&mut studio, "a problem", |s| s.problem().is_some());
     wait(&mut studio, "the model", |s| s.finished().is_some() && s.busy().is_none());
@@ -153,7 +154,7 @@ fn that_a_file_cannot_be_read_is_told_though_other_work_ends_well() {
 #[test]
 fn work_can_be_stopped() {
     let Desk { mut studio, folder: _folder } = desk();
-    studio.change(&Change::Set { table: "defaults", key: "top_edges", value: Some(9.into()) }, None);
+    studio.change(&Change::Set { option: &TOP_EDGES, value: Some(9.into()) }, None);
     studio.cancel();
     assert!(studio.busy().is_none());
     std::thread::sleep(Duration::from_millis(300));
@@ -204,7 +205,7 @@ fn a_drawn_model_opens_and_keeps_its_shape() {
     studio.turn(0, 5.0);
     assert!(studio.notice().is_some_and(|notice| notice.contains("drawn")));
     assert_eq!(studio.document().unwrap().text(), before);
-    studio.change(&Change::Set { table: "paper", key: "size", value: Some("a3".into()) }, None);
+    studio.change(&Change::Set { option: &PAPER, value: Some("a3".into()) }, None);
     wait(&mut studio, "larger sheets", |s| s.finished().is_some());
     assert!(studio.save());
     assert!(

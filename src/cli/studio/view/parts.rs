@@ -4,10 +4,11 @@ use super::super::change::Change;
 use super::super::state::Studio;
 use super::dials;
 use super::space::Space;
-use super::values::Number;
+use super::values::Dialled;
 use eframe::egui::{self, CollapsingHeader, Color32, Grid, RichText, Ui};
 use glam::DVec3;
 use tatamu::component::PrincipalAxis;
+use tatamu::project::options::{DIRECTION, PROFILE_VERTICES, RENAME, ROOT, TOP_EDGES};
 use tatamu::render::palette;
 
 /// What the panel remembers.
@@ -103,35 +104,18 @@ fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: usize) {
     let own = options.components.get(&name).cloned().unwrap_or_default();
     Grid::new("component").num_columns(2).show(ui, |ui| {
         rename_row(panel, studio, ui, &name, own.rename.as_deref().unwrap_or(&name));
-        let direction = Number {
-            label: "Direction",
-            help: "angle of the fold axis about the component's longest axis; also by the wheel",
-            table: "",
-            key: "direction",
-            range: -180.0..=180.0,
-            digits: Some(1),
-            unit: "°",
-        };
         let now = studio.direction_deg(index).unwrap_or_default();
-        direction.component_row(studio, ui, &name, (now, own.direction_rad.is_some()));
-        let count = |label, key| Number {
-            label,
-            help: "more follow the shape better, fewer fold faster",
-            table: "",
-            key,
-            range: 3.0..=64.0,
-            digits: None,
-            unit: "",
-        };
+        Dialled::new(&DIRECTION).component_row(studio, ui, &name, (now, own.direction_rad.is_some()));
         let made = studio.shown().shaped().and_then(|shaped| shaped.model().parts().get(index));
         let made = made.map_or((3, 3), |part| {
             let profiles = part.component.profiles();
             (profiles.len(), profiles.iter().map(|profile| profile.points().len()).max().unwrap_or(3))
         });
         let edges = own.top_edges.or(options.top_edges).unwrap_or(made.0) as f64;
-        count("Top edges", "top_edges").component_row(studio, ui, &name, (edges, own.top_edges.is_some()));
+        let row = Dialled::new(&TOP_EDGES);
+        row.component_row(studio, ui, &name, (edges, own.top_edges.is_some()));
         let vertices = own.profile_vertices.or(options.profile_vertices).unwrap_or(made.1) as f64;
-        let row = count("Profile vertices", "profile_vertices");
+        let row = Dialled::new(&PROFILE_VERTICES);
         row.component_row(studio, ui, &name, (vertices, own.profile_vertices.is_some()));
         figures(studio, ui, index);
     });
@@ -143,7 +127,7 @@ fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: usize) {
         let text = "the component that all others hang on";
         if ui.add_enabled(!is_root, egui::Button::new("Make root")).on_hover_text(text).clicked() {
             let value = Some(name.clone().into());
-            studio.change(&Change::Set { table: "segmentation", key: "root", value }, None);
+            studio.change(&Change::Set { option: &ROOT, value }, None);
         }
     });
 }
@@ -162,7 +146,7 @@ fn rename_row(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, name: &s
         panel.renaming = None;
         if text != now {
             let value = (text != name && !text.trim().is_empty()).then(|| text.trim().into());
-            studio.change(&Change::Component { name: name.to_owned(), key: "rename", value }, None);
+            studio.change(&Change::Component { name: name.to_owned(), option: &RENAME, value }, None);
         }
     }
     ui.end_row();

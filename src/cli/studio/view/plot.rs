@@ -9,6 +9,7 @@ use crate::cli::cutters;
 use crate::cli::ports;
 use eframe::egui::{self, Color32, Rect, Sense, Ui};
 use std::sync::Arc;
+use tatamu::project::options::{CUTTER, MEDIA};
 
 /// The panel of the cutter.
 pub struct PlotPanel {
@@ -40,8 +41,8 @@ impl Default for PlotPanel {
     fn default() -> Self {
         Self {
             names: cutters::names(),
-            cutter: "generic-hpgl".to_owned(),
-            media: "cardstock-200".to_owned(),
+            cutter: CUTTER.automatic.to_owned(),
+            media: MEDIA.automatic.to_owned(),
             port: String::new(),
             ports: port_names(),
             copies: 1,

@@ -1,61 +1,69 @@
-//! Rows of numbers and choices of the project.
+//! Rows of options of the project: numbers, choices and boxes to tick.
 
 use super::super::change::{Change, to_digits};
 use super::super::state::Studio;
 use eframe::egui::{self, DragValue, Ui};
+use std::ops::RangeInclusive;
+use tatamu::project::options::{Dial, Entry, Kind, Range, Settings, Unit};
 use toml_edit::Value;
 
-/// Where a number stands in the project, and what it may be.
-pub struct Number {
-    /// What it is called.
-    pub label: &'static str,
-    /// What it means.
-    pub help: &'static str,
-    /// Its table; "" is the file.
-    pub table: &'static str,
-    /// Its key.
-    pub key: &'static str,
-    /// Least and most.
-    pub range: std::ops::RangeInclusive<f64>,
-    /// Digits after the point; none is a whole number.
-    pub digits: Option<i32>,
-    /// What stands after it.
-    pub unit: &'static str,
+/// An option that has a row.
+pub struct Dialled {
+    option: &'static Entry,
+    dial: Dial,
 }
 
-impl Number {
-    /// A row with the number as it is now.
-    pub fn row(&self, studio: &mut Studio, ui: &mut Ui, now: f64) {
-        let label = ui.label(self.label).on_hover_text(self.help);
+impl Dialled {
+    /// The row of an option; one without a setting of its own has its name.
+    pub fn new(option: &'static Entry) -> Self {
+        let plain = Dial { label: option.name(), span: None, digits: 0 };
+        Self { option, dial: option.dial.unwrap_or(plain) }
+    }
+
+    /// The row that fits its kind, with its value as it is now.
+    pub fn row(&self, studio: &mut Studio, ui: &mut Ui, now: &Settings) {
+        match &self.option.kind {
+            Kind::Number(number) if (number.get)(Settings::standard()).is_none() => {
+                self.optional_row(studio, ui, (number.get)(now), number.such_as);
+            }
+            Kind::Number(number) => self.number_row(studio, ui, (number.get)(now).unwrap_or(number.such_as)),
+            Kind::Count(count) => {
+                let now = (count.get)(now).map(|n| n as f64);
+                match (count.get)(Settings::standard()) {
+                    Some(standard) => self.number_row(studio, ui, now.unwrap_or(standard as f64)),
+                    None => self.optional_row(studio, ui, now, count.such_as as f64),
+                }
+            }
+            Kind::Switch(switch) => self.tick_row(studio, ui, (switch.get)(now)),
+            Kind::Text(text) => self.choice_row(studio, ui, &(text.get)(now).unwrap_or_default()),
+        }
+    }
+
+    /// A row with a number.
+    pub fn number_row(&self, studio: &mut Studio, ui: &mut Ui, now: f64) {
+        let label = ui.label(self.dial.label).on_hover_text(self.option.tip());
         if let Some(x) = self.field(ui, now, label.id, studio) {
-            let value = self.value(x);
-            studio.change(
-                &Change::Set { table: self.table, key: self.key, value: Some(value) },
-                Some(self.key),
-            );
+            studio.change(&self.set(Some(self.value(x))), Some(self.option.name()));
         }
         ui.end_row();
     }
 
     /// A row with a box: without a tick there is no number, and the default holds.
     pub fn optional_row(&self, studio: &mut Studio, ui: &mut Ui, now: Option<f64>, otherwise: f64) {
-        let label = ui.label(self.label).on_hover_text(self.help);
+        let label = ui.label(self.dial.label).on_hover_text(self.option.tip());
         ui.horizontal(|ui| {
             let mut is_set = now.is_some();
-            let name = format!("choose {}", self.label);
+            let name = format!("choose {}", self.dial.label);
             let tick =
                 ui.add(egui::Checkbox::without_text(&mut is_set)).on_hover_text("without a tick: automatic");
             tick.widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, now.is_some(), &name));
             if tick.changed() {
-                let value = is_set.then(|| self.value(otherwise));
-                studio.change(&Change::Set { table: self.table, key: self.key, value }, None);
+                studio.change(&self.set(is_set.then(|| self.value(otherwise))), None);
             }
             match now {
                 Some(now) => {
                     if let Some(x) = self.field(ui, now, label.id, studio) {
-                        let value = Some(self.value(x));
-                        studio
-                            .change(&Change::Set { table: self.table, key: self.key, value }, Some(self.key));
+                        studio.change(&self.set(Some(self.value(x))), Some(self.option.name()));
                     }
                 }
                 None => drop(ui.weak("automatic")),
@@ -66,22 +74,16 @@ impl Number {
 
     /// The same for a component.
     pub fn component_row(&self, studio: &mut Studio, ui: &mut Ui, name: &str, (now, is_set): (f64, bool)) {
-        let label = ui.label(self.label).on_hover_text(self.help);
+        let label = ui.label(self.dial.label).on_hover_text(self.option.tip());
+        let set = |value| Change::Component { name: name.to_owned(), option: self.option, value };
         ui.horizontal(|ui| {
             if let Some(x) = self.field(ui, now, label.id, studio) {
-                let value = Some(self.value(x));
-                let gesture = format!("{} {name}", self.key);
-                studio.change(
-                    &Change::Component { name: name.to_owned(), key: self.key, value },
-                    Some(&gesture),
-                );
+                let gesture = format!("{} {name}", self.option.name());
+                studio.change(&set(Some(self.value(x))), Some(&gesture));
             }
             if is_set {
                 if ui.small_button("auto").on_hover_text("as the whole model has it").clicked() {
-                    studio.change(
-                        &Change::Component { name: name.to_owned(), key: self.key, value: None },
-                        None,
-                    );
+                    studio.change(&set(None), None);
                 }
             } else {
                 ui.weak("auto");
@@ -90,66 +92,81 @@ impl Number {
         ui.end_row();
     }
 
+    /// A row with a choice among names.
+    fn choice_row(&self, studio: &mut Studio, ui: &mut Ui, now: &str) {
+        let label = ui.label(self.dial.label).on_hover_text(self.option.tip());
+        let mut chosen = now.to_owned();
+        let combo = egui::ComboBox::from_id_salt(self.option.name()).selected_text(now).show_ui(ui, |ui| {
+            for name in self.option.kind.names() {
+                ui.selectable_value(&mut chosen, name.to_owned(), name);
+            }
+        });
+        combo.response.labelled_by(label.id);
+        ui.end_row();
+        if chosen != now {
+            studio.change(&self.set(Some(chosen.into())), None);
+        }
+    }
+
+    /// A row with a box to tick.
+    fn tick_row(&self, studio: &mut Studio, ui: &mut Ui, now: bool) {
+        let mut is_set = now;
+        ui.label("");
+        if ui.checkbox(&mut is_set, self.dial.label).on_hover_text(self.option.tip()).changed() {
+            studio.change(&self.set(Some(is_set.into())), None);
+        }
+        ui.end_row();
+    }
+
+    fn set(&self, value: Option<Value>) -> Change {
+        Change::Set { option: self.option, value }
+    }
+
+    fn is_count(&self) -> bool {
+        matches!(self.option.kind, Kind::Count(_))
+    }
+
     fn value(&self, x: f64) -> Value {
-        match self.digits {
-            Some(digits) => to_digits(x, digits).into(),
-            None => (x.round() as i64).into(),
+        if self.is_count() { (x.round() as i64).into() } else { to_digits(x, self.dial.digits).into() }
+    }
+
+    /// Least and most that can be dragged to.
+    fn range(&self) -> RangeInclusive<f64> {
+        match (&self.option.kind, self.dial.span) {
+            (_, Some((least, most))) => least..=most,
+            (Kind::Count(count), _) => count.least as f64..=count.most as f64,
+            (Kind::Number(number), _) => match number.range {
+                Range::Within(least, most) => least..=most,
+                Range::Positive | Range::NotNegative => 0.0..=f64::INFINITY,
+            },
+            (Kind::Switch(_) | Kind::Text(_), _) => 0.0..=1.0,
+        }
+    }
+
+    fn suffix(&self) -> &'static str {
+        match &self.option.kind {
+            Kind::Number(number) if number.unit == Unit::Length => " mm",
+            // A direction is an angle with a name before it.
+            Kind::Text(_) => "°",
+            _ => "",
         }
     }
 
     /// The field; what the user made of it.
     fn field(&self, ui: &mut Ui, now: f64, label: egui::Id, studio: &mut Studio) -> Option<f64> {
         let mut x = now;
-        let span = self.range.end() - self.range.start();
+        let range = self.range();
+        let span = range.end() - range.start();
         let field = DragValue::new(&mut x)
-            .range(self.range.clone())
-            .speed(if self.digits.is_none() { 0.05 } else { (span / 600.0).min(1.0) })
-            .max_decimals(self.digits.unwrap_or(0).max(0) as usize)
-            .suffix(self.unit)
+            .range(range)
+            .speed(if self.is_count() { 0.05 } else { (span / 600.0).min(1.0) })
+            .max_decimals(self.dial.digits.max(0) as usize)
+            .suffix(self.suffix())
             .update_while_editing(false);
-        let response = ui.add(field).labelled_by(label).on_hover_text(self.help);
+        let response = ui.add(field).labelled_by(label).on_hover_text(self.option.tip());
         if response.drag_stopped() || response.lost_focus() {
             studio.end_gesture();
         }
         (response.changed() && x != now).then_some(x)
     }
-}
-
-/// A row with a choice among names.
-pub fn choice_row(
-    studio: &mut Studio,
-    ui: &mut Ui,
-    (label, help): (&str, &str),
-    (table, key): (&'static str, &'static str),
-    now: &str,
-    among: &[&str],
-) {
-    let label = ui.label(label).on_hover_text(help);
-    let mut chosen = now.to_owned();
-    let combo = egui::ComboBox::from_id_salt((table, key)).selected_text(now).show_ui(ui, |ui| {
-        for name in among {
-            ui.selectable_value(&mut chosen, (*name).to_owned(), *name);
-        }
-    });
-    combo.response.labelled_by(label.id);
-    ui.end_row();
-    if chosen != now {
-        studio.change(&Change::Set { table, key, value: Some(chosen.into()) }, None);
-    }
-}
-
-/// A row with a box to tick.
-pub fn tick_row(
-    studio: &mut Studio,
-    ui: &mut Ui,
-    (label, help): (&str, &str),
-    (table, key): (&'static str, &'static str),
-    now: bool,
-) {
-    let mut is_set = now;
-    ui.label("");
-    if ui.checkbox(&mut is_set, label).on_hover_text(help).changed() {
-        studio.change(&Change::Set { table, key, value: Some(is_set.into()) }, None);
-    }
-    ui.end_row();
 }
