@@ -59,13 +59,25 @@ fn used(text: &str) -> BTreeSet<String> {
     after.map(word).collect()
 }
 
+/// The application layer serves any front: it knows neither the command line's library nor the window's.
+#[test]
+fn the_application_knows_no_flags_and_no_windows() {
+    for path in source_files(root().join("src/app")) {
+        let text = read(&path);
+        for library in ["clap", "eframe", "egui", "indicatif"] {
+            let is_used = [format!("use {library}"), format!("{library}::")].iter().any(|u| text.contains(u));
+            assert!(!is_used, "{} uses {library}", path.display());
+        }
+    }
+}
+
 #[test]
 fn every_module_has_a_layer_and_uses_none_above_it() {
     let layers = layers();
     let declared = read(&root().join("src/lib.rs"));
     let declared = declared.lines().filter_map(|line| line.strip_prefix("pub mod ")?.strip_suffix(';'));
     let mut modules: BTreeSet<&str> = declared.collect();
-    modules.insert("cli");
+    modules.extend(["app", "cli", "studio"]);
     assert_eq!(layers.keys().map(String::as_str).collect::<BTreeSet<_>>(), modules);
     let mut count = 0;
     for path in source_files(root().join("src")) {

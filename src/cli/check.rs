@@ -1,7 +1,7 @@
 //! `tatamu check`
 
-use super::error::{CliError, reason};
 use super::terminal;
+use crate::app::error::{AppError, reason};
 use clap::Args;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -31,11 +31,11 @@ pub struct CheckArgs {
 }
 
 /// Runs the command.
-pub fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
+pub fn run(args: &CheckArgs) -> Result<ExitCode, AppError> {
     let path = args.file.clone();
     let bytes = std::fs::read(&args.file)
-        .map_err(|error| CliError::Input { path: path.clone(), reason: reason(&error) })?;
-    let report = check::fold(&bytes).map_err(|error| CliError::Check { path, error })?;
+        .map_err(|error| AppError::Input { path: path.clone(), reason: reason(&error) })?;
+    let report = check::fold(&bytes).map_err(|error| AppError::Check { path, error })?;
     let limits = Limits::default();
     let least = args.min_panel_width.unwrap_or(limits.min_panel_mm);
     let verdicts = report.verdicts(&Limits { min_panel_mm: least, ..limits });

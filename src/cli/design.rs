@@ -1,10 +1,10 @@
 //! `tatamu design`
 
-use super::choice::Choice;
-use super::error::CliError;
-use super::input::{self, Shape};
 use super::make::{self, MakeArgs};
 use super::terminal;
+use crate::app::choice::Choice;
+use crate::app::error::AppError;
+use crate::app::input::{self, Shape};
 use clap::Args;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -46,7 +46,7 @@ A project file of one component:
 const LISTED: usize = 12;
 
 /// Runs the command.
-pub fn run(args: &DesignArgs) -> Result<(), CliError> {
+pub fn run(args: &DesignArgs) -> Result<(), AppError> {
     if !args.list_configurations {
         return make::run(&args.make);
     }
@@ -54,17 +54,17 @@ pub fn run(args: &DesignArgs) -> Result<(), CliError> {
 }
 
 /// Lists the ways of all profiles of a project file.
-fn list_all(args: &DesignArgs, path: &Path) -> Result<(), CliError> {
+fn list_all(args: &DesignArgs, path: &Path) -> Result<(), AppError> {
     let input = input::read(path)?;
     let Shape::Drawn(sketches) = &input.shape else {
-        return Err(CliError::Options(format!(
+        return Err(AppError::Options(format!(
             "{} holds no drawn components, so there are no profiles with ways to fold",
             input.mesh_path.display()
         )));
     };
     let choice = Choice::new(input.project.as_ref(), &args.make.given())?;
     let least_mm = choice.options().min_panel_width_mm;
-    let rankings = rankings(sketches, least_mm).map_err(|error| CliError::Pipeline(error.into()))?;
+    let rankings = rankings(sketches, least_mm).map_err(|error| AppError::Pipeline(error.into()))?;
     for (sketch, rankings) in sketches.iter().zip(&rankings) {
         for (p, ranking) in rankings.iter().enumerate() {
             list(sketch, p, ranking);

@@ -1,7 +1,7 @@
 //! `tatamu formats`
 
-use super::choice::style_names;
 use super::terminal;
+use crate::app::choice::style_names;
 use clap::Args;
 use tatamu::export::FORMATS;
 

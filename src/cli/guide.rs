@@ -1,12 +1,9 @@
 //! Options of the assembly guide.
 
-use super::error::CliError;
 use super::flags::{Flags, OfGuide};
-use super::names;
-use super::output::{self, Target};
+use crate::app::make::Guide;
 use clap::Args;
-use std::path::{Path, PathBuf};
-use tatamu::export::{FORMATS, Format, GUIDES};
+use std::path::PathBuf;
 use tatamu::project::options::Given;
 
 /// Options of the assembly guide.
@@ -21,50 +18,20 @@ pub struct GuideArgs {
     /// folders as with -o.
     /// Example: --guide teddy.html, --guide -o guide.pdf
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "", value_parser = wanted)]
-    guide: Vec<Wanted>,
+    guide: Vec<Guide>,
 
     #[command(flatten)]
     language: Flags<OfGuide>,
 }
 
-/// Which file is to be a guide.
-#[derive(Debug, Clone)]
-enum Wanted {
-    /// Those of `-o`.
-    Outputs,
-    /// This one.
-    File(PathBuf),
-}
-
-fn wanted(text: &str) -> Result<Wanted, String> {
-    Ok(if text.is_empty() { Wanted::Outputs } else { Wanted::File(PathBuf::from(text)) })
+fn wanted(text: &str) -> Result<Guide, String> {
+    Ok(if text.is_empty() { Guide::Outputs } else { Guide::File(PathBuf::from(text)) })
 }
 
 impl GuideArgs {
-    /// The files to write, guides among them, of which the user named `outputs`.
-    pub fn targets(&self, input: &Path, outputs: &[PathBuf]) -> Result<Vec<Target>, CliError> {
-        let is_output = self.guide.iter().any(|wanted| matches!(wanted, Wanted::Outputs));
-        let mut guides: Vec<PathBuf> = Vec::new();
-        for wanted in &self.guide {
-            match wanted {
-                Wanted::File(path) => guides.push(names::for_input(path, input, GUIDES[0].extensions[0])),
-                Wanted::Outputs if outputs.is_empty() => {
-                    let name = names::default(input, GUIDES[GUIDES.len() - 1].extensions[0]);
-                    guides.push(names::with_suffix(&name, "-guide"));
-                }
-                Wanted::Outputs => {}
-            }
-        }
-        let extension = FORMATS[0].extensions[0];
-        let default = [names::default(input, extension)];
-        let outputs: Vec<PathBuf> =
-            outputs.iter().map(|path| names::for_input(path, input, extension)).collect();
-        let sheets = if outputs.is_empty() { &default[..] } else { &outputs[..] };
-        let lists: &[&'static [Format]] =
-            if is_output && !outputs.is_empty() { &[GUIDES, FORMATS] } else { &[FORMATS] };
-        let mut targets = output::targets_among(sheets, lists)?;
-        targets.extend(output::targets_among(&guides, &[GUIDES])?);
-        Ok(targets)
+    /// Which files are to be guides.
+    pub fn wanted(&self) -> &[Guide] {
+        &self.guide
     }
 
     /// The options of the guide that the user gave.

@@ -2,34 +2,26 @@
 
 mod batch;
 mod check;
-mod choice;
 mod cutters;
 mod design;
-mod error;
 mod flags;
 mod formats;
 mod guide;
 mod init;
-mod input;
-mod made;
 mod make;
-mod names;
-mod output;
 mod plot;
 mod ports;
 mod progress;
 mod segment;
 mod shell;
 mod show;
-#[cfg(feature = "studio")]
-mod studio;
 mod studio_args;
 mod terminal;
 #[cfg(unix)]
 mod virtual_plotter;
 
+use crate::app::error::AppError;
 use clap::{CommandFactory, Parser, Subcommand};
-use error::CliError;
 use std::process::ExitCode;
 
 /// Exit code of work that was stopped by Ctrl-C, as shells have it (128 + SIGINT).
@@ -110,7 +102,7 @@ pub fn run() -> ExitCode {
     };
     match result {
         Ok(code) => code,
-        Err(CliError::Cancelled(cancelled)) => {
+        Err(AppError::Cancelled(cancelled)) => {
             terminal::complain("tatamu", &cancelled.to_string());
             ExitCode::from(STOPPED)
         }

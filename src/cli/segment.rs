@@ -1,10 +1,11 @@
 //! `tatamu segment`
 
-use super::choice::Choice;
-use super::error::CliError;
 use super::flags::{Flags, OfDivision};
 use super::progress::TerminalProgress;
-use super::{input, make, output, terminal};
+use super::terminal;
+use crate::app::choice::Choice;
+use crate::app::error::AppError;
+use crate::app::{input, make, output};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use tatamu::export::png;
@@ -65,9 +66,9 @@ Examples:
 const DOTS_PER_INCH: f64 = 130.0;
 
 /// Runs the command.
-pub fn run(args: &SegmentCommand) -> Result<(), CliError> {
+pub fn run(args: &SegmentCommand) -> Result<(), AppError> {
     if let Some(path) = args.output.as_ref().filter(|p| !is_png(p)) {
-        return Err(CliError::Extension { path: path.clone(), known: ".png".to_owned() });
+        return Err(AppError::Extension { path: path.clone(), known: ".png".to_owned() });
     }
     let places: Vec<PathBuf> =
         [&args.output, &args.segments, &args.report].into_iter().flatten().cloned().collect();
@@ -79,7 +80,7 @@ pub fn run(args: &SegmentCommand) -> Result<(), CliError> {
 
     let progress = TerminalProgress::new(args.quiet);
     let (parts, _) = pipeline::find_parts(input.mesh()?, choice.options(), &progress)
-        .map_err(|error| CliError::of_run(error, &progress))?;
+        .map_err(|error| AppError::of_run(error, &progress))?;
     progress.stage("hulls");
     let hulls: Vec<Option<Hull>> = parts.hulls().into_iter().map(Result::ok).collect();
     progress.stage("overlap");
@@ -99,7 +100,7 @@ pub fn run(args: &SegmentCommand) -> Result<(), CliError> {
         let mesh_path = input.mesh_path.to_string_lossy();
         let run = PartsRun { path: &mesh_path, hulls: &hulls, overlap, stages: &stages };
         let bytes = parts_report::to_json(&parts, &run)
-            .map_err(|error| CliError::Output { path: path.clone(), reason: error.to_string() })?;
+            .map_err(|error| AppError::Output { path: path.clone(), reason: error.to_string() })?;
         files.push((path.clone(), bytes));
     }
     output::write(&files)?;
@@ -117,8 +118,8 @@ fn is_png(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"))
 }
 
-fn draw(parts: &Parts, path: &Path) -> Result<Vec<u8>, CliError> {
-    let refuse = |reason: String| CliError::Output { path: path.to_owned(), reason };
+fn draw(parts: &Parts, path: &Path) -> Result<Vec<u8>, AppError> {
+    let refuse = |reason: String| AppError::Output { path: path.to_owned(), reason };
     let labels: Vec<u32> = parts.segmentation().face_segments().iter().map(|id| id.0).collect();
     let drawing =
         parts_picture(parts.mesh(), &labels, parts.names()).map_err(|error| refuse(error.to_string()))?;

@@ -1,10 +1,11 @@
 //! `tatamu show`
 
-use super::choice::Choice;
-use super::error::CliError;
 use super::flags::{Flags, OfModel};
 use super::progress::TerminalProgress;
-use super::{input, names, output, terminal};
+use super::terminal;
+use crate::app::choice::Choice;
+use crate::app::error::AppError;
+use crate::app::{input, names, output};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use tatamu::drawing::{Drawing, LineStyles, Pages, Rgb};
@@ -111,7 +112,7 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 /// Runs the command.
-pub fn run(args: &ShowArgs) -> Result<(), CliError> {
+pub fn run(args: &ShowArgs) -> Result<(), AppError> {
     let path = args.output.clone().unwrap_or_else(|| {
         let mut name = args.input.file_stem().unwrap_or("model".as_ref()).to_owned();
         name.push(".png");
@@ -150,7 +151,7 @@ pub fn run(args: &ShowArgs) -> Result<(), CliError> {
 
 /// A picture of each place where components are in each other; of the model where there is none, so that
 /// no picture of an earlier run is taken for this one's.
-fn clashes(args: &ShowArgs, still: &Still, result: &Output) -> Result<Vec<Drawing>, CliError> {
+fn clashes(args: &ShowArgs, still: &Still, result: &Output) -> Result<Vec<Drawing>, AppError> {
     let motion = ModelMotion::new(result.model());
     let encounters = result.fold_plan().encounters(&motion);
     if encounters.is_empty() {
@@ -179,18 +180,18 @@ fn scene(args: &ShowArgs, result: &Output) -> Result<Scene, ShowError> {
 }
 
 /// Turns pictures into files.
-type Writer = Box<dyn Fn(String, Vec<Drawing>) -> Result<Vec<ExportFile>, CliError>>;
+type Writer = Box<dyn Fn(String, Vec<Drawing>) -> Result<Vec<ExportFile>, AppError>>;
 
 /// The writer for a file name: the formats that are made of pages can hold a picture.
-fn format_of(path: &std::path::Path, input: &std::path::Path) -> Result<Writer, CliError> {
+fn format_of(path: &std::path::Path, input: &std::path::Path) -> Result<Writer, AppError> {
     let unknown = || {
         let pages = FORMATS.iter().filter(|f| matches!(f.source, Source::Pages(_)));
         let known: Vec<String> = pages.flat_map(|f| f.extensions).map(|e| format!(".{e}")).collect();
-        CliError::Extension { path: path.to_owned(), known: known.join(", ") }
+        AppError::Extension { path: path.to_owned(), known: known.join(", ") }
     };
     let paths = [path.to_owned()];
     let target = output::targets(&paths, &[input]).map_err(|error| match error {
-        CliError::Extension { .. } => unknown(),
+        AppError::Extension { .. } => unknown(),
         other => other,
     })?;
     let format = target.first().ok_or_else(unknown)?.format;

@@ -1,9 +1,9 @@
 //! A file that is open.
 
-use crate::cli::choice::Choice;
-use crate::cli::error::CliError;
-use crate::cli::input::Shape;
-use crate::cli::{init, input};
+use crate::app::choice::Choice;
+use crate::app::error::AppError;
+use crate::app::input::Shape;
+use crate::app::{input, project};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -57,8 +57,8 @@ impl Opened {
             String::from_utf8(bytes).map_err(|error| error.to_string())?
         } else {
             let project = source.with_extension("toml");
-            let name = init::mesh_from(&project, source).map_err(|error| error.to_string())?;
-            init::project_text(&name, Settings::standard(), &[])
+            let name = project::mesh_from(&project, source).map_err(|error| error.to_string())?;
+            project::project_text(&name, Settings::standard(), &[])
         };
         Ok(Self {
             source: source.to_owned(),
@@ -81,7 +81,7 @@ impl Opened {
         project: &Project,
         output: &Output,
         give: impl FnOnce(Product<'_>, FormatOptions) -> T,
-    ) -> Result<T, CliError> {
+    ) -> Result<T, AppError> {
         let choice = Choice::new(Some(project), &[])?.files(&self.source)?;
         let painting = choice.is_coloured.then(|| input::read_painting(&self.mesh_path)).transpose()?;
         let warnings = input::repair_warnings(&self.repairs);
@@ -95,6 +95,6 @@ impl Opened {
     /// The title of what is made: the file's name without its extension.
     pub fn title(&self) -> String {
         let stem = self.source.file_stem().unwrap_or_default();
-        crate::cli::terminal::printable(&stem.to_string_lossy())
+        crate::app::text::printable(&stem.to_string_lossy())
     }
 }

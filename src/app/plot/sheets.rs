@@ -1,16 +1,16 @@
 //! From what the user gave to sheets that can be sent.
 
-use super::PlotArgs;
-use crate::cli::choice::Choice;
-use crate::cli::error::CliError;
-use crate::cli::progress::TerminalProgress;
-use crate::cli::{input, terminal};
+use crate::app::choice::Choice;
+use crate::app::error::AppError;
+use crate::app::make::Timed;
+use crate::app::{input, text};
 use glam::DVec2;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tatamu::drawing::Drawing;
 use tatamu::export::{ExportError, PltOptions};
 use tatamu::plotter::{Cutter, Job, Placement, Plan, PlanError, Point, test_cut};
 use tatamu::product::Product;
+use tatamu::project::options::Given;
 use tatamu::report::Run;
 
 /// One sheet, ready to be sent.
@@ -79,7 +79,7 @@ impl Sheet {
         )
     }
 
-    fn of_file(name: String, bytes: Vec<u8>, cutter: &Cutter) -> Result<Self, CliError> {
+    fn of_file(name: String, bytes: Vec<u8>, cutter: &Cutter) -> Result<Self, AppError> {
         let job = parse(&name, &bytes, cutter)?;
         let places = job.commands().iter().flat_map(|c| c.motions()).flat_map(|m| [m.from, m.to]);
         let on_sheet = |p: Point| cutter.frame().to_sheet(DVec2::ZERO, p);
@@ -95,7 +95,7 @@ impl Sheet {
         Ok(Self { name, bytes, job, placement, travel_mm: None, turns: Vec::new(), notes })
     }
 
-    fn of_plan(name: String, drawing: &Drawing, plan: &Plan, machine: &PltOptions) -> Result<Self, CliError> {
+    fn of_plan(name: String, drawing: &Drawing, plan: &Plan, machine: &PltOptions) -> Result<Self, AppError> {
         let home = machine.cutter.frame().to_sheet(drawing.size_mm, Point::default());
         let travel_mm = Some([plan.toolpath().travel_mm(home), plan.toolpath().file_travel_mm()]);
         let job = parse(&name, plan.bytes(), &machine.cutter)?;
@@ -113,9 +113,9 @@ impl Sheet {
 }
 
 /// Reads a job.
-pub fn parse(name: &str, bytes: &[u8], cutter: &Cutter) -> Result<Job, CliError> {
+pub fn parse(name: &str, bytes: &[u8], cutter: &Cutter) -> Result<Job, AppError> {
     Job::parse(bytes, cutter)
-        .map_err(|error| CliError::Sheet { sheet: name.to_owned(), reason: error.to_string() })
+        .map_err(|error| AppError::Sheet { sheet: name.to_owned(), reason: error.to_string() })
 }
 
 /// A length in words.
@@ -129,39 +129,38 @@ pub fn minutes(seconds: f64) -> String {
     if whole < 60 { format!("{whole} s") } else { format!("{} min {:02} s", whole / 60, whole % 60) }
 }
 
-/// The sheets that the user asked for.
-pub fn sheets(args: &PlotArgs, machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
-    if args.test_cut {
-        return of_drawings("test cut", &[test_cut()], machine);
-    }
-    let is_plt = |path: &Path| {
-        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-        ["plt", "hpgl", "hpg", "gpgl", "dmpl"].iter().any(|e| extension == *e)
-    };
-    if args.input.iter().all(|path| is_plt(path)) {
-        let sheet = |path: &std::path::PathBuf| {
+/// Whether a file is in the language of a machine, by its extension.
+fn is_plt(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+    ["plt", "hpgl", "hpg", "gpgl", "dmpl"].iter().any(|e| extension == *e)
+}
+
+/// The sheets of files in the machine's language, or of one mesh or project file; `tell` gets warnings.
+pub fn of_inputs(
+    inputs: &[PathBuf],
+    given: &[Given],
+    machine: &PltOptions,
+    progress: &dyn Timed,
+    tell: &dyn Fn(&str),
+) -> Result<Vec<Sheet>, AppError> {
+    if inputs.iter().all(|path| is_plt(path)) {
+        let sheet = |path: &PathBuf| {
             let bytes = input::read_file(path)?;
             Sheet::of_file(path.display().to_string(), bytes, &machine.cutter)
         };
-        return args.input.iter().map(sheet).collect();
+        return inputs.iter().map(sheet).collect();
     }
-    match args.input.as_slice() {
-        [input] => of_model(args, input, machine),
-        _ => {
-            Err(CliError::Options("only .plt files can be several; give one mesh or project file".to_owned()))
-        }
-    }
-}
-
-fn of_model(args: &PlotArgs, path: &Path, machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
+    let [path] = inputs else {
+        let message = "only .plt files can be several; give one mesh or project file";
+        return Err(AppError::Options(message.to_owned()));
+    };
     let input = input::read(path)?;
-    let choice = Choice::new(input.project.as_ref(), args.model.given())?;
-    input.warnings().iter().for_each(terminal::warn);
-    let progress = TerminalProgress::new(args.quiet);
-    let result = input.run(&choice, &progress)?;
+    let choice = Choice::new(input.project.as_ref(), given)?;
+    input.warnings().iter().for_each(|warning| tell(&warning.message));
+    let result = input.run(&choice, progress)?;
     progress.finish();
-    terminal::warn_by_kind(result.warnings());
-    let title = terminal::printable(&path.file_stem().unwrap_or_default().to_string_lossy());
+    text::first_of_each_kind(result.warnings()).iter().for_each(|message| tell(message));
+    let title = text::printable(&path.file_stem().unwrap_or_default().to_string_lossy());
     let path = input.mesh_path.to_string_lossy();
     let run = Run { path: &path, repairs: &input.repairs, stages: &[], warnings: &[] };
     let product = Product::new(&result, &title, run);
@@ -169,8 +168,13 @@ fn of_model(args: &PlotArgs, path: &Path, machine: &PltOptions) -> Result<Vec<Sh
     of_drawings(&title, pages, machine)
 }
 
+/// The test figure.
+pub fn of_test_cut(machine: &PltOptions) -> Result<Vec<Sheet>, AppError> {
+    of_drawings("test cut", &[test_cut()], machine)
+}
+
 /// The sheets on which there is something for the machine.
-pub fn of_drawings(title: &str, pages: &[Drawing], machine: &PltOptions) -> Result<Vec<Sheet>, CliError> {
+pub fn of_drawings(title: &str, pages: &[Drawing], machine: &PltOptions) -> Result<Vec<Sheet>, AppError> {
     Ok(of_drawings_while(title, pages, machine, &|| true)?.unwrap_or_default())
 }
 
@@ -180,7 +184,7 @@ pub fn of_drawings_while(
     pages: &[Drawing],
     machine: &PltOptions,
     goes_on: &dyn Fn() -> bool,
-) -> Result<Option<Vec<Sheet>>, CliError> {
+) -> Result<Option<Vec<Sheet>>, AppError> {
     let mut plans = Vec::new();
     for (k, page) in pages.iter().enumerate() {
         match Plan::new(page, &machine.cutter, &machine.media) {
@@ -189,7 +193,7 @@ pub fn of_drawings_while(
             Err(PlanError::Nothing) if pages.len() > 1 => {}
             Err(error) => {
                 let sheet = format!("{title}, sheet {}", k + 1);
-                return Err(CliError::Sheet { sheet, reason: error.to_string() });
+                return Err(AppError::Sheet { sheet, reason: error.to_string() });
             }
         }
         if !goes_on() {

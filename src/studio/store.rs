@@ -1,6 +1,6 @@
 //! What the studio remembers between runs: files that were open, and changes that were not saved.
 
-use crate::cli::output;
+use crate::app::output;
 use std::path::{Path, PathBuf};
 
 /// So many files are remembered.

@@ -230,7 +230,7 @@ fn folding_is_played_and_scrubbed() {
 #[cfg(unix)]
 #[test]
 fn a_job_goes_to_the_virtual_plotter() {
-    use crate::cli::cutters;
+    use crate::app::profiles;
     use crate::cli::virtual_plotter::{self, VirtualPlotterArgs};
     use clap::Parser;
 
@@ -245,7 +245,7 @@ fn a_job_goes_to_the_virtual_plotter() {
     let machine = std::thread::spawn(move || {
         let flags = ["x", "--cutter", "generic-hpgl", "--speedup", "1000", "--baud", "4000000"];
         let command = Command::parse_from(flags);
-        let cutter = cutters::machine(Some("generic-hpgl"), Some("cardstock-200")).unwrap().cutter;
+        let cutter = profiles::machine(Some("generic-hpgl"), Some("cardstock-200")).unwrap().cutter;
         virtual_plotter::serve(&command.args, &cutter, &mut host)
     });
     click(&mut desk, "Plot");

@@ -13,7 +13,7 @@ use tatamu::show::ShowError;
 
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
-pub enum CliError {
+pub enum AppError {
     /// The input cannot be read.
     #[error("cannot read {path}: {reason}")]
     Input { path: PathBuf, reason: String },
@@ -76,7 +76,7 @@ pub enum CliError {
     Export(#[from] ExportError),
 }
 
-impl CliError {
+impl AppError {
     /// What became of a run that did not end well: stages wrap an interruption in errors of their
     /// own, so the user's wish is asked for first.
     pub fn of_run(error: pipeline::Error, progress: &dyn Progress) -> Self {

@@ -25,11 +25,11 @@ mod tests;
 mod view;
 mod worker;
 
-use super::error::CliError;
+use crate::app::error::AppError;
 use std::path::PathBuf;
 
 /// Opens the window, with a file if one is given.
-pub fn run(input: Option<PathBuf>) -> Result<(), CliError> {
+pub fn run(input: Option<PathBuf>) -> Result<(), AppError> {
     let options = eframe::NativeOptions {
         viewport: eframe::egui::ViewportBuilder::default()
             .with_app_id("tatamu")
@@ -46,6 +46,6 @@ pub fn run(input: Option<PathBuf>) -> Result<(), CliError> {
         Ok(Box::new(window))
     });
     eframe::run_native("tatamu studio", options, create).map_err(|error| {
-        CliError::Options(format!("the window cannot be opened: {error}; is there a display, with OpenGL?"))
+        AppError::Options(format!("the window cannot be opened: {error}; is there a display, with OpenGL?"))
     })
 }

@@ -1,7 +1,7 @@
 //! The files to write: any format that there is.
 
 use super::super::state::Studio;
-use crate::cli::output::Target;
+use crate::app::output::Target;
 use eframe::egui::{self, Ui};
 use std::path::PathBuf;
 use tatamu::export::{FORMATS, Format, GUIDES};

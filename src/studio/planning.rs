@@ -3,8 +3,8 @@
 use super::opened::Opened;
 use super::pages;
 use super::worker::Wake;
-use crate::cli::cutters;
-use crate::cli::plot::jobs::{self, Sheet};
+use crate::app::plot::sheets::{self, Sheet};
+use crate::app::profiles;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::sync::{Arc, OnceLock};
@@ -97,7 +97,7 @@ impl Drop for Planning {
 impl Hand {
     /// The plan; nothing where nobody wants it any more.
     fn plan(&self, wish: &Wish, wake: &Wake) -> Result<Option<Plan>, String> {
-        let machine = cutters::machine(Some(&wish.cutter), Some(&wish.media)).map_err(|e| e.to_string())?;
+        let machine = profiles::machine(Some(&wish.cutter), Some(&wish.media)).map_err(|e| e.to_string())?;
         let drawings = pages::drawings(&wish.opened, &wish.project, &wish.output)?;
         // Each sheet is planned, then drawn.
         let _ = self.all.set(2 * drawings.len());
@@ -106,7 +106,7 @@ impl Hand {
             wake();
             !self.is_stopped.load(Ordering::Relaxed)
         };
-        let sheets = jobs::of_drawings_while(&wish.opened.title(), &drawings, &machine, &step);
+        let sheets = sheets::of_drawings_while(&wish.opened.title(), &drawings, &machine, &step);
         let Some(sheets) = sheets.map_err(|e| e.to_string())? else { return Ok(None) };
         let mut previews = Vec::new();
         for sheet in &sheets {

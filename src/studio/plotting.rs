@@ -1,11 +1,11 @@
 //! A job on its way to the cutter, in a thread of its own.
 
 use super::worker::Wake;
-use crate::cli::error::CliError;
-use crate::cli::output;
-use crate::cli::plot::jobs::{self, Sheet};
-use crate::cli::plot::live;
-use crate::cli::plot::operator::{Operator, doing};
+use crate::app::error::AppError;
+use crate::app::output;
+use crate::app::plot::live;
+use crate::app::plot::sheets::{self, Sheet};
+use crate::app::plot::{Operator, SerialPorts, doing, minutes};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -55,8 +55,9 @@ impl Plotting {
         let header = live::header(sheets, cutter, port.to_owned(), copies);
         let mut hand = Hand { state: state.clone(), wake };
         std::thread::spawn(move || {
-            let sent = output::check_places(std::slice::from_ref(&journal), &[])
-                .and_then(|()| live::send_all(&mut hand, &journal, &header, Position::default()));
+            let sent = output::check_places(std::slice::from_ref(&journal), &[]).and_then(|()| {
+                live::send_all(&SerialPorts, &mut hand, &journal, &header, Position::default())
+            });
             let end = sent.map_err(|error| error.to_string());
             locked(&hand.state).end = Some(end);
             (hand.wake)();
@@ -102,13 +103,13 @@ struct Hand {
 }
 
 impl Operator for Hand {
-    fn load(&mut self, sheet: &str, (copy, copies): (u16, u16)) -> Result<(), CliError> {
+    fn load(&mut self, sheet: &str, (copy, copies): (u16, u16)) -> Result<(), AppError> {
         let copy = if copies > 1 { format!(" (copy {copy} of {copies})") } else { String::new() };
         locked(&self.state).wants_sheet = Some(format!("{sheet}{copy}"));
         (self.wake)();
         while locked(&self.state).wants_sheet.is_some() {
             if self.stops() > 0 {
-                return Err(CliError::Cancelled(Cancelled));
+                return Err(AppError::Cancelled(Cancelled));
             }
             std::thread::sleep(LOOK);
         }
@@ -130,7 +131,7 @@ impl Operator for Hand {
 
     fn show(&mut self, sheet: &str, first: usize, status: &Status) {
         let (done, all) = (first + status.strokes_done, first + status.strokes);
-        let left = jobs::minutes(status.seconds_left);
+        let left = minutes(status.seconds_left);
         let mut state = locked(&self.state);
         state.text = format!("{sheet}: stroke {done} of {all}, {left} left ({})", doing(status.state));
         state.share = done as f32 / all.max(1) as f32;

@@ -1,6 +1,6 @@
 //! Writing files: all of them, or none.
 
-use super::error::{CliError, reason};
+use super::error::{AppError, reason};
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -24,19 +24,19 @@ pub fn known_extensions(formats: &[Format]) -> String {
 
 /// Finds the format of each name, and checks before any work that a file can be written there and
 /// that none of `inputs` would be lost.
-pub fn targets(paths: &[PathBuf], inputs: &[&Path]) -> Result<Vec<Target>, CliError> {
+pub fn targets(paths: &[PathBuf], inputs: &[&Path]) -> Result<Vec<Target>, AppError> {
     let targets = targets_among(paths, &[FORMATS])?;
     check_places(paths, inputs)?;
     Ok(targets)
 }
 
 /// Finds the format of each name, in the first of some lists that has it.
-pub fn targets_among(paths: &[PathBuf], lists: &[&'static [Format]]) -> Result<Vec<Target>, CliError> {
-    let target = |path: &PathBuf| -> Result<Target, CliError> {
+pub fn targets_among(paths: &[PathBuf], lists: &[&'static [Format]]) -> Result<Vec<Target>, AppError> {
+    let target = |path: &PathBuf| -> Result<Target, AppError> {
         let extension = path.extension().unwrap_or_default().to_string_lossy();
         let format = lists.iter().find_map(|formats| format_among(formats, &extension));
         let known = || known_extensions(lists.last().copied().unwrap_or(FORMATS));
-        let format = format.ok_or_else(|| CliError::Extension { path: path.clone(), known: known() })?;
+        let format = format.ok_or_else(|| AppError::Extension { path: path.clone(), known: known() })?;
         Ok(Target { path: path.clone(), format })
     };
     paths.iter().map(target).collect()
@@ -44,10 +44,10 @@ pub fn targets_among(paths: &[PathBuf], lists: &[&'static [Format]]) -> Result<V
 
 /// Checks that files can be written under these names, that no name comes twice, and that none
 /// of `inputs` would be lost.
-pub fn check_places(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), CliError> {
+pub fn check_places(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), AppError> {
     let mut seen: BTreeSet<PathBuf> = BTreeSet::new();
     for path in paths {
-        let refuse = |reason: &str| CliError::Output { path: path.clone(), reason: reason.to_owned() };
+        let refuse = |reason: &str| AppError::Output { path: path.clone(), reason: reason.to_owned() };
         if path.is_dir() {
             return Err(refuse("it is a folder; add a file name"));
         }
@@ -85,13 +85,13 @@ const TWICE: &str = "it is asked for twice; choose another name";
 
 /// Writes all files to temporary files beside their places, then puts them into place. An error
 /// up to the last step leaves everything as it was.
-pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), CliError> {
+pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), AppError> {
     let mut ready = Vec::with_capacity(files.len());
     let mut seen: BTreeSet<&Path> = BTreeSet::new();
     for (path, bytes) in files {
         // The sheets of a.svg may be called as another file that the user asked for.
         if !seen.insert(path) {
-            return Err(CliError::Output { path: path.clone(), reason: TWICE.to_owned() });
+            return Err(AppError::Output { path: path.clone(), reason: TWICE.to_owned() });
         }
         let mut file = temporary(path)?;
         let written = file.write_all(bytes).and_then(|()| file.flush());
@@ -113,7 +113,7 @@ fn folder(path: &Path) -> &Path {
 }
 
 /// A temporary file in the folder of `path`; it vanishes unless it is put into place.
-fn temporary(path: &Path) -> Result<NamedTempFile, CliError> {
+fn temporary(path: &Path) -> Result<NamedTempFile, AppError> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".tatamu-");
     #[cfg(unix)]
@@ -125,8 +125,8 @@ fn temporary(path: &Path) -> Result<NamedTempFile, CliError> {
     builder.tempfile_in(folder(path)).map_err(|error| failed(path, &error))
 }
 
-fn failed(path: &Path, error: &std::io::Error) -> CliError {
-    CliError::Output { path: path.to_owned(), reason: reason(error) }
+fn failed(path: &Path, error: &std::io::Error) -> AppError {
+    AppError::Output { path: path.to_owned(), reason: reason(error) }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! What is chosen for an input: flags first, then its project file, then the defaults.
 
-use super::error::CliError;
-use super::{cutters, input};
+use super::error::AppError;
+use super::{input, profiles};
 use std::path::Path;
 use tatamu::drawing::LineStyles;
 use tatamu::export::{FormatOptions, PltOptions, Timestamp};
@@ -28,8 +28,8 @@ pub struct FileChoice {
 
 impl Choice {
     /// The choice of an input, which may be a project.
-    pub fn new(project: Option<&Project>, flags: &[Given]) -> Result<Self, CliError> {
-        let settings = choose(project, flags).map_err(|refusal| CliError::Options(refusal.to_string()))?;
+    pub fn new(project: Option<&Project>, flags: &[Given]) -> Result<Self, AppError> {
+        let settings = choose(project, flags).map_err(|refusal| AppError::Options(refusal.to_string()))?;
         let is_flag = |option: &Entry| flags.iter().any(|flag| flag.option() == option);
         let is_sized = is_flag(&SIZE) || project.is_some_and(|project| project.has(&SIZE));
         Ok(Self { settings, is_sized, is_style_of_flag: is_flag(&STYLE) })
@@ -51,13 +51,13 @@ impl Choice {
     }
 
     /// The machine.
-    pub fn machine(&self) -> Result<PltOptions, CliError> {
+    pub fn machine(&self) -> Result<PltOptions, AppError> {
         let files = &self.settings.files;
-        cutters::machine(files.cutter.as_deref(), files.media.as_deref())
+        profiles::machine(files.cutter.as_deref(), files.media.as_deref())
     }
 
     /// The choices about files of an input, whose project file, if it is one, is at `input_path`.
-    pub fn files(&self, input_path: &Path) -> Result<FileChoice, CliError> {
+    pub fn files(&self, input_path: &Path) -> Result<FileChoice, AppError> {
         let files = &self.settings.files;
         let mut formats = files.formats.clone();
         formats.pdf = formats.pdf.with_created(source_date()?);
@@ -72,22 +72,22 @@ impl Choice {
 }
 
 /// The built-in style of this name, or the file at `path`.
-fn styles(name: &str, path: &Path) -> Result<LineStyles, CliError> {
+fn styles(name: &str, path: &Path) -> Result<LineStyles, AppError> {
     if let Some(styles) = LineStyles::built_in(name) {
         return Ok(styles);
     }
     if !path.exists() {
-        return Err(CliError::Options(format!(
+        return Err(AppError::Options(format!(
             "there is no style file {}, and no built-in style of that name; built in are: {}",
             path.display(),
             style_names()
         )));
     }
-    let text = String::from_utf8(input::read_file(path)?).map_err(|_| CliError::Input {
+    let text = String::from_utf8(input::read_file(path)?).map_err(|_| AppError::Input {
         path: path.to_owned(),
         reason: "a style file is text in UTF-8".to_owned(),
     })?;
-    LineStyles::parse(&text).map_err(|error| CliError::Style { path: path.to_owned(), error })
+    LineStyles::parse(&text).map_err(|error| AppError::Style { path: path.to_owned(), error })
 }
 
 /// Names of the built-in styles.
@@ -96,7 +96,7 @@ pub fn style_names() -> String {
 }
 
 /// The date of reproducible builds (<https://reproducible-builds.org/specs/source-date-epoch/>).
-fn source_date() -> Result<Option<Timestamp>, CliError> {
+fn source_date() -> Result<Option<Timestamp>, AppError> {
     let Some(value) = std::env::var_os("SOURCE_DATE_EPOCH") else {
         return Ok(None);
     };
@@ -104,6 +104,6 @@ fn source_date() -> Result<Option<Timestamp>, CliError> {
     let date = text.parse().ok().and_then(Timestamp::of_unix);
     date.map(Some).ok_or_else(|| {
         let message = "the variable SOURCE_DATE_EPOCH must be a whole number of seconds since 1970, not";
-        CliError::Options(format!("{message} \"{text}\""))
+        AppError::Options(format!("{message} \"{text}\""))
     })
 }

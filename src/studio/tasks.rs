@@ -2,8 +2,8 @@
 
 use super::opened::Opened;
 use super::worker::Wake;
-use crate::cli::make;
-use crate::cli::output::{self, Target};
+use crate::app::make;
+use crate::app::output::{self, Target};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -89,5 +89,5 @@ fn export(
         output::write(&files)?;
         Ok(files.iter().map(|(path, _)| path.display().to_string()).collect())
     };
-    run().map_err(|error: crate::cli::error::CliError| error.to_string())
+    run().map_err(|error: crate::app::error::AppError| error.to_string())
 }

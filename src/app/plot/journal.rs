@@ -1,7 +1,7 @@
 //! Journals as files.
 
-use crate::cli::error::{CliError, reason};
-use crate::cli::{input, output};
+use crate::app::error::{AppError, reason};
+use crate::app::{input, output};
 use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -16,9 +16,9 @@ pub struct Journal {
 
 impl Journal {
     /// Begins a journal, in the place of another only when it is complete.
-    pub fn create(path: &Path, header: &Header, at: Position) -> Result<Self, CliError> {
+    pub fn create(path: &Path, header: &Header, at: Position) -> Result<Self, AppError> {
         let failed =
-            |error: std::io::Error| CliError::Output { path: path.to_owned(), reason: reason(&error) };
+            |error: std::io::Error| AppError::Output { path: path.to_owned(), reason: reason(&error) };
         let header = serde_json::to_string(header).map_err(|error| failed(error.into()))?;
         let position = serde_json::to_string(&at).map_err(|error| failed(error.into()))?;
         let whole = format!("{header}\n{position}\n");
@@ -28,13 +28,13 @@ impl Journal {
     }
 
     /// Notes how far the job is, where that is news.
-    pub fn note(&mut self, at: Position) -> Result<(), CliError> {
+    pub fn note(&mut self, at: Position) -> Result<(), AppError> {
         if at == self.last {
             return Ok(());
         }
         self.last = at;
         let failed =
-            |error: std::io::Error| CliError::Output { path: self.path.clone(), reason: reason(&error) };
+            |error: std::io::Error| AppError::Output { path: self.path.clone(), reason: reason(&error) };
         let line = serde_json::to_string(&at).map_err(|error| failed(error.into()))?;
         writeln!(self.file, "{line}").map_err(failed)
     }
@@ -56,9 +56,9 @@ impl Journal {
 }
 
 /// Reads a journal.
-pub fn read(path: &Path) -> Result<(Header, Position), CliError> {
+pub fn read(path: &Path) -> Result<(Header, Position), AppError> {
     let bytes = input::read_file(path)?;
-    journal::parse(&bytes).ok_or_else(|| CliError::Input {
+    journal::parse(&bytes).ok_or_else(|| AppError::Input {
         path: path.to_owned(),
         reason: "it is no journal of a job (.tatamu-job)".to_owned(),
     })

@@ -1,8 +1,7 @@
 //! Reading the input: a mesh, or a project file that names one.
 
 use super::choice::Choice;
-use super::error::{CliError, reason};
-use super::progress::TerminalProgress;
+use super::error::{AppError, reason};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
@@ -39,10 +38,10 @@ pub enum Shape {
 
 impl Input {
     /// The mesh, for commands that have no use for drawings.
-    pub fn mesh(&self) -> Result<&Mesh, CliError> {
+    pub fn mesh(&self) -> Result<&Mesh, AppError> {
         match &self.shape {
             Shape::Mesh(mesh) => Ok(mesh),
-            Shape::Drawn(_) => Err(CliError::Options(format!(
+            Shape::Drawn(_) => Err(AppError::Options(format!(
                 "{} holds drawn components and no mesh, so there is nothing to divide; \"make\" makes them",
                 self.mesh_path.display()
             ))),
@@ -56,12 +55,12 @@ impl Input {
     }
 
     /// Runs all stages.
-    pub fn run(&self, choice: &Choice, progress: &TerminalProgress) -> Result<Output, CliError> {
+    pub fn run(&self, choice: &Choice, progress: &dyn Progress) -> Result<Output, AppError> {
         self.run_by(pipeline::run, choice, progress)
     }
 
     /// The same, and tries what helps where problems are left. Drawings are made as they are drawn.
-    pub fn run_and_advise(&self, choice: &Choice, progress: &TerminalProgress) -> Result<Output, CliError> {
+    pub fn run_and_advise(&self, choice: &Choice, progress: &dyn Progress) -> Result<Output, AppError> {
         self.run_by(pipeline::run_and_advise, choice, progress)
     }
 
@@ -69,14 +68,14 @@ impl Input {
         &self,
         run: impl Fn(&Mesh, &Options, &dyn Progress) -> Result<Output, pipeline::Error>,
         choice: &Choice,
-        progress: &TerminalProgress,
-    ) -> Result<Output, CliError> {
+        progress: &dyn Progress,
+    ) -> Result<Output, AppError> {
         let options = choice.options();
         let result = match &self.shape {
             Shape::Mesh(mesh) => run(mesh, options, progress),
             Shape::Drawn(sketches) => pipeline::run_drawn(sketches, choice.size_mm(), options, progress),
         };
-        result.map_err(|error| CliError::of_run(error, progress))
+        result.map_err(|error| AppError::of_run(error, progress))
     }
 }
 
@@ -97,26 +96,26 @@ pub fn files(path: &Path) -> Vec<PathBuf> {
 }
 
 /// Reads a mesh or a project file.
-pub fn read(path: &Path) -> Result<Input, CliError> {
+pub fn read(path: &Path) -> Result<Input, AppError> {
     let bytes = read_file(path)?;
     if !is_project(path, &bytes) {
         return read_mesh(path, &bytes, None, Vec::new());
     }
-    let text = String::from_utf8(bytes).map_err(|_| CliError::Input {
+    let text = String::from_utf8(bytes).map_err(|_| AppError::Input {
         path: path.to_owned(),
         reason: "a project file is text in UTF-8".to_owned(),
     })?;
     let project =
-        Project::parse(&text).map_err(|error| CliError::Project { path: path.to_owned(), error })?;
+        Project::parse(&text).map_err(|error| AppError::Project { path: path.to_owned(), error })?;
     let notes = outside_notes(path, &project);
     let Some(mesh) = &project.mesh else {
         let sketches = project.sketches();
-        let sketches = sketches.map_err(|error| CliError::Project { path: path.to_owned(), error })?;
+        let sketches = sketches.map_err(|error| AppError::Project { path: path.to_owned(), error })?;
         let (shape, repairs) = (Shape::Drawn(sketches), Repairs::default());
         return Ok(Input { mesh_path: path.to_owned(), project: Some(project), shape, repairs, notes });
     };
     let mesh_path = path.with_file_name(mesh);
-    let bytes = std::fs::read(&mesh_path).map_err(|error| CliError::ProjectMesh {
+    let bytes = std::fs::read(&mesh_path).map_err(|error| AppError::ProjectMesh {
         path: mesh_path.clone(),
         project: path.to_owned(),
         reason: reason(&error),
@@ -129,12 +128,12 @@ fn read_mesh(
     bytes: &[u8],
     project: Option<Project>,
     notes: Vec<Warning>,
-) -> Result<Input, CliError> {
+) -> Result<Input, AppError> {
     let sibling = |name: &str| read_sibling(path, name);
     let soup = mesh::read_with_siblings(bytes, &sibling)
-        .map_err(|error| CliError::Read { path: path.to_owned(), error })?;
+        .map_err(|error| AppError::Read { path: path.to_owned(), error })?;
     let (mesh, repairs) =
-        Mesh::from_soup(&soup).map_err(|error| CliError::Mesh { path: path.to_owned(), error })?;
+        Mesh::from_soup(&soup).map_err(|error| AppError::Mesh { path: path.to_owned(), error })?;
     Ok(Input { mesh_path: path.to_owned(), project, shape: Shape::Mesh(mesh), repairs, notes })
 }
 
@@ -196,15 +195,15 @@ fn is_within(folder: &Path, name: &Path) -> bool {
 }
 
 /// The colours of a mesh file.
-pub fn read_painting(path: &Path) -> Result<Painting, CliError> {
+pub fn read_painting(path: &Path) -> Result<Painting, AppError> {
     let sibling = |name: &str| read_sibling(path, name);
     mesh::read_painting(&read_file(path)?, &sibling)
-        .map_err(|error| CliError::Colour { path: path.to_owned(), error })
+        .map_err(|error| AppError::Colour { path: path.to_owned(), error })
 }
 
 /// The content of a file.
-pub fn read_file(path: &Path) -> Result<Vec<u8>, CliError> {
-    std::fs::read(path).map_err(|error| CliError::Input { path: path.to_owned(), reason: reason(&error) })
+pub fn read_file(path: &Path) -> Result<Vec<u8>, AppError> {
+    std::fs::read(path).map_err(|error| AppError::Input { path: path.to_owned(), reason: reason(&error) })
 }
 
 /// By its extension, or because a line of it gives a mesh.

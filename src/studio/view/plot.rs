@@ -5,8 +5,8 @@ use super::super::plotting::Plotting;
 use super::super::state::Studio;
 use super::super::worker::Wake;
 use super::picture::Picture;
-use crate::cli::cutters;
-use crate::cli::ports;
+use crate::app::plot::hint;
+use crate::app::profiles;
 use eframe::egui::{self, Color32, Rect, Sense, Ui};
 use std::sync::Arc;
 use tatamu::project::options::{CUTTER, MEDIA};
@@ -40,7 +40,7 @@ struct Key {
 impl Default for PlotPanel {
     fn default() -> Self {
         Self {
-            names: cutters::names(),
+            names: profiles::names(),
             cutter: CUTTER.automatic.to_owned(),
             media: MEDIA.automatic.to_owned(),
             port: String::new(),
@@ -146,7 +146,7 @@ impl PlotPanel {
                 ui.add(egui::TextEdit::singleline(&mut self.port).desired_width(140.0)).labelled_by(label.id);
                 ui.menu_button("Choose", |ui| {
                     for port in &self.ports {
-                        if ui.button(format!("{port}{}", ports::hint(port))).clicked() {
+                        if ui.button(format!("{port}{}", hint(port))).clicked() {
                             self.port.clone_from(port);
                             ui.close();
                         }

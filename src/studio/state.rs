@@ -8,7 +8,7 @@ use super::selection::Selection;
 use super::store::Store;
 use super::tasks::{Finished, Tasks};
 use super::worker::{News, Order, Wake, Worker};
-use crate::cli::init;
+use crate::app::project;
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -351,15 +351,15 @@ impl Studio {
         let (Some(opened), Some(document)) = (&self.opened, &mut self.document) else { return };
         let text = match opened.drawn {
             Some(_) => Ok(document.text().to_owned()),
-            None => init::mesh_from(path, &opened.mesh_path)
+            None => project::mesh_from(path, &opened.mesh_path)
                 .map_err(|error| error.to_string())
                 .and_then(|mesh| document.text_with_mesh(&mesh)),
         };
         let mesh: &[&Path] = if opened.drawn.is_some() { &[] } else { &[&opened.mesh_path] };
         let written = text.and_then(|text| {
             let files = [(path.to_owned(), text.clone().into_bytes())];
-            crate::cli::output::check_places(&[path.to_owned()], mesh)
-                .and_then(|()| crate::cli::output::write(&files))
+            crate::app::output::check_places(&[path.to_owned()], mesh)
+                .and_then(|()| crate::app::output::write(&files))
                 .map_err(|error| error.to_string())
                 .map(|()| text)
         });
