@@ -2,6 +2,7 @@
 
 use super::terminal;
 use crate::app::error::{AppError, reason};
+use crate::app::text::printable;
 use clap::Args;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -54,6 +55,6 @@ pub fn run(args: &CheckArgs) -> Result<ExitCode, AppError> {
 
 fn line(verdict: &Verdict) -> String {
     let word = if verdict.passes { "ok  " } else { "FAIL" };
-    let found = terminal::printable(&verdict.found);
+    let found = printable(&verdict.found);
     format!("{word}  {:<24}{found:<28}{}", verdict.name, verdict.allowed)
 }

@@ -5,6 +5,7 @@ use super::terminal;
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
 use crate::app::input::{self, Shape};
+use crate::app::text::printable;
 use clap::Args;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -62,7 +63,7 @@ fn list_all(args: &DesignArgs, path: &Path) -> Result<(), AppError> {
             input.mesh_path.display()
         )));
     };
-    let choice = Choice::new(input.project.as_ref(), &args.make.given())?;
+    let choice = Choice::new(input.project.as_ref(), &args.make.wish().given)?;
     let least_mm = choice.options().min_panel_width_mm;
     let rankings = rankings(sketches, least_mm).map_err(|error| AppError::Pipeline(error.into()))?;
     for (sketch, rankings) in sketches.iter().zip(&rankings) {
@@ -74,7 +75,7 @@ fn list_all(args: &DesignArgs, path: &Path) -> Result<(), AppError> {
 }
 
 fn list(sketch: &Sketch, p: usize, ranking: &Ranking) {
-    let name = terminal::printable(sketch.name());
+    let name = printable(sketch.name());
     terminal::say(&format!("{name}, profile {}: {} ways to fold", p + 1, ranking.ranked.len()));
     if !ranking.ranked.is_empty() {
         let width = sketch.profiles()[p].len().max(3);

@@ -5,6 +5,7 @@ use super::progress::TerminalProgress;
 use super::terminal;
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
+use crate::app::make::Timed;
 use crate::app::{input, make, output};
 use clap::Args;
 use std::path::{Path, PathBuf};

@@ -5,6 +5,8 @@ use super::progress::TerminalProgress;
 use super::terminal;
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
+use crate::app::make::Timed;
+use crate::app::text::printable;
 use crate::app::{input, names, output};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -138,7 +140,7 @@ pub fn run(args: &ShowArgs) -> Result<(), AppError> {
         progress.finish();
         if args.clashes { clashes(args, &still, &result)? } else { vec![still.take(&scene(args, &result)?)?] }
     };
-    let title = terminal::printable(&args.input.file_stem().unwrap_or_default().to_string_lossy());
+    let title = printable(&args.input.file_stem().unwrap_or_default().to_string_lossy());
     let files = write(title, drawings)?.into_iter();
     let files: Vec<_> = files.map(|file| (names::with_suffix(&path, &file.suffix), file.bytes)).collect();
     output::write(&files)?;

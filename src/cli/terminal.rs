@@ -1,6 +1,6 @@
 //! Text for the terminal.
 
-use crate::app::text::{first_of_each_kind, printable};
+use crate::app::text::printable;
 use std::io::Write;
 use tatamu::pipeline::Warning;
 
@@ -17,9 +17,4 @@ pub fn complain(kind: &str, text: &str) {
 /// Shows a warning.
 pub fn warn(warning: &Warning) {
     complain("warning", &warning.message);
-}
-
-/// Shows the first few warnings of each kind, and counts the others.
-pub fn warn_by_kind(warnings: &[Warning]) {
-    first_of_each_kind(warnings).iter().for_each(|message| complain("warning", message));
 }

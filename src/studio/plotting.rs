@@ -3,8 +3,8 @@
 use super::worker::Wake;
 use crate::app::error::AppError;
 use crate::app::output;
+use crate::app::plot::Sheet;
 use crate::app::plot::live;
-use crate::app::plot::sheets::{self, Sheet};
 use crate::app::plot::{Operator, SerialPorts, doing, minutes};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};

@@ -27,7 +27,7 @@ pub fn wait(studio: &mut Studio, what: &str, is_so: impl Fn(&Studio) -> bool) {
 
 pub fn snowman(folder: &Path) -> PathBuf {
     let mesh = folder.join("snowman.obj");
-    std::fs::write(&mesh, include_bytes!("../../../samples/snowman.obj")).unwrap();
+    std::fs::write(&mesh, include_bytes!("../../samples/snowman.obj")).unwrap();
     let project = folder.join("snowman.toml");
     let text = "# of snow\nmesh = \"snowman.obj\"\n[segmentation]\nparts = 3\n[defaults]\ntop_edges = 4\nprofile_vertices = 4\n";
     std::fs::write(&project, text).unwrap();
@@ -195,7 +195,7 @@ fn sheets_are_there_before_the_folding_is_known() {
 fn a_drawn_model_opens_and_keeps_its_shape() {
     let folder = tempfile::tempdir().unwrap();
     let project = folder.path().join("gift-box.toml");
-    std::fs::write(&project, include_bytes!("../../../samples/gift-box.toml")).unwrap();
+    std::fs::write(&project, include_bytes!("../../samples/gift-box.toml")).unwrap();
     let mut studio = Studio::new(Store::at(&folder.path().join("state")), Arc::new(|| {}));
     studio.open(&project);
     wait(&mut studio, "a model", |s| s.finished().is_some() || s.problem().is_some());
