@@ -393,10 +393,8 @@ fn every_command_and_option_is_in_the_reference() {
 
 #[test]
 fn tables_of_options_are_those_of_the_program() {
-    let pages: [(&str, fn(&str) -> String); 2] = [
-        ("command-line.md", tatamu::project::options::command_line_page),
-        ("project.md", tatamu::project::options::project_page),
-    ];
+    use tatamu::project::options::{command_line_page, project_page};
+    let pages = [("command-line.md", command_line_page as fn(&str) -> String), ("project.md", project_page)];
     for (name, with_tables) in pages {
         let page = read(&root().join("docs/reference").join(name));
         assert!(page.matches("<!-- options: ").count() > 3, "{name} has no tables of options");

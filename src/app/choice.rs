@@ -60,7 +60,8 @@ impl Choice {
     pub fn files(&self, input_path: &Path) -> Result<FileChoice, AppError> {
         let files = &self.settings.files;
         let mut formats = files.formats.clone();
-        formats.pdf = formats.pdf.with_created(source_date()?);
+        let pdf = formats.pdf.with_created(source_date()?);
+        formats.pdf = pdf.with_tile(files.tile).map_err(AppError::Options)?;
         formats.plt = self.machine()?;
         let styles = match &files.style {
             Some(name) if self.is_style_of_flag => styles(name, Path::new(name))?,

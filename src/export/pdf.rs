@@ -54,11 +54,6 @@ impl PdfOptions {
         Self { created, ..self }
     }
 
-    /// The paper on which larger sheets are divided.
-    pub fn tile(&self) -> Option<Paper> {
-        self.tile
-    }
-
     /// The same with sheets that are larger than `tile` divided among pages of that size.
     ///
     /// # Errors

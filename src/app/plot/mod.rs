@@ -6,6 +6,8 @@ mod operator;
 mod port;
 mod serial;
 pub mod sheets;
+#[cfg(test)]
+mod tests;
 
 pub use operator::{Operator, doing};
 pub use serial::{SerialPorts, hint};

@@ -164,12 +164,8 @@ static TILE: Entry = Entry {
         names: papers,
         other: OR_SIZE,
         such_as: "a4",
-        get: |s| s.files.formats.pdf.tile().map(|paper| paper.name()),
-        set: |s, text| {
-            let paper = parse_paper(text).map_err(|error| error.to_string())?;
-            let pdf = s.files.formats.pdf.with_tile(Some(paper))?;
-            put(&mut s.files.formats.pdf, pdf)
-        },
+        get: |s| s.files.tile.map(|paper| paper.name()),
+        set: |s, text| put(&mut s.files.tile, Some(parse_paper(text).map_err(|error| error.to_string())?)),
     }),
     short: "Paper on which the PDF divides larger sheets",
     long: "A sheet that does not fit is divided among pages of this size, which overlap and have marks to lay them on \

@@ -2,6 +2,7 @@
 
 use crate::export::FormatOptions;
 use crate::pipeline::Options;
+use crate::units::Paper;
 use std::sync::LazyLock;
 
 /// All that options choose.
@@ -18,6 +19,8 @@ pub struct Settings {
 pub struct Files {
     /// By format.
     pub formats: FormatOptions,
+    /// Paper on which a PDF divides larger sheets, which may be too small for that.
+    pub tile: Option<Paper>,
     /// Look of the lines: a built-in style, or a file.
     pub style: Option<String>,
     /// Whether panels have the mesh's colours.
