@@ -1,6 +1,8 @@
 //! Single values of a component's table, checked while they are read so that an error has their place.
 
-use super::options::{PROFILE_VERTICES, Settings, TOP_EDGES, ValueOf, check_degrees, checked_name};
+use super::options::{
+    Entry, Kind, PROFILE_VERTICES, Settings, TOP_EDGES, ValueOf, check_degrees, checked_name,
+};
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, Visitor};
 use std::fmt;
@@ -8,18 +10,22 @@ use std::str::FromStr;
 
 /// Edges of one component's top panel.
 pub(super) fn top_edges<'de, D: Deserializer<'de>>(d: D) -> Result<Option<usize>, D::Error> {
-    let given = ValueOf(&TOP_EDGES).deserialize(d)?;
-    let mut settings = Settings::standard().clone();
-    given.apply(&mut settings).map_err(D::Error::custom)?;
-    Ok(settings.model.top_edges)
+    count(&TOP_EDGES, d)
 }
 
 /// Vertices of one component's profiles.
 pub(super) fn profile_vertices<'de, D: Deserializer<'de>>(d: D) -> Result<Option<usize>, D::Error> {
-    let given = ValueOf(&PROFILE_VERTICES).deserialize(d)?;
+    count(&PROFILE_VERTICES, d)
+}
+
+/// A number that the whole model may have, too.
+fn count<'de, D: Deserializer<'de>>(option: &'static Entry, d: D) -> Result<Option<usize>, D::Error> {
     let mut settings = Settings::standard().clone();
-    given.apply(&mut settings).map_err(D::Error::custom)?;
-    Ok(settings.model.profile_vertices)
+    ValueOf(option).deserialize(d)?.apply(&mut settings).map_err(D::Error::custom)?;
+    Ok(match &option.kind {
+        Kind::Count(count) => (count.get)(&settings),
+        _ => None,
+    })
 }
 
 /// An angle in degrees.

@@ -143,6 +143,10 @@ fn flags_go_before_the_file_and_the_file_before_the_defaults() {
     let sdf = flag(&METHOD, "sdf");
     assert_eq!(choose(Some(&project), &[sdf.clone(), flag(&DETAIL, "0.8")]), Err(Refusal::Sdf));
     assert!(choose(Some(&project), &[sdf]).is_ok(), "a number of parts in the file does no harm");
+    let grainy = Project::parse("mesh = 'a.obj'\n[sheets]\ngrain = true\n").unwrap();
+    let is_grainy = |flags: &[Given]| GRAIN.text(&choose(Some(&grainy), flags).unwrap());
+    assert_eq!(is_grainy(&[]).as_deref(), Some("true"));
+    assert_eq!(is_grainy(&[flag(&GRAIN, "false")]).as_deref(), Some("false"));
     let message = choose(Some(&project), &[flag(&MARGIN, "15cm")]).unwrap_err().to_string();
     assert!(message.contains("less than 148.5 mm"), "{message}");
 }
