@@ -1,6 +1,9 @@
 //! The program `tatamu`.
 
+mod app;
 mod cli;
+#[cfg(feature = "studio")]
+mod studio;
 
 /// Two threads that make many small lists get in each other's way less with it: a twentieth of
 /// the time of `make`.

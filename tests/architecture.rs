@@ -148,6 +148,18 @@ fn uses(modules: &BTreeMap<Name, String>) -> BTreeSet<(Name, Name)> {
     modules.iter().flat_map(of_module).filter(|(from, to)| from != to).collect()
 }
 
+/// The application layer serves any front: it knows neither the command line's library nor the window's.
+#[test]
+fn the_application_knows_no_flags_and_no_windows() {
+    for path in source_files(&root().join("src/app")) {
+        let text = read(&path);
+        for library in ["clap", "eframe", "egui", "indicatif"] {
+            let is_used = [format!("use {library}"), format!("{library}::")].iter().any(|u| text.contains(u));
+            assert!(!is_used, "{} uses {library}", path.display());
+        }
+    }
+}
+
 #[test]
 fn the_table_has_every_crate_and_what_it_depends_on() {
     let table = table();

@@ -1,7 +1,8 @@
 //! `tatamu check`
 
-use super::error::{CliError, reason};
 use super::terminal;
+use crate::app::error::{AppError, reason};
+use crate::app::text::printable;
 use clap::Args;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -31,11 +32,11 @@ pub struct CheckArgs {
 }
 
 /// Runs the command.
-pub fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
+pub fn run(args: &CheckArgs) -> Result<ExitCode, AppError> {
     let path = args.file.clone();
     let bytes = std::fs::read(&args.file)
-        .map_err(|error| CliError::Input { path: path.clone(), reason: reason(&error) })?;
-    let report = check::fold(&bytes).map_err(|error| CliError::Check { path, error })?;
+        .map_err(|error| AppError::Input { path: path.clone(), reason: reason(&error) })?;
+    let report = check::fold(&bytes).map_err(|error| AppError::Check { path, error })?;
     let limits = Limits::default();
     let least = args.min_panel_width.unwrap_or(limits.min_panel_mm);
     let verdicts = report.verdicts(&Limits { min_panel_mm: least, ..limits });
@@ -54,6 +55,6 @@ pub fn run(args: &CheckArgs) -> Result<ExitCode, CliError> {
 
 fn line(verdict: &Verdict) -> String {
     let word = if verdict.passes { "ok  " } else { "FAIL" };
-    let found = terminal::printable(&verdict.found);
+    let found = printable(&verdict.found);
     format!("{word}  {:<24}{found:<28}{}", verdict.name, verdict.allowed)
 }

@@ -1,90 +1,12 @@
-//! `tatamu profiles`, and the options that choose a cutter and a medium.
+//! `tatamu profiles`
 
-use super::error::{CliError, reason};
 use super::terminal;
+use crate::app::error::AppError;
+use crate::app::profiles::{find, folder, own};
 use clap::{Args, Subcommand};
-use std::path::{Path, PathBuf};
-use tatamu::export::PltOptions;
-use tatamu::plotter::profile::{CUTTERS, MEDIA, Profile};
-use tatamu::plotter::{Cutter, Media, ProfileError};
-
-/// Options that choose a machine.
-#[derive(Debug, Clone, Default, Args)]
-#[command(next_help_heading = "Options of cutters")]
-pub struct CutterArgs {
-    /// Cutter or plotter: the name of a profile, or a file (TOML) [default: generic-hpgl]
-    ///
-    /// "tatamu profiles list" names them; "tatamu profiles show NAME" prints one, to begin a file
-    /// of your own with. Example: --cutter hp-7475a, --cutter mine.toml
-    #[arg(long, value_name = "NAME|FILE")]
-    cutter: Option<String>,
-
-    /// What is cut: the name of a profile, or a file (TOML) [default: cardstock-200]
-    ///
-    /// It sets force, speed, passes, overcut and how creases are made.
-    /// Example: --media cardstock-300
-    #[arg(long, value_name = "NAME|FILE")]
-    media: Option<String>,
-}
-
-impl CutterArgs {
-    /// The profiles that were chosen.
-    pub fn choice(&self) -> Result<PltOptions, CliError> {
-        let mut choice = PltOptions::default();
-        if let Some(name) = &self.cutter {
-            let text = find(name, "cutters", CUTTERS)?;
-            choice.cutter = Cutter::parse(&text).map_err(|error| wrong(name, error))?;
-        }
-        if let Some(name) = &self.media {
-            let text = find(name, "media", MEDIA)?;
-            choice.media = Media::parse(&text).map_err(|error| wrong(name, error))?;
-        }
-        Ok(choice)
-    }
-
-    /// The choice of these names.
-    #[cfg(feature = "studio")]
-    pub fn of(cutter: &str, media: &str) -> Self {
-        Self { cutter: Some(cutter.to_owned()), media: Some(media.to_owned()) }
-    }
-
-    /// Whether the user chose a cutter.
-    pub fn has_cutter(&self) -> bool {
-        self.cutter.is_some()
-    }
-}
-
-fn wrong(name: &str, error: ProfileError) -> CliError {
-    CliError::Profile { name: name.to_owned(), error }
-}
-
-/// The text of a profile: a file where there is one of that name, else one of the configuration
-/// folder, else one that comes with the program.
-fn find(name: &str, kind: &str, built_in: &[Profile]) -> Result<String, CliError> {
-    let own = folder().map(|folder| folder.join(kind).join(format!("{name}.toml")));
-    let looks_like_file = name.ends_with(".toml") || name.contains(std::path::MAIN_SEPARATOR);
-    let given = looks_like_file.then(|| PathBuf::from(name));
-    if let Some(path) = given.or(own.filter(|path| path.is_file())) {
-        return std::fs::read_to_string(&path)
-            .map_err(|error| CliError::Input { path: path.clone(), reason: reason(&error) });
-    }
-    let found = built_in.iter().find(|profile| profile.name == name);
-    found.map(|profile| profile.text.to_owned()).ok_or_else(|| {
-        let names: Vec<&str> = built_in.iter().map(|profile| profile.name).collect();
-        CliError::Options(format!(
-            "there is no profile \"{name}\" in {kind}; there are: {}",
-            names.join(", ")
-        ))
-    })
-}
-
-/// The user's folder for profiles.
-fn folder() -> Option<PathBuf> {
-    let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
-    let home = || set("HOME").map(|home| home.join(".config"));
-    let base = if cfg!(windows) { set("APPDATA") } else { set("XDG_CONFIG_HOME").or_else(home) };
-    base.map(|base| base.join("tatamu"))
-}
+use std::path::Path;
+use tatamu::plotter::profile::{CUTTERS, MEDIA};
+use tatamu::plotter::{Cutter, Media};
 
 /// Lists and shows profiles of cutters and media.
 #[derive(Debug, Args)]
@@ -107,7 +29,7 @@ enum ProfilesCommand {
 }
 
 /// Runs `tatamu profiles`.
-pub fn run(args: &ProfilesArgs) -> Result<(), CliError> {
+pub fn run(args: &ProfilesArgs) -> Result<(), AppError> {
     match &args.command {
         ProfilesCommand::List => list(),
         ProfilesCommand::Show { name } => {
@@ -118,9 +40,9 @@ pub fn run(args: &ProfilesArgs) -> Result<(), CliError> {
                 false => ("cutters", CUTTERS),
             };
             let other = |error| match error {
-                CliError::Options(reason) if kind == "cutters" && !name.contains('.') => {
+                AppError::Options(reason) if kind == "cutters" && !name.contains('.') => {
                     let names: Vec<&str> = MEDIA.iter().map(|profile| profile.name).collect();
-                    CliError::Options(format!("{reason}; media are: {}", names.join(", ")))
+                    AppError::Options(format!("{reason}; media are: {}", names.join(", ")))
                 }
                 error => error,
             };
@@ -128,7 +50,7 @@ pub fn run(args: &ProfilesArgs) -> Result<(), CliError> {
         }
         ProfilesCommand::Path => {
             let folder = folder().ok_or_else(|| {
-                CliError::Options("there is no home folder; give a file to --cutter and --media".to_owned())
+                AppError::Options("there is no home folder; give a file to --cutter and --media".to_owned())
             })?;
             terminal::say(&format!("{}", folder.join("cutters").display()));
             terminal::say(&format!("{}", folder.join("media").display()));
@@ -150,27 +72,4 @@ fn list() {
         terminal::say(&format!("  {:<16} {}", profile.name, name.unwrap_or_default()));
     }
     own("media").iter().for_each(|name| terminal::say(&format!("  {name:<16} your own")));
-}
-
-/// Names of all cutters and of all media, the user's own last.
-#[cfg(feature = "studio")]
-pub fn names() -> [Vec<String>; 2] {
-    [("cutters", CUTTERS), ("media", MEDIA)].map(|(kind, built_in)| {
-        let mut names: Vec<String> = built_in.iter().map(|profile| profile.name.to_owned()).collect();
-        names.extend(own(kind));
-        names
-    })
-}
-
-/// Names of the user's own profiles.
-fn own(kind: &str) -> Vec<String> {
-    let files = folder().and_then(|folder| std::fs::read_dir(folder.join(kind)).ok());
-    let name = |path: PathBuf| {
-        let is_profile = path.extension().is_some_and(|e| e == "toml");
-        path.file_stem().filter(|_| is_profile).map(|stem| stem.to_string_lossy().into_owned())
-    };
-    let mut names: Vec<String> =
-        files.into_iter().flatten().filter_map(|entry| name(entry.ok()?.path())).collect();
-    names.sort();
-    names
 }

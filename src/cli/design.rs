@@ -1,9 +1,11 @@
 //! `tatamu design`
 
-use super::error::CliError;
-use super::input::{self, Shape};
 use super::make::{self, MakeArgs};
 use super::terminal;
+use crate::app::choice::Choice;
+use crate::app::error::AppError;
+use crate::app::input::{self, Shape};
+use crate::app::text::printable;
 use clap::Args;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -45,7 +47,7 @@ A project file of one component:
 const LISTED: usize = 12;
 
 /// Runs the command.
-pub fn run(args: &DesignArgs) -> Result<(), CliError> {
+pub fn run(args: &DesignArgs) -> Result<(), AppError> {
     if !args.list_configurations {
         return make::run(&args.make);
     }
@@ -53,17 +55,17 @@ pub fn run(args: &DesignArgs) -> Result<(), CliError> {
 }
 
 /// Lists the ways of all profiles of a project file.
-fn list_all(args: &DesignArgs, path: &Path) -> Result<(), CliError> {
+fn list_all(args: &DesignArgs, path: &Path) -> Result<(), AppError> {
     let input = input::read(path)?;
     let Shape::Drawn(sketches) = &input.shape else {
-        return Err(CliError::Options(format!(
+        return Err(AppError::Options(format!(
             "{} holds no drawn components, so there are no profiles with ways to fold",
             input.mesh_path.display()
         )));
     };
-    let options = args.make.model().merge(input.project.as_ref())?;
-    let rankings =
-        rankings(sketches, options.min_panel_width_mm).map_err(|error| CliError::Pipeline(error.into()))?;
+    let choice = Choice::new(input.project.as_ref(), &args.make.wish().given)?;
+    let least_mm = choice.options().min_panel_width_mm;
+    let rankings = rankings(sketches, least_mm).map_err(|error| AppError::Pipeline(error.into()))?;
     for (sketch, rankings) in sketches.iter().zip(&rankings) {
         for (p, ranking) in rankings.iter().enumerate() {
             list(sketch, p, ranking);
@@ -73,7 +75,7 @@ fn list_all(args: &DesignArgs, path: &Path) -> Result<(), CliError> {
 }
 
 fn list(sketch: &Sketch, p: usize, ranking: &Ranking) {
-    let name = terminal::printable(sketch.name());
+    let name = printable(sketch.name());
     terminal::say(&format!("{name}, profile {}: {} ways to fold", p + 1, ranking.ranked.len()));
     if !ranking.ranked.is_empty() {
         let width = sketch.profiles()[p].len().max(3);

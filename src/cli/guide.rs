@@ -1,16 +1,13 @@
 //! Options of the assembly guide.
 
-use super::error::CliError;
-use super::names;
-use super::output::{self, Target};
+use super::flags::{Flags, OfGuide};
+use crate::app::make::Guide;
 use clap::Args;
-use std::path::{Path, PathBuf};
-use tatamu::export::{FORMATS, Format, FormatOptions, GUIDES, GuideOptions};
-use tatamu::guide::Language;
-use tatamu::project::ExportTable;
+use std::path::PathBuf;
+use tatamu::project::options::Given;
 
 /// Options of the assembly guide.
-#[derive(Debug, Clone, Default, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Assembly guide")]
 pub struct GuideArgs {
     /// Writes an assembly guide, too: FILE.html for a screen, FILE.pdf for paper
@@ -21,59 +18,24 @@ pub struct GuideArgs {
     /// folders as with -o.
     /// Example: --guide teddy.html, --guide -o guide.pdf
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "", value_parser = wanted)]
-    guide: Vec<Wanted>,
+    guide: Vec<Guide>,
 
-    /// Language of the guide: en or de [default: en]
-    ///
-    /// Example: --guide-language de
-    #[arg(long, value_name = "LANGUAGE")]
-    guide_language: Option<Language>,
+    #[command(flatten)]
+    language: Flags<OfGuide>,
 }
 
-/// Which file is to be a guide.
-#[derive(Debug, Clone)]
-enum Wanted {
-    /// Those of `-o`.
-    Outputs,
-    /// This one.
-    File(PathBuf),
-}
-
-fn wanted(text: &str) -> Result<Wanted, String> {
-    Ok(if text.is_empty() { Wanted::Outputs } else { Wanted::File(PathBuf::from(text)) })
+fn wanted(text: &str) -> Result<Guide, String> {
+    Ok(if text.is_empty() { Guide::Outputs } else { Guide::File(PathBuf::from(text)) })
 }
 
 impl GuideArgs {
-    /// The files to write, guides among them, of which the user named `outputs`.
-    pub fn targets(&self, input: &Path, outputs: &[PathBuf]) -> Result<Vec<Target>, CliError> {
-        let is_output = self.guide.iter().any(|wanted| matches!(wanted, Wanted::Outputs));
-        let mut guides: Vec<PathBuf> = Vec::new();
-        for wanted in &self.guide {
-            match wanted {
-                Wanted::File(path) => guides.push(names::for_input(path, input, GUIDES[0].extensions[0])),
-                Wanted::Outputs if outputs.is_empty() => {
-                    let name = names::default(input, GUIDES[GUIDES.len() - 1].extensions[0]);
-                    guides.push(names::with_suffix(&name, "-guide"));
-                }
-                Wanted::Outputs => {}
-            }
-        }
-        let extension = FORMATS[0].extensions[0];
-        let default = [names::default(input, extension)];
-        let outputs: Vec<PathBuf> =
-            outputs.iter().map(|path| names::for_input(path, input, extension)).collect();
-        let sheets = if outputs.is_empty() { &default[..] } else { &outputs[..] };
-        let lists: &[&'static [Format]] =
-            if is_output && !outputs.is_empty() { &[GUIDES, FORMATS] } else { &[FORMATS] };
-        let mut targets = output::targets_among(sheets, lists)?;
-        targets.extend(output::targets_among(&guides, &[GUIDES])?);
-        Ok(targets)
+    /// Which files are to be guides.
+    pub fn wanted(&self) -> &[Guide] {
+        &self.guide
     }
 
-    /// Puts the choices into those of the formats.
-    pub fn choose(&self, options: FormatOptions, project: Option<&ExportTable>) -> FormatOptions {
-        let of_project = project.and_then(|table| table.guide_language);
-        let language = self.guide_language.or(of_project).unwrap_or_default();
-        FormatOptions { guide: GuideOptions { language }, ..options }
+    /// The options of the guide that the user gave.
+    pub fn given(&self) -> &[Given] {
+        self.language.given()
     }
 }

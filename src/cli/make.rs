@@ -1,22 +1,14 @@
 //! `tatamu make`
 
-use super::cutters::CutterArgs;
-use super::error::CliError;
-use super::film::FilmArgs;
-use super::formats::{self, FileArgs};
+use super::flags::{Flags, OfFiles, OfFilm, OfMachine, OfModel};
 use super::guide::GuideArgs;
-use super::made::Made;
-use super::options::ModelArgs;
-use super::output::{self, Target};
 use super::progress::TerminalProgress;
-use super::{batch, input, names, terminal};
+use super::{batch, formats, terminal};
+use crate::app::error::AppError;
+use crate::app::make::{Task, Wish, make};
+use crate::app::output;
 use clap::Args;
-use std::path::{Path, PathBuf};
-use tatamu::export::{FormatOptions, Source};
-use tatamu::mesh::{Mesh, Repairs};
-use tatamu::net::Side;
-use tatamu::product::{Content, Product};
-use tatamu::report::Run;
+use std::path::PathBuf;
 
 /// Makes a model of a mesh, or of a project file.
 ///
@@ -34,7 +26,7 @@ pub struct MakeArgs {
     inputs: Vec<PathBuf>,
 
     #[command(flatten)]
-    model: ModelArgs,
+    model: Flags<OfModel>,
 
     /// File to write; may be given several times [default: the input's name with .pdf]
     ///
@@ -49,7 +41,7 @@ pub struct MakeArgs {
     guide: GuideArgs,
 
     #[command(flatten)]
-    film: FilmArgs,
+    film: Flags<OfFilm>,
 
     /// Writes what is printed and what is cut into two files, NAME-print and NAME-cut
     ///
@@ -68,10 +60,10 @@ pub struct MakeArgs {
     segments: Option<PathBuf>,
 
     #[command(flatten)]
-    files: FileArgs,
+    files: Flags<OfFiles>,
 
     #[command(flatten)]
-    cutter: CutterArgs,
+    machine: Flags<OfMachine>,
 
     /// No summary and no progress bar; warnings and errors only
     #[arg(short, long)]
@@ -89,9 +81,22 @@ impl MakeArgs {
         self.quiet
     }
 
-    /// Options of the model.
-    pub fn model(&self) -> &ModelArgs {
-        &self.model
+    /// What is asked for.
+    pub fn wish(&self) -> Wish {
+        let lists = [
+            self.model.given(),
+            self.guide.given(),
+            self.film.given(),
+            self.files.given(),
+            self.machine.given(),
+        ];
+        Wish {
+            given: lists.concat(),
+            outputs: self.output.clone(),
+            guides: self.guide.wanted().to_vec(),
+            segments: self.segments.clone(),
+            prints_and_cuts: self.print_and_cut,
+        }
     }
 }
 
@@ -110,120 +115,15 @@ fn after_help() -> String {
 }
 
 /// Runs the command.
-pub fn run(args: &MakeArgs) -> Result<(), CliError> {
+pub fn run(args: &MakeArgs) -> Result<(), AppError> {
     let [input] = args.inputs() else { return batch::run(args) };
     let progress = TerminalProgress::new(args.quiet);
     let tell = |warning: &str| terminal::complain("warning", warning);
-    let made = make(args, Task::new(args, input)?, &progress, &tell)?;
+    let wish = args.wish();
+    let made = make(Task::new(&wish, input)?, &progress, &tell)?;
     output::write(&made.files)?;
     if !args.quiet {
         made.summary.iter().for_each(|line| terminal::say(line));
     }
     Ok(())
-}
-
-/// One input, and the files to make of it.
-pub struct Task<'a> {
-    /// The mesh or project file.
-    pub input: &'a Path,
-    targets: Vec<Target>,
-    segments: Option<PathBuf>,
-}
-
-impl<'a> Task<'a> {
-    /// What is asked for of one of the inputs.
-    pub fn new(args: &MakeArgs, input: &'a Path) -> Result<Self, CliError> {
-        let targets = args.guide.targets(input, &args.output)?;
-        let segments = args.segments.as_ref().map(|path| names::for_input(path, input, "seg"));
-        Ok(Self { input, targets, segments })
-    }
-
-    /// The names that the user gave; sheets may get numbers.
-    pub fn places(&self) -> Vec<PathBuf> {
-        self.targets.iter().map(|target| &target.path).chain(&self.segments).cloned().collect()
-    }
-}
-
-/// Makes the model of one input, and the content of its files. Warnings are told as they come.
-pub fn make(
-    args: &MakeArgs,
-    task: Task<'_>,
-    progress: &TerminalProgress,
-    tell: &dyn Fn(&str),
-) -> Result<Made, CliError> {
-    let places = task.places();
-    output::check_places(&places, &[task.input])?;
-    let input = input::read(task.input)?;
-    output::check_places(&places, &[task.input, &input.mesh_path])?;
-    let options = args.model.merge(input.project.as_ref())?;
-    let mut choice = args.files.merge(input.project.as_ref().map(|p| &p.export), task.input)?;
-    if choice.is_coloured && options.sheets.side == Side::Inside {
-        let reason = "--color is for the outside of the paper; leave out --side inside, or --color";
-        return Err(CliError::Options(reason.to_owned()));
-    }
-    let painting = choice.is_coloured.then(|| input::read_painting(&input.mesh_path)).transpose()?;
-    choice.formats.plt = args.cutter.choice()?;
-    let warnings = input.warnings();
-    warnings.iter().for_each(|warning| tell(&warning.message));
-
-    let result = input.run_and_advise(&args.model, &options, progress)?;
-    let stages = progress.finish();
-    terminal::first_of_each_kind(result.warnings()).iter().for_each(|message| tell(message));
-
-    let stem = task.input.file_stem().unwrap_or_default();
-    let run = Run {
-        path: &input.mesh_path.to_string_lossy(),
-        repairs: &input.repairs,
-        stages: &stages,
-        warnings: &warnings,
-    };
-    let title = terminal::printable(&stem.to_string_lossy());
-    let product = |content| {
-        Product::new(&result, &title, run)
-            .with_styles(choice.styles.clone())
-            .with_painting(painting.as_ref())
-            .with_content(content)
-    };
-    let products = match args.print_and_cut {
-        false => vec![("", product(Content::All))],
-        true => vec![("-print", product(Content::Print)), ("-cut", product(Content::Cut))],
-    };
-    let formats = args.guide.choose(choice.formats, input.project.as_ref().map(|p| &p.export));
-    let formats = args.film.choose(formats)?;
-    let mut files = written(task.targets, &products, &formats)?;
-    if let Some(path) = task.segments {
-        files.push((path, segments(result.mesh(), result.face_parts(), &input.repairs)));
-    }
-    Ok(Made::new(&result, files))
-}
-
-/// The files of all targets; pages of each product, all else of the first.
-pub fn written(
-    targets: Vec<Target>,
-    products: &[(&str, Product<'_>)],
-    formats: &FormatOptions,
-) -> Result<Vec<(PathBuf, Vec<u8>)>, CliError> {
-    let mut files = Vec::new();
-    for target in targets {
-        let is_paged = matches!(target.format.source, Source::Pages(_));
-        for (name, product) in if is_paged { products } else { &products[..1] } {
-            let name = if is_paged { name } else { "" };
-            for file in target.format.write(product, formats)? {
-                let suffix = format!("{name}{}", file.suffix);
-                files.push((names::with_suffix(&target.path, &suffix), file.bytes));
-            }
-        }
-    }
-    Ok(files)
-}
-
-/// One component index a line for each face of the input file, -1 for a dropped one.
-pub fn segments(mesh: &Mesh, part_of_face: &[Option<u32>], repairs: &Repairs) -> Vec<u8> {
-    let of_input = mesh.labels_of_input(part_of_face, repairs.input_faces);
-    let line = |label: Option<u32>| match label {
-        Some(label) => format!("{label}\n"),
-        None => "-1\n".to_owned(),
-    };
-    let text: String = of_input.into_iter().map(line).collect();
-    text.into_bytes()
 }

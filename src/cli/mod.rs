@@ -4,35 +4,24 @@ mod batch;
 mod check;
 mod cutters;
 mod design;
-mod error;
-mod film;
+mod flags;
 mod formats;
 mod guide;
 mod init;
-mod input;
-mod made;
 mod make;
-mod names;
-mod net_args;
-mod options;
-mod output;
 mod plot;
 mod ports;
 mod progress;
 mod segment;
-mod segment_args;
-mod sheet_args;
 mod shell;
 mod show;
-#[cfg(feature = "studio")]
-mod studio;
 mod studio_args;
 mod terminal;
 #[cfg(unix)]
-mod virtual_plotter;
+pub mod virtual_plotter;
 
+use crate::app::error::AppError;
 use clap::{CommandFactory, Parser, Subcommand};
-use error::CliError;
 use std::process::ExitCode;
 
 /// Exit code of work that was stopped by Ctrl-C, as shells have it (128 + SIGINT).
@@ -113,7 +102,7 @@ pub fn run() -> ExitCode {
     };
     match result {
         Ok(code) => code,
-        Err(CliError::Cancelled(cancelled)) => {
+        Err(AppError::Cancelled(cancelled)) => {
             terminal::complain("tatamu", &cancelled.to_string());
             ExitCode::from(STOPPED)
         }
@@ -142,5 +131,64 @@ mod tests {
                 assert!(help.is_some_and(|h| h.len() > 10), "{} {id}", command.get_name());
             }
         }
+    }
+
+    /// Flags that are no options of a model or its files: what a command reads and writes, and how it runs.
+    const OWN: [&str; 31] = [
+        "baud",
+        "buffer",
+        "clashes",
+        "copies",
+        "dry-run",
+        "error-at",
+        "force",
+        "garbage-every",
+        "guide",
+        "handshake",
+        "list-configurations",
+        "mute",
+        "once",
+        "only",
+        "output",
+        "port",
+        "pose",
+        "preview",
+        "print-and-cut",
+        "quiet",
+        "report",
+        "resume",
+        "segments",
+        "silence-every",
+        "speedup",
+        "stage",
+        "test-cut",
+        "transparent",
+        "unplug-at",
+        "xoff-below",
+        "yes",
+    ];
+    /// Flags of the table that a command has with a default of its own.
+    const OTHERWISE: [(&str, &str); 3] =
+        [("show", "view"), ("show", "size-px"), ("check", "min-panel-width")];
+
+    #[test]
+    fn every_flag_is_of_the_table_of_options_or_a_commands_own() {
+        let table: Vec<_> = tatamu::project::options::all().filter_map(|option| option.flag).collect();
+        let mut seen = std::collections::BTreeSet::new();
+        for command in Cli::command().get_subcommands() {
+            for argument in command.get_arguments() {
+                let Some(name) = argument.get_long() else { continue };
+                seen.insert(name.to_owned());
+                let of_table = table.iter().find(|flag| flag.name == name);
+                assert!(of_table.is_some() != OWN.contains(&name), "{} --{name}", command.get_name());
+                let is_other = OTHERWISE.contains(&(command.get_name(), name));
+                let value = argument.get_value_names().and_then(|names| names.first()).map(|v| v.as_str());
+                let is_as_said = of_table.is_none_or(|flag| is_other || value == Some(flag.value));
+                assert!(is_as_said, "{} --{name} {value:?}", command.get_name());
+            }
+        }
+        let missing: Vec<_> = table.iter().filter(|flag| !seen.contains(flag.name)).collect();
+        assert!(missing.is_empty(), "{missing:?} are flags of no command");
+        assert!(OWN.iter().all(|name| seen.contains(*name)), "a flag of no command is listed");
     }
 }

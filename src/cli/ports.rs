@@ -1,7 +1,8 @@
 //! `tatamu ports`
 
-use super::error::CliError;
 use super::terminal;
+use crate::app::error::AppError;
+use crate::app::plot::hint;
 use clap::Args;
 use serialport::SerialPortType;
 
@@ -10,9 +11,9 @@ use serialport::SerialPortType;
 pub struct PortsArgs {}
 
 /// Runs the command.
-pub fn run(_: &PortsArgs) -> Result<(), CliError> {
+pub fn run(_: &PortsArgs) -> Result<(), AppError> {
     let ports = serialport::available_ports()
-        .map_err(|error| CliError::Options(format!("the serial ports cannot be listed: {error}")))?;
+        .map_err(|error| AppError::Options(format!("the serial ports cannot be listed: {error}")))?;
     if ports.is_empty() {
         terminal::say("no serial port; plug the machine in and switch it on");
     }
@@ -29,22 +30,4 @@ pub fn run(_: &PortsArgs) -> Result<(), CliError> {
         terminal::say(format!("{:<16} {what}{}", port.port_name, hint(&port.port_name)).trim_end());
     }
     Ok(())
-}
-
-/// What to do where the user may not open the port.
-#[cfg(unix)]
-pub fn hint(port: &str) -> &'static str {
-    use rustix::fs::{Access, access};
-    match access(port, Access::READ_OK | Access::WRITE_OK) {
-        Err(rustix::io::Errno::ACCESS) => {
-            "  (no permission: sudo usermod -a -G dialout $USER, then log out and in again)"
-        }
-        _ => "",
-    }
-}
-
-/// What to do where the user may not open the port.
-#[cfg(not(unix))]
-pub fn hint(_: &str) -> &'static str {
-    ""
 }

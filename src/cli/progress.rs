@@ -1,5 +1,6 @@
 //! The progress bar, and Ctrl-C.
 
+use crate::app::make::Timed;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -62,11 +63,15 @@ impl TerminalProgress {
         }
     }
 
-    /// Takes the bar away, and gives the name and duration of each stage, in seconds.
-    pub fn finish(&self) -> Vec<(&'static str, f64)> {
+    /// Takes the bar away.
+    fn clear(&self) {
         if let Some(bar) = self.bar.get() {
             bar.finish_and_clear();
         }
+    }
+
+    /// The name and duration of each stage, in seconds.
+    fn seconds(&self) -> Vec<(&'static str, f64)> {
         let mut starts = self.stages.lock().map(|s| s.clone()).unwrap_or_default();
         starts.push(("", Instant::now()));
         let seconds = |pair: &[(&'static str, Instant)]| (pair[1].1 - pair[0].1).as_secs_f64();
@@ -88,6 +93,13 @@ impl TerminalProgress {
                 bar
             })
         })
+    }
+}
+
+impl Timed for TerminalProgress {
+    fn finish(&self) -> Vec<(&'static str, f64)> {
+        self.clear();
+        self.seconds()
     }
 }
 
@@ -115,7 +127,7 @@ impl Progress for TerminalProgress {
 
 impl Drop for TerminalProgress {
     fn drop(&mut self) {
-        self.finish();
+        self.clear();
     }
 }
 

@@ -1,26 +1,27 @@
 //! `tatamu segment`
 
-use super::error::CliError;
-use super::options::ModelArgs;
+use super::flags::{Flags, OfDivision};
 use super::progress::TerminalProgress;
-use super::segment_args::SegmentArgs;
-use super::{input, make, output, terminal};
+use super::terminal;
+use crate::app::choice::Choice;
+use crate::app::error::AppError;
+use crate::app::make::Timed;
+use crate::app::{input, make, output};
 use clap::Args;
 use std::path::{Path, PathBuf};
 use tatamu::export::png;
 use tatamu::geom::Hull;
-use tatamu::mesh::Up;
 use tatamu::parts_report::{self, PartsRun};
 use tatamu::pipeline;
 use tatamu::progress::Progress;
-use tatamu::project::parse_up;
 use tatamu::render::parts_picture;
 use tatamu::segment::{Overlap, Parts, overlap};
 
 /// Shows the parts that a mesh is divided into, without making a model.
 ///
 /// Each part becomes one component of the model. The picture shows the parts in colour from two
-/// sides with their names, by which a project file can merge, split and rename them.
+/// sides with their names, by which a project file can merge, split and rename them. --up turns only
+/// the picture.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct SegmentCommand {
@@ -49,14 +50,8 @@ pub struct SegmentCommand {
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
 
-    /// Axis of the mesh that points up: x, y or z [default: y]
-    ///
-    /// Only the picture depends on it. Example: --up z
-    #[arg(long, value_name = "AXIS", value_parser = parse_up)]
-    up: Option<Up>,
-
     #[command(flatten)]
-    segmentation: SegmentArgs,
+    division: Flags<OfDivision>,
 
     /// No summary and no progress bar; warnings and errors only
     #[arg(short, long)]
@@ -72,22 +67,21 @@ Examples:
 const DOTS_PER_INCH: f64 = 130.0;
 
 /// Runs the command.
-pub fn run(args: &SegmentCommand) -> Result<(), CliError> {
+pub fn run(args: &SegmentCommand) -> Result<(), AppError> {
     if let Some(path) = args.output.as_ref().filter(|p| !is_png(p)) {
-        return Err(CliError::Extension { path: path.clone(), known: ".png".to_owned() });
+        return Err(AppError::Extension { path: path.clone(), known: ".png".to_owned() });
     }
     let places: Vec<PathBuf> =
         [&args.output, &args.segments, &args.report].into_iter().flatten().cloned().collect();
     output::check_places(&places, &[&args.input])?;
     let input = input::read(&args.input)?;
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
-    let model_args = ModelArgs::of_segmentation(args.up, args.segmentation.clone());
-    let options = model_args.merge(input.project.as_ref())?;
+    let choice = Choice::new(input.project.as_ref(), args.division.given())?;
     input.warnings().iter().for_each(terminal::warn);
 
     let progress = TerminalProgress::new(args.quiet);
-    let (parts, _) = pipeline::find_parts(input.mesh()?, &options, &progress)
-        .map_err(|error| CliError::of_run(error, &progress))?;
+    let (parts, _) = pipeline::find_parts(input.mesh()?, choice.options(), &progress)
+        .map_err(|error| AppError::of_run(error, &progress))?;
     progress.stage("hulls");
     let hulls: Vec<Option<Hull>> = parts.hulls().into_iter().map(Result::ok).collect();
     progress.stage("overlap");
@@ -107,7 +101,7 @@ pub fn run(args: &SegmentCommand) -> Result<(), CliError> {
         let mesh_path = input.mesh_path.to_string_lossy();
         let run = PartsRun { path: &mesh_path, hulls: &hulls, overlap, stages: &stages };
         let bytes = parts_report::to_json(&parts, &run)
-            .map_err(|error| CliError::Output { path: path.clone(), reason: error.to_string() })?;
+            .map_err(|error| AppError::Output { path: path.clone(), reason: error.to_string() })?;
         files.push((path.clone(), bytes));
     }
     output::write(&files)?;
@@ -125,8 +119,8 @@ fn is_png(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"))
 }
 
-fn draw(parts: &Parts, path: &Path) -> Result<Vec<u8>, CliError> {
-    let refuse = |reason: String| CliError::Output { path: path.to_owned(), reason };
+fn draw(parts: &Parts, path: &Path) -> Result<Vec<u8>, AppError> {
+    let refuse = |reason: String| AppError::Output { path: path.to_owned(), reason };
     let labels: Vec<u32> = parts.segmentation().face_segments().iter().map(|id| id.0).collect();
     let drawing =
         parts_picture(parts.mesh(), &labels, parts.names()).map_err(|error| refuse(error.to_string()))?;

@@ -1,7 +1,7 @@
 //! `tatamu completions` and `tatamu man`: what shells and manuals know of the command line.
 
-use super::error::CliError;
-use super::output;
+use crate::app::error::AppError;
+use crate::app::output;
 use clap::{Args, Command};
 use clap_complete::Shell;
 use std::io::Write;
@@ -35,7 +35,7 @@ pub fn completions(args: &CompletionsArgs, mut command: Command) {
 }
 
 /// Writes the pages of `command` and its subcommands.
-pub fn man(args: &ManArgs, mut command: Command) -> Result<(), CliError> {
+pub fn man(args: &ManArgs, mut command: Command) -> Result<(), AppError> {
     // Fills in what subcommands inherit, and their full names.
     command.build();
     let commands =
@@ -46,7 +46,7 @@ pub fn man(args: &ManArgs, mut command: Command) -> Result<(), CliError> {
         let mut bytes = Vec::new();
         match clap_mangen::Man::new(command.clone()).render(&mut bytes) {
             Ok(()) => Ok((path, bytes)),
-            Err(error) => Err(CliError::Output { path, reason: error.to_string() }),
+            Err(error) => Err(AppError::Output { path, reason: error.to_string() }),
         }
     };
     let pages = commands.map(page).collect::<Result<Vec<_>, _>>()?;

@@ -1,10 +1,13 @@
 //! `tatamu show`
 
-use super::error::CliError;
-use super::film::size_px;
-use super::options::ModelArgs;
+use super::flags::{Flags, OfModel};
 use super::progress::TerminalProgress;
-use super::{input, names, output, terminal};
+use super::terminal;
+use crate::app::choice::Choice;
+use crate::app::error::AppError;
+use crate::app::make::Timed;
+use crate::app::text::printable;
+use crate::app::{input, names, output};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use tatamu::drawing::{Drawing, LineStyles, Pages, Rgb};
@@ -13,8 +16,8 @@ use tatamu::fold::ModelMotion;
 use tatamu::pipeline::Output;
 use tatamu::render::Scene;
 use tatamu::show::{
-    ShowError, Still, ViewAngle, captioned, clash_picture, components_scene, hulls_scene, mesh_scene,
-    segments_scene, staged_scene,
+    FilmOptions, ShowError, Still, ViewAngle, captioned, clash_picture, components_scene, hulls_scene,
+    mesh_scene, segments_scene, staged_scene,
 };
 
 /// Shows a mesh, or a stage of its way to a paper model, as a picture.
@@ -73,7 +76,7 @@ pub struct ShowArgs {
     transparent: bool,
 
     #[command(flatten)]
-    model: ModelArgs,
+    model: Flags<OfModel>,
 
     /// No message and no progress bar; warnings and errors only
     #[arg(short, long)]
@@ -99,6 +102,11 @@ Examples:
 
 const SIZE_PX: u32 = 800;
 
+fn size_px(text: &str) -> Result<u32, String> {
+    let size_px = text.trim().parse().map_err(|_| "this must be a whole number such as 640".to_owned())?;
+    FilmOptions::default().with_size_px(size_px).map(|_| size_px)
+}
+
 fn share(text: &str) -> Result<f64, String> {
     let share: Option<f64> = text.trim().parse().ok();
     let share = share.filter(|share| (0.0..=1.0).contains(share));
@@ -106,7 +114,7 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 /// Runs the command.
-pub fn run(args: &ShowArgs) -> Result<(), CliError> {
+pub fn run(args: &ShowArgs) -> Result<(), AppError> {
     let path = args.output.clone().unwrap_or_else(|| {
         let mut name = args.input.file_stem().unwrap_or("model".as_ref()).to_owned();
         name.push(".png");
@@ -116,7 +124,8 @@ pub fn run(args: &ShowArgs) -> Result<(), CliError> {
     let input = input::read(&args.input)?;
     output::check_places(std::slice::from_ref(&path), &[&args.input, &input.mesh_path])?;
     input.notes.iter().for_each(terminal::warn);
-    let options = args.model.merge(input.project.as_ref())?;
+    let choice = Choice::new(input.project.as_ref(), args.model.given())?;
+    let options = choice.options();
     let still = Still {
         size_px: args.size_px.unwrap_or(SIZE_PX),
         angle: args.view.unwrap_or_default(),
@@ -127,11 +136,11 @@ pub fn run(args: &ShowArgs) -> Result<(), CliError> {
         vec![still.take(&mesh_scene(&mesh).map_err(ShowError::from)?)?]
     } else {
         let progress = TerminalProgress::new(args.quiet);
-        let result = input.run(&args.model, &options, &progress)?;
+        let result = input.run(&choice, &progress)?;
         progress.finish();
         if args.clashes { clashes(args, &still, &result)? } else { vec![still.take(&scene(args, &result)?)?] }
     };
-    let title = terminal::printable(&args.input.file_stem().unwrap_or_default().to_string_lossy());
+    let title = printable(&args.input.file_stem().unwrap_or_default().to_string_lossy());
     let files = write(title, drawings)?.into_iter();
     let files: Vec<_> = files.map(|file| (names::with_suffix(&path, &file.suffix), file.bytes)).collect();
     output::write(&files)?;
@@ -144,7 +153,7 @@ pub fn run(args: &ShowArgs) -> Result<(), CliError> {
 
 /// A picture of each place where components are in each other; of the model where there is none, so that
 /// no picture of an earlier run is taken for this one's.
-fn clashes(args: &ShowArgs, still: &Still, result: &Output) -> Result<Vec<Drawing>, CliError> {
+fn clashes(args: &ShowArgs, still: &Still, result: &Output) -> Result<Vec<Drawing>, AppError> {
     let motion = ModelMotion::new(result.model());
     let encounters = result.fold_plan().encounters(&motion);
     if encounters.is_empty() {
@@ -173,18 +182,18 @@ fn scene(args: &ShowArgs, result: &Output) -> Result<Scene, ShowError> {
 }
 
 /// Turns pictures into files.
-type Writer = Box<dyn Fn(String, Vec<Drawing>) -> Result<Vec<ExportFile>, CliError>>;
+type Writer = Box<dyn Fn(String, Vec<Drawing>) -> Result<Vec<ExportFile>, AppError>>;
 
 /// The writer for a file name: the formats that are made of pages can hold a picture.
-fn format_of(path: &std::path::Path, input: &std::path::Path) -> Result<Writer, CliError> {
+fn format_of(path: &std::path::Path, input: &std::path::Path) -> Result<Writer, AppError> {
     let unknown = || {
         let pages = FORMATS.iter().filter(|f| matches!(f.source, Source::Pages(_)));
         let known: Vec<String> = pages.flat_map(|f| f.extensions).map(|e| format!(".{e}")).collect();
-        CliError::Extension { path: path.to_owned(), known: known.join(", ") }
+        AppError::Extension { path: path.to_owned(), known: known.join(", ") }
     };
     let paths = [path.to_owned()];
     let target = output::targets(&paths, &[input]).map_err(|error| match error {
-        CliError::Extension { .. } => unknown(),
+        AppError::Extension { .. } => unknown(),
         other => other,
     })?;
     let format = target.first().ok_or_else(unknown)?.format;

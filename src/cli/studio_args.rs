@@ -1,6 +1,6 @@
 //! `tatamu studio`, with or without the window.
 
-use super::error::CliError;
+use crate::app::error::AppError;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -17,15 +17,15 @@ pub struct StudioArgs {
 
 /// Runs the command.
 #[cfg(feature = "studio")]
-pub fn run(args: &StudioArgs) -> Result<(), CliError> {
-    super::studio::run(args.input.clone())
+pub fn run(args: &StudioArgs) -> Result<(), AppError> {
+    crate::studio::run(args.input.clone())
 }
 
 /// Says how to get a program with the window.
 #[cfg(not(feature = "studio"))]
-pub fn run(args: &StudioArgs) -> Result<(), CliError> {
+pub fn run(args: &StudioArgs) -> Result<(), AppError> {
     let input = args.input.as_deref().map(|path| format!(" {}", path.display())).unwrap_or_default();
-    Err(CliError::Options(format!(
+    Err(AppError::Options(format!(
         "this program was built without its window, which takes longer to build; get it with: cargo run --release \
          --features studio -- studio{input}"
     )))

@@ -1,8 +1,10 @@
 //! `tatamu virtual-plotter`
 
-use super::cutters::CutterArgs;
-use super::error::CliError;
-use super::{names, output, progress, terminal};
+use super::flags::{Flags, OfMachine};
+use super::{progress, terminal};
+use crate::app::choice::Choice;
+use crate::app::error::AppError;
+use crate::app::{names, output};
 use clap::Args;
 use glam::DVec2;
 use rustix::fs::{OFlags, fcntl_getfl, fcntl_setfl};
@@ -24,7 +26,7 @@ use tatamu::plotter::{Cutter, Faults, VirtualOptions, VirtualPlotter};
 #[derive(Debug, Args)]
 pub struct VirtualPlotterArgs {
     #[command(flatten)]
-    cutter: CutterArgs,
+    machine: Flags<OfMachine>,
 
     /// Size of its buffer in bytes
     #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(256..))]
@@ -80,12 +82,12 @@ fn factor(text: &str) -> Result<f64, String> {
 const LOOK: Duration = Duration::from_millis(1);
 
 /// Runs the command.
-pub fn run(args: &VirtualPlotterArgs) -> Result<(), CliError> {
-    let cutter = args.cutter.choice()?.cutter;
+pub fn run(args: &VirtualPlotterArgs) -> Result<(), AppError> {
+    let cutter = Choice::new(None, args.machine.given())?.machine()?.cutter;
     if let Some(path) = &args.output {
         output::targets(std::slice::from_ref(path), &[])?;
     }
-    let (mut host, name) = open().map_err(|error| CliError::Port {
+    let (mut host, name) = open().map_err(|error| AppError::Port {
         port: "of the virtual plotter".to_owned(),
         reason: error.to_string(),
     })?;
@@ -166,7 +168,7 @@ pub fn serve(args: &VirtualPlotterArgs, cutter: &Cutter, host: &mut File) -> Vir
 }
 
 /// Says what happened, and draws it.
-fn report(args: &VirtualPlotterArgs, cutter: &Cutter, plotter: &VirtualPlotter) -> Result<(), CliError> {
+fn report(args: &VirtualPlotterArgs, cutter: &Cutter, plotter: &VirtualPlotter) -> Result<(), AppError> {
     let pen = if plotter.is_pen_down() { "down" } else { "up" };
     let drawn = plotter.motions().iter().filter(|m| m.is_down).count();
     terminal::say(&format!(
@@ -181,10 +183,10 @@ fn report(args: &VirtualPlotterArgs, cutter: &Cutter, plotter: &VirtualPlotter) 
     let mut files = Vec::new();
     for target in output::targets(std::slice::from_ref(path), &[])? {
         let Source::Pages(write) = target.format.source else {
-            return Err(CliError::Options(format!("{} is no drawing; use .png or .svg", path.display())));
+            return Err(AppError::Options(format!("{} is no drawing; use .png or .svg", path.display())));
         };
         let pages = Pages::new("drawn", vec![drawing(cutter, plotter)], LineStyles::standard());
-        let pages = pages.map_err(|error| CliError::Options(error.to_string()))?;
+        let pages = pages.map_err(|error| AppError::Options(error.to_string()))?;
         let written = write(&pages, &FormatOptions::default())?;
         files.extend(written.into_iter().map(|file| (names::with_suffix(path, &file.suffix), file.bytes)));
     }

@@ -1,6 +1,7 @@
 //! Components that are drawn in the project file.
 
-use super::{Component, Project, ProjectError, Segmentation};
+use super::options::{Entry, Scope, all};
+use super::{Component, Project, ProjectError};
 use crate::design::{Attachment, Sketch, Way, parse_panel};
 use crate::model::JointChoice;
 use glam::DVec2;
@@ -171,19 +172,14 @@ impl Joint {
 }
 
 impl Project {
-    /// The keys in the file that are about a mesh.
-    pub(super) fn mesh_keys(&self) -> Vec<&'static str> {
-        let defaults = &self.defaults;
-        let keys = [
-            ("up", self.up.is_some()),
-            ("[segmentation]", self.segmentation != Segmentation::default()),
-            ("[[edit]]", !self.edits.is_empty()),
-            ("level", defaults.level.is_some()),
-            ("top_edges", defaults.top_edges.is_some()),
-            ("profile_vertices", defaults.profile_vertices.is_some()),
-            ("tolerance", defaults.tolerance_mm.is_some()),
-        ];
-        keys.into_iter().filter(|key| key.1).map(|key| key.0).collect()
+    /// The keys and tables in the file that are about a mesh.
+    pub(super) fn mesh_keys(&self) -> Vec<String> {
+        let is_here = |option: &&Entry| option.scope == Scope::Mesh && self.has(option);
+        let mut names: Vec<String> =
+            all().filter(is_here).filter_map(|option| Some(option.key?.place())).collect();
+        names.extend((!self.edits.is_empty()).then(|| "[[edit]]".to_owned()));
+        names.dedup();
+        names
     }
 
     /// The drawn components; none where the project has a mesh.

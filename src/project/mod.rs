@@ -5,27 +5,18 @@
 
 mod drawn;
 mod edit;
-mod export;
 mod fields;
+pub mod options;
 mod pin;
-mod sheet_fields;
+mod table;
 mod template;
 
 pub use drawn::{Joint, JointKey, Top};
 pub use edit::Edit;
-pub use export::ExportTable;
-pub use fields::{
-    LEAST_COUNT, MOST_COUNT, MOST_PARTS, check_clusters, check_count, check_degrees, check_detail,
-    check_parts, check_smoothing, parse_method, parse_symmetry, parse_thickness_mm, parse_up,
-};
 pub use pin::PinTable;
-pub use sheet_fields::{Nets, Sheets, check_effort, check_hidden_degrees, parse_marks, parse_side};
 pub use template::{Template, TemplateComponent, to_toml};
 
-use crate::mesh::Up;
-use crate::pipeline::Level;
-use crate::segment::SymmetryChoice;
-use crate::units::Paper;
+use options::{Entry, Given, Settings};
 use serde::Deserialize;
 use std::collections::BTreeSet;
 
@@ -55,7 +46,7 @@ pub enum ProjectError {
     },
     /// Keys that have no meaning for components that are drawn.
     #[error("its components are made as they are drawn, so {} would do nothing; leave out what is named", .0.join(", "))]
-    MeshOnly(Vec<&'static str>),
+    MeshOnly(Vec<String>),
     /// A drawing that is none.
     #[error("component \"{name}\": {reason}")]
     Drawing {
@@ -67,121 +58,18 @@ pub enum ProjectError {
 }
 
 /// A project file.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Project {
     /// The mesh file, relative to the project file; none where the components are drawn.
     pub mesh: Option<String>,
-    /// The axis of the mesh that points up.
-    #[serde(default, deserialize_with = "fields::up")]
-    pub up: Option<Up>,
-    /// Longest side of the model, mm.
-    #[serde(default, rename = "size", deserialize_with = "fields::length")]
-    pub size_mm: Option<f64>,
-    /// How the mesh is divided.
-    #[serde(default)]
-    pub segmentation: Segmentation,
-    /// What holds for components that do not say otherwise.
-    #[serde(default)]
-    pub defaults: Defaults,
-    /// The sheets.
-    #[serde(default)]
-    pub paper: PaperTable,
-    /// The files.
-    #[serde(default)]
-    pub export: ExportTable,
-    /// The pieces.
-    #[serde(default)]
-    pub nets: Nets,
-    /// How the sheets are filled and printed.
-    #[serde(default)]
-    pub sheets: Sheets,
     /// Changes to the parts by hand, one after the other.
-    #[serde(default, rename = "edit")]
     pub edits: Vec<Edit>,
     /// Where pieces lie that are not left to the layout.
-    #[serde(default, rename = "pin")]
     pub pins: Vec<PinTable>,
     /// What differs for single components.
-    #[serde(default, rename = "component")]
     pub components: Vec<Component>,
-}
-
-/// The table `[segmentation]`.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Segmentation {
-    /// Number of components to aim at.
-    #[serde(default, deserialize_with = "fields::parts")]
-    pub parts: Option<usize>,
-    /// From 0, few components, to 1, many.
-    #[serde(default, deserialize_with = "fields::detail")]
-    pub detail: Option<f64>,
-    /// Whether the two sides are mirror images.
-    #[serde(default, deserialize_with = "fields::symmetry")]
-    pub symmetry: Option<SymmetryChoice>,
-    /// Whether the paper's own method is used.
-    #[serde(default, deserialize_with = "fields::method")]
-    pub method: Option<MethodName>,
-    /// Clusters of the paper's own method.
-    #[serde(default, deserialize_with = "fields::clusters")]
-    pub clusters: Option<usize>,
-    /// Smoothing of the paper's own method.
-    #[serde(default, deserialize_with = "fields::smoothing")]
-    pub smoothing: Option<f64>,
-    /// The component that all others hang on.
-    #[serde(default, deserialize_with = "fields::new_name")]
-    pub root: Option<String>,
-}
-
-/// How segments are found, by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MethodName {
-    /// Patches merged by the growth of their hulls.
-    Merge,
-    /// The paper's own: shape diameters, clustering, graph cut.
-    Sdf,
-}
-
-/// The table `[defaults]`.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Defaults {
-    /// How much work the model may be.
-    #[serde(default, deserialize_with = "fields::named")]
-    pub level: Option<Level>,
-    /// Edges of top panels.
-    #[serde(default, deserialize_with = "fields::count")]
-    pub top_edges: Option<usize>,
-    /// Vertices of profiles.
-    #[serde(default, deserialize_with = "fields::count")]
-    pub profile_vertices: Option<usize>,
-    /// How close components must come to their shapes, mm; the numbers above are then the most.
-    #[serde(default, rename = "tolerance", deserialize_with = "fields::length")]
-    pub tolerance_mm: Option<f64>,
-    /// Least width and height of panels, mm.
-    #[serde(default, deserialize_with = "fields::length")]
-    pub min_panel_width_mm: Option<f64>,
-    /// Width of glue tabs, mm.
-    #[serde(default, deserialize_with = "fields::length")]
-    pub tab_width_mm: Option<f64>,
-}
-
-/// The table `[paper]`.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PaperTable {
-    /// Size of the sheets.
-    #[serde(default, deserialize_with = "fields::paper")]
-    pub size: Option<Paper>,
-    /// Border that stays free, mm.
-    #[serde(default, deserialize_with = "fields::length_or_zero")]
-    pub margin_mm: Option<f64>,
-    /// Thickness, mm.
-    #[serde(default, deserialize_with = "fields::thickness")]
-    pub thickness_mm: Option<f64>,
-    /// Whether panels are boards of that thickness.
-    pub thick: Option<bool>,
+    /// The options of the whole model and of its files.
+    given: Vec<Given>,
 }
 
 /// A table `[[component]]`.
@@ -198,10 +86,10 @@ pub struct Component {
     #[serde(default, rename = "direction", deserialize_with = "fields::degrees")]
     pub direction_deg: Option<f64>,
     /// Edges of the top panel.
-    #[serde(default, deserialize_with = "fields::count")]
+    #[serde(default, deserialize_with = "fields::top_edges")]
     pub top_edges: Option<usize>,
     /// Vertices of profiles.
-    #[serde(default, deserialize_with = "fields::count")]
+    #[serde(default, deserialize_with = "fields::profile_vertices")]
     pub profile_vertices: Option<usize>,
     /// Whether a component of a mesh may have dents.
     pub concave: Option<bool>,
@@ -220,6 +108,24 @@ pub struct Component {
 }
 
 impl Project {
+    /// The options that are in the file.
+    pub fn given(&self) -> &[Given] {
+        &self.given
+    }
+
+    /// What the file says about the whole model and its files, without what it says by component.
+    pub fn settings(&self) -> Settings {
+        let mut settings = Settings::standard().clone();
+        // Values were checked when they were read.
+        self.given.iter().for_each(|given| drop(given.apply(&mut settings)));
+        settings
+    }
+
+    /// Whether an option is in the file.
+    pub fn has(&self, option: &Entry) -> bool {
+        self.given.iter().any(|given| given.option() == option)
+    }
+
     /// Reads a project file.
     ///
     /// # Errors
@@ -251,7 +157,9 @@ impl Project {
 
 #[cfg(test)]
 mod tests {
+    use super::options::{SIZE, UP, choose};
     use super::*;
+    use crate::mesh::Up;
 
     const FULL: &str = r#"
 mesh = "teddy.obj"
@@ -279,13 +187,14 @@ profile_vertices = 4
     #[test]
     fn a_full_file() {
         let project = Project::parse(FULL).unwrap();
-        assert_eq!((project.mesh.as_deref(), project.up), (Some("teddy.obj"), Some(Up::Y)));
-        assert!((project.size_mm.unwrap() - 203.2).abs() < 1e-9);
-        assert_eq!(project.segmentation.parts, Some(6));
-        assert_eq!(project.defaults.min_panel_width_mm, Some(2.5));
-        assert_eq!(project.defaults.tab_width_mm, Some(5.0));
-        assert_eq!(project.paper.size.unwrap().name(), "letter");
-        assert_eq!(project.paper.margin_mm, Some(0.0));
+        assert_eq!(project.mesh.as_deref(), Some("teddy.obj"));
+        let model = choose(Some(&project), &[]).unwrap().model;
+        assert_eq!(model.up, Up::Y);
+        assert!((model.size_mm - 203.2).abs() < 1e-9);
+        assert_eq!(model.segmentation.parts, Some(6));
+        assert_eq!((model.top_edges, model.profile_vertices), (Some(8), Some(5)));
+        assert_eq!((model.min_panel_width_mm, model.tab_width_mm), (2.5, 5.0));
+        assert_eq!((model.paper.name().as_str(), model.margin_mm), ("letter", 0.0));
         assert_eq!(project.components[0].direction_deg, Some(-30.0));
         assert_eq!(project.components[1].top_edges, Some(5));
     }
@@ -293,7 +202,8 @@ profile_vertices = 4
     #[test]
     fn a_short_file() {
         let project = Project::parse("mesh = 'x.stl'\nsize = 150\n").unwrap();
-        assert_eq!((project.size_mm, project.up), (Some(150.0), None));
+        assert!(project.has(&SIZE) && !project.has(&UP));
+        assert_eq!(choose(Some(&project), &[]).unwrap().model.size_mm, 150.0);
         assert!(project.components.is_empty());
     }
 

@@ -55,7 +55,7 @@ impl TryFrom<Table> for PinTable {
                 "x_mm and y_mm are the place of the piece's lower left corner on the sheet".to_owned()
             );
         }
-        let turn_rad = super::check_degrees(turn)?.to_radians();
+        let turn_rad = super::options::check_degrees(turn)?.to_radians();
         let pin = Pin { sheet: sheet - 1, at_mm: DVec2::new(x_mm, y_mm), turn_rad };
         Ok(Self { piece, pin })
     }

@@ -1,22 +1,23 @@
 //! `tatamu plot`
 
-pub mod jobs;
-pub mod journal;
 mod keys;
-pub mod live;
-pub mod operator;
+mod operator;
 
-use super::cutters::CutterArgs;
-use super::error::CliError;
-use super::options::ModelArgs;
-use super::{names, output, terminal};
+use super::flags::{Flags, OfMachine, OfModel};
+use super::progress::TerminalProgress;
+use super::terminal;
+use crate::app::choice::Choice;
+use crate::app::error::AppError;
+use crate::app::plot::{SerialPorts, Sheet, handshake, journal, live, sheets};
+use crate::app::{names, output};
 use clap::Args;
-use jobs::Sheet;
+use operator::Terminal;
 use std::path::{Path, PathBuf};
 use tatamu::drawing::{LineStyles, Pages};
 use tatamu::export::{FORMATS, FormatOptions, PltOptions, Source, format_of};
-use tatamu::plotter::preview;
+use tatamu::plotter::journal::{Header, Position};
 use tatamu::plotter::profile::Handshake;
+use tatamu::plotter::{Cutter, preview};
 
 /// Sends a model to a cutter or plotter, sheet after sheet.
 ///
@@ -30,10 +31,10 @@ pub struct PlotArgs {
     input: Vec<PathBuf>,
 
     #[command(flatten)]
-    model: ModelArgs,
+    model: Flags<OfModel>,
 
     #[command(flatten)]
-    cutter: CutterArgs,
+    machine: Flags<OfMachine>,
 
     /// Serial port of the machine, such as /dev/ttyUSB0 or COM3
     ///
@@ -96,32 +97,28 @@ Examples:
   tatamu plot teddy.toml --cutter generic-hpgl --port /dev/ttyUSB0 --only 2
   tatamu plot --resume teddy.tatamu-job";
 
-fn handshake(text: &str) -> Result<Handshake, String> {
-    let found = Handshake::ALL.into_iter().find(|handshake| handshake.name() == text);
-    found.ok_or_else(|| "it is one of auto, escb, rtscts, xonxoff, paced".to_owned())
-}
-
 /// Runs the command.
-pub fn run(args: &PlotArgs) -> Result<(), CliError> {
+pub fn run(args: &PlotArgs) -> Result<(), AppError> {
     if let Some(path) = &args.resume {
         let journal = journal::read(path)?;
-        return live::resume(args, path, journal);
+        return resume(args, path, journal);
     }
-    let machine = args.cutter.choice()?;
+    let chosen = Choice::new(None, args.machine.given())?;
+    let machine = chosen.machine()?;
     let is_live = !args.dry_run && (args.port.is_some() || args.preview.is_none());
     if is_live && args.port.is_none() {
         let message = "give the machine's --port (\"tatamu ports\" lists them), or --dry-run or --preview";
-        return Err(CliError::Options(message.to_owned()));
+        return Err(AppError::Options(message.to_owned()));
     }
-    if is_live && !args.cutter.has_cutter() {
+    if is_live && chosen.settings().files.cutter.is_none() {
         let message = "say which --cutter it is; \"tatamu profiles list\" names them";
-        return Err(CliError::Options(message.to_owned()));
+        return Err(AppError::Options(message.to_owned()));
     }
-    let mut sheets = jobs::sheets(args, &machine)?;
+    let mut sheets = wanted(args, &machine)?;
     if !args.only.is_empty() {
         let count = sheets.len();
         if let Some(n) = args.only.iter().find(|&&n| usize::from(n) > count) {
-            return Err(CliError::Options(format!("there is no sheet {n}; there are {count}")));
+            return Err(AppError::Options(format!("there is no sheet {n}; there are {count}")));
         }
         let mut number = 0;
         sheets.retain(|_| {
@@ -136,11 +133,54 @@ pub fn run(args: &PlotArgs) -> Result<(), CliError> {
     if args.dry_run || !args.quiet {
         sheets.iter().for_each(|sheet| terminal::say(&sheet.summary(&machine.cutter)));
     }
-    if is_live { live::start(args, &machine.cutter, sheets) } else { Ok(()) }
+    if is_live { start(args, &machine.cutter, &sheets) } else { Ok(()) }
+}
+
+/// The sheets that the user asked for.
+fn wanted(args: &PlotArgs, machine: &PltOptions) -> Result<Vec<Sheet>, AppError> {
+    if args.test_cut {
+        return sheets::of_test_cut(machine);
+    }
+    let tell = |warning: &str| terminal::complain("warning", warning);
+    let progress = TerminalProgress::new(args.quiet);
+    sheets::of_inputs(&args.input, args.model.given(), machine, &progress, &tell)
+}
+
+/// Sends sheets from the first on.
+fn start(args: &PlotArgs, cutter: &Cutter, sheets: &[Sheet]) -> Result<(), AppError> {
+    let port = args.port.clone().unwrap_or_default();
+    let name = args.input.first().and_then(|path| path.file_stem()).unwrap_or("test-cut".as_ref());
+    let mut name = name.to_owned();
+    name.push(".tatamu-job");
+    let path = PathBuf::from(name);
+    if path.exists() {
+        terminal::complain(
+            "note",
+            &format!("{} of a job that was stopped is replaced by this one", path.display()),
+        );
+    }
+    let header = live::header(sheets, cutter, port, args.copies);
+    let handshake = args.handshake.map(|h| h.name().to_owned());
+    let header = Header { baud: args.baud, handshake, ..header };
+    output::check_places(std::slice::from_ref(&path), &[])?;
+    send(args, &path, &header, Position::default())
+}
+
+/// Goes on with a job.
+fn resume(args: &PlotArgs, path: &Path, (header, at): (Header, Position)) -> Result<(), AppError> {
+    let mut header = header;
+    header.port = args.port.clone().unwrap_or(header.port);
+    header.baud = args.baud.or(header.baud);
+    header.handshake = args.handshake.map(|h| h.name().to_owned()).or(header.handshake);
+    send(args, path, &header, at)
+}
+
+fn send(args: &PlotArgs, path: &Path, header: &Header, at: Position) -> Result<(), AppError> {
+    live::send_all(&SerialPorts, &mut Terminal::new(args.yes, args.quiet), path, header, at)
 }
 
 /// Writes the pictures of all sheets.
-fn draw(path: &Path, sheets: &[Sheet], machine: &PltOptions) -> Result<(), CliError> {
+fn draw(path: &Path, sheets: &[Sheet], machine: &PltOptions) -> Result<(), AppError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     let format = format_of(&extension);
     let Some((Source::Pages(write), false)) = format.map(|f| (f.source, f.name == "plt")) else {
@@ -148,12 +188,12 @@ fn draw(path: &Path, sheets: &[Sheet], machine: &PltOptions) -> Result<(), CliEr
             |f: &&tatamu::export::Format| matches!(f.source, Source::Pages(_)) && f.name != "plt";
         let known: Vec<String> =
             FORMATS.iter().filter(is_picture).map(|f| format!(".{}", f.extensions[0])).collect();
-        return Err(CliError::Extension { path: path.to_owned(), known: known.join(", ") });
+        return Err(AppError::Extension { path: path.to_owned(), known: known.join(", ") });
     };
     output::check_places(&[path.to_owned()], &[])?;
     let pictures = sheets.iter().map(|sheet| preview(sheet.job(), &machine.cutter, sheet.placement()));
     let pages = Pages::new("preview", pictures.collect(), LineStyles::standard());
-    let pages = pages.map_err(|error| CliError::Options(error.to_string()))?;
+    let pages = pages.map_err(|error| AppError::Options(error.to_string()))?;
     let files = write(&pages, &FormatOptions::default())?;
     let files: Vec<(PathBuf, Vec<u8>)> =
         files.into_iter().map(|file| (names::with_suffix(path, &file.suffix), file.bytes)).collect();

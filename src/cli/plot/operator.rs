@@ -1,8 +1,8 @@
-//! Who watches a job and steers it: here the user at the terminal.
+//! The user at the terminal, who watches a job and steers it.
 
-use super::jobs;
 use super::keys::Keys;
-use crate::cli::error::CliError;
+use crate::app::error::AppError;
+use crate::app::plot::{Operator, doing, minutes};
 use crate::cli::{progress, terminal};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
@@ -13,51 +13,6 @@ use tatamu::progress::Cancelled;
 
 /// Longest time between two looks at the keyboard while a sheet is loaded.
 const LOOK: Duration = Duration::from_millis(4);
-
-/// Who watches a job and steers it.
-pub trait Operator {
-    /// The port is open; from now on the wishes below count.
-    fn begin(&mut self) {}
-
-    /// Asks for a sheet, which may be that of a copy: its number and that of all.
-    ///
-    /// # Errors
-    /// [`CliError`] where it does not come.
-    fn load(&mut self, sheet: &str, copy: (u16, u16)) -> Result<(), CliError>;
-
-    /// How often it was asked to stop.
-    fn stops(&mut self) -> u32;
-
-    /// Whether the tool is to be lifted until further notice; `now` is what was wanted before.
-    fn pauses(&mut self, now: bool) -> bool;
-
-    /// Something to know.
-    fn note(&mut self, text: &str);
-
-    /// How far a sheet is, of which some strokes were done before.
-    fn show(&mut self, sheet: &str, first: usize, status: &Status);
-
-    /// A sheet is over, finished or not.
-    fn sheet_over(&mut self) {}
-
-    /// The job was stopped, with so many of so many strokes of its sheet certainly done; it can go
-    /// on from its journal.
-    fn stopped(&mut self, journal: &Path, strokes: (usize, usize));
-
-    /// All is done.
-    fn done(&mut self) {}
-}
-
-/// What a machine is doing, in words.
-pub fn doing(state: State) -> &'static str {
-    match state {
-        State::Probing => "asking the machine",
-        State::Sending => "at work",
-        State::Paused => "paused",
-        State::Finishing => "the machine works on",
-        State::Stopping | State::Ended => "lifting the tool",
-    }
-}
 
 /// The user at the terminal.
 pub struct Terminal {
@@ -91,7 +46,7 @@ impl Operator for Terminal {
         self.keys = Some(Keys::listen());
     }
 
-    fn load(&mut self, sheet: &str, (copy, copies): (u16, u16)) -> Result<(), CliError> {
+    fn load(&mut self, sheet: &str, (copy, copies): (u16, u16)) -> Result<(), AppError> {
         let Some(keys) = self.keys.as_ref().filter(|_| !self.asks_nothing) else { return Ok(()) };
         let copy = if copies > 1 { format!(" (copy {copy} of {copies})") } else { String::new() };
         terminal::complain(
@@ -101,11 +56,11 @@ impl Operator for Terminal {
         loop {
             match keys.poll() {
                 Ok(Some(b'\n' | b'\r')) => return Ok(()),
-                Ok(_) if progress::stops() > 0 => return Err(CliError::Cancelled(Cancelled)),
+                Ok(_) if progress::stops() > 0 => return Err(AppError::Cancelled(Cancelled)),
                 Ok(_) => std::thread::sleep(LOOK),
                 Err(()) => {
                     let message = "there is no one to ask whether the sheet is loaded; use --yes";
-                    return Err(CliError::Options(message.to_owned()));
+                    return Err(AppError::Options(message.to_owned()));
                 }
             }
         }
@@ -136,7 +91,7 @@ impl Operator for Terminal {
         let (done, all) = (first + status.strokes_done, first + status.strokes);
         bar.set_length(all as u64);
         bar.set_position(done as u64);
-        let left = jobs::minutes(status.seconds_left);
+        let left = minutes(status.seconds_left);
         bar.set_message(format!("{sheet}: stroke {done} of {all}, {left} left ({what})"));
         self.bar = Some(bar);
     }

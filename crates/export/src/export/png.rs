@@ -12,9 +12,6 @@ pub const FORMAT: Format = Format {
     source: Source::Pages(write),
 };
 
-/// Resolutions that may be asked for.
-const DOTS_PER_INCH: std::ops::RangeInclusive<f64> = 10.0..=2400.0;
-
 /// Choices for PNG files of sheets.
 ///
 /// # Guarantees
@@ -25,15 +22,23 @@ pub struct PngOptions {
 }
 
 impl PngOptions {
+    /// Resolutions that may be asked for.
+    pub const DOTS_PER_INCH: std::ops::RangeInclusive<f64> = 10.0..=2400.0;
+
+    /// The resolution.
+    pub fn dots_per_inch(&self) -> f64 {
+        self.dots_per_inch
+    }
+
     /// Chooses the resolution.
     ///
     /// # Errors
     /// A message for one out of range.
     pub fn new(dots_per_inch: f64) -> Result<Self, String> {
-        if DOTS_PER_INCH.contains(&dots_per_inch) {
+        if Self::DOTS_PER_INCH.contains(&dots_per_inch) {
             return Ok(Self { dots_per_inch });
         }
-        let (least, most) = (DOTS_PER_INCH.start(), DOTS_PER_INCH.end());
+        let (least, most) = (Self::DOTS_PER_INCH.start(), Self::DOTS_PER_INCH.end());
         Err(format!("the resolution must be from {least} to {most} dots per inch"))
     }
 }

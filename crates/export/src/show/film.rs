@@ -13,10 +13,6 @@ use tatamu_draw::render::{Scene, View};
 use tatamu_pipeline::Output;
 use tiny_skia::Pixmap;
 
-/// Fewest and most frames of a film.
-const FRAMES: std::ops::RangeInclusive<usize> = 4..=2000;
-/// Smallest and largest size of pictures in pixels.
-const SIZES_PX: std::ops::RangeInclusive<u32> = 32..=4096;
 /// Time that a component takes to fold, and that the first and the last take more, seconds.
 const FOLD_S: f64 = 0.9;
 const EXTRA_S: f64 = 0.5;
@@ -46,15 +42,30 @@ impl Default for FilmOptions {
 }
 
 impl FilmOptions {
+    /// Fewest and most frames of a film.
+    pub const FRAMES: std::ops::RangeInclusive<usize> = 4..=2000;
+    /// Smallest and largest size of pictures in pixels.
+    pub const SIZES_PX: std::ops::RangeInclusive<u32> = 32..=4096;
+
+    /// Number of frames, there and back.
+    pub fn frames(&self) -> usize {
+        self.frames
+    }
+
+    /// Longer side of the pictures in pixels.
+    pub fn size_px(&self) -> u32 {
+        self.size_px
+    }
+
     /// Chooses the number of frames, there and back.
     ///
     /// # Errors
     /// A message for a number out of range.
     pub fn with_frames(self, frames: usize) -> Result<Self, String> {
-        if FRAMES.contains(&frames) {
+        if Self::FRAMES.contains(&frames) {
             return Ok(Self { frames: frames.next_multiple_of(2), ..self });
         }
-        Err(format!("the number of frames must be from {} to {}", FRAMES.start(), FRAMES.end()))
+        Err(format!("the number of frames must be from {} to {}", Self::FRAMES.start(), Self::FRAMES.end()))
     }
 
     /// Chooses the longer side of the pictures in pixels.
@@ -62,10 +73,14 @@ impl FilmOptions {
     /// # Errors
     /// A message for a size out of range.
     pub fn with_size_px(self, size_px: u32) -> Result<Self, String> {
-        if SIZES_PX.contains(&size_px) {
+        if Self::SIZES_PX.contains(&size_px) {
             return Ok(Self { size_px, ..self });
         }
-        Err(format!("pictures must be from {} to {} pixels large", SIZES_PX.start(), SIZES_PX.end()))
+        Err(format!(
+            "pictures must be from {} to {} pixels large",
+            Self::SIZES_PX.start(),
+            Self::SIZES_PX.end()
+        ))
     }
 
     /// Chooses from where it is seen.

@@ -1,8 +1,5 @@
 //! What the user may choose about FOLD files.
 
-/// Most poses between deployed and flat.
-const MOST_POSES: usize = 1000;
-
 /// A number of poses between deployed and flat.
 ///
 /// # Guarantees
@@ -11,13 +8,21 @@ const MOST_POSES: usize = 1000;
 pub struct PoseCount(pub(super) usize);
 
 impl PoseCount {
+    /// Most poses between deployed and flat.
+    pub const MOST: usize = 1000;
+
+    /// The number.
+    pub fn get(self) -> usize {
+        self.0
+    }
+
     /// Takes the number.
     ///
     /// # Errors
     /// A message for too many.
     pub fn new(poses: usize) -> Result<Self, String> {
-        let message = || format!("the number of poses must be at most {MOST_POSES}");
-        (poses <= MOST_POSES).then_some(Self(poses)).ok_or_else(message)
+        let message = || format!("the number of poses must be at most {}", Self::MOST);
+        (poses <= Self::MOST).then_some(Self(poses)).ok_or_else(message)
     }
 }
 

@@ -1,0 +1,110 @@
+//! What is chosen for an input: flags first, then its project file, then the defaults.
+
+use super::error::AppError;
+use super::{input, profiles};
+use std::path::Path;
+use tatamu::drawing::LineStyles;
+use tatamu::export::{FormatOptions, PltOptions, Timestamp};
+use tatamu::pipeline::Options;
+use tatamu::project::Project;
+use tatamu::project::options::{Entry, Given, SIZE, STYLE, Settings, choose};
+
+/// What is chosen for an input.
+pub struct Choice {
+    settings: Settings,
+    is_sized: bool,
+    is_style_of_flag: bool,
+}
+
+/// What is chosen about files, with all that was read for it.
+pub struct FileChoice {
+    /// For the formats.
+    pub formats: FormatOptions,
+    /// Look of the lines.
+    pub styles: LineStyles,
+    /// Whether panels have the mesh's colours.
+    pub is_coloured: bool,
+}
+
+impl Choice {
+    /// The choice of an input, which may be a project.
+    pub fn new(project: Option<&Project>, flags: &[Given]) -> Result<Self, AppError> {
+        let settings = choose(project, flags).map_err(|refusal| AppError::Options(refusal.to_string()))?;
+        let is_flag = |option: &Entry| flags.iter().any(|flag| flag.option() == option);
+        let is_sized = is_flag(&SIZE) || project.is_some_and(|project| project.has(&SIZE));
+        Ok(Self { settings, is_sized, is_style_of_flag: is_flag(&STYLE) })
+    }
+
+    /// All of it.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The options of the model.
+    pub fn options(&self) -> &Options {
+        &self.settings.model
+    }
+
+    /// The size that was asked for, mm: drawings have one of their own.
+    pub fn size_mm(&self) -> Option<f64> {
+        self.is_sized.then_some(self.settings.model.size_mm)
+    }
+
+    /// The machine.
+    pub fn machine(&self) -> Result<PltOptions, AppError> {
+        let files = &self.settings.files;
+        profiles::machine(files.cutter.as_deref(), files.media.as_deref())
+    }
+
+    /// The choices about files of an input, whose project file, if it is one, is at `input_path`.
+    pub fn files(&self, input_path: &Path) -> Result<FileChoice, AppError> {
+        let files = &self.settings.files;
+        let mut formats = files.formats.clone();
+        let pdf = formats.pdf.with_created(source_date()?);
+        formats.pdf = pdf.with_tile(files.tile).map_err(AppError::Options)?;
+        formats.plt = self.machine()?;
+        let styles = match &files.style {
+            Some(name) if self.is_style_of_flag => styles(name, Path::new(name))?,
+            Some(name) => styles(name, &input_path.with_file_name(name))?,
+            None => LineStyles::standard(),
+        };
+        Ok(FileChoice { formats, styles, is_coloured: files.is_coloured })
+    }
+}
+
+/// The built-in style of this name, or the file at `path`.
+fn styles(name: &str, path: &Path) -> Result<LineStyles, AppError> {
+    if let Some(styles) = LineStyles::built_in(name) {
+        return Ok(styles);
+    }
+    if !path.exists() {
+        return Err(AppError::Options(format!(
+            "there is no style file {}, and no built-in style of that name; built in are: {}",
+            path.display(),
+            style_names()
+        )));
+    }
+    let text = String::from_utf8(input::read_file(path)?).map_err(|_| AppError::Input {
+        path: path.to_owned(),
+        reason: "a style file is text in UTF-8".to_owned(),
+    })?;
+    LineStyles::parse(&text).map_err(|error| AppError::Style { path: path.to_owned(), error })
+}
+
+/// Names of the built-in styles.
+pub fn style_names() -> String {
+    LineStyles::BUILT_IN.map(|(name, _)| name).join(", ")
+}
+
+/// The date of reproducible builds (<https://reproducible-builds.org/specs/source-date-epoch/>).
+fn source_date() -> Result<Option<Timestamp>, AppError> {
+    let Some(value) = std::env::var_os("SOURCE_DATE_EPOCH") else {
+        return Ok(None);
+    };
+    let text = value.to_string_lossy();
+    let date = text.parse().ok().and_then(Timestamp::of_unix);
+    date.map(Some).ok_or_else(|| {
+        let message = "the variable SOURCE_DATE_EPOCH must be a whole number of seconds since 1970, not";
+        AppError::Options(format!("{message} \"{text}\""))
+    })
+}

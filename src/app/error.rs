@@ -1,0 +1,100 @@
+//! What the user is told when nothing comes of it.
+
+use std::path::PathBuf;
+use tatamu::check::FoldCheckError;
+use tatamu::drawing::StyleError;
+use tatamu::export::ExportError;
+use tatamu::mesh::{ColourError, MeshError, ReadError};
+use tatamu::pipeline;
+use tatamu::plotter::ProfileError;
+use tatamu::progress::{Cancelled, Progress};
+use tatamu::project::ProjectError;
+use tatamu::show::ShowError;
+
+/// Why a command failed.
+#[derive(Debug, thiserror::Error)]
+pub enum AppError {
+    /// The input cannot be read.
+    #[error("cannot read {path}: {reason}")]
+    Input { path: PathBuf, reason: String },
+    /// The input is no mesh.
+    #[error("{path}: {error}")]
+    Read { path: PathBuf, error: ReadError },
+    /// The mesh is no solid.
+    #[error("{path}: {error}")]
+    Mesh { path: PathBuf, error: MeshError },
+    /// The project file is wrong.
+    #[error("project file {path}: {error}")]
+    Project { path: PathBuf, error: ProjectError },
+    /// The mesh has no colours that can be used.
+    #[error("{path}: {error}; or leave --color out")]
+    Colour { path: PathBuf, error: ColourError },
+    /// A style file is wrong.
+    #[error("style file {path}: {error}")]
+    Style { path: PathBuf, error: StyleError },
+    /// A profile of a cutter or a medium is wrong.
+    #[error("profile {name}: {error}")]
+    Profile { name: String, error: ProfileError },
+    /// A sheet cannot be worked on by a machine.
+    #[error("{sheet}: {reason}")]
+    Sheet { sheet: String, reason: String },
+    /// The port cannot be used.
+    #[error("cannot use the port {port}: {reason}")]
+    Port { port: String, reason: String },
+    /// The machine stopped the job.
+    #[error("{0}")]
+    Machine(String),
+    /// The mesh that a project file names cannot be read.
+    #[error("cannot read {path}, the mesh of project file {project}: {reason}")]
+    ProjectMesh { path: PathBuf, project: PathBuf, reason: String },
+    /// The file is no FOLD master.
+    #[error("{path}: {error}")]
+    Check { path: PathBuf, error: FoldCheckError },
+    /// Options contradict each other, or the command has no use for its input.
+    #[error("{0}")]
+    Options(String),
+    /// An output has no known extension.
+    #[error("cannot tell the format of {path} by its extension; known are: {known}")]
+    Extension { path: PathBuf, known: String },
+    /// An output cannot be written.
+    #[error("cannot write {path}: {reason}")]
+    Output { path: PathBuf, reason: String },
+    /// Some inputs of several failed; why was told already.
+    #[error("{} of {of} inputs failed: {}", failed.len(), failed.join(", "))]
+    Several { failed: Vec<String>, of: usize },
+    /// Ctrl-C.
+    #[error(transparent)]
+    Cancelled(Cancelled),
+    /// A stage failed.
+    #[error("{0}")]
+    Pipeline(pipeline::Error),
+    /// A picture cannot be made.
+    #[error("the picture could not be made: {0}")]
+    Show(#[from] ShowError),
+    /// A document cannot be made.
+    #[error(transparent)]
+    Export(#[from] ExportError),
+}
+
+impl AppError {
+    /// What became of a run that did not end well: stages wrap an interruption in errors of their
+    /// own, so the user's wish is asked for first.
+    pub fn of_run(error: pipeline::Error, progress: &dyn Progress) -> Self {
+        match progress.check() {
+            Err(cancelled) => Self::Cancelled(cancelled),
+            Ok(()) => Self::Pipeline(error),
+        }
+    }
+}
+
+/// What an input or output error means, in words that do not depend on the system.
+pub fn reason(error: &std::io::Error) -> String {
+    use std::io::ErrorKind as K;
+    match error.kind() {
+        K::NotFound => "there is no such file or folder".to_owned(),
+        K::PermissionDenied => "permission denied".to_owned(),
+        K::IsADirectory => "it is a folder, not a file".to_owned(),
+        K::StorageFull => "the disk is full".to_owned(),
+        _ => error.to_string(),
+    }
+}

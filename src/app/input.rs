@@ -1,0 +1,262 @@
+//! Reading the input: a mesh, or a project file that names one.
+
+use super::choice::Choice;
+use super::error::{AppError, reason};
+use std::fs::File;
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
+use tatamu::design::Sketch;
+use tatamu::drawing::LineStyles;
+use tatamu::mesh::painting::Painting;
+use tatamu::mesh::{self, Mesh, Repairs};
+use tatamu::pipeline::{self, Options, Output, Warning};
+use tatamu::progress::Progress;
+use tatamu::project::Project;
+use tatamu::project::options::STYLE;
+
+/// What a model is made of, with where it comes from.
+pub struct Input {
+    /// The mesh file, or the project file that holds the drawings.
+    pub mesh_path: PathBuf,
+    /// The project, where the user gave one.
+    pub project: Option<Project>,
+    /// The shape.
+    pub shape: Shape,
+    /// What was done to make the mesh clean.
+    pub repairs: Repairs,
+    /// What the user should know about the project file.
+    pub notes: Vec<Warning>,
+}
+
+/// A mesh, or drawings.
+pub enum Shape {
+    /// A clean mesh.
+    Mesh(Mesh),
+    /// Drawn components.
+    Drawn(Vec<Sketch>),
+}
+
+impl Input {
+    /// The mesh, for commands that have no use for drawings.
+    pub fn mesh(&self) -> Result<&Mesh, AppError> {
+        match &self.shape {
+            Shape::Mesh(mesh) => Ok(mesh),
+            Shape::Drawn(_) => Err(AppError::Options(format!(
+                "{} holds drawn components and no mesh, so there is nothing to divide; \"make\" makes them",
+                self.mesh_path.display()
+            ))),
+        }
+    }
+
+    /// What the user should know about the files that were read.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let repairs = repair_warnings(&self.repairs);
+        self.notes.iter().cloned().chain(repairs).collect()
+    }
+
+    /// Runs all stages.
+    pub fn run(&self, choice: &Choice, progress: &dyn Progress) -> Result<Output, AppError> {
+        self.run_by(pipeline::run, choice, progress)
+    }
+
+    /// The same, and tries what helps where problems are left. Drawings are made as they are drawn.
+    pub fn run_and_advise(&self, choice: &Choice, progress: &dyn Progress) -> Result<Output, AppError> {
+        self.run_by(pipeline::run_and_advise, choice, progress)
+    }
+
+    fn run_by(
+        &self,
+        run: impl Fn(&Mesh, &Options, &dyn Progress) -> Result<Output, pipeline::Error>,
+        choice: &Choice,
+        progress: &dyn Progress,
+    ) -> Result<Output, AppError> {
+        let options = choice.options();
+        let result = match &self.shape {
+            Shape::Mesh(mesh) => run(mesh, options, progress),
+            Shape::Drawn(sketches) => pipeline::run_drawn(sketches, choice.size_mm(), options, progress),
+        };
+        result.map_err(|error| AppError::of_run(error, progress))
+    }
+}
+
+/// A project file shows within so many bytes that it is one.
+const HEAD_BYTES: u64 = 1 << 16;
+
+/// The files that are read for an input, as far as they can be told without reading a mesh: itself,
+/// and the mesh of a project.
+pub fn files(path: &Path) -> Vec<PathBuf> {
+    let mut head = Vec::new();
+    // Of a mesh, which may be large, the beginning is enough.
+    let read = File::open(path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head));
+    let whole = read.ok().filter(|_| is_project(path, &head)).and_then(|_| std::fs::read(path).ok());
+    let text = whole.map(String::from_utf8);
+    let project = text.and_then(Result::ok).and_then(|text| Project::parse(&text).ok());
+    let mesh = project.and_then(|project| project.mesh).map(|mesh| path.with_file_name(mesh));
+    std::iter::once(path.to_owned()).chain(mesh).collect()
+}
+
+/// Reads a mesh or a project file.
+pub fn read(path: &Path) -> Result<Input, AppError> {
+    let bytes = read_file(path)?;
+    if !is_project(path, &bytes) {
+        return read_mesh(path, &bytes, None, Vec::new());
+    }
+    let text = String::from_utf8(bytes).map_err(|_| AppError::Input {
+        path: path.to_owned(),
+        reason: "a project file is text in UTF-8".to_owned(),
+    })?;
+    let project =
+        Project::parse(&text).map_err(|error| AppError::Project { path: path.to_owned(), error })?;
+    let notes = outside_notes(path, &project);
+    let Some(mesh) = &project.mesh else {
+        let sketches = project.sketches();
+        let sketches = sketches.map_err(|error| AppError::Project { path: path.to_owned(), error })?;
+        let (shape, repairs) = (Shape::Drawn(sketches), Repairs::default());
+        return Ok(Input { mesh_path: path.to_owned(), project: Some(project), shape, repairs, notes });
+    };
+    let mesh_path = path.with_file_name(mesh);
+    let bytes = std::fs::read(&mesh_path).map_err(|error| AppError::ProjectMesh {
+        path: mesh_path.clone(),
+        project: path.to_owned(),
+        reason: reason(&error),
+    })?;
+    read_mesh(&mesh_path, &bytes, Some(project), notes)
+}
+
+fn read_mesh(
+    path: &Path,
+    bytes: &[u8],
+    project: Option<Project>,
+    notes: Vec<Warning>,
+) -> Result<Input, AppError> {
+    let sibling = |name: &str| read_sibling(path, name);
+    let soup = mesh::read_with_siblings(bytes, &sibling)
+        .map_err(|error| AppError::Read { path: path.to_owned(), error })?;
+    let (mesh, repairs) =
+        Mesh::from_soup(&soup).map_err(|error| AppError::Mesh { path: path.to_owned(), error })?;
+    Ok(Input { mesh_path: path.to_owned(), project, shape: Shape::Mesh(mesh), repairs, notes })
+}
+
+/// What the repair found and did, as warnings.
+pub fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
+    let bodies = repairs.components.saturating_sub(1);
+    let counts = [
+        (repairs.boundary_edges, "open_edges", "open edges", "thickness near them is a guess"),
+        (
+            repairs.non_manifold_edges,
+            "non_manifold_edges",
+            "edges with more than two faces",
+            "components may be divided there",
+        ),
+        (bodies, "several_bodies", "bodies besides the first", "joined where they touch"),
+        (repairs.degenerate_faces, "degenerate_faces", "faces without area", "dropped"),
+        (repairs.duplicate_faces, "duplicate_faces", "repeated faces", "dropped"),
+        (repairs.flipped_faces, "flipped_faces", "faces that faced inwards", "turned"),
+    ];
+    counts
+        .iter()
+        .filter(|(count, ..)| *count > 0)
+        .map(|(count, code, what, effect)| Warning {
+            code,
+            message: format!("the mesh has {what}: {count} ({effect})"),
+        })
+        .collect()
+}
+
+/// A project file may come from anybody: the user is told which files it has read from elsewhere.
+fn outside_notes(path: &Path, project: &Project) -> Vec<Warning> {
+    let style = STYLE.text(&project.settings()).filter(|name| LineStyles::built_in(name).is_none());
+    let named = [("mesh", project.mesh.as_deref()), ("style file", style.as_deref())];
+    let named = named.into_iter().filter_map(|(what, name)| Some((what, name?)));
+    let outside = named.filter(|(_, name)| !is_within(&path.with_file_name(""), Path::new(name)));
+    outside
+        .map(|(what, name)| Warning {
+            code: "outside_folder",
+            message: format!(
+                "project file {} names a {what} outside of its own folder: {name}; make sure that this is the one \
+                 you mean",
+                path.display()
+            ),
+        })
+        .collect()
+}
+
+/// Whether a name in a file of `folder` leads to something below that folder, links apart.
+fn is_within(folder: &Path, name: &Path) -> bool {
+    let absolute = std::path::absolute(folder).ok();
+    let name = absolute.and_then(|folder| name.strip_prefix(folder).ok()).unwrap_or(name);
+    let depth = name.components().try_fold(0usize, |depth, component| match component {
+        Component::Normal(_) => Some(depth + 1),
+        Component::CurDir => Some(depth),
+        Component::ParentDir => depth.checked_sub(1),
+        Component::RootDir | Component::Prefix(_) => None,
+    });
+    depth.is_some()
+}
+
+/// The colours of a mesh file.
+pub fn read_painting(path: &Path) -> Result<Painting, AppError> {
+    let sibling = |name: &str| read_sibling(path, name);
+    mesh::read_painting(&read_file(path)?, &sibling)
+        .map_err(|error| AppError::Colour { path: path.to_owned(), error })
+}
+
+/// The content of a file.
+pub fn read_file(path: &Path) -> Result<Vec<u8>, AppError> {
+    std::fs::read(path).map_err(|error| AppError::Input { path: path.to_owned(), reason: reason(&error) })
+}
+
+/// By its extension, or because a line of it gives a mesh.
+fn is_project(path: &Path, bytes: &[u8]) -> bool {
+    let is_toml = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
+    let names_mesh = |line: &[u8]| {
+        let rest = line.trim_ascii_start().strip_prefix(b"mesh");
+        rest.is_some_and(|rest| rest.trim_ascii_start().starts_with(b"="))
+    };
+    is_toml || bytes.split(|&b| b == b'\n').take(100).any(names_mesh)
+}
+
+/// A file that the mesh file refers to: only beside or below it, so that a mesh from elsewhere
+/// cannot have any file read.
+fn read_sibling(mesh_path: &Path, name: &str) -> Result<Vec<u8>, String> {
+    let name = Path::new(name);
+    let is_below = name.components().all(|c| matches!(c, Component::Normal(_)));
+    if !is_below {
+        return Err("it must be in the same folder; move it there".to_owned());
+    }
+    std::fs::read(mesh_path.with_file_name(name)).map_err(|error| reason(&error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_project_shows_in_its_name_or_its_content() {
+        assert!(is_project(Path::new("a.TOML"), b""));
+        assert!(is_project(Path::new("a.txt"), b"# x\n mesh = 'a.obj'\n"));
+        assert!(!is_project(Path::new("a.obj"), b"# mesh = 3\nv 0 0 0\n"));
+        assert!(!is_project(Path::new("a"), b"meshes = 3"));
+    }
+
+    #[test]
+    fn siblings_are_in_the_same_folder() {
+        for name in ["/etc/hostname", "../x.bin", "a/../../x.bin", ""] {
+            let result = read_sibling(Path::new("folder/mesh.gltf"), name);
+            assert!(result.is_err(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_name_leads_outside_when_it_leaves_the_folder() {
+        let is_within = |name: &str| is_within(Path::new("/home/me/bear/"), Path::new(name));
+        for name in ["a.obj", "./a.obj", "meshes/a.obj", "meshes/../a.obj", "/home/me/bear/a.obj"] {
+            assert!(is_within(name), "{name}");
+        }
+        for name in
+            ["../a.obj", "a/../../b.obj", "/etc/hostname", "/home/me/bear/../a.obj", "/home/me/bears/a.obj"]
+        {
+            assert!(!is_within(name), "{name}");
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! Making the files of one input.
+
+use super::choice::Choice;
+use super::error::AppError;
+use super::made::Made;
+use super::output::{self, Target};
+use super::{input, names, text};
+use std::path::{Path, PathBuf};
+use tatamu::export::{FORMATS, Format, FormatOptions, GUIDES, Source};
+use tatamu::mesh::{Mesh, Repairs};
+use tatamu::net::Side;
+use tatamu::product::{Content, Product};
+use tatamu::progress::Progress;
+use tatamu::project::options::Given;
+use tatamu::report::Run;
+
+/// Progress that knows how long the stages took.
+pub trait Timed: Progress {
+    /// The work is over; gives the name and duration of each stage, in seconds.
+    fn finish(&self) -> Vec<(&'static str, f64)>;
+}
+
+/// Which file is to be a guide.
+#[derive(Debug, Clone)]
+pub enum Guide {
+    /// Those of the outputs.
+    Outputs,
+    /// This one.
+    File(PathBuf),
+}
+
+/// What is asked for of all inputs.
+pub struct Wish {
+    /// The options that the user gave.
+    pub given: Vec<Given>,
+    /// Names of files, or patterns of names.
+    pub outputs: Vec<PathBuf>,
+    /// Guides.
+    pub guides: Vec<Guide>,
+    /// Name of a file for the segmentation.
+    pub segments: Option<PathBuf>,
+    /// Whether what is printed and what is cut go into files of their own.
+    pub prints_and_cuts: bool,
+}
+
+impl Wish {
+    /// The files to write for an input, guides among them.
+    fn targets(&self, input: &Path) -> Result<Vec<Target>, AppError> {
+        let is_output = self.guides.iter().any(|wanted| matches!(wanted, Guide::Outputs));
+        let mut guides: Vec<PathBuf> = Vec::new();
+        for wanted in &self.guides {
+            match wanted {
+                Guide::File(path) => guides.push(names::for_input(path, input, GUIDES[0].extensions[0])),
+                Guide::Outputs if self.outputs.is_empty() => {
+                    let name = names::default(input, GUIDES[GUIDES.len() - 1].extensions[0]);
+                    guides.push(names::with_suffix(&name, "-guide"));
+                }
+                Guide::Outputs => {}
+            }
+        }
+        let extension = FORMATS[0].extensions[0];
+        let default = [names::default(input, extension)];
+        let outputs: Vec<PathBuf> =
+            self.outputs.iter().map(|path| names::for_input(path, input, extension)).collect();
+        let sheets = if outputs.is_empty() { &default[..] } else { &outputs[..] };
+        let lists: &[&'static [Format]] =
+            if is_output && !self.outputs.is_empty() { &[GUIDES, FORMATS] } else { &[FORMATS] };
+        let mut targets = output::targets_among(sheets, lists)?;
+        targets.extend(output::targets_among(&guides, &[GUIDES])?);
+        Ok(targets)
+    }
+}
+
+/// One input, and the files to make of it.
+pub struct Task<'a> {
+    /// The mesh or project file.
+    pub input: &'a Path,
+    targets: Vec<Target>,
+    segments: Option<PathBuf>,
+    wish: &'a Wish,
+}
+
+impl<'a> Task<'a> {
+    /// What is asked for of one of the inputs.
+    pub fn new(wish: &'a Wish, input: &'a Path) -> Result<Self, AppError> {
+        let targets = wish.targets(input)?;
+        let segments = wish.segments.as_ref().map(|path| names::for_input(path, input, "seg"));
+        Ok(Self { input, targets, segments, wish })
+    }
+
+    /// The names that the user gave; sheets may get numbers.
+    pub fn places(&self) -> Vec<PathBuf> {
+        self.targets.iter().map(|target| &target.path).chain(&self.segments).cloned().collect()
+    }
+}
+
+/// Makes the model of one input, and the content of its files. Warnings are told as they come.
+pub fn make(task: Task<'_>, progress: &dyn Timed, tell: &dyn Fn(&str)) -> Result<Made, AppError> {
+    let places = task.places();
+    output::check_places(&places, &[task.input])?;
+    let input = input::read(task.input)?;
+    output::check_places(&places, &[task.input, &input.mesh_path])?;
+    let choice = Choice::new(input.project.as_ref(), &task.wish.given)?;
+    let files = choice.files(task.input)?;
+    if files.is_coloured && choice.options().sheets.side == Side::Inside {
+        let reason = "--color is for the outside of the paper; leave out --side inside, or --color";
+        return Err(AppError::Options(reason.to_owned()));
+    }
+    let painting = files.is_coloured.then(|| input::read_painting(&input.mesh_path)).transpose()?;
+    let warnings = input.warnings();
+    warnings.iter().for_each(|warning| tell(&warning.message));
+
+    let result = input.run_and_advise(&choice, progress)?;
+    let stages = progress.finish();
+    text::first_of_each_kind(result.warnings()).iter().for_each(|message| tell(message));
+
+    let stem = task.input.file_stem().unwrap_or_default();
+    let run = Run {
+        path: &input.mesh_path.to_string_lossy(),
+        repairs: &input.repairs,
+        stages: &stages,
+        warnings: &warnings,
+    };
+    let title = text::printable(&stem.to_string_lossy());
+    let product = |content| {
+        Product::new(&result, &title, run)
+            .with_styles(files.styles.clone())
+            .with_painting(painting.as_ref())
+            .with_content(content)
+    };
+    let products = match task.wish.prints_and_cuts {
+        false => vec![("", product(Content::All))],
+        true => vec![("-print", product(Content::Print)), ("-cut", product(Content::Cut))],
+    };
+    let mut written = written(task.targets, &products, &files.formats)?;
+    if let Some(path) = task.segments {
+        written.push((path, segments(result.mesh(), result.face_parts(), &input.repairs)));
+    }
+    Ok(Made::new(&result, written))
+}
+
+/// The files of all targets; pages of each product, all else of the first.
+pub fn written(
+    targets: Vec<Target>,
+    products: &[(&str, Product<'_>)],
+    formats: &FormatOptions,
+) -> Result<Vec<(PathBuf, Vec<u8>)>, AppError> {
+    let mut files = Vec::new();
+    for target in targets {
+        let is_paged = matches!(target.format.source, Source::Pages(_));
+        for (name, product) in if is_paged { products } else { &products[..1] } {
+            let name = if is_paged { name } else { "" };
+            for file in target.format.write(product, formats)? {
+                let suffix = format!("{name}{}", file.suffix);
+                files.push((names::with_suffix(&target.path, &suffix), file.bytes));
+            }
+        }
+    }
+    Ok(files)
+}
+
+/// One component index a line for each face of the input file, -1 for a dropped one.
+pub fn segments(mesh: &Mesh, part_of_face: &[Option<u32>], repairs: &Repairs) -> Vec<u8> {
+    let of_input = mesh.labels_of_input(part_of_face, repairs.input_faces);
+    let line = |label: Option<u32>| match label {
+        Some(label) => format!("{label}\n"),
+        None => "-1\n".to_owned(),
+    };
+    let text: String = of_input.into_iter().map(line).collect();
+    text.into_bytes()
+}

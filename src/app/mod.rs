@@ -1,0 +1,16 @@
+//! The application: files, choices, jobs and ports, for the command line and the studio alike.
+//!
+//! It opens files and ports, and knows neither flags nor windows.
+
+pub mod batch;
+pub mod choice;
+pub mod error;
+pub mod input;
+pub mod made;
+pub mod make;
+pub mod names;
+pub mod output;
+pub mod plot;
+pub mod profiles;
+pub mod project;
+pub mod text;

@@ -1,0 +1,149 @@
+//! Writing files: all of them, or none.
+
+use super::error::{AppError, reason};
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use tatamu::export::{FORMATS, Format, format_among};
+use tempfile::NamedTempFile;
+
+/// A file name that the user gave, with its format.
+pub struct Target {
+    /// The name.
+    pub path: PathBuf,
+    /// The format that its extension stands for.
+    pub format: &'static Format,
+}
+
+/// The extensions of some formats, for messages: `.pdf, .svg`.
+pub fn known_extensions(formats: &[Format]) -> String {
+    let extensions = formats.iter().flat_map(|format| format.extensions);
+    let dotted: Vec<String> = extensions.map(|e| format!(".{e}")).collect();
+    dotted.join(", ")
+}
+
+/// Finds the format of each name, and checks before any work that a file can be written there and
+/// that none of `inputs` would be lost.
+pub fn targets(paths: &[PathBuf], inputs: &[&Path]) -> Result<Vec<Target>, AppError> {
+    let targets = targets_among(paths, &[FORMATS])?;
+    check_places(paths, inputs)?;
+    Ok(targets)
+}
+
+/// Finds the format of each name, in the first of some lists that has it.
+pub fn targets_among(paths: &[PathBuf], lists: &[&'static [Format]]) -> Result<Vec<Target>, AppError> {
+    let target = |path: &PathBuf| -> Result<Target, AppError> {
+        let extension = path.extension().unwrap_or_default().to_string_lossy();
+        let format = lists.iter().find_map(|formats| format_among(formats, &extension));
+        let known = || known_extensions(lists.last().copied().unwrap_or(FORMATS));
+        let format = format.ok_or_else(|| AppError::Extension { path: path.clone(), known: known() })?;
+        Ok(Target { path: path.clone(), format })
+    };
+    paths.iter().map(target).collect()
+}
+
+/// Checks that files can be written under these names, that no name comes twice, and that none
+/// of `inputs` would be lost.
+pub fn check_places(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), AppError> {
+    let mut seen: BTreeSet<PathBuf> = BTreeSet::new();
+    for path in paths {
+        let refuse = |reason: &str| AppError::Output { path: path.clone(), reason: reason.to_owned() };
+        if path.is_dir() {
+            return Err(refuse("it is a folder; add a file name"));
+        }
+        if inputs.iter().any(|input| is_same_file(input, path)) {
+            return Err(refuse("it is the input; choose another name"));
+        }
+        let folder = folder(path);
+        if !folder.is_dir() {
+            return Err(refuse(&format!("there is no folder {}; make it first", folder.display())));
+        }
+        if !seen.insert(place(path)) {
+            return Err(refuse(TWICE));
+        }
+        temporary(path)?;
+    }
+    Ok(())
+}
+
+/// One name for each place, however the user wrote it.
+pub fn place(path: &Path) -> PathBuf {
+    match (folder(path).canonicalize(), path.file_name()) {
+        (Ok(folder), Some(name)) => folder.join(name),
+        _ => path.to_owned(),
+    }
+}
+
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    }
+}
+
+const TWICE: &str = "it is asked for twice; choose another name";
+
+/// Writes all files to temporary files beside their places, then puts them into place. An error
+/// up to the last step leaves everything as it was.
+pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), AppError> {
+    let mut ready = Vec::with_capacity(files.len());
+    let mut seen: BTreeSet<&Path> = BTreeSet::new();
+    for (path, bytes) in files {
+        // The sheets of a.svg may be called as another file that the user asked for.
+        if !seen.insert(path) {
+            return Err(AppError::Output { path: path.clone(), reason: TWICE.to_owned() });
+        }
+        let mut file = temporary(path)?;
+        let written = file.write_all(bytes).and_then(|()| file.flush());
+        written.map_err(|error| failed(path, &error))?;
+        ready.push((path, file));
+    }
+    for (path, file) in ready {
+        file.persist(path).map_err(|error| failed(path, &error.error))?;
+    }
+    Ok(())
+}
+
+/// The folder that a file of this name is in.
+fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// A temporary file in the folder of `path`; it vanishes unless it is put into place.
+fn temporary(path: &Path) -> Result<NamedTempFile, AppError> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".tatamu-");
+    #[cfg(unix)]
+    {
+        // The permissions of any new file, less what the user's umask takes away.
+        use std::os::unix::fs::PermissionsExt;
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(folder(path)).map_err(|error| failed(path, &error))
+}
+
+fn failed(path: &Path, error: &std::io::Error) -> AppError {
+    AppError::Output { path: path.to_owned(), reason: reason(error) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_files_or_none() {
+        let folder = tempfile::tempdir().unwrap();
+        let good = folder.path().join("good.txt");
+        std::fs::write(&good, "old").unwrap();
+        let bad = folder.path().join("missing").join("bad.txt");
+        let files = [(good.clone(), b"new".to_vec()), (bad, Vec::new())];
+        assert!(write(&files).is_err());
+        assert_eq!(std::fs::read(&good).unwrap(), b"old");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+        write(&files[..1]).unwrap();
+        assert_eq!(std::fs::read(&good).unwrap(), b"new");
+    }
+}

@@ -1,0 +1,94 @@
+//! Journals as files.
+
+use crate::app::error::{AppError, reason};
+use crate::app::{input, output};
+use std::fs::File;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use tatamu::plotter::journal::{self, Header, Position};
+
+/// A journal that is being written.
+pub struct Journal {
+    path: PathBuf,
+    file: File,
+    last: Position,
+}
+
+impl Journal {
+    /// Begins a journal, in the place of another only when it is complete.
+    pub fn create(path: &Path, header: &Header, at: Position) -> Result<Self, AppError> {
+        let failed =
+            |error: std::io::Error| AppError::Output { path: path.to_owned(), reason: reason(&error) };
+        let header = serde_json::to_string(header).map_err(|error| failed(error.into()))?;
+        let position = serde_json::to_string(&at).map_err(|error| failed(error.into()))?;
+        let whole = format!("{header}\n{position}\n");
+        output::write(&[(path.to_owned(), whole.into_bytes())])?;
+        let file = File::options().append(true).open(path).map_err(failed)?;
+        Ok(Self { path: path.to_owned(), file, last: at })
+    }
+
+    /// Notes how far the job is, where that is news.
+    pub fn note(&mut self, at: Position) -> Result<(), AppError> {
+        if at == self.last {
+            return Ok(());
+        }
+        self.last = at;
+        let failed =
+            |error: std::io::Error| AppError::Output { path: self.path.clone(), reason: reason(&error) };
+        let line = serde_json::to_string(&at).map_err(|error| failed(error.into()))?;
+        writeln!(self.file, "{line}").map_err(failed)
+    }
+
+    /// How far the job is.
+    pub fn position(&self) -> Position {
+        self.last
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The job is finished: nothing is left to go on with.
+    pub fn remove(self) {
+        let _ = std::fs::remove_file(&self.path);
+    }
+}
+
+/// Reads a journal.
+pub fn read(path: &Path) -> Result<(Header, Position), AppError> {
+    let bytes = input::read_file(path)?;
+    journal::parse(&bytes).ok_or_else(|| AppError::Input {
+        path: path.to_owned(),
+        reason: "it is no journal of a job (.tatamu-job)".to_owned(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tatamu::plotter::journal::SheetEntry;
+
+    #[test]
+    fn what_was_noted_last_is_where_it_goes_on() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.tatamu-job");
+        let header = Header {
+            cutter: "x = 1\n".to_owned(),
+            port: "COM3".to_owned(),
+            baud: None,
+            handshake: Some("paced".to_owned()),
+            copies: 2,
+            sheets: vec![SheetEntry::new("one", b"M0,0\x03", &[0, 9])],
+        };
+        let mut journal = Journal::create(&path, &header, Position::default()).unwrap();
+        let at = Position { copy: 1, sheet: 0, strokes: 17 };
+        journal.note(at).unwrap();
+        // The power fails in the middle of a line.
+        journal.file.write_all(b"{\"copy\":1,\"sh").unwrap();
+        assert_eq!(read(&path).unwrap(), (header.clone(), at));
+        assert_eq!(header.sheets[0].bytes().as_deref(), Some(&b"M0,0\x03"[..]));
+        std::fs::write(&path, "IN;PU;").unwrap();
+        assert!(read(&path).is_err());
+    }
+}

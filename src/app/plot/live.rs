@@ -1,0 +1,169 @@
+//! Jobs on their way: the port, the clock and the user.
+
+use super::journal::Journal;
+use super::port::{Port, Ports, exchange};
+use super::sheets::{self, Sheet};
+use super::{Operator, handshake};
+use crate::app::error::AppError;
+use std::path::Path;
+use std::time::{Duration, Instant};
+use tatamu::plotter::journal::{Header, Position, SheetEntry};
+use tatamu::plotter::profile::Handshake;
+use tatamu::plotter::session::{End, Outcome, Session, Step};
+use tatamu::plotter::{Cutter, Job};
+use tatamu::progress::Cancelled;
+
+/// Longest time between two looks at port and keyboard.
+const LOOK: Duration = Duration::from_millis(4);
+/// The journal is written so often.
+const NOTE_EVERY: Duration = Duration::from_millis(500);
+
+/// What a journal says of a job.
+pub fn header(sheets: &[Sheet], cutter: &Cutter, port: String, copies: u16) -> Header {
+    let entry = |sheet: &Sheet| SheetEntry::new(sheet.name(), sheet.bytes(), sheet.turns());
+    Header {
+        cutter: cutter.text().to_owned(),
+        port,
+        baud: None,
+        handshake: None,
+        copies,
+        sheets: sheets.iter().map(entry).collect(),
+    }
+}
+
+/// Sends what is left of a job, and keeps a journal of it.
+pub fn send_all(
+    ports: &dyn Ports,
+    operator: &mut dyn Operator,
+    path: &Path,
+    header: &Header,
+    start: Position,
+) -> Result<(), AppError> {
+    let cutter = Cutter::parse(&header.cutter)
+        .map_err(|error| AppError::Profile { name: path.display().to_string(), error })?;
+    let damaged =
+        || AppError::Input { path: path.to_owned(), reason: "the journal is damaged; begin anew".to_owned() };
+    let chosen = header.handshake.as_deref().map(handshake).transpose().map_err(AppError::Options)?;
+    if chosen == Some(Handshake::EscB) && !cutter.can_be_asked() {
+        return Err(AppError::Options(format!(
+            "{} does not answer questions (answers in its profile), so --handshake escb cannot work; use \
+             paced, or what \"tatamu profiles show\" says",
+            cutter.name()
+        )));
+    }
+    let mut port = ports.open(&header.port, header.baud, &cutter)?;
+    operator.begin();
+    let mut journal = Journal::create(path, header, start)?;
+    let mut at = start;
+    while at.copy < header.copies {
+        while at.sheet < header.sheets.len() {
+            let sheet = &header.sheets[at.sheet];
+            let name = &sheet.name;
+            let whole = sheets::parse(name, &sheet.bytes().ok_or_else(damaged)?, &cutter)?;
+            let rest = whole.from_stroke(at.strokes, &sheet.turns, cutter.dialect());
+            let job = sheets::parse(name, &rest, &cutter)?;
+            let first = whole.strokes() - job.strokes();
+            if let Err(error) = operator.load(name, (at.copy + 1, header.copies)) {
+                operator.stopped(journal.path(), (journal.position().strokes, whole.strokes()));
+                return Err(error);
+            }
+            let mut live = Live { operator, first, name };
+            let outcome = live.send(job, &cutter, chosen, port.as_mut(), &mut journal, at)?;
+            if outcome.end != End::Finished {
+                journal.note(Position { strokes: at.strokes.max(first + outcome.strokes_done), ..at })?;
+                operator.stopped(journal.path(), (journal.position().strokes, whole.strokes()));
+                return Err(failure(outcome));
+            }
+            at = Position { sheet: at.sheet + 1, strokes: 0, ..at };
+            journal.note(at)?;
+        }
+        at = Position { copy: at.copy + 1, sheet: 0, strokes: 0 };
+        journal.note(at)?;
+    }
+    journal.remove();
+    operator.done();
+    Ok(())
+}
+
+fn failure(outcome: Outcome) -> AppError {
+    let what = match outcome.end {
+        End::Finished | End::Stopped => return AppError::Cancelled(Cancelled),
+        End::Device(16) => "the machine's buffer ran over (error 16); try --handshake paced".to_owned(),
+        End::Device(15) => {
+            "the machine misread bytes (error 15); check --baud, parity and the cable".to_owned()
+        }
+        End::Device(code) => format!("the machine reports the error {code} (ESC.E)"),
+        End::NoAnswer => "the machine does not answer; check port, baud and cable, or try --handshake paced \
+                          or rtscts"
+            .to_owned(),
+        End::PortLost => {
+            "the port is gone: the tool may be down; lift it by hand before you do anything else".to_owned()
+        }
+    };
+    AppError::Machine(what)
+}
+
+/// One job on its way.
+struct Live<'a> {
+    operator: &'a mut dyn Operator,
+    /// Strokes of the sheet that were done before.
+    first: usize,
+    name: &'a str,
+}
+
+impl Live<'_> {
+    fn send(
+        &mut self,
+        job: Job,
+        cutter: &Cutter,
+        chosen: Option<Handshake>,
+        port: &mut dyn Port,
+        journal: &mut Journal,
+        at: Position,
+    ) -> Result<Outcome, AppError> {
+        let handshake = chosen.unwrap_or(cutter.serial().handshake);
+        let baud = port.baud();
+        let clear_to_send = port.is_clear_to_send();
+        let mut session = Session::new(job, cutter, handshake, clear_to_send);
+        if let Some(baud) = baud {
+            session.set_baud(baud);
+        }
+        let (start, mut noted) = (Instant::now(), Instant::now());
+        let mut stops = 0;
+        let mut pending: Vec<u8> = Vec::new();
+        let mut has_hardware = false;
+        loop {
+            while stops < self.operator.stops() {
+                stops += 1;
+                session.stop();
+            }
+            match self.operator.pauses(session.is_pausing()) {
+                true => session.pause(),
+                false => session.go_on(),
+            }
+            if exchange(port, &mut pending, &mut session).is_err() {
+                session.port_lost();
+            }
+            let queued = pending.len() + port.queued();
+            let step = session.step(start.elapsed(), queued);
+            let status = session.status();
+            if status.handshake == Handshake::RtsCts && !has_hardware {
+                has_hardware = port.let_hardware_steer().is_ok();
+            }
+            session.take_notes().iter().for_each(|note| self.operator.note(note));
+            match step {
+                Step::Send(bytes) => pending.extend(bytes),
+                Step::Wait(wait) => std::thread::sleep(wait.min(LOOK)),
+                Step::Done(outcome) => {
+                    self.operator.sheet_over();
+                    return Ok(outcome);
+                }
+            }
+            if noted.elapsed() >= NOTE_EVERY {
+                noted = Instant::now();
+                journal.note(Position { strokes: at.strokes.max(self.first + status.strokes_done), ..at })?;
+                self.operator.show(self.name, self.first, &status);
+            }
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! What holds in the end: flags first, then the project file, then the defaults.
+
+use super::{CLUSTERS, DETAIL, Entry, Given, PARTS, PROFILE_VERTICES, SMOOTHING, Scope, Settings, TOP_EDGES};
+use crate::pipeline::{ComponentOptions, Options};
+use crate::project::Project;
+use crate::segment::Method;
+
+/// Options that do not go together.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Refusal {
+    /// Flags that have no meaning for components that are drawn.
+    #[error(
+        "components that are drawn are made as they are drawn, so {} would do nothing; leave it out, or change the \
+         drawing",
+        .0.join(", ")
+    )]
+    Drawn(Vec<String>),
+    /// Flags of a method that is not used.
+    #[error("--clusters and --smoothing belong to --method sdf; add it, or leave them out")]
+    NotSdf,
+    /// Flags that the paper's own method does not have.
+    #[error("--method sdf takes no --parts or --detail; use --clusters and --smoothing")]
+    Sdf,
+    /// Margins that leave no room.
+    #[error("margins of {margin_mm} mm leave no room on paper {paper}; choose less than {most_mm} mm")]
+    Margin {
+        /// The margin, mm.
+        margin_mm: f64,
+        /// Name of the paper.
+        paper: String,
+        /// Half of its shorter side, mm.
+        most_mm: f64,
+    },
+    /// A value that is not accepted.
+    #[error("{0}")]
+    Value(String),
+}
+
+/// What is chosen by a project file, and by flags, which go first.
+///
+/// # Errors
+/// See [`Refusal`].
+pub fn choose(project: Option<&Project>, flags: &[Given]) -> Result<Settings, Refusal> {
+    let mut settings = Settings::standard().clone();
+    let of_file = project.map_or(&[][..], Project::given);
+    if let Some(project) = project {
+        if project.mesh.is_none() {
+            check_drawn(flags)?;
+        }
+        take_tables(project, &mut settings.model);
+    }
+    let is_flag = |option: &Entry| flags.iter().any(|flag| flag.option() == option);
+    for option in super::all() {
+        // A detail on the command line takes the place of a number of parts in the project.
+        let is_void = *option == PARTS && is_flag(&DETAIL);
+        let layer = if is_flag(option) { flags } else { of_file };
+        let given = layer.iter().filter(|given| given.option() == option && !is_void);
+        given.into_iter().try_for_each(|given| given.apply(&mut settings)).map_err(Refusal::Value)?;
+    }
+    for component in settings.model.components.values_mut() {
+        // A flag holds for all components.
+        component.top_edges = component.top_edges.filter(|_| !is_flag(&TOP_EDGES));
+        component.profile_vertices = component.profile_vertices.filter(|_| !is_flag(&PROFILE_VERTICES));
+    }
+    match settings.model.segmentation.method {
+        Method::Merge if is_flag(&CLUSTERS) || is_flag(&SMOOTHING) => return Err(Refusal::NotSdf),
+        Method::Sdf { .. } if is_flag(&PARTS) || is_flag(&DETAIL) => return Err(Refusal::Sdf),
+        _ => {}
+    }
+    check_margin(&settings.model)?;
+    Ok(settings)
+}
+
+/// What a project says in tables that are no options.
+fn take_tables(project: &Project, options: &mut Options) {
+    options.edits = project.edits.iter().map(|edit| edit.change().clone()).collect();
+    options.pins = project.pins.iter().map(|table| (table.piece().to_owned(), table.pin())).collect();
+    for component in &project.components {
+        let choice = ComponentOptions {
+            rename: component.rename.clone(),
+            direction_rad: component.direction_deg.map(f64::to_radians),
+            top_edges: component.top_edges,
+            profile_vertices: component.profile_vertices,
+            is_concave: component.concave.unwrap_or(false),
+            joint: component.joint.as_ref().and_then(|joint| joint.hold()),
+        };
+        options.components.insert(component.name.clone(), choice);
+    }
+}
+
+/// Refuses flags that have no meaning for components that are drawn.
+fn check_drawn(flags: &[Given]) -> Result<(), Refusal> {
+    let is_given = |option: &&Entry| flags.iter().any(|flag| flag.option() == *option);
+    let given = super::all().filter(|option| option.scope == Scope::Mesh).filter(is_given);
+    let names: Vec<String> = given.filter_map(|option| Some(format!("--{}", option.flag?.name))).collect();
+    if names.is_empty() { Ok(()) } else { Err(Refusal::Drawn(names)) }
+}
+
+fn check_margin(options: &Options) -> Result<(), Refusal> {
+    let (paper, margin_mm) = (options.paper, options.margin_mm);
+    let most_mm = paper.width_mm().min(paper.height_mm()) / 2.0;
+    if margin_mm < most_mm {
+        return Ok(());
+    }
+    Err(Refusal::Margin { margin_mm, paper: paper.name(), most_mm })
+}

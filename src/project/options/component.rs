@@ -1,0 +1,137 @@
+//! Options of one component each: keys of its table, and flags with its name.
+
+use super::settings::put;
+use super::{Dial, Entry, Flag, Key, Kind, Scope, Settings, Text};
+use crate::pipeline::ComponentOptions;
+
+pub(super) const ALL: &[&Entry] = &[&RENAME, &DIRECTION, &CONCAVE, &JOINT];
+
+/// Most degrees of an angle: ten turns.
+const MOST_DEG: f64 = 3600.0;
+
+/// Its name on paper.
+pub static RENAME: Entry = Entry {
+    key: Key::new("component", "rename"),
+    kind: Kind::Text(Text {
+        names: Vec::new,
+        other: "text",
+        such_as: "body",
+        get: |_| None,
+        set: |_, text| checked_name(text).map(|_| ()).map_err(str::to_owned),
+    }),
+    short: "Another name, which is printed on the pieces",
+    automatic: "the name",
+    meaning: "another name, for pieces, reports and messages",
+    ..Entry::BLANK
+};
+
+/// Its fold axis.
+pub static DIRECTION: Entry = Entry {
+    key: Key::new("component", "direction"),
+    flag: Some(Flag { is_repeated: true, ..Flag::named("direction", "NAME=DEGREES", None) }),
+    scope: Scope::Mesh,
+    kind: Kind::Text(Text {
+        names: Vec::new,
+        other: "−3600 to 3600",
+        such_as: "head=90",
+        get: |_| None,
+        set: |s, text| {
+            let (name, degrees) = direction(text)?;
+            put(&mut component(s, &name).direction_rad, Some(degrees.to_radians()))
+        },
+    }),
+    short: "Direction in which a component folds, in degrees",
+    long: "The angle of the fold axis about the component's longest axis. May be given once for each component; the \
+           summary and the report name the components.",
+    example: "--direction head=90 --direction body=-15",
+    automatic: "searched for",
+    meaning: "angle of the fold axis about the component's longest axis, degrees; once per component",
+    dial: Dial::spanning("Direction", -180.0, 180.0, 1),
+};
+
+/// Whether it may have dents.
+pub static CONCAVE: Entry = Entry {
+    key: Key::new("component", "concave"),
+    flag: Some(Flag {
+        short: Some("Component that may have dents, such as a bottle with --parts 1"),
+        is_repeated: true,
+        ..Flag::named("concave", "NAME", None)
+    }),
+    scope: Scope::Mesh,
+    kind: Kind::Text(Text {
+        names: Vec::new,
+        other: "true, false",
+        such_as: "body",
+        get: |_| None,
+        set: |s, name| put(&mut component(s, name).is_concave, true),
+    }),
+    short: "Whether it may have dents, if it is the only component or joined to no other",
+    long: "Its profiles follow the shape itself rather than its convex hull. It stays convex, with a warning, where \
+           that is no better, and where its joints to others cannot be kept. May be given once for each component.",
+    example: "--parts 1 --concave body",
+    meaning: "allows dents, for a component of a mesh; once per component",
+    ..Entry::BLANK
+};
+
+/// How it is held.
+pub static JOINT: Entry = Entry {
+    key: Key::new("component", "joint"),
+    kind: Kind::Text(Text {
+        names: || vec!["glue", "plug"],
+        other: "",
+        such_as: "plug",
+        get: |_| None,
+        set: |_, text| text.parse::<crate::model::JointChoice>().map(|_| ()),
+    }),
+    short: "How it is held on its parent: by glue, or by a tab in slits that can be unplugged",
+    automatic: "glued, unless only a plug leaves a free way to fold",
+    meaning: "how it is held on its parent: by glue, or by a tab in slits that \
+              [can be unplugged](../how-to/folding.md#a-joint-that-can-be-unplugged)",
+    ..Entry::BLANK
+};
+
+/// What is chosen for the component that the user calls so, which may be its new name.
+fn component<'a>(settings: &'a mut Settings, name: &str) -> &'a mut ComponentOptions {
+    let components = &mut settings.model.components;
+    let renamed = components.iter().find(|(_, own)| own.rename.as_deref() == Some(name));
+    let key = renamed.map_or(name, |(key, _)| key).to_owned();
+    components.entry(key).or_default()
+}
+
+/// Reads the name of a component and an angle.
+fn direction(text: &str) -> Result<(String, f64), String> {
+    let message = "write the component's name and the angle, such as head=90";
+    let (name, degrees) = text.rsplit_once('=').ok_or(message)?;
+    let degrees = degrees.trim().parse().map_err(|_| message)?;
+    if name.trim().is_empty() {
+        return Err(message.to_owned());
+    }
+    Ok((name.trim().to_owned(), check_degrees(degrees)?))
+}
+
+/// Checks an angle in degrees.
+pub(in crate::project) fn check_degrees(degrees: f64) -> Result<f64, String> {
+    let message = || format!("the direction must be a number of degrees, from -{MOST_DEG} to {MOST_DEG}");
+    (degrees.abs() <= MOST_DEG).then_some(degrees).ok_or_else(message)
+}
+
+/// Checks the name of a component.
+pub(in crate::project) fn checked_name(name: &str) -> Result<&str, &'static str> {
+    let is_usable = !name.trim().is_empty() && !name.contains(char::is_control);
+    let message = "a component's name has at least one letter and no control characters";
+    is_usable.then_some(name).ok_or(message)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions() {
+        assert_eq!(direction("head=90"), Ok(("head".to_owned(), 90.0)));
+        assert_eq!(direction("a=b = -1.5"), Ok(("a=b".to_owned(), -1.5)));
+        for text in ["head", "=90", "head=", "head=x", "head=nan", "head=1e9"] {
+            assert!(direction(text).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! Options that choose a cutter and a medium, by the names of their profiles.
+
+use super::settings::put;
+use super::{Entry, Flag, Kind, Scope, Text};
+
+pub(super) const ALL: &[&Entry] = &[&CUTTER, &MEDIA];
+
+const HEADING: &str = "Options of cutters";
+
+/// The cutter.
+pub static CUTTER: Entry = Entry {
+    flag: Flag::under(HEADING, "cutter", "NAME|FILE"),
+    scope: Scope::Machine,
+    kind: Kind::Text(Text {
+        names: Vec::new,
+        other: "text",
+        such_as: "hp-7475a",
+        get: |s| s.files.cutter.clone(),
+        set: |s, name| put(&mut s.files.cutter, Some(name.to_owned())),
+    }),
+    short: "Cutter or plotter: the name of a profile, or a file (TOML)",
+    long: "\"tatamu profiles list\" names them; \"tatamu profiles show NAME\" prints one, to begin a file of your own \
+           with.",
+    example: "--cutter hp-7475a, --cutter mine.toml",
+    automatic: "generic-hpgl",
+    meaning: "cutter [profile](profiles.md) of `.plt` files",
+    ..Entry::BLANK
+};
+
+/// What is cut.
+pub static MEDIA: Entry = Entry {
+    flag: Flag::under(HEADING, "media", "NAME|FILE"),
+    scope: Scope::Machine,
+    kind: Kind::Text(Text {
+        names: Vec::new,
+        other: "text",
+        such_as: "cardstock-300",
+        get: |s| s.files.media.clone(),
+        set: |s, name| put(&mut s.files.media, Some(name.to_owned())),
+    }),
+    short: "What is cut: the name of a profile, or a file (TOML)",
+    long: "It sets force, speed, passes, overcut and how creases are made.",
+    example: "--media cardstock-300",
+    automatic: "cardstock-200",
+    meaning: "media profile of `.plt` files",
+    ..Entry::BLANK
+};

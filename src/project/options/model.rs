@@ -1,0 +1,147 @@
+//! Options of the whole model: where it stands, how large it is, how many panels it has.
+
+use super::kind::FROM_TO;
+use super::settings::put;
+use super::{Count, Dial, Entry, Flag, Key, Kind, Number, Range, Scope, Text, Unit};
+use crate::mesh::Up;
+use crate::pipeline::Level;
+
+pub(super) const ORIENTATION: &[&Entry] = &[&UP, &SIZE];
+pub(super) const SHAPE: &[&Entry] = &[&LEVEL, &TOP_EDGES, &PROFILE_VERTICES, &TOLERANCE];
+
+const AXES: [(&str, Up); 3] = [("x", Up::X), ("y", Up::Y), ("z", Up::Z)];
+
+/// The fewest top edges of a component, and the fewest vertices of a profile.
+const LEAST_COUNT: usize = 3;
+/// The most of either that is any use on paper.
+const MOST_COUNT: usize = 64;
+
+/// The axis that points up.
+pub static UP: Entry = Entry {
+    key: Key::new("", "up"),
+    flag: Flag::new("up", "AXIS"),
+    scope: Scope::Mesh,
+    kind: Kind::Text(Text {
+        names: || AXES.map(|(name, _)| name).to_vec(),
+        other: "",
+        such_as: "z",
+        get: |s| AXES.iter().find(|(_, up)| *up == s.model.up).map(|(name, _)| (*name).to_owned()),
+        set: |s, text| {
+            let found = AXES.iter().find(|(name, _)| name.eq_ignore_ascii_case(text));
+            let found = found.ok_or("the axis that points up is one of x, y, z")?;
+            put(&mut s.model.up, found.1)
+        },
+    }),
+    short: "Axis of the mesh that points up: {names}",
+    long: "The model is turned so that this axis points upwards.",
+    example: "--up z",
+    meaning: "axis of the mesh that points up",
+    dial: Dial::new("Upwards"),
+    ..Entry::BLANK
+};
+
+/// Longest side of the model.
+pub static SIZE: Entry = Entry {
+    key: Key::new("", "size"),
+    flag: Flag::new("size", "LENGTH"),
+    kind: Kind::Number(Number {
+        unit: Unit::Length,
+        range: Range::Positive,
+        fault: "",
+        such_as: 200.0,
+        get: |s| Some(s.model.size_mm),
+        set: |s, mm| put(&mut s.model.size_mm, mm),
+    }),
+    short: "Longest side of the model's bounding box",
+    long: "A number with mm, cm, m or in; mm without a unit.",
+    example: "--size 30cm",
+    meaning: "longest side of the finished model's bounding box",
+    dial: Dial::spanning("Size", 10.0, 2000.0, 0),
+    ..Entry::BLANK
+};
+
+/// How much work the model may be.
+pub static LEVEL: Entry = Entry {
+    key: Key::new("defaults", "level"),
+    flag: Flag::new("level", "LEVEL"),
+    scope: Scope::Mesh,
+    kind: Kind::Text(Text {
+        names: || Level::ALL.map(Level::name).to_vec(),
+        other: "",
+        such_as: "easy",
+        get: |s| Some(s.model.level.name().to_owned()),
+        set: |s, text| put(&mut s.model.level, text.parse()?),
+    }),
+    short: "How much work the model may be: {names}",
+    long: "\"easy\" has about two thirds of the panels, \"fine\" about twice as many. Big parts get most of them.",
+    example: "--level easy",
+    meaning: "how much work the model may be: big parts get most of the panels, and panels that add little are left out",
+    dial: Dial::new("Level"),
+    ..Entry::BLANK
+};
+
+/// Edges of top panels.
+pub static TOP_EDGES: Entry = Entry {
+    key: Key::new("defaults", "top_edges"),
+    flag: Flag::new("top-edges", "N"),
+    scope: Scope::Mesh,
+    kind: Kind::Count(Count {
+        least: LEAST_COUNT,
+        most: MOST_COUNT,
+        fault: FROM_TO,
+        such_as: 6,
+        get: |s| s.model.top_edges,
+        set: |s, n| put(&mut s.model.top_edges, Some(n)),
+    }),
+    short: "Edges of each component's top panel, {least} or more",
+    long: "More edges follow the shape better; fewer fold faster.",
+    example: "--top-edges 8",
+    automatic: "by level and the part's size",
+    meaning: "edges of each top panel, and so the number of chains. More follow the shape better, fewer fold faster",
+    dial: Dial::new("Top edges"),
+};
+
+/// Vertices of profiles.
+pub static PROFILE_VERTICES: Entry = Entry {
+    key: Key::new("defaults", "profile_vertices"),
+    flag: Flag::new("profile-vertices", "N"),
+    scope: Scope::Mesh,
+    kind: Kind::Count(Count {
+        least: LEAST_COUNT,
+        most: MOST_COUNT,
+        fault: FROM_TO,
+        such_as: 6,
+        get: |s| s.model.profile_vertices,
+        set: |s, n| put(&mut s.model.profile_vertices, Some(n)),
+    }),
+    short: "Vertices of each profile at most, {least} or more",
+    long: "A profile is the outline of a strip of side panels. More vertices follow the shape better; fewer fold \
+           faster.",
+    example: "--profile-vertices 4",
+    automatic: "by level and the part's size",
+    meaning: "most vertices of each chain's profile",
+    dial: Dial::new("Profile vertices"),
+};
+
+/// How close components come to their shapes.
+pub static TOLERANCE: Entry = Entry {
+    key: Key::new("defaults", "tolerance"),
+    flag: Flag::new("tolerance", "LENGTH"),
+    scope: Scope::Mesh,
+    kind: Kind::Number(Number {
+        unit: Unit::Length,
+        range: Range::Positive,
+        fault: "",
+        such_as: 2.0,
+        get: |s| s.model.tolerance_mm,
+        set: |s, mm| put(&mut s.model.tolerance_mm, Some(mm)),
+    }),
+    short: "How close each component must come to its shape, instead of numbers of edges and vertices",
+    long: "As few top edges and profile vertices are used as reach it, at most the numbers that are chosen, or 12 and \
+           10.",
+    example: "--tolerance 2mm",
+    meaning: "how close each component must come to its convex hull, instead of the two counts. tatamu uses as few edges \
+              and vertices as possible; the two counts are then the most, or 12 and 10 by default",
+    dial: Dial::spanning("Tolerance", 0.1, 50.0, 1),
+    ..Entry::BLANK
+};

@@ -1,0 +1,119 @@
+//! Options of pieces.
+
+use super::settings::put;
+use super::{Dial, Entry, Flag, Key, Kind, Number, Range, Switch, Unit};
+
+pub(super) const WIDTHS: &[&Entry] = &[&MIN_PANEL_WIDTH, &TAB_WIDTH];
+pub(super) const MARKS: &[&Entry] = &[&SPLIT, &GLUE_MARKS, &ANGLES, &HIDE_BELOW];
+
+const HEADING: &str = "Pieces";
+/// The largest angle below which creases may be hidden, degrees: more would hide real folds.
+const MOST_HIDDEN_DEG: f64 = 45.0;
+
+/// Least width of panels.
+pub static MIN_PANEL_WIDTH: Entry = Entry {
+    key: Key::new("defaults", "min_panel_width_mm"),
+    flag: Flag::new("min-panel-width", "LENGTH"),
+    kind: Kind::Number(Number {
+        unit: Unit::Length,
+        range: Range::Positive,
+        fault: "",
+        such_as: 4.0,
+        get: |s| Some(s.model.min_panel_width_mm),
+        set: |s, mm| put(&mut s.model.min_panel_width_mm, mm),
+    }),
+    short: "Least width and height of a panel",
+    long: "What is narrower cannot be folded by hand. Where the shape leaves no choice, a warning names the panel.",
+    example: "--min-panel-width 4mm",
+    meaning: "least width and height of a panel; a warning names smaller panels",
+    dial: Dial::spanning("Least panel", 0.5, 30.0, 1),
+    ..Entry::BLANK
+};
+
+/// Width of glue tabs.
+pub static TAB_WIDTH: Entry = Entry {
+    key: Key::new("defaults", "tab_width_mm"),
+    flag: Flag::new("tab-width", "LENGTH"),
+    kind: Kind::Number(Number {
+        unit: Unit::Length,
+        range: Range::Positive,
+        fault: "",
+        such_as: 8.0,
+        get: |s| Some(s.model.tab_width_mm),
+        set: |s, mm| put(&mut s.model.tab_width_mm, mm),
+    }),
+    short: "Width of the glue tabs",
+    long: "Tabs become narrower where there is no room.",
+    example: "--tab-width 8mm",
+    meaning: "width of the glue tabs; narrower without room",
+    dial: Dial::spanning("Tabs", 1.0, 30.0, 1),
+    ..Entry::BLANK
+};
+
+/// Whether large panels are split.
+static SPLIT: Entry = Entry {
+    key: Key::new("nets", "split"),
+    flag: Some(Flag {
+        short: Some("Refuses panels that are larger than the sheet, rather than split them"),
+        is_inverse: true,
+        ..Flag::named("no-split", "BOOL", Some(HEADING))
+    }),
+    kind: Kind::Switch(Switch {
+        get: |s| s.model.nets.may_split,
+        set: |s, is_on| put(&mut s.model.nets.may_split, is_on),
+    }),
+    short: "Whether panels that are larger than the sheet are split, rather than refused",
+    long: "Such a panel is made of parts with tabs and labels, to be glued together first. Where it is refused, the \
+           message names the largest size that needs no splitting.",
+    meaning: "whether panels larger than the sheet are made of parts, or refused",
+    ..Entry::BLANK
+};
+
+/// Whether places of tabs are drawn.
+pub static GLUE_MARKS: Entry = Entry {
+    key: Key::new("nets", "glue_marks"),
+    flag: Flag::under(HEADING, "glue-marks", "BOOL"),
+    kind: Kind::Switch(Switch {
+        get: |s| s.model.nets.glue_marks,
+        set: |s, is_on| put(&mut s.model.nets.glue_marks, is_on),
+    }),
+    short: "Draws where each tab is glued",
+    meaning: "draws where each tab is glued",
+    dial: Dial::new("Glue marks"),
+    ..Entry::BLANK
+};
+
+/// Whether angles are written.
+pub static ANGLES: Entry = Entry {
+    key: Key::new("nets", "angles"),
+    flag: Flag::under(HEADING, "angles", "BOOL"),
+    kind: Kind::Switch(Switch {
+        get: |s| s.model.nets.angles,
+        set: |s, is_on| put(&mut s.model.nets.angles, is_on),
+    }),
+    short: "Writes beside each crease, where there is room, by how many degrees it is folded",
+    long: "The angle is that of the standing model; 0° is flat paper.",
+    meaning: "writes the angle of each crease beside it",
+    dial: Dial::new("Angles"),
+    ..Entry::BLANK
+};
+
+/// Below which angle creases are left out.
+static HIDE_BELOW: Entry = Entry {
+    key: Key::new("nets", "hide_below"),
+    flag: Flag::under(HEADING, "hide-below", "DEGREES"),
+    kind: Kind::Number(Number {
+        unit: Unit::Degrees,
+        range: Range::Within(0.0, MOST_HIDDEN_DEG),
+        fault: "the angle must be a number of degrees, from {least} to {most}",
+        such_as: 3.0,
+        // To a billionth, so that 3 stays 3.
+        get: |s| Some((s.model.nets.hide_below_rad.to_degrees() * 1e9).round() / 1e9),
+        set: |s, degrees| put(&mut s.model.nets.hide_below_rad, degrees.to_radians()),
+    }),
+    short: "Leaves out creases that are folded by less, in degrees",
+    long: "The angle is that of the standing model. Creases that fold flat are always drawn.",
+    example: "--hide-below 3",
+    meaning: "leaves out creases that fold by less, in degrees",
+    ..Entry::BLANK
+};

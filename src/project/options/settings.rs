@@ -1,0 +1,46 @@
+//! All that options choose.
+
+use crate::export::FormatOptions;
+use crate::pipeline::Options;
+use crate::units::Paper;
+use std::sync::LazyLock;
+
+/// All that options choose.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Settings {
+    /// The model, its pieces and sheets.
+    pub model: Options,
+    /// The files.
+    pub files: Files,
+}
+
+/// What is chosen about files.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Files {
+    /// By format.
+    pub formats: FormatOptions,
+    /// Paper on which a PDF divides larger sheets, which may be too small for that.
+    pub tile: Option<Paper>,
+    /// Look of the lines: a built-in style, or a file.
+    pub style: Option<String>,
+    /// Whether panels have the mesh's colours.
+    pub is_coloured: bool,
+    /// Name or file of the cutter's profile.
+    pub cutter: Option<String>,
+    /// Name or file of the medium's profile.
+    pub media: Option<String>,
+}
+
+impl Settings {
+    /// What holds where nothing is chosen.
+    pub fn standard() -> &'static Self {
+        static STANDARD: LazyLock<Settings> = LazyLock::new(Settings::default);
+        &STANDARD
+    }
+}
+
+/// Puts a value into its place.
+pub(super) fn put<T>(place: &mut T, value: T) -> Result<(), String> {
+    *place = value;
+    Ok(())
+}

@@ -1,0 +1,232 @@
+//! Options of paper and sheets.
+
+use super::settings::put;
+use super::{Count, Dial, Entry, Flag, Key, Kind, Number, Range, Switch, Text, Unit};
+use crate::net::Side;
+use crate::sheet::fit::Rotation;
+use crate::sheet::{Calibration, Registration};
+use crate::units::parse_paper;
+
+pub(super) const PAPERS: &[&Entry] = &[&PAPER, &MARGIN, &THICKNESS, &THICK];
+pub(super) const ALL: &[&Entry] = &[&SIDE, &GRAIN, &SPACING, &EFFORT, &MARKS, &CALIBRATE];
+
+const HEADING: &str = "Sheets";
+/// The most effort that may be asked for: minutes for a large model.
+const MOST_EFFORT: usize = 10_000_000;
+/// What else is paper.
+pub(super) const OR_SIZE: &str = "or width and height such as `\"210x297mm\"`";
+
+/// Names of papers that are offered.
+pub(super) fn papers() -> Vec<&'static str> {
+    vec!["a4", "a3", "a5", "letter", "legal"]
+}
+
+/// Size of the sheets.
+pub static PAPER: Entry = Entry {
+    key: Key::new("paper", "size"),
+    flag: Flag::new("paper", "SIZE"),
+    kind: Kind::Text(Text {
+        names: papers,
+        other: OR_SIZE,
+        such_as: "a4",
+        get: |s| Some(s.model.paper.name()),
+        set: |s, text| put(&mut s.model.paper, parse_paper(text).map_err(|error| error.to_string())?),
+    }),
+    short: "Size of the sheets: {names}, or width and height such as 210x297mm",
+    long: "Width and height in mm, or with cm or in.",
+    example: "--paper 210x297mm, --paper 12x12in",
+    meaning: "size of the sheets; another SIZE is width and height, such as `210x297mm`",
+    dial: Dial::new("Paper"),
+    ..Entry::BLANK
+};
+
+/// Border that stays free.
+pub static MARGIN: Entry = Entry {
+    key: Key::new("paper", "margin_mm"),
+    flag: Flag::new("margin", "LENGTH"),
+    kind: Kind::Number(Number {
+        unit: Unit::Length,
+        range: Range::NotNegative,
+        fault: "",
+        such_as: 5.0,
+        get: |s| Some(s.model.margin_mm),
+        set: |s, mm| put(&mut s.model.margin_mm, mm),
+    }),
+    short: "Border of each sheet that stays free",
+    long: "Most printers cannot print the outermost 5 mm.",
+    example: "--margin 5mm",
+    meaning: "free border of each sheet",
+    dial: Dial::spanning("Margin", 0.0, 60.0, 1),
+    ..Entry::BLANK
+};
+
+/// Thickness of the paper.
+pub static THICKNESS: Entry = Entry {
+    key: Key::new("paper", "thickness_mm"),
+    flag: Flag::new("thickness", "LENGTH"),
+    kind: Kind::Number(Number {
+        unit: Unit::Length,
+        range: Range::Within(0.02, 5.0),
+        fault: "paper is from {least} to {most} mm thick",
+        such_as: 0.4,
+        get: |s| Some(s.model.thickness_mm),
+        set: |s, mm| put(&mut s.model.thickness_mm, mm),
+    }),
+    short: "Thickness of the paper, {least} to {most}",
+    long: "Panels that come into each other by up to half of it while the model folds only rub; more is a warning. \
+           Card of 200 g/m² has 0.25 mm.",
+    example: "--thickness 0.4mm",
+    meaning: "thickness of the paper, for the check of the folding: contacts of up to half of it are ignored, up to all \
+              of it panels rub, beyond it they clash",
+    dial: Some(Dial { label: "Thickness", span: None, digits: 2 }),
+    ..Entry::BLANK
+};
+
+/// Whether panels are boards.
+static THICK: Entry = Entry {
+    key: Key::new("paper", "thick"),
+    flag: Flag::new("thick", "BOOL"),
+    kind: Kind::Switch(Switch {
+        get: |s| s.model.is_thick,
+        set: |s, is_on| put(&mut s.model.is_thick, is_on),
+    }),
+    short: "Panels of board of that thickness, each cut by itself and hinged with tape",
+    long: "The outside keeps its size: panels are shortened at their hinges, and creases are found anew for the boards, \
+           so that they lie flat on one another. Valleys have their hinges outside.",
+    example: "--thickness 1.5mm --thick -o box.pdf -o box.stl",
+    meaning: "panels of board of that thickness, each cut on its own and hinged with tape",
+    ..Entry::BLANK
+};
+
+const SIDES: [(&str, Side); 2] = [("outside", Side::Outside), ("inside", Side::Inside)];
+
+/// The printed side.
+pub static SIDE: Entry = Entry {
+    key: Key::new("sheets", "side"),
+    flag: Flag::under(HEADING, "side", "SIDE"),
+    kind: Kind::Text(Text {
+        names: || SIDES.map(|(name, _)| name).to_vec(),
+        other: "",
+        such_as: "inside",
+        get: |s| {
+            SIDES.iter().find(|(_, side)| *side == s.model.sheets.side).map(|(name, _)| (*name).to_owned())
+        },
+        set: |s, text| {
+            let found = SIDES.iter().find(|(name, _)| *name == text);
+            put(&mut s.model.sheets.side, found.ok_or("the printed side is one of outside, inside")?.1)
+        },
+    }),
+    short: "Printed side of the paper: {names}",
+    long: "Printed on the inside, pieces are mirrored, no line can be seen on the finished model, and creases fold \
+           towards you.",
+    example: "--side inside",
+    meaning: "printed side; `inside` is mirrored",
+    dial: Dial::new("Print on"),
+    ..Entry::BLANK
+};
+
+/// Whether paper has a grain.
+pub static GRAIN: Entry = Entry {
+    key: Key::new("sheets", "grain"),
+    flag: Flag::under(HEADING, "grain", "BOOL"),
+    kind: Kind::Switch(Switch {
+        get: |s| s.model.sheets.rotation == Rotation::QuarterTurns,
+        set: |s, is_on| {
+            put(&mut s.model.sheets.rotation, if is_on { Rotation::QuarterTurns } else { Rotation::Free })
+        },
+    }),
+    short: "Turns pieces by multiples of 90 degrees only, for paper with a grain",
+    meaning: "turns pieces by multiples of 90° only",
+    dial: Dial::new("Along the grain"),
+    ..Entry::BLANK
+};
+
+/// Distance between pieces.
+pub static SPACING: Entry = Entry {
+    key: Key::new("sheets", "spacing_mm"),
+    flag: Flag::under(HEADING, "spacing", "LENGTH"),
+    kind: Kind::Number(Number {
+        unit: Unit::Length,
+        range: Range::NotNegative,
+        fault: "",
+        such_as: 4.0,
+        get: |s| Some(s.model.sheets.spacing_mm),
+        set: |s, mm| put(&mut s.model.sheets.spacing_mm, mm),
+    }),
+    short: "Least distance between pieces",
+    example: "--spacing 4mm",
+    meaning: "least distance between pieces",
+    dial: Dial::spanning("Spacing", 0.0, 30.0, 1),
+    ..Entry::BLANK
+};
+
+/// How much the nesting tries.
+static EFFORT: Entry = Entry {
+    key: Key::new("sheets", "effort"),
+    flag: Flag::under(HEADING, "effort", "N"),
+    kind: Kind::Count(Count {
+        least: 0,
+        most: MOST_EFFORT,
+        fault: "the effort must be from {least} to {most}",
+        such_as: 20_000,
+        get: |s| Some(s.model.sheets.effort),
+        set: |s, n| put(&mut s.model.sheets.effort, n),
+    }),
+    short: "How long to look for fewer sheets: pieces placed in trials",
+    long: "Ten times the number takes ten times as long and saves a sheet now and then; 0 is quick. The same number \
+           gives the same sheets on any machine.",
+    example: "--effort 20000",
+    meaning: "how long to search for fewer sheets: pieces placed in trials",
+    ..Entry::BLANK
+};
+
+const NO_MARKS: &str = "none";
+
+/// Registration marks.
+pub static MARKS: Entry = Entry {
+    key: Key::new("sheets", "marks"),
+    flag: Flag::under(HEADING, "marks", "KIND"),
+    kind: Kind::Text(Text {
+        names: || [NO_MARKS].into_iter().chain(Registration::NAMES.map(|(name, _)| name)).collect(),
+        other: "",
+        such_as: "silhouette",
+        get: |s| Some(s.model.sheets.registration.map_or(NO_MARKS, Registration::name).to_owned()),
+        set: |s, text| {
+            let known = || Registration::NAMES.map(|(name, _)| name).join(", ");
+            let message = || format!("the registration marks are one of {NO_MARKS}, {}", known());
+            let marks = Registration::of_name(text);
+            let is_known = marks.is_some() || text == NO_MARKS;
+            is_known.then_some(()).ok_or_else(message)?;
+            put(&mut s.model.sheets.registration, marks)
+        },
+    }),
+    short: "Registration marks for a cutter: {names}",
+    long: "silhouette: the square and the two corners that Silhouette cutters look for; the border grows to 18 mm. \
+           corners: four corners to align by eye.",
+    example: "--marks silhouette",
+    meaning: "registration marks for a cutter",
+    dial: Dial::new("Marks"),
+    ..Entry::BLANK
+};
+
+/// What a printer makes of a length.
+static CALIBRATE: Entry = Entry {
+    key: Key::new("sheets", "calibrate"),
+    flag: Flag::under(HEADING, "calibrate", "X:MM,Y:MM"),
+    kind: Kind::Text(Text {
+        names: Vec::new,
+        other: "text",
+        such_as: "X:97.3,Y:100.1",
+        get: |s| Some(s.model.sheets.calibration.text()),
+        set: |s, text| {
+            let calibration = Calibration::parse(text).map_err(|error| error.to_string())?;
+            put(&mut s.model.sheets.calibration, calibration)
+        },
+    }),
+    short: "Corrects a printer's scale: the measured lengths of the two bars of 100 mm",
+    long: "Print a page, measure the level bar (X) and the upright bar in the left margin (Y), and print again with \
+           what you found.",
+    example: "--calibrate X:97.3,Y:100.1",
+    meaning: "measured lengths of the horizontal (X) and the vertical (Y) bar of 100 mm",
+    ..Entry::BLANK
+};

@@ -1,0 +1,297 @@
+//! What can be changed in a project, as changes to the text of its file: comments stay, and the
+//! result is read by the same parser as any project file.
+
+use glam::DVec3;
+use tatamu::project::options::{DIRECTION, Entry, PROFILE_VERTICES, RENAME, Scope, TOP_EDGES};
+use tatamu::sheet::Pin;
+use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value};
+
+/// One change.
+#[derive(Debug, Clone)]
+pub enum Change {
+    /// Sets an option, or takes it away so that the default holds.
+    Set {
+        /// The option.
+        option: &'static Entry,
+        /// Its value.
+        value: Option<Value>,
+    },
+    /// Has the project name its mesh otherwise.
+    Mesh {
+        /// The mesh file, relative to the project file.
+        file: String,
+    },
+    /// Sets an option of a component, or takes it away.
+    Component {
+        /// The component's name, before it was renamed.
+        name: String,
+        /// The option.
+        option: &'static Entry,
+        /// Its value.
+        value: Option<Value>,
+    },
+    /// Takes away all that was set for a component.
+    Reset {
+        /// The component's name, before it was renamed.
+        name: String,
+    },
+    /// Takes away a component's table: there is no such component any more.
+    Forget {
+        /// The component's name, before it was renamed.
+        name: String,
+    },
+    /// Makes one part of several; what was set for those that lose their name goes with it.
+    Merge {
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// Divides a part by a plane.
+    Split {
+        /// Its name.
+        name: String,
+        /// A point of the plane, in the coordinates of the mesh file.
+        point: DVec3,
+        /// Its normal.
+        normal: DVec3,
+    },
+    /// Puts a piece where the user wants it, or lets the layout decide again.
+    Pin {
+        /// Name of the piece.
+        piece: String,
+        /// Its place; none lets the layout decide.
+        place: Option<Pin>,
+    },
+}
+
+impl Change {
+    /// Whether it is about the shape of components, which those that are drawn have from their file.
+    pub fn is_of_parts(&self) -> bool {
+        match self {
+            Change::Set { option, .. } => option.scope == Scope::Mesh,
+            Change::Pin { .. } => false,
+            _ => true,
+        }
+    }
+
+    /// What it does, for the menu.
+    pub fn label(&self) -> String {
+        match self {
+            Self::Set { option, .. } => words(option),
+            Self::Mesh { .. } => "name of the mesh".to_owned(),
+            Self::Component { name, option, .. } => format!("{} of {name}", words(option)),
+            Self::Reset { name } => format!("reset of {name}"),
+            Self::Forget { name } => format!("what was set for {name}"),
+            Self::Merge { names } => format!("merge of {}", names.join(" and ")),
+            Self::Split { name, .. } => format!("split of {name}"),
+            Self::Pin { piece, .. } => format!("place of {piece}"),
+        }
+    }
+
+    /// Makes the change in the text of a project file.
+    ///
+    /// # Errors
+    /// A message where the text is not TOML, or has something else where the change belongs.
+    pub fn apply(&self, text: &str) -> Result<String, String> {
+        let mut document: DocumentMut = text.parse().map_err(|e: toml_edit::TomlError| e.to_string())?;
+        let root = document.as_table_mut();
+        match self {
+            Self::Set { option, value } => match option.key.map_or("", |key| key.table) {
+                "" => set(root, option.name(), value.as_ref()),
+                table => {
+                    let item = root.entry(table).or_insert_with(toml_edit::table);
+                    let inner = item.as_table_mut().ok_or_else(|| format!("[{table}] is not a table"))?;
+                    set(inner, option.name(), value.as_ref());
+                }
+            },
+            Self::Mesh { file } => set(root, "mesh", Some(&file.into())),
+            Self::Component { name, option, value } => {
+                let key = option.name();
+                let list = list(root, "component")?;
+                match (find(list, "name", name), value) {
+                    (Some(place), _) => {
+                        list.get_mut(place).into_iter().for_each(|t| set(t, key, value.as_ref()))
+                    }
+                    (None, Some(_)) => {
+                        let mut table = named("name", name);
+                        set(&mut table, key, value.as_ref());
+                        list.push(table);
+                    }
+                    (None, None) => {}
+                }
+            }
+            Self::Reset { name } => {
+                let list = list(root, "component")?;
+                if let Some(table) = find(list, "name", name).and_then(|place| list.get_mut(place)) {
+                    let options = [&RENAME, &DIRECTION, &TOP_EDGES, &PROFILE_VERTICES];
+                    options.iter().for_each(|option| drop(table.remove(option.name())));
+                }
+            }
+            Self::Forget { name } => remove(list(root, "component")?, "name", name),
+            Self::Merge { names } => {
+                let components = list(root, "component")?;
+                names.iter().skip(1).for_each(|name| remove(components, "name", name));
+                let mut table = Table::new();
+                table["merge"] = toml_edit::value(names.iter().collect::<Array>());
+                list(root, "edit")?.push(table);
+            }
+            Self::Split { name, point, normal } => {
+                let mut table = named("split", name);
+                table["point"] = toml_edit::value(rounded(*point));
+                table["normal"] = toml_edit::value(rounded(*normal));
+                list(root, "edit")?.push(table);
+            }
+            Self::Pin { piece, place } => {
+                let list = list(root, "pin")?;
+                remove(list, "piece", piece);
+                list.extend(place.iter().map(|pin| pin_table(piece, pin)));
+            }
+        }
+        Ok(document.to_string())
+    }
+}
+
+/// The name of an option in words.
+fn words(option: &Entry) -> String {
+    option.name().replace('_', " ")
+}
+
+fn set(table: &mut Table, key: &str, value: Option<&Value>) {
+    match value {
+        // What stands beside the old value, such as a comment, stays there.
+        Some(value) => match table.get_mut(key).and_then(Item::as_value_mut) {
+            Some(old) => {
+                let mut new = value.clone();
+                *new.decor_mut() = old.decor().clone();
+                *old = new;
+            }
+            None => drop(table.insert(key, Item::Value(value.clone()))),
+        },
+        None => drop(table.remove(key)),
+    }
+}
+
+fn named(key: &str, name: &str) -> Table {
+    let mut table = Table::new();
+    table[key] = toml_edit::value(name);
+    table
+}
+
+fn remove(list: &mut ArrayOfTables, key: &str, name: &str) {
+    if let Some(place) = find(list, key, name) {
+        list.remove(place);
+    }
+}
+
+fn pin_table(piece: &str, pin: &Pin) -> Table {
+    let mut table = named("piece", piece);
+    table["sheet"] = toml_edit::value(pin.sheet as i64 + 1);
+    table["x_mm"] = toml_edit::value(to_digits(pin.at_mm.x, 2));
+    table["y_mm"] = toml_edit::value(to_digits(pin.at_mm.y, 2));
+    table["turn"] = toml_edit::value(to_digits(pin.turn_rad.to_degrees(), 2));
+    table
+}
+
+fn list<'a>(root: &'a mut Table, key: &str) -> Result<&'a mut ArrayOfTables, String> {
+    let item = root.entry(key).or_insert_with(|| Item::ArrayOfTables(ArrayOfTables::new()));
+    item.as_array_of_tables_mut()
+        .ok_or_else(|| format!("write [[{key}]] tables instead of a list {key} = [ ]"))
+}
+
+fn find(list: &ArrayOfTables, key: &str, name: &str) -> Option<usize> {
+    list.iter().position(|table| table.get(key).and_then(Item::as_str) == Some(name))
+}
+
+/// A number with so many digits after the point.
+pub fn to_digits(x: f64, digits: i32) -> f64 {
+    let power = 10f64.powi(digits);
+    (x * power).round() / power
+}
+
+/// Six significant digits of the longest coordinate.
+fn rounded(v: DVec3) -> Array {
+    let digits = 5 - v.abs().max_element().max(1e-12).log10().floor() as i32;
+    v.to_array().iter().map(|&x| to_digits(x, digits)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tatamu::project::Project;
+    use tatamu::project::options::{LEVEL, MARGIN, PAPER, ROOT, SIZE, TOLERANCE, choose};
+
+    const TEXT: &str = "mesh = 'a.obj' # the bear\n\n[paper]\nsize = \"a4\" # in the tray\n\n[[component]]\nname = \"body\"\n";
+
+    fn changed(changes: &[Change]) -> (String, Project) {
+        let mut text = TEXT.to_owned();
+        for change in changes {
+            text = change.apply(&text).unwrap();
+        }
+        let project = Project::parse(&text).unwrap();
+        (text, project)
+    }
+
+    fn component(name: &str, option: &'static Entry, value: Option<Value>) -> Change {
+        Change::Component { name: name.to_owned(), option, value }
+    }
+
+    #[test]
+    fn what_shapes_components_is_no_change_for_drawn_ones() {
+        let of_parts = |option: &'static Entry| Change::Set { option, value: None }.is_of_parts();
+        assert!([&LEVEL, &TOP_EDGES, &TOLERANCE, &ROOT].into_iter().all(of_parts));
+        assert!(![&SIZE, &PAPER, &MARGIN].into_iter().any(of_parts));
+    }
+
+    #[test]
+    fn comments_stay_where_they_are() {
+        let (text, project) = changed(&[
+            Change::Set { option: &PAPER, value: Some("a3".into()) },
+            Change::Set { option: &SIZE, value: Some(150.0.into()) },
+        ]);
+        assert!(text.contains("# the bear") && text.contains("size = \"a3\" # in the tray"), "{text}");
+        let model = choose(Some(&project), &[]).unwrap().model;
+        assert_eq!((model.size_mm, model.paper.name().as_str()), (150.0, "a3"));
+    }
+
+    #[test]
+    fn components_are_found_made_and_reset() {
+        let (_, project) = changed(&[
+            component("body", &DIRECTION, Some(30.0.into())),
+            component("head", &TOP_EDGES, Some(5.into())),
+            component("head", &DIRECTION, Some(10.0.into())),
+            component("head", &DIRECTION, None),
+            component("leg", &DIRECTION, None),
+        ]);
+        assert_eq!(project.components.len(), 2);
+        assert_eq!(project.components[0].direction_deg, Some(30.0));
+        let head = &project.components[1];
+        assert_eq!((head.top_edges, head.direction_deg), (Some(5), None));
+        let (_, project) = changed(&[
+            component("body", &RENAME, Some("trunk".into())),
+            Change::Reset { name: "body".to_owned() },
+        ]);
+        assert_eq!(project.components[0].rename, None);
+    }
+
+    #[test]
+    fn parts_are_merged_and_split() {
+        let (_, project) = changed(&[
+            component("part-2", &DIRECTION, Some(10.0.into())),
+            Change::Merge { names: vec!["body".to_owned(), "part-2".to_owned()] },
+            Change::Split {
+                name: "body".to_owned(),
+                point: DVec3::new(0.0, 1.0 / 3.0, 2e3),
+                normal: DVec3::Y,
+            },
+        ]);
+        assert_eq!(project.edits.len(), 2);
+        assert_eq!(project.components.len(), 1, "part-2 is no more");
+    }
+
+    #[test]
+    fn what_is_no_table_is_told() {
+        let change = component("body", &DIRECTION, Some(3.0.into()));
+        assert!(change.apply("mesh = 'a'\ncomponent = []\n").unwrap_err().contains("[[component]]"));
+        let set = Change::Set { option: &PAPER, value: Some("a3".into()) };
+        assert!(set.apply("paper = 3\n").unwrap_err().contains("[paper]"));
+    }
+}

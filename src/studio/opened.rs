@@ -1,0 +1,100 @@
+//! A file that is open.
+
+use crate::app::choice::Choice;
+use crate::app::error::AppError;
+use crate::app::input::Shape;
+use crate::app::{input, project};
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use tatamu::design::Sketch;
+use tatamu::export::FormatOptions;
+use tatamu::mesh::Repairs;
+use tatamu::pipeline::{Engine, Options, Output, shape_drawn};
+use tatamu::product::Product;
+use tatamu::progress::Silent;
+use tatamu::project::Project;
+use tatamu::project::options::Settings;
+use tatamu::report::Run;
+
+/// A file that is open.
+pub struct Opened {
+    /// What the user opened: a mesh or a project file.
+    pub source: PathBuf,
+    /// The drawings, where the components are drawn.
+    pub drawn: Option<Arc<Vec<Sketch>>>,
+    /// The mesh file, or the project file that holds the drawings.
+    pub mesh_path: PathBuf,
+    /// What was done to the mesh to make it clean.
+    pub repairs: Repairs,
+    /// The mesh, with all that is made of it.
+    pub engine: Arc<Engine<'static>>,
+    /// Text of the project file; a fresh one for a mesh.
+    pub text: String,
+    /// Whether the source is a project file.
+    pub is_project: bool,
+}
+
+impl Opened {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// A message that says what is wrong with which file.
+    pub fn read(source: &Path) -> Result<Self, String> {
+        let input = input::read(source).map_err(|error| error.to_string())?;
+        let (mesh, drawn) = match input.shape {
+            Shape::Mesh(mesh) => (mesh, None),
+            Shape::Drawn(sketches) => {
+                let options = Options::default();
+                let shaped =
+                    shape_drawn(&sketches, None, &options, &Silent).map_err(|error| error.to_string())?;
+                (shaped.divided().mesh().clone(), Some(Arc::new(sketches)))
+            }
+        };
+        let is_project = input.project.is_some();
+        let text = if is_project {
+            let bytes = input::read_file(source).map_err(|error| error.to_string())?;
+            String::from_utf8(bytes).map_err(|error| error.to_string())?
+        } else {
+            let project = source.with_extension("toml");
+            let name = project::mesh_from(&project, source).map_err(|error| error.to_string())?;
+            project::project_text(&name, Settings::standard(), &[])
+        };
+        Ok(Self {
+            source: source.to_owned(),
+            drawn,
+            mesh_path: input.mesh_path,
+            repairs: input.repairs,
+            engine: Arc::new(Engine::new(Cow::Owned(mesh))),
+            text,
+            is_project,
+        })
+    }
+
+    /// Gives what was made, with the look and the colours that the project asks for, and its options of
+    /// formats.
+    ///
+    /// # Errors
+    /// The style file or the colours cannot be read.
+    pub fn with_product<T>(
+        &self,
+        project: &Project,
+        output: &Output,
+        give: impl FnOnce(Product<'_>, FormatOptions) -> T,
+    ) -> Result<T, AppError> {
+        let choice = Choice::new(Some(project), &[])?.files(&self.source)?;
+        let painting = choice.is_coloured.then(|| input::read_painting(&self.mesh_path)).transpose()?;
+        let warnings = input::repair_warnings(&self.repairs);
+        let mesh_path = self.mesh_path.to_string_lossy();
+        let run = Run { path: &mesh_path, repairs: &self.repairs, stages: &[], warnings: &warnings };
+        let title = self.title();
+        let product = Product::new(output, &title, run).with_styles(choice.styles);
+        Ok(give(product.with_painting(painting.as_ref()), choice.formats))
+    }
+
+    /// The title of what is made: the file's name without its extension.
+    pub fn title(&self) -> String {
+        let stem = self.source.file_stem().unwrap_or_default();
+        crate::app::text::printable(&stem.to_string_lossy())
+    }
+}

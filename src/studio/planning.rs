@@ -1,0 +1,120 @@
+//! The plan of a job for the cutter, made in a thread of its own, sheet by sheet.
+
+use super::opened::Opened;
+use super::pages;
+use super::worker::Wake;
+use crate::app::plot::sheets::{self, Sheet};
+use crate::app::profiles;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::{Arc, OnceLock};
+use tatamu::drawing::Drawing;
+use tatamu::export::PltOptions;
+use tatamu::pipeline::Output;
+use tatamu::plotter::preview;
+use tatamu::project::Project;
+
+/// The job as it would be sent.
+pub struct Plan {
+    /// The machine with its medium.
+    pub machine: PltOptions,
+    /// What is sent for each sheet.
+    pub sheets: Vec<Sheet>,
+    /// Pictures of the sheets.
+    pub previews: Vec<Drawing>,
+}
+
+/// What a plan is made of.
+pub struct Wish {
+    /// The file.
+    pub opened: Arc<Opened>,
+    /// Its project.
+    pub project: Project,
+    /// The sheets.
+    pub output: Output,
+    /// Name of the cutter.
+    pub cutter: String,
+    /// Name of the medium.
+    pub media: String,
+}
+
+/// A plan that is being made. It stops when this is dropped.
+pub struct Planning {
+    made: Receiver<Result<Plan, String>>,
+    hand: Hand,
+}
+
+/// What the thread and the window share.
+#[derive(Clone)]
+struct Hand {
+    is_stopped: Arc<AtomicBool>,
+    done: Arc<AtomicUsize>,
+    all: Arc<OnceLock<usize>>,
+}
+
+impl Planning {
+    /// Begins to plan.
+    pub fn start(wish: Wish, wake: Wake) -> Self {
+        let (sender, made) = channel();
+        let hand = Hand {
+            is_stopped: Arc::new(AtomicBool::new(false)),
+            done: Arc::new(AtomicUsize::new(0)),
+            all: Arc::new(OnceLock::new()),
+        };
+        let own = hand.clone();
+        std::thread::spawn(move || {
+            if let Some(plan) = own.plan(&wish, &wake).transpose() {
+                // Nobody waits for a plan that was stopped.
+                let _ = sender.send(plan);
+                wake();
+            }
+        });
+        Self { made, hand }
+    }
+
+    /// The plan, once it is made.
+    pub fn made(&self) -> Option<Result<Plan, String>> {
+        match self.made.try_recv() {
+            Ok(plan) => Some(plan),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => Some(Err("planning was stopped".to_owned())),
+        }
+    }
+
+    /// So much of it is done, 0 to 1.
+    pub fn share(&self) -> f32 {
+        let all = self.hand.all.get().copied().unwrap_or(1).max(1);
+        self.hand.done.load(Ordering::Relaxed) as f32 / all as f32
+    }
+}
+
+impl Drop for Planning {
+    fn drop(&mut self) {
+        self.hand.is_stopped.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Hand {
+    /// The plan; nothing where nobody wants it any more.
+    fn plan(&self, wish: &Wish, wake: &Wake) -> Result<Option<Plan>, String> {
+        let machine = profiles::machine(Some(&wish.cutter), Some(&wish.media)).map_err(|e| e.to_string())?;
+        let drawings = pages::drawings(&wish.opened, &wish.project, &wish.output)?;
+        // Each sheet is planned, then drawn.
+        let _ = self.all.set(2 * drawings.len());
+        let step = || {
+            self.done.fetch_add(1, Ordering::Relaxed);
+            wake();
+            !self.is_stopped.load(Ordering::Relaxed)
+        };
+        let sheets = sheets::of_drawings_while(&wish.opened.title(), &drawings, &machine, &step);
+        let Some(sheets) = sheets.map_err(|e| e.to_string())? else { return Ok(None) };
+        let mut previews = Vec::new();
+        for sheet in &sheets {
+            previews.push(preview(sheet.job(), &machine.cutter, sheet.placement()));
+            if !step() {
+                return Ok(None);
+            }
+        }
+        Ok(Some(Plan { machine, sheets, previews }))
+    }
+}

@@ -1,0 +1,149 @@
+//! A job on its way to the cutter, in a thread of its own.
+
+use super::worker::Wake;
+use crate::app::error::AppError;
+use crate::app::output;
+use crate::app::plot::Sheet;
+use crate::app::plot::live;
+use crate::app::plot::{Operator, SerialPorts, doing, minutes};
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
+use tatamu::plotter::Cutter;
+use tatamu::plotter::journal::Position;
+use tatamu::plotter::session::Status;
+use tatamu::progress::Cancelled;
+
+/// Time between two looks at what the user wants.
+const LOOK: Duration = Duration::from_millis(10);
+
+/// How far a job is.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct State {
+    /// What happens, in words.
+    pub text: String,
+    /// Share of the sheet that is done.
+    pub share: f32,
+    /// The sheet that is to be loaded.
+    pub wants_sheet: Option<String>,
+    /// What the machine and the session had to say.
+    pub notes: Vec<String>,
+    /// Whether the tool is to be lifted until further notice.
+    pub is_paused: bool,
+    /// How often it was asked to stop.
+    pub stops: u32,
+    /// How it ended.
+    pub end: Option<Result<(), String>>,
+}
+
+/// A job on its way.
+pub struct Plotting {
+    state: Arc<Mutex<State>>,
+}
+
+impl Plotting {
+    /// Begins to send sheets. The journal is kept in `journal` until all is done.
+    pub fn start(
+        cutter: &Cutter,
+        port: &str,
+        copies: u16,
+        sheets: &[Sheet],
+        journal: PathBuf,
+        wake: Wake,
+    ) -> Self {
+        let state = Arc::new(Mutex::new(State { text: "opening the port".to_owned(), ..State::default() }));
+        let header = live::header(sheets, cutter, port.to_owned(), copies);
+        let mut hand = Hand { state: state.clone(), wake };
+        std::thread::spawn(move || {
+            let sent = output::check_places(std::slice::from_ref(&journal), &[]).and_then(|()| {
+                live::send_all(&SerialPorts, &mut hand, &journal, &header, Position::default())
+            });
+            let end = sent.map_err(|error| error.to_string());
+            locked(&hand.state).end = Some(end);
+            (hand.wake)();
+        });
+        Self { state }
+    }
+
+    /// How far it is.
+    pub fn state(&self) -> State {
+        locked(&self.state).clone()
+    }
+
+    /// Whether it has not ended.
+    pub fn is_running(&self) -> bool {
+        locked(&self.state).end.is_none()
+    }
+
+    /// Lifts the tool until further notice, or goes on.
+    pub fn pause(&self) {
+        let mut state = locked(&self.state);
+        state.is_paused = !state.is_paused;
+    }
+
+    /// Lifts the tool and stops.
+    pub fn stop(&self) {
+        locked(&self.state).stops += 1;
+    }
+
+    /// The sheet is loaded.
+    pub fn loaded(&self) {
+        locked(&self.state).wants_sheet = None;
+    }
+}
+
+fn locked(state: &Mutex<State>) -> MutexGuard<'_, State> {
+    state.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The user, as the thread knows them.
+struct Hand {
+    state: Arc<Mutex<State>>,
+    wake: Wake,
+}
+
+impl Operator for Hand {
+    fn load(&mut self, sheet: &str, (copy, copies): (u16, u16)) -> Result<(), AppError> {
+        let copy = if copies > 1 { format!(" (copy {copy} of {copies})") } else { String::new() };
+        locked(&self.state).wants_sheet = Some(format!("{sheet}{copy}"));
+        (self.wake)();
+        while locked(&self.state).wants_sheet.is_some() {
+            if self.stops() > 0 {
+                return Err(AppError::Cancelled(Cancelled));
+            }
+            std::thread::sleep(LOOK);
+        }
+        Ok(())
+    }
+
+    fn stops(&mut self) -> u32 {
+        locked(&self.state).stops
+    }
+
+    fn pauses(&mut self, _: bool) -> bool {
+        locked(&self.state).is_paused
+    }
+
+    fn note(&mut self, text: &str) {
+        locked(&self.state).notes.push(text.to_owned());
+        (self.wake)();
+    }
+
+    fn show(&mut self, sheet: &str, first: usize, status: &Status) {
+        let (done, all) = (first + status.strokes_done, first + status.strokes);
+        let left = minutes(status.seconds_left);
+        let mut state = locked(&self.state);
+        state.text = format!("{sheet}: stroke {done} of {all}, {left} left ({})", doing(status.state));
+        state.share = done as f32 / all.max(1) as f32;
+        drop(state);
+        (self.wake)();
+    }
+
+    fn stopped(&mut self, journal: &Path, (done, strokes): (usize, usize)) {
+        let text = format!(
+            "{done} of {strokes} strokes of this sheet are certainly done; go on with: tatamu plot --resume {}",
+            journal.display()
+        );
+        self.note(&text);
+    }
+}

@@ -1,0 +1,93 @@
+//! Reading and writing files in the background.
+
+use super::opened::Opened;
+use super::worker::Wake;
+use crate::app::make;
+use crate::app::output::{self, Target};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use tatamu::pipeline::Output;
+use tatamu::project::Project;
+
+/// What was done, or why not.
+pub enum Finished {
+    /// A file was read.
+    Opened(Result<Box<Opened>, String>),
+    /// Files were written; their names.
+    Exported(Result<Vec<String>, String>),
+}
+
+/// Threads that read and write.
+pub struct Tasks {
+    sender: Sender<(u64, Finished)>,
+    finished: Receiver<(u64, Finished)>,
+    /// Only the file that was asked for last is opened.
+    last_open: u64,
+    running: usize,
+    wake: Wake,
+}
+
+impl Tasks {
+    /// None yet.
+    pub fn new(wake: Wake) -> Self {
+        let (sender, finished) = channel();
+        Self { sender, finished, last_open: 0, running: 0, wake }
+    }
+
+    /// Whether something is being read or written.
+    pub fn is_busy(&self) -> bool {
+        self.running > 0
+    }
+
+    /// What was done since the last look.
+    pub fn finished(&mut self) -> Option<Finished> {
+        while let Ok((number, finished)) = self.finished.try_recv() {
+            self.running = self.running.saturating_sub(1);
+            if number == self.last_open || matches!(finished, Finished::Exported(_)) {
+                return Some(finished);
+            }
+        }
+        None
+    }
+
+    fn spawn(&mut self, number: u64, task: impl FnOnce() -> Finished + Send + 'static) {
+        self.running += 1;
+        let (sender, wake) = (self.sender.clone(), self.wake.clone());
+        std::thread::spawn(move || {
+            let _ = sender.send((number, task()));
+            wake();
+        });
+    }
+
+    /// Begins to read a file.
+    pub fn open(&mut self, path: &Path) {
+        self.last_open += 1;
+        let path = path.to_owned();
+        self.spawn(self.last_open, move || Finished::Opened(Opened::read(&path).map(Box::new)));
+    }
+
+    /// Begins to write files.
+    pub fn export(&mut self, opened: Arc<Opened>, project: &Project, output: Output, targets: Vec<Target>) {
+        let project = project.clone();
+        self.spawn(0, move || Finished::Exported(export(&opened, &project, &output, targets)));
+    }
+}
+
+fn export(
+    opened: &Opened,
+    project: &Project,
+    output: &Output,
+    targets: Vec<Target>,
+) -> Result<Vec<String>, String> {
+    let run = || {
+        let paths: Vec<PathBuf> = targets.iter().map(|target| target.path.clone()).collect();
+        output::check_places(&paths, &[&opened.source, &opened.mesh_path])?;
+        let files = opened.with_product(project, output, |product, formats| {
+            make::written(targets, &[("", product)], &formats)
+        })??;
+        output::write(&files)?;
+        Ok(files.iter().map(|(path, _)| path.display().to_string()).collect())
+    };
+    run().map_err(|error: crate::app::error::AppError| error.to_string())
+}

@@ -1,0 +1,214 @@
+//! The studio without its window.
+
+use super::change::Change;
+use super::state::Studio;
+use super::store::Store;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+use tatamu::project::Project;
+use tatamu::project::options::{DIRECTION, PAPER, TOP_EDGES};
+
+/// A studio with a small model, quick to make, in a folder of its own.
+pub struct Desk {
+    pub studio: Studio,
+    pub folder: tempfile::TempDir,
+}
+
+/// What can be waited for.
+pub fn wait(studio: &mut Studio, what: &str, is_so: impl Fn(&Studio) -> bool) {
+    let start = Instant::now();
+    while !is_so(studio) {
+        assert!(start.elapsed() < Duration::from_secs(120), "waited too long for {what}");
+        studio.poll();
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+pub fn snowman(folder: &Path) -> PathBuf {
+    let mesh = folder.join("snowman.obj");
+    std::fs::write(&mesh, include_bytes!("../../samples/snowman.obj")).unwrap();
+    let project = folder.join("snowman.toml");
+    let text = "# of snow\nmesh = \"snowman.obj\"\n[segmentation]\nparts = 3\n[defaults]\ntop_edges = 4\nprofile_vertices = 4\n";
+    std::fs::write(&project, text).unwrap();
+    project
+}
+
+pub fn desk() -> Desk {
+    let folder = tempfile::tempdir().unwrap();
+    let project = snowman(folder.path());
+    let mut studio = Studio::new(Store::at(&folder.path().join("state")), Arc::new(|| {}));
+    studio.open(&project);
+    wait(&mut studio, "a model", |s| s.finished().is_some());
+    Desk { studio, folder }
+}
+
+#[test]
+fn a_turn_shows_the_component_first_and_is_undone() {
+    let Desk { mut studio, folder: _folder } = desk();
+    let before = studio.shown().shaped().unwrap().model().clone();
+    let was = studio.direction_deg(1).unwrap();
+    studio.turn(1, 25.0);
+    assert!(studio.finished().is_none(), "the old results are those of another project");
+    assert!(studio.shown().output().is_some(), "but they stay");
+    wait(&mut studio, "the component", |s| s.shown().part(1).unwrap() != &before.parts()[1]);
+    let ahead = studio.shown().part(1).unwrap().clone();
+    wait(&mut studio, "the model", |s| s.finished().is_some());
+    assert_eq!(studio.shown().part(1).unwrap().component, ahead.component);
+    assert_eq!(studio.direction_deg(1).unwrap(), super::change::to_digits(was + 25.0, 1));
+    studio.undo();
+    wait(&mut studio, "the old model", |s| s.finished().is_some());
+    assert!(studio.shown().shaped().unwrap().model() == &before);
+    studio.redo();
+    wait(&mut studio, "the new model", |s| s.finished().is_some());
+    assert_eq!(studio.shown().part(1).unwrap().component, ahead.component);
+}
+
+#[test]
+fn what_is_saved_is_what_the_command_line_reads() {
+    let Desk { mut studio, folder } = desk();
+    let name = studio.shown().names()[2].clone();
+    studio.selection.select(&name, None, false);
+    studio.turn(2, 10.0);
+    studio.change(&Change::Set { option: &PAPER, value: Some("a3".into()) }, None);
+    assert!(studio.document().unwrap().is_changed());
+    assert!(studio.save());
+    assert!(!studio.document().unwrap().is_changed());
+    let text = std::fs::read_to_string(folder.path().join("snowman.toml")).unwrap();
+    assert!(text.starts_with("# of snow\n"));
+    let project = Project::parse(&text).unwrap();
+    assert_eq!(project.settings().model.paper.name(), "a3");
+    assert_eq!(project.components[0].name, name);
+    let elsewhere = folder.path().join("sub");
+    std::fs::create_dir(&elsewhere).unwrap();
+    studio.save_as(&elsewhere.join("b.toml"));
+    let text = std::fs::read_to_string(elsewhere.join("b.toml")).unwrap();
+    let mesh = Project::parse(&text).unwrap().mesh.unwrap();
+    assert!(elsewhere.join(mesh).is_file(), "the mesh is found from another folder");
+}
+
+#[test]
+fn a_killed_studio_loses_nothing() {
+    let Desk { mut studio, folder } = desk();
+    studio.turn(1, 15.0);
+    let wanted = studio.document().unwrap().text().to_owned();
+    drop(studio);
+    let mut again = Studio::new(Store::at(&folder.path().join("state")), Arc::new(|| {}));
+    again.open(&folder.path().join("snowman.toml"));
+    wait(&mut again, "the project", |s| s.document().is_some());
+    assert_eq!(again.document().unwrap().text(), wanted);
+    assert!(again.notice().unwrap().contains("not saved"));
+    again.undo();
+    assert!(!again.document().unwrap().is_changed(), "undo drops what was recovered");
+    assert_eq!(again.recent().len(), 1);
+}
+
+#[test]
+fn parts_are_merged_and_split() {
+    let Desk { mut studio, folder: _folder } = desk();
+    let names = studio.shown().names().to_vec();
+    studio.selection.select(&names[0], None, false);
+    studio.selection.select(&names[2], None, true);
+    studio.merge_selected();
+    wait(&mut studio, "two parts", |s| s.finished().is_some() || s.problem().is_some());
+    assert_eq!((studio.shown().names().len(), studio.problem()), (2, None));
+    let part = studio.index_of(&names[0]).unwrap();
+    let frame = studio.shown().part(part).unwrap().deployed();
+    studio.split(part, frame.translation, glam::DVec3::Z);
+    wait(&mut studio, "three parts", |s| s.finished().is_some() || s.problem().is_some());
+    assert_eq!(studio.shown().names().len(), 3, "{:?}", studio.problem());
+}
+
+#[test]
+fn what_goes_wrong_is_told_and_the_last_result_stays() {
+    let Desk { mut studio, folder } = desk();
+    let none = Change::Component { name: "tail".to_owned(), option: &DIRECTION, value: Some(3.0.into()) };
+    studio.change(&none, None);
+    wait(&mut studio, "a problem", |s| s.problem().is_some());
+    assert!(studio.problem().unwrap().contains("no component \"tail\""));
+    assert!(studio.shown().output().is_some());
+    assert_eq!(studio.missing(), Some("tail"));
+    studio.change(&Change::Forget { name: "tail".to_owned() }, None);
+    wait(&mut studio, "the model again", |s| s.finished().is_some());
+    studio.undo();
+    studio.undo();
+    wait(&mut studio, "the model again", |s| s.finished().is_some());
+    assert_eq!(studio.problem(), None);
+    studio.open(&folder.path().join("missing.obj"));
+    wait(&mut studio, "a problem", |s| s.problem().is_some());
+    assert!(studio.problem().unwrap().contains("missing.obj"));
+    assert!(studio.finished().is_some());
+}
+
+/// The message was lost when the model that was being made meanwhile was done.
+#[test]
+fn that_a_file_cannot_be_read_is_told_though_other_work_ends_well() {
+    let Desk { mut studio, folder } = desk();
+    studio.change(&Change::Set { option: &TOP_EDGES, value: Some(5.into()) }, None);
+    studio.open(&folder.path().join("missing.obj"));
+    wait(&mut studio, "a problem", |s| s.problem().is_some());
+    wait(&mut studio, "the model", |s| s.finished().is_some() && s.busy().is_none());
+    assert!(studio.problem().unwrap().contains("missing.obj"));
+}
+
+#[test]
+fn work_can_be_stopped() {
+    let Desk { mut studio, folder: _folder } = desk();
+    studio.change(&Change::Set { option: &TOP_EDGES, value: Some(9.into()) }, None);
+    studio.cancel();
+    assert!(studio.busy().is_none());
+    std::thread::sleep(Duration::from_millis(300));
+    studio.poll();
+    assert!(studio.finished().is_none(), "nothing comes of what was stopped");
+    studio.undo();
+    wait(&mut studio, "the model", |s| s.finished().is_some());
+}
+
+#[test]
+fn distances_are_measured_when_asked_for() {
+    let Desk { mut studio, folder: _folder } = desk();
+    assert!(studio.shown().distances().is_none());
+    studio.measure(true);
+    wait(&mut studio, "distances", |s| s.shown().distances().is_some());
+    let distances = studio.shown().distances().unwrap();
+    let parts = studio.shown().shaped().unwrap().model().parts().to_vec();
+    let worst = parts.iter().map(|p| p.component.hausdorff_mm()).fold(0.0, f64::max);
+    // Of faces' middles only, but of the mesh rather than of its hull, which is farther inside.
+    assert!(distances.most_mm > 0.0 && f64::from(distances.most_mm) < 20.0 * worst);
+}
+
+#[test]
+fn sheets_are_there_before_the_folding_is_known() {
+    let Desk { mut studio, folder: _folder } = desk();
+    studio.turn(1, 25.0);
+    wait(&mut studio, "the sheets", |s| s.laid().is_some());
+    // News come one by one, but several may be taken at once.
+    let is_whole = studio.shown().is_folded();
+    assert_eq!(studio.finished().is_some(), is_whole);
+    let sheets = studio.laid().unwrap().layout().sheet_count();
+    wait(&mut studio, "the model", |s| s.finished().is_some());
+    assert_eq!(studio.finished().unwrap().layout().sheet_count(), sheets);
+    assert_eq!(studio.finished().unwrap().fold_plan().stacks().len(), 1, "it is checked now");
+}
+
+#[test]
+fn a_drawn_model_opens_and_keeps_its_shape() {
+    let folder = tempfile::tempdir().unwrap();
+    let project = folder.path().join("gift-box.toml");
+    std::fs::write(&project, include_bytes!("../../samples/gift-box.toml")).unwrap();
+    let mut studio = Studio::new(Store::at(&folder.path().join("state")), Arc::new(|| {}));
+    studio.open(&project);
+    wait(&mut studio, "a model", |s| s.finished().is_some() || s.problem().is_some());
+    assert_eq!(studio.problem(), None);
+    assert_eq!(studio.shown().names(), ["box", "lid", "knob"]);
+    let before = studio.document().unwrap().text().to_owned();
+    studio.turn(0, 5.0);
+    assert!(studio.notice().is_some_and(|notice| notice.contains("drawn")));
+    assert_eq!(studio.document().unwrap().text(), before);
+    studio.change(&Change::Set { option: &PAPER, value: Some("a3".into()) }, None);
+    wait(&mut studio, "larger sheets", |s| s.finished().is_some());
+    assert!(studio.save());
+    assert!(
+        Project::parse(&std::fs::read_to_string(&project).unwrap()).unwrap().sketches().unwrap().len() == 3
+    );
+}

@@ -1,0 +1,234 @@
+//! The panel at the left: the dials of the whole model, the components, and the one that is selected.
+
+use super::super::change::Change;
+use super::super::state::Studio;
+use super::dials;
+use super::space::Space;
+use super::values::Dialled;
+use eframe::egui::{self, CollapsingHeader, Color32, Grid, RichText, Ui};
+use glam::DVec3;
+use tatamu::component::PrincipalAxis;
+use tatamu::project::options::{DIRECTION, PROFILE_VERTICES, RENAME, ROOT, TOP_EDGES};
+use tatamu::render::palette;
+
+/// What the panel remembers.
+#[derive(Debug, Default)]
+pub struct PartsPanel {
+    /// The name that is being written, and of which component.
+    renaming: Option<(String, String)>,
+    split: Option<Split>,
+}
+
+/// A plane that the user moves about before a part is split.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Split {
+    axis: usize,
+    share: f64,
+    /// Whether it has not been seen yet.
+    is_new: bool,
+}
+
+const AXES: [(&str, DVec3); 4] = [
+    ("across left and right", DVec3::X),
+    ("across front and back", DVec3::Y),
+    ("across top and bottom", DVec3::Z),
+    ("across its length", DVec3::ZERO),
+];
+
+/// Draws the panel.
+pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: &mut Ui) {
+    ui.add_space(6.0);
+    CollapsingHeader::new("Whole model").default_open(true).show(ui, |ui| {
+        Grid::new("model").num_columns(2).show(ui, |ui| dials::model(studio, ui));
+    });
+    CollapsingHeader::new("Components").default_open(true).show(ui, |ui| components(studio, ui));
+    if let Some(index) = studio.selected_index() {
+        let title = studio.shown().part(index).map_or(String::new(), |part| part.name.clone());
+        CollapsingHeader::new(RichText::new(title).strong()).id_salt("own").default_open(true).show(
+            ui,
+            |ui| match studio.is_drawn() {
+                true => drop(ui.weak("drawn in the project file")),
+                false => {
+                    own(panel, studio, ui, index);
+                    splitting(panel, studio, space, ui, index);
+                }
+            },
+        );
+    } else {
+        panel.split = None;
+        space.show_split(None);
+    }
+    if studio.selection.names().len() > 1 && !studio.is_drawn() {
+        let names = studio.selection.names().join(" and ");
+        if ui.button("Merge").on_hover_text(format!("makes one part of {names} (M)")).clicked() {
+            studio.merge_selected();
+        }
+    }
+    CollapsingHeader::new("Paper and pieces").default_open(false).show(ui, |ui| {
+        Grid::new("paper").num_columns(2).show(ui, |ui| dials::paper(studio, ui));
+    });
+}
+
+/// The list of components.
+fn components(studio: &mut Studio, ui: &mut Ui) {
+    let names = studio.shown().names().to_vec();
+    if names.is_empty() {
+        ui.weak("none yet");
+    }
+    let mut clicked = None;
+    for (index, name) in names.iter().enumerate() {
+        let Some(part) = studio.shown().part(index) else { continue };
+        ui.horizontal(|ui| {
+            let colour = palette::colour(index);
+            let (rect, _) = ui.allocate_exact_size(egui::vec2(12.0, 12.0), egui::Sense::hover());
+            ui.painter().rect_filled(rect, 3.0, Color32::from_rgb(colour.0, colour.1, colour.2));
+            if ui.selectable_label(studio.selection.has(name), &part.name).clicked() {
+                clicked = Some(name.clone());
+            }
+            if !studio.is_drawn() {
+                ui.weak(format!("{:.1} mm", part.component.hausdorff_mm()))
+                    .on_hover_text("how far the component is from its part's hull, at most");
+            }
+        });
+    }
+    if let Some(name) = clicked {
+        let adds = ui.input(|i| i.modifiers.shift || i.modifiers.command);
+        studio.selection.select(&name, None, adds);
+    }
+}
+
+/// The component that is selected.
+fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: usize) {
+    let Some(name) = studio.shown().names().get(index).cloned() else { return };
+    let Some(options) = studio.document().map(|d| d.options().clone()) else { return };
+    let own = options.components.get(&name).cloned().unwrap_or_default();
+    Grid::new("component").num_columns(2).show(ui, |ui| {
+        rename_row(panel, studio, ui, &name, own.rename.as_deref().unwrap_or(&name));
+        let now = studio.direction_deg(index).unwrap_or_default();
+        Dialled::new(&DIRECTION).component_row(studio, ui, &name, (now, own.direction_rad.is_some()));
+        let made = studio.shown().shaped().and_then(|shaped| shaped.model().parts().get(index));
+        let made = made.map_or((3, 3), |part| {
+            let profiles = part.component.profiles();
+            (profiles.len(), profiles.iter().map(|profile| profile.points().len()).max().unwrap_or(3))
+        });
+        let edges = own.top_edges.or(options.top_edges).unwrap_or(made.0) as f64;
+        let row = Dialled::new(&TOP_EDGES);
+        row.component_row(studio, ui, &name, (edges, own.top_edges.is_some()));
+        let vertices = own.profile_vertices.or(options.profile_vertices).unwrap_or(made.1) as f64;
+        let row = Dialled::new(&PROFILE_VERTICES);
+        row.component_row(studio, ui, &name, (vertices, own.profile_vertices.is_some()));
+        figures(studio, ui, index);
+    });
+    ui.horizontal(|ui| {
+        if ui.button("Reset").on_hover_text("all of this component automatic again").clicked() {
+            studio.change(&Change::Reset { name: name.clone() }, None);
+        }
+        let is_root = options.root.as_deref() == Some(&name);
+        let text = "the component that all others hang on";
+        if ui.add_enabled(!is_root, egui::Button::new("Make root")).on_hover_text(text).clicked() {
+            let value = Some(name.clone().into());
+            studio.change(&Change::Set { option: &ROOT, value }, None);
+        }
+    });
+}
+
+fn rename_row(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, name: &str, now: &str) {
+    let label = ui.label("Name").on_hover_text("printed on the pieces");
+    let mut text = match &panel.renaming {
+        Some((of, text)) if of == name => text.clone(),
+        _ => now.to_owned(),
+    };
+    let field = ui.add(egui::TextEdit::singleline(&mut text).desired_width(120.0)).labelled_by(label.id);
+    if field.changed() {
+        panel.renaming = Some((name.to_owned(), text.clone()));
+    }
+    if field.lost_focus() {
+        panel.renaming = None;
+        if text != now {
+            let value = (text != name && !text.trim().is_empty()).then(|| text.trim().into());
+            studio.change(&Change::Component { name: name.to_owned(), option: &RENAME, value }, None);
+        }
+    }
+    ui.end_row();
+}
+
+/// What the component is worth.
+fn figures(studio: &Studio, ui: &mut Ui, index: usize) {
+    let (Some(part), Some(shaped)) = (studio.shown().part(index), studio.shown().shaped()) else { return };
+    let error_mm = part.component.hausdorff_mm();
+    let share = 100.0 * error_mm / shaped.divided().mesh().diagonal_mm();
+    ui.label("Distance")
+        .on_hover_text("Hausdorff distance from the part's hull, and its share of the model's diagonal");
+    ui.label(format!("{error_mm:.2} mm ({share:.1} %)"));
+    ui.end_row();
+    let gap =
+        part.component.profiles().iter().map(|p| p.gap_mm().abs() / p.mean_segment_mm()).fold(0.0, f64::max);
+    ui.label("Gap").on_hover_text(
+        "by how much the worst chain fails to fold flat, in its mean segments; below 1e-9 it is rounding",
+    );
+    ui.label(format!("{gap:.1e}"));
+    ui.end_row();
+    if let Some(joint) = &part.joint
+        && joint.support_ratio > 0.0
+        && let Some(parent) = shaped.model().parts().get(joint.parent)
+    {
+        ui.label("Joint").on_hover_text("how much of its joint panel lies on the other component");
+        ui.label(format!("{:.0} % on {}", 100.0 * joint.support_ratio, parent.name));
+        ui.end_row();
+    }
+}
+
+/// Splitting by a plane that is shown while it is moved.
+fn splitting(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: &mut Ui, index: usize) {
+    let Some(mut split) = panel.split else {
+        space.show_split(None);
+        if ui.button("Split …").on_hover_text("divides this part by a plane").clicked() {
+            panel.split = Some(Split { axis: 2, share: 0.5, is_new: true });
+        }
+        return;
+    };
+    let plane = plane(studio, index, split);
+    space.show_split(plane);
+    let is_new = std::mem::take(&mut split.is_new);
+    let group = ui.group(|ui| {
+        egui::ComboBox::from_id_salt("axis").selected_text(AXES[split.axis].0).show_ui(ui, |ui| {
+            for (k, (name, _)) in AXES.iter().enumerate() {
+                ui.selectable_value(&mut split.axis, k, *name);
+            }
+        });
+        ui.add(egui::Slider::new(&mut split.share, 0.02..=0.98).show_value(false).text("place"));
+        panel.split = Some(split);
+        ui.horizontal(|ui| {
+            if ui.button("Split here").clicked() {
+                if let Some((point, normal)) = plane {
+                    studio.split(index, point, normal);
+                }
+                panel.split = None;
+            }
+            if ui.button("Don't split").clicked() {
+                panel.split = None;
+            }
+        });
+    });
+    if is_new {
+        group.response.scroll_to_me(None);
+    }
+}
+
+/// The plane across a part's hull, in the model's axes.
+fn plane(studio: &Studio, index: usize, split: Split) -> Option<(DVec3, DVec3)> {
+    let hull = studio.shown().shaped()?.divided().hulls().hulls().get(index)?;
+    let normal = match AXES[split.axis].1 {
+        DVec3::ZERO => {
+            // Fold axes are across the length.
+            let axes = PrincipalAxis::of_hull(hull);
+            axes.fold_axis(0.0).cross(axes.fold_axis(std::f64::consts::FRAC_PI_2))
+        }
+        axis => axis,
+    };
+    let along = hull.vertices().iter().map(|v| v.dot(normal));
+    let (low, high) = along.fold((f64::MAX, f64::MIN), |(low, high), x| (low.min(x), high.max(x)));
+    let centre = hull.centroid();
+    let at = low + split.share * (high - low);
+    Some((centre + (at - centre.dot(normal)) * normal, normal))
+}

@@ -1,0 +1,279 @@
+//! The cutter: machine, medium, port, a picture of the job, and its progress.
+
+use super::super::planning::{Plan, Planning, Wish};
+use super::super::plotting::Plotting;
+use super::super::state::Studio;
+use super::super::worker::Wake;
+use super::picture::Picture;
+use crate::app::plot::hint;
+use crate::app::profiles;
+use eframe::egui::{self, Color32, Rect, Sense, Ui};
+use std::sync::Arc;
+use tatamu::project::options::{CUTTER, MEDIA};
+
+/// The panel of the cutter.
+pub struct PlotPanel {
+    names: [Vec<String>; 2],
+    cutter: String,
+    media: String,
+    port: String,
+    ports: Vec<String>,
+    copies: u16,
+    /// Number of the sheet to send; none sends all.
+    only: Option<usize>,
+    shown: usize,
+    plan: Option<(Key, Result<Plan, String>)>,
+    /// The plan that is being made.
+    planning: Option<(Key, Planning)>,
+    picture: Picture,
+    running: Option<Plotting>,
+}
+
+/// What a plan is made from.
+#[derive(Debug, Clone, PartialEq)]
+struct Key {
+    version: u64,
+    cutter: String,
+    media: String,
+}
+
+impl Default for PlotPanel {
+    fn default() -> Self {
+        Self {
+            names: profiles::names(),
+            cutter: CUTTER.automatic.to_owned(),
+            media: MEDIA.automatic.to_owned(),
+            port: String::new(),
+            ports: port_names(),
+            copies: 1,
+            only: None,
+            shown: 0,
+            plan: None,
+            planning: None,
+            picture: Picture::default(),
+            running: None,
+        }
+    }
+}
+
+fn port_names() -> Vec<String> {
+    let ports = serialport::available_ports().unwrap_or_default();
+    ports.into_iter().map(|port| port.port_name).collect()
+}
+
+impl PlotPanel {
+    /// Whether a job is on its way.
+    pub fn is_running(&self) -> bool {
+        self.running.as_ref().is_some_and(Plotting::is_running)
+    }
+
+    /// Lifts the tool and stops.
+    pub fn stop(&self) {
+        self.running.iter().for_each(Plotting::stop);
+    }
+
+    /// Chooses the port.
+    #[cfg(test)]
+    pub fn choose(&mut self, cutter: &str, port: &str) {
+        (self.cutter, self.port) = (cutter.to_owned(), port.to_owned());
+    }
+
+    /// The job on its way.
+    #[cfg(test)]
+    pub fn running(&self) -> Option<&Plotting> {
+        self.running.as_ref()
+    }
+
+    /// Draws the panel.
+    pub fn show(&mut self, studio: &mut Studio, ui: &mut Ui) {
+        egui::Panel::right("plot").resizable(true).default_size(300.0).show(ui, |ui| {
+            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.dials(studio, ui));
+        });
+        egui::CentralPanel::default().show(ui, |ui| self.preview(ui));
+    }
+
+    fn dials(&mut self, studio: &mut Studio, ui: &mut Ui) {
+        let is_running = self.is_running();
+        ui.add_enabled_ui(!is_running, |ui| self.choices(ui));
+        self.refresh(studio, ui.ctx());
+        ui.separator();
+        if let Some((_, planning)) = &self.planning {
+            ui.label("planning the job …");
+            ui.add(egui::ProgressBar::new(planning.share()));
+            if ui.button("Cancel").on_hover_text("any change of machine or model plans anew").clicked() {
+                self.cancel();
+            }
+        }
+        match &self.plan {
+            None if self.planning.is_some() => {}
+            None => drop(ui.weak("as soon as the model is finished")),
+            Some((_, Err(problem))) => drop(ui.colored_label(ui.visuals().error_fg_color, problem)),
+            Some((_, Ok(plan))) => {
+                for (k, sheet) in plan.sheets.iter().enumerate() {
+                    if ui.selectable_label(self.shown == k, sheet.name()).clicked() {
+                        self.shown = k;
+                    }
+                }
+                if let Some(sheet) = plan.sheets.get(self.shown) {
+                    ui.label(sheet.summary(&plan.machine.cutter));
+                    sheet.notes().iter().for_each(|note| drop(ui.label(note)));
+                }
+            }
+        }
+        ui.separator();
+        if is_running {
+            self.progress(ui)
+        } else {
+            self.start(studio, ui)
+        }
+        let Some(running) = &self.running else { return };
+        let state = running.state();
+        match &state.end {
+            Some(Ok(())) => drop(ui.label("Done.")),
+            Some(Err(problem)) => drop(ui.colored_label(ui.visuals().error_fg_color, problem)),
+            None => {}
+        }
+        state.notes.iter().for_each(|note| drop(ui.label(note)));
+    }
+
+    fn choices(&mut self, ui: &mut Ui) {
+        egui::Grid::new("machine").num_columns(2).show(ui, |ui| {
+            let [cutters, media] = &self.names;
+            names_row(ui, "Cutter", cutters, &mut self.cutter);
+            names_row(ui, "Medium", media, &mut self.media);
+            let label = ui.label("Port");
+            ui.horizontal(|ui| {
+                ui.add(egui::TextEdit::singleline(&mut self.port).desired_width(140.0)).labelled_by(label.id);
+                ui.menu_button("Choose", |ui| {
+                    for port in &self.ports {
+                        if ui.button(format!("{port}{}", hint(port))).clicked() {
+                            self.port.clone_from(port);
+                            ui.close();
+                        }
+                    }
+                    if ui.button("Look again").clicked() {
+                        self.ports = port_names();
+                    }
+                });
+            });
+            ui.end_row();
+            let label = ui.label("Copies");
+            ui.add(egui::DragValue::new(&mut self.copies).range(1..=1000)).labelled_by(label.id);
+            ui.end_row();
+            ui.label("Sheets");
+            let mut all = self.only.is_none();
+            if ui.checkbox(&mut all, "all of them").on_hover_text("else the one that is shown").changed() {
+                self.only = (!all).then_some(self.shown);
+            }
+            ui.end_row();
+        });
+        if self.only.is_some() {
+            self.only = Some(self.shown);
+        }
+    }
+
+    /// Plans the job in the background where model or machine have changed.
+    fn refresh(&mut self, studio: &Studio, ctx: &egui::Context) {
+        if let Some(plan) = self.planning.as_ref().and_then(|(_, planning)| planning.made()) {
+            let count = plan.as_ref().map_or(0, |plan| plan.sheets.len());
+            self.shown = self.shown.min(count.saturating_sub(1));
+            self.plan = self.planning.take().map(|(key, _)| (key, plan));
+            self.picture = Picture::default();
+        }
+        let Some(output) = studio.finished() else { return };
+        let (Some(opened), Some(document)) = (studio.opened(), studio.document()) else { return };
+        let version = studio.shown().version();
+        let key = Key { version, cutter: self.cutter.clone(), media: self.media.clone() };
+        let is_known = self.plan.as_ref().is_some_and(|(old, _)| *old == key);
+        let is_begun = self.planning.as_ref().is_some_and(|(begun, _)| *begun == key);
+        if is_known || is_begun || self.is_running() {
+            return;
+        }
+        let (cutter, media) = (self.cutter.clone(), self.media.clone());
+        let (opened, project) = (opened.clone(), document.project().clone());
+        let wish = Wish { opened, project, output: output.clone(), cutter, media };
+        self.plan = None;
+        self.planning = Some((key, Planning::start(wish, wake(ctx))));
+    }
+
+    /// Stops the planning.
+    fn cancel(&mut self) {
+        let stopped = self.planning.take();
+        self.plan = stopped.map(|(key, _)| (key, Err("planning was cancelled".to_owned())));
+    }
+
+    fn start(&mut self, studio: &Studio, ui: &mut Ui) {
+        let Some((_, Ok(plan))) = &self.plan else { return };
+        let is_ready = !self.port.trim().is_empty() && studio.finished().is_some();
+        let button = ui.add_enabled(is_ready, egui::Button::new("Start"));
+        if !is_ready {
+            ui.weak("write or choose the machine's port");
+        }
+        let Some(opened) = studio.opened().filter(|_| button.clicked()) else { return };
+        let sheets = match self.only {
+            Some(k) => &plan.sheets[k..=k],
+            None => &plan.sheets,
+        };
+        let journal = opened.source.with_extension("tatamu-job");
+        let (port, wake) = (self.port.trim(), wake(ui.ctx()));
+        self.running = Some(Plotting::start(&plan.machine.cutter, port, self.copies, sheets, journal, wake));
+    }
+
+    fn progress(&mut self, ui: &mut Ui) {
+        let Some(running) = &self.running else { return };
+        let state = running.state();
+        if let Some(sheet) = &state.wants_sheet {
+            ui.strong(format!("Load a sheet for {sheet}."));
+            if ui.button("It is loaded").clicked() {
+                running.loaded();
+            }
+        } else {
+            ui.add(egui::ProgressBar::new(state.share));
+            ui.label(&state.text);
+        }
+        ui.horizontal(|ui| {
+            let word = if state.is_paused { "Go on" } else { "Pause" };
+            if ui.button(word).on_hover_text("lifts the tool").clicked() {
+                running.pause();
+            }
+            let stop = egui::Button::new("Stop").fill(Color32::from_rgb(190, 60, 50));
+            if ui.add(stop).on_hover_text("lifts the tool and ends the job").clicked() {
+                running.stop();
+            }
+        });
+    }
+
+    /// Draws the sheet as the machine works on it.
+    fn preview(&mut self, ui: &mut Ui) {
+        let Some((key, Ok(plan))) = &self.plan else { return };
+        let Some(drawing) = plan.previews.get(self.shown) else { return };
+        let room = ui.available_size();
+        let page = egui::vec2(drawing.size_mm.x as f32, drawing.size_mm.y as f32);
+        let scale = (room.x / page.x).min(room.y / page.y).max(0.1);
+        let (rect, response) = ui.allocate_exact_size(scale * page, Sense::hover());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Preview of the job"));
+        let version = key.version * 1000 + self.shown as u64;
+        let pixels_per_mm = f64::from(scale * ui.ctx().pixels_per_point());
+        if let Some(texture) = self.picture.texture(ui.ctx(), drawing, version, pixels_per_mm) {
+            let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+            ui.painter().image(texture.id(), rect, whole, Color32::WHITE);
+        }
+    }
+}
+
+/// Draws the window again when a thread has something to tell.
+fn wake(ctx: &egui::Context) -> Wake {
+    let ctx = ctx.clone();
+    Arc::new(move || ctx.request_repaint())
+}
+
+fn names_row(ui: &mut Ui, label: &str, names: &[String], chosen: &mut String) {
+    let label = ui.label(label);
+    let combo = egui::ComboBox::from_id_salt(label.id).selected_text(chosen.as_str()).show_ui(ui, |ui| {
+        for name in names {
+            ui.selectable_value(chosen, name.clone(), name);
+        }
+    });
+    combo.response.labelled_by(label.id);
+    ui.end_row();
+}
