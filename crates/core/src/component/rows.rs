@@ -54,7 +54,7 @@ impl Task<'_> {
             task: self,
             at,
             freedom,
-            programme: Programme::new(beyond + 1),
+            programme: Programme::new(beyond + usize::from(!self.target.borders.is_empty())),
             worst: count,
             lack: count + 1,
             first_miss: count + 2,
@@ -98,7 +98,6 @@ impl Model<'_> {
             let price = self.task.target.joints[k].price.max(1e-6);
             self.bound(self.first_miss + k, price, price * curvature);
         }
-        self.bound(self.beyond, BORDER_PRICE, BORDER_PRICE * curvature);
     }
 
     /// A variable that is not negative.
@@ -242,6 +241,11 @@ impl Model<'_> {
 
     /// Corners stay within the borders.
     fn border_rows(&mut self) {
+        if self.task.target.borders.is_empty() {
+            return;
+        }
+        let curvature = BOUND_CURVATURE / self.task.radius_mm;
+        self.bound(self.beyond, BORDER_PRICE, BORDER_PRICE * curvature);
         let (shape, near_mm) = (&self.at.shape, NEAR_JOINT * self.task.radius_mm);
         for &(n, c) in &self.task.target.borders {
             for corner in shape.corners.iter().filter(|corner| c - n.dot(corner.point) < near_mm) {
