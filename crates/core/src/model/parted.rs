@@ -1,8 +1,6 @@
 //! Hulls of parts that are not joined, apart from each other.
 
 use super::link::{Between, Contact, Link, image_of, mirror_plane_between, mirrored_contacts};
-use super::pair::LEAST_GLUE_MM2;
-use super::sturdy::SPARE;
 use super::{Symmetry, plane};
 use crate::geom::{Hull, Plane, polygon};
 use std::collections::BTreeMap;
@@ -83,7 +81,7 @@ fn keeps_joints(hulls: &[Hull], clipped: &BTreeMap<usize, Hull>, links: &[Link])
         let area = |parent, child| polygon::area(&plane::shared_section(&link.plane, parent, child)).max(0.0);
         (area(&hulls[link.parent], &hulls[link.child]), area(left(link.parent), left(link.child)))
     });
-    areas.all(|(before, after)| after >= (LEAST_SHARE * before).max(ENOUGH_MM2.min(MOST_SHARE * before)))
+    areas.all(|(before, after)| after >= JOINT_SHARE * before)
 }
 
 /// The plane between two hulls that overlap where their joints leave them, normal from the first to the
@@ -119,13 +117,9 @@ const LEAST_OVERLAP_MM: f64 = 0.3;
 /// A plane between neighbours without a joint may cut off at most this share of either.
 const CLIP_SHARE: f64 = 0.2;
 
-/// And it leaves at least this share of what the sections of two joined hulls have in common,
-const LEAST_SHARE: f64 = 0.3;
-/// and this share where less than this area is left, mm²: else a finger's joint with a hand is cut off for
-/// the sake of the thumb. With this share of all joints nothing is cut off a mushroom's stem, and its
-/// silhouette falls from 0.90 to 0.81.
-const MOST_SHARE: f64 = 0.8;
-const ENOUGH_MM2: f64 = SPARE * LEAST_GLUE_MM2;
+/// And it leaves at least this share of what the sections of two joined hulls have in common: else a
+/// finger's joint with a hand is cut off for the sake of the thumb.
+const JOINT_SHARE: f64 = 0.8;
 
 #[cfg(test)]
 mod tests {

@@ -7,7 +7,7 @@ use glam::{DMat2, DVec2, DVec3};
 
 /// The sections of two hulls have this many times the area that is glued in the end: components have few
 /// corners, and turn. With 1.5 the wrists and ankles of two humans are glued over 33 and 28 mm².
-pub(super) const SPARE: f64 = 1.8;
+const SPARE: f64 = 1.8;
 /// A section grows to at most this many times its length and width: the end of a lion's tail, 3 mm thick,
 /// to 9 mm, as much as paper needs. What is smaller is a point.
 const MOST_GROWTH: f64 = 3.0;
