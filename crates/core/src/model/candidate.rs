@@ -5,7 +5,7 @@
 
 use super::link::Link;
 use super::seat::{Seating, level_axis, seat_plane, seats};
-use super::{ModelError, ModelPart, Part, Symmetry};
+use super::{ModelError, ModelPart, Part, Symmetry, plane};
 use crate::component::{
     self, Component, Finished, JointTarget, PanelId, PrincipalAxis, Target, choose, fewest, finished,
 };
@@ -22,8 +22,14 @@ const SAME_RAD: f64 = std::f64::consts::PI / 180.0;
 const FINISHED: usize = 6;
 /// Price of a mm by which joint planes are moved off their interfaces.
 const PLANE_PRICE: f64 = 0.3;
-/// Price of a mm by which a joint panel misses its partner.
+/// Price of a mm by which a joint panel misses its partner. With 0.8 for all joints the silhouettes of bunny
+/// and penguin fall by 0.01;
 const JOINT_PRICE: f64 = 0.3;
+/// but it rises where two hulls meet in less than this area, mm²: else wrists and ankles of humans, of 70 to
+/// 110 mm², are glued over 33 mm²,
+const TIGHT_MM2: f64 = 200.0;
+/// up to this many times. With 0.3 times 7 the silhouette of a plane falls from 0.82 to 0.74.
+const TIGHTEST: f64 = 3.0;
 /// A joint plane that leaves less than this share of a hull is not used to clip it.
 const LEAST_SHARE: f64 = 0.15;
 
@@ -281,7 +287,8 @@ impl<'a> Builder<'a> {
         let whole = hull.volume();
         let mut plane_shift_mm = 0.0;
         let mut joints = Vec::new();
-        for ((&other, seating), &seat) in others.iter().zip(&seatings).zip(&seats) {
+        let prices = self.own_links().map(|link| self.joint_price(link));
+        for (((&other, seating), &seat), price) in others.iter().zip(&seatings).zip(&seats).zip(prices) {
             let plane = seat_plane(&seat);
             if let Some(clipped) = hull.clip(&plane).filter(|h| h.volume() > LEAST_SHARE * whole) {
                 hull = clipped;
@@ -293,9 +300,16 @@ impl<'a> Builder<'a> {
                 true => (Vec::new(), borders(&section, &plane)),
                 false => (section, Vec::new()),
             };
-            joints.push((other, JointTarget { seat, cover, within, price: JOINT_PRICE }));
+            joints.push((other, JointTarget { seat, cover, within, price }));
         }
         Direction { frame, hull, joints, plane_shift_mm }
+    }
+
+    /// Price of a mm by which a joint panel misses its partner.
+    fn joint_price(&self, link: &Link) -> f64 {
+        let [parent, child] = [link.parent, link.child].map(|p| &self.parts[p].hull);
+        let area_mm2 = polygon::area(&plane::shared_section(&link.plane, parent, child));
+        JOINT_PRICE * (TIGHT_MM2 / area_mm2.max(f64::MIN_POSITIVE)).clamp(1.0, TIGHTEST)
     }
 
     /// Corners of the section of another part's hull by a joint plane. Those of images are images.
