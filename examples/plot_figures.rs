@@ -68,7 +68,7 @@ fn pages(argument: &str) -> Result<Vec<Drawing>, Box<dyn Error>> {
     let (path, options) = path_and_options(argument)?;
     let (mesh, repairs) = Mesh::from_soup(&mesh::read(&std::fs::read(path)?)?)?;
     let output = pipeline::run(&mesh, &options, &Silent)?;
-    let run = Run { path, repairs: &repairs, stages: &[], warnings: &[] };
+    let run = Run { path, repairs: &repairs, stages: &[], warnings: &[], say: ToString::to_string };
     let mut pages = Product::new(&output, path, run).pages()?.drawings().to_vec();
     // Sheets that only have words on them are nothing for a cutter.
     pages.retain(|page| !tasks(page, &[Operation::Cut]).is_empty());

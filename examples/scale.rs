@@ -77,7 +77,8 @@ fn measure(path: &Path) -> Result<(), Box<dyn Error>> {
     let start = Instant::now();
     let (mesh, repairs) = Mesh::from_soup(&mesh::read(&std::fs::read(path)?)?)?;
     let output = pipeline::run(&mesh, &Options::default(), &Silent)?;
-    let run = Run { path: "teddy.obj", repairs: &repairs, stages: &[], warnings: &[] };
+    let run =
+        Run { path: "teddy.obj", repairs: &repairs, stages: &[], warnings: &[], say: ToString::to_string };
     let pdf = format_of("pdf").ok_or("no PDF")?;
     let files = pdf.write(&Product::new(&output, "teddy", run), &FormatOptions::default())?;
     std::fs::write(path.with_extension("pdf"), &files[0].bytes)?;

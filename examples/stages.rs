@@ -78,7 +78,7 @@ fn time(path: &str, options: &Options) -> Result<Timed, Box<dyn Error>> {
     let (mesh, repairs) = Mesh::from_soup(&mesh::read(&std::fs::read(path)?)?)?;
     let output = pipeline::run(&mesh, options, &clock)?;
     clock.stage("PDF");
-    let run = Run { path, repairs: &repairs, stages: &[], warnings: &[] };
+    let run = Run { path, repairs: &repairs, stages: &[], warnings: &[], say: ToString::to_string };
     let pdf = format_of("pdf").ok_or("no PDF")?;
     pdf.write(&Product::new(&output, "model", run), &FormatOptions::default())?;
     clock.stage("end");

@@ -15,7 +15,9 @@
 pub mod project;
 
 pub use tatamu_check as check;
-pub use tatamu_core::{colour, component, design, fold, geom, memory, model, progress, segment, units};
+pub use tatamu_core::{
+    colour, component, design, fold, geom, memory, model, progress, remedy, segment, units,
+};
 pub use tatamu_draw::{drawing, pixels, render};
 pub use tatamu_export::{export, guide, paint, parts_report, product, report, show};
 pub use tatamu_net::{net, sheet};

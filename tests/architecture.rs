@@ -160,6 +160,24 @@ fn the_application_knows_no_flags_and_no_windows() {
     }
 }
 
+/// The libraries serve any front, too: they say what was found, and the front names its flags or settings.
+#[test]
+fn the_libraries_name_no_flags() {
+    let is_flag = |text: &str| {
+        let is_start = |at: usize| text[..at].ends_with([' ', '(']) || at == 0;
+        let is_word = |at: usize| text[at + 2..].starts_with(|c: char| c.is_ascii_lowercase());
+        text.match_indices("--").any(|(at, _)| is_start(at) && is_word(at))
+    };
+    for name in table().keys().filter(|name| *name != "the program") {
+        for (module, code) in modules(name) {
+            // Every second piece is in quotes.
+            let text = code.replace("\\\"", "'").replace("'\"'", "' '");
+            let flags: Vec<&str> = text.split('"').skip(1).step_by(2).filter(|text| is_flag(text)).collect();
+            assert!(flags.is_empty(), "{name}, {module:?}: {flags:?}");
+        }
+    }
+}
+
 #[test]
 fn the_table_has_every_crate_and_what_it_depends_on() {
     let table = table();

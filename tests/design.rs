@@ -11,6 +11,7 @@ use tatamu::pipeline::{self, ComponentOptions, Options, Output};
 use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::project::Project;
+use tatamu::remedy::Remedy;
 use tatamu::report::Run;
 use tatamu::segment::SegmentOptions;
 
@@ -27,7 +28,7 @@ fn made(text: &str, size_mm: Option<f64>) -> Output {
 }
 
 fn codes(output: &Output) -> Vec<&'static str> {
-    output.warnings().iter().map(|w| w.code).collect()
+    output.warnings().iter().map(|w| w.code()).collect()
 }
 
 #[test]
@@ -35,7 +36,7 @@ fn every_format_is_written_and_refolds() {
     let repairs = Repairs::default();
     for name in SAMPLES {
         let output = made(&text(name), None);
-        let run = Run { path: name, repairs: &repairs, stages: &[], warnings: &[] };
+        let run = Run { path: name, repairs: &repairs, stages: &[], warnings: &[], say: ToString::to_string };
         let product = Product::new(&output, name, run);
         // Films and guides take time, and know of no samples.
         let formats = if name == "lamp" { FORMATS } else { &[] };
@@ -61,7 +62,7 @@ fn every_format_is_written_and_refolds() {
 fn a_bellows_has_mountains_and_valleys() {
     let repairs = Repairs::default();
     let output = made(&text("lamp"), None);
-    let run = Run { path: "lamp", repairs: &repairs, stages: &[], warnings: &[] };
+    let run = Run { path: "lamp", repairs: &repairs, stages: &[], warnings: &[], say: ToString::to_string };
     let fold = format_of("fold").expect("registered");
     let bytes = fold.write(&Product::new(&output, "lamp", run), &FormatOptions::default()).expect("files");
     let master: serde_json::Value = serde_json::from_slice(&bytes[0].bytes).expect("JSON");
@@ -128,7 +129,7 @@ fn a_size_is_reached_and_a_way_is_chosen() {
     let wrong = text.replace("uuvdd", "uddd^");
     let sketches = Project::parse(&wrong).and_then(|p| p.sketches()).expect("a drawing");
     let error = pipeline::run_drawn(&sketches, None, &Options::default(), &Silent).unwrap_err();
-    assert!(error.to_string().contains("--list-configurations"), "{error}");
+    assert_eq!(error.remedies(), [Remedy::OtherWay], "{error}");
 }
 
 /// A mesh as one component that may have dents.
@@ -269,7 +270,7 @@ fn boards(name: &str) -> Output {
         assert!(net.pieces().iter().all(|piece| piece.panels().len() == 1 && piece.tabs().is_empty()));
     }
     let repairs = Repairs::default();
-    let run = Run { path: name, repairs: &repairs, stages: &[], warnings: &[] };
+    let run = Run { path: name, repairs: &repairs, stages: &[], warnings: &[], say: ToString::to_string };
     let product = Product::new(&output, name, run);
     let write = |name: &str| {
         let format = format_of(name).expect("registered");

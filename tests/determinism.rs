@@ -24,7 +24,13 @@ fn files(threads: usize) -> Vec<(&'static str, Vec<u8>)> {
         };
         let output = pipeline::run(&mesh, &options, &Silent).expect("a model");
         assert_eq!(output.model().parts().len(), 2);
-        let run = Run { path: "bottle.obj", repairs: &repairs, stages: &[], warnings: &[] };
+        let run = Run {
+            path: "bottle.obj",
+            repairs: &repairs,
+            stages: &[],
+            warnings: &[],
+            say: ToString::to_string,
+        };
         let product = Product::new(&output, "bottle", run);
         let written = FORMATS.iter().flat_map(|format| {
             let files = format.write(&product, &FormatOptions::default()).expect("files");

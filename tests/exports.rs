@@ -27,7 +27,7 @@ fn output(bytes: &[u8]) -> (Output, tatamu::mesh::Repairs) {
 /// What `then` makes of a cube's product.
 fn with_product<T>(bytes: &[u8], painting: Option<&Painting>, then: impl FnOnce(&Product<'_>) -> T) -> T {
     let (output, repairs) = output(bytes);
-    let run = Run { path: "cube", repairs: &repairs, stages: &[], warnings: &[] };
+    let run = Run { path: "cube", repairs: &repairs, stages: &[], warnings: &[], say: ToString::to_string };
     then(&Product::new(&output, "cube", run).with_painting(painting))
 }
 

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec2, DVec3};
 use std::collections::BTreeSet;
 use tatamu::component::{Panel, PanelId, PanelKind};
-use tatamu::fold::{FoldPlan, ModelMotion, ModelPose, Sequence, SweepMemory};
+use tatamu::fold::{FoldPlan, FoldWarning, ModelMotion, ModelPose, Sequence, SweepMemory};
 use tatamu::geom::{self, Hull, Plane};
 use tatamu::model::{Assembly, Known, Link, Model, Part, PartOptions, Unjudged, build};
 use tatamu::progress::Silent;
@@ -131,12 +131,13 @@ fn ears_too_near_to_each_other_clash_in_any_order() {
     let mut order = plan.order().to_vec();
     order.sort_unstable();
     assert_eq!(order, [0, 1, 2], "a model is made all the same");
-    let advice = plan.advice(&model);
+    let warnings = plan.warnings(&model);
     let pairs: BTreeSet<[usize; 2]> = plan.clashes().iter().map(|c| c.parts).collect();
-    assert_eq!(advice.len(), pairs.len() + plan.overlaps().len(), "each pair is told of once");
-    let (code, message) = advice.iter().find(|(code, _)| *code == "fold_clash").expect("a warning");
+    assert_eq!(warnings.len(), pairs.len() + plan.overlaps().len(), "each pair is told of once");
+    let clash = warnings.iter().find(|w| matches!(w, FoldWarning::Clash { .. })).expect("a warning");
+    let message = clash.to_string();
     for words in ["left's right panel", "right's left panel", " mm when "] {
-        assert!(message.contains(words), "{code}: {message}");
+        assert!(message.contains(words), "{message}");
     }
 }
 

@@ -43,7 +43,7 @@ fn plugged(output: &Output) -> Vec<usize> {
 }
 
 fn has_clash(output: &Output) -> bool {
-    output.warnings().iter().any(|warning| warning.code == "fold_clash")
+    output.warnings().iter().any(|warning| warning.code() == "fold_clash")
 }
 
 /// Triangles of each part in a pose.
@@ -268,7 +268,7 @@ fn near(points: &[DVec2], wanted: DVec2, tolerance_mm: f64) -> bool {
 fn all_files_have_the_cut_lines_of_plugs() {
     let output = both();
     let repairs = Repairs::default();
-    let run = Run { path: "towers", repairs: &repairs, stages: &[], warnings: &[] };
+    let run = Run { path: "towers", repairs: &repairs, stages: &[], warnings: &[], say: ToString::to_string };
     let product = Product::new(&output, "towers", run);
     let texts = |name: &str| -> Vec<String> {
         let files = format_of(name).unwrap().write(&product, &FormatOptions::default()).unwrap();

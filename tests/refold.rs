@@ -183,7 +183,7 @@ fn narrow_panels_are_told() {
             let is_told = output
                 .warnings()
                 .iter()
-                .any(|w| w.code == "narrow_panel" && w.message.starts_with(&format!("{component}: ")));
+                .any(|w| w.code() == "narrow_panel" && w.to_string().starts_with(&format!("{component}: ")));
             assert!(
                 is_told || width_mm.min(height_mm) >= least_mm - TOLERANCE_MM,
                 "{name}, {component}: face {face} is {width_mm} × {height_mm} mm"

@@ -6,6 +6,7 @@
 
 use super::error::AppError;
 use super::make::{self, Task, Timed, Wish};
+use super::words::Say;
 use super::{input, names, output};
 use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
@@ -15,6 +16,9 @@ use tatamu::progress::Cancelled;
 
 /// Who is told of the work, and may stop it.
 pub trait Watch: Sync {
+    /// Sentences for warnings.
+    fn say(&self) -> Say;
+
     /// Progress of one input, which nobody sees.
     fn progress(&self) -> Box<dyn Timed>;
 
@@ -90,7 +94,7 @@ fn work(input: usize, task: Task<'_>, claims: &Claims, watch: &dyn Watch, sender
         let _ = sender.send(Message { input, news: News::Warning(warning.to_owned()) });
     };
     let write = || {
-        let made = make::make(task, watch.progress().as_ref(), &tell)?;
+        let made = make::make(task, watch.progress().as_ref(), watch.say(), &tell)?;
         claims.take(input, made.paths())?;
         output::write(&made.files)?;
         Ok(made.line)

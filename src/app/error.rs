@@ -9,6 +9,7 @@ use tatamu::pipeline;
 use tatamu::plotter::ProfileError;
 use tatamu::progress::{Cancelled, Progress};
 use tatamu::project::ProjectError;
+use tatamu::remedy::Remedy;
 use tatamu::show::ShowError;
 
 /// Why a command failed.
@@ -37,7 +38,7 @@ pub enum AppError {
     Profile { name: String, error: ProfileError },
     /// A sheet cannot be worked on by a machine.
     #[error("{sheet}: {reason}")]
-    Sheet { sheet: String, reason: String },
+    Sheet { sheet: String, reason: String, remedies: Vec<Remedy> },
     /// The port cannot be used.
     #[error("cannot use the port {port}: {reason}")]
     Port { port: String, reason: String },
@@ -77,6 +78,16 @@ pub enum AppError {
 }
 
 impl AppError {
+    /// What can be done about it, where the text does not say so.
+    pub fn remedies(&self) -> Vec<Remedy> {
+        match self {
+            Self::Pipeline(error) => error.remedies(),
+            Self::Export(error) => error.remedies(),
+            Self::Sheet { remedies, .. } => remedies.clone(),
+            _ => Vec::new(),
+        }
+    }
+
     /// What became of a run that did not end well: stages wrap an interruption in errors of their
     /// own, so the user's wish is asked for first.
     pub fn of_run(error: pipeline::Error, progress: &dyn Progress) -> Self {

@@ -9,7 +9,7 @@ use tatamu::design::Sketch;
 use tatamu::drawing::LineStyles;
 use tatamu::mesh::painting::Painting;
 use tatamu::mesh::{self, Mesh, Repairs};
-use tatamu::pipeline::{self, Options, Output, Warning};
+use tatamu::pipeline::{self, Options, Output, ProjectWarning, Warning};
 use tatamu::progress::Progress;
 use tatamu::project::Project;
 use tatamu::project::options::STYLE;
@@ -50,7 +50,7 @@ impl Input {
 
     /// What the user should know about the files that were read.
     pub fn warnings(&self) -> Vec<Warning> {
-        let repairs = repair_warnings(&self.repairs);
+        let repairs = self.repairs.warnings().into_iter().map(Warning::from);
         self.notes.iter().cloned().chain(repairs).collect()
     }
 
@@ -137,32 +137,6 @@ fn read_mesh(
     Ok(Input { mesh_path: path.to_owned(), project, shape: Shape::Mesh(mesh), repairs, notes })
 }
 
-/// What the repair found and did, as warnings.
-pub fn repair_warnings(repairs: &Repairs) -> Vec<Warning> {
-    let bodies = repairs.components.saturating_sub(1);
-    let counts = [
-        (repairs.boundary_edges, "open_edges", "open edges", "thickness near them is a guess"),
-        (
-            repairs.non_manifold_edges,
-            "non_manifold_edges",
-            "edges with more than two faces",
-            "components may be divided there",
-        ),
-        (bodies, "several_bodies", "bodies besides the first", "joined where they touch"),
-        (repairs.degenerate_faces, "degenerate_faces", "faces without area", "dropped"),
-        (repairs.duplicate_faces, "duplicate_faces", "repeated faces", "dropped"),
-        (repairs.flipped_faces, "flipped_faces", "faces that faced inwards", "turned"),
-    ];
-    counts
-        .iter()
-        .filter(|(count, ..)| *count > 0)
-        .map(|(count, code, what, effect)| Warning {
-            code,
-            message: format!("the mesh has {what}: {count} ({effect})"),
-        })
-        .collect()
-}
-
 /// A project file may come from anybody: the user is told which files it has read from elsewhere.
 fn outside_notes(path: &Path, project: &Project) -> Vec<Warning> {
     let style = STYLE.text(&project.settings()).filter(|name| LineStyles::built_in(name).is_none());
@@ -170,13 +144,9 @@ fn outside_notes(path: &Path, project: &Project) -> Vec<Warning> {
     let named = named.into_iter().filter_map(|(what, name)| Some((what, name?)));
     let outside = named.filter(|(_, name)| !is_within(&path.with_file_name(""), Path::new(name)));
     outside
-        .map(|(what, name)| Warning {
-            code: "outside_folder",
-            message: format!(
-                "project file {} names a {what} outside of its own folder: {name}; make sure that this is the one \
-                 you mean",
-                path.display()
-            ),
+        .map(|(what, name)| {
+            let project = path.display().to_string();
+            ProjectWarning::Outside { project, what, name: name.to_owned() }.into()
         })
         .collect()
 }

@@ -4,6 +4,7 @@ use super::choice::Choice;
 use super::error::AppError;
 use super::made::Made;
 use super::output::{self, Target};
+use super::words::Say;
 use super::{input, names, text};
 use std::path::{Path, PathBuf};
 use tatamu::export::{FORMATS, Format, FormatOptions, GUIDES, Source};
@@ -95,7 +96,7 @@ impl<'a> Task<'a> {
 }
 
 /// Makes the model of one input, and the content of its files. Warnings are told as they come.
-pub fn make(task: Task<'_>, progress: &dyn Timed, tell: &dyn Fn(&str)) -> Result<Made, AppError> {
+pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str)) -> Result<Made, AppError> {
     let places = task.places();
     output::check_places(&places, &[task.input])?;
     let input = input::read(task.input)?;
@@ -108,11 +109,11 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, tell: &dyn Fn(&str)) -> Result
     }
     let painting = files.is_coloured.then(|| input::read_painting(&input.mesh_path)).transpose()?;
     let warnings = input.warnings();
-    warnings.iter().for_each(|warning| tell(&warning.message));
+    warnings.iter().for_each(|warning| tell(&say(warning)));
 
     let result = input.run_and_advise(&choice, progress)?;
     let stages = progress.finish();
-    text::first_of_each_kind(result.warnings()).iter().for_each(|message| tell(message));
+    text::first_of_each_kind(result.warnings(), say).iter().for_each(|message| tell(message));
 
     let stem = task.input.file_stem().unwrap_or_default();
     let run = Run {
@@ -120,6 +121,7 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, tell: &dyn Fn(&str)) -> Result
         repairs: &input.repairs,
         stages: &stages,
         warnings: &warnings,
+        say,
     };
     let title = text::printable(&stem.to_string_lossy());
     let product = |content| {

@@ -14,3 +14,4 @@ pub mod plot;
 pub mod profiles;
 pub mod project;
 pub mod text;
+pub mod words;

@@ -1,5 +1,6 @@
 //! Texts that are shown to the user.
 
+use super::words::Say;
 use std::collections::BTreeMap;
 use tatamu::pipeline::Warning;
 
@@ -14,14 +15,14 @@ pub fn printable(text: &str) -> String {
 }
 
 /// The first few warnings of each kind, and the number of the others.
-pub fn first_of_each_kind(warnings: &[Warning]) -> Vec<String> {
+pub fn first_of_each_kind(warnings: &[Warning], say: Say) -> Vec<String> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     let mut shown = Vec::new();
     for warning in warnings {
-        let count = counts.entry(warning.code).or_default();
+        let count = counts.entry(warning.code()).or_default();
         *count += 1;
         if *count <= MOST_OF_A_KIND {
-            shown.push(warning.message.clone());
+            shown.push(say(warning));
         }
     }
     let more = counts.into_iter().filter(|(_, count)| *count > MOST_OF_A_KIND);

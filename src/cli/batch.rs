@@ -2,10 +2,11 @@
 
 use super::make::MakeArgs;
 use super::progress::{self, CountBar, TerminalProgress};
-use super::terminal;
+use super::{terminal, words};
 use crate::app::batch::{self, News, Watch};
 use crate::app::error::AppError;
 use crate::app::make::Timed;
+use crate::app::words::Say;
 use std::path::Path;
 
 /// Runs `make` on all inputs.
@@ -28,6 +29,10 @@ struct Desk {
 }
 
 impl Watch for Desk {
+    fn say(&self) -> Say {
+        words::warning
+    }
+
     fn progress(&self) -> Box<dyn Timed> {
         Box::new(TerminalProgress::new(true))
     }
@@ -52,7 +57,7 @@ fn tell(input: &Path, news: News, is_quiet: bool) {
         News::Warning(message) => terminal::complain("warning", &named(&input, &message)),
         News::End(Ok(line)) if !is_quiet => terminal::say(&named(&input, &line)),
         News::End(Ok(_) | Err(AppError::Cancelled(_))) => {}
-        News::End(Err(error)) => terminal::complain("error", &named(&input, &error.to_string())),
+        News::End(Err(error)) => terminal::complain("error", &named(&input, &words::error(&error))),
     }
 }
 

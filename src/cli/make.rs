@@ -3,7 +3,7 @@
 use super::flags::{Flags, OfFiles, OfFilm, OfMachine, OfModel};
 use super::guide::GuideArgs;
 use super::progress::TerminalProgress;
-use super::{batch, formats, terminal};
+use super::{batch, formats, terminal, words};
 use crate::app::error::AppError;
 use crate::app::make::{Task, Wish, make};
 use crate::app::output;
@@ -120,7 +120,7 @@ pub fn run(args: &MakeArgs) -> Result<(), AppError> {
     let progress = TerminalProgress::new(args.quiet);
     let tell = |warning: &str| terminal::complain("warning", warning);
     let wish = args.wish();
-    let made = make(Task::new(&wish, input)?, &progress, &tell)?;
+    let made = make(Task::new(&wish, input)?, &progress, words::warning, &tell)?;
     output::write(&made.files)?;
     if !args.quiet {
         made.summary.iter().for_each(|line| terminal::say(line));

@@ -19,6 +19,7 @@ mod studio_args;
 mod terminal;
 #[cfg(unix)]
 pub mod virtual_plotter;
+mod words;
 
 use crate::app::error::AppError;
 use clap::{CommandFactory, Parser, Subcommand};
@@ -107,7 +108,7 @@ pub fn run() -> ExitCode {
             ExitCode::from(STOPPED)
         }
         Err(error) => {
-            terminal::complain("error", &error.to_string());
+            terminal::complain("error", &words::error(&error));
             ExitCode::FAILURE
         }
     }

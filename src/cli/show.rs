@@ -2,7 +2,7 @@
 
 use super::flags::{Flags, OfModel};
 use super::progress::TerminalProgress;
-use super::terminal;
+use super::{terminal, words};
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
 use crate::app::make::Timed;
@@ -164,7 +164,7 @@ fn clashes(args: &ShowArgs, still: &Still, result: &Output) -> Result<Vec<Drawin
     }
     let drawn = |encounter| {
         let drawing = clash_picture(&motion, encounter, args.view, still.landscape_mm())?;
-        let captioned = captioned(drawing, &encounter.advice(result.model()).1);
+        let captioned = captioned(drawing, &words::warning(&encounter.warning(result.model()).into()));
         Ok(Drawing { ground: still.ground, ..captioned })
     };
     encounters.iter().map(drawn).collect()

@@ -16,5 +16,5 @@ pub fn complain(kind: &str, text: &str) {
 
 /// Shows a warning.
 pub fn warn(warning: &Warning) {
-    complain("warning", &warning.message);
+    complain("warning", &super::words::warning(warning));
 }

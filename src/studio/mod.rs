@@ -23,6 +23,7 @@ mod tasks;
 #[cfg(test)]
 mod tests;
 mod view;
+mod words;
 mod worker;
 
 use crate::app::error::AppError;

@@ -1,5 +1,6 @@
 //! A file that is open.
 
+use super::words;
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
 use crate::app::input::Shape;
@@ -10,7 +11,7 @@ use std::sync::Arc;
 use tatamu::design::Sketch;
 use tatamu::export::FormatOptions;
 use tatamu::mesh::Repairs;
-use tatamu::pipeline::{Engine, Options, Output, shape_drawn};
+use tatamu::pipeline::{Engine, Options, Output, Warning, shape_drawn};
 use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::project::Project;
@@ -41,13 +42,13 @@ impl Opened {
     /// # Errors
     /// A message that says what is wrong with which file.
     pub fn read(source: &Path) -> Result<Self, String> {
-        let input = input::read(source).map_err(|error| error.to_string())?;
+        let input = input::read(source).map_err(|error| words::error(&error))?;
         let (mesh, drawn) = match input.shape {
             Shape::Mesh(mesh) => (mesh, None),
             Shape::Drawn(sketches) => {
                 let options = Options::default();
-                let shaped =
-                    shape_drawn(&sketches, None, &options, &Silent).map_err(|error| error.to_string())?;
+                let shaped = shape_drawn(&sketches, None, &options, &Silent)
+                    .map_err(|error| words::failure(&error))?;
                 (shaped.divided().mesh().clone(), Some(Arc::new(sketches)))
             }
         };
@@ -84,9 +85,15 @@ impl Opened {
     ) -> Result<T, AppError> {
         let choice = Choice::new(Some(project), &[])?.files(&self.source)?;
         let painting = choice.is_coloured.then(|| input::read_painting(&self.mesh_path)).transpose()?;
-        let warnings = input::repair_warnings(&self.repairs);
+        let warnings: Vec<Warning> = self.repairs.warnings().into_iter().map(Warning::from).collect();
         let mesh_path = self.mesh_path.to_string_lossy();
-        let run = Run { path: &mesh_path, repairs: &self.repairs, stages: &[], warnings: &warnings };
+        let run = Run {
+            path: &mesh_path,
+            repairs: &self.repairs,
+            stages: &[],
+            warnings: &warnings,
+            say: words::warning,
+        };
         let title = self.title();
         let product = Product::new(output, &title, run).with_styles(choice.styles);
         Ok(give(product.with_painting(painting.as_ref()), choice.formats))

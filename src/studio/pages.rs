@@ -1,6 +1,7 @@
 //! The sheets as they are printed.
 
 use super::opened::Opened;
+use super::words;
 use glam::{DAffine2, DVec2};
 use tatamu::drawing::Drawing;
 use tatamu::geom::polygon;
@@ -17,7 +18,7 @@ pub fn drawings(opened: &Opened, project: &Project, output: &Output) -> Result<V
     let pages = opened.with_product(project, output, |product, _| {
         product.pages().map(|pages| pages.drawings().to_vec()).map_err(|error| error.to_string())
     });
-    pages.map_err(|error| error.to_string())?
+    pages.map_err(|error| words::error(&error))?
 }
 
 /// A piece on a sheet: the net, and its number in the net.

@@ -1,6 +1,7 @@
 //! Reading and writing files in the background.
 
 use super::opened::Opened;
+use super::words;
 use super::worker::Wake;
 use crate::app::make;
 use crate::app::output::{self, Target};
@@ -89,5 +90,5 @@ fn export(
         output::write(&files)?;
         Ok(files.iter().map(|(path, _)| path.display().to_string()).collect())
     };
-    run().map_err(|error: crate::app::error::AppError| error.to_string())
+    run().map_err(|error: crate::app::error::AppError| words::error(&error))
 }

@@ -2,6 +2,7 @@
 //! own, so that it does not wait for what went before to end; another one makes all the rest.
 
 use super::surface::{self, Distances};
+use super::words;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -166,7 +167,7 @@ impl Line {
                     Error::NoComponent { name, .. } => Some(name.clone()),
                     _ => None,
                 };
-                self.tell(number, News::Failed(error.to_string(), missing));
+                self.tell(number, News::Failed(words::failure(&error), missing));
             }
         }
     }

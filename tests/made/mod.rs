@@ -77,7 +77,7 @@ fn make(name: &'static str) -> Made {
     let bytes = std::fs::read(path).expect("a committed file");
     let (mesh, repairs) = Mesh::from_soup(&mesh::read(&bytes).expect("OBJ")).expect("a mesh");
     let output = pipeline::run(&mesh, &Options::default(), &Silent).expect("a model");
-    let run = Run { path: name, repairs: &repairs, stages: &[], warnings: &[] };
+    let run = Run { path: name, repairs: &repairs, stages: &[], warnings: &[], say: ToString::to_string };
     let product = Product::new(&output, name, run);
     let [fold, pdf] = ["fold", "pdf"].map(|format| {
         let format = format_of(format).expect("registered");

@@ -23,8 +23,11 @@ fn the_sheets_of_a_model_are_executed_as_they_are_drawn() {
     let bytes = std::fs::read(path).unwrap();
     let (mesh, repairs) = Mesh::from_soup(&mesh::read(&bytes).unwrap()).unwrap();
     let output = pipeline::run(&mesh, &Options::default(), &Silent).unwrap();
-    let product =
-        Product::new(&output, "snowman", Run { path: "", repairs: &repairs, stages: &[], warnings: &[] });
+    let product = Product::new(
+        &output,
+        "snowman",
+        Run { path: "", repairs: &repairs, stages: &[], warnings: &[], say: ToString::to_string },
+    );
     for (cutter, medium) in
         [("generic-hpgl", "cardstock-200"), ("graphtec", "paper-120"), ("pen-plotter", "pen")]
     {

@@ -36,5 +36,6 @@ pub mod memory;
 pub mod mesh;
 pub mod model;
 pub mod progress;
+pub mod remedy;
 pub mod segment;
 pub mod units;

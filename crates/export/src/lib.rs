@@ -12,7 +12,7 @@
 //! let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
 //! let (mesh, repairs) = Mesh::from_soup(&Soup::new((0..8).map(corner).collect(), faces)?)?;
 //! let output = tatamu_pipeline::run(&mesh, &tatamu_pipeline::Options::default(), &Silent)?;
-//! let run = Run { path: "box.obj", repairs: &repairs, stages: &[], warnings: &[] };
+//! let run = Run { path: "box.obj", repairs: &repairs, stages: &[], warnings: &[], say: ToString::to_string };
 //! let product = Product::new(&output, "box", run);
 //! let svg = format_of("svg").expect("a format");
 //! let files = svg.write(&product, &FormatOptions::default())?;

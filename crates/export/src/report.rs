@@ -24,6 +24,8 @@ pub struct Run<'a> {
     pub stages: &'a [(&'static str, f64)],
     /// Warnings about the input.
     pub warnings: &'a [Warning],
+    /// The sentence for a warning.
+    pub say: fn(&Warning) -> String,
 }
 
 #[derive(Serialize)]
@@ -35,7 +37,7 @@ struct Report<'a> {
     fold: Fold<'a>,
     nets: Vec<NetNumbers<'a>>,
     sheets: Sheets,
-    warnings: Vec<WarningText<'a>>,
+    warnings: Vec<WarningText>,
 }
 
 #[derive(Serialize)]
@@ -193,9 +195,9 @@ struct Page {
 }
 
 #[derive(Serialize)]
-struct WarningText<'a> {
-    code: &'a str,
-    message: &'a str,
+struct WarningText {
+    code: &'static str,
+    message: String,
 }
 
 /// The report of a run.
@@ -233,7 +235,7 @@ pub fn to_json(output: &Output, run: &Run<'_>) -> Result<Vec<u8>, serde_json::Er
             .warnings
             .iter()
             .chain(output.warnings())
-            .map(|w| WarningText { code: w.code, message: &w.message })
+            .map(|w| WarningText { code: w.code(), message: (run.say)(w) })
             .collect(),
     };
     let mut bytes = serde_json::to_vec_pretty(&report)?;

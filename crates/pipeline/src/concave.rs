@@ -1,6 +1,6 @@
 //! Concave components in the place of convex ones, where the user asks for them.
 
-use super::{Options, Warning};
+use super::{ModelWarning, Options, Warning};
 use glam::DVec3;
 use tatamu_core::component::PanelId;
 use tatamu_core::design::{Body, refit};
@@ -54,7 +54,7 @@ pub(super) fn refitted(
         let joints = model.joint_panels(p);
         match refit(&body, &part.component, &part.frame, &joints) {
             Err(reason) => {
-                warnings.push(refused(&name, &reason.to_string()));
+                warnings.push(ModelWarning::StaysConvex { component: name, reason }.into());
                 refusals.push(key.clone());
             }
             Ok((concave, convex_mm)) => {
@@ -69,11 +69,6 @@ pub(super) fn refitted(
         }
     }
     Ok(Refitted { model, warnings, remarks, refused: refusals })
-}
-
-fn refused(name: &str, reason: &str) -> Warning {
-    let message = format!("{name}: it stays convex, though concave was asked for: {reason}");
-    Warning { code: "concave_refused", message }
 }
 
 /// The part's own faces.

@@ -47,7 +47,7 @@ pub fn shape_drawn(
     }
     let options = Options { size_mm: surface.size_mm(), ..options.clone() };
     let Surface { mesh, face_part } = surface;
-    let notes = drawn.notes.into_iter().map(|(code, message)| Warning { code, message }).collect();
+    let notes = drawn.warnings.into_iter().map(Warning::from).collect();
     let names = sketches.iter().map(|sketch| sketch.name().to_owned()).collect();
     let divided = Arc::new(Divided::drawn(mesh, face_part, names));
     let model = Arc::new(plugs::as_chosen(drawn.model, &options)?);

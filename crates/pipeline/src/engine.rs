@@ -4,7 +4,7 @@
 use super::concave::{self, Refitted};
 use super::judge::FoldJudge;
 use super::plugs::{self, Planned};
-use super::warning::{self, not_joined, pin_warnings};
+use super::warning::{self, not_joined};
 use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
 use glam::DAffine3;
 use std::borrow::Cow;
@@ -143,7 +143,7 @@ impl<'m> Engine<'m> {
             }
         }
         let Refitted { model, warnings: mut notes, remarks, .. } = found;
-        notes.extend(not_joined(&model));
+        notes.extend(not_joined(&model).map(Warning::from));
         let glued = Arc::new(model);
         let model = Arc::new(plugs::as_chosen(Model::clone(&glued), options)?);
         if let Some(ids) = self.ids.get(&glued) {
@@ -305,7 +305,7 @@ impl<'m> Engine<'m> {
         })?;
         let mut warnings = shaped.notes.clone();
         warnings.extend(warning::warnings(model, &nets, shaped.divided.hulls().flat_faces(), options));
-        warnings.extend(pin_warnings(&layout));
+        warnings.extend(layout.unheeded_pins().iter().cloned().map(Warning::from));
         let fold_plan = Arc::new(FoldPlan::unchecked(model, options.thickness_mm));
         Ok(Output { shaped, fold_plan, nets, layout, warnings: Arc::new(warnings) })
     }
@@ -334,6 +334,6 @@ fn of_boards(shaped: Shaped) -> Result<Shaped, Error> {
     }
     let (boards, thick) = thick(&shaped.model, options.thickness_mm, options.min_panel_width_mm)?;
     let mut notes = shaped.notes.clone();
-    notes.extend(thick.into_iter().map(|(code, message)| Warning { code, message }));
+    notes.extend(thick.into_iter().map(Warning::from));
     Ok(Shaped { model: Arc::new(boards), notes, ..shaped })
 }

@@ -24,7 +24,7 @@ mod judge;
 mod level;
 mod output;
 mod plugs;
-mod remedy;
+mod trial;
 mod warning;
 
 pub use bodies::{Bodies, Hulls};
@@ -32,7 +32,7 @@ pub use drawn::{run_drawn, shape_drawn};
 pub use engine::Engine;
 pub use level::Level;
 pub use output::{Divided, Output, Shaped};
-pub use warning::Warning;
+pub use warning::{Change, ModelWarning, PanelSide, ProjectWarning, TrialWarning, Warning};
 
 use glam::DAffine3;
 use std::borrow::Cow;
@@ -41,9 +41,10 @@ use tatamu_core::design::{DesignError, ThickError};
 use tatamu_core::mesh::{Mesh, Up};
 use tatamu_core::model::{JointChoice, ModelError};
 use tatamu_core::progress::{Cancelled, Progress};
+use tatamu_core::remedy::Remedy;
 use tatamu_core::segment::{Edit, EditError, Parts, SegmentError, SegmentOptions};
 use tatamu_core::units::Paper;
-use tatamu_net::net::{NetChoices, NetsError};
+use tatamu_net::net::{NetChoices, NetError, NetsError};
 use tatamu_net::sheet::{LayoutError, Pin, SheetChoices};
 
 /// What the user chose.
@@ -194,7 +195,7 @@ pub enum Error {
     #[error(transparent)]
     Design(#[from] DesignError),
     /// A net failed.
-    #[error("{}", too_large(.error, *.size_mm))]
+    #[error("{}", too_large(.error))]
     Net {
         /// What went wrong.
         error: NetsError,
@@ -220,22 +221,33 @@ pub enum Error {
 /// A model scaled to fit exactly would miss by a little: least panel sizes do not shrink with it.
 const FITS: f64 = 0.985;
 
-/// The message of a failed net, with the largest size that fits where that is the matter.
-fn too_large(error: &NetsError, size_mm: f64) -> String {
+impl Error {
+    /// What can be done, where the text does not say so.
+    pub fn remedies(&self) -> Vec<Remedy> {
+        match self {
+            Self::Net {
+                error: NetsError::Net(NetError::PanelTooLarge { scale, may_split, .. }),
+                size_mm,
+            } => {
+                let fits_mm = (size_mm * scale * FITS).floor();
+                let split = (!may_split).then_some(Remedy::SplitPanels);
+                [Remedy::SizeAtMost(fits_mm), Remedy::LargerPaper].into_iter().chain(split).collect()
+            }
+            Self::Layout(error) => error.remedies(),
+            Self::Thick(error) => error.remedies(),
+            Self::Design(error) => error.remedies(),
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// The message of a failed net: the room is that within margins.
+fn too_large(error: &NetsError) -> String {
     match error {
-        NetsError::Net(tatamu_net::net::NetError::PanelTooLarge {
-            name,
-            size_mm: panel,
-            sheet_mm,
-            scale,
-            may_split,
-            ..
-        }) => {
-            let fits = (size_mm * scale * FITS).floor();
-            let or_split = if *may_split { "" } else { ", or do without --no-split" };
+        NetsError::Net(NetError::PanelTooLarge { name, size_mm: panel, sheet_mm, .. }) => {
             format!(
                 "a panel of \"{name}\" measures {:.0} × {:.0} mm and does not fit the {:.0} × {:.0} mm within the \
-                 sheet's margins; use --size {fits}mm at most, or larger --paper{or_split}",
+                 sheet's margins",
                 panel.x, panel.y, sheet_mm.x, sheet_mm.y
             )
         }

@@ -162,9 +162,8 @@ impl Output {
 
     /// With the order of folding, and what that means for the user.
     pub(super) fn with_plan(self, fold_plan: Arc<FoldPlan>) -> Self {
-        let advice = fold_plan.advice(self.model()).into_iter();
-        let advice = advice.map(|(code, message)| Warning { code, message });
-        let warnings = self.warnings.iter().cloned().chain(advice).collect();
+        let folding = fold_plan.warnings(self.model()).into_iter().map(Warning::from);
+        let warnings = self.warnings.iter().cloned().chain(folding).collect();
         Self { fold_plan, warnings: Arc::new(warnings), ..self }
     }
 

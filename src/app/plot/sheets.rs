@@ -3,6 +3,7 @@
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
 use crate::app::make::Timed;
+use crate::app::words::Say;
 use crate::app::{input, text};
 use glam::DVec2;
 use std::path::{Path, PathBuf};
@@ -114,8 +115,11 @@ impl Sheet {
 
 /// Reads a job.
 pub fn parse(name: &str, bytes: &[u8], cutter: &Cutter) -> Result<Job, AppError> {
-    Job::parse(bytes, cutter)
-        .map_err(|error| AppError::Sheet { sheet: name.to_owned(), reason: error.to_string() })
+    Job::parse(bytes, cutter).map_err(|error| AppError::Sheet {
+        sheet: name.to_owned(),
+        reason: error.to_string(),
+        remedies: Vec::new(),
+    })
 }
 
 /// A length in words.
@@ -141,6 +145,7 @@ pub fn of_inputs(
     given: &[Given],
     machine: &PltOptions,
     progress: &dyn Timed,
+    say: Say,
     tell: &dyn Fn(&str),
 ) -> Result<Vec<Sheet>, AppError> {
     if inputs.iter().all(|path| is_plt(path)) {
@@ -156,13 +161,13 @@ pub fn of_inputs(
     };
     let input = input::read(path)?;
     let choice = Choice::new(input.project.as_ref(), given)?;
-    input.warnings().iter().for_each(|warning| tell(&warning.message));
+    input.warnings().iter().for_each(|warning| tell(&say(warning)));
     let result = input.run(&choice, progress)?;
     progress.finish();
-    text::first_of_each_kind(result.warnings()).iter().for_each(|message| tell(message));
+    text::first_of_each_kind(result.warnings(), say).iter().for_each(|message| tell(message));
     let title = text::printable(&path.file_stem().unwrap_or_default().to_string_lossy());
     let path = input.mesh_path.to_string_lossy();
-    let run = Run { path: &path, repairs: &input.repairs, stages: &[], warnings: &[] };
+    let run = Run { path: &path, repairs: &input.repairs, stages: &[], warnings: &[], say };
     let product = Product::new(&result, &title, run);
     let pages = product.pages().map_err(ExportError::from)?.drawings();
     of_drawings(&title, pages, machine)
@@ -193,7 +198,8 @@ pub fn of_drawings_while(
             Err(PlanError::Nothing) if pages.len() > 1 => {}
             Err(error) => {
                 let sheet = format!("{title}, sheet {}", k + 1);
-                return Err(AppError::Sheet { sheet, reason: error.to_string() });
+                let (reason, remedies) = (error.to_string(), error.remedies());
+                return Err(AppError::Sheet { sheet, reason, remedies });
             }
         }
         if !goes_on() {

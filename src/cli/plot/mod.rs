@@ -5,7 +5,7 @@ mod operator;
 
 use super::flags::{Flags, OfMachine, OfModel};
 use super::progress::TerminalProgress;
-use super::terminal;
+use super::{terminal, words};
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
 use crate::app::plot::{SerialPorts, Sheet, handshake, journal, live, sheets};
@@ -143,7 +143,7 @@ fn wanted(args: &PlotArgs, machine: &PltOptions) -> Result<Vec<Sheet>, AppError>
     }
     let tell = |warning: &str| terminal::complain("warning", warning);
     let progress = TerminalProgress::new(args.quiet);
-    sheets::of_inputs(&args.input, args.model.given(), machine, &progress, &tell)
+    sheets::of_inputs(&args.input, args.model.given(), machine, &progress, words::warning, &tell)
 }
 
 /// Sends sheets from the first on.

@@ -31,11 +31,11 @@ pub use given::{Given, Written};
 pub use kind::{Count, Kind, Number, Range, Switch, Text, Unit};
 pub use machine::{CUTTER, MEDIA};
 pub use model::{LEVEL, PROFILE_VERTICES, SIZE, TOLERANCE, TOP_EDGES, UP};
-pub use nets::{ANGLES, GLUE_MARKS, MIN_PANEL_WIDTH, TAB_WIDTH};
+pub use nets::{ANGLES, GLUE_MARKS, MIN_PANEL_WIDTH, SPLIT, TAB_WIDTH};
 pub use reference::{command_line_page, project_page};
 pub use segmentation::{CLUSTERS, DETAIL, METHOD, PARTS, ROOT, SMOOTHING, SYMMETRY};
 pub use settings::{Files, Settings};
-pub use sheets::{GRAIN, MARGIN, MARKS, PAPER, SIDE, SPACING, THICKNESS};
+pub use sheets::{GRAIN, MARGIN, MARKS, PAPER, SIDE, SPACING, THICK, THICKNESS};
 
 pub(super) use component::{check_degrees, checked_name};
 pub(super) use given::quoted;

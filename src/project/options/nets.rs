@@ -51,7 +51,7 @@ pub static TAB_WIDTH: Entry = Entry {
 };
 
 /// Whether large panels are split.
-static SPLIT: Entry = Entry {
+pub static SPLIT: Entry = Entry {
     key: Key::new("nets", "split"),
     flag: Some(Flag {
         short: Some("Refuses panels that are larger than the sheet, rather than split them"),

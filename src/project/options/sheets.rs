@@ -83,7 +83,7 @@ pub static THICKNESS: Entry = Entry {
 };
 
 /// Whether panels are boards.
-static THICK: Entry = Entry {
+pub static THICK: Entry = Entry {
     key: Key::new("paper", "thick"),
     flag: Flag::new("thick", "BOOL"),
     kind: Kind::Switch(Switch {

@@ -1,6 +1,7 @@
 //! Menus, the bar of the state, warnings, and what is shown before a file is open.
 
 use super::super::change::Change;
+use super::super::words;
 use super::{Mode, Window};
 use eframe::egui::{self, Color32, RichText, Ui};
 use std::path::PathBuf;
@@ -234,9 +235,10 @@ fn warnings(window: &mut Window, ui: &mut Ui) {
         ui.weak(remark);
     }
     for warning in output.warnings() {
+        let message = words::warning(warning);
         ui.horizontal_wrapped(|ui| {
             // The longest name that it mentions, so that part-1 is not taken for part-12.
-            let about = names.iter().filter(|(shown, _)| warning.message.contains(shown.as_str()));
+            let about = names.iter().filter(|(shown, _)| message.contains(shown.as_str()));
             if let Some((_, name)) = about.max_by_key(|(shown, _)| shown.len()) {
                 if ui.small_button("Go to").on_hover_text("selects the component").clicked() {
                     window.studio.selection.select(name, None, false);
@@ -245,7 +247,7 @@ fn warnings(window: &mut Window, ui: &mut Ui) {
             } else {
                 ui.label("•");
             }
-            ui.label(&warning.message);
+            ui.label(&message);
         });
     }
 }

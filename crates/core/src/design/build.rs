@@ -2,11 +2,13 @@
 
 use super::ranking::{Ranked, Ranking, Refusal, judge, rank};
 use super::sketch::{Attachment, Sketch, SketchError};
+use super::warning::DesignWarning;
 use super::way::Way;
 use crate::component::{AssembleError, Component, PanelId, PanelKind, Profile};
 use crate::geom::polygon;
 use crate::model::{JoinedPart, Model, Seam};
 use crate::progress::{Cancelled, Progress};
+use crate::remedy::Remedy;
 use glam::{DAffine3, DVec2};
 use std::collections::BTreeSet;
 
@@ -54,10 +56,7 @@ pub enum DesignError {
         reasons: Vec<Refusal>,
     },
     /// The chosen way to fold a profile fails.
-    #[error(
-        "component \"{name}\": profile {profile} does not fold as \"{way}\": {refusal}; --list-configurations lists \
-         the ways that work"
-    )]
+    #[error("component \"{name}\": profile {profile} does not fold as \"{way}\": {refusal}")]
     Refused {
         /// The component.
         name: String,
@@ -94,6 +93,16 @@ pub enum DesignError {
     Cancelled(#[from] Cancelled),
 }
 
+impl DesignError {
+    /// What can be done, where the text does not say so.
+    pub fn remedies(&self) -> Vec<Remedy> {
+        match self {
+            Self::Refused { .. } => vec![Remedy::OtherWay],
+            _ => Vec::new(),
+        }
+    }
+}
+
 fn why(reasons: &[Refusal]) -> String {
     let reasons: Vec<String> = reasons.iter().map(ToString::to_string).collect();
     match reasons.is_empty() {
@@ -102,16 +111,13 @@ fn why(reasons: &[Refusal]) -> String {
     }
 }
 
-/// Something that the maker of a drawn model should know: a short constant name, and a sentence.
-pub type Note = (&'static str, String);
-
 /// A drawn model.
 #[derive(Debug, Clone)]
 pub struct Design {
     /// The components in their places.
     pub model: Model,
     /// What the user should know.
-    pub notes: Vec<Note>,
+    pub warnings: Vec<DesignWarning>,
 }
 
 /// The ways to fold each profile of each drawing, best first.
@@ -138,11 +144,11 @@ pub fn design(
     progress: &dyn Progress,
 ) -> Result<Design, DesignError> {
     let parents = parents(sketches)?;
-    let mut notes = Vec::new();
+    let mut warnings = Vec::new();
     let mut made = Vec::new();
     for s in 0..sketches.len() {
         progress.check()?;
-        made.push(Made::new(sketches, s, min_panel_mm, &mut notes)?);
+        made.push(Made::new(sketches, s, min_panel_mm, &mut warnings)?);
     }
     let parts = sketches.iter().enumerate().map(|(s, sketch)| {
         let seam =
@@ -154,7 +160,7 @@ pub fn design(
         })
     });
     let model = Model::joined(parts.collect::<Result<_, DesignError>>()?);
-    Ok(Design { model, notes })
+    Ok(Design { model, warnings })
 }
 
 /// The drawing that each is joined to.
@@ -224,14 +230,14 @@ impl Made {
         sketches: &[Sketch],
         s: usize,
         min_panel_mm: f64,
-        notes: &mut Vec<Note>,
+        warnings: &mut Vec<DesignWarning>,
     ) -> Result<Self, DesignError> {
         let sketch = &sketches[s];
         let name = sketch.name().to_owned();
         let mut folded: Vec<Ranked> = Vec::new();
         for p in 0..sketch.profiles().len() {
             let ranked = choose(sketch, p, &whole(sketches, s, p), min_panel_mm)?;
-            notes.extend(note(sketch, p, &ranked));
+            warnings.extend(warnings_of(sketch, p, &ranked));
             folded.push(ranked);
         }
         let top = sketch.top();
@@ -312,35 +318,24 @@ pub(super) const MOVED_MM: f64 = 0.05;
 /// Hinges that come inwards by less need no help.
 const INWARD_MM: f64 = 0.5;
 
-fn note(sketch: &Sketch, p: usize, ranked: &Ranked) -> Vec<Note> {
-    let (name, profile, way) = (sketch.name(), p + 1, &ranked.way);
-    let mut notes = Vec::new();
-    if ranked.score.moved_mm > MOVED_MM {
-        let message = format!(
-            "{name}: to fold flat as \"{way}\", vertices of profile {profile} were moved by up to {:.1} mm; \
-             --list-configurations lists other ways",
-            ranked.score.moved_mm
-        );
-        notes.push(("moved_vertices", message));
+fn warnings_of(sketch: &Sketch, p: usize, ranked: &Ranked) -> Vec<DesignWarning> {
+    let (component, profile) = (|| sketch.name().to_owned(), p + 1);
+    let mut warnings = Vec::new();
+    let by_mm = ranked.score.moved_mm;
+    if by_mm > MOVED_MM {
+        let way = ranked.way.clone();
+        warnings.push(DesignWarning::MovedForWay { component: component(), profile, way, by_mm });
     }
-    if ranked.score.rise_mm > 0.0 {
-        let message = format!(
-            "{name}: the chains of profile {profile} have to rise by {:.1} mm before they can fold; lift the top, and pull \
-             each of its {} chains by hand past this point, or choose another way",
-            ranked.score.rise_mm,
-            sketch.top().len()
-        );
-        notes.push(("rises_first", message));
+    let by_mm = ranked.score.rise_mm;
+    if by_mm > 0.0 {
+        let chains = sketch.top().len();
+        warnings.push(DesignWarning::RisesFirst { component: component(), profile, by_mm, chains });
     }
-    if ranked.score.inward_mm > INWARD_MM {
-        let message = format!(
-            "{name}: hinges of profile {profile} come {:.1} mm inwards while the top is pushed down; pull its dents \
-             outwards by hand, one chain after the other, or neighbouring panels collide",
-            ranked.score.inward_mm
-        );
-        notes.push(("pull_by_hand", message));
+    let by_mm = ranked.score.inward_mm;
+    if by_mm > INWARD_MM {
+        warnings.push(DesignWarning::PullByHand { component: component(), profile, by_mm });
     }
-    notes
+    warnings
 }
 
 /// Where a component lies on its carrier.

@@ -19,15 +19,17 @@ mod silhouette;
 mod sketch;
 mod surface_distance;
 mod thick;
+mod warning;
 mod way;
 mod weights;
 
 pub use board::board;
-pub use build::{Design, DesignError, Note, design, rankings};
+pub use build::{Design, DesignError, design, rankings};
 pub use ranking::{Ranked, Ranking, Refusal, Score, rank};
 pub use refit::{Body, Concave, RefitError, refit};
 pub use sketch::{Attachment, MOST_VERTICES, Sketch, SketchError, parse_panel};
 pub use thick::{ThickError, thick};
+pub use warning::DesignWarning;
 pub use way::{Segment, Way};
 pub use weights::{WEIGHTS, Weights};
 

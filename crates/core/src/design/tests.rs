@@ -101,7 +101,7 @@ fn an_hourglass_rises_before_it_folds_at_its_waist() {
     assert!((found.score.rise_mm - rise_mm).abs() < 1e-9, "{}", found.score.rise_mm);
     let sketch = regular(4, 40.0, vec![waist.clone()]).unwrap().with_ways(vec![way.clone()]).unwrap();
     let made = design(&[sketch], MIN_MM, &Silent).unwrap();
-    assert!(made.notes.iter().any(|(code, text)| *code == "rises_first" && text.contains("4.7 mm")));
+    assert!(made.warnings.iter().any(|w| w.code() == "rises_first" && w.to_string().contains("4.7 mm")));
     let component = &made.model.parts()[0].component;
     let motion = ComponentMotion::new(component);
     let poses: Vec<_> = (0..=400).map(|k| motion.pose(f64::from(k) / 400.0)).collect();
@@ -299,7 +299,7 @@ proptest! {
             prop_assert!(pose.placements.iter().all(|p| rigidity_error(p) < 1e-12));
             prop_assert!(tear_mm(component, &pose.placements) < 1e-8);
         }
-        let must_be_pulled = made.notes.iter().any(|(code, _)| *code == "pull_by_hand");
+        let must_be_pulled = made.warnings.iter().any(|w| w.code() == "pull_by_hand");
         let plan = FoldPlan::new(&ModelMotion::new(&made.model), 1.2, &Silent).unwrap();
         prop_assert!(must_be_pulled || plan.clashes().is_empty(), "{:?}", plan.clashes());
     }

@@ -6,13 +6,14 @@
 //! ends, the top and the bottom panel lying in the first and the last. Boards are cut square; beside
 //! a hinge a wedge stays open.
 
-use super::Note;
+use super::DesignWarning;
 use super::build::MOVED_MM;
 use super::facet::{corners, facets};
 use super::hinged::{Chain, Hinged, Unhinged};
 use super::overlap::Solid;
 use crate::component::{AssembleError, Component, Panel, PanelId, PanelKind, Profile};
 use crate::model::Model;
+use crate::remedy::Remedy;
 use glam::DVec2;
 use std::sync::Arc;
 
@@ -22,7 +23,7 @@ pub enum ThickError {
     /// A fold against the bend.
     #[error(
         "\"{name}\" folds flat against a bend in chain {}: boards that are cut square cannot stand bent one way and fold \
-         the other way; choose another way to fold (--list-configurations), or leave out --thick", chain + 1
+         the other way", chain + 1
     )]
     Against {
         /// The component.
@@ -46,7 +47,7 @@ pub enum ThickError {
     /// Chains of different heights.
     #[error(
         "\"{name}\" has chains that fold into different numbers of layers, so that a top of boards would not lie flat on \
-         them; draw profiles that fold equally often, or leave out --thick"
+         them"
     )]
     Layers {
         /// The component.
@@ -54,8 +55,7 @@ pub enum ThickError {
     },
     /// Two boards in one place.
     #[error(
-        "\"{name}\": boards of {thickness_mm} mm leave no room for both {first} and {second} when {state}; use thinner \
-         board, a larger --size, or draw them farther apart"
+        "\"{name}\": boards of {thickness_mm} mm leave no room for both {first} and {second} when {state}"
     )]
     Overlap {
         /// The component.
@@ -79,14 +79,30 @@ pub enum ThickError {
     },
 }
 
+impl ThickError {
+    /// What can be done, where the text does not say so.
+    pub fn remedies(&self) -> Vec<Remedy> {
+        match self {
+            Self::Against { .. } => vec![Remedy::OtherWay, Remedy::NoBoards],
+            Self::Layers { .. } => vec![Remedy::EqualFolds, Remedy::NoBoards],
+            Self::Overlap { .. } => vec![Remedy::ThinnerBoard, Remedy::LargerSize, Remedy::DrawApart],
+            Self::NoRoom { .. } | Self::Assemble { .. } => Vec::new(),
+        }
+    }
+}
+
 /// The model with its panels as boards of a thickness: its components become the inner faces of
 /// these boards. Also says what the user should know.
 ///
 /// # Errors
 /// [`ThickError`].
-pub fn thick(model: &Model, thickness_mm: f64, min_panel_mm: f64) -> Result<(Model, Vec<Note>), ThickError> {
+pub fn thick(
+    model: &Model,
+    thickness_mm: f64,
+    min_panel_mm: f64,
+) -> Result<(Model, Vec<DesignWarning>), ThickError> {
     let parts = model.parts();
-    let (mut made, mut notes) = (Vec::new(), Vec::new());
+    let (mut made, mut warnings) = (Vec::new(), Vec::new());
     for (p, part) in parts.iter().enumerate() {
         let joints = model.joint_panels(p);
         let boards =
@@ -94,14 +110,11 @@ pub fn thick(model: &Model, thickness_mm: f64, min_panel_mm: f64) -> Result<(Mod
         let ((inner, became), moved_mm) = boards.inner()?;
         made.push((Arc::new(inner), became));
         if moved_mm > MOVED_MM {
-            let message = format!(
-                "{}: so that boards of {thickness_mm} mm fold flat, vertices were moved by up to {moved_mm:.1} mm",
-                part.name
-            );
-            notes.push(("moved_vertices", message));
+            let component = part.name.clone();
+            warnings.push(DesignWarning::MovedForBoards { component, thickness_mm, by_mm: moved_mm });
         }
     }
-    Ok((model.with_components(made), notes))
+    Ok((model.with_components(made), warnings))
 }
 
 /// Boards that come into each other by less touch.

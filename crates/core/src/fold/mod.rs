@@ -1,7 +1,6 @@
 //! Folding: how components move between deployed and flat, whether they bump into one another, and
 //! in which steps they fold.
 
-mod advice;
 mod chain;
 mod check;
 pub mod contact;
@@ -21,9 +20,9 @@ mod stack;
 mod step;
 mod sweep;
 mod track;
+mod warning;
 mod way;
 
-pub use advice::Advice;
 pub use chain::{ChainMotion, Course, Shares};
 pub use check::Clash;
 pub use encounter::Encounter;
@@ -36,6 +35,7 @@ pub use pose::{ModelMotion, ModelPose, PartPose, ancestors, root_of};
 pub use sequence::{Motion, Sequence};
 pub use stack::Stack;
 pub use step::{Pull, Step};
+pub use warning::{FoldWarning, Place, Side, When};
 
 #[cfg(test)]
 mod tests;

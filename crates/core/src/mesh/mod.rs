@@ -13,7 +13,7 @@ mod symmetry;
 
 pub use edges::Edges;
 pub use placement::Up;
-pub use repair::{MeshError, Repairs};
+pub use repair::{MeshError, MeshWarning, Repairs};
 pub use soup::{Soup, SoupError};
 pub use symmetry::MirrorPlane;
 

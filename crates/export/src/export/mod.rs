@@ -34,7 +34,9 @@ pub use png::PngOptions;
 pub use svg::{SvgOptions, SvgStroke};
 
 use crate::product::Product;
+use tatamu_core::remedy::Remedy;
 use tatamu_draw::drawing::{Pages, PagesError};
+use tatamu_plot::plotter::PlanError;
 
 /// All formats, in the order of help texts.
 pub const FORMATS: &[Format] = &[
@@ -54,7 +56,7 @@ pub const FORMATS: &[Format] = &[
 ];
 
 /// What cannot be exported.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ExportError {
     /// The sheets cannot be drawn.
     #[error(transparent)]
@@ -67,9 +69,25 @@ pub enum ExportError {
         /// What the library said.
         message: String,
     },
+    /// A sheet cannot be worked on by the machine.
+    #[error("the plt file could not be written: sheet {sheet}: {error}")]
+    Plan {
+        /// The sheet, from 1.
+        sheet: usize,
+        /// Why.
+        error: PlanError,
+    },
 }
 
 impl ExportError {
+    /// What can be done, where the text does not say so.
+    pub fn remedies(&self) -> Vec<Remedy> {
+        match self {
+            Self::Plan { error, .. } => error.remedies(),
+            Self::Pages(_) | Self::Writer { .. } => Vec::new(),
+        }
+    }
+
     /// What a library said when it was to write this format.
     pub fn writer(format: &Format, message: impl ToString) -> Self {
         Self::Writer { format: format.name, message: message.to_string() }

@@ -8,7 +8,7 @@ use tatamu_plot::plotter::{Cutter, Media, Plan, PlanError};
 pub const FORMAT: Format = Format {
     name: "plt",
     extensions: &["plt", "hpgl"],
-    description: "for cutters and plotters (HP-GL, GP-GL, DM/PL), one file a sheet; see --cutter",
+    description: "for cutters and plotters (HP-GL, GP-GL, DM/PL), one file a sheet",
     source: Source::Pages(write),
 };
 
@@ -32,7 +32,7 @@ fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, Expo
     let file = |(index, drawing)| match Plan::new(drawing, cutter, media) {
         Ok(plan) => Ok(plan.bytes().to_vec()),
         Err(PlanError::Nothing) => Ok(Vec::new()),
-        Err(error) => Err(ExportError::writer(&FORMAT, format!("sheet {}: {error}", index + 1))),
+        Err(error) => Err(ExportError::Plan { sheet: index + 1, error }),
     };
     let files: Result<Vec<Vec<u8>>, ExportError> = pages.drawings().iter().enumerate().map(file).collect();
     let mut files = ExportFile::of_pages(files?);

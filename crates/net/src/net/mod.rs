@@ -31,6 +31,7 @@ mod options;
 mod plugs;
 mod split;
 mod tabs;
+mod warning;
 
 pub use blank::Blank;
 pub use blank_net::BlankNet;
@@ -41,6 +42,7 @@ pub use net_error::NetError;
 pub use of_model::{KnownNets, NetsError, develop_model};
 pub use options::{Naming, NetChoices, NetOptions};
 pub use plugs::PlugLines;
+pub use warning::NetWarning;
 
 use glam::{DAffine2, DVec2};
 use std::collections::BTreeMap;
@@ -257,81 +259,6 @@ impl Piece {
     pub fn size_mm(&self) -> DVec2 {
         tatamu_core::geom::polygon::bounds(self.outline().iter().copied())
             .map_or(DVec2::ZERO, |(lo, hi)| hi - lo)
-    }
-}
-
-/// Something about a net that its maker should know.
-#[derive(Debug, Clone, PartialEq)]
-pub enum NetWarning {
-    /// A tab is narrower than can be glued well.
-    NarrowTab {
-        /// Its label.
-        label: String,
-        /// Its width.
-        width_mm: f64,
-    },
-    /// A cut hinge has no room for a tab on either side: both edges carry this label, and the place
-    /// for a strip of tape behind them.
-    NoTab {
-        /// The label.
-        label: String,
-    },
-    /// A fold hinge had to be cut and glued.
-    CutFoldHinge {
-        /// Its label.
-        label: String,
-    },
-    /// A panel is larger than the sheet and was split.
-    SplitPanel {
-        /// The component.
-        name: String,
-        /// Number of its parts.
-        parts: usize,
-    },
-    /// A label had no room on its piece.
-    UnplacedLabel {
-        /// The piece.
-        piece: String,
-        /// The text.
-        text: String,
-    },
-}
-
-impl NetWarning {
-    /// Short constant name, for programs.
-    pub fn code(&self) -> &'static str {
-        match self {
-            NetWarning::NarrowTab { .. } => "narrow_tab",
-            NetWarning::NoTab { .. } => "no_tab",
-            NetWarning::CutFoldHinge { .. } => "cut_fold_hinge",
-            NetWarning::SplitPanel { .. } => "split_panel",
-            NetWarning::UnplacedLabel { .. } => "unplaced_label",
-        }
-    }
-}
-
-impl std::fmt::Display for NetWarning {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            NetWarning::NarrowTab { label, width_mm } => {
-                write!(f, "tab {label} is only {width_mm:.1} mm wide; glue it with care")
-            }
-            NetWarning::NoTab { label } => {
-                write!(f, "there is no room for a tab at {label}; join its two edges with tape from behind")
-            }
-            NetWarning::CutFoldHinge { label } => {
-                write!(
-                    f,
-                    "the hinge at {label} folds flat and had to be cut; join it with tape so that it can move"
-                )
-            }
-            NetWarning::SplitPanel { name, parts } => {
-                write!(f, "a panel of {name} is larger than the sheet and is glued from {parts} parts")
-            }
-            NetWarning::UnplacedLabel { piece, text } => {
-                write!(f, "the label {text} has no room on {piece}; it is listed on its sheet")
-            }
-        }
     }
 }
 

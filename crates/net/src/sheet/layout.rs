@@ -11,13 +11,14 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use tatamu_core::geom::polygon;
 use tatamu_core::progress::Progress;
+use tatamu_core::remedy::Remedy;
 
 /// Why there is no layout.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum LayoutError {
     /// Margins and strip leave no room.
     #[error(
-        "a sheet of {width_mm:.0} × {height_mm:.0} mm with a margin of {margin_mm} mm leaves no room for pieces; use larger --paper or a smaller --margin"
+        "a sheet of {width_mm:.0} × {height_mm:.0} mm with a margin of {margin_mm} mm leaves no room for pieces"
     )]
     NoRoom {
         /// Width of the sheet.
@@ -30,6 +31,16 @@ pub enum LayoutError {
     /// Nesting failed.
     #[error(transparent)]
     Nest(#[from] NestError),
+}
+
+impl LayoutError {
+    /// What can be done.
+    pub fn remedies(&self) -> Vec<Remedy> {
+        match self {
+            Self::NoRoom { .. } => vec![Remedy::LargerPaper, Remedy::SmallerMargin],
+            Self::Nest(_) => Vec::new(),
+        }
+    }
 }
 
 /// All pieces of a model on sheets.

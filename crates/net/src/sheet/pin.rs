@@ -5,7 +5,10 @@ use super::place::PiecePlace;
 use crate::net::Blank;
 use glam::DVec2;
 use std::collections::BTreeMap;
+use std::fmt;
+use tatamu_core::codes;
 use tatamu_core::geom::polygon;
+use tatamu_core::remedy::Remedy;
 
 /// A piece is where it was pinned if it is not farther from there, mm: the layout works on a
 /// lattice, whose cells are about 0.8 mm wide on A4 and 5 mm on the largest sheets.
@@ -22,13 +25,39 @@ pub struct Pin {
     pub turn_rad: f64,
 }
 
-/// A pin that could not be heeded.
+/// A pin that could not be heeded, by the name of its piece.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Unheeded {
     /// No piece has this name.
     NoPiece(String),
     /// Another pinned piece is there, or the piece does not fit the sheet at that angle.
     NoRoom(String),
+}
+
+codes!(Unheeded {
+    NoPiece => "pin_without_piece",
+    NoRoom => "pin_without_room",
+});
+
+impl Unheeded {
+    /// What can be done.
+    pub fn remedies(&self) -> Vec<Remedy> {
+        match self {
+            Self::NoPiece(_) => vec![Remedy::RemovePin],
+            Self::NoRoom(_) => vec![Remedy::MovePin],
+        }
+    }
+}
+
+impl fmt::Display for Unheeded {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoPiece(name) => write!(f, "{name}: there is no piece of this name any more"),
+            Self::NoRoom(name) => {
+                write!(f, "{name}: it does not fit where it is pinned, so it was put elsewhere")
+            }
+        }
+    }
 }
 
 impl Pin {

@@ -3,6 +3,7 @@
 use super::{Cutter, Media, OffBed, Placement, Point, encode};
 use crate::toolpath::{Operation, Perforation, Tooling, ToolingError, Toolpath, Toolset};
 use glam::DVec2;
+use tatamu_core::remedy::Remedy;
 use tatamu_draw::drawing::{Drawing, Layer, Mark, Stroke as Look};
 
 /// Dashes and gaps of creases where nothing but a full cut is possible, mm.
@@ -16,7 +17,7 @@ const FINE_ARCS_MM: f64 = 0.001;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlanError {
     /// It does not fit.
-    #[error("{0}; use smaller --paper or a larger --margin, or a larger machine")]
+    #[error("{0}")]
     OffBed(#[from] OffBed),
     /// Cutter and medium do not go together.
     #[error("{0}")]
@@ -24,6 +25,16 @@ pub enum PlanError {
     /// Nothing on the sheet is for this machine: such as a list of labels.
     #[error("nothing on it is for a cutter")]
     Nothing,
+}
+
+impl PlanError {
+    /// What can be done, where the text does not say so.
+    pub fn remedies(&self) -> Vec<Remedy> {
+        match self {
+            Self::OffBed(_) => vec![Remedy::SmallerPaper, Remedy::LargerMargin, Remedy::LargerMachine],
+            Self::Tooling(_) | Self::Nothing => Vec::new(),
+        }
+    }
 }
 
 /// A sheet as a job for a machine.

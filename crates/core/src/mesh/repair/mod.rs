@@ -3,7 +3,10 @@
 mod clean;
 mod orient;
 mod triangulate;
+mod warning;
 mod weld;
+
+pub use warning::MeshWarning;
 
 use super::{Edges, Mesh, Soup, bounds};
 use crate::geom::Plane;

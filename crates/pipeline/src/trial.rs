@@ -2,7 +2,7 @@
 //! helps is advised.
 
 use super::warning::weak_joint;
-use super::{Engine, Error, Level, Options, Output, Warning};
+use super::{Change, Engine, Error, Level, Options, Output, TrialWarning};
 use tatamu_core::fold::FoldPlan;
 use tatamu_core::model::Model;
 use tatamu_core::progress::{Beside, Progress};
@@ -16,9 +16,9 @@ const MOST_PARTS: usize = 8;
 /// Sizes are multiples of this, mm.
 const ROUND_MM: f64 = 5.0;
 
-/// Other options, and how a user asks for them.
-struct Remedy {
-    flag: String,
+/// Other options, and what is other in them.
+struct Trial {
+    change: Change,
     options: Options,
 }
 
@@ -34,22 +34,26 @@ impl Engine<'_> {
             return Ok(output);
         }
         progress.stage("remedies");
-        let mut best: Option<(usize, String)> = None;
+        let mut best: Option<(usize, Change)> = None;
         let mut tried = Vec::new();
-        for Remedy { flag, options } in remedies(output.options(), output.model().parts().len()) {
+        for Trial { change, options } in trials(output.options(), output.model().parts().len()) {
             let least = best.as_ref().map_or(before, |(left, _)| *left);
             match self.left_by(&options, least, &Beside::new(progress)) {
-                Ok(Some(left)) => best = Some((left, flag.clone())),
+                Ok(Some(left)) => best = Some((left, change)),
                 Err(Error::Cancelled(cancelled)) => return Err(cancelled.into()),
                 // Not every choice of options makes a model.
                 Ok(None) | Err(_) => {}
             }
-            tried.push(flag);
+            tried.push(change);
             if best.as_ref().is_some_and(|(left, _)| *left == 0) {
                 break;
             }
         }
-        Ok(output.with_warning(told(before, best, &tried)))
+        let warning = match best {
+            Some((left, change)) => TrialWarning::Helps { change, before, left },
+            None => TrialWarning::NoneHelps { tried, before },
+        };
+        Ok(output.with_warning(warning.into()))
     }
 
     /// How many problems a model with these options has; none where that is not below a number.
@@ -72,59 +76,37 @@ fn problems(model: &Model, plan: &FoldPlan) -> usize {
 }
 
 /// What is tried: what changes the least of the model comes first.
-fn remedies(options: &Options, parts: usize) -> Vec<Remedy> {
-    let mut remedies = Vec::new();
-    let mut add = |flag: String, change: &dyn Fn(&mut Options)| {
+fn trials(options: &Options, parts: usize) -> Vec<Trial> {
+    let mut trials = Vec::new();
+    let mut add = |change: Change, make: &dyn Fn(&mut Options)| {
         let mut options = options.clone();
-        change(&mut options);
-        remedies.push(Remedy { flag, options });
+        make(&mut options);
+        trials.push(Trial { change, options });
     };
     let fewer = |count: Option<usize>| count.filter(|count| *count > 3).map(|count| count - 1);
     let are_open = options.top_edges.is_none() && options.profile_vertices.is_none();
     for level in Level::ALL.into_iter().filter(|level| are_open && *level != options.level) {
-        add(format!("--level {}", level.name()), &|options| options.level = level);
+        add(Change::Level(level), &|options| options.level = level);
     }
     if let Some(edges) = fewer(options.top_edges) {
-        add(format!("--top-edges {edges}"), &|options| {
+        add(Change::TopEdges(edges), &|options| {
             options.top_edges = Some(edges);
             options.components.values_mut().for_each(|own| own.top_edges = None);
         });
     }
     if let Some(vertices) = fewer(options.profile_vertices) {
-        add(format!("--profile-vertices {vertices}"), &|options| {
+        add(Change::ProfileVertices(vertices), &|options| {
             options.profile_vertices = Some(vertices);
             options.components.values_mut().for_each(|own| own.profile_vertices = None);
         });
     }
     if parts > 2 && options.segmentation.method == Method::Merge {
         let parts = parts - 1;
-        add(format!("--parts {parts}"), &|options| options.segmentation.parts = Some(parts));
+        add(Change::Parts(parts), &|options| options.segmentation.parts = Some(parts));
     }
     let size_mm = (options.size_mm * LARGER / ROUND_MM).ceil() * ROUND_MM;
-    add(format!("--size {size_mm}mm"), &|options| options.size_mm = size_mm);
-    remedies
-}
-
-/// What came of it.
-fn told(before: usize, best: Option<(usize, String)>, tried: &[String]) -> Warning {
-    let of_these = if before == 1 { "this problem".to_owned() } else { format!("these {before} problems") };
-    match best {
-        Some((0, flag)) => {
-            let message = format!("{flag} was tried, and makes the model without {of_these}");
-            Warning { code: "remedy", message }
-        }
-        Some((left, flag)) => {
-            let message = format!("{flag} was tried, and leaves {left} such problems instead of {before}");
-            Warning { code: "remedy", message }
-        }
-        None => {
-            let message = format!(
-                "none of {} leaves fewer than {of_these}; all were tried. What can be done by hand stands with each",
-                tried.join(", ")
-            );
-            Warning { code: "no_remedy", message }
-        }
-    }
+    add(Change::Size(size_mm), &|options| options.size_mm = size_mm);
+    trials
 }
 
 #[cfg(test)]
@@ -133,16 +115,16 @@ mod tests {
 
     #[test]
     fn at_most_four_other_options_are_tried() {
-        let flags = |options: &Options, parts| -> Vec<String> {
-            remedies(options, parts).into_iter().map(|remedy| remedy.flag).collect()
+        let tried = |options: &Options, parts| -> Vec<Change> {
+            trials(options, parts).into_iter().map(|trial| trial.change).collect()
         };
-        let all = ["--level easy", "--level fine", "--parts 6", "--size 250mm"];
-        assert_eq!(flags(&Options::default(), 7), all);
+        let [easy, fine] = [Level::Easy, Level::Fine].map(Change::Level);
+        assert_eq!(tried(&Options::default(), 7), [easy, fine, Change::Parts(6), Change::Size(250.0)]);
         let counted = Options { top_edges: Some(6), profile_vertices: Some(6), ..Options::default() };
-        let all = ["--top-edges 5", "--profile-vertices 5", "--parts 6", "--size 250mm"];
-        assert_eq!(flags(&counted, 7), all);
+        let fewer = [Change::TopEdges(5), Change::ProfileVertices(5), Change::Parts(6), Change::Size(250.0)];
+        assert_eq!(tried(&counted, 7), fewer);
         let least =
             Options { top_edges: Some(3), profile_vertices: Some(3), size_mm: 101.0, ..Options::default() };
-        assert_eq!(flags(&least, 2), ["--size 130mm"]);
+        assert_eq!(tried(&least, 2), [Change::Size(130.0)]);
     }
 }

@@ -1,0 +1,97 @@
+//! What came of other options that were tried.
+
+use crate::Level;
+use std::fmt;
+use tatamu_core::codes;
+use tatamu_core::remedy::Remedy;
+
+/// Another choice for the whole model.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Change {
+    /// Another level.
+    Level(Level),
+    /// So many top edges.
+    TopEdges(usize),
+    /// So many profile vertices.
+    ProfileVertices(usize),
+    /// So many parts.
+    Parts(usize),
+    /// This size, mm.
+    Size(f64),
+}
+
+/// What came of the changes that were tried on a model with overlaps, clashes or weak joints.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TrialWarning {
+    /// One leaves fewer of these problems.
+    Helps {
+        /// What was changed.
+        change: Change,
+        /// Problems without it.
+        before: usize,
+        /// Problems with it.
+        left: usize,
+    },
+    /// None does.
+    NoneHelps {
+        /// What was changed.
+        tried: Vec<Change>,
+        /// Problems of the model.
+        before: usize,
+    },
+}
+
+codes!(TrialWarning {
+    Helps => "remedy",
+    NoneHelps => "no_remedy",
+});
+
+impl TrialWarning {
+    /// Nothing beyond what it says.
+    pub fn remedies(&self) -> Vec<Remedy> {
+        Vec::new()
+    }
+
+    /// A sentence, with words for changes.
+    pub fn told(&self, change: &dyn Fn(Change) -> String) -> String {
+        let these = |before: usize| match before {
+            1 => "this problem".to_owned(),
+            _ => format!("these {before} problems"),
+        };
+        match self {
+            Self::Helps { change: helps, before, left: 0 } => {
+                format!("{} was tried, and makes the model without {}", change(*helps), these(*before))
+            }
+            Self::Helps { change: helps, before, left } => {
+                let helps = change(*helps);
+                format!("{helps} was tried, and leaves {left} such problems instead of {before}")
+            }
+            Self::NoneHelps { tried, before } => {
+                let tried: Vec<String> = tried.iter().map(|tried| change(*tried)).collect();
+                format!(
+                    "none of {} leaves fewer than {}; all were tried. What can be done by hand stands with each",
+                    tried.join(", "),
+                    these(*before)
+                )
+            }
+        }
+    }
+}
+
+impl fmt::Display for TrialWarning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.told(&|change| change.to_string()))
+    }
+}
+
+impl fmt::Display for Change {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Level(level) => write!(f, "level {}", level.name()),
+            Self::TopEdges(count) => write!(f, "{count} top edges"),
+            Self::ProfileVertices(count) => write!(f, "{count} profile vertices"),
+            Self::Parts(count) => write!(f, "{count} parts"),
+            Self::Size(mm) => write!(f, "a size of {mm} mm"),
+        }
+    }
+}
