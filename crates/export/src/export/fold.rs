@@ -26,7 +26,7 @@ use tatamu_pipeline::Output;
 pub const FORMAT: Format = Format {
     name: "fold",
     extensions: &["fold"],
-    description: "FOLD 1.2: crease pattern, standing and flat model; each piece by --fold-pieces",
+    description: "FOLD 1.2: crease pattern, unfolded and flat model; --fold-pieces adds each piece",
     source: Source::Model(files),
 };
 

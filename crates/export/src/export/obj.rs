@@ -17,7 +17,7 @@ use tatamu_draw::render::palette;
 pub const FORMAT: Format = Format {
     name: "obj",
     extensions: &["obj"],
-    description: "OBJ: the standing model as polygons, in millimetres; as solids with --thick",
+    description: "OBJ: the unfolded model as polygons, in millimetres; as solids with --thick",
     source: Source::Model(write),
 };
 

@@ -8,7 +8,7 @@ use tatamu_plot::plotter::{Cutter, Media, Plan, PlanError};
 pub const FORMAT: Format = Format {
     name: "plt",
     extensions: &["plt", "hpgl"],
-    description: "for cutters and plotters (HP-GL, GP-GL, DM/PL), one file a sheet; see --cutter",
+    description: "for cutters and plotters (HP-GL, GP-GL, DM/PL), one file per sheet; see --cutter",
     source: Source::Pages(write),
 };
 
