@@ -8,8 +8,9 @@
 //!                             design -^
 //! ```
 //!
-//! The method is that of the paper "Semi-Automatic Conversion of 3D Shape into Flat-Foldable
-//! Polygonal Model"; section and equation numbers in these docs are that paper's. Lengths are millimetres, angles radians, unless a name says otherwise.
+//! The method comes from the paper "Semi-Automatic Conversion of 3D Shape into Flat-Foldable Polygonal
+//! Model"; section and equation numbers in these docs refer to it. Lengths are in millimetres, angles in
+//! radians, unless a name says otherwise.
 #![warn(missing_docs, clippy::print_stdout, clippy::print_stderr)]
 
 pub mod project;

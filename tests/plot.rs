@@ -216,7 +216,7 @@ fn what_cannot_be_plotted_is_refused_before_anything_is_sent() {
             "paced",
         ),
         (&["plot", "a.plt", "--dry-run", "--only", "2"], "there is no sheet 2"),
-        (&["plot", "--resume", "a.plt"], "no journal"),
+        (&["plot", "--resume", "a.plt"], "not a journal"),
         (&["plot", "a.plt", "--preview", "a.fold"], ".png"),
     ] {
         let output = tatamu(folder.path()).args(arguments).output().unwrap();

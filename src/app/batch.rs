@@ -1,8 +1,8 @@
-//! Several inputs, which are worked on at the same time.
+//! Several inputs, made in parallel.
 //!
-//! Each is made as it would be alone. What is told of them comes in their order, whichever is ready
-//! first, and files that two of them would write are refused before any work, or, where numbers of
-//! sheets bring them about, before they are written.
+//! Each result is the same as in a run of its own. Messages come in the order of the inputs. If two inputs
+//! would write the same file, that is an error before any work, or, if it depends on the number of sheets,
+//! before the file is written.
 
 use super::error::AppError;
 use super::make::{self, Task, Timed, Wish};
@@ -66,7 +66,7 @@ pub fn run(wish: &Wish, inputs: &[PathBuf], watch: &dyn Watch) -> Result<(), App
                 }
             };
             let thread = std::thread::Builder::new().stack_size(STACK_BYTES).spawn_scoped(scope, worker);
-            thread.map_err(|error| AppError::Options(format!("no thread can be started: {error}")))?;
+            thread.map_err(|error| AppError::Options(format!("cannot start a thread: {error}")))?;
         }
         drop(sender);
         Ok::<_, AppError>(listen(&receiver, &inputs, watch))
@@ -156,8 +156,8 @@ impl Claims {
             if owner != input {
                 let [first, second] = [owner, input].map(|k| self.inputs[k].display().to_string());
                 return Err(AppError::Options(format!(
-                    "{first} and {second} would both be written to {}; give a folder, or a name with {} in it, and \
-                     make inputs of the same name in runs of their own",
+                    "{first} and {second} would both be written to {}; use a folder, or a name with {} in it, and run \
+                     tatamu once for each input of the same name",
                     path.display(),
                     names::PLACEHOLDER
                 )));

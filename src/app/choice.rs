@@ -79,14 +79,14 @@ fn styles(name: &str, path: &Path) -> Result<LineStyles, AppError> {
     }
     if !path.exists() {
         return Err(AppError::Options(format!(
-            "there is no style file {}, and no built-in style of that name; built in are: {}",
+            "there is no style file {}, and no built-in style of that name; built-in styles are: {}",
             path.display(),
             style_names()
         )));
     }
     let text = String::from_utf8(input::read_file(path)?).map_err(|_| AppError::Input {
         path: path.to_owned(),
-        reason: "a style file is text in UTF-8".to_owned(),
+        reason: "a style file must be UTF-8 text".to_owned(),
     })?;
     LineStyles::parse(&text).map_err(|error| AppError::Style { path: path.to_owned(), error })
 }
@@ -104,7 +104,8 @@ fn source_date() -> Result<Option<Timestamp>, AppError> {
     let text = value.to_string_lossy();
     let date = text.parse().ok().and_then(Timestamp::of_unix);
     date.map(Some).ok_or_else(|| {
-        let message = "the variable SOURCE_DATE_EPOCH must be a whole number of seconds since 1970, not";
+        let message =
+            "the environment variable SOURCE_DATE_EPOCH must be a whole number of seconds since 1970, not";
         AppError::Options(format!("{message} \"{text}\""))
     })
 }

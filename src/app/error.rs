@@ -1,4 +1,4 @@
-//! What the user is told when nothing comes of it.
+//! Errors of commands, as users read them.
 
 use std::path::PathBuf;
 use tatamu::check::FoldCheckError;
@@ -28,7 +28,7 @@ pub enum AppError {
     #[error("project file {path}: {error}")]
     Project { path: PathBuf, error: ProjectError },
     /// The mesh has no colours that can be used.
-    #[error("{path}: {error}; or leave --color out")]
+    #[error("{path}: {error}; or remove --color")]
     Colour { path: PathBuf, error: ColourError },
     /// A style file is wrong.
     #[error("style file {path}: {error}")]
@@ -36,7 +36,7 @@ pub enum AppError {
     /// A profile of a cutter or a medium is wrong.
     #[error("profile {name}: {error}")]
     Profile { name: String, error: ProfileError },
-    /// A sheet cannot be worked on by a machine.
+    /// A machine cannot cut or draw a sheet.
     #[error("{sheet}: {reason}")]
     Sheet { sheet: String, reason: String, remedies: Vec<Remedy> },
     /// The port cannot be used.
@@ -55,12 +55,12 @@ pub enum AppError {
     #[error("{0}")]
     Options(String),
     /// An output has no known extension.
-    #[error("cannot tell the format of {path} by its extension; known are: {known}")]
+    #[error("cannot tell the format of {path} by its extension; use one of: {known}")]
     Extension { path: PathBuf, known: String },
     /// An output cannot be written.
     #[error("cannot write {path}: {reason}")]
     Output { path: PathBuf, reason: String },
-    /// Some inputs of several failed; why was told already.
+    /// Some of several inputs failed; the reasons are already printed.
     #[error("{} of {of} inputs failed: {}", failed.len(), failed.join(", "))]
     Several { failed: Vec<String>, of: usize },
     /// Ctrl-C.
@@ -70,7 +70,7 @@ pub enum AppError {
     #[error("{0}")]
     Pipeline(pipeline::Error),
     /// A picture cannot be made.
-    #[error("the picture could not be made: {0}")]
+    #[error("cannot make the picture: {0}")]
     Show(#[from] ShowError),
     /// A document cannot be made.
     #[error(transparent)]

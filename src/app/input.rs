@@ -42,7 +42,7 @@ impl Input {
         match &self.shape {
             Shape::Mesh(mesh) => Ok(mesh),
             Shape::Drawn(_) => Err(AppError::Options(format!(
-                "{} holds drawn components and no mesh, so there is nothing to divide; \"make\" makes them",
+                "{} has drawn components and no mesh to divide; use \"tatamu make\"",
                 self.mesh_path.display()
             ))),
         }
@@ -103,7 +103,7 @@ pub fn read(path: &Path) -> Result<Input, AppError> {
     }
     let text = String::from_utf8(bytes).map_err(|_| AppError::Input {
         path: path.to_owned(),
-        reason: "a project file is text in UTF-8".to_owned(),
+        reason: "a project file must be UTF-8 text".to_owned(),
     })?;
     let project =
         Project::parse(&text).map_err(|error| AppError::Project { path: path.to_owned(), error })?;
@@ -137,7 +137,7 @@ fn read_mesh(
     Ok(Input { mesh_path: path.to_owned(), project, shape: Shape::Mesh(mesh), repairs, notes })
 }
 
-/// A project file may come from anybody: the user is told which files it has read from elsewhere.
+/// A project file may come from anybody: a warning names the files that it reads from elsewhere.
 fn outside_notes(path: &Path, project: &Project) -> Vec<Warning> {
     let style = STYLE.text(&project.settings()).filter(|name| LineStyles::built_in(name).is_none());
     let named = [("mesh", project.mesh.as_deref()), ("style file", style.as_deref())];

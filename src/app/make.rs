@@ -104,7 +104,7 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
     let choice = Choice::new(input.project.as_ref(), &task.wish.given)?;
     let files = choice.files(task.input)?;
     if files.is_coloured && choice.options().sheets.side == Side::Inside {
-        let reason = "--color is for the outside of the paper; leave out --side inside, or --color";
+        let reason = "--color prints on the outside of the paper; remove --side inside, or --color";
         return Err(AppError::Options(reason.to_owned()));
     }
     let painting = files.is_coloured.then(|| input::read_painting(&input.mesh_path)).transpose()?;

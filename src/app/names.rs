@@ -1,4 +1,4 @@
-//! Names of files to write, which may be those of the input.
+//! Names of output files, by default derived from the input's name.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf, is_separator};

@@ -56,7 +56,7 @@ pub fn check_places(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), AppError>
         }
         let folder = folder(path);
         if !folder.is_dir() {
-            return Err(refuse(&format!("there is no folder {}; make it first", folder.display())));
+            return Err(refuse(&format!("there is no folder {}; create it first", folder.display())));
         }
         if !seen.insert(place(path)) {
             return Err(refuse(TWICE));
@@ -81,7 +81,7 @@ fn is_same_file(a: &Path, b: &Path) -> bool {
     }
 }
 
-const TWICE: &str = "it is asked for twice; choose another name";
+const TWICE: &str = "two options write it; choose another name";
 
 /// Writes all files to temporary files beside their places, then puts them into place. An error
 /// up to the last step leaves everything as it was.

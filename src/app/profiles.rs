@@ -38,7 +38,7 @@ pub fn find(name: &str, kind: &str, built_in: &[Profile]) -> Result<String, AppE
     found.map(|profile| profile.text.to_owned()).ok_or_else(|| {
         let names: Vec<&str> = built_in.iter().map(|profile| profile.name).collect();
         AppError::Options(format!(
-            "there is no profile \"{name}\" in {kind}; there are: {}",
+            "there is no profile \"{name}\" for {kind}; use one of: {}",
             names.join(", ")
         ))
     })

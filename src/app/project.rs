@@ -1,4 +1,4 @@
-//! Fresh project files.
+//! New project files.
 
 use super::error::{AppError, reason};
 use std::path::Path;
@@ -37,7 +37,7 @@ pub fn mesh_from(project: &Path, mesh: &Path) -> Result<String, AppError> {
     let name = mesh.strip_prefix(folder).unwrap_or(&mesh);
     let text = name.to_str().ok_or_else(|| AppError::Input {
         path: mesh.clone(),
-        reason: "a project file cannot hold a name that is not Unicode; rename it".to_owned(),
+        reason: "a project file cannot store a file name that is not Unicode; rename the file".to_owned(),
     })?;
     Ok(text.replace(std::path::MAIN_SEPARATOR, "/"))
 }

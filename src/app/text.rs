@@ -28,7 +28,7 @@ pub fn first_of_each_kind(warnings: &[Warning], say: Say) -> Vec<String> {
     let more = counts.into_iter().filter(|(_, count)| *count > MOST_OF_A_KIND);
     shown.extend(more.map(|(code, count)| {
         let more = count - MOST_OF_A_KIND;
-        format!("{more} more like these ({code}); -o FILE.json writes a report with all of them")
+        format!("{more} more warnings like these ({code}); -o FILE.json writes a report with all of them")
     }));
     shown
 }

@@ -1,4 +1,4 @@
-//! `make` with several inputs: what is told at the terminal.
+//! `make` with several inputs: its messages at the terminal.
 
 use super::make::MakeArgs;
 use super::progress::{self, CountBar, TerminalProgress};

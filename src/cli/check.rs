@@ -9,24 +9,24 @@ use std::process::ExitCode;
 use tatamu::check::{self, Limits, Verdict};
 use tatamu::units::parse_length_or_zero_mm;
 
-/// Checks a FOLD file by its own numbers: refolds it and measures.
+/// Checks a FOLD file: folds it again from its own numbers and measures the result.
 ///
-/// Panels must stay rigid in every state, labelled edges meet, chains close without a gap, and
-/// nothing overlap in the crease pattern or in the flat layers. Prints a table of what was found;
-/// the exit code is 1 where anything fails.
+/// It checks that panels stay rigid in every state, that labelled edges meet, that chains close
+/// without a gap, and that nothing overlaps in the crease pattern or in the flat layers. It prints a
+/// table; the exit code is 1 if a check fails.
 #[derive(Debug, Args)]
 pub struct CheckArgs {
-    /// FOLD file, as "tatamu make -o FILE.fold" writes it
+    /// FOLD file from "tatamu make -o FILE.fold"
     #[arg(value_name = "FILE.fold")]
     file: PathBuf,
 
     /// Least width and height of side panels that passes [default: 3mm]
     ///
-    /// 0mm accepts any. Example: --min-panel-width 4mm
+    /// 0mm accepts all. Example: --min-panel-width 4mm
     #[arg(long, value_name = "LENGTH", value_parser = parse_length_or_zero_mm)]
     min_panel_width: Option<f64>,
 
-    /// Only what fails
+    /// Prints failed checks only
     #[arg(short, long)]
     quiet: bool,
 }
@@ -46,7 +46,7 @@ pub fn run(args: &CheckArgs) -> Result<ExitCode, AppError> {
     }
     if !args.quiet {
         terminal::say(&match failed {
-            0 => "all is well".to_owned(),
+            0 => "all checks passed".to_owned(),
             n => format!("{n} of {} checks failed", verdicts.len()),
         });
     }

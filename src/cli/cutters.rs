@@ -8,7 +8,7 @@ use std::path::Path;
 use tatamu::plotter::profile::{CUTTERS, MEDIA};
 use tatamu::plotter::{Cutter, Media};
 
-/// Lists and shows profiles of cutters and media.
+/// Lists and prints the profiles of cutters and media.
 #[derive(Debug, Args)]
 pub struct ProfilesArgs {
     #[command(subcommand)]
@@ -17,14 +17,14 @@ pub struct ProfilesArgs {
 
 #[derive(Debug, Subcommand)]
 enum ProfilesCommand {
-    /// Names all profiles, your own too
+    /// Lists all profiles, including your own
     List,
-    /// Prints a profile, to read or to begin your own with
+    /// Prints a profile, to read or as a start for your own
     Show {
         /// Name of a cutter or a medium, such as generic-hpgl
         name: String,
     },
-    /// Prints the folder for your own profiles
+    /// Prints the folders for your own profiles
     Path,
 }
 
@@ -42,7 +42,7 @@ pub fn run(args: &ProfilesArgs) -> Result<(), AppError> {
             let other = |error| match error {
                 AppError::Options(reason) if kind == "cutters" && !name.contains('.') => {
                     let names: Vec<&str> = MEDIA.iter().map(|profile| profile.name).collect();
-                    AppError::Options(format!("{reason}; media are: {}", names.join(", ")))
+                    AppError::Options(format!("{reason}; or one for media: {}", names.join(", ")))
                 }
                 error => error,
             };
@@ -50,7 +50,7 @@ pub fn run(args: &ProfilesArgs) -> Result<(), AppError> {
         }
         ProfilesCommand::Path => {
             let folder = folder().ok_or_else(|| {
-                AppError::Options("there is no home folder; give a file to --cutter and --media".to_owned())
+                AppError::Options("found no home folder; give files to --cutter and --media".to_owned())
             })?;
             terminal::say(&format!("{}", folder.join("cutters").display()));
             terminal::say(&format!("{}", folder.join("media").display()));
@@ -65,11 +65,11 @@ fn list() {
         let name = Cutter::parse(profile.text).map(|cutter| cutter.name().to_owned());
         terminal::say(&format!("  {:<16} {}", profile.name, name.unwrap_or_default()));
     }
-    own("cutters").iter().for_each(|name| terminal::say(&format!("  {name:<16} your own")));
+    own("cutters").iter().for_each(|name| terminal::say(&format!("  {name:<16} (yours)")));
     terminal::say("media (--media):");
     for profile in MEDIA {
         let name = Media::parse(profile.text).map(|media| media.name().to_owned());
         terminal::say(&format!("  {:<16} {}", profile.name, name.unwrap_or_default()));
     }
-    own("media").iter().for_each(|name| terminal::say(&format!("  {name:<16} your own")));
+    own("media").iter().for_each(|name| terminal::say(&format!("  {name:<16} (yours)")));
 }

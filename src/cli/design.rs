@@ -11,22 +11,22 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use tatamu::design::{Ranked, Ranking, Refusal, Sketch, rankings};
 
-/// Makes a model that is drawn in a project file.
+/// Makes a model from components drawn in a project file.
 ///
 /// The file has [[component]] tables with a top panel, a profile for each of its edges, and the
-/// panel that the component is glued on. Profiles may have dents: among the ways in which a chain
-/// can fold flat the best is chosen, and the profile is creased or moved a little to make it exact.
+/// panel that the component is glued to. Profiles may have dents: tatamu chooses the best of the ways
+/// in which a chain can fold flat, and adds a crease or moves vertices a little to make it exact.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct DesignArgs {
     #[command(flatten)]
     make: MakeArgs,
 
-    /// Prints the ways in which each profile can fold flat, best first, and makes nothing
+    /// Lists the ways in which each profile can fold flat, best first, and writes no files
     ///
-    /// A way has a letter for each drawn segment, from top to bottom: u lies facing up when flat, d
-    /// facing down, ^ is creased between (a mountain), v is creased the other way (a valley). Put the
-    /// one that you like into the component's table, such as folds = ["u^d"].
+    /// A way has a letter for each drawn segment, from top to bottom: u faces up when flat, d faces
+    /// down, ^ has a mountain crease in between, v a valley crease. To choose a way, put it into the
+    /// component's table, such as folds = ["u^d"].
     #[arg(long)]
     list_configurations: bool,
 }
@@ -43,7 +43,7 @@ A project file of one component:
   top = { edges = 8, radius = 28 }        # or a list of corners, counter-clockwise
   profiles = [[[0, 150], [20, 72], [-2, 0]]]";
 
-/// So many ways are listed for a profile.
+/// Most ways that are listed for a profile.
 const LISTED: usize = 12;
 
 /// Runs the command.
@@ -59,7 +59,7 @@ fn list_all(args: &DesignArgs, path: &Path) -> Result<(), AppError> {
     let input = input::read(path)?;
     let Shape::Drawn(sketches) = &input.shape else {
         return Err(AppError::Options(format!(
-            "{} holds no drawn components, so there are no profiles with ways to fold",
+            "{} has no drawn components; --list-configurations needs a project file with profiles",
             input.mesh_path.display()
         )));
     };
@@ -85,7 +85,7 @@ fn list(sketch: &Sketch, p: usize, ranking: &Ranking) {
     let mut counts: BTreeMap<Refusal, usize> = BTreeMap::new();
     ranking.refused.iter().for_each(|(_, refusal)| *counts.entry(*refusal).or_default() += 1);
     for (refusal, count) in counts {
-        terminal::say(&format!("  {count} more do not work: {refusal}"));
+        terminal::say(&format!("  {count} others do not work: {refusal}"));
     }
 }
 

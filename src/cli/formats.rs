@@ -5,14 +5,14 @@ use crate::app::choice::style_names;
 use clap::Args;
 use tatamu::export::FORMATS;
 
-/// Lists the formats that can be written, and the styles of their lines.
+/// Lists the output formats and line styles.
 #[derive(Debug, Args)]
 pub struct FormatsArgs {}
 
 /// Runs `tatamu formats`.
 pub fn run(_: &FormatsArgs) {
     terminal::say(&list());
-    terminal::say(&format!("Styles of --style: {}, or a file", style_names()));
+    terminal::say(&format!("Line styles of --style: {}, or a file", style_names()));
 }
 
 /// One line for each format: extensions and description.
@@ -21,5 +21,5 @@ pub fn list() -> String {
         let extensions = format.extensions.join(", .");
         format!("  .{extensions:<8} {}\n", format.description)
     });
-    format!("Formats of -o, by extension:\n{}", lines.collect::<String>())
+    format!("Formats of -o, chosen by the extension:\n{}", lines.collect::<String>())
 }

@@ -10,12 +10,12 @@ use tatamu::project::options::Given;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Assembly guide")]
 pub struct GuideArgs {
-    /// Writes an assembly guide, too: FILE.html for a screen, FILE.pdf for paper
+    /// Writes an assembly guide, too: FILE.html for a screen, FILE.pdf for printing
     ///
-    /// Numbered steps with pictures: fold, glue, join, fold flat. May be given several times; "-o
-    /// FILE.html" does the same. Without FILE, each PDF of -o is the guide instead of the sheets; if
-    /// there is no -o, the guide is the input's name with -guide.pdf, beside the sheets. {name} and
-    /// folders as with -o.
+    /// Numbered steps with pictures: fold, glue, join, fold flat. Repeat it for more guides; "-o
+    /// FILE.html" does the same. Without FILE, each PDF of -o is the guide instead of the sheets.
+    /// Without FILE and -o, tatamu writes NAME.pdf with the sheets and NAME-guide.pdf with the guide.
+    /// {name} and folders work as with -o.
     /// Example: --guide teddy.html, --guide -o guide.pdf
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = "", value_parser = wanted)]
     guide: Vec<Guide>,

@@ -11,22 +11,22 @@ use crate::app::{input, names, output};
 use clap::Args;
 use std::path::PathBuf;
 
-/// Writes a project file for a mesh, to edit and to give to "make".
+/// Writes a project file for a mesh; edit it, then run "make" on it.
 ///
-/// The file holds all its keys with comments, and a table for each component. The options given here
-/// become its values.
+/// The file has all keys with comments, and a table for each component. Options on this command
+/// line become its values.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct InitArgs {
     /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB)
     ///
-    /// It is divided into components, so that the project file can name them.
+    /// tatamu divides it into components, so that the project file can list them by name.
     #[arg(value_name = "MESH")]
     mesh: PathBuf,
 
     /// Project file to write [default: the mesh's name with .toml]
     ///
-    /// An existing file is kept unless --force is given. Example: -o projects/teddy.toml
+    /// Only --force replaces an existing file. Example: -o projects/teddy.toml
     #[arg(short, long = "output", value_name = "FILE")]
     output: Option<PathBuf>,
 
@@ -37,7 +37,7 @@ pub struct InitArgs {
     #[command(flatten)]
     model: Flags<OfModel>,
 
-    /// No summary and no progress bar; warnings and errors only
+    /// Prints warnings and errors only
     #[arg(short, long)]
     quiet: bool,
 }
@@ -56,12 +56,12 @@ pub fn run(args: &InitArgs) -> Result<(), AppError> {
     };
     output::check_places(std::slice::from_ref(&path), &[&args.mesh])?;
     if path.is_file() && !args.force {
-        return Err(AppError::Output { path, reason: "it exists; add --force to replace it".to_owned() });
+        return Err(AppError::Output { path, reason: "it exists; use --force to replace it".to_owned() });
     }
     let input = input::read(&args.mesh)?;
     if input.project.is_some() {
         return Err(AppError::Options(format!(
-            "{0} is a project file already; edit it, then: tatamu make {0}",
+            "{0} is already a project file; edit it, then run: tatamu make {0}",
             args.mesh.display()
         )));
     }
@@ -73,7 +73,7 @@ pub fn run(args: &InitArgs) -> Result<(), AppError> {
     let text = project_text(&mesh_from(&path, &input.mesh_path)?, choice.settings(), &components);
     output::write(&[(path.clone(), text.into_bytes())])?;
     if !args.quiet {
-        terminal::say(&format!("wrote {}; edit it, then: tatamu make {0}", path.display()));
+        terminal::say(&format!("wrote {}; edit it, then run: tatamu make {0}", path.display()));
     }
     Ok(())
 }

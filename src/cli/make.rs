@@ -10,29 +10,29 @@ use crate::app::output;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Makes a model of a mesh, or of a project file.
+/// Makes a paper model from a mesh or a project file.
 ///
-/// The mesh is divided into components; each of them becomes a convex solid that folds flat; the
-/// nets of all of them are laid out on sheets of paper.
+/// tatamu divides the mesh into parts, makes each part a convex component that folds flat, and
+/// arranges the pieces of all components on sheets of paper.
 #[derive(Debug, Args)]
 #[command(after_help = after_help())]
 pub struct MakeArgs {
-    /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB) or project file (TOML); may be several
+    /// Meshes (OBJ, STL, PLY, OFF, glTF, GLB) or project files (TOML)
     ///
-    /// The format is found from the content, whatever the file's name. Open borders, edges of more
-    /// than two faces and several bodies are accepted with a warning. Several inputs are made at
-    /// the same time, each as it would be alone; one that fails does not stop the others.
+    /// tatamu detects the format from the content, not from the file's name. It accepts open edges,
+    /// edges with more than two faces, and several bodies, with a warning. It makes several inputs in
+    /// parallel, with the same results as one by one; an input that fails does not stop the others.
     #[arg(value_name = "INPUT", required = true)]
     inputs: Vec<PathBuf>,
 
     #[command(flatten)]
     model: Flags<OfModel>,
 
-    /// File to write; may be given several times [default: the input's name with .pdf]
+    /// File to write; repeat it for more [default: the input's name with .pdf]
     ///
-    /// The extension chooses the format; the end of this page lists them. An existing file is
-    /// replaced, but only when the new one is complete. {name} stands for the input's name without
-    /// its extension; a folder, or a name that ends in a slash, gets a PDF of that name.
+    /// The extension chooses the format; see the list at the end of this page. An existing file is
+    /// replaced once the new one is complete. {name} stands for the input's name without its
+    /// extension. In a folder, or a name that ends in a slash, tatamu writes a PDF with that name.
     /// Example: -o teddy.pdf -o teddy.json, -o 'models/{name}.svg', -o models/
     #[arg(short, long = "output", value_name = "FILE")]
     output: Vec<PathBuf>,
@@ -43,20 +43,20 @@ pub struct MakeArgs {
     #[command(flatten)]
     film: Flags<OfFilm>,
 
-    /// Writes what is printed and what is cut into two files, NAME-print and NAME-cut
+    /// Writes two files, NAME-print for the printer and NAME-cut for the cutter
     ///
-    /// Both have the same pages with the same origin. NAME-cut holds contours, slits and creases;
-    /// NAME-print holds labels, glue marks, scale bars and registration marks. Formats that are
-    /// no pages are written once. Example: --print-and-cut --marks silhouette -o teddy.svg
-    #[arg(long)]
+    /// Both have the same pages with the same origin. NAME-cut has cut lines, slits and creases;
+    /// NAME-print has labels, glue marks, scale bars and registration marks. Formats without pages
+    /// are written once. Example: --print-and-cut --marks silhouette -o teddy.svg
+    #[arg(long, help_heading = None::<&'static str>)]
     print_and_cut: bool,
 
-    /// File for the segmentation: one number a line
+    /// Writes the component of each face to a text file, one number per line
     ///
-    /// For each face of the input file, in its order, the index of its component from 0; -1 for
-    /// a face that was dropped in the repair, or whose part has no volume. {name} and folders as
-    /// with -o. Example: --segments teddy.seg
-    #[arg(long, value_name = "FILE")]
+    /// One line per face of the input, in its order: the index of its component, from 0, or -1 if
+    /// the repair dropped the face or its part has no volume. {name} and folders work as with -o.
+    /// Example: --segments teddy.seg
+    #[arg(long, value_name = "FILE", help_heading = None::<&'static str>)]
     segments: Option<PathBuf>,
 
     #[command(flatten)]
@@ -65,8 +65,8 @@ pub struct MakeArgs {
     #[command(flatten)]
     machine: Flags<OfMachine>,
 
-    /// No summary and no progress bar; warnings and errors only
-    #[arg(short, long)]
+    /// Prints warnings and errors only
+    #[arg(short, long, help_heading = None::<&'static str>)]
     quiet: bool,
 }
 
@@ -76,7 +76,7 @@ impl MakeArgs {
         &self.inputs
     }
 
-    /// Whether only warnings and errors are told.
+    /// Whether only warnings and errors are printed.
     pub fn is_quiet(&self) -> bool {
         self.quiet
     }

@@ -30,8 +30,8 @@ const STOPPED: u8 = 130;
 
 /// Turns a 3D mesh into a paper model that folds flat.
 ///
-/// A model consists of convex components that are glued together. Each of them folds flat by
-/// itself, so the finished model can be laid flat and stood up again.
+/// A model consists of components that are glued together. Each component folds flat on its own, so
+/// you can fold the finished model flat and unfold it again.
 #[derive(Debug, Parser)]
 #[command(name = "tatamu", version, after_help = EXAMPLES)]
 struct Cli {
@@ -60,17 +60,17 @@ enum Command {
 
 const EXAMPLES: &str = "\
 Examples:
-  tatamu make teddy.obj                     teddy.pdf, 200 mm high or wide, on A4
+  tatamu make teddy.obj                     teddy.pdf: longest side 200 mm, on A4
   tatamu make teddy.obj --size 30cm --paper a3 -o teddy.pdf -o teddy.svg
   tatamu make *.obj -o models/              a PDF of each mesh, in a folder
   tatamu init teddy.obj                     teddy.toml, a project file to edit
-  tatamu segment teddy.obj -o parts.png     shows the parts without making a model
-  tatamu make teddy.toml                    makes what the project file says
-  tatamu design vase.toml                   makes a model that is drawn in a project file
-  tatamu make teddy.obj -o teddy.gif        an animation of its folding
+  tatamu segment teddy.obj -o parts.png     a picture of the parts, without a model
+  tatamu make teddy.toml                    the model of a project file
+  tatamu design vase.toml                   a model drawn in a project file
+  tatamu make teddy.obj -o teddy.gif        an animation of the folding
   tatamu show teddy.obj -o half.png --pose 0.5
-  tatamu studio teddy.obj                   a window in which to try directions and sizes
-  tatamu check teddy.fold                   verifies a FOLD file
+  tatamu studio teddy.obj                   a window to change settings and see the result
+  tatamu check teddy.fold                   checks a FOLD file
   tatamu plot teddy.obj --cutter generic-hpgl --port /dev/ttyUSB0
 
 \"tatamu make --help\" explains every option.";

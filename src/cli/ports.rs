@@ -6,16 +6,16 @@ use crate::app::plot::hint;
 use clap::Args;
 use serialport::SerialPortType;
 
-/// Lists the serial ports, with what is known of what is plugged in.
+/// Lists the serial ports and the devices on them.
 #[derive(Debug, Args)]
 pub struct PortsArgs {}
 
 /// Runs the command.
 pub fn run(_: &PortsArgs) -> Result<(), AppError> {
     let ports = serialport::available_ports()
-        .map_err(|error| AppError::Options(format!("the serial ports cannot be listed: {error}")))?;
+        .map_err(|error| AppError::Options(format!("cannot list the serial ports: {error}")))?;
     if ports.is_empty() {
-        terminal::say("no serial port; plug the machine in and switch it on");
+        terminal::say("found no serial port; connect the machine and switch it on");
     }
     for port in ports {
         let what = match &port.port_type {

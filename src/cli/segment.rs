@@ -17,17 +17,17 @@ use tatamu::progress::Progress;
 use tatamu::render::parts_picture;
 use tatamu::segment::{Overlap, Parts, overlap};
 
-/// Shows the parts that a mesh is divided into, without making a model.
+/// Divides a mesh into parts and shows them, without making a model.
 ///
-/// Each part becomes one component of the model. The picture shows the parts in colour from two
-/// sides with their names, by which a project file can merge, split and rename them. --up turns only
-/// the picture.
+/// Each part becomes one component of the model. The picture shows the parts from two sides, with
+/// colours and names. Use the names in a project file to merge, split and rename parts. --up rotates
+/// only the picture.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct SegmentCommand {
     /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB) or project file (TOML)
     ///
-    /// Changes by hand in a project file are made before the parts are shown.
+    /// The parts include the merges and splits of a project file.
     #[arg(value_name = "INPUT")]
     input: PathBuf,
 
@@ -37,14 +37,14 @@ pub struct SegmentCommand {
     #[arg(short, long = "output", value_name = "FILE")]
     output: Option<PathBuf>,
 
-    /// File for the segmentation: one number a line
+    /// Writes the part of each face to a text file, one number per line
     ///
-    /// For each face of the input file, in its order, the index of its part from 0; -1 for a face
-    /// that was dropped in the repair. Example: --segments teddy.seg
+    /// One line per face of the input, in its order: the index of its part, from 0, or -1 if the
+    /// repair dropped the face. Example: --segments teddy.seg
     #[arg(long, value_name = "FILE")]
     segments: Option<PathBuf>,
 
-    /// File for a report: parts, borders with their planes, seconds by step, as JSON
+    /// Writes a JSON report: parts, borders with their planes, seconds per step
     ///
     /// Example: --report parts.json
     #[arg(long, value_name = "FILE")]
@@ -53,7 +53,7 @@ pub struct SegmentCommand {
     #[command(flatten)]
     division: Flags<OfDivision>,
 
-    /// No summary and no progress bar; warnings and errors only
+    /// Prints warnings and errors only
     #[arg(short, long)]
     quiet: bool,
 }
@@ -130,10 +130,14 @@ fn draw(parts: &Parts, path: &Path) -> Result<Vec<u8>, AppError> {
 fn summarise(parts: &Parts, overlap: Option<Overlap>, stages: &[(&'static str, f64)]) {
     let shares = parts.names().iter().zip(parts.area_shares());
     let shares: Vec<String> = shares.map(|(name, share)| format!("{name} {:.0}%", 100.0 * share)).collect();
-    terminal::say(&format!("parts       {}, by share of the surface: {}", shares.len(), shares.join(", ")));
+    terminal::say(&format!(
+        "parts       {}, with their share of the surface: {}",
+        shares.len(),
+        shares.join(", ")
+    ));
     let likeness = match overlap {
-        Some(o) => format!("{:.3} (their hulls' union over the solid: intersection over union)", o.iou),
-        None => "unknown: the mesh encloses nothing".to_owned(),
+        Some(o) => format!("{:.3} (intersection over union of the hulls and the solid)", o.iou),
+        None => "unknown: the mesh encloses no volume".to_owned(),
     };
     terminal::say(&format!("likeness    {likeness}"));
     let steps: Vec<String> = stages.iter().map(|(name, s)| format!("{name} {s:.2}")).collect();

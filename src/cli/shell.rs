@@ -1,4 +1,4 @@
-//! `tatamu completions` and `tatamu man`: what shells and manuals know of the command line.
+//! `tatamu completions` and `tatamu man`: the command line for shells and manuals.
 
 use crate::app::error::AppError;
 use crate::app::output;
@@ -12,16 +12,16 @@ use std::path::PathBuf;
 /// With bash: tatamu completions bash > ~/.local/share/bash-completion/completions/tatamu
 #[derive(Debug, Args)]
 pub struct CompletionsArgs {
-    /// Shell that the script is for
+    /// Shell to complete commands in
     shell: Shell,
 }
 
-/// Writes manual pages, one for the program and one for each of its commands.
+/// Writes manual pages: one for the program, one for each command.
 ///
 /// Example: tatamu man ~/.local/share/man/man1, then man tatamu-make
 #[derive(Debug, Args)]
 pub struct ManArgs {
-    /// The folder to write them into, which must exist
+    /// Existing folder for the pages
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
 }

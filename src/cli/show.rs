@@ -20,7 +20,7 @@ use tatamu::show::{
     mesh_scene, segments_scene, staged_scene,
 };
 
-/// Shows a mesh, or a stage of its way to a paper model, as a picture.
+/// Draws a mesh, a paper model, or a stage between them.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct ShowArgs {
@@ -34,51 +34,51 @@ pub struct ShowArgs {
     #[arg(short, long = "output", value_name = "FILE")]
     output: Option<PathBuf>,
 
-    /// What is shown [default: components]
+    /// Stage to draw [default: components]
     ///
     /// mesh: the input; segments: its parts; hulls: the convex hull of each part; components: the
-    /// paper model; flat: the same, folded. Meshes of more than 50,000 faces are drawn by fewer.
-    /// Example: --stage hulls
+    /// paper model; flat: the paper model folded flat. Meshes of more than 50,000 faces are
+    /// simplified for the picture. Example: --stage hulls
     #[arg(long, value_name = "STAGE", value_enum)]
     stage: Option<Stage>,
 
-    /// How far the model is folded, from 0 (deployed) to 1 (flat)
+    /// How far the model is folded, from 0 (unfolded) to 1 (flat)
     ///
     /// Components fold one after another, in the order that "make" reports. Example: --pose 0.5
     #[arg(long, value_name = "SHARE", value_parser = share, conflicts_with = "stage")]
     pose: Option<f64>,
 
-    /// Where components clash or overlap, one picture for each place
+    /// Draws each place where components clash or overlap
     ///
-    /// The two components have their colours, and the place is red; below it is written what to do.
-    /// Several pictures become numbered files, or pages of a PDF. Where nothing clashes it is the
-    /// paper model. Example: --clashes -o clashes.png
+    /// The place is red, the two components have their own colours, and a caption says what to do.
+    /// Several pictures become numbered files, or pages of a PDF. If nothing clashes, the picture
+    /// shows the paper model. Example: --clashes -o clashes.png
     #[arg(long, conflicts_with_all = ["stage", "pose"])]
     clashes: bool,
 
-    /// Where it is seen from [default: corner; with --clashes: where the place is seen best]
+    /// Camera: a side or two angles [default: corner; with --clashes: the best view of the place]
     ///
-    /// corner, front, back, left, right, top, or two angles in degrees: round the model from its
-    /// front to its left, and up. Example: --view 30,20
+    /// corner, front, back, left, right, top, or two angles in degrees: around the model from its
+    /// front to its left, then up. Example: --view 30,20
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     view: Option<ViewAngle>,
 
     /// Longer side in pixels [default: 800]
     ///
-    /// SVG and PDF have 96 of them to the inch. Example: --size-px 1600
+    /// In SVG and PDF, 96 pixels are one inch. Example: --size-px 1600
     #[arg(long, value_name = "PIXELS", value_parser = size_px)]
     size_px: Option<u32>,
 
-    /// No ground and no shadow
+    /// Leaves out the ground and the shadow
     ///
-    /// For pictures that are laid on something else.
+    /// For pictures on a background of your own.
     #[arg(long)]
     transparent: bool,
 
     #[command(flatten)]
     model: Flags<OfModel>,
 
-    /// No message and no progress bar; warnings and errors only
+    /// Prints warnings and errors only
     #[arg(short, long)]
     quiet: bool,
 }
@@ -110,7 +110,7 @@ fn size_px(text: &str) -> Result<u32, String> {
 fn share(text: &str) -> Result<f64, String> {
     let share: Option<f64> = text.trim().parse().ok();
     let share = share.filter(|share| (0.0..=1.0).contains(share));
-    share.ok_or_else(|| "this must be a number from 0 (deployed) to 1 (flat)".to_owned())
+    share.ok_or_else(|| "this must be a number from 0 (unfolded) to 1 (flat)".to_owned())
 }
 
 /// Runs the command.
@@ -151,8 +151,8 @@ pub fn run(args: &ShowArgs) -> Result<(), AppError> {
     Ok(())
 }
 
-/// A picture of each place where components are in each other; of the model where there is none, so that
-/// no picture of an earlier run is taken for this one's.
+/// A picture of each place where components clash or overlap. Without any, a picture of the model, so
+/// that no picture of an earlier run stays in its place.
 fn clashes(args: &ShowArgs, still: &Still, result: &Output) -> Result<Vec<Drawing>, AppError> {
     let motion = ModelMotion::new(result.model());
     let encounters = result.fold_plan().encounters(&motion);

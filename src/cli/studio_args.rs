@@ -4,10 +4,10 @@ use crate::app::error::AppError;
 use clap::Args;
 use std::path::PathBuf;
 
-/// Opens the window in which you turn the dials and see the paper change.
+/// Opens a window to change settings and see the model change.
 ///
-/// It has the model in space, its folding, its sheets, the files, and the cutter. It reads and
-/// writes the same project files as the command line.
+/// It shows the model in 3D, its folding and its sheets, exports files, and drives the cutter. It
+/// reads and writes the same project files as the command line.
 #[derive(Debug, Args)]
 pub struct StudioArgs {
     /// Mesh or project file to open
@@ -26,7 +26,6 @@ pub fn run(args: &StudioArgs) -> Result<(), AppError> {
 pub fn run(args: &StudioArgs) -> Result<(), AppError> {
     let input = args.input.as_deref().map(|path| format!(" {}", path.display())).unwrap_or_default();
     Err(AppError::Options(format!(
-        "this program was built without its window, which takes longer to build; get it with: cargo run --release \
-         --features studio -- studio{input}"
+        "this build has no studio; build it with: cargo run --release --features studio -- studio{input}"
     )))
 }

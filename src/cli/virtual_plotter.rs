@@ -18,53 +18,53 @@ use tatamu::drawing::{Drawing, Layer, LineStyles, Mark, Pages};
 use tatamu::export::{FormatOptions, Source};
 use tatamu::plotter::{Cutter, Faults, VirtualOptions, VirtualPlotter};
 
-/// A plotter that is not there, to try things with: it opens a port and does what it is told.
+/// Simulates a plotter on a virtual serial port, to try jobs without a machine.
 ///
-/// It prints the name of its port, which "tatamu plot --port" and other programs can use. It reads
-/// at the speed of its line, also after XOFF, as real ones do. When the host closes the port, it
-/// says how many bytes it lost and whether the pen is up.
+/// It prints the name of the port, for "tatamu plot --port" and other programs. It reads at the
+/// speed of its line, even after XOFF, as real plotters do. When the host closes the port, it
+/// reports how many bytes it lost and whether the pen is up.
 #[derive(Debug, Args)]
 pub struct VirtualPlotterArgs {
     #[command(flatten)]
     machine: Flags<OfMachine>,
 
-    /// Size of its buffer in bytes
+    /// Size of the buffer in bytes
     #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(256..))]
     buffer: u32,
 
-    /// Speed of its line in bits a second [default: as in the profile]
+    /// Speed of the line in bits per second [default: from the profile]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(300..))]
     baud: Option<u32>,
 
-    /// How many times faster than the profile it moves; 0.2 is slow
+    /// Speed of the tool, relative to the profile; 0.2 is slower, 10 faster
     #[arg(long, value_name = "N", default_value_t = 1.0, value_parser = factor)]
     speedup: f64,
 
-    /// Answers no question
+    /// Never answers the host
     #[arg(long)]
     mute: bool,
 
-    /// Sends XOFF when fewer bytes are free, and XON again later
+    /// Sends XOFF when fewer than N bytes are free, and XON later
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     xoff_below: Option<u32>,
 
-    /// Every so many answers it answers noise
+    /// Replaces every Nth answer with noise
     #[arg(long, value_name = "N", default_value_t = 0)]
     garbage_every: u32,
 
-    /// Every so many answers it says nothing
+    /// Leaves out every Nth answer
     #[arg(long, value_name = "N", default_value_t = 0)]
     silence_every: u32,
 
-    /// Reports a framing error (ESC.E) after so many bytes
+    /// Reports a framing error (ESC.E) after N bytes
     #[arg(long, value_name = "N")]
     error_at: Option<u64>,
 
-    /// Is unplugged after so many bytes: the port is gone
+    /// Closes the port after N bytes, as if unplugged
     #[arg(long, value_name = "N")]
     unplug_at: Option<u64>,
 
-    /// What it drew, written when the host closes the port: .png, .svg, .dxf, .pdf
+    /// Writes what it drew when the host closes the port: .png, .svg, .dxf, .pdf
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
 
@@ -183,7 +183,7 @@ fn report(args: &VirtualPlotterArgs, cutter: &Cutter, plotter: &VirtualPlotter) 
     let mut files = Vec::new();
     for target in output::targets(std::slice::from_ref(path), &[])? {
         let Source::Pages(write) = target.format.source else {
-            return Err(AppError::Options(format!("{} is no drawing; use .png or .svg", path.display())));
+            return Err(AppError::Options(format!("{} is not a picture; use .png or .svg", path.display())));
         };
         let pages = Pages::new("drawn", vec![drawing(cutter, plotter)], LineStyles::standard());
         let pages = pages.map_err(|error| AppError::Options(error.to_string()))?;

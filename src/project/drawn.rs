@@ -107,7 +107,7 @@ impl Top {
                 let is_usable = (3..=MOST_EDGES).contains(edges) && *radius > 0.0 && radius.is_finite();
                 if !is_usable {
                     return Err(format!(
-                        "its regular top has {edges} edges at radius {radius}; it needs from 3 to {MOST_EDGES} edges, \
+                        "its regular top has {edges} edges at radius {radius}; it needs from 3 to {MOST_EDGES} edges \
                          and a radius above 0"
                     ));
                 }
@@ -130,7 +130,7 @@ impl Component {
     fn sketch(&self) -> Result<Sketch, String> {
         let Some(top) = self.top.as_ref().filter(|_| !self.profiles.is_empty()) else {
             return Err(
-                "a drawn component has a top and profiles, such as top = { edges = 6, radius = 40 } and \
+                "a drawn component needs a top and profiles, such as top = { edges = 6, radius = 40 } and \
                         profiles = [[[0, 60], [0, 0]]]"
                     .to_owned(),
             );
@@ -138,7 +138,7 @@ impl Component {
         let fitted = [self.top_edges, self.profile_vertices];
         if self.direction_deg.is_some() || fitted != [None; 2] || self.concave.is_some() {
             return Err(
-                "a drawn component is as it is drawn; leave out direction, top_edges, profile_vertices, concave"
+                "direction, top_edges, profile_vertices and concave have no effect on a drawn component; remove them"
                     .to_owned(),
             );
         }
@@ -151,7 +151,7 @@ impl Component {
         match &self.joint {
             None => Ok(sketch),
             Some(JointKey::Hold(_)) => Err(
-                "a drawn component has a table [component.joint]; write hold = \"plug\" or \"glue\" there"
+                "a drawn component has its joint in a table [component.joint]; write hold = \"plug\" or \"glue\" there"
                     .to_owned(),
             ),
             Some(JointKey::Place(joint)) => sketch.attached(joint.attachment()?).map_err(|e| e.to_string()),
@@ -251,10 +251,10 @@ turn = 45
         for (from, to, word) in [
             ("edges = 4", "edges = 2", "from 3 to 64"),
             ("radius = 30", "radius = -1", "above 0"),
-            ("[0, 0]]]\n[[c", "[0, 60]]]\n[[c", "v falls"),
+            ("[0, 0]]]\n[[c", "[0, 60]]]\n[[c", "v must fall"),
             ("'^'", "'x'", "folds \"x\""),
             ("panel = 'top'", "panel = 'lid'", "panels are top"),
-            ("folds = ['^']", "top_edges = 3", "as it is drawn"),
+            ("folds = ['^']", "top_edges = 3", "no effect on a drawn component"),
         ] {
             let text = BOX.replacen(from, to, 1);
             let found = Project::parse(&text).and_then(|project| project.sketches());
@@ -262,9 +262,9 @@ turn = 45
             assert!(message.contains(word), "{to}: {message}");
         }
         for (text, keys) in [
-            ("up = 'z'", "so up would"),
-            ("[segmentation]\nparts = 3", "so [segmentation] would"),
-            ("[defaults]\ntop_edges = 3\ntolerance = '2mm'", "so top_edges, tolerance would"),
+            ("up = 'z'", "no effect: up;"),
+            ("[segmentation]\nparts = 3", "no effect: [segmentation];"),
+            ("[defaults]\ntop_edges = 3\ntolerance = '2mm'", "no effect: top_edges, tolerance;"),
         ] {
             let message = Project::parse(&format!("{text}\n{BOX}")).unwrap_err().to_string();
             assert!(message.contains(keys), "{message}");

@@ -41,18 +41,19 @@ impl TryFrom<Table> for Edit {
             }
             (None, Some(part)) => {
                 let (Some(point), Some(normal)) = (table.point, table.normal) else {
-                    return Err("split needs a plane: a point and a normal, each such as [0, 1.5, 0]");
+                    return Err("split needs a plane: a point and a normal, such as [0, 1.5, 0] each");
                 };
                 let plane = Plane::through(DVec3::from_array(point), DVec3::from_array(normal));
-                let plane = plane.ok_or("the normal must have a length, and all numbers must be finite")?;
+                let plane =
+                    plane.ok_or("the normal must not be [0, 0, 0], and all numbers must be finite")?;
                 if table.front.as_ref().is_some_and(|name| !is_name(name)) {
                     return Err(
-                        "front is the name of the new part: a letter at least, no control characters",
+                        "front, the name of the new part, needs at least one letter and no control characters",
                     );
                 }
                 Ok(Self(segment::Edit::Split { part, plane, front: table.front }))
             }
-            _ => Err("an edit has either merge, or split with point and normal"),
+            _ => Err("an edit needs either merge, or split with point and normal"),
         }
     }
 }
@@ -89,7 +90,7 @@ mod tests {
         for (edit, word) in [
             ("merge = ['body']", "two or more"),
             ("split = 'body'", "needs a plane"),
-            ("split = 'body'\npoint = [0, 0, 0]\nnormal = [0, 0, 0]", "must have a length"),
+            ("split = 'body'\npoint = [0, 0, 0]\nnormal = [0, 0, 0]", "must not be [0, 0, 0]"),
             ("split = 'body'\npoint = [0, nan, 0]\nnormal = [0, 0, 1]", "finite"),
             ("split = 'body'\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nfront = ' '", "front"),
             ("merge = ['a', 'b']\nsplit = 'c'", "either"),

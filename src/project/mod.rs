@@ -1,4 +1,4 @@
-//! The project file: everything that `make` can be told, as TOML.
+//! The project file: all settings of a model, as TOML.
 //!
 //! The structs here are the file's; they are checked while they are read, so that an error names
 //! the line and column of the value that is wrong.
@@ -27,27 +27,27 @@ pub enum ProjectError {
     #[error("{0}")]
     Toml(String),
     /// Two components of one name.
-    #[error("two components have the name \"{name}\"; give each its own")]
+    #[error("two components have the name \"{name}\"; rename one")]
     SameName {
         /// The name.
         name: String,
     },
     /// Neither a mesh nor drawings.
     #[error(
-        "it has nothing to make a model of; give it a mesh, such as mesh = \"teddy.obj\", or [[component]] tables with \
-         top and profiles"
+        "it has neither a mesh nor drawn components; add a mesh, such as mesh = \"teddy.obj\", or [[component]] tables \
+         with top and profiles"
     )]
     Nothing,
     /// A mesh and drawings.
-    #[error("component \"{name}\" is drawn, but the project has a mesh, too; make two projects of it")]
+    #[error("component \"{name}\" is drawn, but the project also has a mesh; split it into two projects")]
     Mixed {
         /// The component.
         name: String,
     },
-    /// Keys that have no meaning for components that are drawn.
-    #[error("its components are made as they are drawn, so {} would do nothing; leave out what is named", .0.join(", "))]
+    /// Keys that have no effect on drawn components.
+    #[error("its components are drawn, so these keys have no effect: {}; remove them", .0.join(", "))]
     MeshOnly(Vec<String>),
-    /// A drawing that is none.
+    /// A drawing with an error.
     #[error("component \"{name}\": {reason}")]
     Drawing {
         /// The component.

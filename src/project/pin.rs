@@ -48,11 +48,11 @@ impl TryFrom<Table> for PinTable {
     fn try_from(table: Table) -> Result<Self, String> {
         let Table { piece, sheet, x_mm, y_mm, turn } = table;
         if !(1..=MOST_SHEETS).contains(&sheet) {
-            return Err(format!("the number of a pin's sheet is from 1 to {MOST_SHEETS}"));
+            return Err(format!("sheet must be from 1 to {MOST_SHEETS}"));
         }
         if !(x_mm.abs() <= LARGEST_MM && y_mm.abs() <= LARGEST_MM) {
             return Err(
-                "x_mm and y_mm are the place of the piece's lower left corner on the sheet".to_owned()
+                "x_mm and y_mm must be finite: the piece's lower left corner on the sheet, mm".to_owned()
             );
         }
         let turn_rad = super::options::check_degrees(turn)?.to_radians();

@@ -1,4 +1,4 @@
-//! A fresh project file, with comments.
+//! A new project file, with comments.
 
 use super::options::{
     CONCAVE, DIRECTION, Entry, JOINT, PARTS, PROFILE_VERTICES, RENAME, Settings, TOP_EDGES, of_table, quoted,
@@ -32,16 +32,16 @@ pub struct TemplateComponent {
 const LINE: usize = 100;
 
 const HEAD: &str = "\
-# A tatamu project. Change it and run \"tatamu make\" on this file.
-# Lengths are millimetres, or texts with a unit: \"200mm\", \"20cm\", \"8in\".
+# A tatamu project. Edit it, then run \"tatamu make\" on this file.
+# Lengths are millimetres, or text with a unit: \"200mm\", \"20cm\", \"8in\".
 
 # The mesh, relative to this file: OBJ, STL, PLY, OFF, glTF or GLB.
 ";
 
 const EDITS: &str = "
-# Changes by hand, made in their order; \"tatamu segment\" shows the names in a picture.
-# A merge keeps the first name. A split cuts along a plane, in the mesh file's coordinates; what is
-# on the side that the normal points to gets the name after front.
+# Your own merges and splits, in order; \"tatamu segment -o parts.png\" shows the names.
+# A merge keeps the first name. A split cuts a part along a plane, in the mesh file's coordinates;
+# the part on the side of the normal gets the name that front sets.
 # [[edit]]
 # merge = [\"left\", \"top\"]
 # [[edit]]
@@ -52,8 +52,8 @@ const EDITS: &str = "
 ";
 
 const PINS: &str = "
-# Pieces at places of your own: sheet from 1, lower left corner in mm, turn in degrees. The studio
-# writes these when you drag a piece.
+# Pieces that you place yourself: sheet from 1, lower left corner in mm, turn in degrees. The studio
+# writes these tables when you drag a piece.
 # [[pin]]
 # piece = \"head\"
 # sheet = 1
@@ -61,7 +61,7 @@ const PINS: &str = "
 # y_mm = 30
 # turn = 90
 
-# One table for each component. What a table leaves out comes from [defaults].
+# One table for each component. Missing keys come from [defaults].
 ";
 
 /// A project file with comments that explain each key.

@@ -79,10 +79,10 @@ impl Change {
             Self::Set { option, .. } => words(option),
             Self::Mesh { .. } => "name of the mesh".to_owned(),
             Self::Component { name, option, .. } => format!("{} of {name}", words(option)),
-            Self::Reset { name } => format!("reset of {name}"),
-            Self::Forget { name } => format!("what was set for {name}"),
-            Self::Merge { names } => format!("merge of {}", names.join(" and ")),
-            Self::Split { name, .. } => format!("split of {name}"),
+            Self::Reset { name } => format!("reset {name}"),
+            Self::Forget { name } => format!("settings of {name}"),
+            Self::Merge { names } => format!("merge {}", names.join(" and ")),
+            Self::Split { name, .. } => format!("split {name}"),
             Self::Pin { piece, .. } => format!("place of {piece}"),
         }
     }

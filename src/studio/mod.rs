@@ -47,6 +47,8 @@ pub fn run(input: Option<PathBuf>) -> Result<(), AppError> {
         Ok(Box::new(window))
     });
     eframe::run_native("tatamu studio", options, create).map_err(|error| {
-        AppError::Options(format!("the window cannot be opened: {error}; is there a display, with OpenGL?"))
+        AppError::Options(format!(
+            "cannot open the window: {error}; check that there is a display with OpenGL"
+        ))
     })
 }

@@ -141,7 +141,7 @@ impl Operator for Hand {
 
     fn stopped(&mut self, journal: &Path, (done, strokes): (usize, usize)) {
         let text = format!(
-            "{done} of {strokes} strokes of this sheet are certainly done; go on with: tatamu plot --resume {}",
+            "at least {done} of {strokes} strokes of this sheet are done; continue with: tatamu plot --resume {}",
             journal.display()
         );
         self.note(&text);

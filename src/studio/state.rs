@@ -195,8 +195,7 @@ impl Studio {
         self.notice = None;
         let recovered = self.store.recovered(&opened.source).filter(|text| *text != opened.text);
         if recovered.is_some_and(|text| document.replace(text, "recovered changes").is_ok()) {
-            self.notice =
-                Some("changes that were not saved the last time are back; Undo drops them".to_owned());
+            self.notice = Some("recovered unsaved changes; Undo drops them".to_owned());
         }
         self.store.add_recent(&opened.source);
         self.opened = Some(Arc::new(opened));
@@ -221,7 +220,7 @@ impl Studio {
     pub fn cancel(&mut self) {
         self.worker.cancel();
         if self.busy.take().is_some() {
-            self.notice = Some("stopped; any change starts again".to_owned());
+            self.notice = Some("stopped; the next change starts it again".to_owned());
         }
     }
 
@@ -238,8 +237,7 @@ impl Studio {
     /// Changes the project. Changes of one gesture are undone together.
     pub fn change(&mut self, change: &Change, gesture: Option<&str>) {
         if self.is_drawn() && change.is_of_parts() {
-            self.notice =
-                Some("these components are drawn: change their shape in the project file".to_owned());
+            self.notice = Some("these components are drawn; edit their shape in the project file".to_owned());
             return;
         }
         let Some(document) = &mut self.document else { return };

@@ -97,7 +97,7 @@ fn a_killed_studio_loses_nothing() {
     again.open(&folder.path().join("snowman.toml"));
     wait(&mut again, "the project", |s| s.document().is_some());
     assert_eq!(again.document().unwrap().text(), wanted);
-    assert!(again.notice().unwrap().contains("not saved"));
+    assert!(again.notice().unwrap().contains("unsaved"));
     again.undo();
     assert!(!again.document().unwrap().is_changed(), "undo drops what was recovered");
     assert_eq!(again.recent().len(), 1);

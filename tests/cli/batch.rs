@@ -118,5 +118,5 @@ fn one_input_can_go_into_a_folder() {
 
 #[test]
 fn an_output_that_is_asked_for_twice_in_other_words() {
-    assert_refused(&FILES, &["make", "a.obj", "-o", "x.pdf", "-o", "./x.pdf"], &["asked for twice"]);
+    assert_refused(&FILES, &["make", "a.obj", "-o", "x.pdf", "-o", "./x.pdf"], &["two options write it"]);
 }

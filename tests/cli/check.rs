@@ -59,7 +59,7 @@ fn a_good_file_passes_line_by_line() {
     assert_eq!(result.code, Some(0), "{}{}", result.out, result.err);
     assert!(result.out.lines().count() > 10);
     assert!(!result.out.contains("FAIL"));
-    assert!(result.out.ends_with("all is well\n"));
+    assert!(result.out.ends_with("all checks passed\n"));
 }
 
 #[test]

@@ -44,5 +44,5 @@ fn the_project_file_has_the_language() {
 fn refusals() {
     let files: &[(&str, &[u8])] = &[("a.obj", MESH)];
     assert_refused(files, &["make", "a.obj", "--guide", "a.svg"], &["a.svg", ".html", ".pdf"]);
-    assert_refused(files, &["make", "a.obj", "-o", "a.html", "--guide", "a.html"], &["asked for twice"]);
+    assert_refused(files, &["make", "a.obj", "-o", "a.html", "--guide", "a.html"], &["two options write it"]);
 }

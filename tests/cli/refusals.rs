@@ -101,7 +101,7 @@ fn places_that_cannot_be_written() {
     assert_refused(
         &files,
         &["make", "a.obj", "-o", "a.json", "-o", "a.json"],
-        &["cannot write a.json", "twice"],
+        &["cannot write a.json", "two options write it"],
     );
     assert_refused(
         &files,

@@ -35,5 +35,5 @@ fn every_command_has_a_manual_page() {
         assert!(text.contains(&format!(".TH tatamu-{command} 1")), "{text}");
     }
     assert!(pages.contains(&"tatamu.1".to_owned()));
-    assert_refused(&[], &["man", "none"], &["none", "make it first"]);
+    assert_refused(&[], &["man", "none"], &["none", "create it first"]);
 }

@@ -1,8 +1,8 @@
 //! Mesh in, foldable model out: the geometry of **tatamu**, without paper, files or pictures.
 //!
-//! A [`mesh::Mesh`] is divided by [`segment`] into parts; [`model`] joins their hulls as a tree and chooses
-//! for each a solid of [`component`], which folds flat; [`fold`] orders the folding. [`design`] makes models
-//! of drawings instead.
+//! [`segment`] divides a [`mesh::Mesh`] into parts. [`model`] joins their hulls in a tree and chooses for each
+//! a [`component`], a solid that folds flat. [`fold`] finds the folding order. [`design`] makes models from
+//! drawings instead.
 //!
 //! ```
 //! use glam::DVec3;

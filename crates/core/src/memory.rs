@@ -1,4 +1,4 @@
-//! Results that are kept, by what they were made from.
+//! Cached results, by the inputs that they depend on.
 
 use std::collections::VecDeque;
 use std::fmt;

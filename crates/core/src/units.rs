@@ -38,7 +38,7 @@ pub enum UnitsError {
         found: String,
     },
     /// Zero, negative, infinite or beyond use.
-    #[error("\"{found}\" is no usable length; it must be more than 0 and at most 100 m")]
+    #[error("\"{found}\" is not a usable length; it must be more than 0 and at most 100 m")]
     OutOfRange {
         /// The text.
         found: String,

@@ -1,7 +1,7 @@
 //! The display list of **tatamu**, and scenes in space drawn on it.
 //!
-//! A [`drawing::Drawing`] is what everything draws on and every back end reads. [`render`] draws scenes on
-//! one, [`pixels`] makes a picture of one.
+//! Everything draws on a [`drawing::Drawing`], and every back end reads it. [`render`] draws scenes on it,
+//! [`pixels`] turns it into a picture.
 //!
 //! ```
 //! use glam::DVec2;

@@ -17,7 +17,7 @@ const MAX_PIXELS: f64 = 140e6;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PngError {
     /// No such picture can be made.
-    #[error("{width} x {height} pixels is no usable size for a picture; change the resolution")]
+    #[error("{width} x {height} pixels is not a usable size for a picture; change the resolution")]
     Size {
         /// Pixels across, as far as that is a number.
         width: f64,
@@ -25,7 +25,7 @@ pub enum PngError {
         height: f64,
     },
     /// The encoder failed.
-    #[error("the picture could not be encoded: {0}")]
+    #[error("cannot encode the picture: {0}")]
     Encoder(String),
 }
 

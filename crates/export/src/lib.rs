@@ -1,4 +1,4 @@
-//! What is made of a result: files, reports, pictures, the assembly guide.
+//! The files made from a result: formats, reports, pictures, the assembly guide.
 //!
 //! A [`product::Product`] is a finished run; each format in [`export::FORMATS`] takes from it what it needs.
 //!

@@ -1,4 +1,4 @@
-//! Nets of foldable components, and sheets of paper full of them.
+//! Nets of components that fold flat, and sheets of paper with their pieces.
 //!
 //! [`net::develop`] cuts a component open: pieces with tabs and labels. [`sheet::Layout`] nests the pieces of
 //! all nets on sheets.

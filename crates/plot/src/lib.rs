@@ -1,7 +1,7 @@
-//! Drawings to strokes of a tool, to jobs of cutters, to what goes over the wire.
+//! From drawings to strokes of a tool, to jobs for cutters, to bytes on the wire.
 //!
-//! [`toolpath`] makes strokes of the lines of a drawing; a [`plotter::Plan`] makes the bytes of a job of them,
-//! and a [`plotter::session`] sends these without losing one.
+//! [`toolpath`] turns the lines of a drawing into strokes; a [`plotter::Plan`] turns these into the bytes of a
+//! job, and a [`plotter::session`] sends the bytes without losing one.
 //!
 //! ```
 //! use tatamu_plot::plotter::{Cutter, Job};

@@ -41,7 +41,7 @@ fn parse(bytes: &[u8]) -> Result<Gltf, ReadError> {
     let invalid = |error: gltf::Error| ReadError::Syntax {
         format: Format::Gltf,
         place: Place::Part("structure".to_owned()),
-        found: format!("a fault ({})", shorten(&error.to_string())),
+        found: format!("an error ({})", shorten(&error.to_string())),
         expected: "valid glTF 2.0 without compression or other required extensions".to_owned(),
     };
     let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(invalid)?;
@@ -251,7 +251,7 @@ impl<'a> Scene<'a> {
             _ => {
                 return Err(ReadError::Unsupported {
                     format: Format::Gltf,
-                    what: format!("{place}, which is sparse,"),
+                    what: format!("{place}, a sparse accessor"),
                     advice: "export it without sparse accessors".to_owned(),
                 });
             }
@@ -261,7 +261,7 @@ impl<'a> Scene<'a> {
         let missing = || ReadError::Size {
             format: Format::Gltf,
             promised: format!("{count} items in {place}"),
-            found: "not that much data".to_owned(),
+            found: "less data".to_owned(),
         };
         let buffer = &self.buffers[view.buffer().index()];
         let view_end = view.offset().checked_add(view.length());
@@ -379,8 +379,8 @@ mod tests {
         let cycle = json(&embedded(), r#"{"children":[1]},{"children":[0]}"#, 5, 4);
         assert!(message(cycle.as_bytes()).contains("second parent"));
         let whole = glb(&json("", r#"{"mesh":0}"#, 5, 4), &data());
-        assert!(message(&whole[..whole.len() - 9]).contains("promises"));
-        assert!(message(b"glTF\x02\0\0\0\x01\0\0\0").contains("promises 1 bytes"));
+        assert!(message(&whole[..whole.len() - 9]).contains("declares"));
+        assert!(message(b"glTF\x02\0\0\0\x01\0\0\0").contains("declares 1 bytes"));
         let missing = json(&embedded(), r#"{"mesh":0}"#, 5, 4).replace("POSITION\":0", "POSITION\":7");
         assert!(message(missing.as_bytes()).contains("accessor 7 of 2"));
         assert!(message(b"{\"hello\": 1}").contains("valid glTF"));

@@ -1,4 +1,4 @@
-//! Mesh files, one format per file here, told apart by their content.
+//! Readers of mesh files, one source file per format; the content of a file chooses its reader.
 //!
 //! [`read`] gives the polygons of a file, [`read_painting`] its colours.
 //!
@@ -8,8 +8,7 @@
 //! # Ok::<(), tatamu_read::ReadError>(())
 //! ```
 //!
-//! No reader allocates from a count in the file without first comparing it with the bytes that
-//! there are.
+//! No reader allocates memory for a count in the file before comparing it with the size of the file.
 
 mod gltf;
 mod lines;
@@ -87,7 +86,7 @@ pub enum ReadError {
     /// None of the known formats.
     #[error(
         "this is not a mesh in a known format: it begins with {start}; \
-         the formats read are OBJ, STL, PLY, OFF, glTF and GLB, whatever the file's name"
+         tatamu reads OBJ, STL, PLY, OFF, glTF and GLB, with any file name"
     )]
     Unrecognised {
         /// The first characters, quoted.
@@ -107,7 +106,7 @@ pub enum ReadError {
     },
     /// A coordinate is NaN or infinite.
     #[error(
-        "{format} file, {place}: the coordinates are {found}, which are not all finite numbers; \
+        "{format} file, {place}: the coordinates {found} are not finite numbers; \
          export the mesh again, or remove this vertex"
     )]
     NotFinite {
@@ -121,7 +120,7 @@ pub enum ReadError {
     /// A face refers to a vertex that does not exist.
     #[error(
         "{format} file, {place}: refers to vertex {index}, but there are {count} vertices, \
-         {first} to {last}; the file is cut short or damaged",
+         {first} to {last}; the file is incomplete or damaged",
         last = last_number(*.count, *.first)
     )]
     Index {
@@ -138,8 +137,8 @@ pub enum ReadError {
     },
     /// The file holds less, or more, than it says.
     #[error(
-        "{format} file: it promises {promised}, but there is {found}; \
-         it is cut short or damaged, export it again"
+        "{format} file: it declares {promised}, but has {found}; \
+         it is incomplete or damaged, export it again"
     )]
     Size {
         /// The format.
@@ -156,7 +155,7 @@ pub enum ReadError {
         format: Format,
     },
     /// A part of the format that is not read.
-    #[error("{format} file: {what} cannot be read; {advice}")]
+    #[error("{format} file: tatamu cannot read {what}; {advice}")]
     Unsupported {
         /// The format.
         format: Format,
@@ -166,7 +165,7 @@ pub enum ReadError {
         advice: String,
     },
     /// A file that this one refers to cannot be had.
-    #[error("glTF file: it keeps its data in another file, {name}: {reason}; or export it as GLB")]
+    #[error("glTF file: cannot read its data file {name}: {reason}; or export the mesh as GLB")]
     Sibling {
         /// The name in the file, quoted.
         name: String,
@@ -244,13 +243,13 @@ pub enum ColourError {
     #[error(transparent)]
     Read(#[from] ReadError),
     /// The file has no colours.
-    #[error("{format} file: it has no colours, neither materials nor vertex colours nor a texture")]
+    #[error("{format} file: it has no colours: no materials, no texture, no colours of vertices or faces")]
     None {
         /// The format.
         format: Format,
     },
     /// A file of materials cannot be had.
-    #[error("its materials are in another file, {name}: {reason}")]
+    #[error("cannot read its material file {name}: {reason}")]
     Sibling {
         /// The name in the file.
         name: String,
@@ -258,7 +257,7 @@ pub enum ColourError {
         reason: String,
     },
     /// A texture cannot be used.
-    #[error("its texture {name} cannot be used: {reason}")]
+    #[error("cannot use its texture {name}: {reason}")]
     Texture {
         /// The name in the file.
         name: String,

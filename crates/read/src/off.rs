@@ -65,10 +65,10 @@ fn read_counts<'a>(lines: &mut impl Iterator<Item = Line<'a>>) -> Result<(usize,
     let mut words: Vec<&[u8]> = header.words().collect();
     let (is_3d, glued) = split_header(words.remove(0)).ok_or(ReadError::Empty)?;
     if !is_3d {
-        return Err(unsupported("a kind with other than three coordinates"));
+        return Err(unsupported("vertices with other than three coordinates"));
     }
     if words.first() == Some(&&b"BINARY"[..]) {
-        return Err(unsupported("the binary kind"));
+        return Err(unsupported("binary OFF"));
     }
     if !glued.is_empty() {
         words.insert(0, glued);
@@ -146,7 +146,7 @@ fn ends_at(what: &str, promised: usize, found: usize) -> ReadError {
     ReadError::Size {
         format: Format::Off,
         promised: format!("{promised} {what}"),
-        found: format!("an end after {found}"),
+        found: format!("only {found}"),
     }
 }
 
@@ -190,7 +190,7 @@ mod tests {
         assert!(faces("3 0 1").contains("line 7: found \"3 0 1\""));
         assert!(message("0 0 0\n0 0 nan\n").contains("line 4"));
         assert!(message("0 0\n").contains("three coordinates"));
-        assert!(message("0 0 0\n").contains("4 vertices, but there is an end after 1"));
+        assert!(message("0 0 0\n").contains("4 vertices, but has only 1"));
         let lying = read(b"OFF\n18446744073709551615 9999999999 0\n0 0 0\n").unwrap_err();
         assert!(matches!(lying, ReadError::Syntax { .. }));
         let lying = read(b"OFF\n4000000000000000000 9 0\n0 0 0\n").unwrap_err();

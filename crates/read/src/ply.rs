@@ -92,7 +92,7 @@ fn check_header(header: &Header, size: usize) -> Result<(), ReadError> {
             return Err(ReadError::Size {
                 format: Format::Ply,
                 promised: format!("{} times {}", element.count, name_of(element)),
-                found: format!("an end after {size} bytes of data"),
+                found: format!("only {size} bytes of data"),
             });
         }
     }
@@ -187,7 +187,7 @@ fn in_binary(size: usize, element: &ElementDef, error: &ParseError) -> ReadError
         return ReadError::Size {
             format: Format::Ply,
             promised: format!("{} times {}", element.count, name_of(element)),
-            found: format!("an end after {size} bytes of data"),
+            found: format!("only {size} bytes of data"),
         };
     }
     ReadError::Syntax {
@@ -252,7 +252,7 @@ mod tests {
         assert!(message(&text("3 0 1 2\n3 0 1 4\n")).contains("face 1 (counted from 0): refers to vertex 4"));
         assert!(message(&text("3 0 1 2\n3 0 1 -1\n")).contains("vertex -1"));
         assert!(message(&text("3 0 1 2\n3 0 1\n")).contains("line 18: found \"3 0 1\""));
-        assert!(message(&text("3 0 1 2\n")).contains("promises 2 times \"face\""));
+        assert!(message(&text("3 0 1 2\n")).contains("declares 2 times \"face\""));
         let whole = String::from_utf8(text("3 0 1 2\n3 0 1 2\n")).unwrap();
         let nan = whole.replace("0 .5", "0 nan");
         let error = read(nan.as_bytes()).unwrap_err();

@@ -72,7 +72,7 @@ pub(super) fn read_ascii(text: &[u8]) -> Result<Soup, ReadError> {
             return ReadError::Size {
                 format: Format::StlAscii,
                 promised: "a line \"endsolid\"".to_owned(),
-                found: format!("an end in line {}", at.get()),
+                found: format!("none before its end in line {}", at.get()),
             };
         }
         let found = Lines::new(text).find(|line| line.number == at.get());
@@ -180,7 +180,7 @@ mod tests {
         for promised in [3, 1] {
             let bytes = binary(b"", promised, &[FLAT, FLAT]);
             let error = super::super::read(&bytes).unwrap_err().to_string();
-            assert!(error.contains(&format!("promises {promised} triangles")), "{error}");
+            assert!(error.contains(&format!("declares {promised} triangles")), "{error}");
         }
     }
 

@@ -60,7 +60,7 @@ pub fn read(path: &Path) -> Result<(Header, Position), AppError> {
     let bytes = input::read_file(path)?;
     journal::parse(&bytes).ok_or_else(|| AppError::Input {
         path: path.to_owned(),
-        reason: "it is no journal of a job (.tatamu-job)".to_owned(),
+        reason: "it is not a journal of a job (.tatamu-job)".to_owned(),
     })
 }
 

@@ -41,13 +41,15 @@ pub fn send_all(
 ) -> Result<(), AppError> {
     let cutter = Cutter::parse(&header.cutter)
         .map_err(|error| AppError::Profile { name: path.display().to_string(), error })?;
-    let damaged =
-        || AppError::Input { path: path.to_owned(), reason: "the journal is damaged; begin anew".to_owned() };
+    let damaged = || AppError::Input {
+        path: path.to_owned(),
+        reason: "the journal is damaged; start the job again".to_owned(),
+    };
     let chosen = header.handshake.as_deref().map(handshake).transpose().map_err(AppError::Options)?;
     if chosen == Some(Handshake::EscB) && !cutter.can_be_asked() {
         return Err(AppError::Options(format!(
-            "{} does not answer questions (answers in its profile), so --handshake escb cannot work; use \
-             paced, or what \"tatamu profiles show\" says",
+            "{} does not answer the host (answers in its profile), so --handshake escb cannot work; use paced, or \
+             the handshake of the profile (\"tatamu profiles show\")",
             cutter.name()
         )));
     }
@@ -88,16 +90,17 @@ pub fn send_all(
 fn failure(outcome: Outcome) -> AppError {
     let what = match outcome.end {
         End::Finished | End::Stopped => return AppError::Cancelled(Cancelled),
-        End::Device(16) => "the machine's buffer ran over (error 16); try --handshake paced".to_owned(),
+        End::Device(16) => "the machine's buffer overflowed (error 16); try --handshake paced".to_owned(),
         End::Device(15) => {
             "the machine misread bytes (error 15); check --baud, parity and the cable".to_owned()
         }
-        End::Device(code) => format!("the machine reports the error {code} (ESC.E)"),
+        End::Device(code) => format!("the machine reports error {code} (ESC.E)"),
         End::NoAnswer => "the machine does not answer; check port, baud and cable, or try --handshake paced \
                           or rtscts"
             .to_owned(),
         End::PortLost => {
-            "the port is gone: the tool may be down; lift it by hand before you do anything else".to_owned()
+            "the port is gone, and the tool may be down; lift it by hand before you do anything else"
+                .to_owned()
         }
     };
     AppError::Machine(what)

@@ -42,9 +42,9 @@ pub trait Operator {
 pub fn doing(state: State) -> &'static str {
     match state {
         State::Probing => "asking the machine",
-        State::Sending => "at work",
+        State::Sending => "sending",
         State::Paused => "paused",
-        State::Finishing => "the machine works on",
+        State::Finishing => "the machine is finishing",
         State::Stopping | State::Ended => "lifting the tool",
     }
 }

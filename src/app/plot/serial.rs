@@ -29,7 +29,7 @@ impl Ports for SerialPorts {
             port: name.to_owned(),
             reason: match error.kind() {
                 serialport::ErrorKind::Io(ErrorKind::NotFound) => {
-                    "there is no such port; \"tatamu ports\" lists those that there are".to_owned()
+                    "there is no such port; \"tatamu ports\" lists the ports".to_owned()
                 }
                 serialport::ErrorKind::Io(kind) => reason(&kind.into()) + hint(name),
                 serialport::ErrorKind::NoDevice => {

@@ -88,7 +88,7 @@ impl Sheet {
         let mut notes = Vec::new();
         if job.dropped() > 0 {
             notes.push(format!(
-                "{name}: {} questions and control sequences are left out; tatamu does the handshake itself",
+                "{name}: left out {} queries and control sequences, because tatamu does the handshake itself",
                 job.dropped()
             ));
         }
@@ -156,7 +156,7 @@ pub fn of_inputs(
         return inputs.iter().map(sheet).collect();
     }
     let [path] = inputs else {
-        let message = "only .plt files can be several; give one mesh or project file";
+        let message = "give one mesh or project file, or several .plt files";
         return Err(AppError::Options(message.to_owned()));
     };
     let input = input::read(path)?;

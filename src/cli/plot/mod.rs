@@ -19,14 +19,14 @@ use tatamu::plotter::journal::{Header, Position};
 use tatamu::plotter::profile::Handshake;
 use tatamu::plotter::{Cutter, preview};
 
-/// Sends a model to a cutter or plotter, sheet after sheet.
+/// Sends a model to a cutter or plotter, sheet by sheet.
 ///
-/// While it runs: p lifts the tool and holds, p again goes on, Ctrl-C lifts the tool and stops.
-/// A job that was stopped goes on with --resume.
+/// While it runs, press p to lift the tool and pause, p again to continue, and Ctrl-C to lift the
+/// tool and stop. --resume continues a stopped job.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct PlotArgs {
-    /// Mesh, project file, or files in the machine's language (.plt), one a sheet
+    /// Mesh, project file, or files in the machine's language (.plt), one per sheet
     #[arg(value_name = "INPUT", required_unless_present_any = ["test_cut", "resume"])]
     input: Vec<PathBuf>,
 
@@ -38,24 +38,24 @@ pub struct PlotArgs {
 
     /// Serial port of the machine, such as /dev/ttyUSB0 or COM3
     ///
-    /// "tatamu ports" lists them.
+    /// "tatamu ports" lists the ports.
     #[arg(long, value_name = "PORT")]
     port: Option<String>,
 
-    /// Speed of the port in bits a second [default: as in the profile]
+    /// Speed of the port in bits per second [default: from the profile]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(300..=4_000_000))]
     baud: Option<u32>,
 
-    /// How not to overrun the machine: auto, escb, rtscts, xonxoff or paced [default: as in the profile]
+    /// Flow control: auto, escb, rtscts, xonxoff or paced [default: from the profile]
     ///
-    /// auto asks the machine and takes what it answers. escb asks for free bytes, rtscts and
-    /// xonxoff heed its signs, paced counts on nothing but time.
+    /// auto asks the machine and chooses by its answer. escb asks for free bytes, rtscts and xonxoff
+    /// follow the machine's signals, paced goes by time alone.
     #[arg(long, value_name = "NAME", value_parser = handshake)]
     handshake: Option<Handshake>,
 
-    /// Numbers of the sheets to send, from 1 [default: all]
+    /// Number of a sheet to send, from 1; repeat it for more [default: all]
     ///
-    /// Example: --only 3 or --only 1,4
+    /// Example: --only 3, --only 1,4
     #[arg(long, value_name = "N", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(1..))]
     only: Vec<u16>,
 
@@ -63,29 +63,29 @@ pub struct PlotArgs {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1000))]
     copies: u16,
 
-    /// Cuts a square of 10 mm with a triangle in it and two creases, instead of INPUT
+    /// Cuts a test figure instead of INPUT: a 10 mm square with a triangle in it and two creases
     #[arg(long, conflicts_with = "input")]
     test_cut: bool,
 
-    /// Goes on with a job that was stopped, from its journal (.tatamu-job)
+    /// Continues a stopped job from its journal (.tatamu-job)
     #[arg(long, value_name = "JOB", conflicts_with_all = ["input", "test_cut", "only", "copies"])]
     resume: Option<PathBuf>,
 
-    /// Asks nothing: the first sheet is loaded, and so is the next one when it is due
+    /// Does not wait for you to load sheets: each sheet is already in the machine
     #[arg(short, long)]
     yes: bool,
 
-    /// Only says what would be sent
+    /// Sends nothing; prints a summary of each sheet
     #[arg(long)]
     dry_run: bool,
 
-    /// Picture of the job: travel, order, way of the tip
+    /// Writes a picture of the job: travel, order, path of the blade tip
     ///
     /// The extension chooses the format, such as .png, .svg or .pdf. Example: --preview job.png
     #[arg(long, value_name = "FILE")]
     preview: Option<PathBuf>,
 
-    /// Warnings and errors only
+    /// Prints warnings and errors only
     #[arg(short, long)]
     quiet: bool,
 }
@@ -107,18 +107,18 @@ pub fn run(args: &PlotArgs) -> Result<(), AppError> {
     let machine = chosen.machine()?;
     let is_live = !args.dry_run && (args.port.is_some() || args.preview.is_none());
     if is_live && args.port.is_none() {
-        let message = "give the machine's --port (\"tatamu ports\" lists them), or --dry-run or --preview";
+        let message = "add --port (\"tatamu ports\" lists the ports), --dry-run or --preview";
         return Err(AppError::Options(message.to_owned()));
     }
     if is_live && chosen.settings().files.cutter.is_none() {
-        let message = "say which --cutter it is; \"tatamu profiles list\" names them";
+        let message = "add --cutter; \"tatamu profiles list\" lists the profiles";
         return Err(AppError::Options(message.to_owned()));
     }
     let mut sheets = wanted(args, &machine)?;
     if !args.only.is_empty() {
         let count = sheets.len();
         if let Some(n) = args.only.iter().find(|&&n| usize::from(n) > count) {
-            return Err(AppError::Options(format!("there is no sheet {n}; there are {count}")));
+            return Err(AppError::Options(format!("there is no sheet {n}; the job has sheets 1 to {count}")));
         }
         let mut number = 0;
         sheets.retain(|_| {
@@ -156,7 +156,7 @@ fn start(args: &PlotArgs, cutter: &Cutter, sheets: &[Sheet]) -> Result<(), AppEr
     if path.exists() {
         terminal::complain(
             "note",
-            &format!("{} of a job that was stopped is replaced by this one", path.display()),
+            &format!("this job replaces {}, the journal of a stopped job", path.display()),
         );
     }
     let header = live::header(sheets, cutter, port, args.copies);
@@ -166,7 +166,7 @@ fn start(args: &PlotArgs, cutter: &Cutter, sheets: &[Sheet]) -> Result<(), AppEr
     send(args, &path, &header, Position::default())
 }
 
-/// Goes on with a job.
+/// Continues a job.
 fn resume(args: &PlotArgs, path: &Path, (header, at): (Header, Position)) -> Result<(), AppError> {
     let mut header = header;
     header.port = args.port.clone().unwrap_or(header.port);

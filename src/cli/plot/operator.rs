@@ -23,7 +23,7 @@ pub struct Terminal {
 }
 
 impl Terminal {
-    /// One who asks for sheets or not, and says much or little.
+    /// A user who is asked for each sheet or not, with all messages or few.
     pub fn new(asks_nothing: bool, is_quiet: bool) -> Self {
         Self { keys: None, asks_nothing, is_quiet, bar: None }
     }
@@ -51,7 +51,7 @@ impl Operator for Terminal {
         let copy = if copies > 1 { format!(" (copy {copy} of {copies})") } else { String::new() };
         terminal::complain(
             "tatamu",
-            &format!("load a sheet for {sheet}{copy}, then press Enter; Ctrl-C ends"),
+            &format!("load a sheet for {sheet}{copy}, then press Enter; Ctrl-C stops"),
         );
         loop {
             match keys.poll() {
@@ -59,7 +59,7 @@ impl Operator for Terminal {
                 Ok(_) if progress::stops() > 0 => return Err(AppError::Cancelled(Cancelled)),
                 Ok(_) => std::thread::sleep(LOOK),
                 Err(()) => {
-                    let message = "there is no one to ask whether the sheet is loaded; use --yes";
+                    let message = "cannot wait for Enter, because there is no keyboard input; use --yes";
                     return Err(AppError::Options(message.to_owned()));
                 }
             }
@@ -85,7 +85,7 @@ impl Operator for Terminal {
         let bar = self.bar.take().unwrap_or_else(|| self.bar());
         let what = match status.state {
             State::Sending => "p: pause",
-            State::Paused => "paused, p: go on",
+            State::Paused => "paused, p: continue",
             state => doing(state),
         };
         let (done, all) = (first + status.strokes_done, first + status.strokes);
@@ -104,7 +104,7 @@ impl Operator for Terminal {
         terminal::complain(
             "tatamu",
             &format!(
-                "{done} of {strokes} strokes of this sheet are certainly done; go on with: tatamu plot --resume {}",
+                "at least {done} of {strokes} strokes of this sheet are done; continue with: tatamu plot --resume {}",
                 journal.display()
             ),
         );

@@ -10,19 +10,18 @@ use crate::segment::Method;
 pub enum Refusal {
     /// Flags that have no meaning for components that are drawn.
     #[error(
-        "components that are drawn are made as they are drawn, so {} would do nothing; leave it out, or change the \
-         drawing",
+        "{} has no effect on drawn components; remove it, or change the drawing",
         .0.join(", ")
     )]
     Drawn(Vec<String>),
     /// Flags of a method that is not used.
-    #[error("--clusters and --smoothing belong to --method sdf; add it, or leave them out")]
+    #[error("--clusters and --smoothing need --method sdf; add it, or remove them")]
     NotSdf,
     /// Flags that the paper's own method does not have.
-    #[error("--method sdf takes no --parts or --detail; use --clusters and --smoothing")]
+    #[error("--method sdf does not use --parts or --detail; use --clusters and --smoothing")]
     Sdf,
     /// Margins that leave no room.
-    #[error("margins of {margin_mm} mm leave no room on paper {paper}; choose less than {most_mm} mm")]
+    #[error("margins of {margin_mm} mm leave no room on {paper}; use less than {most_mm} mm")]
     Margin {
         /// The margin, mm.
         margin_mm: f64,

@@ -19,7 +19,7 @@ pub static RENAME: Entry = Entry {
         get: |_| None,
         set: |_, text| checked_name(text).map(|_| ()).map_err(str::to_owned),
     }),
-    short: "Another name, which is printed on the pieces",
+    short: "Another name, printed on the pieces",
     automatic: "the name",
     meaning: "another name, for pieces, reports and messages",
     ..Entry::BLANK
@@ -41,10 +41,10 @@ pub static DIRECTION: Entry = Entry {
         },
     }),
     short: "Direction in which a component folds, in degrees",
-    long: "The angle of the fold axis about the component's longest axis. May be given once for each component; the \
-           summary and the report name the components.",
+    long: "The angle of the fold axis about the component's longest axis. Repeat it for more components; the summary \
+           and the report list their names.",
     example: "--direction head=90 --direction body=-15",
-    automatic: "searched for",
+    automatic: "chosen by a search",
     meaning: "angle of the fold axis about the component's longest axis, degrees; once per component",
     dial: Dial::spanning("Direction", -180.0, 180.0, 1),
 };
@@ -53,7 +53,7 @@ pub static DIRECTION: Entry = Entry {
 pub static CONCAVE: Entry = Entry {
     key: Key::new("component", "concave"),
     flag: Some(Flag {
-        short: Some("Component that may have dents, such as a bottle with --parts 1"),
+        short: Some("Allows dents in a component, such as a bottle with --parts 1"),
         is_repeated: true,
         ..Flag::named("concave", "NAME", None)
     }),
@@ -65,9 +65,9 @@ pub static CONCAVE: Entry = Entry {
         get: |_| None,
         set: |s, name| put(&mut component(s, name).is_concave, true),
     }),
-    short: "Whether it may have dents, if it is the only component or joined to no other",
-    long: "Its profiles follow the shape itself rather than its convex hull. It stays convex, with a warning, where \
-           that is no better, and where its joints to others cannot be kept. May be given once for each component.",
+    short: "Allows dents in the component",
+    long: "Its profiles follow the shape itself instead of its convex hull. If that is not closer, or breaks its joints, \
+           the component stays convex and tatamu warns. Repeat it for more components.",
     example: "--parts 1 --concave body",
     meaning: "allows dents, for a component of a mesh; once per component",
     ..Entry::BLANK
@@ -83,9 +83,9 @@ pub static JOINT: Entry = Entry {
         get: |_| None,
         set: |_, text| text.parse::<crate::model::JointChoice>().map(|_| ()),
     }),
-    short: "How it is held on its parent: by glue, or by a tab in slits that can be unplugged",
-    automatic: "glued, unless only a plug leaves a free way to fold",
-    meaning: "how it is held on its parent: by glue, or by a tab in slits that \
+    short: "How it is attached to its parent: glued, or plugged into slits with a tab",
+    automatic: "glue; plug where only a plug folds without clashes",
+    meaning: "how it is attached to its parent: glued, or with a tab in slits that \
               [can be unplugged](../how-to/folding.md#a-joint-that-can-be-unplugged)",
     ..Entry::BLANK
 };

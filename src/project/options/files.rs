@@ -13,7 +13,7 @@ pub(super) const ALL: &[&Entry] =
     &[&STYLE, &TEXT, &STROKE, &DXF_VERSION, &DXF_SHEETS, &DPI, &TILE, &COLOR, &STATIC, &FOLD_PIECES];
 pub(super) const GUIDE: &[&Entry] = &[&GUIDE_LANGUAGE];
 
-const HEADING: &str = "Options of files";
+const HEADING: &str = "File formats";
 
 /// The name of a choice among those that its type reads.
 fn name_of<T: FromStr + PartialEq>(names: &[&str], choice: &T) -> Option<String> {
@@ -34,8 +34,8 @@ pub static STYLE: Entry = Entry {
         set: |s, text| put(&mut s.files.style, Some(text.to_owned())),
     }),
     short: "Look of the lines: {names}, or a style file (TOML)",
-    long: "\"laser\" has red hairlines to cut and blue ones to score; \"bw\" has no grey. A style file of your own sets \
-           width, colour, dashes and layer of each kind of line; it needs only what differs from the standard.",
+    long: "\"laser\" has red hairlines to cut and blue ones to score; \"bw\" has no grey. Your own style file sets width, \
+           colour, dashes and layer of each kind of line; it lists only what differs from the standard.",
     example: "--style laser, --style mine.toml",
     automatic: "standard",
     meaning: "look of the lines: a built-in style, or a [style file](styles.md). One that a project file names is relative \
@@ -64,12 +64,12 @@ static TEXT: Entry = Entry {
             put(&mut s.files.formats.dxf.text, mode)
         },
     }),
-    short: "Texts in SVG and DXF: {names}",
-    long: "\"outlines\" look the same everywhere; \"strokes\" are single lines for pens and for scoring; \"text\" can be \
-           edited, but needs the font where it is opened.",
+    short: "Text in SVG and DXF: {names}",
+    long: "\"outlines\" look the same everywhere; \"strokes\" are single lines for pens and scoring; \"text\" stays \
+           editable but needs the font on the computer that opens it.",
     example: "--text strokes",
     automatic: "outlines in SVG, strokes in DXF",
-    meaning: "texts in SVG and DXF",
+    meaning: "text in SVG and DXF",
     ..Entry::BLANK
 };
 
@@ -88,7 +88,7 @@ static STROKE: Entry = Entry {
         set: |s, text| put(&mut s.files.formats.svg.stroke, text.parse()?),
     }),
     short: "Lines in SVG: {names}",
-    long: "Drivers of laser cutters follow hairlines and engrave what is wider.",
+    long: "Laser cutters cut along hairlines and engrave wider lines.",
     example: "--stroke hairline --style laser",
     meaning: "lines in SVG",
     ..Entry::BLANK
@@ -108,8 +108,8 @@ static DXF_VERSION: Entry = Entry {
         get: |s| name_of(&VERSIONS, &s.files.formats.dxf.version),
         set: |s, text| put(&mut s.files.formats.dxf.version, text.parse()?),
     }),
-    short: "Version of DXF files: {names}",
-    long: "r12 is for old programs and machines.",
+    short: "DXF version: {names}",
+    long: "Use r12 for old programs and machines.",
     example: "--dxf-version r12",
     meaning: "version of DXF files",
     ..Entry::BLANK
@@ -129,7 +129,7 @@ static DXF_SHEETS: Entry = Entry {
         get: |s| name_of(&DIVISIONS, &s.files.formats.dxf.sheets),
         set: |s, text| put(&mut s.files.formats.dxf.sheets, text.parse()?),
     }),
-    short: "Sheets in DXF: files, one each, or row, all in one file side by side",
+    short: "Sheets in DXF: files (one file per sheet) or row (all in one file, side by side)",
     example: "--dxf-sheets row",
     meaning: "one DXF file per sheet, or all in one, side by side",
     ..Entry::BLANK
@@ -148,10 +148,9 @@ static DPI: Entry = Entry {
         get: |s| Some(s.files.formats.png.dots_per_inch()),
         set: |s, x| put(&mut s.files.formats.png, PngOptions::new(x)?),
     }),
-    short: "Resolution of PNG files of sheets, in dots per inch",
-    long: "From {least} to {most}.",
+    short: "Resolution of PNG sheets, in dots per inch, {least} to {most}",
     example: "--dpi 300",
-    meaning: "resolution of PNG files of sheets",
+    meaning: "resolution of PNG sheets, in dots per inch",
     ..Entry::BLANK
 };
 
@@ -167,11 +166,10 @@ static TILE: Entry = Entry {
         get: |s| s.files.tile.map(|paper| paper.name()),
         set: |s, text| put(&mut s.files.tile, Some(parse_paper(text).map_err(|error| error.to_string())?)),
     }),
-    short: "Paper on which the PDF divides larger sheets",
-    long: "A sheet that does not fit is divided among pages of this size, which overlap and have marks to lay them on \
-           one another.",
+    short: "Divides large sheets of a PDF into pages of this size",
+    long: "The pages overlap and have alignment marks.",
     example: "--paper 420x594mm --tile a4",
-    meaning: "paper on which a PDF divides larger sheets",
+    meaning: "divides large sheets of a PDF into pages of this size",
     ..Entry::BLANK
 };
 
@@ -184,11 +182,11 @@ pub static COLOR: Entry = Entry {
         get: |s| s.files.is_coloured,
         set: |s, is_on| put(&mut s.files.is_coloured, is_on),
     }),
-    short: "Panels in the mesh's own colours, in PDF, SVG and PNG",
-    long: "From materials and textures (OBJ, glTF) and colours of vertices and faces (OBJ, PLY, OFF, glTF). Leave it \
-           out for files that are cut and not printed.",
+    short: "Prints the mesh's colours on the panels, in PDF, SVG and PNG",
+    long: "Colours come from materials and textures (OBJ, glTF) and from vertex and face colours (OBJ, PLY, OFF, glTF). \
+           Leave it out for files that go to a cutter only.",
     example: "--color -o bear.pdf",
-    meaning: "panels in the mesh's own colours, in PDF, SVG and PNG",
+    meaning: "prints the mesh's colours on the panels, in PDF, SVG and PNG",
     ..Entry::BLANK
 };
 
@@ -201,10 +199,10 @@ static STATIC: Entry = Entry {
         get: |s| s.files.formats.glb.is_static,
         set: |s, is_on| put(&mut s.files.formats.glb.is_static, is_on),
     }),
-    short: "GLB files without the animation of the folding",
-    long: "The model stands still, for programs that want no animation.",
+    short: "Leaves the folding animation out of GLB files",
+    long: "For programs that cannot read animations.",
     example: "--static -o bear.glb",
-    meaning: "GLB files without the animation",
+    meaning: "leaves the folding animation out of GLB files",
     ..Entry::BLANK
 };
 
@@ -217,10 +215,10 @@ static FOLD_PIECES: Entry = Entry {
         get: |s| s.files.formats.fold.pieces,
         set: |s, is_on| put(&mut s.files.formats.fold.pieces, is_on),
     }),
-    short: "Each piece in a FOLD file of its own, besides the whole model",
-    long: "With the angles of the flat state, for Flat-Folder and Origami Simulator.",
+    short: "Writes a FOLD file for each piece, too",
+    long: "With the fold angles of the flat state, for Flat-Folder and Origami Simulator.",
     example: "--fold-pieces -o teddy.fold",
-    meaning: "each piece in a FOLD file of its own, too",
+    meaning: "writes a FOLD file for each piece, too",
     ..Entry::BLANK
 };
 

@@ -24,8 +24,8 @@ static FRAMES: Entry = Entry {
             put(&mut s.files.formats.film, film)
         },
     }),
-    short: "Frames of an animation, folding and deploying together",
-    long: "For .gif and .apng. More frames move more smoothly and make larger files.",
+    short: "Frames of an animation, folding and unfolding together",
+    long: "For .gif and .apng. More frames give smoother motion and larger files.",
     example: "-o teddy.gif --frames 120",
     meaning: "frames of an animation",
     ..Entry::BLANK
@@ -38,7 +38,7 @@ static SIZE_PX: Entry = Entry {
     kind: Kind::Count(Count {
         least: *FilmOptions::SIZES_PX.start() as usize,
         most: *FilmOptions::SIZES_PX.end() as usize,
-        fault: "pictures must be from {least} to {most} pixels large",
+        fault: "the longer side of a picture must be from {least} to {most} pixels",
         such_as: 640,
         get: |s| Some(s.files.formats.film.size_px() as usize),
         set: |s, n| {
@@ -66,9 +66,9 @@ static VIEW: Entry = Entry {
             put(&mut s.files.formats.film, film)
         },
     }),
-    short: "Where an animation is seen from",
-    long: "corner, front, back, left, right, top, or two angles in degrees: round the model from its front to its left, \
-           and up.",
+    short: "Camera of an animation: a side or two angles",
+    long: "corner, front, back, left, right, top, or two angles in degrees: around the model from its front to its left, \
+           then up.",
     example: "--view 30,20",
     automatic: "corner",
     meaning: "`corner`, `front`, `back`, `left`, `right`, `top`, or two angles such as `30,20`",
@@ -87,7 +87,7 @@ static FOLD_FRAMES: Entry = Entry {
         get: |s| Some(s.files.formats.fold.poses.get()),
         set: |s, n| put(&mut s.files.formats.fold.poses, PoseCount::new(n)?),
     }),
-    short: "Poses between deployed and flat in a FOLD file",
+    short: "Poses between unfolded and flat in a FOLD file",
     example: "-o teddy.fold --fold-frames 20",
     meaning: "poses between unfolded and flat in a FOLD file",
     ..Entry::BLANK

@@ -113,7 +113,7 @@ impl Kind {
             (Self::Text(text), Written::Number(x)) => {
                 let error = (text.set)(settings, &x.to_string()).err();
                 let error = error.map_or(String::new(), |error| format!(": {error}"));
-                Err(format!("write a text instead of {x}{error}"))
+                Err(format!("write text in quotes instead of {x}{error}"))
             }
             (Self::Switch(_) | Self::Text(_), _) => Err(format!("write {}", self.expected())),
         }
@@ -183,7 +183,7 @@ impl Count {
     fn read(&self, written: &Written) -> Result<usize, String> {
         let Written::Number(x) = written else { return Err(no_number(written)) };
         if x.fract() != 0.0 || *x < 0.0 {
-            return Err(format!("{x} is not a whole number that counts something"));
+            return Err(format!("{x} is not a whole number from 0 up"));
         }
         // Numbers that are too large for the type become its largest.
         let count = *x as usize;
@@ -200,7 +200,7 @@ impl Count {
 fn no_number(written: &Written) -> String {
     match written {
         Written::Text(text) => format!("write a number instead of the text \"{text}\""),
-        Written::Number(x) => format!("{x} is no usable number"),
+        Written::Number(x) => format!("{x} is not a usable number"),
         Written::Switch(is_on) => format!("write a number instead of {is_on}"),
     }
 }

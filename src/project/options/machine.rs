@@ -5,7 +5,7 @@ use super::{Entry, Flag, Kind, Scope, Text};
 
 pub(super) const ALL: &[&Entry] = &[&CUTTER, &MEDIA];
 
-const HEADING: &str = "Options of cutters";
+const HEADING: &str = "Cutter";
 
 /// The cutter.
 pub static CUTTER: Entry = Entry {
@@ -19,8 +19,8 @@ pub static CUTTER: Entry = Entry {
         set: |s, name| put(&mut s.files.cutter, Some(name.to_owned())),
     }),
     short: "Cutter or plotter: the name of a profile, or a file (TOML)",
-    long: "\"tatamu profiles list\" names them; \"tatamu profiles show NAME\" prints one, to begin a file of your own \
-           with.",
+    long: "\"tatamu profiles list\" lists the profiles; \"tatamu profiles show NAME\" prints one, as a start for your own \
+           file.",
     example: "--cutter hp-7475a, --cutter mine.toml",
     automatic: "generic-hpgl",
     meaning: "cutter [profile](profiles.md) of `.plt` files",
@@ -38,8 +38,8 @@ pub static MEDIA: Entry = Entry {
         get: |s| s.files.media.clone(),
         set: |s, name| put(&mut s.files.media, Some(name.to_owned())),
     }),
-    short: "What is cut: the name of a profile, or a file (TOML)",
-    long: "It sets force, speed, passes, overcut and how creases are made.",
+    short: "Material: the name of a profile, or a file (TOML)",
+    long: "It sets force, speed, passes, overcut, and how creases are scored or perforated.",
     example: "--media cardstock-300",
     automatic: "cardstock-200",
     meaning: "media profile of `.plt` files",

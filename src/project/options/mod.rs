@@ -1,4 +1,4 @@
-//! The table of options: all that is said of an option anywhere is said in its [`Entry`].
+//! The table of options: the only description of each option is its [`Entry`].
 //!
 //! The command line makes its flags of the table, the project file its keys, `tatamu init` its
 //! comments, the studio its settings, and the reference pages their tables. An option is checked and

@@ -28,15 +28,15 @@ pub static UP: Entry = Entry {
         get: |s| AXES.iter().find(|(_, up)| *up == s.model.up).map(|(name, _)| (*name).to_owned()),
         set: |s, text| {
             let found = AXES.iter().find(|(name, _)| name.eq_ignore_ascii_case(text));
-            let found = found.ok_or("the axis that points up is one of x, y, z")?;
+            let found = found.ok_or("the axis that points up must be one of x, y, z")?;
             put(&mut s.model.up, found.1)
         },
     }),
     short: "Axis of the mesh that points up: {names}",
-    long: "The model is turned so that this axis points upwards.",
+    long: "The model is rotated so that this axis points up.",
     example: "--up z",
     meaning: "axis of the mesh that points up",
-    dial: Dial::new("Upwards"),
+    dial: Dial::new("Up axis"),
     ..Entry::BLANK
 };
 
@@ -53,7 +53,7 @@ pub static SIZE: Entry = Entry {
         set: |s, mm| put(&mut s.model.size_mm, mm),
     }),
     short: "Longest side of the model's bounding box",
-    long: "A number with mm, cm, m or in; mm without a unit.",
+    long: "A number with mm, cm, m or in; without a unit, mm.",
     example: "--size 30cm",
     meaning: "longest side of the finished model's bounding box",
     dial: Dial::spanning("Size", 10.0, 2000.0, 0),
@@ -72,10 +72,11 @@ pub static LEVEL: Entry = Entry {
         get: |s| Some(s.model.level.name().to_owned()),
         set: |s, text| put(&mut s.model.level, text.parse()?),
     }),
-    short: "How much work the model may be: {names}",
-    long: "\"easy\" has about two thirds of the panels, \"fine\" about twice as many. Big parts get most of them.",
+    short: "Difficulty of the model: {names}",
+    long: "Compared with normal, \"easy\" has about two thirds of the panels, \"fine\" about twice as many. Big parts get \
+           most of them.",
     example: "--level easy",
-    meaning: "how much work the model may be: big parts get most of the panels, and panels that add little are left out",
+    meaning: "difficulty of the model. Big parts get most of the panels; panels that add little are left out",
     dial: Dial::new("Level"),
     ..Entry::BLANK
 };
@@ -114,7 +115,7 @@ pub static PROFILE_VERTICES: Entry = Entry {
         get: |s| s.model.profile_vertices,
         set: |s, n| put(&mut s.model.profile_vertices, Some(n)),
     }),
-    short: "Vertices of each profile at most, {least} or more",
+    short: "Most vertices of each profile, {least} or more",
     long: "A profile is the outline of a strip of side panels. More vertices follow the shape better; fewer fold \
            faster.",
     example: "--profile-vertices 4",
@@ -136,12 +137,12 @@ pub static TOLERANCE: Entry = Entry {
         get: |s| s.model.tolerance_mm,
         set: |s, mm| put(&mut s.model.tolerance_mm, Some(mm)),
     }),
-    short: "How close each component must come to its shape, instead of numbers of edges and vertices",
-    long: "As few top edges and profile vertices are used as reach it, at most the numbers that are chosen, or 12 and \
-           10.",
+    short: "Largest distance of each component from its convex hull",
+    long: "tatamu uses as few top edges and profile vertices as possible, at most the numbers that you set, or 12 and \
+           10 by default.",
     example: "--tolerance 2mm",
-    meaning: "how close each component must come to its convex hull, instead of the two counts. tatamu uses as few edges \
-              and vertices as possible; the two counts are then the most, or 12 and 10 by default",
+    meaning: "largest distance of each component from its convex hull, instead of the two counts. tatamu uses as few \
+              edges and vertices as possible, at most the two counts, or 12 and 10 by default",
     dial: Dial::spanning("Tolerance", 0.1, 50.0, 1),
     ..Entry::BLANK
 };

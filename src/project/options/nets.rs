@@ -23,10 +23,10 @@ pub static MIN_PANEL_WIDTH: Entry = Entry {
         set: |s, mm| put(&mut s.model.min_panel_width_mm, mm),
     }),
     short: "Least width and height of a panel",
-    long: "What is narrower cannot be folded by hand. Where the shape leaves no choice, a warning names the panel.",
+    long: "Narrower panels are hard to fold by hand. If the shape allows no wider panel, a warning names it.",
     example: "--min-panel-width 4mm",
     meaning: "least width and height of a panel; a warning names smaller panels",
-    dial: Dial::spanning("Least panel", 0.5, 30.0, 1),
+    dial: Dial::spanning("Least panel width", 0.5, 30.0, 1),
     ..Entry::BLANK
 };
 
@@ -43,10 +43,10 @@ pub static TAB_WIDTH: Entry = Entry {
         set: |s, mm| put(&mut s.model.tab_width_mm, mm),
     }),
     short: "Width of the glue tabs",
-    long: "Tabs become narrower where there is no room.",
+    long: "Tabs are narrower where there is less room.",
     example: "--tab-width 8mm",
-    meaning: "width of the glue tabs; narrower without room",
-    dial: Dial::spanning("Tabs", 1.0, 30.0, 1),
+    meaning: "width of the glue tabs; narrower where there is less room",
+    dial: Dial::spanning("Tab width", 1.0, 30.0, 1),
     ..Entry::BLANK
 };
 
@@ -54,7 +54,7 @@ pub static TAB_WIDTH: Entry = Entry {
 pub static SPLIT: Entry = Entry {
     key: Key::new("nets", "split"),
     flag: Some(Flag {
-        short: Some("Refuses panels that are larger than the sheet, rather than split them"),
+        short: Some("Stops if a panel is larger than the sheet, instead of splitting it"),
         is_inverse: true,
         ..Flag::named("no-split", "BOOL", Some(HEADING))
     }),
@@ -62,10 +62,10 @@ pub static SPLIT: Entry = Entry {
         get: |s| s.model.nets.may_split,
         set: |s, is_on| put(&mut s.model.nets.may_split, is_on),
     }),
-    short: "Whether panels that are larger than the sheet are split, rather than refused",
-    long: "Such a panel is made of parts with tabs and labels, to be glued together first. Where it is refused, the \
-           message names the largest size that needs no splitting.",
-    meaning: "whether panels larger than the sheet are made of parts, or refused",
+    short: "Splits panels that are larger than the sheet",
+    long: "tatamu divides such a panel into parts with tabs and labels; glue these first. Without splitting, such a \
+           panel is an error, which names the largest size that fits.",
+    meaning: "splits panels that are larger than the sheet; if false, such a panel is an error",
     ..Entry::BLANK
 };
 
@@ -91,10 +91,10 @@ pub static ANGLES: Entry = Entry {
         get: |s| s.model.nets.angles,
         set: |s, is_on| put(&mut s.model.nets.angles, is_on),
     }),
-    short: "Writes beside each crease, where there is room, by how many degrees it is folded",
-    long: "The angle is that of the standing model; 0° is flat paper.",
-    meaning: "writes the angle of each crease beside it",
-    dial: Dial::new("Angles"),
+    short: "Prints the fold angle beside each crease, where there is room",
+    long: "This is the angle in the unfolded model; 0° is flat paper.",
+    meaning: "prints the fold angle beside each crease",
+    dial: Dial::new("Fold angles"),
     ..Entry::BLANK
 };
 
@@ -111,8 +111,8 @@ static HIDE_BELOW: Entry = Entry {
         get: |s| Some((s.model.nets.hide_below_rad.to_degrees() * 1e9).round() / 1e9),
         set: |s, degrees| put(&mut s.model.nets.hide_below_rad, degrees.to_radians()),
     }),
-    short: "Leaves out creases that are folded by less, in degrees",
-    long: "The angle is that of the standing model. Creases that fold flat are always drawn.",
+    short: "Leaves out creases that fold by less, in degrees",
+    long: "This is the angle in the unfolded model. Creases that fold flat are always drawn.",
     example: "--hide-below 3",
     meaning: "leaves out creases that fold by less, in degrees",
     ..Entry::BLANK

@@ -21,9 +21,9 @@ pub static PARTS: Entry = Entry {
         set: |s, n| put(&mut s.model.segmentation.parts, Some(n)),
     }),
     short: "Number of components to aim at",
-    long: "The mesh is cut where it narrows. A small number gives a rough and quick model.",
+    long: "tatamu divides the mesh where it is narrow. A small number gives a rough model that is quick to build.",
     example: "--parts 6",
-    automatic: "the shape decides",
+    automatic: "chosen by the shape",
     meaning: "number of components to aim at",
     dial: Dial::new("Parts"),
 };
@@ -41,11 +41,11 @@ pub static DETAIL: Entry = Entry {
         get: |s| Some(s.model.segmentation.detail),
         set: |s, x| put(&mut s.model.segmentation.detail, x),
     }),
-    short: "Where the shape decides: from {least}, few components, to {most}, many",
-    long: "Each step of 0.25 halves what a component more has to improve the likeness.",
+    short: "Number of components chosen by the shape: from {least} (few) to {most} (many)",
+    long: "Each step of 0.25 halves the gain in likeness that an additional component must bring.",
     example: "--detail 0.8",
-    meaning: "where the shape decides: from few components to many. Each step of 0.25 halves the gain in likeness that an \
-              additional component must bring",
+    meaning: "number of components chosen by the shape, from few (0) to many (1). Each step of 0.25 halves the gain in \
+              likeness that an additional component must bring",
     dial: Dial::spanning("Detail", 0.0, 1.0, 2),
     ..Entry::BLANK
 };
@@ -62,12 +62,12 @@ pub static SYMMETRY: Entry = Entry {
         get: |s| Some(s.model.segmentation.symmetry.name().to_owned()),
         set: |s, text| {
             let found = SymmetryChoice::ALL.into_iter().find(|c| c.name().eq_ignore_ascii_case(text));
-            put(&mut s.model.segmentation.symmetry, found.ok_or("the symmetry is auto, off, x, y or z")?)
+            put(&mut s.model.segmentation.symmetry, found.ok_or("the symmetry must be auto, off, x, y or z")?)
         },
     }),
     short: "Whether the two sides are mirror images: {names}",
-    long: "\"auto\" looks for a mirror plane of the mesh. x, y and z mirror it in the plane through its middle with \
-           that normal, in the axes of its file, even where it is symmetric only roughly.",
+    long: "\"auto\" looks for a mirror plane of the mesh. x, y and z choose the plane through its middle with that normal, \
+           in the mesh file's axes, for meshes that are only roughly symmetric.",
     example: "--symmetry off",
     meaning: "whether the two sides are mirror images. `auto` looks for a mirror plane; x, y and z are the normal, in the \
               mesh file's axes, of a plane through the middle, for meshes that are only roughly symmetric. It has no \
@@ -93,14 +93,14 @@ pub static METHOD: Entry = Entry {
             let method = match text.to_ascii_lowercase().as_str() {
                 "merge" => Method::Merge,
                 "sdf" => Method::Sdf { clusters: Method::CLUSTERS, smoothing: Method::SMOOTHING },
-                _ => return Err("the method is merge or sdf".to_owned()),
+                _ => return Err("the method must be merge or sdf".to_owned()),
             };
             put(&mut s.model.segmentation.method, method)
         },
     }),
-    short: "How parts are found: {names}",
+    short: "Method that divides the mesh into parts: {names}",
     long: "\"merge\" joins small patches as long as their common hull stays close to the solid. \"sdf\" is the method \
-           of the paper, for comparison: parts of equal thickness stay together.",
+           of the research paper, for comparison: it groups faces by thickness.",
     example: "--method sdf --clusters 4",
     meaning: "how parts are found; `sdf` is the [paper](../explanation.md#references)'s own method",
     dial: Dial::new("Method"),
@@ -126,10 +126,10 @@ pub static CLUSTERS: Entry = Entry {
             Method::Merge => Ok(()),
         },
     }),
-    short: "For the method sdf: classes of thickness, {least} to {most}",
+    short: "For the method sdf: number of thickness classes, {least} to {most}",
     long: "More classes give more parts.",
     example: "--method sdf --clusters 3",
-    meaning: "for the method `sdf`: classes of thickness; more give more parts",
+    meaning: "for the method `sdf`: number of thickness classes; more give more parts",
     dial: Dial::new("Clusters"),
     ..Entry::BLANK
 };
@@ -153,10 +153,10 @@ pub static SMOOTHING: Entry = Entry {
             Method::Merge => Ok(()),
         },
     }),
-    short: "For the method sdf: how much borders cost, {least} to {most}",
-    long: "More gives fewer and smoother parts.",
+    short: "For the method sdf: cost of borders between parts, {least} to {most}",
+    long: "A higher cost gives fewer and smoother parts.",
     example: "--method sdf --smoothing 0.5",
-    meaning: "for the method `sdf`: cost of borders; more gives fewer and smoother parts",
+    meaning: "for the method `sdf`: cost of borders between parts; a higher cost gives fewer and smoother parts",
     dial: Dial::spanning("Smoothing", 0.0, 10.0, 2),
     ..Entry::BLANK
 };
@@ -172,7 +172,7 @@ pub static ROOT: Entry = Entry {
         get: |s| s.model.root.clone(),
         set: |s, text| put(&mut s.model.root, Some(super::component::checked_name(text)?.to_owned())),
     }),
-    short: "Component that all others hang on",
+    short: "Component that carries all others",
     automatic: "the one in the middle",
     meaning: "name of the component that carries all others",
     ..Entry::BLANK

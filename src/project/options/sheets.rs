@@ -33,7 +33,7 @@ pub static PAPER: Entry = Entry {
         set: |s, text| put(&mut s.model.paper, parse_paper(text).map_err(|error| error.to_string())?),
     }),
     short: "Size of the sheets: {names}, or width and height such as 210x297mm",
-    long: "Width and height in mm, or with cm or in.",
+    long: "Width and height are in mm unless they have a unit.",
     example: "--paper 210x297mm, --paper 12x12in",
     meaning: "size of the sheets; another SIZE is width and height, such as `210x297mm`",
     dial: Dial::new("Paper"),
@@ -52,10 +52,10 @@ pub static MARGIN: Entry = Entry {
         get: |s| Some(s.model.margin_mm),
         set: |s, mm| put(&mut s.model.margin_mm, mm),
     }),
-    short: "Border of each sheet that stays free",
-    long: "Most printers cannot print the outermost 5 mm.",
+    short: "Free margin around each sheet",
+    long: "Most printers cannot print the outer 5 mm.",
     example: "--margin 5mm",
-    meaning: "free border of each sheet",
+    meaning: "free margin around each sheet",
     dial: Dial::spanning("Margin", 0.0, 60.0, 1),
     ..Entry::BLANK
 };
@@ -67,17 +67,17 @@ pub static THICKNESS: Entry = Entry {
     kind: Kind::Number(Number {
         unit: Unit::Length,
         range: Range::Within(0.02, 5.0),
-        fault: "paper is from {least} to {most} mm thick",
+        fault: "the thickness must be from {least} to {most} mm",
         such_as: 0.4,
         get: |s| Some(s.model.thickness_mm),
         set: |s, mm| put(&mut s.model.thickness_mm, mm),
     }),
     short: "Thickness of the paper, {least} to {most}",
-    long: "Panels that come into each other by up to half of it while the model folds only rub; more is a warning. \
-           Card of 200 g/m² has 0.25 mm.",
+    long: "The check of the folding ignores contacts of up to half of it; up to all of it panels rub, beyond it they \
+           clash. Card of 200 g/m² is 0.25 mm thick.",
     example: "--thickness 0.4mm",
-    meaning: "thickness of the paper, for the check of the folding: contacts of up to half of it are ignored, up to all \
-              of it panels rub, beyond it they clash",
+    meaning: "thickness of the paper. The check of the folding ignores contacts of up to half of it; up to all of it \
+              panels rub, beyond it they clash",
     dial: Some(Dial { label: "Thickness", span: None, digits: 2 }),
     ..Entry::BLANK
 };
@@ -90,11 +90,11 @@ pub static THICK: Entry = Entry {
         get: |s| s.model.is_thick,
         set: |s, is_on| put(&mut s.model.is_thick, is_on),
     }),
-    short: "Panels of board of that thickness, each cut by itself and hinged with tape",
-    long: "The outside keeps its size: panels are shortened at their hinges, and creases are found anew for the boards, \
-           so that they lie flat on one another. Valleys have their hinges outside.",
+    short: "Makes the panels of board: each is cut on its own and hinged with tape",
+    long: "Set the thickness to that of the board. The outside keeps its size: tatamu shortens panels at their hinges \
+           and moves creases so that the boards lie flat on each other. Tape valley hinges on the outside.",
     example: "--thickness 1.5mm --thick -o box.pdf -o box.stl",
-    meaning: "panels of board of that thickness, each cut on its own and hinged with tape",
+    meaning: "makes the panels of board of that thickness: each is cut on its own and hinged with tape",
     ..Entry::BLANK
 };
 
@@ -113,15 +113,14 @@ pub static SIDE: Entry = Entry {
         },
         set: |s, text| {
             let found = SIDES.iter().find(|(name, _)| *name == text);
-            put(&mut s.model.sheets.side, found.ok_or("the printed side is one of outside, inside")?.1)
+            put(&mut s.model.sheets.side, found.ok_or("the printed side must be one of outside, inside")?.1)
         },
     }),
     short: "Printed side of the paper: {names}",
-    long: "Printed on the inside, pieces are mirrored, no line can be seen on the finished model, and creases fold \
-           towards you.",
+    long: "With inside, pieces are mirrored, the finished model shows no lines, and creases fold towards you.",
     example: "--side inside",
     meaning: "printed side; `inside` is mirrored",
-    dial: Dial::new("Print on"),
+    dial: Dial::new("Printed side"),
     ..Entry::BLANK
 };
 
@@ -135,8 +134,8 @@ pub static GRAIN: Entry = Entry {
             put(&mut s.model.sheets.rotation, if is_on { Rotation::QuarterTurns } else { Rotation::Free })
         },
     }),
-    short: "Turns pieces by multiples of 90 degrees only, for paper with a grain",
-    meaning: "turns pieces by multiples of 90° only",
+    short: "Rotates pieces by multiples of 90 degrees only, for paper with a grain",
+    meaning: "rotates pieces by multiples of 90° only, for paper with a grain",
     dial: Dial::new("Along the grain"),
     ..Entry::BLANK
 };
@@ -172,11 +171,11 @@ static EFFORT: Entry = Entry {
         get: |s| Some(s.model.sheets.effort),
         set: |s, n| put(&mut s.model.sheets.effort, n),
     }),
-    short: "How long to look for fewer sheets: pieces placed in trials",
-    long: "Ten times the number takes ten times as long and saves a sheet now and then; 0 is quick. The same number \
-           gives the same sheets on any machine.",
+    short: "How long to search for fewer sheets: number of trial placements",
+    long: "Ten times the number takes ten times as long and sometimes saves a sheet; 0 is quickest. The same number \
+           gives the same sheets on any computer.",
     example: "--effort 20000",
-    meaning: "how long to search for fewer sheets: pieces placed in trials",
+    meaning: "how long to search for fewer sheets: number of trial placements",
     ..Entry::BLANK
 };
 
@@ -193,7 +192,7 @@ pub static MARKS: Entry = Entry {
         get: |s| Some(s.model.sheets.registration.map_or(NO_MARKS, Registration::name).to_owned()),
         set: |s, text| {
             let known = || Registration::NAMES.map(|(name, _)| name).join(", ");
-            let message = || format!("the registration marks are one of {NO_MARKS}, {}", known());
+            let message = || format!("the registration marks must be one of {NO_MARKS}, {}", known());
             let marks = Registration::of_name(text);
             let is_known = marks.is_some() || text == NO_MARKS;
             is_known.then_some(()).ok_or_else(message)?;
@@ -201,11 +200,11 @@ pub static MARKS: Entry = Entry {
         },
     }),
     short: "Registration marks for a cutter: {names}",
-    long: "silhouette: the square and the two corners that Silhouette cutters look for; the border grows to 18 mm. \
-           corners: four corners to align by eye.",
+    long: "silhouette: a square and two corners that Silhouette cutters detect; the margin grows to 18 mm. corners: \
+           four corners to align by eye.",
     example: "--marks silhouette",
     meaning: "registration marks for a cutter",
-    dial: Dial::new("Marks"),
+    dial: Dial::new("Registration marks"),
     ..Entry::BLANK
 };
 
@@ -223,9 +222,9 @@ static CALIBRATE: Entry = Entry {
             put(&mut s.model.sheets.calibration, calibration)
         },
     }),
-    short: "Corrects a printer's scale: the measured lengths of the two bars of 100 mm",
-    long: "Print a page, measure the level bar (X) and the upright bar in the left margin (Y), and print again with \
-           what you found.",
+    short: "Corrects the printer's scale: measured lengths of the two 100 mm bars",
+    long: "Print a page, measure the horizontal bar (X) and the vertical bar in the left margin (Y), and print again \
+           with these lengths.",
     example: "--calibrate X:97.3,Y:100.1",
     meaning: "measured lengths of the horizontal (X) and the vertical (Y) bar of 100 mm",
     ..Entry::BLANK

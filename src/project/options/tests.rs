@@ -87,7 +87,7 @@ fn what_is_out_of_range_is_refused_with_key_and_range() {
             let message = file(option, &toml).expect_err(option.name());
             let sentence = message.lines().last().unwrap();
             // A thickness that is no length at all is refused as such.
-            let is_of_length = sentence.contains("no usable length");
+            let is_of_length = sentence.contains("not a usable length");
             let is_said = bounds.iter().all(|bound| sentence.contains(bound.as_str())) || is_of_length;
             assert!(is_said && message.contains(option.name()), "{}: {message}", option.name());
             count += 1;

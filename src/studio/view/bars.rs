@@ -43,7 +43,7 @@ fn file_menu(window: &mut Window, ui: &mut Ui) {
         window.ask_open();
         ui.close();
     }
-    ui.menu_button("Open again", |ui| {
+    ui.menu_button("Open recent", |ui| {
         if let Some(path) = recent(window, ui) {
             window.open(&path);
             ui.close();
@@ -67,7 +67,7 @@ fn file_menu(window: &mut Window, ui: &mut Ui) {
 fn recent(window: &Window, ui: &mut Ui) -> Option<PathBuf> {
     let files = window.studio.recent();
     if files.is_empty() {
-        ui.weak("no file yet");
+        ui.weak("no files yet");
     }
     let clicked = |path: &PathBuf, ui: &mut Ui| {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -118,10 +118,10 @@ fn view_menu(window: &mut Window, ui: &mut Ui) {
         ui.close();
     }
     ui.separator();
-    ui.label("Colours of the window");
+    ui.label("Theme");
     let mut theme = ui.ctx().options(|o| o.theme_preference);
     for (name, value) in [
-        ("As the system", egui::ThemePreference::System),
+        ("System", egui::ThemePreference::System),
         ("Light", egui::ThemePreference::Light),
         ("Dark", egui::ThemePreference::Dark),
     ] {
@@ -171,7 +171,10 @@ fn state(window: &mut Window, ui: &mut Ui) {
         ui.add(egui::Label::new(RichText::new(&text).color(colour)).truncate()).on_hover_text(&text);
     });
     if let Some(name) = window.studio.missing().map(str::to_owned)
-        && ui.small_button(format!("Forget {name}")).on_hover_text("drops what was set for it").clicked()
+        && ui
+            .small_button(format!("Forget {name}"))
+            .on_hover_text("deletes its settings from the project")
+            .clicked()
     {
         window.studio.change(&Change::Forget { name }, None);
     }
@@ -210,7 +213,8 @@ fn warnings(window: &mut Window, ui: &mut Ui) {
         let is_shown = window.space.clash() == Some(*clash);
         let [a, b] = clash.parts.map(|p| output.model().parts()[p].name.as_str());
         ui.horizontal(|ui| {
-            if ui.selectable_label(is_shown, "Show").on_hover_text("the model at this moment").clicked() {
+            if ui.selectable_label(is_shown, "Show").on_hover_text("shows the model at this moment").clicked()
+            {
                 show_clash(window, *clash);
             }
             let what = if a == b { format!("{a} touches itself") } else { format!("{a} touches {b}") };
@@ -282,7 +286,7 @@ pub fn welcome(window: &mut Window, ui: &mut Ui) {
         let files = window.studio.recent();
         if !files.is_empty() {
             ui.add_space(24.0);
-            ui.strong("Open again");
+            ui.strong("Open recent");
             for path in files {
                 let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
                 if ui.link(name).on_hover_text(path.display().to_string()).clicked() {

@@ -81,7 +81,7 @@ impl Browser {
             let parent = self.folder.parent().map(Path::to_owned);
             if ui
                 .add_enabled(parent.is_some(), egui::Button::new("Up"))
-                .on_hover_text("folder above")
+                .on_hover_text("parent folder")
                 .clicked()
             {
                 parent.into_iter().for_each(|parent| self.go_to(parent));
@@ -108,7 +108,7 @@ impl Browser {
             let word = match (self.purpose, &self.replaces) {
                 (Purpose::Open, _) => "Open",
                 (Purpose::Save, None) => "Save",
-                (Purpose::Save, Some(_)) => "Replace it",
+                (Purpose::Save, Some(_)) => "Replace",
             };
             is_done |= ui.add_enabled(!self.name.trim().is_empty(), egui::Button::new(word)).clicked();
             if ui.button("Cancel").clicked() {
@@ -119,7 +119,7 @@ impl Browser {
             }
         });
         if self.replaces.is_some() {
-            ui.colored_label(ui.visuals().warn_fg_color, "There is a file of this name.");
+            ui.colored_label(ui.visuals().warn_fg_color, "A file with this name exists.");
         }
         if is_done && !self.name.trim().is_empty() {
             // A whole path may be written, too.
@@ -193,7 +193,7 @@ impl Browser {
 
 /// Folders first, then files, by name.
 fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
-    let list = std::fs::read_dir(folder).map_err(|error| format!("this folder cannot be read: {error}"))?;
+    let list = std::fs::read_dir(folder).map_err(|error| format!("cannot read this folder: {error}"))?;
     let entry = |entry: std::io::Result<std::fs::DirEntry>| {
         let entry = entry.ok()?;
         Some(Entry { is_file: !entry.path().is_dir(), name: entry.file_name().into_string().ok()? })

@@ -63,12 +63,14 @@ impl ExportPanel {
                 self.write(studio, &folder, stem.trim());
             }
             if studio.finished().is_none() {
-                ui.weak("as soon as the model is finished");
+                ui.weak("available when the model is finished");
             } else if studio.tasks.is_busy() {
                 ui.spinner();
             }
         });
-        ui.weak("Files of these names are replaced. Styles, resolution and colours are those of [export] in the project file.");
+        ui.weak(
+            "Existing files are replaced. [export] in the project file sets style, resolution and colours.",
+        );
     }
 
     fn write(&self, studio: &mut Studio, folder: &str, stem: &str) {

@@ -205,10 +205,10 @@ impl Window {
         let mut close = false;
         egui::Modal::new(egui::Id::unique("close")).show(ctx, |ui| {
             if is_cutting {
-                ui.label("The machine is at work. Closing stops it and lifts the tool.");
+                ui.label("A job is running. Closing stops it and lifts the tool.");
             }
             if is_changed {
-                ui.label("There are changes that are not saved.");
+                ui.label("You have unsaved changes.");
             }
             ui.horizontal(|ui| {
                 if is_changed && ui.button("Save and close").clicked() {
@@ -223,7 +223,7 @@ impl Window {
                     self.studio.discard();
                     close = true;
                 }
-                if ui.button("Go on working").clicked() {
+                if ui.button("Cancel").clicked() {
                     self.question = None;
                 }
             });

@@ -73,7 +73,7 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
 fn components(studio: &mut Studio, ui: &mut Ui) {
     let names = studio.shown().names().to_vec();
     if names.is_empty() {
-        ui.weak("none yet");
+        ui.weak("no components yet");
     }
     let mut clicked = None;
     for (index, name) in names.iter().enumerate() {
@@ -87,7 +87,7 @@ fn components(studio: &mut Studio, ui: &mut Ui) {
             }
             if !studio.is_drawn() {
                 ui.weak(format!("{:.1} mm", part.component.hausdorff_mm()))
-                    .on_hover_text("how far the component is from its part's hull, at most");
+                    .on_hover_text("largest distance between the component and its part's hull");
             }
         });
     }
@@ -120,11 +120,11 @@ fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: usize) {
         figures(studio, ui, index);
     });
     ui.horizontal(|ui| {
-        if ui.button("Reset").on_hover_text("all of this component automatic again").clicked() {
+        if ui.button("Reset").on_hover_text("makes all settings of this component automatic").clicked() {
             studio.change(&Change::Reset { name: name.clone() }, None);
         }
         let is_root = options.root.as_deref() == Some(&name);
-        let text = "the component that all others hang on";
+        let text = "makes this the component that carries all others";
         if ui.add_enabled(!is_root, egui::Button::new("Make root")).on_hover_text(text).clicked() {
             let value = Some(name.clone().into());
             studio.change(&Change::Set { option: &ROOT, value }, None);
@@ -164,7 +164,7 @@ fn figures(studio: &Studio, ui: &mut Ui, index: usize) {
     let gap =
         part.component.profiles().iter().map(|p| p.gap_mm().abs() / p.mean_segment_mm()).fold(0.0, f64::max);
     ui.label("Gap").on_hover_text(
-        "by how much the worst chain fails to fold flat, in its mean segments; below 1e-9 it is rounding",
+        "how far the worst chain is from folding flat, in mean segment lengths; below 1e-9 is rounding",
     );
     ui.label(format!("{gap:.1e}"));
     ui.end_row();
@@ -172,7 +172,7 @@ fn figures(studio: &Studio, ui: &mut Ui, index: usize) {
         && joint.support_ratio > 0.0
         && let Some(parent) = shaped.model().parts().get(joint.parent)
     {
-        ui.label("Joint").on_hover_text("how much of its joint panel lies on the other component");
+        ui.label("Joint").on_hover_text("share of its joint panel that lies on the other component");
         ui.label(format!("{:.0} % on {}", 100.0 * joint.support_ratio, parent.name));
         ui.end_row();
     }
@@ -205,7 +205,7 @@ fn splitting(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui:
                 }
                 panel.split = None;
             }
-            if ui.button("Don't split").clicked() {
+            if ui.button("Cancel").clicked() {
                 panel.split = None;
             }
         });

@@ -100,13 +100,14 @@ impl PlotPanel {
         if let Some((_, planning)) = &self.planning {
             ui.label("planning the job …");
             ui.add(egui::ProgressBar::new(planning.share()));
-            if ui.button("Cancel").on_hover_text("any change of machine or model plans anew").clicked() {
+            if ui.button("Cancel").on_hover_text("a change of the machine or the model plans again").clicked()
+            {
                 self.cancel();
             }
         }
         match &self.plan {
             None if self.planning.is_some() => {}
-            None => drop(ui.weak("as soon as the model is finished")),
+            None => drop(ui.weak("available when the model is finished")),
             Some((_, Err(problem))) => drop(ui.colored_label(ui.visuals().error_fg_color, problem)),
             Some((_, Ok(plan))) => {
                 for (k, sheet) in plan.sheets.iter().enumerate() {
@@ -151,7 +152,7 @@ impl PlotPanel {
                             ui.close();
                         }
                     }
-                    if ui.button("Look again").clicked() {
+                    if ui.button("Refresh").clicked() {
                         self.ports = port_names();
                     }
                 });
@@ -162,7 +163,11 @@ impl PlotPanel {
             ui.end_row();
             ui.label("Sheets");
             let mut all = self.only.is_none();
-            if ui.checkbox(&mut all, "all of them").on_hover_text("else the one that is shown").changed() {
+            if ui
+                .checkbox(&mut all, "all sheets")
+                .on_hover_text("off: only the sheet that is shown")
+                .changed()
+            {
                 self.only = (!all).then_some(self.shown);
             }
             ui.end_row();
@@ -207,7 +212,7 @@ impl PlotPanel {
         let is_ready = !self.port.trim().is_empty() && studio.finished().is_some();
         let button = ui.add_enabled(is_ready, egui::Button::new("Start"));
         if !is_ready {
-            ui.weak("write or choose the machine's port");
+            ui.weak("enter or choose the machine's port");
         }
         let Some(opened) = studio.opened().filter(|_| button.clicked()) else { return };
         let sheets = match self.only {
@@ -224,7 +229,7 @@ impl PlotPanel {
         let state = running.state();
         if let Some(sheet) = &state.wants_sheet {
             ui.strong(format!("Load a sheet for {sheet}."));
-            if ui.button("It is loaded").clicked() {
+            if ui.button("Sheet loaded").clicked() {
                 running.loaded();
             }
         } else {
@@ -232,7 +237,7 @@ impl PlotPanel {
             ui.label(&state.text);
         }
         ui.horizontal(|ui| {
-            let word = if state.is_paused { "Go on" } else { "Pause" };
+            let word = if state.is_paused { "Continue" } else { "Pause" };
             if ui.button(word).on_hover_text("lifts the tool").clicked() {
                 running.pause();
             }

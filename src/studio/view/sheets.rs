@@ -58,7 +58,7 @@ impl SheetsPanel {
     /// Draws the panel.
     pub fn show(&mut self, studio: &mut Studio, ui: &mut Ui) {
         let Some(output) = studio.shown().output().cloned() else {
-            ui.weak("the sheets are being made …");
+            ui.weak("arranging the pieces …");
             return;
         };
         self.refresh(studio, &output);
@@ -148,15 +148,14 @@ impl SheetsPanel {
         let pins = studio.document().map(|d| &d.project().pins);
         let is_pinned = pins.is_some_and(|pins| pins.iter().any(|pin| pin.piece() == piece));
         let is_current = studio.laid().is_some();
-        if is_pinned && ui.button("Let go").on_hover_text("the layout decides again where it lies").clicked()
-        {
+        if is_pinned && ui.button("Unpin").on_hover_text("lets the layout place it again").clicked() {
             studio.change(&Change::Pin { piece: piece.clone(), place: None }, None);
         }
-        let help = "turns the piece by 15°; while you drag it: , and .";
-        if ui.add_enabled(is_current, egui::Button::new("Turn right")).on_hover_text(help).clicked() {
+        let help = "rotates the piece by 15°; while you drag it, press , or .";
+        if ui.add_enabled(is_current, egui::Button::new("Rotate right")).on_hover_text(help).clicked() {
             self.turn(studio, output, id, -TURN_RAD);
         }
-        if ui.add_enabled(is_current, egui::Button::new("Turn left")).on_hover_text(help).clicked() {
+        if ui.add_enabled(is_current, egui::Button::new("Rotate left")).on_hover_text(help).clicked() {
             self.turn(studio, output, id, TURN_RAD);
         }
         let pinned = if is_pinned { ", pinned" } else { "" };
@@ -183,17 +182,17 @@ impl SheetsPanel {
             ui.label(format!("{sheets} sheets of {name}, {:.0} % used", 100.0 * layout.utilisation()));
             if studio.laid().is_none() {
                 ui.spinner();
-                ui.weak("of the model before");
+                ui.weak("of the previous model");
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 let scale = self.scale;
                 if ui.add_enabled(scale.is_some(), egui::Button::new("Fit")).clicked() {
                     self.scale = None;
                 }
-                if ui.button("+").on_hover_text("larger (Ctrl and wheel)").clicked() {
+                if ui.button("+").on_hover_text("zooms in (Ctrl and wheel)").clicked() {
                     self.scale = Some((scale.unwrap_or(2.0) * 1.3).min(20.0));
                 }
-                if ui.button("-").on_hover_text("smaller (Ctrl and wheel)").clicked() {
+                if ui.button("-").on_hover_text("zooms out (Ctrl and wheel)").clicked() {
                     self.scale = Some((scale.unwrap_or(2.0) / 1.3).max(0.3));
                 }
                 self.piece_bar(studio, output, ui);

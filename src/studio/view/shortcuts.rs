@@ -30,11 +30,11 @@ const LIST: &[Shortcut] = &[
     Shortcut {
         modifiers: Modifiers { alt: false, ctrl: false, shift: true, mac_cmd: false, command: true },
         key: Key::Z,
-        what: "do again",
+        what: "redo",
         act: |w, _| w.studio.redo(),
     },
     command(Key::Z, "undo", |w, _| w.studio.undo()),
-    command(Key::Y, "do again", |w, _| w.studio.redo()),
+    command(Key::Y, "redo", |w, _| w.studio.redo()),
     command(Key::O, "open a file", |w, _| w.ask_open()),
     command(Key::S, "save the project", |w, _| w.save()),
     command(Key::Q, "quit", |_, ctx| ctx.send_viewport_cmd(egui::ViewportCommand::Close)),
@@ -43,7 +43,7 @@ const LIST: &[Shortcut] = &[
     command(Key::Num3, "export", |w, _| w.mode = Mode::Export),
     command(Key::Num4, "plot", |w, _| w.mode = Mode::Plot),
     plain(Key::F1, "this list", |w, _| w.shows_shortcuts = !w.shows_shortcuts),
-    plain(Key::Escape, "stop the work, or select nothing", |w, _| {
+    plain(Key::Escape, "stop the calculation, or clear the selection", |w, _| {
         if w.browser.take().is_some() || std::mem::take(&mut w.shows_shortcuts) {
         } else if w.studio.busy().is_some() {
             w.studio.cancel();
@@ -51,32 +51,32 @@ const LIST: &[Shortcut] = &[
             w.studio.selection.clear();
         }
     }),
-    plain(Key::Space, "fold, pause", |w, _| w.space.play()),
-    plain(Key::F, "show all of the model", |w, _| w.space.fit()),
+    plain(Key::Space, "play or pause the folding", |w, _| w.space.play()),
+    plain(Key::F, "fit the model to the window", |w, _| w.space.fit()),
     plain(Key::M, "merge the selected components", |w, _| w.studio.merge_selected()),
-    plain(Key::OpenBracket, "turn the fold direction to the left", |w, _| turn(w, -5.0)),
-    plain(Key::CloseBracket, "turn the fold direction to the right", |w, _| turn(w, 5.0)),
-    plain(Key::Num1, "look from the front", |w, _| w.space.look_from(0.0, 0.0)),
-    plain(Key::Num2, "look from the side", |w, _| w.space.look_from(std::f64::consts::FRAC_PI_2, 0.0)),
-    plain(Key::Num3, "look from above", |w, _| w.space.look_from(0.0, 1.5)),
-    plain(Key::ArrowLeft, "turn the view", |w, _| w.space.nudge(STEP_RAD, 0.0, 1.0)),
-    plain(Key::ArrowRight, "turn the view", |w, _| w.space.nudge(-STEP_RAD, 0.0, 1.0)),
-    plain(Key::ArrowUp, "turn the view", |w, _| w.space.nudge(0.0, STEP_RAD, 1.0)),
-    plain(Key::ArrowDown, "turn the view", |w, _| w.space.nudge(0.0, -STEP_RAD, 1.0)),
-    plain(Key::Plus, "magnify", |w, _| w.space.nudge(0.0, 0.0, 1.2)),
-    plain(Key::Equals, "magnify", |w, _| w.space.nudge(0.0, 0.0, 1.2)),
-    plain(Key::Minus, "make smaller", |w, _| w.space.nudge(0.0, 0.0, 1.0 / 1.2)),
+    plain(Key::OpenBracket, "rotate the fold direction to the left", |w, _| turn(w, -5.0)),
+    plain(Key::CloseBracket, "rotate the fold direction to the right", |w, _| turn(w, 5.0)),
+    plain(Key::Num1, "view from the front", |w, _| w.space.look_from(0.0, 0.0)),
+    plain(Key::Num2, "view from the side", |w, _| w.space.look_from(std::f64::consts::FRAC_PI_2, 0.0)),
+    plain(Key::Num3, "view from above", |w, _| w.space.look_from(0.0, 1.5)),
+    plain(Key::ArrowLeft, "rotate the view", |w, _| w.space.nudge(STEP_RAD, 0.0, 1.0)),
+    plain(Key::ArrowRight, "rotate the view", |w, _| w.space.nudge(-STEP_RAD, 0.0, 1.0)),
+    plain(Key::ArrowUp, "rotate the view", |w, _| w.space.nudge(0.0, STEP_RAD, 1.0)),
+    plain(Key::ArrowDown, "rotate the view", |w, _| w.space.nudge(0.0, -STEP_RAD, 1.0)),
+    plain(Key::Plus, "zoom in", |w, _| w.space.nudge(0.0, 0.0, 1.2)),
+    plain(Key::Equals, "zoom in", |w, _| w.space.nudge(0.0, 0.0, 1.2)),
+    plain(Key::Minus, "zoom out", |w, _| w.space.nudge(0.0, 0.0, 1.0 / 1.2)),
 ];
 
 /// What the mouse does.
 const MOUSE: [(&str, &str); 8] = [
-    ("drag", "turn the view"),
+    ("drag", "rotate the view"),
     ("right or middle button, or Shift and drag", "move the view"),
-    ("wheel", "magnify"),
+    ("wheel", "zoom"),
     ("click", "select a component and a panel"),
     ("Shift and click", "select several components"),
-    ("two fingers on a trackpad", "move the view; pinched, magnify"),
-    ("a click of the wheel over a selected component", "turn its fold direction by 5°, with Shift by 1°"),
+    ("two fingers on a trackpad", "move the view; pinch to zoom"),
+    ("wheel over a selected component", "rotate its fold direction by 5° per click, with Shift by 1°"),
     ("drop a file", "open it"),
 ];
 

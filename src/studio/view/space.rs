@@ -320,7 +320,7 @@ impl Space {
         let what = panel.map_or(String::new(), |panel| format!(" · {}", panel.kind));
         let hint = match is_selected(studio, &tag) {
             true if studio.is_drawn() => "drawn in the project file",
-            true => "wheel: turn its fold direction, 5° a click, with Shift 1°",
+            true => "wheel: rotate its fold direction by 5° per click, with Shift by 1°",
             false => "click: select",
         };
         ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
@@ -347,9 +347,12 @@ impl Space {
         let at = rect.right_top() + egui::vec2(-12.0, 12.0);
         let text = match studio.shown().distances() {
             Some(d) => {
-                format!("red: the surface sticks out, up to {:.1} mm\nblue: the component does", d.most_mm)
+                format!(
+                    "red: the mesh is outside the component, up to {:.1} mm\nblue: it is inside",
+                    d.most_mm
+                )
             }
-            None => "distances are being measured …".to_owned(),
+            None => "measuring distances …".to_owned(),
         };
         painter.text(at, egui::Align2::RIGHT_TOP, text, font, colour);
     }
@@ -362,7 +365,7 @@ pub fn folding_bar(space: &mut Space, studio: &mut Studio, ui: &mut egui::Ui) {
         let text = if space.is_playing { "Pause" } else { "Fold" };
         if ui
             .button(text)
-            .on_hover_text("folds the components one by one, in the order that was found (Space)")
+            .on_hover_text("folds the components one by one, in the folding order (Space)")
             .clicked()
         {
             space.play();
@@ -387,10 +390,10 @@ pub fn folding_bar(space: &mut Space, studio: &mut Studio, ui: &mut egui::Ui) {
             ui.checkbox(&mut layers.segments, "Mesh, in parts");
             ui.checkbox(&mut layers.input, "Mesh, plain");
             ui.checkbox(&mut layers.hulls, "Hulls");
-            ui.checkbox(&mut layers.distances, "Mesh, by its distance from the components");
+            ui.checkbox(&mut layers.distances, "Mesh, coloured by distance from the components");
         });
         studio.measure(layers.distances);
-        if ui.button("Fit").on_hover_text("shows all of the model (F)").clicked() {
+        if ui.button("Fit").on_hover_text("fits the model to the window (F)").clicked() {
             space.fit();
         }
     });

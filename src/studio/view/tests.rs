@@ -251,7 +251,7 @@ fn a_job_goes_to_the_virtual_plotter() {
     click(&mut desk, "Plot");
     desk.state_mut().plot_mut().choose("generic-hpgl", &port);
     desk.run_ok();
-    click(&mut desk, "all of them");
+    click(&mut desk, "all sheets");
     click_when_there(&mut desk, "Start");
     let start = Instant::now();
     let state = loop {
@@ -262,7 +262,7 @@ fn a_job_goes_to_the_virtual_plotter() {
             break state;
         }
         if state.wants_sheet.is_some() {
-            click(&mut desk, "It is loaded");
+            click(&mut desk, "Sheet loaded");
         }
         // The machine takes its time; the user stops the rest.
         if state.share > 0.02 {

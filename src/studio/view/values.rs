@@ -54,8 +54,7 @@ impl Dialled {
         ui.horizontal(|ui| {
             let mut is_set = now.is_some();
             let name = format!("choose {}", self.dial.label);
-            let tick =
-                ui.add(egui::Checkbox::without_text(&mut is_set)).on_hover_text("without a tick: automatic");
+            let tick = ui.add(egui::Checkbox::without_text(&mut is_set)).on_hover_text("off: automatic");
             tick.widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, now.is_some(), &name));
             if tick.changed() {
                 studio.change(&self.set(is_set.then(|| self.value(otherwise))), None);
@@ -82,7 +81,7 @@ impl Dialled {
                 studio.change(&set(Some(self.value(x))), Some(&gesture));
             }
             if is_set {
-                if ui.small_button("auto").on_hover_text("as the whole model has it").clicked() {
+                if ui.small_button("auto").on_hover_text("uses the setting of the whole model").clicked() {
                     studio.change(&set(None), None);
                 }
             } else {

@@ -98,12 +98,12 @@ fn thinned(mut set: Vec<Edge>, edges: usize, worth_mm2: f64) -> Vec<Edge> {
     }
 }
 
-/// Number of vertices of a level profile of so many planes: an odd one folds inside its middle one.
+/// Number of vertices of a level profile of `planes` planes: an odd number folds inside the middle one.
 pub(super) fn vertices(planes: usize) -> usize {
     planes + 1 + planes % 2
 }
 
-/// Where a level chain of so many planes folds: in its middle.
+/// Where a level chain of `planes` planes folds: in its middle.
 pub(super) fn middle(planes: usize) -> FoldSpot {
     if planes.is_multiple_of(2) { FoldSpot::Bend(planes / 2 - 1) } else { FoldSpot::Inside(planes / 2) }
 }

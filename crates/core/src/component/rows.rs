@@ -14,8 +14,8 @@ use super::target::FoldSpot;
 use glam::DVec3;
 use std::f64::consts::TAU;
 
-/// Places that are less far out than the worst one by more than so many steps cannot become the
-/// worst within a step.
+/// Places that are less far out than the worst place by more than this many steps cannot become the worst
+/// within a step.
 const REACH: f64 = 6.0;
 /// Places farther than this share of the radius inside a joint panel or a border cannot leave it within a
 /// step.

@@ -19,7 +19,7 @@ use std::sync::OnceLock;
 
 /// Hulls with more corners are fitted through their extreme points in this many directions.
 const FIT_DIRECTIONS: usize = 320;
-/// While directions are compared, in so many.
+/// The same while directions are compared.
 const ROUGH_DIRECTIONS: usize = 140;
 /// Joints that carry this share are well supported.
 const GOOD_SUPPORT: f64 = 0.85;
@@ -27,31 +27,30 @@ const GOOD_SUPPORT: f64 = 0.85;
 /// height. With 0.2, and a higher price on such joints in another fit, it outweighs likeness: silhouettes
 /// of the cat 0.870 against 0.886; not bounded from below by a case yet.
 const SUPPORT_PRICE: f64 = 0.02;
-/// Directions are compared after so many steps each; so many are left.
+/// Fit steps of each direction before the first ranking, and directions kept.
 const FIRST_STEPS: usize = 4;
 const LEFT: usize = 6;
-/// So many of them are also started with fewer top edges, or with this share of the profile
-/// vertices: that may lead to a better place, and the rest is added where it is worth most.
+/// Kept directions that also start with fewer top edges, or with this share of the profile vertices:
+/// that may lead to a better place, and the rest is added where it is worth most.
 const RETRIED: usize = 1;
 const FEWER_EDGES: [usize; 2] = [1, 2];
 const FEWER_VERTICES: f64 = 0.6;
-/// All are compared again after so many steps more; so many are left with all top edges, and
-/// with fewer.
+/// Fit steps before the second ranking. Candidates kept with the full edge count, and with fewer edges.
 const MORE_STEPS: usize = 6;
 const LEFT_FULL: usize = 5;
 const LEFT_FEWER: usize = 2;
-/// And again after so many more; so many are finished.
+/// Fit steps before the last ranking, and candidates finished.
 const LAST_STEPS: usize = 6;
 const FINISHED: usize = 3;
-/// With a direction that the user turns by hand the answer must come at once.
+/// Candidates finished for a direction that the user turns by hand: the answer must come at once.
 const FINISHED_OF_ONE: usize = 2;
-/// Planes are added one by one, with so many steps each.
+/// Fit steps after each added plane.
 const GROWN_STEPS: usize = 8;
-/// If the cost is this many times that without the plane after them, it will not come below.
+/// A plane is given up if the cost is then this many times the cost without it.
 const HOPELESS: f64 = 1.1;
-/// Steps of a fit at most.
+/// Most steps of a fit.
 const STEPS: usize = 24;
-/// So many panels are dropped at most, for want of room.
+/// Most panels that are dropped for want of room.
 const REPAIRS: usize = 40;
 /// Steps after a panel was dropped.
 const REPAIR_STEPS: usize = 8;
@@ -59,8 +58,8 @@ const REPAIR_STEPS: usize = 8;
 const NEAR_ENOUGH_MM: f64 = 1e-3;
 /// Steps after one was left out.
 const PRUNE_STEPS: usize = 8;
-/// Of the finished shapes of several directions, so many are looked through for needless panels: the
-/// others are hardly ever taken, and panels count in what they are compared by.
+/// Finished shapes that are searched for needless panels. The others are hardly ever taken, and panels
+/// count in the comparison.
 const PRUNED: usize = 2;
 /// Price of a mm of spread when flat, against a mm of error: directions that fold smaller win
 /// where the error is alike (Figure 8).
@@ -68,8 +67,8 @@ const SPREAD_PRICE: f64 = 0.03;
 /// Price of an opening in a finished shape, against a mm of error, for each mm that a square of its
 /// area measures.
 const TRIM_PRICE: f64 = 0.5;
-/// Openings of more than this are seen as holes; each mm² over it costs so many mm, so that any other
-/// shape is better.
+/// Openings of more than this look like holes. Each mm² above it costs this many mm, so that any other shape
+/// is better.
 const MOST_TRIMMED_MM2: f64 = 10.0;
 const OVER_PRICE: f64 = 0.5;
 /// Price of a mm that a shape lacks to be valid, while directions are compared.
@@ -86,8 +85,8 @@ pub(super) struct Found {
 }
 
 /// Fits start with no more top edges and profile vertices than this, and add the others where they are
-/// worth most: the search finds its way more surely among few. Where as many as there may be are wanted,
-/// that is tried as well as a start with all, so that more of either make the error no larger.
+/// worth most: the search is more reliable with few. If the user asks for the most that is possible, the
+/// search also starts with all, so that more edges and vertices never make the error larger.
 const SURE: usize = 6;
 
 impl Found {

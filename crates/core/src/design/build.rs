@@ -24,10 +24,10 @@ pub enum DesignError {
         error: SketchError,
     },
     /// No component.
-    #[error("no component is drawn")]
+    #[error("the project has no drawn components")]
     Nothing,
     /// Two components of one name.
-    #[error("two components are named \"{0}\"; give each a name of its own")]
+    #[error("two components are named \"{0}\"; rename one")]
     SameName(String),
     /// Glued to something that is not there.
     #[error("component \"{name}\" is joined to \"{to}\", which is not drawn")]
@@ -39,13 +39,13 @@ pub enum DesignError {
     },
     /// Glued in a circle.
     #[error(
-        "component \"{0}\" is joined to itself, directly or through others; one component must stand for itself"
+        "component \"{0}\" is joined to itself, directly or through others; remove the joint of one component"
     )]
     Circle(String),
     /// No way to fold a profile.
     #[error(
-        "component \"{name}\": no way to fold profile {profile} flat was found{}; draw it with another vertex, or \
-         move one", why(.reasons)
+        "component \"{name}\": found no way to fold profile {profile} flat{}; add a vertex to it, or move one",
+        why(.reasons)
     )]
     NoWay {
         /// The component.
@@ -69,8 +69,8 @@ pub enum DesignError {
     },
     /// The chosen way creases a joint panel.
     #[error(
-        "component \"{name}\": the way \"{way}\" puts a crease into {panel}, which is a joint panel; choose another way, \
-         or join another panel"
+        "component \"{name}\": the way \"{way}\" puts a crease into {panel}, a joint panel; choose another way or \
+         another joint panel"
     )]
     CreasedJoint {
         /// The component.

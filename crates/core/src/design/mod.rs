@@ -1,4 +1,4 @@
-//! Models that are drawn rather than made from a mesh (§3.2, Kase et al. 2015): the user draws the
+//! Models drawn by the user instead of made from a mesh (§3.2, Kase et al. 2015): the user draws the
 //! top panel and a profile for each of its edges, concave ones too, and chooses among the ways in
 //! which the chains can fold flat.
 //!

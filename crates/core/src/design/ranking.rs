@@ -71,7 +71,7 @@ pub enum Refusal {
     #[error("the gap cannot be closed")]
     Gap,
     /// Eq. (1) is broken.
-    #[error("a hinge would come to lie farther in than it stands (Eq. 1)")]
+    #[error("a hinge would be farther inside when flat than when unfolded (Eq. 1)")]
     Inward,
     /// A panel would be too low.
     #[error("a panel would be too low to fold")]
@@ -80,12 +80,10 @@ pub enum Refusal {
     #[error("the top would have to rise on its way down")]
     Rise,
     /// The top would have to rise first, and other chains hold it.
-    #[error(
-        "the top would have to rise before it comes down, which chains with other profiles do not let it"
-    )]
+    #[error("the top would have to rise before it comes down, but chains with other profiles hold it")]
     Held,
     /// It names another number of segments than the profile has.
-    #[error("it has another number of letters than the profile has segments")]
+    #[error("the number of its letters is not the number of segments of the profile")]
     Count,
 }
 

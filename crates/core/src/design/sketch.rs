@@ -19,17 +19,17 @@ pub enum SketchError {
     #[error("its top panel needs three corners or more")]
     FewCorners,
     /// NaN or infinite.
-    #[error("its {0} has a coordinate that is no finite number")]
+    #[error("its {0} has a coordinate that is not a finite number")]
     NotFinite(String),
     /// The other way round.
     #[error(
-        "the corners of its top panel go round clockwise; give them counter-clockwise, as seen from above"
+        "the corners of its top panel are in clockwise order; list them counter-clockwise, as seen from above"
     )]
     Clockwise,
     /// A dent, a straight corner, or a crossing.
     #[error(
-        "its top panel is not convex at corner {0}: every corner must turn left, as chains beside a dent would \
-         collide; divide it into several components instead"
+        "its top panel is not convex at corner {0}: chains beside a dent would collide; divide it into several \
+         components"
     )]
     NotConvex(usize),
     /// The polygon winds round more than once.
@@ -37,8 +37,8 @@ pub enum SketchError {
     Crossing,
     /// No multiple.
     #[error(
-        "its {profiles} profiles do not go round its {edges} edges; give one for all edges, one for each, or a number \
-         that divides {edges}, to be repeated"
+        "it has {profiles} profiles for {edges} edges; give one for all edges, one for each, or a number that divides \
+         {edges} and repeats"
     )]
     ProfileCount {
         /// Profiles.
@@ -56,8 +56,8 @@ pub enum SketchError {
     },
     /// Not at the edge of the top.
     #[error(
-        "profile {profile} begins at u = {u_mm} mm; u is measured outwards from the edge of the top panel, so it begins \
-         at 0"
+        "profile {profile} begins at u = {u_mm} mm; u is the distance outwards from the edge of the top panel, so it \
+         begins at 0"
     )]
     NotAtEdge {
         /// Its number, from 1.
@@ -67,7 +67,7 @@ pub enum SketchError {
     },
     /// Eq. (11).
     #[error(
-        "vertex {vertex} of profile {profile} is not below the one before it; v falls from top to bottom"
+        "vertex {vertex} of profile {profile} is not below the one before it; v must fall from top to bottom"
     )]
     NotFalling {
         /// Its number, from 1.
@@ -78,7 +78,7 @@ pub enum SketchError {
     /// Ends at different heights.
     #[error(
         "profile {profile} goes from v = {} to {} mm, but profile 1 from {} to {} mm; all must begin at the height of \
-         the top panel and end at that of the bottom panel", found[0], found[1], expected[0], expected[1]
+         the top panel and end at the height of the bottom panel", found[0], found[1], expected[0], expected[1]
     )]
     Heights {
         /// Its number, from 1.
@@ -98,7 +98,8 @@ pub enum SketchError {
     },
     /// A panel that is none.
     #[error(
-        "\"{0}\" is no panel's name; panels are top, bottom, and such as chain2.1: the first panel under the second edge"
+        "\"{0}\" is not the name of a panel; panels are top, bottom, and for example chain2.1, the first panel under the \
+         second edge"
     )]
     PanelName(String),
     /// A panel that is not there.

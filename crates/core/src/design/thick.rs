@@ -22,8 +22,7 @@ use std::sync::Arc;
 pub enum ThickError {
     /// A fold against the bend.
     #[error(
-        "\"{name}\" folds flat against a bend in chain {}: boards that are cut square cannot stand bent one way and fold \
-         the other way", chain + 1
+        "\"{name}\" folds flat against a bend in chain {}, which boards with square edges cannot", chain + 1
     )]
     Against {
         /// The component.
@@ -33,8 +32,8 @@ pub enum ThickError {
     },
     /// Nothing is left inside.
     #[error(
-        "\"{name}\" has no room for panels of {thickness_mm} mm in chain {}; make it larger, with fewer top edges and \
-         profile vertices, or of thinner board", chain + 1
+        "\"{name}\" has no room for panels of {thickness_mm} mm in chain {}; use a larger --size, fewer top edges and \
+         profile vertices, or thinner board", chain + 1
     )]
     NoRoom {
         /// The component.
@@ -46,8 +45,7 @@ pub enum ThickError {
     },
     /// Chains of different heights.
     #[error(
-        "\"{name}\" has chains that fold into different numbers of layers, so that a top of boards would not lie flat on \
-         them"
+        "\"{name}\" has chains with different numbers of layers, so a top of board would not lie flat on them"
     )]
     Layers {
         /// The component.
@@ -210,7 +208,7 @@ impl Boards<'_> {
     /// No two boards are in one place, standing or flat.
     fn check(&self, inner: &Component) -> Result<(), ThickError> {
         let panels = inner.panels().panels();
-        for (state, is_flat) in [("it stands", false), ("folded flat", true)] {
+        for (state, is_flat) in [("unfolded", false), ("folded flat", true)] {
             let place = |p: &Panel| if is_flat { p.flat } else { p.deployed };
             let solid = |p: &Panel| Solid::prism(&p.outline, place(p), self.thickness_mm);
             let solids: Vec<Solid> = panels.iter().map(solid).collect();

@@ -60,7 +60,7 @@ impl Way {
             );
         }
         if segments.iter().filter(|s| s.is_creased()).count() > 1 {
-            return Err("one crease (^ or v) is enough to close a chain".to_owned());
+            return Err("a chain has at most one added crease (^ or v)".to_owned());
         }
         Ok(Self(segments))
     }
@@ -104,7 +104,7 @@ impl FromStr for Way {
         let segment = |letter: char| {
             let known = Segment::LETTERS.iter().find(|(_, l)| *l == letter).map(|(s, _)| *s);
             known.ok_or_else(|| {
-                format!("\"{letter}\" is none of u (up), d (down), ^ (mountain crease), v (valley crease)")
+                format!("\"{letter}\" is not one of u (up), d (down), ^ (mountain crease), v (valley crease)")
             })
         };
         Self::new(text.trim().chars().map(segment).collect::<Result<_, _>>()?)

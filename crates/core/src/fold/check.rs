@@ -48,13 +48,13 @@ struct Watched {
     overlap_mm: Option<f64>,
 }
 
-/// The pairs of one sweep are shared out in so many shares, for several threads.
+/// Shares into which the pairs of one sweep are divided, for several threads.
 const SHARES_OF_SWEEP: usize = 4;
 
-/// All states of so many parts are tried to see whether a clash can be avoided.
+/// Most parts of which all states are tried, to see whether a clash can be avoided.
 const MOST_BETWEEN: usize = 4;
 
-/// Depths are kept to this, so that models that lie a little otherwise in space get the same.
+/// Depths are rounded to this, so that a slightly rotated model gets the same.
 const DEPTH_GRID_MM: f64 = 1e-6;
 
 /// Answers with a memory.
@@ -80,8 +80,8 @@ pub(super) struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
-    /// Checks with some care. Of pairs that stand in each other when deployed only what is
-    /// deeper than that is told of.
+    /// Checks with some care. For pairs that overlap when unfolded, only clashes deeper than the overlap
+    /// count.
     pub(super) fn new(
         motion: &'a ModelMotion<'a>,
         care: Care,

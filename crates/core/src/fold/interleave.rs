@@ -13,15 +13,15 @@ use crate::progress::{Cancelled, Progress};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
 
-/// So many components go in turn, at most, by so many levels each: first halves for all that have to
-/// do with a bump, then finer ones for fewer. Two that must move together do so by eighths.
+/// Most components that fold in turn, and their levels: first halves for all that are involved in a bump,
+/// then finer levels for fewer. Two that must move together do so by eighths.
 const LATTICES: [(usize, Level); 3] = [(5, 2), (3, 4), (2, 8)];
-/// Bumps up to so many times the paper's thickness, half a mm, are left to the hand: a second step is
+/// Bumps of up to this many times the paper's thickness, half a mm, are left to the hand: a second step is
 /// more trouble than to bend a panel aside.
 const WORTH_TURNS: f64 = 2.0;
-/// A lattice has at most so many places; that is enough for 5 by halves in a model of 18 parts.
+/// Most places of a lattice: enough for 5 components by halves in a model of 18 parts.
 const MOST_PLACES: usize = 4_500;
-/// A lattice is left where it takes more sweeps than this.
+/// A lattice is given up if it takes more sweeps than this.
 const MOST_SWEEPS: usize = 120;
 /// A plan is changed for another one that does less harm by more than this for each step that it has
 /// more, or for one without bumps: ten steps that still bump by 4 instead of 6 mm help nobody.
@@ -106,7 +106,7 @@ struct Lattice {
     stride: Level,
     /// Moves of the others.
     others: Vec<Move>,
-    /// Levels of all components after so many of these moves.
+    /// Levels of all components after each number of these moves.
     others_at: Vec<Vec<Level>>,
 }
 

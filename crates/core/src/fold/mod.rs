@@ -1,5 +1,4 @@
-//! Folding: how components move between deployed and flat, whether they bump into one another, and
-//! in which steps they fold.
+//! Folding: how components move between unfolded and flat, whether they clash, and in which order they fold.
 
 mod chain;
 mod check;

@@ -9,15 +9,15 @@ use crate::progress::{Cancelled, Progress};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// The search gives up after so many motions were worked out for each component of a model.
+/// Computed motions for each component of a model after which the search gives up.
 const SWEEPS_FOR_EACH: usize = 1;
-/// And after so many states of the model.
+/// States of the model after which it gives up.
 const MOST_STATES: usize = 20_000;
-/// Where no order is free of clashes, components are compared at every step until so many motions
-/// were worked out for each, and at least this number in all; the rest follows as listed.
+/// If no order is free of clashes, components are compared at every step until this many motions are
+/// computed for each, and at least this many in all; the rest follows as listed.
 const COMPARED_FOR_EACH: usize = 3;
 const COMPARED: usize = 150;
-/// An order is changed for another one that does less harm by more than this.
+/// Another order replaces the current one if it does less harm by more than this.
 const LEAST_GAIN_MM: f64 = 0.01;
 
 /// Sorts components, which come in the order of their numbers, so that children come before those that
@@ -26,7 +26,7 @@ pub(super) fn outermost_first(model: &Model, parts: &mut [usize]) {
     parts.sort_by_key(|&part| std::cmp::Reverse(ancestors(model, part).len()));
 }
 
-/// All clashes of moves, one after another, in a model of so many parts.
+/// All clashes of moves, one after another, in a model of `parts` parts.
 pub(super) fn replay(checker: &mut Checker<'_>, moves: &[Move], parts: usize) -> Vec<Clash> {
     let mut levels = vec![0; parts];
     let mut clashes = Vec::new();

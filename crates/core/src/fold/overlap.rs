@@ -1,4 +1,4 @@
-//! What stands in each other before anything folds.
+//! Components that overlap before anything folds.
 
 use super::contact::{Sheet, gap};
 use super::memory::{Key, SweepMemory};
@@ -8,7 +8,7 @@ use crate::component::Panel;
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
-/// Two components that stand in each other when all are deployed.
+/// Two components that overlap when all are unfolded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overlap {
     /// The two, the smaller index first.
@@ -24,7 +24,7 @@ struct Solid {
     high: DVec3,
 }
 
-/// Pairs of components that stand in each other by more than `tolerance_mm` when deployed.
+/// Pairs of components that overlap by more than `tolerance_mm` when unfolded.
 pub(super) fn overlaps(
     motion: &ModelMotion<'_>,
     tolerance_mm: f64,

@@ -192,7 +192,7 @@ impl FoldPlan {
         &self.clashes
     }
 
-    /// What stands in each other before anything folds.
+    /// Components that overlap before anything folds.
     pub fn overlaps(&self) -> &[Overlap] {
         &self.overlaps
     }
@@ -202,8 +202,8 @@ impl FoldPlan {
         &self.stacks
     }
 
-    /// Pairs that get deeper into each other than the paper is thick, deployed or while they fold, and
-    /// by how much, mm. The two are equal where chains of one component do.
+    /// Pairs that overlap by more than the paper's thickness, unfolded or while they fold, and by how much
+    /// more, mm. The two indices are equal for chains of one component.
     pub fn bumps(&self) -> Vec<([usize; 2], f64)> {
         let mut bumps: BTreeMap<[usize; 2], f64> = BTreeMap::new();
         let clashes = self.clashes.iter().map(|clash| (clash.parts, clash.depth_mm));

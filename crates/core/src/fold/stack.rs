@@ -9,7 +9,7 @@ use glam::DVec2;
 const STEP_MM: f64 = 0.5;
 /// Edges that lie on grid points belong to no outline: touching is no overlap.
 const TOUCH_MM: f64 = 1e-6;
-/// The grid has at most so many points a side.
+/// Most points of the grid along a side.
 const MOST_POINTS: f64 = 1000.0;
 
 /// A group of joined components, folded flat.

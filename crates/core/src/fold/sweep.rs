@@ -25,14 +25,13 @@ use std::collections::BTreeMap;
 /// Spans that each cell between two levels is divided into at first: in spans of more than a 16th of the
 /// motion hardly a pair can be let go.
 const FIRST_SPANS: usize = 2;
-/// A cell is looked at so many times to tell how deep a contact becomes in it, ends included.
+/// Samples of a cell, ends included, that find how deep a contact becomes in it.
 const DEPTH_SAMPLES: usize = 3;
 /// Spans are not halved more often than this, 1e-6 of the motion.
 const MOST_HALVINGS: usize = 16;
-/// For a comparison of models a cell is looked at so many times: 24 samples of a motion, as a person
-/// would step through it.
+/// Samples of a cell for a comparison of models: 24 samples of a motion, as a person would step through it.
 const ROUGH_SAMPLES: usize = 3;
-/// Sheets nearer to one plane than this are on neither side of each other.
+/// Sheets that are closer to one plane than this are on neither side of each other.
 const SAME_PLANE_MM: f64 = 1e-6;
 /// Gaps are computed for spans in which sheets move less than this share of their size: in longer
 /// ones they are hardly ever wide enough.

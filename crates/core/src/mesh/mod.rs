@@ -1,4 +1,4 @@
-//! Reading a triangle mesh from any common file and making it clean.
+//! Triangle meshes: from the polygons of a file to a repaired mesh.
 //!
 //! ```text
 //! bytes -> read -> Soup (polygons as in the file) -> Mesh::from_soup -> Mesh -> Mesh::scaled

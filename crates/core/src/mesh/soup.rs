@@ -6,7 +6,7 @@ use glam::DVec3;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SoupError {
     /// A coordinate is NaN or infinite.
-    #[error("vertex {vertex} (from 0) has the coordinates {position}, which are not all finite")]
+    #[error("vertex {vertex} (from 0) has the coordinates {position}, which are not finite")]
     NotFinite {
         /// Index of the vertex.
         vertex: usize,
@@ -24,7 +24,7 @@ pub enum SoupError {
         count: usize,
     },
     /// More vertices or corners than 32 bits can number.
-    #[error("more than 4 thousand million vertices or face corners")]
+    #[error("more than 4 billion vertices or face corners")]
     TooLarge,
 }
 

@@ -1,7 +1,7 @@
 //! A part's candidates: finished components in several fold directions, each with its joint planes.
 //!
-//! Joint planes are known before, from where the parts touch, so that the candidates of one part do
-//! not depend on those of another; what two of them do to each other is priced by [`super::pair`].
+//! Joint planes are known in advance, from where the parts touch. So the candidates of one part do not
+//! depend on those of another part; [`super::pair`] gives a cost to each two of them.
 
 use super::link::Link;
 use super::seat::{Seating, level_axis, seat_plane, seats};
@@ -353,7 +353,7 @@ fn borders(outline: &[DVec3], plane: &Plane) -> Vec<(DVec3, f64)> {
     edges.collect()
 }
 
-/// Sections of round hulls are handled by so many of their corners.
+/// Corners that stand for the section of a round hull.
 const SECTION_CORNERS: usize = 24;
 
 /// Corners of a convex polygon that are about evenly spread along its outline.

@@ -1,12 +1,11 @@
 //! One candidate for every part, so that the whole model is best.
 //!
 //! The costs of single candidates and of pairs along joints make a tree: the best combination of these
-//! is found exactly, by dynamic programming from the leaves (n·K² pair costs). What parts do to each
-//! other while they fold depends on all that lies between them, and on the order of folding; it is
-//! asked for whole models only, and brought in by a search: from the best of the tree, a part that
-//! bumps gets another candidate, the others the best that goes with it, while that makes the whole
-//! cheaper. So the result is exact where nothing bumps, and never worse than the tree's best; it need
-//! not be the best of all where something does.
+//! is found exactly, by dynamic programming from the leaves (n·K² pair costs). Clashes depend on all parts
+//! between two parts, and on the order of folding, so only whole models are checked for them. A search
+//! starts from the best of the tree: a part that bumps gets another candidate, the others the best that
+//! goes with it, as long as that makes the whole cheaper. If nothing bumps, the result is the best of all.
+//! Otherwise it is never worse than the tree's best, but not necessarily the best of all.
 
 use super::bond::Bond;
 use super::candidate::Made;

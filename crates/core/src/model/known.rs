@@ -8,7 +8,7 @@ use crate::memory::Memory;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// The candidates of so many parts are kept: a few turns of a few dozen parts.
+/// Most parts whose candidates are kept: a few turns of a few dozen parts.
 const MOST: usize = 200;
 
 /// Everything that the candidates of a part depend on.

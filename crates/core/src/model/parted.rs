@@ -14,10 +14,9 @@ pub struct Parted {
     pub borders: Vec<Vec<Plane>>,
 }
 
-/// The hulls, of which those of neighbours without a joint end at the plane between them, and others
-/// that overlap in the middle of the overlap, so that their components do not stand in each other. Where
-/// such a plane would take much of either, both stay whole. Hulls that are mirror images of each other
-/// stay so.
+/// Cuts hulls so that their components do not overlap: neighbours without a joint at the plane between
+/// them, others in the middle of their overlap. If such a plane would take much of either, both stay whole.
+/// Mirror images stay mirror images.
 pub fn parted(
     part_hulls: &[&Hull],
     contacts: &[Contact],

@@ -12,8 +12,7 @@ const SPARE: f64 = 1.8;
 /// to 9 mm, as much as paper needs. What is smaller is a point.
 const MOST_GROWTH: f64 = 3.0;
 
-/// The hulls, of which those that meet in a section too small for glue are thicker there. Hulls that are
-/// mirror images of each other stay so.
+/// Thickens hulls where they meet in a section too small for glue. Mirror images stay mirror images.
 pub fn sturdy(mut hulls: Vec<Hull>, links: &[Link], symmetry: Option<&Symmetry>) -> Vec<Hull> {
     for link in links {
         let [parent, child] = [link.parent, link.child];

@@ -32,7 +32,7 @@ pub enum Edit {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum EditError {
     /// No part has this name.
-    #[error("there is no part \"{name}\" {to}; there are: {known}")]
+    #[error("there is no part \"{name}\" {to}; the parts are: {known}")]
     NoPart {
         /// The name that was given.
         name: String,
@@ -42,15 +42,13 @@ pub enum EditError {
         known: String,
     },
     /// A merge needs two different parts.
-    #[error("to merge needs the names of two or more different parts")]
+    #[error("a merge needs the names of two or more different parts")]
     Few,
     /// The plane does not meet the part.
-    #[error(
-        "the plane that should split \"{0}\" has all of it on one side; move the point that it goes through"
-    )]
+    #[error("the plane to split \"{0}\" has all of the part on one side; move the plane's point")]
     OneSide(String),
     /// A new part would have the name of another.
-    #[error("splitting gives a second part named \"{0}\"; give another name as front")]
+    #[error("the split makes a second part named \"{0}\"; set front to another name")]
     Taken(String),
 }
 

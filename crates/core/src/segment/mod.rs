@@ -97,17 +97,18 @@ pub enum SegmentError {
     #[error("the mesh has no faces")]
     Empty,
     /// The mesh lies in one plane.
-    #[error("the mesh is flat: all of it lies in one plane, so no solid parts can be made of it")]
+    #[error("the mesh is flat: all of it is in one plane, so it has no solid parts")]
     Flat,
     /// A number of parts that cannot be.
-    #[error("{0} parts were asked for; ask for 1 to {MOST_PARTS}")]
+    #[error("{0} parts are not possible; use 1 to {MOST_PARTS}")]
     Parts(usize),
     /// A detail that cannot be.
     #[error("the detail is {0}; it must be from 0 to 1")]
     Detail(f64),
     /// Settings of the method by SDF alone that cannot be.
     #[error(
-        "{clusters} clusters with smoothing {smoothing}; use 1 to {MOST_CLUSTERS} clusters and a smoothing of 0 or more"
+        "{clusters} clusters with smoothing {smoothing} are not possible; use 1 to {MOST_CLUSTERS} clusters and a \
+         smoothing of 0 or more"
     )]
     Clusters {
         /// Number of Gaussians.

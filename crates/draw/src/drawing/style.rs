@@ -275,7 +275,7 @@ impl TryFrom<i64> for DxfColour {
 
     fn try_from(index: i64) -> Result<Self, String> {
         let index = u8::try_from(index).ok().filter(|&index| index > 0).ok_or(index);
-        let message = |index| format!("{index} is no index of a DXF colour; give a number from 1 to 255");
+        let message = |index| format!("{index} is not the index of a DXF colour; use a number from 1 to 255");
         index.map(Self).map_err(message)
     }
 }

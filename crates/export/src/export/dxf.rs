@@ -15,7 +15,7 @@ use tatamu_draw::drawing::{Drawing, Layer, LineStyles, Mark, Pages, Polyline, Sh
 pub const FORMAT: Format = Format {
     name: "dxf",
     extensions: &["dxf"],
-    description: "DXF in millimetres, one file a sheet or all in one, for cutters and CAD programs",
+    description: "DXF in millimetres, one file per sheet or all in one, for cutters and CAD programs",
     source: Source::Pages(write),
 };
 
@@ -56,7 +56,7 @@ impl std::str::FromStr for DxfVersion {
         match text.to_ascii_lowercase().as_str() {
             "r12" => Ok(Self::R12),
             "r2000" => Ok(Self::R2000),
-            _ => Err("the version is one of r12, r2000".to_owned()),
+            _ => Err("the version must be one of r12, r2000".to_owned()),
         }
     }
 }
@@ -78,7 +78,7 @@ impl std::str::FromStr for DxfSheets {
         match text {
             "files" => Ok(Self::Files),
             "row" => Ok(Self::Row),
-            _ => Err("sheets are one of files, row".to_owned()),
+            _ => Err("the sheets must be one of files, row".to_owned()),
         }
     }
 }

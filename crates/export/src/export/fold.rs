@@ -26,7 +26,7 @@ use tatamu_pipeline::Output;
 pub const FORMAT: Format = Format {
     name: "fold",
     extensions: &["fold"],
-    description: "FOLD 1.2: crease pattern, standing and flat model; or each piece",
+    description: "FOLD 1.2: crease pattern, unfolded and flat model; or each piece",
     source: Source::Model(files),
 };
 

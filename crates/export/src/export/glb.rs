@@ -19,7 +19,7 @@ use tatamu_draw::render::palette;
 pub const FORMAT: Format = Format {
     name: "glb",
     extensions: &["glb"],
-    description: "glTF 2.0: the model in 3D, with the animation of its folding or without",
+    description: "glTF 2.0: the model in 3D, with or without an animation of the folding",
     source: Source::Model(write),
 };
 

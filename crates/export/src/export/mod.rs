@@ -62,7 +62,7 @@ pub enum ExportError {
     #[error(transparent)]
     Pages(#[from] PagesError),
     /// A library could not write the file.
-    #[error("the {format} file could not be written: {message}")]
+    #[error("cannot write the {format} file: {message}")]
     Writer {
         /// Name of the format.
         format: &'static str,

@@ -17,7 +17,7 @@ use tatamu_draw::render::palette;
 pub const FORMAT: Format = Format {
     name: "obj",
     extensions: &["obj"],
-    description: "OBJ: the standing model as polygons, in millimetres; of boards as solids",
+    description: "OBJ: the unfolded model as polygons, in millimetres; boards as solids",
     source: Source::Model(write),
 };
 

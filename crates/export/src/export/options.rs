@@ -52,7 +52,7 @@ impl std::str::FromStr for TextMode {
             "outlines" => Ok(Self::Outlines),
             "strokes" => Ok(Self::Strokes),
             "text" => Ok(Self::Text),
-            _ => Err("texts are one of outlines, strokes, text".to_owned()),
+            _ => Err("the text must be one of outlines, strokes, text".to_owned()),
         }
     }
 }

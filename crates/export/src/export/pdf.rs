@@ -25,7 +25,7 @@ use tile::{Grid, Tile};
 pub const FORMAT: Format = Format {
     name: "pdf",
     extensions: &["pdf"],
-    description: "PDF at exactly 1:1, one page a sheet, for printing",
+    description: "PDF at exactly 1:1, one page per sheet, for printing",
     source: Source::Pages(write),
 };
 

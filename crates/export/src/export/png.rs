@@ -8,7 +8,7 @@ pub use tatamu_draw::pixels::{PngError, of_raster, rasterise, render};
 pub const FORMAT: Format = Format {
     name: "png",
     extensions: &["png"],
-    description: "PNG pictures, one file a sheet, to look at",
+    description: "PNG pictures, one file per sheet, to look at",
     source: Source::Pages(write),
 };
 

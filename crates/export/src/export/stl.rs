@@ -12,7 +12,7 @@ use tatamu_pipeline::Output;
 pub const FORMAT: Format = Format {
     name: "stl",
     extensions: &["stl"],
-    description: "STL: all panels as solids as thick as the paper, lying as on the sheets",
+    description: "STL: all panels as solids of the paper's thickness, placed as on the sheets",
     source: Source::Model(write),
 };
 

@@ -22,7 +22,7 @@ use tatamu_draw::drawing::{
 pub const FORMAT: Format = Format {
     name: "svg",
     extensions: &["svg"],
-    description: "SVG in millimetres, one file a sheet, one layer a kind of line",
+    description: "SVG in millimetres, one file per sheet, one layer per kind of line",
     source: Source::Pages(write),
 };
 
@@ -50,7 +50,7 @@ impl std::str::FromStr for SvgStroke {
         match text {
             "styled" => Ok(Self::Styled),
             "hairline" => Ok(Self::Hairline),
-            _ => Err("lines are one of styled, hairline".to_owned()),
+            _ => Err("the lines must be one of styled, hairline".to_owned()),
         }
     }
 }

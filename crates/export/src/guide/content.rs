@@ -30,10 +30,10 @@ const MAP_MM: f64 = 22.0;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GuideError {
     /// A picture cannot be drawn.
-    #[error("a picture of the guide cannot be drawn: {0}")]
+    #[error("cannot draw a picture of the guide: {0}")]
     Picture(#[from] PictureError),
     /// The picture of a clash cannot be drawn.
-    #[error("a picture of the guide cannot be drawn: {0}")]
+    #[error("cannot draw a picture of the guide: {0}")]
     Clash(#[from] ShowError),
     /// The pages cannot be printed.
     #[error(transparent)]

@@ -56,7 +56,7 @@ impl FromStr for ViewAngle {
         let names: Vec<&str> = NAMES.iter().map(|n| n.0).collect();
         let message = || {
             format!(
-                "write {} or two angles in degrees such as 30,20: round the model, and up",
+                "write {} or two angles in degrees such as 30,20: around the model, and up",
                 names.join(", ")
             )
         };

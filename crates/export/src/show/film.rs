@@ -77,7 +77,7 @@ impl FilmOptions {
             return Ok(Self { size_px, ..self });
         }
         Err(format!(
-            "pictures must be from {} to {} pixels large",
+            "the longer side of a picture must be from {} to {} pixels",
             Self::SIZES_PX.start(),
             Self::SIZES_PX.end()
         ))

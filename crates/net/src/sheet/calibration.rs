@@ -17,13 +17,13 @@ pub struct Calibration {
     measured_mm: DVec2,
 }
 
-/// Why a text is no calibration.
+/// Why a text is not a calibration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CalibrationError {
     /// Not of the form `X:97.3,Y:100.1`.
     #[error(
-        "\"{found}\" is no calibration; print a page, measure its bars of 100 mm and write what you \
-         found, such as X:97.3,Y:100.1 (either may be left out)"
+        "\"{found}\" is not a calibration; print a page, measure its bars of 100 mm and pass their lengths, \
+         such as X:97.3,Y:100.1 (one is enough)"
     )]
     Form {
         /// The text.

@@ -121,7 +121,7 @@ pub enum OffBed {
     },
     /// Beyond the numbers that the machine knows.
     #[error(
-        "the job needs the coordinate {axis} = {found} units, but the machine knows only {least} to {most}"
+        "the job needs the coordinate {axis} = {found} units, but the machine accepts only {least} to {most}"
     )]
     Range {
         /// Name of the machine's axis.

@@ -9,10 +9,12 @@ pub(super) const LONGEST_FOREIGN_COMMAND: usize = 128;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum JobError {
     /// No command moves with the pen down.
-    #[error("nothing is drawn by it; is it a {0} file?")]
+    #[error("it draws nothing; check that it is a {0} file")]
     Empty(&'static str),
     /// A command that cannot be read.
-    #[error("the command \"{text}\" at byte {at} is no {dialect}; choose the cutter whose language it is")]
+    #[error(
+        "the command \"{text}\" at byte {at} is not {dialect}; choose a --cutter with the language of the file"
+    )]
     Broken {
         /// Offset of the command.
         at: usize,
@@ -33,7 +35,7 @@ pub enum JobError {
         length: usize,
     },
     /// A position that the machine cannot reach.
-    #[error("{error} (the command at byte {at}); move the drawing, or use a larger machine")]
+    #[error("{error} (command at byte {at}); move the drawing, or use a larger machine")]
     OffBed {
         /// Offset of the command.
         at: usize,

@@ -1,13 +1,13 @@
-//! Plotters and cutters: what they are like, how they are spoken to, and how a job is sent so that
-//! no byte is lost and no tool stays down.
+//! Plotters and cutters: their profiles, their languages, and a session that sends a job without losing
+//! bytes or leaving a tool down.
 //!
 //! ```text
 //! toolpath + cutter + media -> encode -> bytes (a .plt file) -> job -> session -> port
 //! ```
 //!
-//! A job that is sent is always read from the bytes of a file, be it ours or another program's, so
-//! that both take the same way. Nothing here opens a port or asks the time: the session is a state
-//! machine, and [`VirtualPlotter`] is what it is tested against.
+//! A job is always parsed from the bytes of a file, our own or another program's, so that both take the same
+//! path. Nothing here opens a port or asks for the time: the session is a state machine, and tests run it
+//! against a [`VirtualPlotter`].
 
 pub mod dialect;
 mod encode;

@@ -23,7 +23,7 @@ pub enum PlanError {
     #[error("{0}")]
     Tooling(#[from] ToolingError),
     /// Nothing on the sheet is for this machine: such as a list of labels.
-    #[error("nothing on it is for a cutter")]
+    #[error("it has no lines for a cutter")]
     Nothing,
 }
 
@@ -133,7 +133,7 @@ fn limits(cutter: &Cutter, media: &Media, operation: Operation) -> Option<String
     let command = command.trim_end_matches(|c: char| c.is_control() || c == ';');
     (!is_possible).then(|| {
         format!(
-            "{} asks for {force_g} g to {}, which {} cannot set; it is told {command}, its nearest",
+            "{} sets {force_g} g to {}, which {} does not support; tatamu sends {command}, the nearest value",
             media.name(),
             operation.name(),
             cutter.name()

@@ -115,7 +115,7 @@ impl Painter<'_> {
                 let buffer = self.scene.buffers.get(view.buffer().index());
                 let end = view.offset().checked_add(view.length());
                 let bytes = buffer.zip(end).and_then(|(buffer, end)| buffer.get(view.offset()..end));
-                Cow::Borrowed(bytes.ok_or_else(|| failed("its data is cut short".to_owned()))?)
+                Cow::Borrowed(bytes.ok_or_else(|| failed("its data is incomplete".to_owned()))?)
             }
             Source::Uri { uri, .. } => Cow::Owned(match uri.strip_prefix("data:") {
                 Some(data) => decode(image.index(), data)?,

@@ -53,7 +53,7 @@ pub enum MeshError {
     OnePoint,
     /// The size cannot be calculated with.
     #[error(
-        "the mesh measures {diagonal:e} units from corner to corner, which is beyond calculation; \
+        "the mesh measures {diagonal:e} units from corner to corner, too large to calculate with; \
          scale it to a usual size first"
     )]
     Extent {

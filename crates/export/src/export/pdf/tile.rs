@@ -31,7 +31,7 @@ pub(super) fn check(paper: Paper) -> Result<(), String> {
         return Ok(());
     }
     Err(format!(
-        "paper {} is too small for tiles with margins and overlap; use one of {LEAST_SIDE_MM} mm or more on each side",
+        "paper {} is too small for tiles with margins and overlap; use at least {LEAST_SIDE_MM} mm on each side",
         paper.name()
     ))
 }

@@ -111,7 +111,7 @@ impl TryFrom<SerialTable> for Serial {
         ensure(answers || !needs_answers, "escb needs a machine that answers: set answers = true")?;
         ensure(
             !matches!(fallback, Handshake::Auto | Handshake::EscB),
-            "fallback is rtscts, xonxoff or paced",
+            "fallback must be rtscts, xonxoff or paced",
         )?;
         Ok(Self { baud, data_bits, parity, stop_bits, handshake, fallback, buffer_bytes, answers })
     }
@@ -359,7 +359,7 @@ impl TryFrom<FrameTable> for FrameField {
     fn try_from(table: FrameTable) -> Result<Self, String> {
         let offset_mm = DVec2::from(table.offset_mm);
         if !offset_mm.is_finite() {
-            return Err("offset_mm is two numbers".to_owned());
+            return Err("offset_mm needs two numbers".to_owned());
         }
         let beds = [table.bed_x_mm, table.bed_y_mm];
         Frame::new(table.units_per_mm.0, (table.origin, offset_mm), [table.x, table.y], beds, table.range)

@@ -15,7 +15,7 @@ impl TryFrom<f64> for Positive {
 
     fn try_from(x: f64) -> Result<Self, String> {
         let is_usable = x > 0.0 && x <= 1e6;
-        is_usable.then_some(Self(x)).ok_or_else(|| format!("{x} is no usable size; give a number above 0"))
+        is_usable.then_some(Self(x)).ok_or_else(|| format!("{x} is not a usable size; use a number above 0"))
     }
 }
 
@@ -87,7 +87,9 @@ impl TryFrom<String> for RatioText {
 
     fn try_from(text: String) -> Result<Self, String> {
         let ratio = Ratio::parse(&text);
-        ratio.map(Self).ok_or_else(|| format!("\"{text}\" is no ratio; write it as \"40\" or \"5105/127\""))
+        ratio
+            .map(Self)
+            .ok_or_else(|| format!("\"{text}\" is not a ratio; write it as \"40\" or \"5105/127\""))
     }
 }
 
@@ -101,7 +103,7 @@ impl TryFrom<String> for DialectName {
 
     fn try_from(name: String) -> Result<Self, String> {
         let dialect = dialect_of(&name);
-        dialect.map(Self).ok_or_else(|| format!("\"{name}\" is no dialect; there are hpgl, gpgl, dmpl"))
+        dialect.map(Self).ok_or_else(|| format!("\"{name}\" is not a dialect; use hpgl, gpgl, dmpl"))
     }
 }
 
@@ -115,7 +117,7 @@ impl TryFrom<String> for Ascii {
 
     fn try_from(text: String) -> Result<Self, String> {
         let is_usable = text.is_ascii() && text.len() <= 200;
-        let message = "commands have at most 200 characters, all of them ASCII";
+        let message = "a command has at most 200 characters, all ASCII";
         is_usable.then_some(Self(text)).ok_or_else(|| message.to_owned())
     }
 }

@@ -25,7 +25,7 @@ impl TryFrom<LevelTable> for Level {
 
     fn try_from(table: LevelTable) -> Result<Self, String> {
         let [least, most] = table.range;
-        let message = "the range goes from the least to the greatest number of the command";
+        let message = "the range must go from the least to the greatest number of the command";
         let level = Self { command: table.command.0, per_unit: table.per_unit.0, range: table.range };
         (least <= most).then_some(level).ok_or_else(|| message.to_owned())
     }

@@ -19,7 +19,7 @@ pub enum ProfileError {
     #[error("{0}")]
     Toml(String),
     /// `unverified` names a field that the file does not have.
-    #[error("line {line}: \"{field}\" in unverified is no field of this profile; write it as table.key")]
+    #[error("line {line}: \"{field}\" in unverified is not a field of this profile; write it as table.key")]
     NoField {
         /// Line of the list.
         line: usize,

@@ -108,7 +108,7 @@ impl Session {
             (Question::Error, Some(code)) if code < 100 => self.ask.error = code as u32,
             (Question::Model, None) => {
                 let name: String = line.chars().filter(|c| !c.is_control()).take(40).collect();
-                self.notes.push(format!("the machine says that it is {name}"));
+                self.notes.push(format!("the machine identifies itself as {name}"));
             }
             (Question::Position, None) if line.split(',').count() >= 2 => self.ask.has_position = true,
             _ => return,
@@ -168,10 +168,10 @@ impl Session {
         // What a machine does with questions that it does not know is anybody's guess.
         self.serial.answers &= handshake != Handshake::Auto && self.handshake != Handshake::Paced;
         let why = match self.handshake {
-            Handshake::EscB => format!("asking for free bytes (ESC.B), {} of them in all", self.ask.size),
+            Handshake::EscB => format!("asks for free bytes (ESC.B), buffer of {} bytes", self.ask.size),
             Handshake::RtsCts => "the line CTS".to_owned(),
             Handshake::XonXoff => "XON/XOFF".to_owned(),
-            _ => format!("time alone: no more than {} bytes ahead of the machine", self.ask.size),
+            _ => format!("by time: at most {} bytes ahead of the machine", self.ask.size),
         };
         let asked = match handshake {
             Handshake::Auto => "no answer from the machine; ",
