@@ -32,8 +32,8 @@ pub enum ThickError {
     },
     /// Nothing is left inside.
     #[error(
-        "\"{name}\" has no room for panels of {thickness_mm} mm in chain {}; use a larger --size, fewer top edges and \
-         profile vertices, or thinner board", chain + 1
+        "\"{name}\" has no room for panels of {thickness_mm} mm in chain {}; make it larger, with fewer top edges and \
+         profile vertices, or of thinner board", chain + 1
     )]
     NoRoom {
         /// The component.

@@ -309,7 +309,9 @@ impl<'a> Builder<'a> {
     fn joint_price(&self, link: &Link) -> f64 {
         let [parent, child] = [link.parent, link.child].map(|p| &self.parts[p].hull);
         let area_mm2 = polygon::area(&plane::shared_section(&link.plane, parent, child));
-        JOINT_PRICE * (TIGHT_MM2 / area_mm2.max(f64::MIN_POSITIVE)).clamp(1.0, TIGHTEST)
+        // Hulls that only touch there have a face on the plane, of no known size.
+        let tightness = if area_mm2 > 0.0 { (TIGHT_MM2 / area_mm2).clamp(1.0, TIGHTEST) } else { 1.0 };
+        JOINT_PRICE * tightness
     }
 
     /// Corners of the section of another part's hull by a joint plane. Those of images are images.
