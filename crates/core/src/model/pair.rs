@@ -125,13 +125,16 @@ mod tests {
             [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(u, v)| DVec2::new(x + u, v)).to_vec()
         };
         let below = square(0.0, 20.0);
-        // Beside it: in by 5 mm of its 10 there are 50 mm², less what the way up takes.
+        // 30 mm² of it lie on the other one; a slide of 2 mm makes it 44 mm².
+        let (way, glue_mm2) = slide(&square(17.0, 10.0), &below, 44.0);
+        assert!((44.0..44.5).contains(&glue_mm2) && (1.0..2.5).contains(&way.length()), "{way} {glue_mm2}");
+        // Beside it: no farther than it may.
         let (way, glue_mm2) = slide(&square(22.0, 10.0), &below, 44.0);
-        assert!((44.0..44.5).contains(&glue_mm2) && way.x < -6.0 && way.length() < 9.0, "{way} {glue_mm2}");
+        assert!((way.length() - 10.0 * SLIDE).abs() < 1e-9 && glue_mm2 < 5.0, "{way} {glue_mm2}");
         // On it already.
         assert_eq!(slide(&square(15.0, 10.0), &below, 44.0), (DVec2::ZERO, 50.0));
         // Too small to hold: all of it lies on the other one.
-        let (_, glue_mm2) = slide(&square(22.0, 5.0), &below, 44.0);
+        let (_, glue_mm2) = slide(&square(15.5, 5.0), &below, 44.0);
         assert!((glue_mm2 - 25.0).abs() < 1e-9);
     }
 

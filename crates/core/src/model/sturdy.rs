@@ -105,6 +105,6 @@ mod tests {
     fn a_thin_section_grows_across_first() {
         let flat = [(-10.0, -1.0), (10.0, -1.0), (10.0, 1.0), (-10.0, 1.0)].map(DVec2::from);
         let (low, high) = polygon::bounds(pad(&flat)).unwrap();
-        assert!(((high - low) - DVec2::new(20.0, 3.0)).length() < 1e-9, "{low} {high}");
+        assert!(((high - low) - DVec2::new(20.0, 2.0 * SPARE)).length() < 1e-9, "{low} {high}");
     }
 }

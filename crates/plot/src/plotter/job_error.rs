@@ -12,9 +12,7 @@ pub enum JobError {
     #[error("it draws nothing; check that it is a {0} file")]
     Empty(&'static str),
     /// A command that cannot be read.
-    #[error(
-        "the command \"{text}\" at byte {at} is not {dialect}; choose a --cutter with the language of the file"
-    )]
+    #[error("the command \"{text}\" at byte {at} is not {dialect}; choose the cutter whose language it is")]
     Broken {
         /// Offset of the command.
         at: usize,
