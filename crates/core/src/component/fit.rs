@@ -32,6 +32,9 @@ const SLOW_STEPS: usize = 3;
 /// Price of a millimetre by which a panel is too small, or the balance point out of its place,
 /// against a millimetre of error.
 pub(super) const SIZE_PRICE: f64 = 20.0;
+/// Price of a millimetre by which a solid stands in another part, against a millimetre of error. Without
+/// it the legs of a human stand 4.5 mm in each other.
+pub(super) const BORDER_PRICE: f64 = 2.0;
 
 /// What a fit minimises: weights of lengths.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -163,10 +166,6 @@ impl<'a> Fit<'a> {
     }
 }
 
-/// Price of a millimetre by which a solid stands in another part, against a millimetre of error. Without
-/// it the legs of a human stand 4.5 mm in each other.
-pub(super) const BORDER_PRICE: f64 = 2.0;
-
 /// What a solid is fitted to.
 #[derive(Debug, Clone)]
 pub(super) struct Task<'a> {
@@ -200,8 +199,8 @@ impl Task<'_> {
         let spread_mm = self.aim.mean * squares / (2.0 * count as f64 * self.mean_scale_mm());
         let lack_mm = self.lack_mm(&shape, &spots);
         let joints = self.target.joints.iter();
-        let miss_mm: f64 = joints.map(|j| j.price * miss_mm(&shape, &self.target, j)).sum();
-        let miss_mm = miss_mm + BORDER_PRICE * self.beyond_mm(&shape);
+        let of_joints: f64 = joints.map(|j| j.price * miss_mm(&shape, &self.target, j)).sum();
+        let miss_mm = of_joints + BORDER_PRICE * self.beyond_mm(&shape);
         let is_finite = shape.corners.iter().all(|c| c.point.is_finite());
         let error_mm = if is_finite { error_mm } else { f64::INFINITY };
         let unlike_mm = self.aim.worst * error_mm + self.beside_mm(&shape.polytope);

@@ -45,14 +45,14 @@ impl Mirror {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    fn mirror() -> Mirror {
+    pub(in crate::geom) fn mirror() -> Mirror {
         Mirror::new(Plane::through(DVec3::new(3.0, -1.0, 2.0), DVec3::new(0.3, 1.0, -0.4)).unwrap())
     }
 
-    fn points(seed: u64, count: usize) -> Vec<DVec3> {
+    pub(in crate::geom) fn points(seed: u64, count: usize) -> Vec<DVec3> {
         let mut random = fastrand::Rng::with_seed(seed);
         (0..count).map(|_| DVec3::from_array([(); 3].map(|()| random.f64() * 20.0 - 10.0))).collect()
     }

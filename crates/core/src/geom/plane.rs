@@ -1,4 +1,4 @@
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// The plane `{ x : normal · x = offset }`, with the half-space behind it `normal · x <= offset`.
 ///
@@ -82,5 +82,17 @@ impl Plane {
     pub fn basis(&self) -> (DVec3, DVec3) {
         let a = self.normal.any_orthonormal_vector();
         (a, self.normal.cross(a))
+    }
+
+    /// Coordinates of a point's foot in the plane, along the two of [`Plane::basis`].
+    pub fn flat(&self, point: DVec3) -> DVec2 {
+        let (x, y) = self.basis();
+        DVec2::new(x.dot(point), y.dot(point))
+    }
+
+    /// The point of the plane with these coordinates.
+    pub fn lifted(&self, point: DVec2) -> DVec3 {
+        let (x, y) = self.basis();
+        x * point.x + y * point.y + self.normal * self.offset
     }
 }

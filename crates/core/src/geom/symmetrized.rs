@@ -87,17 +87,9 @@ impl Mirror {
 
 #[cfg(test)]
 mod tests {
+    use super::super::mirror::tests::{mirror, points};
     use super::*;
     use crate::geom::Plane;
-
-    fn mirror() -> Mirror {
-        Mirror::new(Plane::through(DVec3::new(3.0, -1.0, 2.0), DVec3::new(0.3, 1.0, -0.4)).unwrap())
-    }
-
-    fn points(seed: u64, count: usize) -> Vec<DVec3> {
-        let mut random = fastrand::Rng::with_seed(seed);
-        (0..count).map(|_| DVec3::from_array([(); 3].map(|()| random.f64() * 20.0 - 10.0))).collect()
-    }
 
     /// Largest distance of a corner of one hull from the nearest corner of the other.
     fn apart(a: &Hull, b: &Hull) -> f64 {

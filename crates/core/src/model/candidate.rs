@@ -135,8 +135,10 @@ impl<'a> Builder<'a> {
     pub(super) fn make(&self, before: &[Made]) -> Result<Vec<Made>, ModelError> {
         let part = &self.parts[self.part];
         let principal = PrincipalAxis::of_hull(&part.hull);
+        let prices: Vec<f64> = self.own_links().map(|link| self.joint_price(link)).collect();
+        let axes = self.axes(&principal);
         let directions: Vec<Direction> =
-            self.axes(&principal).par_iter().map(|&a| self.direction(principal.frame(a))).collect();
+            axes.par_iter().map(|&axis| self.direction(principal.frame(axis), &prices)).collect();
         let mut targets: Vec<(Target, f64)> =
             directions.iter().map(|d| (self.target(d), PLANE_PRICE * d.plane_shift_mm)).collect();
         let lost = || ModelError::NoJointPanel(part.options.name.clone());
@@ -260,8 +262,9 @@ impl<'a> Builder<'a> {
         })
     }
 
-    /// Seats of all joints in the axes of `frame`, and the hull clipped by them.
-    fn direction(&self, frame: DAffine3) -> Direction {
+    /// Seats of all joints in the axes of `frame`, and the hull clipped by them. `prices` are those of the
+    /// joints in their order.
+    fn direction(&self, frame: DAffine3, prices: &[f64]) -> Direction {
         let to_local = frame.inverse();
         let mut others: Vec<usize> = Vec::new();
         let mut seatings = Vec::new();
@@ -287,8 +290,9 @@ impl<'a> Builder<'a> {
         let whole = hull.volume();
         let mut plane_shift_mm = 0.0;
         let mut joints = Vec::new();
-        let prices = self.own_links().map(|link| self.joint_price(link));
-        for (((&other, seating), &seat), price) in others.iter().zip(&seatings).zip(&seats).zip(prices) {
+        for (((&other, seating), &seat), price) in
+            others.iter().zip(&seatings).zip(&seats).zip(prices.iter().copied())
+        {
             let plane = seat_plane(&seat);
             if let Some(clipped) = hull.clip(&plane).filter(|h| h.volume() > LEAST_SHARE * whole) {
                 hull = clipped;
@@ -326,11 +330,9 @@ impl<'a> Builder<'a> {
         if twin != other {
             return own;
         }
-        let (x, y) = plane.basis();
         let both: Vec<DVec3> = own.iter().copied().chain(own.iter().map(|p| mirror.point(*p))).collect();
-        let flat: Vec<DVec2> = both.iter().map(|p| DVec2::new(x.dot(*p), y.dot(*p))).collect();
-        let at = |q: DVec2| x * q.x + y * q.y + plane.normal() * plane.offset();
-        polygon::convex_hull(&flat).into_iter().map(at).collect()
+        let flat: Vec<DVec2> = both.iter().map(|p| plane.flat(*p)).collect();
+        polygon::convex_hull(&flat).into_iter().map(|p| plane.lifted(p)).collect()
     }
 
     /// Middle of the place where two parts meet: of the sections of their hulls by the plane.

@@ -196,11 +196,11 @@ pub(super) fn mirror_plane_between(symmetry: &Symmetry, first: &Hull, second: &H
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::geom::Mirror;
 
-    fn cube(at: DVec3, side: f64) -> Hull {
+    pub(in crate::model) fn cube(at: DVec3, side: f64) -> Hull {
         let points: Vec<DVec3> = (0..8)
             .map(|k| at + DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64) * side)
             .collect();

@@ -3,6 +3,7 @@
 
 use super::candidate::Made;
 use super::link::Link;
+use super::plane;
 use crate::component::PanelId;
 use crate::geom::{Plane, polygon};
 use glam::{DAffine3, DVec2, DVec3};
@@ -44,20 +45,13 @@ impl Seated {
         let outline = child.panel_outline(child_panel);
         let centre = outline.iter().sum::<DVec3>() / outline.len() as f64;
         let turn = turn_onto(&own_plane, &up_plane.flipped(), centre);
-        let basis = up_plane.basis();
-        let flat = |points: &mut dyn Iterator<Item = DVec3>| -> Vec<DVec2> {
-            let mut flat: Vec<DVec2> = points.map(|p| DVec2::new(basis.0.dot(p), basis.1.dot(p))).collect();
-            if polygon::area(&flat) < 0.0 {
-                flat.reverse();
-            }
-            flat
-        };
-        let below = flat(&mut parent.panel_outline(parent_panel).into_iter());
-        let above = flat(&mut outline.iter().map(|p| turn.transform_point3(*p)));
+        let below = plane::flattened(&up_plane, parent.panel_outline(parent_panel));
+        let above = plane::flattened(&up_plane, outline.iter().map(|p| turn.transform_point3(*p)));
         let (own_mm2, parent_mm2) = (polygon::area(&above), polygon::area(&below));
         let enough_mm2 = GLUE_MARGIN * needed_glue_mm2(own_mm2, parent_mm2);
         let (slide, glue_mm2) = slide(&above, &below, enough_mm2);
-        let turn = DAffine3::from_translation(basis.0 * slide.x + basis.1 * slide.y) * turn;
+        let (x, y) = up_plane.basis();
+        let turn = DAffine3::from_translation(x * slide.x + y * slide.y) * turn;
         let lack = (1.0 - glue_mm2 / enough_mm2).max(0.0);
         let lack_mm = if lack > 0.0 { WEAK_PRICE_MM + GLUE_PRICE_MM * lack } else { 0.0 };
         let overhang = (1.0 - glue_mm2 / own_mm2.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
@@ -80,8 +74,11 @@ fn slide(above: &[DVec2], below: &[DVec2], enough_mm2: f64) -> (DVec2, f64) {
         let slid: Vec<DVec2> = above.iter().map(|p| *p + way * share).collect();
         polygon::area(&polygon::intersect_convex(&slid, below)).max(0.0)
     };
-    let (stays, most) = (glue_mm2(0.0), glue_mm2(1.0));
-    let goal = enough_mm2.min(most);
+    let stays = glue_mm2(0.0);
+    if stays >= enough_mm2 {
+        return (DVec2::ZERO, stays);
+    }
+    let goal = enough_mm2.min(glue_mm2(1.0));
     if stays >= goal {
         return (DVec2::ZERO, stays);
     }

@@ -122,16 +122,9 @@ const JOINT_SHARE: f64 = 0.8;
 
 #[cfg(test)]
 mod tests {
-    use super::super::link::link_tree;
+    use super::super::link::{link_tree, tests::cube};
     use super::*;
     use glam::DVec3;
-
-    fn cube(at: DVec3, side: f64) -> Hull {
-        let points: Vec<DVec3> = (0..8)
-            .map(|k| at + DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64) * side)
-            .collect();
-        Hull::of_points(&points).unwrap()
-    }
 
     #[test]
     fn neighbours_without_a_joint_end_where_they_meet() {

@@ -147,18 +147,18 @@ impl<'a> Ground<'a> {
 
 /// What the sections of two hulls share, in the plane's [`Plane::basis`]; empty where that is nothing.
 pub(super) fn shared_section(plane: &Plane, first: &Hull, second: &Hull) -> Vec<DVec2> {
-    let (x, y) = plane.basis();
-    let section = |hull: &Hull| {
-        let mut flat: Vec<DVec2> =
-            hull.section(plane).iter().map(|p| DVec2::new(x.dot(*p), y.dot(*p))).collect();
-        if polygon::area(&flat) < 0.0 {
-            flat.reverse();
-        }
-        flat
-    };
-    let [first, second] = [first, second].map(section);
+    let [first, second] = [first, second].map(|hull| flattened(plane, hull.section(plane)));
     let is_nothing = first.len() < 3 || second.len() < 3;
     if is_nothing { Vec::new() } else { polygon::intersect_convex(&first, &second) }
+}
+
+/// A convex polygon in the plane's [`Plane::basis`], counter-clockwise.
+pub(super) fn flattened(plane: &Plane, outline: impl IntoIterator<Item = DVec3>) -> Vec<DVec2> {
+    let mut flat: Vec<DVec2> = outline.into_iter().map(|p| plane.flat(p)).collect();
+    if polygon::area(&flat) < 0.0 {
+        flat.reverse();
+    }
+    flat
 }
 
 fn is_inside(hull: &Hull, point: DVec3) -> bool {

@@ -2,7 +2,7 @@
 
 use super::pair::LEAST_GLUE_MM2;
 use super::{Link, Symmetry, plane};
-use crate::geom::{Hull, Plane, polygon};
+use crate::geom::{Hull, polygon};
 use glam::{DMat2, DVec2, DVec3};
 
 /// The sections of two hulls have this many times the area that is glued in the end: components have few
@@ -17,7 +17,7 @@ pub fn sturdy(mut hulls: Vec<Hull>, links: &[Link], symmetry: Option<&Symmetry>)
     for link in links {
         let [parent, child] = [link.parent, link.child];
         let pad = pad(&plane::shared_section(&link.plane, &hulls[parent], &hulls[child]));
-        let corners: Vec<DVec3> = pad.into_iter().map(|p| in_space(&link.plane, p)).collect();
+        let corners: Vec<DVec3> = pad.into_iter().map(|p| link.plane.lifted(p)).collect();
         for part in [parent, child].into_iter().filter(|_| !corners.is_empty()) {
             let points: Vec<DVec3> = hulls[part].vertices().iter().chain(&corners).copied().collect();
             if let Ok(hull) = Hull::of_points(&points) {
@@ -29,11 +29,6 @@ pub fn sturdy(mut hulls: Vec<Hull>, links: &[Link], symmetry: Option<&Symmetry>)
         symmetry.make_alike(&mut hulls);
     }
     hulls
-}
-
-fn in_space(plane: &Plane, point: DVec2) -> DVec3 {
-    let (x, y) = plane.basis();
-    x * point.x + y * point.y + plane.normal() * plane.offset()
 }
 
 /// A section made as large as a joint needs, its thin side first; empty where it is large enough, or next
@@ -68,6 +63,7 @@ fn axes(polygon: &[DVec2], centre: DVec2) -> DMat2 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::Plane;
 
     fn bar(half: DVec3, at: DVec3) -> Hull {
         let corner = |k: usize| at + half * DVec3::new(SIGN[k & 1], SIGN[k >> 1 & 1], SIGN[k >> 2]);

@@ -1,6 +1,6 @@
 //! Animated PNG of the folding, in full colour.
 
-use super::{ExportError, ExportFile, Format, FormatOptions, Source};
+use super::{ExportError, ExportFile, Format, FormatOptions, Source, film};
 use crate::product::Product;
 use crate::show::Film;
 use png::{BitDepth, BlendOp, ColorType, Compression, DisposeOp, Encoder, EncodingError};
@@ -15,11 +15,7 @@ pub const FORMAT: Format = Format {
 };
 
 fn write(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
-    let failed = |error: &dyn std::fmt::Display| ExportError::writer(&FORMAT, error);
-    let (model, plan) = (product.output().model(), product.output().fold_plan());
-    let film = Film::shoot(model, plan, &options.film).map_err(|e| failed(&e))?;
-    let bytes = encode(&film).map_err(|e| failed(&e))?;
-    Ok(vec![ExportFile::single(bytes)])
+    film::write(&FORMAT, product, options, encode)
 }
 
 /// Part of a picture.

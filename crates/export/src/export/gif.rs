@@ -1,6 +1,6 @@
 //! Animated GIF of the folding: one palette for all frames, and of each frame only what changes.
 
-use super::{ExportError, ExportFile, Format, FormatOptions, Source};
+use super::{ExportError, ExportFile, Format, FormatOptions, Source, film};
 use crate::product::Product;
 use crate::show::Film;
 use color_quant::NeuQuant;
@@ -25,11 +25,7 @@ const EXACT: usize = 96;
 const SAMPLES: usize = 400_000;
 
 fn write(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
-    let failed = |error: &dyn std::fmt::Display| ExportError::writer(&FORMAT, error);
-    let (model, plan) = (product.output().model(), product.output().fold_plan());
-    let film = Film::shoot(model, plan, &options.film).map_err(|e| failed(&e))?;
-    let bytes = encode(&film).map_err(|e| failed(&e))?;
-    Ok(vec![ExportFile::single(bytes)])
+    film::write(&FORMAT, product, options, encode)
 }
 
 /// The film as the bytes of a GIF file that runs for ever.

@@ -6,6 +6,7 @@
 
 mod apng;
 mod dxf;
+mod film;
 #[cfg(test)]
 mod fixture;
 pub mod fold;

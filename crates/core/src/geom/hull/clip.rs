@@ -49,7 +49,7 @@ impl Hull {
             }
         }
         let (x, y) = plane.basis();
-        let flat: Vec<_> = cut.iter().map(|p| DVec2::new(x.dot(*p), y.dot(*p))).collect();
+        let flat: Vec<_> = cut.iter().map(|p| plane.flat(*p)).collect();
         let origin = plane.normal() * plane.offset();
         polygon::convex_hull(&flat).into_iter().map(|p| origin + x * p.x + y * p.y).collect()
     }
@@ -109,8 +109,7 @@ impl Clip<'_> {
     fn cap(&self, plane: &Plane, sides: &[Ordering]) -> Vec<u32> {
         let on = (0..sides.len() as u32).filter(|&v| sides[v as usize] == Ordering::Equal);
         let ring: Vec<u32> = on.chain(self.of_edge.values().copied()).collect();
-        let (x, y) = plane.basis();
-        let flat = |v: u32| DVec2::new(x.dot(self.points[v as usize]), y.dot(self.points[v as usize]));
+        let flat = |v: u32| plane.flat(self.points[v as usize]);
         let middle = ring.iter().map(|&v| flat(v)).sum::<DVec2>() / ring.len().max(1) as f64;
         let mut ring: Vec<(f64, u32)> =
             ring.into_iter().map(|v| ((flat(v) - middle).to_angle(), v)).collect();

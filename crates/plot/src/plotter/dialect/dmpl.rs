@@ -1,7 +1,7 @@
 //! DM/PL, the language of Houston Instrument's plotters: letters with parameters and a comma after
 //! each command; there is no other sign that ends one.
 
-use super::{Controls, Dialect, Meaning, Pen, pairs};
+use super::{Dialect, Meaning, Pen, pairs};
 use crate::plotter::Point;
 
 /// DM/PL.
@@ -77,14 +77,6 @@ impl Dialect for Dmpl {
             b"R" => Meaning::Move { pen: Pen::Keep, to: Vec::new(), is_relative: Some(true) },
             _ => Meaning::Setup,
         }
-    }
-
-    fn controls(&self) -> Option<Controls> {
-        None
-    }
-
-    fn switch_xon_xoff_on(&self, _: usize) -> Vec<u8> {
-        Vec::new()
     }
 }
 

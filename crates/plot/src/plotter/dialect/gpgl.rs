@@ -1,6 +1,6 @@
 //! GP-GL, the language of Graphtec's cutters: one letter, parameters, ETX.
 
-use super::{Controls, Dialect, Meaning, Pen, chunked, pairs};
+use super::{Dialect, Meaning, Pen, chunked, pairs};
 use crate::plotter::Point;
 
 /// Ends every command.
@@ -64,15 +64,6 @@ impl Dialect for Gpgl {
             b"=" | b"\"" | b":" | b";" | [0x1B] => Meaning::Control,
             _ => Meaning::Setup,
         }
-    }
-
-    /// None: status is asked for in ways that differ between models.
-    fn controls(&self) -> Option<Controls> {
-        None
-    }
-
-    fn switch_xon_xoff_on(&self, _: usize) -> Vec<u8> {
-        Vec::new()
     }
 }
 

@@ -94,11 +94,16 @@ pub trait Dialect: Sync + std::fmt::Debug {
     fn mnemonic<'a>(&self, command: &'a [u8]) -> &'a [u8];
 
     /// Device control, where the language has it.
-    fn controls(&self) -> Option<Controls>;
+    /// None by default: models of GP-GL differ in how they are asked.
+    fn controls(&self) -> Option<Controls> {
+        None
+    }
 
     /// Switches XON/XOFF on, with XOFF sent when fewer bytes are free; empty where the language
     /// cannot.
-    fn switch_xon_xoff_on(&self, least_free: usize) -> Vec<u8>;
+    fn switch_xon_xoff_on(&self, _least_free: usize) -> Vec<u8> {
+        Vec::new()
+    }
 
     /// A move through many positions as several commands of at most [`LONGEST_COMMAND`] bytes;
     /// nothing for other commands.
