@@ -28,7 +28,7 @@ fn cuboid(name: &str, low: DVec3, size: DVec3) -> Part {
 }
 
 fn built(parts: &[Part], links: &[Link]) -> Model {
-    let assembly = Assembly { parts, links, symmetry: None, min_panel_mm: 3.0 };
+    let assembly = Assembly { parts, links, symmetry: None, min_panel_mm: 3.0, views: None };
     build(&assembly, &Known::default(), &Unjudged, &Silent).unwrap().model
 }
 

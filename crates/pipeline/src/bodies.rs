@@ -3,8 +3,9 @@
 use super::{Error, Options};
 use glam::DVec3;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 use tatamu_core::geom::{Hull, Mirror, Plane};
-use tatamu_core::mesh::{Mesh, MirrorPlane};
+use tatamu_core::mesh::{Mesh, MirrorPlane, Views};
 use tatamu_core::model::{self, Assembly, Contact, Link, Part, PartOptions, Parted, Symmetry};
 use tatamu_core::segment::{self, Parts, SegmentId, Segmentation};
 
@@ -18,6 +19,8 @@ pub struct Hulls {
     links: Vec<Link>,
     symmetry: Option<Symmetry>,
     mirror_plane: Option<MirrorPlane>,
+    /// What the model should look like; nothing for drawn components.
+    views: Option<Arc<Views>>,
 }
 
 impl Hulls {
@@ -38,7 +41,8 @@ impl Hulls {
         let Parted { hulls, borders } = model::parted(&hulls, &contacts, &links, symmetry.as_ref());
         solid.hulls = model::sturdy(hulls, &links, symmetry.as_ref());
         let mirror_plane = segmentation.mirror().filter(|_| symmetry.is_some()).copied();
-        Ok(Self { names: solid.names(divided.names()), solid, borders, links, symmetry, mirror_plane })
+        let views = Some(Arc::new(Views::of_mesh(divided.mesh())));
+        Ok(Self { names: solid.names(divided.names()), solid, borders, links, symmetry, mirror_plane, views })
     }
 
     /// No hulls; drawn components have names alone.
@@ -83,6 +87,7 @@ pub struct Bodies {
     parts: Vec<Part>,
     links: Vec<Link>,
     symmetry: Option<Symmetry>,
+    views: Option<Arc<Views>>,
 }
 
 impl Bodies {
@@ -92,12 +97,13 @@ impl Bodies {
     /// [`Error::NoComponent`], [`Error::SameName`].
     pub fn new(hulls: &Hulls, options: &Options) -> Result<Self, Error> {
         let (links, symmetry) = (hulls.links.clone(), hulls.symmetry.clone());
-        Ok(Self { parts: parts(hulls, options)?, links, symmetry })
+        Ok(Self { parts: parts(hulls, options)?, links, symmetry, views: hulls.views.clone() })
     }
 
     /// What a model is built from.
     pub fn assembly(&self, min_panel_mm: f64) -> Assembly<'_> {
-        Assembly { parts: &self.parts, links: &self.links, symmetry: self.symmetry(), min_panel_mm }
+        let (symmetry, views) = (self.symmetry(), self.views.as_deref());
+        Assembly { parts: &self.parts, links: &self.links, symmetry, min_panel_mm, views }
     }
 
     /// The parts; a component is made of each.

@@ -10,12 +10,14 @@ mod placement;
 mod repair;
 mod soup;
 mod symmetry;
+mod views;
 
 pub use edges::Edges;
 pub use placement::Up;
 pub use repair::{MeshError, MeshWarning, Repairs};
 pub use soup::{Soup, SoupError};
 pub use symmetry::MirrorPlane;
+pub use views::{Cover, Views};
 
 use glam::DVec3;
 

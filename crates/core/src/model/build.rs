@@ -2,16 +2,23 @@
 
 use super::bond::Bond;
 use super::candidate::{Builder, Made};
-use super::choice::{Bump, Choice};
+use super::choice::{Bump, Choice, Combination};
 use super::known::Known;
 use super::link::Link;
-use super::pair::Seated;
+use super::pair::Pairs;
+use super::seen::Seen;
 use super::{Hold, Joint, Model, ModelError, ModelPart, Part, Symmetry};
+use crate::mesh::Views;
 use crate::progress::{Cancelled, Progress};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// What a model costs whose outlines share nothing with those of the mesh, against an error of each part by its
+/// own size. With 1 the silhouettes of two humans are 0.81, with 3 they are 0.84, and 44 meshes have 0.906
+/// instead of 0.904 on average.
+const LOOK_PRICE: f64 = 3.0;
 
 /// What a model is built from.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +31,8 @@ pub struct Assembly<'a> {
     pub symmetry: Option<&'a Symmetry>,
     /// Least width and height of panels, mm.
     pub min_panel_mm: f64,
+    /// What the whole model should look like; nothing where only its parts count.
+    pub views: Option<&'a Views>,
 }
 
 /// Tells what the parts of a model do to each other while they fold.
@@ -84,7 +93,14 @@ fn built(
 ) -> Result<(Built, BTreeSet<usize>), ModelError> {
     let Candidates { of: candidates, links, bonds } = Candidates::new(assembly, wide, known, progress)?;
     let parts = assembly.parts;
-    let choice = Choice::new(&candidates, &weights(parts), &links, &bonds);
+    let pairs = Pairs::new(&links, &candidates);
+    let choice = Choice::new(&candidates, &weights(parts), (&links, &pairs), &bonds);
+    let seen = assembly.views.map(|views| Seen::new(views, &candidates, (&links, &pairs)));
+    let price_mm = LOOK_PRICE * parts.iter().map(size_mm).sum::<f64>();
+    let looks_mm = |all: &[Combination]| match &seen {
+        Some(seen) => seen.unlike(all).into_iter().map(|unlike| price_mm * unlike).collect(),
+        None => vec![0.0; all.len()],
+    };
     let chosen =
         |of: &[usize]| -> Vec<&Made> { of.iter().zip(&candidates).map(|(&k, made)| &made[k]).collect() };
     let ids = |made: &[&Made]| made.iter().map(|m| m.id).collect::<Vec<u64>>();
@@ -92,18 +108,22 @@ fn built(
         progress.check()?;
         let made = chosen(of);
         // A combination that cannot be joined costs too much to be looked at.
-        place(parts, &links, &made).map_or(Ok(Vec::new()), |model| judge.bumps(&model, &ids(&made)))
+        place(parts, (&links, &pairs), of, &made)
+            .map_or(Ok(Vec::new()), |model| judge.bumps(&model, &ids(&made)))
     };
-    let (best, troubled) = choice.best(&bumps)?;
+    let (best, troubled) = choice.best(&bumps, &looks_mm)?;
     let made = chosen(&best);
-    Ok((Built { model: place(parts, &links, &made)?, ids: ids(&made) }, troubled))
+    Ok((Built { model: place(parts, (&links, &pairs), &best, &made)?, ids: ids(&made) }, troubled))
 }
 
 /// How much the cost of each part counts: by its size, about 1 on average.
 fn weights(parts: &[Part]) -> Vec<f64> {
-    let size = |part: &Part| part.hull.volume().cbrt();
-    let mean = parts.iter().map(size).sum::<f64>() / parts.len().max(1) as f64;
-    parts.iter().map(|part| size(part) / mean).collect()
+    let mean = parts.iter().map(size_mm).sum::<f64>() / parts.len().max(1) as f64;
+    parts.iter().map(|part| size_mm(part) / mean).collect()
+}
+
+fn size_mm(part: &Part) -> f64 {
+    part.hull.volume().cbrt()
 }
 
 /// The candidates of all parts, and the joints that they have room for.
@@ -165,12 +185,16 @@ impl Candidates {
 }
 
 /// Places every part on its parent, deployed and flat.
-fn place(parts: &[Part], links: &[Link], made: &[&Made]) -> Result<Model, ModelError> {
+fn place(
+    parts: &[Part],
+    (links, pairs): (&[Link], &Pairs),
+    of: &[usize],
+    made: &[&Made],
+) -> Result<Model, ModelError> {
     let lost = |p: usize| ModelError::NoJointPanel(parts[p].options.name.clone());
     let mut placed: Vec<ModelPart> = parts.iter().zip(made).map(|(part, m)| m.unplaced(part)).collect();
-    for link in links {
-        let seated = Seated::new(link, made[link.parent], made[link.child]);
-        let seated = seated.ok_or_else(|| lost(link.child))?;
+    for (k, link) in links.iter().enumerate() {
+        let seated = pairs.get(k, [of[link.parent], of[link.child]]).ok_or_else(|| lost(link.child))?;
         let parent = placed[link.parent].clone();
         let child = &mut placed[link.child];
         child.placement = parent.placement * seated.turn;

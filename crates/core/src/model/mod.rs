@@ -13,6 +13,7 @@ mod parted;
 mod plane;
 mod plug;
 mod seat;
+mod seen;
 mod sturdy;
 mod symmetry;
 

@@ -7,15 +7,16 @@ use super::plane;
 use crate::component::PanelId;
 use crate::geom::{Plane, polygon};
 use glam::{DAffine3, DVec2, DVec3};
+use rayon::prelude::*;
 
 /// A joint is glued over at least this area, mm²: the tip of a glue stick,
 pub(super) const LEAST_GLUE_MM2: f64 = 40.0;
 /// and over this share of the smaller of its two panels.
 const LEAST_GLUE_SHARE: f64 = 0.1;
 /// Price of a joint without any glue, mm of error. Nothing that is seen is worth a part that falls off.
-const GLUE_PRICE_MM: f64 = 60.0;
-/// Price of a joint that lacks any.
-pub(super) const WEAK_PRICE_MM: f64 = 5.0;
+const GLUE_PRICE_MM: f64 = 180.0;
+/// Price of a joint that lacks any. With a third of both, two legs of a human hang on less than 40 mm².
+pub(super) const WEAK_PRICE_MM: f64 = 15.0;
 /// Joints with just enough would lack some after rounding and another choice of tabs.
 const GLUE_MARGIN: f64 = 1.1;
 /// Price of a mm by which a child is moved off its shape, at its far end.
@@ -34,12 +35,13 @@ pub(super) struct Seated {
     pub(super) turn: DAffine3,
     pub(super) parent_panel: PanelId,
     pub(super) child_panel: PanelId,
+    /// What the joint costs, mm of error.
     cost_mm: f64,
 }
 
 impl Seated {
     /// Seats `child` on `parent`; `None` where one has no panel for the joint.
-    pub(super) fn new(link: &Link, parent: &Made, child: &Made) -> Option<Self> {
+    fn new(link: &Link, parent: &Made, child: &Made) -> Option<Self> {
         let (up_plane, parent_panel) = parent.joint(link.child)?;
         let (own_plane, child_panel) = child.joint(link.parent)?;
         let outline = child.panel_outline(child_panel);
@@ -58,10 +60,33 @@ impl Seated {
         let cost_mm = lack_mm + OVERHANG_PRICE_MM * overhang + TURN_PRICE * moved_mm(child, &turn);
         Some(Self { turn, parent_panel, child_panel, cost_mm })
     }
+}
 
-    /// What the joint costs, mm of error.
-    pub(super) fn cost_mm(&self) -> f64 {
-        self.cost_mm
+/// All pairs of candidates, seated on each other along each joint.
+pub(super) struct Pairs {
+    /// By the joint, the parent's candidate and the child's.
+    seated: Vec<Vec<Vec<Option<Seated>>>>,
+}
+
+impl Pairs {
+    pub(super) fn new(links: &[Link], candidates: &[Vec<Made>]) -> Self {
+        let of_link = |link: &Link| -> Vec<Vec<Option<Seated>>> {
+            let [parents, children] = [&candidates[link.parent], &candidates[link.child]];
+            let on = |parent: &Made| children.iter().map(|child| Seated::new(link, parent, child)).collect();
+            parents.iter().map(on).collect()
+        };
+        Self { seated: links.par_iter().map(of_link).collect() }
+    }
+
+    /// The child of a joint on its parent, by their candidates; `None` where one has no panel for it.
+    pub(super) fn get(&self, link: usize, [parent, child]: [usize; 2]) -> Option<&Seated> {
+        self.seated[link][parent][child].as_ref()
+    }
+
+    /// What each pair of a joint costs, by the parent's candidate and the child's, mm of error.
+    pub(super) fn costs_mm(&self, link: usize) -> Vec<Vec<f64>> {
+        let cost = |seated: &Option<Seated>| seated.as_ref().map_or(f64::INFINITY, |s| s.cost_mm);
+        self.seated[link].iter().map(|row| row.iter().map(cost).collect()).collect()
     }
 }
 

@@ -1,0 +1,223 @@
+//! What is seen of a mesh from all sides, and how far the outlines of solids are off.
+
+use super::Mesh;
+use glam::{DVec2, DVec3};
+
+/// Pixels along the longest side of the mesh: of a model of 200 mm one is 2 mm, and errors of single pixels
+/// cancel along an outline.
+const SEEN: usize = 96;
+/// Pixels along a side of a picture: models reach beyond the mesh.
+const PIXELS: usize = 128;
+
+/// One bit for each pixel of a row.
+type Row = u128;
+
+/// Which pixels are covered, row by row.
+type Mask = [Row; PIXELS];
+
+/// A mesh from thirteen sides: along the axes, and between two and three of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Views {
+    views: Vec<View>,
+}
+
+/// What a solid covers in each view.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cover {
+    masks: Vec<Mask>,
+}
+
+impl Cover {
+    /// What at least one of some solids covers.
+    #[must_use]
+    pub fn or(mut self, other: &Self) -> Self {
+        let rows = self.masks.iter_mut().flatten().zip(other.masks.iter().flatten());
+        rows.for_each(|(row, other)| *row |= other);
+        self
+    }
+}
+
+impl Views {
+    /// The views of a mesh.
+    pub fn of_mesh(mesh: &Mesh) -> Self {
+        let triangles: Vec<[DVec3; 3]> = (0..mesh.faces().len()).map(|f| mesh.corners(f)).collect();
+        Self { views: sides().map(|side| View::new(side, &triangles)).collect() }
+    }
+
+    /// What nothing covers.
+    pub fn nothing(&self) -> Cover {
+        Cover { masks: vec![[0; PIXELS]; self.views.len()] }
+    }
+
+    /// What a convex solid covers, by its edges.
+    pub fn cover(&self, edges: &[[DVec3; 2]]) -> Cover {
+        let mask = |view: &View| {
+            let mut mask = [0; PIXELS];
+            view.add_convex(edges.iter().copied(), &mut mask);
+            mask
+        };
+        Cover { masks: self.views.iter().map(mask).collect() }
+    }
+
+    /// One minus the intersection over union of the outlines of the mesh and those of `cover`, the mean of
+    /// all views: 0 where they are alike, 1 where they share nothing.
+    pub fn unlike(&self, cover: &Cover) -> f64 {
+        let of_view = |(view, mask): (&View, &Mask)| {
+            let (mut both, mut either) = (0, 0);
+            for (seen, row) in view.mask.iter().zip(mask) {
+                both += (row & seen).count_ones();
+                either += (row | seen).count_ones();
+            }
+            1.0 - f64::from(both) / f64::from(either.max(1))
+        };
+        self.views.iter().zip(&cover.masks).map(of_view).sum::<f64>() / self.views.len() as f64
+    }
+}
+
+/// One of each two opposite sides of a cube, of its edges and of its corners.
+fn sides() -> impl Iterator<Item = DVec3> {
+    let digit = |k: i32| f64::from(k % 3 - 1);
+    (14..27).map(move |k| DVec3::new(digit(k / 9), digit(k / 3), digit(k)).normalize())
+}
+
+/// A mesh from one side.
+#[derive(Debug, Clone, PartialEq)]
+struct View {
+    right: DVec3,
+    up: DVec3,
+    /// Corner of the picture.
+    low: DVec2,
+    pixel_mm: f64,
+    mask: Mask,
+}
+
+impl View {
+    fn new(side: DVec3, triangles: &[[DVec3; 3]]) -> Self {
+        let (right, up) = side.any_orthonormal_pair();
+        let points = || triangles.iter().flatten().map(|&p| DVec2::new(right.dot(p), up.dot(p)));
+        let low = points().fold(DVec2::INFINITY, DVec2::min);
+        let high = points().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let pixel_mm = ((high - low).max_element() / SEEN as f64).max(f64::MIN_POSITIVE);
+        let low = (low + high) / 2.0 - DVec2::splat(pixel_mm * PIXELS as f64 / 2.0);
+        let mut view = Self { right, up, low, pixel_mm, mask: [0; PIXELS] };
+        let mut mask = view.mask;
+        for [a, b, c] in triangles.iter().copied() {
+            view.add_convex([[a, b], [b, c], [c, a]].into_iter(), &mut mask);
+        }
+        view.mask = mask;
+        view
+    }
+
+    /// Adds the pixels whose middle is within the convex outline of some edges.
+    fn add_convex(&self, edges: impl Iterator<Item = [DVec3; 2]>, mask: &mut Mask) {
+        let pixel = |p: DVec3| (DVec2::new(self.right.dot(p), self.up.dot(p)) - self.low) / self.pixel_mm;
+        let mut spans = [(f64::INFINITY, f64::NEG_INFINITY); PIXELS];
+        let (mut least, mut most) = (PIXELS, 0);
+        for edge in edges {
+            let [a, b] = edge.map(pixel);
+            let (lower, upper) = if a.y < b.y { (a, b) } else { (b, a) };
+            let (first, end) = middles(lower.y, upper.y);
+            if first >= end {
+                continue;
+            }
+            let per_row = (upper.x - lower.x) / (upper.y - lower.y);
+            for (row, span) in spans.iter_mut().enumerate().take(end).skip(first) {
+                let x = lower.x + per_row * (row as f64 + 0.5 - lower.y);
+                *span = (span.0.min(x), span.1.max(x));
+            }
+            (least, most) = (least.min(first), most.max(end));
+        }
+        for row in least..most {
+            let (first, end) = middles(spans[row].0, spans[row].1);
+            if first < end {
+                mask[row] |= Row::MAX >> (PIXELS - (end - first)) << first;
+            }
+        }
+    }
+}
+
+/// The pixels whose middle is between two coordinates: the first, and the one behind the last.
+fn middles(from: f64, to: f64) -> (usize, usize) {
+    let place = |x: f64| (x - 0.5).ceil().clamp(0.0, PIXELS as f64) as usize;
+    (place(from), place(to))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    const CUBE: [[usize; 2]; 12] =
+        [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
+
+    fn corner(low: DVec3, side: DVec3, k: usize) -> DVec3 {
+        low + side * DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64)
+    }
+
+    fn cuboid(low: DVec3, side: DVec3) -> Vec<[DVec3; 2]> {
+        CUBE.iter().map(|edge| edge.map(|k| corner(low, side, k))).collect()
+    }
+
+    /// The views of a box, as a mesh of twelve triangles.
+    fn views_of_cuboid(low: DVec3, side: DVec3) -> Views {
+        let squares = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
+        let triangles: Vec<[DVec3; 3]> = squares
+            .iter()
+            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
+            .map(|t| t.map(|k| corner(low, side, k)))
+            .collect();
+        Views { views: sides().map(|side| View::new(side, &triangles)).collect() }
+    }
+
+    #[test]
+    fn thirteen_sides_none_twice() {
+        let sides: Vec<DVec3> = sides().collect();
+        assert_eq!(sides.len(), 13);
+        for (k, a) in sides.iter().enumerate() {
+            assert!(sides[..k].iter().all(|b| a.dot(*b).abs() < 0.99));
+        }
+    }
+
+    #[test]
+    fn a_solid_is_like_itself_and_unlike_one_beside_it() {
+        let (low, side) = (DVec3::new(-3.0, 8.0, 1.0), DVec3::new(30.0, 50.0, 20.0));
+        let views = views_of_cuboid(low, side);
+        // Triangles that share an edge leave no pixel between them.
+        assert!(views.unlike(&views.cover(&cuboid(low, side))) < 1e-3);
+        assert_eq!(views.unlike(&views.nothing()), 1.0);
+        let beside = views.cover(&cuboid(low + DVec3::splat(1e3), side));
+        assert_eq!(beside, views.nothing());
+    }
+
+    /// Half of a box has half of its outline from the sides that see the cut edge on.
+    #[test]
+    fn what_lacks_is_measured_by_area() {
+        let views = views_of_cuboid(DVec3::ZERO, DVec3::splat(10.0));
+        let half = |k: f64| views.cover(&cuboid(DVec3::X * k, DVec3::new(5.0, 10.0, 10.0)));
+        let of_side = |k: usize, cover: &Cover| {
+            let one = Views { views: vec![views.views[k].clone()] };
+            one.unlike(&Cover { masks: vec![cover.masks[k]] })
+        };
+        for (k, side) in sides().enumerate() {
+            let unlike = of_side(k, &half(0.0));
+            let exact = match (side.x.abs() < 1e-9, side.x.abs() > 1.0 - 1e-9) {
+                (true, _) => 0.5,
+                (_, true) => 0.0,
+                _ => continue,
+            };
+            assert!((unlike - exact).abs() < 0.02, "{side}: {unlike} {exact}");
+        }
+        let both = half(0.0).or(&half(5.0));
+        assert!(views.unlike(&both) < 1e-2, "{}", views.unlike(&both));
+    }
+
+    #[test]
+    fn what_reaches_beyond_the_mesh_counts() {
+        let views = views_of_cuboid(DVec3::ZERO, DVec3::splat(10.0));
+        let grown =
+            |mm: f64| views.unlike(&views.cover(&cuboid(DVec3::splat(-mm), DVec3::splat(10.0 + 2.0 * mm))));
+        // From the front a square grows from 100 to 121 mm².
+        assert!((grown(0.5) - (1.0 - 1.0 / 1.21)).abs() < 0.02, "{}", grown(0.5));
+        assert!(grown(0.2) < grown(0.4) && grown(0.4) < grown(0.8));
+    }
+}

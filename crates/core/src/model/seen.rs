@@ -1,0 +1,77 @@
+//! How a combination of candidates looks: its outlines against those of the mesh.
+
+use super::candidate::Made;
+use super::choice::Combination;
+use super::link::Link;
+use super::pair::Pairs;
+use crate::mesh::{Cover, Views};
+use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
+
+/// Candidates of all parts with the views of the mesh that they are to look like.
+pub(super) struct Seen<'a> {
+    views: &'a Views,
+    links: &'a [Link],
+    pairs: &'a Pairs,
+    /// Edges of each candidate of each part in the mesh's axes, before the part is seated on its parent.
+    edges: Vec<Vec<Vec<[DVec3; 2]>>>,
+}
+
+impl<'a> Seen<'a> {
+    pub(super) fn new(
+        views: &'a Views,
+        candidates: &[Vec<Made>],
+        (links, pairs): (&'a [Link], &'a Pairs),
+    ) -> Self {
+        let edges = candidates.par_iter().map(|made| made.iter().map(edges).collect()).collect();
+        Self { views, links, pairs, edges }
+    }
+
+    /// One minus the overlap of the outlines of each combination with those of the mesh, the mean of all
+    /// views; 1 for what cannot be joined. What is where it is in the first one is drawn once.
+    pub(super) fn unlike(&self, all: &[Combination]) -> Vec<f64> {
+        let Some(first) = all.first() else { return Vec::new() };
+        let known = self.placements(first).map(|placements| {
+            let draw = |part: usize| self.cover(part, first[part], &placements[part]);
+            let covers: Vec<Cover> = (0..first.len()).into_par_iter().map(draw).collect();
+            (placements, covers)
+        });
+        let unlike = |of: &Combination| {
+            let Some(placements) = self.placements(of) else { return 1.0 };
+            let add = |sum: Cover, part: usize| match &known {
+                Some(known) if of[part] == first[part] && placements[part] == known.0[part] => {
+                    sum.or(&known.1[part])
+                }
+                _ => sum.or(&self.cover(part, of[part], &placements[part])),
+            };
+            self.views.unlike(&(0..of.len()).fold(self.views.nothing(), add))
+        };
+        all.par_iter().map(unlike).collect()
+    }
+
+    fn cover(&self, part: usize, candidate: usize, placement: &DAffine3) -> Cover {
+        let placed = |edge: &[DVec3; 2]| edge.map(|p| placement.transform_point3(p));
+        self.views.cover(&self.edges[part][candidate].iter().map(placed).collect::<Vec<_>>())
+    }
+
+    /// How each part moves to be seated on its parent, from the mesh's axes.
+    fn placements(&self, of: &[usize]) -> Option<Vec<DAffine3>> {
+        let mut placements = vec![DAffine3::IDENTITY; of.len()];
+        for (k, link) in self.links.iter().enumerate() {
+            let seated = self.pairs.get(k, [of[link.parent], of[link.child]])?;
+            placements[link.child] = placements[link.parent] * seated.turn;
+        }
+        Some(placements)
+    }
+}
+
+/// The edges of a candidate, each once for every panel that it bounds.
+fn edges(made: &Made) -> Vec<[DVec3; 2]> {
+    let panels = made.component.panels().panels().iter();
+    let outlines = panels.map(|panel| -> Vec<DVec3> {
+        panel.deployed_outline().into_iter().map(|p| made.frame.transform_point3(p)).collect()
+    });
+    let of_outline =
+        |outline: Vec<DVec3>| (0..outline.len()).map(move |k| [outline[k], outline[(k + 1) % outline.len()]]);
+    outlines.flat_map(of_outline).collect()
+}
