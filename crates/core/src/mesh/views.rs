@@ -185,7 +185,8 @@ mod tests {
         // Triangles that share an edge leave no pixel between them.
         assert!(views.unlike(&views.cover(&cuboid(low, side))) < 1e-3);
         assert_eq!(views.unlike(&views.nothing()), 1.0);
-        let beside = views.cover(&cuboid(low + DVec3::splat(1e3), side));
+        // Along none of the sides.
+        let beside = views.cover(&cuboid(low + DVec3::new(1e3, 3e3, 7e3), side));
         assert_eq!(beside, views.nothing());
     }
 

@@ -4,8 +4,8 @@
 //! is found exactly, by dynamic programming from the leaves (n·K² pair costs). Clashes depend on all parts
 //! between two parts, and on the order of folding, so only whole models are checked for them. A search
 //! starts from the best of the tree: a part that bumps gets another candidate, the others the best that
-//! goes with it, as long as that makes the whole cheaper. If nothing bumps, the result is the best of all.
-//! Otherwise it is never worse than the tree's best, but not necessarily the best of all.
+//! goes with it, as long as that makes the whole cheaper. The result is never worse than the tree's best, but not
+//! necessarily the best of all.
 //!
 //! How the whole model looks depends on all parts at once, too. Near one combination it is nearly a sum: each
 //! candidate changes the outlines where its own part is seen. So these changes count as costs of single
