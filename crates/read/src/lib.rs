@@ -92,6 +92,14 @@ pub enum ReadError {
         /// The first characters, quoted.
         start: String,
     },
+    /// The format of a program that has others.
+    #[error("this is {what}, which tatamu cannot read; {advice}")]
+    Foreign {
+        /// What it is.
+        what: &'static str,
+        /// What to do.
+        advice: &'static str,
+    },
     /// Text that does not follow the format's grammar.
     #[error("{format} file, {place}: found {found}, expected {expected}")]
     Syntax {
@@ -311,7 +319,28 @@ fn recognise(bytes: &[u8]) -> Option<Format> {
     }
 }
 
+/// How files of other programs begin, what they are, and what to do.
+const FOREIGN: [(&[u8], &str, &str); 4] = [
+    (b"BLENDER", "a Blender file", BLENDER_ADVICE),
+    // Blender compresses its files, by zstd since version 3.0 and by gzip before.
+    (&[0x28, 0xb5, 0x2f, 0xfd], "a compressed file, perhaps one of Blender", BLENDER_ADVICE),
+    (
+        &[0x1f, 0x8b],
+        "a compressed file",
+        "unpack it; a Blender file must be exported from Blender, as OBJ or STL",
+    ),
+    (
+        b"Kaydara FBX",
+        "an FBX file",
+        "open it in a 3D program such as Blender and export it as OBJ, STL or glTF",
+    ),
+];
+const BLENDER_ADVICE: &str = "open it in Blender and choose File, Export, Wavefront (.obj), STL or glTF";
+
 fn unrecognised(bytes: &[u8]) -> ReadError {
+    if let Some(&(_, what, advice)) = FOREIGN.iter().find(|(start, ..)| bytes.starts_with(start)) {
+        return ReadError::Foreign { what, advice };
+    }
     let start = excerpt(&bytes[..bytes.len().min(200)]);
     ReadError::Unrecognised { start }
 }
@@ -331,6 +360,15 @@ fn excerpt(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn files_of_other_programs_are_refused_with_what_to_do() {
+        for (start, word) in [(&b"BLENDER-v300RENDH"[..], "Export"), (b"Kaydara FBX Binary  \0", "FBX")] {
+            let message = read(start).unwrap_err().to_string();
+            assert!(message.contains(word), "{message}");
+        }
+        assert!(matches!(read(&[0x28, 0xb5, 0x2f, 0xfd, 0, 1]), Err(ReadError::Foreign { .. })));
+    }
 
     #[test]
     fn what_is_no_mesh_is_refused_by_its_first_words() {
