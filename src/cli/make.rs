@@ -18,7 +18,7 @@ use tatamu::product::Selection;
 #[derive(Debug, Args)]
 #[command(after_help = after_help())]
 pub struct MakeArgs {
-    /// Meshes (OBJ, STL, PLY, OFF, glTF, GLB) or project files (TOML)
+    /// Meshes (OBJ, STL, PLY, OFF, glTF, GLB, 3MF) or project files (TOML)
     ///
     /// A single "-" is the standard input. tatamu detects the format from the content, not from the file's name. It accepts open edges,
     /// edges with more than two faces, and several bodies, with a warning. It makes several inputs in

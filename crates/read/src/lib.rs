@@ -18,6 +18,7 @@ pub mod painting;
 mod ply;
 mod stl;
 mod texture;
+mod threemf;
 
 use painting::Painting;
 use std::fmt;
@@ -38,6 +39,8 @@ pub enum Format {
     Off,
     /// glTF 2.0, as JSON or as GLB
     Gltf,
+    /// 3D Manufacturing Format
+    ThreeMf,
 }
 
 impl fmt::Display for Format {
@@ -49,6 +52,7 @@ impl fmt::Display for Format {
             Self::Ply => "PLY",
             Self::Off => "OFF",
             Self::Gltf => "glTF",
+            Self::ThreeMf => "3MF",
         })
     }
 }
@@ -86,7 +90,7 @@ pub enum ReadError {
     /// None of the known formats.
     #[error(
         "this is not a mesh in a known format: it begins with {start}; \
-         tatamu reads OBJ, STL, PLY, OFF, glTF and GLB, with any file name"
+         tatamu reads OBJ, STL, PLY, OFF, glTF, GLB and 3MF, with any file name"
     )]
     Unrecognised {
         /// The first characters, quoted.
@@ -237,6 +241,7 @@ pub fn read_with_siblings(
         Format::Ply => ply::read(bytes),
         Format::Off => off::read(bytes),
         Format::Gltf => gltf::read(bytes, sibling),
+        Format::ThreeMf => threemf::read(bytes),
     }?;
     if soup.polygon_count() == 0 {
         return Err(ReadError::NoFaces { format });
@@ -289,7 +294,7 @@ pub fn read_painting(
         Format::Ply => ply::read_painting(bytes)?,
         Format::Off => off::read_painting(bytes)?,
         Format::Gltf => gltf::read_painting(bytes, sibling)?,
-        Format::StlAscii | Format::StlBinary => None,
+        Format::StlAscii | Format::StlBinary | Format::ThreeMf => None,
     };
     painting.ok_or(ColourError::None { format })
 }
@@ -304,6 +309,8 @@ fn recognise(bytes: &[u8]) -> Option<Format> {
     let is_text = !bytes[..bytes.len().min(4096)].contains(&0);
     if bytes.starts_with(b"glTF") || (is_text && text.starts_with(b"{")) {
         Some(Format::Gltf)
+    } else if threemf::is_archive(bytes) {
+        Some(Format::ThreeMf)
     } else if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
         Some(Format::Ply)
     } else if stl::is_exact_binary(bytes) {
