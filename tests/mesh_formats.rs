@@ -82,3 +82,8 @@ fn stl_binary_that_begins_like_text() {
 fn glb() {
     check("GLB");
 }
+
+#[test]
+fn three_mf() {
+    check("3MF");
+}

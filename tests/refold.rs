@@ -237,7 +237,7 @@ fn every_page_has_a_bar_of_100_mm() {
         assert_eq!(pages.len(), output.layout().sheet_count(), "{name}");
         for (number, id) in pages {
             let words = document.extract_text(&[number]).expect("text");
-            let page = format!("page {number} of {}", output.layout().sheet_count());
+            let page = format!("sheet {number} of {}", output.layout().sheet_count());
             for wanted in [name, "100 mm", &page] {
                 assert!(words.contains(wanted), "{name}: no {wanted:?} on page {number}");
             }

@@ -12,7 +12,7 @@ use tatamu::net::{Naming, Net, NetOptions, develop};
 use tatamu::pipeline::{self, Options};
 use tatamu::progress::Silent;
 use tatamu::project::Project;
-use tatamu::sheet::{Layout, SheetOptions};
+use tatamu::sheet::{Imprint, Layout, SheetOptions};
 use tatamu::units::Paper;
 
 /// A project file of lanterns that stand on one another, each a little smaller than the one below.
@@ -63,7 +63,7 @@ fn two_hundred_sheets() {
     let layout = Layout::new(&nets, &options, &Silent).unwrap();
     assert!(layout.sheet_count() >= 200, "{}", layout.sheet_count());
     let styles = LineStyles::standard();
-    let drawings = layout.pages(&nets, "boxes", "", &styles);
+    let drawings = layout.pages(&nets, Imprint { title: "boxes", ..Imprint::default() }, &styles);
     let pages = Pages::new("boxes", drawings, styles).unwrap();
     let Source::Pages(write) = format_of("pdf").unwrap().source else { panic!("a PDF has pages") };
     let pdf = write(&pages, &FormatOptions::default()).unwrap().remove(0).bytes;

@@ -11,7 +11,7 @@ use tatamu::drawing::{Drawing, Layer, LineStyles, Mark, Shape, Text, text};
 use tatamu::net::{BlankNet, LabelKind, Naming, Net, NetOptions, Side, alternatives, check::faults};
 use tatamu::progress::Silent;
 use tatamu::sheet::fit::Rotation;
-use tatamu::sheet::{Calibration, Layout, PiecePlace, Pin, Registration, SheetOptions, Unheeded};
+use tatamu::sheet::{Calibration, Imprint, Layout, PiecePlace, Pin, Registration, SheetOptions, Unheeded};
 use tatamu::units::parse_paper;
 
 /// Less common area is rounding.
@@ -74,7 +74,11 @@ impl Made {
     }
 
     fn pages(&self) -> Vec<Drawing> {
-        self.layout.pages(&self.nets, "test", "", &LineStyles::standard())
+        self.layout.pages(
+            &self.nets,
+            Imprint { title: "test", ..Imprint::default() },
+            &LineStyles::standard(),
+        )
     }
 
     /// Every piece with its sheet and place.

@@ -3,13 +3,14 @@
 use super::error::AppError;
 use super::{input, profiles};
 use std::path::Path;
-use tatamu::drawing::LineStyles;
+use tatamu::drawing::{Layer, LineStyles};
 use tatamu::export::{FormatOptions, PltOptions, Timestamp};
 use tatamu::pipeline::Options;
 use tatamu::project::Project;
 use tatamu::project::options::{Entry, Given, SIZE, STYLE, Settings, choose};
 
 /// What is chosen for an input.
+#[derive(Clone)]
 pub struct Choice {
     settings: Settings,
     is_sized: bool,
@@ -40,6 +41,13 @@ impl Choice {
         &self.settings
     }
 
+    /// The same at another size, mm.
+    pub fn resized(mut self, size_mm: f64) -> Self {
+        self.settings.model.size_mm = size_mm;
+        self.is_sized = true;
+        self
+    }
+
     /// The options of the model.
     pub fn options(&self) -> &Options {
         &self.settings.model
@@ -68,6 +76,7 @@ impl Choice {
             Some(name) => styles(name, &input_path.with_file_name(name))?,
             None => LineStyles::standard(),
         };
+        let styles = if files.has_plain_tabs { styles.with_plain(Layer::Tab) } else { styles };
         Ok(FileChoice { formats, styles, is_coloured: files.is_coloured })
     }
 }

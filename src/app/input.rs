@@ -5,6 +5,7 @@ use super::error::{AppError, reason};
 use std::fs::File;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use tatamu::design::Sketch;
 use tatamu::drawing::LineStyles;
 use tatamu::mesh::painting::Painting;
@@ -46,6 +47,11 @@ impl Input {
                 self.mesh_path.display()
             ))),
         }
+    }
+
+    /// The mesh that a project names.
+    pub fn named_mesh(&self) -> Option<&Path> {
+        self.project.as_ref().and_then(|project| project.mesh.as_ref()).map(|_| self.mesh_path.as_path())
     }
 
     /// What the user should know about the files that were read.
@@ -137,18 +143,16 @@ fn read_mesh(
     Ok(Input { mesh_path: path.to_owned(), project, shape: Shape::Mesh(mesh), repairs, notes })
 }
 
-/// A project file may come from anybody: a warning names the files that it reads from elsewhere.
+/// A project file may come from anybody: a warning names a style file that it reads from elsewhere. (Its
+/// mesh is often in another folder, and is named in the summary of each run.)
 fn outside_notes(path: &Path, project: &Project) -> Vec<Warning> {
     let style = STYLE.text(&project.settings()).filter(|name| LineStyles::built_in(name).is_none());
-    let named = [("mesh", project.mesh.as_deref()), ("style file", style.as_deref())];
-    let named = named.into_iter().filter_map(|(what, name)| Some((what, name?)));
-    let outside = named.filter(|(_, name)| !is_within(&path.with_file_name(""), Path::new(name)));
-    outside
-        .map(|(what, name)| {
-            let project = path.display().to_string();
-            ProjectWarning::Outside { project, what, name: name.to_owned() }.into()
-        })
-        .collect()
+    let outside = style.filter(|name| !is_within(&path.with_file_name(""), Path::new(name)));
+    let warning = |name| {
+        let project = path.display().to_string();
+        ProjectWarning::Outside { project, what: "style file", name }.into()
+    };
+    outside.into_iter().map(warning).collect()
 }
 
 /// Whether a name in a file of `folder` leads to something below that folder, links apart.
@@ -171,9 +175,25 @@ pub fn read_painting(path: &Path) -> Result<Painting, AppError> {
         .map_err(|error| AppError::Colour { path: path.to_owned(), error })
 }
 
-/// The content of a file.
+/// Stands for the standard input.
+pub const STANDARD_INPUT: &str = "-";
+
+/// The content of a file, or of the standard input.
 pub fn read_file(path: &Path) -> Result<Vec<u8>, AppError> {
-    std::fs::read(path).map_err(|error| AppError::Input { path: path.to_owned(), reason: reason(&error) })
+    let read = if path == Path::new(STANDARD_INPUT) { standard_input() } else { std::fs::read(path) };
+    read.map_err(|error| AppError::Input { path: path.to_owned(), reason: reason(&error) })
+}
+
+/// The standard input, which is kept: a mesh is read once for its shape and once for its colours.
+fn standard_input() -> std::io::Result<Vec<u8>> {
+    static READ: Mutex<Option<Vec<u8>>> = Mutex::new(None);
+    let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(bytes) = &*read {
+        return Ok(bytes.clone());
+    }
+    let mut bytes = Vec::new();
+    std::io::stdin().lock().read_to_end(&mut bytes)?;
+    Ok(read.insert(bytes).clone())
 }
 
 /// By its extension, or because a line of it gives a mesh.

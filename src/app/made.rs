@@ -1,7 +1,9 @@
 //! What `make` made of one input.
 
+use super::text::counted;
 use std::path::{Path, PathBuf};
 use tatamu::fold::{Motion, Stack};
+use tatamu::guide::Estimate;
 use tatamu::pipeline::Output;
 use tatamu::product;
 
@@ -16,8 +18,8 @@ pub struct Made {
 }
 
 impl Made {
-    /// Sums up a model.
-    pub fn new(result: &Output, files: Vec<(PathBuf, Vec<u8>)>) -> Self {
+    /// Sums up a model, and names the mesh that a project led to.
+    pub fn new(result: &Output, mesh: Option<&Path>, files: Vec<(PathBuf, Vec<u8>)>) -> Self {
         let names: Vec<&str> = result.model().parts().iter().map(|p| p.name.as_str()).collect();
         let pieces: usize = result.nets().iter().map(|net| net.pieces().len()).sum();
         let layout = result.layout();
@@ -25,16 +27,21 @@ impl Made {
         let paths: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
         let written = paths.join(", ");
         let line = format!(
-            "{} components, {pieces} pieces, {sheets} sheets of {paper}; written {written}",
-            names.len()
+            "{}, {}, {} of {paper}; written {written}",
+            counted(names.len(), "component"),
+            counted(pieces, "piece"),
+            counted(sheets, "sheet")
         );
-        let mut summary = vec![
+        let mesh = mesh.map(|path| format!("mesh        {}", path.display()));
+        let mut summary: Vec<String> = mesh.into_iter().collect();
+        summary.extend([
             format!("size        {}", product::size_note(result)),
             format!("components  {}: {}", names.len(), names.join(", ")),
             format!("folds       {}", folding(result)),
-        ];
+        ]);
         summary.extend(result.remarks().iter().map(|remark| format!("note        {remark}")));
         summary.extend([
+            format!("work        {}", Estimate::new(result).sentence()),
             format!("pieces      {pieces}"),
             format!("sheets      {sheets} of {paper}, {:.0}% used", 100.0 * layout.utilisation()),
             format!("written     {written}"),
@@ -59,7 +66,8 @@ fn folding(result: &Output) -> String {
         (Motion::Plug(_), name) => format!("plug in {name}"),
     };
     let order: Vec<String> = plan.motions().iter().map(told).collect();
-    let flat = |s: &Stack| format!("{:.0} × {:.0} mm, {} layers", s.size_mm.x, s.size_mm.y, s.layers);
+    let flat =
+        |s: &Stack| format!("{:.0} × {:.0} mm, {}", s.size_mm.x, s.size_mm.y, counted(s.layers, "layer"));
     let sizes: Vec<String> = plan.stacks().iter().map(flat).collect();
     format!("to {}, in the order {}", sizes.join(" and "), order.join(", "))
 }

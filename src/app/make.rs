@@ -2,6 +2,7 @@
 
 use super::choice::Choice;
 use super::error::AppError;
+use super::fit::fitted;
 use super::made::Made;
 use super::output::{self, Target};
 use super::words::Say;
@@ -10,7 +11,7 @@ use std::path::{Path, PathBuf};
 use tatamu::export::{FORMATS, Format, FormatOptions, GUIDES, Source};
 use tatamu::mesh::{Mesh, Repairs};
 use tatamu::net::Side;
-use tatamu::product::{Content, Product};
+use tatamu::product::{Content, Product, Selection};
 use tatamu::progress::Progress;
 use tatamu::project::options::Given;
 use tatamu::report::Run;
@@ -42,6 +43,8 @@ pub struct Wish {
     pub segments: Option<PathBuf>,
     /// Whether what is printed and what is cut go into files of their own.
     pub prints_and_cuts: bool,
+    /// Which pieces and sheets the files show.
+    pub selection: Selection,
 }
 
 impl Wish {
@@ -103,19 +106,22 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
     output::check_places(&places, &[task.input, &input.mesh_path])?;
     let choice = Choice::new(input.project.as_ref(), &task.wish.given)?;
     let files = choice.files(task.input)?;
-    if files.is_coloured && choice.options().sheets.side == Side::Inside {
-        let reason = "--color prints on the outside of the paper; remove --side inside, or --color";
+    let sheets = choice.options().sheets;
+    if files.is_coloured && sheets.side == Side::Inside && !sheets.is_duplex {
+        let reason = "--color prints on the outside of the paper; use --side both, or remove --color";
         return Err(AppError::Options(reason.to_owned()));
     }
     let painting = files.is_coloured.then(|| input::read_painting(&input.mesh_path)).transpose()?;
     let warnings = input.warnings();
     warnings.iter().for_each(|warning| tell(&say(warning)));
 
+    let choice = fitted(&input, choice, progress)?;
     let result = input.run_and_advise(&choice, progress)?;
+    let selection = task.wish.selection.checked(&result).map_err(AppError::Options)?;
     let stages = progress.finish();
     text::first_of_each_kind(result.warnings(), say).iter().for_each(|message| tell(message));
 
-    let stem = task.input.file_stem().unwrap_or_default();
+    let stem = names::stem(task.input);
     let run = Run {
         path: &input.mesh_path.to_string_lossy(),
         repairs: &input.repairs,
@@ -129,6 +135,7 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
             .with_styles(files.styles.clone())
             .with_painting(painting.as_ref())
             .with_content(content)
+            .with_selection(selection.clone())
     };
     let products = match task.wish.prints_and_cuts {
         false => vec![("", product(Content::All))],
@@ -138,7 +145,7 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
     if let Some(path) = task.segments {
         written.push((path, segments(result.mesh(), result.face_parts(), &input.repairs)));
     }
-    Ok(Made::new(&result, written))
+    Ok(Made::new(&result, input.named_mesh(), written))
 }
 
 /// The files of all targets; pages of each product, all else of the first.

@@ -5,6 +5,7 @@
 pub mod batch;
 pub mod choice;
 pub mod error;
+pub mod fit;
 pub mod input;
 pub mod made;
 pub mod make;

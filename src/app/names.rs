@@ -1,6 +1,7 @@
 //! Names of output files, by default derived from the input's name.
 
-use std::ffi::OsString;
+use super::input::STANDARD_INPUT;
+use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf, is_separator};
 
 /// Stands for the input's name without its extension.
@@ -9,7 +10,7 @@ pub const PLACEHOLDER: &str = "{name}";
 /// The name that `pattern` means for `input`: its placeholders are replaced, and a folder gets a
 /// file of the input's name with this extension. A folder is one that exists, or ends in a slash.
 pub fn for_input(pattern: &Path, input: &Path, extension: &str) -> PathBuf {
-    let stem = input.file_stem().unwrap_or("model".as_ref());
+    let stem = stem(input);
     let Some(text) = pattern.to_str() else { return pattern.to_owned() };
     let mut name = OsString::new();
     for (k, between) in text.split(PLACEHOLDER).enumerate() {
@@ -23,9 +24,15 @@ pub fn for_input(pattern: &Path, input: &Path, extension: &str) -> PathBuf {
     if is_folder { path.join(default(input, extension)) } else { path }
 }
 
+/// The input's name without its extension; the standard input has none.
+pub fn stem(input: &Path) -> &OsStr {
+    let is_named = input != Path::new(STANDARD_INPUT);
+    input.file_stem().filter(|_| is_named).unwrap_or("model".as_ref())
+}
+
 /// The input's name with another extension, in the working directory.
 pub fn default(input: &Path, extension: &str) -> PathBuf {
-    let mut name = input.file_stem().unwrap_or("model".as_ref()).to_owned();
+    let mut name = stem(input).to_owned();
     name.push(".");
     name.push(extension);
     PathBuf::from(name)

@@ -62,6 +62,7 @@ fn phrase(remedy: &Remedy, names: &dyn Names) -> String {
     let name = |option: &Entry| names.option(option);
     let by_hand = match remedy {
         Remedy::LargerSize => return format!("use a larger {}", name(&SIZE)),
+        Remedy::SmallerSize => return format!("use a smaller {}", name(&SIZE)),
         Remedy::SizeAtMost(mm) => return format!("use {} at most", names.length(&SIZE, *mm)),
         Remedy::LargerPaper => return format!("use larger {}", name(&PAPER)),
         Remedy::SmallerPaper => return format!("use smaller {}", name(&PAPER)),

@@ -6,6 +6,7 @@ use super::{terminal, words};
 use crate::app::batch::{self, News, Watch};
 use crate::app::error::AppError;
 use crate::app::make::Timed;
+use crate::app::text::counted;
 use crate::app::words::Say;
 use std::path::Path;
 
@@ -17,7 +18,7 @@ pub fn run(args: &MakeArgs) -> Result<(), AppError> {
     desk.bar.finish();
     made?;
     if !args.is_quiet() {
-        terminal::say(&format!("{count} models made"));
+        terminal::say(&format!("{} made", counted(count, "model")));
     }
     Ok(())
 }

@@ -18,7 +18,7 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct InitArgs {
-    /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB)
+    /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB, 3MF)
     ///
     /// tatamu divides it into components, so that the project file can list them by name.
     #[arg(value_name = "MESH")]

@@ -3,12 +3,13 @@
 use super::flags::{Flags, OfFiles, OfFilm, OfMachine, OfModel};
 use super::guide::GuideArgs;
 use super::progress::TerminalProgress;
-use super::{batch, formats, terminal, words};
+use super::{batch, formats, mistakes, terminal, words};
 use crate::app::error::AppError;
 use crate::app::make::{Task, Wish, make};
 use crate::app::output;
 use clap::Args;
 use std::path::PathBuf;
+use tatamu::product::Selection;
 
 /// Makes a paper model from a mesh or a project file.
 ///
@@ -17,9 +18,9 @@ use std::path::PathBuf;
 #[derive(Debug, Args)]
 #[command(after_help = after_help())]
 pub struct MakeArgs {
-    /// Meshes (OBJ, STL, PLY, OFF, glTF, GLB) or project files (TOML)
+    /// Meshes (OBJ, STL, PLY, OFF, glTF, GLB, 3MF) or project files (TOML)
     ///
-    /// tatamu detects the format from the content, not from the file's name. It accepts open edges,
+    /// A single "-" is the standard input. tatamu detects the format from the content, not from the file's name. It accepts open edges,
     /// edges with more than two faces, and several bodies, with a warning. It makes several inputs in
     /// parallel, with the same results as one by one; an input that fails does not stop the others.
     #[arg(value_name = "INPUT", required = true)]
@@ -50,6 +51,18 @@ pub struct MakeArgs {
     /// are written once. Example: --print-and-cut --marks silhouette -o teddy.svg
     #[arg(long, help_heading = None::<&'static str>)]
     print_and_cut: bool,
+
+    /// Shows only the pieces of this component; repeat it for more
+    ///
+    /// They stay at their places; sheets without them are left out. Example: --only head --only left-arm
+    #[arg(long, value_name = "PART", help_heading = None::<&'static str>)]
+    only: Vec<String>,
+
+    /// Shows only this sheet, from 1; repeat it for more
+    ///
+    /// To print a sheet again, or to cut sheets one by one. Example: --sheet 3
+    #[arg(long, value_name = "N", help_heading = None::<&'static str>)]
+    sheet: Vec<usize>,
 
     /// Writes the component of each face to a text file, one number per line
     ///
@@ -96,6 +109,7 @@ impl MakeArgs {
             guides: self.guide.wanted().to_vec(),
             segments: self.segments.clone(),
             prints_and_cuts: self.print_and_cut,
+            selection: Selection { parts: self.only.clone(), sheets: self.sheet.clone() },
         }
     }
 }
@@ -116,6 +130,7 @@ fn after_help() -> String {
 
 /// Runs the command.
 pub fn run(args: &MakeArgs) -> Result<(), AppError> {
+    mistakes::check_inputs(args.inputs())?;
     let [input] = args.inputs() else { return batch::run(args) };
     let progress = TerminalProgress::new(args.quiet);
     let tell = |warning: &str| terminal::complain("warning", warning);

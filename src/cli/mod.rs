@@ -9,6 +9,7 @@ mod formats;
 mod guide;
 mod init;
 mod make;
+mod mistakes;
 mod plot;
 mod ports;
 mod progress;
@@ -27,6 +28,9 @@ use std::process::ExitCode;
 
 /// Exit code of work that was stopped by Ctrl-C, as shells have it (128 + SIGINT).
 const STOPPED: u8 = 130;
+
+/// Exit code of a command line that cannot be read, as clap has it.
+const MISREAD: u8 = 2;
 
 /// Turns a 3D mesh into a paper model that folds flat.
 ///
@@ -77,7 +81,16 @@ Examples:
 
 /// Runs the program.
 pub fn run() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => match mistakes::advice(&error) {
+            Some(advice) => {
+                terminal::complain("error", &advice);
+                return ExitCode::from(MISREAD);
+            }
+            None => error.exit(),
+        },
+    };
     let result = match &cli.command {
         Command::Make(args) => make::run(args).map(|()| ExitCode::SUCCESS),
         Command::Design(args) => design::run(args).map(|()| ExitCode::SUCCESS),
@@ -135,7 +148,7 @@ mod tests {
     }
 
     /// Flags that are no options of a model or its files: what a command reads and writes, and how it runs.
-    const OWN: [&str; 31] = [
+    const OWN: [&str; 32] = [
         "baud",
         "buffer",
         "clashes",
@@ -159,6 +172,7 @@ mod tests {
         "report",
         "resume",
         "segments",
+        "sheet",
         "silence-every",
         "speedup",
         "stage",

@@ -14,6 +14,11 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// Steps of the bar.
 const STEPS: u64 = 1000;
 
+/// What a stage shows that does not tell how far it is: a bar would stand still at its beginning.
+const BEGUN: &str = "{spinner} {msg}";
+/// What one shows that does.
+const MEASURED: &str = "{spinner} {bar:30} {msg}";
+
 /// How often Ctrl-C was pressed.
 static STOPS: AtomicU32 = AtomicU32::new(0);
 
@@ -83,9 +88,7 @@ impl TerminalProgress {
         is_due.then(|| {
             self.bar.get_or_init(|| {
                 let bar = ProgressBar::new(STEPS);
-                if let Ok(style) = ProgressStyle::with_template("{spinner} {bar:30} {msg}") {
-                    bar.set_style(style);
-                }
+                style(&bar, BEGUN);
                 let name = self.stages.lock().ok();
                 let name = name.and_then(|stages| stages.last().map(|stage| stage.0));
                 bar.set_message(name.unwrap_or_default());
@@ -111,11 +114,13 @@ impl Progress for TerminalProgress {
         if let Some(bar) = self.bar() {
             bar.set_message(name);
             bar.set_position(0);
+            style(bar, BEGUN);
         }
     }
 
     fn fraction(&self, done: f64) {
         if let Some(bar) = self.bar() {
+            style(bar, MEASURED);
             bar.set_position((done.clamp(0.0, 1.0) * STEPS as f64) as u64);
         }
     }
@@ -131,6 +136,12 @@ impl Drop for TerminalProgress {
     }
 }
 
+fn style(bar: &ProgressBar, template: &str) {
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+}
+
 /// A bar that counts, on the standard error output if that is a terminal.
 pub struct CountBar(ProgressBar);
 
@@ -141,9 +152,7 @@ impl CountBar {
             return Self(ProgressBar::hidden());
         }
         let bar = ProgressBar::new(steps as u64);
-        if let Ok(style) = ProgressStyle::with_template("{spinner} {bar:30} {pos} of {len}") {
-            bar.set_style(style);
-        }
+        style(&bar, "{spinner} {bar:30} {pos} of {len}");
         bar.enable_steady_tick(Duration::from_millis(120));
         Self(bar)
     }

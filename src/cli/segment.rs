@@ -25,7 +25,7 @@ use tatamu::segment::{Overlap, Parts, overlap};
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct SegmentCommand {
-    /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB) or project file (TOML)
+    /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB, 3MF) or project file (TOML)
     ///
     /// The parts include the merges and splits of a project file.
     #[arg(value_name = "INPUT")]

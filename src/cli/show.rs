@@ -24,7 +24,7 @@ use tatamu::show::{
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct ShowArgs {
-    /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB) or project file (TOML)
+    /// Mesh (OBJ, STL, PLY, OFF, glTF, GLB, 3MF) or project file (TOML)
     #[arg(value_name = "INPUT")]
     input: PathBuf,
 

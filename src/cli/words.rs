@@ -48,6 +48,6 @@ mod tests {
         assert!(thin.ends_with("; use a larger --size, or a smaller --min-panel-width than 3 mm"), "{thin}");
         let helps = TrialWarning::Helps { change: Change::Size(250.0), before: 2, left: 1 };
         let helps = warning(&helps.into());
-        assert_eq!(helps, "--size 250mm was tried, and leaves 1 such problems instead of 2");
+        assert_eq!(helps, "--size 250mm was tried, and leaves 1 such problem instead of 2");
     }
 }

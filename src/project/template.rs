@@ -35,7 +35,7 @@ const HEAD: &str = "\
 # A tatamu project. Edit it, then run \"tatamu make\" on this file.
 # Lengths are millimetres, or text with a unit: \"200mm\", \"20cm\", \"8in\".
 
-# The mesh, relative to this file: OBJ, STL, PLY, OFF, glTF or GLB.
+# The mesh, relative to this file: OBJ, STL, PLY, OFF, glTF, GLB or 3MF.
 ";
 
 const EDITS: &str = "

@@ -99,7 +99,7 @@ fn what_can_be_a_model_becomes_one_with_a_warning_where_something_was_wrong() {
         ("apart", cube().and(&block([90.0, 0.0, 0.0], [40.0; 3])), "2 groups that are not joined"),
         ("twice", cube().with_faces(|f| f.extend(f.clone())), "repeated faces: 6 (dropped)"),
         ("corners repeated", cube().with_faces(|f| f.push(vec![0, 0, 1])), "without area: 1 (dropped)"),
-        ("a flat part", cube().and(&flat_part), "no volume and were left out"),
+        ("a flat part", cube().and(&flat_part), "1 flat part has no volume and was left out"),
         ("dust beside it", cube().and(&dust), "without area: 4 (dropped)"),
         ("a needle", block([0.0; 3], [1000.0, 1.0, 1.0]), "thinner than its panels may be"),
         ("a plate", block([0.0; 3], [200.0, 200.0, 0.5]), "thinner than its panels may be"),

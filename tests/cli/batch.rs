@@ -24,7 +24,7 @@ fn each_is_made_as_it_would_be_alone() {
     let result = make(&folder, &[&["a.obj", "c.off"][..], &outputs].concat());
     assert_eq!((result.code, result.err.as_str()), (Some(0), ""));
     let lines: Vec<&str> = result.out.lines().collect();
-    let starts = ["a.obj: 1 components", "c.off: 1 components", "2 models made"];
+    let starts = ["a.obj: 1 component,", "c.off: 1 component,", "2 models made"];
     assert!(lines.len() == 3 && lines.iter().zip(starts).all(|(l, s)| l.starts_with(s)), "{lines:?}");
     for (input, stem) in [("a.obj", "a"), ("c.off", "c")] {
         let alone = folder_with(&FILES);

@@ -170,6 +170,24 @@ pub fn glb() -> Vec<u8> {
 }
 
 /// Every format, with its name.
+fn three_mf() -> Vec<u8> {
+    use std::io::Write;
+    let vertex = |[x, y, z]: [f32; 3]| format!("<vertex x=\"{x}\" y=\"{y}\" z=\"{z}\"/>");
+    let triangle = |[a, b, c]: [u32; 3]| format!("<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>");
+    let model = format!(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+         <model unit=\"millimeter\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\
+         <resources><object id=\"1\" type=\"model\"><mesh><vertices>{}</vertices><triangles>{}</triangles></mesh>\
+         </object></resources><build><item objectid=\"1\"/></build></model>",
+        corners().map(vertex).concat(),
+        TRIANGLES.map(triangle).concat()
+    );
+    let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    archive.start_file("3D/3dmodel.model", zip::write::SimpleFileOptions::default()).unwrap();
+    archive.write_all(model.as_bytes()).unwrap();
+    archive.finish().unwrap().into_inner()
+}
+
 pub fn all() -> Vec<(&'static str, Vec<u8>)> {
     vec![
         ("OBJ", OBJ.into()),
@@ -181,5 +199,6 @@ pub fn all() -> Vec<(&'static str, Vec<u8>)> {
         ("binary STL", stl_binary(b"made by hand")),
         ("binary STL that begins like text", stl_binary(b"solid cube\nfacet")),
         ("GLB", glb()),
+        ("3MF", three_mf()),
     ]
 }

@@ -5,6 +5,8 @@
 pub enum Remedy {
     /// Make the model larger.
     LargerSize,
+    /// Make the model smaller.
+    SmallerSize,
     /// Make the model no larger than this, mm.
     SizeAtMost(f64),
     /// Use larger paper.

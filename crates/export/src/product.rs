@@ -3,9 +3,11 @@
 use crate::paint;
 use crate::report::Run;
 use std::cell::OnceCell;
+use std::collections::BTreeSet;
 use tatamu_core::model::ModelPart;
-use tatamu_draw::drawing::{Chapter, Drawing, LineStyles, Pages, PagesError};
-use tatamu_net::net::Net;
+use tatamu_draw::drawing::{Chapter, Drawing, LineStyles, Mark, Pages, PagesError};
+use tatamu_net::net::{Net, Piece};
+use tatamu_net::sheet::Imprint;
 use tatamu_pipeline::Output;
 use tatamu_read::painting::Painting;
 
@@ -21,6 +23,61 @@ pub enum Content {
     Cut,
 }
 
+/// Which pieces and sheets are shown: all, where it names none.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Selection {
+    /// Names of components.
+    pub parts: Vec<String>,
+    /// Numbers of sheets, from 1.
+    pub sheets: Vec<usize>,
+}
+
+impl Selection {
+    /// The same, if the model has what it names.
+    ///
+    /// # Errors
+    /// One sentence about what it has not.
+    pub fn checked(&self, output: &Output) -> Result<Self, String> {
+        let names: Vec<&str> = output.model().parts().iter().map(|part| part.name.as_str()).collect();
+        if let Some(part) = self.parts.iter().find(|part| !names.contains(&part.as_str())) {
+            return Err(format!("there is no component \"{part}\"; there are: {}", names.join(", ")));
+        }
+        let count = output.layout().sheet_count();
+        if let Some(sheet) = self.sheets.iter().find(|sheet| !(1..=count).contains(*sheet)) {
+            return Err(format!("there is no sheet {sheet}; the model has sheets 1 to {count}"));
+        }
+        Ok(self.clone())
+    }
+
+    /// The sheets that are shown, from 0; none where all pages are.
+    fn shown(&self, output: &Output) -> Option<BTreeSet<usize>> {
+        let is_asked_for = |sheet: usize| self.sheets.is_empty() || self.sheets.contains(&(sheet + 1));
+        if self.parts.is_empty() {
+            let all = 0..output.layout().sheet_count();
+            return (!self.sheets.is_empty()).then(|| all.filter(|&sheet| is_asked_for(sheet)).collect());
+        }
+        let own = (0..output.nets().len()).filter(|&n| self.parts.contains(&output.model().parts()[n].name));
+        let sheets = own.flat_map(|n| output.layout().places(n)).map(|at| at.sheet);
+        Some(sheets.filter(|&sheet| is_asked_for(sheet)).collect())
+    }
+
+    /// Takes away the pages and the pieces that are not shown.
+    fn apply(&self, output: &Output, pages: &mut Vec<Drawing>) {
+        if let Some(shown) = self.shown(output) {
+            let mut sheet = 0..;
+            pages.retain(|_| sheet.next().is_some_and(|sheet| shown.contains(&sheet)));
+        }
+        if self.parts.is_empty() {
+            return;
+        }
+        let nets = output.model().parts().iter().zip(output.nets());
+        let own = nets.filter(|(part, _)| self.parts.contains(&part.name)).flat_map(|(_, net)| net.pieces());
+        let own: BTreeSet<&str> = own.map(Piece::name).collect();
+        let is_own = |mark: &Mark| mark.piece.as_ref().is_none_or(|piece| own.contains(piece.as_str()));
+        pages.iter_mut().for_each(|page| page.marks.retain(is_own));
+    }
+}
+
 /// A finished run with its title and the look of its sheets. The sheets are drawn when a format
 /// first asks for them.
 #[derive(Debug)]
@@ -31,6 +88,7 @@ pub struct Product<'a> {
     styles: LineStyles,
     painting: Option<&'a Painting>,
     content: Content,
+    selection: Selection,
     pages: OnceCell<Result<Pages, PagesError>>,
 }
 
@@ -38,14 +96,20 @@ impl<'a> Product<'a> {
     /// A run with the standard line styles.
     pub fn new(output: &'a Output, title: &'a str, run: Run<'a>) -> Self {
         let styles = LineStyles::standard();
-        let (painting, content) = (None, Content::default());
-        Self { output, title, run, styles, painting, content, pages: OnceCell::new() }
+        let (painting, content, selection) = (None, Content::default(), Selection::default());
+        Self { output, title, run, styles, painting, content, selection, pages: OnceCell::new() }
     }
 
     /// The same with only a part of its marks, at the same places.
     #[must_use]
     pub fn with_content(self, content: Content) -> Self {
         Self { content, pages: OnceCell::new(), ..self }
+    }
+
+    /// The same with only some of its pieces and sheets.
+    #[must_use]
+    pub fn with_selection(self, selection: Selection) -> Self {
+        Self { selection, pages: OnceCell::new(), ..self }
     }
 
     /// The same with another look.
@@ -63,6 +127,11 @@ impl<'a> Product<'a> {
     /// The results of all stages.
     pub fn output(&self) -> &'a Output {
         self.output
+    }
+
+    /// Whether its pages are for a cutter alone.
+    pub fn is_cut(&self) -> bool {
+        self.content == Content::Cut
     }
 
     /// The look of the lines.
@@ -86,10 +155,11 @@ impl<'a> Product<'a> {
     /// See [`PagesError`]; no run is known that brings one about.
     pub fn pages(&self) -> Result<&Pages, PagesError> {
         let draw = || {
-            let note = size_note(self.output);
+            let (note, advice) = (size_note(self.output), order_note(self.output));
+            let imprint = Imprint { title: self.title, note: &note, advice: &advice };
             let layout = self.output.layout();
-            let mut drawings = layout.pages(self.output.nets(), self.title, &note, &self.styles);
-            if let Some(painting) = self.painting {
+            let mut drawings = layout.pages(self.output.nets(), imprint, &self.styles);
+            if let Some(painting) = self.painting.filter(|_| !layout.options().choices.is_duplex) {
                 paint::colour(self.output, painting, &mut drawings);
             }
             let pages = Pages::new(self.title, self.reduced(drawings), self.styles.clone())?;
@@ -98,17 +168,42 @@ impl<'a> Product<'a> {
         self.pages.get_or_init(draw).as_ref().map_err(Clone::clone)
     }
 
+    /// The pages as they are printed on both sides of the sheets, where that is asked for: outside and inside
+    /// in turn. Else the same as [`Product::pages`].
+    ///
+    /// # Errors
+    /// As [`Product::pages`].
+    pub fn printed_pages(&self) -> Result<Pages, PagesError> {
+        let inside = self.pages()?;
+        let layout = self.output.layout();
+        if !layout.options().choices.is_duplex || self.is_cut() {
+            return Ok(inside.clone());
+        }
+        let imprint = Imprint { title: self.title, ..Imprint::default() };
+        let mut outside = layout.outside_pages(self.output.nets(), imprint, &self.styles);
+        if let Some(painting) = self.painting {
+            paint::colour(self.output, painting, &mut outside);
+        }
+        let mut outside = self.reduced(outside).into_iter();
+        let both = inside.drawings().iter().flat_map(|page| outside.next().into_iter().chain([page.clone()]));
+        let both = both.collect();
+        Ok(Pages::new(self.title, both, self.styles.clone())?.with_chapters(inside.chapters().to_vec()))
+    }
+
     /// Leaves what is asked for, and makes up for the printer's scale where it is printed.
     fn reduced(&self, mut pages: Vec<Drawing>) -> Vec<Drawing> {
         let layout = self.output.layout();
+        if self.content == Content::Cut {
+            // Lists of labels have pages of their own, with nothing to cut.
+            pages.truncate(layout.sheet_count());
+        }
+        self.selection.apply(self.output, &mut pages);
         match self.content {
             Content::All => {}
             Content::Print => {
                 pages.iter_mut().for_each(|page| page.marks.retain(|mark| !mark.layer.is_worked()));
             }
             Content::Cut => {
-                // Lists of labels have pages of their own, with nothing to cut.
-                pages.truncate(layout.sheet_count());
                 pages.iter_mut().for_each(|page| page.marks.retain(|mark| mark.layer.is_worked()));
                 return pages;
             }
@@ -126,6 +221,18 @@ fn chapters(output: &Output) -> Vec<Chapter> {
         pieces: net.pieces().iter().map(|piece| piece.name().to_owned()).collect(),
     };
     parts.map(chapter).collect()
+}
+
+/// The names of the components in the order in which they are folded flat.
+pub fn folding_order(output: &Output) -> Vec<&str> {
+    let flat = output.fold_plan().steps().iter().filter(|step| step.ends_flat());
+    flat.map(|step| output.model().parts()[step.part].name.as_str()).collect()
+}
+
+/// The same as a sentence; nothing where there is one component alone.
+fn order_note(output: &Output) -> String {
+    let order = folding_order(output);
+    if order.len() < 2 { String::new() } else { format!("fold flat in this order: {}", order.join(", ")) }
 }
 
 /// Width, depth and height of the model in words.

@@ -305,6 +305,7 @@ impl<'m> Engine<'m> {
         })?;
         let mut warnings = shaped.notes.clone();
         warnings.extend(warning::warnings(model, &nets, shaped.divided.hulls().flat_faces(), options));
+        warnings.extend(warning::many_sheets(&layout).map(Warning::from));
         warnings.extend(layout.unheeded_pins().iter().cloned().map(Warning::from));
         let fold_plan = Arc::new(FoldPlan::unchecked(model, options.thickness_mm));
         Ok(Output { shaped, fold_plan, nets, layout, warnings: Arc::new(warnings) })

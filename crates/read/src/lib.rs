@@ -18,6 +18,7 @@ pub mod painting;
 mod ply;
 mod stl;
 mod texture;
+mod threemf;
 
 use painting::Painting;
 use std::fmt;
@@ -38,6 +39,8 @@ pub enum Format {
     Off,
     /// glTF 2.0, as JSON or as GLB
     Gltf,
+    /// 3D Manufacturing Format
+    ThreeMf,
 }
 
 impl fmt::Display for Format {
@@ -49,6 +52,7 @@ impl fmt::Display for Format {
             Self::Ply => "PLY",
             Self::Off => "OFF",
             Self::Gltf => "glTF",
+            Self::ThreeMf => "3MF",
         })
     }
 }
@@ -86,11 +90,19 @@ pub enum ReadError {
     /// None of the known formats.
     #[error(
         "this is not a mesh in a known format: it begins with {start}; \
-         tatamu reads OBJ, STL, PLY, OFF, glTF and GLB, with any file name"
+         tatamu reads OBJ, STL, PLY, OFF, glTF, GLB and 3MF, with any file name"
     )]
     Unrecognised {
         /// The first characters, quoted.
         start: String,
+    },
+    /// The format of a program that has others.
+    #[error("this is {what}, which tatamu cannot read; {advice}")]
+    Foreign {
+        /// What it is.
+        what: &'static str,
+        /// What to do.
+        advice: &'static str,
     },
     /// Text that does not follow the format's grammar.
     #[error("{format} file, {place}: found {found}, expected {expected}")]
@@ -229,6 +241,7 @@ pub fn read_with_siblings(
         Format::Ply => ply::read(bytes),
         Format::Off => off::read(bytes),
         Format::Gltf => gltf::read(bytes, sibling),
+        Format::ThreeMf => threemf::read(bytes),
     }?;
     if soup.polygon_count() == 0 {
         return Err(ReadError::NoFaces { format });
@@ -281,7 +294,7 @@ pub fn read_painting(
         Format::Ply => ply::read_painting(bytes)?,
         Format::Off => off::read_painting(bytes)?,
         Format::Gltf => gltf::read_painting(bytes, sibling)?,
-        Format::StlAscii | Format::StlBinary => None,
+        Format::StlAscii | Format::StlBinary | Format::ThreeMf => None,
     };
     painting.ok_or(ColourError::None { format })
 }
@@ -296,6 +309,8 @@ fn recognise(bytes: &[u8]) -> Option<Format> {
     let is_text = !bytes[..bytes.len().min(4096)].contains(&0);
     if bytes.starts_with(b"glTF") || (is_text && text.starts_with(b"{")) {
         Some(Format::Gltf)
+    } else if threemf::is_archive(bytes) {
+        Some(Format::ThreeMf)
     } else if bytes.starts_with(b"ply\n") || bytes.starts_with(b"ply\r") {
         Some(Format::Ply)
     } else if stl::is_exact_binary(bytes) {
@@ -311,7 +326,28 @@ fn recognise(bytes: &[u8]) -> Option<Format> {
     }
 }
 
+/// How files of other programs begin, what they are, and what to do.
+const FOREIGN: [(&[u8], &str, &str); 4] = [
+    (b"BLENDER", "a Blender file", BLENDER_ADVICE),
+    // Blender compresses its files, by zstd since version 3.0 and by gzip before.
+    (&[0x28, 0xb5, 0x2f, 0xfd], "a compressed file, perhaps one of Blender", BLENDER_ADVICE),
+    (
+        &[0x1f, 0x8b],
+        "a compressed file",
+        "unpack it; a Blender file must be exported from Blender, as OBJ or STL",
+    ),
+    (
+        b"Kaydara FBX",
+        "an FBX file",
+        "open it in a 3D program such as Blender and export it as OBJ, STL or glTF",
+    ),
+];
+const BLENDER_ADVICE: &str = "open it in Blender and choose File, Export, Wavefront (.obj), STL or glTF";
+
 fn unrecognised(bytes: &[u8]) -> ReadError {
+    if let Some(&(_, what, advice)) = FOREIGN.iter().find(|(start, ..)| bytes.starts_with(start)) {
+        return ReadError::Foreign { what, advice };
+    }
     let start = excerpt(&bytes[..bytes.len().min(200)]);
     ReadError::Unrecognised { start }
 }
@@ -331,6 +367,15 @@ fn excerpt(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn files_of_other_programs_are_refused_with_what_to_do() {
+        for (start, word) in [(&b"BLENDER-v300RENDH"[..], "Export"), (b"Kaydara FBX Binary  \0", "FBX")] {
+            let message = read(start).unwrap_err().to_string();
+            assert!(message.contains(word), "{message}");
+        }
+        assert!(matches!(read(&[0x28, 0xb5, 0x2f, 0xfd, 0, 1]), Err(ReadError::Foreign { .. })));
+    }
 
     #[test]
     fn what_is_no_mesh_is_refused_by_its_first_words() {

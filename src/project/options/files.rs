@@ -9,8 +9,20 @@ use crate::guide::Language;
 use crate::units::parse_paper;
 use std::str::FromStr;
 
-pub(super) const ALL: &[&Entry] =
-    &[&STYLE, &TEXT, &STROKE, &DXF_VERSION, &DXF_SHEETS, &DPI, &TILE, &COLOR, &STATIC, &FOLD_PIECES];
+pub(super) const ALL: &[&Entry] = &[
+    &STYLE,
+    &TABS,
+    &TEXT,
+    &STROKE,
+    &DXF_VERSION,
+    &DXF_SHEETS,
+    &DPI,
+    &TILE,
+    &OVERVIEW,
+    &COLOR,
+    &STATIC,
+    &FOLD_PIECES,
+];
 pub(super) const GUIDE: &[&Entry] = &[&GUIDE_LANGUAGE];
 
 const HEADING: &str = "File formats";
@@ -40,6 +52,34 @@ pub static STYLE: Entry = Entry {
     automatic: "standard",
     meaning: "look of the lines: a built-in style, or a [style file](styles.md). One that a project file names is relative \
               to it",
+    ..Entry::BLANK
+};
+
+const TABS_LOOKS: [(&str, bool); 2] = [("marked", false), ("plain", true)];
+
+/// Look of tabs.
+pub static TABS: Entry = Entry {
+    key: Key::new("export", "tabs"),
+    flag: Flag::under(HEADING, "tabs", "LOOK"),
+    scope: Scope::Files,
+    kind: Kind::Text(Text {
+        names: || TABS_LOOKS.map(|(name, _)| name).to_vec(),
+        other: "",
+        such_as: "plain",
+        get: |s| {
+            let found = TABS_LOOKS.iter().find(|(_, is_plain)| *is_plain == s.files.has_plain_tabs);
+            found.map(|(name, _)| (*name).to_owned())
+        },
+        set: |s, text| {
+            let found = TABS_LOOKS.iter().find(|(name, _)| *name == text);
+            put(&mut s.files.has_plain_tabs, found.ok_or("the look of tabs must be one of marked, plain")?.1)
+        },
+    }),
+    short: "Look of glue tabs: {names}",
+    long: "Marked tabs have a tint or a hatch, as the style says, so that nobody takes them for panels. It is printed \
+           only; cutters do not see it.",
+    example: "--tabs plain",
+    meaning: "look of glue tabs; marked ones have the tint or the hatch of the style",
     ..Entry::BLANK
 };
 
@@ -170,6 +210,25 @@ static TILE: Entry = Entry {
     long: "The pages overlap and have alignment marks.",
     example: "--paper 420x594mm --tile a4",
     meaning: "divides large sheets of a PDF into pages of this size",
+    ..Entry::BLANK
+};
+
+/// Whether a page about the whole model comes first.
+static OVERVIEW: Entry = Entry {
+    key: Key::new("export", "overview"),
+    flag: Flag::under(HEADING, "overview", "BOOL"),
+    scope: Scope::Files,
+    kind: Kind::Switch(Switch {
+        get: |s| s.files.formats.pdf.has_overview(),
+        set: |s, is_on| {
+            let pdf = s.files.formats.pdf.with_overview(is_on);
+            put(&mut s.files.formats.pdf, pdf)
+        },
+    }),
+    short: "Begins a PDF with a page about the whole model",
+    long: "It has a picture with the names of the parts, a table of parts with their sheets, the order of folding, \
+           and how long and how hard the work is.",
+    meaning: "begins a PDF with a page about the whole model: picture, parts with their sheets, order of folding, time",
     ..Entry::BLANK
 };
 

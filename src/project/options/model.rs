@@ -6,10 +6,19 @@ use super::{Count, Dial, Entry, Flag, Key, Kind, Number, Range, Scope, Text, Uni
 use crate::mesh::Up;
 use crate::pipeline::Level;
 
-pub(super) const ORIENTATION: &[&Entry] = &[&UP, &SIZE];
+pub(super) const ORIENTATION: &[&Entry] = &[&UP, &SIZE, &SHEETS_MAX];
 pub(super) const SHAPE: &[&Entry] = &[&LEVEL, &TOP_EDGES, &PROFILE_VERTICES, &TOLERANCE];
 
-const AXES: [(&str, Up); 3] = [("x", Up::X), ("y", Up::Y), ("z", Up::Z)];
+const AXES: [(&str, Up); 6] =
+    [("x", Up::X), ("y", Up::Y), ("z", Up::Z), ("-x", Up::DownX), ("-y", Up::DownY), ("-z", Up::DownZ)];
+
+/// The least size of a model, mm: a hand cannot fold a smaller one.
+const LEAST_SIZE_MM: f64 = 10.0;
+/// The largest, mm: more is a slip of the keyboard.
+const MOST_SIZE_MM: f64 = 10_000.0;
+
+/// The most sheets that may be asked for.
+const MOST_SHEETS: usize = 10_000;
 
 /// The fewest top edges of a component, and the fewest vertices of a profile.
 const LEAST_COUNT: usize = 3;
@@ -19,7 +28,7 @@ const MOST_COUNT: usize = 64;
 /// The axis that points up.
 pub static UP: Entry = Entry {
     key: Key::new("", "up"),
-    flag: Flag::new("up", "AXIS"),
+    flag: Some(Flag { may_begin_with_dash: true, ..Flag::named("up", "AXIS", None) }),
     scope: Scope::Mesh,
     kind: Kind::Text(Text {
         names: || AXES.map(|(name, _)| name).to_vec(),
@@ -28,12 +37,12 @@ pub static UP: Entry = Entry {
         get: |s| AXES.iter().find(|(_, up)| *up == s.model.up).map(|(name, _)| (*name).to_owned()),
         set: |s, text| {
             let found = AXES.iter().find(|(name, _)| name.eq_ignore_ascii_case(text));
-            let found = found.ok_or("the axis that points up must be one of x, y, z")?;
+            let found = found.ok_or("the axis that points up must be one of x, y, z, -x, -y, -z")?;
             put(&mut s.model.up, found.1)
         },
     }),
     short: "Axis of the mesh that points up: {names}",
-    long: "The model is rotated so that this axis points up.",
+    long: "The model is rotated so that this axis points up; with -y, y points down.",
     example: "--up z",
     meaning: "axis of the mesh that points up",
     dial: Dial::new("Up axis"),
@@ -46,8 +55,8 @@ pub static SIZE: Entry = Entry {
     flag: Flag::new("size", "LENGTH"),
     kind: Kind::Number(Number {
         unit: Unit::Length,
-        range: Range::Positive,
-        fault: "",
+        range: Range::Within(LEAST_SIZE_MM, MOST_SIZE_MM),
+        fault: "the size must be from {least} to {most} mm",
         such_as: 200.0,
         get: |s| Some(s.model.size_mm),
         set: |s, mm| put(&mut s.model.size_mm, mm),
@@ -57,6 +66,26 @@ pub static SIZE: Entry = Entry {
     example: "--size 30cm",
     meaning: "longest side of the finished model's bounding box",
     dial: Dial::spanning("Size", 10.0, 2000.0, 0),
+    ..Entry::BLANK
+};
+
+/// Most sheets of the model.
+pub static SHEETS_MAX: Entry = Entry {
+    key: Key::new("", "sheets_max"),
+    flag: Flag::new("sheets-max", "N"),
+    kind: Kind::Count(Count {
+        least: 1,
+        most: MOST_SHEETS,
+        fault: FROM_TO,
+        such_as: 2,
+        get: |s| s.most_sheets,
+        set: |s, n| put(&mut s.most_sheets, Some(n)),
+    }),
+    short: "Makes the model smaller until it takes at most so many sheets",
+    long: "tatamu tries smaller sizes, in steps of 5 mm, and says which one it took. It makes no model larger than --size.",
+    example: "--size 40cm --sheets-max 4",
+    automatic: "no limit",
+    meaning: "the most sheets: tatamu makes the model smaller than `size`, in steps of 5 mm, until it takes no more",
     ..Entry::BLANK
 };
 

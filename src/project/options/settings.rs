@@ -10,6 +10,8 @@ use std::sync::LazyLock;
 pub struct Settings {
     /// The model, its pieces and sheets.
     pub model: Options,
+    /// The most sheets that the model may take: it is made smaller until it does.
+    pub most_sheets: Option<usize>,
     /// The files.
     pub files: Files,
 }
@@ -23,6 +25,8 @@ pub struct Files {
     pub tile: Option<Paper>,
     /// Look of the lines: a built-in style, or a file.
     pub style: Option<String>,
+    /// Whether tabs look as panels do.
+    pub has_plain_tabs: bool,
     /// Whether panels have the mesh's colours.
     pub is_coloured: bool,
     /// Name or file of the cutter's profile.

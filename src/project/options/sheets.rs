@@ -91,14 +91,18 @@ pub static THICK: Entry = Entry {
         set: |s, is_on| put(&mut s.model.is_thick, is_on),
     }),
     short: "Makes the panels of board: each is cut on its own and hinged with tape",
-    long: "Set the thickness to that of the board. The outside keeps its size: tatamu shortens panels at their hinges \
+    long: "For drawn components and meshes that are boxes; the panels of most meshes are too slanted. Set the \
+           thickness to that of the board. The outside keeps its size: tatamu shortens panels at their hinges \
            and moves creases so that the boards lie flat on each other. Tape valley hinges on the outside.",
     example: "--thickness 1.5mm --thick -o box.pdf -o box.stl",
-    meaning: "makes the panels of board of that thickness: each is cut on its own and hinged with tape",
+    meaning: "makes the panels of board of that thickness: each is cut on its own and hinged with tape. For drawn \
+              components and meshes that are boxes",
     ..Entry::BLANK
 };
 
-const SIDES: [(&str, Side); 2] = [("outside", Side::Outside), ("inside", Side::Inside)];
+/// Names with the side of lines and labels, and whether the other one is printed too.
+const SIDES: [(&str, (Side, bool)); 3] =
+    [("outside", (Side::Outside, false)), ("inside", (Side::Inside, false)), ("both", (Side::Inside, true))];
 
 /// The printed side.
 pub static SIDE: Entry = Entry {
@@ -109,17 +113,23 @@ pub static SIDE: Entry = Entry {
         other: "",
         such_as: "inside",
         get: |s| {
-            SIDES.iter().find(|(_, side)| *side == s.model.sheets.side).map(|(name, _)| (*name).to_owned())
+            let chosen = (s.model.sheets.side, s.model.sheets.is_duplex);
+            SIDES.iter().find(|(_, sides)| *sides == chosen).map(|(name, _)| (*name).to_owned())
         },
         set: |s, text| {
             let found = SIDES.iter().find(|(name, _)| *name == text);
-            put(&mut s.model.sheets.side, found.ok_or("the printed side must be one of outside, inside")?.1)
+            let (side, is_duplex) = found.ok_or("the printed side must be one of outside, inside, both")?.1;
+            s.model.sheets.is_duplex = is_duplex;
+            put(&mut s.model.sheets.side, side)
         },
     }),
     short: "Printed side of the paper: {names}",
-    long: "With inside, pieces are mirrored, the finished model shows no lines, and creases fold towards you.",
-    example: "--side inside",
-    meaning: "printed side; `inside` is mirrored",
+    long: "With inside, pieces are mirrored, the finished model shows no lines, and creases fold towards you. With both, \
+           a PDF has two pages for each sheet, to print on both sides: lines and labels inside; outside the places where \
+           parts are glued on, and the colours of --color.",
+    example: "--side both",
+    meaning: "printed side; `inside` is mirrored. `both` makes two pages for each sheet of a PDF: lines and labels \
+              inside, the places of joints and the colours of the mesh outside",
     dial: Dial::new("Printed side"),
     ..Entry::BLANK
 };

@@ -278,7 +278,7 @@ pub fn welcome(window: &mut Window, ui: &mut Ui) {
             window.ask_open();
         }
         ui.add_space(6.0);
-        ui.weak("or drop a file here: OBJ, STL, PLY, OFF, glTF, GLB, or a project (TOML)");
+        ui.weak("or drop a file here: OBJ, STL, PLY, OFF, glTF, GLB, 3MF, or a project (TOML)");
         if let Some(problem) = window.studio.problem() {
             ui.add_space(12.0);
             ui.colored_label(ui.visuals().error_fg_color, problem);

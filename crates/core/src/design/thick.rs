@@ -32,8 +32,8 @@ pub enum ThickError {
     },
     /// Nothing is left inside.
     #[error(
-        "\"{name}\" has no room for panels of {thickness_mm} mm in chain {}; make it larger, with fewer top edges and \
-         profile vertices, or of thinner board", chain + 1
+        "\"{name}\" has no room for boards of {thickness_mm} mm in chain {}: boards suit drawn components and boxes, not \
+         the slanted panels of most meshes", chain + 1
     )]
     NoRoom {
         /// The component.
@@ -84,7 +84,8 @@ impl ThickError {
             Self::Against { .. } => vec![Remedy::OtherWay, Remedy::NoBoards],
             Self::Layers { .. } => vec![Remedy::EqualFolds, Remedy::NoBoards],
             Self::Overlap { .. } => vec![Remedy::ThinnerBoard, Remedy::LargerSize, Remedy::DrawApart],
-            Self::NoRoom { .. } | Self::Assemble { .. } => Vec::new(),
+            Self::NoRoom { .. } => vec![Remedy::ThinnerBoard, Remedy::NoBoards],
+            Self::Assemble { .. } => Vec::new(),
         }
     }
 }

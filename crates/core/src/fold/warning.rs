@@ -110,7 +110,7 @@ impl FoldPlan {
     /// One warning for each overlap and for each pair that clashes, where it is deepest.
     pub fn warnings(&self, model: &Model) -> Vec<FoldWarning> {
         let encounters = self.encounters(&ModelMotion::new(model)).into_iter();
-        let rubs = deepest(self.clashes()).filter(|clash| clash.depth_mm <= self.thickness_mm());
+        let rubs = deepest(self.clashes()).filter(|clash| is_rub(clash.depth_mm, self.thickness_mm()));
         let rubs = rubs.map(|clash| FoldWarning::Rub {
             parts: clash.parts.map(|p| model.parts()[p].name.clone()),
             depth_mm: clash.depth_mm,
@@ -118,6 +118,14 @@ impl FoldPlan {
         });
         encounters.map(|encounter| encounter.warning(model)).chain(rubs).collect()
     }
+}
+
+/// Less than this is written as 0.00 mm, and nobody sees it.
+const SEEN_MM: f64 = 0.005;
+
+/// Whether panels that meet so deep rub: neither unseen nor a clash.
+fn is_rub(depth_mm: f64, thickness_mm: f64) -> bool {
+    depth_mm >= SEEN_MM && depth_mm <= thickness_mm
 }
 
 impl Encounter {
@@ -234,5 +242,20 @@ impl fmt::Display for When {
             _ => "is almost flat",
         };
         write!(f, "{} {folded}", self.mover)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// "rub against each other (0.00 mm)" was said.
+    #[test]
+    fn no_rub_of_nothing_is_told() {
+        for depth_mm in [0.0, 0.004, 0.0049] {
+            assert!(!is_rub(depth_mm, 0.25), "{depth_mm}");
+        }
+        assert!(is_rub(0.005, 0.25) && is_rub(0.25, 0.25) && !is_rub(0.26, 0.25));
+        assert_ne!(format!("{SEEN_MM:.2}"), "0.00");
     }
 }

@@ -12,6 +12,12 @@ pub enum Up {
     Y,
     /// +z
     Z,
+    /// −x
+    DownX,
+    /// −y
+    DownY,
+    /// −z
+    DownZ,
 }
 
 impl Up {
@@ -22,7 +28,15 @@ impl Up {
             Self::X => DMat3::from_cols(DVec3::Z, DVec3::X, DVec3::Y),
             Self::Y => DMat3::from_cols(DVec3::X, DVec3::Z, -DVec3::Y),
             Self::Z => DMat3::IDENTITY,
+            Self::DownX => Self::over() * Self::X.turn(),
+            Self::DownY => Self::over() * Self::Y.turn(),
+            Self::DownZ => Self::over(),
         }
+    }
+
+    /// Half a turn about the axis that faces the viewer, which keeps facing it: upside down.
+    fn over() -> DMat3 {
+        DMat3::from_diagonal(DVec3::new(-1.0, 1.0, -1.0))
     }
 }
 
@@ -61,7 +75,9 @@ mod tests {
 
     #[test]
     fn the_chosen_axis_becomes_the_height() {
-        for (up, height) in [(Up::X, 25.0), (Up::Y, 50.0), (Up::Z, 100.0)] {
+        let heights = [(Up::X, 25.0), (Up::Y, 50.0), (Up::Z, 100.0)];
+        let down = [(Up::DownX, 25.0), (Up::DownY, 50.0), (Up::DownZ, 100.0)];
+        for (up, height) in heights.into_iter().chain(down) {
             let mesh = box_mesh();
             let (scaled, transform) = mesh.scaled(100.0, up);
             let (low, high) = scaled.bounds();
@@ -71,6 +87,17 @@ mod tests {
             assert!((scaled.volume() - 8.0 * 25.0f64.powi(3)).abs() < 1e-6, "a mirror");
             for (p, q) in mesh.positions().iter().zip(scaled.positions()) {
                 assert_eq!(transform.transform_point3(*p), *q);
+            }
+        }
+    }
+
+    #[test]
+    fn an_axis_that_points_down_turns_the_model_upside_down_and_keeps_its_front() {
+        for (up, down) in [(Up::X, Up::DownX), (Up::Y, Up::DownY), (Up::Z, Up::DownZ)] {
+            let [stands, hangs] = [up, down].map(Up::turn);
+            for axis in [DVec3::X, DVec3::Y, DVec3::Z] {
+                let (a, b) = (stands * axis, hangs * axis);
+                assert_eq!((a.z, a.y), (-b.z, b.y), "{up:?} {axis}");
             }
         }
     }

@@ -3,6 +3,7 @@
 //! Coordinates are millimetres, y up, origin at the bottom-left corner of the page; each back end
 //! flips or scales once. Styles are resolved here, so that back ends stay simple.
 
+mod area;
 mod mark;
 mod pages;
 mod raster;
@@ -12,7 +13,7 @@ pub mod text;
 
 pub use pages::{Chapter, Pages, PagesError};
 pub use raster::{Raster, RasterError};
-pub use style::{LineStyles, StyleError};
+pub use style::{Fill, LineStyles, StyleError};
 pub use tatamu_core::colour::Rgb;
 
 use glam::{DAffine2, DVec2};
@@ -31,6 +32,8 @@ pub enum Layer {
     Valley,
     /// The hinge of a chain that folds by 180°.
     FoldHinge,
+    /// Areas of tabs, told apart from panels.
+    Tab,
     /// Outline of what is glued here.
     Glue,
     /// Labels and names on pieces.
@@ -45,12 +48,13 @@ pub enum Layer {
 
 impl Layer {
     /// All layers, in their order.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Cut,
         Self::Slit,
         Self::Mountain,
         Self::Valley,
         Self::FoldHinge,
+        Self::Tab,
         Self::Glue,
         Self::Label,
         Self::Furniture,
@@ -67,6 +71,7 @@ impl Layer {
             Self::Mountain => "mountain",
             Self::Valley => "valley",
             Self::FoldHinge => "fold-hinge",
+            Self::Tab => "tab",
             Self::Glue => "glue",
             Self::Label => "label",
             Self::Furniture => "furniture",
@@ -79,7 +84,9 @@ impl Layer {
     pub fn is_worked(self) -> bool {
         match self {
             Self::Cut | Self::Slit | Self::Mountain | Self::Valley | Self::FoldHinge => true,
-            Self::Glue | Self::Label | Self::Furniture | Self::Registration | Self::Picture => false,
+            Self::Tab | Self::Glue | Self::Label | Self::Furniture | Self::Registration | Self::Picture => {
+                false
+            }
         }
     }
 }

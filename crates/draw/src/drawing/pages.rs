@@ -60,6 +60,16 @@ impl Pages {
         Ok(Self { title: title.into(), drawings, styles, chapters: Vec::new() })
     }
 
+    /// The same with a page before all others.
+    ///
+    /// # Errors
+    /// As [`Pages::new`].
+    pub fn with_first(&self, page: Drawing) -> Result<Self, PagesError> {
+        let drawings = std::iter::once(page).chain(self.drawings.iter().cloned()).collect();
+        let pages = Self::new(self.title.clone(), drawings, self.styles.clone())?;
+        Ok(pages.with_chapters(self.chapters.clone()))
+    }
+
     /// The same with a table of contents.
     #[must_use]
     pub fn with_chapters(self, chapters: Vec<Chapter>) -> Self {

@@ -34,10 +34,22 @@ pub enum StyleError {
     },
 }
 
+/// How the areas of a layer are filled: tabs, and places where components are glued.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fill {
+    /// Not at all.
+    Plain,
+    /// With lines of the layer's stroke, for printers that turn grey into dots.
+    Hatch,
+    /// With a colour.
+    Tint(Rgb),
+}
+
 /// The look of one operation.
 #[derive(Debug, Clone, PartialEq)]
 struct Look {
     stroke: Stroke,
+    fill: Fill,
     layer: String,
     dxf_colour: u8,
 }
@@ -85,7 +97,12 @@ impl LineStyles {
     fn plain() -> Self {
         let stroke = Stroke::solid(0.2, Rgb::BLACK);
         let layer = |layer: Layer| layer.name().to_ascii_uppercase();
-        let looks = Layer::ALL.map(|kind| Look { stroke: stroke.clone(), layer: layer(kind), dxf_colour: 7 });
+        let looks = Layer::ALL.map(|kind| Look {
+            stroke: stroke.clone(),
+            fill: Fill::Plain,
+            layer: layer(kind),
+            dxf_colour: 7,
+        });
         Self { looks }
     }
 
@@ -118,6 +135,18 @@ impl LineStyles {
         self.stroke(layer).colour
     }
 
+    /// How the layer's areas are filled.
+    pub fn fill(&self, layer: Layer) -> Fill {
+        self.looks[layer as usize].fill
+    }
+
+    /// The same with the areas of a layer left as they are.
+    #[must_use]
+    pub fn with_plain(mut self, layer: Layer) -> Self {
+        self.looks[layer as usize].fill = Fill::Plain;
+        self
+    }
+
     /// What the layer is called in files.
     pub fn layer_name(&self, layer: Layer) -> &str {
         &self.looks[layer as usize].layer
@@ -145,6 +174,7 @@ struct StyleFile {
     mountain: StyleTable,
     valley: StyleTable,
     fold_hinge: StyleTable,
+    tab: StyleTable,
     glue: StyleTable,
     label: StyleTable,
     furniture: StyleTable,
@@ -160,6 +190,7 @@ impl StyleFile {
             Layer::Mountain => &self.mountain,
             Layer::Valley => &self.valley,
             Layer::FoldHinge => &self.fold_hinge,
+            Layer::Tab => &self.tab,
             Layer::Glue => &self.glue,
             Layer::Label => &self.label,
             Layer::Furniture => &self.furniture,
@@ -175,6 +206,7 @@ struct StyleTable {
     width_mm: Option<Width>,
     colour: Option<Colour>,
     dash_mm: Option<Dash>,
+    fill: Option<Filling>,
     layer: Option<Spanned<LayerName>>,
     dxf_colour: Option<DxfColour>,
 }
@@ -189,6 +221,7 @@ impl StyleTable {
                 colour: self.colour.as_ref().map_or(stroke.colour, |colour| colour.0),
                 dash_mm: self.dash_mm.as_ref().map_or(&stroke.dash_mm, |dash| &dash.0).clone(),
             },
+            fill: self.fill.as_ref().map_or(base.fill, |fill| fill.0),
             layer: self.layer.as_ref().map_or(&base.layer, |name| &name.get_ref().0).clone(),
             dxf_colour: self.dxf_colour.as_ref().map_or(base.dxf_colour, |colour| colour.0),
         }
@@ -207,6 +240,27 @@ impl TryFrom<f64> for Width {
             Ok(Self(mm))
         } else {
             Err(format!("a width of {mm} mm; give a width above 0 and at most {MAX_WIDTH_MM} mm"))
+        }
+    }
+}
+
+#[derive(Deserialize)]
+#[serde(try_from = "String")]
+struct Filling(Fill);
+
+impl TryFrom<String> for Filling {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        match text.as_str() {
+            "none" => Ok(Self(Fill::Plain)),
+            "hatch" => Ok(Self(Fill::Hatch)),
+            _ => match Colour::try_from(text.clone()) {
+                Ok(Colour(colour)) => Ok(Self(Fill::Tint(colour))),
+                Err(_) => {
+                    Err(format!("{text:?} is no fill; write \"none\", \"hatch\", or a colour as \"#rrggbb\""))
+                }
+            },
         }
     }
 }

@@ -151,7 +151,7 @@ fn document(drawing: &Drawing, styles: &LineStyles, options: DxfOptions) -> Resu
 
 /// A cutter would cut a scale bar.
 fn is_for_cutters(layer: Layer) -> bool {
-    !matches!(layer, Layer::Furniture | Layer::Registration | Layer::Picture)
+    !matches!(layer, Layer::Tab | Layer::Furniture | Layer::Registration | Layer::Picture)
 }
 
 /// Adds a layer and, where its lines are dashed, a line type of the same name.

@@ -18,13 +18,13 @@ pub fn model(pages: usize) -> Pages {
 /// One sheet with two pieces and its furniture.
 pub fn sheet(size_mm: DVec2, page: usize, pages: usize) -> Drawing {
     let styles = LineStyles::standard();
+    let number = format!("sheet {page} of {pages}");
     let furniture = Furniture {
         size_mm,
         margin_mm: 10.0,
         title: "teddy <3>",
         note: "200 mm",
-        page,
-        pages,
+        number: &number,
         legend: &LEGEND,
     };
     let mut drawing = Drawing::new(format!("teddy <3> {page}/{pages}"), size_mm);
@@ -39,7 +39,7 @@ pub fn sheet(size_mm: DVec2, page: usize, pages: usize) -> Drawing {
     drawing
 }
 
-/// A square ring of 30 mm with a hole, creases, a glue mark and a label.
+/// A square ring of 30 mm with a hole, creases, a tab's area, a glue mark and a label.
 fn piece(name: &str, styles: &LineStyles) -> Vec<Mark> {
     let square = |lo: f64, hi: f64| [[lo, lo], [hi, lo], [hi, hi], [lo, hi]].map(DVec2::from).to_vec();
     let ring = vec![Polyline::closed(square(0.0, 30.0)), Polyline::closed(square(12.0, 18.0))];
@@ -47,6 +47,7 @@ fn piece(name: &str, styles: &LineStyles) -> Vec<Mark> {
     let label = Text::new("A → 12", DVec2::new(15.0, 25.0), 2.5).aligned(Align::Middle);
     let marks = [
         Mark::path(Layer::Picture, ring.clone(), None, Some(Rgb(250, 240, 220))),
+        Mark::filled(Layer::Tab, square(19.0, 29.0), Rgb(226, 226, 226)),
         Mark::path(Layer::Cut, ring, Some(styles.stroke(Layer::Cut).clone()), None),
         crease(Layer::Slit, 4.0),
         crease(Layer::Mountain, 8.0),

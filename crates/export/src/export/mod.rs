@@ -34,6 +34,7 @@ pub use plt::PltOptions;
 pub use png::PngOptions;
 pub use svg::{SvgOptions, SvgStroke};
 
+use crate::guide::overview;
 use crate::product::Product;
 use tatamu_core::remedy::Remedy;
 use tatamu_draw::drawing::{Pages, PagesError};
@@ -158,7 +159,17 @@ impl Format {
         options: &FormatOptions,
     ) -> Result<Vec<ExportFile>, ExportError> {
         match self.source {
-            Source::Pages(write) => write(product.pages()?, options),
+            Source::Pages(write) => {
+                if self.name != pdf::FORMAT.name {
+                    return write(product.pages()?, options);
+                }
+                let pages = product.printed_pages()?;
+                if !options.pdf.has_overview() || product.is_cut() {
+                    return write(&pages, options);
+                }
+                let page = overview(product).map_err(|error| ExportError::writer(self, error))?;
+                write(&pages.with_first(page)?, options)
+            }
             Source::Model(write) => write(product, options),
         }
     }

@@ -45,6 +45,7 @@ const SUBSET_TAG: &str = "TATAMU+";
 pub struct PdfOptions {
     created: Option<Timestamp>,
     tile: Option<Paper>,
+    has_overview: bool,
 }
 
 impl PdfOptions {
@@ -52,6 +53,17 @@ impl PdfOptions {
     #[must_use]
     pub fn with_created(self, created: Option<Timestamp>) -> Self {
         Self { created, ..self }
+    }
+
+    /// The same with a page about the whole model before the sheets.
+    #[must_use]
+    pub fn with_overview(self, has_overview: bool) -> Self {
+        Self { has_overview, ..self }
+    }
+
+    /// Whether a page about the whole model comes before the sheets.
+    pub fn has_overview(&self) -> bool {
+        self.has_overview
     }
 
     /// The same with sheets that are larger than `tile` divided among pages of that size.

@@ -10,11 +10,11 @@ use crate::product;
 use crate::show::{ShowError, clash_picture};
 use glam::DVec2;
 use rayon::prelude::*;
-use tatamu_core::fold::{Encounter, ModelMotion, Moment};
+use tatamu_core::fold::{Encounter, FoldWarning, ModelMotion, Moment};
 use tatamu_draw::drawing::{Align, Drawing, Layer, LineStyles, Mark, PagesError, Stroke, Text};
 use tatamu_draw::render::palette;
-use tatamu_net::net::Side;
-use tatamu_pipeline::Output;
+use tatamu_net::net::{NetWarning, Side};
+use tatamu_pipeline::{ModelWarning, Output, Warning};
 
 /// Frames of the folding, from deployed to flat.
 const FRAMES: usize = 25;
@@ -123,7 +123,8 @@ impl Guide {
         language: Language,
     ) -> Result<Self, GuideError> {
         let words = language.words();
-        let writer = Writer { output, words: &words, styles };
+        let encounters = output.fold_plan().encounters(&ModelMotion::new(output.model()));
+        let writer = Writer { output, words: &words, styles, encounters };
         let steps = steps(output);
         let entries: Vec<Result<Entry, PictureError>> =
             (0..steps.len()).into_par_iter().map(|k| writer.entry(&steps, k)).collect();
@@ -152,6 +153,8 @@ struct Writer<'a> {
     output: &'a Output,
     words: &'a Words,
     styles: &'a LineStyles,
+    /// Where components or chains are in each other.
+    encounters: Vec<Encounter>,
 }
 
 impl Writer<'_> {
@@ -165,7 +168,8 @@ impl Writer<'_> {
 
     fn entry(&self, steps: &[Step], k: usize) -> Result<Entry, PictureError> {
         let step = steps[k].clone();
-        let (title, sentences) = self.text(steps, k);
+        let (title, mut sentences) = self.text(steps, k);
+        sentences.extend(self.cautions(steps, k));
         let pictures = self.pictures(steps, k)?;
         Ok(Entry { step, title, sentences, pictures })
     }
@@ -261,7 +265,10 @@ impl Writer<'_> {
                     false => (&words.join.title, [&words.join.find, &words.join.glue, &words.join.place]),
                     true => (&words.plug.title, [&words.plug.tab, &words.plug.push, &words.plug.place]),
                 };
-                (fill(title, &values), texts.map(|text| fill(text, &values)).to_vec())
+                let is_glued = !self.output.model().parts()[step.part].is_plugged();
+                let press = is_glued.then(|| words.join.press.clone());
+                let sentences = texts.into_iter().map(|text| fill(text, &values)).chain(press);
+                (fill(title, &values), sentences.collect())
             }
             Action::Unplug { parent } => {
                 let values = [("part", part), ("parent", self.name(*parent))];
@@ -293,6 +300,7 @@ impl Writer<'_> {
                 let mut sentences = vec![fill(text, &[("part", part)])];
                 if is_first {
                     sentences.insert(0, words.flatten.wait.clone());
+                    sentences.extend(self.order());
                 }
                 let is_last = steps.get(k + 1).is_none_or(|next| !next.action.folds_model());
                 sentences.extend(is_last.then(|| words.flatten.last.clone()));
@@ -314,6 +322,58 @@ impl Writer<'_> {
                 let first = (!pulls.is_empty()).then_some(plugged);
                 (words.deploy.title.clone(), first.into_iter().chain([order]).collect())
             }
+        }
+    }
+
+    /// In which order components are folded flat, where there are several.
+    fn order(&self) -> Option<String> {
+        let parts = product::folding_order(self.output);
+        (parts.len() > 1).then(|| fill(&self.words.flatten.order, &[("parts", &parts.join(", "))]))
+    }
+
+    /// What to take care of in a step.
+    fn cautions(&self, steps: &[Step], k: usize) -> Vec<String> {
+        let step = &steps[k];
+        let name = self.name(step.part);
+        let is_joined = |part: usize| {
+            let parent = self.output.model().parts()[part].joint.is_none();
+            parent || steps[..k].iter().any(|s| s.part == part && matches!(s.action, Action::Join { .. }))
+        };
+        let is_here = |encounter: &&Encounter| match encounter.mover {
+            Some(mover) => mover == step.part && step.action.folds_model(),
+            // The later one of two comes into the other.
+            None => {
+                let other = encounter.parts.into_iter().find(|part| *part != step.part);
+                encounter.parts.contains(&step.part)
+                    && matches!(step.action, Action::Join { .. })
+                    && other.is_some_and(is_joined)
+            }
+        };
+        let told = self.output.warnings().iter().filter_map(|warning| self.caution(warning, step, name));
+        told.chain(self.encounters.iter().filter(is_here).map(|encounter| self.clash(encounter))).collect()
+    }
+
+    /// What a warning means in a step, if it is about that.
+    fn caution(&self, warning: &Warning, step: &Step, name: &str) -> Option<String> {
+        let words = &self.words.warn;
+        match (warning, &step.action) {
+            (Warning::Model(ModelWarning::WeakJoint { component, glue_mm2, .. }), Action::Join { .. })
+                if component == name =>
+            {
+                Some(fill(&words.weak, &[("area", &self.words.number(*glue_mm2, 0))]))
+            }
+            (Warning::Net(NetWarning::NarrowTab { label: own, width_mm }), Action::Glue { label, .. })
+                if own == label =>
+            {
+                Some(fill(&words.narrow, &[("width", &self.words.number(*width_mm, 1))]))
+            }
+            (Warning::Fold(FoldWarning::Rub { parts: [a, b], when, .. }), action)
+                if when.mover == name && action.folds_model() =>
+            {
+                let text = if a == b { &words.own } else { &words.rub };
+                Some(fill(text, &[("part", a), ("other", b)]))
+            }
+            _ => None,
         }
     }
 
@@ -368,7 +428,7 @@ impl Writer<'_> {
     fn facts(&self) -> Vec<(String, Vec<String>)> {
         let (words, output) = (&self.words.cover, self.output);
         let estimate = Estimate::new(output);
-        let metres = |m: f64| format!("{m:.1}");
+        let metres = |m: f64| self.words.number(m, 1);
         let mut sizes = vec![fill(&words.size, &[("size", &product::size_note(output))])];
         sizes.extend(output.fold_plan().stacks().iter().map(|stack| {
             let [width, height] = stack.size_mm.to_array().map(|mm| format!("{mm:.0}"));
@@ -381,7 +441,7 @@ impl Writer<'_> {
             ("sheets", sheets.to_string()),
             ("paper", capital(&output.layout().options().paper.name())),
             ("weight", format!("{:.0}", estimate.weight)),
-            ("thickness", output.options().thickness_mm.to_string()),
+            ("thickness", output.options().thickness_mm.to_string().replace('.', &self.words.decimal)),
             ("cut", metres(estimate.cut_m)),
             ("crease", metres(estimate.crease_m)),
             ("glue", metres(estimate.glue_m)),
@@ -404,16 +464,17 @@ impl Writer<'_> {
     /// The places where components or chains are in each other.
     fn clashes(&self) -> Result<Vec<(String, Drawing)>, ShowError> {
         let motion = ModelMotion::new(self.output.model());
+        let encounters = &self.encounters;
         let drawn = |encounter: &Encounter| {
             let drawing = clash_picture(&motion, encounter, None, picture::SIZE_MM)?;
             Ok((self.clash(encounter), drawing))
         };
-        self.output.fold_plan().encounters(&motion).par_iter().map(drawn).collect()
+        encounters.par_iter().map(drawn).collect()
     }
 
     fn clash(&self, encounter: &Encounter) -> String {
         let [a, b] = encounter.parts.map(|part| self.name(part));
-        let depth = format!("{:.1}", encounter.depth_mm);
+        let depth = self.words.number(encounter.depth_mm, 1);
         let words = &self.words.clash;
         let Some(mover) = encounter.mover else {
             return fill(&words.unfolded, &[("part", a), ("other", b), ("depth", &depth)]);

@@ -1,6 +1,7 @@
 //! What the building takes: lengths, and minutes by a stated formula.
 
 use tatamu_core::component::HingeId;
+use tatamu_net::net::Tab;
 use tatamu_net::net::layout::hinge_length;
 use tatamu_pipeline::Output;
 
@@ -16,6 +17,10 @@ pub const LABEL_MIN: f64 = 1.5;
 pub const JOINT_MIN: f64 = 2.5;
 /// Estimates are no better than this, minutes.
 const STEP_MIN: f64 = 5.0;
+/// An easy model takes at most so long, minutes, with tabs at least so wide, mm; one that takes longer than
+/// the second, or has a tab narrower than the second, is hard. A tab below 2 mm cannot be held.
+const EASY: (f64, f64) = (90.0, 3.0);
+const MEDIUM: (f64, f64) = (240.0, 2.0);
 /// Weight of card for its thickness: 0.8 g/cm³.
 const CARD_G_PER_M2_MM: f64 = 800.0;
 /// Weights are told in such steps.
@@ -38,8 +43,36 @@ pub struct Estimate {
     pub joints: usize,
     /// Number of those that are glued; the others are plugged.
     pub glued_joints: usize,
+    /// Number of panels.
+    pub panels: usize,
+    /// Number of tabs.
+    pub tabs: usize,
+    /// Width of the narrowest tab, mm.
+    pub least_tab_mm: Option<f64>,
     /// Weight of the paper, g/m².
     pub weight: f64,
+}
+
+/// How hard a model is to build.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Difficulty {
+    /// For a first try, or for children with help.
+    Easy,
+    /// For an afternoon.
+    Medium,
+    /// For patient hands.
+    Hard,
+}
+
+impl Difficulty {
+    /// The word for it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Easy => "easy",
+            Self::Medium => "medium",
+            Self::Hard => "hard",
+        }
+    }
 }
 
 impl Estimate {
@@ -61,6 +94,9 @@ impl Estimate {
             labels: lengths.len(),
             joints: joints().count(),
             glued_joints: joints().filter(|joint| joint.plug().is_none()).count(),
+            panels: output.nets().iter().map(|net| net.panels().panels().len()).sum(),
+            tabs: pieces().map(|p| p.tabs().len()).sum(),
+            least_tab_mm: pieces().flat_map(|p| p.tabs()).map(Tab::width_mm).min_by(f64::total_cmp),
             weight: weight.round().max(1.0) * WEIGHT_STEP,
         }
     }
@@ -74,6 +110,25 @@ impl Estimate {
             + self.joints as f64 * JOINT_MIN
     }
 
+    /// How hard it is.
+    pub fn difficulty(&self) -> Difficulty {
+        let is_within = |(minutes, tab_mm): (f64, f64)| {
+            self.minutes() <= minutes && self.least_tab_mm.is_none_or(|mm| mm >= tab_mm)
+        };
+        match (is_within(EASY), is_within(MEDIUM)) {
+            (true, _) => Difficulty::Easy,
+            (false, true) => Difficulty::Medium,
+            (false, false) => Difficulty::Hard,
+        }
+    }
+
+    /// All in a sentence: time, panels, tabs and a word for it.
+    pub fn sentence(&self) -> String {
+        let tab = self.least_tab_mm.map_or(String::new(), |mm| format!(", the narrowest {mm:.1} mm"));
+        let word = self.difficulty().name();
+        format!("{word}: about {}, {} panels, {} tabs{tab}", self.time(), self.panels, self.tabs)
+    }
+
     /// The minutes as hours and minutes.
     pub fn time(&self) -> String {
         let minutes = ((self.minutes() / STEP_MIN).ceil() * STEP_MIN) as u64;
@@ -82,5 +137,33 @@ impl Estimate {
             (hours, 0) => format!("{hours} h"),
             (hours, minutes) => format!("{hours} h {minutes} min"),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_work_and_narrow_tabs_are_hard() {
+        let base = Estimate {
+            cut_m: 1.2,
+            crease_m: 1.2,
+            glue_m: 0.5,
+            pieces: 2,
+            labels: 10,
+            joints: 1,
+            glued_joints: 1,
+            panels: 30,
+            tabs: 10,
+            least_tab_mm: Some(4.0),
+            weight: 200.0,
+        };
+        assert_eq!(base.difficulty(), Difficulty::Easy);
+        assert_eq!(Estimate { least_tab_mm: Some(2.5), ..base }.difficulty(), Difficulty::Medium);
+        assert_eq!(Estimate { least_tab_mm: Some(1.5), ..base }.difficulty(), Difficulty::Hard);
+        assert_eq!(Estimate { labels: 80, ..base }.difficulty(), Difficulty::Medium);
+        assert_eq!(Estimate { labels: 300, ..base }.difficulty(), Difficulty::Hard);
+        assert!(base.sentence().starts_with("easy: about 25 min, 30 panels, 10 tabs"), "{}", base.sentence());
     }
 }

@@ -10,26 +10,32 @@ pub enum Language {
     English,
     /// German.
     German,
+    /// French.
+    French,
+    /// Spanish.
+    Spanish,
 }
+
+/// Each language with its code (ISO 639-1) and the file of its texts.
+const LANGUAGES: [(Language, &str, &str); 4] = [
+    (Language::English, "en", include_str!("language/en.toml")),
+    (Language::German, "de", include_str!("language/de.toml")),
+    (Language::French, "fr", include_str!("language/fr.toml")),
+    (Language::Spanish, "es", include_str!("language/es.toml")),
+];
 
 impl Language {
     /// All languages.
-    pub const ALL: [Self; 2] = [Self::English, Self::German];
+    pub const ALL: [Self; LANGUAGES.len()] = [Self::English, Self::German, Self::French, Self::Spanish];
 
     /// The file of its texts.
     fn file(self) -> &'static str {
-        match self {
-            Self::English => include_str!("language/en.toml"),
-            Self::German => include_str!("language/de.toml"),
-        }
+        LANGUAGES[self as usize].2
     }
 
-    /// Its code in web pages, and on the command line (ISO 639-1).
+    /// Its code in web pages, and on the command line.
     pub fn code(self) -> &'static str {
-        match self {
-            Self::English => "en",
-            Self::German => "de",
-        }
+        LANGUAGES[self as usize].1
     }
 
     /// Its texts.
@@ -45,6 +51,13 @@ impl std::str::FromStr for Language {
         let known = || Self::ALL.map(Self::code).join(", ");
         let found = Self::ALL.into_iter().find(|language| language.code().eq_ignore_ascii_case(text.trim()));
         found.ok_or_else(|| format!("languages of the guide are: {}", known()))
+    }
+}
+
+impl Words {
+    /// A number with so many decimals, as it is written in the language.
+    pub fn number(&self, x: f64, decimals: usize) -> String {
+        format!("{x:.decimals$}").replace('.', &self.decimal)
     }
 }
 
@@ -72,12 +85,16 @@ pub fn fill(text: &str, values: &[(&str, &str)]) -> String {
 pub struct Words {
     /// The language's code.
     pub code: String,
+    /// What stands between whole numbers and their tenths.
+    pub decimal: String,
     /// On every page.
     pub page: PageWords,
     /// The first page.
     pub cover: CoverWords,
     /// Where parts are in each other.
     pub clash: ClashWords,
+    /// What to take care of in a step.
+    pub warn: WarnWords,
     /// What lines mean.
     pub lines: LinesWords,
     /// Titles of chapters.
@@ -150,6 +167,16 @@ pub struct ClashWords {
     pub almost: String,
 }
 
+/// What to take care of in a step. The fields are named in the language files.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WarnWords {
+    pub weak: String,
+    pub narrow: String,
+    pub rub: String,
+    pub own: String,
+}
+
 /// What lines mean. The fields are named in the language files.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -211,6 +238,7 @@ pub struct JoinWords {
     pub find: String,
     pub glue: String,
     pub place: String,
+    pub press: String,
 }
 
 /// Joints that can be unplugged. The fields are named in the language files.
@@ -235,6 +263,7 @@ pub struct PlugWords {
 pub struct FlattenWords {
     pub title: String,
     pub wait: String,
+    pub order: String,
     pub first: String,
     pub next: String,
     pub last: String,
@@ -282,6 +311,7 @@ mod tests {
         };
         let english = texts(Language::English);
         assert!(english.len() > 50);
+        assert_eq!(LANGUAGES.map(|(language, ..)| language), Language::ALL);
         for language in Language::ALL {
             assert_eq!(language.words().code, language.code());
             assert_eq!(language.code().parse(), Ok(language));
@@ -292,7 +322,13 @@ mod tests {
                 assert_eq!(tatamu_draw::drawing::text::printable(&other), other, "the font has all letters");
             }
         }
-        assert!("fr".parse::<Language>().is_err());
+        assert!("xx".parse::<Language>().is_err());
+    }
+
+    #[test]
+    fn numbers_are_written_as_the_language_does() {
+        let written = |language: Language| language.words().number(1234.56, 1);
+        assert_eq!([Language::English, Language::German].map(written), ["1234.6", "1234,6"]);
     }
 
     #[test]

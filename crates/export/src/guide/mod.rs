@@ -12,17 +12,19 @@ mod joined;
 mod language;
 mod leaflet;
 mod order;
+mod overview;
 mod picture;
 mod steps;
 mod vector;
 
 pub use content::{Chapter, Entry, Guide, GuideError, Line, PartRow};
-pub use estimate::Estimate;
+pub use estimate::{Difficulty, Estimate};
 pub use html::html;
 pub use joined::{Joined, Opening};
 pub use language::Language;
 pub use leaflet::leaflet;
 pub use order::{Access, FINGER_MM, FINGER_REACH_MM, Gluing, STICK_MM, STICK_REACH_MM, access, gluing_order};
+pub use overview::overview;
 pub use steps::{Action, Step, outwards, steps};
 
 #[cfg(test)]

@@ -23,10 +23,12 @@ pub fn colour(output: &Output, painting: &Painting, pages: &mut [Drawing]) {
     for (sheet, picture) in pictures(output, painting) {
         under[sheet].push(picture);
     }
-    for (page, mut marks) in pages.iter_mut().zip(under) {
-        marks.extend(page.marks.iter().filter_map(halo));
-        marks.append(&mut page.marks);
-        page.marks = marks;
+    for (page, pictures) in pages.iter_mut().zip(under) {
+        let halos: Vec<Mark> = page.marks.iter().filter_map(halo).collect();
+        let (tabs, above): (Vec<Mark>, Vec<Mark>) =
+            std::mem::take(&mut page.marks).into_iter().partition(|mark| mark.layer == Layer::Tab);
+        // Tabs first, since pictures reach on to them.
+        page.marks = [tabs, pictures, halos, above].concat();
     }
 }
 
@@ -35,7 +37,7 @@ fn halo(mark: &Mark) -> Option<Mark> {
     let white = |width_mm| Stroke::solid(width_mm, Rgb::WHITE);
     let (contours, stroke) = match (&mark.shape, mark.layer) {
         (Shape::Text(text), _) => (text::contours(text, CURVE_STEPS), white(LETTER_HALO_MM)),
-        (_, Layer::Cut | Layer::Slit | Layer::Picture) => return None,
+        (_, Layer::Cut | Layer::Slit | Layer::Tab | Layer::Picture) => return None,
         (Shape::Path { contours, stroke: Some(stroke), .. }, _) => {
             let dash_mm = stroke.dash_mm.clone();
             (contours.clone(), Stroke { dash_mm, ..white(stroke.width_mm + 2.0 * LINE_HALO_MM) })

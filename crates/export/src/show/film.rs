@@ -3,11 +3,11 @@
 use super::angle::ViewAngle;
 use super::scenes::pose_scene;
 use super::still::{ShowError, Still, framed};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use tatamu_core::fold::{FoldPlan, ModelMotion, Sequence};
 use tatamu_core::model::Model;
-use tatamu_draw::drawing::Rgb;
+use tatamu_draw::drawing::{Layer, Mark, Rgb, Text};
 use tatamu_draw::pixels::rasterise;
 use tatamu_draw::render::{Scene, View};
 use tatamu_pipeline::Output;
@@ -21,6 +21,9 @@ const EXTRA_S: f64 = 0.5;
 const FRAME_S: [f64; 2] = [0.04, 0.25];
 /// Rest when deployed and when flat, seconds.
 const REST_S: f64 = 1.2;
+/// Height of capitals of captions, as a share of the picture's width.
+const CAPTION: f64 = 0.024;
+const CAPTION_INK: Rgb = Rgb(70, 70, 76);
 /// Flat components lie so far off their parents: enough to see what lies on what.
 const LIFT_MM: f64 = 0.3;
 
@@ -125,8 +128,12 @@ impl Film {
             .collect();
         let points: Vec<DVec3> = scenes.iter().flat_map(Scene::points).collect();
         let view = options.still().view(&points)?;
-        let pictures: Vec<Result<Pixmap, ShowError>> =
-            scenes.par_iter().map(|scene| shot(scene, &view)).collect();
+        let captions = Captions::new(model, &sequence);
+        let pictures: Vec<Result<Pixmap, ShowError>> = scenes
+            .par_iter()
+            .enumerate()
+            .map(|(k, scene)| shot(scene, &view, captions.at(k as f64 / last as f64)))
+            .collect();
         let pictures = pictures.into_iter().collect::<Result<Vec<_>, _>>()?;
         Ok(Self { shots: shots(last, sequence.length()), pictures })
     }
@@ -153,8 +160,34 @@ fn scene_at(motion: &ModelMotion<'_>, sequence: &Sequence, progress: f64) -> Sce
     pose_scene(motion.model(), &pose)
 }
 
-fn shot(scene: &Scene, view: &View) -> Result<Pixmap, ShowError> {
-    Ok(rasterise(&framed(scene, view, Some(Rgb::WHITE)), Still::dots_per_inch())?)
+/// What moves at each time: "2/8 head".
+struct Captions {
+    /// Progress at the end of each motion, and its caption.
+    ends: Vec<(f64, String)>,
+}
+
+impl Captions {
+    fn new(model: &Model, sequence: &Sequence) -> Self {
+        let count = sequence.motions().len();
+        let motions = sequence.motions().iter().zip(sequence.marks().into_iter().skip(1)).enumerate();
+        let caption = |k: usize, part: usize| format!("{}/{count}  {}", k + 1, model.parts()[part].name);
+        Self { ends: motions.map(|(k, (motion, end))| (end, caption(k, motion.part()))).collect() }
+    }
+
+    /// The caption at some progress; none where nothing moves, or a single component does.
+    fn at(&self, progress: f64) -> Option<&str> {
+        let is_moving = progress > 0.0 && progress < 1.0 && self.ends.len() > 1;
+        let found = self.ends.iter().find(|(end, _)| progress <= *end).filter(|_| is_moving);
+        found.map(|(_, caption)| caption.as_str())
+    }
+}
+
+fn shot(scene: &Scene, view: &View, caption: Option<&str>) -> Result<Pixmap, ShowError> {
+    let mut drawing = framed(scene, view, Some(Rgb::WHITE));
+    let cap_mm = CAPTION * view.size_mm().x;
+    let text = caption.map(|words| Text::new(words, DVec2::splat(cap_mm), cap_mm).coloured(CAPTION_INK));
+    drawing.marks.extend(text.map(|text| Mark::text(Layer::Picture, text)));
+    Ok(rasterise(&drawing, Still::dots_per_inch())?)
 }
 
 /// There, a rest, back, a rest.
@@ -179,6 +212,14 @@ mod tests {
         assert!(shots[0].duration_ms > 1000 && shots[3].duration_ms > 1000);
         assert_eq!(shots[1].duration_ms, 250);
         assert_eq!(shots.len(), 6);
+    }
+
+    #[test]
+    fn captions_name_what_moves() {
+        let ends = vec![(0.4, "1/2  head".to_owned()), (1.0, "2/2  body".to_owned())];
+        let captions = Captions { ends };
+        let told = [0.0, 0.2, 0.4, 0.7, 1.0].map(|progress| captions.at(progress));
+        assert_eq!(told, [None, Some("1/2  head"), Some("1/2  head"), Some("2/2  body"), None]);
     }
 
     #[test]

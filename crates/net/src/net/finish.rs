@@ -7,7 +7,7 @@ use super::plugs::PlugLines;
 use super::split::Split;
 use super::tabs::{Placed, USEFUL_WIDTH_MM};
 use super::{JointMark, Net, NetWarning, Piece};
-use tatamu_core::component::PanelId;
+use tatamu_core::component::{PanelId, PanelKind};
 use tatamu_core::geom::polygon::{self, intersect_convex};
 
 /// The least area of a joint on a part of a split panel that is worth a mark, mm².
@@ -33,18 +33,23 @@ fn piece(made: &Made, blank: &Blank, joints: &[JointMark]) -> Piece {
     });
     placer.joint_texts();
     placer.lead();
-    placer.name(&blank.name);
-    if made.options.choices.angles {
-        placer.angles(|kind| angle(made, kind));
+    if let Some(top) = blank.panels.iter().find(|p| p.kind == PanelKind::Top) {
+        placer.push(top.panel);
     }
+    placer.name(&blank.name);
+    placer.angles(|kind| angle(made, kind));
     let Texts { labels, leaders, unplaced } = placer.finish();
     Piece { blank: blank.clone(), joints, labels, leaders, unplaced_labels: unplaced }
 }
 
-/// The angle that is written beside a crease, if one is.
+/// What is written beside a crease: its angle when unfolded, if that was asked for, else 180° at those
+/// that fold flat, so that one finds them.
 fn angle(made: &Made, kind: &EdgeKind) -> Option<String> {
     let EdgeKind::Hinge(h) = kind else { return None };
     let hinge = made.split.set.hinges()[h.0];
+    if !made.options.choices.angles {
+        return hinge.is_fold.then(|| "180°".to_owned());
+    }
     let is_drawn = hinge.is_fold || hinge.deployed_rad.abs() >= made.options.choices.hide_below_rad;
     is_drawn.then(|| format!("{:.0}°", hinge.deployed_rad.to_degrees()))
 }

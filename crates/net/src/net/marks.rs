@@ -6,7 +6,7 @@ use super::{FaceKind, Label, LabelKind, Piece};
 use glam::DVec2;
 use std::f64::consts::FRAC_PI_4;
 use tatamu_core::component::PanelSet;
-use tatamu_draw::drawing::{Align, Layer, Mark, Polyline, Stroke, Text};
+use tatamu_draw::drawing::{Align, Layer, LineStyles, Mark, Polyline, Stroke, Text, text};
 
 /// How a crease is folded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -93,22 +93,21 @@ pub enum Side {
 const DOT_MM: f64 = 0.35;
 
 impl Piece {
-    /// The piece's marks in its own coordinates, seen from outside: the contour as one closed
-    /// path, every cut line once, creases, joint outlines, texts. `stroke_of` gives the look of
-    /// each layer, `side` the layer of creases.
-    pub fn marks(&self, side: Side, stroke_of: impl Fn(Layer) -> Stroke) -> Vec<Mark> {
+    /// The piece's marks in its own coordinates, seen from outside: tabs as areas, the contour as one
+    /// closed path, every cut line once, creases, joint outlines, texts. `side` decides the layer of
+    /// creases; the places of joints are outside alone, since a closed component has no inside to glue on.
+    pub fn marks(&self, side: Side, styles: &LineStyles) -> Vec<Mark> {
+        let stroke_of = |layer: Layer| styles.stroke(layer).clone();
         let path = |layer: Layer, contour: Polyline, part: String| {
             Mark::path(layer, vec![contour], Some(stroke_of(layer)), None).of_part(part)
         };
         let closed = |points: &[DVec2]| Polyline::closed(points.to_vec());
-        let mut marks = Vec::new();
-        for joint in &self.joints {
-            let panel = self.blank.panels.iter().find(|p| p.panel == joint.panel);
-            let panel = panel.map_or_else(String::new, |p| p.kind.short_name());
-            if joint.is_glued {
-                marks.push(path(Layer::Glue, closed(&joint.outline), panel.clone()));
-            }
-            marks.push(path(Layer::Glue, closed(&joint.key), format!("{panel} key")));
+        let tabs = self.tabs().iter().filter_map(|tab| {
+            Some(Mark::area(Layer::Tab, &tab.outline, styles)?.of_part(format!("tab {}", tab.label)))
+        });
+        let mut marks: Vec<Mark> = tabs.collect();
+        if side == Side::Outside {
+            marks.extend(self.joint_marks(styles));
         }
         for area in &self.blank.glue_areas {
             let [start, end, far, near] = area.outline;
@@ -135,7 +134,34 @@ impl Piece {
             let dot = Mark::filled(Layer::Label, dot.collect(), stroke_of(Layer::Label).colour);
             marks.push(dot.of_part("leader"));
         }
-        marks.extend(self.labels.iter().map(|label| label_mark(label, &stroke_of)));
+        let others = self.labels.iter().filter(|label| label.kind != LabelKind::Joint);
+        marks.extend(others.flat_map(|label| label_marks(label, styles)));
+        marks.into_iter().map(|mark| mark.of_piece(self.name())).collect()
+    }
+
+    /// The places of joints alone, seen from outside: outlines, keys, and the names of what is glued there.
+    pub fn joint_marks(&self, styles: &LineStyles) -> Vec<Mark> {
+        let stroke_of = |layer: Layer| styles.stroke(layer).clone();
+        let path = |layer: Layer, contour: Polyline, part: String| {
+            Mark::path(layer, vec![contour], Some(stroke_of(layer)), None).of_part(part)
+        };
+        let closed = |points: &[DVec2]| Polyline::closed(points.to_vec());
+        let mut marks = Vec::new();
+        for joint in &self.joints {
+            let panel = self.blank.panels.iter().find(|p| p.panel == joint.panel);
+            let panel = panel.map_or_else(String::new, |p| p.kind.short_name());
+            if joint.is_glued {
+                let area = Mark::area(Layer::Glue, &joint.outline, styles);
+                marks.extend(area.map(|area| area.of_part(format!("{panel} area"))));
+                marks.push(path(Layer::Glue, closed(&joint.outline), panel.clone()));
+            }
+            let look = Stroke { dash_mm: Vec::new(), ..stroke_of(Layer::Glue) };
+            let key = vec![closed(&joint.key)];
+            let key = Mark::path(Layer::Glue, key, Some(look.clone()), Some(look.colour));
+            marks.push(key.of_part(format!("{panel} key")));
+        }
+        let texts = self.labels.iter().filter(|label| label.kind == LabelKind::Joint);
+        marks.extend(texts.flat_map(|label| label_marks(label, styles)));
         marks.into_iter().map(|mark| mark.of_piece(self.name())).collect()
     }
 }
@@ -151,11 +177,36 @@ impl Crease {
     }
 }
 
-fn label_mark(label: &Label, stroke_of: &impl Fn(Layer) -> Stroke) -> Mark {
+/// A text, and the frame round it.
+fn label_marks(label: &Label, styles: &LineStyles) -> Vec<Mark> {
     let layer = if label.kind == LabelKind::Joint { Layer::Glue } else { Layer::Label };
+    let look = Stroke { dash_mm: Vec::new(), ..styles.stroke(layer).clone() };
     let text = Text::new(&label.text, label.anchor, label.cap_height_mm)
         .aligned(Align::Middle)
         .turned(label.angle_rad)
-        .coloured(stroke_of(layer).colour);
-    Mark::text(layer, text).of_part(&*label.text)
+        .coloured(look.colour);
+    let frame = (label.frame_mm > 0.0).then(|| {
+        let frame = Mark::path(layer, vec![Polyline::closed(frame(label))], Some(look), None);
+        frame.of_part(format!("{} frame", label.text))
+    });
+    frame.into_iter().chain([Mark::text(layer, text).of_part(&*label.text)]).collect()
+}
+
+/// The frame round a label: a rectangle whose ends are cut off, as on a tag.
+fn frame(label: &Label) -> Vec<DVec2> {
+    let along = DVec2::from_angle(label.angle_rad);
+    let below_mm = text::depth_mm(&label.text, label.cap_height_mm) + label.frame_mm;
+    let (half, above_mm) = (label.width_mm / 2.0 + label.frame_mm, label.cap_height_mm + label.frame_mm);
+    let corner = label.frame_mm;
+    let at = |x: f64, y: f64| label.anchor + along * x + along.perp() * y;
+    vec![
+        at(corner - half, -below_mm),
+        at(half - corner, -below_mm),
+        at(half, corner - below_mm),
+        at(half, above_mm - corner),
+        at(half - corner, above_mm),
+        at(corner - half, above_mm),
+        at(-half, above_mm - corner),
+        at(-half, corner - below_mm),
+    ]
 }

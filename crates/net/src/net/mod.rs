@@ -74,6 +74,14 @@ pub struct Tab {
     pub label: String,
 }
 
+impl Tab {
+    /// Its width, from the hinge to its far edge, mm.
+    pub fn width_mm(&self) -> f64 {
+        let [start, end, far, _] = self.outline;
+        (end - start).normalize_or_zero().perp_dot(far - start).abs()
+    }
+}
+
 /// The outline of a panel that lies on this one (or that this one lies on).
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointMark {
@@ -86,6 +94,8 @@ pub struct JointMark {
     pub key: DVec2,
     /// Text: the partner's name.
     pub text: String,
+    /// A shorter text, where the name has no room: the letter that the partner's labels begin with.
+    pub short: String,
     /// What is cut there; none where the two are glued.
     pub plug: Option<PlugLines>,
 }
@@ -114,6 +124,8 @@ pub enum LabelKind {
     Joint,
     /// Name of the piece.
     Name,
+    /// Where the component is pushed down so that it folds flat: its top panel.
+    Push,
     /// Angle of a crease in the deployed state.
     Angle,
 }
@@ -154,6 +166,8 @@ pub struct Label {
     pub cap_height_mm: f64,
     /// Length of the text, mm.
     pub width_mm: f64,
+    /// Paper between the text and the frame round it, mm; 0 without a frame.
+    pub frame_mm: f64,
 }
 
 /// One connected cut-out.

@@ -117,6 +117,7 @@ fn joint_marks(model: &Model, p: usize) -> Vec<JointMark> {
             outline: model.outline_on(partner, own),
             key: on_panel(model, own, key_point(model, above)),
             text: parts[partner.0].name.clone(),
+            short: prefix(partner.0),
             plug: PlugLines::of(joint, p == child),
         });
     }

@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 use tatamu_draw::drawing::text::{shortened, width_mm};
-use tatamu_draw::drawing::{Align, Layer, LineStyles, Mark, Text};
+use tatamu_draw::drawing::{Align, Layer, LineStyles, Mark, Stroke, Text};
 
 /// Capital height of all texts in the strip.
 const CAP_MM: f64 = 1.9;
@@ -31,6 +31,8 @@ const TICK_GAP_MM: f64 = 1.2;
 const MIN_TITLES_MM: f64 = 35.0;
 /// Length of a line in the full and in the short legend.
 const SAMPLES_MM: [f64; 2] = [11.0, 8.0];
+/// Height of a tab in the legend.
+const TAB_SAMPLE_MM: f64 = 2.6;
 /// Distance between a line in the legend and its word.
 const WORD_GAP_MM: f64 = 1.5;
 
@@ -45,10 +47,8 @@ pub struct Furniture<'a> {
     pub title: &'a str,
     /// What follows the name where there is room, such as the model's size; may be empty.
     pub note: &'a str,
-    /// Number of this page, from 1.
-    pub page: usize,
-    /// How many pages there are.
-    pub pages: usize,
+    /// What tells this page from others, such as "sheet 1 of 4".
+    pub number: &'a str,
     /// The kinds of lines to explain; layers that are no kind of line are left out.
     pub legend: &'a [Layer],
 }
@@ -96,6 +96,7 @@ fn words(layer: Layer) -> Option<[&'static str; 2]> {
         Layer::Valley => Some(["fold up (valley)", "valley"]),
         Layer::FoldHinge => Some(["fold flat 180°", "180°"]),
         Layer::Glue => Some(["glue here", "glue"]),
+        Layer::Tab => Some(["tab", "tab"]),
         Layer::Label | Layer::Furniture | Layer::Registration | Layer::Picture => None,
     }
 }
@@ -188,6 +189,21 @@ impl Strip {
         Mark::text(Layer::Furniture, text.coloured(styles.colour(Layer::Furniture)))
     }
 
+    /// A piece of a line, or of a tab.
+    fn sample(&self, entry: &Entry, [x, y]: [f64; 2], styles: &LineStyles) -> Option<Mark> {
+        if entry.layer == Layer::Tab {
+            let (end, half) = (x + entry.sample_mm, TAB_SAMPLE_MM / 2.0);
+            let corners = [[x, y - half], [end, y - half], [end - half, y + half], [x + half, y + half]];
+            let corners = corners.map(|corner| self.corner + DVec2::from(corner));
+            let area = Mark::area(Layer::Tab, &corners, styles)?;
+            return Some(Mark { layer: Layer::Furniture, ..area });
+        }
+        let look = styles.stroke(entry.layer).clone();
+        let stroke = Stroke { colour: styles.colour(Layer::Furniture), ..look };
+        let [from, to] = [[x, y], [x + entry.sample_mm, y]].map(|p| self.corner + DVec2::from(p));
+        Some(Mark::line(Layer::Furniture, from, to, &stroke))
+    }
+
     /// The bar between the middles of its end ticks, a tick at every centimetre, and its words.
     fn scale_bar(&self, styles: &LineStyles) -> Vec<Mark> {
         let Some(bar_mm) = self.bar_mm else {
@@ -216,8 +232,7 @@ impl Strip {
 
     /// Name and note above the page number beside the bar, or all on a line above the bar.
     fn titles(&self, furniture: &Furniture, styles: &LineStyles) -> [Mark; 2] {
-        let page = format!("page {} of {}", furniture.page, furniture.pages);
-        let page = shortened(&page, CAP_MM, self.width_mm);
+        let page = shortened(furniture.number, CAP_MM, self.width_mm);
         let (room_mm, title_base_mm, page_base_mm) = if self.has_titles_beside() {
             (self.room_mm(), self.words_base_mm(), self.bar_base_mm())
         } else {
@@ -238,15 +253,23 @@ impl Strip {
         ]
     }
 
-    /// Each kind of line with its word, spread over the width but not too far apart.
+    /// Each kind of line with its word, spread over the width but not too far apart. Samples have the colour
+    /// of all that belongs to the page, since a laser cuts by colours; nothing where they would then look
+    /// the same.
     fn legend_marks(&self, styles: &LineStyles) -> Vec<Mark> {
+        let look = |layer: Layer| (styles.stroke(layer).width_mm, &styles.stroke(layer).dash_mm);
+        let folds = self.legend.iter().map(|entry| entry.layer).filter(|layer| layer.is_worked());
+        let is_told = folds.clone().any(|layer| look(layer) != look(Layer::Cut));
+        if !is_told {
+            return Vec::new();
+        }
         let (entries_mm, gaps) = legend_mm(&self.legend);
         let gap_mm = ((self.width_mm - entries_mm) / gaps.max(1) as f64).min(MAX_GAP_MM);
         let mut x = 0.0;
         let mut marks = Vec::with_capacity(2 * self.legend.len());
         for entry in &self.legend {
             let y = CAP_MM / 2.0;
-            marks.push(self.line([x, y], [x + entry.sample_mm, y], entry.layer, styles));
+            marks.extend(self.sample(entry, [x, y], styles));
             let word = [x + entry.sample_mm + WORD_GAP_MM, 0.0];
             marks.push(self.text(entry.word.to_owned(), word, Align::Start, styles));
             x += entry.width_mm() + gap_mm;
@@ -265,8 +288,14 @@ mod tests {
         [[210.0, 297.0], [215.9, 279.4], [297.0, 210.0], [148.0, 210.0], [100.0, 150.0], [50.0, 50.0]];
 
     fn strip_on(size_mm: DVec2, margin_mm: f64, title: &str) -> Vec<Mark> {
-        let furniture =
-            Furniture { size_mm, margin_mm, title, note: "200 mm", page: 12, pages: 34, legend: &LEGEND };
+        let furniture = Furniture {
+            size_mm,
+            margin_mm,
+            title,
+            note: "200 mm",
+            number: "sheet 12 of 34",
+            legend: &LEGEND,
+        };
         furniture.marks(&LineStyles::standard())
     }
 
@@ -322,6 +351,32 @@ mod tests {
         }
     }
 
+    /// A laser cuts what has the colours of cuts and creases, wherever it stands on the page.
+    #[test]
+    fn nothing_in_the_strip_has_a_colour_that_cuts() {
+        let styles = LineStyles::built_in("laser").unwrap();
+        let worked =
+            Layer::ALL.into_iter().filter(|layer| layer.is_worked()).map(|layer| styles.colour(layer));
+        let worked: Vec<_> = worked.collect();
+        let size_mm = DVec2::new(210.0, 297.0);
+        let furniture = Furniture {
+            size_mm,
+            margin_mm: 10.0,
+            title: "a",
+            note: "",
+            number: "sheet 1 of 1",
+            legend: &LEGEND,
+        };
+        let marks = furniture.marks(&styles).into_iter().chain(furniture.side_bar(&styles));
+        for mark in marks {
+            match mark.shape {
+                Shape::Path { stroke: Some(stroke), .. } => assert!(!worked.contains(&stroke.colour)),
+                Shape::Text(text) => assert!(!worked.contains(&text.colour) && text.content != "cut"),
+                Shape::Path { .. } | Shape::Image(_) => {}
+            }
+        }
+    }
+
     #[test]
     fn a_tiny_sheet_drops_the_legend_and_keeps_a_bar() {
         let on_a4 = texts(&strip_on(DVec2::new(210.0, 297.0), 10.0, "teddy"));
@@ -330,6 +385,6 @@ mod tests {
         let tiny = texts(&strip_on(DVec2::new(100.0, 150.0), 10.0, "teddy"));
         assert!(!tiny.iter().any(|t| t.contains("mountain")));
         assert!(tiny.iter().any(|t| t.starts_with("50 mm: print")), "{tiny:?}");
-        assert!(tiny.contains(&"page 12 of 34".to_owned()));
+        assert!(tiny.contains(&"sheet 12 of 34".to_owned()));
     }
 }

@@ -14,6 +14,7 @@ mod registration;
 pub use calibration::{Calibration, CalibrationError};
 pub use layout::{Layout, LayoutError};
 pub use options::{SheetChoices, SheetOptions};
+pub use pages::Imprint;
 pub use pin::{Pin, Unheeded};
 pub use place::PiecePlace;
 pub use registration::Registration;

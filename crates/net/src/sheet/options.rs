@@ -26,8 +26,10 @@ pub struct SheetOptions {
 /// What the user may choose about sheets, besides paper and margin.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SheetChoices {
-    /// The printed side.
+    /// The side with lines and labels.
     pub side: Side,
+    /// Whether the other side is printed too, with what is glued on there.
+    pub is_duplex: bool,
     /// Angles at which pieces may lie.
     pub rotation: Rotation,
     /// Least distance between pieces, mm.
@@ -45,6 +47,7 @@ impl Default for SheetChoices {
     fn default() -> Self {
         Self {
             side: Side::Outside,
+            is_duplex: false,
             rotation: Rotation::Free,
             spacing_mm: DEFAULT_SPACING_MM,
             effort: DEFAULT_EFFORT,
@@ -82,7 +85,7 @@ impl SheetOptions {
             Side::Inside => [Layer::Valley, Layer::Mountain],
         };
         let folds = &folds[..if self.has_valleys { 2 } else { 1 }];
-        [&[Layer::Cut, Layer::Slit], folds, &[Layer::FoldHinge, Layer::Glue]].concat()
+        [&[Layer::Cut, Layer::Slit], folds, &[Layer::FoldHinge, Layer::Tab, Layer::Glue]].concat()
     }
 
     fn strip_mm(&self) -> f64 {

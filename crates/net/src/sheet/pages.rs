@@ -4,26 +4,40 @@ use super::furniture::Furniture;
 use super::{Layout, SheetOptions};
 use crate::net::{Net, Side};
 use glam::DVec2;
-use tatamu_draw::drawing::{Drawing, Layer, LineStyles, Mark, Text, text};
+use tatamu_draw::drawing::{Align, Drawing, Layer, LineStyles, Mark, Text, text};
 
 /// Height of capitals in the list of labels without a place.
 const LOST_CAP_MM: f64 = 2.0;
 /// Distance of its lines.
 const LOST_LINE_MM: f64 = 3.6;
+/// Half the size of the crosses that both sides of a sheet have.
+const CROSS_MM: f64 = 2.0;
 /// What the list begins with.
 const LOST: &str = "no room on the piece for ";
+
+/// What pages say of the model.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Imprint<'a> {
+    /// Its name.
+    pub title: &'a str,
+    /// What follows the name, such as its size; may be empty.
+    pub note: &'a str,
+    /// What stands above the first sheet where there is room, such as the order of folding; may be empty.
+    pub advice: &'a str,
+}
 
 impl Layout {
     /// One drawing for each sheet, in true size: what a printer makes of it is not considered. A
     /// list of labels without a place that is too long for its sheet has a page of its own.
-    pub fn pages(&self, nets: &[Net], title: &str, note: &str, styles: &LineStyles) -> Vec<Drawing> {
+    pub fn pages(&self, nets: &[Net], imprint: Imprint<'_>, styles: &LineStyles) -> Vec<Drawing> {
         let options = self.options();
+        let title = imprint.title;
         let mut pages: Vec<Drawing> =
             (0..self.sheet_count()).map(|_| Drawing::new(title, options.size_mm())).collect();
         let mut lost: Vec<Vec<String>> = vec![Vec::new(); pages.len()];
         for (n, net) in nets.iter().enumerate() {
             for (piece, at) in net.pieces().iter().zip(self.places(n)) {
-                let marks = piece.marks(options.choices.side, |layer| styles.stroke(layer).clone());
+                let marks = piece.marks(options.choices.side, styles);
                 let placed = marks.into_iter().map(|mark| mark.placed(at.place));
                 pages[at.sheet].marks.extend(placed.map(|mark| on_side(mark, options).righted()));
                 let texts = piece.unplaced_labels().iter();
@@ -32,9 +46,13 @@ impl Layout {
         }
         let mut rest = Vec::new();
         for (k, page) in pages.iter_mut().enumerate() {
-            let lines = wrapped(&lost[k], text_width_mm(options));
-            let room_mm = options.border_mm() - LOST_LINE_MM;
-            if lines.len() as f64 * LOST_LINE_MM <= room_mm {
+            let mut lines = wrapped(&lost[k], text_width_mm(options));
+            let has_room = |lines: usize| lines as f64 * LOST_LINE_MM <= head_mm(options);
+            if has_room(lines.len()) {
+                let fits = text::width_mm(imprint.advice, LOST_CAP_MM) <= text_width_mm(options);
+                if k == 0 && fits && !imprint.advice.is_empty() && has_room(lines.len() + 1) {
+                    lines.insert(0, imprint.advice.to_owned());
+                }
                 let top_mm = LOST_LINE_MM * (lines.len() as f64 + 0.4);
                 page.marks.extend(list(
                     &lines,
@@ -48,24 +66,69 @@ impl Layout {
             }
         }
         pages.extend(list_pages(&rest, title, options, styles));
-        let count = pages.len();
+        let count = self.sheet_count();
         for (k, page) in pages.iter_mut().enumerate() {
+            let number = if k < count {
+                format!("sheet {} of {count}", k + 1)
+            } else {
+                "labels of the sheets".to_owned()
+            };
             let furniture = Furniture {
                 size_mm: options.size_mm(),
                 margin_mm: options.border_mm(),
                 title,
-                note,
-                page: k + 1,
-                pages: count,
+                note: imprint.note,
+                number: &number,
                 legend: &options.legend(),
             };
             page.marks.extend(furniture.marks(styles));
             page.marks.extend(furniture.side_bar(styles));
+            if options.choices.is_duplex {
+                page.marks.extend(crosses(options, styles));
+            }
             page.marks
                 .extend(options.choices.registration.iter().flat_map(|r| r.marks(page.size_mm, styles)));
         }
         pages
     }
+}
+
+impl Layout {
+    /// The other sides of the sheets, where both are printed: outside, the places of joints. Four crosses are
+    /// at the same places of both sides, to check that they lie on each other.
+    pub fn outside_pages(&self, nets: &[Net], imprint: Imprint<'_>, styles: &LineStyles) -> Vec<Drawing> {
+        let options = self.options();
+        let sheets = if options.choices.is_duplex { self.sheet_count() } else { 0 };
+        let mut pages: Vec<Drawing> =
+            (0..sheets).map(|_| Drawing::new(imprint.title, options.size_mm())).collect();
+        for (k, page) in pages.iter_mut().enumerate() {
+            page.marks.extend(crosses(options, styles));
+            let words = format!("{} · outside of sheet {} of {sheets}", imprint.title, k + 1);
+            let at = DVec2::new(options.size_mm().x / 2.0, options.border_mm() / 2.0);
+            let text = Text::new(words, at, LOST_CAP_MM).aligned(Align::Middle);
+            page.marks.push(Mark::text(Layer::Furniture, text.coloured(styles.colour(Layer::Furniture))));
+        }
+        for (n, net) in nets.iter().enumerate().filter(|_| sheets > 0) {
+            for (piece, at) in net.pieces().iter().zip(self.places(n)) {
+                let placed =
+                    piece.joint_marks(styles).into_iter().map(|mark| mark.placed(at.place).righted());
+                pages[at.sheet].marks.extend(placed);
+            }
+        }
+        pages
+    }
+}
+
+/// Crosses in the corners of the border, which a mirror leaves where they are.
+fn crosses(options: &SheetOptions, styles: &LineStyles) -> Vec<Mark> {
+    let (size_mm, inset_mm) = (options.size_mm(), options.border_mm() / 2.0);
+    let stroke = styles.stroke(Layer::Furniture);
+    let corners = [DVec2::ONE, DVec2::new(-1.0, 1.0), DVec2::NEG_ONE, DVec2::new(1.0, -1.0)];
+    let arms = corners.into_iter().flat_map(|sign| {
+        let at = size_mm / 2.0 + (size_mm / 2.0 - inset_mm) * sign;
+        [DVec2::X, DVec2::Y].map(|arm| (at - arm * CROSS_MM, at + arm * CROSS_MM))
+    });
+    arms.map(|(from, to)| Mark::line(Layer::Furniture, from, to, stroke)).collect()
 }
 
 /// A mark as it is on the printed side of the paper.
@@ -74,6 +137,11 @@ fn on_side(mark: Mark, options: &SheetOptions) -> Mark {
         Side::Outside => mark,
         Side::Inside => mark.mirrored(options.size_mm().x / 2.0),
     }
+}
+
+/// Height above the pieces that may be printed on: cutters that look for marks want it white.
+fn head_mm(options: &SheetOptions) -> f64 {
+    if options.choices.registration.is_some() { 0.0 } else { options.border_mm() - LOST_LINE_MM }
 }
 
 fn text_width_mm(options: &SheetOptions) -> f64 {

@@ -10,10 +10,23 @@ use tatamu_core::design::RefitError;
 use tatamu_core::model::{Model, ModelPart};
 use tatamu_core::remedy::Remedy;
 use tatamu_net::net::Net;
+use tatamu_net::sheet::Layout;
 
 /// Something that the user should know about components or joints.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ModelWarning {
+    /// The model is too small for hands.
+    TinyModel {
+        /// Its longest side.
+        size_mm: f64,
+    },
+    /// The model takes more paper than most people mean.
+    ManySheets {
+        /// Number of sheets.
+        sheets: usize,
+        /// Name of their paper.
+        paper: String,
+    },
     /// Parts of the mesh have no volume and were left out.
     FlatParts {
         /// How many.
@@ -87,6 +100,8 @@ pub enum PanelSide {
 }
 
 codes!(ModelWarning {
+    TinyModel => "tiny_model",
+    ManySheets => "many_sheets",
     FlatParts => "flat_segment",
     NotJoined => "not_joined",
     NarrowPanel => "narrow_panel",
@@ -100,6 +115,8 @@ impl ModelWarning {
     /// What can be done, the likeliest first.
     pub fn remedies(&self) -> Vec<Remedy> {
         match self {
+            Self::TinyModel { .. } => vec![Remedy::LargerSize],
+            Self::ManySheets { .. } => vec![Remedy::SmallerSize, Remedy::LargerPaper],
             Self::FlatParts { .. } | Self::NotJoined { .. } | Self::StaysConvex { .. } => Vec::new(),
             Self::NarrowPanel { .. } => vec![Remedy::FewerPanels, Remedy::LargerSize],
             Self::ToleranceMissed { .. } => vec![Remedy::MorePanels],
@@ -112,8 +129,17 @@ impl ModelWarning {
 impl fmt::Display for ModelWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::TinyModel { size_mm } => {
+                write!(
+                    f,
+                    "the model is only {size_mm} mm long, which is too small to fold; 20 cm is a usual size"
+                )
+            }
+            Self::ManySheets { sheets, paper } => write!(f, "the model takes {sheets} sheets of {paper}"),
             Self::FlatParts { parts, faces } => {
-                write!(f, "{parts} flat parts of {faces} faces in all have no volume and were left out")
+                let (parts_have, were) =
+                    if *parts == 1 { ("part has", "was") } else { ("parts have", "were") };
+                write!(f, "{parts} flat {parts_have} no volume and {were} left out (faces: {faces})")
             }
             Self::NotJoined { roots } => write!(
                 f,
@@ -150,6 +176,18 @@ impl fmt::Display for ModelWarning {
     }
 }
 
+/// Models that are smaller have panels that no finger holds: at 50 mm those of the samples are 3 to 15 mm wide.
+const TINY_MM: f64 = 50.0;
+/// More sheets than anybody cuts unless it is meant: a model of a metre, with eight components, takes about 90 of A4.
+const MANY_SHEETS: usize = 60;
+
+/// A warning where a model takes very many sheets.
+pub(crate) fn many_sheets(layout: &Layout) -> Option<ModelWarning> {
+    let sheets = layout.sheet_count();
+    let paper = || layout.options().paper.name();
+    (sheets > MANY_SHEETS).then(|| ModelWarning::ManySheets { sheets, paper: paper() })
+}
+
 /// An error of this share of its thickness changes a component's looks,
 const SWOLLEN: f64 = 0.3;
 /// and comes from the least size of panels where it is thinner than so many of them.
@@ -158,6 +196,9 @@ const THIN_PANELS: f64 = 4.0;
 /// What is to be known about a model and its nets.
 pub(crate) fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Options) -> Vec<Warning> {
     let mut out: Vec<Warning> = Vec::new();
+    if options.size_mm < TINY_MM {
+        out.push(ModelWarning::TinyModel { size_mm: options.size_mm }.into());
+    }
     if !flat.is_empty() {
         out.push(ModelWarning::FlatParts { parts: flat.len(), faces: flat.iter().sum() }.into());
     }

@@ -64,7 +64,8 @@ impl TrialWarning {
             }
             Self::Helps { change: helps, before, left } => {
                 let helps = change(*helps);
-                format!("{helps} was tried, and leaves {left} such problems instead of {before}")
+                let problems = if *left == 1 { "problem" } else { "problems" };
+                format!("{helps} was tried, and leaves {left} such {problems} instead of {before}")
             }
             Self::NoneHelps { tried, before } => {
                 let tried: Vec<String> = tried.iter().map(|tried| change(*tried)).collect();

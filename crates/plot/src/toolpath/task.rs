@@ -41,7 +41,7 @@ impl Operation {
             Layer::Mountain | Layer::Valley => Some(Self::Crease),
             Layer::FoldHinge => Some(Self::FoldHinge),
             Layer::Cut | Layer::Slit => Some(Self::Cut),
-            Layer::Furniture | Layer::Registration | Layer::Picture => None,
+            Layer::Tab | Layer::Furniture | Layer::Registration | Layer::Picture => None,
         }
     }
 }

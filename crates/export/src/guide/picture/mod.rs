@@ -27,7 +27,7 @@ const THERE: Rgb = Rgb(214, 214, 218);
 const GLUED: Rgb = Rgb(255, 226, 120);
 
 /// A scene with marks over it; faces that are not seen are left out.
-fn taken(scene: &Scene, view: &View, over: Vec<Mark>) -> Drawing {
+pub(super) fn taken(scene: &Scene, view: &View, over: Vec<Mark>) -> Drawing {
     let look = Look { relief: RELIEF, ..Look::for_size(view.size_mm()) };
     let mut drawing = picture(scene, view, &look, None, Vec::new());
     drawing.marks = seen(drawing.marks, view.size_mm());

@@ -1,5 +1,6 @@
 //! Arrows, labels and dotted lines over pictures.
 
+use super::GLUED;
 use glam::DVec2;
 use tatamu_core::geom::polygon;
 use tatamu_draw::drawing::{Align, Layer, Mark, Rgb, Stroke, Text, text};
@@ -120,10 +121,11 @@ fn disc(centre: DVec2, radius: f64) -> Vec<DVec2> {
     (0..16).map(corner).collect()
 }
 
-/// The outline of what is glued on, with its mark of orientation.
+/// The area of what is glued on, with its outline and its mark of orientation.
 pub fn joint(outline: Vec<DVec2>, key: Vec<DVec2>) -> Vec<Mark> {
     let dashed = Stroke { width_mm: 0.6, colour: GLUE, dash_mm: vec![1.6, 1.0] };
     vec![
+        Mark::filled(Layer::Picture, outline.clone(), GLUED),
         Mark::polygon(Layer::Picture, outline.clone(), &Stroke::solid(1.1, Rgb::WHITE)),
         Mark::polygon(Layer::Picture, outline, &dashed),
         Mark::filled(Layer::Picture, key, GLUE),

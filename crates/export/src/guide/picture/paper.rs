@@ -26,7 +26,7 @@ pub fn net(net: &Net, colour: Rgb, side: Side, styles: &LineStyles, size_mm: DVe
         let shift = DAffine2::from_translation(DVec2::X * right);
         right += piece.size_mm().x * (1.0 + GAP);
         let paper = Mark::filled(Layer::Picture, piece.outline().to_vec(), colour);
-        let lines = piece.marks(side, |layer| styles.stroke(layer).clone()).into_iter();
+        let lines = piece.marks(side, styles).into_iter();
         let lines = lines.filter(|mark| matches!(mark.shape, Shape::Path { .. }));
         let mirror_mm = piece.size_mm().x / 2.0;
         let on_side = |mark: Mark| match side {

@@ -1,7 +1,7 @@
 //! Marks and texts where components are glued together.
 
 use super::leader::Waiting;
-use super::{LabelKind, NAME_CAPS_MM, Placer, spots};
+use super::{JOINT_CAPS_MM, LabelKind, Placer, spots};
 use crate::net::{JointMark, PlacedJoint};
 use glam::{DAffine2, DVec2};
 use tatamu_core::component::PanelId;
@@ -11,7 +11,7 @@ use tatamu_core::geom::polygon::{self, depth_outside, intersect_convex};
 const TARGET_MM: f64 = 0.3;
 const TARGETS: usize = 40;
 /// Size of the triangle that shows which way round a joint goes, mm.
-const KEY_MM: f64 = 4.0;
+const KEY_MM: f64 = 6.0;
 
 impl Placer<'_> {
     /// Draws the joints of this piece's panels. The outline is clipped to the panel.
@@ -36,17 +36,20 @@ impl Placer<'_> {
             self.avoid(polygon::edges(&inside).map(|(a, b)| [a, b]));
             self.avoid(polygon::edges(&key).map(|(a, b)| [a, b]));
             self.covered.push(inside.clone());
-            self.joint_texts.push((mark.text.clone(), inside.clone()));
+            self.joint_texts.push(([mark.text.clone(), mark.short.clone()], inside.clone()));
             let is_glued = mark.plug.is_none();
             out.push(PlacedJoint { panel: mark.panel, outline: inside, key, is_glued });
         }
         out
     }
 
-    /// The text of each joint in its outline; after the labels of edges, which have less choice.
+    /// The text of each joint in its outline, or a short one; after the labels of edges, which have
+    /// less choice.
     pub(crate) fn joint_texts(&mut self) {
-        for (text, area) in std::mem::take(&mut self.joint_texts) {
-            if !self.in_area(&area, &text, &NAME_CAPS_MM, LabelKind::Joint) {
+        for ([text, short], area) in std::mem::take(&mut self.joint_texts) {
+            let is_placed =
+                [&text, &short].into_iter().any(|t| self.in_area(&area, t, &JOINT_CAPS_MM, LabelKind::Joint));
+            if !is_placed {
                 // Those nearest to its middle; one that a line reaches is often farther out.
                 let targets = spots(&area).into_iter().filter(|&at| depth_outside(&area, at) < -TARGET_MM);
                 let targets = targets.take(TARGETS).collect();

@@ -2,7 +2,7 @@
 //! line to its place.
 
 use super::{
-    FOREIGN_MM, LINE_GAP_MM, LabelKind, Leader, NAME_CAPS_MM, Placer, Wanted, is_foreign, longest_edge,
+    FOREIGN_MM, JOINT_CAPS_MM, LINE_GAP_MM, LabelKind, Leader, Placer, Wanted, is_foreign, longest_edge,
     spots, text_box,
 };
 use glam::DVec2;
@@ -58,7 +58,7 @@ impl Placer<'_> {
         };
         let mut outlines = self.panels().map(|f| &self.outlines[f]);
         let panel = outlines.find(|o| depth_outside(o, target) <= 0.0).cloned();
-        panel.is_some_and(|p| self.in_area(&p, &waiting.text, &NAME_CAPS_MM, waiting.kind))
+        panel.is_some_and(|p| self.in_area(&p, &waiting.text, &JOINT_CAPS_MM, waiting.kind))
     }
 
     fn lead_one(&mut self, waiting: &Waiting, caps_mm: [f64; 2]) -> bool {

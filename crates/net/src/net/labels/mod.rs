@@ -17,8 +17,15 @@ use tatamu_draw::drawing::text;
 
 /// Heights of capitals that are tried for labels, mm.
 const LABEL_CAPS_MM: [f64; 5] = [3.0, 2.75, 2.5, 2.25, 2.0];
-/// Heights for the piece's name and joint texts.
-const NAME_CAPS_MM: [f64; 5] = [4.0, 3.5, 3.0, 2.5, 2.0];
+/// Heights for the piece's name.
+const NAME_CAPS_MM: [f64; 6] = [4.5, 4.0, 3.5, 3.0, 2.5, 2.0];
+/// Heights of texts in the outlines of joints.
+const JOINT_CAPS_MM: [f64; 4] = [3.0, 2.5, 2.25, 2.0];
+/// Heights for the mark of the top panel, and its texts.
+const PUSH_CAPS_MM: [f64; 3] = [3.0, 2.5, 2.0];
+const PUSH: [&str; 2] = ["push down", "push"];
+/// Paper between the text of a joint and its frame, against the height of its capitals.
+const FRAME: f64 = 0.3;
 /// A leader line begins this far from texts that are not its own: from 2.2 mm on, the label D5 of the
 /// snowman was read for the one whose line began there. Where that cannot be, it is half of it.
 const FOREIGN_MM: f64 = 2.6;
@@ -46,12 +53,15 @@ struct Wanted<'t> {
     width_mm: f64,
     /// How far it reaches below the middle of its capitals.
     below_mm: f64,
+    /// Paper between it and its frame; 0 without a frame.
+    frame_mm: f64,
 }
 
 impl<'t> Wanted<'t> {
     fn new(text: &'t str, kind: LabelKind, cap_mm: f64) -> Self {
         let below_mm = cap_mm / 2.0 + text::depth_mm(text, cap_mm);
-        Self { text, kind, cap_mm, width_mm: text::width_mm(text, cap_mm), below_mm }
+        let frame_mm = if kind == LabelKind::Joint { FRAME * cap_mm } else { 0.0 };
+        Self { text, kind, cap_mm, width_mm: text::width_mm(text, cap_mm), below_mm, frame_mm }
     }
 }
 
@@ -63,8 +73,8 @@ pub(crate) struct Placer<'a> {
     taken: Vec<Vec<DVec2>>,
     /// What is glued on: only labels of the edges in it and its own text go there.
     covered: Vec<Vec<DVec2>>,
-    /// Texts of joints, each with its outline.
-    joint_texts: Vec<(String, Vec<DVec2>)>,
+    /// Texts of joints, long and short, each with its outline.
+    joint_texts: Vec<([String; 2], Vec<DVec2>)>,
     /// Lines within panels that no text may cross.
     lines: Vec<[DVec2; 2]>,
     labels: Vec<Label>,
@@ -123,6 +133,27 @@ impl<'a> Placer<'a> {
         }
     }
 
+    /// The mark of the top panel, where there is room for it.
+    pub(crate) fn push(&mut self, top: PanelId) {
+        let Some(face) = self.face_of(top) else { return };
+        let panel = self.outlines[face].clone();
+        let count = self.taken.len();
+        let covered = self.covered.clone();
+        self.taken.extend(covered);
+        let anywhere = |placer: &mut Self| {
+            PUSH.iter().any(|text| placer.in_area(&panel, text, &PUSH_CAPS_MM, LabelKind::Push))
+        };
+        if anywhere(self) {
+            // What is covered is free for the texts of joints.
+            let own = self.taken.split_off(self.taken.len() - 1);
+            self.taken.truncate(count);
+            self.taken.extend(own);
+            return;
+        }
+        self.taken.truncate(count);
+        anywhere(self);
+    }
+
     /// Indices of the faces that are panels.
     fn panels(&self) -> impl Iterator<Item = usize> + use<'a> {
         let faces = self.mesh.faces();
@@ -172,6 +203,7 @@ impl<'a> Placer<'a> {
             angle_rad: along.to_angle(),
             cap_height_mm: wanted.cap_mm,
             width_mm: wanted.width_mm,
+            frame_mm: wanted.frame_mm,
         });
     }
 }
@@ -180,8 +212,9 @@ impl<'a> Placer<'a> {
 /// where letters reach there. `centre` is the middle of its capitals.
 fn text_box(centre: DVec2, direction: DVec2, wanted: Wanted) -> [DVec2; 4] {
     let along = upright(direction);
-    let aside = along * (wanted.width_mm / 2.0);
-    let (low, high) = (along.perp() * -wanted.below_mm, along.perp() * (wanted.cap_mm / 2.0));
+    let aside = along * (wanted.width_mm / 2.0 + wanted.frame_mm);
+    let (low, high) = (-wanted.below_mm - wanted.frame_mm, wanted.cap_mm / 2.0 + wanted.frame_mm);
+    let [low, high] = [low, high].map(|mm| along.perp() * mm);
     [low - aside, low + aside, high + aside, high - aside].map(|corner| centre + corner)
 }
 

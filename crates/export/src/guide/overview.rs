@@ -1,0 +1,186 @@
+//! One page about the whole model: a picture with names, the parts with their sheets, the order of folding,
+//! and how long it takes.
+
+use super::estimate::Estimate;
+use super::picture::{self, PictureError};
+use crate::product::{Product, folding_order, size_note};
+use crate::show::{ViewAngle, components_scene, upright};
+use glam::{DAffine2, DVec2, DVec3};
+use tatamu_draw::drawing::{Align, Drawing, Layer, Mark, Rgb, Stroke, Text, text};
+use tatamu_draw::render::{Callout, View, callouts, palette};
+use tatamu_pipeline::Output;
+
+/// Heights of capitals: the title, texts.
+const TITLE_MM: f64 = 6.0;
+const TEXT_MM: f64 = 2.5;
+/// Distance of lines, against the height of capitals.
+const LINE: f64 = 2.0;
+/// Height of the picture, as a share of the page's.
+const PICTURE: f64 = 0.4;
+/// Width of a column of names beside the picture, as a share of the page's.
+const NAMES: f64 = 0.2;
+/// Side of the colour before a part's name.
+const SWATCH_MM: f64 = 3.0;
+/// Where columns of the table begin, as shares of its width.
+const COLUMNS: [f64; 5] = [0.0, 0.46, 0.58, 0.70, 0.82];
+const HEADS: [&str; 5] = ["part", "pieces", "panels", "tabs", "sheets"];
+const SOFT: Rgb = Rgb(96, 96, 102);
+
+/// The page, as large as the sheets.
+///
+/// # Errors
+/// [`PictureError`]; no model is known that brings one about.
+pub fn overview(product: &Product<'_>) -> Result<Drawing, PictureError> {
+    let output = product.output();
+    let options = output.layout().options();
+    let (size_mm, border_mm) = (options.size_mm(), options.border_mm());
+    let mut page = Page {
+        drawing: Drawing::new(product.title(), size_mm),
+        left_mm: border_mm,
+        width_mm: size_mm.x - 2.0 * border_mm,
+        y_mm: size_mm.y - border_mm,
+        bottom_mm: border_mm,
+    };
+    page.write(product.title(), TITLE_MM, Rgb::BLACK);
+    let layout = output.layout();
+    let sheets = match layout.sheet_count() {
+        1 => "1 sheet".to_owned(),
+        count => format!("{count} sheets"),
+    };
+    let note = format!("{} · {sheets} of {}", size_note(output), layout.options().paper.name());
+    page.write(&note, TEXT_MM, SOFT);
+    page.picture(output)?;
+    page.write(&Estimate::new(output).sentence(), TEXT_MM, Rgb::BLACK);
+    let order = folding_order(output);
+    if order.len() > 1 {
+        page.write(&format!("fold flat in this order: {}", order.join(", ")), TEXT_MM, Rgb::BLACK);
+    }
+    page.y_mm -= TEXT_MM * LINE;
+    page.table(output);
+    Ok(page.drawing)
+}
+
+/// The page while it is filled from top to bottom.
+struct Page {
+    drawing: Drawing,
+    left_mm: f64,
+    width_mm: f64,
+    y_mm: f64,
+    bottom_mm: f64,
+}
+
+impl Page {
+    fn write(&mut self, words: &str, cap_mm: f64, colour: Rgb) {
+        for line in text::wrapped(words, cap_mm, self.width_mm) {
+            self.text(&line, 0.0, cap_mm, colour);
+            self.y_mm -= cap_mm * LINE;
+        }
+    }
+
+    /// A text whose capitals reach up to where the page is filled.
+    fn text(&mut self, words: &str, x_mm: f64, cap_mm: f64, colour: Rgb) {
+        let anchor = DVec2::new(self.left_mm + x_mm, self.y_mm - cap_mm);
+        let text = Text::new(words, anchor, cap_mm).aligned(Align::Start).coloured(colour);
+        self.drawing.marks.push(Mark::text(Layer::Furniture, text));
+    }
+
+    /// The unfolded model with the names of its components.
+    fn picture(&mut self, output: &Output) -> Result<(), PictureError> {
+        let size_mm = DVec2::new(self.width_mm, self.drawing.size_mm.y * PICTURE);
+        let column_mm = NAMES * self.width_mm;
+        let room_mm = DVec2::new(size_mm.x - 2.0 * column_mm, size_mm.y);
+        let scene = components_scene(output.model());
+        let view = View::fit(ViewAngle::default().camera()?, scene.points(), room_mm, TEXT_MM)?;
+        let low = DVec2::new(self.left_mm, self.y_mm - size_mm.y);
+        let shift = DVec2::X * column_mm;
+        let middle = |part: usize| {
+            let own = &output.model().parts()[part];
+            let corners: Vec<DVec3> =
+                own.component.panels().panels().iter().flat_map(|p| p.deployed_outline()).collect();
+            let middle = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
+            view.project((upright() * own.deployed()).transform_point3(middle)) + shift
+        };
+        let parts = output.model().parts().iter().enumerate();
+        let names: Vec<Callout> =
+            parts.map(|(k, part)| Callout { name: &part.name, at_mm: middle(k) }).collect();
+        let model = picture::taken(&scene, &view, Vec::new()).marks;
+        self.drawing.place(model, DAffine2::from_translation(low + shift));
+        let names = callouts(&names, size_mm, column_mm, TEXT_MM);
+        self.drawing.place(names, DAffine2::from_translation(low));
+        self.y_mm = low.y - TEXT_MM;
+        Ok(())
+    }
+
+    /// Each component with its pieces, panels, tabs and sheets, as far as there is room.
+    fn table(&mut self, output: &Output) {
+        let step_mm = TEXT_MM * LINE * 1.15;
+        for (head, x) in HEADS.iter().zip(COLUMNS) {
+            self.text(head, x * self.width_mm, TEXT_MM, SOFT);
+        }
+        self.y_mm -= step_mm;
+        let rule = [0.0, self.width_mm].map(|x| DVec2::new(self.left_mm + x, self.y_mm + 0.6 * TEXT_MM));
+        let stroke = Stroke::solid(0.2, SOFT);
+        self.drawing.marks.push(Mark::line(Layer::Furniture, rule[0], rule[1], &stroke));
+        let parts = output.model().parts();
+        let rows = ((self.y_mm - self.bottom_mm) / step_mm).floor().max(0.0) as usize;
+        let shown = if parts.len() <= rows { parts.len() } else { rows.saturating_sub(1) };
+        for (k, (part, net)) in parts.iter().zip(output.nets()).enumerate().take(shown) {
+            let low = DVec2::new(self.left_mm, self.y_mm - TEXT_MM - (SWATCH_MM - TEXT_MM) / 2.0);
+            let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|c| low + c * SWATCH_MM);
+            self.drawing.marks.push(Mark::filled(Layer::Furniture, square.to_vec(), palette::colour(k)));
+            let sheets: Vec<String> =
+                picture::sheets_of(output, k).iter().map(|sheet| (sheet + 1).to_string()).collect();
+            let tabs: usize = net.pieces().iter().map(|piece| piece.tabs().len()).sum();
+            let name_mm = (COLUMNS[1] - COLUMNS[0]) * self.width_mm - 2.0 * SWATCH_MM;
+            let cells = [
+                text::shortened(&part.name, TEXT_MM, name_mm),
+                net.pieces().len().to_string(),
+                net.panels().panels().len().to_string(),
+                tabs.to_string(),
+                sheets.join(", "),
+            ];
+            for (column, (cell, x)) in cells.iter().zip(COLUMNS).enumerate() {
+                let indent_mm = if column == 0 { 1.6 * SWATCH_MM } else { 0.0 };
+                self.text(cell, x * self.width_mm + indent_mm, TEXT_MM, Rgb::BLACK);
+            }
+            self.y_mm -= step_mm;
+        }
+        if shown < parts.len() {
+            self.text(&format!("and {} more", parts.len() - shown), 0.0, TEXT_MM, SOFT);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::sample;
+    use super::*;
+    use crate::report::Run;
+    use tatamu_core::mesh::Repairs;
+    use tatamu_draw::drawing::Shape;
+
+    #[test]
+    fn the_overview_names_every_part_with_its_sheets_and_stays_on_the_page() {
+        let repairs = Repairs::default();
+        let run = Run { path: "a", repairs: &repairs, stages: &[], warnings: &[], say: |w| w.to_string() };
+        let product = Product::new(sample(), "snowman", run);
+        let page = overview(&product).unwrap();
+        let texts: Vec<String> = page
+            .marks
+            .iter()
+            .filter_map(|mark| match &mark.shape {
+                Shape::Text(text) => Some(text.content.clone()),
+                Shape::Path { .. } | Shape::Image(_) => None,
+            })
+            .collect();
+        for part in sample().model().parts() {
+            let count = texts.iter().filter(|text| **text == part.name).count();
+            assert_eq!(count, 2, "{} beside the picture and in the table", part.name);
+        }
+        assert!(texts.iter().any(|text| text.starts_with("fold flat in this order")), "{texts:?}");
+        for mark in &page.marks {
+            let Some((low, high)) = mark.bounds() else { continue };
+            assert!(low.min_element() > 0.0 && high.cmplt(page.size_mm).all(), "{mark:?}");
+        }
+    }
+}

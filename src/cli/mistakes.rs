@@ -1,0 +1,86 @@
+//! What people type by mistake, answered with what they mean.
+
+use crate::app::error::AppError;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use std::path::{Path, PathBuf};
+use tatamu::units::parse_length_mm;
+
+/// Flags that other programs have, and what they are called here.
+const OTHER_NAMES: [(&str, &str); 11] = [
+    ("--pieces", "--parts"),
+    ("--components", "--parts"),
+    ("--segments-count", "--parts"),
+    ("--scale", "--size"),
+    ("--height", "--size"),
+    ("--length", "--size"),
+    ("--format", "--paper"),
+    ("--page", "--paper"),
+    ("--pages", "--sheets-max"),
+    ("--sheets", "--sheets-max"),
+    ("--axis", "--up"),
+];
+
+/// One sentence for a command line that cannot be read, where it is a known mistake.
+pub fn advice(error: &clap::Error) -> Option<String> {
+    let said = |kind| match error.get(kind) {
+        Some(ContextValue::String(text)) => Some(text.as_str()),
+        _ => None,
+    };
+    match error.kind() {
+        ErrorKind::InvalidSubcommand => {
+            let name = said(ContextKind::InvalidSubcommand)?;
+            let path = Path::new(name);
+            let is_file = path.exists() || path.extension().is_some();
+            is_file.then(|| {
+                format!(
+                    "\"{name}\" is not a command; to make a model of this file, write: tatamu make {name}"
+                )
+            })
+        }
+        ErrorKind::UnknownArgument => {
+            let flag = said(ContextKind::InvalidArg)?;
+            let (_, meant) = OTHER_NAMES.iter().find(|(other, _)| *other == flag)?;
+            Some(format!("there is no option {flag}; use {meant}, which --help explains"))
+        }
+        _ => None,
+    }
+}
+
+/// A unit that a space parts from its number is no input.
+pub fn check_inputs(inputs: &[PathBuf]) -> Result<(), AppError> {
+    let is_unit =
+        |text: &str| text.starts_with(char::is_alphabetic) && parse_length_mm(&format!("1 {text}")).is_ok();
+    let unit =
+        inputs.iter().filter(|path| !path.exists()).find_map(|path| path.to_str().filter(|t| is_unit(t)));
+    let Some(unit) = unit else { return Ok(()) };
+    Err(AppError::Options(format!(
+        "\"{unit}\" was read as another input; write a length and its unit as one word, such as --size 20{unit}"
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn flags_of_others_lead_to_flags_that_exist() {
+        let command = super::super::Cli::command();
+        let make = command.find_subcommand("make").unwrap();
+        let has = |flag: &str| make.get_arguments().any(|a| a.get_long() == flag.strip_prefix("--"));
+        for (other, meant) in OTHER_NAMES {
+            assert!(!has(other) && has(meant), "{other} {meant}");
+        }
+    }
+
+    #[test]
+    fn only_units_are_taken_for_units() {
+        let refused = |name: &str| check_inputs(&[PathBuf::from(name)]).is_err();
+        for unit in ["mm", "cm", "m", "in", "inches", "MM"] {
+            assert!(refused(unit), "{unit}");
+        }
+        for name in ["gone.obj", "2", "20mm", "", "e3", "km"] {
+            assert!(!refused(name), "{name}");
+        }
+    }
+}

@@ -1,0 +1,178 @@
+//! What people type by mistake: each becomes right, or one clear sentence.
+
+use super::*;
+
+const CUBE: (&str, &[u8]) = ("cube.off", cube::OFF.as_bytes());
+
+fn made(arguments: &[&str]) -> (Run, TempDir) {
+    let folder = folder_with(&[CUBE]);
+    let result = run(folder.path(), &[&["make", "cube.off", "--effort", "0"], arguments].concat());
+    (result, folder)
+}
+
+#[test]
+fn a_size_in_the_wrong_unit_is_told_before_anything_else() {
+    let (result, _) = made(&["--size", "20"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    let first = result.err.lines().next().unwrap();
+    assert!(first.contains("only 20 mm") && first.contains("--size"), "{}", result.err);
+    assert!(result.err.lines().count() <= 2, "{}", result.err);
+}
+
+#[test]
+fn a_unit_apart_from_its_number_is_no_input_and_replaces_nothing() {
+    let folder = folder_with(&[CUBE, ("cube.pdf", b"old")]);
+    let result = run(folder.path(), &["make", "cube.off", "--size", "20", "cm"]);
+    assert_eq!(result.code, Some(1));
+    assert!(result.err.starts_with("error: \"cm\" was read as another input"), "{}", result.err);
+    assert!(result.err.contains("--size 20cm") && result.err.lines().count() == 1, "{}", result.err);
+    assert_eq!(std::fs::read(folder.path().join("cube.pdf")).unwrap(), b"old");
+}
+
+#[test]
+fn a_size_that_nobody_folds_is_refused() {
+    for size in ["0.5mm", "9", "11m"] {
+        let (result, folder) = made(&["--size", size]);
+        assert_eq!(result.code, Some(2), "{size}");
+        assert!(result.err.contains("from 10 to 10000 mm"), "{}", result.err);
+        assert_eq!(names(&folder), ["cube.off"]);
+    }
+}
+
+#[test]
+fn very_many_sheets_are_told() {
+    let (result, _) = made(&["--size", "700"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    let told = result.err.lines().find(|line| line.contains("sheets of a4")).unwrap_or_default();
+    assert!(told.contains("--size") && told.contains("--paper"), "{}", result.err);
+}
+
+#[test]
+fn a_mesh_without_a_command_leads_to_make() {
+    let folder = folder_with(&[CUBE]);
+    let result = run(folder.path(), &["cube.off"]);
+    assert_eq!(result.code, Some(2));
+    assert!(result.err.contains("write: tatamu make cube.off"), "{}", result.err);
+    assert!(!run(folder.path(), &["mke"]).err.contains("tatamu make mke"));
+}
+
+#[test]
+fn flags_of_other_programs_lead_to_ours() {
+    for (flag, meant) in [("--pieces", "--parts"), ("--scale", "--size"), ("--sheets", "--sheets-max")] {
+        let (result, _) = made(&[flag, "5"]);
+        assert_eq!(result.code, Some(2));
+        assert!(result.err.contains(&format!("use {meant}")), "{}", result.err);
+    }
+}
+
+#[test]
+fn one_is_no_plural() {
+    let (result, _) = made(&["--size", "60"]);
+    assert!(result.out.contains("sheets      1 of a4"), "{}", result.out);
+    let folder = folder_with(&[CUBE, ("b.off", cube::OFF.as_bytes())]);
+    let several = run(folder.path(), &["make", "cube.off", "b.off", "--size", "60", "--effort", "0"]);
+    assert!(
+        several.out.contains("1 component, ") && several.out.contains("1 sheet of a4"),
+        "{}",
+        several.out
+    );
+    assert!(several.out.contains("2 models made"), "{}", several.out);
+}
+
+#[test]
+fn a_mesh_can_stand_on_its_head() {
+    let folder = folder_with(&[("a.obj", TETRAHEDRON.as_bytes())]);
+    let heights = |up: &str| {
+        let arguments = ["make", "a.obj", "--up", up, "--size", "100", "--effort", "0", "-o", "a.json"];
+        let result = run(folder.path(), &arguments);
+        assert_eq!(result.code, Some(0), "{up}: {}", result.err);
+    };
+    ["-x", "-y", "-z", "z"].into_iter().for_each(heights);
+}
+
+/// Its mesh was in another folder, and each run warned of that.
+#[test]
+fn what_init_wrote_from_another_folder_warns_of_nothing() {
+    let folder = folder_with(&[CUBE]);
+    std::fs::create_dir(folder.path().join("work")).unwrap();
+    let work = folder.path().join("work");
+    let result = run(&work, &["init", "../cube.off", "--size", "60"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    let result = run(&work, &["make", "cube.toml"]);
+    assert_eq!((result.code, result.err.as_str()), (Some(0), ""));
+    assert!(result.out.starts_with("mesh  "), "{}", result.out);
+}
+
+#[test]
+fn pages_are_counted_as_sheets() {
+    let (result, folder) = made(&["--size", "60", "-o", "a.svg", "--text", "text"]);
+    assert!(result.out.contains("sheets      1 of a4"), "{}", result.out);
+    let svg = std::fs::read_to_string(folder.path().join("a.svg")).unwrap();
+    assert!(svg.contains("sheet 1 of 1"));
+}
+
+#[test]
+fn the_size_that_fits_the_sheets_is_found() {
+    let (result, folder) = made(&["--size", "300", "--sheets-max", "2", "-o", "a.json"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    let report = report(&folder, "a.json");
+    let sheets =
+        report["sheets"]["count"].as_u64().or_else(|| report["sheets"].as_array().map(|s| s.len() as u64));
+    assert!(sheets.is_some_and(|n| n <= 2), "{}", result.out);
+    assert!(result.out.contains("sheets      2 of a4") || result.out.contains("sheets      1 of a4"));
+}
+
+#[test]
+fn a_mesh_comes_from_the_standard_input() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = assert_cmd::cargo::cargo_bin_cmd!("tatamu");
+    let arguments = ["make", "-", "--size", "60", "--effort", "0"];
+    let result = command.current_dir(folder.path()).args(arguments).write_stdin(cube::OFF).output().unwrap();
+    assert!(result.status.success(), "{}", String::from_utf8_lossy(&result.stderr));
+    assert_eq!(names(&folder), ["model.pdf"]);
+}
+
+#[test]
+fn a_blender_file_is_refused_with_what_to_do() {
+    assert_refused(
+        &[("a.blend", b"BLENDER-v293RENDH")],
+        &["make", "a.blend"],
+        &["Blender", "Export", ".obj"],
+    );
+}
+
+#[test]
+fn single_parts_and_sheets_are_shown() {
+    let (result, folder) = made(&["--size", "200", "-o", "all.svg"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    let sheets = names(&folder).iter().filter(|name| name.ends_with(".svg")).count();
+    assert!(sheets > 1, "{:?}", names(&folder));
+    let (result, folder) = made(&["--size", "200", "-o", "one.svg", "--sheet", "2"]);
+    assert_eq!((result.code, names(&folder)), (Some(0), vec!["cube.off".to_owned(), "one.svg".to_owned()]));
+    let (result, _) = made(&["--size", "200", "-o", "one.svg", "--sheet", "999"]);
+    assert!(result.err.contains("there is no sheet 999"), "{}", result.err);
+    let (result, _) = made(&["--size", "200", "-o", "one.svg", "--only", "head"]);
+    assert!(result.err.contains("there is no component \"head\"; there are: body"), "{}", result.err);
+    let (result, _) = made(&["--size", "200", "-o", "one.svg", "--only", "body"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+}
+
+#[test]
+fn tabs_are_marked_unless_they_are_to_be_plain() {
+    let tabs = |arguments: &[&str]| {
+        let (result, folder) = made(&[&["--size", "60", "-o", "a.svg"], arguments].concat());
+        assert_eq!(result.code, Some(0), "{}", result.err);
+        std::fs::read_to_string(folder.path().join("a.svg")).unwrap().contains("inkscape:label=\"TAB\"")
+    };
+    assert!(tabs(&[]) && tabs(&["--style", "bw"]));
+    assert!(!tabs(&["--tabs", "plain"]) && !tabs(&["--style", "laser"]));
+}
+
+/// The advice was to change counts that never helped.
+#[test]
+fn boards_of_a_mesh_that_cannot_have_them_say_what_they_are_for() {
+    let bottle = include_bytes!("../../samples/bottle.obj");
+    let files: [(&str, &[u8]); 1] = [("a.obj", bottle)];
+    let arguments = ["make", "a.obj", "--thick", "--thickness", "1.5mm", "-o", "a.json"];
+    assert_refused(&files, &arguments, &["drawn components and boxes", "leave out --thick"]);
+}
