@@ -6,6 +6,7 @@ use std::path::Path;
 use tatamu::drawing::LineStyles;
 use tatamu::export::{FormatOptions, PltOptions, Timestamp};
 use tatamu::pipeline::Options;
+use tatamu::product::Content;
 use tatamu::project::Project;
 use tatamu::project::options::{Entry, Given, SIZE, STYLE, Settings, choose};
 
@@ -24,6 +25,8 @@ pub struct FileChoice {
     pub styles: LineStyles,
     /// Whether panels have the mesh's colours.
     pub is_coloured: bool,
+    /// What is drawn on the pages.
+    pub content: Content,
 }
 
 impl Choice {
@@ -68,7 +71,11 @@ impl Choice {
             Some(name) => styles(name, &input_path.with_file_name(name))?,
             None => LineStyles::standard(),
         };
-        Ok(FileChoice { formats, styles, is_coloured: files.is_coloured })
+        let content = match files.preset {
+            Some(preset) if preset.cuts_only => Content::Cut,
+            _ => Content::All,
+        };
+        Ok(FileChoice { formats, styles, is_coloured: files.is_coloured, content })
     }
 }
 

@@ -12,7 +12,7 @@ use tatamu::mesh::{Mesh, Repairs};
 use tatamu::net::Side;
 use tatamu::product::{Content, Product};
 use tatamu::progress::Progress;
-use tatamu::project::options::Given;
+use tatamu::project::options::{FOR, Given, Preset, Settings};
 use tatamu::report::Run;
 
 /// Progress that knows how long the stages took.
@@ -59,7 +59,7 @@ impl Wish {
                 Guide::Outputs => {}
             }
         }
-        let extension = FORMATS[0].extensions[0];
+        let extension = preset(&self.given).map_or(FORMATS[0].extensions[0], |preset| preset.extension);
         let default = [names::default(input, extension)];
         let outputs: Vec<PathBuf> =
             self.outputs.iter().map(|path| names::for_input(path, input, extension)).collect();
@@ -70,6 +70,17 @@ impl Wish {
         targets.extend(output::targets_among(&guides, &[GUIDES])?);
         Ok(targets)
     }
+}
+
+/// The program that files are asked for.
+fn preset(given: &[Given]) -> Option<&'static Preset> {
+    let mut settings = Settings::default();
+    let program = given.iter().filter(|given| *given.option() == FOR);
+    program.for_each(|given| {
+        // A value that is given is one that is accepted.
+        let _ = given.apply(&mut settings);
+    });
+    settings.files.preset
 }
 
 /// One input, and the files to make of it.
@@ -131,14 +142,14 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
             .with_content(content)
     };
     let products = match task.wish.prints_and_cuts {
-        false => vec![("", product(Content::All))],
+        false => vec![("", product(files.content))],
         true => vec![("-print", product(Content::Print)), ("-cut", product(Content::Cut))],
     };
     let mut written = written(task.targets, &products, &files.formats)?;
     if let Some(path) = task.segments {
         written.push((path, segments(result.mesh(), result.face_parts(), &input.repairs)));
     }
-    Ok(Made::new(&result, written))
+    Ok(Made::new(&result, written).with_advice(choice.settings().files.preset.map(|preset| preset.advice)))
 }
 
 /// The files of all targets; pages of each product, all else of the first.

@@ -1,5 +1,6 @@
 //! All that options choose.
 
+use super::Preset;
 use crate::export::FormatOptions;
 use crate::pipeline::Options;
 use crate::units::Paper;
@@ -25,6 +26,8 @@ pub struct Files {
     pub style: Option<String>,
     /// Whether panels have the mesh's colours.
     pub is_coloured: bool,
+    /// The program that the files are for.
+    pub preset: Option<&'static Preset>,
     /// Name or file of the cutter's profile.
     pub cutter: Option<String>,
     /// Name or file of the medium's profile.

@@ -3,7 +3,7 @@
 const XON: u8 = 17;
 const XOFF: u8 = 19;
 /// Longer lines are noise.
-const LONGEST_LINE: usize = 80;
+const LONGEST_LINE: usize = 160;
 
 /// One thing that the machine said.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,9 +1,10 @@
-"""Reads an HP-GL file with hp2xx and compares it with the DXF file of the same sheet.
+"""Reads a job with a program that is not ours, and compares it with the DXF file of the same sheet: HP-GL with
+hp2xx, G-code with gcodeparser.
 
-    check_hpgl.py JOB.plt SHEET.dxf
+    check_job.py JOB.plt|JOB.gcode SHEET.dxf
 
-Fails where hp2xx ignores a command, and where a line of the one is farther than the tolerance from
-the lines of the other. The job has to be that of a pen without overcut, so that both are the same
+Fails where the program ignores a command, and where a line of the one is farther than the tolerance from
+the lines of the other. The job has to be that of a pen or a laser without overcut, so that both are the same
 geometry.
 """
 
@@ -98,7 +99,7 @@ def samples(lines):
             yield (a[0] + (b[0] - a[0]) * k / steps, a[1] + (b[1] - a[1]) * k / steps)
 
 
-def main(job, sheet):
+def drawn_by_hpgl(job):
     with tempfile.TemporaryDirectory() as folder:
         drawn_path = f"{folder}/drawn.dxf"
         command = ["hp2xx", "-t", "-x", "0", "-y", "0", "-m", "dxf", "-f", drawn_path, job]
@@ -107,7 +108,42 @@ def main(job, sheet):
         ignored = re.search(r"HPGL command\(s\) ignored:\s*(\d+)", said)
         if run.returncode or not ignored or ignored[1] != "0":
             sys.exit(f"hp2xx did not read all of it:\n{said}")
-        drawn = [line for line in segments(drawn_path)]
+        return segments(drawn_path)
+
+
+def drawn_by_gcode(job):
+    """The moves with the beam on, or the tool below 0 or at the servo's lower angle."""
+    from gcodeparser import GcodeParser
+
+    text = open(job, encoding="ascii").read()
+    commands = GcodeParser(text).lines
+    written = [line for line in text.splitlines() if line.strip()]
+    if len(commands) < len(written):
+        sys.exit(f"gcodeparser read {len(commands)} commands of {len(written)} lines")
+    at, is_down, power, drawn = (0.0, 0.0), False, 0, []
+    for line in commands:
+        kind, params = line.command, line.params
+        power = params.get("S", power)
+        if kind in (("M", 3), ("M", 4)):
+            is_down = power > 0
+        elif kind == ("M", 5):
+            is_down = False
+        elif kind in (("G", 0), ("G", 1)):
+            to = (params.get("X", at[0]), params.get("Y", at[1]))
+            if kind == ("G", 0) and is_down and to != at:
+                sys.exit(f"it travels with the beam on: {line}")
+            if is_down:
+                drawn.append((at, to))
+            at = to
+        elif kind[0] == "G" and kind[1] not in (4, 17, 21, 54, 90, 94):
+            sys.exit(f"unexpected {line}")
+    if is_down:
+        sys.exit("the beam is on at the end")
+    return drawn
+
+
+def main(job, sheet):
+    drawn = drawn_by_gcode(job) if job.endswith(".gcode") else drawn_by_hpgl(job)
     meant = [line for line in segments(sheet) if line[2] not in SKIPPED_LAYERS]
     if not drawn or not meant:
         sys.exit(f"{len(drawn)} lines drawn, {len(meant)} meant")
