@@ -113,19 +113,19 @@ def drawn_by_hpgl(job):
 
 def drawn_by_gcode(job):
     """The moves with the beam on, or the tool below 0 or at the servo's lower angle."""
-    from gcodeparser import GcodeParser
+    from gcodeparser import parse_gcode_lines
 
     text = open(job, encoding="ascii").read()
-    commands = GcodeParser(text).lines
-    written = [line for line in text.splitlines() if line.strip()]
-    if len(commands) < len(written):
+    commands = list(parse_gcode_lines(text))
+    # Lines of one setting, F or S, are none to it.
+    written = [line for line in text.splitlines() if line.strip() and not re.fullmatch(r"[FS][0-9.]+", line)]
+    if len(commands) != len(written):
         sys.exit(f"gcodeparser read {len(commands)} commands of {len(written)} lines")
-    at, is_down, power, drawn = (0.0, 0.0), False, 0, []
+    at, is_down, drawn = (0.0, 0.0), False, []
     for line in commands:
         kind, params = line.command, line.params
-        power = params.get("S", power)
         if kind in (("M", 3), ("M", 4)):
-            is_down = power > 0
+            is_down = params.get("S", 1) > 0
         elif kind == ("M", 5):
             is_down = False
         elif kind in (("G", 0), ("G", 1)):

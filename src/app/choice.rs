@@ -71,8 +71,8 @@ impl Choice {
             Some(name) => styles(name, &input_path.with_file_name(name))?,
             None => LineStyles::standard(),
         };
-        let content = match files.preset {
-            Some(preset) if preset.cuts_only => Content::Cut,
+        let content = match files.program {
+            Some(program) if program.is_job => Content::Job,
             _ => Content::All,
         };
         Ok(FileChoice { formats, styles, is_coloured: files.is_coloured, content })

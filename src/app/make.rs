@@ -12,7 +12,7 @@ use tatamu::mesh::{Mesh, Repairs};
 use tatamu::net::Side;
 use tatamu::product::{Content, Product};
 use tatamu::progress::Progress;
-use tatamu::project::options::{FOR, Given, Preset, Settings};
+use tatamu::project::options::{FOR, Given, Program, Settings};
 use tatamu::report::Run;
 
 /// Progress that knows how long the stages took.
@@ -59,7 +59,7 @@ impl Wish {
                 Guide::Outputs => {}
             }
         }
-        let extension = preset(&self.given).map_or(FORMATS[0].extensions[0], |preset| preset.extension);
+        let extension = program(&self.given).map_or(FORMATS[0].extensions[0], |program| program.extension);
         let default = [names::default(input, extension)];
         let outputs: Vec<PathBuf> =
             self.outputs.iter().map(|path| names::for_input(path, input, extension)).collect();
@@ -73,14 +73,14 @@ impl Wish {
 }
 
 /// The program that files are asked for.
-fn preset(given: &[Given]) -> Option<&'static Preset> {
+fn program(given: &[Given]) -> Option<&'static Program> {
     let mut settings = Settings::default();
-    let program = given.iter().filter(|given| *given.option() == FOR);
-    program.for_each(|given| {
+    let wanted = given.iter().filter(|given| *given.option() == FOR);
+    wanted.for_each(|given| {
         // A value that is given is one that is accepted.
         let _ = given.apply(&mut settings);
     });
-    settings.files.preset
+    settings.files.program
 }
 
 /// One input, and the files to make of it.
@@ -149,7 +149,7 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
     if let Some(path) = task.segments {
         written.push((path, segments(result.mesh(), result.face_parts(), &input.repairs)));
     }
-    Ok(Made::new(&result, written).with_advice(choice.settings().files.preset.map(|preset| preset.advice)))
+    Ok(Made::new(&result, written).with_advice(choice.settings().files.program.map(|program| program.advice)))
 }
 
 /// The files of all targets; pages of each product, all else of the first.

@@ -11,6 +11,7 @@ mod faults;
 mod film;
 mod guide;
 mod make;
+mod presets;
 mod profiles;
 mod project;
 mod refusals;

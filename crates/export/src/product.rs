@@ -4,9 +4,10 @@ use crate::paint;
 use crate::report::Run;
 use std::cell::OnceCell;
 use tatamu_core::model::ModelPart;
-use tatamu_draw::drawing::{Chapter, Drawing, LineStyles, Pages, PagesError};
+use tatamu_draw::drawing::{Chapter, Drawing, LineStyles, Mark, Pages, PagesError};
 use tatamu_net::net::Net;
 use tatamu_pipeline::Output;
+use tatamu_plot::toolpath::Operation;
 use tatamu_read::painting::Painting;
 
 /// What is drawn on the pages.
@@ -19,6 +20,8 @@ pub enum Content {
     Print,
     /// What a cutter works on: contours, slits and creases, in true size.
     Cut,
+    /// The same with labels and glue marks, which a pen draws: all that belongs to pieces.
+    Job,
 }
 
 /// A finished run with its title and the look of its sheets. The sheets are drawn when a format
@@ -106,10 +109,14 @@ impl<'a> Product<'a> {
             Content::Print => {
                 pages.iter_mut().for_each(|page| page.marks.retain(|mark| !mark.layer.is_worked()));
             }
-            Content::Cut => {
+            Content::Cut | Content::Job => {
                 // Lists of labels have pages of their own, with nothing to cut.
                 pages.truncate(layout.sheet_count());
-                pages.iter_mut().for_each(|page| page.marks.retain(|mark| mark.layer.is_worked()));
+                let is_wanted = |mark: &Mark| match self.content {
+                    Content::Job => Operation::of_layer(mark.layer).is_some(),
+                    _ => mark.layer.is_worked(),
+                };
+                pages.iter_mut().for_each(|page| page.marks.retain(is_wanted));
                 return pages;
             }
         }

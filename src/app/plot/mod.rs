@@ -9,15 +9,19 @@ mod serial;
 pub mod sheets;
 #[cfg(test)]
 mod tests;
+mod usb;
 
 pub use operator::{Operator, doing};
-pub use serial::{SerialPorts, hint};
+pub use serial::hint;
 pub use sheets::{Sheet, minutes};
+pub use usb::SystemPorts;
+#[cfg(target_os = "linux")]
+pub use usb::printers;
 
 use tatamu::plotter::profile::Handshake;
 
 /// Reads the name of a handshake.
 pub fn handshake(text: &str) -> Result<Handshake, String> {
     let found = Handshake::ALL.into_iter().find(|handshake| handshake.name() == text);
-    found.ok_or_else(|| "use auto, escb, rtscts, xonxoff, paced or count".to_owned())
+    found.ok_or_else(|| "use auto, escb, rtscts, xonxoff, paced, count or usb".to_owned())
 }

@@ -1,6 +1,7 @@
 //! Programs that files are made for: each sets the look, the sheet and the format that the program reads at true
-//! size. Every other option takes its place.
+//! size. Other options change these again.
 
+use super::program::Program;
 use super::settings::put;
 use super::{Entry, Flag, Kind, Scope, Settings, Text};
 use crate::export::{DxfVersion, SvgStroke, TextMode};
@@ -8,37 +9,25 @@ use crate::units::parse_paper;
 
 const HEADING: &str = "File formats";
 
-/// A program that files are made for.
-#[derive(Debug)]
-pub struct Preset {
-    /// Its name on the command line.
-    pub name: &'static str,
-    /// Extension of the files that it reads.
-    pub extension: &'static str,
-    /// Whether the files have nothing but lines to cut and to crease, since the program would cut all else.
-    pub cuts_only: bool,
-    /// What to do in the program, in a sentence.
-    pub advice: &'static str,
+/// A program, and what it makes of settings.
+struct Preset {
+    program: Program,
     set: fn(&mut Settings) -> Result<(), String>,
 }
 
-/// There is one preset of each name.
-impl PartialEq for Preset {
-    fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
-    }
-}
-
 /// All of them, in the order of help texts.
-pub static PRESETS: [Preset; 5] = [CRICUT, SILHOUETTE_STUDIO, LIGHTBURN, SCANNCUT, INKSCAPE];
+static PRESETS: [Preset; 5] = [CRICUT, SILHOUETTE_STUDIO, LIGHTBURN, SCANNCUT, INKSCAPE];
 
 /// Design Space divides a file by colours and drops texts and dashes; frediz cut models with layers of cuts and
 /// folds (github.com/rodrigorc/papercraft/issues/2). A mat of 12 × 12 in is cut up to 1/4 in from its edges.
 const CRICUT: Preset = Preset {
-    name: "cricut",
-    extension: "svg",
-    cuts_only: true,
-    advice: "in Design Space, set the operation of the blue lines to Score, select all, and Attach",
+    program: Program {
+        name: "cricut",
+        extension: "svg",
+        is_job: true,
+        advice: "in Design Space, set the operation of blue lines to Score and of black ones to Pen (or hide them), select all, \
+                 and Attach",
+    },
     set: |s| {
         laser_lines(s);
         mat(s, "304.8x304.8mm", 6.35)
@@ -48,11 +37,13 @@ const CRICUT: Preset = Preset {
 /// Basic Edition opens DXF and no SVG (krafix.de, "Grundlegendes zu Plotterdateien"), and of DXF only the simplest
 /// (github.com/Malacath-92/Proxy-PDF-Maker/issues/62): R12 with lines.
 const SILHOUETTE_STUDIO: Preset = Preset {
-    name: "silhouette-studio",
-    extension: "dxf",
-    cuts_only: true,
-    advice: "in the preferences of Silhouette Studio, under Import, set DXF to millimetres and \"as is\"; then set a \
+    program: Program {
+        name: "silhouette-studio",
+        extension: "dxf",
+        is_job: true,
+        advice: "in the preferences of Silhouette Studio, under Import, set DXF to millimetres and \"as is\"; then set a \
              Line Color of its own for creases",
+    },
     set: |s| {
         laser_lines(s);
         s.files.formats.dxf.version = DxfVersion::R12;
@@ -62,10 +53,12 @@ const SILHOUETTE_STUDIO: Preset = Preset {
 
 /// See the format in `crates/export/src/export/lbrn.rs`.
 const LIGHTBURN: Preset = Preset {
-    name: "lightburn",
-    extension: "lbrn2",
-    cuts_only: false,
-    advice: "in LightBurn, check that labels are not mirrored, and set power and speed of each layer for your laser",
+    program: Program {
+        name: "lightburn",
+        extension: "lbrn2",
+        is_job: false,
+        advice: "in LightBurn, check that labels are not mirrored, and set power and speed of each layer for your laser",
+    },
     set: |s| {
         laser_lines(s);
         Ok(())
@@ -74,10 +67,12 @@ const LIGHTBURN: Preset = Preset {
 
 /// See the format in `crates/export/src/export/fcm.rs`. The paper is what the machine cuts on its mat of 12 × 12 in.
 const SCANNCUT: Preset = Preset {
-    name: "scanncut",
-    extension: "fcm",
-    cuts_only: true,
-    advice: "copy the file to a USB stick; on the machine, draw or crease the first lines before you cut the others",
+    program: Program {
+        name: "scanncut",
+        extension: "fcm",
+        is_job: true,
+        advice: "copy the file to a USB stick; on the machine, draw or crease the first lines before you cut the others",
+    },
     set: |s| {
         laser_lines(s);
         mat(s, "296.6x298.8mm", 3.0)
@@ -86,10 +81,12 @@ const SCANNCUT: Preset = Preset {
 
 /// Layers of Inkscape, the page in millimetres, and texts that can be edited.
 const INKSCAPE: Preset = Preset {
-    name: "inkscape",
-    extension: "svg",
-    cuts_only: false,
-    advice: "in Inkscape, each kind of line is a layer",
+    program: Program {
+        name: "inkscape",
+        extension: "svg",
+        is_job: false,
+        advice: "in Inkscape, each kind of line is a layer",
+    },
     set: |s| {
         s.files.formats.svg.text = TextMode::Text;
         Ok(())
@@ -114,15 +111,15 @@ pub static FOR: Entry = Entry {
     flag: Flag::under(HEADING, "for", "PROGRAM"),
     scope: Scope::Files,
     kind: Kind::Text(Text {
-        names: || PRESETS.iter().map(|preset| preset.name).collect(),
+        names: || PRESETS.iter().map(|preset| preset.program.name).collect(),
         other: "",
         such_as: "cricut",
-        get: |s| s.files.preset.map(|preset| preset.name.to_owned()),
+        get: |s| s.files.program.map(|program| program.name.to_owned()),
         set: |s, text| {
-            let names = || PRESETS.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", ");
-            let preset = PRESETS.iter().find(|preset| preset.name == text);
+            let names = || PRESETS.iter().map(|preset| preset.program.name).collect::<Vec<_>>().join(", ");
+            let preset = PRESETS.iter().find(|preset| preset.program.name == text);
             let preset = preset.ok_or_else(|| format!("the program must be one of {}", names()))?;
-            s.files.preset = Some(preset);
+            s.files.program = Some(&preset.program);
             (preset.set)(s)
         },
     }),

@@ -1,6 +1,6 @@
 //! All that options choose.
 
-use super::Preset;
+use super::program::Program;
 use crate::export::FormatOptions;
 use crate::pipeline::Options;
 use crate::units::Paper;
@@ -27,7 +27,7 @@ pub struct Files {
     /// Whether panels have the mesh's colours.
     pub is_coloured: bool,
     /// The program that the files are for.
-    pub preset: Option<&'static Preset>,
+    pub program: Option<&'static Program>,
     /// Name or file of the cutter's profile.
     pub cutter: Option<String>,
     /// Name or file of the medium's profile.

@@ -1,6 +1,6 @@
 //! What all simulated machines have.
 
-use super::{Cutter, Motion, VirtualGrbl, VirtualOptions, VirtualPlotter};
+use super::Motion;
 use std::time::Duration;
 
 /// A machine that is not there.
@@ -31,12 +31,4 @@ pub trait VirtualMachine: Send {
 
     /// What it did.
     fn motions(&self) -> &[Motion];
-}
-
-/// A simulated machine like a cutter's profile.
-pub fn virtual_machine(cutter: &Cutter, options: VirtualOptions) -> Box<dyn VirtualMachine> {
-    match cutter.grbl() {
-        Some(_) => Box::new(VirtualGrbl::new(cutter, options)),
-        None => Box::new(VirtualPlotter::new(cutter, options)),
-    }
 }

@@ -92,7 +92,8 @@ impl VirtualMachine for VirtualPlotter {
         if self.options.faults.error_at == Some(self.received) {
             self.error = 15;
         }
-        let knows_control = self.options.answers && self.dialect.controls().is_some();
+        let has_state = !self.dialect.state_question().is_empty();
+        let knows_control = self.options.answers && (self.dialect.controls().is_some() || has_state);
         if knows_control && (byte == ESC || !self.control.is_empty()) {
             self.control.push(byte);
             self.heed_control();
@@ -215,6 +216,13 @@ impl VirtualPlotter {
         };
         let control = std::mem::take(&mut self.control);
         debug_assert_eq!(length, control.len());
+        if control.len() < 3 {
+            if control == self.dialect.state_question() {
+                let state = if self.is_idle() { "0" } else { "1" };
+                self.answer(state.to_owned());
+            }
+            return;
+        }
         let parameters = String::from_utf8_lossy(&control[3..control.len()]).into_owned();
         let numbers: Vec<usize> =
             parameters.trim_end_matches(':').split(';').map(|n| n.parse().unwrap_or(0)).collect();

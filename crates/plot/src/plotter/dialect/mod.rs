@@ -101,6 +101,17 @@ pub trait Dialect: Send + Sync + std::fmt::Debug {
         None
     }
 
+    /// Initialises the machine; empty where the job does that.
+    fn initialise(&self) -> &'static [u8] {
+        b""
+    }
+
+    /// Asks whether the machine is ready (0), moving (1) or without a sheet (2), acted on when it is received;
+    /// empty where the language cannot.
+    fn state_question(&self) -> &'static [u8] {
+        b""
+    }
+
     /// Whether a machine acknowledges this command only when all before it is done.
     fn waits(&self, _command: &[u8]) -> bool {
         false

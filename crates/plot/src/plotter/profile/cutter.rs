@@ -27,12 +27,14 @@ pub enum Handshake {
     Paced,
     /// The machine says `ok` to each line, and what it has not said that of has to fit its buffer (GRBL).
     Count,
+    /// The port itself takes no more than the machine has room for, and the machine says whether it is ready.
+    Usb,
 }
 
 impl Handshake {
     /// All of them, in the order of help texts.
-    pub const ALL: [Self; 6] =
-        [Self::Auto, Self::EscB, Self::RtsCts, Self::XonXoff, Self::Paced, Self::Count];
+    pub const ALL: [Self; 7] =
+        [Self::Auto, Self::EscB, Self::RtsCts, Self::XonXoff, Self::Paced, Self::Count, Self::Usb];
 
     /// Name in small letters.
     pub fn name(self) -> &'static str {
@@ -43,6 +45,7 @@ impl Handshake {
             Self::XonXoff => "xonxoff",
             Self::Paced => "paced",
             Self::Count => "count",
+            Self::Usb => "usb",
         }
     }
 }
@@ -125,7 +128,7 @@ impl TryFrom<SerialTable> for Serial {
         let needs_answers = [handshake, fallback].contains(&Handshake::EscB);
         ensure(answers || !needs_answers, "escb needs a machine that answers: set answers = true")?;
         ensure(
-            !matches!(fallback, Handshake::Auto | Handshake::EscB | Handshake::Count),
+            !matches!(fallback, Handshake::Auto | Handshake::EscB | Handshake::Count | Handshake::Usb),
             "fallback must be rtscts, xonxoff or paced",
         )?;
         Ok(Self { baud, data_bits, parity, stop_bits, handshake, fallback, buffer_bytes, answers })
@@ -220,6 +223,8 @@ impl Cutter {
         )?;
         ensure(counts == file.grbl.is_some(), "handshake = \"count\" and the table [grbl] need each other")?;
         ensure(is_gcode || !counts, "handshake = \"count\" is for gcode only")?;
+        let has_state = !dialect.state_question().is_empty() || file.serial.handshake != Handshake::Usb;
+        ensure(has_state, "handshake = \"usb\" is for gpgl only")?;
         Ok(Self {
             text: text.to_owned(),
             name: file.name,
@@ -268,6 +273,7 @@ impl Cutter {
         match handshake {
             Handshake::EscB => self.can_be_asked(),
             Handshake::Count => self.grbl.is_some(),
+            Handshake::Usb => !self.dialect.state_question().is_empty(),
             _ => true,
         }
     }

@@ -22,7 +22,8 @@ macro_rules! profiles {
 
 /// Cutters.
 pub const CUTTERS: &[Profile] = profiles!["cutters":
-    "generic-hpgl", "hp-7475a", "hp-7550a", "roland-camm-1", "graphtec", "silhouette", "vinyl-cutter",
+    "generic-hpgl", "hp-7475a", "hp-7550a", "roland-camm-1", "graphtec", "silhouette", "silhouette-classic",
+    "vinyl-cutter",
     "dmpl", "pen-plotter", "grbl-laser", "grbl-knife", "grbl-pen",
 ];
 

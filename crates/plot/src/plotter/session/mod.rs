@@ -13,6 +13,7 @@ mod ledger;
 mod line;
 mod replies;
 mod stream;
+mod usb;
 
 pub use ledger::SLOWNESS;
 
@@ -27,6 +28,7 @@ use replies::{Replies, Reply};
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;
+use usb::Poll;
 
 /// Most bytes that are handed to the port before they have arrived: what the kernel and adapters
 /// still send after the machine said stop.
@@ -144,6 +146,7 @@ pub struct Session {
     ask: Ask,
     grbl: Option<Grbl>,
     counter: Counter,
+    poll: Poll,
     phase: Phase,
     /// The next command of the job.
     next: usize,
@@ -180,6 +183,7 @@ impl Session {
             ask: Ask::new(serial.buffer_bytes),
             grbl: cutter.grbl().cloned(),
             counter: Counter::default(),
+            poll: Poll::default(),
             phase: Phase::Probe,
             next: 0,
             inserted: VecDeque::new(),
@@ -201,7 +205,8 @@ impl Session {
         for reply in self.replies.read(bytes) {
             match reply {
                 Reply::Line(line) if self.handshake == Handshake::Count => self.grbl_answered(&line),
-                Reply::Go | Reply::Stop if self.handshake == Handshake::Count => {}
+                Reply::Line(line) if self.handshake == Handshake::Usb => self.usb_answered(&line),
+                Reply::Go | Reply::Stop if matches!(self.handshake, Handshake::Count | Handshake::Usb) => {}
                 Reply::Go => self.is_held = false,
                 Reply::Stop => self.is_held = true,
                 Reply::Line(line) => self.answered(&line),
@@ -268,8 +273,10 @@ impl Session {
     /// What to do now. `queued` is the number of bytes that the port holds, as far as it says.
     pub fn step(&mut self, now: Duration, queued: usize) -> Step {
         self.line.observe(queued);
-        if self.handshake == Handshake::Count {
-            return self.grbl_step(now);
+        match self.handshake {
+            Handshake::Count => return self.grbl_step(now),
+            Handshake::Usb => return self.usb_step(now),
+            _ => {}
         }
         match self.phase {
             Phase::Probe => self.probe(now),

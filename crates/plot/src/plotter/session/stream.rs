@@ -46,7 +46,7 @@ impl Session {
     fn ledger_by_flow(&mut self, now: Duration) {
         match self.handshake {
             Handshake::Paced => self.ledger.taken_by_time(now),
-            Handshake::RtsCts | Handshake::XonXoff => {
+            Handshake::RtsCts | Handshake::XonXoff | Handshake::Usb => {
                 let held = self.line.in_flight(now) + self.ask.size;
                 self.ledger.taken(self.ledger.total().saturating_sub(held as u64));
             }
@@ -118,7 +118,7 @@ impl Session {
                 Handshake::EscB => length <= self.credit(),
                 Handshake::Paced => self.ledger.held_by_time(now) + length + RESERVE <= self.ask.size,
                 Handshake::Count => self.ledger.unanswered_bytes() + length <= self.ask.size,
-                Handshake::Auto | Handshake::RtsCts | Handshake::XonXoff => true,
+                Handshake::Auto | Handshake::RtsCts | Handshake::XonXoff | Handshake::Usb => true,
             }
     }
 
@@ -167,7 +167,7 @@ impl Session {
     }
 
     /// Says what a long wait is for, and when it ends.
-    fn tell_wait(&mut self, end: End, now: Duration) {
+    pub(super) fn tell_wait(&mut self, end: End, now: Duration) {
         let left = self.ledger.done_at().saturating_sub(now);
         if std::mem::replace(&mut self.is_wait_told, true) || left < LONG {
             return;
