@@ -33,7 +33,7 @@ pub const MACHINES: [Machine; 17] = [
     machine("Roland", "CAMM-1", Takes::Serial("roland-camm-1")),
     machine("Silhouette", "Cameo 3 to 5, 5 Alpha; Portrait 3, 4", Takes::Usb("silhouette")),
     machine("Silhouette", "Cameo 1, 2; Portrait 1, 2", Takes::Usb("silhouette-classic")),
-    machine("Silhouette", "all, on Windows and macOS", Takes::Program("silhouette-studio")),
+    machine("Silhouette", "all, with Silhouette Studio", Takes::Program("silhouette-studio")),
     machine("vinyl cutters", "with HP-GL", Takes::Serial("generic-hpgl")),
     machine("vinyl cutters", "low-cost, that lose commands", Takes::Serial("vinyl-cutter")),
     machine("lasers", "with LightBurn", Takes::Program("lightburn")),

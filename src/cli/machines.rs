@@ -26,7 +26,7 @@ pub fn run(args: &CuttersArgs) {
     for machine in found {
         let takes = match machine.takes {
             Takes::Serial(name) => format!("plot --cutter {name}, on a serial port"),
-            Takes::Usb(name) => format!("plot --cutter {name} --port usb, on Linux"),
+            Takes::Usb(name) => format!("plot --cutter {name} --port usb"),
             Takes::Program(name) => format!("make --for {name}"),
         };
         terminal::say(&format!("{:<19} {:<48} {takes}", machine.maker, machine.models));

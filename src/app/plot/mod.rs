@@ -1,5 +1,6 @@
 //! Jobs for cutters: what is sent, how it is sent, and the journal of it.
 
+mod bus;
 mod grbl_words;
 pub mod journal;
 pub mod live;
@@ -14,9 +15,7 @@ mod usb;
 pub use operator::{Operator, doing};
 pub use serial::hint;
 pub use sheets::{Sheet, minutes};
-pub use usb::SystemPorts;
-#[cfg(target_os = "linux")]
-pub use usb::printers;
+pub use usb::{ANY, SystemPorts, usb_cutters};
 
 use tatamu::plotter::profile::Handshake;
 

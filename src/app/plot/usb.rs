@@ -1,9 +1,10 @@
-//! Cutters on USB that Linux has as printers: `/dev/usb/lp0` and so on.
+//! Cutters on USB: on Linux by the driver for printers, `/dev/usb/lp0` and so on, elsewhere on the bus itself.
 
+use super::bus;
 use super::port::{Port, Ports};
 use super::serial::SerialPorts;
 use crate::app::error::AppError;
-use std::io::Result;
+use nusb::MaybeFuture;
 use tatamu::plotter::Cutter;
 
 /// The name of the port that is searched for.
@@ -28,71 +29,56 @@ impl Ports for SystemPorts {
     }
 }
 
-#[cfg(not(target_os = "linux"))]
+/// Opens a file of the driver for printers, or else the bus.
 fn open(name: &str) -> std::result::Result<Box<dyn Port>, AppError> {
-    let reason = "only Linux has cutters on USB as files; make a .plt file and send it with another program";
-    Err(AppError::Port { port: name.to_owned(), reason: reason.to_owned() })
-}
-
-#[cfg(target_os = "linux")]
-fn open(name: &str) -> std::result::Result<Box<dyn Port>, AppError> {
-    use crate::app::error::reason;
-    use std::os::unix::fs::OpenOptionsExt;
-    let path = if name == ANY { find()? } else { name.to_owned() };
-    let flags = rustix::fs::OFlags::NONBLOCK.bits().cast_signed();
-    let file = std::fs::File::options().read(true).write(true).custom_flags(flags).open(&path);
-    let failed = |error: std::io::Error| {
-        let hint = match error.kind() {
-            std::io::ErrorKind::PermissionDenied => {
-                "  (sudo usermod -a -G lp $USER, then log out and in again; or the udev rule in \"Set up a cutter\")"
-            }
-            _ => "",
-        };
-        AppError::Port { port: path.clone(), reason: reason(&error) + hint }
-    };
-    file.map(|file| Box::new(linux::Printer::new(file)) as Box<dyn Port>).map_err(failed)
-}
-
-/// The first printer on USB that is a cutter.
-#[cfg(target_os = "linux")]
-fn find() -> std::result::Result<String, AppError> {
-    let cutters = linux::printers().into_iter().filter(|printer| printer.is_cutter());
-    cutters.map(|printer| printer.path).next().ok_or_else(|| AppError::Port {
-        port: ANY.to_owned(),
-        reason: "found no Silhouette; switch it on, and connect it. If another program uses it, close that. If there \
-                 is no /dev/usb/lp0, load the driver: sudo modprobe usblp"
+    #[cfg(target_os = "linux")]
+    {
+        let cutter = linux::printers().into_iter().find(linux::Found::is_cutter).map(|printer| printer.path);
+        let path = if name == ANY { cutter } else { Some(name.to_owned()) };
+        if let Some(path) = path {
+            return linux::open(&path);
+        }
+    }
+    let found = bus::open()?.map(|bus| Box::new(bus) as Box<dyn Port>);
+    found.ok_or_else(|| AppError::Port {
+        port: name.to_owned(),
+        reason: "found no Silhouette on USB; connect it, switch it on, and close other programs that use it"
             .to_owned(),
     })
 }
 
-#[cfg(target_os = "linux")]
-pub use linux::printers;
+/// Vendor and product of cutters on USB, with what they call themselves.
+pub fn usb_cutters() -> Vec<(u16, u16, String)> {
+    let devices = nusb::list_devices().wait().into_iter().flatten();
+    let cutters = devices.filter(|device| bus::MAKERS.contains(&device.vendor_id()));
+    let told = |device: nusb::DeviceInfo| {
+        let product = device.product_string().unwrap_or_default().to_owned();
+        (device.vendor_id(), device.product_id(), product)
+    };
+    cutters.map(told).collect()
+}
 
 /// What Linux tells of printers on USB.
 #[cfg(target_os = "linux")]
 mod linux {
-    use super::{FOLDER, Port, Result};
+    use super::{FOLDER, Port, bus};
+    use crate::app::error::{AppError, reason};
     use std::fs::File;
-    use std::io::{Error, ErrorKind, Read, Write};
+    use std::io::{Error, ErrorKind, Read, Result, Write};
+    use std::os::unix::fs::OpenOptionsExt;
     use std::path::Path;
-
-    /// Makers of cutters: Graphtec, and Silhouette for the Cameo 5α.
-    const MAKERS: [&str; 2] = ["0b4d", "3844"];
 
     /// A printer on USB.
     pub struct Found {
         /// Its device file.
         pub path: String,
-        /// Vendor and product, four digits each.
-        pub ids: [String; 2],
-        /// What it calls itself.
-        pub product: String,
+        vendor: String,
     }
 
     impl Found {
         /// Whether its maker makes cutters.
         pub fn is_cutter(&self) -> bool {
-            MAKERS.contains(&self.ids[0].as_str())
+            u16::from_str_radix(&self.vendor, 16).is_ok_and(|vendor| bus::MAKERS.contains(&vendor))
         }
     }
 
@@ -103,22 +89,31 @@ mod linux {
             let path = format!("{FOLDER}lp{k}");
             // The interface, whose parent is the device.
             let device = Path::new("/sys/class/usbmisc").join(format!("lp{k}")).join("device/..");
-            let ids = ["idVendor", "idProduct"].map(|name| read(&device.join(name)));
-            Path::new(&path).exists().then(|| Found { product: read(&device.join("product")), path, ids })
+            Path::new(&path).exists().then(|| Found { vendor: read(&device.join("idVendor")), path })
         };
         (0..16).filter_map(found).collect()
     }
 
     /// An open printer.
-    pub struct Printer {
+    struct Printer {
         file: File,
         answers: Vec<u8>,
     }
 
-    impl Printer {
-        pub fn new(file: File) -> Self {
-            Self { file, answers: Vec::new() }
-        }
+    /// Opens a printer's file.
+    pub fn open(path: &str) -> std::result::Result<Box<dyn Port>, AppError> {
+        let flags = rustix::fs::OFlags::NONBLOCK.bits().cast_signed();
+        let file = File::options().read(true).write(true).custom_flags(flags).open(path);
+        let failed = |error: Error| {
+            let hint = match error.kind() {
+                ErrorKind::PermissionDenied => {
+                    "  (sudo usermod -a -G lp $USER, then log out and in again; or the udev rule in \"Set up a cutter\")"
+                }
+                _ => "",
+            };
+            AppError::Port { port: path.to_owned(), reason: reason(&error) + hint }
+        };
+        file.map(|file| Box::new(Printer { file, answers: Vec::new() }) as Box<dyn Port>).map_err(failed)
     }
 
     impl Port for Printer {
