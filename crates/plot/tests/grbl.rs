@@ -75,6 +75,8 @@ struct Rehearsal {
     stop_wishes: u32,
     /// The board starts when the port is opened.
     greets: bool,
+    /// A line that does not arrive.
+    swallowed: Option<&'static str>,
     byte: Duration,
     now: Duration,
     port: VecDeque<u8>,
@@ -92,6 +94,7 @@ impl Rehearsal {
             stop_at: None,
             stop_wishes: 1,
             greets: true,
+            swallowed: None,
             byte: Duration::from_secs_f64(cutter.serial().byte_s()),
             now: Duration::ZERO,
             port: VecDeque::new(),
@@ -120,7 +123,14 @@ impl Rehearsal {
     fn advance(&mut self) -> Option<Outcome> {
         match self.session.step(self.now, self.port.len()) {
             Step::Done(outcome) => return Some(outcome),
-            Step::Send(bytes) => self.port.extend(bytes),
+            Step::Send(bytes) => {
+                let mut text = String::from_utf8_lossy(&bytes).into_owned();
+                if let Some(line) = self.swallowed.filter(|line| text.contains(line)) {
+                    text = text.replacen(line, "", 1);
+                    self.swallowed = None;
+                }
+                self.port.extend(text.bytes());
+            }
             Step::Wait(wait) => self.pass(wait.clamp(Duration::from_micros(200), Duration::from_millis(4))),
         }
         None
@@ -360,6 +370,16 @@ fn a_machine_that_is_locked_or_silent_is_sent_nothing() {
     rehearsal.greets = false;
     assert_eq!(rehearsal.run().end, End::NoAnswer);
     assert!(rehearsal.machine.motions().is_empty());
+}
+
+#[test]
+fn a_line_that_does_not_arrive_ends_the_job_before_it_is_called_done() {
+    let cutter = profile("grbl-laser");
+    let job = b"G21\nG90\nM5\nF600\nS300\nG0 X10 Y10\nM4\nG1 X20 Y10\nG1 X20 Y30\nM5\n";
+    let mut rehearsal = Rehearsal::new(job, &cutter, options(Faults::default()));
+    rehearsal.swallowed = Some("G1 X20 Y30\n");
+    assert_eq!(rehearsal.run().end, End::LinesLost);
+    assert!(!rehearsal.machine.is_pen_down() && !rehearsal.beam_after_end);
 }
 
 #[test]
