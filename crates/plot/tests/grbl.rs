@@ -395,3 +395,64 @@ fn a_machine_that_restarts_by_itself_is_told() {
     assert_eq!(rehearsal.run().end, End::Restarted);
     assert!(!rehearsal.machine.is_pen_down());
 }
+
+/// A machine that says anything at any time: the session ends, and a beam that was switched on is switched off.
+#[test]
+fn whatever_the_machine_says_the_session_ends_with_the_beam_off() {
+    const SAYS: [&[u8]; 14] = [
+        b"ok\r\n",
+        b"ok\r\nok\r\nok\r\n",
+        b"error:2\r\n",
+        b"ALARM:1\r\n",
+        b"ALARM:99999999\r\n",
+        b"<Idle|MPos:1.0,2.0,0.0|WCO:0,0,0>\r\n",
+        b"<Idle>\r\n",
+        b"<Hold:0|WPos:x,,>\r\n",
+        b"<Alarm>\r\n",
+        b"Grbl 1.1h\r\n",
+        b"$30=1000\r\n$32=1\r\nok\r\n",
+        b"\x11\x13\xff\xc3",
+        b"\xc3\xa9rb\r\n",
+        b"",
+    ];
+    let cutter = profile("grbl-laser");
+    let job = figure(&cutter);
+    let mut started = 0;
+    for seed in 0..600 {
+        let mut rng = fastrand::Rng::with_seed(seed);
+        let job = Job::parse(&job, &cutter).expect("valid");
+        let mut session = Session::new(job, &cutter, Handshake::Count, None);
+        // Half of the machines begin as they should.
+        if rng.bool() {
+            session.received(b"Grbl 1.1h\r\n");
+        }
+        let (mut now, mut sent, mut wishes) = (Duration::ZERO, Vec::new(), 0);
+        let outcome = loop {
+            match session.step(now, 0) {
+                Step::Done(outcome) => break outcome,
+                Step::Send(bytes) => sent.extend(bytes),
+                Step::Wait(_) => now += Duration::from_millis(5),
+            }
+            let is_lucky = seed % 3 == 0;
+            let answers: &[usize] =
+                if is_lucky { &[0, 6, 6, 10] } else { &[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13] };
+            if rng.u8(0..8) == 0 {
+                session.received(SAYS[answers[rng.usize(0..answers.len())]]);
+            }
+            if wishes < 2 && now > Duration::from_secs(30 * (wishes + 1)) {
+                wishes += 1;
+                session.stop();
+            }
+            assert!(now < Duration::from_secs(400), "seed {seed}: no end, {:?}", session.status());
+        };
+        let last = |word: &[u8]| sent.windows(word.len()).rposition(|bytes| bytes == word);
+        let (on, off) = (last(b"M4"), last(b"M5").max(last(&[0x18])));
+        started += u32::from(on.is_some());
+        assert!(on <= off, "seed {seed}: {outcome:?}");
+        assert!(
+            on.is_none() || outcome.end == End::Finished || last(b"M4") < last(&[0x18]),
+            "seed {seed}: {outcome:?}"
+        );
+    }
+    assert!(started > 50, "only {started} jobs began");
+}
