@@ -19,7 +19,7 @@ use tatamu::mesh::{self, Mesh};
 use tatamu::pipeline;
 use tatamu::plotter::profile::{CUTTERS, Handshake, MEDIA};
 use tatamu::plotter::session::SLOWNESS;
-use tatamu::plotter::{Cutter, Faults, Job, Media, Plan, VirtualOptions, test_cut};
+use tatamu::plotter::{Cutter, Faults, Job, Media, Plan, VirtualMachine, VirtualOptions, test_cut};
 use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::report::Run;

@@ -142,6 +142,51 @@ fn lines_drawn(report: &str) -> usize {
     rest.split_once(',').unwrap().0.parse().unwrap()
 }
 
+/// A laser that is stopped in the middle has its beam off, and the rest of the job draws what is missing.
+#[test]
+fn a_laser_that_is_stopped_goes_on_later() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut job = "G21\nG90\nG54\nM5\nF6000\nS300\n".to_owned();
+    for k in 0..60 {
+        job += &format!("G0 X{} Y{}\nM4\n", 10 + k % 10 * 10, 10 + k / 10 * 10);
+        (1..=20).for_each(|i| {
+            job += &format!("G1 X{} Y{}\n", 10 + k % 10 * 10 + i % 2 * 8, 10 + k / 10 * 10 + i / 3)
+        });
+        job += "M5\n";
+    }
+    std::fs::write(folder.path().join("a.gcode"), job).unwrap();
+    let laser = ["--cutter", "grbl-laser"];
+    let machine = Machine::start(folder.path(), &[&laser[..], &["--speedup", "8"]].concat());
+    let child = tatamu(folder.path())
+        .args(["plot", "a.gcode", "--yes", "--port", &machine.port])
+        .args(laser)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_secs(6));
+    let id = child.id().to_string();
+    assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130), "{}", said(&output));
+    assert!(said(&output).contains("--resume a.tatamu-job"), "{}", said(&output));
+    assert!(!said(&output).contains("switch it off"), "{}", said(&output));
+    let report = machine.report();
+    assert!(report.contains("lost 0, broken commands 0") && report.contains("pen up"), "{report}");
+    let first = lines_drawn(&report);
+    assert!((1..1200).contains(&first), "{report}");
+    let machine = Machine::start(folder.path(), &[&laser[..], &["--speedup", "50"]].concat());
+    let mut plot = tatamu(folder.path());
+    let output =
+        plot.args(["plot", "--resume", "a.tatamu-job", "--yes", "--port", &machine.port]).output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    let report = machine.report();
+    assert!(report.contains("lost 0, broken commands 0") && report.contains("pen up"), "{report}");
+    // Only what was not certainly done is drawn again: a stroke, and the line in which it was held.
+    let both = first + lines_drawn(&report);
+    assert!((1200..1200 + 3 * 20).contains(&both), "{first} and then {report}");
+}
+
 #[test]
 fn a_machine_that_vanishes_is_told_with_a_warning_about_the_tool() {
     let folder = folder(400);

@@ -6,6 +6,7 @@ use std::path::Path;
 use tatamu::drawing::{Layer, LineStyles};
 use tatamu::export::{FormatOptions, PltOptions, Timestamp};
 use tatamu::pipeline::Options;
+use tatamu::product::Content;
 use tatamu::project::Project;
 use tatamu::project::options::{Entry, Given, SIZE, STYLE, Settings, choose};
 
@@ -25,6 +26,8 @@ pub struct FileChoice {
     pub styles: LineStyles,
     /// Whether panels have the mesh's colours.
     pub is_coloured: bool,
+    /// What is drawn on the pages.
+    pub content: Content,
 }
 
 impl Choice {
@@ -77,7 +80,11 @@ impl Choice {
             None => LineStyles::standard(),
         };
         let styles = if files.has_plain_tabs { styles.with_plain(Layer::Tab) } else { styles };
-        Ok(FileChoice { formats, styles, is_coloured: files.is_coloured })
+        let content = match files.program {
+            Some(program) if program.is_job => Content::Job,
+            _ => Content::All,
+        };
+        Ok(FileChoice { formats, styles, is_coloured: files.is_coloured, content })
     }
 }
 

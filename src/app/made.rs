@@ -49,6 +49,13 @@ impl Made {
         Self { files, summary, line }
     }
 
+    /// The same with what to do in the program that the files are for.
+    #[must_use]
+    pub fn with_advice(mut self, advice: Option<&str>) -> Self {
+        self.summary.extend(advice.map(|advice| format!("next        {advice}")));
+        self
+    }
+
     /// Names of the files.
     pub fn paths(&self) -> impl Iterator<Item = &Path> {
         self.files.iter().map(|(path, _)| path.as_path())

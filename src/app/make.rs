@@ -13,7 +13,7 @@ use tatamu::mesh::{Mesh, Repairs};
 use tatamu::net::Side;
 use tatamu::product::{Content, Product, Selection};
 use tatamu::progress::Progress;
-use tatamu::project::options::Given;
+use tatamu::project::options::{FOR, Given, Program, Settings};
 use tatamu::report::Run;
 
 /// Progress that knows how long the stages took.
@@ -62,7 +62,7 @@ impl Wish {
                 Guide::Outputs => {}
             }
         }
-        let extension = FORMATS[0].extensions[0];
+        let extension = program(&self.given).map_or(FORMATS[0].extensions[0], |program| program.extension);
         let default = [names::default(input, extension)];
         let outputs: Vec<PathBuf> =
             self.outputs.iter().map(|path| names::for_input(path, input, extension)).collect();
@@ -73,6 +73,17 @@ impl Wish {
         targets.extend(output::targets_among(&guides, &[GUIDES])?);
         Ok(targets)
     }
+}
+
+/// The program that files are asked for.
+fn program(given: &[Given]) -> Option<&'static Program> {
+    let mut settings = Settings::default();
+    let wanted = given.iter().filter(|given| *given.option() == FOR);
+    wanted.for_each(|given| {
+        // A value that is given is one that is accepted.
+        let _ = given.apply(&mut settings);
+    });
+    settings.files.program
 }
 
 /// One input, and the files to make of it.
@@ -138,14 +149,15 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
             .with_selection(selection.clone())
     };
     let products = match task.wish.prints_and_cuts {
-        false => vec![("", product(Content::All))],
+        false => vec![("", product(files.content))],
         true => vec![("-print", product(Content::Print)), ("-cut", product(Content::Cut))],
     };
     let mut written = written(task.targets, &products, &files.formats)?;
     if let Some(path) = task.segments {
         written.push((path, segments(result.mesh(), result.face_parts(), &input.repairs)));
     }
-    Ok(Made::new(&result, input.named_mesh(), written))
+    let advice = choice.settings().files.program.map(|program| program.advice);
+    Ok(Made::new(&result, input.named_mesh(), written).with_advice(advice))
 }
 
 /// The files of all targets; pages of each product, all else of the first.

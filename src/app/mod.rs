@@ -3,6 +3,7 @@
 //! It opens files and ports, and knows neither flags nor windows.
 
 pub mod batch;
+pub mod catalogue;
 pub mod choice;
 pub mod error;
 pub mod fit;

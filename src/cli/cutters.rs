@@ -63,13 +63,13 @@ fn list() {
     terminal::say("cutters (--cutter):");
     for profile in CUTTERS {
         let name = Cutter::parse(profile.text).map(|cutter| cutter.name().to_owned());
-        terminal::say(&format!("  {:<16} {}", profile.name, name.unwrap_or_default()));
+        terminal::say(&format!("  {:<19} {}", profile.name, name.unwrap_or_default()));
     }
-    own("cutters").iter().for_each(|name| terminal::say(&format!("  {name:<16} (yours)")));
+    own("cutters").iter().for_each(|name| terminal::say(&format!("  {name:<19} (yours)")));
     terminal::say("media (--media):");
     for profile in MEDIA {
         let name = Media::parse(profile.text).map(|media| media.name().to_owned());
-        terminal::say(&format!("  {:<16} {}", profile.name, name.unwrap_or_default()));
+        terminal::say(&format!("  {:<19} {}", profile.name, name.unwrap_or_default()));
     }
-    own("media").iter().for_each(|name| terminal::say(&format!("  {name:<16} (yours)")));
+    own("media").iter().for_each(|name| terminal::say(&format!("  {name:<19} (yours)")));
 }

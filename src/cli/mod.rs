@@ -8,6 +8,7 @@ mod flags;
 mod formats;
 mod guide;
 mod init;
+mod machines;
 mod make;
 mod mistakes;
 mod plot;
@@ -54,6 +55,7 @@ enum Command {
     Check(check::CheckArgs),
     Segment(segment::SegmentCommand),
     Plot(Box<plot::PlotArgs>),
+    Cutters(machines::CuttersArgs),
     Ports(ports::PortsArgs),
     Profiles(cutters::ProfilesArgs),
     #[cfg(unix)]
@@ -100,6 +102,10 @@ pub fn run() -> ExitCode {
         Command::Segment(args) => segment::run(args).map(|()| ExitCode::SUCCESS),
         Command::Check(args) => check::run(args),
         Command::Plot(args) => plot::run(args).map(|()| ExitCode::SUCCESS),
+        Command::Cutters(args) => {
+            machines::run(args);
+            Ok(ExitCode::SUCCESS)
+        }
         Command::Ports(args) => ports::run(args).map(|()| ExitCode::SUCCESS),
         Command::Profiles(args) => cutters::run(args).map(|()| ExitCode::SUCCESS),
         #[cfg(unix)]

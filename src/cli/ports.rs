@@ -2,11 +2,11 @@
 
 use super::terminal;
 use crate::app::error::AppError;
-use crate::app::plot::hint;
+use crate::app::plot::{ANY, hint, usb_cutters};
 use clap::Args;
 use serialport::SerialPortType;
 
-/// Lists the serial ports and the devices on them.
+/// Lists the serial ports and the cutters on USB, with the devices on them.
 #[derive(Debug, Args)]
 pub struct PortsArgs {}
 
@@ -14,8 +14,12 @@ pub struct PortsArgs {}
 pub fn run(_: &PortsArgs) -> Result<(), AppError> {
     let ports = serialport::available_ports()
         .map_err(|error| AppError::Options(format!("cannot list the serial ports: {error}")))?;
-    if ports.is_empty() {
-        terminal::say("found no serial port; connect the machine and switch it on");
+    let cutters = usb_cutters();
+    for (vendor, product, name) in &cutters {
+        terminal::say(&format!("{:<16} USB {vendor:04x}:{product:04x} {name}", ANY));
+    }
+    if ports.is_empty() && cutters.is_empty() {
+        terminal::say("found no port; connect the machine and switch it on");
     }
     for port in ports {
         let what = match &port.port_type {

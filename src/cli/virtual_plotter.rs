@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use tatamu::drawing::{Drawing, Layer, LineStyles, Mark, Pages};
 use tatamu::export::{FormatOptions, Source};
-use tatamu::plotter::{Cutter, Faults, VirtualOptions, VirtualPlotter};
+use tatamu::plotter::{Cutter, Faults, VirtualMachine, VirtualOptions, virtual_machine};
 
 /// Simulates a plotter on a virtual serial port, to try jobs without a machine.
 ///
@@ -28,9 +28,9 @@ pub struct VirtualPlotterArgs {
     #[command(flatten)]
     machine: Flags<OfMachine>,
 
-    /// Size of the buffer in bytes
-    #[arg(long, value_name = "N", default_value_t = 1024, value_parser = clap::value_parser!(u32).range(256..))]
-    buffer: u32,
+    /// Size of the buffer in bytes [default: from the profile]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(80..))]
+    buffer: Option<u32>,
 
     /// Speed of the line in bits per second [default: from the profile]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(300..))]
@@ -96,7 +96,7 @@ pub fn run(args: &VirtualPlotterArgs) -> Result<(), AppError> {
     loop {
         let plotter = serve(args, &cutter, &mut host);
         if plotter.received() > 0 {
-            report(args, &cutter, &plotter)?;
+            report(args, &cutter, plotter.as_ref())?;
         }
         if args.once || args.unplug_at.is_some() || progress::stops() > 0 {
             return Ok(());
@@ -119,7 +119,7 @@ pub fn open() -> rustix::io::Result<(File, String)> {
 }
 
 /// Works for one host until it closes the port.
-pub fn serve(args: &VirtualPlotterArgs, cutter: &Cutter, host: &mut File) -> VirtualPlotter {
+pub fn serve(args: &VirtualPlotterArgs, cutter: &Cutter, host: &mut File) -> Box<dyn VirtualMachine> {
     let faults = Faults {
         slowness: 1.0 / args.speedup,
         garbage_every: args.garbage_every,
@@ -127,20 +127,20 @@ pub fn serve(args: &VirtualPlotterArgs, cutter: &Cutter, host: &mut File) -> Vir
         error_at: args.error_at,
     };
     let options = VirtualOptions {
-        buffer_bytes: args.buffer as usize,
+        buffer_bytes: args.buffer.map_or(cutter.serial().buffer_bytes, |n| n as usize),
         answers: !args.mute,
         xoff_below: args.xoff_below.map(|n| n as usize),
         faults,
     };
-    let mut plotter = VirtualPlotter::new(cutter, options);
+    let mut plotter = virtual_machine(cutter, options);
     let serial = cutter.serial();
     let byte_s = serial.byte_s() * f64::from(serial.baud) / f64::from(args.baud.unwrap_or(serial.baud));
     let start = Instant::now();
     let mut line_free = Duration::ZERO;
     let mut is_gone = false;
     let is_unplugged =
-        |plotter: &VirtualPlotter| args.unplug_at.is_some_and(|bytes| plotter.received() >= bytes);
-    while progress::stops() == 0 && !is_unplugged(&plotter) && !(is_gone && plotter.is_idle()) {
+        |plotter: &dyn VirtualMachine| args.unplug_at.is_some_and(|bytes| plotter.received() >= bytes);
+    while progress::stops() == 0 && !is_unplugged(plotter.as_ref()) && !(is_gone && plotter.is_idle()) {
         let now = start.elapsed();
         line_free = line_free.max(now.saturating_sub(10 * LOOK));
         let due = ((now.saturating_sub(line_free)).as_secs_f64() / byte_s) as usize;
@@ -168,7 +168,7 @@ pub fn serve(args: &VirtualPlotterArgs, cutter: &Cutter, host: &mut File) -> Vir
 }
 
 /// Says what happened, and draws it.
-fn report(args: &VirtualPlotterArgs, cutter: &Cutter, plotter: &VirtualPlotter) -> Result<(), AppError> {
+fn report(args: &VirtualPlotterArgs, cutter: &Cutter, plotter: &dyn VirtualMachine) -> Result<(), AppError> {
     let pen = if plotter.is_pen_down() { "down" } else { "up" };
     let drawn = plotter.motions().iter().filter(|m| m.is_down).count();
     terminal::say(&format!(
@@ -194,7 +194,7 @@ fn report(args: &VirtualPlotterArgs, cutter: &Cutter, plotter: &VirtualPlotter) 
 }
 
 /// What was drawn, in the machine's coordinates, mm.
-fn drawing(cutter: &Cutter, plotter: &VirtualPlotter) -> Drawing {
+fn drawing(cutter: &Cutter, plotter: &dyn VirtualMachine) -> Drawing {
     let units = cutter.frame().units_per_mm().value();
     let at = |p: tatamu::plotter::Point| DVec2::new(f64::from(p.x()), f64::from(p.y())) / units;
     let places = plotter.motions().iter().flat_map(|m| [at(m.from), at(m.to)]);

@@ -5,7 +5,7 @@ use crate::app::error::AppError;
 use crate::app::output;
 use crate::app::plot::Sheet;
 use crate::app::plot::live;
-use crate::app::plot::{Operator, SerialPorts, doing, minutes};
+use crate::app::plot::{Operator, SystemPorts, doing, minutes};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -56,7 +56,7 @@ impl Plotting {
         let mut hand = Hand { state: state.clone(), wake };
         std::thread::spawn(move || {
             let sent = output::check_places(std::slice::from_ref(&journal), &[]).and_then(|()| {
-                live::send_all(&SerialPorts, &mut hand, &journal, &header, Position::default())
+                live::send_all(&SystemPorts, &mut hand, &journal, &header, Position::default())
             });
             let end = sent.map_err(|error| error.to_string());
             locked(&hand.state).end = Some(end);

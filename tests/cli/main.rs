@@ -12,6 +12,7 @@ mod film;
 mod guide;
 mod make;
 mod mistakes;
+mod presets;
 mod profiles;
 mod project;
 mod refusals;

@@ -7,7 +7,7 @@ use std::error::Error;
 use tatamu::drawing::Drawing;
 use tatamu::plotter::profile::Handshake;
 use tatamu::plotter::session::End;
-use tatamu::plotter::{Cutter, Job, Media, Motion, Plan, Point, VirtualOptions, toolset};
+use tatamu::plotter::{Cutter, Job, Media, Motion, Plan, Point, VirtualMachine, VirtualOptions, toolset};
 use tatamu::toolpath::{Operation, Stroke, Task, Tip, deviation_mm, tasks};
 
 /// Error of the arithmetic, mm.

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 use std::time::Duration;
 use tatamu::plotter::profile::Handshake;
 use tatamu::plotter::session::{End, Outcome, Session, State, Step};
-use tatamu::plotter::{Cutter, Job, VirtualOptions, VirtualPlotter};
+use tatamu::plotter::{Cutter, Job, VirtualMachine, VirtualOptions, VirtualPlotter};
 
 /// Longest time between two looks at the port.
 const LOOK: Duration = Duration::from_millis(4);
@@ -58,18 +58,23 @@ impl Rehearsal {
 
     /// Runs to the end of the session, and until the plotter has nothing left to do.
     pub fn run(&mut self) -> Outcome {
-        let outcome = loop {
-            if let Some(outcome) = self.advance() {
-                break outcome;
-            }
-            assert!(self.now < TOO_LONG, "no end: {:?}", self.session.status());
-        };
+        let outcome = self.advance_to_end();
         while !self.port.is_empty() && outcome.end != End::PortLost {
             self.pass(LOOK, false);
         }
         self.now += Duration::from_secs(1000);
         self.plotter.run_until(self.now);
         outcome
+    }
+
+    /// Runs to the end of the session.
+    pub fn advance_to_end(&mut self) -> Outcome {
+        loop {
+            if let Some(outcome) = self.advance() {
+                return outcome;
+            }
+            assert!(self.now < TOO_LONG, "no end: {:?}", self.session.status());
+        }
     }
 
     /// One step of the session.

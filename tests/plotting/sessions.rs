@@ -5,7 +5,7 @@ use super::rehearsal::Rehearsal;
 use std::time::Duration;
 use tatamu::plotter::profile::Handshake;
 use tatamu::plotter::session::{End, MOST_IN_FLIGHT, SLOWNESS, State};
-use tatamu::plotter::{Cutter, Faults, Job, Motion, VirtualOptions, VirtualPlotter};
+use tatamu::plotter::{Cutter, Faults, Job, Motion, VirtualMachine, VirtualOptions, VirtualPlotter};
 
 /// A cutter like a profile, with another speed of the line and another answer to questions.
 fn cutter(name: &str, baud: u32, answers: bool) -> Cutter {
@@ -131,8 +131,11 @@ fn a_stopped_job_goes_on_where_it_was() {
         let outcome = rehearsal.run();
         assert_eq!(outcome.end, End::Stopped);
         assert!(handshake != Handshake::EscB || outcome.strokes_done > 3, "{handshake:?} {outcome:?}");
-        let rest =
-            Job::parse(&job, &cutter).unwrap().from_stroke(outcome.strokes_done, &[], cutter.dialect());
+        let rest = Job::parse(&job, &cutter).unwrap().from_stroke(
+            outcome.strokes_done,
+            &[],
+            cutter.dialect().as_ref(),
+        );
         let mut again = rehearse(&rest, &cutter, handshake, VirtualOptions::default());
         assert_eq!(again.run().end, End::Finished);
         let down = |motions: &[Motion]| motions.iter().filter(|m| m.is_down).copied().collect::<Vec<_>>();
@@ -197,6 +200,25 @@ fn a_machine_that_has_to_answer_and_does_not_is_sent_nothing() {
     let mut rehearsal = rehearse(small_job(), &cutter, Handshake::EscB, options);
     assert_eq!(rehearsal.run().end, End::NoAnswer);
     assert!(rehearsal.plotter.motions().is_empty());
+}
+
+#[test]
+fn a_silent_machine_is_waited_for_as_long_as_the_job_takes_and_no_longer() {
+    // All of it fits the buffer, so that the machine works on for long after the last byte.
+    let job = format!("IN;SP1;{}PU;", "PU0,0;PD8000,0;".repeat(30)).into_bytes();
+    let cutter = cutter("generic-hpgl", 9600, true);
+    let estimate_s = Job::parse(&job, &cutter).unwrap().seconds();
+    assert!(estimate_s > 20.0, "{estimate_s}");
+    // The user names the handshake, so that nothing is asked before the end.
+    let options = VirtualOptions { answers: false, xoff_below: Some(256), ..VirtualOptions::default() };
+    let mut rehearsal = rehearse(&job, &cutter, Handshake::XonXoff, options);
+    let outcome = rehearsal.advance_to_end();
+    assert_eq!((outcome.end, outcome.is_confirmed), (End::Finished, false));
+    let took_s = rehearsal.now().as_secs_f64();
+    assert!(took_s <= estimate_s * SLOWNESS + 5.0, "{took_s} s for a job of {estimate_s} s");
+    assert!(rehearsal.plotter.is_idle() && rehearsal.plotter.motions() == meant(&job, &cutter));
+    let notes = rehearsal.session.take_notes().join("\n");
+    assert!(notes.contains("waiting about") && notes.contains("did not say"), "{notes}");
 }
 
 #[test]

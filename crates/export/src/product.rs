@@ -9,6 +9,7 @@ use tatamu_draw::drawing::{Chapter, Drawing, LineStyles, Mark, Pages, PagesError
 use tatamu_net::net::{Net, Piece};
 use tatamu_net::sheet::Imprint;
 use tatamu_pipeline::Output;
+use tatamu_plot::toolpath::Operation;
 use tatamu_read::painting::Painting;
 
 /// What is drawn on the pages.
@@ -21,6 +22,8 @@ pub enum Content {
     Print,
     /// What a cutter works on: contours, slits and creases, in true size.
     Cut,
+    /// The same with labels and glue marks, which a pen draws: all that belongs to pieces.
+    Job,
 }
 
 /// Which pieces and sheets are shown: all, where it names none.
@@ -193,7 +196,7 @@ impl<'a> Product<'a> {
     /// Leaves what is asked for, and makes up for the printer's scale where it is printed.
     fn reduced(&self, mut pages: Vec<Drawing>) -> Vec<Drawing> {
         let layout = self.output.layout();
-        if self.content == Content::Cut {
+        if matches!(self.content, Content::Cut | Content::Job) {
             // Lists of labels have pages of their own, with nothing to cut.
             pages.truncate(layout.sheet_count());
         }
@@ -203,8 +206,12 @@ impl<'a> Product<'a> {
             Content::Print => {
                 pages.iter_mut().for_each(|page| page.marks.retain(|mark| !mark.layer.is_worked()));
             }
-            Content::Cut => {
-                pages.iter_mut().for_each(|page| page.marks.retain(|mark| mark.layer.is_worked()));
+            Content::Cut | Content::Job => {
+                let is_wanted = |mark: &Mark| match self.content {
+                    Content::Job => Operation::of_layer(mark.layer).is_some(),
+                    _ => mark.layer.is_worked(),
+                };
+                pages.iter_mut().for_each(|page| page.marks.retain(is_wanted));
                 return pages;
             }
         }

@@ -1,5 +1,6 @@
 //! Jobs on their way: the port, the clock and the user.
 
+use super::grbl_words as words;
 use super::journal::Journal;
 use super::port::{Port, Ports, exchange};
 use super::sheets::{self, Sheet};
@@ -46,11 +47,12 @@ pub fn send_all(
         reason: "the journal is damaged; start the job again".to_owned(),
     };
     let chosen = header.handshake.as_deref().map(handshake).transpose().map_err(AppError::Options)?;
-    if chosen == Some(Handshake::EscB) && !cutter.can_be_asked() {
+    if let Some(chosen) = chosen.filter(|&handshake| !cutter.can_use(handshake)) {
         return Err(AppError::Options(format!(
-            "{} does not answer the host (answers in its profile), so --handshake escb cannot work; use paced, or \
-             the handshake of the profile (\"tatamu profiles show\")",
-            cutter.name()
+            "{} does not answer the host in that way (answers and dialect in its profile), so --handshake {} cannot \
+             work; use paced, or the handshake of the profile (\"tatamu profiles show\")",
+            cutter.name(),
+            chosen.name()
         )));
     }
     let mut port = ports.open(&header.port, header.baud, &cutter)?;
@@ -62,7 +64,7 @@ pub fn send_all(
             let sheet = &header.sheets[at.sheet];
             let name = &sheet.name;
             let whole = sheets::parse(name, &sheet.bytes().ok_or_else(damaged)?, &cutter)?;
-            let rest = whole.from_stroke(at.strokes, &sheet.turns, cutter.dialect());
+            let rest = whole.from_stroke(at.strokes, &sheet.turns, cutter.dialect().as_ref());
             let job = sheets::parse(name, &rest, &cutter)?;
             let first = whole.strokes() - job.strokes();
             if let Err(error) = operator.load(name, (at.copy + 1, header.copies)) {
@@ -99,9 +101,35 @@ fn failure(outcome: Outcome) -> AppError {
                           or rtscts"
             .to_owned(),
         End::PortLost => {
-            "the port is gone, and the tool may be down; lift it by hand before you do anything else"
+            "the port is gone, and the tool may be down; lift it by hand before you do anything else, and switch a \
+             laser off"
                 .to_owned()
         }
+        End::Rejected(code) => format!(
+            "the machine refuses a line (error {code}: {}); check that its profile is right, then continue the job",
+            words::rejected(code)
+        ),
+        End::Alarm(code) => format!(
+            "the machine is in alarm ({code}: {}). Nothing was moved since, so the tool may be down; lift it by hand, \
+             home the machine or set its zero again, then continue the job",
+            words::alarm(code)
+        ),
+        End::Locked => "the machine is locked or busy, so nothing was sent; home it ($H), or unlock it ($X) when \
+                        nothing is in its way, or set home = true in its profile"
+            .to_owned(),
+        End::Setting { number, needed } => format!(
+            "the machine's setting ${number} is not {needed}, as its profile needs, so nothing was sent: {}; send \
+             ${number}={needed} to the machine, or change [grbl.settings] in the profile",
+            words::setting(number)
+        ),
+        End::Restarted => {
+            "the machine restarted by itself; check its power supply and cable, home it or set its zero again, then \
+             continue the job"
+                .to_owned()
+        }
+        End::LinesLost => "the machine stands still at another place than the job has it, so lines were lost; check \
+                           the cable, then continue the job"
+            .to_owned(),
     };
     AppError::Machine(what)
 }

@@ -1,5 +1,7 @@
 //! Jobs for cutters: what is sent, how it is sent, and the journal of it.
 
+mod bus;
+mod grbl_words;
 pub mod journal;
 pub mod live;
 mod operator;
@@ -8,15 +10,17 @@ mod serial;
 pub mod sheets;
 #[cfg(test)]
 mod tests;
+mod usb;
 
 pub use operator::{Operator, doing};
-pub use serial::{SerialPorts, hint};
+pub use serial::hint;
 pub use sheets::{Sheet, minutes};
+pub use usb::{ANY, SystemPorts, usb_cutters};
 
 use tatamu::plotter::profile::Handshake;
 
 /// Reads the name of a handshake.
 pub fn handshake(text: &str) -> Result<Handshake, String> {
     let found = Handshake::ALL.into_iter().find(|handshake| handshake.name() == text);
-    found.ok_or_else(|| "use auto, escb, rtscts, xonxoff or paced".to_owned())
+    found.ok_or_else(|| "use auto, escb, rtscts, xonxoff, paced, count or usb".to_owned())
 }

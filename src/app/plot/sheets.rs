@@ -8,7 +8,7 @@ use crate::app::{input, text};
 use glam::DVec2;
 use std::path::{Path, PathBuf};
 use tatamu::drawing::Drawing;
-use tatamu::export::{ExportError, PltOptions};
+use tatamu::export::{ExportError, Format, PltOptions, format_of};
 use tatamu::plotter::{Cutter, Job, Placement, Plan, PlanError, Point, test_cut};
 use tatamu::product::Product;
 use tatamu::project::options::Given;
@@ -33,7 +33,7 @@ impl Sheet {
         &self.name
     }
 
-    /// The bytes as in a .plt file.
+    /// The bytes as in a file for the machine.
     pub fn bytes(&self) -> &[u8] {
         &self.bytes
     }
@@ -133,10 +133,13 @@ pub fn minutes(seconds: f64) -> String {
     if whole < 60 { format!("{whole} s") } else { format!("{} min {:02} s", whole / 60, whole % 60) }
 }
 
+/// Extensions of files in the language of a machine beside those that are written.
+const OF_OTHERS: [&str; 5] = ["hpg", "gpgl", "dmpl", "gc", "ngc"];
+
 /// Whether a file is in the language of a machine, by its extension.
-fn is_plt(path: &Path) -> bool {
-    let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
-    ["plt", "hpgl", "hpg", "gpgl", "dmpl"].iter().any(|e| extension == *e)
+fn is_job(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    format_of(&extension).is_some_and(Format::is_job) || OF_OTHERS.contains(&extension.as_str())
 }
 
 /// The sheets of files in the machine's language, or of one mesh or project file; `tell` gets warnings.
@@ -148,7 +151,7 @@ pub fn of_inputs(
     say: Say,
     tell: &dyn Fn(&str),
 ) -> Result<Vec<Sheet>, AppError> {
-    if inputs.iter().all(|path| is_plt(path)) {
+    if inputs.iter().all(|path| is_job(path)) {
         let sheet = |path: &PathBuf| {
             let bytes = input::read_file(path)?;
             Sheet::of_file(path.display().to_string(), bytes, &machine.cutter)
@@ -156,7 +159,7 @@ pub fn of_inputs(
         return inputs.iter().map(sheet).collect();
     }
     let [path] = inputs else {
-        let message = "give one mesh or project file, or several .plt files";
+        let message = "give one mesh or project file, or several .plt or .gcode files";
         return Err(AppError::Options(message.to_owned()));
     };
     let input = input::read(path)?;

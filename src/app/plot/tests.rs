@@ -11,7 +11,7 @@ use std::time::Instant;
 use tatamu::export::PltOptions;
 use tatamu::plotter::journal::Position;
 use tatamu::plotter::session::Status;
-use tatamu::plotter::{Cutter, Faults, VirtualOptions, VirtualPlotter};
+use tatamu::plotter::{Cutter, Faults, VirtualMachine, VirtualOptions, VirtualPlotter};
 
 /// A machine that may lose its line after some bytes.
 struct Machine {

@@ -8,7 +8,7 @@ use super::progress::TerminalProgress;
 use super::{terminal, words};
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
-use crate::app::plot::{SerialPorts, Sheet, handshake, journal, live, sheets};
+use crate::app::plot::{Sheet, SystemPorts, handshake, journal, live, sheets};
 use crate::app::{names, output};
 use clap::Args;
 use operator::Terminal;
@@ -26,7 +26,7 @@ use tatamu::plotter::{Cutter, preview};
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub struct PlotArgs {
-    /// Mesh, project file, or files in the machine's language (.plt), one per sheet
+    /// Mesh, project file, or files in the machine's language (.plt, .gcode), one per sheet
     #[arg(value_name = "INPUT", required_unless_present_any = ["test_cut", "resume"])]
     input: Vec<PathBuf>,
 
@@ -36,7 +36,7 @@ pub struct PlotArgs {
     #[command(flatten)]
     machine: Flags<OfMachine>,
 
-    /// Serial port of the machine, such as /dev/ttyUSB0 or COM3
+    /// Port of the machine, such as /dev/ttyUSB0 or COM3, or usb for a Silhouette
     ///
     /// "tatamu ports" lists the ports.
     #[arg(long, value_name = "PORT")]
@@ -46,10 +46,11 @@ pub struct PlotArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(300..=4_000_000))]
     baud: Option<u32>,
 
-    /// Flow control: auto, escb, rtscts, xonxoff or paced [default: from the profile]
+    /// Flow control: auto, escb, rtscts, xonxoff, paced, count or usb [default: from the profile]
     ///
     /// auto asks the machine and chooses by its answer. escb asks for free bytes, rtscts and xonxoff
-    /// follow the machine's signals, paced goes by time alone.
+    /// follow the machine's signals, paced goes by time alone, count waits for the ok of GRBL, usb
+    /// asks a Silhouette whether it is ready.
     #[arg(long, value_name = "NAME", value_parser = handshake)]
     handshake: Option<Handshake>,
 
@@ -176,16 +177,15 @@ fn resume(args: &PlotArgs, path: &Path, (header, at): (Header, Position)) -> Res
 }
 
 fn send(args: &PlotArgs, path: &Path, header: &Header, at: Position) -> Result<(), AppError> {
-    live::send_all(&SerialPorts, &mut Terminal::new(args.yes, args.quiet), path, header, at)
+    live::send_all(&SystemPorts, &mut Terminal::new(args.yes, args.quiet), path, header, at)
 }
 
 /// Writes the pictures of all sheets.
 fn draw(path: &Path, sheets: &[Sheet], machine: &PltOptions) -> Result<(), AppError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
     let format = format_of(&extension);
-    let Some((Source::Pages(write), false)) = format.map(|f| (f.source, f.name == "plt")) else {
-        let is_picture =
-            |f: &&tatamu::export::Format| matches!(f.source, Source::Pages(_)) && f.name != "plt";
+    let Some((Source::Pages(write), false)) = format.map(|f| (f.source, f.is_job())) else {
+        let is_picture = |f: &&tatamu::export::Format| matches!(f.source, Source::Pages(_)) && !f.is_job();
         let known: Vec<String> =
             FORMATS.iter().filter(is_picture).map(|f| format!(".{}", f.extensions[0])).collect();
         return Err(AppError::Extension { path: path.to_owned(), known: known.join(", ") });

@@ -23,7 +23,7 @@ pub static CUTTER: Entry = Entry {
            file.",
     example: "--cutter hp-7475a, --cutter mine.toml",
     automatic: "generic-hpgl",
-    meaning: "cutter [profile](profiles.md) of `.plt` files",
+    meaning: "cutter [profile](profiles.md) of `.plt` and `.gcode` files",
     ..Entry::BLANK
 };
 
@@ -42,6 +42,6 @@ pub static MEDIA: Entry = Entry {
     long: "It sets force, speed, passes, overcut, and how creases are scored or perforated.",
     example: "--media cardstock-300",
     automatic: "cardstock-200",
-    meaning: "media profile of `.plt` files",
+    meaning: "media profile of `.plt` and `.gcode` files",
     ..Entry::BLANK
 };

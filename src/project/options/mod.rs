@@ -14,6 +14,8 @@ mod kind;
 mod machine;
 mod model;
 mod nets;
+mod presets;
+mod program;
 mod read;
 mod reference;
 mod segmentation;
@@ -32,6 +34,8 @@ pub use kind::{Count, Kind, Number, Range, Switch, Text, Unit};
 pub use machine::{CUTTER, MEDIA};
 pub use model::{LEVEL, PROFILE_VERTICES, SIZE, TOLERANCE, TOP_EDGES, UP};
 pub use nets::{ANGLES, GLUE_MARKS, MIN_PANEL_WIDTH, SPLIT, TAB_WIDTH};
+pub use presets::FOR;
+pub use program::Program;
 pub use reference::{command_line_page, project_page};
 pub use segmentation::{CLUSTERS, DETAIL, METHOD, PARTS, ROOT, SMOOTHING, SYMMETRY};
 pub use settings::{Files, Settings};
@@ -57,7 +61,7 @@ pub const MODEL: [&[&Entry]; 8] = [
 pub const DIVISION: [&[&Entry]; 2] = [&[&UP], segmentation::ALL];
 
 /// The options of the look and the content of files.
-pub const FILES: [&[&Entry]; 1] = [files::ALL];
+pub const FILES: [&[&Entry]; 2] = [&[&FOR], files::ALL];
 
 /// The options of the assembly guide.
 pub const GUIDE: [&[&Entry]; 1] = [files::GUIDE];
@@ -70,7 +74,8 @@ pub const MACHINE: [&[&Entry]; 1] = [machine::ALL];
 
 /// All options, each before those that need it to be set first.
 pub fn all() -> impl Iterator<Item = &'static Entry> {
-    let lists = [&MODEL[..], &FILES, &GUIDE, &FILM, &MACHINE];
+    // A preset sets others, so that it comes first.
+    let lists = [&FILES[..1], &MODEL, &FILES[1..], &GUIDE, &FILM, &MACHINE];
     lists.into_iter().flatten().flat_map(|list| list.iter().copied())
 }
 

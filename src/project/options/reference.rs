@@ -29,7 +29,7 @@ pub fn command_line_page(page: &str) -> String {
                 sheets::PAPERS,
             ],
             "pieces and sheets" => &[nets::MARKS, sheets::ALL],
-            "files" => &[FILES[0], GUIDE[0], FILM[0]],
+            "files" => &[FILES[0], FILES[1], GUIDE[0], FILM[0]],
             "machine" => &MACHINE,
             _ => return None,
         };

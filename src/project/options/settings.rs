@@ -1,5 +1,6 @@
 //! All that options choose.
 
+use super::program::Program;
 use crate::export::FormatOptions;
 use crate::pipeline::Options;
 use crate::units::Paper;
@@ -29,6 +30,8 @@ pub struct Files {
     pub has_plain_tabs: bool,
     /// Whether panels have the mesh's colours.
     pub is_coloured: bool,
+    /// The program that the files are for.
+    pub program: Option<&'static Program>,
     /// Name or file of the cutter's profile.
     pub cutter: Option<String>,
     /// Name or file of the medium's profile.

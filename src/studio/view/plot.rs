@@ -5,7 +5,7 @@ use super::super::plotting::Plotting;
 use super::super::state::Studio;
 use super::super::worker::Wake;
 use super::picture::Picture;
-use crate::app::plot::hint;
+use crate::app::plot::{ANY, hint, usb_cutters};
 use crate::app::profiles;
 use eframe::egui::{self, Color32, Rect, Sense, Ui};
 use std::sync::Arc;
@@ -57,8 +57,9 @@ impl Default for PlotPanel {
 }
 
 fn port_names() -> Vec<String> {
-    let ports = serialport::available_ports().unwrap_or_default();
-    ports.into_iter().map(|port| port.port_name).collect()
+    let on_usb = (!usb_cutters().is_empty()).then(|| ANY.to_owned());
+    let serial = serialport::available_ports().unwrap_or_default();
+    on_usb.into_iter().chain(serial.into_iter().map(|port| port.port_name)).collect()
 }
 
 impl PlotPanel {

@@ -6,6 +6,7 @@
 
 mod apng;
 mod dxf;
+mod fcm;
 mod film;
 #[cfg(test)]
 mod fixture;
@@ -15,6 +16,7 @@ pub mod glb;
 pub mod gltf;
 mod guide;
 mod json;
+mod lbrn;
 mod obj;
 mod options;
 mod pdf;
@@ -47,6 +49,9 @@ pub const FORMATS: &[Format] = &[
     dxf::FORMAT,
     png::FORMAT,
     plt::FORMAT,
+    plt::GCODE,
+    lbrn::FORMAT,
+    fcm::FORMAT,
     gif::FORMAT,
     apng::FORMAT,
     glb::FORMAT,
@@ -72,12 +77,28 @@ pub enum ExportError {
         message: String,
     },
     /// A sheet cannot be worked on by the machine.
-    #[error("the plt file could not be written: sheet {sheet}: {error}")]
+    #[error("the {format} file could not be written: sheet {sheet}: {error}")]
     Plan {
+        /// Name of the format.
+        format: &'static str,
         /// The sheet, from 1.
         sheet: usize,
         /// Why.
         error: PlanError,
+    },
+    /// The machine speaks another language than the file is in.
+    #[error(
+        "a {format} file is not for {cutter}, whose language is {language}; choose one of these cutters: {such_as}"
+    )]
+    Language {
+        /// Name of the format.
+        format: &'static str,
+        /// Name of the machine.
+        cutter: String,
+        /// Its language.
+        language: &'static str,
+        /// Machines that the format is for.
+        such_as: String,
     },
 }
 
@@ -86,7 +107,7 @@ impl ExportError {
     pub fn remedies(&self) -> Vec<Remedy> {
         match self {
             Self::Plan { error, .. } => error.remedies(),
-            Self::Pages(_) | Self::Writer { .. } => Vec::new(),
+            Self::Pages(_) | Self::Writer { .. } | Self::Language { .. } => Vec::new(),
         }
     }
 
@@ -149,6 +170,11 @@ pub struct Format {
 }
 
 impl Format {
+    /// Whether its files are jobs for machines, which no one looks at.
+    pub fn is_job(&self) -> bool {
+        [plt::FORMAT.name, plt::GCODE.name].contains(&self.name)
+    }
+
     /// The files of a model in this format.
     ///
     /// # Errors

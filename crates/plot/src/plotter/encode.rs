@@ -83,7 +83,8 @@ pub fn encode(
         }
         for stroke in own {
             let points = stroke.shaft().iter().map(|&p| placement.to_device(cutter.frame(), p));
-            writer.stroke(points.collect::<Result<_, _>>()?);
+            let lower = cutter.tool(operation).map_or("", |tool| tool.lower());
+            writer.stroke(points.collect::<Result<_, _>>()?, lower);
         }
     }
     let lift = cutter.dialect().lift(writer.at);
@@ -111,7 +112,11 @@ impl Writer<'_> {
         self.command(&lift);
         let select = self.cutter.tool(operation).map_or("", |tool| tool.select());
         self.bytes.extend(select.as_bytes());
-        let levels = [(self.cutter.force(), work.force_g()), (self.cutter.speed(), work.speed_mm_s())];
+        let levels = [
+            (self.cutter.force(), work.force_g()),
+            (self.cutter.speed(), work.speed_mm_s()),
+            (self.cutter.power(), work.power_percent()),
+        ];
         for (level, value) in levels {
             if let (Some(level), Some(value)) = (level, value) {
                 self.bytes.extend(level.command(value).0.as_bytes());
@@ -119,16 +124,21 @@ impl Writer<'_> {
         }
     }
 
-    /// One stroke; nothing is left of one that is shorter than a unit.
-    fn stroke(&mut self, mut points: Vec<Point>) {
+    /// One stroke; nothing is left of one that is shorter than a unit. Where a command of its own sets the tool
+    /// down, another lifts it.
+    fn stroke(&mut self, mut points: Vec<Point>, lower: &str) {
         points.dedup();
         if let [first, through @ ..] = points.as_slice()
             && !through.is_empty()
         {
             let dialect = self.cutter.dialect();
             self.command(&dialect.travel(*first));
+            self.bytes.extend(lower.as_bytes());
             dialect.draw(through).iter().for_each(|command| self.command(command));
             self.at = points[points.len() - 1];
+            if !lower.is_empty() {
+                self.command(&dialect.lift(self.at));
+            }
         }
     }
 }

@@ -77,7 +77,7 @@ impl Job {
     /// # Errors
     /// See [`JobError`].
     pub fn parse(bytes: &[u8], cutter: &Cutter) -> Result<Self, JobError> {
-        let dialect = cutter.dialect();
+        let dialect = cutter.dialect().as_ref();
         let mut reader = Reader::new(cutter);
         let mut at = 0;
         let mut dropped = 0;
@@ -138,22 +138,38 @@ impl Job {
     }
 
     /// The bytes of a job that begins with a stroke: all settings up to there, the latest of each
-    /// kind, then the last of the strokes `turns` before it, which turn a drag knife, then everything
-    /// from the travel to that stroke on. The whole job where positions are distances, since those
-    /// need what came before.
+    /// kind, then what lifts the tool if the job says that by itself, the last of the strokes `turns`
+    /// before it, which turn a drag knife, and everything from the travel to that stroke on. The whole
+    /// job where positions are distances, since those need what came before.
     pub fn from_stroke(&self, stroke: usize, turns: &[usize], dialect: &dyn Dialect) -> Vec<u8> {
         let Some(start) = self.start_of(stroke).filter(|_| !self.is_relative && stroke > 0) else {
             return self.bytes();
         };
         let turn = turns.iter().copied().filter(|&turn| turn < stroke).max();
         let turn = turn.and_then(|turn| Some(self.start_of(turn)?..self.start_of(turn + 1)?));
-        let turn = self.commands[turn.unwrap_or(0..0)].iter().filter(|c| !c.motions.is_empty());
+        let turn = self.commands[turn.unwrap_or(0..0)].iter().filter(|c| !c.is_setup);
+        let lifts = |c: &&Command| !c.is_setup && c.motions.is_empty() && !c.is_down_after;
+        let lift = self.commands[..start].iter().rfind(lifts);
         let settings: Vec<&Command> = self.commands[..start].iter().filter(|c| c.is_setup).collect();
         let kind = |c: &Command| dialect.mnemonic(&c.bytes).to_ascii_uppercase();
         let is_latest = |k: usize| settings[k + 1..].iter().all(|later| kind(later) != kind(settings[k]));
         let settings = (0..settings.len()).filter(|&k| is_latest(k)).map(|k| settings[k]);
         let rest = self.commands[start..].iter();
-        settings.chain(turn).chain(rest).flat_map(|command| command.bytes.iter().copied()).collect()
+        settings
+            .chain(lift)
+            .chain(turn)
+            .chain(rest)
+            .flat_map(|command| command.bytes.iter().copied())
+            .collect()
+    }
+
+    /// The commands of their own, if any, that set the pen down last before command `next`.
+    pub(super) fn lowering_before(&self, next: usize) -> Vec<u8> {
+        let sent = &self.commands[..next];
+        let lowers = |&k: &usize| sent[k].is_down_after && (k == 0 || !sent[k - 1].is_down_after);
+        let first = (0..sent.len()).rfind(lowers).unwrap_or(sent.len());
+        let still = sent[first..].iter().take_while(|command| command.motions.is_empty());
+        still.flat_map(|command| command.bytes.iter().copied()).collect()
     }
 
     /// The command that travels to a stroke.
@@ -315,16 +331,23 @@ mod tests {
     #[test]
     fn a_later_stroke_keeps_the_latest_settings() {
         let job = Job::parse(FILE, &generic()).unwrap();
-        let rest = job.from_stroke(1, &[], generic().dialect());
+        let rest = job.from_stroke(1, &[], generic().dialect().as_ref());
         assert_eq!(String::from_utf8_lossy(&rest), "IN;SP1;FS20;VS5;PU0,0;SP2;FS90;PD0,400;PU;PG;");
         let three = b"IN;SP1;FS20;PU1,1;PD2,2;PU3,3;SP2;FS30;PU4,4;PD5,5;PU;SP3;PU6,6;PD7,7;PU;";
         let job = Job::parse(three, &generic()).unwrap();
-        let rest = job.from_stroke(2, &[], generic().dialect());
-        assert_eq!(String::from_utf8_lossy(&rest), "IN;FS30;SP3;PU6,6;PD7,7;PU;");
+        let rest = job.from_stroke(2, &[], generic().dialect().as_ref());
+        assert_eq!(String::from_utf8_lossy(&rest), "IN;FS30;SP3;PU;PU6,6;PD7,7;PU;");
         // A drag knife is turned first; what turns it for another tool is of no use.
-        let turned = job.from_stroke(2, &[0, 1, 2], generic().dialect());
-        assert_eq!(String::from_utf8_lossy(&turned), "IN;FS30;SP3;PU4,4;PD5,5;PU6,6;PD7,7;PU;");
-        assert_eq!(job.from_stroke(0, &[], generic().dialect()), three);
+        let turned = job.from_stroke(2, &[0, 1, 2], generic().dialect().as_ref());
+        assert_eq!(String::from_utf8_lossy(&turned), "IN;FS30;SP3;PU;PU4,4;PD5,5;PU;PU6,6;PD7,7;PU;");
+        // A tool that is lifted by a command of its own is lifted first.
+        let own = b"IN;PU;PU1,1;PD;PA2,2;PU;PU3,3;PD;PA4,4;PU;PU5,5;PD;PA6,6;PU;";
+        let job = Job::parse(own, &generic()).unwrap();
+        let rest = job.from_stroke(2, &[0], generic().dialect().as_ref());
+        let expected = "IN;PU;PU1,1;PD;PA2,2;PU;PU5,5;PD;PA6,6;PU;";
+        assert_eq!(String::from_utf8_lossy(&rest), expected);
+        let job = Job::parse(three, &generic()).unwrap();
+        assert_eq!(job.from_stroke(0, &[], generic().dialect().as_ref()), three);
     }
 
     #[test]
@@ -333,7 +356,7 @@ mod tests {
         assert_eq!((job.strokes(), job.dropped()), (1, 2));
         assert_eq!(job.commands().last().map(Command::ends_at), Some(Point::new(0, 10)));
         // Distances mean nothing without what came before.
-        assert_eq!(job.from_stroke(1, &[], generic().dialect()), job.bytes());
+        assert_eq!(job.from_stroke(1, &[], generic().dialect().as_ref()), job.bytes());
         assert!(matches!(Job::parse(b"", &generic()), Err(JobError::Empty(_))));
         assert!(matches!(Job::parse(b"%PDF-1.4 1 0 obj", &generic()), Err(JobError::Broken { at: 0, .. })));
     }

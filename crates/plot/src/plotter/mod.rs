@@ -21,6 +21,9 @@ mod plan;
 mod preview;
 pub mod profile;
 pub mod session;
+mod simulated;
+mod virtual_grbl;
+mod virtual_machine;
 mod virtual_plotter;
 
 pub use encode::{Placement, encode};
@@ -31,4 +34,7 @@ pub use motion::Motion;
 pub use plan::{Plan, PlanError, test_cut, toolset};
 pub use preview::preview;
 pub use profile::{Cutter, Media, ProfileError};
+pub use simulated::virtual_machine;
+pub use virtual_grbl::VirtualGrbl;
+pub use virtual_machine::VirtualMachine;
 pub use virtual_plotter::{Faults, VirtualOptions, VirtualPlotter};

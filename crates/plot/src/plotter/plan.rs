@@ -22,6 +22,17 @@ pub enum PlanError {
     /// Cutter and medium do not go together.
     #[error("{0}")]
     Tooling(#[from] ToolingError),
+    /// A laser needs to know its power.
+    #[error(
+        "{media} sets no power_percent for {operation}, so a laser must not work on it; choose a medium for lasers, \
+         such as laser-card"
+    )]
+    Power {
+        /// Name of the medium.
+        media: String,
+        /// Name of the operation.
+        operation: &'static str,
+    },
     /// Nothing on the sheet is for this machine: such as a list of labels.
     #[error("it has no lines for a cutter")]
     Nothing,
@@ -32,7 +43,7 @@ impl PlanError {
     pub fn remedies(&self) -> Vec<Remedy> {
         match self {
             Self::OffBed(_) => vec![Remedy::SmallerPaper, Remedy::LargerMargin, Remedy::LargerMachine],
-            Self::Tooling(_) | Self::Nothing => Vec::new(),
+            Self::Tooling(_) | Self::Power { .. } | Self::Nothing => Vec::new(),
         }
     }
 }
@@ -58,6 +69,7 @@ impl Plan {
         if toolpath.strokes().is_empty() {
             return Err(PlanError::Nothing);
         }
+        check_power(&toolpath, cutter, media)?;
         let placement = Placement::find(toolpath.strokes(), drawing.size_mm, cutter.frame())?;
         let bytes = encode(toolpath.strokes(), &placement, cutter, media)?;
         Ok(Self { toolpath, placement, bytes, notes })
@@ -107,7 +119,9 @@ pub fn toolset(cutter: &Cutter, media: &Media) -> Result<(Toolset, Vec<String>),
         let mut tooling = Tooling::new(offset_mm, overcut_mm, wish.passes())?;
         let is_crease = matches!(operation, Operation::Crease | Operation::FoldHinge);
         let stopgap = || {
-            let same_tool = cutter.tool(Operation::Cut).is_some_and(|cut| cut.select() == tool.select());
+            let same_tool = cutter
+                .tool(Operation::Cut)
+                .is_some_and(|cut| (cut.select(), cut.lower()) == (tool.select(), tool.lower()));
             (is_crease && is_blade && same_tool && cutter.force().is_none()).then_some(STOPGAP_MM)
         };
         let perforation = match wish.perforation() {
@@ -118,12 +132,24 @@ pub fn toolset(cutter: &Cutter, media: &Media) -> Result<(Toolset, Vec<String>),
             tooling = tooling.perforating(perforation);
         }
         tools = tools.with(operation, tooling);
-        if before.replace(tool) == Some(tool) {
+        if before.replace(tool).is_some_and(|last| last.is(tool)) {
             tools = tools.going_on(operation);
         }
         notes.extend(limits(cutter, media, operation));
     }
     Ok((tools, notes))
+}
+
+/// Whether a laser knows its power for all that it does.
+fn check_power(toolpath: &Toolpath, cutter: &Cutter, media: &Media) -> Result<(), PlanError> {
+    let has_none = |operation: &Operation| media.work(*operation).power_percent().is_none();
+    let mut done = toolpath.strokes().iter().map(|stroke| stroke.operation());
+    match done.find(has_none).filter(|_| cutter.power().is_some()) {
+        Some(operation) => {
+            Err(PlanError::Power { media: media.name().to_owned(), operation: operation.name() })
+        }
+        None => Ok(()),
+    }
 }
 
 /// Where the machine cannot do what the medium asks for.
@@ -205,6 +231,9 @@ mod tests {
             for media in MEDIA.iter().map(|p| Media::parse(p.text).unwrap()) {
                 for drawing in [sheet(), test_cut()] {
                     let plan = Plan::new(&drawing, &cutter, &media);
+                    if matches!(plan, Err(PlanError::Power { .. })) && !media.name().contains("laser") {
+                        continue;
+                    }
                     let plan = plan.unwrap_or_else(|e| panic!("{} {}: {e}", cutter.name(), media.name()));
                     plans.push((cutter.clone(), plan));
                 }
@@ -254,11 +283,11 @@ mod tests {
     #[test]
     fn the_tip_of_what_is_executed_stays_on_the_line() {
         for (cutter, plan) in all_plans() {
-            let mut in_hand = None;
+            let mut in_hand: Option<&crate::plotter::profile::MachineTool> = None;
             let mut tip = Tip::new(0.0, DVec2::X);
             for (way, stroke) in executed(&cutter, &plan).iter().zip(plan.toolpath().strokes()) {
                 let tool = cutter.tool(stroke.operation()).unwrap();
-                if in_hand.replace(tool) != Some(tool) {
+                if !in_hand.replace(tool).is_some_and(|last| last.is(tool)) {
                     tip = Tip::new(tool.blade_offset_mm(), DVec2::new(-0.6, 0.8));
                 }
                 let cut = tip.drag(way);

@@ -6,8 +6,10 @@
 
 use super::dialect::{Dialect, Meaning, Pen};
 use super::pace::Pace;
+use super::virtual_machine::VirtualMachine;
 use super::{Cutter, Motion, Point};
 use std::collections::VecDeque;
+use std::sync::Arc;
 use std::time::Duration;
 
 const ESC: u8 = 0x1B;
@@ -62,7 +64,7 @@ impl Default for Faults {
 #[derive(Debug, Clone)]
 pub struct VirtualPlotter {
     options: VirtualOptions,
-    dialect: &'static dyn Dialect,
+    dialect: Arc<dyn Dialect>,
     pace: Pace,
     now: Duration,
     busy_until: Duration,
@@ -83,12 +85,82 @@ pub struct VirtualPlotter {
     motions: Vec<Motion>,
 }
 
+impl VirtualMachine for VirtualPlotter {
+    fn receive(&mut self, byte: u8, now: Duration) {
+        self.run_until(now);
+        self.received += 1;
+        if self.options.faults.error_at == Some(self.received) {
+            self.error = 15;
+        }
+        let has_state = !self.dialect.state_question().is_empty();
+        let knows_control = self.options.answers && (self.dialect.controls().is_some() || has_state);
+        if knows_control && (byte == ESC || !self.control.is_empty()) {
+            self.control.push(byte);
+            self.heed_control();
+        } else if self.buffer.len() < self.options.buffer_bytes {
+            self.buffer.push_back(byte);
+        } else {
+            self.lost += 1;
+            self.error = OVERFLOW;
+        }
+        self.run_until(now);
+        self.signal();
+    }
+
+    fn run_until(&mut self, now: Duration) {
+        while self.busy_until <= now {
+            let bytes = self.buffer.make_contiguous();
+            let Some(length) = self.dialect.first(bytes).filter(|&n| n > 0) else {
+                break;
+            };
+            let command: Vec<u8> = self.buffer.drain(..length).collect();
+            self.busy_until = self.busy_until.max(self.now);
+            self.execute(&command);
+            self.signal();
+        }
+        self.now = self.now.max(now);
+    }
+
+    fn take_answers(&mut self, now: Duration) -> Vec<u8> {
+        let mut out = Vec::new();
+        while self.answers.front().is_some_and(|(due, _)| *due <= now) {
+            out.extend(self.answers.pop_front().map(|(_, bytes)| bytes).unwrap_or_default());
+        }
+        out
+    }
+
+    fn is_idle(&self) -> bool {
+        let bytes: Vec<u8> = self.buffer.iter().copied().collect();
+        self.busy_until <= self.now && self.dialect.first(&bytes).is_none_or(|n| n == 0)
+    }
+
+    fn is_pen_down(&self) -> bool {
+        self.is_down
+    }
+
+    fn received(&self) -> u64 {
+        self.received
+    }
+
+    fn lost(&self) -> u64 {
+        self.lost
+    }
+
+    fn broken(&self) -> u64 {
+        self.broken
+    }
+
+    fn motions(&self) -> &[Motion] {
+        &self.motions
+    }
+}
+
 impl VirtualPlotter {
     /// A plotter like a cutter's profile.
     pub fn new(cutter: &Cutter, options: VirtualOptions) -> Self {
         Self {
             options,
-            dialect: cutter.dialect(),
+            dialect: cutter.dialect().clone(),
             pace: Pace::new(cutter),
             now: Duration::ZERO,
             busy_until: Duration::ZERO,
@@ -110,51 +182,6 @@ impl VirtualPlotter {
         }
     }
 
-    /// A byte arrives.
-    pub fn receive(&mut self, byte: u8, now: Duration) {
-        self.run_until(now);
-        self.received += 1;
-        if self.options.faults.error_at == Some(self.received) {
-            self.error = 15;
-        }
-        let knows_control = self.options.answers && self.dialect.controls().is_some();
-        if knows_control && (byte == ESC || !self.control.is_empty()) {
-            self.control.push(byte);
-            self.heed_control();
-        } else if self.buffer.len() < self.options.buffer_bytes {
-            self.buffer.push_back(byte);
-        } else {
-            self.lost += 1;
-            self.error = OVERFLOW;
-        }
-        self.run_until(now);
-        self.signal();
-    }
-
-    /// Time passes.
-    pub fn run_until(&mut self, now: Duration) {
-        while self.busy_until <= now {
-            let bytes = self.buffer.make_contiguous();
-            let Some(length) = self.dialect.first(bytes).filter(|&n| n > 0) else {
-                break;
-            };
-            let command: Vec<u8> = self.buffer.drain(..length).collect();
-            self.busy_until = self.busy_until.max(self.now);
-            self.execute(&command);
-            self.signal();
-        }
-        self.now = self.now.max(now);
-    }
-
-    /// What it says by now.
-    pub fn take_answers(&mut self, now: Duration) -> Vec<u8> {
-        let mut out = Vec::new();
-        while self.answers.front().is_some_and(|(due, _)| *due <= now) {
-            out.extend(self.answers.pop_front().map(|(_, bytes)| bytes).unwrap_or_default());
-        }
-        out
-    }
-
     /// Whether the line CTS is up.
     pub fn is_clear_to_send(&self) -> bool {
         self.is_clear_to_send
@@ -165,40 +192,9 @@ impl VirtualPlotter {
         self.options.buffer_bytes - self.buffer.len()
     }
 
-    /// Whether it has nothing left to do.
-    pub fn is_idle(&self) -> bool {
-        let bytes: Vec<u8> = self.buffer.iter().copied().collect();
-        self.busy_until <= self.now && self.dialect.first(&bytes).is_none_or(|n| n == 0)
-    }
-
     /// Whether it told the host to be silent.
     pub fn holds_host(&self) -> bool {
         self.has_sent_xoff
-    }
-
-    /// Whether the pen is down.
-    pub fn is_pen_down(&self) -> bool {
-        self.is_down
-    }
-
-    /// Bytes that arrived.
-    pub fn received(&self) -> u64 {
-        self.received
-    }
-
-    /// Bytes that arrived when the buffer was full.
-    pub fn lost(&self) -> u64 {
-        self.lost
-    }
-
-    /// Commands that could not be read.
-    pub fn broken(&self) -> u64 {
-        self.broken
-    }
-
-    /// What it did.
-    pub fn motions(&self) -> &[Motion] {
-        &self.motions
     }
 
     fn answer(&mut self, text: String) {
@@ -220,6 +216,13 @@ impl VirtualPlotter {
         };
         let control = std::mem::take(&mut self.control);
         debug_assert_eq!(length, control.len());
+        if control.len() < 3 {
+            if control == self.dialect.state_question() {
+                let state = if self.is_idle() { "0" } else { "1" };
+                self.answer(state.to_owned());
+            }
+            return;
+        }
         let parameters = String::from_utf8_lossy(&control[3..control.len()]).into_owned();
         let numbers: Vec<usize> =
             parameters.trim_end_matches(':').split(';').map(|n| n.parse().unwrap_or(0)).collect();

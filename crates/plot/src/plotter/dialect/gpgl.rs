@@ -36,7 +36,21 @@ impl Dialect for Gpgl {
         Vec::new()
     }
 
+    /// ESC EOT.
+    fn initialise(&self) -> &'static [u8] {
+        b"\x1b\x04"
+    }
+
+    /// ESC ENQ.
+    fn state_question(&self) -> &'static [u8] {
+        b"\x1b\x05"
+    }
+
+    /// ESC and a character are a command without ETX.
     fn first(&self, bytes: &[u8]) -> Option<usize> {
+        if bytes.first() == Some(&0x1B) {
+            return (bytes.len() > 1).then_some(2);
+        }
         Some(bytes.iter().position(|&b| b == ETX)? + 1)
     }
 
@@ -78,6 +92,7 @@ mod tests {
         assert_eq!(Gpgl.draw(&[at, Point::new(0, 7)]), [b"D200,45,0,7\x03"]);
         assert_eq!((Gpgl.lift(at), Gpgl.lower(at)), (b"M200,45\x03".to_vec(), Vec::new()));
         assert_eq!(Gpgl.split(b"!10\x03FX14\x03M0,0\x03"), [&b"!10\x03"[..], b"FX14\x03", b"M0,0\x03"]);
+        assert_eq!(Gpgl.split(b"\x1b\x04FN0\x03"), [&b"\x1b\x04"[..], b"FN0\x03"]);
         assert_eq!((Gpgl.mnemonic(b"FX14\x03"), Gpgl.mnemonic(b"!10\x03")), (&b"FX"[..], &b"!"[..]));
     }
 }

@@ -1,12 +1,14 @@
 //! The languages of plotters, one file each behind one trait.
 
 mod dmpl;
+mod gcode;
 mod gpgl;
 mod hpgl;
 
 use super::Point;
 
 pub use dmpl::Dmpl;
+pub use gcode::{Gcode, UNITS_PER_MM};
 pub use gpgl::Gpgl;
 pub use hpgl::Hpgl;
 
@@ -65,7 +67,7 @@ pub struct Controls {
 }
 
 /// A language.
-pub trait Dialect: Sync + std::fmt::Debug {
+pub trait Dialect: Send + Sync + std::fmt::Debug {
     /// Name in small letters, as in profiles.
     fn name(&self) -> &'static str;
 
@@ -99,6 +101,22 @@ pub trait Dialect: Sync + std::fmt::Debug {
         None
     }
 
+    /// Initialises the machine; empty where the job does that.
+    fn initialise(&self) -> &'static [u8] {
+        b""
+    }
+
+    /// Asks whether the machine is ready (0), moving (1) or without a sheet (2), acted on when it is received;
+    /// empty where the language cannot.
+    fn state_question(&self) -> &'static [u8] {
+        b""
+    }
+
+    /// Whether a machine acknowledges this command only when all before it is done.
+    fn waits(&self, _command: &[u8]) -> bool {
+        false
+    }
+
     /// Switches XON/XOFF on, with XOFF sent when fewer bytes are free; empty where the language
     /// cannot.
     fn switch_xon_xoff_on(&self, _least_free: usize) -> Vec<u8> {
@@ -126,14 +144,6 @@ pub trait Dialect: Sync + std::fmt::Debug {
         }
         out
     }
-}
-
-/// All dialects.
-pub const DIALECTS: [&dyn Dialect; 3] = [&Hpgl, &Gpgl, &Dmpl];
-
-/// The dialect of this name.
-pub fn dialect_of(name: &str) -> Option<&'static dyn Dialect> {
-    DIALECTS.into_iter().find(|dialect| dialect.name() == name)
 }
 
 /// Commands of one kind for many positions, each as long as it may be.
@@ -177,16 +187,20 @@ fn pairs(parameters: &[u8]) -> Option<Vec<Point>> {
 mod tests {
     use super::*;
 
+    fn dialects() -> [Box<dyn Dialect>; 4] {
+        [Box::new(Hpgl), Box::new(Gpgl), Box::new(Dmpl), Box::new(Gcode::new("M5\n", &["M4\n"]))]
+    }
+
     #[test]
     fn commands_are_short_and_lose_no_position() {
         let through: Vec<Point> = (0..200).map(|k| Point::new(k * 163 - 16000, -k * 161)).collect();
-        for dialect in DIALECTS {
+        for dialect in dialects() {
             let commands = dialect.draw(&through);
             assert!(commands.iter().all(|c| c.len() <= LONGEST_COMMAND), "{}", dialect.name());
             let file = commands.concat();
             assert_eq!(dialect.split(&file), commands, "{}", dialect.name());
             let read = commands.iter().flat_map(|command| match dialect.meaning(command) {
-                Meaning::Move { pen: Pen::Down, to, .. } => to,
+                Meaning::Move { pen: Pen::Down | Pen::Keep, to, .. } => to,
                 other => panic!("{other:?}"),
             });
             assert_eq!(read.collect::<Vec<_>>(), through, "{}", dialect.name());
@@ -195,7 +209,7 @@ mod tests {
 
     #[test]
     fn every_first_part_of_a_command_is_incomplete() {
-        for dialect in DIALECTS {
+        for dialect in dialects() {
             // DMPL has no sign that ends a command but its comma.
             let command = dialect.travel(Point::new(12, 345));
             assert_eq!(dialect.first(&command), Some(command.len()), "{}", dialect.name());

@@ -1,13 +1,15 @@
 //! What a machine is like.
 
 use super::fields::{Ascii, BladeOffset, DialectName, DirectionName, OriginName, Positive, RatioText};
+use super::grbl::Grbl;
 use super::level::Level;
 use super::{ProfileError, check_unverified};
-use crate::plotter::dialect::Dialect;
+use crate::plotter::dialect::{Dialect, Dmpl, Gcode, Gpgl, Hpgl, UNITS_PER_MM};
 use crate::plotter::{Direction, Frame, Origin};
 use crate::toolpath::Operation;
 use glam::DVec2;
 use serde::Deserialize;
+use std::sync::Arc;
 
 /// How the program keeps from sending more than the machine has room for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -23,11 +25,16 @@ pub enum Handshake {
     XonXoff,
     /// No more is sent than the machine has certainly done by now.
     Paced,
+    /// The machine says `ok` to each line, and what it has not said that of has to fit its buffer (GRBL).
+    Count,
+    /// The port itself takes no more than the machine has room for, and the machine says whether it is ready.
+    Usb,
 }
 
 impl Handshake {
     /// All of them, in the order of help texts.
-    pub const ALL: [Self; 5] = [Self::Auto, Self::EscB, Self::RtsCts, Self::XonXoff, Self::Paced];
+    pub const ALL: [Self; 7] =
+        [Self::Auto, Self::EscB, Self::RtsCts, Self::XonXoff, Self::Paced, Self::Count, Self::Usb];
 
     /// Name in small letters.
     pub fn name(self) -> &'static str {
@@ -37,6 +44,8 @@ impl Handshake {
             Self::RtsCts => "rtscts",
             Self::XonXoff => "xonxoff",
             Self::Paced => "paced",
+            Self::Count => "count",
+            Self::Usb => "usb",
         }
     }
 }
@@ -106,11 +115,20 @@ impl TryFrom<SerialTable> for Serial {
         ensure((300..=4_000_000).contains(&baud), "baud must be from 300 to 4000000")?;
         ensure(matches!(data_bits, 7 | 8), "data_bits must be 7 or 8")?;
         ensure(matches!(stop_bits, 1 | 2), "stop_bits must be 1 or 2")?;
-        ensure((256..=1 << 30).contains(&buffer_bytes), "buffer_bytes must be at least 256")?;
+        // A machine that counts takes single lines; others keep room for what lifts the tool.
+        let (least, message) = match handshake {
+            Handshake::Count => (80, "buffer_bytes must be at least 80"),
+            _ => (256, "buffer_bytes must be at least 256"),
+        };
+        ensure((least..=1 << 30).contains(&buffer_bytes), message)?;
+        ensure(
+            answers || handshake != Handshake::Count,
+            "count needs a machine that answers: set answers = true",
+        )?;
         let needs_answers = [handshake, fallback].contains(&Handshake::EscB);
         ensure(answers || !needs_answers, "escb needs a machine that answers: set answers = true")?;
         ensure(
-            !matches!(fallback, Handshake::Auto | Handshake::EscB),
+            !matches!(fallback, Handshake::Auto | Handshake::EscB | Handshake::Count | Handshake::Usb),
             "fallback must be rtscts, xonxoff or paced",
         )?;
         Ok(Self { baud, data_bits, parity, stop_bits, handshake, fallback, buffer_bytes, answers })
@@ -123,6 +141,9 @@ impl TryFrom<SerialTable> for Serial {
 pub struct MachineTool {
     #[serde(default)]
     select: Ascii,
+    /// Sets the tool down, where a move with the tool down does not do that itself.
+    #[serde(default)]
+    lower: Ascii,
     #[serde(default)]
     blade_offset_mm: BladeOffset,
 }
@@ -131,6 +152,16 @@ impl MachineTool {
     /// The command that takes the tool up.
     pub fn select(&self) -> &str {
         &self.select.0
+    }
+
+    /// Whether it is the same tool: one that is set down deeper is.
+    pub fn is(&self, other: &Self) -> bool {
+        (&self.select, self.blade_offset_mm) == (&other.select, other.blade_offset_mm)
+    }
+
+    /// The commands that set it down before it draws; empty where drawing does that itself.
+    pub fn lower(&self) -> &str {
+        &self.lower.0
     }
 
     /// Distance from the shaft's axis to the blade's tip, mm.
@@ -149,13 +180,15 @@ pub struct Cutter {
     name: String,
     description: String,
     unverified: Vec<String>,
-    dialect: &'static dyn Dialect,
+    dialect: Arc<dyn Dialect>,
     frame: Frame,
     serial: Serial,
     motion: MotionTable,
     commands: CommandTable,
     force: Option<Level>,
     speed: Option<Level>,
+    power: Option<Level>,
+    grbl: Option<Grbl>,
     tools: [Option<MachineTool>; Operation::ALL.len()],
 }
 
@@ -168,19 +201,45 @@ impl Cutter {
         let file: CutterFile = toml::from_str(text)?;
         check_unverified(text, &file.unverified)?;
         let tools = file.tools;
+        let tools = [tools.pen, tools.crease, tools.fold_hinge, Some(tools.cut)];
+        let lower: Vec<&str> = tools.iter().flatten().map(MachineTool::lower).collect();
+        let lift = file.commands.lift.0.as_str();
+        let dialect: Arc<dyn Dialect> = match file.dialect {
+            DialectName::Hpgl => Arc::new(Hpgl),
+            DialectName::Gpgl => Arc::new(Gpgl),
+            DialectName::Dmpl => Arc::new(Dmpl),
+            DialectName::Gcode => Arc::new(Gcode::new(lift, &lower)),
+        };
+        let is_gcode = file.dialect == DialectName::Gcode;
+        let counts = file.serial.handshake == Handshake::Count;
+        let units = file.frame.0.units_per_mm().value();
+        let ensure = |holds: bool, message| if holds { Ok(()) } else { Err(ProfileError::Whole(message)) };
+        ensure(!is_gcode || units == f64::from(UNITS_PER_MM), "gcode needs units_per_mm = \"1000\"")?;
+        let has_lines = !lift.is_empty() && lower.iter().all(|text| !text.is_empty());
+        ensure(!is_gcode || has_lines, "gcode needs lift in [commands], and lower in each of the tools")?;
+        ensure(
+            is_gcode || lift.is_empty() && lower.concat().is_empty(),
+            "lift and lower are for gcode only",
+        )?;
+        ensure(counts == file.grbl.is_some(), "handshake = \"count\" and the table [grbl] need each other")?;
+        ensure(is_gcode || !counts, "handshake = \"count\" is for gcode only")?;
+        let has_state = !dialect.state_question().is_empty() || file.serial.handshake != Handshake::Usb;
+        ensure(has_state, "handshake = \"usb\" is for gpgl only")?;
         Ok(Self {
             text: text.to_owned(),
             name: file.name,
             description: file.description,
             unverified: file.unverified,
-            dialect: file.dialect.0,
+            dialect,
             frame: file.frame.0,
             serial: file.serial,
             motion: file.motion,
             commands: file.commands,
             force: file.force,
             speed: file.speed,
-            tools: [tools.pen, tools.crease, tools.fold_hinge, Some(tools.cut)],
+            power: file.power,
+            grbl: file.grbl,
+            tools,
         })
     }
 
@@ -209,9 +268,24 @@ impl Cutter {
         self.serial.answers && self.dialect.controls().is_some()
     }
 
+    /// Whether a handshake is possible with its language and its answers.
+    pub fn can_use(&self, handshake: Handshake) -> bool {
+        match handshake {
+            Handshake::EscB => self.can_be_asked(),
+            Handshake::Count => self.grbl.is_some(),
+            Handshake::Usb => !self.dialect.state_question().is_empty(),
+            _ => true,
+        }
+    }
+
     /// Its language.
-    pub fn dialect(&self) -> &'static dyn Dialect {
-        self.dialect
+    pub fn dialect(&self) -> &Arc<dyn Dialect> {
+        &self.dialect
+    }
+
+    /// How a session with GRBL begins and pauses, where it speaks that.
+    pub fn grbl(&self) -> Option<&Grbl> {
+        self.grbl.as_ref()
     }
 
     /// Its coordinates.
@@ -274,6 +348,11 @@ impl Cutter {
         self.speed.as_ref()
     }
 
+    /// Its power, in percent, where it can be set: that of a laser.
+    pub fn power(&self) -> Option<&Level> {
+        self.power.as_ref()
+    }
+
     /// The tool for an operation; none where the machine leaves it out.
     pub fn tool(&self, operation: Operation) -> Option<&MachineTool> {
         self.tools[operation as usize].as_ref()
@@ -301,6 +380,8 @@ struct CutterFile {
     commands: CommandTable,
     force: Option<Level>,
     speed: Option<Level>,
+    power: Option<Level>,
+    grbl: Option<Grbl>,
     tools: ToolTables,
 }
 
@@ -319,6 +400,8 @@ struct CommandTable {
     start: Ascii,
     end: Ascii,
     stop: Ascii,
+    #[serde(default)]
+    lift: Ascii,
     #[serde(default)]
     separator: Ascii,
 }

@@ -1,6 +1,5 @@
 //! Single values of profiles.
 
-use crate::plotter::dialect::{Dialect, dialect_of};
 use crate::plotter::{Direction, Origin, Ratio};
 use crate::toolpath::{Perforation, Tooling, ToolingError};
 use serde::Deserialize;
@@ -16,6 +15,21 @@ impl TryFrom<f64> for Positive {
     fn try_from(x: f64) -> Result<Self, String> {
         let is_usable = x > 0.0 && x <= 1e6;
         is_usable.then_some(Self(x)).ok_or_else(|| format!("{x} is not a usable size; use a number above 0"))
+    }
+}
+
+/// A share of the most that a machine has, percent.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(try_from = "f64")]
+pub(super) struct Percent(pub f64);
+
+impl TryFrom<f64> for Percent {
+    type Error = String;
+
+    fn try_from(x: f64) -> Result<Self, String> {
+        (x > 0.0 && x <= 100.0)
+            .then_some(Self(x))
+            .ok_or_else(|| format!("{x} is not a power from 0 to 100 percent"))
     }
 }
 
@@ -94,16 +108,26 @@ impl TryFrom<String> for RatioText {
 }
 
 /// The name of a dialect.
-#[derive(Debug, Clone, Copy, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(try_from = "String")]
-pub(super) struct DialectName(pub &'static dyn Dialect);
+pub(super) enum DialectName {
+    Hpgl,
+    Gpgl,
+    Dmpl,
+    Gcode,
+}
 
 impl TryFrom<String> for DialectName {
     type Error = String;
 
     fn try_from(name: String) -> Result<Self, String> {
-        let dialect = dialect_of(&name);
-        dialect.map(Self).ok_or_else(|| format!("\"{name}\" is not a dialect; use hpgl, gpgl, dmpl"))
+        match name.as_str() {
+            "hpgl" => Ok(Self::Hpgl),
+            "gpgl" => Ok(Self::Gpgl),
+            "dmpl" => Ok(Self::Dmpl),
+            "gcode" => Ok(Self::Gcode),
+            _ => Err(format!("\"{name}\" is not a dialect; use hpgl, gpgl, dmpl or gcode")),
+        }
     }
 }
 

@@ -22,13 +22,14 @@ macro_rules! profiles {
 
 /// Cutters.
 pub const CUTTERS: &[Profile] = profiles!["cutters":
-    "generic-hpgl", "hp-7475a", "hp-7550a", "roland-camm-1", "graphtec", "silhouette", "vinyl-cutter",
-    "dmpl", "pen-plotter",
+    "generic-hpgl", "hp-7475a", "hp-7550a", "roland-camm-1", "graphtec", "silhouette", "silhouette-classic",
+    "vinyl-cutter",
+    "dmpl", "pen-plotter", "grbl-laser", "grbl-knife", "grbl-pen",
 ];
 
 /// Media.
 pub const MEDIA: &[Profile] =
-    profiles!["media": "paper-120", "cardstock-200", "cardstock-300", "vinyl", "pen"];
+    profiles!["media": "paper-120", "cardstock-200", "cardstock-300", "vinyl", "pen", "laser-card"];
 
 impl Cutter {
     /// The first of [`CUTTERS`]: what most cutters understand.
@@ -38,6 +39,11 @@ impl Cutter {
 }
 
 impl Media {
+    /// Card on a weak laser, to begin with.
+    pub fn laser() -> Self {
+        Self::parse(MEDIA[5].text).expect("the built-in profiles are valid, which a test checks")
+    }
+
     /// The usual card for paper models.
     pub fn usual() -> Self {
         Self::parse(MEDIA[1].text).expect("the built-in profiles are valid, which a test checks")
@@ -53,6 +59,7 @@ mod tests {
     fn the_usual_ones() {
         assert_eq!((Cutter::generic().name(), CUTTERS[0].name), ("Generic HP-GL cutter", "generic-hpgl"));
         assert_eq!((Media::usual().name(), MEDIA[1].name), ("Cardstock, 200 g/m²", "cardstock-200"));
+        assert_eq!((Media::laser().name(), MEDIA[5].name), ("Card for a laser", "laser-card"));
     }
 
     #[test]
@@ -83,7 +90,7 @@ mod tests {
     #[test]
     fn mistakes_are_shown_with_their_line() {
         for (name, from, to, word) in [
-            ("generic-hpgl", "dialect = \"hpgl\"", "dialect = \"gcode\"", "hpgl, gpgl, dmpl"),
+            ("generic-hpgl", "dialect = \"hpgl\"", "dialect = \"gerber\"", "hpgl, gpgl, dmpl or gcode"),
             ("generic-hpgl", "units_per_mm = \"40\"", "units_per_mm = \"forty\"", "5105/127"),
             ("generic-hpgl", "x = \"right\"", "x = \"east\"", "right"),
             ("generic-hpgl", "travel_mm_s = ", "travel_mm_s = -", "above 0"),

@@ -1,6 +1,6 @@
 //! What a sheet is made of, and how hard and fast it is worked.
 
-use super::fields::{Dashes, Overcut, Passes, Positive};
+use super::fields::{Dashes, Overcut, Passes, Percent, Positive};
 use super::{ProfileError, check_unverified};
 use crate::toolpath::{Operation, Tooling, ToolingError};
 use serde::Deserialize;
@@ -10,6 +10,7 @@ use serde::Deserialize;
 pub struct Work {
     force_g: Option<f64>,
     speed_mm_s: Option<f64>,
+    power_percent: Option<f64>,
     /// Passes, overcut and perforation; the blade is the machine's.
     tooling: Tooling,
 }
@@ -23,6 +24,11 @@ impl Work {
     /// Speed with the tool down, mm/s.
     pub fn speed_mm_s(&self) -> Option<f64> {
         self.speed_mm_s
+    }
+
+    /// Power of a laser, percent of its most.
+    pub fn power_percent(&self) -> Option<f64> {
+        self.power_percent
     }
 
     /// Overcut, passes and perforation.
@@ -95,6 +101,7 @@ struct WorkField(Work);
 struct WorkTable {
     force_g: Option<Positive>,
     speed_mm_s: Option<Positive>,
+    power_percent: Option<Percent>,
     #[serde(default)]
     passes: Passes,
     #[serde(default)]
@@ -112,6 +119,7 @@ impl TryFrom<WorkTable> for WorkField {
         }
         let number = |value: Option<Positive>| value.map(|v| v.0);
         let (force_g, speed_mm_s) = (number(table.force_g), number(table.speed_mm_s));
-        Ok(Self(Work { force_g, speed_mm_s, tooling }))
+        let power_percent = table.power_percent.map(|percent| percent.0);
+        Ok(Self(Work { force_g, speed_mm_s, power_percent, tooling }))
     }
 }

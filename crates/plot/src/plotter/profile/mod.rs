@@ -3,11 +3,13 @@
 
 mod cutter;
 mod fields;
+mod grbl;
 mod level;
 mod library;
 mod media;
 
 pub use cutter::{Cutter, Handshake, MachineTool, Parity, Serial};
+pub use grbl::Grbl;
 pub use level::Level;
 pub use library::{CUTTERS, MEDIA, Profile};
 pub use media::{Media, Work};
@@ -18,6 +20,9 @@ pub enum ProfileError {
     /// Not TOML, an unknown key, or a value that is not accepted. The message quotes the line.
     #[error("{0}")]
     Toml(String),
+    /// Parts that do not go together.
+    #[error("{0}")]
+    Whole(&'static str),
     /// `unverified` names a field that the file does not have.
     #[error("line {line}: \"{field}\" in unverified is not a field of this profile; write it as table.key")]
     NoField {

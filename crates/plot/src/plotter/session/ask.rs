@@ -36,6 +36,8 @@ pub(super) struct Ask {
     pub(super) size: usize,
     pub(super) error: u32,
     pub(super) has_position: bool,
+    /// Whether any question was ever answered.
+    pub(super) has_answered: bool,
     /// The next question of the probe or of the finish.
     pub(super) stage: usize,
     silences: u32,
@@ -51,6 +53,7 @@ impl Ask {
             size,
             error: 0,
             has_position: false,
+            has_answered: false,
             stage: 0,
             silences: 0,
             count: 0,
@@ -115,6 +118,7 @@ impl Session {
         }
         self.ask.open = None;
         self.ask.silences = 0;
+        self.ask.has_answered = true;
     }
 
     /// Finds out what the machine answers, and chooses the handshake.

@@ -55,6 +55,18 @@ impl Ledger {
         }
     }
 
+    /// The machine answers the oldest command that is unanswered.
+    pub(super) fn acknowledged(&mut self) {
+        if let Some(entry) = self.open.front() {
+            self.taken(entry.end);
+        }
+    }
+
+    /// Bytes of commands that are unanswered.
+    pub(super) fn unanswered_bytes(&self) -> usize {
+        self.open.iter().map(|entry| entry.bytes).sum()
+    }
+
     /// Everything that is done by now at the latest counts as taken.
     pub(super) fn taken_by_time(&mut self, now: Duration) {
         let done = self.open.iter().take_while(|entry| entry.done_at <= now);

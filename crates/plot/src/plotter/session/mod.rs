@@ -8,22 +8,27 @@
 //! - However a session ends, unless the port is lost, the last thing that is sent lifts the tool.
 
 mod ask;
+mod grbl;
 mod ledger;
 mod line;
 mod replies;
 mod stream;
+mod usb;
 
 pub use ledger::SLOWNESS;
 
-use super::profile::{Handshake, Serial};
+use super::profile::{Grbl, Handshake, Serial};
 use super::{Cutter, Job, Point};
 use crate::plotter::dialect::Dialect;
 use ask::{Ask, Question};
+use grbl::Counter;
 use ledger::Ledger;
 use line::Line;
 use replies::{Replies, Reply};
 use std::collections::VecDeque;
+use std::sync::Arc;
 use std::time::Duration;
+use usb::Poll;
 
 /// Most bytes that are handed to the port before they have arrived: what the kernel and adapters
 /// still send after the machine said stop.
@@ -53,6 +58,23 @@ pub enum End {
     Device(u32),
     /// The machine does not answer, though it has to for the handshake.
     NoAnswer,
+    /// The machine refuses a line (`error:N` of GRBL).
+    Rejected(u16),
+    /// The machine is in alarm (`ALARM:N` of GRBL). The tool was not lifted.
+    Alarm(u16),
+    /// The machine is locked or busy; nothing was sent.
+    Locked,
+    /// A setting of the machine is not what its profile needs; nothing was sent.
+    Setting {
+        /// Its number, as in `$32`.
+        number: u16,
+        /// What it has to be.
+        needed: i32,
+    },
+    /// The machine restarted by itself.
+    Restarted,
+    /// The machine is idle at another place than the lines that were sent lead to.
+    LinesLost,
     /// The port is gone. Where the tool is is not known.
     PortLost,
 }
@@ -114,7 +136,7 @@ enum Phase {
 #[derive(Debug)]
 pub struct Session {
     job: Job,
-    dialect: &'static dyn Dialect,
+    dialect: Arc<dyn Dialect>,
     serial: Serial,
     stop: String,
     handshake: Handshake,
@@ -122,6 +144,9 @@ pub struct Session {
     ledger: Ledger,
     replies: Replies,
     ask: Ask,
+    grbl: Option<Grbl>,
+    counter: Counter,
+    poll: Poll,
     phase: Phase,
     /// The next command of the job.
     next: usize,
@@ -129,12 +154,16 @@ pub struct Session {
     inserted: VecDeque<Vec<u8>>,
     at: Point,
     is_down: bool,
+    /// Strokes that are certainly finished when the last command that was sent is acknowledged.
+    certain: usize,
     /// Whether a pause set in, and whether the pen was down before it.
     paused: Option<bool>,
     wants_pause: bool,
     stop_wishes: u32,
     is_held: bool,
     has_clear_to_send: Option<bool>,
+    /// Whether the user knows what is waited for at the end.
+    is_wait_told: bool,
     notes: Vec<String>,
 }
 
@@ -144,7 +173,7 @@ impl Session {
         let serial = *cutter.serial();
         Self {
             job,
-            dialect: cutter.dialect(),
+            dialect: cutter.dialect().clone(),
             serial,
             stop: cutter.stop().to_owned(),
             handshake,
@@ -152,16 +181,21 @@ impl Session {
             ledger: Ledger::default(),
             replies: Replies::default(),
             ask: Ask::new(serial.buffer_bytes),
+            grbl: cutter.grbl().cloned(),
+            counter: Counter::default(),
+            poll: Poll::default(),
             phase: Phase::Probe,
             next: 0,
             inserted: VecDeque::new(),
             at: Point::default(),
             is_down: false,
+            certain: 0,
             paused: None,
             wants_pause: false,
             stop_wishes: 0,
             is_held: false,
             has_clear_to_send,
+            is_wait_told: false,
             notes: Vec::new(),
         }
     }
@@ -170,6 +204,9 @@ impl Session {
     pub fn received(&mut self, bytes: &[u8]) {
         for reply in self.replies.read(bytes) {
             match reply {
+                Reply::Line(line) if self.handshake == Handshake::Count => self.grbl_answered(&line),
+                Reply::Line(line) if self.handshake == Handshake::Usb => self.usb_answered(&line),
+                Reply::Go | Reply::Stop if matches!(self.handshake, Handshake::Count | Handshake::Usb) => {}
                 Reply::Go => self.is_held = false,
                 Reply::Stop => self.is_held = true,
                 Reply::Line(line) => self.answered(&line),
@@ -236,6 +273,11 @@ impl Session {
     /// What to do now. `queued` is the number of bytes that the port holds, as far as it says.
     pub fn step(&mut self, now: Duration, queued: usize) -> Step {
         self.line.observe(queued);
+        match self.handshake {
+            Handshake::Count => return self.grbl_step(now),
+            Handshake::Usb => return self.usb_step(now),
+            _ => {}
+        }
         match self.phase {
             Phase::Probe => self.probe(now),
             Phase::Stream => self.stream(now),

@@ -1,9 +1,9 @@
-//! What comes from the machine: XON, XOFF, and lines that end with a carriage return.
+//! What comes from the machine: XON, XOFF, and lines that end with a carriage return or ETX.
 
 const XON: u8 = 17;
 const XOFF: u8 = 19;
 /// Longer lines are noise.
-const LONGEST_LINE: usize = 80;
+const LONGEST_LINE: usize = 160;
 
 /// One thing that the machine said.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,7 +26,8 @@ impl Replies {
             match byte {
                 XON => out.push(Reply::Go),
                 XOFF => out.push(Reply::Stop),
-                b'\r' | b'\n' => {
+                // GP-GL ends its answers with ETX.
+                b'\r' | b'\n' | 0x03 => {
                     let line = std::mem::take(&mut self.line);
                     if !line.is_empty() {
                         out.push(Reply::Line(String::from_utf8_lossy(&line).into_owned()));

@@ -3,10 +3,14 @@
 use super::{End, Handshake, MOST_IN_FLIGHT, Phase, Question, RESERVE, Session, Step};
 use std::time::Duration;
 
-/// A machine that works on may take so much longer than its profile says before it is given up.
+/// A machine that has answered before may take so much longer than its profile says before it is given up.
 const TOLERANCE: u32 = 3;
 /// And so much in any case.
 const GRACE: Duration = Duration::from_secs(20);
+/// One that never answered is not waited for beyond the estimate and its margin, but for this.
+const LAST_CHANCE: Duration = Duration::from_secs(3);
+/// Shorter waits are not told of.
+const LONG: Duration = Duration::from_secs(5);
 /// After the second wish to stop the port has so long to send what lifts the tool.
 const HURRY: Duration = Duration::from_secs(10);
 /// The next look where only time passes.
@@ -42,16 +46,16 @@ impl Session {
     fn ledger_by_flow(&mut self, now: Duration) {
         match self.handshake {
             Handshake::Paced => self.ledger.taken_by_time(now),
-            Handshake::RtsCts | Handshake::XonXoff => {
+            Handshake::RtsCts | Handshake::XonXoff | Handshake::Usb => {
                 let held = self.line.in_flight(now) + self.ask.size;
                 self.ledger.taken(self.ledger.total().saturating_sub(held as u64));
             }
-            Handshake::Auto | Handshake::EscB => {}
+            Handshake::Auto | Handshake::EscB | Handshake::Count => {}
         }
     }
 
     /// Lifts the pen for a pause, and sets it down again after it.
-    fn heed_pause(&mut self) {
+    pub(super) fn heed_pause(&mut self) {
         let pen = match (self.wants_pause, self.paused) {
             (true, None) => {
                 self.paused = Some(self.is_down);
@@ -59,17 +63,21 @@ impl Session {
             }
             (false, Some(was_down)) => {
                 self.paused = None;
-                if was_down { self.dialect.lower(self.at) } else { Vec::new() }
+                if was_down { self.lower() } else { Vec::new() }
             }
             _ => Vec::new(),
         };
-        if !pen.is_empty() {
-            self.inserted.push_back(pen);
-        }
+        self.inserted.extend(self.dialect.split(&pen).into_iter().map(<[u8]>::to_vec));
+    }
+
+    /// Sets the pen down: as the language does it, else as the job did it last.
+    fn lower(&self) -> Vec<u8> {
+        let own = self.dialect.lower(self.at);
+        if own.is_empty() { self.job.lowering_before(self.next) } else { own }
     }
 
     /// Takes as many whole commands as may be sent now.
-    fn commands_that_fit(&mut self, now: Duration) -> Vec<u8> {
+    pub(super) fn commands_that_fit(&mut self, now: Duration) -> Vec<u8> {
         let mut out = Vec::new();
         loop {
             let is_inserted = !self.inserted.is_empty();
@@ -86,7 +94,11 @@ impl Session {
                 self.ledger.sent(length, self.ledger.strokes_done(), 0.0, arrival);
                 out.extend(self.inserted.pop_front().unwrap_or_default());
             } else if let Some(command) = self.job.commands().get(self.next) {
-                self.ledger.sent(length, command.strokes_done(), command.seconds(), arrival);
+                if self.handshake != Handshake::Count || self.dialect.waits(command.bytes()) {
+                    self.certain = command.strokes_done();
+                }
+                self.ledger.sent(length, self.certain, command.seconds(), arrival);
+                self.counter.sent(command.motions().last().map(|motion| motion.to));
                 out.extend(command.bytes());
                 self.at = command.ends_at();
                 self.is_down = command.is_down_after();
@@ -105,7 +117,8 @@ impl Session {
             && match self.handshake {
                 Handshake::EscB => length <= self.credit(),
                 Handshake::Paced => self.ledger.held_by_time(now) + length + RESERVE <= self.ask.size,
-                Handshake::Auto | Handshake::RtsCts | Handshake::XonXoff => true,
+                Handshake::Count => self.ledger.unanswered_bytes() + length <= self.ask.size,
+                Handshake::Auto | Handshake::RtsCts | Handshake::XonXoff | Handshake::Usb => true,
             }
     }
 
@@ -115,7 +128,10 @@ impl Session {
         let mut bytes = Vec::new();
         if let Some(controls) = self.dialect.controls().filter(|_| self.serial.answers) {
             bytes.extend(controls.discard);
-            self.ledger.discard(now);
+            // Whether a silent machine discards anything is not known.
+            if self.ask.has_answered {
+                self.ledger.discard(now);
+            }
         }
         bytes.extend(self.dialect.lift(self.at));
         bytes.extend(self.stop.as_bytes());
@@ -141,12 +157,27 @@ impl Session {
         if !is_empty {
             return Step::Wait(TICK);
         }
+        self.tell_wait(end, now);
         if !self.may_ask() || end == End::NoAnswer {
             // Only time tells. A machine that holds the line is not done.
             let is_done = now >= self.ledger.done_at() && !self.is_held;
             return if is_done { self.end(end, false) } else { Step::Wait(TICK) };
         }
         self.confirm(end, now)
+    }
+
+    /// Says what a long wait is for, and when it ends.
+    pub(super) fn tell_wait(&mut self, end: End, now: Duration) {
+        let left = self.ledger.done_at().saturating_sub(now);
+        if std::mem::replace(&mut self.is_wait_told, true) || left < LONG {
+            return;
+        }
+        let sent = if end == End::Finished { "everything is sent" } else { "the lift of the tool is sent" };
+        let until = match (self.may_ask(), self.ask.has_answered) {
+            (true, true) => "the machine answers that it has finished",
+            _ => "the machine should have finished by its profile, because it does not answer",
+        };
+        self.notes.push(format!("{sent}; waiting about {} s, until {until}", left.as_secs()));
     }
 
     /// Asks for a position, which is answered when everything before is done, then for errors.
@@ -165,9 +196,23 @@ impl Session {
             return self.end(self.with_error(end), true);
         }
         let asked = self.ask.open.map_or(now, |(_, asked, _)| asked);
-        let works_on = self.ledger.done_at().saturating_sub(asked) * TOLERANCE;
-        let patience = if stage == 1 { works_on + GRACE } else { GRACE };
-        if self.ask.is_unanswered(now, patience) { self.end(end, stage == 2) } else { Step::Wait(TICK) }
+        let works_on = self.ledger.done_at().saturating_sub(asked);
+        let patience = match (stage, self.ask.has_answered) {
+            (1, true) => works_on * TOLERANCE + GRACE,
+            (1, false) => works_on + LAST_CHANCE,
+            _ => GRACE,
+        };
+        // A machine that holds the line is not done.
+        if stage == 1 && self.is_held || !self.ask.is_unanswered(now, patience) {
+            return Step::Wait(TICK);
+        }
+        if stage == 1 {
+            let waited = patience.as_secs();
+            self.notes.push(format!(
+                "the machine did not say within {waited} s that it has finished; look whether it is still moving"
+            ));
+        }
+        self.end(end, stage == 2)
     }
 
     /// An error that the machine reported at last.

@@ -1,10 +1,11 @@
-"""Reads an HP-GL file with hp2xx and compares it with the DXF file of the same sheet.
+"""Reads a job with a program that is not ours, and compares it with the DXF file of the same sheet: HP-GL with
+hp2xx, G-code with gcodeparser.
 
-    check_hpgl.py JOB.plt SHEET.dxf
+    check_job.py JOB.plt|JOB.gcode SHEET.dxf [BLADE_OFFSET_MM]
 
-Fails where hp2xx ignores a command, and where a line of the one is farther than the tolerance from
-the lines of the other. The job has to be that of a pen without overcut, so that both are the same
-geometry.
+Fails where the program ignores a command, and where a line of the one is farther than the tolerance from
+the lines of the other. The job has to be that of a pen or a laser without overcut, so that both are the same
+geometry. With a blade's offset it is that of a drag knife in G-code, whose tip is simulated.
 """
 
 import math
@@ -14,7 +15,9 @@ import sys
 import tempfile
 
 TOLERANCE_MM = 0.025
+KNIFE_TOLERANCE_MM = 0.05
 SKIPPED_LAYERS = {"0"}
+DRAWN_LAYERS = {"GLUE", "LABEL"}
 
 
 def pairs(path):
@@ -98,7 +101,7 @@ def samples(lines):
             yield (a[0] + (b[0] - a[0]) * k / steps, a[1] + (b[1] - a[1]) * k / steps)
 
 
-def main(job, sheet):
+def drawn_by_hpgl(job):
     with tempfile.TemporaryDirectory() as folder:
         drawn_path = f"{folder}/drawn.dxf"
         command = ["hp2xx", "-t", "-x", "0", "-y", "0", "-m", "dxf", "-f", drawn_path, job]
@@ -107,15 +110,89 @@ def main(job, sheet):
         ignored = re.search(r"HPGL command\(s\) ignored:\s*(\d+)", said)
         if run.returncode or not ignored or ignored[1] != "0":
             sys.exit(f"hp2xx did not read all of it:\n{said}")
-        drawn = [line for line in segments(drawn_path)]
-    meant = [line for line in segments(sheet) if line[2] not in SKIPPED_LAYERS]
+        return segments(drawn_path)
+
+
+def tip(shaft, offset, direction):
+    """The way of a blade's tip behind its shaft, and where the blade points at last: each step turns it by the
+    tractrix, tan(a/2) = tan(a0/2) exp(-s/r)."""
+    way = [(shaft[0][0] - offset * math.cos(direction), shaft[0][1] - offset * math.sin(direction))]
+    for (ax, ay), (bx, by) in zip(shaft, shaft[1:]):
+        length, along = math.hypot(bx - ax, by - ay), math.atan2(by - ay, bx - ax)
+        steps = max(1, math.ceil(length / 0.02))
+        for k in range(1, steps + 1):
+            angle = math.remainder(direction - along, math.tau)
+            direction = along + 2 * math.atan(math.tan(angle / 2) * math.exp(-length / steps / offset))
+            x, y = ax + (bx - ax) * k / steps, ay + (by - ay) * k / steps
+            way.append((x - offset * math.cos(direction), y - offset * math.sin(direction)))
+    return way, direction
+
+
+def cut_by_knife(job, offset):
+    """The lines that the tip cuts, without the first stroke, which only turns the blade."""
+    strokes = []
+    for a, b in drawn_by_gcode(job):
+        if strokes and strokes[-1][-1] == a:
+            strokes[-1].append(b)
+        else:
+            strokes.append([a, b])
+    lines, direction = [], 2.2
+    for k, stroke in enumerate(strokes):
+        way, direction = tip(stroke, offset, direction)
+        if k > 0:
+            lines += zip(way, way[1:])
+    return lines
+
+
+def drawn_by_gcode(job):
+    """The moves with the beam on, or with the knife near the mat."""
+    from gcodeparser import parse_gcode_lines
+
+    text = open(job, encoding="ascii").read()
+    commands = list(parse_gcode_lines(text))
+    # Lines of one setting, F or S, are none to it.
+    written = [line for line in text.splitlines() if line.strip() and not re.fullmatch(r"[FS][0-9.]+", line)]
+    if len(commands) != len(written):
+        sys.exit(f"gcodeparser read {len(commands)} commands of {len(written)} lines")
+    at, is_down, drawn = (0.0, 0.0), False, []
+    for line in commands:
+        kind, params = line.command, line.params
+        if kind in (("M", 3), ("M", 4)):
+            is_down = params.get("S", 1) > 0
+        elif kind == ("M", 5):
+            is_down = False
+        elif kind in (("G", 0), ("G", 1)):
+            if "Z" in params:
+                is_down = params["Z"] < 1
+                continue
+            to = (params.get("X", at[0]), params.get("Y", at[1]))
+            if kind == ("G", 0) and is_down and to != at:
+                sys.exit(f"it travels with the beam on: {line}")
+            if is_down:
+                drawn.append((at, to))
+            at = to
+        elif kind[0] == "G" and kind[1] not in (4, 17, 21, 54, 90, 94):
+            sys.exit(f"unexpected {line}")
+    if is_down:
+        sys.exit("the beam is on at the end")
+    return drawn
+
+
+def main(job, sheet, offset=None):
+    skipped, tolerance = SKIPPED_LAYERS, TOLERANCE_MM
+    if offset:
+        drawn = cut_by_knife(job, float(offset))
+        skipped, tolerance = SKIPPED_LAYERS | DRAWN_LAYERS, KNIFE_TOLERANCE_MM
+    else:
+        drawn = drawn_by_gcode(job) if job.endswith(".gcode") else drawn_by_hpgl(job)
+    meant = [line for line in segments(sheet) if line[2] not in skipped]
     if not drawn or not meant:
         sys.exit(f"{len(drawn)} lines drawn, {len(meant)} meant")
     for name, ours, others in [("drawn, not meant", drawn, meant), ("meant, not drawn", meant, drawn)]:
         grid = Grid(others)
         worst, place = max((grid.distance(p), p) for p in samples(ours))
         print(f"{name}: {worst:.4f} mm at most, at {place[0]:.2f}, {place[1]:.2f}")
-        if worst > TOLERANCE_MM:
+        if worst > tolerance:
             sys.exit(1)
 
 
