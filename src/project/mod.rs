@@ -231,7 +231,7 @@ profile_vertices = 4
             assert!(message.contains(place), "{to}: {message}");
             assert!(message.contains(word), "{to}: {message}");
         }
-        assert!(Project::parse("size = 3").unwrap_err().to_string().contains("mesh"));
+        assert!(Project::parse("size = 30").unwrap_err().to_string().contains("mesh"));
     }
 
     #[test]

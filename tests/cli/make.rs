@@ -125,3 +125,22 @@ fn help_is_a_document() {
         assert!(result.out.contains(words), "no {words:?} in the help");
     }
 }
+
+#[test]
+fn both_sides_are_pages_in_turn_and_an_overview_comes_first() {
+    let pages = |arguments: &[&str]| {
+        let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
+        let make = ["make", "cube.off", "--size", "60", "--effort", "0", "-o", "a.pdf"];
+        let result = run(folder.path(), &[&make, arguments].concat());
+        assert_eq!(result.code, Some(0), "{}", result.err);
+        let document = lopdf::Document::load(folder.path().join("a.pdf")).unwrap();
+        let numbers: Vec<u32> = document.get_pages().into_keys().collect();
+        numbers.iter().map(|&number| document.extract_text(&[number]).unwrap()).collect::<Vec<String>>()
+    };
+    assert_eq!(pages(&[]).len(), 1);
+    let [outside, inside] = &pages(&["--side", "both"])[..] else { panic!("two pages") };
+    assert!(outside.contains("outside of sheet 1") && !outside.contains("body"), "{outside}");
+    assert!(inside.contains("sheet 1 of 1") && inside.contains("body"), "{inside}");
+    let [overview, sheet] = &pages(&["--overview"])[..] else { panic!("two pages") };
+    assert!(overview.contains("panels") && sheet.contains("sheet 1 of 1"), "{overview}");
+}

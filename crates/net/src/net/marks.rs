@@ -6,7 +6,7 @@ use super::{FaceKind, Label, LabelKind, Piece};
 use glam::DVec2;
 use std::f64::consts::FRAC_PI_4;
 use tatamu_core::component::PanelSet;
-use tatamu_draw::drawing::{Align, Layer, LineStyles, Mark, Polyline, Stroke, Text, text};
+use tatamu_draw::drawing::{Align, Fill, Layer, LineStyles, Mark, Polyline, Rgb, Stroke, Text, text};
 
 /// How a crease is folded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -89,6 +89,8 @@ pub enum Side {
     Inside,
 }
 
+/// Paper without lines of a hatch round the label of a tab, mm.
+const PLATE_MM: f64 = 0.4;
 /// Size of the dot at the end of a leader line, mm.
 const DOT_MM: f64 = 0.35;
 
@@ -106,6 +108,13 @@ impl Piece {
             Some(Mark::area(Layer::Tab, &tab.outline, styles)?.of_part(format!("tab {}", tab.label)))
         });
         let mut marks: Vec<Mark> = tabs.collect();
+        if styles.fill(Layer::Tab) == Fill::Hatch {
+            // Letters cannot be read over lines.
+            let own = self.labels.iter().filter(|label| label.kind == LabelKind::Tab);
+            let plate =
+                |label: &Label| Mark::filled(Layer::Tab, rectangle(label, PLATE_MM).to_vec(), Rgb::WHITE);
+            marks.extend(own.map(|label| plate(label).of_part(format!("plate {}", label.text))));
+        }
         if side == Side::Outside {
             marks.extend(self.joint_marks(styles));
         }
@@ -190,6 +199,15 @@ fn label_marks(label: &Label, styles: &LineStyles) -> Vec<Mark> {
         frame.of_part(format!("{} frame", label.text))
     });
     frame.into_iter().chain([Mark::text(layer, text).of_part(&*label.text)]).collect()
+}
+
+/// The box of a label with so much paper round it.
+fn rectangle(label: &Label, gap_mm: f64) -> [DVec2; 4] {
+    let along = DVec2::from_angle(label.angle_rad);
+    let (half, below) = (label.width_mm / 2.0 + gap_mm, gap_mm);
+    let above = label.cap_height_mm + gap_mm;
+    [(-half, -below), (half, -below), (half, above), (-half, above)]
+        .map(|(x, y)| label.anchor + along * x + along.perp() * y)
 }
 
 /// The frame round a label: a rectangle whose ends are cut off, as on a tag.
