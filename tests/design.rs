@@ -2,12 +2,14 @@
 
 use glam::DVec3;
 use tatamu::check;
-use tatamu::export::{FORMATS, FormatOptions, format_of};
+use tatamu::export::{FORMATS, Format, FormatOptions, format_of};
 use tatamu::fold::ModelMotion;
 use tatamu::geom::polygon;
 use tatamu::mesh::{self, Mesh, Repairs, Soup, Up};
 use tatamu::net;
 use tatamu::pipeline::{self, ComponentOptions, Options, Output};
+use tatamu::plotter::Cutter;
+use tatamu::plotter::profile::CUTTERS;
 use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::project::Project;
@@ -31,6 +33,16 @@ fn codes(output: &Output) -> Vec<&'static str> {
     output.warnings().iter().map(|w| w.code()).collect()
 }
 
+/// Options of a format: those of G-code name a machine that speaks it.
+fn options_of(format: &Format) -> FormatOptions {
+    let mut options = FormatOptions::default();
+    if format.name == "gcode" {
+        let pen = CUTTERS.iter().find(|profile| profile.name == "grbl-pen").expect("exists");
+        options.plt.cutter = Cutter::parse(pen.text).expect("valid");
+    }
+    options
+}
+
 #[test]
 fn every_format_is_written_and_refolds() {
     let repairs = Repairs::default();
@@ -41,7 +53,7 @@ fn every_format_is_written_and_refolds() {
         // Films and guides take time, and know of no samples.
         let formats = if name == "lamp" { FORMATS } else { &[] };
         for format in formats {
-            let files = format.write(&product, &FormatOptions::default()).expect("files");
+            let files = format.write(&product, &options_of(format)).expect("files");
             assert!(files.iter().all(|file| !file.bytes.is_empty()), "{name}, {}", format.name);
         }
         let fold = format_of("fold").expect("registered");

@@ -1,8 +1,10 @@
 //! The same mesh gives the same bytes, in every run and on any number of threads.
 
-use tatamu::export::{FORMATS, FormatOptions};
+use tatamu::export::{FORMATS, Format, FormatOptions};
 use tatamu::mesh::{self, Mesh};
 use tatamu::pipeline::{self, Options};
+use tatamu::plotter::Cutter;
+use tatamu::plotter::profile::CUTTERS;
 use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::report::Run;
@@ -10,6 +12,16 @@ use tatamu::segment::SegmentOptions;
 
 /// A sample with a joint, made with few edges so that it is quick.
 const SAMPLE: &[u8] = include_bytes!("../samples/bottle.obj");
+
+/// Options of a format: those of G-code name a machine that speaks it.
+fn options_of(format: &Format) -> FormatOptions {
+    let mut options = FormatOptions::default();
+    if format.name == "gcode" {
+        let pen = CUTTERS.iter().find(|profile| profile.name == "grbl-pen").expect("exists");
+        options.plt.cutter = Cutter::parse(pen.text).expect("valid");
+    }
+    options
+}
 
 /// Every file of every format, made on so many threads.
 fn files(threads: usize) -> Vec<(&'static str, Vec<u8>)> {
@@ -33,7 +45,7 @@ fn files(threads: usize) -> Vec<(&'static str, Vec<u8>)> {
         };
         let product = Product::new(&output, "bottle", run);
         let written = FORMATS.iter().flat_map(|format| {
-            let files = format.write(&product, &FormatOptions::default()).expect("files");
+            let files = format.write(&product, &options_of(format)).expect("files");
             files.into_iter().map(|file| (format.name, file.bytes))
         });
         written.collect()

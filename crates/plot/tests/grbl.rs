@@ -345,6 +345,59 @@ fn a_pause_has_the_tool_up_or_the_beam_off_and_changes_nothing() {
 }
 
 #[test]
+fn a_laser_holds_when_all_is_sent_and_it_still_cuts() {
+    let cutter = profile("grbl-laser");
+    let job = b"G21\nG90\nM5\nF600\nS300\nG0 X10 Y10\nM4\nG1 X210 Y10\nG0 X10 Y20\n";
+    let mut rehearsal = Rehearsal::new(job, &cutter, options(Faults::default()));
+    rehearsal.session.received(b"Grbl 1.1h\r\n");
+    while rehearsal.session.status().state != State::Finishing {
+        assert_eq!(rehearsal.advance(), None);
+    }
+    while !rehearsal.machine.is_beam_on() {
+        assert_eq!(rehearsal.advance(), None);
+    }
+    rehearsal.session.pause();
+    let until = rehearsal.now + Duration::from_secs(60);
+    while rehearsal.now < until {
+        assert_eq!(rehearsal.advance(), None);
+    }
+    assert!(!rehearsal.machine.is_beam_on() && rehearsal.machine.motions().len() < 3);
+    rehearsal.session.go_on();
+    assert_eq!(rehearsal.run().end, End::Finished);
+    assert_eq!(whole(rehearsal.machine.motions()), whole(&meant(job, &cutter)));
+}
+
+/// A machine that was reset while it homed does not know where it is: no tool moves.
+#[test]
+fn a_stop_while_the_machine_homes_moves_nothing() {
+    let text = profile("grbl-knife").text().replace("home = false", "home = true");
+    let cutter = Cutter::parse(&text).unwrap();
+    let job = Job::parse(&figure(&cutter), &cutter).unwrap();
+    let mut session = Session::new(job, &cutter, Handshake::Count, None);
+    session.received(b"Grbl 1.1h\r\n<Alarm|MPos:0,0,0>\r\n");
+    let (mut now, mut sent) = (Duration::ZERO, Vec::new());
+    let outcome = loop {
+        match session.step(now, 0) {
+            Step::Done(outcome) => break outcome,
+            Step::Send(bytes) => {
+                match bytes.as_slice() {
+                    b"?" => session.received(b"<Alarm|MPos:0,0,0>\r\n"),
+                    b"$H\n" => session.stop(),
+                    [0x18] => session.received(b"ALARM:6\r\n\r\nGrbl 1.1h\r\n"),
+                    _ => {}
+                }
+                sent.extend(bytes);
+            }
+            Step::Wait(_) => now += Duration::from_millis(5),
+        }
+        assert!(now < Duration::from_secs(60));
+    };
+    assert_eq!(outcome.end, End::Stopped);
+    let text = String::from_utf8_lossy(&sent).into_owned();
+    assert!(text.contains("$H") && text.contains('\u{18}') && !text.contains('Z'), "{text:?}");
+}
+
+#[test]
 fn a_laser_without_laser_mode_is_sent_nothing() {
     let cutter = profile("grbl-laser");
     for (number, value) in [(32, 0.0), (30, 255.0)] {

@@ -92,6 +92,8 @@ pub(super) struct Counter {
     open_lines: u32,
     was_refused: bool,
     is_holding: bool,
+    /// Whether the user knows of a hold that is not ours.
+    is_hold_told: bool,
     /// Where the lines that were sent end.
     ends_at: Option<Point>,
 }
@@ -119,7 +121,7 @@ impl Counter {
             "Alarm" => State::Alarm,
             "Hold:0" => State::Held,
             "Run" | "Hold" | "Hold:1" | "Jog" | "Check" | "Home" | "Sleep" | "Tool" => State::Other,
-            other if other.starts_with("Door") => State::Other,
+            other if other.starts_with("Door") => State::Held,
             // Noise.
             _ => return,
         };
@@ -253,6 +255,10 @@ impl Session {
         }
     }
 
+    fn holds(&self) -> bool {
+        self.grbl.as_ref().is_some_and(|grbl| grbl.holds())
+    }
+
     fn homes(&self) -> bool {
         self.grbl.as_ref().is_some_and(|grbl| grbl.homes())
     }
@@ -289,7 +295,7 @@ impl Session {
 
     /// Pauses at once, or with the tool lifted.
     fn heed_hold(&mut self, now: Duration) -> Option<Step> {
-        if !self.grbl.as_ref().is_some_and(|grbl| grbl.holds()) {
+        if !self.holds() {
             self.heed_pause();
             return None;
         }
@@ -303,7 +309,8 @@ impl Session {
 
     /// All is sent: the machine is done when it is idle.
     fn come_to_rest(&mut self, now: Duration) -> Step {
-        if let Some(step) = self.watch(now) {
+        if let Some(step) = self.watch(now).or_else(|| if self.holds() { self.heed_hold(now) } else { None })
+        {
             return step;
         }
         let is_done = self.ledger.unanswered_bytes() == 0 && self.counter.idles > 1;
@@ -322,6 +329,11 @@ impl Session {
             self.notes.push("an answer of the machine was lost; it is where the job has it".to_owned());
             self.counter.idles = 0;
             self.ledger.taken(self.ledger.total());
+        }
+        let is_held = self.counter.state == Some(State::Held) && !self.counter.is_holding;
+        if is_held && !std::mem::replace(&mut self.counter.is_hold_told, true) {
+            self.notes
+                .push("the machine holds by its own button or door; continue there, or stop".to_owned());
         }
         self.look(INTERVAL, now)
     }
@@ -410,8 +422,8 @@ impl Session {
 
     /// The machine has answered the reset.
     fn lift_after_reset(&mut self, end: End, now: Duration) -> Step {
-        if let End::Alarm(_) = end {
-            // Where it is is not certain, so that nothing may move.
+        // Where a machine in alarm or in the middle of homing is, is not certain, so that nothing may move.
+        if matches!(end, End::Alarm(_)) || self.next == 0 {
             return self.end(end, true);
         }
         if self.counter.had_alarm {

@@ -13,6 +13,8 @@ const LAST_CHANCE: Duration = Duration::from_secs(3);
 const LONG: Duration = Duration::from_secs(5);
 /// After the second wish to stop the port has so long to send what lifts the tool.
 const HURRY: Duration = Duration::from_secs(10);
+/// What a machine on USB may hold is not known, so that more is counted than is likely, bytes.
+const USB_BUFFER: usize = 8192;
 /// The next look where only time passes.
 const TICK: Duration = Duration::from_millis(20);
 
@@ -47,7 +49,8 @@ impl Session {
         match self.handshake {
             Handshake::Paced => self.ledger.taken_by_time(now),
             Handshake::RtsCts | Handshake::XonXoff | Handshake::Usb => {
-                let held = self.line.in_flight(now) + self.ask.size;
+                let buffer = if self.handshake == Handshake::Usb { USB_BUFFER } else { self.ask.size };
+                let held = self.line.in_flight(now) + buffer;
                 self.ledger.taken(self.ledger.total().saturating_sub(held as u64));
             }
             Handshake::Auto | Handshake::EscB | Handshake::Count => {}
