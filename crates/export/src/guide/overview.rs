@@ -29,7 +29,7 @@ const SOFT: Rgb = Rgb(96, 96, 102);
 /// The page, as large as the sheets.
 ///
 /// # Errors
-/// [`PictureError`]; no model is known that brings one about.
+/// A picture that cannot be made; no model is known that brings one about.
 pub fn overview(product: &Product<'_>) -> Result<Drawing, PictureError> {
     let output = product.output();
     let options = output.layout().options();
