@@ -38,10 +38,10 @@ impl PrincipalAxis {
     }
 
     /// Component axes for a fold axis: z along it, x along the principal axis as far as that is
-    /// perpendicular, origin at the hull's centre. Maps component axes to the hull's.
+    /// perpendicular (along angle 0 for the principal axis itself), origin at the hull's centre. Maps component axes to the hull's.
     pub fn frame(&self, fold_axis: DVec3) -> DAffine3 {
         let x = (self.axis - fold_axis * self.axis.dot(fold_axis)).try_normalize();
-        let x = x.unwrap_or_else(|| fold_axis.any_orthonormal_vector());
+        let x = x.unwrap_or(self.zero);
         DAffine3::from_mat3_translation(DMat3::from_cols(x, fold_axis.cross(x), fold_axis), self.centre)
     }
 }

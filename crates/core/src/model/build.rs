@@ -75,18 +75,20 @@ pub fn build(
     judge: &dyn Judge,
     progress: &dyn Progress,
 ) -> Result<Built, ModelError> {
-    let (built, troubled) = built(assembly, &BTreeSet::new(), known, judge, progress)?;
+    let (built, troubled) = built(assembly, &BTreeSet::new(), &[], known, judge, progress)?;
     if troubled.is_empty() {
         return Ok(built);
     }
-    Ok(self::built(assembly, &troubled, known, judge, progress)?.0)
+    Ok(self::built(assembly, &troubled, &built.ids, known, judge, progress)?.0)
 }
 
 /// The model from candidates in all directions for the parts in `wide`, and in the most promising ones
-/// for the others; and the parts that could do with more.
+/// for the others; and the parts that could do with more. The search also starts from the candidates with
+/// the ids in `before`, if any.
 fn built(
     assembly: &Assembly<'_>,
     wide: &BTreeSet<usize>,
+    before: &[u64],
     known: &Known,
     judge: &dyn Judge,
     progress: &dyn Progress,
@@ -101,18 +103,20 @@ fn built(
         Some(seen) => seen.unlike(all).into_iter().map(|unlike| price_mm * unlike).collect(),
         None => vec![0.0; all.len()],
     };
-    let chosen =
+    let made_of =
         |of: &[usize]| -> Vec<&Made> { of.iter().zip(&candidates).map(|(&k, made)| &made[k]).collect() };
     let ids = |made: &[&Made]| made.iter().map(|m| m.id).collect::<Vec<u64>>();
     let bumps = |of: &[usize]| {
         progress.check()?;
-        let made = chosen(of);
+        let made = made_of(of);
         // A combination that cannot be joined costs too much to be looked at.
         place(parts, (&links, &pairs), of, &made)
             .map_or(Ok(Vec::new()), |model| judge.bumps(&model, &ids(&made)))
     };
-    let (best, troubled) = choice.best(&bumps, &looks_mm)?;
-    let made = chosen(&best);
+    let place_of = |(id, made): (&u64, &Vec<Made>)| made.iter().position(|m| m.id == *id);
+    let start = before.iter().zip(&candidates).map(place_of).collect::<Option<Combination>>();
+    let (best, troubled) = choice.best(start.filter(|of| !of.is_empty()), &bumps, &looks_mm)?;
+    let made = made_of(&best);
     Ok((Built { model: place(parts, (&links, &pairs), &best, &made)?, ids: ids(&made) }, troubled))
 }
 

@@ -189,7 +189,8 @@ impl<'a> Builder<'a> {
         if candidates.is_empty() && before.is_empty() { Err(lost()) } else { Ok(candidates) }
     }
 
-    /// The fold axes to try: the user's, or some about the principal axis, turned so that joint planes
+    /// The fold axes to try: the user's, or some about the principal axis and, where all are finished, that
+    /// axis: a finger that folds along itself keeps its outline, but spreads wide. All are turned so that joint planes
     /// that they almost cross at a right angle are crossed exactly.
     fn axes(&self, principal: &PrincipalAxis) -> Vec<DVec3> {
         if let Some(angle) = self.parts[self.part].options.direction_rad {
@@ -198,7 +199,10 @@ impl<'a> Builder<'a> {
         let angle = |k: usize| std::f64::consts::PI * k as f64 / DIRECTIONS as f64;
         let mirror = self.symmetry.map(Symmetry::mirror);
         let tried: Vec<DVec3> = match mirror.map(|mirror| mirror.plane().normal()) {
-            None => (0..DIRECTIONS).map(|k| principal.fold_axis(angle(k))).collect(),
+            None => {
+                let about = (0..DIRECTIONS).map(|k| principal.fold_axis(angle(k)));
+                about.chain(self.is_wide.then(|| principal.axis())).collect()
+            }
             Some(across) => {
                 let up = mirror.map_or(DVec3::Z, |mirror| mirror.along(DVec3::Z));
                 let up = if up.length() > 1e-3 { up.normalize() } else { across.any_orthonormal_vector() };

@@ -83,7 +83,7 @@ pub struct ModelPart {
     pub placement: DAffine3,
     /// From the component's axes to the model, when flat.
     pub flat: DAffine3,
-    /// Angle of the fold axis about the first principal axis, radians.
+    /// Angle of the fold axis about the first principal axis, radians; says nothing of one along that axis.
     pub direction_rad: f64,
     /// Its joint, none for a root.
     pub joint: Option<Joint>,
