@@ -8,11 +8,14 @@
 //! The state knows nothing of the window, and is tested without it.
 
 mod change;
+mod colours;
 mod document;
+mod messages;
 mod opened;
 mod pages;
 mod planning;
 mod plotting;
+mod preferences;
 mod results;
 mod scene;
 mod selection;
@@ -23,6 +26,8 @@ mod tasks;
 #[cfg(test)]
 mod tests;
 mod view;
+mod visibility;
+mod watch;
 mod words;
 mod worker;
 
@@ -42,7 +47,9 @@ pub fn run(input: Option<PathBuf>) -> Result<(), AppError> {
     let create: eframe::AppCreator<'_> = Box::new(move |context| {
         let ctx = context.egui_ctx.clone();
         let wake = std::sync::Arc::new(move || ctx.request_repaint());
-        let mut window = view::Window::new(state::Studio::new(store::Store::of_user(), wake));
+        let studio = state::Studio::new(store::Store::of_user(), wake);
+        let mut window = view::Window::new(studio, view::Chooser::System);
+        window.set_up(&context.egui_ctx);
         input.iter().for_each(|path| window.open(path));
         Ok(Box::new(window))
     });

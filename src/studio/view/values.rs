@@ -1,11 +1,17 @@
 //! Rows of options of the project: numbers, choices and boxes to tick.
 
 use super::super::change::{Change, to_digits};
+use super::super::messages::Cause;
 use super::super::state::Studio;
 use eframe::egui::{self, DragValue, Ui};
+use std::cell::RefCell;
 use std::ops::RangeInclusive;
 use tatamu::project::options::{Dial, Entry, Kind, Range, Settings, Unit};
+use tatamu::units::{parse_length_mm, parse_length_or_zero_mm};
 use toml_edit::Value;
+
+/// Digits after the point that are kept of what is typed: 8 in are 203.2 mm.
+const TYPED_DIGITS: i32 = 4;
 
 /// An option that has a row.
 pub struct Dialled {
@@ -126,7 +132,7 @@ impl Dialled {
     }
 
     fn value(&self, x: f64) -> Value {
-        if self.is_count() { (x.round() as i64).into() } else { to_digits(x, self.dial.digits).into() }
+        if self.is_count() { (x.round() as i64).into() } else { x.into() }
     }
 
     /// Least and most that can be dragged to.
@@ -151,21 +157,71 @@ impl Dialled {
         }
     }
 
-    /// The field; what the user made of it.
+    /// The field; what the user made of it. What is typed is not cut to what can be dragged to: the project
+    /// takes it, or says what it accepts.
     fn field(&self, ui: &mut Ui, now: f64, label: egui::Id, studio: &mut Studio) -> Option<f64> {
         let mut x = now;
         let range = self.range();
         let span = range.end() - range.start();
+        let typed = RefCell::new(None);
+        let parser = |text: &str| {
+            let read = self.read(text);
+            let parsed = read.as_ref().ok().copied();
+            *typed.borrow_mut() = Some(read);
+            parsed
+        };
         let field = DragValue::new(&mut x)
             .range(range)
+            .clamp_existing_to_range(false)
             .speed(if self.is_count() { 0.05 } else { (span / 600.0).min(1.0) })
-            .max_decimals(self.dial.digits.max(0) as usize)
+            .max_decimals(if self.is_count() { 0 } else { self.dial.digits.max(2) as usize })
             .suffix(self.suffix())
+            .custom_parser(parser)
             .update_while_editing(false);
         let response = ui.add(field).labelled_by(label).on_hover_text(self.option.tip());
         if response.drag_stopped() || response.lost_focus() {
             studio.end_gesture();
         }
-        (response.changed() && x != now).then_some(x)
+        match typed.into_inner() {
+            Some(Ok(typed)) => (typed != now).then_some(to_digits(typed, TYPED_DIGITS)),
+            Some(Err(problem)) => {
+                let problem = format!("{}: {problem}", self.dial.label);
+                studio.messages_mut().warn(Cause::Change, problem);
+                None
+            }
+            None => (response.changed() && x != now).then(|| to_digits(x, self.dial.digits)),
+        }
+    }
+
+    /// The number that a text stands for, with or without its unit.
+    fn read(&self, text: &str) -> Result<f64, String> {
+        let text = text.trim();
+        match &self.option.kind {
+            Kind::Number(number) if number.unit == Unit::Length => match number.range {
+                Range::NotNegative => parse_length_or_zero_mm(text),
+                _ => parse_length_mm(text),
+            }
+            .map_err(|error| error.to_string()),
+            _ => {
+                let bare = text.trim_end_matches('°').trim_end();
+                let number = bare.parse::<f64>().ok().filter(|x| x.is_finite());
+                let number = number.filter(|x| !self.is_count() || x.fract() == 0.0);
+                number.ok_or_else(|| {
+                    format!(
+                        "\"{text}\" is not a {}number; write one such as {}",
+                        if self.is_count() { "whole " } else { "" },
+                        self.such_as()
+                    )
+                })
+            }
+        }
+    }
+
+    fn such_as(&self) -> f64 {
+        match &self.option.kind {
+            Kind::Number(number) => number.such_as,
+            Kind::Count(count) => count.such_as as f64,
+            Kind::Switch(_) | Kind::Text(_) => 30.0,
+        }
     }
 }
