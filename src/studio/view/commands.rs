@@ -462,7 +462,7 @@ impl Command {
 
     /// Its first key, as the system writes it.
     pub fn key_text(&self, ctx: &Context) -> String {
-        self.keys.first().map_or(String::new(), |keys| ctx.format_shortcut(keys))
+        self.keys.first().map_or(String::new(), |keys| key_text(ctx, keys))
     }
 
     /// What it does, with its key.
@@ -511,6 +511,20 @@ impl Command {
             ui.close();
         }
     }
+}
+
+/// Keys as they stand on the keyboard.
+pub fn key_text(ctx: &Context, keys: &KeyboardShortcut) -> String {
+    let key = match keys.logical_key {
+        Key::OpenBracket => "[",
+        Key::CloseBracket => "]",
+        Key::Plus => "+",
+        Key::Equals => "=",
+        Key::Minus => "-",
+        Key::Escape => "Esc",
+        _ => return ctx.format_shortcut(keys),
+    };
+    key.to_owned()
 }
 
 fn turn(window: &mut Window, ctx: &Context, degrees: f64) {

@@ -285,7 +285,7 @@ fn shortcuts(ctx: &Context) -> bool {
     let mut is_closed = false;
     let height = (ctx.content_rect().height() - 160.0).max(160.0);
     let modal = Modal::new(Id::unique("shortcuts")).show(ctx, |ui| {
-        ui.set_width(560.0);
+        ui.set_width(680.0);
         ui.horizontal(|ui| {
             ui.heading("Shortcuts");
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
@@ -303,7 +303,7 @@ fn shortcuts(ctx: &Context) -> bool {
                 }
                 for command in commands::ALL.iter().filter(|command| !command.keys.is_empty()) {
                     let keys: Vec<String> =
-                        command.keys.iter().map(|keys| ctx.format_shortcut(keys)).collect();
+                        command.keys.iter().map(|keys| commands::key_text(ctx, keys)).collect();
                     ui.monospace(keys.join(", "));
                     ui.label(command.name);
                     ui.end_row();

@@ -1,7 +1,7 @@
 //! How the window looks: colours of both themes, spacing, letters and icons.
 
 use eframe::egui::{
-    self, Color32, CornerRadius, FontData, FontDefinitions, FontId, TextStyle, Theme, Visuals,
+    self, Color32, CornerRadius, FontData, FontDefinitions, FontId, Stroke, TextStyle, Theme, Visuals,
 };
 use lucide_icons::{Icon, LUCIDE_FONT_BYTES};
 use tatamu::drawing::Rgb;
@@ -20,6 +20,8 @@ struct Tones {
     button: Color32,
     hovered: Color32,
     line: Color32,
+    /// Around what can be pressed.
+    edge: Color32,
     text: Color32,
     strong: Color32,
     weak: Color32,
@@ -41,6 +43,7 @@ const LIGHT: Tones = Tones {
     button: grey(229),
     hovered: grey(218),
     line: grey(205),
+    edge: grey(138),
     text: grey(40),
     strong: grey(0),
     weak: grey(92),
@@ -58,6 +61,7 @@ const DARK: Tones = Tones {
     button: Color32::from_rgb(56, 59, 65),
     hovered: Color32::from_rgb(70, 74, 82),
     line: Color32::from_rgb(70, 73, 80),
+    edge: grey(118),
     text: grey(218),
     strong: grey(255),
     weak: grey(168),
@@ -122,6 +126,7 @@ fn visuals(theme: Theme, tones: &Tones) -> Visuals {
     ] {
         (widget.bg_fill, widget.weak_bg_fill) = (fill, fill);
         widget.fg_stroke.color = text;
+        widget.bg_stroke = Stroke::new(1.0, tones.edge);
     }
     let widgets = [
         &mut widgets.noninteractive,
@@ -199,6 +204,11 @@ mod tests {
                     .map(|w| (w.text_color(), w.weak_bg_fill)),
             );
             pairs.push((visuals.selection.stroke.color, visuals.selection.bg_fill));
+            // WCAG 2.2, 1.4.11: what can be pressed is told from what is around it.
+            for ground in [visuals.panel_fill, visuals.window_fill] {
+                let edge = contrast(visuals.widgets.inactive.bg_stroke.color, ground);
+                assert!(edge >= 3.0, "{theme:?}: edges on {ground:?}: {edge:.2}");
+            }
             // Weak text stands on buttons of the menu, too: keys.
             pairs.push((visuals.weak_text_color(), widgets.inactive.weak_bg_fill));
             for (text, ground) in pairs {

@@ -26,6 +26,14 @@ impl Dialled {
         Self { option, dial: option.dial.unwrap_or(plain) }
     }
 
+    /// What it is called: a key of the project file in words.
+    fn label(&self) -> String {
+        let words = self.dial.label.replace('_', " ");
+        let mut letters = words.chars();
+        let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+        first + letters.as_str()
+    }
+
     /// The row that fits its kind, with its value as it is now.
     pub fn row(&self, studio: &mut Studio, ui: &mut Ui, now: &Settings) {
         match &self.option.kind {
@@ -47,7 +55,7 @@ impl Dialled {
 
     /// A row with a number.
     pub fn number_row(&self, studio: &mut Studio, ui: &mut Ui, now: f64) {
-        let label = ui.label(self.dial.label).on_hover_text(self.option.tip());
+        let label = ui.label(self.label()).on_hover_text(self.option.tip());
         if let Some(x) = self.field(ui, now, label.id, studio) {
             studio.change(&self.set(Some(self.value(x))), Some(self.option.name()));
         }
@@ -56,10 +64,10 @@ impl Dialled {
 
     /// A row with a box: without a tick there is no number, and the default holds.
     pub fn optional_row(&self, studio: &mut Studio, ui: &mut Ui, now: Option<f64>, otherwise: f64) {
-        let label = ui.label(self.dial.label).on_hover_text(self.option.tip());
+        let label = ui.label(self.label()).on_hover_text(self.option.tip());
         ui.horizontal(|ui| {
             let mut is_set = now.is_some();
-            let name = format!("choose {}", self.dial.label);
+            let name = format!("choose {}", self.label());
             let tick = ui.add(egui::Checkbox::without_text(&mut is_set)).on_hover_text("off: automatic");
             tick.widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, now.is_some(), &name));
             if tick.changed() {
@@ -79,7 +87,7 @@ impl Dialled {
 
     /// The same for a component.
     pub fn component_row(&self, studio: &mut Studio, ui: &mut Ui, name: &str, (now, is_set): (f64, bool)) {
-        let label = ui.label(self.dial.label).on_hover_text(self.option.tip());
+        let label = ui.label(self.label()).on_hover_text(self.option.tip());
         let set = |value| Change::Component { name: name.to_owned(), option: self.option, value };
         ui.horizontal(|ui| {
             if let Some(x) = self.field(ui, now, label.id, studio) {
@@ -99,9 +107,16 @@ impl Dialled {
 
     /// A row with a choice among names.
     fn choice_row(&self, studio: &mut Studio, ui: &mut Ui, now: &str) {
-        let label = ui.label(self.dial.label).on_hover_text(self.option.tip());
+        let label = ui.label(self.label()).on_hover_text(self.option.tip());
         let mut chosen = now.to_owned();
-        let combo = egui::ComboBox::from_id_salt(self.option.name()).selected_text(now).show_ui(ui, |ui| {
+        // Where nothing is chosen, what holds then.
+        let automatic = Some(self.option.automatic).filter(|text| !text.is_empty()).unwrap_or("none");
+        let text = if now.is_empty() { automatic } else { now };
+        let is_optional = now.is_empty() || self.option.text(Settings::standard()).is_none();
+        let combo = egui::ComboBox::from_id_salt(self.option.name()).selected_text(text).show_ui(ui, |ui| {
+            if is_optional {
+                ui.selectable_value(&mut chosen, String::new(), automatic);
+            }
             for name in self.option.kind.names() {
                 ui.selectable_value(&mut chosen, name.to_owned(), name);
             }
@@ -109,7 +124,8 @@ impl Dialled {
         combo.response.labelled_by(label.id);
         ui.end_row();
         if chosen != now {
-            studio.change(&self.set(Some(chosen.into())), None);
+            let value = (!chosen.is_empty()).then(|| chosen.into());
+            studio.change(&self.set(value), None);
         }
     }
 
@@ -117,7 +133,7 @@ impl Dialled {
     fn tick_row(&self, studio: &mut Studio, ui: &mut Ui, now: bool) {
         let mut is_set = now;
         ui.label("");
-        if ui.checkbox(&mut is_set, self.dial.label).on_hover_text(self.option.tip()).changed() {
+        if ui.checkbox(&mut is_set, self.label()).on_hover_text(self.option.tip()).changed() {
             studio.change(&self.set(Some(is_set.into())), None);
         }
         ui.end_row();
@@ -185,7 +201,7 @@ impl Dialled {
         match typed.into_inner() {
             Some(Ok(typed)) => (typed != now).then_some(to_digits(typed, TYPED_DIGITS)),
             Some(Err(problem)) => {
-                let problem = format!("{}: {problem}", self.dial.label);
+                let problem = format!("{}: {problem}", self.label());
                 studio.messages_mut().warn(Cause::Change, problem);
                 None
             }

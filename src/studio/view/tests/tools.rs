@@ -192,12 +192,12 @@ fn files_are_replaced_only_after_a_question() {
 fn options_are_those_of_the_formats_that_are_ticked() {
     let (mut desk, _folder) = open();
     click(&mut desk, "Export");
-    assert!(desk.query_by_label("tile").is_some());
-    assert!(desk.query_by_label("dpi").is_none());
+    assert!(desk.query_by_role_and_label(Role::ComboBox, "Tile").is_some());
+    assert!(desk.query_by_role_and_label(Role::SpinButton, "Dpi").is_none());
     click(&mut desk, "snowman.pdf");
     click(&mut desk, "snowman.png");
-    assert!(desk.query_by_label("tile").is_none());
-    assert!(desk.query_by_label("dpi").is_some());
+    assert!(desk.query_by_role_and_label(Role::ComboBox, "Tile").is_none());
+    assert!(desk.query_by_role_and_label(Role::SpinButton, "Dpi").is_some());
 }
 
 #[test]
