@@ -76,7 +76,7 @@ fn menu(window: &mut Window, ui: &mut Ui, group_of: impl Fn(Place) -> Option<u8>
         }
         last = Some(group);
         command.menu_item(window, ui);
-        if std::ptr::eq(*command, &raw const commands::OPEN) {
+        if std::ptr::eq(*command, &commands::OPEN) {
             recent(window, ui);
         }
     }

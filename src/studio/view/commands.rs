@@ -378,7 +378,7 @@ pub static SHORTCUTS: Command = Command {
     keys: &[key(Key::F1)],
     place: Place::Help(0),
     can: always,
-    act: |w, _| w.dialogs.toggle_shortcuts(),
+    act: |w, _| w.dialogs.list_shortcuts(),
 };
 
 static TOUR: Command = Command {
@@ -474,9 +474,10 @@ impl Command {
 
     /// What menus call it: with what would be undone.
     pub fn label(&self, studio: &Studio) -> String {
-        let of = match self.name {
-            "Undo" => studio.document().and_then(|d| d.undo_label()),
-            "Redo" => studio.document().and_then(|d| d.redo_label()),
+        let document = studio.document();
+        let of = match self {
+            _ if std::ptr::eq(self, &UNDO) => document.and_then(|d| d.undo_label()),
+            _ if std::ptr::eq(self, &REDO) => document.and_then(|d| d.redo_label()),
             _ => None,
         };
         of.map_or(self.name.to_owned(), |of| format!("{}: {of}", self.name))

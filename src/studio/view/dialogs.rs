@@ -46,6 +46,8 @@ pub enum Chooser {
 pub struct Dialogs {
     chooser: Chooser,
     open: Option<Dialog>,
+    /// Whether the one that is open was not drawn yet.
+    is_new: bool,
     /// What is left once a file is saved.
     leaves: Option<Leave>,
 }
@@ -83,7 +85,7 @@ struct SystemDialog {
 impl Dialogs {
     /// None is open.
     pub fn new(chooser: Chooser) -> Self {
-        Self { chooser, open: None, leaves: None }
+        Self { chooser, open: None, is_new: false, leaves: None }
     }
 
     /// Whether one is open.
@@ -91,9 +93,18 @@ impl Dialogs {
         self.open.is_some()
     }
 
+    fn begin(&mut self, dialog: Dialog) {
+        (self.open, self.is_new) = (Some(dialog), true);
+    }
+
+    /// Whether commands are listed.
+    pub fn is_finding(&self) -> bool {
+        matches!(self.open, Some(Dialog::Find(_)))
+    }
+
     /// Asks for a file.
     pub fn ask_file(&mut self, ctx: &Context, purpose: Purpose, folder: Option<PathBuf>, name: &str) {
-        self.open = Some(match self.chooser {
+        self.begin(match self.chooser {
             Chooser::System => Dialog::System(SystemDialog::start(ctx, purpose, folder, name)),
             Chooser::Own => Dialog::Files(Browser::new(purpose, folder, name)),
         });
@@ -101,7 +112,7 @@ impl Dialogs {
 
     /// Asks before something is left.
     pub fn ask_leave(&mut self, leave: Leave) {
-        self.open = Some(Dialog::Parting(leave));
+        self.begin(Dialog::Parting(leave));
     }
 
     /// Leaves once the project is saved under the name that is asked for.
@@ -116,25 +127,26 @@ impl Dialogs {
 
     /// Lists the commands.
     pub fn find(&mut self) {
-        self.open = Some(Dialog::Find(Finder::default()));
+        self.begin(Dialog::Find(Finder::default()));
     }
 
-    /// Lists keys and mouse, or no longer.
-    pub fn toggle_shortcuts(&mut self) {
-        self.open = match self.open {
-            Some(Dialog::Shortcuts) => None,
-            _ => Some(Dialog::Shortcuts),
-        };
+    /// Lists keys and mouse.
+    pub fn list_shortcuts(&mut self) {
+        self.begin(Dialog::Shortcuts);
     }
 
     /// Shows what this program is.
     pub fn about(&mut self) {
-        self.open = Some(Dialog::About);
+        self.begin(Dialog::About);
     }
 
-    /// Draws the dialog that is open; `can` tells which commands can be done, `work` what would be lost.
-    pub fn show(&mut self, ctx: &Context, can: impl Fn(&Command) -> bool, work: Work) -> Option<Outcome> {
+    /// Draws the dialog that is open, with the commands that can be done and what would be lost.
+    pub fn show(&mut self, ctx: &Context, commands: &[&'static Command], work: Work) -> Option<Outcome> {
         let mut outcome = None;
+        if std::mem::take(&mut self.is_new) {
+            // A field behind it, in which something was being written, has the focus no more.
+            ctx.memory_mut(|memory| memory.focused().into_iter().for_each(|id| memory.surrender_focus(id)));
+        }
         let is_over = match self.open.as_mut()? {
             Dialog::System(dialog) => match dialog.show(ctx) {
                 None => false,
@@ -163,7 +175,7 @@ impl Dialogs {
                     true
                 }
             },
-            Dialog::Find(finder) => match finder.show(ctx, can) {
+            Dialog::Find(finder) => match finder.show(ctx, commands) {
                 super::finder::Answer::Open => false,
                 super::finder::Answer::Closed => true,
                 super::finder::Answer::Run(command) => {
@@ -326,8 +338,7 @@ fn about(ctx: &Context) -> bool {
         ui.add_space(6.0);
         ui.label("tatamu is free under the MIT licence or the Apache licence 2.0, as you choose.");
         ui.label(
-            "Letters: Ubuntu Light, Hack and Noto Emoji as egui has them, Inter on pages. \
-             Icons: Lucide (ISC).",
+            "Letters: Ubuntu Light and Hack in the window, Inter and Hershey's Roman on pages. Icons: Lucide (ISC).",
         );
         ui.add_space(8.0);
         let close = ui.button("Close");

@@ -1,6 +1,6 @@
 //! The list of commands, found by a few letters of their names.
 
-use super::commands::{self, Command};
+use super::commands::Command;
 use eframe::egui::{self, Context, Id, Key, Modal, Modifiers};
 
 /// The list.
@@ -21,8 +21,8 @@ pub enum Answer {
 }
 
 impl Finder {
-    /// Draws the list; `can` tells which commands can be done.
-    pub fn show(&mut self, ctx: &Context, can: impl Fn(&Command) -> bool) -> Answer {
+    /// Draws the list of the commands that can be done.
+    pub fn show(&mut self, ctx: &Context, commands: &[&'static Command]) -> Answer {
         let step = |key| ctx.input_mut(|i| i.consume_key(Modifiers::NONE, key));
         let (up, down, enter) = (step(Key::ArrowUp), step(Key::ArrowDown), step(Key::Enter));
         let mut answer = Answer::Open;
@@ -38,11 +38,8 @@ impl Finder {
             if field.changed() {
                 self.chosen = 0;
             }
-            let found: Vec<&'static Command> = commands::ALL
-                .iter()
-                .copied()
-                .filter(|command| can(command) && is_like(command, &self.text))
-                .collect();
+            let found: Vec<&'static Command> =
+                commands.iter().copied().filter(|command| is_like(command, &self.text)).collect();
             let last = found.len().saturating_sub(1);
             self.chosen = (self.chosen + usize::from(down)).saturating_sub(usize::from(up)).min(last);
             if enter && let Some(&command) = found.get(self.chosen) {
@@ -85,6 +82,7 @@ fn is_like(command: &Command, text: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::commands;
     use super::*;
 
     #[test]

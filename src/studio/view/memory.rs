@@ -3,7 +3,7 @@
 use super::super::preferences::{Preferences, Theme};
 use super::super::state::Studio;
 use super::plot::PlotPanel;
-use eframe::egui::{Context, ThemePreference, ViewportCommand};
+use eframe::egui::{Context, ThemePreference};
 
 /// What was written last.
 #[derive(Debug)]
@@ -17,16 +17,13 @@ impl Memory {
         Self { kept }
     }
 
-    /// Makes the window as it was.
+    /// Makes the theme as it was.
     pub fn set_up(&self, ctx: &Context) {
         ctx.set_theme(match self.kept.theme {
             Theme::System => ThemePreference::System,
             Theme::Light => ThemePreference::Light,
             Theme::Dark => ThemePreference::Dark,
         });
-        if let Some([width, height]) = self.kept.window {
-            ctx.send_viewport_cmd(ViewportCommand::InnerSize([width, height].into()));
-        }
     }
 
     /// Remembers what has changed, once no button is held.

@@ -284,10 +284,11 @@ impl Window {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
             self.dialogs.ask_leave(Leave::Close);
         }
-        // Which commands can be done is asked of the window, which holds the dialogs.
-        let mut dialogs = std::mem::replace(&mut self.dialogs, Dialogs::new(Chooser::System));
-        let outcome = dialogs.show(ctx, |command| command.can(self), work);
-        self.dialogs = dialogs;
+        let commands: Vec<_> = match self.dialogs.is_finding() {
+            true => commands::ALL.iter().copied().filter(|command| command.can(self)).collect(),
+            false => Vec::new(),
+        };
+        let outcome = self.dialogs.show(ctx, &commands, work);
         match outcome {
             None => {}
             Some(Outcome::Open(path)) => self.open(&path),
