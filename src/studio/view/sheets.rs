@@ -157,12 +157,12 @@ impl SheetsPanel {
         let stroke = Stroke::new(2.5, if over.is_empty() { ACCENT } else { OVERLAP });
         match page {
             Some(page) => {
-                let points = outline.iter().map(|&p| to_screen(page, seen.scale, p)).collect();
-                ui.painter().add(egui::Shape::closed_line(points, stroke));
+                let points: Vec<Pos2> = outline.iter().map(|&p| to_screen(page, seen.scale, p)).collect();
+                draw(ui.painter(), points, stroke);
                 let others = self.outlines.iter().flatten().filter(|(id, _)| over.contains(id));
                 for (_, outline) in others {
-                    let points = outline.iter().map(|&p| to_screen(page, seen.scale, p)).collect();
-                    ui.painter().add(egui::Shape::closed_line(points, Stroke::new(2.5, OVERLAP)));
+                    let points: Vec<Pos2> = outline.iter().map(|&p| to_screen(page, seen.scale, p)).collect();
+                    draw(ui.painter(), points, Stroke::new(2.5, OVERLAP));
                 }
             }
             None => {
@@ -295,7 +295,7 @@ impl SheetsPanel {
                 (_, true) => (2.2, ACCENT),
                 _ => (1.8, own),
             };
-            painter.add(egui::Shape::closed_line(points, Stroke::new(width, colour)));
+            draw(painter, points, Stroke::new(width, colour));
         }
         if let Some(id) = over {
             studio.hover = Some(Hover::panels(id.net, panels(output, id)));
@@ -348,6 +348,12 @@ impl SheetsPanel {
             self.seen = name;
         }
     }
+}
+
+/// Draws an outline, edge by edge: mitres of a path would stick out far at its sharp corners.
+fn draw(painter: &egui::Painter, points: Vec<Pos2>, stroke: Stroke) {
+    let ends = points.iter().zip(points.iter().cycle().skip(1));
+    painter.extend(ends.map(|(&a, &b)| egui::Shape::line_segment([a, b], stroke)));
 }
 
 /// Moves a piece; all others stay where they lie.

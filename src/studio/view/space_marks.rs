@@ -9,6 +9,7 @@ use glam::DVec3;
 use lucide_icons::Icon;
 use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::Arc;
 use tatamu::fold::Sequence;
 use tatamu::render::Orbit;
 use tatamu::render::zbuffer::Frame;
@@ -18,7 +19,7 @@ const SAMPLE: usize = 4;
 /// A component of fewer samples is too small to be named.
 const LEAST_SEEN: usize = 40;
 
-/// The middle of what is seen of each component, as a share of the picture.
+/// The middle of what is seen of each component, as a share of the picture; of which most is seen first.
 pub fn middles(frame: &Frame) -> Vec<(usize, Vec2)> {
     let [width, height] = frame.size_px();
     let mut sums: BTreeMap<usize, (usize, usize, usize)> = BTreeMap::new();
@@ -33,30 +34,49 @@ pub fn middles(frame: &Frame) -> Vec<(usize, Vec2)> {
     let middle = |(x, y, count): (usize, usize, usize)| {
         egui::vec2(x as f32 / (count * width) as f32, y as f32 / (count * height) as f32)
     };
-    sums.into_iter().filter(|(_, sum)| sum.2 >= LEAST_SEEN).map(|(part, sum)| (part, middle(sum))).collect()
+    let mut seen: Vec<_> = sums.into_iter().filter(|(_, sum)| sum.2 >= LEAST_SEEN).collect();
+    seen.sort_by_key(|(_, sum)| std::cmp::Reverse(sum.2));
+    seen.into_iter().map(|(part, sum)| (part, middle(sum))).collect()
 }
 
-/// The names of components at their middles.
+/// The names of components at their middles: of the selected ones first, then of those of which most is
+/// seen, as far as none is over another.
 pub fn names(studio: &Studio, ui: &Ui, rect: Rect, middles: &[(usize, Vec2)]) {
-    for (part, middle) in middles {
-        let Some(own) = studio.shown().part(*part) else { continue };
-        let is_selected = studio.is_selected(*part);
-        let font = FontId::proportional(if is_selected { 14.0 } else { 12.5 });
-        pill(ui, rect, rect.min + *middle * rect.size(), Align2::CENTER_CENTER, &own.name, font);
+    let (selected, others): (Vec<_>, Vec<_>) =
+        middles.iter().copied().partition(|(part, _)| studio.is_selected(*part));
+    let mut taken: Vec<Rect> = Vec::new();
+    for (part, middle) in selected.into_iter().chain(others) {
+        let Some(own) = studio.shown().part(part) else { continue };
+        let font = FontId::proportional(if studio.is_selected(part) { 14.0 } else { 12.5 });
+        let at = rect.min + middle * rect.size();
+        let text = pill(ui, rect, at, Align2::CENTER_CENTER, &own.name, font);
+        if !taken.iter().any(|other| other.intersects(text.ground)) {
+            taken.push(text.ground);
+            text.paint(ui, rect);
+        }
     }
 }
 
 /// A text on a ground of its own, so that it is read over anything.
-fn pill(ui: &Ui, clip: Rect, at: Pos2, align: Align2, text: &str, font: FontId) -> Rect {
-    let visuals = ui.visuals();
-    let painter = ui.painter_at(clip);
-    let galley = painter.layout(text.to_owned(), font, visuals.strong_text_color(), clip.width() - 24.0);
+struct Pill {
+    ground: Rect,
+    at: Pos2,
+    galley: Arc<egui::Galley>,
+}
+
+fn pill(ui: &Ui, clip: Rect, at: Pos2, align: Align2, text: &str, font: FontId) -> Pill {
+    let colour = ui.visuals().strong_text_color();
+    let galley = ui.painter_at(clip).layout(text.to_owned(), font, colour, clip.width() - 24.0);
     let own = align.anchor_size(at, galley.size());
-    let ground = own.expand2(egui::vec2(6.0, 2.0));
-    let fill = visuals.window_fill.gamma_multiply(0.88);
-    painter.rect_filled(ground, 5.0, fill);
-    painter.galley(own.min, galley, visuals.strong_text_color());
-    ground
+    Pill { ground: own.expand2(egui::vec2(6.0, 2.0)), at: own.min, galley }
+}
+
+impl Pill {
+    fn paint(self, ui: &Ui, clip: Rect) {
+        let (painter, visuals) = (ui.painter_at(clip), ui.visuals());
+        painter.rect_filled(self.ground, 5.0, visuals.window_fill.gamma_multiply(0.88));
+        painter.galley(self.at, self.galley, visuals.strong_text_color());
+    }
 }
 
 /// What the mouse does where it is, at the lower left.
@@ -78,8 +98,10 @@ pub fn hint(studio: &Studio, ui: &mut Ui, rect: Rect, over: Option<Tag>) {
         None => return,
     };
     let at = rect.left_bottom() + egui::vec2(14.0, -12.0);
-    let own = pill(ui, rect, at, Align2::LEFT_BOTTOM, &text, FontId::proportional(14.0));
-    let label = ui.interact(own, ui.scope_id().with("hint"), Sense::empty());
+    let pill = pill(ui, rect, at, Align2::LEFT_BOTTOM, &text, FontId::proportional(14.0));
+    let ground = pill.ground;
+    pill.paint(ui, rect);
+    let label = ui.interact(ground, ui.scope_id().with("hint"), Sense::empty());
     label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &text));
 }
 
@@ -100,7 +122,7 @@ pub fn legend(studio: &Studio, ui: &Ui, rect: Rect, layers: Layers) {
     }
     if !lines.is_empty() {
         let at = rect.left_top() + egui::vec2(14.0, 12.0);
-        pill(ui, rect, at, Align2::LEFT_TOP, &lines.join("\n"), FontId::proportional(12.5));
+        pill(ui, rect, at, Align2::LEFT_TOP, &lines.join("\n"), FontId::proportional(12.5)).paint(ui, rect);
     }
 }
 

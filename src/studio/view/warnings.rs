@@ -4,7 +4,7 @@ use super::super::words;
 use super::{Mode, Window, look};
 use eframe::egui::{self, Ui};
 use lucide_icons::Icon;
-use tatamu::fold::Clash;
+use tatamu::fold::{Clash, FoldWarning};
 use tatamu::pipeline::{Output, Warning};
 
 /// Draws the list.
@@ -13,7 +13,10 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
     for remark in output.remarks() {
         ui.weak(remark);
     }
-    for warning in output.warnings() {
+    // What may spoil the model comes first.
+    let mut warnings: Vec<&Warning> = output.warnings().iter().collect();
+    warnings.sort_by_key(|warning| !is_grave(warning));
+    for warning in warnings {
         let about = about(&output, warning);
         ui.horizontal_wrapped(|ui| {
             if about.is_empty() {
@@ -34,6 +37,11 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
             ui.add(egui::Label::new(words::warning(warning)).wrap());
         });
     }
+}
+
+/// Whether components are in each other.
+fn is_grave(warning: &Warning) -> bool {
+    matches!(warning, Warning::Fold(fold) if !matches!(fold, FoldWarning::Rub { .. }))
 }
 
 /// The names, before they were changed, of the components that a warning is about.
