@@ -26,11 +26,11 @@ const TURN_RAD: f64 = std::f64::consts::PI / 12.0;
 /// The panel of the sheets.
 #[derive(Default)]
 pub struct SheetsPanel {
-    /// What is drawn: of this version of the sheets.
-    version: Option<u64>,
-    drawings: Option<Result<Arc<Vec<Drawing>>, String>>,
-    coming: Option<Receiver<Result<Vec<Drawing>, String>>>,
-    outlines: Vec<Vec<(PieceId, Vec<DVec2>)>>,
+    /// What is drawn, or why it cannot be.
+    drawn: Option<Result<Arc<Drawn>, String>>,
+    /// What is being drawn: of this version of the sheets.
+    coming: Option<Receiver<Result<Drawn, String>>>,
+    wanted: Option<u64>,
     pictures: Vec<Picture>,
     canvas: Canvas,
     wheel: Wheel,
@@ -38,6 +38,16 @@ pub struct SheetsPanel {
     seen: Option<String>,
     hover: Option<Hover>,
     drag: Option<Drag>,
+}
+
+/// The sheets with all that is seen on them.
+struct Drawn {
+    /// Their version.
+    version: u64,
+    output: Output,
+    drawings: Vec<Drawing>,
+    /// The pieces of each sheet with their outlines on the page.
+    outlines: Vec<Vec<(PieceId, Vec<DVec2>)>>,
 }
 
 /// A piece on its way to another place.
@@ -60,6 +70,19 @@ impl SheetsPanel {
         self.hover = hover;
     }
 
+    /// What is drawn: the version of the sheets, and the pages.
+    #[cfg(test)]
+    pub fn drawn(&self) -> Option<(u64, &[Drawing])> {
+        let drawn = self.drawn.as_ref()?.as_ref().ok()?;
+        Some((drawn.version, &drawn.drawings))
+    }
+
+    /// The versions of the sheets whose pictures are made or asked for.
+    #[cfg(test)]
+    pub fn picture_versions(&self) -> Vec<u64> {
+        self.pictures.iter().filter_map(Picture::wanted).collect()
+    }
+
     /// Draws the panel.
     pub fn show(&mut self, studio: &mut Studio, ui: &mut Ui) {
         // A panel that has nothing to show yet does not shrink.
@@ -70,17 +93,18 @@ impl SheetsPanel {
         };
         self.refresh(studio, &output, ui.ctx());
         self.bar(studio, &output, ui);
-        let drawings = match &self.drawings {
+        let drawn = match &self.drawn {
             None => {
                 ui.spinner();
                 return;
             }
-            Some(Ok(drawings)) => drawings.clone(),
+            Some(Ok(drawn)) => drawn.clone(),
             Some(Err(problem)) => {
                 ui.colored_label(ui.visuals().error_fg_color, problem);
                 return;
             }
         };
+        let drawings = &drawn.drawings;
         let Some(first) = drawings.first() else { return };
         let size_mm = egui::vec2(first.size_mm.x as f32, first.size_mm.y as f32);
         let table = ui.allocate_response(ui.available_size(), Sense::click_and_drag());
@@ -90,11 +114,11 @@ impl SheetsPanel {
         ui.set_clip_rect(window.intersect(ui.clip_rect()));
         for (k, drawing) in drawings.iter().enumerate() {
             if seen.pages[k].intersects(window) {
-                self.page(studio, &output, ui, (k, drawing), &seen);
+                self.page(studio, &drawn, ui, (k, drawing), &seen);
             }
         }
-        self.follow(studio, &output, &seen, window);
-        self.dragged(studio, &output, ui, &seen);
+        self.follow(studio, &drawn, &seen, window);
+        self.dragged(studio, &drawn, ui, &seen);
         if table.clicked() {
             studio.selection.clear();
         }
@@ -131,7 +155,8 @@ impl SheetsPanel {
     }
 
     /// Draws the piece that is on its way, and lays it down where it is let go.
-    fn dragged(&mut self, studio: &mut Studio, output: &Output, ui: &Ui, seen: &Seen) {
+    fn dragged(&mut self, studio: &mut Studio, drawn: &Drawn, ui: &Ui, seen: &Seen) {
+        let output = &drawn.output;
         let Some(drag) = &mut self.drag else { return };
         let (at, is_down, turns) = ui.input(|i| {
             let turns =
@@ -159,7 +184,7 @@ impl SheetsPanel {
             Some(page) => {
                 let points: Vec<Pos2> = outline.iter().map(|&p| to_screen(page, seen.scale, p)).collect();
                 draw(ui.painter(), points, stroke);
-                let others = self.outlines.iter().flatten().filter(|(id, _)| over.contains(id));
+                let others = drawn.outlines.iter().flatten().filter(|(id, _)| over.contains(id));
                 for (_, outline) in others {
                     let points: Vec<Pos2> = outline.iter().map(|&p| to_screen(page, seen.scale, p)).collect();
                     draw(ui.painter(), points, Stroke::new(2.5, OVERLAP));
@@ -214,23 +239,28 @@ impl SheetsPanel {
     /// Begins to draw the sheets where they have changed; what was drawn stays until then.
     fn refresh(&mut self, studio: &Studio, output: &Output, ctx: &egui::Context) {
         let version = studio.shown().sheets_version();
-        if self.version != Some(version) {
+        if self.wanted != Some(version) {
             let (Some(opened), Some(document)) = (studio.opened(), studio.document()) else { return };
-            self.version = Some(version);
-            self.outlines = (0..output.layout().sheet_count()).map(|k| pages::outlines(output, k)).collect();
+            self.wanted = Some(version);
             let (sender, coming) = channel();
             self.coming = Some(coming);
             let (opened, project, output) = (opened.clone(), document.project().clone(), output.clone());
             let ctx = ctx.clone();
             std::thread::spawn(move || {
+                let drawn = pages::drawings(&opened, &project, &output).map(|drawings| {
+                    let sheets = 0..output.layout().sheet_count();
+                    let outlines = sheets.map(|sheet| pages::outlines(&output, sheet)).collect();
+                    Drawn { version, output, drawings, outlines }
+                });
                 // Nobody waits for the pages of a model that is no more.
-                let _ = sender.send(pages::drawings(&opened, &project, &output));
+                let _ = sender.send(drawn);
                 ctx.request_repaint();
             });
         }
-        if let Some(drawings) = self.coming.as_ref().and_then(|coming| coming.try_recv().ok()) {
-            self.pictures.resize_with(drawings.as_ref().map_or(0, Vec::len), Picture::default);
-            (self.coming, self.drawings) = (None, Some(drawings.map(Arc::new)));
+        if let Some(drawn) = self.coming.as_ref().and_then(|coming| coming.try_recv().ok()) {
+            self.pictures
+                .resize_with(drawn.as_ref().map_or(0, |drawn| drawn.drawings.len()), Picture::default);
+            (self.coming, self.drawn) = (None, Some(drawn.map(Arc::new)));
         }
     }
 
@@ -268,22 +298,22 @@ impl SheetsPanel {
     fn page(
         &mut self,
         studio: &mut Studio,
-        output: &Output,
+        drawn: &Drawn,
         ui: &mut Ui,
         (k, drawing): (usize, &Drawing),
         seen: &Seen,
     ) {
+        let output = &drawn.output;
         let (rect, scale) = (seen.pages[k], seen.scale);
         let response = ui.interact(rect, ui.scope_id().with(("page", k)), Sense::click_and_drag());
         response
             .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, format!("Sheet {}", k + 1)));
         let painter = ui.painter();
         let pixels_per_mm = f64::from(scale * ui.ctx().pixels_per_point());
-        let version = self.version.unwrap_or_default();
-        let texture = self.pictures[k].texture(ui.ctx(), drawing, version, pixels_per_mm);
+        let texture = self.pictures[k].texture(ui.ctx(), drawing, drawn.version, pixels_per_mm);
         paint(painter, rect, texture);
         painter.rect_stroke(rect, 0.0, ui.visuals().window_stroke, egui::StrokeKind::Outside);
-        let outlines = self.outlines.get(k).map_or(&[][..], Vec::as_slice);
+        let outlines = drawn.outlines.get(k).map_or(&[][..], Vec::as_slice);
         let over = response.hover_pos().and_then(|at| pages::piece_at(outlines, to_mm(rect, scale, at)));
         for (id, outline) in outlines {
             let is_selected = is_selected(studio, output, *id);
@@ -307,7 +337,8 @@ impl SheetsPanel {
         }
         let grabbed =
             response.interact_pointer_pos().filter(|_| response.drag_started_by(PointerButton::Primary));
-        if let Some(at) = grabbed.filter(|_| studio.laid().is_some()) {
+        let is_current = studio.laid().is_some() && studio.shown().sheets_version() == drawn.version;
+        if let Some(at) = grabbed.filter(|_| is_current) {
             // Where the button was pressed, not where the mouse is by now.
             let at = ui.input(|i| i.pointer.press_origin()).unwrap_or(at);
             let from_mm = to_mm(rect, scale, at);
@@ -331,9 +362,10 @@ impl SheetsPanel {
     }
 
     /// Brings a piece into view that was selected elsewhere.
-    fn follow(&mut self, studio: &Studio, output: &Output, seen: &Seen, window: Rect) {
+    fn follow(&mut self, studio: &Studio, drawn: &Drawn, seen: &Seen, window: Rect) {
+        let output = &drawn.output;
         let all =
-            self.outlines.iter().enumerate().flat_map(|(k, own)| own.iter().map(move |(id, o)| (k, *id, o)));
+            drawn.outlines.iter().enumerate().flat_map(|(k, own)| own.iter().map(move |(id, o)| (k, *id, o)));
         let Some((sheet, id, outline)) = all.into_iter().find(|(_, id, _)| is_selected(studio, output, *id))
         else {
             self.seen = None;

@@ -1,9 +1,11 @@
 //! What a user expects to find.
 
 use super::*;
+use crate::studio::change::Change;
 use crate::studio::scene;
 use egui_kittest::kittest::NodeT;
 use std::collections::BTreeSet;
+use tatamu::project::options::SIZE;
 
 #[test]
 fn every_control_has_a_name_for_those_who_do_not_see_it() {
@@ -127,6 +129,29 @@ fn components_are_hidden_isolated_and_shown() {
     desk.run_ok();
     click(&mut desk, &format!("Show {shown}"));
     assert_eq!(seen(&desk).len(), 3, "{:?}", desk.state().studio().visibility);
+}
+
+/// The pages of before were drawn under the outlines of now, and stayed.
+#[test]
+fn pages_and_outlines_are_of_one_layout() {
+    let (mut desk, _folder) = open();
+    wait_for(&mut desk, "Sheet 1");
+    for size_mm in [170.0, 120.0] {
+        let change = Change::Set { option: &SIZE, value: Some(size_mm.into()) };
+        desk.state_mut().studio_mut().change(&change, None);
+        settle(&mut desk, "the model", |s| s.finished().is_some());
+        let start = Instant::now();
+        while desk.state().sheets.drawn().unwrap().0 != desk.state().studio().shown().sheets_version() {
+            assert!(start.elapsed() < Duration::from_secs(60), "the pages do not come");
+            desk.run_steps(1);
+        }
+        let studio = desk.state().studio();
+        let (opened, project) = (studio.opened().unwrap(), studio.document().unwrap().project());
+        let wanted = crate::studio::pages::drawings(opened, project, studio.finished().unwrap()).unwrap();
+        assert!(desk.state().sheets.drawn().unwrap().1 == wanted);
+        let pictures = desk.state().sheets.picture_versions();
+        assert!(pictures.iter().all(|version| *version == studio.shown().sheets_version()), "{pictures:?}");
+    }
 }
 
 #[test]
