@@ -88,7 +88,7 @@ fn push_contents(out: &mut String, guide: &Guide) {
 fn push_cover(out: &mut String, guide: &Guide) {
     let words = &guide.words.cover;
     out.push_str("<section class=\"page\" id=\"cover\" aria-labelledby=\"cover-title\">\n");
-    let _ = write!(out, "<h2 id=\"cover-title\">{}</h2>\n", escaped(&words.deployed));
+    let _ = writeln!(out, "<h2 id=\"cover-title\">{}</h2>", escaped(&words.deployed));
     // Its words and its step are of the reader's device.
     out.push_str("<a class=\"resume\" id=\"resume\" href=\"#step-1\" hidden></a>\n<div class=\"pictures\">");
     push_slider(out, guide, &words.deployed);
