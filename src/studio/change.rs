@@ -195,7 +195,10 @@ fn pin_table(piece: &str, pin: &Pin) -> Table {
     // So fine that a piece which is pinned where it lies stays in its cells of the layout.
     table["x_mm"] = toml_edit::value(to_digits(pin.at_mm.x, 5));
     table["y_mm"] = toml_edit::value(to_digits(pin.at_mm.y, 5));
-    table["turn"] = toml_edit::value(to_digits(pin.turn_rad.to_degrees(), 7));
+    table["turn"] = toml_edit::value(to_digits(pin.turn_rad.to_degrees(), 12));
+    if pin.net > 0 {
+        table["net"] = toml_edit::value(pin.net as i64 + 1);
+    }
     table
 }
 

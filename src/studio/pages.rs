@@ -96,11 +96,13 @@ pub fn rearranged(output: &Output, id: PieceId, to: &Move) -> Result<Vec<(String
         let others = first.unwrap_or_default().join(" and ");
         return Err(format!("{} would overlap {others}; it stays where it was", own.name()));
     };
-    let mut pins = vec![(own.name().to_owned(), Pin::of_place(own.outline(), &place))];
+    let pin = |id: PieceId, piece: &Piece, place: &PiecePlace| {
+        let net = output.layout().taken(id.net);
+        (piece.name().to_owned(), Pin { net, ..Pin::of_place(piece.outline(), place) })
+    };
+    let mut pins = vec![pin(id, own, &place)];
     pins.extend(
-        all(output)
-            .filter(|(other, ..)| *other != id)
-            .map(|(_, other, place)| (other.name().to_owned(), Pin::of_place(other.outline(), place))),
+        all(output).filter(|(other, ..)| *other != id).map(|(id, piece, place)| pin(id, piece, place)),
     );
     // A sheet that becomes empty goes.
     let mut sheets: Vec<usize> = pins.iter().map(|(_, pin)| pin.sheet).collect();

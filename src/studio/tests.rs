@@ -1,6 +1,7 @@
 //! The studio without its window.
 
 use super::change::Change;
+use super::pages::{self, Move, PieceId};
 use super::state::Studio;
 use super::store::Store;
 use std::path::{Path, PathBuf};
@@ -8,6 +9,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tatamu::project::Project;
 use tatamu::project::options::{DIRECTION, PAPER, TOP_EDGES};
+use tatamu::sheet::Pin;
 
 /// A studio with a small model, quick to make, in a folder of its own.
 pub struct Desk {
@@ -238,4 +240,40 @@ fn a_killed_studio_loses_nothing_of_a_mesh_that_was_saved_as_a_project() {
     again.open(&folder.path().join("snowman.obj"));
     wait(&mut again, "the mesh", |s| !s.opened().unwrap().is_project);
     assert!(!again.document().unwrap().is_changed());
+}
+
+/// The layout may have taken another net of a component than its best one.
+#[test]
+fn pieces_of_a_larger_model_stay_where_they_are_pinned() {
+    for name in ["teddy", "rabbit", "teapot"] {
+        stays_where_it_is_pinned(name);
+    }
+}
+
+fn stays_where_it_is_pinned(name: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = folder.path().join("mesh.obj");
+    let sample = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("samples/{name}.obj"));
+    std::fs::copy(sample, &mesh).unwrap();
+    let mut studio = Studio::new(Store::at(&folder.path().join("state")), Arc::new(|| {}));
+    studio.open(&mesh);
+    wait(&mut studio, "a model", |s| s.finished().is_some());
+    let before = studio.finished().unwrap().clone();
+    let to = Move { sheet: before.layout().sheet_count(), by_mm: glam::DVec2::ZERO, turn_rad: 0.0 };
+    let id = PieceId { net: 1, piece: 0 };
+    let pins = pages::rearranged(&before, id, &to).unwrap();
+    studio.change(&Change::Pins { pins }, None);
+    wait(&mut studio, "the layout", |s| s.finished().is_some());
+    let after = studio.finished().unwrap();
+    assert!(after.layout().unheeded_pins().is_empty(), "{:?}", after.layout().unheeded_pins());
+    for (net, own) in before.nets().iter().enumerate() {
+        for (piece, shape) in own.pieces().iter().enumerate() {
+            assert_eq!(after.nets()[net].pieces()[piece].outline(), shape.outline(), "{}", shape.name());
+            if (PieceId { net, piece }) != id {
+                let [old, new] =
+                    [&before, after].map(|o| Pin::of_place(shape.outline(), &o.layout().places(net)[piece]));
+                assert!(old.at_mm.distance(new.at_mm) < 0.01, "{}: {old:?} {new:?}", shape.name());
+            }
+        }
+    }
 }
