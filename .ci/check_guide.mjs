@@ -37,7 +37,11 @@ for (const [name, width, height] of [["phone", 390, 844], ["desktop", 1280, 800]
   const isPhone = name === "phone";
   await page.setViewport({ width, height, isMobile: isPhone, hasTouch: isPhone, deviceScaleFactor: 1 });
   await page.goto(address);
+  await page.evaluate(() => localStorage.clear());
+  await page.goto("about:blank");
+  await page.goto(address);
   expect((await shown()).join() === "cover", `${name}: the cover comes first`);
+  expect((await page.evaluate(() => scrollY)) === 0, `${name}: the title is seen first`);
   const count = await page.$$eval(".step", (steps) => steps.length);
   expect(count > 0, "there are steps");
   const ids = await page.$$eval("main > .page", (pages) => pages.map((p) => p.id));
@@ -51,14 +55,51 @@ for (const [name, width, height] of [["phone", 390, 844], ["desktop", 1280, 800]
     }
     if (id !== ids.at(-1)) await (ids.indexOf(id) % 2 ? page.keyboard.press("ArrowRight") : page.click("#next"));
   }
+  await page.click("#next");
   expect(await page.$eval("#next", (b) => b.disabled), "there is nothing after the last page");
+  // Turned by the button, which ticks, and by a key, which does not.
+  const done = await page.$$eval(".tick input:checked", (all) => all.map((t) => t.dataset.step));
+  expect(done.includes(String(count)) && done.length < count, `${name}: ${done} are ticked`);
   await page.keyboard.press("Home");
   expect((await shown()).join() === "cover", "Home leads to the cover");
   await page.keyboard.press("ArrowLeft");
   expect((await shown()).join() === "cover", "there is nothing before the cover");
 }
 
+// The keys that scroll a page do not turn it.
+for (const key of ["PageDown", "PageUp"]) {
+  await page.goto(`${address}#step-2`);
+  await page.reload();
+  expect((await page.evaluate(() => scrollY)) === 0, "a step begins with its title");
+  await page.keyboard.press(key);
+  expect((await shown()).join() === "step-2", `${key} does not turn the page`);
+}
+// The browser's back button turns the pages back.
+await page.keyboard.press("ArrowRight");
+await page.keyboard.press("ArrowRight");
+await page.goBack();
+expect(await soon((id) => id === "step-3"), "back leads to the page before");
+
+// A reader goes on where they stopped, and the contents say how far each chapter is.
+await page.evaluate(() => localStorage.clear());
+await page.goto(`${address}#step-1`);
+await page.reload();
+await page.click("#next");
+expect((await shown()).join() === "step-2", "one click ticks a step and turns the page");
+await page.goto(`${address}#cover`);
+await page.reload();
+expect((await page.$eval("#resume", (link) => link.textContent)).includes("2"), "the cover leads to step 2");
+await page.click("#resume");
+expect(await soon((id) => id === "step-2"), "the reader goes on at step 2");
+await new Promise((done) => setTimeout(done, 100));
+expect((await page.evaluate(() => scrollY)) === 0, "a link leads to the title of a step");
+const chapters = await page.$$eval("nav .progress", (all) => all.map((chapter) => chapter.textContent));
+expect(chapters[0].includes("1") && chapters.every((text) => text !== ""), `progress of the chapters: ${chapters}`);
+await page.evaluate(() => localStorage.clear());
+
 // The slider shows every frame.
+await page.goto(`${address}#cover`);
+await page.reload();
 const frames = await page.$eval("#cover input[type=range]", (range) => Number(range.max) + 1);
 await page.focus("#cover input[type=range]");
 await page.keyboard.press("End");
@@ -119,6 +160,11 @@ if (pictures) {
 await page.emulateMediaType("print");
 const hidden = await page.$$eval("main > .page", (all) => all.filter((p) => getComputedStyle(p).display === "none").length);
 expect(hidden === 0, `${hidden} pages are not printed`);
+const steps = await page.$$eval(".step", (all) => all.length);
+const printed = Buffer.from(await page.pdf({ format: "A4" })).toString("latin1");
+const sheets = (printed.match(/\/Type\s*\/Page[^s]/g) || []).length;
+expect(sheets <= 4 + steps / 2.5, `${steps} steps take ${sheets} printed pages`);
+if (pictures) await page.pdf({ path: `${pictures}/printed.pdf`, format: "A4" });
 await browser.close();
 faults.forEach((fault) => console.log(fault));
 process.exit(faults.length ? 1 : 0);

@@ -345,7 +345,7 @@ fn pinned_pieces_lie_where_they_are_pinned_and_the_others_round_them() {
     let pieces: Vec<_> = made.placed().map(|(piece, ..)| piece.clone()).collect();
     // A corner of the usable area at an angle of its own; another sheet; on the first one; no piece.
     let names = [0, 1, 2].map(|k| pieces[k].name().to_owned());
-    let pin = |sheet, x, y, turn_rad| Pin { sheet, at_mm: DVec2::new(x, y), turn_rad };
+    let pin = |sheet, x, y, turn_rad| Pin { sheet, at_mm: DVec2::new(x, y), turn_rad, net: 0 };
     let pins = BTreeMap::from([
         (names[0].clone(), pin(0, 60.0, 90.0, 0.3)),
         (names[1].clone(), pin(1, 50.0, 60.0, -1.2)),

@@ -23,6 +23,9 @@ pub trait Names {
 
     /// Where the ways are listed in which a drawn profile can fold.
     fn list_of_ways(&self) -> &'static str;
+
+    /// How a pin is taken away that no piece has.
+    fn remove_pin(&self) -> &'static str;
 }
 
 /// What was found, and what can be done about it.
@@ -96,7 +99,7 @@ fn phrase(remedy: &Remedy, names: &dyn Names) -> String {
         Remedy::PullOutwards => {
             "pull its dents outwards by hand, one chain after the other, or neighbouring panels collide"
         }
-        Remedy::RemovePin => "take its [[pin]] away",
+        Remedy::RemovePin => names.remove_pin(),
         Remedy::MovePin => "move it or another pin",
         Remedy::CheckFile => "make sure that this is the one you mean",
     };

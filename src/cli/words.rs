@@ -34,6 +34,10 @@ impl Names for Flags {
     fn list_of_ways(&self) -> &'static str {
         "--list-configurations lists them"
     }
+
+    fn remove_pin(&self) -> &'static str {
+        "take its [[pin]] away"
+    }
 }
 
 #[cfg(test)]

@@ -7,6 +7,8 @@ use serde::Deserialize;
 
 /// Most sheets that a pin may count.
 const MOST_SHEETS: usize = 500;
+/// Most nets of a component that a pin may count.
+const MOST_NETS: usize = 1000;
 /// No sheet is larger, mm.
 const LARGEST_MM: f64 = 100_000.0;
 
@@ -40,13 +42,19 @@ struct Table {
     y_mm: f64,
     #[serde(default)]
     turn: f64,
+    #[serde(default = "one")]
+    net: usize,
+}
+
+fn one() -> usize {
+    1
 }
 
 impl TryFrom<Table> for PinTable {
     type Error = String;
 
     fn try_from(table: Table) -> Result<Self, String> {
-        let Table { piece, sheet, x_mm, y_mm, turn } = table;
+        let Table { piece, sheet, x_mm, y_mm, turn, net } = table;
         if !(1..=MOST_SHEETS).contains(&sheet) {
             return Err(format!("sheet must be from 1 to {MOST_SHEETS}"));
         }
@@ -55,8 +63,11 @@ impl TryFrom<Table> for PinTable {
                 "x_mm and y_mm must be finite: the piece's lower left corner on the sheet, mm".to_owned()
             );
         }
+        if !(1..=MOST_NETS).contains(&net) {
+            return Err(format!("net must be from 1 to {MOST_NETS}"));
+        }
         let turn_rad = super::options::check_degrees(turn)?.to_radians();
-        let pin = Pin { sheet: sheet - 1, at_mm: DVec2::new(x_mm, y_mm), turn_rad };
+        let pin = Pin { sheet: sheet - 1, at_mm: DVec2::new(x_mm, y_mm), turn_rad, net: net - 1 };
         Ok(Self { piece, pin })
     }
 }
@@ -77,6 +88,7 @@ mod tests {
             ("piece = 'a'\nsheet = 1\nx_mm = nan\ny_mm = 1\n", "lower left"),
             ("piece = 'a'\nsheet = 1\nx_mm = 1\ny_mm = 1\nturn = inf\n", "degrees"),
             ("piece = 'a'\nsheet = 1\nx_mm = 1\n", "y_mm"),
+            ("piece = 'a'\nsheet = 1\nx_mm = 1\ny_mm = 1\nnet = 0\n", "net must be"),
             ("piece = ' '\nsheet = 1\nx_mm = 1\ny_mm = 1\n", "name"),
         ] {
             let message = parse(text).unwrap_err().to_string();

@@ -54,12 +54,15 @@ pub enum Change {
         /// Its normal.
         normal: DVec3,
     },
-    /// Puts a piece where the user wants it, or lets the layout decide again.
-    Pin {
+    /// Lets the layout decide again where a piece lies.
+    Unpin {
         /// Name of the piece.
         piece: String,
-        /// Its place; none lets the layout decide.
-        place: Option<Pin>,
+    },
+    /// Puts pieces where the user wants them, and lets the layout place all others.
+    Pins {
+        /// Names of the pieces, with their places; what the user did is about the first.
+        pins: Vec<(String, Pin)>,
     },
 }
 
@@ -68,7 +71,7 @@ impl Change {
     pub fn is_of_parts(&self) -> bool {
         match self {
             Change::Set { option, .. } => option.scope == Scope::Mesh,
-            Change::Pin { .. } => false,
+            Change::Unpin { .. } | Change::Pins { .. } => false,
             _ => true,
         }
     }
@@ -83,7 +86,10 @@ impl Change {
             Self::Forget { name } => format!("settings of {name}"),
             Self::Merge { names } => format!("merge {}", names.join(" and ")),
             Self::Split { name, .. } => format!("split {name}"),
-            Self::Pin { piece, .. } => format!("place of {piece}"),
+            Self::Unpin { piece } => format!("unpin {piece}"),
+            Self::Pins { pins } => {
+                pins.first().map_or("lay out again".to_owned(), |(piece, _)| format!("place of {piece}"))
+            }
         }
     }
 
@@ -140,10 +146,11 @@ impl Change {
                 table["normal"] = toml_edit::value(rounded(*normal));
                 list(root, "edit")?.push(table);
             }
-            Self::Pin { piece, place } => {
+            Self::Unpin { piece } => remove(list(root, "pin")?, "piece", piece),
+            Self::Pins { pins } => {
                 let list = list(root, "pin")?;
-                remove(list, "piece", piece);
-                list.extend(place.iter().map(|pin| pin_table(piece, pin)));
+                list.clear();
+                list.extend(pins.iter().map(|(piece, pin)| pin_table(piece, pin)));
             }
         }
         Ok(document.to_string())
@@ -185,9 +192,13 @@ fn remove(list: &mut ArrayOfTables, key: &str, name: &str) {
 fn pin_table(piece: &str, pin: &Pin) -> Table {
     let mut table = named("piece", piece);
     table["sheet"] = toml_edit::value(pin.sheet as i64 + 1);
-    table["x_mm"] = toml_edit::value(to_digits(pin.at_mm.x, 2));
-    table["y_mm"] = toml_edit::value(to_digits(pin.at_mm.y, 2));
-    table["turn"] = toml_edit::value(to_digits(pin.turn_rad.to_degrees(), 2));
+    // So fine that a piece which is pinned where it lies stays in its cells of the layout.
+    table["x_mm"] = toml_edit::value(to_digits(pin.at_mm.x, 5));
+    table["y_mm"] = toml_edit::value(to_digits(pin.at_mm.y, 5));
+    table["turn"] = toml_edit::value(to_digits(pin.turn_rad.to_degrees(), 12));
+    if pin.net > 0 {
+        table["net"] = toml_edit::value(pin.net as i64 + 1);
+    }
     table
 }
 

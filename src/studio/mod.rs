@@ -8,11 +8,14 @@
 //! The state knows nothing of the window, and is tested without it.
 
 mod change;
+mod colours;
 mod document;
+mod messages;
 mod opened;
 mod pages;
 mod planning;
 mod plotting;
+mod preferences;
 mod results;
 mod scene;
 mod selection;
@@ -23,18 +26,25 @@ mod tasks;
 #[cfg(test)]
 mod tests;
 mod view;
+mod visibility;
+mod watch;
 mod words;
 mod worker;
 
 use crate::app::error::AppError;
 use std::path::PathBuf;
 
+/// Width and height of the window at the first run, points.
+const SIZE: [f32; 2] = [1280.0, 800.0];
+
 /// Opens the window, with a file if one is given.
 pub fn run(input: Option<PathBuf>) -> Result<(), AppError> {
+    let store = store::Store::of_user();
+    let [width, height] = store.preferences().window.unwrap_or(SIZE).map(|side| side.clamp(200.0, 10_000.0));
     let options = eframe::NativeOptions {
         viewport: eframe::egui::ViewportBuilder::default()
             .with_app_id("tatamu")
-            .with_inner_size([1280.0, 760.0])
+            .with_inner_size([width, height])
             .with_min_inner_size([800.0, 500.0])
             .with_drag_and_drop(true),
         ..Default::default()
@@ -42,7 +52,9 @@ pub fn run(input: Option<PathBuf>) -> Result<(), AppError> {
     let create: eframe::AppCreator<'_> = Box::new(move |context| {
         let ctx = context.egui_ctx.clone();
         let wake = std::sync::Arc::new(move || ctx.request_repaint());
-        let mut window = view::Window::new(state::Studio::new(store::Store::of_user(), wake));
+        let studio = state::Studio::new(store, wake);
+        let mut window = view::Window::new(studio, view::Chooser::System);
+        window.set_up(&context.egui_ctx);
         input.iter().for_each(|path| window.open(path));
         Ok(Box::new(window))
     });

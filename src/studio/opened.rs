@@ -19,6 +19,7 @@ use tatamu::project::options::Settings;
 use tatamu::report::Run;
 
 /// A file that is open.
+#[derive(Clone)]
 pub struct Opened {
     /// What the user opened: a mesh or a project file.
     pub source: PathBuf,
@@ -70,6 +71,17 @@ impl Opened {
             text,
             is_project,
         })
+    }
+
+    /// The same project with the mesh of a file that was read again.
+    pub fn with_mesh(&self, fresh: &Self) -> Self {
+        Self { repairs: fresh.repairs.clone(), engine: fresh.engine.clone(), ..self.clone() }
+    }
+
+    /// The same after the project was saved in a file, which is its source from now on.
+    pub fn saved_as(&self, path: &Path) -> Self {
+        let mesh_path = if self.drawn.is_some() { path.to_owned() } else { self.mesh_path.clone() };
+        Self { source: path.to_owned(), mesh_path, is_project: true, ..self.clone() }
     }
 
     /// Gives what was made, with the look and the colours that the project asks for, and its options of

@@ -1,8 +1,11 @@
 //! What is shown of the work: the last good results.
 
+use super::colours::Colours;
 use super::surface::Distances;
+use tatamu::drawing::Rgb;
 use tatamu::model::ModelPart;
 use tatamu::pipeline::{Output, Shaped};
+use tatamu::render::palette;
 
 /// The work that goes on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,11 +26,31 @@ pub struct Shown {
     /// Whether the order of folding of `output` is known.
     pub(super) is_folded: bool,
     pub(super) distances: Option<Distances>,
+    colours: Colours,
     /// Changes whenever what is shown does.
     pub(super) version: u64,
+    /// Changes whenever the sheets do.
+    pub(super) sheets_version: u64,
 }
 
 impl Shown {
+    /// Forgets the results of another file.
+    pub(super) fn clear(&mut self) {
+        let (version, sheets_version) = (self.version + 1, self.sheets_version + 1);
+        *self = Self { version, sheets_version, ..Self::default() };
+    }
+
+    /// Takes a new model.
+    pub(super) fn take(&mut self, shaped: Shaped) {
+        self.colours.keep(shaped.divided().hulls().names());
+        self.shaped = Some(shaped);
+    }
+
+    /// The colour of the component of an index.
+    pub fn colour(&self, index: usize) -> Rgb {
+        self.names().get(index).map_or(palette::colour(index), |name| self.colours.of(name))
+    }
+
     /// The model and what it is made of.
     pub fn shaped(&self) -> Option<&Shaped> {
         self.shaped.as_ref()
@@ -64,6 +87,11 @@ impl Shown {
     /// Changes whenever what is shown does.
     pub fn version(&self) -> u64 {
         self.version
+    }
+
+    /// Changes whenever the sheets do.
+    pub fn sheets_version(&self) -> u64 {
+        self.sheets_version
     }
 
     /// Names of the components that edits and options go by.

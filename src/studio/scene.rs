@@ -1,6 +1,7 @@
 //! What is seen in space: the parts of the model that the user wants to see, in the pose of the
 //! moment, with what is selected.
 
+use super::selection::Hover;
 use super::state::Studio;
 use glam::{DAffine3, DVec3};
 use tatamu::component::{PanelId, PanelSet};
@@ -8,8 +9,8 @@ use tatamu::drawing::Rgb;
 use tatamu::fold::{Clash, ModelMotion, ModelPose, Moment, Motion, Sequence};
 use tatamu::mesh::Mesh;
 use tatamu::model::ModelPart;
+use tatamu::render::light;
 use tatamu::render::zbuffer::{Frame, Line, Solids};
-use tatamu::render::{light, palette};
 use tatamu::show::upright;
 
 /// What is to be seen.
@@ -25,12 +26,14 @@ pub struct Layers {
     pub components: bool,
     /// The mesh in colours of its distance from the components.
     pub distances: bool,
+    /// Lines on the ground.
+    pub grid: bool,
 }
 
 impl Layers {
     /// The components alone.
     pub const COMPONENTS: Self =
-        Self { input: false, segments: false, hulls: false, components: true, distances: false };
+        Self { input: false, segments: false, hulls: false, components: true, distances: false, grid: true };
 }
 
 /// All that decides what is seen, but for the model.
@@ -41,7 +44,7 @@ pub struct Setting {
     /// How far the model is folded, 0 to 1, one step after the other.
     pub folded: f64,
     /// What the mouse is over.
-    pub hover: Option<Tag>,
+    pub hover: Option<Hover>,
     /// The clash that is shown.
     pub clash: Option<Clash>,
     /// The plane at which a part would be split: a point and a normal, in the model's axes.
@@ -77,6 +80,9 @@ impl Tag {
 const PLAIN: Rgb = Rgb(200, 200, 204);
 const CLASH: Rgb = Rgb(220, 40, 30);
 const ACCENT: Rgb = Rgb(230, 90, 20);
+/// Lines on the ground, seen on both themes' grounds without being loud; each fifth is bolder.
+const GRID: Rgb = Rgb(150, 153, 160);
+const GRID_BOLD: Rgb = Rgb(118, 121, 130);
 const CREASE: Rgb = Rgb(90, 90, 95);
 /// The inside of paper is paler than its outside.
 const INSIDE: f64 = 0.4;
@@ -96,33 +102,41 @@ pub fn scene(studio: &Studio, setting: &Setting) -> Solids {
         if let (Some(opened), Some(document)) = (studio.opened(), studio.document()) {
             let options = document.options();
             let (mesh, _) = opened.engine.mesh().scaled(options.size_mm, options.up);
-            push_mesh(&mut solids, &mesh, |_| (PLAIN, Frame::NOTHING), false);
+            push_mesh(&mut solids, &mesh, |_| Some((PLAIN, Frame::NOTHING)), false);
         }
         return solids;
     };
     let layers = setting.layers;
     let divided = shaped.divided();
     let of_face = |face: usize| divided.face_parts()[face].map(|p| p as usize);
+    let is_hidden =
+        |part: usize| shown.names().get(part).is_some_and(|name| studio.visibility.is_hidden(name));
+    let is_seen = |face: usize| !of_face(face).is_some_and(is_hidden);
     let tag = |face: usize| of_face(face).map_or(Frame::NOTHING, |part| Tag { part, panel: None }.number());
     if layers.distances
         && let Some(distances) = shown.distances()
     {
-        push_mesh(&mut solids, divided.mesh(), |f| (distances.colour(f), tag(f)), false);
+        push_mesh(&mut solids, divided.mesh(), |f| is_seen(f).then(|| (distances.colour(f), tag(f))), false);
     } else if layers.segments {
         let names = shown.names();
         let colour = |face: usize| {
             let Some(part) = of_face(face) else { return PLAIN };
             let is_lit = names.get(part).is_some_and(|name| studio.selection.has(name))
-                || setting.hover.is_some_and(|h| h.part == part);
-            lit(palette::colour(part), is_lit)
+                || setting.hover.as_ref().is_some_and(|h| h.is_on(part));
+            lit(shown.colour(part), is_lit)
         };
-        push_mesh(&mut solids, divided.mesh(), |f| (colour(f), tag(f)), layers.components);
+        push_mesh(
+            &mut solids,
+            divided.mesh(),
+            |f| is_seen(f).then(|| (colour(f), tag(f))),
+            layers.components,
+        );
     } else if layers.input {
-        push_mesh(&mut solids, divided.mesh(), |f| (PLAIN, tag(f)), layers.components);
+        push_mesh(&mut solids, divided.mesh(), |f| is_seen(f).then(|| (PLAIN, tag(f))), layers.components);
     }
     if layers.hulls {
-        for (part, hull) in divided.hulls().hulls().iter().enumerate() {
-            let colour = light::mixed(palette::colour(part), Rgb::BLACK, 0.4);
+        for (part, hull) in divided.hulls().hulls().iter().enumerate().filter(|(part, _)| !is_hidden(*part)) {
+            let colour = light::mixed(shown.colour(part), Rgb::BLACK, 0.4);
             for facet in hull.facets() {
                 let outline: Vec<DVec3> = facet
                     .outline()
@@ -131,7 +145,7 @@ pub fn scene(studio: &Studio, setting: &Setting) -> Solids {
                     .collect();
                 if !(layers.components || layers.segments || layers.input || layers.distances) {
                     let number = Tag { part, panel: None }.number();
-                    solids.push_outline(&outline, palette::colour(part), None, number);
+                    solids.push_outline(&outline, shown.colour(part), None, number);
                 }
                 push_edges(&mut solids, &outline, colour, 1.0);
             }
@@ -139,6 +153,9 @@ pub fn scene(studio: &Studio, setting: &Setting) -> Solids {
     }
     if layers.components {
         push_components(&mut solids, studio, setting);
+    }
+    if layers.grid {
+        push_grid(&mut solids, divided.mesh());
     }
     if let Some((point, normal)) = setting.split {
         push_plane(&mut solids, point, normal, 0.3 * divided.mesh().diagonal_mm());
@@ -150,11 +167,16 @@ fn lit(colour: Rgb, is_lit: bool) -> Rgb {
     if is_lit { light::mixed(colour, Rgb::WHITE, HOVER) } else { colour }
 }
 
-fn push_mesh(solids: &mut Solids, mesh: &Mesh, of_face: impl Fn(usize) -> (Rgb, u32), is_screened: bool) {
+fn push_mesh(
+    solids: &mut Solids,
+    mesh: &Mesh,
+    of_face: impl Fn(usize) -> Option<(Rgb, u32)>,
+    is_screened: bool,
+) {
     let turn = upright();
     solids.facets.reserve(mesh.faces().len());
     for face in 0..mesh.faces().len() {
-        let (colour, tag) = of_face(face);
+        let Some((colour, tag)) = of_face(face) else { continue };
         let corners = mesh.corners(face).map(|c| turn.transform_point3(c));
         solids.push_triangle(corners, colour, Some(colour), tag, is_screened);
     }
@@ -197,13 +219,15 @@ pub fn moment(studio: &Studio, clash: &Clash) -> Option<f64> {
 fn push_components(solids: &mut Solids, studio: &Studio, setting: &Setting) {
     let shown = studio.shown();
     let Some(shaped) = shown.shaped() else { return };
+    let is_hidden =
+        |part: usize| shown.names().get(part).is_some_and(|name| studio.visibility.is_hidden(name));
     let is_moving = setting.folded > 0.0 && shown.ahead().is_none();
     let pose: Option<ModelPose> = is_moving.then(|| folded(studio, setting.folded)).flatten().map(|moment| {
         let motion = ModelMotion::new(shaped.model());
         motion.pose_from(&moment, LIFT_MM, |root, _| shaped.model().parts()[root].deployed())
     });
     for index in 0..shaped.model().parts().len() {
-        let Some(part) = shown.part(index) else { continue };
+        let Some(part) = shown.part(index).filter(|_| !is_hidden(index)) else { continue };
         let set = part.component.panels();
         let place = |panel: PanelId| match &pose {
             Some(pose) => pose.parts[index].panel(panel),
@@ -230,6 +254,7 @@ struct Panels<'a> {
 
 fn push_panels(solids: &mut Solids, studio: &Studio, setting: &Setting, panels: &Panels<'_>) {
     let pieces = selected_panels(studio, panels.part);
+    let own = studio.shown().colour(panels.part);
     for (k, panel) in panels.set.panels().iter().enumerate() {
         let id = PanelId(k);
         let tag = Tag { part: panels.part, panel: Some(id) };
@@ -239,8 +264,8 @@ fn push_panels(solids: &mut Solids, studio: &Studio, setting: &Setting, panels: 
         let is_panel = panels.is_selected && (studio.selection.panel() == Some(id) || pieces.contains(&id));
         let colour = match (clashes, is_panel) {
             (true, _) => CLASH,
-            (_, true) => light::mixed(palette::colour(panels.part), ACCENT, 0.45),
-            _ => lit(palette::colour(panels.part), setting.hover == Some(tag)),
+            (_, true) => light::mixed(own, ACCENT, 0.45),
+            _ => lit(own, setting.hover.as_ref().is_some_and(|hover| hover.is_over(panels.part, id))),
         };
         let motion = upright() * (panels.place)(id);
         let outline: Vec<DVec3> =
@@ -303,6 +328,32 @@ fn push_arrow(solids: &mut Solids, part: &ModelPart, frame: DAffine3) {
         let base = [at(0.0, 0.0, neck), ring(2.6 * radius, neck, k + 1), ring(2.6 * radius, neck, k)];
         solids.push_outline(&base, ACCENT, None, Frame::NOTHING);
     }
+}
+
+/// Distance between the lines on the ground: 1, 2 or 5 times a power of ten, some twenty over the model.
+pub fn grid_mm(diagonal_mm: f64) -> f64 {
+    let wanted = diagonal_mm.max(1.0) / 20.0;
+    let power = 10f64.powf(wanted.log10().floor());
+    [1.0, 2.0, 5.0, 10.0].map(|step| step * power).into_iter().find(|&step| step >= wanted).unwrap_or(wanted)
+}
+
+/// Lines on the ground under the mesh.
+fn push_grid(solids: &mut Solids, mesh: &Mesh) {
+    let Some((low, high)) = bounds(mesh) else { return };
+    let step = grid_mm(mesh.diagonal_mm());
+    let (middle, reach) = (low.midpoint(high), 0.75 * (high - low).truncate().max_element().max(step));
+    let range = |at: f64| ((at - reach) / step).floor() as i64..=((at + reach) / step).ceil() as i64;
+    let (across, along) = (range(middle.x), range(middle.y));
+    let at = |x: i64, y: i64| upright().transform_point3(DVec3::new(x as f64 * step, y as f64 * step, low.z));
+    let colour = |k: i64| if k % 5 == 0 { GRID_BOLD } else { GRID };
+    let xs = across.clone().map(|x| ([at(x, *along.start()), at(x, *along.end())], colour(x)));
+    let ys = along.clone().map(|y| ([at(*across.start(), y), at(*across.end(), y)], colour(y)));
+    solids.lines.extend(xs.chain(ys).map(|(ends, colour)| Line { ends, colour, width_px: 1.0 }));
+}
+
+fn bounds(mesh: &Mesh) -> Option<(DVec3, DVec3)> {
+    let corners = || (0..mesh.faces().len()).flat_map(|face| mesh.corners(face));
+    Some((corners().reduce(DVec3::min)?, corners().reduce(DVec3::max)?))
 }
 
 /// A square of a plane, half see-through.

@@ -70,6 +70,35 @@ impl Selection {
     }
 }
 
+/// What the mouse is over, in any view: some panels of a component, or all of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hover {
+    part: usize,
+    panels: Vec<PanelId>,
+}
+
+impl Hover {
+    /// Over a whole component.
+    pub fn part(part: usize) -> Self {
+        Self { part, panels: Vec::new() }
+    }
+
+    /// Over some panels of a component.
+    pub fn panels(part: usize, panels: Vec<PanelId>) -> Self {
+        Self { part, panels }
+    }
+
+    /// Whether it is over a panel of a component.
+    pub fn is_over(&self, part: usize, panel: PanelId) -> bool {
+        self.part == part && (self.panels.is_empty() || self.panels.contains(&panel))
+    }
+
+    /// Whether it is over something of a component.
+    pub fn is_on(&self, part: usize) -> bool {
+        self.part == part
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,11 +2,15 @@
 
 use super::change::{Change, to_digits};
 use super::document::Document;
+use super::messages::{Cause, Messages};
 use super::opened::Opened;
+use super::preferences::Preferences;
 use super::results::{Busy, Shown};
-use super::selection::Selection;
+use super::selection::{Hover, Selection};
 use super::store::Store;
 use super::tasks::{Finished, Tasks};
+use super::visibility::Visibility;
+use super::watch::Watch;
 use super::worker::{News, Order, Wake, Worker};
 use crate::app::project;
 use glam::DVec3;
@@ -14,6 +18,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tatamu::pipeline::{Options, Output};
 use tatamu::project::options::{DIRECTION, SIZE};
+
+/// Turns of a component that follow each other within this time are undone together, seconds.
+const TURN_PAUSE_S: f64 = 1.0;
 
 /// The studio without its window.
 pub struct Studio {
@@ -24,13 +31,22 @@ pub struct Studio {
     document: Option<Document>,
     shown: Shown,
     busy: Option<Busy>,
-    problem: Option<String>,
-    /// The component that the problem is about, if it is no more.
+    messages: Messages,
+    /// The component that the model failed for, as there is none of this name.
     missing: Option<String>,
-    notice: Option<String>,
     /// What is selected.
     pub selection: Selection,
+    /// What the mouse is over, in any view.
+    pub hover: Option<Hover>,
+    /// What is hidden.
+    pub visibility: Visibility,
     measures: bool,
+    /// When a component was turned last.
+    last_turn_s: f64,
+    /// Tells files that were opened apart.
+    session: u64,
+    wake: Wake,
+    watch: Option<Watch>,
 }
 
 impl Studio {
@@ -39,17 +55,22 @@ impl Studio {
     pub fn new(store: Store, wake: Wake) -> Self {
         Self {
             worker: Worker::new(wake.clone()),
-            tasks: Tasks::new(wake),
+            tasks: Tasks::new(wake.clone()),
             store,
             opened: None,
             document: None,
             shown: Shown::default(),
             busy: None,
-            problem: None,
+            messages: Messages::default(),
             missing: None,
-            notice: None,
             selection: Selection::default(),
+            hover: None,
+            visibility: Visibility::default(),
             measures: false,
+            last_turn_s: f64::NEG_INFINITY,
+            session: 0,
+            wake,
+            watch: None,
         }
     }
 
@@ -73,24 +94,46 @@ impl Studio {
         self.busy
     }
 
-    /// Why there is no newer result.
+    /// What the user is told.
+    pub fn messages(&self) -> &Messages {
+        &self.messages
+    }
+
+    /// Tells something about what the user did.
+    pub fn messages_mut(&mut self) -> &mut Messages {
+        &mut self.messages
+    }
+
+    /// The newest problem.
+    #[cfg(test)]
     pub fn problem(&self) -> Option<&str> {
-        self.problem.as_deref()
+        self.messages.iter().find(|message| message.is_problem).map(|message| message.text.as_str())
+    }
+
+    /// The newest message that is no problem.
+    #[cfg(test)]
+    pub fn notice(&self) -> Option<&str> {
+        self.messages.iter().find(|message| !message.is_problem).map(|message| message.text.as_str())
     }
 
     /// The component that there is no more, though something is set for it.
     pub fn missing(&self) -> Option<&str> {
-        self.missing.as_deref().filter(|_| self.problem.is_some())
+        self.missing.as_deref()
     }
 
-    /// Something to tell the user.
-    pub fn notice(&self) -> Option<&str> {
-        self.notice.as_deref()
+    /// Differs for each file that was opened.
+    pub fn session(&self) -> u64 {
+        self.session
     }
 
-    /// The user has read it.
-    pub fn dismiss(&mut self) {
-        (self.notice, self.problem) = (None, None);
+    /// What the window remembers between runs.
+    pub fn preferences(&self) -> Preferences {
+        self.store.preferences()
+    }
+
+    /// Remembers it.
+    pub fn remember(&self, preferences: &Preferences) {
+        self.store.set_preferences(preferences);
     }
 
     /// Files that were open before.
@@ -124,7 +167,7 @@ impl Studio {
 
     /// Begins to read a file.
     pub fn open(&mut self, path: &Path) {
-        self.problem = None;
+        self.messages.clear(Cause::Opening);
         self.tasks.open(path);
     }
 
@@ -135,11 +178,18 @@ impl Studio {
             is_changed = true;
             match finished {
                 Finished::Opened(Ok(opened)) => self.show(*opened),
-                Finished::Exported(Ok(files)) => self.notice = Some(format!("written: {}", files.join(", "))),
-                Finished::Opened(Err(problem)) | Finished::Exported(Err(problem)) => {
-                    self.problem = Some(problem);
+                Finished::Opened(Err(problem)) => self.messages.warn(Cause::Opening, problem),
+                Finished::Reread(Ok(opened)) => self.take_mesh(&opened),
+                // Half of it may be written; the next change of the file is read again.
+                Finished::Reread(Err(problem)) => self.messages.warn(Cause::Mesh, problem),
+                Finished::Exported(Ok(files)) => {
+                    self.messages.tell(Cause::Export, format!("written: {}", files.join(", ")));
                 }
+                Finished::Exported(Err(problem)) => self.messages.warn(Cause::Export, problem),
             }
+        }
+        if self.watch.as_ref().is_some_and(Watch::is_changed) {
+            self.reread();
         }
         while let Some(news) = self.worker.news() {
             is_changed = true;
@@ -161,10 +211,11 @@ impl Studio {
                 }
             }
             News::Shaped(shaped) => {
-                self.shown.shaped = Some(shaped);
+                self.shown.take(shaped);
                 (self.shown.ahead, self.shown.distances) = (None, None);
                 self.shown.version += 1;
                 self.selection.keep(self.shown.names());
+                self.visibility.keep(self.shown.names());
             }
             News::Measured(distances) => {
                 self.shown.distances = Some(distances);
@@ -173,14 +224,17 @@ impl Studio {
             News::Laid(output) => {
                 (self.shown.output, self.shown.is_folded) = (Some(*output), false);
                 self.shown.version += 1;
+                self.shown.sheets_version += 1;
             }
             News::Done(output) => {
                 (self.shown.output, self.shown.is_folded) = (Some(*output), true);
                 self.shown.version += 1;
+                self.shown.sheets_version += 1;
                 self.busy = None;
             }
             News::Failed(problem, missing) => {
-                (self.busy, self.problem, self.missing) = (None, Some(problem), missing);
+                (self.busy, self.missing) = (None, missing);
+                self.messages.warn(Cause::Model, problem);
             }
         }
     }
@@ -190,24 +244,54 @@ impl Studio {
         let path = opened.is_project.then(|| opened.source.clone());
         let mut document = match Document::new(opened.text.clone(), path) {
             Ok(document) => document,
-            Err(problem) => return self.problem = Some(problem),
+            Err(problem) => return self.messages.warn(Cause::Opening, problem),
         };
-        self.notice = None;
+        self.messages.clear_all();
         let recovered = self.store.recovered(&opened.source).filter(|text| *text != opened.text);
         if recovered.is_some_and(|text| document.replace(text, "recovered changes").is_ok()) {
-            self.notice = Some("recovered unsaved changes; Undo drops them".to_owned());
+            let text = "recovered unsaved changes; Undo drops them".to_owned();
+            self.messages.tell(Cause::Recovery, text);
         }
         self.store.add_recent(&opened.source);
+        self.watch = Some(Watch::new(&opened.mesh_path, self.wake.clone()));
         self.opened = Some(Arc::new(opened));
         self.document = Some(document);
-        self.shown = Shown { version: self.shown.version + 1, ..Shown::default() };
-        self.selection = Selection::default();
+        self.shown.clear();
+        (self.selection, self.visibility, self.hover) = Default::default();
+        self.session += 1;
+        self.start(None);
+    }
+
+    /// Reads the mesh again, which another program has changed; a drawn model only where nothing in it
+    /// is unsaved.
+    fn reread(&mut self) {
+        let (Some(opened), Some(document)) = (&self.opened, &self.document) else { return };
+        if opened.drawn.is_none() {
+            self.tasks.reread(&opened.mesh_path);
+        } else if document.is_changed() {
+            let text =
+                "the project file was changed by another program; save under another name, or open it again";
+            self.messages.warn(Cause::Mesh, text.to_owned());
+        } else {
+            self.tasks.open(&opened.source);
+        }
+    }
+
+    /// Takes the mesh of a file that was read again; the project stays.
+    fn take_mesh(&mut self, fresh: &Opened) {
+        let Some(opened) = self.opened.as_ref().filter(|opened| opened.mesh_path == fresh.mesh_path) else {
+            return;
+        };
+        self.opened = Some(Arc::new(opened.with_mesh(fresh)));
+        let name = fresh.mesh_path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        self.messages.tell(Cause::Mesh, format!("{name} was changed by another program and is read again"));
         self.start(None);
     }
 
     fn start(&mut self, first: Option<usize>) {
         let (Some(opened), Some(document)) = (&self.opened, &self.document) else { return };
-        (self.problem, self.missing) = (None, None);
+        self.missing = None;
+        self.messages.clear(Cause::Model);
         self.busy = Some(Busy { stage: "starting", fraction: None });
         let (engine, options) = (opened.engine.clone(), document.options().clone());
         let is_sized = document.project().has(&SIZE);
@@ -220,7 +304,7 @@ impl Studio {
     pub fn cancel(&mut self) {
         self.worker.cancel();
         if self.busy.take().is_some() {
-            self.notice = Some("stopped; the next change starts it again".to_owned());
+            self.messages.tell(Cause::Model, "stopped; the next change starts it again".to_owned());
         }
     }
 
@@ -237,9 +321,11 @@ impl Studio {
     /// Changes the project. Changes of one gesture are undone together.
     pub fn change(&mut self, change: &Change, gesture: Option<&str>) {
         if self.is_drawn() && change.is_of_parts() {
-            self.notice = Some("these components are drawn; edit their shape in the project file".to_owned());
+            let text = "these components are drawn; edit their shape in the project file";
+            self.messages.tell(Cause::Change, text.to_owned());
             return;
         }
+        self.messages.clear(Cause::Change);
         let Some(document) = &mut self.document else { return };
         match document.change(change, gesture) {
             Ok(()) => {
@@ -249,11 +335,12 @@ impl Studio {
                 };
                 self.changed(first);
             }
-            Err(problem) => self.problem = Some(problem),
+            Err(problem) => self.messages.warn(Cause::Change, problem),
         }
     }
 
     fn changed(&mut self, first: Option<usize>) {
+        self.messages.clear(Cause::Saving);
         if let (Some(opened), Some(document)) = (&self.opened, &self.document) {
             if document.is_changed() {
                 self.store.keep(&opened.source, document.text());
@@ -272,6 +359,7 @@ impl Studio {
     /// Goes a step back.
     pub fn undo(&mut self) {
         if self.document.as_mut().is_some_and(Document::undo) {
+            self.messages.clear(Cause::Recovery);
             self.changed(self.selected_index());
         }
     }
@@ -279,6 +367,7 @@ impl Studio {
     /// Goes a step forth.
     pub fn redo(&mut self) {
         if self.document.as_mut().is_some_and(Document::redo) {
+            self.messages.clear(Cause::Recovery);
             self.changed(self.selected_index());
         }
     }
@@ -293,6 +382,11 @@ impl Studio {
         self.selection.last().and_then(|name| self.index_of(name))
     }
 
+    /// Whether a component is selected.
+    pub fn is_selected(&self, part: usize) -> bool {
+        self.shown.names().get(part).is_some_and(|name| self.selection.has(name))
+    }
+
     /// Direction of a component's fold axis in degrees: as chosen, else as found.
     pub fn direction_deg(&self, part: usize) -> Option<f64> {
         let name = self.shown.names().get(part)?;
@@ -302,8 +396,13 @@ impl Studio {
         chosen.or_else(found)
     }
 
-    /// Turns the fold direction of a component, as the wheel does.
-    pub fn turn(&mut self, part: usize, degrees: f64) {
+    /// Turns the fold direction of a component, as the wheel does, at a time of the window's clock. Turns
+    /// that follow each other quickly are one step.
+    pub fn turn(&mut self, part: usize, degrees: f64, now_s: f64) {
+        if now_s - self.last_turn_s > TURN_PAUSE_S {
+            self.end_gesture();
+        }
+        self.last_turn_s = now_s;
         let (Some(name), Some(now)) = (self.shown.names().get(part).cloned(), self.direction_deg(part))
         else {
             return;
@@ -314,6 +413,16 @@ impl Studio {
             &Change::Component { name, option: &DIRECTION, value: Some(turned.into()) },
             Some(&gesture),
         );
+    }
+
+    /// A folder for files that come with the program.
+    pub fn samples(&self) -> Option<PathBuf> {
+        self.store.samples()
+    }
+
+    /// Lets the layout place all pieces.
+    pub fn lay_out_again(&mut self) {
+        self.change(&Change::Pins { pins: Vec::new() }, None);
     }
 
     /// Makes one part of those that are selected.
@@ -366,9 +475,14 @@ impl Studio {
                 self.store.forget(&opened.source);
                 self.store.add_recent(path);
                 document.saved_as(path.to_owned(), text);
-                self.notice = Some(format!("saved as {}", path.display()));
+                // From now on this file is what is open.
+                self.opened = Some(Arc::new(opened.saved_as(path)));
+                let mesh_path = self.opened.as_ref().map(|opened| opened.mesh_path.clone());
+                self.watch = mesh_path.map(|path| Watch::new(&path, self.wake.clone()));
+                self.messages.clear(Cause::Recovery);
+                self.messages.tell(Cause::Saving, format!("saved as {}", path.display()));
             }
-            Err(problem) => self.problem = Some(problem),
+            Err(problem) => self.messages.warn(Cause::Saving, problem),
         }
     }
 

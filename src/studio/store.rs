@@ -1,5 +1,6 @@
 //! What the studio remembers between runs: files that were open, and changes that were not saved.
 
+use super::preferences::Preferences;
 use crate::app::output;
 use std::path::{Path, PathBuf};
 
@@ -43,6 +44,24 @@ impl Store {
         list.insert(0, path);
         let lines: Vec<String> = list.iter().take(MOST_RECENT).map(|p| p.display().to_string()).collect();
         self.write("recent", lines.join("\n") + "\n");
+    }
+
+    /// What the window remembers.
+    pub fn preferences(&self) -> Preferences {
+        let text =
+            self.folder.as_ref().and_then(|folder| std::fs::read_to_string(folder.join("window.toml")).ok());
+        text.map_or_else(Preferences::default, |text| Preferences::parse(&text))
+    }
+
+    /// Remembers it.
+    pub fn set_preferences(&self, preferences: &Preferences) {
+        self.write("window.toml", preferences.text());
+    }
+
+    /// A folder of its own for files that come with the program, made if need be.
+    pub fn samples(&self) -> Option<PathBuf> {
+        let folder = self.folder.as_ref()?.join("samples");
+        std::fs::create_dir_all(&folder).ok().map(|()| folder)
     }
 
     /// Changes to a file that were not saved.

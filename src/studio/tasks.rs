@@ -15,6 +15,8 @@ use tatamu::project::Project;
 pub enum Finished {
     /// A file was read.
     Opened(Result<Box<Opened>, String>),
+    /// The mesh was read again.
+    Reread(Result<Box<Opened>, String>),
     /// Files were written; their names.
     Exported(Result<Vec<String>, String>),
 }
@@ -45,7 +47,7 @@ impl Tasks {
     pub fn finished(&mut self) -> Option<Finished> {
         while let Ok((number, finished)) = self.finished.try_recv() {
             self.running = self.running.saturating_sub(1);
-            if number == self.last_open || matches!(finished, Finished::Exported(_)) {
+            if number == self.last_open || !matches!(finished, Finished::Opened(_)) {
                 return Some(finished);
             }
         }
@@ -66,6 +68,12 @@ impl Tasks {
         self.last_open += 1;
         let path = path.to_owned();
         self.spawn(self.last_open, move || Finished::Opened(Opened::read(&path).map(Box::new)));
+    }
+
+    /// Begins to read a mesh again.
+    pub fn reread(&mut self, path: &Path) {
+        let path = path.to_owned();
+        self.spawn(0, move || Finished::Reread(Opened::read(&path).map(Box::new)));
     }
 
     /// Begins to write files.

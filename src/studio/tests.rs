@@ -1,6 +1,7 @@
 //! The studio without its window.
 
 use super::change::Change;
+use super::pages::{self, Move, PieceId};
 use super::state::Studio;
 use super::store::Store;
 use std::path::{Path, PathBuf};
@@ -8,6 +9,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tatamu::project::Project;
 use tatamu::project::options::{DIRECTION, PAPER, TOP_EDGES};
+use tatamu::sheet::Pin;
 
 /// A studio with a small model, quick to make, in a folder of its own.
 pub struct Desk {
@@ -48,7 +50,7 @@ fn a_turn_shows_the_component_first_and_is_undone() {
     let Desk { mut studio, folder: _folder } = desk();
     let before = studio.shown().shaped().unwrap().model().clone();
     let was = studio.direction_deg(1).unwrap();
-    studio.turn(1, 25.0);
+    studio.turn(1, 25.0, 0.0);
     assert!(studio.finished().is_none(), "the old results are those of another project");
     assert!(studio.shown().output().is_some(), "but they stay");
     wait(&mut studio, "the component", |s| s.shown().part(1).unwrap() != &before.parts()[1]);
@@ -69,7 +71,7 @@ fn what_is_saved_is_what_the_command_line_reads() {
     let Desk { mut studio, folder } = desk();
     let name = studio.shown().names()[2].clone();
     studio.selection.select(&name, None, false);
-    studio.turn(2, 10.0);
+    studio.turn(2, 10.0, 0.0);
     studio.change(&Change::Set { option: &PAPER, value: Some("a3".into()) }, None);
     assert!(studio.document().unwrap().is_changed());
     assert!(studio.save());
@@ -90,7 +92,7 @@ fn what_is_saved_is_what_the_command_line_reads() {
 #[test]
 fn a_killed_studio_loses_nothing() {
     let Desk { mut studio, folder } = desk();
-    studio.turn(1, 15.0);
+    studio.turn(1, 15.0, 0.0);
     let wanted = studio.document().unwrap().text().to_owned();
     drop(studio);
     let mut again = Studio::new(Store::at(&folder.path().join("state")), Arc::new(|| {}));
@@ -180,7 +182,7 @@ fn distances_are_measured_when_asked_for() {
 #[test]
 fn sheets_are_there_before_the_folding_is_known() {
     let Desk { mut studio, folder: _folder } = desk();
-    studio.turn(1, 25.0);
+    studio.turn(1, 25.0, 0.0);
     wait(&mut studio, "the sheets", |s| s.laid().is_some());
     // News come one by one, but several may be taken at once.
     let is_whole = studio.shown().is_folded();
@@ -202,7 +204,7 @@ fn a_drawn_model_opens_and_keeps_its_shape() {
     assert_eq!(studio.problem(), None);
     assert_eq!(studio.shown().names(), ["box", "lid", "knob"]);
     let before = studio.document().unwrap().text().to_owned();
-    studio.turn(0, 5.0);
+    studio.turn(0, 5.0, 0.0);
     assert!(studio.notice().is_some_and(|notice| notice.contains("drawn")));
     assert_eq!(studio.document().unwrap().text(), before);
     studio.change(&Change::Set { option: &PAPER, value: Some("a3".into()) }, None);
@@ -211,4 +213,67 @@ fn a_drawn_model_opens_and_keeps_its_shape() {
     assert!(
         Project::parse(&std::fs::read_to_string(&project).unwrap()).unwrap().sketches().unwrap().len() == 3
     );
+}
+
+/// What was changed after a mesh was saved as a project was kept for the mesh, and not found again.
+#[test]
+fn a_killed_studio_loses_nothing_of_a_mesh_that_was_saved_as_a_project() {
+    let folder = tempfile::tempdir().unwrap();
+    snowman(folder.path());
+    let store = Store::at(&folder.path().join("state"));
+    let mut studio = Studio::new(store.clone(), Arc::new(|| {}));
+    studio.open(&folder.path().join("snowman.obj"));
+    wait(&mut studio, "a model", |s| s.shown().shaped().is_some());
+    let saved = folder.path().join("mine.toml");
+    studio.save_as(&saved);
+    studio.turn(0, 15.0, 0.0);
+    let wanted = studio.document().unwrap().text().to_owned();
+    assert!(studio.document().unwrap().is_changed());
+    drop(studio);
+    let mut again = Studio::new(store, Arc::new(|| {}));
+    again.open(&saved);
+    wait(&mut again, "the project", |s| s.document().is_some());
+    assert_eq!(again.document().unwrap().text(), wanted);
+    assert!(again.notice().unwrap().contains("recovered"));
+    again.undo();
+    assert_eq!(again.notice(), None, "there is nothing recovered any more");
+    again.open(&folder.path().join("snowman.obj"));
+    wait(&mut again, "the mesh", |s| !s.opened().unwrap().is_project);
+    assert!(!again.document().unwrap().is_changed());
+}
+
+/// The layout may have taken another net of a component than its best one.
+#[test]
+fn pieces_of_a_larger_model_stay_where_they_are_pinned() {
+    for name in ["teddy", "rabbit", "teapot"] {
+        stays_where_it_is_pinned(name);
+    }
+}
+
+fn stays_where_it_is_pinned(name: &str) {
+    let folder = tempfile::tempdir().unwrap();
+    let mesh = folder.path().join("mesh.obj");
+    let sample = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("samples/{name}.obj"));
+    std::fs::copy(sample, &mesh).unwrap();
+    let mut studio = Studio::new(Store::at(&folder.path().join("state")), Arc::new(|| {}));
+    studio.open(&mesh);
+    wait(&mut studio, "a model", |s| s.finished().is_some());
+    let before = studio.finished().unwrap().clone();
+    let to = Move { sheet: before.layout().sheet_count(), by_mm: glam::DVec2::ZERO, turn_rad: 0.0 };
+    let id = PieceId { net: 1, piece: 0 };
+    let pins = pages::rearranged(&before, id, &to).unwrap();
+    studio.change(&Change::Pins { pins }, None);
+    wait(&mut studio, "the layout", |s| s.finished().is_some());
+    let after = studio.finished().unwrap();
+    assert!(after.layout().unheeded_pins().is_empty(), "{:?}", after.layout().unheeded_pins());
+    for (net, own) in before.nets().iter().enumerate() {
+        for (piece, shape) in own.pieces().iter().enumerate() {
+            assert_eq!(after.nets()[net].pieces()[piece].outline(), shape.outline(), "{}", shape.name());
+            if (PieceId { net, piece }) != id {
+                let [old, new] =
+                    [&before, after].map(|o| Pin::of_place(shape.outline(), &o.layout().places(net)[piece]));
+                assert!(old.at_mm.distance(new.at_mm) < 0.01, "{}: {old:?} {new:?}", shape.name());
+            }
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! A dialog for files, that needs no other program.
+//! A dialog for files, where the system has none.
 
 use eframe::egui::{self, Context, Key, Ui};
 use std::path::{Path, PathBuf};
@@ -10,6 +10,16 @@ pub enum Purpose {
     Open,
     /// To save the project in it.
     Save,
+}
+
+impl Purpose {
+    /// What the dialog is called.
+    pub fn title(self) -> &'static str {
+        match self {
+            Purpose::Open => "Open a mesh or a project",
+            Purpose::Save => "Save the project",
+        }
+    }
 }
 
 /// What the user did.
@@ -24,7 +34,7 @@ pub enum Answer {
 }
 
 /// Files that can be opened, by extension.
-const KNOWN: [&str; 7] = ["toml", "obj", "stl", "ply", "off", "gltf", "glb"];
+pub const KNOWN: [&str; 8] = ["toml", "obj", "stl", "ply", "off", "gltf", "glb", "3mf"];
 
 /// The dialog.
 #[derive(Debug)]
@@ -62,18 +72,12 @@ impl Browser {
     /// Draws the dialog.
     pub fn show(&mut self, ctx: &Context) -> Answer {
         let mut answer = Answer::Open;
-        let title = match self.purpose {
-            Purpose::Open => "Open a mesh or a project",
-            Purpose::Save => "Save the project",
-        };
-        let mut is_open = true;
-        egui::Window::new(title)
-            .open(&mut is_open)
-            .collapsible(false)
-            .default_size([520.0, 400.0])
-            .anchor(egui::Align2::CENTER_CENTER, [0.0, 0.0])
-            .show(ctx, |ui| answer = self.content(ui));
-        if is_open { answer } else { Answer::Cancelled }
+        let modal = egui::Modal::new(egui::Id::unique("files")).show(ctx, |ui| {
+            ui.set_width(520.0);
+            ui.heading(self.purpose.title());
+            answer = self.content(ui);
+        });
+        if modal.should_close() { Answer::Cancelled } else { answer }
     }
 
     fn content(&mut self, ui: &mut Ui) -> Answer {
@@ -101,6 +105,7 @@ impl Browser {
             let label = ui.label("File");
             let field =
                 ui.add(egui::TextEdit::singleline(&mut self.name).desired_width(260.0)).labelled_by(label.id);
+            super::modal::focus_once(ui, &field);
             if field.changed() {
                 self.replaces = None;
             }

@@ -1,10 +1,32 @@
-//! The files to write: any format that there is.
+//! The files to write: any format that there is, with its own options.
 
+use super::super::messages::Cause;
 use super::super::state::Studio;
-use crate::app::output::Target;
-use eframe::egui::{self, Ui};
-use std::path::PathBuf;
+use super::look;
+use super::values::Dialled;
+use crate::app::output::{Target, place};
+use eframe::egui::{self, Modal, RichText, Ui};
+use lucide_icons::Icon;
+use std::path::{Path, PathBuf};
 use tatamu::export::{FORMATS, Format, GUIDES};
+use tatamu::project::options::{self, Entry};
+
+/// Options by the formats that read them.
+const OPTIONS: [(&str, &[&str]); 13] = [
+    ("style", &["pdf", "svg", "dxf", "png"]),
+    ("tabs", &["pdf", "svg", "png"]),
+    ("color", &["pdf", "svg", "png", "glb", "obj", "html", "guide"]),
+    ("tile", &["pdf"]),
+    ("overview", &["pdf"]),
+    ("text", &["svg"]),
+    ("stroke", &["svg"]),
+    ("dxf_version", &["dxf"]),
+    ("dxf_sheets", &["dxf"]),
+    ("dpi", &["png"]),
+    ("static", &["glb"]),
+    ("fold_pieces", &["fold"]),
+    ("guide_language", &["html", "guide"]),
+];
 
 /// The panel of the files.
 pub struct ExportPanel {
@@ -12,6 +34,9 @@ pub struct ExportPanel {
     rows: Vec<(&'static Format, bool)>,
     /// Folder and stem; none before the user writes another.
     place: Option<(String, String)>,
+    /// Files that are there already, while the user is asked whether they may be replaced.
+    replaces: Vec<PathBuf>,
+    written_to: Option<PathBuf>,
 }
 
 impl Default for ExportPanel {
@@ -19,16 +44,21 @@ impl Default for ExportPanel {
         let names: Vec<&str> = FORMATS.iter().map(|f| f.name).collect();
         let guides = GUIDES.iter().filter(|guide| !names.contains(&guide.name));
         let rows = FORMATS.iter().chain(guides).enumerate().map(|(k, format)| (format, k == 0));
-        Self { rows: rows.collect(), place: None }
+        Self { rows: rows.collect(), place: None, replaces: Vec::new(), written_to: None }
     }
 }
 
 impl ExportPanel {
+    /// The folder that files were written to last.
+    pub fn written_to(&self) -> Option<&Path> {
+        self.written_to.as_deref()
+    }
+
     /// Draws the panel.
     pub fn show(&mut self, studio: &mut Studio, ui: &mut Ui) {
         let Some(opened) = studio.opened().cloned() else { return };
         let (mut folder, mut stem) = self.place.clone().unwrap_or_else(|| {
-            let folder = opened.source.parent().map(std::path::Path::to_owned).unwrap_or_default();
+            let folder = opened.source.parent().map(Path::to_owned).unwrap_or_default();
             let folder = std::path::absolute(&folder).unwrap_or(folder);
             (folder.display().to_string(), opened.title())
         });
@@ -45,22 +75,30 @@ impl ExportPanel {
             }
         });
         ui.add_space(6.0);
-        let height = (ui.available_height() - 70.0).max(100.0);
-        egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
-            egui::Grid::new("formats").num_columns(2).striped(true).show(ui, |ui| {
-                for (format, is_wanted) in &mut self.rows {
-                    ui.checkbox(is_wanted, file_name(&stem, format));
-                    ui.label(format.description);
-                    ui.end_row();
-                }
+        let height = (ui.available_height() - 60.0).max(100.0);
+        ui.allocate_ui(egui::vec2(ui.available_width(), height), |ui| {
+            ui.horizontal_top(|ui| {
+                let width = 0.62 * ui.available_width();
+                ui.allocate_ui(egui::vec2(width, height), |ui| self.formats(ui, &stem));
+                ui.separator();
+                ui.vertical(|ui| self.options(studio, ui));
             });
         });
         ui.add_space(6.0);
         ui.horizontal(|ui| {
-            let count = self.rows.iter().filter(|row| row.1).count();
-            let is_ready = studio.finished().is_some() && count > 0 && !stem.trim().is_empty();
-            if ui.add_enabled(is_ready, egui::Button::new("Write files")).clicked() {
-                self.write(studio, &folder, stem.trim());
+            let is_ready =
+                studio.finished().is_some() && self.wanted().next().is_some() && !stem.trim().is_empty();
+            let button = egui::Button::new(
+                RichText::new(format!("{}  Write files", look::icon(Icon::FileOutput))).strong(),
+            );
+            let button = ui.add_enabled(is_ready, button);
+            button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, is_ready, "Write files"));
+            if button.clicked() {
+                self.replaces =
+                    self.paths(&folder, stem.trim()).into_iter().filter(|path| path.exists()).collect();
+                if self.replaces.is_empty() {
+                    self.write(studio, &folder, stem.trim());
+                }
             }
             if studio.finished().is_none() {
                 ui.weak("available when the model is finished");
@@ -68,20 +106,95 @@ impl ExportPanel {
                 ui.spinner();
             }
         });
-        ui.weak(
-            "Existing files are replaced. [export] in the project file sets style, resolution and colours.",
-        );
+        self.ask(studio, ui.ctx(), &folder, stem.trim());
     }
 
-    fn write(&self, studio: &mut Studio, folder: &str, stem: &str) {
+    fn formats(&mut self, ui: &mut Ui, stem: &str) {
+        egui::ScrollArea::vertical().id_salt("formats").auto_shrink(false).show(ui, |ui| {
+            egui::Grid::new("formats").num_columns(2).striped(true).show(ui, |ui| {
+                for (format, is_wanted) in &mut self.rows {
+                    ui.checkbox(is_wanted, file_name(stem, format));
+                    ui.add(egui::Label::new(format.description).wrap());
+                    ui.end_row();
+                }
+            });
+        });
+    }
+
+    /// The options of the formats that are ticked.
+    fn options(&self, studio: &mut Studio, ui: &mut Ui) {
+        ui.strong("Options");
+        let names: Vec<&str> = self.wanted().map(|format| format.name).collect();
+        let is_read = |entry: &&Entry| {
+            OPTIONS
+                .iter()
+                .any(|(name, formats)| *name == entry.name() && formats.iter().any(|f| names.contains(f)))
+        };
+        let wanted: Vec<&'static Entry> = options::of_table("export").filter(is_read).collect();
+        if wanted.is_empty() {
+            ui.weak("the ticked formats have none");
+        }
+        egui::ScrollArea::vertical().id_salt("options").show(ui, |ui| {
+            egui::Grid::new("options").num_columns(2).show(ui, |ui| {
+                for entry in wanted {
+                    let Some(settings) = studio.document().map(|d| d.settings().clone()) else { return };
+                    Dialled::new(entry).row(studio, ui, &settings);
+                }
+            });
+        });
+    }
+
+    /// Asks before files are replaced.
+    fn ask(&mut self, studio: &mut Studio, ctx: &egui::Context, folder: &str, stem: &str) {
+        if self.replaces.is_empty() {
+            return;
+        }
+        let mut answer = None;
+        let modal = Modal::new(egui::Id::unique("replace")).show(ctx, |ui| {
+            ui.set_width(420.0);
+            ui.heading("Replace files?");
+            for path in &self.replaces {
+                ui.label(path.file_name().unwrap_or_default().to_string_lossy());
+            }
+            ui.weak(format!("in {folder}"));
+            ui.add_space(8.0);
+            ui.horizontal(|ui| {
+                let replace = ui.button("Replace");
+                super::modal::focus_once(ui, &replace);
+                if replace.clicked() {
+                    answer = Some(true);
+                }
+                if ui.button("Cancel").clicked() {
+                    answer = Some(false);
+                }
+            });
+        });
+        match answer.or(modal.should_close().then_some(false)) {
+            None => return,
+            Some(true) => self.write(studio, folder, stem),
+            Some(false) => {}
+        }
+        self.replaces.clear();
+    }
+
+    fn wanted(&self) -> impl Iterator<Item = &'static Format> + '_ {
+        self.rows.iter().filter(|row| row.1).map(|row| row.0)
+    }
+
+    /// The files that would be written, as far as their names are known before.
+    fn paths(&self, folder: &str, stem: &str) -> Vec<PathBuf> {
+        self.wanted().map(|format| PathBuf::from(folder).join(file_name(stem, format))).collect()
+    }
+
+    fn write(&mut self, studio: &mut Studio, folder: &str, stem: &str) {
         let (Some(opened), Some(document)) = (studio.opened().cloned(), studio.document()) else { return };
         let Some(output) = studio.finished().cloned() else { return };
-        let wanted = self.rows.iter().filter(|row| row.1);
-        let targets = wanted
-            .map(|(format, _)| Target { path: PathBuf::from(folder).join(file_name(stem, format)), format })
-            .collect();
+        let targets =
+            self.wanted().zip(self.paths(folder, stem)).map(|(format, path)| Target { path, format });
         let project = document.project().clone();
-        studio.tasks.export(opened, &project, output, targets);
+        studio.messages_mut().clear(Cause::Export);
+        studio.tasks.export(opened, &project, output, targets.collect());
+        self.written_to = place(&PathBuf::from(folder).join(stem)).parent().map(Path::to_owned);
     }
 }
 
@@ -94,4 +207,26 @@ fn file_name(stem: &str, format: &Format) -> String {
 
 fn text(ui: &mut Ui, text: &mut String, label: egui::Id) -> bool {
     ui.add(egui::TextEdit::singleline(text).desired_width(420.0)).labelled_by(label).changed()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_option_of_files_is_read_by_a_format_that_there_is() {
+        let known: Vec<&str> = FORMATS.iter().chain(GUIDES).map(|format| format.name).collect();
+        for (option, formats) in OPTIONS {
+            assert!(options::of_table("export").any(|entry| entry.name() == option), "{option}");
+            assert!(!formats.is_empty() && formats.iter().all(|name| known.contains(name)), "{option}");
+        }
+        // What the files are for chooses formats and options itself.
+        for entry in options::of_table("export").filter(|entry| entry.name() != "for") {
+            assert!(
+                OPTIONS.iter().any(|(option, _)| *option == entry.name()),
+                "{} has no format",
+                entry.name()
+            );
+        }
+    }
 }

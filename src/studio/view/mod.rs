@@ -2,34 +2,49 @@
 
 mod bars;
 mod browser;
+mod canvas;
+mod commands;
+mod dialogs;
 mod dials;
 mod export;
+mod finder;
+mod look;
+mod memory;
+mod modal;
+mod notices;
 mod parts;
 mod picture;
 mod plot;
 mod sheets;
-mod shortcuts;
 mod space;
+mod space_marks;
 #[cfg(all(test, feature = "studio-test"))]
 mod tests;
+mod tour;
 mod values;
+mod warnings;
+mod welcome;
 mod wheel;
 
 use super::state::Studio;
-use browser::{Browser, Purpose};
-use eframe::egui;
+use browser::Purpose;
+pub use dialogs::Chooser;
+use dialogs::{Dialogs, Leave, Outcome, Parting, Work};
+use eframe::egui::{self, Rect};
 use export::ExportPanel;
+use memory::Memory;
 use plot::PlotPanel;
 use sheets::SheetsPanel;
 use space::Space;
 use std::path::Path;
+use tour::{Spot, Tour};
 
 /// What the middle of the window shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
-    /// The model in space.
+    /// The model in space, perhaps with its sheets beside it.
     Model,
-    /// Its sheets.
+    /// The sheets alone.
     Sheets,
     /// The files to write.
     Export,
@@ -37,16 +52,14 @@ pub enum Mode {
     Plot,
 }
 
-impl Mode {
-    const ALL: [(Self, &'static str); 4] =
-        [(Self::Model, "Model"), (Self::Sheets, "Sheets"), (Self::Export, "Export"), (Self::Plot, "Plot")];
-}
-
-/// What the user is asked before a file is closed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Question {
-    /// The window is to be closed with changes that are not saved.
-    Close,
+/// Where parts of the window are.
+#[derive(Debug, Clone, Copy, Default)]
+struct Places {
+    modes: Option<Rect>,
+    settings: Option<Rect>,
+    model: Option<Rect>,
+    folding: Option<Rect>,
+    sheets: Option<Rect>,
 }
 
 /// The window.
@@ -55,36 +68,49 @@ pub struct Window {
     mode: Mode,
     space: Space,
     sheets: SheetsPanel,
+    has_sheets_beside: bool,
     export: ExportPanel,
     plot: PlotPanel,
-    browser: Option<Browser>,
-    shows_shortcuts: bool,
-    shows_warnings: bool,
-    question: Option<Question>,
-    may_close: bool,
     parts: parts::PartsPanel,
-    /// The file that the panels show.
-    source: Option<std::path::PathBuf>,
+    dialogs: Dialogs,
+    tour: Option<Tour>,
+    shows_warnings: bool,
+    may_close: bool,
+    /// The session of the studio that the panels show.
+    session: u64,
+    places: Places,
+    title: String,
+    memory: Memory,
 }
 
 impl Window {
     /// A window on a studio.
-    pub fn new(studio: Studio) -> Self {
+    pub fn new(studio: Studio, chooser: Chooser) -> Self {
+        let preferences = studio.preferences();
         Self {
-            studio,
             mode: Mode::Model,
             space: Space::default(),
             sheets: SheetsPanel::default(),
+            has_sheets_beside: preferences.has_sheets_beside.unwrap_or(true),
             export: ExportPanel::default(),
-            plot: PlotPanel::default(),
-            browser: None,
-            shows_shortcuts: false,
-            shows_warnings: false,
-            question: None,
-            may_close: false,
+            plot: PlotPanel::new(&preferences),
             parts: parts::PartsPanel::default(),
-            source: None,
+            dialogs: Dialogs::new(chooser),
+            tour: (!preferences.has_seen_tour).then(Tour::default),
+            shows_warnings: false,
+            may_close: false,
+            session: 0,
+            places: Places::default(),
+            title: String::new(),
+            memory: Memory::new(preferences),
+            studio,
         }
+    }
+
+    /// Gives the window its look; once, before it is shown.
+    pub fn set_up(&self, ctx: &egui::Context) {
+        look::set(ctx);
+        self.memory.set_up(ctx);
     }
 
     /// The state behind the window.
@@ -111,9 +137,19 @@ impl Window {
         &mut self.plot
     }
 
-    /// Opens a file.
+    /// The title of the window.
+    #[cfg(test)]
+    pub fn title(&self) -> &str {
+        &self.title
+    }
+
+    /// Opens a file; asks first where another one has changes that are not saved.
     pub fn open(&mut self, path: &Path) {
-        self.studio.open(path);
+        if self.work().is_changed {
+            self.dialogs.ask_leave(Leave::Open(path.to_owned()));
+        } else {
+            self.studio.open(path);
+        }
     }
 
     /// Draws everything, and heeds what the user did.
@@ -126,42 +162,66 @@ impl Window {
         if let Some(path) = dropped.first() {
             self.open(path);
         }
-        shortcuts::heed(self, &ctx);
+        self.set_title(&ctx);
+        if !self.dialogs.is_open() {
+            commands::heed(self, &ctx);
+        }
+        let hover = self.studio.hover.take();
+        self.space.set_hover(hover.clone());
+        self.sheets.set_hover(hover.clone());
         bars::top(self, ui);
         bars::bottom(self, ui);
         if self.studio.document().is_none() {
-            egui::CentralPanel::default().show(ui, |ui| bars::welcome(self, ui));
+            egui::CentralPanel::default().show(ui, |ui| welcome::show(self, ui));
         } else {
-            egui::Panel::left("parts").resizable(true).default_size(270.0).show(ui, |ui| {
+            let panel = egui::Panel::left("parts").resizable(true).default_size(290.0).show(ui, |ui| {
                 egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     parts::show(&mut self.parts, &mut self.studio, &mut self.space, ui);
                 });
             });
+            self.places.settings = Some(panel.response.rect);
             self.middle(ui);
         }
-        self.dialogs(&ctx);
+        if self.studio.hover != hover {
+            ctx.request_repaint();
+        }
+        self.show_tour(&ctx);
+        self.show_dialogs(&ctx);
+        self.memory.keep(&self.studio, &ctx, &self.plot, self.has_sheets_beside, self.tour.is_none());
     }
 
     /// Panels begin anew with another file.
     fn follow_file(&mut self) {
-        let source = self.studio.opened().map(|opened| opened.source.clone());
-        if source != self.source {
-            self.source = source;
+        if self.studio.session() != self.session {
+            self.session = self.studio.session();
             self.space.reset();
             (self.sheets, self.export) = (SheetsPanel::default(), ExportPanel::default());
             self.parts = parts::PartsPanel::default();
         }
     }
 
+    /// The name of the file that is open, with a star where something is not saved.
+    fn file_name(&self) -> Option<String> {
+        let (opened, document) = (self.studio.opened()?, self.studio.document()?);
+        let name = document.path().unwrap_or(&opened.source).file_name().unwrap_or_default();
+        Some(format!("{}{}", name.to_string_lossy(), if document.is_changed() { " *" } else { "" }))
+    }
+
+    fn set_title(&mut self, ctx: &egui::Context) {
+        let title = self.file_name().map_or("tatamu".to_owned(), |name| format!("{name} – tatamu"));
+        if title != self.title {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Title(title.clone()));
+            self.title = title;
+        }
+    }
+
     fn middle(&mut self, ui: &mut egui::Ui) {
         match self.mode {
-            Mode::Model => {
-                egui::Panel::bottom("folding")
-                    .show(ui, |ui| space::folding_bar(&mut self.space, &mut self.studio, ui));
-                egui::CentralPanel::no_frame().show(ui, |ui| self.space.show(&mut self.studio, ui));
-            }
+            Mode::Model => self.model(ui),
             Mode::Sheets => {
-                egui::CentralPanel::default().show(ui, |ui| self.sheets.show(&mut self.studio, ui));
+                let panel =
+                    egui::CentralPanel::default().show(ui, |ui| self.sheets.show(&mut self.studio, ui));
+                self.places.sheets = Some(panel.response.rect);
             }
             Mode::Export => {
                 egui::CentralPanel::default().show(ui, |ui| self.export.show(&mut self.studio, ui));
@@ -172,87 +232,118 @@ impl Window {
         }
     }
 
-    fn dialogs(&mut self, ctx: &egui::Context) {
-        if let Some(browser) = &mut self.browser {
-            match browser.show(ctx) {
-                browser::Answer::Open => {}
-                browser::Answer::Cancelled => self.browser = None,
-                browser::Answer::Chosen(path) => {
-                    let purpose = browser.purpose();
-                    self.browser = None;
-                    match purpose {
-                        Purpose::Open => self.open(&path),
-                        Purpose::Save => self.studio.save_as(&path),
-                    }
-                }
-            }
+    /// The model, with its sheets beside it.
+    fn model(&mut self, ui: &mut egui::Ui) {
+        self.places.sheets = None;
+        if self.has_sheets_beside {
+            let width = 0.42 * ui.available_width();
+            let panel = egui::Panel::right("sheets").resizable(true).default_size(width).min_size(220.0);
+            let panel = panel.show(ui, |ui| self.sheets.show(&mut self.studio, ui));
+            self.places.sheets = Some(panel.response.rect);
         }
-        if self.shows_shortcuts {
-            shortcuts::window(ctx, &mut self.shows_shortcuts);
-        }
-        self.closing(ctx);
+        let panel = egui::Panel::bottom("folding").show(ui, |ui| space_marks::folding_bar(self, ui));
+        self.places.folding = Some(panel.response.rect);
+        let panel = egui::CentralPanel::no_frame().show(ui, |ui| self.space.show(&mut self.studio, ui));
+        self.places.model = Some(panel.response.rect);
     }
 
-    /// Asks before changes are lost.
-    fn closing(&mut self, ctx: &egui::Context) {
-        let is_changed = self.studio.document().is_some_and(|d| d.is_changed());
-        let is_cutting = self.plot.is_running();
-        if ctx.input(|i| i.viewport().close_requested()) && !self.may_close && (is_changed || is_cutting) {
-            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
-            self.question = Some(Question::Close);
+    /// Fits what is shown to the window.
+    fn fit(&mut self) {
+        self.space.fit();
+        self.sheets.fit();
+    }
+
+    fn show_tour(&mut self, ctx: &egui::Context) {
+        if self.studio.shown().output().is_none() || self.dialogs.is_open() {
+            return;
         }
-        let Some(Question::Close) = self.question else { return };
-        let mut close = false;
-        egui::Modal::new(egui::Id::unique("close")).show(ctx, |ui| {
-            if is_cutting {
-                ui.label("A job is running. Closing stops it and lifts the tool.");
+        let Some(tour) = &mut self.tour else { return };
+        let places = self.places;
+        let place = |spot| match spot {
+            Spot::Settings => places.settings,
+            Spot::Model => places.model,
+            Spot::Folding => places.folding,
+            Spot::Sheets => places.sheets.or(places.modes),
+        };
+        if !tour.show(ctx, place) {
+            self.tour = None;
+        }
+    }
+
+    fn work(&self) -> Work {
+        Work {
+            is_changed: self.studio.document().is_some_and(|d| d.is_changed()),
+            is_cutting: self.plot.is_running(),
+        }
+    }
+
+    fn show_dialogs(&mut self, ctx: &egui::Context) {
+        let work = self.work();
+        let is_lost = work.is_changed || work.is_cutting;
+        if ctx.input(|i| i.viewport().close_requested()) && !self.may_close && is_lost {
+            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+            self.dialogs.ask_leave(Leave::Close);
+        }
+        let commands: Vec<_> = match self.dialogs.is_finding() {
+            true => commands::ALL.iter().copied().filter(|command| command.can(self)).collect(),
+            false => Vec::new(),
+        };
+        let outcome = self.dialogs.show(ctx, &commands, work);
+        match outcome {
+            None => {}
+            Some(Outcome::Open(path)) => self.open(&path),
+            Some(Outcome::Save(path)) => {
+                self.studio.save_as(&path);
+                if let Some(leave) = self.dialogs.take_leave().filter(|_| !self.work().is_changed) {
+                    self.leave(ctx, leave);
+                }
             }
-            if is_changed {
-                ui.label("You have unsaved changes.");
+            Some(Outcome::Parted(leave, Parting::Save)) => {
+                if !self.studio.save() {
+                    self.ask_save(ctx);
+                    self.dialogs.leave_after_saving(leave);
+                } else if !self.work().is_changed {
+                    self.leave(ctx, leave);
+                }
             }
-            ui.horizontal(|ui| {
-                if is_changed && ui.button("Save and close").clicked() {
-                    if self.studio.save() {
-                        close = !self.studio.document().is_some_and(|d| d.is_changed());
-                    } else {
-                        self.ask_save();
-                    }
-                    self.question = None;
-                }
-                if ui.button("Close without saving").clicked() {
-                    self.studio.discard();
-                    close = true;
-                }
-                if ui.button("Cancel").clicked() {
-                    self.question = None;
-                }
-            });
-        });
-        if close {
-            self.plot.stop();
-            self.may_close = true;
-            self.question = None;
-            ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+            Some(Outcome::Parted(leave, Parting::Discard)) => {
+                self.studio.discard();
+                self.leave(ctx, leave);
+            }
+            Some(Outcome::Parted(_, Parting::Stay)) => {}
+            Some(Outcome::Run(command)) => command.run(self, ctx),
+        }
+    }
+
+    /// Closes the window, or goes on to another file.
+    fn leave(&mut self, ctx: &egui::Context, leave: Leave) {
+        match leave {
+            Leave::Close => {
+                self.plot.stop();
+                self.may_close = true;
+                ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+            }
+            Leave::Open(path) => self.studio.open(&path),
         }
     }
 
     /// Asks for a file to open.
-    fn ask_open(&mut self) {
-        let folder = self.studio.opened().and_then(|o| o.source.parent().map(Path::to_owned));
-        self.browser = Some(Browser::new(Purpose::Open, folder, ""));
+    fn ask_open(&mut self, ctx: &egui::Context) {
+        let folder = self.studio.opened().and_then(|opened| dialogs::folder(&opened.source));
+        self.dialogs.ask_file(ctx, Purpose::Open, folder, "");
     }
 
     /// Asks for the name of the project file.
-    fn ask_save(&mut self) {
+    fn ask_save(&mut self, ctx: &egui::Context) {
         let Some(opened) = self.studio.opened() else { return };
-        let name = format!("{}.toml", opened.title());
-        self.browser = Some(Browser::new(Purpose::Save, opened.source.parent().map(Path::to_owned), &name));
+        let (name, folder) = (format!("{}.toml", opened.title()), dialogs::folder(&opened.source));
+        self.dialogs.ask_file(ctx, Purpose::Save, folder, &name);
     }
 
     /// Saves, and asks for a name where there is none.
-    fn save(&mut self) {
+    fn save(&mut self, ctx: &egui::Context) {
         if !self.studio.save() {
-            self.ask_save();
+            self.ask_save(ctx);
         }
     }
 }

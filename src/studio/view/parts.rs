@@ -1,15 +1,16 @@
 //! The panel at the left: the dials of the whole model, the components, and the one that is selected.
 
 use super::super::change::Change;
+use super::super::selection::Hover;
 use super::super::state::Studio;
-use super::dials;
 use super::space::Space;
 use super::values::Dialled;
-use eframe::egui::{self, CollapsingHeader, Color32, Grid, RichText, Ui};
+use super::{dials, look};
+use eframe::egui::{self, CollapsingHeader, Grid, RichText, Ui};
 use glam::DVec3;
+use lucide_icons::Icon;
 use tatamu::component::PrincipalAxis;
 use tatamu::project::options::{DIRECTION, PROFILE_VERTICES, RENAME, ROOT, TOP_EDGES};
-use tatamu::render::palette;
 
 /// What the panel remembers.
 #[derive(Debug, Default)]
@@ -78,22 +79,43 @@ fn components(studio: &mut Studio, ui: &mut Ui) {
     let mut clicked = None;
     for (index, name) in names.iter().enumerate() {
         let Some(part) = studio.shown().part(index) else { continue };
+        let shown = part.name.clone();
+        let figure = (!studio.is_drawn()).then(|| format!("{:.1} mm", part.component.hausdorff_mm()));
+        let colour = look::of_rgb(studio.shown().colour(index));
         ui.horizontal(|ui| {
-            let colour = palette::colour(index);
-            let (rect, _) = ui.allocate_exact_size(egui::vec2(12.0, 12.0), egui::Sense::hover());
-            ui.painter().rect_filled(rect, 3.0, Color32::from_rgb(colour.0, colour.1, colour.2));
-            if ui.selectable_label(studio.selection.has(name), &part.name).clicked() {
+            let is_hidden = studio.visibility.is_hidden(name);
+            eye(studio, ui, name, &shown);
+            let (rect, _) = ui.allocate_exact_size(egui::vec2(14.0, 14.0), egui::Sense::hover());
+            ui.painter().rect_filled(rect, 3.0, colour);
+            ui.painter().rect_stroke(rect, 3.0, ui.visuals().window_stroke, egui::StrokeKind::Inside);
+            let text = if is_hidden { RichText::new(&shown).weak() } else { RichText::new(&shown) };
+            let label = ui.selectable_label(studio.selection.has(name), text);
+            if label.hovered() {
+                studio.hover = Some(Hover::part(index));
+            }
+            if label.clicked() {
                 clicked = Some(name.clone());
             }
-            if !studio.is_drawn() {
-                ui.weak(format!("{:.1} mm", part.component.hausdorff_mm()))
-                    .on_hover_text("largest distance between the component and its part's hull");
-            }
+            figure.iter().for_each(|figure| {
+                ui.weak(figure).on_hover_text("largest distance between the component and its part's hull");
+            });
         });
     }
     if let Some(name) = clicked {
         let adds = ui.input(|i| i.modifiers.shift || i.modifiers.command);
         studio.selection.select(&name, None, adds);
+    }
+}
+
+/// Hides a component in the view, or shows it again.
+fn eye(studio: &mut Studio, ui: &mut Ui, name: &str, shown: &str) {
+    let is_hidden = studio.visibility.is_hidden(name);
+    let (picture, word) = if is_hidden { (Icon::EyeOff, "Show") } else { (Icon::Eye, "Hide") };
+    let eye = ui.add(egui::Button::new(look::icon(picture)).frame(false));
+    let label = format!("{word} {shown}");
+    eye.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &label));
+    if eye.on_hover_text(format!("{word}s it in the view")).clicked() {
+        studio.visibility.toggle(name);
     }
 }
 

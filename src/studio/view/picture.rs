@@ -23,6 +23,12 @@ pub struct Picture {
 }
 
 impl Picture {
+    /// The version that was asked for.
+    #[cfg(test)]
+    pub fn wanted(&self) -> Option<u64> {
+        self.key.map(|(version, _)| version)
+    }
+
     /// The picture for a scale, in pixels of the screen for a millimetre; none before the first is
     /// made. `version` tells drawings apart.
     pub fn texture(

@@ -2,6 +2,7 @@
 
 use super::super::planning::{Plan, Planning, Wish};
 use super::super::plotting::Plotting;
+use super::super::preferences::Preferences;
 use super::super::state::Studio;
 use super::super::worker::Wake;
 use super::picture::Picture;
@@ -37,14 +38,25 @@ struct Key {
     media: String,
 }
 
-impl Default for PlotPanel {
-    fn default() -> Self {
+fn port_names() -> Vec<String> {
+    let on_usb = (!usb_cutters().is_empty()).then(|| ANY.to_owned());
+    let serial = serialport::available_ports().unwrap_or_default();
+    on_usb.into_iter().chain(serial.into_iter().map(|port| port.port_name)).collect()
+}
+
+impl PlotPanel {
+    /// The panel with the machine of the last time.
+    pub fn new(preferences: &Preferences) -> Self {
+        let names = profiles::names();
+        let known = |name: &Option<String>, list: &[String], otherwise: &str| {
+            name.clone().filter(|name| list.contains(name)).unwrap_or_else(|| otherwise.to_owned())
+        };
         Self {
-            names: profiles::names(),
-            cutter: CUTTER.automatic.to_owned(),
-            media: MEDIA.automatic.to_owned(),
-            port: String::new(),
+            cutter: known(&preferences.cutter, &names[0], CUTTER.automatic),
+            media: known(&preferences.media, &names[1], MEDIA.automatic),
+            port: preferences.port.clone().unwrap_or_default(),
             ports: port_names(),
+            names,
             copies: 1,
             only: None,
             shown: 0,
@@ -54,15 +66,12 @@ impl Default for PlotPanel {
             running: None,
         }
     }
-}
 
-fn port_names() -> Vec<String> {
-    let on_usb = (!usb_cutters().is_empty()).then(|| ANY.to_owned());
-    let serial = serialport::available_ports().unwrap_or_default();
-    on_usb.into_iter().chain(serial.into_iter().map(|port| port.port_name)).collect()
-}
+    /// The cutter, the medium and the port.
+    pub fn choice(&self) -> [&str; 3] {
+        [&self.cutter, &self.media, self.port.trim()]
+    }
 
-impl PlotPanel {
     /// Whether a job is on its way.
     pub fn is_running(&self) -> bool {
         self.running.as_ref().is_some_and(Plotting::is_running)

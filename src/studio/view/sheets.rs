@@ -1,31 +1,53 @@
-//! The sheets as they will be printed. A piece that is clicked is selected in space, too.
+//! The sheets as they will be printed. A piece that is clicked is selected in space, too; one that is
+//! dragged moves alone.
 
 use super::super::change::Change;
-use super::super::pages::{self, PieceId};
+use super::super::messages::Cause;
+use super::super::pages::{self, Move, PieceId};
+use super::super::selection::Hover;
 use super::super::state::Studio;
+use super::canvas::{Canvas, Seen};
+use super::commands;
+use super::look::{self, ACCENT, OVERLAP};
 use super::picture::Picture;
-use eframe::egui::{self, Color32, Rect, Sense, Stroke, Ui, Vec2};
+use super::wheel::Wheel;
+use eframe::egui::{self, Color32, PointerButton, Pos2, Rect, Sense, Stroke, Ui, Vec2};
 use glam::DVec2;
+use lucide_icons::Icon;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, channel};
+use tatamu::component::PanelId;
 use tatamu::drawing::Drawing;
 use tatamu::pipeline::Output;
 
-/// Colour of what is selected.
-const ACCENT: Color32 = Color32::from_rgb(230, 90, 20);
-/// Room between pages, points.
-const GAP: f32 = 16.0;
+/// Turn of a piece for a press of a key, radians.
+const TURN_RAD: f64 = std::f64::consts::PI / 12.0;
 
 /// The panel of the sheets.
+#[derive(Default)]
 pub struct SheetsPanel {
-    version: Option<u64>,
-    drawings: Result<Vec<Drawing>, String>,
+    /// What is drawn, or why it cannot be.
+    drawn: Option<Result<Arc<Drawn>, String>>,
+    /// What is being drawn: of this version of the sheets.
+    coming: Option<Receiver<Result<Drawn, String>>>,
+    wanted: Option<u64>,
     pictures: Vec<Picture>,
-    /// Points of the screen for a millimetre; none fits the page to the window.
-    scale: Option<f32>,
+    canvas: Canvas,
+    wheel: Wheel,
     /// The piece that is selected and seen; the view goes there when another one is selected.
     seen: Option<String>,
+    hover: Option<Hover>,
     drag: Option<Drag>,
-    /// Where the pages are on the screen.
-    pages: Vec<Rect>,
+}
+
+/// The sheets with all that is seen on them.
+struct Drawn {
+    /// Their version.
+    version: u64,
+    output: Output,
+    drawings: Vec<Drawing>,
+    /// The pieces of each sheet with their outlines on the page.
+    outlines: Vec<Vec<(PieceId, Vec<DVec2>)>>,
 }
 
 /// A piece on its way to another place.
@@ -37,62 +59,104 @@ struct Drag {
     turn_rad: f64,
 }
 
-/// Turn of a piece for a press of a key, radians.
-const TURN_RAD: f64 = std::f64::consts::PI / 12.0;
-
-impl Default for SheetsPanel {
-    fn default() -> Self {
-        Self {
-            version: None,
-            drawings: Ok(Vec::new()),
-            pictures: Vec::new(),
-            scale: None,
-            seen: None,
-            drag: None,
-            pages: Vec::new(),
-        }
-    }
-}
-
 impl SheetsPanel {
+    /// Shows all sheets.
+    pub fn fit(&mut self) {
+        self.canvas.fit();
+    }
+
+    /// Marks what the mouse is over, in any view.
+    pub fn set_hover(&mut self, hover: Option<Hover>) {
+        self.hover = hover;
+    }
+
+    /// What is drawn: the version of the sheets, and the pages.
+    #[cfg(test)]
+    pub fn drawn(&self) -> Option<(u64, &[Drawing])> {
+        let drawn = self.drawn.as_ref()?.as_ref().ok()?;
+        Some((drawn.version, &drawn.drawings))
+    }
+
+    /// The versions of the sheets whose pictures are made or asked for.
+    #[cfg(test)]
+    pub fn picture_versions(&self) -> Vec<u64> {
+        self.pictures.iter().filter_map(Picture::wanted).collect()
+    }
+
     /// Draws the panel.
     pub fn show(&mut self, studio: &mut Studio, ui: &mut Ui) {
+        // A panel that has nothing to show yet does not shrink.
+        ui.set_min_size(ui.available_size());
         let Some(output) = studio.shown().output().cloned() else {
             ui.weak("arranging the pieces …");
             return;
         };
-        self.refresh(studio, &output);
+        self.refresh(studio, &output, ui.ctx());
         self.bar(studio, &output, ui);
-        let drawings = match &self.drawings {
-            Ok(drawings) => drawings.clone(),
-            Err(problem) => {
+        let drawn = match &self.drawn {
+            None => {
+                ui.spinner();
+                return;
+            }
+            Some(Ok(drawn)) => drawn.clone(),
+            Some(Err(problem)) => {
                 ui.colored_label(ui.visuals().error_fg_color, problem);
                 return;
             }
         };
+        let drawings = &drawn.drawings;
         let Some(first) = drawings.first() else { return };
-        let room = ui.available_size() - egui::vec2(24.0, 24.0);
-        let page = egui::vec2(first.size_mm.x as f32, first.size_mm.y as f32);
-        let fitting = (room.x / page.x).min(room.y / page.y).max(0.1);
-        let scale = self.scale.unwrap_or(fitting);
-        let zoom = ui.input(|i| if i.modifiers.command { i.zoom_delta() } else { 1.0 });
-        if zoom != 1.0 && ui.rect_contains_pointer(ui.max_rect()) {
-            self.scale = Some((scale * zoom).clamp(0.3, 20.0));
+        let size_mm = egui::vec2(first.size_mm.x as f32, first.size_mm.y as f32);
+        let table = ui.allocate_response(ui.available_size(), Sense::click_and_drag());
+        let window = table.rect;
+        let mut seen = self.canvas.seen(drawings.len(), size_mm, window);
+        self.heed(ui, &table, &mut seen, (drawings.len(), size_mm));
+        ui.set_clip_rect(window.intersect(ui.clip_rect()));
+        for (k, drawing) in drawings.iter().enumerate() {
+            if seen.pages[k].intersects(window) {
+                self.page(studio, &drawn, ui, (k, drawing), &seen);
+            }
         }
-        self.pages.clear();
-        egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
-            ui.horizontal_wrapped(|ui| {
-                ui.spacing_mut().item_spacing = Vec2::splat(GAP);
-                for (k, drawing) in drawings.iter().enumerate() {
-                    self.page(studio, &output, ui, (k, drawing), scale);
-                }
-            });
+        self.follow(studio, &drawn, &seen, window);
+        self.dragged(studio, &drawn, ui, &seen);
+        if table.clicked() {
+            studio.selection.clear();
+        }
+        if table.double_clicked() {
+            self.canvas.fit();
+        }
+    }
+
+    /// Moves and magnifies the table.
+    fn heed(&mut self, ui: &Ui, table: &egui::Response, seen: &mut Seen, (count, size_mm): (usize, Vec2)) {
+        let window = table.rect;
+        let Some(at) = ui.input(|i| i.pointer.latest_pos()).filter(|_| ui.rect_contains_pointer(window))
+        else {
+            return;
+        };
+        let (motion, zoom, delta, pans) = ui.input(|i| {
+            let zoom = i.zoom_delta();
+            let events = i.events.iter().filter(|_| zoom == 1.0);
+            let pans = i.pointer.button_down(PointerButton::Middle)
+                || i.pointer.button_down(PointerButton::Secondary);
+            (self.wheel.read(events, i.time, false), zoom, i.pointer.delta(), pans)
         });
-        self.dragged(studio, &output, ui, scale);
+        let factor = zoom * 1.12f32.powf(motion.zoom as f32);
+        let by =
+            motion.pan + if pans || table.dragged_by(PointerButton::Primary) { delta } else { Vec2::ZERO };
+        if factor != 1.0 {
+            self.canvas.zoom(seen, window, factor, at);
+        } else if by != Vec2::ZERO {
+            self.canvas.pan(seen, by);
+        } else {
+            return;
+        }
+        *seen = self.canvas.seen(count, size_mm, window);
     }
 
     /// Draws the piece that is on its way, and lays it down where it is let go.
-    fn dragged(&mut self, studio: &mut Studio, output: &Output, ui: &Ui, scale: f32) {
+    fn dragged(&mut self, studio: &mut Studio, drawn: &Drawn, ui: &Ui, seen: &Seen) {
+        let output = &drawn.output;
         let Some(drag) = &mut self.drag else { return };
         let (at, is_down, turns) = ui.input(|i| {
             let turns =
@@ -101,42 +165,42 @@ impl SheetsPanel {
         });
         drag.turn_rad += turns * TURN_RAD;
         let drag = *drag;
-        let page = at.and_then(|at| Some((at, self.pages.iter().position(|page| page.contains(at))?)));
-        let page = page.filter(|(_, sheet)| *sheet < output.layout().sheet_count());
-        let place = page.and_then(|(at, sheet)| {
-            let by_mm = to_mm(self.pages[sheet], scale, at) - drag.from_mm;
-            Some((sheet, pages::moved(output, drag.id, sheet, by_mm, drag.turn_rad)?, by_mm))
-        });
-        if let Some((sheet, _, by_mm)) = &place {
-            let own = (0..output.layout().sheet_count()).flat_map(|s| pages::outlines(output, s));
-            let outline = own.into_iter().find(|(id, _)| *id == drag.id).map(|(_, outline)| outline);
-            let outline = outline.unwrap_or_default();
-            let middle = tatamu::geom::polygon::bounds(outline.iter().copied()).map(|(l, h)| l.midpoint(h));
-            let turn = DVec2::from_angle(drag.turn_rad);
-            let moved = outline.iter().map(|&p| {
-                let middle = middle.unwrap_or_default();
-                to_screen(self.pages[*sheet], scale, middle + turn.rotate(p - middle) + *by_mm)
-            });
-            let stroke = Stroke::new(2.0, ACCENT);
-            ui.painter().add(egui::Shape::closed_line(moved.collect(), stroke));
-            ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing);
-        }
-        if !is_down {
-            self.drag = None;
-            let piece = pages::piece(output, drag.id).map(|piece| piece.name().to_owned());
-            if let (Some((_, pin, _)), Some(piece)) = (place, piece) {
-                studio.change(&Change::Pin { piece, place: Some(pin) }, None);
+        let Some(at) = at else { return };
+        let count = output.layout().sheet_count();
+        let sheet = seen.pages.iter().take(count).position(|page| page.contains(at));
+        let to = match sheet {
+            Some(sheet) => {
+                let by_mm = to_mm(seen.pages[sheet], seen.scale, at) - drag.from_mm;
+                Move { sheet, by_mm, turn_rad: drag.turn_rad }
+            }
+            // Beside the sheets: on one of its own.
+            None => Move { sheet: count, by_mm: DVec2::ZERO, turn_rad: drag.turn_rad },
+        };
+        let over = pages::overlapped(output, drag.id, &to);
+        let page = sheet.map(|sheet| seen.pages[sheet]);
+        let outline = pages::moved_outline(output, drag.id, &to);
+        let stroke = Stroke::new(2.5, if over.is_empty() { ACCENT } else { OVERLAP });
+        match page {
+            Some(page) => {
+                let points: Vec<Pos2> = outline.iter().map(|&p| to_screen(page, seen.scale, p)).collect();
+                draw(ui.painter(), points, stroke);
+                let others = drawn.outlines.iter().flatten().filter(|(id, _)| over.contains(id));
+                for (_, outline) in others {
+                    let points: Vec<Pos2> = outline.iter().map(|&p| to_screen(page, seen.scale, p)).collect();
+                    draw(ui.painter(), points, Stroke::new(2.5, OVERLAP));
+                }
+            }
+            None => {
+                let text = "on a sheet of its own";
+                let font = egui::FontId::proportional(13.0);
+                let colour = ui.visuals().strong_text_color();
+                ui.painter().text(at + egui::vec2(14.0, 14.0), egui::Align2::LEFT_TOP, text, font, colour);
             }
         }
-    }
-
-    /// Turns a piece where it lies.
-    fn turn(&self, studio: &mut Studio, output: &Output, id: PieceId, turn_rad: f64) {
-        let sheet = output.layout().places(id.net)[id.piece].sheet;
-        let pin = pages::moved(output, id, sheet, DVec2::ZERO, turn_rad);
-        if let (Some(pin), Some(piece)) = (pin, pages::piece(output, id)) {
-            let piece = piece.name().to_owned();
-            studio.change(&Change::Pin { piece, place: Some(pin) }, None);
+        ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing);
+        if !is_down {
+            self.drag = None;
+            arrange(studio, output, drag.id, &to);
         }
     }
 
@@ -148,99 +212,142 @@ impl SheetsPanel {
         let pins = studio.document().map(|d| &d.project().pins);
         let is_pinned = pins.is_some_and(|pins| pins.iter().any(|pin| pin.piece() == piece));
         let is_current = studio.laid().is_some();
-        if is_pinned && ui.button("Unpin").on_hover_text("lets the layout place it again").clicked() {
-            studio.change(&Change::Pin { piece: piece.clone(), place: None }, None);
-        }
-        let help = "rotates the piece by 15°; while you drag it, press , or .";
-        if ui.add_enabled(is_current, egui::Button::new("Rotate right")).on_hover_text(help).clicked() {
-            self.turn(studio, output, id, -TURN_RAD);
-        }
-        if ui.add_enabled(is_current, egui::Button::new("Rotate left")).on_hover_text(help).clicked() {
-            self.turn(studio, output, id, TURN_RAD);
-        }
-        let pinned = if is_pinned { ", pinned" } else { "" };
-        ui.label(format!("piece {piece}{pinned}"));
+        let sheet = output.layout().places(id.net)[id.piece].sheet;
+        let turned = |turn_rad| Move { sheet, by_mm: DVec2::ZERO, turn_rad };
+        let aside = Move { sheet: output.layout().sheet_count(), by_mm: DVec2::ZERO, turn_rad: 0.0 };
+        ui.horizontal_wrapped(|ui| {
+            let pinned = if is_pinned { ", pinned" } else { "" };
+            ui.label(format!("piece {piece}{pinned}"));
+            let help = "rotates the piece by 15°; while you drag it, press , or .";
+            for (picture, name, help, to) in [
+                (look::icon(Icon::RotateCcw), "Rotate left", help, turned(TURN_RAD)),
+                (look::icon(Icon::RotateCw), "Rotate right", help, turned(-TURN_RAD)),
+                (look::icon(Icon::FilePlus), "Put aside", "puts the piece on a sheet of its own", aside),
+            ] {
+                let button = ui.add_enabled(is_current, egui::Button::new(format!("{picture}  {name}")));
+                button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, is_current, name));
+                if button.on_hover_text(help).clicked() {
+                    arrange(studio, output, id, &to);
+                }
+            }
+            if is_pinned && ui.button("Unpin").on_hover_text("lets the layout place it again").clicked() {
+                studio.change(&Change::Unpin { piece: piece.clone() }, None);
+            }
+        });
     }
 
-    fn refresh(&mut self, studio: &Studio, output: &Output) {
-        let version = studio.shown().version();
-        if self.version == Some(version) {
-            return;
+    /// Begins to draw the sheets where they have changed; what was drawn stays until then.
+    fn refresh(&mut self, studio: &Studio, output: &Output, ctx: &egui::Context) {
+        let version = studio.shown().sheets_version();
+        if self.wanted != Some(version) {
+            let (Some(opened), Some(document)) = (studio.opened(), studio.document()) else { return };
+            self.wanted = Some(version);
+            let (sender, coming) = channel();
+            self.coming = Some(coming);
+            let (opened, project, output) = (opened.clone(), document.project().clone(), output.clone());
+            let ctx = ctx.clone();
+            std::thread::spawn(move || {
+                let drawn = pages::drawings(&opened, &project, &output).map(|drawings| {
+                    let sheets = 0..output.layout().sheet_count();
+                    let outlines = sheets.map(|sheet| pages::outlines(&output, sheet)).collect();
+                    Drawn { version, output, drawings, outlines }
+                });
+                // Nobody waits for the pages of a model that is no more.
+                let _ = sender.send(drawn);
+                ctx.request_repaint();
+            });
         }
-        self.version = Some(version);
-        let (Some(opened), Some(document)) = (studio.opened(), studio.document()) else { return };
-        self.drawings = pages::drawings(opened, document.project(), output);
-        let count = self.drawings.as_ref().map_or(0, Vec::len);
-        self.pictures.resize_with(count, Picture::default);
+        if let Some(drawn) = self.coming.as_ref().and_then(|coming| coming.try_recv().ok()) {
+            self.pictures
+                .resize_with(drawn.as_ref().map_or(0, |drawn| drawn.drawings.len()), Picture::default);
+            (self.coming, self.drawn) = (None, Some(drawn.map(Arc::new)));
+        }
     }
 
     fn bar(&mut self, studio: &mut Studio, output: &Output, ui: &mut Ui) {
+        ui.add_space(4.0);
         ui.horizontal(|ui| {
             let layout = output.layout();
             let sheets = layout.sheet_count();
             let name = layout.options().paper.name();
-            ui.label(format!("{sheets} sheets of {name}, {:.0} % used", 100.0 * layout.utilisation()));
+            let word = if sheets == 1 { "sheet" } else { "sheets" };
+            ui.label(format!("{sheets} {word} of {name}, {:.0} % used", 100.0 * layout.utilisation()));
             if studio.laid().is_none() {
                 ui.spinner();
                 ui.weak("of the previous model");
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                let scale = self.scale;
-                if ui.add_enabled(scale.is_some(), egui::Button::new("Fit")).clicked() {
-                    self.scale = None;
+                let tip = commands::FIT.hover_text(ui.ctx());
+                let fit =
+                    ui.add_enabled(!self.canvas.is_fitted(), egui::Button::new(look::icon(Icon::Maximize)));
+                fit.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Fit sheets"));
+                if fit.on_hover_text(tip).clicked() {
+                    self.canvas.fit();
                 }
-                if ui.button("+").on_hover_text("zooms in (Ctrl and wheel)").clicked() {
-                    self.scale = Some((scale.unwrap_or(2.0) * 1.3).min(20.0));
+                let is_pinned = studio.document().is_some_and(|d| !d.project().pins.is_empty());
+                let name = commands::LAY_OUT.name;
+                if is_pinned && ui.button(name).on_hover_text(commands::LAY_OUT.tip).clicked() {
+                    studio.lay_out_again();
                 }
-                if ui.button("-").on_hover_text("zooms out (Ctrl and wheel)").clicked() {
-                    self.scale = Some((scale.unwrap_or(2.0) / 1.3).max(0.3));
-                }
-                self.piece_bar(studio, output, ui);
             });
         });
+        self.piece_bar(studio, output, ui);
         ui.separator();
     }
 
     fn page(
         &mut self,
         studio: &mut Studio,
-        output: &Output,
+        drawn: &Drawn,
         ui: &mut Ui,
         (k, drawing): (usize, &Drawing),
-        scale: f32,
+        seen: &Seen,
     ) {
-        let size = scale * egui::vec2(drawing.size_mm.x as f32, drawing.size_mm.y as f32);
-        let response = ui.allocate_response(size, Sense::click_and_drag());
-        let rect = response.rect;
+        let output = &drawn.output;
+        let (rect, scale) = (seen.pages[k], seen.scale);
+        let response = ui.interact(rect, ui.scope_id().with(("page", k)), Sense::click_and_drag());
         response
             .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, format!("Sheet {}", k + 1)));
-        self.pages.push(rect);
-        if !ui.is_rect_visible(rect) {
-            return;
-        }
-        let painter = ui.painter_at(rect);
+        let painter = ui.painter();
         let pixels_per_mm = f64::from(scale * ui.ctx().pixels_per_point());
-        let version = self.version.unwrap_or_default();
-        let texture = self.pictures[k].texture(ui.ctx(), drawing, version, pixels_per_mm);
-        paint(&painter, rect, texture);
-        let outlines = pages::outlines(output, k);
-        let over = response.hover_pos().and_then(|at| pages::piece_at(&outlines, to_mm(rect, scale, at)));
-        for (id, outline) in &outlines {
+        let texture = self.pictures[k].texture(ui.ctx(), drawing, drawn.version, pixels_per_mm);
+        paint(painter, rect, texture);
+        painter.rect_stroke(rect, 0.0, ui.visuals().window_stroke, egui::StrokeKind::Outside);
+        let outlines = drawn.outlines.get(k).map_or(&[][..], Vec::as_slice);
+        let over = response.hover_pos().and_then(|at| pages::piece_at(outlines, to_mm(rect, scale, at)));
+        for (id, outline) in outlines {
             let is_selected = is_selected(studio, output, *id);
-            if is_selected || over == Some(*id) {
-                let width = if is_selected { 2.5 } else { 1.2 };
-                let points: Vec<egui::Pos2> = outline.iter().map(|&p| to_screen(rect, scale, p)).collect();
-                self.follow(ui, is_selected, output, *id, &points);
-                painter.add(egui::Shape::closed_line(points, Stroke::new(width, ACCENT)));
+            let is_over = self.hover.as_ref().is_some_and(|hover| is_under(hover, output, *id));
+            let points: Vec<Pos2> = outline.iter().map(|&p| to_screen(rect, scale, p)).collect();
+            let own = look::on_paper(studio.shown().colour(id.net));
+            let (width, colour) = match (is_selected, is_over) {
+                (true, _) => (3.0, ACCENT),
+                (_, true) => (2.2, ACCENT),
+                _ => (1.8, own),
+            };
+            draw(painter, points, Stroke::new(width, colour));
+        }
+        if let Some(id) = over {
+            studio.hover = Some(Hover::panels(id.net, panels(output, id)));
+            let piece = pages::piece(output, id).map(|piece| piece.name().to_owned()).unwrap_or_default();
+            ui.ctx().set_cursor_icon(egui::CursorIcon::Grab);
+            if self.drag.is_none() {
+                response.clone().on_hover_text_at_pointer(piece);
             }
         }
-        let grabbed = response.interact_pointer_pos().filter(|_| response.drag_started());
-        if let Some(at) = grabbed.filter(|_| studio.laid().is_some()) {
+        let grabbed =
+            response.interact_pointer_pos().filter(|_| response.drag_started_by(PointerButton::Primary));
+        let is_current = studio.laid().is_some() && studio.shown().sheets_version() == drawn.version;
+        if let Some(at) = grabbed.filter(|_| is_current) {
             // Where the button was pressed, not where the mouse is by now.
             let at = ui.input(|i| i.pointer.press_origin()).unwrap_or(at);
             let from_mm = to_mm(rect, scale, at);
-            let id = pages::piece_at(&outlines, from_mm);
+            let id = pages::piece_at(outlines, from_mm);
             self.drag = id.map(|id| Drag { id, from_mm, turn_rad: 0.0 });
+        }
+        if response.dragged_by(PointerButton::Primary) && self.drag.is_none() {
+            let delta = response.drag_delta();
+            self.canvas.pan(seen, delta);
         }
         if response.clicked() {
             let piece = over.and_then(|id| pages::piece(output, id).map(|piece| (id, piece)));
@@ -252,19 +359,53 @@ impl SheetsPanel {
                 None => studio.selection.clear(),
             }
         }
-        if over.is_some() {
-            ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
-        }
     }
 
     /// Brings a piece into view that was selected elsewhere.
-    fn follow(&mut self, ui: &Ui, is_selected: bool, output: &Output, id: PieceId, points: &[egui::Pos2]) {
-        let Some(name) = pages::piece(output, id).map(|piece| piece.name()) else { return };
-        if is_selected && self.seen.as_deref() != Some(name) {
-            self.seen = Some(name.to_owned());
-            ui.scroll_to_rect(Rect::from_points(points), None);
+    fn follow(&mut self, studio: &Studio, drawn: &Drawn, seen: &Seen, window: Rect) {
+        let output = &drawn.output;
+        let all =
+            drawn.outlines.iter().enumerate().flat_map(|(k, own)| own.iter().map(move |(id, o)| (k, *id, o)));
+        let Some((sheet, id, outline)) = all.into_iter().find(|(_, id, _)| is_selected(studio, output, *id))
+        else {
+            self.seen = None;
+            return;
+        };
+        let name = pages::piece(output, id).map(|piece| piece.name().to_owned());
+        if self.seen != name
+            && let Some(page) = seen.pages.get(sheet)
+        {
+            let points: Vec<Pos2> = outline.iter().map(|&p| to_screen(*page, seen.scale, p)).collect();
+            self.canvas.bring(seen, window, Rect::from_points(&points));
+            self.seen = name;
         }
     }
+}
+
+/// Draws an outline, edge by edge: mitres of a path would stick out far at its sharp corners.
+fn draw(painter: &egui::Painter, points: Vec<Pos2>, stroke: Stroke) {
+    let ends = points.iter().zip(points.iter().cycle().skip(1));
+    painter.extend(ends.map(|(&a, &b)| egui::Shape::line_segment([a, b], stroke)));
+}
+
+/// Moves a piece; all others stay where they lie.
+fn arrange(studio: &mut Studio, output: &Output, id: PieceId, to: &Move) {
+    match pages::rearranged(output, id, to) {
+        Ok(pins) => studio.change(&Change::Pins { pins }, None),
+        Err(problem) => studio.messages_mut().warn(Cause::Change, problem),
+    }
+}
+
+/// The panels of a piece.
+fn panels(output: &Output, id: PieceId) -> Vec<PanelId> {
+    let Some(piece) = pages::piece(output, id) else { return Vec::new() };
+    let net = &output.nets()[id.net];
+    piece.panels().iter().map(|placed| net.source(placed.panel)).collect()
+}
+
+/// Whether the mouse is over a panel of a piece, in some view.
+fn is_under(hover: &Hover, output: &Output, id: PieceId) -> bool {
+    hover.is_on(id.net) && panels(output, id).iter().any(|&panel| hover.is_over(id.net, panel))
 }
 
 /// Paints a page; a white one until its picture is made.
@@ -295,10 +436,7 @@ fn is_selected(studio: &Studio, output: &Output, id: PieceId) -> bool {
     let Some(piece) = pages::piece(output, id) else { return false };
     match (selection.piece(), selection.panel()) {
         (Some(selected), _) => selected == piece.name(),
-        (None, Some(panel)) => {
-            let net = &output.nets()[id.net];
-            piece.panels().iter().any(|placed| net.source(placed.panel) == panel)
-        }
+        (None, Some(panel)) => panels(output, id).contains(&panel),
         _ => true,
     }
 }

@@ -1,10 +1,14 @@
 //! The model in space: drawn by the z-buffer into a picture, turned and picked by the mouse.
 
 use super::super::scene::{self, Layers, Setting, Tag};
+use super::super::selection::Hover;
 use super::super::state::Studio;
+use super::look;
+use super::space_marks;
 use super::wheel::Wheel;
-use eframe::egui::containers::menu::{MenuButton, MenuConfig};
-use eframe::egui::{self, Color32, CursorIcon, PointerButton, Sense, TextureHandle, TextureOptions, Vec2};
+use eframe::egui::{
+    self, Color32, CursorIcon, PointerButton, Pos2, Rect, Sense, TextureHandle, TextureOptions, Vec2,
+};
 use glam::{DVec2, DVec3};
 use tatamu::drawing::Rgb;
 use tatamu::fold::Clash;
@@ -19,6 +23,11 @@ const STEP_DEG: [f64; 2] = [5.0, 1.0];
 const FOLD_S: f64 = 1.4;
 /// Pictures of more pixels are not drawn at twice the size.
 const MOST_SMOOTH: usize = 2_500_000;
+/// The wheel goes on turning a component that folded away under the pointer, as long as the pointer stays
+/// within so many points,
+const STILL: f32 = 6.0;
+/// for so many seconds.
+const STILL_S: f64 = 2.0;
 
 /// The view in space.
 pub struct Space {
@@ -30,8 +39,14 @@ pub struct Space {
     /// What the picture shows: if it is this, it need not be drawn again.
     drawn: Option<Drawn>,
     solids: Option<(u64, String, Setting, Solids)>,
-    last_turn_s: f64,
+    /// The model's diagonal, which the view follows, mm.
+    diagonal_mm: Option<f64>,
+    /// The component that was turned last, where and when.
+    turning: Option<(usize, Pos2, f64)>,
     wheel: Wheel,
+    shows_names: bool,
+    /// Where names stand in the picture, as shares of its size.
+    middles: Vec<(usize, Vec2)>,
 }
 
 #[derive(Clone, PartialEq)]
@@ -57,17 +72,70 @@ impl Default for Space {
             frame: None,
             drawn: None,
             solids: None,
-            last_turn_s: f64::NEG_INFINITY,
+            diagonal_mm: None,
+            turning: None,
             wheel: Wheel::default(),
+            shows_names: true,
+            middles: Vec::new(),
         }
     }
 }
 
 impl Space {
     /// How far the model is folded.
-    #[cfg(test)]
     pub fn folded(&self) -> f64 {
         self.setting.folded
+    }
+
+    /// Folds the model so far.
+    pub fn fold_to(&mut self, folded: f64) {
+        (self.setting.folded, self.is_playing, self.setting.clash) = (folded, false, None);
+    }
+
+    /// Whether the folding is played.
+    pub fn is_playing(&self) -> bool {
+        self.is_playing
+    }
+
+    /// What is to be seen.
+    pub fn layers_mut(&mut self) -> &mut Layers {
+        &mut self.setting.layers
+    }
+
+    /// What is to be seen.
+    pub fn layers(&self) -> Layers {
+        self.setting.layers
+    }
+
+    /// Shows the mesh over the components, or no longer.
+    pub fn toggle_ghost(&mut self) {
+        self.setting.layers.input = !self.setting.layers.input;
+    }
+
+    /// Shows lines on the ground, or no longer.
+    pub fn toggle_grid(&mut self) {
+        self.setting.layers.grid = !self.setting.layers.grid;
+    }
+
+    /// Shows the names of components, or no longer.
+    pub fn toggle_names(&mut self) {
+        self.shows_names = !self.shows_names;
+    }
+
+    /// Whether the names of components are shown.
+    pub fn shows_names(&self) -> bool {
+        self.shows_names
+    }
+
+    /// Marks what the mouse is over, in any view.
+    pub fn set_hover(&mut self, hover: Option<Hover>) {
+        self.setting.hover = hover;
+    }
+
+    /// From where one looks.
+    #[cfg(test)]
+    pub fn orbit(&self) -> Option<&Orbit> {
+        self.orbit.as_ref()
     }
 
     /// Shows a clash at its moment.
@@ -81,6 +149,7 @@ impl Space {
     }
 
     /// The clash that is shown.
+    #[cfg(test)]
     pub fn clash(&self) -> Option<Clash> {
         self.setting.clash
     }
@@ -151,28 +220,37 @@ impl Space {
         }
         let is_moving = self.heed(studio, ui, &response);
         self.refresh_scene(studio);
-        let ground = match ui.visuals().dark_mode {
-            true => Rgb(38, 40, 44),
-            false => Rgb(246, 247, 249),
-        };
+        let ground = look::ground(ui.visuals());
         let is_smooth = !is_moving && !self.is_playing && size_px[0] * size_px[1] <= MOST_SMOOTH;
         self.refresh_picture(ui.ctx(), size_px, is_smooth, ground);
         let painter = ui.painter_at(rect);
         match &self.texture {
             Some(texture) => {
-                let whole = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+                let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
                 painter.image(texture.id(), rect, whole, Color32::WHITE);
             }
-            None => {
-                painter.rect_filled(rect, 0.0, Color32::from_rgb(ground.0, ground.1, ground.2));
-            }
+            None => drop(painter.rect_filled(rect, 0.0, look::of_rgb(ground))),
         }
         if is_moving {
             // Once nothing moves the picture is drawn anew, smoothly.
             ui.ctx().request_repaint();
         }
-        self.legend(studio, ui, rect);
+        // What is written stands before the picture.
+        if self.shows_names {
+            space_marks::names(studio, ui, rect, &self.middles);
+        }
+        space_marks::hint(studio, ui, rect, self.over(&response, ui).filter(|_| !response.dragged()));
+        space_marks::legend(studio, ui, rect, self.setting.layers);
+        if let Some(orbit) = &mut self.orbit {
+            space_marks::axes(orbit, ui, rect);
+        }
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Model in space"));
+    }
+
+    /// What the pointer is over.
+    fn over(&self, response: &egui::Response, ui: &egui::Ui) -> Option<Tag> {
+        let at = response.hover_pos()?;
+        self.tag_under(at - response.rect.min, ui.ctx().pixels_per_point())
     }
 
     fn animate(&mut self, studio: &Studio, ui: &egui::Ui) {
@@ -188,13 +266,16 @@ impl Space {
 
     fn refresh_scene(&mut self, studio: &Studio) {
         let version = studio.shown().version();
-        let selection = format!("{:?}", studio.selection);
+        let selection = format!("{:?}{:?}", studio.selection, studio.visibility);
         let is_old = self
             .solids
             .as_ref()
             .is_none_or(|(v, s, setting, _)| *v != version || *s != selection || *setting != self.setting);
         if is_old {
             let was_other = self.solids.as_ref().is_none_or(|s| s.3.facets.is_empty());
+            if self.solids.as_ref().is_none_or(|s| s.0 != version) {
+                self.follow(studio);
+            }
             let solids = scene::scene(studio, &self.setting);
             self.solids = Some((version, selection, self.setting.clone(), solids));
             if was_other {
@@ -203,9 +284,30 @@ impl Space {
         }
     }
 
+    /// Follows a new model: the view keeps it as large as it was, and a clash that is no more is not shown.
+    fn follow(&mut self, studio: &Studio) {
+        let diagonal_mm = studio.shown().shaped().map(|shaped| shaped.divided().mesh().diagonal_mm());
+        if let (Some(before), Some(now), Some(orbit)) = (self.diagonal_mm, diagonal_mm, &mut self.orbit)
+            && before != now
+        {
+            let factor = now / before;
+            (orbit.radius, orbit.centre) = (factor * orbit.radius, factor * orbit.centre);
+        }
+        self.diagonal_mm = diagonal_mm.or(self.diagonal_mm);
+        let is_over = |clash: &Clash| {
+            studio.shown().output().is_some_and(|output| !output.fold_plan().clashes().contains(clash))
+        };
+        if self.setting.clash.as_ref().is_some_and(is_over) {
+            self.setting.clash = None;
+        }
+    }
+
     /// Forgets the view of the file before.
     pub fn reset(&mut self) {
-        *self = Self { texture: self.texture.take(), ..Self::default() };
+        let layers = Layers { grid: self.setting.layers.grid, ..Layers::COMPONENTS };
+        let setting = Setting { layers, ..Self::default().setting };
+        *self =
+            Self { texture: self.texture.take(), shows_names: self.shows_names, setting, ..Self::default() };
     }
 
     fn refresh_picture(&mut self, ctx: &egui::Context, size_px: [usize; 2], is_smooth: bool, ground: Rgb) {
@@ -236,6 +338,7 @@ impl Space {
             Some(texture) => texture.set(image, TextureOptions::LINEAR),
             None => self.texture = Some(ctx.load_texture("space", image, TextureOptions::LINEAR)),
         }
+        self.middles = space_marks::middles(&frame);
         (self.frame, self.drawn) = (Some(frame), Some(wanted));
     }
 
@@ -257,9 +360,14 @@ impl Space {
                 orbit.turn(-dx * DRAG_RAD, dy * DRAG_RAD);
             }
         }
-        let over =
-            response.hover_pos().and_then(|at| self.tag_under(at - rect.min, ui.ctx().pixels_per_point()));
-        self.setting.hover = over.filter(|_| !response.dragged());
+        let over = self.over(response, ui);
+        if let Some(tag) = over.filter(|_| !response.dragged()) {
+            studio.hover = Some(match tag.panel {
+                Some(panel) => Hover::panels(tag.part, vec![panel]),
+                None => Hover::part(tag.part),
+            });
+            ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
+        }
         if response.clicked() {
             match over {
                 Some(tag) => {
@@ -274,8 +382,7 @@ impl Space {
             self.fit();
         }
         if let Some(at) = response.hover_pos() {
-            self.wheel(studio, ui, over, (at - rect.center()) / side as f32, side);
-            self.tip(studio, ui, response, over);
+            self.wheel(studio, ui, over, at, rect);
         }
         self.orbit != before
     }
@@ -287,120 +394,31 @@ impl Space {
 
     /// Over a selected component the wheel turns its fold direction; elsewhere it magnifies. Two
     /// fingers on a trackpad move the view.
-    fn wheel(&mut self, studio: &mut Studio, ui: &egui::Ui, over: Option<Tag>, at: Vec2, side: f64) {
-        let over = over.filter(|tag| is_selected(studio, tag));
-        let (motion, zoom, shift, now) = ui.input(|i| {
+    fn wheel(&mut self, studio: &mut Studio, ui: &egui::Ui, over: Option<Tag>, at: Pos2, rect: Rect) {
+        let side = f64::from(rect.width().min(rect.height()).max(1.0));
+        let now_s = ui.input(|i| i.time);
+        // The component that is turned moves, so it may be no more under the pointer.
+        let turning = self.turning.filter(|(_, from, s)| from.distance(at) < STILL && now_s - s < STILL_S);
+        let part = turning.map(|(part, ..)| part);
+        let part = part.or(over.filter(|tag| studio.is_selected(tag.part)).map(|tag| tag.part));
+        let (motion, zoom, shift) = ui.input(|i| {
             let zoom = f64::from(i.zoom_delta());
             // A pinch, or the wheel with Ctrl, comes as wheel and as zoom.
             let events = i.events.iter().filter(|_| zoom == 1.0);
-            (self.wheel.read(events, i.time, over.is_some()), zoom, i.modifiers.shift, i.time)
+            (self.wheel.read(events, i.time, part.is_some()), zoom, i.modifiers.shift)
         });
-        if now - self.last_turn_s > 1.0 && self.last_turn_s.is_finite() {
-            studio.end_gesture();
-            self.last_turn_s = f64::NEG_INFINITY;
-        }
-        if let Some(tag) = over.filter(|_| motion.turn != 0.0) {
+        if let Some(part) = part.filter(|_| motion.turn != 0.0) {
             self.setting.folded = 0.0;
-            self.last_turn_s = now;
-            studio.turn(tag.part, motion.turn * STEP_DEG[usize::from(shift)]);
+            self.turning = Some((part, at, now_s));
+            studio.turn(part, motion.turn * STEP_DEG[usize::from(shift)], now_s);
         }
         let factor = zoom * 1.12f64.powf(motion.zoom);
         if let Some(orbit) = &mut self.orbit {
             orbit.shift += DVec2::new(f64::from(motion.pan.x), -f64::from(motion.pan.y)) / side;
             if factor != 1.0 {
+                let at = (at - rect.center()) / side as f32;
                 orbit.zoom_at(factor, DVec2::new(f64::from(at.x), -f64::from(at.y)));
             }
         }
     }
-
-    fn tip(&self, studio: &Studio, ui: &egui::Ui, response: &egui::Response, over: Option<Tag>) {
-        let Some(tag) = over.filter(|_| !response.dragged()) else { return };
-        let Some(part) = studio.shown().part(tag.part) else { return };
-        let panel = tag.panel.and_then(|id| part.component.panels().panels().get(id.0));
-        let what = panel.map_or(String::new(), |panel| format!(" · {}", panel.kind));
-        let hint = match is_selected(studio, &tag) {
-            true if studio.is_drawn() => "drawn in the project file",
-            true => "wheel: rotate its fold direction by 5° per click, with Shift by 1°",
-            false => "click: select",
-        };
-        ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
-        let place = response.rect.left_bottom() + egui::vec2(10.0, -10.0);
-        let text = format!("{}{what}   ({hint})", part.name);
-        let colour = ui.visuals().text_color();
-        ui.painter_at(response.rect).text(
-            place,
-            egui::Align2::LEFT_BOTTOM,
-            text,
-            egui::FontId::proportional(14.0),
-            colour,
-        );
-    }
-
-    /// The scale of colours.
-    fn legend(&self, studio: &Studio, ui: &egui::Ui, rect: egui::Rect) {
-        if !self.setting.layers.distances {
-            return;
-        }
-        let painter = ui.painter_at(rect);
-        let colour = ui.visuals().text_color();
-        let font = egui::FontId::proportional(13.0);
-        let at = rect.right_top() + egui::vec2(-12.0, 12.0);
-        let text = match studio.shown().distances() {
-            Some(d) => {
-                format!(
-                    "red: the mesh is outside the component, up to {:.1} mm\nblue: it is inside",
-                    d.most_mm
-                )
-            }
-            None => "measuring distances …".to_owned(),
-        };
-        painter.text(at, egui::Align2::RIGHT_TOP, text, font, colour);
-    }
-}
-
-/// The slider of the folding, and what clashes.
-pub fn folding_bar(space: &mut Space, studio: &mut Studio, ui: &mut egui::Ui) {
-    ui.add_space(4.0);
-    ui.horizontal(|ui| {
-        let text = if space.is_playing { "Pause" } else { "Fold" };
-        if ui
-            .button(text)
-            .on_hover_text("folds the components one by one, in the folding order (Space)")
-            .clicked()
-        {
-            space.play();
-        }
-        let mut folded = space.setting.folded;
-        ui.spacing_mut().slider_width = (ui.available_width() - 330.0).max(80.0);
-        let label = ui.label("folded");
-        let slider = egui::Slider::new(&mut folded, 0.0..=1.0)
-            .custom_formatter(|x, _| format!("{:.0} %", 100.0 * x))
-            .custom_parser(|text| {
-                text.trim().trim_end_matches('%').trim().parse().ok().map(|x: f64| x / 100.0)
-            });
-        if ui.add(slider).labelled_by(label.id).changed() {
-            (space.setting.folded, space.is_playing, space.setting.clash) = (folded, false, None);
-        }
-        ui.separator();
-        let layers = &mut space.setting.layers;
-        // Several are ticked at a time.
-        let stays = MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
-        MenuButton::new("Show").config(stays).ui(ui, |ui| {
-            ui.checkbox(&mut layers.components, "Components");
-            ui.checkbox(&mut layers.segments, "Mesh, in parts");
-            ui.checkbox(&mut layers.input, "Mesh, plain");
-            ui.checkbox(&mut layers.hulls, "Hulls");
-            ui.checkbox(&mut layers.distances, "Mesh, coloured by distance from the components");
-        });
-        studio.measure(layers.distances);
-        if ui.button("Fit").on_hover_text("fits the model to the window (F)").clicked() {
-            space.fit();
-        }
-    });
-    ui.add_space(2.0);
-}
-
-/// Whether what is pointed at belongs to a selected component.
-fn is_selected(studio: &Studio, tag: &Tag) -> bool {
-    studio.shown().names().get(tag.part).is_some_and(|name| studio.selection.has(name))
 }

@@ -1,11 +1,17 @@
 //! Rows of options of the project: numbers, choices and boxes to tick.
 
 use super::super::change::{Change, to_digits};
+use super::super::messages::Cause;
 use super::super::state::Studio;
 use eframe::egui::{self, DragValue, Ui};
+use std::cell::RefCell;
 use std::ops::RangeInclusive;
 use tatamu::project::options::{Dial, Entry, Kind, Range, Settings, Unit};
+use tatamu::units::{parse_length_mm, parse_length_or_zero_mm};
 use toml_edit::Value;
+
+/// Digits after the point that are kept of what is typed: 8 in are 203.2 mm.
+const TYPED_DIGITS: i32 = 4;
 
 /// An option that has a row.
 pub struct Dialled {
@@ -18,6 +24,14 @@ impl Dialled {
     pub fn new(option: &'static Entry) -> Self {
         let plain = Dial { label: option.name(), span: None, digits: 0 };
         Self { option, dial: option.dial.unwrap_or(plain) }
+    }
+
+    /// What it is called: a key of the project file in words.
+    fn label(&self) -> String {
+        let words = self.dial.label.replace('_', " ");
+        let mut letters = words.chars();
+        let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+        first + letters.as_str()
     }
 
     /// The row that fits its kind, with its value as it is now.
@@ -41,7 +55,7 @@ impl Dialled {
 
     /// A row with a number.
     pub fn number_row(&self, studio: &mut Studio, ui: &mut Ui, now: f64) {
-        let label = ui.label(self.dial.label).on_hover_text(self.option.tip());
+        let label = ui.label(self.label()).on_hover_text(self.option.tip());
         if let Some(x) = self.field(ui, now, label.id, studio) {
             studio.change(&self.set(Some(self.value(x))), Some(self.option.name()));
         }
@@ -50,10 +64,10 @@ impl Dialled {
 
     /// A row with a box: without a tick there is no number, and the default holds.
     pub fn optional_row(&self, studio: &mut Studio, ui: &mut Ui, now: Option<f64>, otherwise: f64) {
-        let label = ui.label(self.dial.label).on_hover_text(self.option.tip());
+        let label = ui.label(self.label()).on_hover_text(self.option.tip());
         ui.horizontal(|ui| {
             let mut is_set = now.is_some();
-            let name = format!("choose {}", self.dial.label);
+            let name = format!("choose {}", self.label());
             let tick = ui.add(egui::Checkbox::without_text(&mut is_set)).on_hover_text("off: automatic");
             tick.widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, now.is_some(), &name));
             if tick.changed() {
@@ -73,7 +87,7 @@ impl Dialled {
 
     /// The same for a component.
     pub fn component_row(&self, studio: &mut Studio, ui: &mut Ui, name: &str, (now, is_set): (f64, bool)) {
-        let label = ui.label(self.dial.label).on_hover_text(self.option.tip());
+        let label = ui.label(self.label()).on_hover_text(self.option.tip());
         let set = |value| Change::Component { name: name.to_owned(), option: self.option, value };
         ui.horizontal(|ui| {
             if let Some(x) = self.field(ui, now, label.id, studio) {
@@ -93,9 +107,16 @@ impl Dialled {
 
     /// A row with a choice among names.
     fn choice_row(&self, studio: &mut Studio, ui: &mut Ui, now: &str) {
-        let label = ui.label(self.dial.label).on_hover_text(self.option.tip());
+        let label = ui.label(self.label()).on_hover_text(self.option.tip());
         let mut chosen = now.to_owned();
-        let combo = egui::ComboBox::from_id_salt(self.option.name()).selected_text(now).show_ui(ui, |ui| {
+        // Where nothing is chosen, what holds then.
+        let automatic = Some(self.option.automatic).filter(|text| !text.is_empty()).unwrap_or("none");
+        let text = if now.is_empty() { automatic } else { now };
+        let is_optional = now.is_empty() || self.option.text(Settings::standard()).is_none();
+        let combo = egui::ComboBox::from_id_salt(self.option.name()).selected_text(text).show_ui(ui, |ui| {
+            if is_optional {
+                ui.selectable_value(&mut chosen, String::new(), automatic);
+            }
             for name in self.option.kind.names() {
                 ui.selectable_value(&mut chosen, name.to_owned(), name);
             }
@@ -103,7 +124,8 @@ impl Dialled {
         combo.response.labelled_by(label.id);
         ui.end_row();
         if chosen != now {
-            studio.change(&self.set(Some(chosen.into())), None);
+            let value = (!chosen.is_empty()).then(|| chosen.into());
+            studio.change(&self.set(value), None);
         }
     }
 
@@ -111,7 +133,7 @@ impl Dialled {
     fn tick_row(&self, studio: &mut Studio, ui: &mut Ui, now: bool) {
         let mut is_set = now;
         ui.label("");
-        if ui.checkbox(&mut is_set, self.dial.label).on_hover_text(self.option.tip()).changed() {
+        if ui.checkbox(&mut is_set, self.label()).on_hover_text(self.option.tip()).changed() {
             studio.change(&self.set(Some(is_set.into())), None);
         }
         ui.end_row();
@@ -126,7 +148,7 @@ impl Dialled {
     }
 
     fn value(&self, x: f64) -> Value {
-        if self.is_count() { (x.round() as i64).into() } else { to_digits(x, self.dial.digits).into() }
+        if self.is_count() { (x.round() as i64).into() } else { x.into() }
     }
 
     /// Least and most that can be dragged to.
@@ -151,21 +173,71 @@ impl Dialled {
         }
     }
 
-    /// The field; what the user made of it.
+    /// The field; what the user made of it. What is typed is not cut to what can be dragged to: the project
+    /// takes it, or says what it accepts.
     fn field(&self, ui: &mut Ui, now: f64, label: egui::Id, studio: &mut Studio) -> Option<f64> {
         let mut x = now;
         let range = self.range();
         let span = range.end() - range.start();
+        let typed = RefCell::new(None);
+        let parser = |text: &str| {
+            let read = self.read(text);
+            let parsed = read.as_ref().ok().copied();
+            *typed.borrow_mut() = Some(read);
+            parsed
+        };
         let field = DragValue::new(&mut x)
             .range(range)
+            .clamp_existing_to_range(false)
             .speed(if self.is_count() { 0.05 } else { (span / 600.0).min(1.0) })
-            .max_decimals(self.dial.digits.max(0) as usize)
+            .max_decimals(if self.is_count() { 0 } else { self.dial.digits.max(2) as usize })
             .suffix(self.suffix())
+            .custom_parser(parser)
             .update_while_editing(false);
         let response = ui.add(field).labelled_by(label).on_hover_text(self.option.tip());
         if response.drag_stopped() || response.lost_focus() {
             studio.end_gesture();
         }
-        (response.changed() && x != now).then_some(x)
+        match typed.into_inner() {
+            Some(Ok(typed)) => (typed != now).then_some(to_digits(typed, TYPED_DIGITS)),
+            Some(Err(problem)) => {
+                let problem = format!("{}: {problem}", self.label());
+                studio.messages_mut().warn(Cause::Change, problem);
+                None
+            }
+            None => (response.changed() && x != now).then(|| to_digits(x, self.dial.digits)),
+        }
+    }
+
+    /// The number that a text stands for, with or without its unit.
+    fn read(&self, text: &str) -> Result<f64, String> {
+        let text = text.trim();
+        match &self.option.kind {
+            Kind::Number(number) if number.unit == Unit::Length => match number.range {
+                Range::NotNegative => parse_length_or_zero_mm(text),
+                _ => parse_length_mm(text),
+            }
+            .map_err(|error| error.to_string()),
+            _ => {
+                let bare = text.trim_end_matches('°').trim_end();
+                let number = bare.parse::<f64>().ok().filter(|x| x.is_finite());
+                let number = number.filter(|x| !self.is_count() || x.fract() == 0.0);
+                number.ok_or_else(|| {
+                    format!(
+                        "\"{text}\" is not a {}number; write one such as {}",
+                        if self.is_count() { "whole " } else { "" },
+                        self.such_as()
+                    )
+                })
+            }
+        }
+    }
+
+    fn such_as(&self) -> f64 {
+        match &self.option.kind {
+            Kind::Number(number) => number.such_as,
+            Kind::Count(count) => count.such_as as f64,
+            Kind::Switch(_) | Kind::Text(_) => 30.0,
+        }
     }
 }

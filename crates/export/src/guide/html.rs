@@ -22,12 +22,17 @@ pub fn html(guide: &Guide) -> String {
         "<!doctype html>\n<html lang=\"{}\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
-         <title>{}</title>\n<style>\n{CSS}</style>\n</head>\n<body data-key=\"{:016x}\" data-done=\"{}\">\n\
+         <title>{}</title>\n<style>\n{CSS}</style>\n</head>\n<body data-key=\"{:016x}\" data-done=\"{}\" \
+         data-next=\"{}\" data-done-next=\"{}\" data-resume=\"{}\" data-chapter=\"{}\">\n\
          <a class=\"skip\" href=\"#steps\">{}</a>\n",
         escaped(&guide.words.code),
         escaped(&heading),
         fingerprint(guide),
         escaped(&words.done_count),
+        escaped(&words.next),
+        escaped(&words.done_next),
+        escaped(&words.resume),
+        escaped(&words.chapter_count),
         escaped(&words.skip),
     );
     let _ = writeln!(out, "<header><h1>{}</h1></header>", escaped(&heading));
@@ -69,8 +74,13 @@ fn push_contents(out: &mut String, guide: &Guide) {
     let _ = write!(out, "<li><a href=\"#cover\">{}</a></li>", escaped(&words.cover.deployed));
     let _ = write!(out, "<li><a href=\"#parts\">{}</a></li>", escaped(&words.cover.parts_title));
     for chapter in &guide.chapters {
-        let (first, title) = (chapter.entries.start + 1, escaped(&chapter.title));
-        let _ = write!(out, "<li><a href=\"#step-{first}\">{title}</a></li>");
+        let (first, last) = (chapter.entries.start + 1, chapter.entries.end);
+        let title = escaped(&chapter.title);
+        let _ = write!(
+            out,
+            "<li><a href=\"#step-{first}\">{title}</a> \
+             <span class=\"progress\" data-first=\"{first}\" data-last=\"{last}\"></span></li>"
+        );
     }
     out.push_str("</ol></details></nav>\n");
 }
@@ -78,7 +88,9 @@ fn push_contents(out: &mut String, guide: &Guide) {
 fn push_cover(out: &mut String, guide: &Guide) {
     let words = &guide.words.cover;
     out.push_str("<section class=\"page\" id=\"cover\" aria-labelledby=\"cover-title\">\n");
-    let _ = write!(out, "<h2 id=\"cover-title\">{}</h2>\n<div class=\"pictures\">", escaped(&words.deployed));
+    let _ = writeln!(out, "<h2 id=\"cover-title\">{}</h2>", escaped(&words.deployed));
+    // Its words and its step are of the reader's device.
+    out.push_str("<a class=\"resume\" id=\"resume\" href=\"#step-1\" hidden></a>\n<div class=\"pictures\">");
     push_slider(out, guide, &words.deployed);
     if let (Some(last), k) = (guide.frames.last(), guide.frames.len() - 1) {
         let picture = reference(&format!("frame-{k}"), last, &words.flat);
@@ -150,7 +162,11 @@ fn push_parts(out: &mut String, guide: &Guide) {
     );
     for line in &guide.lines {
         let meaning = escaped(&line.meaning);
-        let _ = write!(out, "<tr><td class=\"sample\">{}</td><td>{meaning}</td></tr>", svg(&line.sample, ""));
+        let _ = write!(
+            out,
+            "<tr><td class=\"sample\">{}</td><td>{meaning}</td></tr>",
+            svg(&line.sample, &line.meaning)
+        );
     }
     out.push_str("</tbody></table>\n</section>\n");
 }

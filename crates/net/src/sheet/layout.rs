@@ -51,6 +51,8 @@ pub struct Layout {
     sheets: usize,
     utilisation: f64,
     unheeded: Vec<Unheeded>,
+    /// Which of its alternatives each net is.
+    taken: Vec<usize>,
 }
 
 impl Layout {
@@ -66,7 +68,7 @@ impl Layout {
 
     /// Nests the pieces of one net of each list, which are alternatives with as many pieces, the
     /// best first; also gives the nets that were taken. Pieces that are pinned, by name, lie where
-    /// they are pinned; a net that has one is the first of its list.
+    /// they are pinned; a net that has one is the one of its list that the first of its pins says.
     ///
     /// # Errors
     /// See [`LayoutError`].
@@ -76,20 +78,26 @@ impl Layout {
         pins: &BTreeMap<String, Pin>,
         progress: &dyn Progress,
     ) -> Result<(Self, Vec<Net>), LayoutError> {
-        let groups: Vec<Vec<Vec<&Blank>>> = nets
+        let chosen: Vec<Option<usize>> = nets
             .iter()
             .map(|nets| {
-                let mut alternatives: Vec<Vec<&Blank>> =
-                    nets.iter().map(|net| net.blanks().iter().collect()).collect();
-                let is_pinned = |blank: &&Blank| pins.contains_key(blank.name());
-                if alternatives.first().is_some_and(|first| first.iter().any(is_pinned)) {
-                    alternatives.truncate(1);
-                }
-                alternatives
+                let pin = nets.first()?.blanks().iter().find_map(|blank| pins.get(blank.name()))?;
+                Some(if pin.net < nets.len() { pin.net } else { 0 })
+            })
+            .collect();
+        let groups: Vec<Vec<Vec<&Blank>>> = nets
+            .iter()
+            .zip(&chosen)
+            .map(|(nets, chosen)| {
+                let own = chosen.map_or(&nets[..], |k| std::slice::from_ref(&nets[k]));
+                own.iter().map(|net| net.blanks().iter().collect()).collect()
             })
             .collect();
         let (layout, taken) = Self::nested(&groups, options, pins, progress)?;
-        let nets = nets.par_iter().zip(taken).map(|(nets, taken)| nets[taken].finished().clone()).collect();
+        let taken: Vec<usize> =
+            chosen.iter().zip(taken).map(|(chosen, taken)| chosen.unwrap_or(taken)).collect();
+        let nets = nets.par_iter().zip(&taken).map(|(nets, &taken)| nets[taken].finished().clone()).collect();
+        let layout = Self { taken, ..layout };
         Ok((layout, nets))
     }
 
@@ -140,7 +148,8 @@ impl Layout {
         let area: f64 = blanks().map(|blank| polygon::area(blank.outline())).sum();
         let utilisation = area / (room.x * room.y * sheets.max(1) as f64);
         let unheeded = unheeded(pins, blanks().zip(places.iter().flatten()));
-        Ok((Self { options: *options, places, sheets, utilisation, unheeded }, taken))
+        let layout = Self { options: *options, places, sheets, utilisation, unheeded, taken: taken.clone() };
+        Ok((layout, taken))
     }
 
     /// Pins that could not be heeded.
@@ -151,6 +160,11 @@ impl Layout {
     /// Places of the pieces of net `n`, in the net's order.
     pub fn places(&self, n: usize) -> &[PiecePlace] {
         &self.places[n]
+    }
+
+    /// Which of its alternatives net `n` is.
+    pub fn taken(&self, n: usize) -> usize {
+        self.taken[n]
     }
 
     /// Number of sheets.

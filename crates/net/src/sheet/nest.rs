@@ -221,13 +221,22 @@ fn nest_items(
     // Collected before the first error is taken, so that which piece is named depends on no thread.
     let pins: Vec<Option<Pinned>> =
         items.iter().map(|shapes| frame.pinned(shapes.first()?, options)).collect();
+    let outlines: Vec<Option<Vec<DVec2>>> = items
+        .iter()
+        .zip(&pins)
+        .map(|(shapes, pin)| {
+            let pin = pin.as_ref()?;
+            let motion = frame.placement(pin.sheet, &pin.pose, &pin.spot).motion();
+            Some(shapes.first()?.outline().iter().map(|&p| motion.transform_point2(p)).collect())
+        })
+        .collect();
     let items: Vec<Result<Item, NestError>> = items
         .into_par_iter()
         .enumerate()
         .map(|(index, shapes)| frame.item(index, &shapes, options))
         .collect();
     let items = items.into_iter().collect::<Result<Vec<_>, _>>()?;
-    let start = Start::new(&pins, &frame.grid);
+    let start = Start::new(&pins, &outlines, options.spacing_mm, &frame.grid);
     let found = search::search(&items, &frame.grid, &start, options.effort, progress)?;
     let mut placements = vec![None; items.len()];
     for (index, pin) in pins.iter().enumerate().filter(|(index, _)| !start.is_free(*index)) {

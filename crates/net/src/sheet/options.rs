@@ -99,7 +99,7 @@ impl SheetOptions {
     }
 
     /// Lower left corner of that area.
-    pub(super) fn origin_mm(&self) -> DVec2 {
+    pub fn origin_mm(&self) -> DVec2 {
         DVec2::splat(self.border_mm()) + DVec2::Y * self.strip_mm()
     }
 

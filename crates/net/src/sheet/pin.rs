@@ -23,6 +23,8 @@ pub struct Pin {
     pub at_mm: DVec2,
     /// Its turn, counter-clockwise, radians.
     pub turn_rad: f64,
+    /// Which of the alternative nets of its component the piece is of.
+    pub net: usize,
 }
 
 /// A pin that could not be heeded, by the name of its piece.
@@ -61,11 +63,11 @@ impl fmt::Display for Unheeded {
 }
 
 impl Pin {
-    /// The pin of a piece with this outline that lies at this place.
+    /// The pin of a piece of a best net, with this outline, that lies at this place.
     pub fn of_place(outline: &[DVec2], place: &PiecePlace) -> Self {
         let on_sheet = outline.iter().map(|&p| place.place.transform_point2(p));
         let (low, _) = polygon::bounds(on_sheet).unwrap_or_default();
-        Self { sheet: place.sheet, at_mm: low, turn_rad: place.place.matrix2.x_axis.to_angle() }
+        Self { sheet: place.sheet, at_mm: low, turn_rad: place.place.matrix2.x_axis.to_angle(), net: 0 }
     }
 
     /// The place of a piece with this outline, from the lower left corner of the area for pieces.

@@ -2,6 +2,11 @@
 
 use super::occupancy::{Occupancy, Pose, Spot};
 use super::raster::Grid;
+use geo::{Distance, Euclidean};
+use glam::DVec2;
+
+/// Rounding of places, mm.
+const SLIVER_MM: f64 = 1e-6;
 
 /// A piece at a place that the user chose.
 pub(super) struct Pinned {
@@ -17,17 +22,30 @@ pub(super) struct Start {
 }
 
 impl Start {
-    /// Takes the places of pins, of which there may be one for each piece. One whose place is taken
-    /// by another before it is not heeded.
-    pub fn new(pins: &[Option<Pinned>], grid: &Grid) -> Self {
+    /// Takes the places of pins, of which there may be one for each piece; `outlines` are those of the
+    /// pinned pieces there. One whose place is taken by another before it is not heeded.
+    pub fn new(
+        pins: &[Option<Pinned>],
+        outlines: &[Option<Vec<DVec2>>],
+        spacing_mm: f64,
+        grid: &Grid,
+    ) -> Self {
         let mut start = Self { stock: Vec::new(), is_free: vec![true; pins.len()] };
         for (item, pin) in pins.iter().enumerate().filter_map(|(k, pin)| Some((k, pin.as_ref()?))) {
             while start.stock.len() <= pin.sheet {
                 start.stock.push(Occupancy::new(grid));
             }
-            let sheet = &mut start.stock[pin.sheet];
-            if sheet.is_free(&pin.pose, &pin.spot) {
-                sheet.place(&pin.pose, &pin.spot);
+            // Cells are coarse: pieces that were placed in another order need not fit in this one, though
+            // they are far enough apart.
+            let is_apart = || {
+                let taken = (0..item).filter(|&other| !start.is_free[other]);
+                let mut same =
+                    taken.filter(|&k| pins[k].as_ref().is_some_and(|other| other.sheet == pin.sheet));
+                same.all(|other| are_apart([&outlines[other], &outlines[item]], spacing_mm))
+            };
+            let may_stand = start.stock[pin.sheet].is_free(&pin.pose, &pin.spot) || is_apart();
+            if may_stand {
+                start.stock[pin.sheet].place(&pin.pose, &pin.spot);
                 start.is_free[item] = false;
             }
         }
@@ -48,4 +66,15 @@ impl Start {
     pub fn free(&self) -> impl Iterator<Item = usize> + '_ {
         (0..self.is_free.len()).filter(|&item| self.is_free[item])
     }
+}
+
+/// Whether two outlines are at least so far apart.
+fn are_apart(outlines: [&Option<Vec<DVec2>>; 2], spacing_mm: f64) -> bool {
+    let [Some(a), Some(b)] = outlines else { return false };
+    let [a, b] = [a, b].map(|outline| {
+        let ring = outline.iter().map(|p| geo::Coord { x: p.x, y: p.y }).collect();
+        geo::Polygon::new(ring, Vec::new())
+    });
+    let distance_mm = Euclidean.distance(&a, &b);
+    distance_mm > 0.0 && distance_mm >= spacing_mm - SLIVER_MM
 }

@@ -1,0 +1,364 @@
+//! What opens over the window: one at a time, and nothing behind it heeds keys or mouse.
+
+use super::browser::{Answer, Browser, Purpose};
+use super::commands::{self, Command};
+use super::finder::Finder;
+use super::modal::focus_once;
+use eframe::egui::{self, Context, Id, Modal};
+use std::path::{Path, PathBuf};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::time::{Duration, Instant};
+
+/// Nobody closes a dialog of the system so fast: there was none.
+const NEVER_SEEN: Duration = Duration::from_millis(400);
+
+/// What the user is about to leave, though it may be unsaved or at work.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Leave {
+    /// For good: the window closes.
+    Close,
+    /// For another file.
+    Open(PathBuf),
+}
+
+/// What is asked before the user leaves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Parting {
+    /// Save, then leave.
+    Save,
+    /// Leave.
+    Discard,
+    /// Stay.
+    Stay,
+}
+
+/// How files are asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Chooser {
+    /// By the system's dialog, or the own one where there is none.
+    System,
+    /// By the own dialog.
+    #[cfg_attr(not(test), expect(dead_code, reason = "tests have no system to ask"))]
+    Own,
+}
+
+/// What opens over the window.
+pub struct Dialogs {
+    chooser: Chooser,
+    open: Option<Dialog>,
+    /// Whether the one that is open was not drawn yet.
+    is_new: bool,
+    /// What is left once a file is saved.
+    leaves: Option<Leave>,
+}
+
+enum Dialog {
+    System(SystemDialog),
+    Files(Browser),
+    Parting(Leave),
+    Find(Finder),
+    Shortcuts,
+    About,
+}
+
+/// What came of a dialog.
+pub enum Outcome {
+    /// A file is to be opened.
+    Open(PathBuf),
+    /// The project is to be saved in this file.
+    Save(PathBuf),
+    /// An answer to the question before something is left.
+    Parted(Leave, Parting),
+    /// A command was found.
+    Run(&'static Command),
+}
+
+/// A dialog of the system, which runs in a thread of its own.
+struct SystemDialog {
+    purpose: Purpose,
+    folder: Option<PathBuf>,
+    name: String,
+    answer: Receiver<Option<PathBuf>>,
+    begun: Instant,
+}
+
+impl Dialogs {
+    /// None is open.
+    pub fn new(chooser: Chooser) -> Self {
+        Self { chooser, open: None, is_new: false, leaves: None }
+    }
+
+    /// Whether one is open.
+    pub fn is_open(&self) -> bool {
+        self.open.is_some()
+    }
+
+    fn begin(&mut self, dialog: Dialog) {
+        (self.open, self.is_new) = (Some(dialog), true);
+    }
+
+    /// Whether commands are listed.
+    pub fn is_finding(&self) -> bool {
+        matches!(self.open, Some(Dialog::Find(_)))
+    }
+
+    /// Asks for a file.
+    pub fn ask_file(&mut self, ctx: &Context, purpose: Purpose, folder: Option<PathBuf>, name: &str) {
+        self.begin(match self.chooser {
+            Chooser::System => Dialog::System(SystemDialog::start(ctx, purpose, folder, name)),
+            Chooser::Own => Dialog::Files(Browser::new(purpose, folder, name)),
+        });
+    }
+
+    /// Asks before something is left.
+    pub fn ask_leave(&mut self, leave: Leave) {
+        self.begin(Dialog::Parting(leave));
+    }
+
+    /// Leaves once the project is saved under the name that is asked for.
+    pub fn leave_after_saving(&mut self, leave: Leave) {
+        self.leaves = Some(leave);
+    }
+
+    /// What is to be left, now that the project is saved.
+    pub fn take_leave(&mut self) -> Option<Leave> {
+        self.leaves.take()
+    }
+
+    /// Lists the commands.
+    pub fn find(&mut self) {
+        self.begin(Dialog::Find(Finder::default()));
+    }
+
+    /// Lists keys and mouse.
+    pub fn list_shortcuts(&mut self) {
+        self.begin(Dialog::Shortcuts);
+    }
+
+    /// Shows what this program is.
+    pub fn about(&mut self) {
+        self.begin(Dialog::About);
+    }
+
+    /// Draws the dialog that is open, with the commands that can be done and what would be lost.
+    pub fn show(&mut self, ctx: &Context, commands: &[&'static Command], work: Work) -> Option<Outcome> {
+        let mut outcome = None;
+        if std::mem::take(&mut self.is_new) {
+            // A field behind it, in which something was being written, has the focus no more.
+            ctx.memory_mut(|memory| memory.focused().into_iter().for_each(|id| memory.surrender_focus(id)));
+        }
+        let is_over = match self.open.as_mut()? {
+            Dialog::System(dialog) => match dialog.show(ctx) {
+                None => false,
+                Some(Answer::Chosen(path)) => {
+                    outcome = Some(dialog.purpose.of(path));
+                    true
+                }
+                Some(Answer::Cancelled) => true,
+                Some(Answer::Open) => {
+                    self.open = Some(Dialog::Files(dialog.own()));
+                    return None;
+                }
+            },
+            Dialog::Files(browser) => match browser.show(ctx) {
+                Answer::Open => false,
+                Answer::Cancelled => true,
+                Answer::Chosen(path) => {
+                    outcome = Some(browser.purpose().of(path));
+                    true
+                }
+            },
+            Dialog::Parting(leave) => match parting(ctx, leave, work) {
+                None => false,
+                Some(answer) => {
+                    outcome = Some(Outcome::Parted(leave.clone(), answer));
+                    true
+                }
+            },
+            Dialog::Find(finder) => match finder.show(ctx, commands) {
+                super::finder::Answer::Open => false,
+                super::finder::Answer::Closed => true,
+                super::finder::Answer::Run(command) => {
+                    outcome = Some(Outcome::Run(command));
+                    true
+                }
+            },
+            Dialog::Shortcuts => shortcuts(ctx),
+            Dialog::About => about(ctx),
+        };
+        if is_over {
+            self.open = None;
+            if outcome.is_none() {
+                self.leaves = None;
+            }
+        }
+        outcome
+    }
+}
+
+/// What would be lost.
+#[derive(Debug, Clone, Copy)]
+pub struct Work {
+    /// Changes that are not saved.
+    pub is_changed: bool,
+    /// A job on its way to the cutter.
+    pub is_cutting: bool,
+}
+
+impl Purpose {
+    fn of(self, path: PathBuf) -> Outcome {
+        match self {
+            Purpose::Open => Outcome::Open(path),
+            Purpose::Save => Outcome::Save(path),
+        }
+    }
+}
+
+impl SystemDialog {
+    fn start(ctx: &Context, purpose: Purpose, folder: Option<PathBuf>, name: &str) -> Self {
+        let mut dialog = rfd::FileDialog::new().set_title(purpose.title());
+        if let Some(folder) = folder.as_deref().and_then(|folder| std::path::absolute(folder).ok()) {
+            dialog = dialog.set_directory(folder);
+        }
+        dialog = match purpose {
+            Purpose::Open => dialog.add_filter("Meshes and projects", &super::browser::KNOWN),
+            Purpose::Save => dialog.add_filter("Project", &super::browser::KNOWN[..1]).set_file_name(name),
+        };
+        let (sender, answer) = channel();
+        let wake = ctx.clone();
+        std::thread::spawn(move || {
+            let chosen = match purpose {
+                Purpose::Open => dialog.pick_file(),
+                Purpose::Save => dialog.save_file(),
+            };
+            let _ = sender.send(chosen);
+            wake.request_repaint();
+        });
+        Self { purpose, folder, name: name.to_owned(), answer, begun: Instant::now() }
+    }
+
+    /// Waits for it; the own dialog is to be opened where the system has none.
+    fn show(&self, ctx: &Context) -> Option<Answer> {
+        Modal::new(Id::unique("system dialog")).show(ctx, |ui| {
+            ui.label("Choose a file in the dialog of your desktop.");
+        });
+        match self.answer.try_recv() {
+            Err(TryRecvError::Empty) => None,
+            Ok(Some(path)) => Some(Answer::Chosen(self.purpose.with_extension(path))),
+            _ if self.begun.elapsed() < NEVER_SEEN => Some(Answer::Open),
+            _ => Some(Answer::Cancelled),
+        }
+    }
+
+    fn own(&self) -> Browser {
+        Browser::new(self.purpose, self.folder.clone(), &self.name)
+    }
+}
+
+/// Asks before something is lost.
+fn parting(ctx: &Context, leave: &Leave, work: Work) -> Option<Parting> {
+    let mut answer = None;
+    let (save, discard) = match leave {
+        Leave::Close => ("Save and close", "Close without saving"),
+        Leave::Open(_) => ("Save and open", "Open without saving"),
+    };
+    let modal = Modal::new(Id::unique("leave")).show(ctx, |ui| {
+        ui.set_width(380.0);
+        ui.heading(if work.is_changed { "Unsaved changes" } else { "A job is running" });
+        if work.is_cutting && *leave == Leave::Close {
+            ui.label("A job is running. Closing stops it and lifts the tool.");
+        }
+        if work.is_changed {
+            ui.label("You have unsaved changes.");
+        }
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            if work.is_changed {
+                let button = ui.button(save);
+                focus_once(ui, &button);
+                if button.clicked() {
+                    answer = Some(Parting::Save);
+                }
+            }
+            let discard = if work.is_changed { discard } else { "Close" };
+            if ui.button(discard).clicked() {
+                answer = Some(Parting::Discard);
+            }
+            if ui.button("Cancel").clicked() {
+                answer = Some(Parting::Stay);
+            }
+        });
+    });
+    answer.or(modal.should_close().then_some(Parting::Stay))
+}
+
+/// The list of keys and what the mouse does; whether it is to be closed.
+fn shortcuts(ctx: &Context) -> bool {
+    let mut is_closed = false;
+    let height = (ctx.content_rect().height() - 160.0).max(160.0);
+    let modal = Modal::new(Id::unique("shortcuts")).show(ctx, |ui| {
+        ui.set_width(680.0);
+        ui.horizontal(|ui| {
+            ui.heading("Shortcuts");
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let close = ui.button("Close");
+                focus_once(ui, &close);
+                is_closed = close.clicked();
+            });
+        });
+        egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
+            egui::Grid::new("shortcuts").num_columns(2).striped(true).show(ui, |ui| {
+                for (what, effect) in commands::MOUSE {
+                    ui.label(what);
+                    ui.label(effect);
+                    ui.end_row();
+                }
+                for command in commands::ALL.iter().filter(|command| !command.keys.is_empty()) {
+                    let keys: Vec<String> =
+                        command.keys.iter().map(|keys| commands::key_text(ctx, keys)).collect();
+                    ui.monospace(keys.join(", "));
+                    ui.label(command.name);
+                    ui.end_row();
+                }
+            });
+        });
+    });
+    is_closed
+        || modal.should_close()
+        || ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::F1))
+}
+
+/// What this program is; whether it is to be closed.
+fn about(ctx: &Context) -> bool {
+    let mut is_closed = false;
+    let modal = Modal::new(Id::unique("about")).show(ctx, |ui| {
+        ui.set_width(420.0);
+        ui.heading(format!("tatamu {}", env!("CARGO_PKG_VERSION")));
+        ui.label("turns a mesh into a paper model that folds flat");
+        ui.add_space(6.0);
+        ui.label("tatamu is free under the MIT licence or the Apache licence 2.0, as you choose.");
+        ui.label(
+            "Letters: Ubuntu Light and Hack in the window, Inter and Hershey's Roman on pages. Icons: Lucide (ISC).",
+        );
+        ui.add_space(8.0);
+        let close = ui.button("Close");
+        focus_once(ui, &close);
+        is_closed = close.clicked();
+    });
+    is_closed || modal.should_close()
+}
+
+impl Purpose {
+    /// The name with the extension that a project has, where it has none.
+    fn with_extension(self, path: PathBuf) -> PathBuf {
+        match self {
+            Purpose::Save if path.extension().is_none() => path.with_extension("toml"),
+            _ => path,
+        }
+    }
+}
+
+/// The folder of a file, for a dialog to begin in.
+pub fn folder(path: &Path) -> Option<PathBuf> {
+    path.parent().map(Path::to_owned)
+}

@@ -1,0 +1,94 @@
+//! The list of commands, found by a few letters of their names.
+
+use super::commands::Command;
+use eframe::egui::{self, Context, Id, Key, Modal, Modifiers};
+
+/// The list.
+#[derive(Debug, Default)]
+pub struct Finder {
+    text: String,
+    chosen: usize,
+}
+
+/// What the user did.
+pub enum Answer {
+    /// Nothing yet.
+    Open,
+    /// Left the list.
+    Closed,
+    /// Chose a command.
+    Run(&'static Command),
+}
+
+impl Finder {
+    /// Draws the list of the commands that can be done.
+    pub fn show(&mut self, ctx: &Context, commands: &[&'static Command]) -> Answer {
+        let step = |key| ctx.input_mut(|i| i.consume_key(Modifiers::NONE, key));
+        let (up, down, enter) = (step(Key::ArrowUp), step(Key::ArrowDown), step(Key::Enter));
+        let mut answer = Answer::Open;
+        let area = Modal::default_area(Id::unique("finder")).anchor(egui::Align2::CENTER_TOP, [0.0, 70.0]);
+        let modal = Modal::new(Id::unique("finder")).area(area).show(ctx, |ui| {
+            ui.set_width(520.0);
+            let field = egui::TextEdit::singleline(&mut self.text)
+                .hint_text("Find a command")
+                .desired_width(f32::INFINITY);
+            let field = ui.add(field);
+            field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Find a command"));
+            field.request_focus();
+            if field.changed() {
+                self.chosen = 0;
+            }
+            let found: Vec<&'static Command> =
+                commands.iter().copied().filter(|command| is_like(command, &self.text)).collect();
+            let last = found.len().saturating_sub(1);
+            self.chosen = (self.chosen + usize::from(down)).saturating_sub(usize::from(up)).min(last);
+            if enter && let Some(&command) = found.get(self.chosen) {
+                answer = Answer::Run(command);
+            }
+            ui.separator();
+            if found.is_empty() {
+                ui.weak("no command of this name");
+            }
+            egui::ScrollArea::vertical().max_height(340.0).auto_shrink([false, true]).show(ui, |ui| {
+                for (k, command) in found.into_iter().enumerate() {
+                    let text = format!("{}  {}", command.picture(), command.name);
+                    let item = egui::Button::selectable(k == self.chosen, text)
+                        .shortcut_text(command.key_text(ctx))
+                        .min_size(egui::vec2(ui.available_width(), 0.0));
+                    let item = ui.add(item);
+                    item.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, command.name));
+                    if k == self.chosen && (up || down) {
+                        item.scroll_to_me(None);
+                    }
+                    let item = if command.tip.is_empty() { item } else { item.on_hover_text(command.tip) };
+                    if item.clicked() {
+                        answer = Answer::Run(command);
+                    }
+                }
+            });
+        });
+        match answer {
+            Answer::Open if modal.should_close() => Answer::Closed,
+            answer => answer,
+        }
+    }
+}
+
+/// Whether each word that was typed is in the name or the tip of a command.
+fn is_like(command: &Command, text: &str) -> bool {
+    let all = format!("{} {}", command.name, command.tip).to_lowercase();
+    text.to_lowercase().split_whitespace().all(|word| all.contains(word))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::commands;
+    use super::*;
+
+    #[test]
+    fn words_find_commands_in_any_order() {
+        assert!(is_like(&commands::MERGE, "comp merge"));
+        assert!(is_like(&commands::OPEN, ""));
+        assert!(!is_like(&commands::OPEN, "merge"));
+    }
+}

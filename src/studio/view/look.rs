@@ -1,0 +1,230 @@
+//! How the window looks: colours of both themes, spacing, letters and icons.
+
+use eframe::egui::{
+    self, Color32, CornerRadius, FontData, FontDefinitions, FontId, Stroke, TextStyle, Theme, Visuals,
+};
+use lucide_icons::{Icon, LUCIDE_FONT_BYTES};
+use tatamu::drawing::Rgb;
+use tatamu::render::light::mixed;
+
+/// What is selected, in drawings of space and of sheets.
+pub const ACCENT: Color32 = Color32::from_rgb(230, 90, 20);
+/// What would overlap.
+pub const OVERLAP: Color32 = Color32::from_rgb(205, 30, 30);
+
+/// Colours of a theme.
+struct Tones {
+    panel: Color32,
+    window: Color32,
+    field: Color32,
+    button: Color32,
+    hovered: Color32,
+    line: Color32,
+    /// Around what can be pressed.
+    edge: Color32,
+    text: Color32,
+    strong: Color32,
+    weak: Color32,
+    link: Color32,
+    error: Color32,
+    warn: Color32,
+    selection: Color32,
+    on_selection: Color32,
+}
+
+const fn grey(level: u8) -> Color32 {
+    Color32::from_gray(level)
+}
+
+const LIGHT: Tones = Tones {
+    panel: grey(247),
+    window: grey(252),
+    field: grey(255),
+    button: grey(229),
+    hovered: grey(218),
+    line: grey(205),
+    edge: grey(138),
+    text: grey(40),
+    strong: grey(0),
+    weak: grey(92),
+    link: Color32::from_rgb(0, 84, 166),
+    error: Color32::from_rgb(176, 20, 20),
+    warn: Color32::from_rgb(138, 74, 0),
+    selection: Color32::from_rgb(196, 222, 250),
+    on_selection: Color32::from_rgb(0, 40, 90),
+};
+
+const DARK: Tones = Tones {
+    panel: Color32::from_rgb(32, 34, 38),
+    window: Color32::from_rgb(40, 42, 47),
+    field: Color32::from_rgb(20, 21, 24),
+    button: Color32::from_rgb(56, 59, 65),
+    hovered: Color32::from_rgb(70, 74, 82),
+    line: Color32::from_rgb(70, 73, 80),
+    edge: grey(118),
+    text: grey(218),
+    strong: grey(255),
+    weak: grey(168),
+    link: Color32::from_rgb(130, 186, 250),
+    error: Color32::from_rgb(255, 134, 124),
+    warn: Color32::from_rgb(250, 180, 80),
+    selection: Color32::from_rgb(30, 84, 140),
+    on_selection: grey(255),
+};
+
+/// Gives a window its look.
+pub fn set(ctx: &egui::Context) {
+    ctx.set_fonts(fonts());
+    for (theme, tones) in [(Theme::Light, &LIGHT), (Theme::Dark, &DARK)] {
+        ctx.set_visuals_of(theme, visuals(theme, tones));
+        ctx.style_mut_of(theme, |style| {
+            style.text_styles.insert(TextStyle::Body, FontId::proportional(14.0));
+            style.text_styles.insert(TextStyle::Button, FontId::proportional(14.0));
+            style.text_styles.insert(TextStyle::Small, FontId::proportional(12.0));
+            style.text_styles.insert(TextStyle::Heading, FontId::proportional(19.0));
+            style.spacing.item_spacing = egui::vec2(8.0, 5.0);
+            style.spacing.button_padding = egui::vec2(7.0, 3.0);
+            style.spacing.interact_size.y = 24.0;
+        });
+    }
+}
+
+/// The letters, with icons among them.
+fn fonts() -> FontDefinitions {
+    let mut fonts = FontDefinitions::default();
+    fonts.font_data.insert("lucide".to_owned(), FontData::from_static(LUCIDE_FONT_BYTES).into());
+    // Behind the font of the letters, before those that have other pictures in the same places.
+    for family in fonts.families.values_mut() {
+        family.insert(family.len().min(1), "lucide".to_owned());
+    }
+    fonts
+}
+
+fn visuals(theme: Theme, tones: &Tones) -> Visuals {
+    let mut visuals = theme.default_visuals();
+    visuals.panel_fill = tones.panel;
+    visuals.window_fill = tones.window;
+    visuals.window_stroke.color = tones.line;
+    visuals.extreme_bg_color = tones.field;
+    visuals.faint_bg_color = tones.panel.lerp_to_gamma(tones.text, 0.04);
+    visuals.weak_text_color = Some(tones.weak);
+    visuals.hyperlink_color = tones.link;
+    visuals.error_fg_color = tones.error;
+    visuals.warn_fg_color = tones.warn;
+    visuals.selection.bg_fill = tones.selection;
+    visuals.selection.stroke.color = tones.on_selection;
+    visuals.slider_trailing_fill = true;
+    visuals.striped = false;
+    let widgets = &mut visuals.widgets;
+    widgets.noninteractive.fg_stroke.color = tones.text;
+    widgets.noninteractive.bg_stroke.color = tones.line;
+    for (widget, fill, text) in [
+        (&mut widgets.inactive, tones.button, tones.text),
+        (&mut widgets.hovered, tones.hovered, tones.strong),
+        (&mut widgets.active, tones.hovered, tones.strong),
+        (&mut widgets.open, tones.button, tones.strong),
+    ] {
+        (widget.bg_fill, widget.weak_bg_fill) = (fill, fill);
+        widget.fg_stroke.color = text;
+        widget.bg_stroke = Stroke::new(1.0, tones.edge);
+    }
+    let widgets = [
+        &mut widgets.noninteractive,
+        &mut widgets.inactive,
+        &mut widgets.hovered,
+        &mut widgets.active,
+        &mut widgets.open,
+    ];
+    widgets.into_iter().for_each(|widget| widget.corner_radius = CornerRadius::same(5));
+    visuals
+}
+
+/// A picture, as a letter of the font of icons.
+pub fn icon(icon: Icon) -> String {
+    char::from(icon).to_string()
+}
+
+/// The colour behind the model.
+pub fn ground(visuals: &Visuals) -> Rgb {
+    if visuals.dark_mode { Rgb(38, 40, 44) } else { Rgb(246, 247, 249) }
+}
+
+/// The colour of a component as a line on white paper, where pale ones are hard to see.
+pub fn on_paper(colour: Rgb) -> Color32 {
+    of_rgb(mixed(colour, Rgb::BLACK, 0.2))
+}
+
+/// A colour of pictures in the window.
+pub fn of_rgb(Rgb(red, green, blue): Rgb) -> Color32 {
+    Color32::from_rgb(red, green, blue)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance, WCAG 2.2.
+    fn luminance(colour: Color32) -> f64 {
+        let linear = |c: u8| {
+            let c = f64::from(c) / 255.0;
+            if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) }
+        };
+        0.2126 * linear(colour.r()) + 0.7152 * linear(colour.g()) + 0.0722 * linear(colour.b())
+    }
+
+    fn contrast(a: Color32, b: Color32) -> f64 {
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    /// WCAG 2.2, 1.4.3. Weak text had 2.7 : 1.
+    #[test]
+    fn every_text_has_a_contrast_of_4_5_to_1() {
+        for (theme, tones) in [(Theme::Light, &LIGHT), (Theme::Dark, &DARK)] {
+            let visuals = visuals(theme, tones);
+            let texts = [
+                visuals.text_color(),
+                visuals.weak_text_color(),
+                visuals.hyperlink_color,
+                visuals.error_fg_color,
+                visuals.warn_fg_color,
+            ];
+            let grounds = [
+                visuals.panel_fill,
+                visuals.window_fill,
+                visuals.extreme_bg_color,
+                visuals.faint_bg_color,
+                of_rgb(ground(&visuals)),
+            ];
+            let mut pairs: Vec<(Color32, Color32)> =
+                texts.iter().flat_map(|&text| grounds.map(|ground| (text, ground))).collect();
+            let widgets = &visuals.widgets;
+            pairs.extend(
+                [&widgets.inactive, &widgets.hovered, &widgets.active, &widgets.open]
+                    .map(|w| (w.text_color(), w.weak_bg_fill)),
+            );
+            pairs.push((visuals.selection.stroke.color, visuals.selection.bg_fill));
+            // WCAG 2.2, 1.4.11: what can be pressed is told from what is around it.
+            for ground in [visuals.panel_fill, visuals.window_fill] {
+                let edge = contrast(visuals.widgets.inactive.bg_stroke.color, ground);
+                assert!(edge >= 3.0, "{theme:?}: edges on {ground:?}: {edge:.2}");
+            }
+            // Weak text stands on buttons of the menu, too: keys.
+            pairs.push((visuals.weak_text_color(), widgets.inactive.weak_bg_fill));
+            for (text, ground) in pairs {
+                assert!(
+                    contrast(text, ground) >= 4.5,
+                    "{theme:?}: {text:?} on {ground:?}: {:.2}",
+                    contrast(text, ground)
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn contrast_is_that_of_the_guidelines() {
+        assert!((contrast(Color32::WHITE, Color32::BLACK) - 21.0).abs() < 1e-9);
+        // The example of grey that just passes on white.
+        assert!((contrast(Color32::from_gray(0x76), Color32::WHITE) - 4.54).abs() < 0.01);
+    }
+}

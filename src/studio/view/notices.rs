@@ -1,0 +1,62 @@
+//! What the user is told, above the bar of the state: each message whole, with a button of its own to close it.
+
+use super::super::change::Change;
+use super::super::messages::Cause;
+use super::{Window, look};
+use eframe::egui::{self, RichText, Ui};
+use lucide_icons::Icon;
+
+/// So many are shown at once.
+const MOST: usize = 3;
+
+/// Draws them, the newest first.
+pub fn show(window: &mut Window, ui: &mut Ui) {
+    let messages: Vec<_> = window.studio.messages().iter().take(MOST).cloned().collect();
+    if messages.is_empty() {
+        return;
+    }
+    egui::Panel::bottom("messages").show(ui, |ui| {
+        ui.add_space(2.0);
+        for message in &messages {
+            let (picture, colour) = match message.is_problem {
+                true => (look::icon(Icon::CircleAlert), ui.visuals().error_fg_color),
+                false => (look::icon(Icon::Info), ui.visuals().text_color()),
+            };
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Min), |ui| {
+                let close = ui.small_button(look::icon(Icon::X));
+                close.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Dismiss"));
+                if close.on_hover_text("dismisses this message").clicked() {
+                    window.studio.messages_mut().clear(message.cause);
+                }
+                actions(window, ui, message.cause);
+                ui.with_layout(egui::Layout::left_to_right(egui::Align::Min), |ui| {
+                    ui.label(RichText::new(picture).color(colour).size(16.0));
+                    ui.add(egui::Label::new(RichText::new(&message.text).color(colour)).wrap());
+                });
+            });
+        }
+    });
+}
+
+/// What can be done about it.
+fn actions(window: &mut Window, ui: &mut Ui, cause: Cause) {
+    if cause == Cause::Model
+        && let Some(name) = window.studio.missing().map(str::to_owned)
+        && ui
+            .small_button(format!("Forget {name}"))
+            .on_hover_text("deletes its settings from the project")
+            .clicked()
+    {
+        window.studio.change(&Change::Forget { name }, None);
+    }
+    if cause == Cause::Export
+        && let Some(folder) = window.export.written_to().map(std::path::Path::to_owned)
+        && ui.small_button("Open folder").on_hover_text(folder.display().to_string()).clicked()
+    {
+        ui.ctx().open_url(egui::OpenUrl::new_tab(format!("file://{}", folder.display())));
+    }
+    if cause == Cause::Recovery && ui.small_button("Undo").on_hover_text("drops what was recovered").clicked()
+    {
+        window.studio.undo();
+    }
+}

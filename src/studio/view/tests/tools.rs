@@ -1,0 +1,267 @@
+//! What a user expects to find.
+
+use super::*;
+use crate::studio::change::Change;
+use crate::studio::scene;
+use egui_kittest::kittest::NodeT;
+use std::collections::BTreeSet;
+use tatamu::project::options::SIZE;
+
+#[test]
+fn every_control_has_a_name_for_those_who_do_not_see_it() {
+    let (mut desk, _folder) = open();
+    let at = on_component(&desk, 1);
+    press(&mut desk, at, Modifiers::NONE);
+    let roles = [
+        Role::Button,
+        Role::CheckBox,
+        Role::ComboBox,
+        Role::SpinButton,
+        Role::Slider,
+        Role::TextInput,
+        Role::Tab,
+        Role::Image,
+    ];
+    for mode in ["Model", "Sheets", "Export", "Plot"] {
+        desk.get_by_role_and_label(Role::Tab, mode).click();
+        desk.run_steps(5);
+        let mut count = 0;
+        for role in roles {
+            for node in desk.query_all_by_role(role) {
+                count += 1;
+                let tree = node.accesskit_node();
+                let name = tree.label().or(tree.value()).unwrap_or_default();
+                let is_word = name.chars().any(char::is_alphanumeric);
+                assert!(is_word, "{mode}: a {role:?} at {:?} is called {name:?}", node.rect());
+            }
+        }
+        assert!(count > 8, "{mode}: {count} controls");
+    }
+}
+
+#[test]
+fn values_are_read_out() {
+    let (desk, _folder) = open();
+    assert!(
+        desk.get_by_role_and_label(Role::SpinButton, "Size")
+            .value()
+            .is_some_and(|value| value.contains("200"))
+    );
+    assert!(desk.get_by_role_and_label(Role::Slider, "folded").accesskit_node().numeric_value().is_some());
+}
+
+#[test]
+fn all_is_reached_by_the_tab_key() {
+    let (mut desk, _folder) = open();
+    let mut seen = BTreeSet::new();
+    for _ in 0..120 {
+        desk.key_press(Key::Tab);
+        desk.run_ok();
+        let focused = desk.root().children_recursive().find(|node| node.is_focused());
+        seen.extend(focused.and_then(|node| node.accesskit_node().label()));
+    }
+    for name in ["File", "Model", "Undo", "Size", "Fold", "View from above"] {
+        // What cannot be done is left out.
+        assert!(seen.contains(name) || name == "Undo", "{name}: {seen:?}");
+    }
+}
+
+#[test]
+fn space_presses_the_button_that_has_the_focus() {
+    let (mut desk, _folder) = open();
+    desk.get_by_role_and_label(Role::Button, "Names of the components").focus();
+    desk.run_ok();
+    desk.key_press(Key::Space);
+    desk.run_steps(4);
+    assert!(!desk.state().space().is_playing());
+    assert!(!desk.state().space().shows_names());
+}
+
+#[test]
+fn a_command_is_found_by_its_name_and_run() {
+    let (mut desk, _folder) = open();
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    desk.run_ok();
+    desk.event(Event::Text("ghost".to_owned()));
+    desk.run_ok();
+    assert_eq!(desk.query_all_by_label("Ghost of the mesh").count(), 2, "in the list and in the bar");
+    desk.key_press(Key::Enter);
+    desk.run_ok();
+    assert!(desk.state().space().layers().input, "it is run");
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    desk.run_ok();
+    desk.key_press(Key::Escape);
+    desk.run_ok();
+    assert!(!desk.state().dialogs.is_open());
+}
+
+#[test]
+fn the_title_has_the_file_and_a_star() {
+    let (mut desk, _folder) = open();
+    assert_eq!(desk.state().title(), "snowman.toml – tatamu");
+    desk.state_mut().studio_mut().turn(0, 5.0, 0.0);
+    desk.run_ok();
+    assert_eq!(desk.state().title(), "snowman.toml * – tatamu");
+}
+
+#[test]
+fn components_are_hidden_isolated_and_shown() {
+    let (mut desk, _folder) = open();
+    let at = on_component(&desk, 1);
+    press(&mut desk, at, Modifiers::NONE);
+    let seen = |desk: &Desk| -> BTreeSet<usize> {
+        let [width, height] = desk.state().space().size_px().unwrap();
+        let all = (0..height).step_by(3).flat_map(|y| (0..width).step_by(3).map(move |x| (x, y)));
+        all.filter_map(|(x, y)| desk.state().space().tag_at(x, y)).map(|tag| tag.part).collect()
+    };
+    assert_eq!(seen(&desk).len(), 3);
+    desk.key_press(Key::I);
+    desk.run_ok();
+    assert_eq!(seen(&desk), BTreeSet::from([1]));
+    desk.key_press_modifiers(Modifiers::SHIFT, Key::H);
+    desk.run_ok();
+    assert_eq!(seen(&desk).len(), 3, "{:?}", desk.state().studio().visibility);
+    desk.key_press(Key::H);
+    desk.run_ok();
+    assert_eq!(seen(&desk), BTreeSet::from([0, 2]));
+    let shown = desk.state().studio().shown().part(1).unwrap().name.clone();
+    desk.get_by_label(&format!("Show {shown}")).scroll_to_me();
+    desk.run_ok();
+    click(&mut desk, &format!("Show {shown}"));
+    assert_eq!(seen(&desk).len(), 3, "{:?}", desk.state().studio().visibility);
+}
+
+/// The pages of before were drawn under the outlines of now, and stayed.
+#[test]
+fn pages_and_outlines_are_of_one_layout() {
+    let (mut desk, _folder) = open();
+    wait_for(&mut desk, "Sheet 1");
+    for size_mm in [170.0, 120.0] {
+        let change = Change::Set { option: &SIZE, value: Some(size_mm.into()) };
+        desk.state_mut().studio_mut().change(&change, None);
+        settle(&mut desk, "the model", |s| s.finished().is_some());
+        let start = Instant::now();
+        while desk.state().sheets.drawn().unwrap().0 != desk.state().studio().shown().sheets_version() {
+            assert!(start.elapsed() < Duration::from_secs(60), "the pages do not come");
+            desk.run_steps(1);
+        }
+        let studio = desk.state().studio();
+        let (opened, project) = (studio.opened().unwrap(), studio.document().unwrap().project());
+        let wanted = crate::studio::pages::drawings(opened, project, studio.finished().unwrap()).unwrap();
+        assert!(desk.state().sheets.drawn().unwrap().1 == wanted);
+        let pictures = desk.state().sheets.picture_versions();
+        assert!(pictures.iter().all(|version| *version == studio.shown().sheets_version()), "{pictures:?}");
+    }
+}
+
+#[test]
+fn what_the_mouse_is_over_is_marked_in_both_views() {
+    let (mut desk, _folder) = open();
+    wait_for(&mut desk, "Sheet 1");
+    let at = on_component(&desk, 1);
+    desk.event(Event::PointerMoved(at));
+    desk.run_ok();
+    let hover = desk.state().studio().hover.clone().expect("over a component");
+    assert!(hover.is_on(1));
+    desk.run_ok();
+    // The same from a sheet.
+    let output = desk.state().studio().finished().unwrap().clone();
+    let outlines = crate::studio::pages::outlines(&output, 0);
+    let (id, outline) = &outlines[0];
+    let page = desk.get_by_label("Sheet 1").rect();
+    let scale = page.width() / output.layout().options().size_mm().x as f32;
+    let edges = outline.windows(2).map(|w| w[0].midpoint(w[1]) + (w[1] - w[0]).perp().normalize() * 1.5);
+    let inside =
+        edges.into_iter().find(|&at| crate::studio::pages::piece_at(&outlines, at) == Some(*id)).unwrap();
+    let at = egui::pos2(page.left() + scale * inside.x as f32, page.bottom() - scale * inside.y as f32);
+    desk.event(Event::PointerMoved(at));
+    desk.run_ok();
+    assert!(desk.state().studio().hover.as_ref().is_some_and(|hover| hover.is_on(id.net)));
+}
+
+#[test]
+fn the_axes_turn_the_view() {
+    let (mut desk, _folder) = open();
+    click(&mut desk, "View from above");
+    assert!(desk.state().space().orbit().unwrap().elevation_rad > 1.4);
+    click(&mut desk, "View from the right");
+    let orbit = *desk.state().space().orbit().unwrap();
+    assert_eq!((orbit.azimuth_rad, orbit.elevation_rad), (std::f64::consts::FRAC_PI_2, 0.0));
+}
+
+#[test]
+fn lines_on_the_ground_are_round_numbers_apart() {
+    for (diagonal_mm, step_mm) in [(200.0, 10.0), (210.0, 20.0), (1000.0, 50.0), (37.0, 2.0)] {
+        assert_eq!(scene::grid_mm(diagonal_mm), step_mm, "{diagonal_mm}");
+    }
+}
+
+#[test]
+fn files_are_replaced_only_after_a_question() {
+    let (mut desk, folder) = open();
+    let pdf = folder.path().join("snowman.pdf");
+    std::fs::write(&pdf, "mine").unwrap();
+    click(&mut desk, "Export");
+    click(&mut desk, "Write files");
+    assert!(desk.query_by_label("Replace files?").is_some());
+    click(&mut desk, "Cancel");
+    assert_eq!(std::fs::read(&pdf).unwrap(), b"mine");
+    click(&mut desk, "Write files");
+    click(&mut desk, "Replace");
+    settle(&mut desk, "the file", |s| s.notice().is_some() || s.problem().is_some());
+    assert!(std::fs::read(&pdf).unwrap().starts_with(b"%PDF"));
+    assert!(desk.query_by_label("Open folder").is_some());
+}
+
+#[test]
+fn options_are_those_of_the_formats_that_are_ticked() {
+    let (mut desk, _folder) = open();
+    click(&mut desk, "Export");
+    assert!(desk.query_by_role_and_label(Role::ComboBox, "Tile").is_some());
+    assert!(desk.query_by_role_and_label(Role::SpinButton, "Dpi").is_none());
+    click(&mut desk, "snowman.pdf");
+    click(&mut desk, "snowman.png");
+    assert!(desk.query_by_role_and_label(Role::ComboBox, "Tile").is_none());
+    assert!(desk.query_by_role_and_label(Role::SpinButton, "Dpi").is_some());
+}
+
+#[test]
+fn a_sample_opens_from_the_start_page() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut desk = window(folder.path());
+    desk.run_ok();
+    click(&mut desk, "Sample: Gift box");
+    settle(&mut desk, "the sample", |s| s.finished().is_some() || s.problem().is_some());
+    assert_eq!(desk.state().studio().problem(), None);
+    assert_eq!(desk.state().studio().shown().names().len(), 3);
+}
+
+#[test]
+fn the_tour_is_shown_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let project = snowman(folder.path());
+    let store = Store::at(&folder.path().join("state"));
+    let mut desk = desk_with(store.clone());
+    desk.state_mut().open(&project);
+    settle(&mut desk, "a model", |s| s.finished().is_some());
+    for step in 1..=5 {
+        assert!(desk.query_by_label(&format!("{step} of 5")).is_some(), "step {step}");
+        click(&mut desk, if step < 5 { "Next" } else { "Done" });
+    }
+    assert!(desk.state().tour.is_none());
+    desk.run_ok();
+    assert!(store.preferences().has_seen_tour);
+}
+
+#[test]
+fn a_mesh_that_another_program_changes_is_read_again() {
+    let (mut desk, folder) = open();
+    let before = desk.state().studio().opened().unwrap().engine.mesh().faces().len();
+    desk.state_mut().studio_mut().turn(1, 10.0, 0.0);
+    let text = desk.state().studio().document().unwrap().text().to_owned();
+    let mesh = include_bytes!("../../../../samples/rabbit.obj");
+    std::fs::write(folder.path().join("snowman.obj"), mesh).unwrap();
+    settle(&mut desk, "the mesh", |s| s.opened().unwrap().engine.mesh().faces().len() != before);
+    assert!(desk.state().studio().notice().is_some_and(|notice| notice.contains("snowman.obj")));
+    assert_eq!(desk.state().studio().document().unwrap().text(), text, "the project stays");
+}

@@ -1,0 +1,105 @@
+//! The tour: five steps, each beside what it is about.
+
+use eframe::egui::{self, Context, Rect, Stroke};
+
+/// What a step is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spot {
+    /// The settings at the left.
+    Settings,
+    /// The model in space.
+    Model,
+    /// The slider of the folding.
+    Folding,
+    /// The sheets.
+    Sheets,
+}
+
+/// Title, text and place of each step.
+const STEPS: [(&str, &str, Spot); 5] = [
+    (
+        "The model",
+        "Your mesh is divided into parts, and each becomes a component that folds flat. Drag to rotate the view, turn the wheel to zoom.",
+        Spot::Model,
+    ),
+    (
+        "Fold directions",
+        "Click a component, then turn the wheel over it: its fold direction rotates, and the new component appears at once. Ctrl+Z takes anything back.",
+        Spot::Model,
+    ),
+    (
+        "Settings",
+        "Size, number of parts and detail are here, and the list of components. Merge parts, hide or rename them.",
+        Spot::Settings,
+    ),
+    (
+        "Folding",
+        "Press Space, or drag this slider, to fold the model. Red marks show where components clash.",
+        Spot::Folding,
+    ),
+    (
+        "Sheets and files",
+        "These pages are what you print. Drag a piece to move it. Export writes PDF, SVG and more; Plot drives a cutter. Ctrl+K finds every command.",
+        Spot::Sheets,
+    ),
+];
+
+/// Where the tour is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Tour {
+    step: usize,
+}
+
+impl Tour {
+    /// Draws the step; false when the user is through. `place` tells where things are.
+    pub fn show(&mut self, ctx: &Context, place: impl Fn(Spot) -> Option<Rect>) -> bool {
+        let (title, text, spot) = STEPS[self.step.min(STEPS.len() - 1)];
+        let screen = ctx.content_rect();
+        let around = place(spot).unwrap_or(screen);
+        let layer = egui::LayerId::new(egui::Order::Middle, egui::Id::unique("tour mark"));
+        ctx.layer_painter(layer).rect_stroke(
+            around.shrink(2.0),
+            4.0,
+            Stroke::new(2.5, super::look::ACCENT),
+            egui::StrokeKind::Inside,
+        );
+        let mut goes_on = true;
+        // Beside narrow things, inside wide ones.
+        let at = if around.width() < 0.4 * screen.width() {
+            around.right_top() + egui::vec2(14.0, 40.0)
+        } else if around.height() < 120.0 && around.top() > screen.center().y {
+            around.center_top() - egui::vec2(180.0, 190.0)
+        } else {
+            around.left_top() + egui::vec2(30.0, 60.0)
+        };
+        egui::Window::new("Tour")
+            .title_bar(false)
+            .resizable(false)
+            .fixed_pos(at)
+            .fixed_size([360.0, 150.0])
+            .show(ctx, |ui| {
+                ui.horizontal(|ui| {
+                    ui.heading(title);
+                    ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                        ui.weak(format!("{} of {}", self.step + 1, STEPS.len()));
+                    });
+                });
+                ui.label(text);
+                ui.add_space(8.0);
+                ui.horizontal(|ui| {
+                    let is_last = self.step + 1 == STEPS.len();
+                    if ui.button(if is_last { "Done" } else { "Next" }).clicked() {
+                        goes_on = !is_last;
+                        self.step += 1;
+                    }
+                    if self.step > 0 && !is_last && ui.button("Back").clicked() {
+                        self.step -= 1;
+                    }
+                    if !is_last && ui.button("Skip the tour").clicked() {
+                        goes_on = false;
+                    }
+                });
+            });
+        goes_on
+    }
+}

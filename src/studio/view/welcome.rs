@@ -1,0 +1,120 @@
+//! What is shown before a file is open: samples and recent files.
+
+use super::{Window, commands, look};
+use eframe::egui::{self, RichText, Ui};
+use lucide_icons::Icon;
+use std::path::PathBuf;
+
+/// A file that comes with the program.
+struct Sample {
+    title: &'static str,
+    about: &'static str,
+    file: &'static str,
+    bytes: &'static [u8],
+}
+
+const SAMPLES: [Sample; 4] = [
+    Sample {
+        title: "Teddy",
+        about: "a mesh in eight parts",
+        file: "teddy.obj",
+        bytes: include_bytes!("../../../samples/teddy.obj"),
+    },
+    Sample {
+        title: "Rabbit",
+        about: "a mesh with long ears",
+        file: "rabbit.obj",
+        bytes: include_bytes!("../../../samples/rabbit.obj"),
+    },
+    Sample {
+        title: "Teapot",
+        about: "a mesh with handle and spout",
+        file: "teapot.obj",
+        bytes: include_bytes!("../../../samples/teapot.obj"),
+    },
+    Sample {
+        title: "Gift box",
+        about: "drawn in a project file",
+        file: "gift-box.toml",
+        bytes: include_bytes!("../../../samples/gift-box.toml"),
+    },
+];
+
+/// Draws it.
+pub fn show(window: &mut Window, ui: &mut Ui) {
+    ui.vertical_centered(|ui| {
+        ui.add_space(0.10 * ui.available_height());
+        ui.heading(RichText::new("tatamu").size(36.0).strong());
+        ui.label(RichText::new("turns a mesh into a paper model that folds flat").size(16.0));
+        ui.add_space(22.0);
+        if window.studio.tasks.is_busy() {
+            ui.spinner();
+            ui.label("reading …");
+        } else {
+            let text = RichText::new(format!("{}  Open a mesh or a project …", look::icon(Icon::FolderOpen)))
+                .size(17.0);
+            let button = ui.add(egui::Button::new(text).min_size(egui::vec2(300.0, 40.0)));
+            let name = "Open a mesh or a project …";
+            button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
+            if button.on_hover_text(commands::OPEN.hover_text(ui.ctx())).clicked() {
+                commands::OPEN.run(window, ui.ctx());
+            }
+        }
+        ui.add_space(4.0);
+        ui.weak("or drop a file here: OBJ, STL, PLY, OFF, glTF, GLB, 3MF, or a project (TOML)");
+        ui.add_space(26.0);
+        ui.strong("Try a sample");
+        ui.add_space(2.0);
+        let width = 4.0 * 160.0 + 3.0 * 8.0;
+        ui.allocate_ui(egui::vec2(width, 54.0), |ui| {
+            ui.horizontal(|ui| SAMPLES.iter().for_each(|sample| card(window, ui, sample)));
+        });
+        let files = window.studio.recent();
+        if !files.is_empty() {
+            ui.add_space(22.0);
+            ui.strong("Open recent");
+            for path in files {
+                let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                if ui.link(name).on_hover_text(path.display().to_string()).clicked() {
+                    window.open(&path);
+                }
+            }
+        }
+        ui.add_space(22.0);
+        ui.horizontal(|ui| {
+            ui.add_space(0.5 * ui.available_width() - 90.0);
+            for command in [&commands::SHORTCUTS, &commands::FIND] {
+                let tip = command.hover_text(ui.ctx());
+                if ui.link(command.name).on_hover_text(tip).clicked() {
+                    command.run(window, ui.ctx());
+                }
+            }
+        });
+    });
+}
+
+fn card(window: &mut Window, ui: &mut Ui, sample: &Sample) {
+    let text = format!("{}\n{}", sample.title, sample.about);
+    let button = ui.add(egui::Button::new(text).min_size(egui::vec2(160.0, 50.0)));
+    let name = format!("Sample: {}", sample.title);
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
+    if button.clicked() {
+        match unpacked(window, sample) {
+            Ok(path) => window.open(&path),
+            Err(problem) => {
+                window.studio.messages_mut().warn(super::super::messages::Cause::Opening, problem)
+            }
+        }
+    }
+}
+
+/// The sample as a file in a folder of the studio's own.
+fn unpacked(window: &Window, sample: &Sample) -> Result<PathBuf, String> {
+    let folder = window.studio.samples().ok_or("there is no folder for samples; set HOME")?;
+    let path = folder.join(sample.file);
+    if !path.exists() {
+        crate::app::output::write(&[(path.clone(), sample.bytes.to_vec())])
+            .map_err(|error| error.to_string())?;
+    }
+    Ok(path)
+}
