@@ -7,27 +7,20 @@
 //!
 //! The state knows nothing of the window, and is tested without it.
 
-mod change;
-mod document;
-mod opened;
-mod pages;
 mod planning;
 mod plotting;
-mod results;
-mod scene;
-mod selection;
 mod state;
 mod store;
-mod surface;
 mod tasks;
 #[cfg(test)]
 mod tests;
 mod view;
-mod words;
 mod worker;
 
 use crate::app::error::AppError;
 use std::path::PathBuf;
+use tatamu::front::{opened, pages, results, scene, selection, surface, words};
+use tatamu::project::{change, document};
 
 /// Opens the window, with a file if one is given.
 pub fn run(input: Option<PathBuf>) -> Result<(), AppError> {

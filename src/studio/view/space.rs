@@ -75,7 +75,7 @@ impl Space {
         self.setting.clash = Some(clash);
         self.setting.layers.components = true;
         self.is_playing = false;
-        if let Some(moment) = scene::moment(studio, &clash) {
+        if let Some(moment) = scene::moment(studio.shown(), &clash) {
             self.setting.folded = moment;
         }
     }
@@ -195,7 +195,7 @@ impl Space {
             .is_none_or(|(v, s, setting, _)| *v != version || *s != selection || *setting != self.setting);
         if is_old {
             let was_other = self.solids.as_ref().is_none_or(|s| s.3.facets.is_empty());
-            let solids = scene::scene(studio, &self.setting);
+            let solids = scene::scene(&studio.seen(), &self.setting);
             self.solids = Some((version, selection, self.setting.clone(), solids));
             if was_other {
                 self.orbit = None;

@@ -3,8 +3,8 @@
 use super::super::change::{Change, to_digits};
 use super::super::state::Studio;
 use eframe::egui::{self, DragValue, Ui};
-use std::ops::RangeInclusive;
-use tatamu::project::options::{Dial, Entry, Kind, Range, Settings, Unit};
+use tatamu::front::dials;
+use tatamu::project::options::{Dial, Entry, Kind, Settings, Unit};
 use toml_edit::Value;
 
 /// An option that has a row.
@@ -129,19 +129,6 @@ impl Dialled {
         if self.is_count() { (x.round() as i64).into() } else { to_digits(x, self.dial.digits).into() }
     }
 
-    /// Least and most that can be dragged to.
-    fn range(&self) -> RangeInclusive<f64> {
-        match (&self.option.kind, self.dial.span) {
-            (_, Some((least, most))) => least..=most,
-            (Kind::Count(count), _) => count.least as f64..=count.most as f64,
-            (Kind::Number(number), _) => match number.range {
-                Range::Within(least, most) => least..=most,
-                Range::Positive | Range::NotNegative => 0.0..=f64::INFINITY,
-            },
-            (Kind::Switch(_) | Kind::Text(_), _) => 0.0..=1.0,
-        }
-    }
-
     fn suffix(&self) -> &'static str {
         match &self.option.kind {
             Kind::Number(number) if number.unit == Unit::Length => " mm",
@@ -154,7 +141,7 @@ impl Dialled {
     /// The field; what the user made of it.
     fn field(&self, ui: &mut Ui, now: f64, label: egui::Id, studio: &mut Studio) -> Option<f64> {
         let mut x = now;
-        let range = self.range();
+        let range = dials::range(self.option);
         let span = range.end() - range.start();
         let field = DragValue::new(&mut x)
             .range(range)

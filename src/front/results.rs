@@ -1,0 +1,123 @@
+//! What is shown of the work: the last good results.
+
+use super::surface::Distances;
+use tatamu::model::ModelPart;
+use tatamu::pipeline::{Options, Output, Shaped};
+
+/// The work that goes on.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Busy {
+    /// What is being done.
+    pub stage: &'static str,
+    /// Share of it that is done, as far as that is known.
+    pub fraction: Option<f64>,
+}
+
+/// The last good results. They stay while others are made.
+#[derive(Debug, Default)]
+pub struct Shown {
+    shaped: Option<Shaped>,
+    /// A component that is newer than the model.
+    ahead: Option<(usize, ModelPart)>,
+    output: Option<Output>,
+    /// Whether the order of folding of `output` is known.
+    is_folded: bool,
+    distances: Option<Distances>,
+    /// Changes whenever what is shown does.
+    version: u64,
+}
+
+impl Shown {
+    /// Forgets everything: another file is open.
+    pub fn clear(&mut self) {
+        *self = Self { version: self.version + 1, ..Self::default() };
+    }
+
+    /// A component that is made before all others.
+    pub fn show_component(&mut self, index: usize, component: ModelPart) {
+        if self.part(index).is_some_and(|old| *old != component) {
+            self.ahead = Some((index, component));
+            self.version += 1;
+        }
+    }
+
+    /// All components.
+    pub fn show_shaped(&mut self, shaped: Shaped) {
+        self.shaped = Some(shaped);
+        (self.ahead, self.distances) = (None, None);
+        self.version += 1;
+    }
+
+    /// Distances between surface and components.
+    pub fn show_distances(&mut self, distances: Distances) {
+        self.distances = Some(distances);
+        self.version += 1;
+    }
+
+    /// The sheets, perhaps with the order of folding.
+    pub fn show_output(&mut self, output: Output, is_folded: bool) {
+        (self.output, self.is_folded) = (Some(output), is_folded);
+        self.version += 1;
+    }
+
+    /// The sheets of a project that asks for these options; perhaps it is not known yet how the model
+    /// folds. Drawn components have the size that the drawing measures.
+    pub fn laid(&self, options: &Options, is_drawn: bool) -> Option<&Output> {
+        let is_of = |output: &&Output| match is_drawn {
+            false => output.options() == options,
+            true => {
+                let size_mm = output.options().size_mm;
+                *output.options() == Options { size_mm, ..options.clone() }
+            }
+        };
+        self.output.as_ref().filter(is_of)
+    }
+
+    /// Index of a component by the name that options go by.
+    pub fn index_of(&self, name: &str) -> Option<usize> {
+        self.names().iter().position(|n| n == name)
+    }
+
+    /// The model and what it is made of.
+    pub fn shaped(&self) -> Option<&Shaped> {
+        self.shaped.as_ref()
+    }
+
+    /// The component of an index, the newest that there is.
+    pub fn part(&self, index: usize) -> Option<&ModelPart> {
+        match &self.ahead {
+            Some((own, part)) if *own == index => Some(part),
+            _ => self.shaped.as_ref()?.model().parts().get(index),
+        }
+    }
+
+    /// The component that is newer than the model, if there is one.
+    pub fn ahead(&self) -> Option<usize> {
+        self.ahead.as_ref().map(|(index, _)| *index)
+    }
+
+    /// All results.
+    pub fn output(&self) -> Option<&Output> {
+        self.output.as_ref()
+    }
+
+    /// Whether it is known in which order the results fold, and what clashes.
+    pub fn is_folded(&self) -> bool {
+        self.is_folded
+    }
+
+    /// Distances between surface and components, where they are of this model.
+    pub fn distances(&self) -> Option<&Distances> {
+        self.distances.as_ref()
+    }
+
+    /// Changes whenever what is shown does.
+    pub fn version(&self) -> u64 {
+        self.version
+    }
+
+    /// Names of the components that edits and options go by.
+    pub fn names(&self) -> &[String] {
+        self.shaped.as_ref().map_or(&[], |shaped| shaped.divided().hulls().names())
+    }
+}
