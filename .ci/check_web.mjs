@@ -1,8 +1,8 @@
 // The page in a browser, as a maker uses it: a mesh is dropped and becomes files; parts are turned, merged, split;
-// a job goes to a stub of a serial port; all again without a network. And the same files as the native program's.
+// a job goes to a stub of a serial port; then without a network, and on a phone. And the files of the native program.
 // check_web.mjs PAGE TATAMU FOLDER [FOLDER FOR PICTURES]; the files it downloads are left in FOLDER.
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, readdirSync, renameSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { createRequire } from "node:module";
 import { extname, join, resolve } from "node:path";
@@ -21,7 +21,7 @@ const expect = (holds, what) => {
 const figure = (name, value) => console.log(`      ${name}: ${value}`);
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 
-// ---- The same bytes as the native program, in formats that are text.
+// ---- The same files as the native program's.
 
 const door = await import(pathToFileURL(join(root, "tatamu.js")));
 globalThis.tatamu = { stage() {}, fraction() {}, is_cancelled: () => false };
@@ -30,33 +30,40 @@ door.initSync({ module: wasm });
 const native = join(folder, "native");
 mkdirSync(native, { recursive: true });
 
-function made(sample) {
+const made = (sample) => {
   const desk = new door.Desk();
   desk.add(sample, readFileSync(join("samples", sample)));
   desk.open(sample);
   while (desk.work());
   return desk;
-}
-for (const sample of ["teddy.obj", "snowman.obj", "box.obj", "gift-box.toml", "lamp.toml"]) {
+};
+// Sines of the system's library end in other digits than those of WebAssembly. Where a search compares them, as
+// in all samples but these, it may take another of two equal ways; what it finds must fold flat all the same.
+const SAME = { "box.obj": ["svg", "dxf", "pdf", "fold", "obj", "stl", "plt"], "gift-box.toml": ["svg", "dxf", "pdf", "stl"] };
+for (const [sample, formats] of Object.entries(SAME)) {
   const stem = sample.replace(/\.\w+$/, "");
-  const formats = ["svg", "dxf", "fold", "obj", "plt", "pdf", "glb", "3mf", "stl"].filter((format) => existsFormat(format));
-  const own = formats.filter((format) => format !== "plt" || !sample.endsWith(".toml"));
-  const outputs = own.flatMap((format) => ["-o", join(native, `${stem}.${format}`)]);
-  execFileSync(tatamu, ["make", join("samples", sample), "--quiet", ...outputs], { stdio: "pipe", env: { ...process.env, RAYON_NUM_THREADS: "1" } });
+  const outputs = formats.flatMap((format) => ["-o", join(native, `${stem}.${format}`)]);
+  execFileSync(tatamu, ["make", join("samples", sample), "--quiet", ...outputs], { stdio: "pipe" });
   const desk = made(sample);
-  const other = [];
-  for (const format of own) {
+  for (const format of formats) {
     for (const file of desk.export(format)) {
-      const theirs = join(native, file.name);
-      const isSame = existsSync(theirs) && Buffer.compare(readFileSync(theirs), Buffer.from(file.bytes)) === 0;
-      if (!isSame) { other.push(file.name); writeFileSync(join(folder, file.name), file.bytes); }
+      expect(readFileSync(join(native, file.name)).equals(Buffer.from(file.bytes)), `${file.name}: the same bytes as the native program`);
     }
   }
-  expect(other.length === 0, `${sample}: the same bytes as the native program, but for ${other.join(", ")}`);
   desk.free();
 }
-function existsFormat(format) {
-  return JSON.parse(door.choices()).formats.some(({ id }) => id === format);
+for (const sample of ["teddy.obj", "snowman.obj", "lamp.toml"]) {
+  const desk = made(sample);
+  const told = JSON.parse(desk.told());
+  const [file] = desk.export("fold");
+  const path = join(folder, file.name);
+  writeFileSync(path, file.bytes);
+  execFileSync(tatamu, ["check", path, "--quiet"], { stdio: "pipe" });
+  const report = join(native, "report.json");
+  execFileSync(tatamu, ["make", join("samples", sample), "--quiet", "-o", report], { stdio: "pipe" });
+  const names = JSON.parse(readFileSync(report)).components.map((part) => part.name);
+  expect(told.parts.map((part) => part.name).join() === names.join(), `${sample}: the components of the native program`);
+  desk.free();
 }
 
 // ---- The page.
@@ -254,7 +261,6 @@ if (await page.$eval("#busy", (busy) => !busy.hidden)) {
 }
 
 // Accessible, as far as a program can tell.
-await page.addScriptTag({ content: "" }).catch(() => {});
 const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 await page.evaluate(axe);
 const found = await page.evaluate(() => axe.run({ resultTypes: ["violations"] }));
@@ -263,7 +269,6 @@ expect(serious.length === 0, `axe: ${JSON.stringify(serious.map(({ id, nodes }) 
 
 // A job on the stub: pause, go on, stop with the tool up, continue.
 const isUp = () => page.evaluate(() => /(^|;|\x1b[^;]*)PU[^;]*;?(?!.*PD)/s.test(globalThis.got.text.slice(globalThis.got.text.lastIndexOf("PD") + 1)));
-await page.evaluate(() => { dispatchEvent(new Event("x")); });
 await drop("box.obj");
 await pause(500);
 await until("the box is finished", isDone);
@@ -271,6 +276,7 @@ await page.click("#plot");
 await page.select("#machine", "hp-7475a");
 await page.select("#medium", "pen");
 await until("the job is ready", () => !document.getElementById("job-start").disabled && document.getElementById("job-note").textContent.includes("stroke"));
+expect((await page.$$("#job option")).length > 1, "each sheet is a job");
 await picture("plot");
 const status = () => page.$eval("#job-status", (p) => p.textContent);
 await page.click("#job-start");
@@ -304,6 +310,10 @@ await until("a sample is made without a network", isDone);
 
 // A phone.
 await page.setViewport({ width: 390, height: 844, isMobile: true, hasTouch: true, deviceScaleFactor: 2 });
+// The browser loads a page anew for a phone.
+await page.waitForSelector("#samples button");
+await page.evaluate(() => [...document.querySelectorAll("#samples button")].find((button) => button.textContent === "snowman").click());
+await until("a sample is made on a phone", isDone);
 await pause(700);
 const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
 expect((await overflow()) <= 0, `the work is ${await overflow()} px too wide for a phone`);

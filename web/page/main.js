@@ -16,12 +16,13 @@ const element = (name, properties = {}, ...children) => {
   made.append(...children);
   return made;
 };
+const counted = (count, one) => `${count} ${one}${count === 1 ? '' : 's'}`;
 const say = text => { by('said').textContent = text; };
 
 // ---- The two workers.
 
 const files = new Map();
-let opened = null, told = null, choices = null, module = null;
+let opened = null, told = null, kept = null, choices = null, module = null;
 let work = null, number = 0;
 const answers = new Map();
 
@@ -73,6 +74,7 @@ const heard = ({ data }) => {
   } else if (data.problem) {
     problem(data.problem);
   } else if (data.told) {
+    kept = data.project;
     show(data.told);
     if (data.sheets) showSheets(data.sheets);
   }
@@ -171,13 +173,14 @@ function show(now) {
   by('title').textContent = now.title;
   document.title = `${now.title} – tatamu`;
   by('busy').hidden = !now.is_busy;
-  if (wasBusy && !now.is_busy && now.facts) say(`${now.title} is ready: ${now.facts.components} components on ${now.facts.sheets} sheets`);
+  if (now.is_busy && !wasBusy) by('problem').hidden = true;
+  if (wasBusy && !now.is_busy && now.facts) say(`${now.title} is ready: ${counted(now.facts.components, 'component')} on ${counted(now.facts.sheets, 'sheet')}`);
   for (const [id, label] of [['undo', now.undo], ['redo', now.redo]]) {
     by(id).disabled = !label;
     by(id).title = label ? `${id} ${label}` : '';
   }
   const f = now.facts;
-  by('facts').textContent = f ? `${f.size} · ${f.components} components, ${f.pieces} pieces, ${f.sheets} ${f.sheets === 1 ? 'sheet' : 'sheets'} of ${f.paper} · work ${f.work}${f.order?.length > 1 ? ` · folds in the order ${f.order.join(', ')}` : ''}` : '';
+  by('facts').textContent = f ? `${f.size} · ${counted(f.components, 'component')}, ${counted(f.pieces, 'piece')}, ${counted(f.sheets, 'sheet')} of ${f.paper} · work ${f.work}${f.order?.length > 1 ? ` · folds in the order ${f.order.join(', ')}` : ''}` : '';
   const set = component => (row, value, isGesture) => {
     stopPlaying(0);
     act('set', row.option, JSON.stringify(value), component, isGesture);
@@ -429,19 +432,16 @@ by('split-here').onclick = () => { act('split', sight.axis, sight.share); endSpl
 
 // The work is stopped with its worker. Another one knows the project and makes it at the next change.
 by('cancel').onclick = async () => {
-  const text = told?.undo && kept ? kept : undefined;
   work.terminate();
   for (const { failed } of answers.values()) failed('stopped');
   answers.clear();
   await hire();
-  await ask('open', [...files], opened, text).catch(problem);
+  await ask('open', [...files], opened, kept).catch(problem);
   by('busy').hidden = true;
   told = { ...told, is_busy: false };
   say('stopped');
   problem('Stopped; the next change starts it again.');
 };
-let kept = null;
-setInterval(async () => { if (opened && told && !told.is_busy) kept = await ask('project').catch(() => kept); }, 2000);
 
 // ---- Files.
 
@@ -469,16 +469,23 @@ addEventListener('click', event => { if (!by('downloads').contains(event.target)
 
 // ---- Machines.
 
-let jobs = [], live = null, done = 0;
+let jobs = [], live = null, done = 0, preparing = 0;
 const chosen = () => jobs[Number(by('job').value)];
 
+// What is chosen last counts.
 async function prepare() {
+  number += 1;
+  const own = (preparing = number);
+  by('job-start').disabled = true;
   by('job-status').textContent = 'preparing the job';
   try {
-    jobs = await ask('jobs', by('machine').value, by('medium').value);
+    const made = await ask('jobs', by('machine').value, by('medium').value);
+    if (own !== preparing) return;
+    jobs = made;
     by('job').replaceChildren(...jobs.map((job, k) => element('option', { value: k, textContent: job.name })));
     ready();
   } catch (error) {
+    if (own !== preparing) return;
     jobs = [];
     by('job').replaceChildren();
     by('job-note').textContent = '';

@@ -25,7 +25,7 @@ function show() {
 
 function tell() {
   const now = JSON.parse(desk.told());
-  const message = { told: now };
+  const message = { told: now, project: desk.project() };
   const facts = JSON.stringify([now.facts && { ...now.facts, order: null }, now.title]);
   if (now.facts && facts + now.is_busy !== laid) {
     laid = facts + now.is_busy;
