@@ -13,6 +13,12 @@
 //! radians, unless a name says otherwise.
 #![warn(missing_docs, clippy::print_stdout, clippy::print_stderr)]
 
+// What the modules write is the same for the program, which is another crate.
+extern crate self as tatamu;
+
+#[allow(missing_docs)]
+pub mod app;
+pub mod front;
 pub mod project;
 
 pub use tatamu_check as check;

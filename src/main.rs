@@ -1,9 +1,10 @@
 //! The program `tatamu`.
 
-mod app;
 mod cli;
 #[cfg(feature = "studio")]
 mod studio;
+
+use tatamu::app;
 
 /// Two threads that make many small lists get in each other's way less with it: a twentieth of
 /// the time of `make`.

@@ -101,11 +101,19 @@ pub fn files(path: &Path) -> Vec<PathBuf> {
     std::iter::once(path.to_owned()).chain(mesh).collect()
 }
 
+/// Gives the content of a file.
+pub type Fetch<'a> = &'a dyn Fn(&Path) -> std::io::Result<Vec<u8>>;
+
 /// Reads a mesh or a project file.
 pub fn read(path: &Path) -> Result<Input, AppError> {
-    let bytes = read_file(path)?;
+    read_by(&fetch, path)
+}
+
+/// The same from a place that is not the disk.
+pub fn read_by(fetch: Fetch<'_>, path: &Path) -> Result<Input, AppError> {
+    let bytes = whole(fetch, path)?;
     if !is_project(path, &bytes) {
-        return read_mesh(path, &bytes, None, Vec::new());
+        return read_mesh(fetch, path, &bytes, None, Vec::new());
     }
     let text = String::from_utf8(bytes).map_err(|_| AppError::Input {
         path: path.to_owned(),
@@ -121,21 +129,22 @@ pub fn read(path: &Path) -> Result<Input, AppError> {
         return Ok(Input { mesh_path: path.to_owned(), project: Some(project), shape, repairs, notes });
     };
     let mesh_path = path.with_file_name(mesh);
-    let bytes = std::fs::read(&mesh_path).map_err(|error| AppError::ProjectMesh {
+    let bytes = fetch(&mesh_path).map_err(|error| AppError::ProjectMesh {
         path: mesh_path.clone(),
         project: path.to_owned(),
         reason: reason(&error),
     })?;
-    read_mesh(&mesh_path, &bytes, Some(project), notes)
+    read_mesh(fetch, &mesh_path, &bytes, Some(project), notes)
 }
 
 fn read_mesh(
+    fetch: Fetch<'_>,
     path: &Path,
     bytes: &[u8],
     project: Option<Project>,
     notes: Vec<Warning>,
 ) -> Result<Input, AppError> {
-    let sibling = |name: &str| read_sibling(path, name);
+    let sibling = |name: &str| read_sibling(fetch, path, name);
     let soup = mesh::read_with_siblings(bytes, &sibling)
         .map_err(|error| AppError::Read { path: path.to_owned(), error })?;
     let (mesh, repairs) =
@@ -170,8 +179,13 @@ fn is_within(folder: &Path, name: &Path) -> bool {
 
 /// The colours of a mesh file.
 pub fn read_painting(path: &Path) -> Result<Painting, AppError> {
-    let sibling = |name: &str| read_sibling(path, name);
-    mesh::read_painting(&read_file(path)?, &sibling)
+    read_painting_by(&fetch, path)
+}
+
+/// The same from a place that is not the disk.
+pub fn read_painting_by(fetch: Fetch<'_>, path: &Path) -> Result<Painting, AppError> {
+    let sibling = |name: &str| read_sibling(fetch, path, name);
+    mesh::read_painting(&whole(fetch, path)?, &sibling)
         .map_err(|error| AppError::Colour { path: path.to_owned(), error })
 }
 
@@ -180,8 +194,16 @@ pub const STANDARD_INPUT: &str = "-";
 
 /// The content of a file, or of the standard input.
 pub fn read_file(path: &Path) -> Result<Vec<u8>, AppError> {
-    let read = if path == Path::new(STANDARD_INPUT) { standard_input() } else { std::fs::read(path) };
-    read.map_err(|error| AppError::Input { path: path.to_owned(), reason: reason(&error) })
+    whole(&fetch, path)
+}
+
+fn whole(fetch: Fetch<'_>, path: &Path) -> Result<Vec<u8>, AppError> {
+    fetch(path).map_err(|error| AppError::Input { path: path.to_owned(), reason: reason(&error) })
+}
+
+/// From the disk, or from the standard input.
+pub fn fetch(path: &Path) -> std::io::Result<Vec<u8>> {
+    if path == Path::new(STANDARD_INPUT) { standard_input() } else { std::fs::read(path) }
 }
 
 /// The standard input, which is kept: a mesh is read once for its shape and once for its colours.
@@ -208,13 +230,13 @@ fn is_project(path: &Path, bytes: &[u8]) -> bool {
 
 /// A file that the mesh file refers to: only beside or below it, so that a mesh from elsewhere
 /// cannot have any file read.
-fn read_sibling(mesh_path: &Path, name: &str) -> Result<Vec<u8>, String> {
+fn read_sibling(fetch: Fetch<'_>, mesh_path: &Path, name: &str) -> Result<Vec<u8>, String> {
     let name = Path::new(name);
     let is_below = name.components().all(|c| matches!(c, Component::Normal(_)));
     if !is_below {
         return Err("it must be in the same folder; move it there".to_owned());
     }
-    std::fs::read(mesh_path.with_file_name(name)).map_err(|error| reason(&error))
+    fetch(&mesh_path.with_file_name(name)).map_err(|error| reason(&error))
 }
 
 #[cfg(test)]
@@ -232,7 +254,7 @@ mod tests {
     #[test]
     fn siblings_are_in_the_same_folder() {
         for name in ["/etc/hostname", "../x.bin", "a/../../x.bin", ""] {
-            let result = read_sibling(Path::new("folder/mesh.gltf"), name);
+            let result = read_sibling(&fetch, Path::new("folder/mesh.gltf"), name);
             assert!(result.is_err(), "{name}");
         }
     }

@@ -53,7 +53,6 @@ pub fn folder() -> Option<PathBuf> {
 }
 
 /// Names of all cutters and of all media, the user's own last.
-#[cfg(feature = "studio")]
 pub fn names() -> [Vec<String>; 2] {
     [("cutters", CUTTERS), ("media", MEDIA)].map(|(kind, built_in)| {
         let mut names: Vec<String> = built_in.iter().map(|profile| profile.name.to_owned()).collect();

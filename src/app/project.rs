@@ -1,7 +1,7 @@
 //! New project files.
 
 use super::error::{AppError, reason};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tatamu::pipeline::{Options, Output};
 use tatamu::project::options::Settings;
 use tatamu::project::{Template, TemplateComponent, to_toml};
@@ -32,11 +32,17 @@ pub fn mesh_from(project: &Path, mesh: &Path) -> Result<String, AppError> {
         std::path::absolute(path)
             .map_err(|error| AppError::Input { path: path.to_owned(), reason: reason(&error) })
     };
-    let (project, mesh) = (full(project)?, full(mesh)?);
-    let folder = project.parent().unwrap_or(&project);
-    let name = mesh.strip_prefix(folder).unwrap_or(&mesh);
+    let name: PathBuf = match mesh.file_name() {
+        // Beside each other, wherever that is.
+        Some(name) if project.parent() == mesh.parent() => name.into(),
+        _ => {
+            let (project, mesh) = (full(project)?, full(mesh)?);
+            let folder = project.parent().unwrap_or(&project);
+            mesh.strip_prefix(folder).unwrap_or(&mesh).to_owned()
+        }
+    };
     let text = name.to_str().ok_or_else(|| AppError::Input {
-        path: mesh.clone(),
+        path: mesh.to_owned(),
         reason: "a project file cannot store a file name that is not Unicode; rename the file".to_owned(),
     })?;
     Ok(text.replace(std::path::MAIN_SEPARATOR, "/"))

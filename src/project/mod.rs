@@ -3,6 +3,8 @@
 //! The structs here are the file's; they are checked while they are read, so that an error names
 //! the line and column of the value that is wrong.
 
+pub mod change;
+pub mod document;
 mod drawn;
 mod edit;
 mod fields;

@@ -7,32 +7,23 @@
 //!
 //! The state knows nothing of the window, and is tested without it.
 
-mod change;
-mod colours;
-mod document;
 mod messages;
-mod opened;
-mod pages;
 mod planning;
 mod plotting;
 mod preferences;
-mod results;
-mod scene;
-mod selection;
 mod state;
 mod store;
-mod surface;
 mod tasks;
 #[cfg(test)]
 mod tests;
 mod view;
-mod visibility;
 mod watch;
-mod words;
 mod worker;
 
 use crate::app::error::AppError;
 use std::path::PathBuf;
+use tatamu::front::{opened, pages, results, scene, selection, surface, visibility, words};
+use tatamu::project::{change, document};
 
 /// Width and height of the window at the first run, points.
 const SIZE: [f32; 2] = [1280.0, 800.0];

@@ -1,6 +1,6 @@
 //! The studio without its window: what is open, what is shown, and what the user can do.
 
-use super::change::{Change, to_digits};
+use super::change::Change;
 use super::document::Document;
 use super::messages::{Cause, Messages};
 use super::opened::Opened;
@@ -16,8 +16,10 @@ use crate::app::project;
 use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tatamu::pipeline::{Options, Output};
-use tatamu::project::options::{DIRECTION, SIZE};
+use tatamu::front::hand;
+use tatamu::front::scene::Seen;
+use tatamu::pipeline::Output;
+use tatamu::project::options::SIZE;
 
 /// Turns of a component that follow each other within this time are undone together, seconds.
 const TURN_PAUSE_S: f64 = 1.0;
@@ -89,6 +91,13 @@ impl Studio {
         &self.shown
     }
 
+    /// All that the scene is made of.
+    pub fn seen(&self) -> Seen<'_> {
+        let opened = self.opened.as_ref().map(|opened| opened.engine.mesh());
+        let mesh = opened.zip(self.document.as_ref().map(Document::options));
+        Seen { shown: &self.shown, selection: &self.selection, visibility: &self.visibility, mesh }
+    }
+
     /// The work that goes on.
     pub fn busy(&self) -> Option<Busy> {
         self.busy
@@ -143,21 +152,13 @@ impl Studio {
 
     /// The results, where they are those of the project as it is now, and whole.
     pub fn finished(&self) -> Option<&Output> {
-        self.laid().filter(|_| self.shown.is_folded)
+        self.laid().filter(|_| self.shown.is_folded())
     }
 
     /// The sheets of the project as it is now; perhaps it is not known yet how the model folds.
     pub fn laid(&self) -> Option<&Output> {
         let (opened, document) = (self.opened.as_ref()?, self.document.as_ref()?);
-        let is_of = |output: &&Output| match opened.drawn {
-            None => output.options() == document.options(),
-            // Its size is what the drawing measures.
-            Some(_) => {
-                let size_mm = output.options().size_mm;
-                *output.options() == Options { size_mm, ..document.options().clone() }
-            }
-        };
-        self.shown.output.as_ref().filter(is_of)
+        self.shown.laid(document.options(), opened.drawn.is_some())
     }
 
     /// Whether the components are drawn in the project file: then they change there alone.
@@ -204,32 +205,16 @@ impl Studio {
             News::Fraction(done) => {
                 self.busy = self.busy.map(|busy| Busy { fraction: Some(done), ..busy });
             }
-            News::Component(part, component) => {
-                if self.shown.part(part).is_some_and(|old| *old != *component) {
-                    self.shown.ahead = Some((part, *component));
-                    self.shown.version += 1;
-                }
-            }
+            News::Component(part, component) => self.shown.show_component(part, *component),
             News::Shaped(shaped) => {
-                self.shown.take(shaped);
-                (self.shown.ahead, self.shown.distances) = (None, None);
-                self.shown.version += 1;
+                self.shown.show_shaped(shaped);
                 self.selection.keep(self.shown.names());
                 self.visibility.keep(self.shown.names());
             }
-            News::Measured(distances) => {
-                self.shown.distances = Some(distances);
-                self.shown.version += 1;
-            }
-            News::Laid(output) => {
-                (self.shown.output, self.shown.is_folded) = (Some(*output), false);
-                self.shown.version += 1;
-                self.shown.sheets_version += 1;
-            }
+            News::Measured(distances) => self.shown.show_distances(distances),
+            News::Laid(output) => self.shown.show_output(*output, false),
             News::Done(output) => {
-                (self.shown.output, self.shown.is_folded) = (Some(*output), true);
-                self.shown.version += 1;
-                self.shown.sheets_version += 1;
+                self.shown.show_output(*output, true);
                 self.busy = None;
             }
             News::Failed(problem, missing) => {
@@ -312,7 +297,7 @@ impl Studio {
     pub fn measure(&mut self, measures: bool) {
         if self.measures != measures {
             self.measures = measures;
-            if measures && self.shown.distances.is_none() {
+            if measures && self.shown.distances().is_none() {
                 self.start(None);
             }
         }
@@ -374,7 +359,7 @@ impl Studio {
 
     /// Index of a component by the name that options go by.
     pub fn index_of(&self, name: &str) -> Option<usize> {
-        self.shown.names().iter().position(|n| n == name)
+        self.shown.index_of(name)
     }
 
     /// The component that was selected last.
@@ -389,11 +374,7 @@ impl Studio {
 
     /// Direction of a component's fold axis in degrees: as chosen, else as found.
     pub fn direction_deg(&self, part: usize) -> Option<f64> {
-        let name = self.shown.names().get(part)?;
-        let components = &self.document.as_ref()?.project().components;
-        let chosen = components.iter().find(|c| c.name == *name).and_then(|c| c.direction_deg);
-        let found = || self.shown.part(part).map(|p| to_digits(p.direction_rad.to_degrees(), 1));
-        chosen.or_else(found)
+        hand::direction_deg(&self.shown, self.document.as_ref()?.project(), part)
     }
 
     /// Turns the fold direction of a component, as the wheel does, at a time of the window's clock. Turns
@@ -403,16 +384,10 @@ impl Studio {
             self.end_gesture();
         }
         self.last_turn_s = now_s;
-        let (Some(name), Some(now)) = (self.shown.names().get(part).cloned(), self.direction_deg(part))
-        else {
-            return;
-        };
-        let turned = to_digits((now + degrees + 180.0).rem_euclid(360.0) - 180.0, 1);
-        let gesture = format!("turn {name}");
-        self.change(
-            &Change::Component { name, option: &DIRECTION, value: Some(turned.into()) },
-            Some(&gesture),
-        );
+        let Some(document) = &self.document else { return };
+        if let Some((change, gesture)) = hand::turned(&self.shown, document.project(), part, degrees) {
+            self.change(&change, Some(&gesture));
+        }
     }
 
     /// A folder for files that come with the program.
@@ -435,11 +410,9 @@ impl Studio {
 
     /// Divides a part by a plane in the model's coordinates.
     pub fn split(&mut self, part: usize, point: DVec3, normal: DVec3) {
-        let (Some(shaped), Some(name)) = (&self.shown.shaped, self.shown.names().get(part)) else { return };
-        let to_file = shaped.divided().to_model().inverse();
-        let (point, normal) = (to_file.transform_point3(point), to_file.transform_vector3(normal));
-        let change = Change::Split { name: name.clone(), point, normal: normal.normalize_or_zero() };
-        self.change(&change, None);
+        if let Some(change) = hand::split(&self.shown, part, point, normal) {
+            self.change(&change, None);
+        }
     }
 
     /// Writes the project file. False where it has no name yet: ask for one, then

@@ -3,8 +3,8 @@
 use super::opened::Opened;
 use super::words;
 use super::worker::Wake;
-use crate::app::make;
 use crate::app::output::{self, Target};
+use crate::app::{input, make};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -67,13 +67,15 @@ impl Tasks {
     pub fn open(&mut self, path: &Path) {
         self.last_open += 1;
         let path = path.to_owned();
-        self.spawn(self.last_open, move || Finished::Opened(Opened::read(&path).map(Box::new)));
+        self.spawn(self.last_open, move || {
+            Finished::Opened(Opened::read(Arc::new(input::fetch), &path).map(Box::new))
+        });
     }
 
     /// Begins to read a mesh again.
     pub fn reread(&mut self, path: &Path) {
         let path = path.to_owned();
-        self.spawn(0, move || Finished::Reread(Opened::read(&path).map(Box::new)));
+        self.spawn(0, move || Finished::Reread(Opened::read(Arc::new(input::fetch), &path).map(Box::new)));
     }
 
     /// Begins to write files.

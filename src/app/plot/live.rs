@@ -89,7 +89,8 @@ pub fn send_all(
     Ok(())
 }
 
-fn failure(outcome: Outcome) -> AppError {
+/// Why a job did not finish.
+pub fn failure(outcome: Outcome) -> AppError {
     let what = match outcome.end {
         End::Finished | End::Stopped => return AppError::Cancelled(Cancelled),
         End::Device(16) => "the machine's buffer overflowed (error 16); try --handshake paced".to_owned(),

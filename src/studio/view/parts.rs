@@ -7,9 +7,8 @@ use super::space::Space;
 use super::values::Dialled;
 use super::{dials, look};
 use eframe::egui::{self, CollapsingHeader, Grid, RichText, Ui};
-use glam::DVec3;
 use lucide_icons::Icon;
-use tatamu::component::PrincipalAxis;
+use tatamu::front::hand::{self, AXES};
 use tatamu::project::options::{DIRECTION, PROFILE_VERTICES, RENAME, ROOT, TOP_EDGES};
 
 /// What the panel remembers.
@@ -28,13 +27,6 @@ struct Split {
     /// Whether it has not been seen yet.
     is_new: bool,
 }
-
-const AXES: [(&str, DVec3); 4] = [
-    ("across left and right", DVec3::X),
-    ("across front and back", DVec3::Y),
-    ("across top and bottom", DVec3::Z),
-    ("across its length", DVec3::ZERO),
-];
 
 /// Draws the panel.
 pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: &mut Ui) {
@@ -209,7 +201,7 @@ fn splitting(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui:
         }
         return;
     };
-    let plane = plane(studio, index, split);
+    let plane = hand::plane(studio.shown(), index, split.axis, split.share);
     space.show_split(plane);
     let is_new = std::mem::take(&mut split.is_new);
     let group = ui.group(|ui| {
@@ -235,22 +227,4 @@ fn splitting(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui:
     if is_new {
         group.response.scroll_to_me(None);
     }
-}
-
-/// The plane across a part's hull, in the model's axes.
-fn plane(studio: &Studio, index: usize, split: Split) -> Option<(DVec3, DVec3)> {
-    let hull = studio.shown().shaped()?.divided().hulls().hulls().get(index)?;
-    let normal = match AXES[split.axis].1 {
-        DVec3::ZERO => {
-            // Fold axes are across the length.
-            let axes = PrincipalAxis::of_hull(hull);
-            axes.fold_axis(0.0).cross(axes.fold_axis(std::f64::consts::FRAC_PI_2))
-        }
-        axis => axis,
-    };
-    let along = hull.vertices().iter().map(|v| v.dot(normal));
-    let (low, high) = along.fold((f64::MAX, f64::MIN), |(low, high), x| (low.min(x), high.max(x)));
-    let centre = hull.centroid();
-    let at = low + split.share * (high - low);
-    Some((centre + (at - centre.dot(normal)) * normal, normal))
 }

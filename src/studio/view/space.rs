@@ -143,7 +143,7 @@ impl Space {
         self.setting.clash = Some(clash);
         self.setting.layers.components = true;
         self.is_playing = false;
-        if let Some(moment) = scene::moment(studio, &clash) {
+        if let Some(moment) = scene::moment(studio.shown(), &clash) {
             self.setting.folded = moment;
         }
     }
@@ -276,7 +276,7 @@ impl Space {
             if self.solids.as_ref().is_none_or(|s| s.0 != version) {
                 self.follow(studio);
             }
-            let solids = scene::scene(studio, &self.setting);
+            let solids = scene::scene(&studio.seen(), &self.setting);
             self.solids = Some((version, selection, self.setting.clone(), solids));
             if was_other {
                 self.orbit = None;

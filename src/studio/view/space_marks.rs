@@ -244,7 +244,7 @@ fn marks(studio: &Studio, ui: &Ui, slider: Rect) {
     for moment in clashes
         .iter()
         .filter(|c| c.depth_mm > output.fold_plan().thickness_mm())
-        .filter_map(|c| scene::moment(studio, c))
+        .filter_map(|c| scene::moment(studio.shown(), c))
     {
         let tip = egui::pos2(at(moment), slider.top() + 6.0);
         let corners = vec![tip, tip + egui::vec2(-4.0, -6.0), tip + egui::vec2(4.0, -6.0)];

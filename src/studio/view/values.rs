@@ -5,7 +5,7 @@ use super::super::messages::Cause;
 use super::super::state::Studio;
 use eframe::egui::{self, DragValue, Ui};
 use std::cell::RefCell;
-use std::ops::RangeInclusive;
+use tatamu::front::dials;
 use tatamu::project::options::{Dial, Entry, Kind, Range, Settings, Unit};
 use tatamu::units::{parse_length_mm, parse_length_or_zero_mm};
 use toml_edit::Value;
@@ -151,19 +151,6 @@ impl Dialled {
         if self.is_count() { (x.round() as i64).into() } else { x.into() }
     }
 
-    /// Least and most that can be dragged to.
-    fn range(&self) -> RangeInclusive<f64> {
-        match (&self.option.kind, self.dial.span) {
-            (_, Some((least, most))) => least..=most,
-            (Kind::Count(count), _) => count.least as f64..=count.most as f64,
-            (Kind::Number(number), _) => match number.range {
-                Range::Within(least, most) => least..=most,
-                Range::Positive | Range::NotNegative => 0.0..=f64::INFINITY,
-            },
-            (Kind::Switch(_) | Kind::Text(_), _) => 0.0..=1.0,
-        }
-    }
-
     fn suffix(&self) -> &'static str {
         match &self.option.kind {
             Kind::Number(number) if number.unit == Unit::Length => " mm",
@@ -177,7 +164,7 @@ impl Dialled {
     /// takes it, or says what it accepts.
     fn field(&self, ui: &mut Ui, now: f64, label: egui::Id, studio: &mut Studio) -> Option<f64> {
         let mut x = now;
-        let range = self.range();
+        let range = dials::range(self.option);
         let span = range.end() - range.start();
         let typed = RefCell::new(None);
         let parser = |text: &str| {

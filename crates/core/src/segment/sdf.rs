@@ -2,7 +2,10 @@
 
 use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
-use obvhs::cwbvh::{CwBvh, builder::build_cwbvh};
+use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
+use obvhs::cwbvh::CwBvh;
+use obvhs::cwbvh::bvh2_to_cwbvh::bvh2_to_cwbvh;
+use obvhs::ploc::PlocBuilder;
 use obvhs::ray::{Ray, RayHit};
 use obvhs::{Boundable, BvhBuildParams};
 use rayon::prelude::*;
@@ -42,6 +45,20 @@ impl Boundable for Bounds {
     }
 }
 
+/// The steps of obvhs' `build_cwbvh` without its clock, which a browser does not have.
+fn hierarchy(bounds: &[Bounds]) -> CwBvh {
+    let params = BvhBuildParams::very_fast_build();
+    let mut tree = PlocBuilder::with_capacity(bounds.len()).build(
+        params.ploc_search_distance,
+        bounds,
+        (0..bounds.len() as u32).collect(),
+        params.sort_precision,
+        params.search_depth_threshold,
+    );
+    ReinsertionOptimizer::default().run(&mut tree, params.reinsertion_batch_ratio, None);
+    bvh2_to_cwbvh(&tree, params.max_prims_per_leaf.clamp(1, 3), true, false)
+}
+
 impl Target {
     /// Builds the tree; `None` where there is no extent.
     pub fn new(positions: &[DVec3], faces: &[[u32; 3]]) -> Option<Self> {
@@ -65,8 +82,7 @@ impl Target {
                 Bounds(aabb)
             })
             .collect();
-        let bvh = build_cwbvh(&bounds, BvhBuildParams::very_fast_build(), &mut Default::default());
-        Some(Self { bvh, triangles, origin, scale })
+        Some(Self { bvh: hierarchy(&bounds), triangles, origin, scale })
     }
 
     /// Distance to the nearest face that the ray leaves the solid through.

@@ -1,10 +1,10 @@
 //! The project that is open, with what it was before.
 
+use super::Project;
 use super::change::Change;
+use super::options::{Settings, choose};
+use crate::pipeline::Options;
 use std::path::{Path, PathBuf};
-use tatamu::pipeline::Options;
-use tatamu::project::Project;
-use tatamu::project::options::{Settings, choose};
 
 /// The project that is open.
 ///
@@ -178,7 +178,7 @@ fn read(text: &str) -> Result<(Project, Settings), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tatamu::project::options::{DIRECTION, MARGIN, SIZE};
+    use crate::project::options::{DIRECTION, MARGIN, SIZE};
 
     fn turn(degrees: f64) -> Change {
         Change::Component { name: "head".to_owned(), option: &DIRECTION, value: Some(degrees.into()) }

@@ -1,4 +1,4 @@
-//! Sentences for the window, which name its settings.
+//! Sentences that name settings.
 
 use crate::app::error::AppError;
 use crate::app::words::{self, Names};

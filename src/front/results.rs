@@ -4,7 +4,7 @@ use super::colours::Colours;
 use super::surface::Distances;
 use tatamu::drawing::Rgb;
 use tatamu::model::ModelPart;
-use tatamu::pipeline::{Output, Shaped};
+use tatamu::pipeline::{Options, Output, Shaped};
 use tatamu::render::palette;
 
 /// The work that goes on.
@@ -19,31 +19,72 @@ pub struct Busy {
 /// The last good results. They stay while others are made.
 #[derive(Debug, Default)]
 pub struct Shown {
-    pub(super) shaped: Option<Shaped>,
+    shaped: Option<Shaped>,
     /// A component that is newer than the model.
-    pub(super) ahead: Option<(usize, ModelPart)>,
-    pub(super) output: Option<Output>,
+    ahead: Option<(usize, ModelPart)>,
+    output: Option<Output>,
     /// Whether the order of folding of `output` is known.
-    pub(super) is_folded: bool,
-    pub(super) distances: Option<Distances>,
+    is_folded: bool,
+    distances: Option<Distances>,
     colours: Colours,
     /// Changes whenever what is shown does.
-    pub(super) version: u64,
+    version: u64,
     /// Changes whenever the sheets do.
-    pub(super) sheets_version: u64,
+    sheets_version: u64,
 }
 
 impl Shown {
-    /// Forgets the results of another file.
-    pub(super) fn clear(&mut self) {
+    /// Forgets everything: another file is open.
+    pub fn clear(&mut self) {
         let (version, sheets_version) = (self.version + 1, self.sheets_version + 1);
         *self = Self { version, sheets_version, ..Self::default() };
     }
 
-    /// Takes a new model.
-    pub(super) fn take(&mut self, shaped: Shaped) {
+    /// A component that is made before all others.
+    pub fn show_component(&mut self, index: usize, component: ModelPart) {
+        if self.part(index).is_some_and(|old| *old != component) {
+            self.ahead = Some((index, component));
+            self.version += 1;
+        }
+    }
+
+    /// All components.
+    pub fn show_shaped(&mut self, shaped: Shaped) {
         self.colours.keep(shaped.divided().hulls().names());
         self.shaped = Some(shaped);
+        (self.ahead, self.distances) = (None, None);
+        self.version += 1;
+    }
+
+    /// Distances between surface and components.
+    pub fn show_distances(&mut self, distances: Distances) {
+        self.distances = Some(distances);
+        self.version += 1;
+    }
+
+    /// The sheets, perhaps with the order of folding.
+    pub fn show_output(&mut self, output: Output, is_folded: bool) {
+        (self.output, self.is_folded) = (Some(output), is_folded);
+        self.version += 1;
+        self.sheets_version += 1;
+    }
+
+    /// The sheets of a project that asks for these options; perhaps it is not known yet how the model
+    /// folds. Drawn components have the size that the drawing measures.
+    pub fn laid(&self, options: &Options, is_drawn: bool) -> Option<&Output> {
+        let is_of = |output: &&Output| match is_drawn {
+            false => output.options() == options,
+            true => {
+                let size_mm = output.options().size_mm;
+                *output.options() == Options { size_mm, ..options.clone() }
+            }
+        };
+        self.output.as_ref().filter(is_of)
+    }
+
+    /// Index of a component by the name that options go by.
+    pub fn index_of(&self, name: &str) -> Option<usize> {
+        self.names().iter().position(|n| n == name)
     }
 
     /// The colour of the component of an index.

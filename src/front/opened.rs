@@ -18,9 +18,14 @@ use tatamu::project::Project;
 use tatamu::project::options::Settings;
 use tatamu::report::Run;
 
+/// Gives the content of a file, on any thread.
+pub type Fetch = Arc<dyn Fn(&Path) -> std::io::Result<Vec<u8>> + Send + Sync>;
+
 /// A file that is open.
 #[derive(Clone)]
 pub struct Opened {
+    /// Where its files are.
+    fetch: Fetch,
     /// What the user opened: a mesh or a project file.
     pub source: PathBuf,
     /// The drawings, where the components are drawn.
@@ -42,8 +47,8 @@ impl Opened {
     ///
     /// # Errors
     /// A message that says what is wrong with which file.
-    pub fn read(source: &Path) -> Result<Self, String> {
-        let input = input::read(source).map_err(|error| words::error(&error))?;
+    pub fn read(fetch: Fetch, source: &Path) -> Result<Self, String> {
+        let input = input::read_by(&*fetch, source).map_err(|error| words::error(&error))?;
         let (mesh, drawn) = match input.shape {
             Shape::Mesh(mesh) => (mesh, None),
             Shape::Drawn(sketches) => {
@@ -55,7 +60,7 @@ impl Opened {
         };
         let is_project = input.project.is_some();
         let text = if is_project {
-            let bytes = input::read_file(source).map_err(|error| error.to_string())?;
+            let bytes = fetch(source).map_err(|error| error.to_string())?;
             String::from_utf8(bytes).map_err(|error| error.to_string())?
         } else {
             let project = source.with_extension("toml");
@@ -63,6 +68,7 @@ impl Opened {
             project::project_text(&name, Settings::standard(), &[])
         };
         Ok(Self {
+            fetch,
             source: source.to_owned(),
             drawn,
             mesh_path: input.mesh_path,
@@ -96,7 +102,8 @@ impl Opened {
         give: impl FnOnce(Product<'_>, FormatOptions) -> T,
     ) -> Result<T, AppError> {
         let choice = Choice::new(Some(project), &[])?.files(&self.source)?;
-        let painting = choice.is_coloured.then(|| input::read_painting(&self.mesh_path)).transpose()?;
+        let painting =
+            choice.is_coloured.then(|| input::read_painting_by(&*self.fetch, &self.mesh_path)).transpose()?;
         let warnings: Vec<Warning> = self.repairs.warnings().into_iter().map(Warning::from).collect();
         let mesh_path = self.mesh_path.to_string_lossy();
         let run = Run {

@@ -1,17 +1,39 @@
 //! What is seen in space: the parts of the model that the user wants to see, in the pose of the
 //! moment, with what is selected.
 
-use super::selection::Hover;
-use super::state::Studio;
+use super::results::Shown;
+use super::selection::{Hover, Selection};
+use super::visibility::Visibility;
 use glam::{DAffine3, DVec3};
 use tatamu::component::{PanelId, PanelSet};
 use tatamu::drawing::Rgb;
 use tatamu::fold::{Clash, ModelMotion, ModelPose, Moment, Motion, Sequence};
 use tatamu::mesh::Mesh;
 use tatamu::model::ModelPart;
+use tatamu::pipeline::Options;
 use tatamu::render::light;
 use tatamu::render::zbuffer::{Frame, Line, Solids};
 use tatamu::show::upright;
+
+/// All that a scene is made of.
+#[derive(Clone, Copy)]
+pub struct Seen<'a> {
+    /// The results.
+    pub shown: &'a Shown,
+    /// What is selected.
+    pub selection: &'a Selection,
+    /// What is hidden.
+    pub visibility: &'a Visibility,
+    /// The mesh as it was read, to be seen before there are results, and what is asked for.
+    pub mesh: Option<(&'a Mesh, &'a Options)>,
+}
+
+impl Seen<'_> {
+    /// The component that was selected last.
+    pub fn selected_index(&self) -> Option<usize> {
+        self.selection.last().and_then(|name| self.shown.index_of(name))
+    }
+}
 
 /// What is to be seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -94,14 +116,13 @@ const HALF_MM: f64 = 0.12;
 const LIFT_MM: f64 = 0.4;
 
 /// The scene, in the axes of pictures.
-pub fn scene(studio: &Studio, setting: &Setting) -> Solids {
+pub fn scene(seen: &Seen<'_>, setting: &Setting) -> Solids {
     let mut solids = Solids::default();
-    let shown = studio.shown();
+    let shown = seen.shown;
     let Some(shaped) = shown.shaped() else {
         // Nothing is divided yet: the mesh as it was read.
-        if let (Some(opened), Some(document)) = (studio.opened(), studio.document()) {
-            let options = document.options();
-            let (mesh, _) = opened.engine.mesh().scaled(options.size_mm, options.up);
+        if let Some((mesh, options)) = seen.mesh {
+            let (mesh, _) = mesh.scaled(options.size_mm, options.up);
             push_mesh(&mut solids, &mesh, |_| Some((PLAIN, Frame::NOTHING)), false);
         }
         return solids;
@@ -109,8 +130,7 @@ pub fn scene(studio: &Studio, setting: &Setting) -> Solids {
     let layers = setting.layers;
     let divided = shaped.divided();
     let of_face = |face: usize| divided.face_parts()[face].map(|p| p as usize);
-    let is_hidden =
-        |part: usize| shown.names().get(part).is_some_and(|name| studio.visibility.is_hidden(name));
+    let is_hidden = |part: usize| shown.names().get(part).is_some_and(|name| seen.visibility.is_hidden(name));
     let is_seen = |face: usize| !of_face(face).is_some_and(is_hidden);
     let tag = |face: usize| of_face(face).map_or(Frame::NOTHING, |part| Tag { part, panel: None }.number());
     if layers.distances
@@ -121,7 +141,7 @@ pub fn scene(studio: &Studio, setting: &Setting) -> Solids {
         let names = shown.names();
         let colour = |face: usize| {
             let Some(part) = of_face(face) else { return PLAIN };
-            let is_lit = names.get(part).is_some_and(|name| studio.selection.has(name))
+            let is_lit = names.get(part).is_some_and(|name| seen.selection.has(name))
                 || setting.hover.as_ref().is_some_and(|h| h.is_on(part));
             lit(shown.colour(part), is_lit)
         };
@@ -152,7 +172,7 @@ pub fn scene(studio: &Studio, setting: &Setting) -> Solids {
         }
     }
     if layers.components {
-        push_components(&mut solids, studio, setting);
+        push_components(&mut solids, seen, setting);
     }
     if layers.grid {
         push_grid(&mut solids, divided.mesh());
@@ -188,10 +208,10 @@ fn push_edges(solids: &mut Solids, outline: &[DVec3], colour: Rgb, width_px: f32
 }
 
 /// Where all components are: in the steps that were found, as long as they are known.
-pub fn folded(studio: &Studio, progress: f64) -> Option<Moment> {
-    let shaped = studio.shown().shaped()?;
+pub fn folded(shown: &Shown, progress: f64) -> Option<Moment> {
+    let shaped = shown.shaped()?;
     let count = shaped.model().parts().len();
-    let plan = studio.shown().output().map(|output| output.fold_plan());
+    let plan = shown.output().map(|output| output.fold_plan());
     let sequence = match plan.filter(|plan| plan.order().len() == count) {
         Some(plan) => Sequence::of_plan(plan),
         None => Sequence::of_order(&(0..count).rev().collect::<Vec<_>>()),
@@ -200,8 +220,8 @@ pub fn folded(studio: &Studio, progress: f64) -> Option<Moment> {
 }
 
 /// The moment at which a clash happens, as a progress of the folding.
-pub fn moment(studio: &Studio, clash: &Clash) -> Option<f64> {
-    let sequence = Sequence::of_plan(studio.shown().output()?.fold_plan());
+pub fn moment(shown: &Shown, clash: &Clash) -> Option<f64> {
+    let sequence = Sequence::of_plan(shown.output()?.fold_plan());
     let reaches = |motion: &Motion| matches!(motion, Motion::Fold(step) if step.part == clash.mover && step.to >= clash.folded);
     let step = sequence.motions().iter().position(reaches)?;
     let (mut low, mut high) = (sequence.marks()[step], sequence.marks()[step + 1]);
@@ -216,13 +236,12 @@ pub fn moment(studio: &Studio, clash: &Clash) -> Option<f64> {
     Some(low)
 }
 
-fn push_components(solids: &mut Solids, studio: &Studio, setting: &Setting) {
-    let shown = studio.shown();
+fn push_components(solids: &mut Solids, seen: &Seen<'_>, setting: &Setting) {
+    let shown = seen.shown;
     let Some(shaped) = shown.shaped() else { return };
-    let is_hidden =
-        |part: usize| shown.names().get(part).is_some_and(|name| studio.visibility.is_hidden(name));
+    let is_hidden = |part: usize| shown.names().get(part).is_some_and(|name| seen.visibility.is_hidden(name));
     let is_moving = setting.folded > 0.0 && shown.ahead().is_none();
-    let pose: Option<ModelPose> = is_moving.then(|| folded(studio, setting.folded)).flatten().map(|moment| {
+    let pose: Option<ModelPose> = is_moving.then(|| folded(shown, setting.folded)).flatten().map(|moment| {
         let motion = ModelMotion::new(shaped.model());
         motion.pose_from(&moment, LIFT_MM, |root, _| shaped.model().parts()[root].deployed())
     });
@@ -233,12 +252,12 @@ fn push_components(solids: &mut Solids, studio: &Studio, setting: &Setting) {
             Some(pose) => pose.parts[index].panel(panel),
             None => part.deployed() * set.panel(panel).deployed,
         };
-        let is_selected = shown.names().get(index).is_some_and(|name| studio.selection.has(name));
+        let is_selected = shown.names().get(index).is_some_and(|name| seen.selection.has(name));
         let panels = Panels { part: index, set, is_selected, place: &place };
-        push_panels(solids, studio, setting, &panels);
+        push_panels(solids, seen, setting, &panels);
         let stands = |pose: &ModelPose| pose.parts[index].pose.height_mm > 0.999 * height_mm(part);
         let is_standing = pose.as_ref().is_none_or(stands);
-        if is_selected && is_standing && studio.selected_index() == Some(index) {
+        if is_selected && is_standing && seen.selected_index() == Some(index) {
             let frame = pose.as_ref().map_or_else(|| part.deployed(), |pose| pose.parts[index].frame);
             push_arrow(solids, part, frame);
         }
@@ -252,16 +271,16 @@ struct Panels<'a> {
     place: &'a dyn Fn(PanelId) -> DAffine3,
 }
 
-fn push_panels(solids: &mut Solids, studio: &Studio, setting: &Setting, panels: &Panels<'_>) {
-    let pieces = selected_panels(studio, panels.part);
-    let own = studio.shown().colour(panels.part);
+fn push_panels(solids: &mut Solids, seen: &Seen<'_>, setting: &Setting, panels: &Panels<'_>) {
+    let pieces = selected_panels(seen, panels.part);
+    let own = seen.shown.colour(panels.part);
     for (k, panel) in panels.set.panels().iter().enumerate() {
         let id = PanelId(k);
         let tag = Tag { part: panels.part, panel: Some(id) };
         let clashes = setting.clash.is_some_and(|clash| {
             (0..2).any(|side| clash.parts[side] == panels.part && clash.panels[side] == id)
         });
-        let is_panel = panels.is_selected && (studio.selection.panel() == Some(id) || pieces.contains(&id));
+        let is_panel = panels.is_selected && (seen.selection.panel() == Some(id) || pieces.contains(&id));
         let colour = match (clashes, is_panel) {
             (true, _) => CLASH,
             (_, true) => light::mixed(own, ACCENT, 0.45),
@@ -283,9 +302,9 @@ fn push_panels(solids: &mut Solids, studio: &Studio, setting: &Setting, panels: 
 }
 
 /// The panels of the selected piece, where it is one of this component.
-fn selected_panels(studio: &Studio, part: usize) -> Vec<PanelId> {
-    let piece = studio.selection.piece().filter(|_| studio.selected_index() == Some(part));
-    let net = studio.shown().output().and_then(|output| output.nets().get(part));
+fn selected_panels(seen: &Seen<'_>, part: usize) -> Vec<PanelId> {
+    let piece = seen.selection.piece().filter(|_| seen.selected_index() == Some(part));
+    let net = seen.shown.output().and_then(|output| output.nets().get(part));
     let (Some(piece), Some(net)) = (piece, net) else { return Vec::new() };
     let own = net.pieces().iter().filter(|p| p.name() == piece);
     own.flat_map(|p| p.panels()).map(|placed| net.source(placed.panel)).collect()

@@ -1,9 +1,9 @@
 //! What can be changed in a project, as changes to the text of its file: comments stay, and the
 //! result is read by the same parser as any project file.
 
+use super::options::{DIRECTION, Entry, PROFILE_VERTICES, RENAME, Scope, TOP_EDGES};
+use crate::sheet::Pin;
 use glam::DVec3;
-use tatamu::project::options::{DIRECTION, Entry, PROFILE_VERTICES, RENAME, Scope, TOP_EDGES};
-use tatamu::sheet::Pin;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value};
 
 /// One change.
@@ -226,9 +226,9 @@ fn rounded(v: DVec3) -> Array {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Project;
+    use super::super::options::{LEVEL, MARGIN, PAPER, ROOT, SIZE, TOLERANCE, choose};
     use super::*;
-    use tatamu::project::Project;
-    use tatamu::project::options::{LEVEL, MARGIN, PAPER, ROOT, SIZE, TOLERANCE, choose};
 
     const TEXT: &str = "mesh = 'a.obj' # the bear\n\n[paper]\nsize = \"a4\" # in the tray\n\n[[component]]\nname = \"body\"\n";
 

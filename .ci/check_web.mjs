@@ -1,0 +1,334 @@
+// The page in a browser, as a maker uses it: a mesh is dropped and becomes files; parts are turned, merged, split;
+// a job goes to a stub of a serial port; then without a network, and on a phone. And the files of the native program.
+// check_web.mjs PAGE TATAMU FOLDER [FOLDER FOR PICTURES]; the files it downloads are left in FOLDER.
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
+import { createRequire } from "node:module";
+import { extname, join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { gzipSync } from "node:zlib";
+
+const require = createRequire(`${process.env.NODE_TOOLS}/`);
+const puppeteer = require("puppeteer-core");
+const [root, tatamu, folder, pictures] = process.argv.slice(2).map((path) => path && resolve(path));
+mkdirSync(folder, { recursive: true });
+let passed = 0;
+const faults = [];
+const expect = (holds, what) => {
+  if (holds) passed += 1; else { faults.push(what); console.log(`FAIL  ${what}`); }
+};
+const figure = (name, value) => console.log(`      ${name}: ${value}`);
+const pause = (ms) => new Promise((done) => setTimeout(done, ms));
+
+// ---- The same files as the native program's.
+
+const door = await import(pathToFileURL(join(root, "tatamu.js")));
+globalThis.tatamu = { stage() {}, fraction() {}, is_cancelled: () => false };
+const wasm = readFileSync(join(root, "tatamu_bg.wasm"));
+door.initSync({ module: wasm });
+const native = join(folder, "native");
+mkdirSync(native, { recursive: true });
+
+const made = (sample) => {
+  const desk = new door.Desk();
+  desk.add(sample, readFileSync(join("samples", sample)));
+  desk.open(sample);
+  while (desk.work());
+  return desk;
+};
+// Sines of the system's library end in other digits than those of WebAssembly. Where a search compares them, as
+// in all samples but these, it may take another of two equal ways; what it finds must fold flat all the same.
+const SAME = { "box.obj": ["svg", "dxf", "pdf", "fold", "obj", "stl", "plt"], "gift-box.toml": ["svg", "dxf", "pdf", "stl"] };
+for (const [sample, formats] of Object.entries(SAME)) {
+  const stem = sample.replace(/\.\w+$/, "");
+  const outputs = formats.flatMap((format) => ["-o", join(native, `${stem}.${format}`)]);
+  execFileSync(tatamu, ["make", join("samples", sample), "--quiet", ...outputs], { stdio: "pipe" });
+  const desk = made(sample);
+  for (const format of formats) {
+    for (const file of desk.export(format)) {
+      expect(readFileSync(join(native, file.name)).equals(Buffer.from(file.bytes)), `${file.name}: the same bytes as the native program`);
+    }
+  }
+  desk.free();
+}
+for (const sample of ["teddy.obj", "snowman.obj", "lamp.toml"]) {
+  const desk = made(sample);
+  const told = JSON.parse(desk.told());
+  const [file] = desk.export("fold");
+  const path = join(folder, file.name);
+  writeFileSync(path, file.bytes);
+  execFileSync(tatamu, ["check", path, "--quiet"], { stdio: "pipe" });
+  const report = join(native, "report.json");
+  execFileSync(tatamu, ["make", join("samples", sample), "--quiet", "-o", report], { stdio: "pipe" });
+  const names = JSON.parse(readFileSync(report)).components.map((part) => part.name);
+  expect(told.parts.map((part) => part.name).join() === names.join(), `${sample}: the components of the native program`);
+  desk.free();
+}
+
+// ---- The page.
+
+const types = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm", ".css": "text/css", ".svg": "image/svg+xml", ".webmanifest": "application/manifest+json", ".gif": "image/gif", ".png": "image/png" };
+const serve = () => new Promise((done) => {
+  const server = createServer((request, response) => {
+    const path = join(root, decodeURIComponent(new URL(request.url, "http://x").pathname).replace(/\/$/, "/index.html"));
+    if (!path.startsWith(root) || !existsSync(path)) { response.writeHead(404).end(); return; }
+    response.writeHead(200, { "content-type": types[extname(path)] ?? "application/octet-stream" }).end(readFileSync(path));
+  });
+  server.listen(0, "127.0.0.1", () => done(server));
+});
+const server = await serve();
+const address = `http://127.0.0.1:${server.address().port}/`;
+
+const profile = join(folder, "profile");
+rmSync(profile, { recursive: true, force: true });
+const browser = await puppeteer.launch({
+  executablePath: process.env.CHROMIUM || "/usr/bin/chromium",
+  userDataDir: profile,
+  args: ["--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run"],
+});
+const page = await browser.newPage();
+page.on("console", (message) => faults.push(`console: ${message.text()}`));
+page.on("pageerror", (error) => faults.push(`error: ${error.message}`));
+page.on("request", (request) => {
+  if (!/^(http:\/\/127\.0\.0\.1|blob:|data:)/.test(request.url())) faults.push(`request: ${request.url().slice(0, 200)}`);
+});
+const session = await browser.target().createCDPSession();
+const downloads = join(folder, "downloads");
+rmSync(downloads, { recursive: true, force: true });
+mkdirSync(downloads, { recursive: true });
+await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: downloads });
+
+// A plotter with a buffer of 1024 bytes that answers as HP-GL says. What it gets is kept.
+await page.evaluateOnNewDocument(() => {
+  const got = (globalThis.got = { text: "", opened: 0 });
+  const answers = { B: "1024", L: "1024", E: "0", O: "0" };
+  class Port {
+    async open(options) {
+      got.options = options;
+      got.opened += 1;
+      let give;
+      this.readable = new ReadableStream({ start(controller) { give = (text) => controller.enqueue(new TextEncoder().encode(`${text}\r`)); } });
+      this.writable = new WritableStream({
+        write(bytes) {
+          const text = new TextDecoder().decode(bytes);
+          got.text += text;
+          for (const [, letter] of text.matchAll(/\x1b\.([A-Z])/g)) if (answers[letter]) give(answers[letter]);
+          if (text.includes("OI;")) give("7475A");
+          if (/O[AC];/.test(text)) give("0,0,0");
+        },
+      });
+    }
+    async close() {}
+  }
+  Object.defineProperty(navigator, "serial", { value: { requestPort: async () => new Port() } });
+});
+
+const until = async (what, holds, seconds = 60) => {
+  for (let k = 0; k < seconds * 20; k += 1) {
+    if (await page.evaluate(holds).catch(() => false)) return true;
+    await pause(50);
+  }
+  expect(false, `${what}, within ${seconds} s`);
+  return false;
+};
+const isDone = () => !document.getElementById("work").hidden && document.getElementById("busy").hidden && document.getElementById("facts").textContent.includes("work");
+const parts = () => page.$$eval("#parts [role=option]", (all) => all.map((option) => option.dataset.key));
+const picture = (name) => pictures && page.screenshot({ path: join(pictures, `${name}.png`) });
+const downloaded = async (name) => {
+  for (let k = 0; k < 200; k += 1) {
+    if (existsSync(join(downloads, name)) && !readdirSync(downloads).some((file) => file.endsWith(".crdownload"))) return join(downloads, name);
+    await pause(50);
+  }
+  expect(false, `${name} is downloaded; there are ${readdirSync(downloads)}`);
+  return null;
+};
+const download = async (label) => {
+  await page.click("#downloads > summary");
+  await page.evaluate((label) => [...document.querySelectorAll("#formats button")].find((button) => button.querySelector("b").textContent === label).click(), label);
+};
+const drop = (name) => page.evaluate(async (name) => {
+  const bytes = await (await fetch(`samples/${name}`)).arrayBuffer();
+  const given = new DataTransfer();
+  given.items.add(new File([bytes], name));
+  dispatchEvent(new DragEvent("drop", { dataTransfer: given, bubbles: true, cancelable: true }));
+}, name);
+
+await page.setViewport({ width: 1360, height: 820 });
+await page.goto(address);
+await page.waitForSelector("#samples button");
+await pause(600);
+await picture("welcome");
+await drop("teddy.obj");
+const began = Date.now();
+await until("teddy is finished", isDone);
+figure("teddy, dropped on a cold page, in its worker", `${((Date.now() - began) / 1000).toFixed(1)} s`);
+await pause(800);
+await picture("teddy");
+const names = await parts();
+expect(names.length > 4, `teddy has parts: ${names}`);
+expect((await page.$$("#sheets img")).length > 1, "its sheets are shown");
+expect(await page.$$eval("#sheets img", (all) => all.every((image) => image.complete && image.naturalWidth > 50)), "each sheet is a picture");
+expect(await page.$$eval("#model-rows label", (all) => all.length) > 6, "its settings are there");
+
+await download("pdf");
+await downloaded("teddy.pdf");
+await download("json");
+await downloaded("teddy.json");
+
+// A turned direction: from the key to the picture.
+const focus = async (k) => {
+  await page.evaluate((k) => document.querySelectorAll("#parts [role=option]")[k].click(), k);
+  await pause(500);
+};
+await focus(2);
+const direction = () => page.$eval('[id="own-rows-component.direction"]', (input) => Number(input.value));
+const before = await direction();
+await until("nothing is busy", isDone);
+await pause(400);
+const times = [];
+for (let k = 0; k < 3; k += 1) {
+  times.push(await page.evaluate(async () => {
+    const now = performance.timeOrigin + performance.now();
+    document.getElementById("canvas").dispatchEvent(new KeyboardEvent("keydown", { key: "]", bubbles: true }));
+    while (!(Number(document.documentElement.dataset.drawn) > now)) await new Promise((next) => setTimeout(next, 4));
+    return performance.timeOrigin + performance.now() - now;
+  }));
+  await until("the turned model is finished", isDone);
+  await pause(400);
+}
+figure("a turned direction, to the picture", times.map((ms) => `${ms.toFixed(0)} ms`).join(", "));
+expect(Math.abs((await direction()) - before - 15) < 0.11 || Math.abs(Math.abs((await direction()) - before - 15) - 360) < 0.11, `turned from ${before} to ${await direction()}`);
+await picture("turned");
+
+// A merge, undone.
+await focus(0);
+await page.evaluate(() => document.querySelectorAll("#parts [role=option]")[1].dispatchEvent(new MouseEvent("click", { shiftKey: true, bubbles: true })));
+await until("two are selected", () => !document.getElementById("merge").disabled);
+await page.click("#merge");
+await pause(300);
+await until("the merged model is finished", isDone);
+expect((await parts()).length === names.length - 1, `merged: ${await parts()}`);
+await page.click("#undo");
+await pause(300);
+await until("the merge is undone", isDone);
+expect((await parts()).join() === names.join(), `undone: ${await parts()}`);
+
+// A split, and another name.
+await focus(0);
+await page.click("#split");
+await pause(300);
+await picture("split");
+await page.click("#split-here");
+await pause(300);
+await until("the split model is finished", isDone);
+expect((await parts()).length === names.length + 1, `split: ${await parts()}`);
+await focus(0);
+await page.$eval("#own-rows-name", (input) => { input.value = "tummy"; input.dispatchEvent(new Event("change")); });
+await pause(300);
+await until("the renamed model is finished", isDone);
+expect(await page.$eval("#parts [role=option]", (option) => option.textContent.includes("tummy")), "a part has another name");
+
+// Folding, half way.
+await page.$eval("#folded", (input) => { input.value = 0.5; input.dispatchEvent(new Event("input")); });
+await pause(600);
+await picture("half");
+
+// The project goes to the native program, and comes back.
+await download("toml");
+const project = await downloaded("teddy.toml");
+if (project) {
+  writeFileSync(join(downloads, "teddy.obj"), readFileSync("samples/teddy.obj"));
+  execFileSync(tatamu, ["make", project, "--quiet", "-o", join(downloads, "again.svg"), "-o", join(downloads, "again.json")], { stdio: "pipe" });
+  expect(JSON.parse(readFileSync(join(downloads, "again.json"))).components.some((part) => part.name === "tummy"), "the native program reads the project");
+}
+if (project) {
+  await (await page.$("#file")).uploadFile(project, join(downloads, "teddy.obj"));
+  await pause(500);
+  await until("the project is open again", isDone);
+  expect(await page.$eval("#parts [role=option]", (option) => option.textContent.includes("tummy")), "the project comes back");
+}
+
+// Cancel.
+await page.$eval('[id="model-rows-.size"]', (input) => { input.value = 240; input.dispatchEvent(new Event("change")); });
+await pause(60);
+if (await page.$eval("#busy", (busy) => !busy.hidden)) {
+  await page.click("#cancel");
+  await until("the work is stopped", () => document.getElementById("busy").hidden && document.getElementById("problem").textContent.includes("Stopped"));
+  await page.$eval('[id="model-rows-.size"]', (input) => { input.value = 210; input.dispatchEvent(new Event("change")); });
+  await pause(300);
+  await until("the next change starts it again", isDone);
+}
+
+// Accessible, as far as a program can tell.
+const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
+await page.evaluate(axe);
+const found = await page.evaluate(() => axe.run({ resultTypes: ["violations"] }));
+const serious = found.violations.filter(({ impact }) => ["serious", "critical"].includes(impact));
+expect(serious.length === 0, `axe: ${JSON.stringify(serious.map(({ id, nodes }) => [id, nodes.slice(0, 3).map((node) => node.html.slice(0, 120))]))}`);
+
+// A job on the stub: pause, go on, stop with the tool up, continue.
+const isUp = () => page.evaluate(() => /(^|;|\x1b[^;]*)PU[^;]*;?(?!.*PD)/s.test(globalThis.got.text.slice(globalThis.got.text.lastIndexOf("PD") + 1)));
+await drop("box.obj");
+await pause(500);
+await until("the box is finished", isDone);
+await page.click("#plot");
+await page.select("#machine", "hp-7475a");
+await page.select("#medium", "pen");
+await until("the job is ready", () => !document.getElementById("job-start").disabled && document.getElementById("job-note").textContent.includes("stroke"));
+expect((await page.$$("#job option")).length > 1, "each sheet is a job");
+await picture("plot");
+const status = () => page.$eval("#job-status", (p) => p.textContent);
+await page.click("#job-start");
+await until("strokes are drawn", () => /: [1-9]\d* of/.test(document.getElementById("job-status").textContent), 30);
+await page.click("#job-pause");
+await until("the job is paused", () => document.getElementById("job-status").textContent.startsWith("paused"), 20);
+const paused = await page.evaluate(() => got.text.length);
+expect(await isUp(), "the tool is up while the job is paused");
+await pause(700);
+const moved = await page.evaluate((from) => got.text.slice(from), paused);
+expect(!moved.includes("PD"), `nothing is drawn while the job is paused: ${moved}`);
+await page.click("#job-pause");
+await until("the job goes on", () => document.getElementById("job-status").textContent.startsWith("sending"), 20);
+await page.click("#job-stop");
+await until("the job is stopped", () => document.getElementById("job-start").textContent === "Continue", 40);
+expect(await isUp(), "the tool is up after a stop");
+const stopped = await status();
+await page.click("#job-start");
+await until("the job is finished", () => document.getElementById("job-status").textContent === "finished", 120);
+expect(await page.evaluate(() => got.opened === 2 && got.options.baudRate === 9600), "the port is opened as the machine needs");
+figure("stopped job", stopped);
+await page.click("#plotting-close");
+
+// Without a network.
+await until("the service worker keeps the page", () => navigator.serviceWorker.ready.then(() => Boolean(navigator.serviceWorker.controller)));
+await new Promise((done) => { server.close(done); server.closeAllConnections(); });
+await page.reload();
+await page.waitForSelector("#samples button");
+await page.evaluate(() => [...document.querySelectorAll("#samples button")].find((button) => button.textContent === "lamp").click());
+await until("a sample is made without a network", isDone);
+
+// A phone.
+await page.setViewport({ width: 390, height: 844, isMobile: true, hasTouch: true, deviceScaleFactor: 2 });
+// The browser loads a page anew for a phone.
+await page.waitForSelector("#samples button");
+await page.evaluate(() => [...document.querySelectorAll("#samples button")].find((button) => button.textContent === "snowman").click());
+await until("a sample is made on a phone", isDone);
+await pause(700);
+const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+expect((await overflow()) <= 0, `the work is ${await overflow()} px too wide for a phone`);
+await picture("phone");
+await page.evaluate(() => scrollTo(0, 900));
+await picture("phone-below");
+page.on("dialog", (dialog) => dialog.accept());
+await page.reload();
+await page.waitForSelector("#samples button");
+await pause(400);
+expect((await overflow()) <= 0, `the first page is ${await overflow()} px too wide for a phone`);
+await picture("phone-welcome");
+
+await browser.close();
+figure("WebAssembly", `${(wasm.length / 1e6).toFixed(2)} MB, ${(gzipSync(wasm, { level: 9 }).length / 1e6).toFixed(2)} MB with gzip`);
+for (const fault of faults) console.log(`fault ${fault}`);
+console.log(`${passed} passed, ${faults.length} failed`);
+process.exit(faults.length ? 1 : 0);

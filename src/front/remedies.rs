@@ -1,0 +1,67 @@
+//! What a warning advises, as a change that one click makes.
+
+use tatamu::project::change::{Change, to_digits};
+use tatamu::project::options::{Entry, MARGIN, MIN_PANEL_WIDTH, PAPER, SIZE, SPLIT, Settings, THICK};
+use tatamu::remedy::Remedy;
+use toml_edit::Value;
+
+/// How much larger, or smaller, a size is that is only said to be so.
+const STEP: f64 = 1.25;
+
+/// Papers, each half of the next.
+const PAPERS: [&str; 6] = ["a5", "a4", "a3", "a2", "a1", "a0"];
+
+/// What the user reads, and the change; none for what is done by hand.
+pub fn change(remedy: &Remedy, now: &Settings) -> Option<(String, Change)> {
+    let size_mm = now.model.size_mm;
+    let length = |option: &'static Entry, mm: f64| {
+        (format!("{} {mm} mm", label(option)), Change::Set { option, value: Some(mm.into()) })
+    };
+    let paper = |by: isize| {
+        let place = PAPERS.iter().position(|name| *name == now.model.paper.name())?;
+        let name = *PAPERS.get(place.checked_add_signed(by)?)?;
+        let value: Value = name.into();
+        Some((format!("{} {name}", label(&PAPER)), Change::Set { option: &PAPER, value: Some(value) }))
+    };
+    let reset = |text: &str, option| Some((text.to_owned(), Change::Set { option, value: None }));
+    match remedy {
+        Remedy::LargerSize => Some(length(&SIZE, (size_mm * STEP).round())),
+        Remedy::SmallerSize => Some(length(&SIZE, (size_mm / STEP).round())),
+        Remedy::SizeAtMost(mm) => Some(length(&SIZE, mm.floor())),
+        Remedy::LargerPaper => paper(1),
+        Remedy::SmallerPaper => paper(-1),
+        Remedy::SmallerMargin => Some(length(&MARGIN, to_digits(now.model.margin_mm / 2.0, 1))),
+        Remedy::NarrowerPanels(mm) => Some(length(&MIN_PANEL_WIDTH, to_digits(mm / STEP, 1))),
+        Remedy::SplitPanels => reset("Split large panels", &SPLIT),
+        Remedy::NoBoards => reset("Fold without boards", &THICK),
+        _ => None,
+    }
+}
+
+fn label(option: &Entry) -> &'static str {
+    option.dial.map_or(option.name(), |dial| dial.label)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tatamu::project::Project;
+    use tatamu::project::options::choose;
+
+    #[test]
+    fn a_click_does_what_is_advised() {
+        let now = Settings::standard();
+        for (remedy, text) in [
+            (Remedy::LargerSize, "size = 250"),
+            (Remedy::SizeAtMost(123.4), "size = 123"),
+            (Remedy::LargerPaper, "size = \"a3\""),
+            (Remedy::NarrowerPanels(3.0), "= 2.4"),
+        ] {
+            let (label, change) = super::change(&remedy, now).unwrap();
+            let changed = change.apply("mesh = \"a.obj\"\n").unwrap();
+            assert!(changed.contains(text), "{label}: {changed}");
+            choose(Some(&Project::parse(&changed).unwrap()), &[]).unwrap();
+        }
+        assert!(super::change(&Remedy::TapeJoint, now).is_none(), "this is done by hand");
+    }
+}

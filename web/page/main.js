@@ -1,0 +1,549 @@
+// The page: what the user sees and does. The model is made in work.js, its picture in view.js.
+import { rows } from './rows.js';
+import { plot } from './plot.js';
+
+const SAMPLES = ['teddy.obj', 'rabbit.obj', 'snowman.obj', 'teapot.obj', 'bottle.obj', 'box.obj', 'gift-box.toml', 'lamp.toml', 'vase.toml'];
+// Turn of the view for a drag over the window's shorter side, radians.
+const DRAG = 4;
+// Turn of a fold direction for a step of the wheel, degrees; with Shift the smaller one.
+const STEP = [5, 1];
+// Seconds that folding a component takes.
+const FOLD = 1.2;
+
+const by = id => document.getElementById(id);
+const element = (name, properties = {}, ...children) => {
+  const made = Object.assign(document.createElement(name), properties);
+  made.append(...children);
+  return made;
+};
+const counted = (count, one) => `${count} ${one}${count === 1 ? '' : 's'}`;
+const say = text => { by('said').textContent = text; };
+
+// ---- The two workers.
+
+const files = new Map();
+let opened = null, told = null, kept = null, choices = null, module = null;
+let work = null, number = 0;
+const answers = new Map();
+
+async function compiled() {
+  const response = await fetch('tatamu_bg.wasm');
+  const isTyped = response.headers.get('content-type')?.startsWith('application/wasm');
+  return isTyped ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+}
+
+const view = new Worker('view.js', { type: 'module' });
+
+let isReady = () => {};
+
+// Begins with a worker, whose scenes go straight to the picture.
+function hire(first = {}, moved = []) {
+  const { port1, port2 } = new MessageChannel();
+  work = new Worker('work.js', { type: 'module' });
+  work.onmessage = heard;
+  const ready = new Promise(done => { isReady = done; });
+  work.postMessage({ module, scenes: port1 }, [port1]);
+  view.postMessage({ ...first, scenes: port2 }, [port2, ...moved]);
+  return ready;
+}
+
+function ask(call, ...args) {
+  number += 1;
+  work.postMessage({ call, args, id: number });
+  return new Promise((done, failed) => answers.set(number, { done, failed }));
+}
+
+// Does something that may be refused.
+function act(call, ...args) {
+  ask(call, ...args).catch(problem);
+}
+
+const heard = ({ data }) => {
+  if (data.choices) {
+    choices = data.choices;
+    isReady();
+  } else if (data.answer) {
+    const { done, failed } = answers.get(data.answer);
+    answers.delete(data.answer);
+    if (data.error) failed(data.error); else done(data.result);
+  } else if (data.stage) {
+    by('stage').textContent = data.stage;
+    by('progress').removeAttribute('value');
+  } else if (data.fraction !== undefined) {
+    by('progress').value = data.fraction;
+  } else if (data.problem) {
+    problem(data.problem);
+  } else if (data.told) {
+    kept = data.project;
+    show(data.told);
+    if (data.sheets) showSheets(data.sheets);
+  }
+};
+
+function problem(text) {
+  const place = by('work').hidden ? by('welcome-problem') : by('problem');
+  place.textContent = text;
+  place.hidden = false;
+}
+
+const compiling = compiled().catch(error => problem(`tatamu could not be loaded: ${error.message}`));
+const hired = compiling.then(async made => {
+  module = made;
+  const canvas = by('canvas').transferControlToOffscreen();
+  await hire({ module, canvas }, [canvas]);
+  for (const format of choices.formats) {
+    const button = element('button', {}, element('b', { textContent: format.id.replace('guide.', 'guide ') }), element('small', { textContent: format.description }));
+    button.onclick = () => download(format.id);
+    by('formats').append(button);
+  }
+  const project = element('button', {}, element('b', { textContent: 'toml' }), element('small', { textContent: 'the project file, to go on later here or with the program' }));
+  project.onclick = saveProject;
+  by('formats').prepend(project);
+  choices.axes.forEach((name, k) => by('axis').append(element('option', { value: k, textContent: name })));
+  choices.machines.forEach(({ profile, name }) => by('machine').append(element('option', { value: profile, textContent: name })));
+  choices.media.forEach(name => by('medium').append(element('option', { value: name, textContent: name })));
+});
+
+// ---- Opening.
+
+const isProject = name => /\.toml$/i.test(name);
+const isMesh = name => /\.(obj|stl|ply|off|gltf|glb|3mf)$/i.test(name);
+
+async function take(list) {
+  const given = [...list];
+  for (const file of given) files.set(file.name, new Uint8Array(await file.arrayBuffer()));
+  const main = given.find(file => isProject(file.name)) ?? given.find(file => isMesh(file.name)) ?? given[0];
+  // A mesh that a project waits for is not opened by itself.
+  const name = waiting && isMesh(main?.name ?? '') ? waiting : main?.name;
+  if (name) await open(name);
+}
+let waiting = null;
+
+async function open(name, text) {
+  for (const place of [by('welcome-problem'), by('problem')]) place.textContent = '';
+  by('problem').hidden = true;
+  await hired;
+  try {
+    await ask('open', [...files], name, text);
+  } catch (error) {
+    waiting = isProject(name) ? name : null;
+    problem(waiting ? `${error} Choose that file as well.` : error);
+    return false;
+  }
+  [opened, waiting] = [name, null];
+  by('welcome').hidden = true;
+  by('work').hidden = by('bar').hidden = false;
+  by('sheets').replaceChildren();
+  Object.assign(sight, { folded: 0, isMesh: false, clash: undefined, axis: undefined });
+  by('folded').value = 0;
+  by('mesh').checked = false;
+  view.postMessage({ what: 'reset' });
+  measure();
+  await ask('run');
+  return true;
+}
+
+by('choose').onclick = by('new').onclick = () => by('file').click();
+by('file').onchange = async event => {
+  await take(event.target.files);
+  event.target.value = '';
+};
+for (const name of SAMPLES) {
+  const button = element('button', { textContent: name.replace(/\.\w+$/, '').replace('-', ' ') });
+  button.onclick = async () => {
+    files.set(name, new Uint8Array(await (await fetch(`samples/${name}`)).arrayBuffer()));
+    open(name);
+  };
+  by('samples').append(button);
+}
+addEventListener('dragover', event => { event.preventDefault(); document.body.classList.add('over'); });
+addEventListener('dragleave', event => { if (!event.relatedTarget) document.body.classList.remove('over'); });
+addEventListener('drop', event => {
+  event.preventDefault();
+  document.body.classList.remove('over');
+  take(event.dataTransfer.files);
+});
+addEventListener('beforeunload', event => { if (told?.is_changed) event.preventDefault(); });
+
+// ---- What is told.
+
+function show(now) {
+  const wasBusy = told?.is_busy;
+  told = now;
+  by('title').textContent = now.title;
+  document.title = `${now.title} – tatamu`;
+  by('busy').hidden = !now.is_busy;
+  if (now.is_busy && !wasBusy) by('problem').hidden = true;
+  if (wasBusy && !now.is_busy && now.facts) say(`${now.title} is ready: ${counted(now.facts.components, 'component')} on ${counted(now.facts.sheets, 'sheet')}`);
+  for (const [id, label] of [['undo', now.undo], ['redo', now.redo]]) {
+    by(id).disabled = !label;
+    by(id).title = label ? `${id} ${label}` : '';
+  }
+  const f = now.facts;
+  by('facts').textContent = f ? `${f.size} · ${counted(f.components, 'component')}, ${counted(f.pieces, 'piece')}, ${counted(f.sheets, 'sheet')} of ${f.paper} · work ${f.work}${f.order?.length > 1 ? ` · folds in the order ${f.order.join(', ')}` : ''}` : '';
+  const set = component => (row, value, isGesture) => {
+    stopPlaying(0);
+    act('set', row.option, JSON.stringify(value), component, isGesture);
+  };
+  const end = () => act('end_gesture');
+  rows(by('model-rows'), now.model, set(), end);
+  rows(by('paper-rows'), now.paper, set(), end);
+  showParts(now.parts);
+  const own = now.parts.filter(part => part.is_selected);
+  by('own').hidden = own.length === 0 || now.is_drawn;
+  by('parts-hint').hidden = now.is_drawn;
+  by('merge').disabled = own.length < 2;
+  const one = own.at(-1);
+  if (one && !now.is_drawn) {
+    const name = { option: 'name', label: 'Name', tip: 'printed on the pieces', kind: 'name', value: one.name };
+    rows(by('own-rows'), [name, ...one.rows], (row, value, isGesture) => {
+      if (row.option === 'name') act('rename', one.key, value);
+      else set(one.key)(row, value, isGesture);
+    }, end);
+  } else if (sight.axis !== undefined) {
+    endSplit();
+  }
+  showNotes(now);
+}
+
+function showParts(parts) {
+  const list = by('parts');
+  const focused = [...list.children].findIndex(option => option === document.activeElement);
+  list.replaceChildren(...parts.map((part, k) => {
+    const swatch = element('span', { className: 'swatch' });
+    swatch.style.background = part.colour;
+    const error = element('span', { className: 'right-text', textContent: told.is_drawn ? '' : `${part.error_mm.toFixed(1)} mm`, title: 'largest distance between the component and the hull of its part' });
+    const option = element('div', { role: 'option', tabIndex: k === Math.max(focused, 0) ? 0 : -1 }, swatch, element('span', { textContent: part.name }), error);
+    option.setAttribute('aria-selected', part.is_selected);
+    option.dataset.key = part.key;
+    option.onclick = event => select(part.key, event.shiftKey || event.ctrlKey || event.metaKey);
+    option.onkeydown = event => {
+      const to = { ArrowDown: k + 1, ArrowUp: k - 1, Home: 0, End: parts.length - 1 }[event.key];
+      if (to !== undefined) { list.children[to]?.focus(); event.preventDefault(); }
+      if (event.key === ' ' || event.key === 'Enter') { select(part.key, event.shiftKey); event.preventDefault(); }
+    };
+    return option;
+  }));
+  if (focused >= 0) list.children[focused]?.focus();
+}
+
+function select(key, adds) {
+  act('select', key, adds || by('more').getAttribute('aria-pressed') === 'true');
+}
+
+function showNotes(now) {
+  const buttons = (...list) => (list.length ? [element('div', { className: 'buttons' }, ...list)] : []);
+  const button = (textContent, onclick) => element('button', { textContent, onclick });
+  const clashes = now.clashes.map((clash, k) => element('div', { className: 'note' }, element('p', { textContent: clash.text }), ...buttons(button('Show it', async () => {
+    sight.clash = k;
+    fold(await ask('moment', k) ?? 0);
+  }))));
+  const warnings = now.warnings.map((warning, k) => element('div', { className: 'note' }, element('p', { textContent: warning.text }), ...buttons(
+    ...(warning.part ? [button('Go to', () => select(warning.part, false))] : []),
+    ...warning.remedies.map((label, r) => button(label, () => act('heed', k, r))),
+  )));
+  by('notes').replaceChildren(...clashes, ...warnings);
+}
+
+let urls = [];
+function showSheets(texts) {
+  urls.forEach(url => URL.revokeObjectURL(url));
+  urls = texts.map(text => URL.createObjectURL(new Blob([text], { type: 'image/svg+xml' })));
+  by('sheets-title').textContent = `Sheets (${texts.length})`;
+  by('sheets').replaceChildren(...urls.map((src, k) => {
+    const link = element('a', { href: src, target: '_blank', title: 'opens the sheet' }, element('img', { src, alt: `Sheet ${k + 1}` }));
+    return link;
+  }));
+}
+
+// ---- Space.
+
+const sight = { folded: 0, isMesh: false, hover: undefined, clash: undefined, axis: undefined, share: 0.5 };
+const look = () => act('sight', { ...sight });
+const steer = (azimuth, elevation, zoom = 1, x = 0, y = 0, dx = 0, dy = 0) => view.postMessage({ what: 'steer', by: [azimuth, elevation, zoom, x, y, dx, dy] });
+
+function measure() {
+  const box = by('frame').getBoundingClientRect();
+  // A phone's pixels are finer than the eye.
+  const ratio = Math.min(devicePixelRatio || 1, 2);
+  const [width, height] = [box.width, box.height].map(n => Math.max(1, Math.round(n * ratio)));
+  if (width > 1) view.postMessage({ what: 'size', width, height });
+}
+new ResizeObserver(measure).observe(by('frame'));
+
+const dark = matchMedia('(prefers-color-scheme: dark)');
+const paint = () => view.postMessage({ what: 'ground', rgb: dark.matches ? [38, 40, 44] : [246, 247, 249] });
+dark.onchange = paint;
+
+const picks = new Map();
+view.onmessage = ({ data }) => {
+  if (data.isReady) { measure(); paint(); }
+  if (data.drawn) document.documentElement.dataset.drawn = data.drawn;
+  if (data.asked) { picks.get(data.asked)?.(data); picks.delete(data.asked); }
+};
+function pick(event) {
+  const box = by('frame').getBoundingClientRect();
+  const ratio = Math.min(devicePixelRatio || 1, 2);
+  number += 1;
+  const asked = number;
+  view.postMessage({ asked, at: [(event.clientX - box.left) * ratio, (event.clientY - box.top) * ratio].map(Math.floor) });
+  return new Promise(done => picks.set(asked, done));
+}
+
+const canvas = by('canvas');
+const fingers = new Map();
+let moved = 0;
+canvas.onpointerdown = event => {
+  canvas.setPointerCapture(event.pointerId);
+  fingers.set(event.pointerId, event);
+  moved = fingers.size > 1 ? 99 : 0;
+};
+canvas.onpointermove = event => {
+  const last = fingers.get(event.pointerId);
+  if (!last) return;
+  const side = Math.min(canvas.clientWidth, canvas.clientHeight);
+  const [dx, dy] = [event.clientX - last.clientX, event.clientY - last.clientY].map(d => d / side);
+  moved += Math.hypot(dx, dy) * side;
+  const other = [...fingers.values()].find(finger => finger.pointerId !== event.pointerId);
+  if (other) {
+    const apart = finger => Math.hypot(finger.clientX - other.clientX, finger.clientY - other.clientY);
+    steer(0, 0, apart(event) / Math.max(apart(last), 1), 0, 0, dx / 2, -dy / 2);
+  } else if (event.buttons & 6 || event.shiftKey) {
+    steer(0, 0, 1, 0, 0, dx, -dy);
+  } else {
+    steer(-dx * DRAG, dy * DRAG);
+  }
+  fingers.set(event.pointerId, event);
+};
+canvas.onpointerup = async event => {
+  fingers.delete(event.pointerId);
+  if (moved > 5) return;
+  const { part } = await pick(event);
+  select(told?.parts[part]?.key, event.shiftKey || event.ctrlKey || event.metaKey);
+};
+canvas.onpointercancel = event => fingers.delete(event.pointerId);
+canvas.oncontextmenu = event => event.preventDefault();
+
+let ending = 0;
+function turn(part, degrees) {
+  stopPlaying(0);
+  act('turn', part, degrees);
+  clearTimeout(ending);
+  ending = setTimeout(() => act('end_gesture'), 1000);
+}
+let rest = 0;
+canvas.addEventListener('wheel', async event => {
+  event.preventDefault();
+  const box = by('frame').getBoundingClientRect();
+  const side = Math.min(box.width, box.height);
+  const at = [(event.clientX - box.left - box.width / 2) / side, -(event.clientY - box.top - box.height / 2) / side];
+  const steps = -(event.deltaY + event.deltaX) / (event.deltaMode === 0 ? 100 : 3);
+  const { part } = await pick(event);
+  if (!event.ctrlKey && told?.parts[part]?.is_selected && !told.is_drawn) {
+    rest += steps;
+    const whole = Math.trunc(rest);
+    rest -= whole;
+    if (whole) turn(part, whole * STEP[event.shiftKey ? 1 : 0]);
+  } else {
+    steer(0, 0, 1.12 ** steps, ...at);
+  }
+}, { passive: false });
+canvas.onkeydown = event => {
+  const selected = told?.parts.findLastIndex(part => part.is_selected) ?? -1;
+  const keys = {
+    ArrowLeft: () => steer(0.15, 0), ArrowRight: () => steer(-0.15, 0), ArrowUp: () => steer(0, 0.15), ArrowDown: () => steer(0, -0.15),
+    '+': () => steer(0, 0, 1.12), '-': () => steer(0, 0, 1 / 1.12), f: () => view.postMessage({ what: 'fit' }),
+    '[': () => selected >= 0 && turn(selected, -STEP[0]), ']': () => selected >= 0 && turn(selected, STEP[0]), ' ': play,
+    m: () => act('merge'), Escape: () => act('select', undefined, false),
+  };
+  if (!keys[event.key] || event.ctrlKey || event.metaKey) return;
+  keys[event.key]();
+  event.preventDefault();
+};
+addEventListener('keydown', event => {
+  const isText = /^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName) && event.target.type !== 'range';
+  if (isText || !(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== 'z') return;
+  act(event.shiftKey ? 'redo' : 'undo');
+  event.preventDefault();
+});
+
+let playing = 0;
+function fold(folded) {
+  sight.folded = folded;
+  by('folded').value = folded;
+  look();
+}
+function stopPlaying(folded) {
+  cancelAnimationFrame(playing);
+  playing = 0;
+  by('play').setAttribute('aria-pressed', false);
+  by('play').textContent = 'Fold';
+  sight.clash = undefined;
+  if (folded !== undefined && sight.folded !== folded) fold(folded);
+}
+function play() {
+  if (playing) return stopPlaying();
+  const [from, to] = sight.folded >= 1 ? [1, 0] : [sight.folded, 1];
+  const whole = FOLD * 1000 * Math.max(told?.parts.length ?? 1, 1) * Math.abs(to - from);
+  const start = performance.now();
+  let isBusy = false;
+  by('play').setAttribute('aria-pressed', true);
+  by('play').textContent = 'Pause';
+  const frame = async now => {
+    const share = Math.min(Math.max((now - start) / whole, 0), 1);
+    playing = requestAnimationFrame(frame);
+    if (isBusy) return;
+    isBusy = true;
+    sight.folded = from + (to - from) * share;
+    by('folded').value = sight.folded;
+    await ask('sight', { ...sight }).catch(() => {});
+    isBusy = false;
+    if (share === 1 && playing) stopPlaying();
+  };
+  playing = requestAnimationFrame(frame);
+}
+by('play').onclick = play;
+by('folded').oninput = event => { stopPlaying(); fold(Number(event.target.value)); };
+by('mesh').onchange = event => { sight.isMesh = event.target.checked; look(); };
+by('fit').onclick = () => view.postMessage({ what: 'fit' });
+
+// ---- Changes.
+
+by('undo').onclick = () => act('undo');
+by('redo').onclick = () => act('redo');
+by('merge').onclick = () => { by('more').setAttribute('aria-pressed', false); act('merge'); };
+by('more').onclick = () => by('more').setAttribute('aria-pressed', by('more').getAttribute('aria-pressed') !== 'true');
+by('reset').onclick = () => { const part = told.parts.findLast(own => own.is_selected); if (part) act('reset', part.key); };
+function endSplit() {
+  by('splitting').hidden = true;
+  sight.axis = undefined;
+  look();
+}
+function moveSplit() {
+  by('splitting').hidden = false;
+  Object.assign(sight, { axis: Number(by('axis').value), share: Number(by('share').value), folded: 0 });
+  by('folded').value = 0;
+  look();
+}
+by('split').onclick = () => { by('axis').value = 2; moveSplit(); };
+by('axis').onchange = by('share').oninput = moveSplit;
+by('split-cancel').onclick = endSplit;
+by('split-here').onclick = () => { act('split', sight.axis, sight.share); endSplit(); };
+
+// The work is stopped with its worker. Another one knows the project and makes it at the next change.
+by('cancel').onclick = async () => {
+  work.terminate();
+  for (const { failed } of answers.values()) failed('stopped');
+  answers.clear();
+  await hire();
+  await ask('open', [...files], opened, kept).catch(problem);
+  by('busy').hidden = true;
+  told = { ...told, is_busy: false };
+  say('stopped');
+  problem('Stopped; the next change starts it again.');
+};
+
+// ---- Files.
+
+function save(name, parts, type = 'application/octet-stream') {
+  const url = URL.createObjectURL(new Blob(parts, { type }));
+  element('a', { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+}
+async function download(format) {
+  by('downloads').open = false;
+  by('problem').hidden = true;
+  say('writing');
+  try {
+    for (const file of await ask('export', format)) save(file.name, [file.bytes]);
+    say('written');
+  } catch (error) {
+    problem(error);
+  }
+}
+async function saveProject() {
+  by('downloads').open = false;
+  save(`${told.title}.toml`, [await ask('project')], 'application/toml');
+}
+addEventListener('click', event => { if (!by('downloads').contains(event.target)) by('downloads').open = false; });
+
+// ---- Machines.
+
+let jobs = [], live = null, done = 0, preparing = 0;
+const chosen = () => jobs[Number(by('job').value)];
+
+// What is chosen last counts.
+async function prepare() {
+  number += 1;
+  const own = (preparing = number);
+  by('job-start').disabled = true;
+  by('job-status').textContent = 'preparing the job';
+  try {
+    const made = await ask('jobs', by('machine').value, by('medium').value);
+    if (own !== preparing) return;
+    jobs = made;
+    by('job').replaceChildren(...jobs.map((job, k) => element('option', { value: k, textContent: job.name })));
+    ready();
+  } catch (error) {
+    if (own !== preparing) return;
+    jobs = [];
+    by('job').replaceChildren();
+    by('job-note').textContent = '';
+    by('job-status').textContent = error;
+  }
+  by('job-start').disabled = !jobs.length || !navigator.serial;
+}
+function ready() {
+  done = 0;
+  by('job-progress').value = 0;
+  by('job-start').textContent = 'Start';
+  by('job-note').textContent = [chosen()?.summary, ...(chosen()?.notes ?? [])].join('. ');
+  by('job-status').textContent = 'Load the sheet, then start.';
+}
+by('plot').onclick = () => {
+  by('no-serial').hidden = Boolean(navigator.serial);
+  by('plotting').showModal();
+  if (!live) prepare();
+};
+by('machine').onchange = by('medium').onchange = prepare;
+by('job').onchange = ready;
+by('plotting-close').onclick = () => by('plotting').close();
+
+function follow(step) {
+  by('job-progress').value = step.strokes ? step.strokes_done / step.strokes : 0;
+  const left = Math.ceil(step.seconds_left);
+  const time = left < 60 ? `${left} s` : `${Math.floor(left / 60)} min`;
+  const text = `${step.doing}: ${step.strokes_done} of ${step.strokes} strokes, ${time} left`;
+  if (by('job-status').textContent !== text) by('job-status').textContent = text;
+}
+function during(isLive) {
+  for (const id of ['machine', 'medium', 'job', 'job-start', 'plotting-close']) by(id).disabled = isLive;
+  for (const id of ['job-pause', 'job-stop']) by(id).disabled = !isLive;
+  by('job-pause').textContent = 'Pause';
+}
+by('job-start').onclick = async () => {
+  try {
+    const port = await navigator.serial.requestPort();
+    live = await plot(module, by('machine').value, chosen(), done, port, follow);
+    during(true);
+    const last = await live.end;
+    done = last.is_finished ? 0 : last.strokes_done;
+    by('job-status').textContent = last.is_finished ? 'finished' : `${last.problem}; ${done} of ${last.strokes} strokes are done`;
+    by('job-start').textContent = last.is_finished ? 'Start' : 'Continue';
+  } catch (error) {
+    by('job-status').textContent = `The port cannot be used: ${error.message ?? error}`;
+  }
+  live = null;
+  during(false);
+};
+by('job-pause').onclick = () => {
+  const isPaused = by('job-pause').textContent === 'Go on';
+  if (isPaused) live?.goOn(); else live?.pause();
+  by('job-pause').textContent = isPaused ? 'Pause' : 'Go on';
+};
+by('job-stop').onclick = () => live?.stop();
+by('plotting').addEventListener('cancel', event => { if (live) event.preventDefault(); });
+
+// ---- Without a network.
+
+if ('serviceWorker' in navigator && isSecureContext) navigator.serviceWorker.register('sw.js').catch(() => {});

@@ -1,0 +1,74 @@
+// Settings as rows: a label and its control. What is being edited keeps its control.
+
+function control(row, set, end) {
+  if (row.kind === 'switch') {
+    const box = Object.assign(document.createElement('input'), { type: 'checkbox' });
+    box.onchange = () => set(box.row, box.checked, false);
+    return box;
+  }
+  if (row.kind === 'text' && !row.takes_other) {
+    const list = document.createElement('select');
+    list.append(...row.names.map(name => Object.assign(document.createElement('option'), { value: name, textContent: name })));
+    list.onchange = () => set(list.row, list.value, false);
+    return list;
+  }
+  const field = document.createElement('input');
+  field.type = row.kind === 'number' ? 'number' : 'text';
+  if (row.kind === 'number') {
+    field.step = row.digits > 0 ? 'any' : 1;
+    // Each key that is pressed, or each click of the arrows, is part of one gesture.
+    field.onchange = () => { if (field.value !== '') set(field.row, Number(field.value), true); };
+    field.onblur = end;
+  } else {
+    field.onchange = () => set(field.row, field.value, false);
+  }
+  return field;
+}
+
+function fill(input, row) {
+  input.row = row;
+  if (row.kind === 'switch') {
+    input.checked = row.value;
+  } else if (document.activeElement !== input) {
+    const value = row.value ?? row.such_as ?? '';
+    input.value = row.kind === 'number' ? Number(Number(value).toFixed(row.digits + 1)) : value;
+  }
+  if (row.kind === 'number') {
+    if (row.least !== null) input.min = row.least;
+    if (row.most !== null) input.max = row.most;
+    input.disabled = row.is_optional && row.value === null;
+  }
+}
+
+/// Shows the rows; `set` takes the row, a value or null, and whether it is part of a gesture that `end` ends.
+export function rows(place, list, set, end) {
+  const wanted = list.map(row => row.option).join();
+  place.set = set;
+  if (place.dataset.rows !== wanted) {
+    place.dataset.rows = wanted;
+    place.replaceChildren();
+    for (const row of list) {
+      const id = `${place.id}-${row.option}`;
+      const label = Object.assign(document.createElement('label'), { htmlFor: id, title: row.tip });
+      label.textContent = row.unit && row.unit !== '°' ? `${row.label} (${row.unit})` : row.label;
+      const input = control(row, (...given) => place.set(...given), end);
+      [input.id, input.title] = [id, row.tip];
+      if (row.is_optional) {
+        const box = Object.assign(document.createElement('input'), { type: 'checkbox', title: 'off: automatic' });
+        box.setAttribute('aria-label', `choose ${row.label}`);
+        box.onchange = () => place.set(input.row, box.checked ? input.row.such_as : null, false);
+        const both = Object.assign(document.createElement('div'), { className: 'auto' });
+        both.append(box, input);
+        input.box = box;
+        place.append(label, both);
+      } else {
+        place.append(label, input);
+      }
+    }
+  }
+  list.forEach(row => {
+    const input = document.getElementById(`${place.id}-${row.option}`);
+    if (input.box) input.box.checked = row.value !== null;
+    fill(input, row);
+  });
+}

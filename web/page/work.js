@@ -1,0 +1,97 @@
+// The desk: opens files, makes the model one stage at a time, and writes files. Between two stages it hears the page.
+import init, { Desk, choices } from './tatamu.js';
+
+let desk, scenes;
+let sight = { folded: 0, isMesh: false };
+let isRunning = false, laid = '', told = 0;
+
+globalThis.tatamu = {
+  stage: name => postMessage({ stage: name }),
+  fraction(done) {
+    // Not more often than it can be seen.
+    if (performance.now() - told < 50) return;
+    told = performance.now();
+    postMessage({ fraction: done });
+  },
+  is_cancelled: () => false,
+};
+
+const text = error => (typeof error === 'string' ? error : String(error?.message ?? error));
+
+function show() {
+  const numbers = desk.scene(sight.folded, sight.hover, sight.isMesh, sight.clash, sight.axis, sight.share ?? 0.5);
+  scenes.postMessage(numbers, [numbers.buffer]);
+}
+
+function tell() {
+  const now = JSON.parse(desk.told());
+  const message = { told: now, project: desk.project() };
+  const facts = JSON.stringify([now.facts && { ...now.facts, order: null }, now.title]);
+  if (now.facts && facts + now.is_busy !== laid) {
+    laid = facts + now.is_busy;
+    message.sheets = desk.sheets();
+  }
+  postMessage(message);
+}
+
+async function run() {
+  tell();
+  if (isRunning) return;
+  isRunning = true;
+  try {
+    for (let isMore = true; isMore;) {
+      await new Promise(done => setTimeout(done, 0));
+      isMore = desk.work();
+      show();
+      tell();
+    }
+  } catch (error) {
+    postMessage({ problem: text(error) });
+    tell();
+  }
+  isRunning = false;
+  postMessage({ isIdle: true });
+}
+
+// What the page may ask for; those of the first list change the model.
+const changes = ['set', 'rename', 'reset', 'heed', 'undo', 'redo', 'turn', 'merge', 'split', 'replace'];
+const calls = {
+  open(files, name, text) {
+    desk?.free();
+    desk = new Desk();
+    laid = '';
+    for (const [name, bytes] of files) desk.add(name, bytes);
+    desk.open(name);
+    if (text) desk.replace(text, 'what was stopped');
+    sight = { folded: 0, isMesh: false };
+  },
+  run() { show(); run(); },
+  select(key, adds) { desk.select(key, adds); show(); tell(); },
+  sight(now) { sight = now; show(); },
+  export: format => desk.export(format).map(file => ({ name: file.name, bytes: file.bytes })),
+  project: () => desk.project(),
+  jobs: (machine, medium) => JSON.parse(desk.jobs(machine, medium)),
+  moment: clash => desk.moment(clash),
+  end_gesture() { desk.end_gesture(); },
+};
+
+onmessage = async ({ data }) => {
+  if (data.module) {
+    scenes = data.scenes;
+    await init({ module_or_path: data.module });
+    postMessage({ choices: JSON.parse(choices()) });
+    return;
+  }
+  try {
+    let result;
+    if (changes.includes(data.call)) {
+      desk[data.call](...data.args);
+      run();
+    } else {
+      result = calls[data.call](...data.args);
+    }
+    postMessage({ answer: data.id, result });
+  } catch (error) {
+    postMessage({ answer: data.id, error: text(error) });
+  }
+};
