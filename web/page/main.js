@@ -130,7 +130,7 @@ async function open(name, text) {
     problem(waiting ? `${error} Choose that file as well.` : error);
     return false;
   }
-  [opened, waiting] = [name, null];
+  [opened, waiting, told] = [name, null, null];
   by('welcome').hidden = true;
   by('work').hidden = by('bar').hidden = false;
   by('sheets').replaceChildren();
@@ -169,6 +169,8 @@ addEventListener('beforeunload', event => { if (told?.is_changed) event.preventD
 
 function show(now) {
   const wasBusy = told?.is_busy;
+  // The model may be smaller than the mesh that was seen before.
+  if (now.parts.length && !told?.parts.length) view.postMessage({ what: 'fit' });
   told = now;
   by('title').textContent = now.title;
   document.title = `${now.title} – tatamu`;
