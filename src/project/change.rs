@@ -220,7 +220,7 @@ pub fn to_digits(x: f64, digits: i32) -> f64 {
 
 /// Six significant digits of the longest coordinate.
 fn rounded(v: DVec3) -> Array {
-    let digits = 5 - v.abs().max_element().max(1e-12).log10().floor() as i32;
+    let digits = 5 - libm::log10(v.abs().max_element().max(1e-12)).floor() as i32;
     v.to_array().iter().map(|&x| to_digits(x, digits)).collect()
 }
 

@@ -112,7 +112,7 @@ impl Top {
                     ));
                 }
                 let step = std::f64::consts::TAU / *edges as f64;
-                let outer = radius / (0.5 * step).cos();
+                let outer = radius / libm::cos(0.5 * step);
                 let first = -std::f64::consts::FRAC_PI_2 - 0.5 * step;
                 Ok((0..*edges).map(|k| DVec2::from_angle(first + step * k as f64) * outer).collect())
             }

@@ -150,6 +150,6 @@ impl Model {
         let is_along = (0..face.len()).any(|k| face[k] == ends[0] && face[(k + 1) % face.len()] == ends[1]);
         let along = (frame[ends[1]] - frame[ends[0]]).normalize_or_zero() * if is_along { 1.0 } else { -1.0 };
         let (n, m) = (normal(p), normal(q));
-        -along.dot(n.cross(m)).atan2(n.dot(m))
+        -libm::atan2(along.dot(n.cross(m)), n.dot(m))
     }
 }

@@ -76,7 +76,7 @@ impl Level {
     /// over all parts is least where n grows with r.
     pub(super) fn counts(self, size_share: f64) -> (usize, usize) {
         let wanted = (self.panels_of_whole() * size_share).max(LEAST_PANELS);
-        let off = |counts: &&(usize, usize)| (panels(**counts) / wanted).ln().abs();
+        let off = |counts: &&(usize, usize)| libm::log(panels(**counts) / wanted).abs();
         *COUNTS.iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(&COUNTS[0])
     }
 }

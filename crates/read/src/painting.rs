@@ -112,7 +112,8 @@ pub fn light(Rgb(red, green, blue): Rgb) -> DVec3 {
 
 /// The same from parts of 0 to 1.
 pub fn light_of(srgb: [f64; 3]) -> DVec3 {
-    let linear = |part: f64| if part <= 0.04045 { part / 12.92 } else { ((part + 0.055) / 1.055).powf(2.4) };
+    let linear =
+        |part: f64| if part <= 0.04045 { part / 12.92 } else { libm::pow((part + 0.055) / 1.055, 2.4) };
     DVec3::from_array(srgb.map(|part| linear(part.clamp(0.0, 1.0))))
 }
 
@@ -120,7 +121,8 @@ pub fn light_of(srgb: [f64; 3]) -> DVec3 {
 fn seen(light: DVec3) -> Rgb {
     let part = |light: f64| {
         let light = light.clamp(0.0, 1.0);
-        let part = if light <= 0.003_130_8 { light * 12.92 } else { 1.055 * light.powf(1.0 / 2.4) - 0.055 };
+        let part =
+            if light <= 0.003_130_8 { light * 12.92 } else { 1.055 * libm::pow(light, 1.0 / 2.4) - 0.055 };
         (part * 255.0).round() as u8
     };
     Rgb(part(light.x), part(light.y), part(light.z))

@@ -348,7 +348,7 @@ pub(crate) mod tests {
         }
         for hinge in set.hinges() {
             let [a, b] = hinge.sides.map(|s| set.panel(s.panel).flat.matrix3.z_axis);
-            assert!((a.dot(b) - hinge.flat_rad.cos()).abs() < 1e-9);
+            assert!((a.dot(b) - libm::cos(hinge.flat_rad)).abs() < 1e-9);
         }
     }
 
@@ -365,7 +365,7 @@ pub(crate) mod tests {
             let mut hull = Hull::of_points(&blob(axes, count)).unwrap();
             let mut joints = Vec::new();
             if let Some((angle_rad, slope_rad, share)) = joint {
-                let normal = (DVec2::from_angle(angle_rad) * slope_rad.cos()).extend(slope_rad.sin());
+                let normal = (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad));
                 let offset_mm = hull.support(normal) * share;
                 let plane = crate::geom::Plane::through(normal * offset_mm, normal).unwrap();
                 hull = hull.clip(&plane).unwrap();
@@ -377,7 +377,7 @@ pub(crate) mod tests {
             for joint in &target.joints {
                 let panel = component.joint_panel(&target, joint).unwrap();
                 let Seat::Side { angle_rad, slope_rad, offset_mm } = joint.seat else { unreachable!() };
-                let normal = (DVec2::from_angle(angle_rad) * slope_rad.cos()).extend(slope_rad.sin());
+                let normal = (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad));
                 for corner in component.panels().panel(panel).deployed_outline() {
                     prop_assert!((normal.dot(corner) - offset_mm).abs() < 1e-8);
                 }

@@ -29,12 +29,12 @@ impl PrincipalAxis {
 
     /// The fold axis at an angle about the principal axis.
     pub fn fold_axis(&self, angle_rad: f64) -> DVec3 {
-        self.zero * angle_rad.cos() + self.axis.cross(self.zero) * angle_rad.sin()
+        self.zero * libm::cos(angle_rad) + self.axis.cross(self.zero) * libm::sin(angle_rad)
     }
 
     /// Angle of a fold axis (of its part perpendicular to the principal axis).
     pub fn angle_rad(&self, fold_axis: DVec3) -> f64 {
-        fold_axis.dot(self.axis.cross(self.zero)).atan2(fold_axis.dot(self.zero))
+        libm::atan2(fold_axis.dot(self.axis.cross(self.zero)), fold_axis.dot(self.zero))
     }
 
     /// Component axes for a fold axis: z along it, x along the principal axis as far as that is

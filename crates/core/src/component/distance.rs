@@ -226,7 +226,7 @@ mod tests {
         let points: Vec<DVec3> = (0..40)
             .map(|k| {
                 let t = k as f64 * 0.7;
-                DVec3::new(0.4 + 0.8 * t.cos(), 0.6 + 0.7 * t.sin(), 0.5 + 0.9 * (t * 1.3).sin())
+                DVec3::new(0.4 + 0.8 * libm::cos(t), 0.6 + 0.7 * libm::sin(t), 0.5 + 0.9 * libm::sin(t * 1.3))
             })
             .collect();
         let b = Hull::of_points(&points).unwrap();
@@ -236,7 +236,7 @@ mod tests {
             for j in 0..400 {
                 let (z, t) = ((i as f64 + 0.5) / 100.0 - 1.0, j as f64 / 400.0 * std::f64::consts::TAU);
                 let r = (1.0 - z * z).sqrt();
-                let d = DVec3::new(r * t.cos(), r * t.sin(), z);
+                let d = DVec3::new(r * libm::cos(t), r * libm::sin(t), z);
                 sampled = sampled.max((a.support(d) - b.support(d)).abs());
             }
         }

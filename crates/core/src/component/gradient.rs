@@ -306,10 +306,10 @@ pub(crate) mod tests {
     pub(crate) fn skewed() -> Solid {
         let mut solid = barrel(5, 40.0);
         for (j, chain) in solid.chains.iter_mut().enumerate() {
-            chain.angle_rad += 0.05 * (j as f64).sin();
+            chain.angle_rad += 0.05 * libm::sin(j as f64);
             for (i, facet) in chain.facets.iter_mut().enumerate() {
-                facet.slope_rad += 0.03 * ((i + 2 * j) as f64).cos();
-                facet.offset_mm += 1.5 * ((2 * i + j) as f64).sin();
+                facet.slope_rad += 0.03 * libm::cos((i + 2 * j) as f64);
+                facet.offset_mm += 1.5 * libm::sin((2 * i + j) as f64);
             }
         }
         solid

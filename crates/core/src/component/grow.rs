@@ -20,7 +20,7 @@ pub(super) fn grown(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<Fold
         });
     let out = away.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?;
     let aside = out.truncate();
-    if out.z.abs() > aside.length() * MAX_SLOPE_RAD.tan() || aside.length() == 0.0 {
+    if out.z.abs() > aside.length() * libm::tan(MAX_SLOPE_RAD) || aside.length() == 0.0 {
         return None;
     }
     let mut solid = shape.solid.clone();
@@ -61,7 +61,7 @@ fn add_chain(solid: &mut Solid, angle_rad: f64, facets: Vec<SideFacet>, target: 
 
 fn add_facet(chain: &mut Chain, out: DVec3, target: &Target) -> Option<()> {
     let normal = DVec2::from_angle(chain.angle_rad);
-    let slope_rad = out.z.atan2(normal.dot(out.truncate()));
+    let slope_rad = libm::atan2(out.z, normal.dot(out.truncate()));
     let is_level = target.symmetry.is_some_and(Symmetry::is_level);
     // A plane too near to its image in a level one becomes its own.
     let slope_rad = if is_level && 2.0 * slope_rad.abs() < 1.2 * MIN_BEND_RAD { 0.0 } else { slope_rad };
@@ -73,7 +73,7 @@ fn add_facet(chain: &mut Chain, out: DVec3, target: &Target) -> Option<()> {
     if vertices > target.profile_vertices || !chain.facets.iter().all(is_apart) {
         return None;
     }
-    let (sin, cos) = slope_rad.sin_cos();
+    let (sin, cos) = libm::sincos(slope_rad);
     let offset_mm = target.hull.support((normal * cos).extend(sin));
     for &slope_rad in slopes {
         let place = chain.facets.partition_point(|f| f.slope_rad > slope_rad);

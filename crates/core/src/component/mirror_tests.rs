@@ -88,14 +88,14 @@ fn with_side_joints(
     symmetry: Symmetry,
     (angle_rad, slope_rad, share): (f64, f64, f64),
 ) -> Vec<JointTarget> {
-    let normal_of = |a: f64, s: f64| (DVec2::from_angle(a) * s.cos()).extend(s.sin());
+    let normal_of = |a: f64, s: f64| (DVec2::from_angle(a) * libm::cos(s)).extend(libm::sin(s));
     let image_of = |a: f64, s: f64, o: f64| match symmetry {
         Symmetry::Upright { angle_rad, offset_mm } => {
             let a2 = 2.0 * angle_rad + std::f64::consts::PI - a;
             let across = DVec2::from_angle(angle_rad).extend(0.0);
             (a2, s, o - 2.0 * offset_mm * across.dot(normal_of(a, s)))
         }
-        Symmetry::Level { height_mm } => (a, -s, o - 2.0 * height_mm * s.sin()),
+        Symmetry::Level { height_mm } => (a, -s, o - 2.0 * height_mm * libm::sin(s)),
     };
     let offset_mm = {
         let n = normal_of(angle_rad, slope_rad);

@@ -151,7 +151,7 @@ impl Hinge {
         let [from, to] = first.edge(self.sides[0].edge);
         let along = placements[0].transform_vector3((to - from).extend(0.0)).normalize_or_zero();
         let [a, b] = placements.map(|placement| placement.matrix3.z_axis);
-        along.dot(a.cross(b)).atan2(a.dot(b))
+        libm::atan2(along.dot(a.cross(b)), a.dot(b))
     }
 }
 

@@ -246,7 +246,7 @@ mod tests {
             let mut at = DVec2::new(30.0, 50.0);
             let mut points = vec![at];
             for (slope, length) in parts {
-                at += DVec2::new(slope.sin(), -slope.cos()) * length;
+                at += DVec2::new(libm::sin(slope), -libm::cos(slope)) * length;
                 points.push(at);
             }
             points

@@ -297,7 +297,7 @@ fn pruned(mut found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Fou
 
 /// What a panel less may cost, mm.
 fn panel_worth_mm(target: &Target) -> f64 {
-    target.panel_worth * target.hull.volume().cbrt()
+    target.panel_worth * libm::cbrt(target.hull.volume())
 }
 
 /// What finished shapes are compared by: the error first, then good joints, a small spread, and small

@@ -144,7 +144,7 @@ pub(super) fn lines(chain: &Chain) -> Vec<Line> {
 /// Side planes with their sines and cosines.
 pub(super) fn lines_of(facets: &[SideFacet]) -> Vec<Line> {
     let line = |f: &SideFacet| {
-        let (sin, cos) = f.slope_rad.sin_cos();
+        let (sin, cos) = libm::sincos(f.slope_rad);
         Line { cos, sin, offset: f.offset_mm }
     };
     facets.iter().map(line).collect()

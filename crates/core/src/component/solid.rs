@@ -21,13 +21,13 @@ pub struct SideFacet {
 impl SideFacet {
     /// u of the plane at height v.
     pub fn u_at(&self, v_mm: f64) -> f64 {
-        (self.offset_mm - v_mm * self.slope_rad.sin()) / self.slope_rad.cos()
+        (self.offset_mm - v_mm * libm::sin(self.slope_rad)) / libm::cos(self.slope_rad)
     }
 
     /// Height at which this plane meets the next one below.
     pub fn meets(&self, below: &SideFacet) -> f64 {
-        let (ca, cb) = (self.slope_rad.cos(), below.slope_rad.cos());
-        (self.offset_mm * cb - below.offset_mm * ca) / (self.slope_rad - below.slope_rad).sin()
+        let (ca, cb) = (libm::cos(self.slope_rad), libm::cos(below.slope_rad));
+        (self.offset_mm * cb - below.offset_mm * ca) / libm::sin(self.slope_rad - below.slope_rad)
     }
 }
 
@@ -131,8 +131,8 @@ impl Solid {
             FaceId::Bottom => (-DVec3::Z, -self.bottom_mm),
             FaceId::Side(j, i) => {
                 let facet = self.chains[j].facets[i];
-                let normal = self.chains[j].normal() * facet.slope_rad.cos();
-                (normal.extend(facet.slope_rad.sin()), facet.offset_mm)
+                let normal = self.chains[j].normal() * libm::cos(facet.slope_rad);
+                (normal.extend(libm::sin(facet.slope_rad)), facet.offset_mm)
             }
         }
     }
@@ -218,7 +218,7 @@ impl Solid {
         let [before, here, after] =
             [self.previous(j), j, self.next(j)].map(|c| (&self.chains[c], self.chains[c].u_at(v_mm)));
         let side = |other: (&Chain, f64)| {
-            let (sin, cos) = (other.0.angle_rad - here.0.angle_rad).sin_cos();
+            let (sin, cos) = libm::sincos(other.0.angle_rad - here.0.angle_rad);
             (other.1 - here.1 * cos) / sin.abs()
         };
         side(before) + side(after)
@@ -326,7 +326,7 @@ pub(crate) mod tests {
             volume += twice.dot(n) / 2.0 * c / 3.0;
         }
         // Simpson's rule is exact for prismatoids: between bends the section area is quadratic in v.
-        let area = |v: f64| 6.0 * (TAU / 12.0).tan() * solid.chains[0].u_at(v).powi(2);
+        let area = |v: f64| 6.0 * libm::tan(TAU / 12.0) * solid.chains[0].u_at(v).powi(2);
         let heights = solid.heights();
         let expected: f64 = heights
             .windows(2)

@@ -59,7 +59,7 @@ impl Symmetry {
 }
 
 fn normal(angle_rad: f64, slope_rad: f64) -> DVec3 {
-    (DVec2::from_angle(angle_rad) * slope_rad.cos()).extend(slope_rad.sin())
+    (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad))
 }
 
 fn is_same(a: Seat, b: Seat) -> bool {

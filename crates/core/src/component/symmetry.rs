@@ -58,7 +58,7 @@ pub(super) fn wrapped(angle_rad: f64) -> f64 {
 pub(super) fn settled(angle_rad: f64, symmetry: Option<Symmetry>, least_rad: f64) -> f64 {
     match symmetry {
         Some(Symmetry::Upright { .. }) if turn(angle_rad, -angle_rad).abs() < least_rad => {
-            if angle_rad.cos() > 0.0 { 0.0 } else { PI }
+            if libm::cos(angle_rad) > 0.0 { 0.0 } else { PI }
         }
         _ => angle_rad,
     }
@@ -82,7 +82,7 @@ pub(super) fn evened(mut solid: Solid, symmetry: Option<Symmetry>) -> Solid {
                 let k = twin(&solid, symmetry, j);
                 let own = &mut solid.chains[j];
                 if k == j {
-                    own.angle_rad = if own.angle_rad.cos() > 0.0 { 0.0 } else { PI };
+                    own.angle_rad = if libm::cos(own.angle_rad) > 0.0 { 0.0 } else { PI };
                 } else if k > j {
                     own.angle_rad = wrapped(own.angle_rad);
                     let (angle_rad, facets) = (-own.angle_rad, own.facets.clone());

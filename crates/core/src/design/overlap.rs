@@ -59,8 +59,8 @@ mod tests {
         let upright = |by: DVec3| at(DAffine3::from_translation(by) * DAffine3::from_rotation_x(1.2));
         assert!(!lying.overlaps(&at(DAffine3::from_translation(DVec3::Z * 2.0)), 1e-9), "one on the other");
         assert!(lying.overlaps(&at(DAffine3::from_translation(DVec3::Z * 1.9)), 1e-9));
-        assert!(!lying.overlaps(&upright(DVec3::new(0.0, 10.0 + 2.0 * 1.2f64.sin(), 0.0)), 1e-9));
-        assert!(lying.overlaps(&upright(DVec3::new(0.0, 9.9 + 2.0 * 1.2f64.sin() - 2.0, 0.0)), 1e-9));
+        assert!(!lying.overlaps(&upright(DVec3::new(0.0, 10.0 + 2.0 * libm::sin(1.2), 0.0)), 1e-9));
+        assert!(lying.overlaps(&upright(DVec3::new(0.0, 9.9 + 2.0 * libm::sin(1.2) - 2.0, 0.0)), 1e-9));
         // Edge against edge: no face parts them, only the cross product of two edges.
         let turned = DAffine3::from_rotation_x(0.7) * DAffine3::from_rotation_z(0.8);
         assert!(lying.overlaps(&at(DAffine3::from_translation(DVec3::new(5.0, 3.0, 1.0)) * turned), 1e-9));

@@ -172,7 +172,7 @@ fn measured(points: &[DVec2], way: &Way, min_panel_mm: f64) -> Result<Ranked, Re
     let stands_mm = widest(&mut profile.points().iter().map(|p| p.x));
     let turned = |(i, w): (usize, &[DVec2])| {
         let step = w[1] - w[0];
-        let alpha = (-step.y).atan2(step.x);
+        let alpha = libm::atan2(-step.y, step.x);
         step.length() * if profile.faces_up(i) { alpha } else { std::f64::consts::PI - alpha }
     };
     let score = Score {

@@ -200,7 +200,7 @@ fn drawings(body: &Body, stand: &Stand, triangles: &[[DVec3; 3]]) -> Vec<Vec<Dra
     let step = std::f64::consts::TAU / stand.normals.len() as f64;
     let made = (3..=body.profile_vertices).flat_map(|count| SHRINKS.map(|shrink| (count, shrink)));
     let drawn = made.filter_map(|(count, shrink)| {
-        let scale = 1.0 - shrink * (1.0 - (0.5 * step).cos());
+        let scale = 1.0 - shrink * (1.0 - libm::cos(0.5 * step));
         silhouette.profiles(count, scale, body.min_panel_mm / scale)
     });
     drawn.collect()

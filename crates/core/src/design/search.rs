@@ -100,7 +100,7 @@ impl Search<'_> {
     fn price(&self, way: &Way, moved_mm: f64, is_creased: bool) -> f64 {
         let turn = |(i, s): (usize, &Segment)| {
             let step = self.points[i + 1] - self.points[i];
-            let alpha = (-step.y).atan2(step.x);
+            let alpha = libm::atan2(-step.y, step.x);
             let (up, down) = (alpha, std::f64::consts::PI - alpha);
             let angle = match (s.begins_up(), s.ends_up()) {
                 (true, true) => up,

@@ -219,7 +219,7 @@ mod tests {
     /// Two frusta with a waist between, as triangles of a fan round the axis.
     fn hourglass() -> Vec<[DVec3; 3]> {
         let ring = |r: f64, z: f64, k: usize| {
-            let (s, c) = (k as f64 * std::f64::consts::TAU / 64.0).sin_cos();
+            let (s, c) = libm::sincos(k as f64 * std::f64::consts::TAU / 64.0);
             DVec3::new(r * c, r * s, z)
         };
         let band = |a: (f64, f64), b: (f64, f64)| {

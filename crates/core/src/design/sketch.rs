@@ -327,7 +327,7 @@ mod tests {
         turned.reverse();
         let dent = [(0.0, 0.0), (40.0, 0.0), (15.0, 15.0), (0.0, 40.0)];
         let star: Vec<(f64, f64)> = (0..5)
-            .map(|k| (f64::from(k) * 0.8 * std::f64::consts::PI).sin_cos())
+            .map(|k| libm::sincos(f64::from(k) * 0.8 * std::f64::consts::PI))
             .map(|(s, c)| (c, s))
             .collect();
         assert_eq!(sketch(&SQUARE[..2], &[&WALL]), Err(E::FewCorners));

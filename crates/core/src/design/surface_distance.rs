@@ -37,7 +37,7 @@ mod tests {
         let dense = samples(&[triangle], 0.02);
         for k in 0..200 {
             let t = f64::from(k);
-            let p = DVec3::new(9.0 * (t * 0.7).sin(), 7.0 * (t * 1.3).cos(), 5.0 * (t * 0.31).sin());
+            let p = DVec3::new(9.0 * libm::sin(t * 0.7), 7.0 * libm::cos(t * 1.3), 5.0 * libm::sin(t * 0.31));
             let sampled = dense.iter().map(|q| q.distance(p)).fold(f64::INFINITY, f64::min);
             let exact = farthest(&[p], &surface);
             assert!(exact <= sampled + 1e-12 && sampled - exact < 0.02, "{exact} {sampled}");

@@ -130,10 +130,10 @@ impl ChainMotion {
         let link = |(i, w): (usize, &[DVec2])| {
             let [upper, lower] = profile.face(i);
             let along = lower - upper;
-            let alpha = (-along.y).atan2(along.x);
+            let alpha = libm::atan2(-along.y, along.x);
             let angle_rad = if faces_up[i] { alpha } else { PI - alpha };
             let rise = profile.lifts_mm()[i + 1] - profile.lifts_mm()[i];
-            let tilt = if rise == 0.0 { 0.0 } else { rise.atan2(along.length()) };
+            let tilt = if rise == 0.0 { 0.0 } else { libm::atan2(rise, along.length()) };
             let tilt_rad = if faces_up[i] { -tilt } else { tilt };
             Link { length_mm: w[0].distance(w[1]), angle_rad, early_rad: angle_rad, tilt_rad }
         };
@@ -305,7 +305,7 @@ impl ChainMotion {
     fn step(&self, link: usize, shares: Shares) -> DVec2 {
         let Link { length_mm, tilt_rad, .. } = self.links[link];
         let (share, out) = if self.faces_up[link] { (shares.above, 1.0) } else { (shares.below, -1.0) };
-        let (sin, cos) = (self.links[link].turned(share) + tilt_rad).sin_cos();
+        let (sin, cos) = libm::sincos(self.links[link].turned(share) + tilt_rad);
         DVec2::new(out * length_mm * cos, -length_mm * sin)
     }
 
@@ -345,12 +345,12 @@ impl ChainMotion {
 fn sag(links: &[Link], share: f64) -> (f64, f64) {
     links.iter().fold((0.0, 0.0), |sum, l| {
         let half_rad = 0.5 * l.turned(share);
-        let (sin, cos) = half_rad.sin_cos();
+        let (sin, cos) = libm::sincos(half_rad);
         if l.tilt_rad == 0.0 {
             return (sum.0 + l.length_mm * sin * sin, sum.1 + l.length_mm * l.rate(share) * sin * cos);
         }
-        let slope = 0.5 * (2.0 * half_rad + l.tilt_rad).sin();
-        let lost = sin * (half_rad + l.tilt_rad).sin();
+        let slope = 0.5 * libm::sin(2.0 * half_rad + l.tilt_rad);
+        let lost = sin * libm::sin(half_rad + l.tilt_rad);
         (sum.0 + l.length_mm * lost, sum.1 + l.length_mm * l.rate(share) * slope)
     })
 }
@@ -358,7 +358,7 @@ fn sag(links: &[Link], share: f64) -> (f64, f64) {
 /// Σ l sin(angle + τ), the height of the links, and its derivative.
 fn rise(links: &[Link], share: f64) -> (f64, f64) {
     links.iter().fold((0.0, 0.0), |sum, l| {
-        let (sin, cos) = (l.turned(share) + l.tilt_rad).sin_cos();
+        let (sin, cos) = libm::sincos(l.turned(share) + l.tilt_rad);
         (sum.0 + l.length_mm * sin, sum.1 + l.length_mm * l.rate(share) * cos)
     })
 }

@@ -87,7 +87,7 @@ impl ComponentMotion {
         if folded >= 1.0 {
             flat_mm
         } else {
-            flat_mm + (self.height_mm + 2.0 * self.rise_mm - flat_mm) * (FRAC_PI_2 * folded).cos()
+            flat_mm + (self.height_mm + 2.0 * self.rise_mm - flat_mm) * libm::cos(FRAC_PI_2 * folded)
         }
     }
 

@@ -19,7 +19,8 @@ pub(super) fn components() -> impl Strategy<Value = Component> {
             let mut hull = Hull::of_points(&points).ok()?;
             let mut joints = Vec::new();
             if let Some((angle_rad, slope_rad, share)) = joint {
-                let normal = (DVec2::from_angle(angle_rad) * slope_rad.cos()).extend(slope_rad.sin());
+                let normal =
+                    (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad));
                 let offset_mm = hull.support(normal) * share;
                 hull = hull.clip(&Plane::through(normal * offset_mm, normal)?)?;
                 let seat = Seat::Side { angle_rad, slope_rad, offset_mm };

@@ -193,7 +193,7 @@ mod tests {
         let points: Vec<DVec3> = (0..400)
             .map(|k| {
                 let angle = f64::from(k % 40) * std::f64::consts::TAU / 40.0;
-                DVec3::new(angle.cos(), f64::from(k / 40), angle.sin())
+                DVec3::new(libm::cos(angle), f64::from(k / 40), libm::sin(angle))
             })
             .collect();
         assert_is_hull(&points, &triangles(&points, 1e-9).unwrap());

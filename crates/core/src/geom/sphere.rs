@@ -6,6 +6,6 @@ pub fn directions(count: usize) -> impl Iterator<Item = DVec3> {
     (0..count).map(move |k| {
         let z = 1.0 - (2.0 * k as f64 + 1.0) / count as f64;
         let r = (1.0 - z * z).sqrt();
-        DVec3::new(r * (golden_rad * k as f64).cos(), r * (golden_rad * k as f64).sin(), z)
+        DVec3::new(r * libm::cos(golden_rad * k as f64), r * libm::sin(golden_rad * k as f64), z)
     })
 }

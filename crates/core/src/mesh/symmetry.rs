@@ -261,14 +261,17 @@ mod tests {
             }
         }
         let radius = |d: DVec3| {
-            1.0 + waves.iter().map(|&(c, reach)| 0.8 * (-(d.distance(c) / reach).powi(2)).exp()).sum::<f64>()
+            1.0 + waves
+                .iter()
+                .map(|&(c, reach)| 0.8 * libm::exp(-(d.distance(c) / reach).powi(2)))
+                .sum::<f64>()
         };
         let (rings, around) = (40, 61);
         let mut positions = Vec::new();
         for ring in 0..=rings {
-            let (sin, cos) = (std::f64::consts::PI * ring as f64 / rings as f64).sin_cos();
+            let (sin, cos) = libm::sincos(std::f64::consts::PI * ring as f64 / rings as f64);
             for k in 0..around {
-                let (s, c) = (std::f64::consts::TAU * k as f64 / around as f64).sin_cos();
+                let (s, c) = libm::sincos(std::f64::consts::TAU * k as f64 / around as f64);
                 let d = DVec3::new(sin * c, sin * s, cos);
                 positions.push(d * radius(d));
             }
@@ -325,7 +328,8 @@ mod tests {
     fn a_small_limb_without_another_is_told() {
         let shape = blob(3, true);
         let spike = DVec3::new(0.8, 0.6, 0.0);
-        let horned = moved(&shape, |p| p + spike * (2.0 * (-(p.angle_between(spike) / 0.18).powi(2)).exp()));
+        let horned =
+            moved(&shape, |p| p + spike * (2.0 * libm::exp(-(p.angle_between(spike) / 0.18).powi(2))));
         assert_eq!(horned.mirror_plane(), None);
         let forced = horned.mirror_plane_across(0).unwrap();
         assert!(forced.mirror.plane().normal() == DVec3::X && forced.error_percent > 0.1);

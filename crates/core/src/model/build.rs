@@ -127,7 +127,7 @@ fn weights(parts: &[Part]) -> Vec<f64> {
 }
 
 fn size_mm(part: &Part) -> f64 {
-    part.hull.volume().cbrt()
+    libm::cbrt(part.hull.volume())
 }
 
 /// The candidates of all parts, and the joints that they have room for.

@@ -151,7 +151,7 @@ impl<'a> Builder<'a> {
         }
         let is_new = |direction: &Direction| {
             let axis = direction.frame.matrix3.z_axis;
-            before.iter().all(|made| axis.dot(made.frame.matrix3.z_axis).abs() < SAME_RAD.cos())
+            before.iter().all(|made| axis.dot(made.frame.matrix3.z_axis).abs() < libm::cos(SAME_RAD))
         };
         let (directions, mut targets): (Vec<&Direction>, Vec<(Target, f64)>) =
             directions.iter().zip(targets).filter(|(direction, _)| is_new(direction)).unzip();
@@ -207,14 +207,14 @@ impl<'a> Builder<'a> {
                 let up = mirror.map_or(DVec3::Z, |mirror| mirror.along(DVec3::Z));
                 let up = if up.length() > 1e-3 { up.normalize() } else { across.any_orthonormal_vector() };
                 let side = across.cross(up);
-                let in_plane = (0..DIRECTIONS).map(|k| up * angle(k).cos() + side * angle(k).sin());
+                let in_plane = (0..DIRECTIONS).map(|k| up * libm::cos(angle(k)) + side * libm::sin(angle(k)));
                 std::iter::once(across).chain(in_plane).collect()
             }
         };
         let mut axes: Vec<DVec3> = Vec::with_capacity(tried.len());
         for axis in tried {
             let axis = self.settled(axis);
-            if axes.iter().all(|a| a.dot(axis).abs() < SAME_RAD.cos()) {
+            if axes.iter().all(|a| a.dot(axis).abs() < libm::cos(SAME_RAD)) {
                 axes.push(axis);
             }
         }

@@ -42,7 +42,7 @@ pub fn parted(
         let Some((plane, _)) = plane.filter(|(_, cut_off)| *cut_off <= CLIP_SHARE) else {
             continue;
         };
-        let gap_mm = GAP * hulls[a].volume().min(hulls[b].volume()).cbrt();
+        let gap_mm = GAP * libm::cbrt(hulls[a].volume().min(hulls[b].volume()));
         let mut clips = vec![(a, plane), (b, plane.flipped())];
         if let Some(symmetry) = symmetry
             && image != (a, b)

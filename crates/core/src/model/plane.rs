@@ -57,7 +57,7 @@ pub(super) fn between(
         let shifts = std::iter::once(0.0).chain((0..SLIDES).map(slide));
         shifts.filter_map(move |shift| {
             let moved = Plane::through(centre + plane.normal() * shift, plane.normal())?;
-            let turn = plane.normal().dot(first.normal()).clamp(-1.0, 1.0).acos();
+            let turn = libm::acos(plane.normal().dot(first.normal()).clamp(-1.0, 1.0));
             Some((moved, MOVE_PRICE * (shift.abs() / size + turn / std::f64::consts::FRAC_PI_2)))
         })
     });
@@ -114,7 +114,7 @@ impl<'a> Ground<'a> {
                 }
             }
         }
-        let size = |hull: &Hull| hull.volume().cbrt().powi(2);
+        let size = |hull: &Hull| libm::cbrt(hull.volume()).powi(2);
         Self { hulls, alone, counts, kept, most_glue: size(parent).min(size(child)) }
     }
 

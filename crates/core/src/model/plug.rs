@@ -292,10 +292,10 @@ mod tests {
             let (mut low, mut high) = (0.0_f64, PI);
             for _ in 0..60 {
                 let middle = 0.5 * (low + high);
-                let is_wide = middle.sin() / middle > slit_mm / head_mm;
+                let is_wide = libm::sin(middle) / middle > slit_mm / head_mm;
                 (low, high) = if is_wide { (middle, high) } else { (low, middle) };
             }
-            let (radius_mm, rise_mm) = (0.5 * head_mm / low, 0.5 * slit_mm * (0.5 * low).tan());
+            let (radius_mm, rise_mm) = (0.5 * head_mm / low, 0.5 * slit_mm * libm::tan(0.5 * low));
             assert!(rise_mm < 0.5 * CROSS * slit_mm, "the cross is longer than the arc is high");
             assert!(radius_mm > 4.0, "card of 0.3 mm bends so without a crease: {radius_mm}");
         }

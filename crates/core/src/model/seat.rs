@@ -33,7 +33,7 @@ pub struct Seating {
 
 impl Seating {
     fn slope_rad(&self) -> f64 {
-        self.plane.normal().z.clamp(-1.0, 1.0).asin()
+        libm::asin(self.plane.normal().z.clamp(-1.0, 1.0))
     }
 
     fn angle_rad(&self) -> f64 {
@@ -41,7 +41,7 @@ impl Seating {
     }
 
     fn is_level(&self) -> bool {
-        self.plane.normal().z.abs() > LEVEL_RAD.cos()
+        self.plane.normal().z.abs() > libm::cos(LEVEL_RAD)
     }
 }
 
@@ -90,7 +90,7 @@ fn evened(joints: &[Seating]) -> Vec<Seating> {
             false => [own_slope, other_slope],
         };
         for (joint, slope_rad) in [k, image].into_iter().zip(slopes) {
-            let normal = (across.normalize_or(DVec2::X) * slope_rad.cos()).extend(slope_rad.sin());
+            let normal = (across.normalize_or(DVec2::X) * libm::cos(slope_rad)).extend(libm::sin(slope_rad));
             let plane = Plane::through(evened[joint].centre, normal);
             evened[joint].plane = plane.unwrap_or(evened[joint].plane);
         }
@@ -134,7 +134,7 @@ fn side_seat(joint: &Seating, others: &[Option<Seat>]) -> Seat {
 }
 
 fn side_normal(angle_rad: f64, slope_rad: f64) -> DVec3 {
-    (DVec2::from_angle(angle_rad) * slope_rad.cos()).extend(slope_rad.sin())
+    (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad))
 }
 
 /// The plane of a seat, normal out of the component, in the component's axes.
@@ -151,7 +151,7 @@ pub fn seat_plane(seat: &Seat) -> Plane {
 
 /// Nearest fold axis that makes a fixed plane exactly level, where it almost is.
 pub fn level_axis(axis: DVec3, plane_normal: DVec3) -> DVec3 {
-    if axis.dot(plane_normal).abs() > LEVEL_RAD.cos() {
+    if axis.dot(plane_normal).abs() > libm::cos(LEVEL_RAD) {
         plane_normal * axis.dot(plane_normal).signum()
     } else {
         axis

@@ -62,7 +62,7 @@ fn pairs(surface: &Surface) -> (Vec<u32>, usize) {
         }
         group[cell] = count;
         let fit = |other: usize, length: f64, turn_rad: f64| {
-            length / (area[cell] + area[other]).sqrt() * (1.0 + turn_rad.cos()).max(0.01)
+            length / (area[cell] + area[other]).sqrt() * (1.0 + libm::cos(turn_rad)).max(0.01)
         };
         let best = surface
             .around(cell)

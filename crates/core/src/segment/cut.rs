@@ -19,7 +19,7 @@ const PASSES: usize = 4;
 /// The formula is that of the edge term in Shapira et al. 2008.
 pub(super) fn crease_cost(turn_rad: f64) -> f64 {
     let share = if turn_rad > 0.0 { turn_rad } else { CONVEX * -turn_rad };
-    -(share / std::f64::consts::PI).max(LEAST_PROBABILITY).ln()
+    -libm::log((share / std::f64::consts::PI).max(LEAST_PROBABILITY))
 }
 
 /// Labels the cells by the mixture's Gaussians. Data terms are weighted by area and borders by
@@ -30,7 +30,7 @@ pub(super) fn soft_labels(surface: &Surface, values: &[f64], mixture: &Mixture, 
     let mut data = Vec::with_capacity(surface.len() * labels);
     for (value, area) in values.iter().zip(surface.areas()) {
         for p in mixture.memberships(*value) {
-            data.push(-p.max(LEAST_PROBABILITY).ln() * area / mean_area);
+            data.push(-libm::log(p.max(LEAST_PROBABILITY)) * area / mean_area);
         }
     }
     let mean_length = surface.mean_length();
@@ -136,7 +136,7 @@ mod tests {
         let mean_area = surface.total_area() / surface.len() as f64;
         let data = (0..surface.len()).map(|c| {
             let p = mixture.memberships(values[c])[label[c] as usize];
-            -p.max(5e-6).ln() * surface.areas()[c] / mean_area
+            -libm::log(p.max(5e-6)) * surface.areas()[c] / mean_area
         });
         let borders =
             surface.links().iter().filter(|l| label[l.cells[0] as usize] != label[l.cells[1] as usize]);

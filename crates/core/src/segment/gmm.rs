@@ -17,7 +17,7 @@ struct Gaussian {
 impl Gaussian {
     fn density(&self, x: f64) -> f64 {
         let z = (x - self.mean) / self.deviation;
-        self.share / self.deviation * (-0.5 * z * z).exp()
+        self.share / self.deviation * libm::exp(-0.5 * z * z)
     }
 }
 
@@ -68,7 +68,7 @@ impl Mixture {
     fn log_likelihood(&self, mass: &[f64; BINS]) -> f64 {
         let density = |x: f64| self.parts.iter().map(|p| p.density(x)).sum::<f64>();
         let bins = mass.iter().enumerate().filter(|(_, m)| **m > 0.0);
-        bins.map(|(bin, m)| m * density(bin_centre(bin)).max(f64::MIN_POSITIVE).ln()).sum()
+        bins.map(|(bin, m)| m * libm::log(density(bin_centre(bin)).max(f64::MIN_POSITIVE))).sum()
     }
 
     fn improve(&mut self, mass: &[f64; BINS]) {

@@ -157,7 +157,7 @@ impl Frame {
             .iter()
             .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)));
         let side = (hi - lo).max(DVec3::splat((hi - lo).max_element() * LEAST_SIDE));
-        let cell = (side.x * side.y * side.z / cells).cbrt();
+        let cell = libm::cbrt(side.x * side.y * side.z / cells);
         let count = (side / cell).ceil().to_array().map(|n| (n as usize).max(1));
         // Centred, so that cell borders do not coincide with flat sides of the box.
         let size = DVec3::from_array(count.map(|n| n as f64)) * cell;

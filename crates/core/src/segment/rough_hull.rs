@@ -232,7 +232,7 @@ mod tests {
         let points: Vec<DVec3> = (0..3000)
             .map(|k| {
                 let z = 1.0 - (2.0 * k as f64 + 1.0) / 3000.0;
-                let (sin, cos) = (golden_rad * k as f64).sin_cos();
+                let (sin, cos) = libm::sincos(golden_rad * k as f64);
                 DVec3::new(cos, sin, 0.0) * (1.0 - z * z).sqrt() + DVec3::Z * z
             })
             .collect();

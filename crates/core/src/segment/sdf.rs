@@ -121,9 +121,9 @@ fn cone(axis: DVec3) -> impl Iterator<Item = DVec3> {
     let x = axis.any_orthonormal_vector();
     let y = axis.cross(x);
     (0..RAYS).map(move |i| {
-        let radius = (i as f64 + 0.5) / RAYS as f64 * CONE_RAD.sin();
-        let (sin, cos) = (i as f64 * golden_rad).sin_cos();
-        (axis * CONE_RAD.cos() + (x * cos + y * sin) * radius).normalize()
+        let radius = (i as f64 + 0.5) / RAYS as f64 * libm::sin(CONE_RAD);
+        let (sin, cos) = libm::sincos(i as f64 * golden_rad);
+        (axis * libm::cos(CONE_RAD) + (x * cos + y * sin) * radius).normalize()
     })
 }
 

@@ -15,9 +15,9 @@ pub(super) fn balls_in_a_row(balls: &[(f64, f64)], rings: usize, around: usize) 
     let mut positions = vec![DVec3::new(0.0, 0.0, lo)];
     for ring in 1..rings {
         let t = std::f64::consts::PI * ring as f64 / rings as f64;
-        let z = lo + (hi - lo) * (1.0 - t.cos()) / 2.0;
+        let z = lo + (hi - lo) * (1.0 - libm::cos(t)) / 2.0;
         for k in 0..around {
-            let (sin, cos) = (k as f64 / around as f64 * std::f64::consts::TAU).sin_cos();
+            let (sin, cos) = libm::sincos(k as f64 / around as f64 * std::f64::consts::TAU);
             positions.push(DVec3::new(cos * radius(z), sin * radius(z), z));
         }
     }

@@ -48,7 +48,7 @@ pub(super) fn bilateral(surface: &Surface, values: &[f64]) -> Vec<f64> {
         for c in &near {
             let d = centres[*c].distance_squared(centres[cell]) / (reach * reach / 2.0);
             let r = if spread > 0.0 { square(c) / (2.0 * spread * spread) } else { 0.0 };
-            let w = surface.areas()[*c] * (-d - r).exp();
+            let w = surface.areas()[*c] * libm::exp(-d - r);
             sum += w * values[*c];
             weight += w;
         }
@@ -83,7 +83,7 @@ pub(super) fn normalise(values: &[f64]) -> Vec<f64> {
     let lo = values.iter().copied().fold(f64::INFINITY, f64::min);
     let hi = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let span = if hi > lo { hi - lo } else { 1.0 };
-    values.iter().map(|v| (ALPHA * (v - lo) / span).ln_1p() / ALPHA.ln_1p()).collect()
+    values.iter().map(|v| libm::log1p(ALPHA * (v - lo) / span) / libm::log1p(ALPHA)).collect()
 }
 
 #[cfg(test)]
@@ -123,7 +123,7 @@ mod tests {
     #[test]
     fn smoothing_quiets_noise_and_keeps_a_step() {
         let surface = ball();
-        let noise = |c: usize| ((c as f64 * 12.9898).sin() * 43_758.545).fract() * 0.1;
+        let noise = |c: usize| (libm::sin(c as f64 * 12.9898) * 43_758.545).fract() * 0.1;
         let step = |c: usize| f64::from(u8::from(surface.centres()[c].z > 0.0));
         let values: Vec<f64> = (0..surface.len()).map(|c| step(c) + noise(c)).collect();
         let smooth = bilateral(&surface, &values);

@@ -74,7 +74,7 @@ pub fn segment(
             progress.stage("parts");
             let ground = Ground { faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
             let solid = Solid::filled(positions, &faces, grid::CELLS);
-            let part_cost = PART_COST / DETAIL_RANGE.powf(options.detail);
+            let part_cost = PART_COST / libm::pow(DETAIL_RANGE, options.detail);
             let choose = |tree: Tree| match options.parts {
                 Some(count) => tree.parts(&solid, count, progress),
                 None => tree.best_parts(&solid, part_cost, progress),

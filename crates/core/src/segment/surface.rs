@@ -83,7 +83,7 @@ impl Surface {
         }
         links.par_iter_mut().for_each(|link| {
             let [a, b] = link.cells.map(|c| c as usize);
-            let angle = normal[a].cross(normal[b]).length().atan2(normal[a].dot(normal[b]));
+            let angle = libm::atan2(normal[a].cross(normal[b]).length(), normal[a].dot(normal[b]));
             let opens = (normal[b] - normal[a]).dot(centre[b] - centre[a]) >= 0.0;
             link.turn_rad = if opens { -angle } else { angle };
         });

@@ -135,11 +135,11 @@ fn an_inverted_mesh_gives_the_same_parts() {
 fn noise_and_holes_change_little() {
     let shape = row();
     let size = 4.25;
-    let wave = |p: DVec3| (p * 997.0).to_array().map(|x| x.sin());
+    let wave = |p: DVec3| (p * 997.0).to_array().map(libm::sin);
     let noisy = moved(&shape, |p| p + DVec3::from_array(wave(p)) * (0.005 * size / 2.0));
     assert!(rand_index(run(&shape).face_segments(), run(&noisy).face_segments()) > 0.9);
 
-    let hash = |i: usize| (i as f64 * 12.9898).sin() * 43_758.545;
+    let hash = |i: usize| libm::sin(i as f64 * 12.9898) * 43_758.545;
     let kept: Vec<usize> = (0..shape.1.len()).filter(|&i| hash(i).rem_euclid(1.0) > 0.05).collect();
     let holed = run(&(shape.0.clone(), kept.iter().map(|&i| shape.1[i]).collect()));
     let whole = run(&shape);
@@ -152,7 +152,7 @@ fn bodies_are_segments_and_crumbs_join_the_nearest() {
     let ball = |z, r| balls_in_a_row(&[(z, r)], 24, 24);
     let mut bodies = vec![ball(0.0, 1.0), ball(3.0, 1.0)];
     bodies.extend((0..5).map(|k| {
-        let (sin, cos) = f64::from(k).sin_cos();
+        let (sin, cos) = libm::sincos(f64::from(k));
         moved(&ball(3.0, 0.05), |p| p + DVec3::new(cos, sin, 0.0) * 1.06)
     }));
     let shape = together(&bodies);
@@ -197,7 +197,7 @@ fn what_cannot_be_segmented_is_told() {
     assert!(matches!(with(&row(), SegmentOptions { method, ..auto }), Err(SegmentError::Clusters { .. })));
 
     // A bent sheet encloses nothing and still has parts.
-    let bent = moved(&sheet(20), |p| DVec3::new(p.x, p.y, (p.x * 0.4).sin() * 4.0));
+    let bent = moved(&sheet(20), |p| DVec3::new(p.x, p.y, libm::sin(p.x * 0.4) * 4.0));
     assert!(with(&bent, auto).unwrap().count() >= 1);
 }
 
@@ -284,7 +284,7 @@ fn without_symmetry_there_are_no_twins() {
 
 #[test]
 fn a_mirrored_mesh_gives_mirrored_parts() {
-    let shape = moved(&figure(), |p| DVec3::new(p.x, p.y, p.z + 0.02 * (p.x * 3.0).sin()));
+    let shape = moved(&figure(), |p| DVec3::new(p.x, p.y, p.z + 0.02 * libm::sin(p.x * 3.0)));
     let flipped = moved(&shape, |p| DVec3::new(-p.x, p.y, p.z));
     let flipped = (flipped.0, flipped.1.iter().map(|f| [f[0], f[2], f[1]]).collect());
     assert!(rand_index(run(&shape).face_segments(), run(&flipped).face_segments()) > 0.97);

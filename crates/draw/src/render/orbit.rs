@@ -58,7 +58,7 @@ impl Orbit {
         if !(self.centre.is_finite() && self.shift.is_finite() && self.radius > 0.0 && self.zoom > 0.0) {
             return Err(ViewError::NoPoints);
         }
-        let distance = self.radius / (0.5 * FIELD_OF_VIEW_RAD).sin();
+        let distance = self.radius / libm::sin(0.5 * FIELD_OF_VIEW_RAD);
         Ok(Eye {
             camera,
             centre: self.centre,

@@ -105,7 +105,7 @@ impl View {
         let mut view = Self {
             camera,
             centre: 0.5 * (low + high),
-            distance: (half_angle > 0.0).then(|| radius / half_angle.sin() * (1.0 + 1e-9)),
+            distance: (half_angle > 0.0).then(|| radius / libm::sin(half_angle) * (1.0 + 1e-9)),
             scale: 1.0,
             shift_mm: DVec2::ZERO,
             size_mm,

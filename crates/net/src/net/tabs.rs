@@ -36,7 +36,7 @@ impl Shape {
         let [end, start] = edge;
         let along = (end - start).normalize_or_zero();
         let out = along.perp();
-        let [a, b] = self.leans_rad.map(|lean| self.width_mm / lean.tan());
+        let [a, b] = self.leans_rad.map(|lean| self.width_mm / libm::tan(lean));
         [start, end, end - along * b + out * self.width_mm, start + along * a + out * self.width_mm]
     }
 

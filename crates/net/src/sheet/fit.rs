@@ -93,7 +93,7 @@ fn equal_share_angle(hull: &[DVec2], sheet: DVec2, middle: f64) -> f64 {
     };
     let p = span(|r| r.x) / sheet.x;
     let q = span(|r| r.y) / sheet.y;
-    let angle = (p.x - q.y).atan2(q.x + p.y);
+    let angle = libm::atan2(p.x - q.y, q.x + p.y);
     middle + (angle - middle + FRAC_PI_2).rem_euclid(PI) - FRAC_PI_2
 }
 
@@ -123,10 +123,10 @@ mod tests {
         // Largest length l of an l × t bar: both equations l cos θ + t sin θ = 190 and
         // l sin θ + t cos θ = 277 hold; solved by bisection on θ, independent of the code.
         let (mut lo, mut hi) = (0.0_f64, FRAC_PI_2);
-        let length = |a: f64| (width - thick * a.sin()) / a.cos();
+        let length = |a: f64| (width - thick * libm::sin(a)) / libm::cos(a);
         for _ in 0..200 {
             let mid = (lo + hi) / 2.0;
-            if length(mid) * mid.sin() + thick * mid.cos() < height {
+            if length(mid) * libm::sin(mid) + thick * libm::cos(mid) < height {
                 lo = mid;
             } else {
                 hi = mid;

@@ -55,7 +55,7 @@ impl Blade {
 /// The angle whose chord is this far from its arc, at most a quarter turn.
 fn step_rad(radius_mm: f64, tolerance_mm: f64) -> f64 {
     let cosine = (1.0 - tolerance_mm / radius_mm).max(0.0);
-    (2.0 * cosine.acos()).min(PI / 2.0)
+    (2.0 * libm::acos(cosine)).min(PI / 2.0)
 }
 
 #[cfg(test)]

@@ -123,10 +123,12 @@ impl<'a> Tour<'a> {
             return self;
         }
         let mut rng = fastrand::Rng::with_seed(count as u64);
+        // Not `usize`, which `fastrand` draws otherwise where pointers are shorter, as in a browser.
+        let mut index = |from: usize, to: usize| rng.u64(from as u64..=to as u64) as usize;
         let mut best = (self.way_mm(), self.visits.clone());
         for _ in 0..MOST_SHAKES.min(SHAKEN_PAIRS / (count * count)) {
-            let group = self.group_around(rng.usize(0..count));
-            let mut cuts: [usize; 3] = std::array::from_fn(|_| rng.usize(group.start..=group.end));
+            let group = self.group_around(index(0, count - 1));
+            let mut cuts: [usize; 3] = std::array::from_fn(|_| index(group.start, group.end));
             cuts.sort_unstable();
             let [i, j, k] = cuts;
             let exchanged = self.visits[j..k].iter().chain(&self.visits[i..j]);

@@ -56,7 +56,7 @@ impl Tip {
         }
         let along = way / length;
         let angle = along.angle_to(self.direction);
-        let turned = 2.0 * ((angle / 2.0).tan() * (-length / self.offset_mm).exp()).atan();
+        let turned = 2.0 * libm::atan(libm::tan(angle / 2.0) * libm::exp(-length / self.offset_mm));
         self.direction = along.rotate(DVec2::from_angle(turned));
     }
 }
@@ -86,7 +86,7 @@ mod tests {
         let mut tip = Tip::new(r, -DVec2::Y);
         for p in tip.drag(&[DVec2::ZERO, DVec2::X * 4.0]).into_iter().skip(1) {
             let c = (r * r - p.y * p.y).max(0.0).sqrt();
-            let x = r * ((r + c) / p.y).ln() - c;
+            let x = r * libm::log((r + c) / p.y) - c;
             assert!((p.x - x).abs() < 1e-9, "{p} {x}");
         }
     }

@@ -139,7 +139,7 @@ mod tests {
         let mut hull = Hull::of_points(&grid_cube(3)).unwrap();
         for k in 0..12 {
             let t = f64::from(k);
-            let normal = DVec3::new(t.sin(), (1.7 * t).cos(), (0.6 * t).sin());
+            let normal = DVec3::new(libm::sin(t), libm::cos(1.7 * t), libm::sin(0.6 * t));
             let plane = Plane::through(hull.centroid() + normal.normalize() * 0.2, normal).unwrap();
             let clipped = hull.clip(&plane).unwrap();
             let rebuilt = Hull::of_points(clipped.vertices()).unwrap();

@@ -131,7 +131,7 @@ fn is_inside_out(
         vector_area += vector;
     }
     let is_closed = vector_area.length() <= CLOSED * area;
-    if is_closed && volume != 0.0 || volume.abs() >= CURVED * area.powf(1.5) {
+    if is_closed && volume != 0.0 || volume.abs() >= CURVED * libm::pow(area, 1.5) {
         return volume < 0.0;
     }
     let turned_count = patch.iter().filter(|&&f| is_turned(f)).count();

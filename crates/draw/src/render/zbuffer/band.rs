@@ -147,7 +147,7 @@ impl Band {
 fn stroke_span(line: &Stroke, at: f32) -> Option<[f32; 2]> {
     let [a, b] = line.ends;
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-    let length = dx.hypot(dy).max(1e-6);
+    let length = libm::hypotf(dx, dy).max(1e-6);
     let (ux, uy) = (dx / length * line.half_px, dy / length * line.half_px);
     let corners = [
         [a[0] - ux - uy, a[1] - uy + ux],

@@ -26,7 +26,7 @@ fn length_mm(file: &dxf::Drawing, layer: &str) -> f64 {
     };
     let entities = file.entities().filter(|e| e.common.layer == layer);
     let length = |entity: &Entity| match &entity.specific {
-        EntityType::Line(line) => (line.p2.x - line.p1.x).hypot(line.p2.y - line.p1.y),
+        EntityType::Line(line) => libm::hypot(line.p2.x - line.p1.x, line.p2.y - line.p1.y),
         EntityType::LwPolyline(line) => {
             ring(line.vertices.iter().map(|v| DVec2::new(v.x, v.y)).collect(), line.is_closed())
         }

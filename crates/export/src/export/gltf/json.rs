@@ -72,7 +72,7 @@ fn material(material: &Material) -> Value {
 /// From an sRGB channel to linear light (IEC 61966-2-1).
 fn linear(channel: u8) -> f64 {
     let value = f64::from(channel) / 255.0;
-    if value <= 0.04045 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+    if value <= 0.04045 { value / 12.92 } else { libm::pow((value + 0.055) / 1.055, 2.4) }
 }
 
 /// Every polygon has corners of its own, so that it is flat-shaded, and is a fan of triangles.

@@ -91,7 +91,7 @@ fn nearness(pair: [&geo::Polygon; 2], spacing_mm: f64, tolerance_mm: f64) -> Opt
         }
         let shared = pair[0].intersection(pair[1]).unsigned_area();
         let around: f64 =
-            pair[0].exterior().lines().map(|l| (l.end - l.start).x.hypot((l.end - l.start).y)).sum();
+            pair[0].exterior().lines().map(|l| libm::hypot((l.end - l.start).x, (l.end - l.start).y)).sum();
         return (shared > tolerance_mm * around).then_some(distance);
     }
     Some(distance)

@@ -247,10 +247,10 @@ fn varied(
     }
     if rng.u8(..3) == 0 {
         let kept: BTreeSet<usize> = plan.kept.iter().flatten().map(|p| items[p.item].group()).collect();
-        for _ in 0..=rng.usize(..=1 + alternatives.len() / 4) {
-            let group = rng.usize(..alternatives.len());
+        for _ in 0..=index(rng, 2 + alternatives.len() / 4) {
+            let group = index(rng, alternatives.len());
             if !kept.contains(&group) {
-                plan.chosen[group] = rng.usize(..alternatives[group]);
+                plan.chosen[group] = index(rng, alternatives[group]);
             }
         }
     }
@@ -268,11 +268,11 @@ fn reordered(parent: &Layout, items: &[Item], start: &Start, rng: &mut fastrand:
             && let Some(from) = order.iter().position(|&i| i == placed.item)
         {
             let item = order.remove(from);
-            order.insert(rng.usize(..=from), item);
+            order.insert(index(rng, from + 1), item);
         }
     }
-    for _ in 0..=rng.usize(..=order.len() / 8) {
-        let (a, b) = (rng.usize(..order.len()), rng.usize(..order.len()));
+    for _ in 0..=index(rng, 1 + order.len() / 8) {
+        let (a, b) = (index(rng, order.len()), index(rng, order.len()));
         order.swap(a, b);
     }
     Plan::anew(start, order, parent.way, parent.chosen.clone())
@@ -283,12 +283,12 @@ fn reordered(parent: &Layout, items: &[Item], start: &Start, rng: &mut fastrand:
 fn ruined(parent: &Layout, items: &[Item], rng: &mut fastrand::Rng) -> Plan {
     let mut others = parent.emptiest_first(items);
     let emptiest = others.remove(0);
-    rng.shuffle(&mut others);
-    others.truncate(rng.usize(1..=2));
+    shuffle(rng, &mut others);
+    others.truncate(1 + index(rng, 2));
     let mut kept = parent.sheets.clone();
     let mut removed: Vec<(f64, usize)> = Vec::new();
     for sheet in [emptiest].into_iter().chain(others.iter().copied()) {
-        let share = if sheet == emptiest { 1.0 } else { SHARES[rng.usize(..SHARES.len())] };
+        let share = if sheet == emptiest { 1.0 } else { SHARES[index(rng, SHARES.len())] };
         kept[sheet].retain(|placed| {
             let stays = rng.f64() >= share;
             if !stays {
@@ -307,13 +307,25 @@ fn ruined(parent: &Layout, items: &[Item], rng: &mut fastrand::Rng) -> Plan {
     }
 }
 
+/// A number below `count`. `fastrand` draws a `usize` from fewer bits where pointers are shorter, as in a browser,
+/// and a layout would be another one there.
+fn index(rng: &mut fastrand::Rng, count: usize) -> usize {
+    rng.u64(..count as u64) as usize
+}
+
+fn shuffle<T>(rng: &mut fastrand::Rng, items: &mut [T]) {
+    for i in 1..items.len() {
+        items.swap(i, index(rng, i + 1));
+    }
+}
+
 /// The poses of an item that are tried.
 fn chosen_poses(item: usize, count: usize, way: &Way) -> Vec<usize> {
     let mut indices: Vec<usize> = (0..count).collect();
     if way.poses != 0 && count > POSES {
         // A stream of its own for each item, so that it does not matter which come before it.
         let mut rng = fastrand::Rng::with_seed(way.poses.wrapping_add(item as u64));
-        rng.shuffle(&mut indices[COMMON_POSES..]);
+        shuffle(&mut rng, &mut indices[COMMON_POSES..]);
     }
     indices.truncate(POSES);
     indices
