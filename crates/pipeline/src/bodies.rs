@@ -29,18 +29,15 @@ impl Hulls {
     /// # Errors
     /// [`Error::NothingSolid`].
     pub fn new(divided: &Parts) -> Result<Self, Error> {
-        let mut solid = hulls(divided);
-        let segmentation = divided.segmentation();
-        let symmetry = segmentation.mirror().and_then(|plane| solid.mirrored(divided, &plane.mirror));
+        let Touching { mut solid, symmetry, contacts } = Touching::of(divided);
         if solid.hulls.is_empty() {
             return Err(Error::NothingSolid);
         }
-        let contacts = contacts(divided.mesh(), segmentation, &solid.part_of_segment);
         let hulls: Vec<&Hull> = solid.hulls.iter().collect();
         let links = model::link_tree(&hulls, &contacts, symmetry.as_ref());
         let Parted { hulls, borders } = model::parted(&hulls, &contacts, &links, symmetry.as_ref());
         solid.hulls = model::sturdy(hulls, &links, symmetry.as_ref());
-        let mirror_plane = segmentation.mirror().filter(|_| symmetry.is_some()).copied();
+        let mirror_plane = divided.segmentation().mirror().filter(|_| symmetry.is_some()).copied();
         let views = Some(Arc::new(Views::of_mesh(divided.mesh())));
         Ok(Self { names: solid.names(divided.names()), solid, borders, links, symmetry, mirror_plane, views })
     }
@@ -78,6 +75,39 @@ impl Hulls {
     /// Number of faces of each segment that is flat.
     pub fn flat_faces(&self) -> &[usize] {
         &self.solid.flat
+    }
+}
+
+/// The same parts, but made one where the plane of a joint would take more off two than one hull adds.
+pub(super) fn without_needless_joints(mut divided: Parts) -> Parts {
+    loop {
+        let Touching { solid, symmetry, contacts } = Touching::of(&divided);
+        let hulls: Vec<&Hull> = solid.hulls.iter().collect();
+        let pairs = model::needless(&hulls, &contacts, symmetry.as_ref());
+        if pairs.is_empty() {
+            return divided;
+        }
+        let segment = |part| solid.part_of_segment.iter().position(|p| *p == Some(part));
+        let pairs: Vec<(usize, usize)> =
+            pairs.into_iter().filter_map(|(a, b)| Some((segment(a)?, segment(b)?))).collect();
+        divided = divided.fused(&pairs);
+    }
+}
+
+/// Hulls of all parts, before they leave each other room, and where they touch.
+struct Touching {
+    solid: Solid,
+    symmetry: Option<Symmetry>,
+    contacts: Vec<Contact>,
+}
+
+impl Touching {
+    fn of(divided: &Parts) -> Self {
+        let mut solid = hulls(divided);
+        let segmentation = divided.segmentation();
+        let symmetry = segmentation.mirror().and_then(|plane| solid.mirrored(divided, &plane.mirror));
+        let contacts = contacts(divided.mesh(), segmentation, &solid.part_of_segment);
+        Self { solid, symmetry, contacts }
     }
 }
 

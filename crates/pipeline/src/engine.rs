@@ -1,6 +1,7 @@
 //! The stages, with a memory for what each of them made: what is asked for again is not made again.
 //! The command line runs an engine once; the studio keeps one and changes a little at a time.
 
+use super::bodies::without_needless_joints;
 use super::concave::{self, Refitted};
 use super::judge::FoldJudge;
 use super::plugs::{self, Planned};
@@ -112,7 +113,10 @@ impl<'m> Engine<'m> {
             let symmetry = options.segmentation.symmetry.moved(&to_model);
             let wanted = SegmentOptions { symmetry, ..options.segmentation };
             let segmentation = segment::segment(&mesh, &wanted, progress)?;
-            Ok::<_, Error>(Arc::new((Parts::new(mesh, segmentation), to_model)))
+            let parts = Parts::new(mesh, segmentation);
+            let is_chosen = wanted.parts.is_some();
+            let parts = if is_chosen { parts } else { without_needless_joints(parts) };
+            Ok::<_, Error>(Arc::new((parts, to_model)))
         })?;
         let (mut parts, to_model) = Arc::unwrap_or_clone(segmented);
         for edit in &options.edits {

@@ -212,14 +212,14 @@ impl Choice {
         bumps: &Bumping<'_>,
         looks_mm: &Looks<'_>,
     ) -> Result<(Combination, BTreeSet<usize>), Cancelled> {
-        let (first, near) = self.best_looking(looks_mm);
+        let (unhindered, near) = self.best_looking(looks_mm);
         let look = |of: Combination| {
             let bumps = bumps(&of)?;
             let harm: f64 = bumps.iter().map(|b| BUMP_PRICE_MM + DEPTH_PRICE * b.1).sum();
             let looks_mm: f64 = looks_mm(std::slice::from_ref(&of)).iter().sum();
             Ok(Look { cost_mm: self.cost_mm(&of) + looks_mm + harm, of, bumps })
         };
-        let mut best = look(first)?;
+        let mut best = look(unhindered.clone())?;
         let mut seen = BTreeSet::from([best.of.clone()]);
         if let Some(other) = start.filter(|of| *of != best.of) {
             seen.insert(other.clone());
@@ -230,7 +230,7 @@ impl Choice {
         }
         let mut left = LOOKS + LOOKS_FOR_EACH * self.own.len();
         'better: loop {
-            for group in near.proposals(&best).chunks(AT_ONCE) {
+            for group in near.proposals(&best, &unhindered).chunks(AT_ONCE) {
                 let worth = |of: &&Combination| near.cost_mm(of) < best.cost_mm && !seen.contains(*of);
                 let group: Vec<Combination> = group.iter().filter(worth).cloned().collect();
                 if left < group.len() || group.is_empty() {
@@ -259,11 +259,13 @@ impl Choice {
         look.bumps.iter().flat_map(|b| self.way(b.0)).map(|part| self.variable[part]).collect()
     }
 
-    /// Combinations in which a part that bumps, or one between two that do, has another candidate: the
-    /// cheapest first.
-    fn proposals(&self, from: &Look) -> Vec<Combination> {
+    /// Combinations in which a part that bumps, or one between two that do, has another candidate, or one
+    /// that differs from what would be best if nothing bumped: the cheapest first.
+    fn proposals(&self, from: &Look, unhindered: &[usize]) -> Vec<Combination> {
         let mut proposals: BTreeSet<Combination> = BTreeSet::new();
-        for part in self.involved(from) {
+        let mut parts = self.involved(from);
+        parts.extend((0..from.of.len()).filter(|&p| self.variable[p] == p && from.of[p] != unhindered[p]));
+        for part in parts {
             for k in (0..self.own[part].len()).filter(|k| *k != from.of[part]) {
                 let mut only = from.of.clone();
                 only[part] = k;
@@ -494,6 +496,15 @@ mod tests {
             best_of_all += usize::from(found_mm <= least_mm + 1e-9);
         }
         assert!(better > 50 && best_of_all > 250, "{better} {best_of_all}");
+    }
+
+    /// A start in which both of two parts avoid each other, where one would do.
+    #[test]
+    fn a_part_that_avoids_nothing_goes_back_to_its_best() {
+        let choice = Choice::of_costs(vec![0, 1], vec![vec![0.0, 5.0]; 2], Vec::new());
+        let bumps = |of: &[usize]| Ok(if of == [0, 0] { vec![([0, 1], 1.0)] } else { Vec::<Bump>::new() });
+        let (found, _) = choice.best(Some(vec![1, 1]), &bumps, &no_looks).unwrap();
+        assert_eq!(choice.cost_mm(&found), 5.0);
     }
 
     #[test]

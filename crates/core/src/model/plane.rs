@@ -74,6 +74,19 @@ pub(super) fn cut_off(plane: &Plane, parent: &Hull, child: &Hull) -> f64 {
     lost(parent, plane).max(lost(child, &plane.flipped()))
 }
 
+/// The volume that the plane takes off two hulls and neither has on its other side, and the volume that one hull
+/// round both has more than the two; `None` where there is no such hull.
+pub(super) fn lost_and_added_mm3(plane: &Plane, parent: &Hull, child: &Hull) -> Option<[f64; 2]> {
+    let vertices: Vec<DVec3> = [parent, child].iter().flat_map(|hull| hull.vertices()).copied().collect();
+    let around = Hull::of_points(&vertices).ok()?.volume();
+    let ground = Ground::new(parent, child, [&[], &[]]);
+    let [parent_mm3, child_mm3] = [parent, child].map(Hull::volume);
+    let lost = ground.lost(plane);
+    let shared_mm3 = child_mm3 * (1.0 - ground.alone[1].len() as f64 / ground.counts[1].max(1.0));
+    let both_mm3 = parent_mm3 + child_mm3 - shared_mm3;
+    Some([lost[0] * parent_mm3 + lost[1] * child_mm3, around - both_mm3])
+}
+
 /// The plane in the middle of where two hulls overlap least, normal from the first to the second, and how
 /// deep they do; `None` where they do not. Only the directions of their faces are tried.
 pub(super) fn apart(first: &Hull, second: &Hull) -> Option<(Plane, f64)> {

@@ -64,6 +64,22 @@ impl Parts {
         self
     }
 
+    /// The same with parts made one, by their numbers; all get names anew.
+    #[must_use]
+    pub fn fused(self, pairs: &[(usize, usize)]) -> Self {
+        let mut label: Vec<u32> = (0..self.names.len() as u32).collect();
+        for &(a, b) in pairs {
+            let (kept, gone) = (label[a], label[b]);
+            label.iter_mut().filter(|l| **l == gone).for_each(|l| *l = kept);
+        }
+        let of_face: Vec<u32> =
+            self.segmentation.face_segments().iter().map(|id| label[id.0 as usize]).collect();
+        let areas = face_areas(&self.mesh);
+        let mirror = self.segmentation.mirror().copied();
+        let segmentation = Segmentation::numbered(&of_face, label.len(), &areas).mirrored_in(mirror);
+        Self::new(self.mesh, segmentation)
+    }
+
     /// The same parts with the one in the middle first.
     #[must_use]
     pub fn with_root_in_the_middle(self) -> Self {

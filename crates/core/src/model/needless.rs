@@ -1,0 +1,47 @@
+//! Joints that cost more than they give.
+
+use super::link::{Contact, link_tree};
+use super::{Symmetry, plane};
+use crate::geom::Hull;
+
+/// Pairs of parts that are better one: the plane of their joint takes more off the two than one hull round
+/// both adds to them. The fin of a fish that lies along its body costs it the belly.
+pub fn needless(
+    part_hulls: &[&Hull],
+    contacts: &[Contact],
+    symmetry: Option<&Symmetry>,
+) -> Vec<(usize, usize)> {
+    let links = link_tree(part_hulls, contacts, symmetry);
+    let is_needless = |plane, [parent, child]: [usize; 2]| {
+        let volumes = plane::lost_and_added_mm3(plane, part_hulls[parent], part_hulls[child]);
+        volumes.is_some_and(|[lost, added]| lost > added)
+    };
+    let pairs = links.iter().filter(|link| is_needless(&link.plane, [link.parent, link.child]));
+    pairs.map(|link| (link.parent, link.child)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+
+    /// Two bars that cross. Any plane takes at least one of the four ends, of 2·w·(1 − w) in
+    /// area; one hull fills four corners, of (1 − w)²/2 each.
+    #[test]
+    fn a_joint_is_needless_where_its_plane_takes_more_than_one_hull_adds() {
+        for (width, expected) in [(0.2, false), (0.3, false), (0.7, true), (0.85, true)] {
+            let bar = |size: DVec3| {
+                let sign = |k: usize, bit: usize| if k >> bit & 1 == 0 { -1.0 } else { 1.0 };
+                let corner = |k: usize| 30.0 * size * DVec3::new(sign(k, 0), sign(k, 1), sign(k, 2));
+                Hull::of_points(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
+            };
+            let bars = [bar(DVec3::new(1.0, 0.8, width)), bar(DVec3::new(width, 0.8, 1.0))];
+            let sides = [-1.0, 1.0].map(|y| [DVec3::new(-1.0, y, 1.0), DVec3::new(1.0, y, 1.0)]);
+            let points =
+                sides.concat().into_iter().map(|p| 30.0 * p * DVec3::new(width, 0.8, width)).collect();
+            let contact = Contact { parts: (0, 1), points, length_mm: 90.0 };
+            let found = needless(&[&bars[0], &bars[1]], std::slice::from_ref(&contact), None);
+            assert_eq!(found, if expected { vec![(0, 1)] } else { vec![] }, "{width}");
+        }
+    }
+}
