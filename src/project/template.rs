@@ -61,6 +61,12 @@ const PINS: &str = "
 # y_mm = 30
 # turn = 90
 
+# Where nets are cut and which side has the tab; \"tatamu make --edge-names\" prints the names of edges.
+# [[net]]
+# component = \"body\"
+# pieces = 2
+# edges = [{ at = \"2.3\", cut = true }, { at = \"1.1\", tab = \"upper\", width_mm = 8 }]
+
 # One table for each component. Missing keys come from [defaults].
 ";
 
@@ -218,6 +224,7 @@ mod tests {
             assert!(is_own || project.has(option), "{} is not read back", option.name());
         }
         assert_eq!((project.edits.len(), project.pins.len()), (2, 1));
+        assert_eq!(project.nets[0].hand().edges().count(), 2);
         let own = &project.components[0];
         assert_eq!((own.direction_deg, own.top_edges, own.concave), (Some(12.3), Some(6), Some(true)));
         assert!(own.rename.is_some() && own.joint.is_some() && own.profile_vertices.is_some());

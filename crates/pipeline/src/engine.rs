@@ -17,7 +17,7 @@ use tatamu_core::mesh::{Mesh, Up};
 use tatamu_core::model::{self, Built, JointChoice, Known, Model, ModelPart, Unjudged};
 use tatamu_core::progress::{Beside, Cancelled, Progress};
 use tatamu_core::segment::{self, Edit, Parts, SegmentOptions};
-use tatamu_net::net::{BlankNet, KnownNets, Net, NetChoices, NetOptions, develop_model};
+use tatamu_net::net::{BlankNet, KnownNets, Net, NetChoices, NetHand, NetOptions, develop_model};
 use tatamu_net::sheet::{Layout, Pin, SheetOptions};
 
 /// So many results of whole stages are kept, for going back and forth between a few choices.
@@ -292,9 +292,15 @@ impl<'m> Engine<'m> {
             tab_width_mm: options.tab_width_mm,
             sheet_mm: sheets.room_mm(),
             choices: NetChoices { is_separate: options.is_thick, ..options.nets },
+            hand: NetHand::default(),
         };
+        let names = || model.parts().iter().map(|part| &part.name);
+        if let Some(name) = options.hands.keys().find(|name| names().all(|known| known != *name)) {
+            let known = names().cloned().collect::<Vec<_>>().join(", ");
+            return Err(Error::NoComponent { name: name.clone(), known });
+        }
         progress.stage("nets");
-        let alternatives = develop_model(model, &net_options, &self.nets, progress)
+        let alternatives = develop_model(model, &net_options, &options.hands, &self.nets, progress)
             .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
         let alternatives = Arc::new(alternatives);
         let key = (sheets, options.pins.clone(), alternatives.clone());

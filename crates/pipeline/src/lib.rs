@@ -44,7 +44,7 @@ use tatamu_core::progress::{Cancelled, Progress};
 use tatamu_core::remedy::Remedy;
 use tatamu_core::segment::{Edit, EditError, Parts, SegmentError, SegmentOptions};
 use tatamu_core::units::Paper;
-use tatamu_net::net::{NetChoices, NetError, NetsError};
+use tatamu_net::net::{NetChoices, NetError, NetHand, NetsError};
 use tatamu_net::sheet::{LayoutError, Pin, SheetChoices};
 
 /// What the user chose.
@@ -89,6 +89,8 @@ pub struct Options {
     pub sheets: SheetChoices,
     /// Pieces, by name, that lie where the user wants them.
     pub pins: BTreeMap<String, Pin>,
+    /// What is chosen about the nets of components of these names, as they are printed.
+    pub hands: BTreeMap<String, NetHand>,
 }
 
 impl Default for Options {
@@ -113,6 +115,7 @@ impl Default for Options {
             nets: NetChoices::default(),
             sheets: SheetChoices::default(),
             pins: BTreeMap::new(),
+            hands: BTreeMap::new(),
         }
     }
 }
