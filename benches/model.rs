@@ -67,7 +67,7 @@ fn nets(bencher: Bencher, path: &str) {
 fn sheets(bencher: Bencher, path: &str) {
     let Some(nets) = model(path).and_then(|model| alternatives(&model)) else { return };
     let (options, pins) = (sheet_options(), Options::default().pins);
-    bencher.bench(|| Layout::of_alternatives(&nets, &options, &pins, &Silent).is_ok());
+    bencher.bench(|| Layout::of_alternatives(&nets, &[], &options, &pins, &Silent).is_ok());
 }
 
 /// From the mesh to the sheets.

@@ -54,7 +54,7 @@ impl Figures {
         let net_options = NetOptions::new(options.tab_width_mm, sheets.room_mm());
         let alternatives =
             develop_model(output.model(), &net_options, &BTreeMap::new(), &KnownNets::default(), &Silent)?;
-        let (layout, nets) = Layout::of_alternatives(&alternatives, &sheets, &BTreeMap::new(), &Silent)?;
+        let (layout, nets) = Layout::of_alternatives(&alternatives, &[], &sheets, &BTreeMap::new(), &Silent)?;
         let seconds = start.elapsed().as_secs_f64();
         let pieces: Vec<&Piece> = nets.iter().flat_map(Net::pieces).collect();
         Ok(Self {

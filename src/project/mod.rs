@@ -105,6 +105,9 @@ pub struct Component {
     pub profile_vertices: Option<usize>,
     /// Whether a component of a mesh may have dents.
     pub concave: Option<bool>,
+    /// Colour of its card.
+    #[serde(default, deserialize_with = "fields::new_name")]
+    pub color: Option<String>,
     /// The top panel, where the component is drawn.
     #[serde(default)]
     pub top: Option<Top>,

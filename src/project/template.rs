@@ -1,7 +1,8 @@
 //! A new project file, with comments.
 
 use super::options::{
-    CONCAVE, DIRECTION, Entry, JOINT, PARTS, PROFILE_VERTICES, RENAME, Settings, TOP_EDGES, of_table, quoted,
+    CARD, CONCAVE, DIRECTION, Entry, JOINT, PARTS, PROFILE_VERTICES, RENAME, Settings, TOP_EDGES, of_table,
+    quoted,
 };
 
 /// What `init` writes into a fresh project file.
@@ -83,7 +84,7 @@ pub fn to_toml(template: &Template) -> String {
     }
     text += &table("export", template, false);
     text += PINS;
-    for option in [&RENAME, &DIRECTION, &CONCAVE, &JOINT] {
+    for option in [&RENAME, &DIRECTION, &CONCAVE, &CARD, &JOINT] {
         text += &comment(&format!("{}: {}", option.name(), option.short_comment()));
     }
     text + &template.components.iter().map(|own| component(own, template.settings)).collect::<String>()
@@ -118,7 +119,7 @@ fn component(own: &TemplateComponent, settings: &Settings) -> String {
         format!("# {} = {value}\n", option.name())
     });
     format!(
-        "\n[[component]]\nname = {name}\n# {} = {name}\n{}{} = {:.1}\n{}{}{} = true\n# {} = {}\n",
+        "\n[[component]]\nname = {name}\n# {} = {name}\n{}{} = {:.1}\n{}{}{} = true\n# {} = \"brown\"\n# {} = {}\n",
         RENAME.name(),
         unless(own.is_chosen),
         DIRECTION.name(),
@@ -126,6 +127,7 @@ fn component(own: &TemplateComponent, settings: &Settings) -> String {
         counts.concat(),
         unless(own.is_concave),
         CONCAVE.name(),
+        CARD.name(),
         JOINT.name(),
         JOINT.example_toml()
     )

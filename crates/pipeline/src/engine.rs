@@ -41,8 +41,8 @@ pub struct Engine<'m> {
     layouts: Memory<LayoutKey, (Arc<Layout>, Arc<Vec<Net>>)>,
 }
 
-/// What decides a layout: sheets, pins, and the nets with their alternatives.
-type LayoutKey = (SheetOptions, BTreeMap<String, Pin>, Arc<Vec<Vec<Arc<BlankNet>>>>);
+/// What decides a layout: sheets, pins, colours of card, and the nets with their alternatives.
+type LayoutKey = (SheetOptions, BTreeMap<String, Pin>, Vec<Option<String>>, Arc<Vec<Vec<Arc<BlankNet>>>>);
 
 /// What decides a plan: the model, the thickness, the width of tabs, which plugs keep off, and the
 /// components that must stay glued.
@@ -303,10 +303,12 @@ impl<'m> Engine<'m> {
         let alternatives = develop_model(model, &net_options, &options.hands, &self.nets, progress)
             .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
         let alternatives = Arc::new(alternatives);
-        let key = (sheets, options.pins.clone(), alternatives.clone());
+        let cards: Vec<Option<String>> =
+            model.parts().iter().map(|part| options.card(&part.name).cloned()).collect();
+        let key = (sheets, options.pins.clone(), cards.clone(), alternatives.clone());
         let (layout, nets) = self.layouts.get_or(key, || {
             progress.stage("sheets");
-            let laid = Layout::of_alternatives(&alternatives, &sheets, &options.pins, progress)?;
+            let laid = Layout::of_alternatives(&alternatives, &cards, &sheets, &options.pins, progress)?;
             Ok::<_, Error>((Arc::new(laid.0), Arc::new(laid.1)))
         })?;
         let mut warnings = shaped.notes.clone();

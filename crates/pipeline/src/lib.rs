@@ -138,6 +138,11 @@ impl Options {
         self.components.iter().find(|(key, own)| own.rename.as_ref().unwrap_or(key) == name)
     }
 
+    /// The colour of card of the component of a name, if that was chosen.
+    fn card(&self, name: &str) -> Option<&String> {
+        self.component(name).and_then(|(_, own)| own.card.as_ref())
+    }
+
     /// How the component of a name is held, if that was chosen.
     fn joint_choice(&self, name: &str) -> Option<JointChoice> {
         self.component(name).and_then(|(_, own)| own.joint)
@@ -160,6 +165,8 @@ pub struct ComponentOptions {
     pub profile_vertices: Option<usize>,
     /// Whether it may have dents, where that brings it nearer to its shape.
     pub is_concave: bool,
+    /// Colour of its card, in the user's words; components of one colour share sheets.
+    pub card: Option<String>,
     /// How it is held on its parent; where that is left out, it is glued unless that leaves no free
     /// way to fold.
     pub joint: Option<JointChoice>,

@@ -83,6 +83,7 @@ fn take_tables(project: &Project, options: &mut Options) {
             top_edges: component.top_edges,
             profile_vertices: component.profile_vertices,
             is_concave: component.concave.unwrap_or(false),
+            card: component.color.clone(),
             joint: component.joint.as_ref().and_then(|joint| joint.hold()),
         };
         options.components.insert(component.name.clone(), choice);
