@@ -36,7 +36,7 @@ pub enum Change {
         /// The component's name, before it was renamed.
         name: String,
     },
-    /// Takes away a component's table: there is no such component any more.
+    /// Takes away a component's tables: there is no such component any more.
     Forget {
         /// The component's name, before it was renamed.
         name: String,
@@ -151,7 +151,10 @@ impl Change {
                     options.iter().for_each(|option| drop(table.remove(option.name())));
                 }
             }
-            Self::Forget { name } => remove(list(root, "component")?, "name", name),
+            Self::Forget { name } => {
+                remove(list(root, "component")?, "name", name);
+                remove(list(root, "net")?, "component", name);
+            }
             Self::Merge { names } => {
                 let components = list(root, "component")?;
                 names.iter().skip(1).for_each(|name| remove(components, "name", name));
@@ -379,6 +382,8 @@ mod tests {
         let edges: Vec<_> = hand.edges().map(|(edge, choice)| (edge.to_string(), choice)).collect();
         assert_eq!(edges, [("1.3".to_owned(), tab), ("2.1".to_owned(), cut)]);
         assert_eq!((project.nets.len(), hand.pieces()), (1, Some(2)));
+        let forgotten = Change::Forget { name: "body".to_owned() };
+        assert!(changed(&[edge("2.1", Some(cut)), forgotten]).1.nets.is_empty());
         let gone = Change::Pieces { component: "body".to_owned(), pieces: None };
         let (_, project) = changed(&[edge("2.1", Some(cut)), edge("2.1", None), gone]);
         assert!(project.nets[0].hand().is_empty());
