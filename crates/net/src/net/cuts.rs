@@ -8,8 +8,8 @@
 
 use super::chains::{Chain, Chains};
 use super::extent::Extent;
-use super::hand::Ruling;
 use super::layout::{across, best_turn, clash, placed_outline};
+use super::ruling::Ruling;
 use glam::{DAffine2, DVec2};
 use tatamu_core::component::{HingeId, PanelSet};
 

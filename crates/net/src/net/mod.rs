@@ -30,6 +30,7 @@ mod net_error;
 mod of_model;
 mod options;
 mod plugs;
+mod ruling;
 mod split;
 mod tabs;
 mod warning;
