@@ -459,13 +459,16 @@ fn barrel_by_hand(
     (set, hand, net)
 }
 
+/// The name of an edge, and what is chosen about it.
+type Chosen<'a> = (&'a str, EdgeChoice);
+
 const CUT: EdgeChoice = EdgeChoice { is_cut: Some(true), tab: None, width_mm: None };
 const KEPT: EdgeChoice = EdgeChoice { is_cut: Some(false), tab: None, width_mm: None };
 
 #[test]
 fn cuts_tabs_and_pieces_are_as_chosen() {
     let tab = |side, width_mm| EdgeChoice { tab: Some(side), width_mm, ..EdgeChoice::default() };
-    let cases: [(Option<usize>, &[(&str, EdgeChoice)]); 6] = [
+    let cases: [(Option<usize>, &[Chosen]); 6] = [
         (None, &[("1.1", CUT), ("2.3", CUT)]),
         // The hinge that folds flat, which is spared unless it is chosen.
         (None, &[("3.2", CUT)]),
@@ -491,7 +494,7 @@ fn choices_that_cannot_be_are_refused_with_the_reason() {
     let ring: Vec<(&str, EdgeChoice)> = ring.iter().map(|(name, choice)| (name.as_str(), *choice)).collect();
     let wide = EdgeChoice { width_mm: Some(40.0), ..EdgeChoice::default() };
     let every = ["1.1", "2.1", "3.1", "4.1"].map(|name| (name, CUT));
-    let cases: [(Option<usize>, &[(&str, EdgeChoice)], &str); 8] = [
+    let cases: [(Option<usize>, &[Chosen], &str); 8] = [
         (None, &[("5.1", CUT)], "4 chains"),
         (None, &[("1.4", CUT)], "3 edges"),
         (None, &ring, "chains 1 and 3"),
