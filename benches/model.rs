@@ -7,6 +7,7 @@ mod input;
 use divan::Bencher;
 use input::read;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tatamu::fold::{FoldPlan, ModelMotion};
@@ -45,7 +46,7 @@ fn sheet_options() -> SheetOptions {
 
 fn alternatives(model: &Model) -> Option<Vec<Vec<Arc<BlankNet>>>> {
     let options = NetOptions::new(Options::default().tab_width_mm, sheet_options().room_mm());
-    develop_model(model, &options, &KnownNets::default(), &Silent).ok()
+    develop_model(model, &options, &BTreeMap::new(), &KnownNets::default(), &Silent).ok()
 }
 
 /// The check of the folding, and the search for its order.
@@ -66,7 +67,7 @@ fn nets(bencher: Bencher, path: &str) {
 fn sheets(bencher: Bencher, path: &str) {
     let Some(nets) = model(path).and_then(|model| alternatives(&model)) else { return };
     let (options, pins) = (sheet_options(), Options::default().pins);
-    bencher.bench(|| Layout::of_alternatives(&nets, &options, &pins, &Silent).is_ok());
+    bencher.bench(|| Layout::of_alternatives(&nets, &[], &options, &pins, &Silent).is_ok());
 }
 
 /// From the mesh to the sheets.

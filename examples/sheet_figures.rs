@@ -52,8 +52,9 @@ impl Figures {
             SheetOptions { choices: options.sheets, ..SheetOptions::new(options.paper, options.margin_mm) };
         let start = Instant::now();
         let net_options = NetOptions::new(options.tab_width_mm, sheets.room_mm());
-        let alternatives = develop_model(output.model(), &net_options, &KnownNets::default(), &Silent)?;
-        let (layout, nets) = Layout::of_alternatives(&alternatives, &sheets, &BTreeMap::new(), &Silent)?;
+        let alternatives =
+            develop_model(output.model(), &net_options, &BTreeMap::new(), &KnownNets::default(), &Silent)?;
+        let (layout, nets) = Layout::of_alternatives(&alternatives, &[], &sheets, &BTreeMap::new(), &Silent)?;
         let seconds = start.elapsed().as_secs_f64();
         let pieces: Vec<&Piece> = nets.iter().flat_map(Net::pieces).collect();
         Ok(Self {

@@ -35,6 +35,28 @@ const STARTS: [&[u8]; 14] = [
     b"v 1e308 -1e308 nan\nv 1 2 3\n",
 ];
 
+/// What a model of 3MF is written with.
+const TAGS: [&str; 18] = [
+    "<object id='1'>",
+    "<object id='2'>",
+    "<object id='1' type='support'>",
+    "</object>",
+    "<mesh><vertices>",
+    "</vertices><triangles>",
+    "</triangles></mesh>",
+    "<vertex x='0' y='0' z='0'/><vertex x='1' y='0' z='0'/><vertex x='0' y='1' z='0'/>",
+    "<vertex x='1e308' y='-1e308' z='nan'/>",
+    "<vertex/>",
+    "<triangle v1='0' v2='1' v3='2'/>",
+    "<triangle v1='-1' v2='4294967296' v3='1e99'/>",
+    "<components><component objectid='1'/><component objectid='2'/></components>",
+    "<components><component objectid='2' transform='0 0 0 0 0 0 0 0 0 0 0 0'/></components>",
+    "<components><component objectid='1' path='/3D/3dmodel.model' transform='1 2'/></components>",
+    "</resources><build><item objectid='1'/>",
+    "<item objectid='2' transform='1e300 0 0 0 1e300 0 0 0 -1e300 1 2 3'/>",
+    "</build></model>",
+];
+
 /// The words of the text formats, so that random text gets past the first check.
 const WORDS: [&str; 24] = [
     "v",
@@ -63,6 +85,17 @@ const WORDS: [&str; 24] = [
     "#",
 ];
 
+/// Two objects of these tags, on the plate, so that the XML is closed.
+fn whole(tags: &[usize]) -> Vec<usize> {
+    let inner = tags.iter().copied().filter(|k| !matches!(k, 0..=6 | 15..));
+    let (vertices, rest): (Vec<usize>, Vec<usize>) = inner.partition(|k| (7..10).contains(k));
+    let (triangles, components): (Vec<usize>, Vec<usize>) = rest.into_iter().partition(|k| *k < 12);
+    let object = |first: usize| {
+        [vec![first, 4], vertices.clone(), vec![5], triangles.clone(), vec![6], components.clone(), vec![3]]
+    };
+    [object(0).concat(), object(1).concat(), vec![15, 16, 17]].concat()
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(512))]
 
@@ -78,8 +111,15 @@ proptest! {
     }
 
     #[test]
+    fn packed_models_of_random_tags(tags in prop::collection::vec(0..TAGS.len(), 0..24), is_whole: bool) {
+        let tags: Vec<usize> = if is_whole { whole(&tags) } else { tags };
+        let tags: String = tags.into_iter().map(|k| TAGS[k]).collect();
+        read_and_repair(&cube::packed(&format!("<model unit='inch'><resources>{tags}")));
+    }
+
+    #[test]
     fn damaged_cubes(
-        which in 0..9usize,
+        which in 0..cube::all().len(),
         damage in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..4),
         cut in prop::option::of(any::<prop::sample::Index>()),
     ) {

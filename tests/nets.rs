@@ -12,8 +12,8 @@ use tatamu::export::fold::{self, FoldComponent, FoldModel};
 use tatamu::geom::polygon;
 use tatamu::mesh::{self, Mesh};
 use tatamu::net::{
-    BlankNet, EdgeKind, JointMark, Label, LabelKind, Naming, Net, NetError, NetOptions, Side, alternatives,
-    check::faults, develop,
+    BlankNet, EdgeChoice, EdgeKind, EdgeName, JointMark, Label, LabelKind, Naming, Net, NetError, NetHand,
+    NetOptions, NetWarning, Side, Tab, TabSide, alternatives, check::faults, develop,
 };
 use tatamu::pipeline::{self, Options};
 use tatamu::progress::Silent;
@@ -370,5 +370,157 @@ fn assert_readable(net: &Net, piece: &tatamu::net::Piece, model: &str) {
         };
         let nearest = beside.min_by(|a, b| distance_mm(a.1).total_cmp(&distance_mm(b.1)));
         assert_eq!(nearest.map(|(text, _)| text), Some(label.text.as_str()), "{model}: {}", piece.name());
+    }
+}
+
+/// What was chosen holds, every tab has its mate, and the net refolds.
+fn assert_followed(set: &PanelSet, net: &Net, hand: &NetHand, sheet_mm: DVec2) {
+    assert_good(set, net, sheet_mm);
+    let tabs: Vec<&Tab> = net.pieces().iter().flat_map(|piece| piece.tabs()).collect();
+    for (edge, choice) in hand.edges() {
+        let hinge = hinge_at(set, edge);
+        assert!(choice.is_cut.is_none_or(|is_cut| net.label(hinge).is_some() == is_cut), "{edge}");
+        let tab = tabs.iter().find(|tab| tab.hinge == hinge);
+        let side = match choice.tab {
+            Some(TabSide::Tape) => {
+                assert!(tab.is_none(), "{edge} has a tab");
+                let areas = net.pieces().iter().flat_map(|piece| piece.glue_areas());
+                assert!(areas.filter(|area| area.hinge == hinge).count() > 0, "{edge} has no place for tape");
+                continue;
+            }
+            Some(TabSide::Upper) => Some(0),
+            Some(TabSide::Lower) => Some(1),
+            None => None,
+        };
+        assert!(side.is_none_or(|side| tab.is_some_and(|tab| tab.side == side)), "side of {edge}");
+        let is_wide = |mm: f64| tab.is_some_and(|tab| (tab.width_mm() - mm).abs() < 1e-9);
+        assert!(choice.width_mm.is_none_or(is_wide), "width of {edge}");
+    }
+    assert!(hand.pieces().is_none_or(|count| net.pieces().len() == count));
+}
+
+fn hinge_at(set: &PanelSet, edge: EdgeName) -> HingeId {
+    let found = (0..set.hinges().len()).map(HingeId).find(|h| EdgeName::of(set, *h) == Some(edge));
+    found.expect("an edge of the component")
+}
+
+fn by_hand(set: &PanelSet, hand: &NetHand, sheet_mm: DVec2) -> Result<Net, NetError> {
+    let mut options = NetOptions::new(6.0, sheet_mm);
+    options.hand = hand.clone();
+    develop(set, Naming { name: "body", prefix: "A" }, &[], &options)
+}
+
+fn choice() -> impl Strategy<Value = EdgeChoice> {
+    let tab = prop_oneof![Just(TabSide::Upper), Just(TabSide::Lower), Just(TabSide::Tape)];
+    prop_oneof![
+        any::<bool>().prop_map(|is_cut| EdgeChoice { is_cut: Some(is_cut), ..EdgeChoice::default() }),
+        tab.prop_map(|tab| EdgeChoice { tab: Some(tab), ..EdgeChoice::default() }),
+        (4..=16)
+            .prop_map(|half| EdgeChoice { width_mm: Some(f64::from(half) / 2.0), ..EdgeChoice::default() }),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 48,
+        max_global_rejects: 5000,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    #[test]
+    fn nets_by_hand_refold_or_say_why_not(
+        prism in prism(),
+        chosen in prop::collection::vec((0usize..1000, choice()), 1..4),
+        pieces in prop::option::weighted(0.3, 1usize..=2),
+    ) {
+        prop_assume!(prism.least_measure() >= 3.0);
+        let set = prism.panel_set();
+        let edge = |k: usize| EdgeName::of(&set, HingeId(k % set.hinges().len())).expect("no seams");
+        let edges: Vec<_> = chosen.iter().map(|(k, choice)| (edge(*k), *choice)).collect();
+        let Ok(hand) = NetHand::new(pieces, edges) else { return Ok(()) };
+        match by_hand(&set, &hand, HUGE) {
+            Ok(net) => assert_followed(&set, &net, &hand, HUGE),
+            Err(NetError::Hand { fault, .. }) => prop_assert!(!fault.to_string().is_empty()),
+            Err(other) => prop_assert!(false, "{other}"),
+        }
+    }
+}
+
+/// A barrel of four chains with two panels each, and choices about it.
+fn barrel_by_hand(
+    pieces: Option<usize>,
+    edges: &[(&str, EdgeChoice)],
+) -> (PanelSet, NetHand, Result<Net, NetError>) {
+    let set = Prism::regular(4, &[(20.0, 60.0), (30.0, 30.0), (20.0, 0.0)]).panel_set();
+    let edges = edges.iter().map(|(name, choice)| (name.parse().expect("a name"), *choice));
+    let hand = NetHand::new(pieces, edges).expect("no contradiction");
+    let net = by_hand(&set, &hand, A4);
+    (set, hand, net)
+}
+
+/// The name of an edge, and what is chosen about it.
+type Chosen<'a> = (&'a str, EdgeChoice);
+
+const CUT: EdgeChoice = EdgeChoice { is_cut: Some(true), tab: None, width_mm: None };
+const KEPT: EdgeChoice = EdgeChoice { is_cut: Some(false), tab: None, width_mm: None };
+
+#[test]
+fn cuts_tabs_and_pieces_are_as_chosen() {
+    let tab = |side, width_mm| EdgeChoice { tab: Some(side), width_mm, ..EdgeChoice::default() };
+    let cases: [(Option<usize>, &[Chosen]); 6] = [
+        (None, &[("1.1", CUT), ("2.3", CUT)]),
+        // The hinge that folds flat, which is spared unless it is chosen.
+        (None, &[("3.2", CUT)]),
+        (Some(2), &[("4.1", CUT)]),
+        (None, &[("1.1", tab(TabSide::Lower, Some(4.0))), ("2.1", tab(TabSide::Upper, Some(9.0)))]),
+        (None, &[("2.3", tab(TabSide::Tape, None))]),
+        // A strip apart.
+        (None, &[("2.1", CUT), ("2.3", CUT)]),
+    ];
+    for (pieces, edges) in cases {
+        let (set, hand, net) = barrel_by_hand(pieces, edges);
+        let net = net.unwrap_or_else(|error| panic!("{edges:?}: {error}"));
+        assert_followed(&set, &net, &hand, A4);
+        let spared = |w: &NetWarning| !matches!(w, NetWarning::NoTab { .. } | NetWarning::NarrowTab { .. });
+        assert!(net.warnings().iter().all(spared), "{:?}", net.warnings());
+    }
+}
+
+#[test]
+fn choices_that_cannot_be_are_refused_with_the_reason() {
+    let whole = |chain: usize| (1..=3).map(move |k| (format!("{chain}.{k}"), KEPT));
+    let ring: Vec<(String, EdgeChoice)> = whole(1).chain(whole(3)).collect();
+    let ring: Vec<(&str, EdgeChoice)> = ring.iter().map(|(name, choice)| (name.as_str(), *choice)).collect();
+    let wide = EdgeChoice { width_mm: Some(40.0), ..EdgeChoice::default() };
+    let every = ["1.1", "2.1", "3.1", "4.1"].map(|name| (name, CUT));
+    let cases: [(Option<usize>, &[Chosen], &str); 8] = [
+        (None, &[("5.1", CUT)], "4 chains"),
+        (None, &[("1.4", CUT)], "3 edges"),
+        (None, &ring, "chains 1 and 3"),
+        (Some(2), &ring[..3], "chain 1 would stay whole"),
+        (Some(1), &every, "two pieces"),
+        (None, &[("1.1", CUT), ("1.2", CUT), ("1.3", CUT)], "3 edges"),
+        (None, &[("1.1", wide)], "no room"),
+        (None, &[("1.1", wide)], "the widest is"),
+    ];
+    for (pieces, edges, word) in cases {
+        let error = barrel_by_hand(pieces, edges).2.expect_err("refused").to_string();
+        assert!(error.contains(word), "{edges:?}: {error}");
+    }
+}
+
+#[test]
+fn names_of_edges_are_printed_beside_all_of_them() {
+    let set = Prism::regular(4, &[(20.0, 60.0), (30.0, 30.0), (20.0, 0.0)]).panel_set();
+    let mut options = NetOptions::new(6.0, A4);
+    options.choices.edge_names = true;
+    let net = develop(&set, Naming { name: "body", prefix: "A" }, &[], &options).expect("a net");
+    assert!(faults(&set, &net, A4).is_empty());
+    let texts = net.pieces().iter().flat_map(|piece| piece.labels()).map(|label| label.text.as_str());
+    let printed: std::collections::BTreeSet<&str> = texts.collect();
+    for hinge in (0..set.hinges().len()).map(HingeId) {
+        let name = EdgeName::of(&set, hinge).expect("no seams").to_string();
+        assert!(printed.contains(name.as_str()), "{name}");
     }
 }

@@ -104,6 +104,7 @@ fn dashes_and_holes_are_drawn() {
     let drawing = Drawing {
         title: String::new(),
         size_mm: SIZE,
+        card: None,
         ground: Some(Rgb(255, 255, 255)),
         marks: vec![
             mark(vec![square(5.0, 30.0), square(10.0, 20.0)], None, Some(red)),

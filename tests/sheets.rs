@@ -69,7 +69,7 @@ impl Made {
     fn new(prisms: &[Prism], sheets: &SheetOptions, change: impl Fn(&mut NetOptions)) -> Self {
         let nets = alternatives_of(prisms, sheets, change);
         let (layout, nets) =
-            Layout::of_alternatives(&nets, sheets, &BTreeMap::new(), &Silent).expect("a layout");
+            Layout::of_alternatives(&nets, &[], sheets, &BTreeMap::new(), &Silent).expect("a layout");
         Self { nets, layout }
     }
 
@@ -354,7 +354,7 @@ fn pinned_pieces_lie_where_they_are_pinned_and_the_others_round_them() {
     ]);
     let mut nets = alternatives_of(&prisms()[..7], &sheets, |_| {});
     nets.iter_mut().for_each(|alternatives| alternatives.truncate(1));
-    let (layout, nets) = Layout::of_alternatives(&nets, &sheets, &pins, &Silent).expect("a layout");
+    let (layout, nets) = Layout::of_alternatives(&nets, &[], &sheets, &pins, &Silent).expect("a layout");
     let pinned = Made { nets, layout };
     for name in &names[..2] {
         let (piece, sheet, place) = pinned.placed().find(|(p, ..)| p.name() == *name).expect("it is placed");
@@ -375,4 +375,53 @@ fn pinned_pieces_lie_where_they_are_pinned_and_the_others_round_them() {
             assert!(a.intersection(b).unsigned_area() < TOUCH_MM2);
         }
     }
+}
+
+#[test]
+fn each_sheet_has_pieces_of_one_colour_of_card() {
+    let sheets = SheetOptions::new(parse_paper("a4").expect("a4"), 10.0);
+    let nets = alternatives_of(&prisms()[..8], &sheets, |_| {});
+    let colours = [Some("red"), None, Some("blue"), Some("red"), None, Some("red"), Some("blue"), None];
+    let cards: Vec<Option<String>> = colours.iter().map(|card| card.map(str::to_owned)).collect();
+    let lay_out = |cards: &[Option<String>], pins: &BTreeMap<String, Pin>| {
+        let (layout, nets) = Layout::of_alternatives(&nets, cards, &sheets, pins, &Silent).expect("a layout");
+        Made { nets, layout }
+    };
+    let made = lay_out(&cards, &BTreeMap::new());
+    for (n, colour) in colours.iter().enumerate() {
+        for place in made.layout.places(n) {
+            assert_eq!(made.layout.card(place.sheet), *colour);
+        }
+    }
+    let counted: usize = made.layout.cards().iter().map(|(_, count)| count).sum();
+    assert_eq!(counted, made.layout.sheet_count());
+    assert_eq!(
+        made.layout.cards().iter().map(|(card, _)| *card).collect::<Vec<_>>(),
+        [Some("red"), Some("blue"), None]
+    );
+    let imprint = Imprint { title: "model", ..Imprint::default() };
+    let pages = made.layout.pages(&made.nets, imprint, &LineStyles::standard());
+    let says = |page: &Drawing, words: &str| {
+        let text = |mark: &Mark| matches!(&mark.shape, Shape::Text(text) if text.content.contains(words));
+        page.marks.iter().any(text)
+    };
+    for (k, page) in pages[..made.layout.sheet_count()].iter().enumerate() {
+        for colour in ["red", "blue"] {
+            assert_eq!(says(page, &format!("{colour} card")), made.layout.card(k) == Some(colour));
+        }
+    }
+    // A pin counts all sheets: one on a sheet of another colour is not heeded.
+    let blue = made.layout.places(2)[0].sheet;
+    let piece = made.nets[2].pieces()[0].name().to_owned();
+    let pin = |sheet| Pin { sheet, at_mm: DVec2::new(40.0, 60.0), turn_rad: 0.0, net: 0 };
+    let pinned = lay_out(&cards, &BTreeMap::from([(piece.clone(), pin(blue))]));
+    assert!(pinned.layout.unheeded_pins().is_empty(), "{:?}", pinned.layout.unheeded_pins());
+    let pinned = lay_out(&cards, &BTreeMap::from([(piece.clone(), pin(0))]));
+    assert_eq!(pinned.layout.unheeded_pins(), [Unheeded::NoRoom(piece)]);
+    // One colour for all is no other layout.
+    let one = lay_out(&vec![Some("red".to_owned()); 8], &BTreeMap::new());
+    let none = lay_out(&[], &BTreeMap::new());
+    let places = |made: &Made| -> Vec<_> { (0..8).flat_map(|n| made.layout.places(n).to_vec()).collect() };
+    assert_eq!(places(&one), places(&none));
+    assert!(none.layout.cards().is_empty());
 }

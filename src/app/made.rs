@@ -32,6 +32,7 @@ impl Made {
             counted(pieces, "piece"),
             counted(sheets, "sheet")
         );
+        let cards = product::card_note(result).map(|cards| format!(" ({cards})")).unwrap_or_default();
         let mesh = mesh.map(|path| format!("mesh        {}", path.display()));
         let mut summary: Vec<String> = mesh.into_iter().collect();
         summary.extend([
@@ -43,7 +44,7 @@ impl Made {
         summary.extend([
             format!("work        {}", Estimate::new(result).sentence()),
             format!("pieces      {pieces}"),
-            format!("sheets      {sheets} of {paper}, {:.0}% used", 100.0 * layout.utilisation()),
+            format!("sheets      {sheets} of {paper}{cards}, {:.0}% used", 100.0 * layout.utilisation()),
             format!("written     {written}"),
         ]);
         Self { files, summary, line }

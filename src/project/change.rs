@@ -2,9 +2,10 @@
 //! result is read by the same parser as any project file.
 
 use super::options::{DIRECTION, Entry, PROFILE_VERTICES, RENAME, Scope, TOP_EDGES};
+use crate::net::{EdgeChoice, EdgeName};
 use crate::sheet::Pin;
 use glam::DVec3;
-use toml_edit::{Array, ArrayOfTables, DocumentMut, Item, Table, Value};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value};
 
 /// One change.
 #[derive(Debug, Clone)]
@@ -35,7 +36,7 @@ pub enum Change {
         /// The component's name, before it was renamed.
         name: String,
     },
-    /// Takes away a component's table: there is no such component any more.
+    /// Takes away a component's tables: there is no such component any more.
     Forget {
         /// The component's name, before it was renamed.
         name: String,
@@ -54,6 +55,22 @@ pub enum Change {
         /// Its normal.
         normal: DVec3,
     },
+    /// Sets what is chosen about an edge of a net, or leaves the edge to tatamu.
+    Edge {
+        /// Name of the component, as it is printed.
+        component: String,
+        /// The edge.
+        at: EdgeName,
+        /// What is chosen.
+        choice: Option<EdgeChoice>,
+    },
+    /// Sets the number of pieces of a net, or leaves it to tatamu.
+    Pieces {
+        /// Name of the component, as it is printed.
+        component: String,
+        /// The number.
+        pieces: Option<usize>,
+    },
     /// Lets the layout decide again where a piece lies.
     Unpin {
         /// Name of the piece.
@@ -71,7 +88,7 @@ impl Change {
     pub fn is_of_parts(&self) -> bool {
         match self {
             Change::Set { option, .. } => option.scope == Scope::Mesh,
-            Change::Unpin { .. } | Change::Pins { .. } => false,
+            Change::Edge { .. } | Change::Pieces { .. } | Change::Unpin { .. } | Change::Pins { .. } => false,
             _ => true,
         }
     }
@@ -86,6 +103,8 @@ impl Change {
             Self::Forget { name } => format!("settings of {name}"),
             Self::Merge { names } => format!("merge {}", names.join(" and ")),
             Self::Split { name, .. } => format!("split {name}"),
+            Self::Edge { component, at, .. } => format!("edge {at} of {component}"),
+            Self::Pieces { component, .. } => format!("pieces of {component}"),
             Self::Unpin { piece } => format!("unpin {piece}"),
             Self::Pins { pins } => {
                 pins.first().map_or("lay out again".to_owned(), |(piece, _)| format!("place of {piece}"))
@@ -132,7 +151,10 @@ impl Change {
                     options.iter().for_each(|option| drop(table.remove(option.name())));
                 }
             }
-            Self::Forget { name } => remove(list(root, "component")?, "name", name),
+            Self::Forget { name } => {
+                remove(list(root, "component")?, "name", name);
+                remove(list(root, "net")?, "component", name);
+            }
             Self::Merge { names } => {
                 let components = list(root, "component")?;
                 names.iter().skip(1).for_each(|name| remove(components, "name", name));
@@ -145,6 +167,25 @@ impl Change {
                 table["point"] = toml_edit::value(rounded(*point));
                 table["normal"] = toml_edit::value(rounded(*normal));
                 list(root, "edit")?.push(table);
+            }
+            Self::Edge { component, at, choice } => {
+                let net = net_table(root, component)?;
+                let item = net.entry("edges").or_insert_with(|| toml_edit::value(Array::new()));
+                let edges = item.as_array_mut().ok_or("write edges as a list: edges = [ ]")?;
+                let name = at.to_string();
+                let is_it = |value: &Value| {
+                    value.as_inline_table().and_then(|t| t.get("at")?.as_str()) == Some(name.as_str())
+                };
+                edges.retain(|value| !is_it(value));
+                edges.extend(choice.map(|choice| edge_table(&name, &choice)));
+                // One a line, as one reads them.
+                edges.iter_mut().for_each(|edge| edge.decor_mut().set_prefix("\n    "));
+                edges.set_trailing(if edges.is_empty() { "" } else { "\n" });
+                edges.set_trailing_comma(!edges.is_empty());
+            }
+            Self::Pieces { component, pieces } => {
+                let count = pieces.map(|count| Value::from(count as i64));
+                set(net_table(root, component)?, "pieces", count.as_ref());
             }
             Self::Unpin { piece } => remove(list(root, "pin")?, "piece", piece),
             Self::Pins { pins } => {
@@ -202,6 +243,28 @@ fn pin_table(piece: &str, pin: &Pin) -> Table {
     table
 }
 
+/// The table `[[net]]` of a component.
+fn net_table<'a>(root: &'a mut Table, component: &str) -> Result<&'a mut Table, String> {
+    let list = list(root, "net")?;
+    let place = find(list, "component", component).unwrap_or_else(|| {
+        list.push(named("component", component));
+        list.len() - 1
+    });
+    list.get_mut(place).ok_or_else(|| "there is no table [[net]]".to_owned())
+}
+
+fn edge_table(name: &str, choice: &EdgeChoice) -> Value {
+    let mut table = InlineTable::new();
+    table.insert("at", name.into());
+    // A choice about the tab means a cut.
+    let is_implied = choice.is_cut == Some(true) && (choice.tab.is_some() || choice.width_mm.is_some());
+    let cut = choice.is_cut.filter(|_| !is_implied).map(|is_cut| ("cut", is_cut.into()));
+    let tab = choice.tab.map(|tab| ("tab", tab.name().into()));
+    let width = choice.width_mm.map(|mm| ("width_mm", mm.into()));
+    [cut, tab, width].into_iter().flatten().for_each(|(key, value)| drop(table.insert(key, value)));
+    Value::InlineTable(table)
+}
+
 fn list<'a>(root: &'a mut Table, key: &str) -> Result<&'a mut ArrayOfTables, String> {
     let item = root.entry(key).or_insert_with(|| Item::ArrayOfTables(ArrayOfTables::new()));
     item.as_array_of_tables_mut()
@@ -229,6 +292,7 @@ mod tests {
     use super::super::Project;
     use super::super::options::{LEVEL, MARGIN, PAPER, ROOT, SIZE, TOLERANCE, choose};
     use super::*;
+    use crate::net::TabSide;
 
     const TEXT: &str = "mesh = 'a.obj' # the bear\n\n[paper]\nsize = \"a4\" # in the tray\n\n[[component]]\nname = \"body\"\n";
 
@@ -296,6 +360,33 @@ mod tests {
         ]);
         assert_eq!(project.edits.len(), 2);
         assert_eq!(project.components.len(), 1, "part-2 is no more");
+    }
+
+    #[test]
+    fn choices_about_nets_are_set_and_taken_back() {
+        let edge = |at: &str, choice: Option<EdgeChoice>| Change::Edge {
+            component: "body".to_owned(),
+            at: at.parse().unwrap(),
+            choice,
+        };
+        let tab = EdgeChoice { tab: Some(TabSide::Upper), width_mm: Some(8.0), is_cut: Some(true) };
+        let cut = EdgeChoice { is_cut: Some(true), ..EdgeChoice::default() };
+        let (text, project) = changed(&[
+            edge("2.1", Some(cut)),
+            edge("1.3", Some(cut)),
+            edge("1.3", Some(tab)),
+            Change::Pieces { component: "body".to_owned(), pieces: Some(2) },
+        ]);
+        assert!(text.contains("\n    { at = \"1.3\", tab = \"upper\", width_mm = 8.0 },\n]"), "{text}");
+        let hand = project.nets[0].hand();
+        let edges: Vec<_> = hand.edges().map(|(edge, choice)| (edge.to_string(), choice)).collect();
+        assert_eq!(edges, [("1.3".to_owned(), tab), ("2.1".to_owned(), cut)]);
+        assert_eq!((project.nets.len(), hand.pieces()), (1, Some(2)));
+        let forgotten = Change::Forget { name: "body".to_owned() };
+        assert!(changed(&[edge("2.1", Some(cut)), forgotten]).1.nets.is_empty());
+        let gone = Change::Pieces { component: "body".to_owned(), pieces: None };
+        let (_, project) = changed(&[edge("2.1", Some(cut)), edge("2.1", None), gone]);
+        assert!(project.nets[0].hand().is_empty());
     }
 
     #[test]

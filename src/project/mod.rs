@@ -8,6 +8,7 @@ pub mod document;
 mod drawn;
 mod edit;
 mod fields;
+mod net;
 pub mod options;
 mod pin;
 mod table;
@@ -15,6 +16,7 @@ mod template;
 
 pub use drawn::{Joint, JointKey, Top};
 pub use edit::Edit;
+pub use net::NetTable;
 pub use pin::PinTable;
 pub use template::{Template, TemplateComponent, to_toml};
 
@@ -32,6 +34,12 @@ pub enum ProjectError {
     #[error("two components have the name \"{name}\"; rename one")]
     SameName {
         /// The name.
+        name: String,
+    },
+    /// Two tables about the net of one component.
+    #[error("there are two tables [[net]] for component \"{name}\"; make one of them")]
+    SameNet {
+        /// The component.
         name: String,
     },
     /// Neither a mesh nor drawings.
@@ -68,6 +76,8 @@ pub struct Project {
     pub edits: Vec<Edit>,
     /// Where pieces lie that are not left to the layout.
     pub pins: Vec<PinTable>,
+    /// What is chosen about nets.
+    pub nets: Vec<NetTable>,
     /// What differs for single components.
     pub components: Vec<Component>,
     /// The options of the whole model and of its files.
@@ -95,6 +105,9 @@ pub struct Component {
     pub profile_vertices: Option<usize>,
     /// Whether a component of a mesh may have dents.
     pub concave: Option<bool>,
+    /// Colour of its card.
+    #[serde(default, deserialize_with = "fields::new_name")]
+    pub color: Option<String>,
     /// The top panel, where the component is drawn.
     #[serde(default)]
     pub top: Option<Top>,
@@ -143,6 +156,10 @@ impl Project {
                 let name = name.clone();
                 return Err(ProjectError::SameName { name });
             }
+        }
+        let mut with_net = BTreeSet::new();
+        if let Some(again) = project.nets.iter().find(|net| !with_net.insert(net.component())) {
+            return Err(ProjectError::SameNet { name: again.component().to_owned() });
         }
         let drawn = project.components.iter().find(|component| component.is_drawn());
         match (&project.mesh, drawn) {

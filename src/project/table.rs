@@ -1,7 +1,7 @@
 //! Reading the tables of a project file.
 
 use super::options::{Entry, KeyOf, ValueOf, of_table, read_table};
-use super::{Component, Edit, PinTable, Project};
+use super::{Component, Edit, NetTable, PinTable, Project};
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use std::fmt;
 
@@ -10,6 +10,7 @@ pub(super) const TABLES: [&str; 6] = ["segmentation", "defaults", "paper", "expo
 const MESH: &str = "mesh";
 const EDITS: &str = "edit";
 const PINS: &str = "pin";
+const NETS: &str = "net";
 const COMPONENTS: &str = "component";
 
 impl<'de> Deserialize<'de> for Project {
@@ -32,12 +33,13 @@ impl<'de> Visitor<'de> for ProjectVisitor {
         let options: Vec<&Entry> = of_table("").collect();
         let names = options.iter().map(|option| option.name()).chain(TABLES);
         let known: Vec<&'static str> =
-            [MESH].into_iter().chain(names).chain([EDITS, PINS, COMPONENTS]).collect();
+            [MESH].into_iter().chain(names).chain([EDITS, PINS, NETS, COMPONENTS]).collect();
         while let Some(place) = map.next_key_seed(KeyOf(&known))? {
             match known[place] {
                 MESH => project.mesh = Some(map.next_value()?),
                 EDITS => project.edits = map.next_value::<Vec<Edit>>()?,
                 PINS => project.pins = map.next_value::<Vec<PinTable>>()?,
+                NETS => project.nets = map.next_value::<Vec<NetTable>>()?,
                 COMPONENTS => project.components = map.next_value::<Vec<Component>>()?,
                 name => match options.iter().find(|option| option.name() == name) {
                     Some(option) => project.given.push(map.next_value_seed(ValueOf(option))?),

@@ -1,7 +1,8 @@
 //! A new project file, with comments.
 
 use super::options::{
-    CONCAVE, DIRECTION, Entry, JOINT, PARTS, PROFILE_VERTICES, RENAME, Settings, TOP_EDGES, of_table, quoted,
+    CARD, CONCAVE, DIRECTION, Entry, JOINT, PARTS, PROFILE_VERTICES, RENAME, Settings, TOP_EDGES, of_table,
+    quoted,
 };
 
 /// What `init` writes into a fresh project file.
@@ -61,6 +62,12 @@ const PINS: &str = "
 # y_mm = 30
 # turn = 90
 
+# Where nets are cut and which side has the tab; \"tatamu make --edge-names\" prints the names of edges.
+# [[net]]
+# component = \"body\"
+# pieces = 2
+# edges = [{ at = \"2.3\", cut = true }, { at = \"1.1\", tab = \"upper\", width_mm = 8 }]
+
 # One table for each component. Missing keys come from [defaults].
 ";
 
@@ -77,7 +84,7 @@ pub fn to_toml(template: &Template) -> String {
     }
     text += &table("export", template, false);
     text += PINS;
-    for option in [&RENAME, &DIRECTION, &CONCAVE, &JOINT] {
+    for option in [&RENAME, &DIRECTION, &CONCAVE, &CARD, &JOINT] {
         text += &comment(&format!("{}: {}", option.name(), option.short_comment()));
     }
     text + &template.components.iter().map(|own| component(own, template.settings)).collect::<String>()
@@ -112,7 +119,7 @@ fn component(own: &TemplateComponent, settings: &Settings) -> String {
         format!("# {} = {value}\n", option.name())
     });
     format!(
-        "\n[[component]]\nname = {name}\n# {} = {name}\n{}{} = {:.1}\n{}{}{} = true\n# {} = {}\n",
+        "\n[[component]]\nname = {name}\n# {} = {name}\n{}{} = {:.1}\n{}{}{} = true\n# {} = \"brown\"\n# {} = {}\n",
         RENAME.name(),
         unless(own.is_chosen),
         DIRECTION.name(),
@@ -120,6 +127,7 @@ fn component(own: &TemplateComponent, settings: &Settings) -> String {
         counts.concat(),
         unless(own.is_concave),
         CONCAVE.name(),
+        CARD.name(),
         JOINT.name(),
         JOINT.example_toml()
     )
@@ -218,6 +226,7 @@ mod tests {
             assert!(is_own || project.has(option), "{} is not read back", option.name());
         }
         assert_eq!((project.edits.len(), project.pins.len()), (2, 1));
+        assert_eq!(project.nets[0].hand().edges().count(), 2);
         let own = &project.components[0];
         assert_eq!((own.direction_deg, own.top_edges, own.concave), (Some(12.3), Some(6), Some(true)));
         assert!(own.rename.is_some() && own.joint.is_some() && own.profile_vertices.is_some());

@@ -169,9 +169,7 @@ pub fn glb() -> Vec<u8> {
     bytes
 }
 
-/// Every format, with its name.
 fn three_mf() -> Vec<u8> {
-    use std::io::Write;
     let vertex = |[x, y, z]: [f32; 3]| format!("<vertex x=\"{x}\" y=\"{y}\" z=\"{z}\"/>");
     let triangle = |[a, b, c]: [u32; 3]| format!("<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>");
     let model = format!(
@@ -182,12 +180,19 @@ fn three_mf() -> Vec<u8> {
         corners().map(vertex).concat(),
         TRIANGLES.map(triangle).concat()
     );
+    packed(&model)
+}
+
+/// A model in XML, as a 3MF file.
+pub fn packed(model: &str) -> Vec<u8> {
+    use std::io::Write;
     let mut archive = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
     archive.start_file("3D/3dmodel.model", zip::write::SimpleFileOptions::default()).unwrap();
     archive.write_all(model.as_bytes()).unwrap();
     archive.finish().unwrap().into_inner()
 }
 
+/// Every format, with its name.
 pub fn all() -> Vec<(&'static str, Vec<u8>)> {
     vec![
         ("OBJ", OBJ.into()),

@@ -242,6 +242,14 @@ fn order_note(output: &Output) -> String {
     if order.len() < 2 { String::new() } else { format!("fold flat in this order: {}", order.join(", ")) }
 }
 
+/// How many sheets of each colour of card there are, such as `1 brown, 3 white`; none where no colour is
+/// chosen. Sheets without one are left out.
+pub fn card_note(output: &Output) -> Option<String> {
+    let cards = output.layout().cards();
+    let words = |(card, count): &(Option<&str>, usize)| Some(format!("{count} {}", (*card)?));
+    (!cards.is_empty()).then(|| cards.iter().filter_map(words).collect::<Vec<_>>().join(", "))
+}
+
 /// Width, depth and height of the model in words.
 pub fn size_note(output: &Output) -> String {
     let (low, high) = output.mesh().bounds();

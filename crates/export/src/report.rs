@@ -36,7 +36,7 @@ struct Report<'a> {
     components: Vec<Component<'a>>,
     fold: Fold<'a>,
     nets: Vec<NetNumbers<'a>>,
-    sheets: Sheets,
+    sheets: Sheets<'a>,
     warnings: Vec<WarningText>,
 }
 
@@ -178,16 +178,18 @@ struct NetNumbers<'a> {
 }
 
 #[derive(Serialize)]
-struct Sheets {
+struct Sheets<'a> {
     count: usize,
     paper: String,
     utilisation: f64,
-    pages: Vec<Page>,
+    pages: Vec<Page<'a>>,
 }
 
 /// What is cut and folded on one sheet.
 #[derive(Serialize)]
-struct Page {
+struct Page<'a> {
+    /// Colour of its card, where one is chosen.
+    card: Option<&'a str>,
     cut_mm: f64,
     crease_mm: f64,
     /// Least x and y, largest x and y of all outlines, from the sheet's lower left corner.
@@ -342,7 +344,7 @@ fn plug(plug: &Plug) -> PlugNumbers {
     }
 }
 
-fn page(output: &Output, sheet: usize) -> Page {
+fn page(output: &Output, sheet: usize) -> Page<'_> {
     let layout = output.layout();
     let nets = output.nets().iter().enumerate();
     let pieces: Vec<(&Piece, DAffine2)> = nets
@@ -355,6 +357,7 @@ fn page(output: &Output, sheet: usize) -> Page {
         .flat_map(|(piece, place)| piece.outline().iter().map(|&corner| place.transform_point2(corner)));
     let (low, high) = polygon::bounds(corners).unwrap_or_default();
     Page {
+        card: layout.card(sheet),
         cut_mm: pieces.iter().map(|(piece, _)| piece.cut_mm()).sum(),
         crease_mm: pieces.iter().map(|(piece, _)| piece.crease_mm()).sum(),
         bounds_mm: [low.x, low.y, high.x, high.y],

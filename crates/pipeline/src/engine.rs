@@ -18,7 +18,7 @@ use tatamu_core::mesh::{Mesh, Up};
 use tatamu_core::model::{self, Built, JointChoice, Known, Model, ModelPart, Unjudged};
 use tatamu_core::progress::{Beside, Cancelled, Progress};
 use tatamu_core::segment::{self, Edit, Parts, SegmentOptions};
-use tatamu_net::net::{BlankNet, KnownNets, Net, NetChoices, NetOptions, develop_model};
+use tatamu_net::net::{BlankNet, KnownNets, Net, NetChoices, NetHand, NetOptions, develop_model};
 use tatamu_net::sheet::{Layout, Pin, SheetOptions};
 
 /// So many results of whole stages are kept, for going back and forth between a few choices.
@@ -42,8 +42,8 @@ pub struct Engine<'m> {
     layouts: Memory<LayoutKey, (Arc<Layout>, Arc<Vec<Net>>)>,
 }
 
-/// What decides a layout: sheets, pins, and the nets with their alternatives.
-type LayoutKey = (SheetOptions, BTreeMap<String, Pin>, Arc<Vec<Vec<Arc<BlankNet>>>>);
+/// What decides a layout: sheets, pins, colours of card, and the nets with their alternatives.
+type LayoutKey = (SheetOptions, BTreeMap<String, Pin>, Vec<Option<String>>, Arc<Vec<Vec<Arc<BlankNet>>>>);
 
 /// What decides a plan: the model, the thickness, the width of tabs, which plugs keep off, and the
 /// components that must stay glued.
@@ -296,15 +296,23 @@ impl<'m> Engine<'m> {
             tab_width_mm: options.tab_width_mm,
             sheet_mm: sheets.room_mm(),
             choices: NetChoices { is_separate: options.is_thick, ..options.nets },
+            hand: NetHand::default(),
         };
+        let names = || model.parts().iter().map(|part| &part.name);
+        if let Some(name) = options.hands.keys().find(|name| names().all(|known| known != *name)) {
+            let known = names().cloned().collect::<Vec<_>>().join(", ");
+            return Err(Error::NoComponent { name: name.clone(), known });
+        }
         progress.stage("nets");
-        let alternatives = develop_model(model, &net_options, &self.nets, progress)
+        let alternatives = develop_model(model, &net_options, &options.hands, &self.nets, progress)
             .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
         let alternatives = Arc::new(alternatives);
-        let key = (sheets, options.pins.clone(), alternatives.clone());
+        let cards: Vec<Option<String>> =
+            model.parts().iter().map(|part| options.card(&part.name).cloned()).collect();
+        let key = (sheets, options.pins.clone(), cards.clone(), alternatives.clone());
         let (layout, nets) = self.layouts.get_or(key, || {
             progress.stage("sheets");
-            let laid = Layout::of_alternatives(&alternatives, &sheets, &options.pins, progress)?;
+            let laid = Layout::of_alternatives(&alternatives, &cards, &sheets, &options.pins, progress)?;
             Ok::<_, Error>((Arc::new(laid.0), Arc::new(laid.1)))
         })?;
         let mut warnings = shaped.notes.clone();

@@ -44,7 +44,7 @@ use tatamu_core::progress::{Cancelled, Progress};
 use tatamu_core::remedy::Remedy;
 use tatamu_core::segment::{Edit, EditError, Parts, SegmentError, SegmentOptions};
 use tatamu_core::units::Paper;
-use tatamu_net::net::{NetChoices, NetError, NetsError};
+use tatamu_net::net::{NetChoices, NetError, NetHand, NetsError};
 use tatamu_net::sheet::{LayoutError, Pin, SheetChoices};
 
 /// What the user chose.
@@ -89,6 +89,8 @@ pub struct Options {
     pub sheets: SheetChoices,
     /// Pieces, by name, that lie where the user wants them.
     pub pins: BTreeMap<String, Pin>,
+    /// What is chosen about the nets of components of these names, as they are printed.
+    pub hands: BTreeMap<String, NetHand>,
 }
 
 impl Default for Options {
@@ -113,6 +115,7 @@ impl Default for Options {
             nets: NetChoices::default(),
             sheets: SheetChoices::default(),
             pins: BTreeMap::new(),
+            hands: BTreeMap::new(),
         }
     }
 }
@@ -133,6 +136,11 @@ impl Options {
     /// What was chosen for the component of a name, and the name before it was renamed.
     fn component(&self, name: &str) -> Option<(&String, &ComponentOptions)> {
         self.components.iter().find(|(key, own)| own.rename.as_ref().unwrap_or(key) == name)
+    }
+
+    /// The colour of card of the component of a name, if that was chosen.
+    fn card(&self, name: &str) -> Option<&String> {
+        self.component(name).and_then(|(_, own)| own.card.as_ref())
     }
 
     /// How the component of a name is held, if that was chosen.
@@ -157,6 +165,8 @@ pub struct ComponentOptions {
     pub profile_vertices: Option<usize>,
     /// Whether it may have dents, where that brings it nearer to its shape.
     pub is_concave: bool,
+    /// Colour of its card, in the user's words; components of one colour share sheets.
+    pub card: Option<String>,
     /// How it is held on its parent; where that is left out, it is glued unless that leaves no free
     /// way to fold.
     pub joint: Option<JointChoice>,

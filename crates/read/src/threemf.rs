@@ -21,8 +21,10 @@ const MOST_UNPACKED: u64 = 200;
 const MOST_BYTES: u64 = 2_000_000_000;
 /// Objects of objects are not nested deeper than this.
 const MOST_DEPTH: usize = 32;
-/// The most triangles that all copies of objects make together.
+/// The most triangles, and the most vertices, that all copies of objects make together.
 const MOST_TRIANGLES: usize = 50_000_000;
+/// The most copies of objects: thirty objects that each hold the next one twice make a thousand million.
+const MOST_COPIES: usize = 100_000;
 
 /// Whether the bytes begin as those of an archive.
 pub(super) fn is_archive(bytes: &[u8]) -> bool {
@@ -47,7 +49,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
     }
     let documents = texts.iter().map(|(path, text)| Ok((path.as_str(), parsed(path, text)?)));
     let documents: BTreeMap<&str, Document> = documents.collect::<Result<_, ReadError>>()?;
-    let mut scene = Scene { objects: objects(&documents), positions: Vec::new(), faces: Vec::new() };
+    let objects = objects(&documents);
+    let mut scene = Scene { objects, copies: 0, positions: Vec::new(), faces: Vec::new() };
     scene.build(&main, &documents)?;
     Soup::new(scene.positions, &scene.faces).map_err(|error| ReadError::from_soup(Format::ThreeMf, &error))
 }
@@ -126,6 +129,7 @@ fn objects<'a, 't>(documents: &'a BTreeMap<&'a str, Document<'t>>) -> Objects<'a
 
 struct Scene<'a, 't> {
     objects: Objects<'a, 't>,
+    copies: usize,
     positions: Vec<DVec3>,
     faces: Vec<[u32; 3]>,
 }
@@ -149,6 +153,10 @@ impl<'a, 't> Scene<'a, 't> {
         outer: DAffine3,
         depth: usize,
     ) -> Result<(), ReadError> {
+        self.copies += 1;
+        if self.copies > MOST_COPIES {
+            return Err(syntax(path, "very many copies of objects", "at most 100 000"));
+        }
         let id = attribute(&user, key).unwrap_or_default();
         let path = attribute(&user, "path").map_or(path, name);
         let Some((&(path, _), &object)) = self.objects.get_key_value(&(path, id)) else {
@@ -200,7 +208,7 @@ impl<'a, 't> Scene<'a, 't> {
             let [a, b, c] = order.map(corner);
             self.faces.push([a?, b?, c?]);
         }
-        if self.faces.len() > MOST_TRIANGLES {
+        if self.faces.len().max(self.positions.len()) > MOST_TRIANGLES {
             return Err(syntax(path, "very many copies of objects", "at most 50 million triangles"));
         }
         Ok(())
@@ -311,6 +319,18 @@ mod tests {
         );
         assert!(read(b"PK\x03\x04 and nothing").is_err());
         assert!(read(&archive(&[("a.txt", "no model")])).is_err());
+    }
+
+    #[test]
+    fn objects_that_hold_each_other_twice_do_not_take_for_ever() {
+        let holds_next = |k: usize| {
+            let next = format!("<component objectid='{}'/>", k + 1).repeat(2);
+            format!("<object id='{k}'><components>{next}</components></object>")
+        };
+        let objects: String = (0..30).map(holds_next).collect();
+        let model = model(&format!("{objects}<object id='30'></object>"), "<item objectid='0'/>");
+        let error = read(&archive(&[("3D/3dmodel.model", &model)])).unwrap_err().to_string();
+        assert!(error.contains("copies of objects"), "{error}");
     }
 
     #[test]

@@ -211,7 +211,10 @@ pub fn of_drawings_while(
     }
     let name = |k: usize| match plans.len() {
         1 => title.to_owned(),
-        count => format!("{title}, sheet {} of {count}", k + 1),
+        count => {
+            let card = plans[k].0.card.iter().map(|card| format!(", {card} card"));
+            format!("{title}, sheet {} of {count}{}", k + 1, card.collect::<String>())
+        }
     };
     let sheet = |(k, (page, plan)): (usize, &(&Drawing, Plan))| Sheet::of_plan(name(k), page, plan, machine);
     plans.iter().enumerate().map(sheet).collect::<Result<_, _>>().map(Some)

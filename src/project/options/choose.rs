@@ -2,7 +2,7 @@
 
 use super::{CLUSTERS, DETAIL, Entry, Given, PARTS, PROFILE_VERTICES, SMOOTHING, Scope, Settings, TOP_EDGES};
 use crate::pipeline::{ComponentOptions, Options};
-use crate::project::Project;
+use crate::project::{NetTable, Project};
 use crate::segment::Method;
 
 /// Options that do not go together.
@@ -74,6 +74,8 @@ pub fn choose(project: Option<&Project>, flags: &[Given]) -> Result<Settings, Re
 fn take_tables(project: &Project, options: &mut Options) {
     options.edits = project.edits.iter().map(|edit| edit.change().clone()).collect();
     options.pins = project.pins.iter().map(|table| (table.piece().to_owned(), table.pin())).collect();
+    let hand = |table: &NetTable| (table.component().to_owned(), table.hand().clone());
+    options.hands = project.nets.iter().map(hand).collect();
     for component in &project.components {
         let choice = ComponentOptions {
             rename: component.rename.clone(),
@@ -81,6 +83,7 @@ fn take_tables(project: &Project, options: &mut Options) {
             top_edges: component.top_edges,
             profile_vertices: component.profile_vertices,
             is_concave: component.concave.unwrap_or(false),
+            card: component.color.clone(),
             joint: component.joint.as_ref().and_then(|joint| joint.hold()),
         };
         options.components.insert(component.name.clone(), choice);

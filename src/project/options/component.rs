@@ -4,7 +4,7 @@ use super::settings::put;
 use super::{Dial, Entry, Flag, Key, Kind, Scope, Settings, Text};
 use crate::pipeline::ComponentOptions;
 
-pub(super) const ALL: &[&Entry] = &[&RENAME, &DIRECTION, &CONCAVE, &JOINT];
+pub(super) const ALL: &[&Entry] = &[&RENAME, &DIRECTION, &CONCAVE, &CARD, &JOINT];
 
 /// Most degrees of an angle: ten turns.
 const MOST_DEG: f64 = 3600.0;
@@ -72,6 +72,34 @@ pub static CONCAVE: Entry = Entry {
     meaning: "allows dents, for a component of a mesh; once per component",
     ..Entry::BLANK
 };
+
+/// The colour of its card.
+pub static CARD: Entry = Entry {
+    key: Key::new("component", "color"),
+    flag: Some(Flag { is_repeated: true, ..Flag::named("card", "NAME=COLOR", None) }),
+    kind: Kind::Text(Text {
+        names: Vec::new,
+        other: "text",
+        such_as: "head=brown",
+        get: |_| None,
+        set: |s, text| {
+            let (name, colour) = text.rsplit_once('=').ok_or(CARD_FORM)?;
+            let (name, colour) = (checked_name(name.trim()), checked_name(colour.trim()));
+            let (name, colour) = (name.map_err(|_| CARD_FORM)?, colour.map_err(|_| CARD_FORM)?);
+            put(&mut component(s, name).card, Some(colour.to_owned()))
+        },
+    }),
+    short: "Colour of the card of a component, in your words",
+    long: "Each sheet has pieces of one colour. Sheets, files, the summary and the guide name it. Repeat it for more \
+           components.",
+    example: "--card head=brown --card body=white",
+    automatic: "the same card for all",
+    meaning: "colour of its card, in your words; each sheet has pieces of one colour, and says it",
+    ..Entry::BLANK
+};
+
+/// What a colour of card is written like.
+const CARD_FORM: &str = "write the component's name and the colour of its card, such as head=brown";
 
 /// How it is held.
 pub static JOINT: Entry = Entry {

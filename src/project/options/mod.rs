@@ -26,7 +26,7 @@ mod tests;
 mod words;
 
 pub use choose::{Refusal, choose};
-pub use component::{CONCAVE, DIRECTION, JOINT, RENAME};
+pub use component::{CARD, CONCAVE, DIRECTION, JOINT, RENAME};
 pub use entry::{Dial, Entry, Flag, Key, Scope};
 pub use files::{COLOR, GUIDE_LANGUAGE, STYLE};
 pub use given::{Given, Written};

@@ -4,7 +4,7 @@ use super::settings::put;
 use super::{Dial, Entry, Flag, Key, Kind, Number, Range, Switch, Unit};
 
 pub(super) const WIDTHS: &[&Entry] = &[&MIN_PANEL_WIDTH, &TAB_WIDTH];
-pub(super) const MARKS: &[&Entry] = &[&SPLIT, &GLUE_MARKS, &ANGLES, &HIDE_BELOW];
+pub(super) const MARKS: &[&Entry] = &[&SPLIT, &GLUE_MARKS, &ANGLES, &EDGE_NAMES, &HIDE_BELOW];
 
 const HEADING: &str = "Pieces";
 /// The largest angle below which creases may be hidden, degrees: more would hide real folds.
@@ -95,6 +95,21 @@ pub static ANGLES: Entry = Entry {
     long: "This is the angle in the unfolded model; 0° is flat paper.",
     meaning: "prints the fold angle beside each crease",
     dial: Dial::new("Fold angles"),
+    ..Entry::BLANK
+};
+
+/// Whether names of edges are printed.
+static EDGE_NAMES: Entry = Entry {
+    key: Key::new("nets", "edge_names"),
+    flag: Flag::under(HEADING, "edge-names", "BOOL"),
+    kind: Kind::Switch(Switch {
+        get: |s| s.model.nets.edge_names,
+        set: |s, is_on| put(&mut s.model.nets.edge_names, is_on),
+    }),
+    short: "Prints the name of each edge beside it, for tables [[net]] of a project",
+    long: "2.3 is the third edge of chain 2, counted from the top panel. A project says by these names where a net \
+           is cut and which side has the tab.",
+    meaning: "prints the name of each edge beside it, for [`[[net]]`](project.md#net), such as 2.3",
     ..Entry::BLANK
 };
 

@@ -1,8 +1,8 @@
 //! The tables of options in the reference pages.
 
 use super::{
-    CONCAVE, DIRECTION, Entry, FILES, FILM, GUIDE, JOINT, Kind, MACHINE, PROFILE_VERTICES, RENAME, Range,
-    Settings, TOP_EDGES, Unit, component, model, nets, of_table, segmentation, sheets,
+    CARD, CONCAVE, DIRECTION, Entry, FILES, FILM, GUIDE, JOINT, Kind, MACHINE, PROFILE_VERTICES, RENAME,
+    Range, Settings, TOP_EDGES, Unit, component, model, nets, of_table, segmentation, sheets,
 };
 
 /// What stands before a table that is made here, with the name of the table.
@@ -41,7 +41,7 @@ pub fn command_line_page(page: &str) -> String {
 /// The page on project files, with its tables of options as they must be.
 pub fn project_page(page: &str) -> String {
     with_tables(page, |name| {
-        let of_component = [&RENAME, &DIRECTION, &TOP_EDGES, &PROFILE_VERTICES, &CONCAVE, &JOINT];
+        let of_component = [&RENAME, &DIRECTION, &TOP_EDGES, &PROFILE_VERTICES, &CONCAVE, &CARD, &JOINT];
         let rows: Vec<String> = match name {
             "top" => [MESH.to_owned()].into_iter().chain(of_table("").map(key_row)).collect(),
             "component" => {

@@ -196,6 +196,8 @@ pub struct Drawing {
     pub title: String,
     /// Width and height of the page, mm.
     pub size_mm: DVec2,
+    /// Colour of the card that it is for, where one is chosen.
+    pub card: Option<String>,
     /// Background; none is transparent.
     pub ground: Option<Rgb>,
     /// Marks, in painting order.

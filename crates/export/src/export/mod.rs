@@ -135,8 +135,7 @@ impl ExportFile {
 
     /// The file of a part with a name, of which letters and digits stay.
     pub fn named(name: &str, bytes: Vec<u8>) -> Self {
-        let slug: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
-        Self { suffix: format!("-{slug}"), bytes }
+        Self { suffix: slug(name), bytes }
     }
 
     /// The files of all pages, numbered where there are several.
@@ -187,7 +186,8 @@ impl Format {
         match self.source {
             Source::Pages(write) => {
                 if self.name != pdf::FORMAT.name {
-                    return write(product.pages()?, options);
+                    let pages = product.pages()?;
+                    return Ok(with_cards(write(pages, options)?, pages));
                 }
                 let pages = product.printed_pages()?;
                 if !options.pdf.has_overview() || product.is_cut() {
@@ -199,6 +199,22 @@ impl Format {
             Source::Model(write) => write(product, options),
         }
     }
+}
+
+/// With the colour of card in the names of files, where each is a sheet.
+fn with_cards(mut files: Vec<ExportFile>, pages: &Pages) -> Vec<ExportFile> {
+    if files.len() > 1 {
+        for (file, page) in files.iter_mut().zip(pages.drawings()) {
+            file.suffix.extend(page.card.as_deref().map(slug));
+        }
+    }
+    files
+}
+
+/// A dash, and the letters and digits of a name.
+fn slug(name: &str) -> String {
+    let letters: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+    format!("-{letters}")
 }
 
 /// The format for a file name's extension (without the dot, in any case).

@@ -453,9 +453,13 @@ impl Writer<'_> {
         ];
         let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
         let say = |text: &str| fill(text, &values);
+        let cards = product::card_note(output).map(|cards| fill(&words.cards, &[("cards", &cards)]));
         vec![
             (words.size_title.clone(), sizes),
-            (words.paper_title.clone(), vec![say(paper), words.measure.clone()]),
+            (
+                words.paper_title.clone(),
+                [say(paper)].into_iter().chain(cards).chain([words.measure.clone()]).collect(),
+            ),
             (words.tools_title.clone(), vec![words.tools.clone(), say(&words.glue)]),
             (words.time_title.clone(), vec![say(&words.time), say(&words.time_formula)]),
         ]

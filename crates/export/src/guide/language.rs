@@ -147,6 +147,8 @@ pub struct CoverWords {
     pub paper_title: String,
     pub paper_one: String,
     pub paper_many: String,
+    /// Colours of card.
+    pub cards: String,
     pub measure: String,
     pub tools_title: String,
     pub tools: String,

@@ -3,7 +3,7 @@
 
 use super::estimate::Estimate;
 use super::picture::{self, PictureError};
-use crate::product::{Product, folding_order, size_note};
+use crate::product::{Product, card_note, folding_order, size_note};
 use crate::show::{ViewAngle, components_scene, upright};
 use glam::{DAffine2, DVec2, DVec3};
 use tatamu_draw::drawing::{Align, Drawing, Layer, Mark, Rgb, Stroke, Text, text};
@@ -47,7 +47,8 @@ pub fn overview(product: &Product<'_>) -> Result<Drawing, PictureError> {
         1 => "1 sheet".to_owned(),
         count => format!("{count} sheets"),
     };
-    let note = format!("{} · {sheets} of {}", size_note(output), layout.options().paper.name());
+    let cards = card_note(output).map(|cards| format!(": {cards}")).unwrap_or_default();
+    let note = format!("{} · {sheets} of {}{cards}", size_note(output), layout.options().paper.name());
     page.write(&note, TEXT_MM, SOFT);
     page.picture(output)?;
     page.write(&Estimate::new(output).sentence(), TEXT_MM, Rgb::BLACK);

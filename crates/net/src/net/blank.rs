@@ -118,10 +118,12 @@ impl Cutter<'_> {
             glue_areas.extend(glue::areas(set, layout, &self.draft.tabs));
         }
         glue_areas.iter_mut().for_each(|area| area.outline = area.outline.map(at));
-        let lines = cut_lines(mesh.border());
+        // Faces keep the corners that paper joins; lines have one where corners lie on one another.
+        let drawn = mesh.clone().welded();
+        let lines = cut_lines(drawn.border());
         let panels: Vec<PlacedPanel> = layout.panels.iter().map(place).collect();
         let plugs = lines_of_piece(self.joints, &panels, source, |p| set.panel(p).outline.clone());
-        let mut crease_lines = creases(set, &mesh, hide_below_rad);
+        let mut crease_lines = creases(set, &drawn, hide_below_rad);
         crease_lines.extend(plugs.iter().filter_map(|plug| plug.foot).map(Crease::of_foot));
         Blank {
             name,

@@ -133,10 +133,12 @@ fn structure(set: &PanelSet, net: &Net, out: &mut Vec<NetFault>) {
     for hinge in (0..set.hinges().len()).map(HingeId) {
         let creases = net.pieces().iter().filter(|p| p.creases().contains(&hinge)).count();
         let tabs = all_tabs(net).filter(|t| t.hinge == hinge).count();
-        let taped = net
+        let has_place = |piece: &Piece| piece.glue_areas().iter().any(|area| area.hinge == hinge);
+        let is_told = net
             .warnings()
             .iter()
             .any(|w| matches!(w, super::NetWarning::NoTab { label } if net.label(hinge) == Some(label)));
+        let taped = tabs == 0 && (is_told || net.pieces().iter().any(has_place));
         if creases + tabs + usize::from(taped) != 1 {
             out.push(NetFault::Hinge { hinge, creases, tabs });
         }

@@ -9,6 +9,7 @@
 use super::chains::{Chain, Chains};
 use super::extent::Extent;
 use super::layout::{across, best_turn, clash, placed_outline};
+use super::ruling::Ruling;
 use glam::{DAffine2, DVec2};
 use tatamu_core::component::{HingeId, PanelSet};
 
@@ -31,8 +32,10 @@ pub(crate) struct Problem<'a> {
     pub(crate) sheet_mm: DVec2,
     /// Cost of cutting each hinge, by hinge.
     pub(crate) cut_cost: &'a [f64],
-    /// Whether fold hinges may be cut.
+    /// Whether fold hinges may be cut where that was not chosen.
     pub(crate) may_cut_folds: bool,
+    /// What was chosen by hand.
+    pub(crate) ruling: &'a Ruling,
 }
 
 /// A set of cut hinges with its cost; the lower the better.
@@ -63,7 +66,8 @@ impl Problem<'_> {
     }
 
     fn with_one_uncut(&self, has_strips: bool) -> Vec<Candidate> {
-        let found = (0..self.chains.chains.len()).flat_map(|uncut| self.searched(Some(uncut), has_strips));
+        let whole = (0..self.chains.chains.len()).filter(|&j| self.ruling.may_stay_whole(self.chain(j)));
+        let found = whole.flat_map(|uncut| self.searched(Some(uncut), has_strips));
         let mut all: Vec<Candidate> = found.collect();
         all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         all
@@ -204,11 +208,17 @@ impl<'a> Mode<'a> {
     /// Whether a chain may be cut at two hinges (or one, twice): folds spared, the strip between
     /// fits the sheet.
     fn may_cut(&self, chain: &Chain, from: usize, to: usize, places: &[DAffine2]) -> bool {
-        let Problem { set, sheet_mm, may_cut_folds, .. } = *self.problem;
-        let is_allowed = |k: usize| may_cut_folds || !set.hinges()[chain.hinges[k].0].is_fold;
+        let Problem { set, sheet_mm, may_cut_folds, ruling, .. } = *self.problem;
+        let is_allowed = |k: usize| {
+            let hinge = chain.hinges[k];
+            may_cut_folds || !set.hinges()[hinge.0].is_fold || ruling.of(hinge) == Some(true)
+        };
         let strip: Vec<DVec2> =
             (from..to).flat_map(|i| placed_outline(set, chain.panels[i], places[i])).collect();
-        is_allowed(from) && is_allowed(to) && (from == to || best_turn(&strip, sheet_mm).fits())
+        ruling.may_cut(chain, from, to)
+            && is_allowed(from)
+            && is_allowed(to)
+            && (from == to || best_turn(&strip, sheet_mm).fits())
     }
 
     /// Which choices go together, and with themselves and the fixed panels.

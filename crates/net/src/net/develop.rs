@@ -7,9 +7,11 @@ use super::divide::divide;
 use super::draft::Draft;
 use super::glue;
 use super::grow::grow;
+use super::hand::HandFault;
 use super::layout::{self, Layout, best_turn, hinge_length};
 use super::net_error::NetError;
 use super::options::{Naming, NetOptions};
+use super::ruling::Ruling;
 use super::split::{Split, split};
 use super::tabs::{self, Placed, Shapes, USEFUL_WIDTH_MM};
 use super::{JointMark, Net};
@@ -67,13 +69,18 @@ pub fn alternatives(
 /// The best draft and alternatives to it, at least one in all.
 fn drafts(set: &PanelSet, name: &str, options: &NetOptions) -> Result<(Split, Vec<Draft>), NetError> {
     let chains = Chains::of(set)?;
+    let refused = |fault| NetError::Hand { name: name.to_owned(), fault };
     let Err(error) = check_panels(set, name, options) else {
         let source = (0..set.panels().len()).map(PanelId).collect();
-        return Ok((Split { set: set.clone(), source }, drafts_of_chains(set, &chains, options)));
+        let drafts = drafts_of_chains(set, &chains, options).map_err(refused)?;
+        return Ok((Split { set: set.clone(), source }, drafts));
     };
     let split =
         if options.choices.may_split { split(set, options.sheet_mm, options.tab_width_mm) } else { None };
     let split = split.ok_or(error)?;
+    if !options.hand.is_empty() {
+        return Err(refused(HandFault::Split));
+    }
     let shapes = tabs::shapes(&split.set, options.tab_width_mm);
     let cut_cost = cut_costs(&split.set, &shapes, options.tab_width_mm);
     let is_cut = grow(&split.set, &cut_cost, options.sheet_mm, options.tab_width_mm);
@@ -81,13 +88,18 @@ fn drafts(set: &PanelSet, name: &str, options: &NetOptions) -> Result<(Split, Ve
     Ok((split, vec![draft]))
 }
 
-fn drafts_of_chains(set: &PanelSet, chains: &Chains, options: &NetOptions) -> Vec<Draft> {
-    let shapes = tabs::shapes(set, options.tab_width_mm);
+fn drafts_of_chains(set: &PanelSet, chains: &Chains, options: &NetOptions) -> Result<Vec<Draft>, HandFault> {
+    let ruling = Ruling::new(&options.hand, chains, set)?;
+    let mut shapes = tabs::shapes(set, options.tab_width_mm);
+    ruling.restrict(set, &mut shapes)?;
     if options.choices.is_separate {
+        if !ruling.is_empty() {
+            return Err(HandFault::Boards);
+        }
         let is_cut = vec![true; set.hinges().len()];
         let (layouts, cut) = (layout::pieces(set, &is_cut), cut_hinges(&is_cut));
         let tapes = glue::tapes(&cut, &[], &shapes);
-        return vec![Draft { layouts, cut, tabs: Vec::new(), tapes }];
+        return Ok(vec![Draft { layouts, cut, tabs: Vec::new(), tapes }]);
     }
     let cut_cost = cut_costs(set, &shapes, options.tab_width_mm);
     let problem = |may_cut_folds| Problem {
@@ -96,17 +108,25 @@ fn drafts_of_chains(set: &PanelSet, chains: &Chains, options: &NetOptions) -> Ve
         sheet_mm: options.sheet_mm,
         cut_cost: &cut_cost,
         may_cut_folds,
+        ruling: &ruling,
     };
-    [false, true]
-        .into_iter()
-        .map(problem)
-        .find_map(|problem| {
-            [Problem::one_piece, Problem::two_pieces, Problem::with_strips]
-                .iter()
-                .map(|search| best_drafts(&problem, &search(&problem), &shapes, options))
-                .find(|drafts| !drafts.is_empty())
-        })
-        .unwrap_or_else(|| vec![last_resort(&problem(true), &shapes)])
+    let all = [Problem::one_piece, Problem::two_pieces, Problem::with_strips];
+    let searches = match ruling.pieces() {
+        Some(1) => &all[..1],
+        Some(2) => &all[1..2],
+        _ => &all[..],
+    };
+    let found = [false, true].into_iter().map(problem).find_map(|problem| {
+        searches
+            .iter()
+            .map(|search| best_drafts(&problem, &search(&problem), &shapes, options))
+            .find(|drafts| !drafts.is_empty())
+    });
+    match found {
+        Some(drafts) => Ok(drafts),
+        None if ruling.is_empty() => Ok(vec![last_resort(&problem(true), &shapes)]),
+        None => Err(HandFault::NoNet),
+    }
 }
 
 fn check_panels(set: &PanelSet, name: &str, options: &NetOptions) -> Result<(), NetError> {
@@ -189,10 +209,12 @@ fn draft(
 ) -> Option<(f64, Draft)> {
     let layouts = layout::pieces(problem.set, &candidate.is_cut);
     let cut = cut_hinges(&candidate.is_cut);
-    let tabs = tabs::place(problem.set, &layouts, options.sheet_mm, shapes, &cut, USEFUL_WIDTH_MM).ok()?;
+    let glued: Vec<HingeId> = cut.iter().copied().filter(|h| !problem.ruling.is_taped(*h)).collect();
+    let tabs = tabs::place(problem.set, &layouts, options.sheet_mm, shapes, &glued, USEFUL_WIDTH_MM).ok()?;
+    let tapes = glue::tapes(&cut, &tabs, shapes);
     let lack = |t: &Placed| 1.0 - t.width_mm() / tabs::widest(&shapes[t.hinge.0]);
     let cost = candidate.cost + tabs.iter().map(lack).sum::<f64>();
-    Some((cost, Draft { layouts, cut, tabs, tapes: Vec::new() }))
+    Some((cost, Draft { layouts, cut, tabs, tapes }))
 }
 
 /// Cuts every chain at its fold hinge, or where the best two pieces are cut whatever their size,

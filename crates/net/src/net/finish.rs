@@ -1,13 +1,14 @@
 //! The texts of pieces, and what is to be told of a net.
 
 use super::blank::{Blank, Made};
+use super::hand::EdgeName;
 use super::labels::{Placer, Texts};
 use super::mesh::EdgeKind;
 use super::plugs::PlugLines;
 use super::split::Split;
 use super::tabs::{Placed, USEFUL_WIDTH_MM};
 use super::{JointMark, Net, NetWarning, Piece};
-use tatamu_core::component::{PanelId, PanelKind};
+use tatamu_core::component::{HingeId, PanelId, PanelKind};
 use tatamu_core::geom::polygon::{self, intersect_convex};
 
 /// The least area of a joint on a part of a split panel that is worth a mark, mm².
@@ -42,10 +43,17 @@ fn piece(made: &Made, blank: &Blank, joints: &[JointMark]) -> Piece {
     Piece { blank: blank.clone(), joints, labels, leaders, unplaced_labels: unplaced }
 }
 
-/// What is written beside a crease: its angle when unfolded, if that was asked for, else 180° at those
-/// that fold flat, so that one finds them.
+/// What is written beside a crease: its name or its angle when unfolded, if that was asked for, else 180° at
+/// those that fold flat, so that one finds them. Names are at glued edges, too.
 fn angle(made: &Made, kind: &EdgeKind) -> Option<String> {
-    let EdgeKind::Hinge(h) = kind else { return None };
+    let name = |h: HingeId| EdgeName::of(&made.split.set, h).map(|name| name.to_string());
+    let h = match kind {
+        EdgeKind::Hinge(h) | EdgeKind::Tab(h) | EdgeKind::Mate(h) if made.options.choices.edge_names => {
+            return name(*h);
+        }
+        EdgeKind::Hinge(h) => h,
+        _ => return None,
+    };
     let hinge = made.split.set.hinges()[h.0];
     if !made.options.choices.angles {
         return hinge.is_fold.then(|| "180°".to_owned());
@@ -86,6 +94,7 @@ fn warnings(made: &Made, pieces: &[Piece]) -> Vec<NetWarning> {
             out.push(NetWarning::CutFoldHinge { label: label.clone() });
         }
         match tabs.iter().find(|t| t.hinge == hinge).map(Placed::width_mm) {
+            None if made.options.hand.is_taped(set, hinge) => {}
             None => out.push(NetWarning::NoTab { label }),
             Some(width_mm) if width_mm < USEFUL_WIDTH_MM => {
                 out.push(NetWarning::NarrowTab { label, width_mm });

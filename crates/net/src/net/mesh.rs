@@ -1,5 +1,6 @@
 //! A piece as faces that share vertices exactly where paper joins them.
 
+use super::contour::welded;
 use super::layout::{Layout, placed_outline};
 use super::tabs::Placed;
 use glam::DVec2;
@@ -129,6 +130,13 @@ impl PieceMesh {
         for vertex in &mut self.vertices {
             vertex.at = by(vertex.at);
         }
+        self
+    }
+
+    /// The same mesh as it is drawn: vertices that lie on one another have one place.
+    pub(crate) fn welded(mut self) -> Self {
+        let corners: Vec<DVec2> = self.vertices.iter().map(|v| v.at).collect();
+        self.vertices.iter_mut().zip(welded(&corners)).for_each(|(vertex, at)| vertex.at = at);
         self
     }
 

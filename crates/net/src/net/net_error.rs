@@ -1,5 +1,6 @@
 //! Why there is no net.
 
+use super::hand::HandFault;
 use glam::DVec2;
 use tatamu_core::component::PanelId;
 
@@ -25,6 +26,14 @@ pub enum NetError {
         scale: f64,
         /// Whether it would have been split where the sheet has room for that.
         may_split: bool,
+    },
+    /// What was chosen by hand cannot be done.
+    #[error("the net of {name}: {fault}")]
+    Hand {
+        /// The component.
+        name: String,
+        /// Why.
+        fault: HandFault,
     },
     /// The panels are not a top panel, chains and a bottom panel.
     #[error("the panels do not make chains from top to bottom: {what} is missing")]

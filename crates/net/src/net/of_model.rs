@@ -1,9 +1,10 @@
 //! Nets of all components of a model, with the marks of its joints.
 
 use super::plugs::PlugLines;
-use super::{BlankNet, JointMark, Naming, NetError, NetOptions, alternatives};
+use super::{BlankNet, JointMark, Naming, NetError, NetHand, NetOptions, alternatives};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use tatamu_core::component::{PanelId, PanelSet};
 use tatamu_core::geom::polygon;
@@ -47,32 +48,35 @@ impl Default for KnownNets {
 }
 
 impl KnownNets {
-    fn nets(&self, model: &Model, p: usize, options: &NetOptions) -> Result<Vec<Arc<BlankNet>>, NetError> {
+    fn nets(&self, model: &Model, p: usize, options: NetOptions) -> Result<Vec<Arc<BlankNet>>, NetError> {
         let part = &model.parts()[p];
         let (prefix, marks) = (prefix(p), joint_marks(model, p));
         let wish = Wish {
             name: part.name.clone(),
             prefix: prefix.clone(),
-            options: options.clone(),
+            options,
             marks: marks.clone(),
             panels: part.component.panels().clone(),
         };
         let naming = Naming { name: &part.name, prefix: &prefix };
+        let options = wish.options.clone();
         self.0.get_or(wish, || {
-            let nets = alternatives(part.component.panels(), naming, &marks, options)?;
+            let nets = alternatives(part.component.panels(), naming, &marks, &options)?;
             Ok(nets.into_iter().map(Arc::new).collect())
         })
     }
 }
 
 /// The net of every component with its alternatives ([`alternatives`]), in the model's order; taken
-/// from `known` where it was made before of the same.
+/// from `known` where it was made before of the same. `hands` has what is chosen for components of these
+/// names instead of `options.hand`.
 ///
 /// # Errors
 /// The first component's error; of panels that are too large, the one that is the most so.
 pub fn develop_model(
     model: &Model,
     options: &NetOptions,
+    hands: &BTreeMap<String, NetHand>,
     known: &KnownNets,
     progress: &dyn Progress,
 ) -> Result<Vec<Vec<Arc<BlankNet>>>, NetsError> {
@@ -80,7 +84,8 @@ pub fn develop_model(
         .into_par_iter()
         .map(|p| {
             progress.check()?;
-            Ok(known.nets(model, p, options)?)
+            let hand = hands.get(&model.parts()[p].name).unwrap_or(&options.hand);
+            Ok(known.nets(model, p, NetOptions { hand: hand.clone(), ..options.clone() })?)
         })
         .collect();
     let scale = |net: &Result<Vec<Arc<BlankNet>>, NetsError>| match net {

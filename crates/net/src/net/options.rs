@@ -1,5 +1,6 @@
 //! Choices for nets.
 
+use super::hand::NetHand;
 use glam::DVec2;
 
 /// How nets are made.
@@ -11,6 +12,8 @@ pub struct NetOptions {
     pub sheet_mm: DVec2,
     /// What else is chosen.
     pub choices: NetChoices,
+    /// What is chosen about the component by hand.
+    pub hand: NetHand,
 }
 
 /// What the user may choose about nets.
@@ -22,6 +25,8 @@ pub struct NetChoices {
     pub glue_marks: bool,
     /// Whether the angle of each crease is written beside it.
     pub angles: bool,
+    /// Whether the name of each edge is written beside it.
+    pub edge_names: bool,
     /// Creases that are folded by less, when deployed, are not drawn; fold hinges always are.
     pub hide_below_rad: f64,
     /// Whether every panel is a piece of its own, with places for tape along its hinges: board
@@ -32,14 +37,21 @@ pub struct NetChoices {
 impl Default for NetChoices {
     /// Panels may be split, and nothing is drawn but what must be.
     fn default() -> Self {
-        Self { may_split: true, glue_marks: false, angles: false, hide_below_rad: 0.0, is_separate: false }
+        Self {
+            may_split: true,
+            glue_marks: false,
+            angles: false,
+            edge_names: false,
+            hide_below_rad: 0.0,
+            is_separate: false,
+        }
     }
 }
 
 impl NetOptions {
     /// The standard choices.
     pub fn new(tab_width_mm: f64, sheet_mm: DVec2) -> Self {
-        Self { tab_width_mm, sheet_mm, choices: NetChoices::default() }
+        Self { tab_width_mm, sheet_mm, choices: NetChoices::default(), hand: NetHand::default() }
     }
 }
 

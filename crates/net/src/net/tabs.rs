@@ -40,6 +40,11 @@ impl Shape {
         [start, end, end - along * b + out * self.width_mm, start + along * a + out * self.width_mm]
     }
 
+    /// From the hinge to the far edge, mm.
+    pub(crate) fn width_mm(&self) -> f64 {
+        self.width_mm
+    }
+
     /// The same with steeper sides and a larger width: the tab and the paper that must be free.
     fn with_room(&self) -> Self {
         let leans_rad = self.leans_rad.map(|lean| (lean + TAB_GAP_RAD).min(1.5));
@@ -72,7 +77,7 @@ pub(crate) fn shapes(set: &PanelSet, tab_width_mm: f64) -> Vec<Shapes> {
         .collect()
 }
 
-fn side_shapes(set: &PanelSet, hinge: HingeId, side: usize, tab_width_mm: f64) -> Vec<Shape> {
+pub(super) fn side_shapes(set: &PanelSet, hinge: HingeId, side: usize, tab_width_mm: f64) -> Vec<Shape> {
     let sides = set.hinges()[hinge.0].sides;
     let length = hinge_length(set, hinge);
     let base = edge(set, sides[side]);

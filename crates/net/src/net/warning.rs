@@ -20,7 +20,7 @@ pub enum NetWarning {
         /// The label.
         label: String,
     },
-    /// A fold hinge had to be cut and glued.
+    /// A fold hinge is cut and glued.
     CutFoldHinge {
         /// Its label.
         label: String,
@@ -66,7 +66,7 @@ impl fmt::Display for NetWarning {
         match self {
             Self::NarrowTab { label, width_mm } => write!(f, "tab {label} is only {width_mm:.1} mm wide"),
             Self::NoTab { label } => write!(f, "there is no room for a tab at {label}"),
-            Self::CutFoldHinge { label } => write!(f, "the hinge at {label} folds flat and had to be cut"),
+            Self::CutFoldHinge { label } => write!(f, "the hinge at {label} folds flat and is cut"),
             Self::SplitPanel { name, parts } => {
                 write!(f, "a panel of {name} is larger than the sheet and is glued from {parts} parts")
             }

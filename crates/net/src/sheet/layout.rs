@@ -53,6 +53,8 @@ pub struct Layout {
     unheeded: Vec<Unheeded>,
     /// Which of its alternatives each net is.
     taken: Vec<usize>,
+    /// The colour of each sheet, where one is chosen.
+    cards: Vec<Option<String>>,
 }
 
 impl Layout {
@@ -63,17 +65,19 @@ impl Layout {
     pub fn new(nets: &[Net], options: &SheetOptions, progress: &dyn Progress) -> Result<Self, LayoutError> {
         let groups: Vec<Vec<Vec<&Blank>>> =
             nets.iter().map(|net| vec![net.pieces().iter().map(Piece::blank).collect()]).collect();
-        Ok(Self::nested(&groups, options, &BTreeMap::new(), progress)?.0)
+        Ok(Self::nested(&groups, &[], options, &BTreeMap::new(), progress)?.0)
     }
 
     /// Nests the pieces of one net of each list, which are alternatives with as many pieces, the
     /// best first; also gives the nets that were taken. Pieces that are pinned, by name, lie where
-    /// they are pinned; a net that has one is the one of its list that the first of its pins says.
+    /// they are pinned; a net that has one is the one of its list that the first of its pins says. `cards`
+    /// has the colour of card of each net, and may end early: sheets have pieces of one colour.
     ///
     /// # Errors
     /// See [`LayoutError`].
     pub fn of_alternatives(
         nets: &[Vec<Arc<BlankNet>>],
+        cards: &[Option<String>],
         options: &SheetOptions,
         pins: &BTreeMap<String, Pin>,
         progress: &dyn Progress,
@@ -93,7 +97,7 @@ impl Layout {
                 own.iter().map(|net| net.blanks().iter().collect()).collect()
             })
             .collect();
-        let (layout, taken) = Self::nested(&groups, options, pins, progress)?;
+        let (layout, taken) = Self::nested(&groups, cards, options, pins, progress)?;
         let taken: Vec<usize> =
             chosen.iter().zip(taken).map(|(chosen, taken)| chosen.unwrap_or(taken)).collect();
         let nets = nets.par_iter().zip(&taken).map(|(nets, &taken)| nets[taken].finished().clone()).collect();
@@ -105,6 +109,7 @@ impl Layout {
     /// was taken.
     fn nested(
         groups: &[Vec<Vec<&Blank>>],
+        cards: &[Option<String>],
         options: &SheetOptions,
         pins: &BTreeMap<String, Pin>,
         progress: &dyn Progress,
@@ -118,37 +123,56 @@ impl Layout {
                 margin_mm: options.border_mm(),
             });
         }
-        let shape = |n: usize, blank: &Blank| {
-            let shape = Shape::new(blank.outline().to_vec(), n)?;
-            Some(match pins.get(blank.name()) {
-                Some(pin) => shape.pinned(pin.placement(blank.outline(), options.origin_mm())),
+        // Pieces of one colour after the other; `first` is the first sheet of a colour.
+        let shape = |group: usize, first: usize, blank: &Blank| {
+            let shape = Shape::new(blank.outline().to_vec(), group)?;
+            let pin = pins.get(blank.name()).map(|pin| pin.placement(blank.outline(), options.origin_mm()));
+            Some(match pin {
+                Some(at) => shape.pinned(Placement { sheet: at.sheet.saturating_sub(first), ..at }),
                 None => shape,
             })
         };
-        let shapes = |n: usize, blanks: &[&Blank]| -> Vec<Shape> {
-            let shapes: Vec<Shape> = blanks.iter().filter_map(|blank| shape(n, blank)).collect();
+        let shapes = |group: usize, first: usize, blanks: &[&Blank]| -> Vec<Shape> {
+            let shapes: Vec<Shape> = blanks.iter().filter_map(|blank| shape(group, first, blank)).collect();
             debug_assert_eq!(shapes.len(), blanks.len(), "every piece has an area");
             shapes
         };
-        let shapes: Vec<Vec<Vec<Shape>>> = groups
-            .iter()
-            .enumerate()
-            .map(|(n, alternatives)| alternatives.iter().map(|blanks| shapes(n, blanks)).collect())
-            .collect();
-        let placed = nest_alternatives(&shapes, &options.nesting(), progress)?;
-        let place = |p: &Placement| PiecePlace {
-            sheet: p.sheet,
+        let place = |first: usize, p: &Placement| PiecePlace {
+            sheet: first + p.sheet,
             place: DAffine2::from_translation(options.origin_mm()) * p.motion(),
         };
-        let places: Vec<Vec<PiecePlace>> =
-            placed.iter().map(|(_, placements)| placements.iter().map(place).collect()).collect();
-        let sheets = places.iter().flatten().map(|p| p.sheet + 1).max().unwrap_or(0);
-        let taken: Vec<usize> = placed.iter().map(|(chosen, _)| *chosen).collect();
+        let card_of = |n: usize| cards.get(n).and_then(Option::as_deref);
+        let mut colours: Vec<Option<&str>> = Vec::new();
+        for n in 0..groups.len() {
+            if !colours.contains(&card_of(n)) {
+                colours.push(card_of(n));
+            }
+        }
+        let (mut taken, mut places) = (vec![0; groups.len()], vec![Vec::new(); groups.len()]);
+        let mut of_sheets: Vec<Option<String>> = Vec::new();
+        for colour in colours {
+            let own: Vec<usize> = (0..groups.len()).filter(|&n| card_of(n) == colour).collect();
+            let first = of_sheets.len();
+            let shapes: Vec<Vec<Vec<Shape>>> = own
+                .iter()
+                .enumerate()
+                .map(|(group, &n)| groups[n].iter().map(|blanks| shapes(group, first, blanks)).collect())
+                .collect();
+            let placed = nest_alternatives(&shapes, &options.nesting(), progress)?;
+            let count = placed.iter().flat_map(|(_, on)| on).map(|p| p.sheet + 1).max().unwrap_or(0);
+            of_sheets.resize(first + count, colour.map(str::to_owned));
+            for (&n, (chosen, placements)) in own.iter().zip(&placed) {
+                taken[n] = *chosen;
+                places[n] = placements.iter().map(|p| place(first, p)).collect();
+            }
+        }
+        let sheets = of_sheets.len();
         let blanks = || groups.iter().zip(&taken).flat_map(|(group, &taken)| group[taken].iter().copied());
         let area: f64 = blanks().map(|blank| polygon::area(blank.outline())).sum();
         let utilisation = area / (room.x * room.y * sheets.max(1) as f64);
         let unheeded = unheeded(pins, blanks().zip(places.iter().flatten()));
-        let layout = Self { options: *options, places, sheets, utilisation, unheeded, taken: taken.clone() };
+        let (options, cards) = (*options, of_sheets);
+        let layout = Self { options, places, sheets, utilisation, unheeded, taken: taken.clone(), cards };
         Ok((layout, taken))
     }
 
@@ -165,6 +189,25 @@ impl Layout {
     /// Which of its alternatives net `n` is.
     pub fn taken(&self, n: usize) -> usize {
         self.taken[n]
+    }
+
+    /// The colour of card of a sheet, where one is chosen.
+    pub fn card(&self, sheet: usize) -> Option<&str> {
+        self.cards.get(sheet).and_then(Option::as_deref)
+    }
+
+    /// The colours that are chosen, in the order of their sheets, and how many sheets each has; nothing where
+    /// none is chosen. Sheets of no colour are last.
+    pub fn cards(&self) -> Vec<(Option<&str>, usize)> {
+        let mut out: Vec<(Option<&str>, usize)> = Vec::new();
+        for card in self.cards.iter().map(Option::as_deref) {
+            match out.iter_mut().find(|(known, _)| *known == card) {
+                Some((_, count)) => *count += 1,
+                None => out.push((card, 1)),
+            }
+        }
+        out.sort_by_key(|(card, _)| card.is_none());
+        if out.iter().all(|(card, _)| card.is_none()) { Vec::new() } else { out }
     }
 
     /// Number of sheets.

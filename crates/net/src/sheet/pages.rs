@@ -68,8 +68,10 @@ impl Layout {
         pages.extend(list_pages(&rest, title, options, styles));
         let count = self.sheet_count();
         for (k, page) in pages.iter_mut().enumerate() {
+            page.card = self.card(k).map(str::to_owned);
             let number = if k < count {
-                format!("sheet {} of {count}", k + 1)
+                let card = page.card.iter().map(|card| format!(" · {card} card"));
+                format!("sheet {} of {count}{}", k + 1, card.collect::<String>())
             } else {
                 "labels of the sheets".to_owned()
             };
