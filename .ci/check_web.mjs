@@ -247,8 +247,13 @@ if (project) {
   expect(await page.$eval("#parts [role=option]", (option) => option.textContent.includes("tummy")), "the project comes back");
 }
 
-// Cancel.
-await page.$eval('[id="model-rows-.size"]', (input) => { input.value = 240; input.dispatchEvent(new Event("change")); });
+// Cancel, which keeps what can be undone.
+const size = () => page.$eval('[id="model-rows-.size"]', (input) => Number(input.value));
+const sized = await size();
+await page.$eval('[id="model-rows-.size"]', (input) => { input.value = 230; input.dispatchEvent(new Event("change")); });
+await pause(300);
+await until("the larger model is finished", isDone);
+await page.$eval('[id="model-rows-.size"]', (input) => { input.blur(); input.value = 240; input.dispatchEvent(new Event("change")); });
 await pause(60);
 if (await page.$eval("#busy", (busy) => !busy.hidden)) {
   await page.click("#cancel");
@@ -257,6 +262,12 @@ if (await page.$eval("#busy", (busy) => !busy.hidden)) {
   await pause(300);
   await until("the next change starts it again", isDone);
 }
+while (!(await page.$eval("#undo", (undo) => undo.disabled))) {
+  await page.click("#undo");
+  await pause(200);
+  await until("a step is undone", isDone);
+}
+expect((await size()) === sized, `all is undone after a cancel: ${await size()} mm of ${sized} mm`);
 
 // Accessible, as far as a program can tell.
 const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");

@@ -17,6 +17,7 @@ use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tatamu::front::hand;
+use tatamu::front::notes::{self, Note};
 use tatamu::front::scene::Seen;
 use tatamu::pipeline::Output;
 use tatamu::project::options::SIZE;
@@ -159,6 +160,12 @@ impl Studio {
     pub fn laid(&self) -> Option<&Output> {
         let (opened, document) = (self.opened.as_ref()?, self.document.as_ref()?);
         self.shown.laid(document.options(), opened.drawn.is_some())
+    }
+
+    /// What there is to know about the mesh and the model that is shown.
+    pub fn notes(&self) -> Vec<Note> {
+        let Some(opened) = &self.opened else { return Vec::new() };
+        notes::notes(&opened.repairs, self.shown.output())
     }
 
     /// Whether the components are drawn in the project file: then they change there alone.
@@ -306,8 +313,7 @@ impl Studio {
     /// Changes the project. Changes of one gesture are undone together.
     pub fn change(&mut self, change: &Change, gesture: Option<&str>) {
         if self.is_drawn() && change.is_of_parts() {
-            let text = "these components are drawn; edit their shape in the project file";
-            self.messages.tell(Cause::Change, text.to_owned());
+            self.messages.tell(Cause::Change, hand::DRAWN.to_owned());
             return;
         }
         self.messages.clear(Cause::Change);

@@ -265,3 +265,21 @@ fn a_mesh_that_another_program_changes_is_read_again() {
     assert!(desk.state().studio().notice().is_some_and(|notice| notice.contains("snowman.obj")));
     assert_eq!(desk.state().studio().document().unwrap().text(), text, "the project stays");
 }
+
+/// Remedies were words in the window, and buttons on the page alone.
+#[test]
+fn what_a_warning_advises_is_one_click() {
+    let (mut desk, folder) = open();
+    let project = folder.path().join("snowman.toml");
+    let text = std::fs::read_to_string(&project).unwrap();
+    std::fs::write(&project, format!("size = 40\n{text}")).unwrap();
+    desk.state_mut().open(&project);
+    settle(&mut desk, "a tiny model", |s| s.finished().is_some_and(|o| o.options().size_mm == 40.0));
+    let count = desk.state().studio().notes().len();
+    assert!(count > 0, "so small a model has warnings");
+    click(&mut desk, &if count == 1 { "1 warning".to_owned() } else { format!("{count} warnings") });
+    let larger = desk.query_all_by_label("Size 50 mm").next().expect("the warning advises a larger size");
+    larger.click();
+    desk.run_ok();
+    settle(&mut desk, "the larger model", |s| s.finished().is_some_and(|o| o.options().size_mm == 50.0));
+}
