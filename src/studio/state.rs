@@ -50,6 +50,8 @@ pub struct Studio {
     session: u64,
     wake: Wake,
     watch: Option<Watch>,
+    /// Sheets to be shown by a viewer that prints them.
+    printed: Option<PathBuf>,
 }
 
 impl Studio {
@@ -74,6 +76,7 @@ impl Studio {
             session: 0,
             wake,
             watch: None,
+            printed: None,
         }
     }
 
@@ -173,6 +176,25 @@ impl Studio {
         self.opened.as_ref().is_some_and(|opened| opened.drawn.is_some())
     }
 
+    /// Calls the window when something happened in another thread.
+    pub fn wake(&self) -> Wake {
+        self.wake.clone()
+    }
+
+    /// Begins to write the sheets to be printed; then [`Studio::take_printed`] tells where they are.
+    pub fn print(&mut self) {
+        self.messages.clear(Cause::Export);
+        let Some(output) = self.finished().cloned() else { return };
+        if let (Some(opened), Some(document)) = (&self.opened, &self.document) {
+            self.tasks.print(opened.clone(), document.project(), output);
+        }
+    }
+
+    /// Sheets that were written to be printed, once.
+    pub fn take_printed(&mut self) -> Option<PathBuf> {
+        self.printed.take()
+    }
+
     /// Begins to read a file.
     pub fn open(&mut self, path: &Path) {
         self.messages.clear(Cause::Opening);
@@ -193,7 +215,10 @@ impl Studio {
                 Finished::Exported(Ok(files)) => {
                     self.messages.tell(Cause::Export, format!("written: {}", files.join(", ")));
                 }
-                Finished::Exported(Err(problem)) => self.messages.warn(Cause::Export, problem),
+                Finished::Exported(Err(problem)) | Finished::Printable(Err(problem)) => {
+                    self.messages.warn(Cause::Export, problem);
+                }
+                Finished::Printable(Ok(path)) => self.printed = Some(path),
             }
         }
         if self.watch.as_ref().is_some_and(Watch::is_changed) {
