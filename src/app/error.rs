@@ -28,7 +28,7 @@ pub enum AppError {
     #[error("project file {path}: {error}")]
     Project { path: PathBuf, error: ProjectError },
     /// The mesh has no colours that can be used.
-    #[error("{path}: {error}; or remove --color")]
+    #[error("{path}: {error}")]
     Colour { path: PathBuf, error: ColourError },
     /// A style file is wrong.
     #[error("style file {path}: {error}")]
@@ -43,8 +43,8 @@ pub enum AppError {
     #[error("cannot use the port {port}: {reason}")]
     Port { port: String, reason: String },
     /// The machine stopped the job.
-    #[error("{0}")]
-    Machine(String),
+    #[error("{reason}")]
+    Machine { reason: String, remedies: Vec<Remedy> },
     /// The mesh that a project file names cannot be read.
     #[error("cannot read {path}, the mesh of project file {project}: {reason}")]
     ProjectMesh { path: PathBuf, project: PathBuf, reason: String },
@@ -54,6 +54,9 @@ pub enum AppError {
     /// Options contradict each other, or the command has no use for its input.
     #[error("{0}")]
     Options(String),
+    /// Colours are asked for where they cannot be seen.
+    #[error("colours are printed on the outside of the paper")]
+    ColouredInside,
     /// An output has no known extension.
     #[error("cannot tell the format of {path} by its extension; use one of: {known}")]
     Extension { path: PathBuf, known: String },
@@ -83,7 +86,9 @@ impl AppError {
         match self {
             Self::Pipeline(error) => error.remedies(),
             Self::Export(error) => error.remedies(),
-            Self::Sheet { remedies, .. } => remedies.clone(),
+            Self::Sheet { remedies, .. } | Self::Machine { remedies, .. } => remedies.clone(),
+            Self::Colour { .. } => vec![Remedy::NoColours],
+            Self::ColouredInside => vec![Remedy::BothSides, Remedy::NoColours],
             _ => Vec::new(),
         }
     }

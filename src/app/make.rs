@@ -119,8 +119,7 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
     let files = choice.files(task.input)?;
     let sheets = choice.options().sheets;
     if files.is_coloured && sheets.side == Side::Inside && !sheets.is_duplex {
-        let reason = "--color prints on the outside of the paper; use --side both, or remove --color";
-        return Err(AppError::Options(reason.to_owned()));
+        return Err(AppError::ColouredInside);
     }
     let painting = files.is_coloured.then(|| input::read_painting(&input.mesh_path)).transpose()?;
     let warnings = input.warnings();

@@ -2,8 +2,10 @@
 //! settings.
 
 use tatamu::pipeline::{Change, Warning};
+use tatamu::plotter::profile::Handshake;
 use tatamu::project::options::{
-    Entry, LEVEL, MARGIN, MIN_PANEL_WIDTH, PAPER, PARTS, PROFILE_VERTICES, SIZE, SPLIT, THICK, TOP_EDGES,
+    COLOR, Entry, LEVEL, MARGIN, MIN_PANEL_WIDTH, PAPER, PARTS, PROFILE_VERTICES, SIDE, SIZE, SPLIT, THICK,
+    TOP_EDGES,
 };
 use tatamu::remedy::Remedy;
 
@@ -26,6 +28,12 @@ pub trait Names {
 
     /// How a pin is taken away that no piece has.
     fn remove_pin(&self) -> &'static str;
+
+    /// Where a job's handshake is chosen: one of these.
+    fn handshake(&self, names: &str) -> String;
+
+    /// Where the speed of a port is chosen.
+    fn speed(&self) -> &'static str;
 }
 
 /// What was found, and what can be done about it.
@@ -78,6 +86,14 @@ fn phrase(remedy: &Remedy, names: &dyn Names) -> String {
         Remedy::OtherWay => return format!("choose another way to fold ({})", names.list_of_ways()),
         Remedy::NoBoards => return format!("leave out {}", name(&THICK)),
         Remedy::LeaveOut(part) => return format!("leave out the part {part}"),
+        Remedy::NoColours => return format!("leave out {}", name(&COLOR)),
+        Remedy::BothSides => return format!("use {} both", name(&SIDE)),
+        Remedy::PacedHandshake => return format!("try {}", names.handshake(Handshake::Paced.name())),
+        Remedy::OtherHandshake => {
+            let two = [Handshake::Paced, Handshake::RtsCts].map(Handshake::name).join(" or ");
+            return format!("try {}", names.handshake(&two));
+        }
+        Remedy::CheckSpeed => return format!("check {}, the port, its parity and the cable", names.speed()),
         Remedy::LiftTop { chains } => {
             return format!("lift the top, and pull each of its {chains} chains by hand past this point");
         }

@@ -38,6 +38,14 @@ impl Names for Flags {
     fn remove_pin(&self) -> &'static str {
         "take its [[pin]] away"
     }
+
+    fn handshake(&self, names: &str) -> String {
+        format!("--handshake {names}")
+    }
+
+    fn speed(&self) -> &'static str {
+        "--baud"
+    }
 }
 
 #[cfg(test)]

@@ -3,9 +3,13 @@
 use super::results::Shown;
 use glam::DVec3;
 use tatamu::component::PrincipalAxis;
+use tatamu::model::ModelPart;
 use tatamu::project::Project;
 use tatamu::project::change::{Change, to_digits};
 use tatamu::project::options::DIRECTION;
+
+/// Why the parts of a drawn model do not change.
+pub const DRAWN: &str = "these components are drawn; edit their shape in the project file";
 
 /// Across what a part can be split, with the normal of the plane in the model's axes; none is across the
 /// length of the part.
@@ -22,6 +26,13 @@ pub fn direction_deg(shown: &Shown, project: &Project, part: usize) -> Option<f6
     let chosen = project.components.iter().find(|c| c.name == *name).and_then(|c| c.direction_deg);
     let found = || shown.part(part).map(|p| to_digits(p.direction_rad.to_degrees(), 1));
     chosen.or_else(found)
+}
+
+/// Top edges of a component, and profile vertices of its longest chain, as they were found.
+pub fn edges_and_vertices(part: &ModelPart) -> [usize; 2] {
+    let profiles = part.component.profiles();
+    let longest = profiles.iter().map(|profile| profile.points().len()).max();
+    [profiles.len(), longest.unwrap_or_default()]
 }
 
 /// The change that turns the fold direction of a component, and the gesture that it is part of.

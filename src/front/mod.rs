@@ -6,6 +6,7 @@
 pub mod colours;
 pub mod dials;
 pub mod hand;
+pub mod notes;
 pub mod opened;
 pub mod pages;
 pub mod remedies;

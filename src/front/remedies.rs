@@ -1,5 +1,6 @@
 //! What a warning advises, as a change that one click makes.
 
+use tatamu::pipeline::Warning;
 use tatamu::project::change::{Change, to_digits};
 use tatamu::project::options::{Entry, MARGIN, MIN_PANEL_WIDTH, PAPER, SIZE, SPLIT, Settings, THICK};
 use tatamu::remedy::Remedy;
@@ -11,8 +12,12 @@ const STEP: f64 = 1.25;
 /// Papers, each half of the next.
 const PAPERS: [&str; 6] = ["a5", "a4", "a3", "a2", "a1", "a0"];
 
-/// What the user reads, and the change; none for what is done by hand.
-pub fn change(remedy: &Remedy, now: &Settings) -> Option<(String, Change)> {
+/// What a warning advises, as far as it is not done by hand: what the user reads, and the change.
+pub fn changes(warning: &Warning, now: &Settings) -> Vec<(String, Change)> {
+    warning.remedies().iter().filter_map(|remedy| change(remedy, now)).collect()
+}
+
+fn change(remedy: &Remedy, now: &Settings) -> Option<(String, Change)> {
     let size_mm = now.model.size_mm;
     let length = |option: &'static Entry, mm: f64| {
         (format!("{} {mm} mm", label(option)), Change::Set { option, value: Some(mm.into()) })

@@ -83,12 +83,22 @@ impl Names for Settings {
     fn remove_pin(&self) -> &'static str {
         "choose \u{201c}Lay out again\u{201d}"
     }
+
+    fn handshake(&self, names: &str) -> String {
+        format!("a profile of the machine with the handshake {names}")
+    }
+
+    fn speed(&self) -> &'static str {
+        "the speed (baud) in the machine's profile"
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::plot::failure;
     use tatamu::fold::{Side, When};
+    use tatamu::plotter::session::{End, Outcome};
     use tatamu::remedy::Remedy;
 
     #[test]
@@ -121,10 +131,24 @@ mod tests {
             Remedy::RemovePin,
             Remedy::MovePin,
             Remedy::CheckFile,
+            Remedy::NoColours,
+            Remedy::BothSides,
+            Remedy::PacedHandshake,
+            Remedy::OtherHandshake,
+            Remedy::CheckSpeed,
         ];
         for remedy in all {
             let told = words::with_remedies("found".to_owned(), std::slice::from_ref(&remedy), &Settings);
             assert!(!told.contains("--") && !told.contains("[["), "{told}");
+        }
+    }
+
+    /// The page said "try --handshake paced".
+    #[test]
+    fn jobs_that_fail_say_so_without_words_of_the_command_line() {
+        for end in [End::Device(16), End::Device(15), End::NoAnswer] {
+            let told = error(&failure(Outcome { end, is_confirmed: false, strokes_done: 3 }));
+            assert!(told.contains("profile") && !told.contains("--"), "{told}");
         }
     }
 

@@ -4,6 +4,7 @@ use super::Project;
 use super::change::Change;
 use super::options::{Settings, choose};
 use crate::pipeline::Options;
+use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
 /// The project that is open.
@@ -25,8 +26,17 @@ pub struct Document {
     gesture: Option<String>,
 }
 
+/// All that a document was, is, and can be again: to go on with it elsewhere.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct History {
+    text: String,
+    saved: String,
+    undo: Vec<Step>,
+    redo: Vec<Step>,
+}
+
 /// A text to go back or forth to.
-#[derive(Debug)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Step {
     text: String,
     label: String,
@@ -41,6 +51,22 @@ impl Document {
         let (project, settings) = read(&text)?;
         let saved = text.clone();
         Ok(Self { text, project, settings, path, saved, undo: Vec::new(), redo: Vec::new(), gesture: None })
+    }
+
+    /// A document that goes on where another one was.
+    ///
+    /// # Errors
+    /// A message where a text is no project file.
+    pub fn of_history(history: History, path: Option<PathBuf>) -> Result<Self, String> {
+        let History { text, saved, undo, redo } = history;
+        undo.iter().chain(&redo).try_for_each(|step| read(&step.text).map(drop))?;
+        Ok(Self { saved, undo, redo, ..Self::new(text, path)? })
+    }
+
+    /// All that it was, is, and can be again.
+    pub fn history(&self) -> History {
+        let (text, saved) = (self.text.clone(), self.saved.clone());
+        History { text, saved, undo: self.undo.clone(), redo: self.redo.clone() }
     }
 
     /// The text of the file.
@@ -204,6 +230,23 @@ mod tests {
         assert!(!document.redo(), "a new change ends what was undone");
         assert!(document.undo() && document.undo() && document.undo() && !document.undo());
         assert!(!document.is_changed());
+    }
+
+    #[test]
+    fn a_document_goes_on_where_another_one_was() {
+        let mut before = Document::new("mesh = 'a.obj'\n".to_owned(), None).unwrap();
+        for degrees in [10.0, 20.0, 30.0] {
+            before.change(&turn(degrees), None).unwrap();
+        }
+        before.undo();
+        let told = serde_json::to_string(&before.history()).unwrap();
+        let mut after = Document::of_history(serde_json::from_str(&told).unwrap(), None).unwrap();
+        assert_eq!(after.history(), before.history());
+        assert!(after.is_changed() && after.redo());
+        assert_eq!(direction(&after), Some(30.0));
+        assert!(after.undo() && after.undo() && after.undo() && !after.undo() && !after.is_changed());
+        let wrong = told.replacen("a.obj", "a.obj' '", 2);
+        assert!(Document::of_history(serde_json::from_str(&wrong).unwrap(), None).is_err());
     }
 
     #[test]

@@ -13,6 +13,7 @@ mod plotting;
 mod preferences;
 mod state;
 mod store;
+mod survey;
 mod tasks;
 #[cfg(test)]
 mod tests;
@@ -28,6 +29,9 @@ use tatamu::project::{change, document};
 /// Width and height of the window at the first run, points.
 const SIZE: [f32; 2] = [1280.0, 800.0];
 
+/// The picture of the program, 128 pixels wide: that of the page.
+const ICON: &[u8] = include_bytes!("icon.png");
+
 /// Opens the window, with a file if one is given.
 pub fn run(input: Option<PathBuf>) -> Result<(), AppError> {
     let store = store::Store::of_user();
@@ -35,6 +39,7 @@ pub fn run(input: Option<PathBuf>) -> Result<(), AppError> {
     let options = eframe::NativeOptions {
         viewport: eframe::egui::ViewportBuilder::default()
             .with_app_id("tatamu")
+            .with_icon(eframe::icon_data::from_png_bytes(ICON).unwrap_or_default())
             .with_inner_size([width, height])
             .with_min_inner_size([800.0, 500.0])
             .with_drag_and_drop(true),

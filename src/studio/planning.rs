@@ -2,16 +2,18 @@
 
 use super::opened::Opened;
 use super::pages;
+use super::words;
 use super::worker::Wake;
 use crate::app::plot::sheets::{self, Sheet};
 use crate::app::profiles;
+use glam::DVec2;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::sync::{Arc, OnceLock};
 use tatamu::drawing::Drawing;
 use tatamu::export::PltOptions;
 use tatamu::pipeline::Output;
-use tatamu::plotter::preview;
+use tatamu::plotter::{preview, strokes};
 use tatamu::project::Project;
 
 /// The job as it would be sent.
@@ -22,6 +24,8 @@ pub struct Plan {
     pub sheets: Vec<Sheet>,
     /// Pictures of the sheets.
     pub previews: Vec<Drawing>,
+    /// Their strokes in the order of the job, in the coordinates of the pictures, mm.
+    pub strokes: Vec<Vec<Vec<DVec2>>>,
 }
 
 /// What a plan is made of.
@@ -97,7 +101,8 @@ impl Drop for Planning {
 impl Hand {
     /// The plan; nothing where nobody wants it any more.
     fn plan(&self, wish: &Wish, wake: &Wake) -> Result<Option<Plan>, String> {
-        let machine = profiles::machine(Some(&wish.cutter), Some(&wish.media)).map_err(|e| e.to_string())?;
+        let machine =
+            profiles::machine(Some(&wish.cutter), Some(&wish.media)).map_err(|e| words::error(&e))?;
         let drawings = pages::drawings(&wish.opened, &wish.project, &wish.output)?;
         // Each sheet is planned, then drawn.
         let _ = self.all.set(2 * drawings.len());
@@ -107,14 +112,15 @@ impl Hand {
             !self.is_stopped.load(Ordering::Relaxed)
         };
         let sheets = sheets::of_drawings_while(&wish.opened.title(), &drawings, &machine, &step);
-        let Some(sheets) = sheets.map_err(|e| e.to_string())? else { return Ok(None) };
-        let mut previews = Vec::new();
+        let Some(sheets) = sheets.map_err(|e| words::error(&e))? else { return Ok(None) };
+        let (mut previews, mut drawn) = (Vec::new(), Vec::new());
         for sheet in &sheets {
             previews.push(preview(sheet.job(), &machine.cutter, sheet.placement()));
+            drawn.push(strokes(sheet.job(), &machine.cutter, sheet.placement()));
             if !step() {
                 return Ok(None);
             }
         }
-        Ok(Some(Plan { machine, sheets, previews }))
+        Ok(Some(Plan { machine, sheets, previews, strokes: drawn }))
     }
 }

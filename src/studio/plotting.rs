@@ -1,16 +1,17 @@
 //! A job on its way to the cutter, in a thread of its own.
 
+use super::words;
 use super::worker::Wake;
 use crate::app::error::AppError;
 use crate::app::output;
 use crate::app::plot::Sheet;
-use crate::app::plot::live;
 use crate::app::plot::{Operator, SystemPorts, doing, minutes};
+use crate::app::plot::{journal, live};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 use tatamu::plotter::Cutter;
-use tatamu::plotter::journal::Position;
+use tatamu::plotter::journal::{Header, Position};
 use tatamu::plotter::session::Status;
 use tatamu::progress::Cancelled;
 
@@ -24,6 +25,8 @@ pub struct State {
     pub text: String,
     /// Share of the sheet that is done.
     pub share: f32,
+    /// The sheet that the machine works on, and how many of its strokes are done.
+    pub at: Option<(String, usize)>,
     /// The sheet that is to be loaded.
     pub wants_sheet: Option<String>,
     /// What the machine and the session had to say.
@@ -51,14 +54,27 @@ impl Plotting {
         journal: PathBuf,
         wake: Wake,
     ) -> Self {
-        let state = Arc::new(Mutex::new(State { text: "opening the port".to_owned(), ..State::default() }));
         let header = live::header(sheets, cutter, port.to_owned(), copies);
+        Self::begin(header, Position::default(), journal, wake)
+    }
+
+    /// Goes on with a job that was stopped.
+    ///
+    /// # Errors
+    /// A message where its journal cannot be read.
+    pub fn resume(journal: PathBuf, port: &str, wake: Wake) -> Result<Self, String> {
+        let (header, at) = journal::read(&journal).map_err(|error| words::error(&error))?;
+        let port = if port.is_empty() { header.port } else { port.to_owned() };
+        Ok(Self::begin(Header { port, ..header }, at, journal, wake))
+    }
+
+    fn begin(header: Header, at: Position, journal: PathBuf, wake: Wake) -> Self {
+        let state = Arc::new(Mutex::new(State { text: "opening the port".to_owned(), ..State::default() }));
         let mut hand = Hand { state: state.clone(), wake };
         std::thread::spawn(move || {
-            let sent = output::check_places(std::slice::from_ref(&journal), &[]).and_then(|()| {
-                live::send_all(&SystemPorts, &mut hand, &journal, &header, Position::default())
-            });
-            let end = sent.map_err(|error| error.to_string());
+            let sent = output::check_places(std::slice::from_ref(&journal), &[])
+                .and_then(|()| live::send_all(&SystemPorts, &mut hand, &journal, &header, at));
+            let end = sent.map_err(|error| words::error(&error));
             locked(&hand.state).end = Some(end);
             (hand.wake)();
         });
@@ -135,15 +151,12 @@ impl Operator for Hand {
         let mut state = locked(&self.state);
         state.text = format!("{sheet}: stroke {done} of {all}, {left} left ({})", doing(status.state));
         state.share = done as f32 / all.max(1) as f32;
+        state.at = Some((sheet.to_owned(), done));
         drop(state);
         (self.wake)();
     }
 
-    fn stopped(&mut self, journal: &Path, (done, strokes): (usize, usize)) {
-        let text = format!(
-            "at least {done} of {strokes} strokes of this sheet are done; continue with: tatamu plot --resume {}",
-            journal.display()
-        );
-        self.note(&text);
+    fn stopped(&mut self, _: &Path, (done, strokes): (usize, usize)) {
+        self.note(&format!("at least {done} of {strokes} strokes of this sheet are done"));
     }
 }

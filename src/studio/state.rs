@@ -17,6 +17,7 @@ use glam::DVec3;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tatamu::front::hand;
+use tatamu::front::notes::{self, Note};
 use tatamu::front::scene::Seen;
 use tatamu::pipeline::Output;
 use tatamu::project::options::SIZE;
@@ -49,6 +50,8 @@ pub struct Studio {
     session: u64,
     wake: Wake,
     watch: Option<Watch>,
+    /// Sheets to be shown by a viewer that prints them.
+    printed: Option<PathBuf>,
 }
 
 impl Studio {
@@ -73,6 +76,7 @@ impl Studio {
             session: 0,
             wake,
             watch: None,
+            printed: None,
         }
     }
 
@@ -161,9 +165,34 @@ impl Studio {
         self.shown.laid(document.options(), opened.drawn.is_some())
     }
 
+    /// What there is to know about the mesh and the model that is shown.
+    pub fn notes(&self) -> Vec<Note> {
+        let Some(opened) = &self.opened else { return Vec::new() };
+        notes::notes(&opened.repairs, self.shown.output())
+    }
+
     /// Whether the components are drawn in the project file: then they change there alone.
     pub fn is_drawn(&self) -> bool {
         self.opened.as_ref().is_some_and(|opened| opened.drawn.is_some())
+    }
+
+    /// Calls the window when something happened in another thread.
+    pub fn wake(&self) -> Wake {
+        self.wake.clone()
+    }
+
+    /// Begins to write the sheets to be printed; then [`Studio::take_printed`] tells where they are.
+    pub fn print(&mut self) {
+        self.messages.clear(Cause::Export);
+        let Some(output) = self.finished().cloned() else { return };
+        if let (Some(opened), Some(document)) = (&self.opened, &self.document) {
+            self.tasks.print(opened.clone(), document.project(), output);
+        }
+    }
+
+    /// Sheets that were written to be printed, once.
+    pub fn take_printed(&mut self) -> Option<PathBuf> {
+        self.printed.take()
     }
 
     /// Begins to read a file.
@@ -186,7 +215,10 @@ impl Studio {
                 Finished::Exported(Ok(files)) => {
                     self.messages.tell(Cause::Export, format!("written: {}", files.join(", ")));
                 }
-                Finished::Exported(Err(problem)) => self.messages.warn(Cause::Export, problem),
+                Finished::Exported(Err(problem)) | Finished::Printable(Err(problem)) => {
+                    self.messages.warn(Cause::Export, problem);
+                }
+                Finished::Printable(Ok(path)) => self.printed = Some(path),
             }
         }
         if self.watch.as_ref().is_some_and(Watch::is_changed) {
@@ -306,8 +338,7 @@ impl Studio {
     /// Changes the project. Changes of one gesture are undone together.
     pub fn change(&mut self, change: &Change, gesture: Option<&str>) {
         if self.is_drawn() && change.is_of_parts() {
-            let text = "these components are drawn; edit their shape in the project file";
-            self.messages.tell(Cause::Change, text.to_owned());
+            self.messages.tell(Cause::Change, hand::DRAWN.to_owned());
             return;
         }
         self.messages.clear(Cause::Change);

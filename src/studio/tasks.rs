@@ -8,6 +8,7 @@ use crate::app::{input, make};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, Sender, channel};
+use tatamu::export::format_of;
 use tatamu::pipeline::Output;
 use tatamu::project::Project;
 
@@ -19,6 +20,8 @@ pub enum Finished {
     Reread(Result<Box<Opened>, String>),
     /// Files were written; their names.
     Exported(Result<Vec<String>, String>),
+    /// The sheets were written, to be printed; where.
+    Printable(Result<PathBuf, String>),
 }
 
 /// Threads that read and write.
@@ -78,11 +81,27 @@ impl Tasks {
         self.spawn(0, move || Finished::Reread(Opened::read(Arc::new(input::fetch), &path).map(Box::new)));
     }
 
+    /// Begins to write the sheets for a viewer that prints them.
+    pub fn print(&mut self, opened: Arc<Opened>, project: &Project, output: Output) {
+        let project = project.clone();
+        self.spawn(0, move || Finished::Printable(printable(&opened, &project, &output)));
+    }
+
     /// Begins to write files.
     pub fn export(&mut self, opened: Arc<Opened>, project: &Project, output: Output, targets: Vec<Target>) {
         let project = project.clone();
         self.spawn(0, move || Finished::Exported(export(&opened, &project, &output, targets)));
     }
+}
+
+/// Writes the sheets into a folder that stays, since nobody says when the viewer is done with them.
+fn printable(opened: &Opened, project: &Project, output: &Output) -> Result<PathBuf, String> {
+    let folder = tempfile::Builder::new().prefix("tatamu-").tempdir().map_err(|error| error.to_string())?;
+    let path = folder.path().join(format!("{}.pdf", opened.title()));
+    let format = format_of("pdf").ok_or("there is no format pdf")?;
+    export(opened, project, output, vec![Target { path: path.clone(), format }])?;
+    let _ = folder.keep();
+    Ok(path)
 }
 
 fn export(

@@ -9,6 +9,8 @@ const DRAG = 4;
 const STEP = [5, 1];
 // Seconds that folding a component takes.
 const FOLD = 1.2;
+// Milliseconds that a stage may take to end by itself when it is cancelled.
+const PATIENCE = 1000;
 
 const by = id => document.getElementById(id);
 const element = (name, properties = {}, ...children) => {
@@ -74,7 +76,7 @@ const heard = ({ data }) => {
   } else if (data.problem) {
     problem(data.problem);
   } else if (data.told) {
-    kept = data.project;
+    if (data.history) kept = data.history;
     show(data.told);
     if (data.sheets) showSheets(data.sheets);
   }
@@ -119,12 +121,12 @@ async function take(list) {
 }
 let waiting = null;
 
-async function open(name, text) {
+async function open(name) {
   for (const place of [by('welcome-problem'), by('problem')]) place.textContent = '';
   by('problem').hidden = true;
   await hired;
   try {
-    await ask('open', [...files], name, text);
+    await ask('open', [...files], name);
   } catch (error) {
     waiting = isProject(name) ? name : null;
     problem(waiting ? `${error} Choose that file as well.` : error);
@@ -172,6 +174,8 @@ function show(now) {
   // The model may be smaller than the mesh that was seen before.
   if (now.parts.length && !told?.parts.length) view.postMessage({ what: 'fit' });
   told = now;
+  // A clash is of the model that it was found in.
+  if (now.is_busy) sight.clash = undefined;
   by('title').textContent = now.title;
   document.title = `${now.title} – tatamu`;
   by('busy').hidden = !now.is_busy;
@@ -236,15 +240,21 @@ function select(key, adds) {
 function showNotes(now) {
   const buttons = (...list) => (list.length ? [element('div', { className: 'buttons' }, ...list)] : []);
   const button = (textContent, onclick) => element('button', { textContent, onclick });
-  const clashes = now.clashes.map((clash, k) => element('div', { className: 'note' }, element('p', { textContent: clash.text }), ...buttons(button('Show it', async () => {
-    sight.clash = k;
-    fold(await ask('moment', k) ?? 0);
-  }))));
-  const warnings = now.warnings.map((warning, k) => element('div', { className: 'note' }, element('p', { textContent: warning.text }), ...buttons(
-    ...(warning.part ? [button('Go to', () => select(warning.part, false))] : []),
+  // Several are selected one after the other.
+  const goTo = about => about.forEach((key, k) => act('select', key, k > 0));
+  const showClash = async ({ clash, about }) => {
+    goTo(about);
+    sight.clash = clash;
+    fold(await ask('moment', clash) ?? 0);
+  };
+  const lead = warning => {
+    if (warning.clash !== null) return [button('Show it', () => showClash(warning))];
+    return warning.about.length ? [button('Go to', () => goTo(warning.about))] : [];
+  };
+  by('notes').replaceChildren(...now.warnings.map((warning, k) => element('div', { className: 'note' }, element('p', { textContent: warning.text }), ...buttons(
+    ...lead(warning),
     ...warning.remedies.map((label, r) => button(label, () => act('heed', k, r))),
-  )));
-  by('notes').replaceChildren(...clashes, ...warnings);
+  ))));
 }
 
 let urls = [];
@@ -432,13 +442,18 @@ by('axis').onchange = by('share').oninput = moveSplit;
 by('split-cancel').onclick = endSplit;
 by('split-here').onclick = () => { act('split', sight.axis, sight.share); endSplit(); };
 
-// The work is stopped with its worker. Another one knows the project and makes it at the next change.
+// The worker hears this after the stage that it is at. One that does not end soon ends with its worker; the next
+// worker goes on with the same history.
 by('cancel').onclick = async () => {
-  work.terminate();
-  for (const { failed } of answers.values()) failed('stopped');
-  answers.clear();
-  await hire();
-  await ask('open', [...files], opened, kept).catch(problem);
+  const isHeard = ask('stop').then(() => true, () => true);
+  if (!await Promise.race([isHeard, new Promise(done => setTimeout(() => done(false), PATIENCE))])) {
+    work.terminate();
+    for (const { failed } of answers.values()) failed('stopped');
+    answers.clear();
+    await hire();
+    const selected = told.parts.filter(part => part.is_selected).map(part => part.key);
+    await ask('open', [...files], opened, kept, selected).catch(problem);
+  }
   by('busy').hidden = true;
   told = { ...told, is_busy: false };
   say('stopped');

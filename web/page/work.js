@@ -3,7 +3,7 @@ import init, { Desk, choices } from './tatamu.js';
 
 let desk, scenes;
 let sight = { folded: 0, isMesh: false };
-let isRunning = false, laid = '', told = 0;
+let isRunning = false, laid = '', kept = '', told = 0;
 
 globalThis.tatamu = {
   stage: name => postMessage({ stage: name }),
@@ -25,7 +25,13 @@ function show() {
 
 function tell() {
   const now = JSON.parse(desk.told());
-  const message = { told: now, project: desk.project() };
+  const message = { told: now };
+  // Stages do not change it.
+  const project = desk.project() + now.undo + now.redo;
+  if (project !== kept) {
+    kept = project;
+    message.history = desk.history();
+  }
   const facts = JSON.stringify([now.facts && { ...now.facts, order: null }, now.title]);
   if (now.facts && facts + now.is_busy !== laid) {
     laid = facts + now.is_busy;
@@ -54,18 +60,19 @@ async function run() {
 }
 
 // What the page may ask for; those of the first list change the model.
-const changes = ['set', 'rename', 'reset', 'heed', 'undo', 'redo', 'turn', 'merge', 'split', 'replace'];
+const changes = ['set', 'rename', 'reset', 'heed', 'undo', 'redo', 'turn', 'merge', 'split'];
 const calls = {
-  open(files, name, text) {
+  open(files, name, history, selected) {
     desk?.free();
     desk = new Desk();
-    laid = '';
+    laid = kept = '';
     for (const [name, bytes] of files) desk.add(name, bytes);
     desk.open(name);
-    if (text) desk.replace(text, 'what was stopped');
+    if (history) desk.go_on(history, selected);
     sight = { folded: 0, isMesh: false };
   },
   run() { show(); run(); },
+  stop() { desk.stop(); tell(); },
   select(key, adds) { desk.select(key, adds); show(); tell(); },
   sight(now) { sight = now; show(); },
   export: format => desk.export(format).map(file => ({ name: file.name, bytes: file.bytes })),

@@ -15,7 +15,7 @@ use tatamu::front::{hand, words};
 use tatamu::pipeline::{Error, Output, Shaped, shape_drawn};
 use tatamu::progress::Progress;
 use tatamu::project::change::Change;
-use tatamu::project::document::Document;
+use tatamu::project::document::{Document, History};
 use tatamu::project::options::SIZE;
 use tatamu::render::zbuffer::Solids;
 
@@ -70,14 +70,20 @@ impl Desk {
         Ok(Self { opened, document, shown, selection, visibility, next: Some(Stage::Shape) })
     }
 
-    /// Puts the text of another project file into the place of this one, as one step.
+    /// Goes on where another desk was, with the same file; nothing is made until the next change.
     ///
     /// # Errors
-    /// A message where it is none.
-    pub fn replace(&mut self, text: String, label: &str) -> Result<(), String> {
-        self.document.replace(text, label)?;
-        self.next = Some(Stage::Shape);
+    /// A message where its history is none of projects.
+    pub fn go_on(&mut self, history: History, selected: &[String]) -> Result<(), String> {
+        self.document = Document::of_history(history, self.document.path().map(Path::to_owned))?;
+        selected.iter().for_each(|key| self.selection.select(key, None, true));
+        self.stop();
         Ok(())
+    }
+
+    /// Makes no more stages until the next change; what is shown stays.
+    pub fn stop(&mut self) {
+        self.next = None;
     }
 
     /// Whether something is to be made.
@@ -147,7 +153,7 @@ impl Desk {
     /// A message where the project would be none; it stays as it is.
     pub fn change(&mut self, change: &Change, gesture: Option<&str>) -> Result<(), String> {
         if self.opened.drawn.is_some() && change.is_of_parts() {
-            return Err("these components are drawn; edit their shape in the project file".to_owned());
+            return Err(hand::DRAWN.to_owned());
         }
         self.document.change(change, gesture)?;
         let turned = match change {

@@ -127,9 +127,21 @@ impl Desk {
         Ok(())
     }
 
-    /// Puts a text into the place of the project, as one step.
-    pub fn replace(&mut self, text: String, label: &str) -> Told<()> {
-        self.own()?.replace(text, label).map_err(thrown)
+    /// Goes on where another desk was, by its history and the keys that were selected there.
+    pub fn go_on(&mut self, history: &str, selected: Vec<String>) -> Told<()> {
+        let history = serde_json::from_str(history).map_err(thrown)?;
+        self.own()?.go_on(history, &selected).map_err(thrown)
+    }
+
+    /// Makes no more until the next change.
+    pub fn stop(&mut self) -> Told<()> {
+        self.own()?.stop();
+        Ok(())
+    }
+
+    /// What the project was, is, and can be again, for [`Desk::go_on`].
+    pub fn history(&mut self) -> Told<String> {
+        Ok(json(&self.own()?.document.history()))
     }
 
     /// Makes the next stage; whether there is more to make.
@@ -173,9 +185,10 @@ impl Desk {
     /// Does what a warning advises.
     pub fn heed(&mut self, warning: usize, remedy: usize) -> Told<()> {
         let own = self.own()?;
-        let now = own.document.settings();
-        let advised = own.warnings().get(warning).map(|warning| warning.remedies()).unwrap_or_default();
-        let change = advised.iter().filter_map(|advice| remedies::change(advice, now)).nth(remedy);
+        let notes = own.notes();
+        let changes =
+            notes.get(warning).map(|note| remedies::changes(&note.warning, own.document.settings()));
+        let change = changes.into_iter().flatten().nth(remedy);
         change.map_or(Ok(()), |(_, change)| own.change(&change, None)).map_err(thrown)
     }
 

@@ -162,7 +162,9 @@ impl Live {
             notes: self.session.take_notes(),
             is_over: outcome.is_some(),
             is_finished,
-            problem: outcome.filter(|_| !is_finished).map(|outcome| failure(outcome).to_string()),
+            problem: outcome
+                .filter(|_| !is_finished)
+                .map(|outcome| tatamu::front::words::error(&failure(outcome))),
         }
     }
 }

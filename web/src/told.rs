@@ -3,14 +3,13 @@
 use crate::desk::Desk;
 use serde::Serialize;
 use tatamu::drawing::Rgb;
-use tatamu::fold::Clash;
+use tatamu::front::notes::{self, Note};
 use tatamu::front::{dials, hand, remedies, words};
 use tatamu::guide::Estimate;
 use tatamu::model::ModelPart;
-use tatamu::pipeline::{ComponentOptions, Output, Warning};
+use tatamu::pipeline::{ComponentOptions, Output};
 use tatamu::product;
 use tatamu::project::options::{DIRECTION, Entry, Kind, PARTS, PROFILE_VERTICES, Settings, TOP_EDGES, Unit};
-use tatamu::render::palette;
 
 /// All that the page shows beside pictures.
 #[derive(Serialize)]
@@ -26,7 +25,6 @@ pub struct Told {
     model: Vec<Row>,
     paper: Vec<Row>,
     facts: Option<Facts>,
-    clashes: Vec<ClashTold>,
     warnings: Vec<WarningTold>,
 }
 
@@ -80,15 +78,12 @@ struct Facts {
 }
 
 #[derive(Serialize)]
-struct ClashTold {
-    text: String,
-}
-
-#[derive(Serialize)]
 struct WarningTold {
     text: String,
-    /// Key of the component that it is about.
-    part: Option<String>,
+    /// Keys of the components that it is about.
+    about: Vec<String>,
+    /// Index of the clash that it is about.
+    clash: Option<usize>,
     remedies: Vec<String>,
 }
 
@@ -117,14 +112,13 @@ impl Desk {
             model: model.collect(),
             paper: dials::PAPER_AND_PIECES.iter().map(row).collect(),
             facts: output.map(|output| Facts::new(output, self.finished().is_some())),
-            clashes: self.finished().map(clashes).unwrap_or_default(),
-            warnings: self.warnings().iter().map(|warning| self.warning(warning)).collect(),
+            warnings: self.notes().into_iter().map(|note| self.warning(note)).collect(),
         }
     }
 
     fn part(&self, index: usize) -> Option<Part> {
         let (key, part) = (self.shown.names().get(index)?, self.shown.part(index)?);
-        let Rgb(r, g, b) = palette::colour(index);
+        let Rgb(r, g, b) = self.shown.colour(index);
         Some(Part {
             key: key.clone(),
             name: part.name.clone(),
@@ -141,11 +135,10 @@ impl Desk {
         let options = self.document.options();
         let own = options.components.get(key).cloned().unwrap_or_default();
         let ComponentOptions { direction_rad, top_edges, profile_vertices, .. } = own;
-        let profiles = part.component.profiles();
-        let longest = profiles.iter().map(|profile| profile.points().len()).max().unwrap_or(3);
+        let [edges, vertices] = hand::edges_and_vertices(part);
         let direction = hand::direction_deg(&self.shown, self.document.project(), index);
-        let edges = top_edges.or(options.top_edges).unwrap_or(profiles.len());
-        let vertices = profile_vertices.or(options.profile_vertices).unwrap_or(longest);
+        let edges = top_edges.or(options.top_edges).unwrap_or(edges);
+        let vertices = profile_vertices.or(options.profile_vertices).unwrap_or(vertices);
         let row = |option: &'static Entry, now: f64, is_set: bool| Row {
             kind: "number",
             value: is_set.then(|| now.into()),
@@ -161,43 +154,20 @@ impl Desk {
         ]
     }
 
-    /// What there is to know about the file and the model.
-    pub fn warnings(&self) -> Vec<Warning> {
-        let own = self.opened.repairs.warnings().into_iter().map(Warning::from);
-        own.chain(self.laid().map(Output::warnings).unwrap_or_default().iter().cloned()).collect()
+    /// What there is to know about the mesh and the model.
+    pub fn notes(&self) -> Vec<Note> {
+        notes::notes(&self.opened.repairs, self.laid())
     }
 
-    fn warning(&self, warning: &Warning) -> WarningTold {
-        let text = words::warning(warning);
-        let names = (0..self.shown.names().len()).filter_map(|k| Some((k, &self.shown.part(k)?.name)));
-        // The longest name that it mentions, so that part-1 is not taken for part-12.
-        let about = names.filter(|(_, name)| text.contains(name.as_str())).max_by_key(|(_, name)| name.len());
-        let now = self.document.settings();
-        let labels = warning
-            .remedies()
-            .iter()
-            .map(|r| remedies::change(r, now).map(|(label, _)| label))
-            .collect::<Vec<_>>();
+    fn warning(&self, note: Note) -> WarningTold {
+        let changes = remedies::changes(&note.warning, self.document.settings());
         WarningTold {
-            part: about.and_then(|(index, _)| self.shown.names().get(index).cloned()),
-            remedies: labels.into_iter().flatten().collect(),
-            text,
+            text: words::warning(&note.warning),
+            about: note.about,
+            clash: note.clash,
+            remedies: changes.into_iter().map(|(label, _)| label).collect(),
         }
     }
-}
-
-fn clashes(output: &Output) -> Vec<ClashTold> {
-    let name = |part: usize| output.model().parts()[part].name.as_str();
-    let told = |clash: &Clash| ClashTold {
-        text: format!(
-            "{} and {} clash by {:.1} mm while {} folds",
-            name(clash.parts[0]),
-            name(clash.parts[1]),
-            clash.depth_mm,
-            name(clash.mover)
-        ),
-    };
-    output.fold_plan().clashes().iter().map(told).collect()
 }
 
 impl Facts {

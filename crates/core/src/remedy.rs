@@ -70,6 +70,16 @@ pub enum Remedy {
     MovePin,
     /// Look whether a file is the one that is meant.
     CheckFile,
+    /// Print without the mesh's colours.
+    NoColours,
+    /// Print on both sides of the paper.
+    BothSides,
+    /// Send a job at the pace of the machine.
+    PacedHandshake,
+    /// Send a job at the pace of the machine, or let the port steer the flow.
+    OtherHandshake,
+    /// Look whether a port has the speed of the machine.
+    CheckSpeed,
 }
 
 /// Gives an enum of warnings the codes of its variants: the list of them, and the match, which the

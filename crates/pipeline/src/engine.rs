@@ -219,6 +219,14 @@ impl<'m> Engine<'m> {
         Ok(built.model.parts()[part].clone())
     }
 
+    /// Whether components fold without a clash, some of them plugged if need be.
+    ///
+    /// # Errors
+    /// [`Cancelled`] at the user's wish.
+    pub fn folds_freely(&self, shaped: &Shaped, progress: &dyn Progress) -> Result<bool, Cancelled> {
+        Ok(self.plan(&shaped.model, &shaped.options, progress)?.plan.is_free())
+    }
+
     /// How the components fold; some of them are plugged, where nothing else is free.
     pub(super) fn plan(
         &self,

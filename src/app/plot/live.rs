@@ -13,6 +13,7 @@ use tatamu::plotter::profile::Handshake;
 use tatamu::plotter::session::{End, Outcome, Session, Step};
 use tatamu::plotter::{Cutter, Job};
 use tatamu::progress::Cancelled;
+use tatamu::remedy::Remedy;
 
 /// Longest time between two looks at port and keyboard.
 const LOOK: Duration = Duration::from_millis(4);
@@ -49,7 +50,7 @@ pub fn send_all(
     let chosen = header.handshake.as_deref().map(handshake).transpose().map_err(AppError::Options)?;
     if let Some(chosen) = chosen.filter(|&handshake| !cutter.can_use(handshake)) {
         return Err(AppError::Options(format!(
-            "{} does not answer the host in that way (answers and dialect in its profile), so --handshake {} cannot \
+            "{} does not answer the host in that way (answers and dialect in its profile), so the handshake {} cannot \
              work; use paced, or the handshake of the profile (\"tatamu profiles show\")",
             cutter.name(),
             chosen.name()
@@ -93,14 +94,10 @@ pub fn send_all(
 pub fn failure(outcome: Outcome) -> AppError {
     let what = match outcome.end {
         End::Finished | End::Stopped => return AppError::Cancelled(Cancelled),
-        End::Device(16) => "the machine's buffer overflowed (error 16); try --handshake paced".to_owned(),
-        End::Device(15) => {
-            "the machine misread bytes (error 15); check --baud, parity and the cable".to_owned()
-        }
+        End::Device(16) => "the machine's buffer overflowed (error 16)".to_owned(),
+        End::Device(15) => "the machine misread bytes (error 15)".to_owned(),
         End::Device(code) => format!("the machine reports error {code} (ESC.E)"),
-        End::NoAnswer => "the machine does not answer; check port, baud and cable, or try --handshake paced \
-                          or rtscts"
-            .to_owned(),
+        End::NoAnswer => "the machine does not answer".to_owned(),
         End::PortLost => {
             "the port is gone, and the tool may be down; lift it by hand before you do anything else, and switch a \
              laser off"
@@ -132,7 +129,13 @@ pub fn failure(outcome: Outcome) -> AppError {
                            the cable, then continue the job"
             .to_owned(),
     };
-    AppError::Machine(what)
+    let remedies = match outcome.end {
+        End::Device(16) => vec![Remedy::PacedHandshake],
+        End::Device(15) => vec![Remedy::CheckSpeed],
+        End::NoAnswer => vec![Remedy::CheckSpeed, Remedy::OtherHandshake],
+        _ => Vec::new(),
+    };
+    AppError::Machine { reason: what, remedies }
 }
 
 /// One job on its way.

@@ -153,7 +153,7 @@ fn state(window: &mut Window, ui: &mut Ui) {
 
 fn summary(window: &mut Window, ui: &mut Ui) {
     let Some(output) = window.studio.shown().output() else { return };
-    let count = output.warnings().len();
+    let count = window.studio.notes().len();
     let sheets = output.layout().sheet_count();
     let pieces: usize = output.nets().iter().map(|net| net.pieces().len()).sum();
     let parts = output.model().parts().len();

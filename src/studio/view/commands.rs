@@ -107,6 +107,16 @@ pub static SAVE_AS: Command = Command {
     ..BLANK
 };
 
+pub static PRINT: Command = Command {
+    name: "Print …",
+    icon: Some(Icon::Printer),
+    tip: "opens the sheets as PDF in the system's viewer; print them there at their actual size",
+    keys: &[ctrl(Key::P)],
+    place: Place::File(3),
+    can: |w| w.studio.finished().is_some(),
+    act: |w, _| w.studio.print(),
+};
+
 pub static QUIT: Command = Command {
     name: "Quit",
     keys: &[ctrl(Key::Q)],
@@ -328,6 +338,16 @@ pub static FIT: Command = Command {
     ..BLANK
 };
 
+pub static MEASURE: Command = Command {
+    name: "Measure",
+    icon: Some(Icon::Ruler),
+    tip: "measures between two corners that you click on",
+    keys: &[key(Key::D)],
+    place: Place::View(2),
+    act: |w, _| w.space.measure_mut().toggle(),
+    ..BLANK
+};
+
 static FRONT: Command = view("View from the front", &[key(Key::Num1)], |w, _| w.space.look_from(0.0, 0.0));
 static SIDE: Command =
     view("View from the side", &[key(Key::Num2)], |w, _| w.space.look_from(std::f64::consts::FRAC_PI_2, 0.0));
@@ -404,6 +424,7 @@ pub static ALL: &[&Command] = &[
     &OPEN,
     &SAVE,
     &SAVE_AS,
+    &PRINT,
     &QUIT,
     &REDO,
     &UNDO,
@@ -423,6 +444,7 @@ pub static ALL: &[&Command] = &[
     &GHOST,
     &NAMES,
     &GRID,
+    &MEASURE,
     &HIDE,
     &ISOLATE,
     &SHOW_ALL,
@@ -563,7 +585,7 @@ pub fn heed(window: &mut Window, ctx: &Context) {
 }
 
 /// What the mouse does.
-pub const MOUSE: [(&str, &str); 10] = [
+pub const MOUSE: [(&str, &str); 11] = [
     ("drag", "rotate the view; move the sheets"),
     ("right or middle button, or Shift and drag", "move the view"),
     ("wheel", "zoom at the pointer"),
@@ -571,6 +593,10 @@ pub const MOUSE: [(&str, &str); 10] = [
     ("Shift and click", "select several components"),
     ("two fingers on a trackpad", "move the view or the sheets; pinch to zoom"),
     ("wheel over a selected component", "rotate its fold direction by 5° per click, with Shift by 1°"),
+    (
+        "drag the handle on the ring",
+        "rotate the fold direction; green directions fold without a clash, red ones clash",
+    ),
     ("drag a piece", "move it; all other pieces stay. Comma and full stop rotate it meanwhile"),
     ("drop a piece beside the sheets", "put it on a sheet of its own"),
     ("drop a file", "open it"),

@@ -74,6 +74,8 @@ const DARK: Tones = Tones {
 
 /// Gives a window its look.
 pub fn set(ctx: &egui::Context) {
+    // A second pass over a frame would do what the user did a second time.
+    ctx.options_mut(|options| options.max_passes = std::num::NonZeroUsize::MIN);
     ctx.set_fonts(fonts());
     for (theme, tones) in [(Theme::Light, &LIGHT), (Theme::Dark, &DARK)] {
         ctx.set_visuals_of(theme, visuals(theme, tones));

@@ -9,12 +9,15 @@ mod dials;
 mod export;
 mod finder;
 mod look;
+mod machine;
+mod measure;
 mod memory;
 mod modal;
 mod notices;
 mod parts;
 mod picture;
 mod plot;
+mod ring;
 mod sheets;
 mod space;
 mod space_marks;
@@ -163,7 +166,11 @@ impl Window {
             self.open(path);
         }
         self.set_title(&ctx);
-        if !self.dialogs.is_open() {
+        if let Some(path) = self.studio.take_printed() {
+            // The viewer's own dialog prints it.
+            ctx.open_url(egui::OpenUrl::new_tab(format!("file://{}", path.display())));
+        }
+        if !self.dialogs.is_open() && !(self.mode == Mode::Plot && self.plot.asks()) {
             commands::heed(self, &ctx);
         }
         let hover = self.studio.hover.take();

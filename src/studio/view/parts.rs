@@ -120,15 +120,11 @@ fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: usize) {
         rename_row(panel, studio, ui, &name, own.rename.as_deref().unwrap_or(&name));
         let now = studio.direction_deg(index).unwrap_or_default();
         Dialled::new(&DIRECTION).component_row(studio, ui, &name, (now, own.direction_rad.is_some()));
-        let made = studio.shown().shaped().and_then(|shaped| shaped.model().parts().get(index));
-        let made = made.map_or((3, 3), |part| {
-            let profiles = part.component.profiles();
-            (profiles.len(), profiles.iter().map(|profile| profile.points().len()).max().unwrap_or(3))
-        });
-        let edges = own.top_edges.or(options.top_edges).unwrap_or(made.0) as f64;
+        let [edges, vertices] = studio.shown().part(index).map(hand::edges_and_vertices).unwrap_or_default();
+        let edges = own.top_edges.or(options.top_edges).unwrap_or(edges) as f64;
         let row = Dialled::new(&TOP_EDGES);
         row.component_row(studio, ui, &name, (edges, own.top_edges.is_some()));
-        let vertices = own.profile_vertices.or(options.profile_vertices).unwrap_or(made.1) as f64;
+        let vertices = own.profile_vertices.or(options.profile_vertices).unwrap_or(vertices) as f64;
         let row = Dialled::new(&PROFILE_VERTICES);
         row.component_row(studio, ui, &name, (vertices, own.profile_vertices.is_some()));
         figures(studio, ui, index);

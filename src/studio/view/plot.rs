@@ -5,10 +5,14 @@ use super::super::plotting::Plotting;
 use super::super::preferences::Preferences;
 use super::super::state::Studio;
 use super::super::worker::Wake;
+use super::look;
+use super::machine::{Answer, Questions};
 use super::picture::Picture;
 use crate::app::plot::{ANY, hint, usb_cutters};
 use crate::app::profiles;
 use eframe::egui::{self, Color32, Rect, Sense, Ui};
+use glam::DVec2;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tatamu::project::options::{CUTTER, MEDIA};
 
@@ -28,6 +32,10 @@ pub struct PlotPanel {
     planning: Option<(Key, Planning)>,
     picture: Picture,
     running: Option<Plotting>,
+    /// The questions for a machine, while they are asked.
+    questions: Option<Questions>,
+    /// Why a job that was stopped cannot go on.
+    unreadable: Option<String>,
 }
 
 /// What a plan is made from.
@@ -64,6 +72,8 @@ impl PlotPanel {
             planning: None,
             picture: Picture::default(),
             running: None,
+            questions: None,
+            unreadable: None,
         }
     }
 
@@ -75,6 +85,11 @@ impl PlotPanel {
     /// Whether a job is on its way.
     pub fn is_running(&self) -> bool {
         self.running.as_ref().is_some_and(Plotting::is_running)
+    }
+
+    /// Whether it asks something, so that keys are no commands.
+    pub fn asks(&self) -> bool {
+        self.questions.is_some()
     }
 
     /// Lifts the tool and stops.
@@ -105,6 +120,7 @@ impl PlotPanel {
     fn dials(&mut self, studio: &mut Studio, ui: &mut Ui) {
         let is_running = self.is_running();
         ui.add_enabled_ui(!is_running, |ui| self.choices(ui));
+        self.ask(studio, ui.ctx());
         self.refresh(studio, ui.ctx());
         ui.separator();
         if let Some((_, planning)) = &self.planning {
@@ -147,7 +163,29 @@ impl PlotPanel {
         state.notes.iter().for_each(|note| drop(ui.label(note)));
     }
 
+    /// Asks for the machine.
+    fn ask(&mut self, studio: &Studio, ctx: &egui::Context) {
+        let Some(questions) = &mut self.questions else { return };
+        let file = studio.opened().and_then(|opened| opened.source.file_name());
+        let file = file.unwrap_or_default().to_string_lossy();
+        match questions.show(ctx, &self.names[1], &file) {
+            None => return,
+            Some(Answer::Close) => {}
+            Some(Answer::Profiles { cutter, media, is_usb }) => {
+                (self.cutter, self.media) = (cutter.to_owned(), media);
+                if is_usb {
+                    self.port = ANY.to_owned();
+                }
+            }
+        }
+        self.questions = None;
+    }
+
     fn choices(&mut self, ui: &mut Ui) {
+        if ui.button("Find my machine …").on_hover_text("three questions choose cutter and medium").clicked()
+        {
+            self.questions = Some(Questions::default());
+        }
         egui::Grid::new("machine").num_columns(2).show(ui, |ui| {
             let [cutters, media] = &self.names;
             names_row(ui, "Cutter", cutters, &mut self.cutter);
@@ -218,6 +256,7 @@ impl PlotPanel {
     }
 
     fn start(&mut self, studio: &Studio, ui: &mut Ui) {
+        self.resume(studio, ui);
         let Some((_, Ok(plan))) = &self.plan else { return };
         let is_ready = !self.port.trim().is_empty() && studio.finished().is_some();
         let button = ui.add_enabled(is_ready, egui::Button::new("Start"));
@@ -229,9 +268,27 @@ impl PlotPanel {
             Some(k) => &plan.sheets[k..=k],
             None => &plan.sheets,
         };
-        let journal = opened.source.with_extension("tatamu-job");
+        let journal = journal(&opened.source);
         let (port, wake) = (self.port.trim(), wake(ui.ctx()));
         self.running = Some(Plotting::start(&plan.machine.cutter, port, self.copies, sheets, journal, wake));
+    }
+
+    /// Offers to go on with a job that was stopped.
+    fn resume(&mut self, studio: &Studio, ui: &mut Ui) {
+        let Some(journal) = studio.opened().map(|opened| journal(&opened.source)) else { return };
+        if !journal.is_file() {
+            return;
+        }
+        let tip = format!("sends the rest of the job in {}", journal.display());
+        if ui.button("Continue the stopped job").on_hover_text(tip).clicked() {
+            match Plotting::resume(journal, self.port.trim(), wake(ui.ctx())) {
+                Ok(running) => (self.running, self.unreadable) = (Some(running), None),
+                Err(problem) => self.unreadable = Some(problem),
+            }
+        }
+        if let Some(problem) = &self.unreadable {
+            ui.colored_label(ui.visuals().error_fg_color, problem);
+        }
     }
 
     fn progress(&mut self, ui: &mut Ui) {
@@ -261,6 +318,12 @@ impl PlotPanel {
     /// Draws the sheet as the machine works on it.
     fn preview(&mut self, ui: &mut Ui) {
         let Some((key, Ok(plan))) = &self.plan else { return };
+        let at = self.running.as_ref().and_then(|running| running.state().at);
+        let worked_on =
+            |(name, _): &(String, usize)| plan.sheets.iter().position(|sheet| sheet.name() == name);
+        if let Some(sheet) = at.as_ref().and_then(worked_on).filter(|_| self.is_running()) {
+            self.shown = sheet;
+        }
         let Some(drawing) = plan.previews.get(self.shown) else { return };
         let room = ui.available_size();
         let page = egui::vec2(drawing.size_mm.x as f32, drawing.size_mm.y as f32);
@@ -273,7 +336,19 @@ impl PlotPanel {
             let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
             ui.painter().image(texture.id(), rect, whole, Color32::WHITE);
         }
+        // What the machine has done stands out.
+        let done = at.filter(|(name, _)| plan.sheets[self.shown].name() == name).map_or(0, |(_, done)| done);
+        let to_screen = |p: &DVec2| rect.left_bottom() + scale * egui::vec2(p.x as f32, -p.y as f32);
+        for stroke in plan.strokes[self.shown].iter().take(done) {
+            let points: Vec<egui::Pos2> = stroke.iter().map(to_screen).collect();
+            ui.painter().line(points, egui::Stroke::new(2.5, look::ACCENT));
+        }
     }
+}
+
+/// Where the journal of a file's jobs is.
+fn journal(source: &Path) -> PathBuf {
+    source.with_extension("tatamu-job")
 }
 
 /// Draws the window again when a thread has something to tell.

@@ -4,6 +4,8 @@ use super::super::scene::{self, Layers, Setting, Tag};
 use super::super::selection::Hover;
 use super::super::state::Studio;
 use super::look;
+use super::measure::Measure;
+use super::ring::Ring;
 use super::space_marks;
 use super::wheel::Wheel;
 use eframe::egui::{
@@ -45,6 +47,8 @@ pub struct Space {
     turning: Option<(usize, Pos2, f64)>,
     wheel: Wheel,
     shows_names: bool,
+    ring: Ring,
+    measure: Measure,
     /// Where names stand in the picture, as shares of its size.
     middles: Vec<(usize, Vec2)>,
 }
@@ -76,6 +80,8 @@ impl Default for Space {
             turning: None,
             wheel: Wheel::default(),
             shows_names: true,
+            ring: Ring::default(),
+            measure: Measure::default(),
             middles: Vec::new(),
         }
     }
@@ -125,6 +131,27 @@ impl Space {
     /// Whether the names of components are shown.
     pub fn shows_names(&self) -> bool {
         self.shows_names
+    }
+
+    /// The ring about the selected component.
+    #[cfg(test)]
+    pub fn ring(&self) -> &Ring {
+        &self.ring
+    }
+
+    /// The ring about the selected component.
+    pub fn ring_mut(&mut self) -> &mut Ring {
+        &mut self.ring
+    }
+
+    /// The distance between two points.
+    pub fn measure(&self) -> &Measure {
+        &self.measure
+    }
+
+    /// The distance between two points.
+    pub fn measure_mut(&mut self) -> &mut Measure {
+        &mut self.measure
     }
 
     /// Marks what the mouse is over, in any view.
@@ -242,6 +269,10 @@ impl Space {
         space_marks::hint(studio, ui, rect, self.over(&response, ui).filter(|_| !response.dragged()));
         space_marks::legend(studio, ui, rect, self.setting.layers);
         if let Some(orbit) = &mut self.orbit {
+            if self.setting.folded == 0.0 && self.setting.split.is_none() && self.setting.layers.components {
+                self.ring.show(studio, ui, rect, orbit);
+            }
+            self.measure.show(ui, rect, orbit);
             space_marks::axes(orbit, ui, rect);
         }
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Model in space"));
@@ -272,6 +303,10 @@ impl Space {
             .as_ref()
             .is_none_or(|(v, s, setting, _)| *v != version || *s != selection || *setting != self.setting);
         if is_old {
+            // What is measured is where it was, unless it was made anew or folds.
+            if self.solids.as_ref().is_some_and(|s| s.0 != version || s.2.folded != self.setting.folded) {
+                self.measure.clear();
+            }
             let was_other = self.solids.as_ref().is_none_or(|s| s.3.facets.is_empty());
             if self.solids.as_ref().is_none_or(|s| s.0 != version) {
                 self.follow(studio);
@@ -368,7 +403,13 @@ impl Space {
             });
             ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
         }
-        if response.clicked() {
+        if response.clicked() && self.measure.is_on() {
+            let at = response.interact_pointer_pos().map(|at| at - rect.min);
+            let tag = at.and_then(|at| self.number_under(at, ui.ctx().pixels_per_point()));
+            if let (Some(at), Some(tag), Some(orbit), Some(s)) = (at, tag, &self.orbit, &self.solids) {
+                self.measure.click(&s.3, orbit, (tag, at, rect.size()));
+            }
+        } else if response.clicked() {
             match over {
                 Some(tag) => {
                     if let Some(name) = studio.shown().names().get(tag.part).cloned() {
@@ -388,8 +429,12 @@ impl Space {
     }
 
     fn tag_under(&self, at: Vec2, pixels_per_point: f32) -> Option<Tag> {
+        self.number_under(at, pixels_per_point).and_then(Tag::of_number)
+    }
+
+    fn number_under(&self, at: Vec2, pixels_per_point: f32) -> Option<u32> {
         let [x, y] = [at.x, at.y].map(|n| (n * pixels_per_point).max(0.0) as usize);
-        self.frame.as_ref()?.tag_at(x, y).and_then(Tag::of_number)
+        self.frame.as_ref()?.tag_at(x, y)
     }
 
     /// Over a selected component the wheel turns its fold direction; elsewhere it magnifies. Two

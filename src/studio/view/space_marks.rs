@@ -202,6 +202,7 @@ pub fn folding_bar(window: &mut Window, ui: &mut Ui) {
                 (&commands::BESIDE, window.has_sheets_beside),
                 (&commands::NAMES, window.space.shows_names()),
                 (&commands::GHOST, window.space.layers().input),
+                (&commands::MEASURE, window.space.measure().is_on()),
             ] {
                 command.button(window, ui, is_on);
             }
@@ -256,14 +257,16 @@ fn marks(studio: &Studio, ui: &Ui, slider: Rect) {
 fn layers(window: &mut Window, ui: &mut Ui) {
     // Several are ticked at a time.
     let stays = MenuConfig::new().close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside);
-    let layers = window.space.layers_mut();
+    let space = &mut window.space;
     MenuButton::new(RichText::new("Show")).config(stays).ui(ui, |ui| {
+        let layers = space.layers_mut();
         ui.checkbox(&mut layers.components, "Components");
         ui.checkbox(&mut layers.segments, "Mesh, in parts");
         ui.checkbox(&mut layers.input, "Mesh, plain");
         ui.checkbox(&mut layers.hulls, "Hulls");
         ui.checkbox(&mut layers.distances, "Mesh, coloured by distance from the components");
         ui.checkbox(&mut layers.grid, "Ground grid");
+        ui.checkbox(space.ring_mut().is_shown_mut(), "Ring of fold directions");
     });
     let measures = window.space.layers().distances;
     window.studio.measure(measures);

@@ -32,7 +32,7 @@ pub use job::{Command, Job};
 pub use job_error::JobError;
 pub use motion::Motion;
 pub use plan::{Plan, PlanError, test_cut, toolset};
-pub use preview::preview;
+pub use preview::{preview, strokes};
 pub use profile::{Cutter, Media, ProfileError};
 pub use simulated::virtual_machine;
 pub use virtual_grbl::VirtualGrbl;

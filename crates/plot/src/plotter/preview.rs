@@ -24,7 +24,7 @@ const SHEET: Rgb = Rgb(225, 225, 225);
 pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
     let sheet_mm = placement.sheet_mm();
     let size_mm = sheet_mm + DVec2::new(2.0 * BORDER_MM, 2.0 * BORDER_MM + STRIP_MM);
-    let shift = DVec2::new(BORDER_MM, BORDER_MM + STRIP_MM);
+    let shift = corner();
     let at = |p: Point| placement.to_sheet(cutter.frame(), p) + shift;
     let mut picture = Drawing::new("preview", size_mm);
     picture.ground = Some(Rgb::WHITE);
@@ -70,6 +70,18 @@ pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
     }
     picture.marks.extend(legend(size_mm, job, cutter, placement));
     picture
+}
+
+/// The strokes of a job, in their order, where [`preview`] draws them, mm.
+pub fn strokes(job: &Job, cutter: &Cutter, placement: &Placement) -> Vec<Vec<DVec2>> {
+    let at = |&p: &Point| placement.to_sheet(cutter.frame(), p) + corner();
+    let drawn = runs(job, cutter).into_iter().filter(|run| run.is_down);
+    drawn.map(|run| run.points.iter().map(at).collect()).collect()
+}
+
+/// Where the sheet's corner is in the picture, mm.
+fn corner() -> DVec2 {
+    DVec2::new(BORDER_MM, BORDER_MM + STRIP_MM)
 }
 
 /// A run of motions with the pen up or down.

@@ -187,7 +187,7 @@ fn grips(desk: &Desk, sheet: usize) -> Vec<(String, glam::DVec2)> {
     outlines.iter().filter_map(grip).collect()
 }
 
-fn drag(desk: &mut Desk, from: Pos2, to: Pos2) {
+pub(super) fn drag(desk: &mut Desk, from: Pos2, to: Pos2) {
     let button = |pos, pressed| Event::PointerButton {
         pos,
         button: egui::PointerButton::Primary,

@@ -1,5 +1,6 @@
 //! What a user expects to find.
 
+use super::defects::drag;
 use super::*;
 use crate::studio::change::Change;
 use crate::studio::scene;
@@ -264,4 +265,135 @@ fn a_mesh_that_another_program_changes_is_read_again() {
     settle(&mut desk, "the mesh", |s| s.opened().unwrap().engine.mesh().faces().len() != before);
     assert!(desk.state().studio().notice().is_some_and(|notice| notice.contains("snowman.obj")));
     assert_eq!(desk.state().studio().document().unwrap().text(), text, "the project stays");
+}
+
+#[test]
+fn the_handle_on_the_ring_turns_the_fold_direction_as_one_step() {
+    let (mut desk, _folder) = open();
+    let at = on_component(&desk, 1);
+    press(&mut desk, at, Modifiers::NONE);
+    let name = desk.state().studio().shown().part(1).unwrap().name.clone();
+    let handle = format!("Fold direction of {name}");
+    let direction = |desk: &Desk| desk.state().studio().direction_deg(1).unwrap();
+    let before = direction(&desk);
+    let from = desk.get_by_label(&handle).rect().center();
+    // About the component, by almost a radian.
+    let arm = from - at;
+    let by = arm.length() * egui::Vec2::angled(arm.angle() + 0.9) - arm;
+    drag(&mut desk, from, from + by);
+    settle(&mut desk, "the turned model", |s| s.finished().is_some());
+    let after = direction(&desk);
+    assert!((after - before).abs() > 5.0, "{before}° {after}°");
+    let now = desk.get_by_label(&handle).rect().center();
+    assert!(now.distance(from) > 10.0, "the handle is where the direction is");
+    click(&mut desk, "Undo");
+    settle(&mut desk, "the model before", |s| s.finished().is_some());
+    assert_eq!(direction(&desk), before, "one step");
+}
+
+#[test]
+fn the_ring_tells_how_other_directions_are_while_the_work_rests() {
+    let (mut desk, _folder) = open();
+    let at = on_component(&desk, 1);
+    press(&mut desk, at, Modifiers::NONE);
+    let start = Instant::now();
+    let known =
+        |desk: &Desk| desk.state().space().ring().survey().map(|s| s.looks().iter().flatten().count());
+    while known(&desk).is_none_or(|count| count < 12) {
+        assert!(start.elapsed() < Duration::from_secs(120), "{:?}", known(&desk));
+        std::thread::sleep(Duration::from_millis(5));
+        desk.run_steps(2);
+    }
+    // The direction that was found is one in which nothing clashes.
+    assert!(desk.state().studio().finished().unwrap().fold_plan().is_free());
+    let looks: Vec<_> =
+        desk.state().space().ring().survey().unwrap().looks().iter().flatten().copied().collect();
+    assert!(
+        looks.iter().any(|look| look.is_free) && looks.iter().all(|look| look.error_mm > 0.0),
+        "{looks:?}"
+    );
+    press(&mut desk, Pos2::new(at.x, 90.0), Modifiers::NONE);
+    assert!(known(&desk).is_none(), "nothing is selected");
+}
+
+#[test]
+fn two_corners_that_are_clicked_are_measured() {
+    let (mut desk, _folder) = open();
+    click(&mut desk, "Measure");
+    assert!(desk.query_by_label("click on a corner to measure from").is_some());
+    for part in [1, 2] {
+        let at = on_component(&desk, part);
+        press(&mut desk, at, Modifiers::NONE);
+    }
+    let mm = desk.state().space().measure().length_mm().unwrap();
+    let whole_mm = desk.state().studio().shown().shaped().unwrap().divided().mesh().diagonal_mm();
+    assert!(mm > 1.0 && mm < whole_mm, "{mm} mm");
+    assert!(desk.query_by_label(&format!("{mm:.1} mm")).is_some());
+    assert!(desk.state().studio().selection.names().is_empty(), "a click is for the measure alone");
+    desk.key_press(Key::D);
+    desk.run_ok();
+    assert!(desk.state().space().measure().length_mm().is_none());
+}
+
+#[test]
+fn the_sheets_are_given_to_a_viewer_that_prints_them() {
+    let (mut desk, _folder) = open();
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::P);
+    let start = Instant::now();
+    let opened = |desk: &Desk| {
+        desk.output().platform_output.commands.iter().find_map(|command| match command {
+            egui::OutputCommand::OpenUrl(open) => Some(open.url.clone()),
+            _ => None,
+        })
+    };
+    while opened(&desk).is_none() {
+        assert!(start.elapsed() < Duration::from_secs(60), "nothing is printed");
+        std::thread::sleep(Duration::from_millis(5));
+        desk.step();
+    }
+    let url = opened(&desk).unwrap();
+    let path = Path::new(url.strip_prefix("file://").unwrap());
+    assert!(std::fs::read(path).unwrap().starts_with(b"%PDF"), "{url}");
+    std::fs::remove_dir_all(path.parent().unwrap()).unwrap();
+}
+
+/// Remedies were words in the window, and buttons on the page alone.
+#[test]
+fn what_a_warning_advises_is_one_click() {
+    let (mut desk, folder) = open();
+    let project = folder.path().join("snowman.toml");
+    let text = std::fs::read_to_string(&project).unwrap();
+    std::fs::write(&project, format!("size = 40\n{text}")).unwrap();
+    desk.state_mut().open(&project);
+    settle(&mut desk, "a tiny model", |s| s.finished().is_some_and(|o| o.options().size_mm == 40.0));
+    let count = desk.state().studio().notes().len();
+    assert!(count > 0, "so small a model has warnings");
+    click(&mut desk, &if count == 1 { "1 warning".to_owned() } else { format!("{count} warnings") });
+    let larger = desk.query_all_by_label("Size 50 mm").next().expect("the warning advises a larger size");
+    larger.click();
+    desk.run_ok();
+    settle(&mut desk, "the larger model", |s| s.finished().is_some_and(|o| o.options().size_mm == 50.0));
+}
+
+#[test]
+fn three_questions_lead_to_a_machine() {
+    let (mut desk, _folder) = open();
+    click(&mut desk, "Plot");
+    click(&mut desk, "Find my machine …");
+    let press = |desk: &mut Desk, label: &str| {
+        desk.get_by_role_and_label(Role::Button, label).click();
+        desk.run_ok();
+    };
+    ["Roland", "cardstock-200"].iter().for_each(|label| press(&mut desk, label));
+    assert_eq!(desk.state_mut().plot_mut().choice()[..2], ["roland-camm-1", "cardstock-200"]);
+    assert!(desk.query_by_label("Find my machine").is_none(), "all is answered");
+    click(&mut desk, "Find my machine …");
+    ["HP", "7550A", "Back", "7475A", "pen"].iter().for_each(|label| press(&mut desk, label));
+    assert_eq!(desk.state_mut().plot_mut().choice()[..2], ["hp-7475a", "pen"]);
+    // One that takes files of another program.
+    click(&mut desk, "Find my machine …");
+    click(&mut desk, "Cricut");
+    assert!(desk.query_by_label("tatamu make snowman.toml --for cricut").is_some());
+    click(&mut desk, "Close");
+    assert_eq!(desk.state_mut().plot_mut().choice()[0], "hp-7475a");
 }

@@ -1,0 +1,103 @@
+//! Three questions that lead to a machine: who made it, which one it is, and what it works on.
+
+use super::modal::focus_once;
+use crate::app::catalogue::{MACHINES, Machine, Takes};
+use eframe::egui::{self, Modal, Ui};
+
+/// The questions, as far as they are answered.
+#[derive(Debug, Default)]
+pub struct Questions {
+    maker: Option<&'static str>,
+    machine: Option<&'static Machine>,
+}
+
+/// What came of it.
+pub enum Answer {
+    /// A profile of a cutter, and of a medium.
+    Profiles { cutter: &'static str, media: String, is_usb: bool },
+    /// The user wants no more.
+    Close,
+}
+
+impl Questions {
+    /// Asks; `media` are the names of the profiles of media, `file` is the one that is open.
+    pub fn show(&mut self, ctx: &egui::Context, media: &[String], file: &str) -> Option<Answer> {
+        let mut answer = None;
+        let modal = Modal::new(egui::Id::unique("machine")).show(ctx, |ui| {
+            ui.set_width(420.0);
+            ui.heading("Find my machine");
+            answer = match (self.maker, self.machine) {
+                (None, _) => self.ask_maker(ui),
+                (Some(maker), None) => self.ask_machine(ui, maker),
+                (_, Some(machine)) => ask_medium(ui, machine, media, file),
+            };
+            ui.add_space(8.0);
+            ui.horizontal(|ui| {
+                if self.maker.is_some() && ui.button("Back").clicked() {
+                    // One question back, over that with one answer.
+                    let is_only = self.maker.is_some_and(|maker| of(maker).count() == 1);
+                    match self.machine.take() {
+                        Some(_) if !is_only => {}
+                        _ => self.maker = None,
+                    }
+                }
+                if ui.button("Close").clicked() {
+                    answer = Some(Answer::Close);
+                }
+            });
+        });
+        answer.or(modal.should_close().then_some(Answer::Close))
+    }
+
+    fn ask_maker(&mut self, ui: &mut Ui) -> Option<Answer> {
+        ui.strong("1 of 3: Who made it?");
+        let mut makers: Vec<&'static str> = MACHINES.iter().map(|machine| machine.maker).collect();
+        makers.dedup();
+        for (k, maker) in makers.into_iter().enumerate() {
+            let button = ui.button(maker);
+            if k == 0 {
+                focus_once(ui, &button);
+            }
+            if button.clicked() {
+                self.maker = Some(maker);
+                let mut machines = of(maker);
+                self.machine = machines.next().filter(|_| machines.next().is_none());
+            }
+        }
+        None
+    }
+
+    fn ask_machine(&mut self, ui: &mut Ui, maker: &'static str) -> Option<Answer> {
+        ui.strong("2 of 3: Which one is it?");
+        for machine in of(maker) {
+            if ui.button(machine.models).clicked() {
+                self.machine = Some(machine);
+            }
+        }
+        None
+    }
+}
+
+/// The last question; of a machine that takes files of another program, how they are written.
+fn ask_medium(ui: &mut Ui, machine: &'static Machine, media: &[String], file: &str) -> Option<Answer> {
+    let (cutter, is_usb) = match machine.takes {
+        Takes::Serial(profile) => (profile, false),
+        Takes::Usb(profile) => (profile, true),
+        Takes::Program(program) => {
+            ui.label("It takes files through a program of its own. This command writes them:");
+            let command = format!("tatamu make {file} --for {program}");
+            ui.code(&command);
+            if ui.button("Copy the command").clicked() {
+                ui.copy_text(command);
+            }
+            return None;
+        }
+    };
+    ui.strong("3 of 3: What does it work on?");
+    let chosen = media.iter().find(|name| ui.button(name.as_str()).clicked());
+    chosen.map(|name| Answer::Profiles { cutter, media: name.clone(), is_usb })
+}
+
+fn of(maker: &'static str) -> impl Iterator<Item = &'static Machine> {
+    MACHINES.iter().filter(move |machine| machine.maker == maker)
+}
