@@ -170,7 +170,8 @@ impl Window {
             // The viewer's own dialog prints it.
             ctx.open_url(egui::OpenUrl::new_tab(format!("file://{}", path.display())));
         }
-        if !self.dialogs.is_open() && !(self.mode == Mode::Plot && self.plot.asks()) {
+        let is_asking = self.dialogs.is_open() || self.mode == Mode::Plot && self.plot.asks();
+        if !is_asking {
             commands::heed(self, &ctx);
         }
         let hover = self.studio.hover.take();
