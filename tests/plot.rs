@@ -76,7 +76,9 @@ fn a_job_arrives_whole_by_every_handshake() {
         ("paced", 4, &["--cutter", "generic-hpgl", "--mute"]),
     ] {
         let folder = folder(strokes);
-        let speeds = ["--baud", "115200", "--speedup", "8"];
+        // A stop by XOFF comes late where both sides wait for a processor, and the later the faster time runs.
+        let speedup = if handshake == "xonxoff" { "4" } else { "8" };
+        let speeds = ["--baud", "115200", "--speedup", speedup];
         let machine = Machine::start(folder.path(), &[arguments, &speeds, &["-o", "drawn.svg"]].concat());
         let options = ["--cutter", "generic-hpgl", "--baud", "115200", "--yes", "--handshake", handshake];
         let mut plot = tatamu(folder.path());
