@@ -1,25 +1,38 @@
-//! The one font: metrics and outlines of letters.
+//! The fonts: metrics and outlines of letters.
 //!
-//! The font is a subset of Inter (Latin letters, digits, a few signs), embedded in the program;
-//! see `font/README.md`. Every back end draws text without kerning, so that all files agree.
+//! They are subsets of Inter (Latin letters, digits, a few signs) and, for what that lacks, of Noto Sans JP,
+//! embedded in the program; see `font/README.md`. Every back end draws text without kerning, so that all files agree.
 
 use super::{Polyline, Text};
 use glam::{DAffine2, DVec2};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 use ttf_parser::{Face, OutlineBuilder};
 
-/// The font file, for formats that embed it.
-pub const FONT_FILE: &[u8] = include_bytes!("font/inter-subset.ttf");
-/// PostScript name of the font.
-pub const FONT_NAME: &str = "Inter-Regular";
-/// Family name of the font.
-pub const FONT_FAMILY: &str = "Inter";
+/// A font that is embedded in the program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Font {
+    /// Its PostScript name.
+    pub name: &'static str,
+    /// Its file, for formats that embed it.
+    pub file: &'static [u8],
+}
+
+/// The fonts; a character is of the first that has it.
+pub const FONTS: [Font; 2] = [
+    Font { name: "Inter-Regular", file: include_bytes!("font/inter-subset.ttf") },
+    Font { name: "NotoSansJP-Regular", file: include_bytes!("font/noto-sans-jp-subset.ttf") },
+];
+/// Family names of the fonts, as CSS has them.
+pub const FONT_FAMILIES: &str = "Inter, Noto Sans JP";
 
 /// What stands for a character that the font lacks.
 const REPLACEMENT: char = '?';
-/// Where the font's characters may be: up to the end of arrows and mathematical signs.
-const CHARACTERS: std::ops::Range<char> = ' '..'\u{2400}';
+/// From here on, letters are written without spaces between words: a line may end after any of them.
+const WIDE: char = '\u{3000}';
+/// Signs that no line begins with, and that no line ends with.
+const CLOSING: &str = "、。」）／：ーゃゅょっャュョッ";
+const OPENING: &str = "「（";
 
 /// Letters that reach below the base line, and how far, as a share of a capital's height.
 const DESCENDING: &str = "gjpqy,;()/Q_";
@@ -65,11 +78,13 @@ impl PathCommand {
 
 /// One glyph, in units of the em.
 struct Glyph {
+    /// Index among the fonts.
+    font: usize,
     advance: f64,
     outline: Vec<PathCommand>,
 }
 
-/// The font, decoded once.
+/// The fonts, decoded once.
 struct Typeface {
     cap_height: f64,
     glyphs: BTreeMap<char, Glyph>,
@@ -78,23 +93,20 @@ struct Typeface {
 static TYPEFACE: LazyLock<Typeface> = LazyLock::new(Typeface::embedded);
 
 impl Typeface {
-    /// Decodes the embedded font. It is part of the program, so a fault in it is a fault of the
+    /// Decodes the embedded fonts. They are part of the program, so a fault in them is a fault of the
     /// build, which a test catches.
     fn embedded() -> Self {
-        let face = Face::parse(FONT_FILE, 0).expect("the embedded font can be read");
-        let em = f64::from(face.units_per_em());
-        let glyphs = CHARACTERS
-            .filter_map(|c| {
-                let id = face.glyph_index(c)?;
-                let mut pen = Pen { em, outline: Vec::new() };
-                // Spaces have none.
-                let _ = face.outline_glyph(id, &mut pen);
-                let advance = f64::from(face.glyph_hor_advance(id)?) / em;
-                Some((c, Glyph { advance, outline: pen.outline }))
-            })
-            .collect();
-        let cap_height = face.capital_height().expect("the embedded font has capitals");
-        Self { cap_height: f64::from(cap_height) / em, glyphs }
+        let faces = FONTS.map(|font| Face::parse(font.file, 0).expect("the embedded fonts can be read"));
+        let mut glyphs = BTreeMap::new();
+        for (font, face) in faces.iter().enumerate() {
+            for c in characters(face) {
+                if let Some(glyph) = glyph(face, font, c) {
+                    glyphs.entry(c).or_insert(glyph);
+                }
+            }
+        }
+        let cap_height = faces[0].capital_height().expect("the first font has capitals");
+        Self { cap_height: f64::from(cap_height) / f64::from(faces[0].units_per_em()), glyphs }
     }
 
     fn glyph(&self, c: char) -> &Glyph {
@@ -108,6 +120,27 @@ impl Typeface {
             _ => REPLACEMENT,
         }
     }
+}
+
+/// All characters of a font that can be seen, and the space.
+fn characters(face: &Face<'_>) -> BTreeSet<char> {
+    let mut found = BTreeSet::new();
+    for subtable in face.tables().cmap.iter().flat_map(|cmap| cmap.subtables) {
+        if subtable.is_unicode() {
+            subtable.codepoints(|point| found.extend(char::from_u32(point).filter(|c| !c.is_control())));
+        }
+    }
+    found
+}
+
+fn glyph(face: &Face<'_>, font: usize, c: char) -> Option<Glyph> {
+    let em = f64::from(face.units_per_em());
+    let id = face.glyph_index(c)?;
+    let mut pen = Pen { em, outline: Vec::new() };
+    // Spaces have none.
+    let _ = face.outline_glyph(id, &mut pen);
+    let advance = f64::from(face.glyph_hor_advance(id)?) / em;
+    Some(Glyph { font, advance, outline: pen.outline })
 }
 
 /// Collects an outline in units of the em.
@@ -150,6 +183,13 @@ pub fn printable(content: &str) -> String {
     content.chars().map(|c| TYPEFACE.available(c)).collect()
 }
 
+/// The text as it will be seen, in pieces of one font: its index, and the letters.
+pub fn runs(content: &str) -> Vec<(usize, String)> {
+    let seen: Vec<char> = content.chars().map(|c| TYPEFACE.available(c)).collect();
+    let font = |c: &char| TYPEFACE.glyph(*c).font;
+    seen.chunk_by(|a, b| font(a) == font(b)).map(|run| (font(&run[0]), run.iter().collect())).collect()
+}
+
 /// Size of the em, mm, at which capitals are `cap_height_mm` high: what other programs call the
 /// font size.
 pub fn em_mm(cap_height_mm: f64) -> f64 {
@@ -163,7 +203,11 @@ pub fn width_mm(content: &str, cap_height_mm: f64) -> f64 {
 
 /// How far a line of text reaches below its base line, mm.
 pub fn depth_mm(content: &str, cap_height_mm: f64) -> f64 {
-    if content.contains(|c: char| DESCENDING.contains(c)) { DESCENT * cap_height_mm } else { 0.0 }
+    if content.contains(|c: char| DESCENDING.contains(c) || c >= WIDE) {
+        DESCENT * cap_height_mm
+    } else {
+        0.0
+    }
 }
 
 /// The text, or as much of its beginning as fits in `max_width_mm`, with an ellipsis; empty where
@@ -182,16 +226,27 @@ pub fn shortened(content: &str, cap_height_mm: f64, max_width_mm: f64) -> String
 pub fn wrapped(words: &str, cap_height_mm: f64, max_width_mm: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in words.split_whitespace() {
-        let word = shortened(word, cap_height_mm, max_width_mm);
-        match lines.last_mut() {
-            Some(line) if width_mm(&format!("{line} {word}"), cap_height_mm) <= max_width_mm => {
-                line.push(' ');
-                line.push_str(&word);
+        for (k, part) in unbroken(word).iter().enumerate() {
+            let part = shortened(part, cap_height_mm, max_width_mm);
+            let space = if k == 0 { " " } else { "" };
+            match lines.last_mut() {
+                Some(line) if width_mm(&format!("{line}{space}{part}"), cap_height_mm) <= max_width_mm => {
+                    line.push_str(space);
+                    line.push_str(&part);
+                }
+                _ => lines.push(part),
             }
-            _ => lines.push(word),
         }
     }
     lines
+}
+
+/// The parts of a word that stay on one line: the whole of it, or its wide letters with the signs that belong
+/// to them.
+fn unbroken(word: &str) -> Vec<String> {
+    let letters: Vec<char> = word.chars().collect();
+    let stays = |a: &char, b: &char| OPENING.contains(*a) || CLOSING.contains(*b) || (*a < WIDE && *b < WIDE);
+    letters.chunk_by(stays).map(|part| part.iter().collect()).collect()
 }
 
 /// Outlines of the letters at their place on the page, to be filled by the non-zero rule.
@@ -259,7 +314,36 @@ mod tests {
         for c in (' '..='~').chain("äöüßéèñçåøÅčśžő°×–—µ·→←±²½…−".chars()) {
             assert!(TYPEFACE.glyphs.contains_key(&c), "{c:?} is missing");
         }
-        assert!(FONT_FILE.len() <= 60_000);
+        assert!(FONTS[0].file.len() <= 60_000);
+        // All kana, so that names in them can be read, and the letters of the guide.
+        assert!(('ぁ'..='ゖ').chain('ァ'..='ヺ').all(|c| TYPEFACE.glyphs[&c].font == 1));
+        assert!(FONTS[1].file.len() <= 80_000);
+    }
+
+    #[test]
+    fn letters_of_two_fonts_are_in_runs() {
+        assert_eq!(
+            runs("のりしろ A1 の裏"),
+            [(1, "のりしろ"), (0, " A1 "), (1, "の裏")].map(|(font, run)| (font, run.to_owned()))
+        );
+        let (lo, hi) = bounds(&Text::new("差の", DVec2::ZERO, 3.0));
+        // A wide letter is as high as the em.
+        assert!(hi.y > 2.5 && hi.y < em_mm(3.0) && lo.y > -depth_mm("の", 3.0), "{lo} {hi}");
+    }
+
+    /// Japanese has no spaces: a sentence was one word, which was cut off at the end of the line.
+    #[test]
+    fn lines_of_wide_letters_break_anywhere_but_before_their_signs() {
+        let sentence = "のりしろを辺 A1 の裏に差し込み、「辺」と折り線をぴったり合わせます。";
+        for width_mm in (12..60).map(f64::from) {
+            let lines = wrapped(sentence, 2.0, width_mm);
+            assert!(lines.iter().all(|line| super::width_mm(line, 2.0) <= width_mm));
+            let letters = |text: &str| text.replace(' ', "");
+            assert_eq!(letters(&lines.concat()), letters(sentence), "nothing is lost");
+            assert!(lines.iter().all(|line| !line.starts_with(['、', '。', '」', 'っ'])), "{lines:?}");
+            assert!(lines.iter().all(|line| !line.ends_with('「')), "{lines:?}");
+        }
+        assert_eq!(wrapped("two words", 2.0, 100.0), ["two words"]);
     }
 
     #[test]

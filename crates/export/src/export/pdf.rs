@@ -16,9 +16,10 @@ use glam::DVec2;
 use lopdf::{Dictionary, Document, Object, ObjectId};
 use page::Builder;
 use printpdf::{FontId, LayerInternalId, ParsedFont, PdfDocument, PdfFont, PdfSaveOptions};
+use std::collections::BTreeSet;
 use tatamu_core::units::Paper;
-use tatamu_draw::drawing::text::{FONT_FILE, FONT_NAME};
-use tatamu_draw::drawing::{Layer, LineStyles, Pages};
+use tatamu_draw::drawing::text::{self, FONTS};
+use tatamu_draw::drawing::{Layer, LineStyles, Pages, Shape};
 use tile::{Grid, Tile};
 
 /// The registry's entry.
@@ -109,10 +110,12 @@ fn write(pages: &Pages, options: &FormatOptions) -> Result<Vec<ExportFile>, Expo
     let producer = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
     pdf.metadata.info.creator = producer.to_owned();
     pdf.metadata.info.producer = producer.to_owned();
-    let mut font = ParsedFont::from_bytes(FONT_FILE, 0, &mut Vec::new())
-        .ok_or_else(|| failed("the embedded font cannot be read".to_owned()))?;
-    font.font_name = Some(format!("{SUBSET_TAG}{FONT_NAME}"));
-    pdf.resources.fonts.map.insert(font_id(), PdfFont::new(font));
+    for index in fonts(pages) {
+        let mut font = ParsedFont::from_bytes(FONTS[index].file, 0, &mut Vec::new())
+            .ok_or_else(|| failed("an embedded font cannot be read".to_owned()))?;
+        font.font_name = Some(format!("{SUBSET_TAG}{}", FONTS[index].name));
+        pdf.resources.fonts.map.insert(font_id(index), PdfFont::new(font));
+    }
     let styles = pages.styles();
     for mark in pages.drawings().iter().flat_map(|drawing| &drawing.marks) {
         let id = layer_id(styles, mark.layer);
@@ -170,8 +173,19 @@ fn settle(document: &mut Document, created: Option<Timestamp>) -> Result<(), lop
     Ok(())
 }
 
-fn font_id() -> FontId {
-    FontId("F1".to_owned())
+/// Indices of the fonts that the texts need.
+fn fonts(pages: &Pages) -> BTreeSet<usize> {
+    let marks = pages.drawings().iter().flat_map(|drawing| &drawing.marks);
+    let texts = marks.filter_map(|mark| match &mark.shape {
+        Shape::Text(text) => Some(text),
+        _ => None,
+    });
+    // What tiles say besides is in the first.
+    texts.flat_map(|text| text::runs(&text.content)).map(|(font, _)| font).chain([0]).collect()
+}
+
+fn font_id(index: usize) -> FontId {
+    FontId(format!("F{}", index + 1))
 }
 
 /// Optional-content group of a layer. Its id sorts in the order of the layers.

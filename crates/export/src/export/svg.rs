@@ -13,7 +13,7 @@ use std::fmt::Write;
 use svg::node::element::{self, ClipPath, Element, Group, Path, Rectangle, Title};
 use svg::{Document, Node};
 use tatamu_core::units::MM_PER_INCH;
-use tatamu_draw::drawing::text::{self, FONT_FAMILY, PathCommand};
+use tatamu_draw::drawing::text::{self, FONT_FAMILIES, PathCommand};
 use tatamu_draw::drawing::{
     Drawing, Image, LineStyles, Mark, Pages, Polyline, Rgb, Shape, Stroke, Text, strokes,
 };
@@ -245,7 +245,7 @@ impl<'a> Page<'a> {
         let place = format!("translate({} {}) rotate({turn})", px(start.x), px(start.y));
         element::Text::new(words)
             .set("transform", place)
-            .set("font-family", format!("{FONT_FAMILY}, sans-serif"))
+            .set("font-family", format!("{FONT_FAMILIES}, sans-serif"))
             .set("font-size", px(text::em_mm(text.cap_height_mm)))
             .set("font-kerning", "none")
             .set("fill", text.colour.hex())

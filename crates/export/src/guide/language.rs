@@ -14,19 +14,23 @@ pub enum Language {
     French,
     /// Spanish.
     Spanish,
+    /// Japanese.
+    Japanese,
 }
 
 /// Each language with its code (ISO 639-1) and the file of its texts.
-const LANGUAGES: [(Language, &str, &str); 4] = [
+const LANGUAGES: [(Language, &str, &str); 5] = [
     (Language::English, "en", include_str!("language/en.toml")),
     (Language::German, "de", include_str!("language/de.toml")),
     (Language::French, "fr", include_str!("language/fr.toml")),
     (Language::Spanish, "es", include_str!("language/es.toml")),
+    (Language::Japanese, "ja", include_str!("language/ja.toml")),
 ];
 
 impl Language {
     /// All languages.
-    pub const ALL: [Self; LANGUAGES.len()] = [Self::English, Self::German, Self::French, Self::Spanish];
+    pub const ALL: [Self; LANGUAGES.len()] =
+        [Self::English, Self::German, Self::French, Self::Spanish, Self::Japanese];
 
     /// The file of its texts.
     fn file(self) -> &'static str {

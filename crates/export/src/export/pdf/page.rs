@@ -154,15 +154,14 @@ fn push_text(ops: &mut Vec<Op>, text: &Text) {
     let (cos, sin) = (along.x as f32, along.y as f32);
     let matrix = TextMatrix::Raw([cos, sin, -sin, cos, start.x.0, start.y.0]);
     let size = pt(text::em_mm(text.cap_height_mm));
-    let content = text::printable(&text.content);
-    ops.extend([
-        Op::SetFillColor { col: colour(text.colour) },
-        Op::StartTextSection,
-        Op::SetFont { font: PdfFontHandle::External(font_id()), size },
-        Op::SetTextMatrix { matrix },
-        Op::ShowText { items: vec![TextItem::Text(content)] },
-        Op::EndTextSection,
-    ]);
+    ops.extend([Op::SetFillColor { col: colour(text.colour) }, Op::StartTextSection]);
+    for (k, (font, letters)) in text::runs(&text.content).into_iter().enumerate() {
+        ops.push(Op::SetFont { font: PdfFontHandle::External(font_id(font)), size });
+        // A reader goes on where the run before ended.
+        ops.extend((k == 0).then_some(Op::SetTextMatrix { matrix }));
+        ops.push(Op::ShowText { items: vec![TextItem::Text(letters)] });
+    }
+    ops.push(Op::EndTextSection);
 }
 
 /// Grey is written as such, so that printers use black ink alone.

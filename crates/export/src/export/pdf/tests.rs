@@ -118,7 +118,7 @@ fn the_font_is_embedded_and_texts_can_be_found() {
         Object::Stream(stream) if stream.dict.has(b"Length1") => stream.decompressed_content().ok(),
         _ => None,
     });
-    assert_eq!(fonts.collect::<Vec<_>>(), [FONT_FILE]);
+    assert_eq!(fonts.collect::<Vec<_>>(), [FONTS[0].file]);
     let text = document.extract_text(&[1]).expect("text");
     for words in ["100 mm: print at 100 % (actual size)", "sheet 1 of 1", "A → 12", "fold flat 180°"] {
         assert!(text.contains(words), "{words:?} is not in {text:?}");
