@@ -52,8 +52,8 @@ pub fn best_view(
     best.map(|(_, view)| view).ok_or(ViewError::NoPoints)
 }
 
-/// From 0, hidden, to 1, seen at a right angle.
-fn clearness(scene: &Scene, view: &View, spot: &Spot) -> f64 {
+/// How well a spot is seen: from 0, hidden, to 1, at a right angle.
+pub fn clearness(scene: &Scene, view: &View, spot: &Spot) -> f64 {
     let to_eye = view.towards_eye(spot.at).normalize_or_zero();
     let facing = to_eye.dot(spot.normal.normalize_or_zero());
     // Seen at a flat angle, it can hardly be told from its neighbours.

@@ -21,7 +21,7 @@ mod shadow;
 mod view;
 pub mod zbuffer;
 
-pub use best_view::{Spot, best_view};
+pub use best_view::{Spot, best_view, clearness};
 pub use callouts::{Callout, callouts};
 pub use orbit::{Eye, Orbit};
 pub use parts::{PartsPictureError, parts_picture};

@@ -1,5 +1,6 @@
 //! Pictures of one component that is folded and glued.
 
+use super::lens::lens;
 use super::{GLUED, MARGIN_MM, PictureError, SIZE_MM, THERE, overlay, taken};
 use crate::guide::assembly::{Pose, bend, in_space};
 use crate::guide::joined::Joined;
@@ -174,11 +175,18 @@ pub fn glued(
     let mut drawing = taken(&scene, &view, Vec::new());
     let middle = overlay::middle(&drawing.marks);
     drawing.marks.extend(overlay::arrow(&path));
-    drawing.marks.extend(overlay::labels(
-        &[(label, seen(now, 0)), (label, seen(now, 1))],
-        middle,
-        view.size_mm(),
-    ));
+    let places = [seen(now, 0), seen(now, 1)];
+    let clear: Vec<DVec2> = path.iter().chain(&places).copied().collect();
+    let lens = match tab_in_space(net, now, hinge) {
+        Some(tab) => lens(&scene, &view, tab, &clear)?,
+        None => None,
+    };
+    let taken = lens.map(|lens| {
+        drawing.marks.extend(lens.marks);
+        lens.corners
+    });
+    let items = places.map(|place| (label, place));
+    drawing.marks.extend(overlay::labels(&items, middle, view.size_mm(), taken));
     Ok(drawing)
 }
 
@@ -228,10 +236,16 @@ fn pose(net: &Net, before: &Joined, pair: &Pair, loose: Option<PanelId>, progres
 
 /// The tab that is glued now, in the colour of glue, over its own face.
 fn push_glue(scene: &mut Scene, net: &Net, pose: &Pose, hinge: HingeId) {
-    let Some((piece, tab)) = tabs(net).find(|(_, tab)| tab.hinge == hinge) else { return };
+    let Some((corners, normal)) = tab_in_space(net, pose, hinge) else { return };
+    let corners = corners.map(|corner| corner + 0.05 * normal);
+    scene.extend_face(Face::new(corners.to_vec(), vec![Edge::Border; 4], GLUED, None));
+}
+
+/// The corners of a hinge's tab, and the normal of its outer face.
+fn tab_in_space(net: &Net, pose: &Pose, hinge: HingeId) -> Option<([DVec3; 4], DVec3)> {
+    let (piece, tab) = tabs(net).find(|(_, tab)| tab.hinge == hinge)?;
     let carrier = net.panels().hinges()[hinge.0].sides[tab.side].panel;
     let motion = upright() * pose.panel(carrier) * tab_place(net, piece, tab);
-    let lift = 0.05 * motion.matrix3.z_axis.normalize_or_zero();
-    let corners = tab.outline.map(|p| motion.transform_point3(p.extend(0.0)) + lift);
-    scene.extend_face(Face::new(corners.to_vec(), vec![Edge::Border; 4], GLUED, None));
+    let corners = tab.outline.map(|p| motion.transform_point3(p.extend(0.0)));
+    Some((corners, motion.matrix3.z_axis.normalize_or_zero()))
 }

@@ -77,7 +77,7 @@ pub fn joined(
         (parts[joint.parent].name.as_str(), at(joint.parent, &base)),
     ];
     let middle = overlay::middle(&drawing.marks);
-    drawing.marks.extend(overlay::labels(&names, middle, view.size_mm()));
+    drawing.marks.extend(overlay::labels(&names, middle, view.size_mm(), None));
     Ok(drawing)
 }
 

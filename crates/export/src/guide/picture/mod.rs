@@ -2,6 +2,7 @@
 
 mod build;
 mod join;
+mod lens;
 mod overlay;
 mod paper;
 mod whole;

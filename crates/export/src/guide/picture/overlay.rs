@@ -6,7 +6,7 @@ use tatamu_core::geom::polygon;
 use tatamu_draw::drawing::{Align, Layer, Mark, Rgb, Stroke, Text, text};
 
 /// Of arrows and of labels.
-const INK: Rgb = Rgb(16, 84, 160);
+pub const INK: Rgb = Rgb(16, 84, 160);
 /// Where something is glued on.
 const GLUE: Rgb = Rgb(196, 30, 58);
 const ARROW_MM: f64 = 0.9;
@@ -46,9 +46,14 @@ pub fn arrow(path: &[DVec2]) -> Vec<Mark> {
 }
 
 /// Texts beside their places, each on a plate with a line to its place, within a picture of
-/// `size_mm`. The plates keep away from `middle` and from each other.
-pub fn labels(items: &[(&str, DVec2)], middle: DVec2, size_mm: DVec2) -> Vec<Mark> {
-    let mut plates: Vec<[DVec2; 2]> = Vec::new();
+/// `size_mm`. The plates keep away from `middle`, from what is taken, and from each other.
+pub fn labels(
+    items: &[(&str, DVec2)],
+    middle: DVec2,
+    size_mm: DVec2,
+    taken: Option<[DVec2; 2]>,
+) -> Vec<Mark> {
+    let mut plates: Vec<[DVec2; 2]> = taken.into_iter().collect();
     let mut marks = Vec::new();
     for &(words, at) in items {
         let words = text::shortened(words, CAP_MM, size_mm.x / 2.0);
