@@ -8,7 +8,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use support::Prism;
 use tatamu::drawing::{Drawing, Layer, LineStyles, Mark, Shape, Text, text};
-use tatamu::net::{BlankNet, LabelKind, Naming, Net, NetOptions, Side, alternatives, check::faults};
+use tatamu::net::{
+    BlankNet, LabelKind, LabelPlace, Naming, Net, NetOptions, Side, alternatives, check::faults,
+};
 use tatamu::progress::Silent;
 use tatamu::sheet::fit::Rotation;
 use tatamu::sheet::{Calibration, Imprint, Layout, PiecePlace, Pin, Registration, SheetOptions, Unheeded};
@@ -185,6 +187,77 @@ fn every_label_stands_on_both_sides_or_is_listed() {
         }
     }
     assert!(leaders > 0, "small components need leader lines");
+}
+
+fn text_of(mark: &Mark) -> Option<&Text> {
+    match &mark.shape {
+        Shape::Text(text) if mark.layer == Layer::Label => Some(text),
+        _ => None,
+    }
+}
+
+/// Names and labels stood on faces that one sees, over the eyes of a bear in colours.
+#[test]
+fn labels_are_on_tabs_or_on_paper_that_is_cut_off() {
+    let mut sheets = a4();
+    sheets.choices.labels = LabelPlace::Tabs;
+    sheets.choices.spacing_mm = 6.0;
+    let made = Made::new(&prisms(), &sheets, |_| ());
+    let (mut beside, mut on_panels) = (Vec::new(), 0);
+    for (sheet, page) in made.pages().iter().enumerate() {
+        let own = || made.placed().filter(|(_, at, _)| *at == sheet);
+        let moved =
+            |outline: &[DVec2], place: DAffine2| polygon(outline.iter().map(|&p| place.transform_point2(p)));
+        let outlines: Vec<geo::Polygon> =
+            own().map(|(piece, _, place)| moved(piece.outline(), place)).collect();
+        let tabs = own().flat_map(|(piece, _, place)| {
+            piece.tabs().iter().map(move |tab| moved(&tab.outline, place)).collect::<Vec<_>>()
+        });
+        let tabs: Vec<geo::Polygon> = tabs.collect();
+        let texts: Vec<&Text> = page.marks.iter().filter_map(text_of).collect();
+        let inks: Vec<geo::Polygon> = texts.iter().map(|text| ink(text)).collect();
+        assert_eq!(overlaps(&inks), [], "texts on sheet {sheet}");
+        for (text, ink) in texts.iter().zip(&inks) {
+            let is_off = outlines.iter().all(|outline| !outline.intersects(ink));
+            let is_on_tab = tabs.iter().any(|tab| tab.contains(ink));
+            on_panels += usize::from(!is_off && !is_on_tab);
+            beside.extend(is_off.then(|| text.content.clone()));
+        }
+    }
+    let labels = made.nets.iter().flat_map(|net| net.pieces()).flat_map(|piece| piece.labels());
+    let mates: Vec<&str> = labels.filter(|l| l.kind == LabelKind::Mate).map(|l| &*l.text).collect();
+    assert!(mates.len() > 20 && on_panels * 10 <= mates.len(), "{on_panels} of {}", mates.len());
+    assert!(
+        mates.iter().filter(|mate| beside.iter().any(|text| text == *mate)).count() + on_panels
+            >= mates.len()
+    );
+}
+
+#[test]
+fn labels_on_the_other_side_are_where_they_were() {
+    let mut sheets = a4();
+    let on_panels = Made::new(&prisms(), &sheets, |_| ());
+    sheets.choices.labels = LabelPlace::Inside;
+    let made = Made::new(&prisms(), &sheets, |_| ());
+    let others = made.layout.other_pages(&made.nets, Imprint::default(), &LineStyles::standard());
+    assert_eq!(others.len(), made.layout.sheet_count());
+    let middles = |pages: &[Drawing], is_mirrored: bool| -> Vec<(String, i64, i64)> {
+        let texts = pages.iter().flat_map(|page| page.marks.iter().filter_map(text_of));
+        let mut all: Vec<(String, i64, i64)> = texts
+            .map(|text| {
+                let middle = text.middle();
+                let x = if is_mirrored { sheets.size_mm().x - middle.x } else { middle.x };
+                (text.content.clone(), (x * 1e3).round() as i64, (middle.y * 1e3).round() as i64)
+            })
+            .collect();
+        all.sort();
+        all
+    };
+    let mut both = middles(&made.pages(), false);
+    assert!(!both.is_empty() && others.iter().all(|page| !page.marks.is_empty()));
+    both.extend(middles(&others, true));
+    both.sort();
+    assert_eq!(both, middles(&on_panels.pages(), false));
 }
 
 #[test]

@@ -172,25 +172,30 @@ impl<'a> Product<'a> {
     }
 
     /// The pages as they are printed on both sides of the sheets, where that is asked for: outside and inside
-    /// in turn. Else the same as [`Product::pages`].
+    /// in turn, the lists after them alone. Else the same as [`Product::pages`].
     ///
     /// # Errors
     /// As [`Product::pages`].
     pub fn printed_pages(&self) -> Result<Pages, PagesError> {
-        let inside = self.pages()?;
+        let pages = self.pages()?;
         let layout = self.output.layout();
-        if !layout.options().choices.is_duplex || self.is_cut() {
-            return Ok(inside.clone());
+        if !layout.options().has_two_sides() || self.is_cut() {
+            return Ok(pages.clone());
         }
         let imprint = Imprint { title: self.title, ..Imprint::default() };
-        let mut outside = layout.outside_pages(self.output.nets(), imprint, &self.styles);
-        if let Some(painting) = self.painting {
-            paint::colour(self.output, painting, &mut outside);
+        let mut others = layout.other_pages(self.output.nets(), imprint, &self.styles);
+        let is_inside_first_drawn = layout.options().choices.is_duplex;
+        if let Some(painting) = self.painting.filter(|_| is_inside_first_drawn) {
+            paint::colour(self.output, painting, &mut others);
         }
-        let mut outside = self.reduced(outside).into_iter();
-        let both = inside.drawings().iter().flat_map(|page| outside.next().into_iter().chain([page.clone()]));
-        let both = both.collect();
-        Ok(Pages::new(self.title, both, self.styles.clone())?.with_chapters(inside.chapters().to_vec()))
+        let mut others = self.reduced(others).into_iter();
+        let sides = |page: &Drawing| {
+            let page = Some(page.clone());
+            let other = others.next();
+            if is_inside_first_drawn { [other, page] } else { [page, other] }
+        };
+        let both = pages.drawings().iter().flat_map(sides).flatten().collect();
+        Ok(Pages::new(self.title, both, self.styles.clone())?.with_chapters(pages.chapters().to_vec()))
     }
 
     /// Leaves what is asked for, and makes up for the printer's scale where it is printed.

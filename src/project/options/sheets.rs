@@ -2,13 +2,13 @@
 
 use super::settings::put;
 use super::{Count, Dial, Entry, Flag, Key, Kind, Number, Range, Switch, Text, Unit};
-use crate::net::Side;
+use crate::net::{LabelPlace, Side};
 use crate::sheet::fit::Rotation;
 use crate::sheet::{Calibration, Registration};
 use crate::units::parse_paper;
 
 pub(super) const PAPERS: &[&Entry] = &[&PAPER, &MARGIN, &THICKNESS, &THICK];
-pub(super) const ALL: &[&Entry] = &[&SIDE, &GRAIN, &SPACING, &EFFORT, &MARKS, &CALIBRATE];
+pub(super) const ALL: &[&Entry] = &[&SIDE, &LABELS, &GRAIN, &SPACING, &EFFORT, &MARKS, &CALIBRATE];
 
 const HEADING: &str = "Sheets";
 /// The most effort that may be asked for: minutes for a large model.
@@ -131,6 +131,39 @@ pub static SIDE: Entry = Entry {
     meaning: "printed side; `inside` is mirrored. `both` makes two pages for each sheet of a PDF: lines and labels \
               inside, the places of joints and the colours of the mesh outside",
     dial: Dial::new("Printed side"),
+    ..Entry::BLANK
+};
+
+/// Names of places of labels.
+const LABEL_PLACES: [(&str, LabelPlace); 3] =
+    [("panels", LabelPlace::Panels), ("tabs", LabelPlace::Tabs), ("inside", LabelPlace::Inside)];
+
+/// Where labels are.
+static LABELS: Entry = Entry {
+    key: Key::new("sheets", "labels"),
+    flag: Flag::under(HEADING, "labels", "PLACE"),
+    kind: Kind::Text(Text {
+        names: || LABEL_PLACES.map(|(name, _)| name).to_vec(),
+        other: "",
+        such_as: "tabs",
+        get: |s| {
+            let found = LABEL_PLACES.iter().find(|(_, place)| *place == s.model.sheets.labels);
+            found.map(|(name, _)| (*name).to_owned())
+        },
+        set: |s, text| {
+            let found = LABEL_PLACES.iter().find(|(name, _)| *name == text);
+            let (_, place) = found.ok_or("the place of labels must be one of panels, tabs, inside")?;
+            put(&mut s.model.sheets.labels, *place)
+        },
+    }),
+    short: "Place of names and labels: {names}",
+    long: "For a model without letters on its faces. With tabs, a piece has letters on its tabs and where parts are \
+           glued on; all others are beside it, on paper that you cut off: write them inside with a pencil before you \
+           cut. With inside, a PDF has two pages for each sheet, to print on both sides: lines and the labels of tabs \
+           outside, all other labels inside. What is printed inside by --side is never seen, and stays on the panels.",
+    example: "--labels tabs",
+    meaning: "place of names and labels: on the `panels`; on `tabs` and joints, all others beside the piece; or \
+              `inside`, on a page of their own in a PDF, for printing on both sides",
     ..Entry::BLANK
 };
 

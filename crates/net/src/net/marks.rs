@@ -2,10 +2,11 @@
 
 use super::mesh::EdgeKind;
 use super::split::is_seam;
-use super::{FaceKind, Label, LabelKind, Piece};
+use super::{FaceKind, Label, LabelKind, Leader, Piece};
 use glam::DVec2;
 use std::f64::consts::FRAC_PI_4;
 use tatamu_core::component::PanelSet;
+use tatamu_core::geom::polygon::depth_outside;
 use tatamu_draw::drawing::{Align, Fill, Layer, LineStyles, Mark, Polyline, Rgb, Stroke, Text, text};
 
 /// How a crease is folded.
@@ -89,6 +90,18 @@ pub enum Side {
     Inside,
 }
 
+/// Where texts are of which something would be seen when the model is built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum LabelPlace {
+    /// On the panels that they are about.
+    #[default]
+    Panels,
+    /// Beside the piece, on paper that is cut off; only what tabs and joints hide is on the piece.
+    Tabs,
+    /// On the other side of the paper, which is inside of the model.
+    Inside,
+}
+
 /// Paper without lines of a hatch round the label of a tab, mm.
 const PLATE_MM: f64 = 0.4;
 /// Size of the dot at the end of a leader line, mm.
@@ -99,6 +112,13 @@ impl Piece {
     /// closed path, every cut line once, creases, joint outlines, texts. `side` decides the layer of
     /// creases; the places of joints are outside alone, since a closed component has no inside to glue on.
     pub fn marks(&self, side: Side, styles: &LineStyles) -> Vec<Mark> {
+        let mut marks = self.line_marks(side, styles);
+        marks.extend(self.text_marks(styles, |_| true));
+        marks
+    }
+
+    /// All of its marks but the texts that are not of joints.
+    pub fn line_marks(&self, side: Side, styles: &LineStyles) -> Vec<Mark> {
         let stroke_of = |layer: Layer| styles.stroke(layer).clone();
         let path = |layer: Layer, contour: Polyline, part: String| {
             Mark::path(layer, vec![contour], Some(stroke_of(layer)), None).of_part(part)
@@ -136,16 +156,32 @@ impl Piece {
             marks.push(path(Layer::Slit, Polyline::open(cut.clone()), "plug".to_owned()));
         }
         marks.push(path(Layer::Cut, closed(&self.blank.outline), "outline".to_owned()));
-        for leader in &self.leaders {
-            let line = Polyline::open(vec![leader.from, leader.to]);
-            marks.push(path(Layer::Label, line, "leader".to_owned()));
-            let dot = (0..8).map(|k| leader.to + DVec2::from_angle(f64::from(k) * FRAC_PI_4) * DOT_MM);
-            let dot = Mark::filled(Layer::Label, dot.collect(), stroke_of(Layer::Label).colour);
-            marks.push(dot.of_part("leader"));
-        }
-        let others = self.labels.iter().filter(|label| label.kind != LabelKind::Joint);
-        marks.extend(others.flat_map(|label| label_marks(label, styles)));
         marks.into_iter().map(|mark| mark.of_piece(self.name())).collect()
+    }
+
+    /// Those of its texts that are wanted, with their leader lines; texts of joints are among
+    /// [`Piece::joint_marks`].
+    pub fn text_marks(&self, styles: &LineStyles, is_wanted: impl Fn(&Label) -> bool) -> Vec<Mark> {
+        let is_wanted = |label: &Label| label.kind != LabelKind::Joint && is_wanted(label);
+        let mut marks = self.leader_marks(styles, is_wanted);
+        let texts = self.labels.iter().filter(|label| is_wanted(label));
+        marks.extend(texts.flat_map(|label| label_marks(label, styles)));
+        marks.into_iter().map(|mark| mark.of_piece(self.name())).collect()
+    }
+
+    /// The leader lines of some of its texts.
+    fn leader_marks(&self, styles: &LineStyles, is_wanted: impl Fn(&Label) -> bool) -> Vec<Mark> {
+        let own = self.leaders.iter().filter(|leader| is_wanted(&self.labels[leader.label]));
+        own.flat_map(|leader| line_to_place(leader, styles)).collect()
+    }
+
+    /// Whether nothing of a text can be seen when the model is built: it is on a tab, or where another
+    /// component is glued on.
+    pub fn hides(&self, label: &Label) -> bool {
+        let letters = rectangle(label, 0.0);
+        let is_in = |area: &[DVec2]| letters.iter().all(|&corner| depth_outside(area, corner) <= 0.0);
+        self.tabs().iter().any(|tab| is_in(&tab.outline))
+            || self.joints.iter().any(|joint| joint.is_glued && is_in(&joint.outline))
     }
 
     /// The places of joints alone, seen from outside: outlines, keys, and the names of what is glued there.
@@ -169,7 +205,9 @@ impl Piece {
             let key = Mark::path(Layer::Glue, key, Some(look.clone()), Some(look.colour));
             marks.push(key.of_part(format!("{panel} key")));
         }
-        let texts = self.labels.iter().filter(|label| label.kind == LabelKind::Joint);
+        let is_of_joint = |label: &Label| label.kind == LabelKind::Joint;
+        marks.extend(self.leader_marks(styles, is_of_joint));
+        let texts = self.labels.iter().filter(|label| is_of_joint(label));
         marks.extend(texts.flat_map(|label| label_marks(label, styles)));
         marks.into_iter().map(|mark| mark.of_piece(self.name())).collect()
     }
@@ -184,6 +222,14 @@ impl Crease {
             (Fold::Back, Side::Inside) | (Fold::Forth, Side::Outside) => Layer::Valley,
         }
     }
+}
+
+/// A leader line, with a dot at its end.
+fn line_to_place(leader: &Leader, styles: &LineStyles) -> [Mark; 2] {
+    let look = styles.stroke(Layer::Label);
+    let dot = (0..8).map(|k| leader.to + DVec2::from_angle(f64::from(k) * FRAC_PI_4) * DOT_MM);
+    let dot = Mark::filled(Layer::Label, dot.collect(), look.colour);
+    [Mark::line(Layer::Label, leader.from, leader.to, look), dot].map(|mark| mark.of_part("leader"))
 }
 
 /// A text, and the frame round it.

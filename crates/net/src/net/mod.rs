@@ -38,8 +38,10 @@ mod warning;
 pub use blank::Blank;
 pub use blank_net::BlankNet;
 pub use develop::{alternatives, develop};
+pub(crate) use labels::{line_to, upright};
+
 pub use hand::{EdgeChoice, EdgeName, HandFault, NetHand, PIECES, TAB_WIDTHS_MM, TabSide};
-pub use marks::Side;
+pub use marks::{LabelPlace, Side};
 pub use mesh::{Corner, Edge, EdgeKind, Face, FaceKind, PieceMesh, Vertex};
 pub use net_error::NetError;
 pub use of_model::{KnownNets, NetsError, develop_model};
@@ -136,6 +138,8 @@ pub enum LabelKind {
 /// A thin line from a text that had no room where it belongs to that place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leader {
+    /// Index of the text among the piece's labels.
+    pub label: usize,
     /// Beside the text.
     pub from: DVec2,
     /// The place that the text is about.

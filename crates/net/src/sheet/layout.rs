@@ -1,17 +1,20 @@
 //! Pieces on their sheets.
 
 use super::SheetOptions;
-use super::nest::{NestError, Placement, Shape, nest_alternatives};
+use super::nest::{NestError, Placement, Shape, nest, nest_alternatives};
 use super::pin::{Pin, Unheeded, unheeded};
 use super::place::PiecePlace;
-use crate::net::{Blank, BlankNet, Net, Piece};
-use glam::DAffine2;
+use crate::net::{Blank, BlankNet, Net, Piece, Tab};
+use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use tatamu_core::geom::polygon;
 use tatamu_core::progress::Progress;
 use tatamu_core::remedy::Remedy;
+
+/// Corners that are nearer are the same, mm.
+const SAME_MM: f64 = 1e-6;
 
 /// Why there is no layout.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -181,6 +184,31 @@ impl Layout {
         &self.unheeded
     }
 
+    /// About how many sheets the pieces of these nets, which it was made for, would take at `factor` of their
+    /// size, with tabs as wide as they are.
+    ///
+    /// # Errors
+    /// See [`LayoutError`].
+    pub fn sheets_at(
+        &self,
+        nets: &[Net],
+        factor: f64,
+        progress: &dyn Progress,
+    ) -> Result<usize, LayoutError> {
+        let mut colours: BTreeMap<Option<&str>, Vec<Shape>> = BTreeMap::new();
+        for (n, net) in nets.iter().enumerate() {
+            for (piece, at) in net.pieces().iter().zip(self.places(n)) {
+                let outline = piece.outline().iter().map(|&p| widened(p, piece, 1.0 / factor) * factor);
+                colours.entry(self.card(at.sheet)).or_default().extend(Shape::new(outline.collect(), n));
+            }
+        }
+        let sheets_of = |shapes: &Vec<Shape>| {
+            let placed = nest(shapes, &self.options.nesting(), progress)?;
+            Ok(placed.iter().map(|at| at.sheet + 1).max().unwrap_or(0))
+        };
+        colours.values().map(sheets_of).sum()
+    }
+
     /// Places of the pieces of net `n`, in the net's order.
     pub fn places(&self, n: usize) -> &[PiecePlace] {
         &self.places[n]
@@ -224,4 +252,14 @@ impl Layout {
     pub fn utilisation(&self) -> f64 {
         self.utilisation
     }
+}
+
+/// A corner of a piece's outline; the far corners of a tab are moved so that it is wider by a factor.
+fn widened(corner: DVec2, piece: &Piece, factor: f64) -> DVec2 {
+    let is_far = |tab: &&Tab| tab.outline[2..].iter().any(|p| p.distance(corner) < SAME_MM);
+    let tab = piece.tabs().iter().find(is_far);
+    tab.map_or(corner, |tab| {
+        let outward = -(tab.outline[1] - tab.outline[0]).perp().normalize_or_zero();
+        corner - outward * (tab.width_mm() * (1.0 - factor))
+    })
 }

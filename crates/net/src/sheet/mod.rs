@@ -1,5 +1,6 @@
 //! Pieces placed on sheets of paper, with page furniture.
 
+mod beside;
 mod calibration;
 pub mod fit;
 pub mod furniture;

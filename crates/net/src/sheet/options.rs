@@ -5,7 +5,7 @@ use super::fit::Rotation;
 use super::furniture;
 use super::nest::{DEFAULT_EFFORT, DEFAULT_SPACING_MM, NestOptions};
 use super::registration::Registration;
-use crate::net::Side;
+use crate::net::{LabelPlace, Side};
 use glam::DVec2;
 use tatamu_core::units::Paper;
 use tatamu_draw::drawing::Layer;
@@ -30,6 +30,8 @@ pub struct SheetChoices {
     pub side: Side,
     /// Whether the other side is printed too, with what is glued on there.
     pub is_duplex: bool,
+    /// Where texts are that would be seen, on pieces that are printed outside.
+    pub labels: LabelPlace,
     /// Angles at which pieces may lie.
     pub rotation: Rotation,
     /// Least distance between pieces, mm.
@@ -48,6 +50,7 @@ impl Default for SheetChoices {
         Self {
             side: Side::Outside,
             is_duplex: false,
+            labels: LabelPlace::Panels,
             rotation: Rotation::Free,
             spacing_mm: DEFAULT_SPACING_MM,
             effort: DEFAULT_EFFORT,
@@ -76,6 +79,19 @@ impl SheetOptions {
         let half_mm = self.size_mm() / 2.0;
         let reach_mm = (half_mm - border_mm) * self.choices.calibration.share().min(DVec2::ONE);
         (half_mm - reach_mm).max_element()
+    }
+
+    /// Where texts are: inside they cannot be seen, wherever they are.
+    pub(super) fn labels(&self) -> LabelPlace {
+        match self.choices.side {
+            Side::Outside => self.choices.labels,
+            Side::Inside => LabelPlace::Panels,
+        }
+    }
+
+    /// Whether a sheet is printed on both sides.
+    pub fn has_two_sides(&self) -> bool {
+        self.choices.is_duplex || self.labels() == LabelPlace::Inside
     }
 
     /// Kinds of lines that the legend explains.

@@ -1,9 +1,9 @@
 //! Sheets as drawings.
 
 use super::furniture::Furniture;
-use super::{Layout, SheetOptions};
-use crate::net::{Net, Side};
-use glam::DVec2;
+use super::{Layout, SheetOptions, beside};
+use crate::net::{LabelPlace, Net, Piece, Side};
+use glam::{DAffine2, DVec2};
 use tatamu_draw::drawing::{Align, Drawing, Layer, LineStyles, Mark, Text, text};
 
 /// Height of capitals in the list of labels without a place.
@@ -35,13 +35,22 @@ impl Layout {
         let mut pages: Vec<Drawing> =
             (0..self.sheet_count()).map(|_| Drawing::new(title, options.size_mm())).collect();
         let mut lost: Vec<Vec<String>> = vec![Vec::new(); pages.len()];
-        for (n, net) in nets.iter().enumerate() {
-            for (piece, at) in net.pieces().iter().zip(self.places(n)) {
-                let marks = piece.marks(options.choices.side, styles);
-                let placed = marks.into_iter().map(|mark| mark.placed(at.place));
-                pages[at.sheet].marks.extend(placed.map(|mark| on_side(mark, options).righted()));
-                let texts = piece.unplaced_labels().iter();
-                lost[at.sheet].extend(texts.map(|text| format!("{}: {text}", piece.name())));
+        for (piece, sheet, place) in self.placed(nets) {
+            let marks = match options.labels() {
+                LabelPlace::Panels => piece.marks(options.choices.side, styles),
+                LabelPlace::Tabs | LabelPlace::Inside => {
+                    let hidden = piece.text_marks(styles, |label| piece.hides(label));
+                    piece.line_marks(options.choices.side, styles).into_iter().chain(hidden).collect()
+                }
+            };
+            let placed = marks.into_iter().map(|mark| mark.placed(place));
+            pages[sheet].marks.extend(placed.map(|mark| on_side(mark, options).righted()));
+            let texts = piece.unplaced_labels().iter();
+            lost[sheet].extend(texts.map(|text| format!("{}: {text}", piece.name())));
+        }
+        if options.labels() == LabelPlace::Tabs {
+            for (page, marks) in pages.iter_mut().zip(beside::texts(self, nets, styles)) {
+                page.marks.extend(marks);
             }
         }
         let mut rest = Vec::new();
@@ -85,7 +94,7 @@ impl Layout {
             };
             page.marks.extend(furniture.marks(styles));
             page.marks.extend(furniture.side_bar(styles));
-            if options.choices.is_duplex {
+            if options.has_two_sides() {
                 page.marks.extend(crosses(options, styles));
             }
             page.marks
@@ -96,28 +105,44 @@ impl Layout {
 }
 
 impl Layout {
-    /// The other sides of the sheets, where both are printed: outside, the places of joints. Four crosses are
-    /// at the same places of both sides, to check that they lie on each other.
-    pub fn outside_pages(&self, nets: &[Net], imprint: Imprint<'_>, styles: &LineStyles) -> Vec<Drawing> {
+    /// The other sides of the sheets, where both are printed: outside, the places of joints; or inside, the
+    /// texts that shall not be seen. Four crosses are at the same places of both sides, to check that they lie on
+    /// each other.
+    pub fn other_pages(&self, nets: &[Net], imprint: Imprint<'_>, styles: &LineStyles) -> Vec<Drawing> {
         let options = self.options();
-        let sheets = if options.choices.is_duplex { self.sheet_count() } else { 0 };
+        let sheets = if options.has_two_sides() { self.sheet_count() } else { 0 };
+        let side = if options.choices.is_duplex { "outside" } else { "inside" };
         let mut pages: Vec<Drawing> =
             (0..sheets).map(|_| Drawing::new(imprint.title, options.size_mm())).collect();
         for (k, page) in pages.iter_mut().enumerate() {
             page.marks.extend(crosses(options, styles));
-            let words = format!("{} · outside of sheet {} of {sheets}", imprint.title, k + 1);
+            let words = format!("{} · {side} of sheet {} of {sheets}", imprint.title, k + 1);
             let at = DVec2::new(options.size_mm().x / 2.0, options.border_mm() / 2.0);
             let text = Text::new(words, at, LOST_CAP_MM).aligned(Align::Middle);
             page.marks.push(Mark::text(Layer::Furniture, text.coloured(styles.colour(Layer::Furniture))));
         }
-        for (n, net) in nets.iter().enumerate().filter(|_| sheets > 0) {
-            for (piece, at) in net.pieces().iter().zip(self.places(n)) {
-                let placed =
-                    piece.joint_marks(styles).into_iter().map(|mark| mark.placed(at.place).righted());
-                pages[at.sheet].marks.extend(placed);
-            }
+        for (piece, sheet, place) in self.placed(nets).filter(|_| sheets > 0) {
+            let marks = if options.choices.is_duplex {
+                piece.joint_marks(styles)
+            } else {
+                piece.text_marks(styles, |label| !piece.hides(label))
+            };
+            let placed = marks.into_iter().map(|mark| mark.placed(place));
+            let mirrored = |mark: Mark| mark.mirrored(options.size_mm().x / 2.0);
+            let is_outside = options.choices.is_duplex;
+            let sided = placed.map(|mark| if is_outside { mark } else { mirrored(mark) });
+            pages[sheet].marks.extend(sided.map(Mark::righted));
         }
         pages
+    }
+
+    /// Every piece with its sheet and its place there.
+    pub(super) fn placed<'a>(
+        &'a self,
+        nets: &'a [Net],
+    ) -> impl Iterator<Item = (&'a Piece, usize, DAffine2)> + 'a {
+        let of_net = |(n, net): (usize, &'a Net)| net.pieces().iter().zip(self.places(n));
+        nets.iter().enumerate().flat_map(of_net).map(|(piece, at)| (piece, at.sheet, at.place))
     }
 }
 

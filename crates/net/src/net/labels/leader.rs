@@ -73,11 +73,14 @@ impl Placer<'_> {
                 if !self.is_free(&self.outlines[spot.face], &letters) {
                     continue;
                 }
-                let mut lines = waiting.targets.iter().map(|&to| leader(&letters, to));
+                let mut lines = waiting.targets.iter().map(|&to| {
+                    let [from, to] = line_to(&letters, to);
+                    Leader { label: self.labels.len(), from, to }
+                });
                 if let Some(line) = lines.find(|l| self.may_lead(l, &letters)) {
-                    self.accept(spot.centre, spot.direction, wanted);
                     self.lines.push([line.from, line.to]);
                     self.leaders.push(line);
+                    self.accept(spot.centre, spot.direction, wanted);
                     return true;
                 }
             }
@@ -122,11 +125,11 @@ impl Placer<'_> {
     }
 }
 
-/// The line from the border of a text's box to a point.
-fn leader(letters: &[DVec2; 4], to: DVec2) -> Leader {
+/// The line from the border of a text's box to a point, a little away from the letters.
+pub(crate) fn line_to(letters: &[DVec2; 4], to: DVec2) -> [DVec2; 2] {
     let [start, end, _, up] = *letters;
     let (along, rise) = (end - start, up - start);
     let share = |axis: DVec2| ((to - start).dot(axis) / axis.length_squared()).clamp(0.0, 1.0);
     let near = start + along * share(along) + rise * share(rise);
-    Leader { from: near + (to - near).normalize_or_zero() * START_GAP_MM, to }
+    [near + (to - near).normalize_or_zero() * START_GAP_MM, to]
 }

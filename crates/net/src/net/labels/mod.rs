@@ -11,6 +11,7 @@ use super::mesh::{FaceKind, PieceMesh};
 use super::{Label, LabelKind, Leader};
 use glam::DVec2;
 use leader::Waiting;
+pub(crate) use leader::line_to;
 use tatamu_core::component::PanelId;
 use tatamu_core::geom::polygon::{self, convex_overlap, depth_outside};
 use tatamu_draw::drawing::text;
@@ -245,7 +246,7 @@ fn longest_edge(area: &[DVec2]) -> DVec2 {
 }
 
 /// The direction or its opposite: the one in which a text is not upside down.
-fn upright(direction: DVec2) -> DVec2 {
+pub(crate) fn upright(direction: DVec2) -> DVec2 {
     let unit = direction.normalize_or(DVec2::X);
     let is_down = unit.x < -1e-9 || (unit.x.abs() <= 1e-9 && unit.y < 0.0);
     if is_down { -unit } else { unit }
