@@ -2,6 +2,7 @@
 
 use super::error::AppError;
 use super::{input, profiles};
+use std::collections::BTreeMap;
 use std::path::Path;
 use tatamu::drawing::{Layer, LineStyles};
 use tatamu::export::{FormatOptions, PltOptions, Timestamp};
@@ -48,6 +49,18 @@ impl Choice {
     pub fn resized(mut self, size_mm: f64) -> Self {
         self.settings.model.size_mm = size_mm;
         self.is_sized = true;
+        self
+    }
+
+    /// The same with colours of card for components of these names that have none.
+    pub fn with_cards(mut self, cards: BTreeMap<String, &'static str>) -> Self {
+        let components = &mut self.settings.model.components;
+        for (name, card) in cards {
+            // Tables of a project may rename their component.
+            let renamed = components.iter().find(|(_, own)| own.rename.as_ref() == Some(&name));
+            let key = renamed.map(|(key, _)| key.clone()).unwrap_or(name);
+            components.entry(key).or_default().card.get_or_insert_with(|| card.to_owned());
+        }
         self
     }
 

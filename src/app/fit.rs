@@ -1,60 +1,146 @@
-//! The size at which a model takes no more than so many sheets.
+//! What is chosen by what was made: the size at which a model takes no more than so many sheets, and colours of
+//! card.
 
 use super::choice::Choice;
 use super::error::AppError;
-use super::input::Input;
+use super::input::{Input, Shape};
+use std::borrow::Cow;
+use tatamu::mesh::painting::Painting;
+use tatamu::paint;
+use tatamu::pipeline::{self, Engine, Output};
 use tatamu::progress::Progress;
 
 /// Sizes are multiples of this, mm.
 const STEP_MM: f64 = 5.0;
 /// The smallest that is tried, mm.
 const LEAST_MM: f64 = 10.0;
-/// So many sizes are tried at most; each costs a run. Four were the most that a sample needed.
-const TRIES: usize = 8;
+/// A size after one that nearly fits, as a share of it: one step at the sizes that most models have.
+const NEXT: f64 = 0.97;
+/// So many sizes are estimated at most for each model that is made. Steps double, so that they reach far.
+const TRIES: usize = 16;
+/// So many models are made at most after the first. Three were the most that a sample needed.
+const MODELS: usize = 6;
 
-/// The choice at the largest size found that takes at most as many sheets as it asks for: the number of
-/// sheets grows with the area, which gives the first guess, and is then searched between what fits and what
-/// does not.
-pub fn fitted(input: &Input, choice: Choice, progress: &dyn Progress) -> Result<Choice, AppError> {
-    let Some(most) = choice.settings().most_sheets else { return Ok(choice) };
-    let first = input.run(&choice, progress)?;
-    let size_mm = first.options().size_mm;
-    let sheets = first.layout().sheet_count();
-    if sheets <= most {
-        return Ok(choice);
+/// Makes the model; where it takes more sheets than are wanted, in the largest size that is found to take no
+/// more. The size is searched by nesting the pieces that were made as if they were smaller, which takes a tenth of
+/// the time of a model, and then a model is made in it. If that takes too many, smaller ones are made.
+///
+/// With a painting, components have card of its colours, where no other is chosen.
+pub fn fitted(
+    input: &Input,
+    choice: Choice,
+    painting: Option<&Painting>,
+    progress: &dyn Progress,
+) -> Result<(Choice, Output), AppError> {
+    let most = choice.settings().most_sheets.unwrap_or(usize::MAX);
+    if most == usize::MAX && painting.is_none() {
+        let output = input.run_and_advise(&choice, progress)?;
+        return Ok((choice, output));
     }
-    let mut choice = choice;
-    let found = searched(size_mm, sheets, most, |size_mm| {
-        choice = choice.clone().resized(size_mm);
-        Ok(input.run(&choice, progress)?.layout().sheet_count())
-    })?;
-    let Some(size_mm) = found else {
-        return Err(AppError::Options(format!(
-            "the model takes more than {most} sheets at every size that was tried; allow more with --sheets-max"
-        )));
-    };
-    Ok(choice.resized(size_mm))
+    let failed = |error| AppError::of_run(error, progress);
+    match &input.shape {
+        Shape::Mesh(mesh) => {
+            let engine = Engine::new(Cow::Borrowed(mesh));
+            // How the parts fold is asked of the last model alone.
+            let laid_out = |choice: &Choice| {
+                let shaped = engine.shape(choice.options(), progress).map_err(failed)?;
+                let output = engine.lay_out(shaped.clone(), progress).map_err(failed)?;
+                Ok((shaped, output))
+            };
+            let choice = match painting {
+                Some(painting) => {
+                    let (_, output) = laid_out(&choice)?;
+                    choice.with_cards(paint::cards(&output, painting))
+                }
+                None => choice,
+            };
+            let (choice, shaped, _) = smaller(choice, most, progress, laid_out)?;
+            let output = engine.finish(shaped, progress).map_err(failed)?;
+            Ok((choice, engine.advise(output, progress).map_err(failed)?))
+        }
+        Shape::Drawn(sketches) => {
+            let run = |choice: &Choice| {
+                let output = pipeline::run_drawn(sketches, choice.size_mm(), choice.options(), progress);
+                Ok(((), output.map_err(failed)?))
+            };
+            let (choice, (), output) = smaller(choice, most, progress, run)?;
+            Ok((choice, output))
+        }
+    }
 }
 
-/// The largest size found at which there are at most `most` sheets; at `size_mm` there are `sheets`.
+/// Makes smaller and smaller models until one takes at most `most` sheets.
+fn smaller<T>(
+    mut choice: Choice,
+    most: usize,
+    progress: &dyn Progress,
+    run: impl Fn(&Choice) -> Result<(T, Output), AppError>,
+) -> Result<(Choice, T, Output), AppError> {
+    let (mut made, mut output) = run(&choice)?;
+    let mut is_searched = false;
+    for _ in 0..MODELS {
+        let (size_mm, sheets) = (output.options().size_mm, output.layout().sheet_count());
+        if sheets <= most {
+            break;
+        }
+        let estimated = |mm: f64| {
+            let sheets = output.layout().sheets_at(output.nets(), mm / size_mm, progress);
+            sheets.map_err(|error| AppError::of_run(error.into(), progress))
+        };
+        // What misses by a sheet after a search is near: models of the next sizes say it better than an estimate.
+        let next_mm = stepped((size_mm * NEXT).min(size_mm - 1.0));
+        let is_near = is_searched && sheets == most + 1 && next_mm < size_mm;
+        let found_mm = if is_near { Some(next_mm) } else { searched(size_mm, sheets, most, estimated)? };
+        is_searched = true;
+        let Some(found_mm) = found_mm else { break };
+        choice = choice.resized(found_mm);
+        (made, output) = run(&choice)?;
+    }
+    if output.layout().sheet_count() <= most {
+        return Ok((choice, made, output));
+    }
+    Err(AppError::Options(format!(
+        "the model takes more than {most} sheets at every size that was tried; allow more with --sheets-max"
+    )))
+}
+
+/// The size that is tried for a size.
+fn stepped(mm: f64) -> f64 {
+    ((mm / STEP_MM).floor() * STEP_MM).max(LEAST_MM)
+}
+
+/// The largest size found at which there are at most `most` sheets; at `size_mm` there are `sheets`. The number
+/// of sheets grows with the area, which gives the first guess. From there it goes by one step, two steps, four
+/// steps, up or down, until what fits and what does not are on either side, and then between these.
 fn searched(
     size_mm: f64,
     sheets: usize,
     most: usize,
     mut sheets_at: impl FnMut(f64) -> Result<usize, AppError>,
 ) -> Result<Option<f64>, AppError> {
-    let stepped = |mm: f64| ((mm / STEP_MM).floor() * STEP_MM).max(LEAST_MM);
-    let (mut fits, mut too_large, mut sheets) = (None, size_mm, sheets);
+    let (mut fits, mut too_large) = (None, size_mm);
+    let mut guess = stepped((size_mm * (most as f64 / sheets as f64).sqrt()).min(size_mm - 1.0));
+    let mut step_mm = STEP_MM;
+    let mut is_between = false;
     for _ in 0..TRIES {
-        let guess = match fits {
-            Some(fits) => stepped((fits + too_large) / 2.0),
-            None => stepped((too_large * (most as f64 / sheets as f64).sqrt()).min(too_large - 1.0)),
-        };
         if fits.is_some_and(|fits| guess <= fits) || guess >= too_large {
             break;
         }
-        sheets = sheets_at(guess)?;
-        if sheets <= most { fits = Some(guess) } else { too_large = guess }
+        let is_first = fits.is_none() && too_large == size_mm;
+        let fit = sheets_at(guess)? <= most;
+        // A guess on the other side than the one before ends the steps.
+        is_between |= !is_first && fit == fits.is_none();
+        if fit {
+            fits = Some(guess)
+        } else {
+            too_large = guess
+        }
+        guess = match fits {
+            Some(fits) if is_between => stepped((fits + too_large) / 2.0),
+            Some(fits) => stepped((fits + step_mm).min(too_large - 1.0)),
+            None => stepped(too_large - step_mm),
+        };
+        step_mm *= 2.0;
     }
     Ok(fits)
 }
@@ -76,6 +162,22 @@ mod tests {
     fn the_largest_step_that_fits_is_found() {
         for (size_mm, most, expected) in [(200.0, 2, 140.0), (200.0, 1, 100.0), (2000.0, 4, 200.0)] {
             assert_eq!(found(size_mm, most), Some(expected), "{size_mm} {most}");
+        }
+    }
+
+    /// Each size took a model: 22 s for two sheets of teddy.
+    #[test]
+    fn few_sizes_are_tried_near_the_first_guess() {
+        for (size_mm, most, pieces_mm) in [(200.0, 2, 3.0), (400.0, 4, -4.0), (150.0, 1, 8.0)] {
+            let mut tries = 0;
+            let sheets_at = |mm: f64| sheets_at(mm + pieces_mm);
+            let found = searched(size_mm, sheets_at(size_mm), most, |mm| {
+                tries += 1;
+                Ok(sheets_at(mm))
+            });
+            let found = found.unwrap().expect("a size");
+            assert!(sheets_at(found) <= most && sheets_at(found + 5.0) > most, "{found}");
+            assert!(tries <= 4, "{tries}");
         }
     }
 

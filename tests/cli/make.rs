@@ -144,3 +144,40 @@ fn both_sides_are_pages_in_turn_and_an_overview_comes_first() {
     let [overview, sheet] = &pages(&["--overview"])[..] else { panic!("two pages") };
     assert!(overview.contains("panels") && sheet.contains("sheet 1 of 1"), "{overview}");
 }
+
+/// Two boxes, one on the other, brown and white.
+fn two_boxes() -> String {
+    let corners = |low: [u32; 3], size: u32| {
+        (0..8_u32)
+            .map(move |k| [low[0] + (k >> 2) * size, low[1] + (k >> 1 & 1) * size, low[2] + (k & 1) * size])
+    };
+    let faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let points = corners([0, 0, 0], 60).chain(corners([15, 60, 15], 30));
+    let points = points.map(|[x, y, z]| format!("{x} {y} {z}\n")).collect::<String>();
+    let coloured = |first: u32, colour: &str| {
+        let face = |f: [u32; 4]| {
+            format!("4 {} {} {} {} {colour}\n", first + f[0], first + f[1], first + f[2], first + f[3])
+        };
+        faces.map(face).concat()
+    };
+    format!("OFF\n16 12 0\n{points}{}{}", coloured(0, "139 69 19"), coloured(8, "250 250 250"))
+}
+
+#[test]
+fn card_has_the_colours_of_the_mesh_unless_others_are_chosen() {
+    let mesh = two_boxes();
+    let make = |options: &[&str]| {
+        let folder = folder_with(&[("a.off", mesh.as_bytes())]);
+        let all = [&["make", "a.off", "--effort", "0", "--paper", "a3", "-o", "a.svg"][..], options].concat();
+        let result = run(folder.path(), &all);
+        assert_eq!(result.code, Some(0), "{}", result.err);
+        (result.out, names(&folder).concat())
+    };
+    let (out, files) = make(&["--card", "auto"]);
+    assert!(out.contains(" brown, ") && out.contains("1 white)"), "{out}");
+    assert!(files.contains("-brown.svg") && files.contains("-white.svg"), "{files}");
+    let (out, _) = make(&["--card", "body=blue", "--card", "auto"]);
+    assert!(out.contains(" blue, ") && out.contains("1 white)"), "{out}");
+    let cube = [("a.off", cube::OFF.as_bytes())];
+    assert_refused(&cube, &["make", "a.off", "--card", "auto"], &["no colours", "--card body=brown"]);
+}

@@ -76,22 +76,26 @@ pub static CONCAVE: Entry = Entry {
 /// The colour of its card.
 pub static CARD: Entry = Entry {
     key: Key::new("component", "color"),
-    flag: Some(Flag { is_repeated: true, ..Flag::named("card", "NAME=COLOR", None) }),
+    flag: Some(Flag { is_repeated: true, ..Flag::named("card", "NAME=COLOR|auto", None) }),
     kind: Kind::Text(Text {
         names: Vec::new,
         other: "text",
         such_as: "head=brown",
         get: |_| None,
         set: |s, text| {
+            if text.trim() == AUTO {
+                return put(&mut s.has_cards_of_mesh, true);
+            }
             let (name, colour) = text.rsplit_once('=').ok_or(CARD_FORM)?;
             let (name, colour) = (checked_name(name.trim()), checked_name(colour.trim()));
             let (name, colour) = (name.map_err(|_| CARD_FORM)?, colour.map_err(|_| CARD_FORM)?);
             put(&mut component(s, name).card, Some(colour.to_owned()))
         },
     }),
-    short: "Colour of the card of a component, in your words",
+    short: "Colour of the card of a component, in your words; auto takes the mesh's colours",
     long: "Each sheet has pieces of one colour. Sheets, files, the summary and the guide name it. Repeat it for more \
-           components.",
+           components. With auto, each of the others gets the card that is most like the colour that covers most of \
+           it, out of 24 that shops have; colours that look alike are one card.",
     example: "--card head=brown --card body=white",
     automatic: "the same card for all",
     meaning: "colour of its card, in your words; each sheet has pieces of one colour, and says it",
@@ -99,7 +103,9 @@ pub static CARD: Entry = Entry {
 };
 
 /// What a colour of card is written like.
-const CARD_FORM: &str = "write the component's name and the colour of its card, such as head=brown";
+const CARD_FORM: &str = "write the component's name and the colour of its card, such as head=brown, or auto";
+/// Takes the colours of the mesh.
+const AUTO: &str = "auto";
 
 /// How it is held.
 pub static JOINT: Entry = Entry {

@@ -13,6 +13,8 @@ pub struct Settings {
     pub model: Options,
     /// The most sheets that the model may take: it is made smaller until it does.
     pub most_sheets: Option<usize>,
+    /// Whether components have card of the mesh's colours, where no other is chosen.
+    pub has_cards_of_mesh: bool,
     /// The files.
     pub files: Files,
 }

@@ -1,8 +1,10 @@
 //! The mesh's colours on panels: each point of a panel gets the colour of the nearest point of the
 //! mesh's surface.
 
+mod cards;
 mod panel;
 
+pub use cards::cards;
 pub use panel::pictures;
 
 use tatamu_draw::drawing::{Drawing, Layer, Mark, Rgb, Shape, Stroke, text};
