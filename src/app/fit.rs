@@ -3,7 +3,7 @@
 
 use super::choice::Choice;
 use super::error::AppError;
-use super::input::{Input, Shape};
+use super::input::{self, Input, Shape};
 use std::borrow::Cow;
 use tatamu::mesh::painting::Painting;
 use tatamu::paint;
@@ -25,18 +25,41 @@ const MODELS: usize = 6;
 /// more. The size is searched by nesting the pieces that were made as if they were smaller, which takes a tenth of
 /// the time of a model, and then a model is made in it. If that takes too many, smaller ones are made.
 ///
-/// With a painting, components have card of its colours, where no other is chosen.
-pub fn fitted(
+/// Components have card of the mesh's colours, if that is asked for, where no other is chosen.
+pub fn fitted(input: &Input, choice: Choice, progress: &dyn Progress) -> Result<(Choice, Output), AppError> {
+    if is_plain(&choice) {
+        let output = input.run(&choice, progress)?;
+        return Ok((choice, output));
+    }
+    searched_for(input, choice, progress, |_, output| Ok(output))
+}
+
+/// The same, and tries what helps where problems are left.
+pub fn fitted_and_advised(
     input: &Input,
     choice: Choice,
-    painting: Option<&Painting>,
     progress: &dyn Progress,
 ) -> Result<(Choice, Output), AppError> {
-    let most = choice.settings().most_sheets.unwrap_or(usize::MAX);
-    if most == usize::MAX && painting.is_none() {
+    if is_plain(&choice) {
         let output = input.run_and_advise(&choice, progress)?;
         return Ok((choice, output));
     }
+    searched_for(input, choice, progress, |engine, output| engine.advise(output, progress))
+}
+
+/// Whether nothing depends on what is made.
+fn is_plain(choice: &Choice) -> bool {
+    choice.settings().most_sheets.is_none() && !choice.settings().has_cards_of_mesh
+}
+
+fn searched_for(
+    input: &Input,
+    choice: Choice,
+    progress: &dyn Progress,
+    advise: impl Fn(&Engine<'_>, Output) -> Result<Output, pipeline::Error>,
+) -> Result<(Choice, Output), AppError> {
+    let most = choice.settings().most_sheets.unwrap_or(usize::MAX);
+    let painting = choice.settings().has_cards_of_mesh.then(|| colours_of(input)).transpose()?;
     let failed = |error| AppError::of_run(error, progress);
     match &input.shape {
         Shape::Mesh(mesh) => {
@@ -47,7 +70,7 @@ pub fn fitted(
                 let output = engine.lay_out(shaped.clone(), progress).map_err(failed)?;
                 Ok((shaped, output))
             };
-            let choice = match painting {
+            let choice = match &painting {
                 Some(painting) => {
                     let (_, output) = laid_out(&choice)?;
                     choice.with_cards(paint::cards(&output, painting))
@@ -56,7 +79,7 @@ pub fn fitted(
             };
             let (choice, shaped, _) = smaller(choice, most, progress, laid_out)?;
             let output = engine.finish(shaped, progress).map_err(failed)?;
-            Ok((choice, engine.advise(output, progress).map_err(failed)?))
+            Ok((choice, advise(&engine, output).map_err(failed)?))
         }
         Shape::Drawn(sketches) => {
             let run = |choice: &Choice| {
@@ -66,6 +89,19 @@ pub fn fitted(
             let (choice, (), output) = smaller(choice, most, progress, run)?;
             Ok((choice, output))
         }
+    }
+}
+
+/// The colours that card is chosen by.
+fn colours_of(input: &Input) -> Result<Painting, AppError> {
+    let failed = |reason: String| {
+        AppError::Options(format!(
+            "--card auto: {reason}; name the colours yourself, such as --card body=brown"
+        ))
+    };
+    match input.shape {
+        Shape::Mesh(_) => input::read_painting(&input.mesh_path).map_err(|error| failed(error.to_string())),
+        Shape::Drawn(_) => Err(failed("drawings have no colours".to_owned())),
     }
 }
 

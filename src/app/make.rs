@@ -2,15 +2,13 @@
 
 use super::choice::Choice;
 use super::error::AppError;
-use super::fit::fitted;
-use super::input::{self, Input, Shape};
+use super::fit::fitted_and_advised;
 use super::made::Made;
 use super::output::{self, Target};
 use super::words::Say;
-use super::{names, text};
+use super::{input, names, text};
 use std::path::{Path, PathBuf};
 use tatamu::export::{FORMATS, Format, FormatOptions, GUIDES, Source};
-use tatamu::mesh::painting::Painting;
 use tatamu::mesh::{Mesh, Repairs};
 use tatamu::net::Side;
 use tatamu::product::{Content, Product, Selection};
@@ -111,19 +109,6 @@ impl<'a> Task<'a> {
     }
 }
 
-/// The colours that card is chosen by.
-fn colours_of(input: &Input) -> Result<Painting, AppError> {
-    let failed = |reason: String| {
-        AppError::Options(format!(
-            "--card auto: {reason}; name the colours yourself, such as --card body=brown"
-        ))
-    };
-    match input.shape {
-        Shape::Mesh(_) => input::read_painting(&input.mesh_path).map_err(|error| failed(error.to_string())),
-        Shape::Drawn(_) => Err(failed("drawings have no colours".to_owned())),
-    }
-}
-
 /// Makes the model of one input, and the content of its files. Warnings are told as they come.
 pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str)) -> Result<Made, AppError> {
     let places = task.places();
@@ -137,11 +122,10 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
         return Err(AppError::ColouredInside);
     }
     let painting = files.is_coloured.then(|| input::read_painting(&input.mesh_path)).transpose()?;
-    let of_cards = choice.settings().has_cards_of_mesh.then(|| colours_of(&input)).transpose()?;
     let warnings = input.warnings();
     warnings.iter().for_each(|warning| tell(&say(warning)));
 
-    let (choice, result) = fitted(&input, choice, of_cards.as_ref(), progress)?;
+    let (choice, result) = fitted_and_advised(&input, choice, progress)?;
     let selection = task.wish.selection.checked(&result).map_err(AppError::Options)?;
     let stages = progress.finish();
     text::first_of_each_kind(result.warnings(), say).iter().for_each(|message| tell(message));

@@ -122,6 +122,22 @@ fn the_size_that_fits_the_sheets_is_found() {
     assert!(result.out.contains("sheets      2 of a4") || result.out.contains("sheets      1 of a4"));
 }
 
+/// `tatamu plot` took no notice of it.
+#[test]
+fn a_plotted_model_takes_no_more_sheets_than_it_may() {
+    let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
+    let plot = |options: &[&str]| {
+        let all =
+            [&["plot", "cube.off", "--size", "300", "--effort", "0", "--dry-run"][..], options].concat();
+        let result = run(folder.path(), &all);
+        assert_eq!(result.code, Some(0), "{}", result.err);
+        result.out
+    };
+    assert!(plot(&[]).contains("sheet 2 of "));
+    let one = plot(&["--sheets-max", "1"]);
+    assert!(one.starts_with("cube: ") && !one.contains("sheet 2"), "{one}");
+}
+
 #[test]
 fn a_mesh_comes_from_the_standard_input() {
     let folder = tempfile::tempdir().unwrap();

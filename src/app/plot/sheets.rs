@@ -2,6 +2,7 @@
 
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
+use crate::app::fit::fitted;
 use crate::app::make::Timed;
 use crate::app::words::Say;
 use crate::app::{input, text};
@@ -165,7 +166,7 @@ pub fn of_inputs(
     let input = input::read(path)?;
     let choice = Choice::new(input.project.as_ref(), given)?;
     input.warnings().iter().for_each(|warning| tell(&say(warning)));
-    let result = input.run(&choice, progress)?;
+    let (_, result) = fitted(&input, choice, progress)?;
     progress.finish();
     text::first_of_each_kind(result.warnings(), say).iter().for_each(|message| tell(message));
     let title = text::printable(&path.file_stem().unwrap_or_default().to_string_lossy());
