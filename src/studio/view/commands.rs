@@ -186,6 +186,16 @@ pub static LAY_OUT: Command = Command {
     ..BLANK
 };
 
+pub static EDGES: Command = Command {
+    name: "Cut and glue edges",
+    icon: Some(Icon::ScissorsLineDashed),
+    tip: "a click on the sheets cuts a crease, or makes a crease of a cut edge; tabs are dragged to the other side",
+    keys: &[key(Key::E)],
+    place: Place::Edit(2),
+    can: |w| has_file(w) && w.shows_sheets(),
+    act: |w, _| w.sheets.edges_mut().toggle(),
+};
+
 static STOP: Command = Command {
     name: "Stop the calculation",
     icon: Some(Icon::CircleStop),
@@ -432,6 +442,7 @@ pub static ALL: &[&Command] = &[
     &TURN_LEFT,
     &TURN_RIGHT,
     &LAY_OUT,
+    &EDGES,
     &SELECT_ALL,
     &STOP,
     &SELECT_NONE,

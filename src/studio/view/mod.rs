@@ -6,6 +6,7 @@ mod canvas;
 mod commands;
 mod dialogs;
 mod dials;
+mod edges;
 mod export;
 mod finder;
 mod look;
@@ -253,6 +254,11 @@ impl Window {
         self.places.folding = Some(panel.response.rect);
         let panel = egui::CentralPanel::no_frame().show(ui, |ui| self.space.show(&mut self.studio, ui));
         self.places.model = Some(panel.response.rect);
+    }
+
+    /// Whether the sheets are to be seen.
+    fn shows_sheets(&self) -> bool {
+        self.mode == Mode::Sheets || self.mode == Mode::Model && self.has_sheets_beside
     }
 
     /// Fits what is shown to the window.
