@@ -69,6 +69,9 @@ pub enum AppError {
     /// Ctrl-C.
     #[error(transparent)]
     Cancelled(Cancelled),
+    /// No size takes so few sheets as were asked for.
+    #[error("the model takes more than {most} sheets at every size that was tried")]
+    ManySheets { most: usize },
     /// A stage failed.
     #[error("{0}")]
     Pipeline(pipeline::Error),
@@ -87,6 +90,7 @@ impl AppError {
             Self::Pipeline(error) => error.remedies(),
             Self::Export(error) => error.remedies(),
             Self::Sheet { remedies, .. } | Self::Machine { remedies, .. } => remedies.clone(),
+            Self::ManySheets { .. } => vec![Remedy::MoreSheets],
             Self::Colour { .. } => vec![Remedy::NoColours],
             Self::ColouredInside => vec![Remedy::BothSides, Remedy::NoColours],
             _ => Vec::new(),

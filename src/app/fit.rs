@@ -28,11 +28,7 @@ pub fn fitted(input: &Input, choice: Choice, progress: &dyn Progress) -> Result<
         choice = choice.clone().resized(size_mm);
         Ok(input.run(&choice, progress)?.layout().sheet_count())
     })?;
-    let Some(size_mm) = found else {
-        return Err(AppError::Options(format!(
-            "the model takes more than {most} sheets at every size that was tried; allow more with --sheets-max"
-        )));
-    };
+    let size_mm = found.ok_or(AppError::ManySheets { most })?;
     Ok(choice.resized(size_mm))
 }
 

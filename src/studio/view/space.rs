@@ -330,6 +330,13 @@ impl Space {
                 self.follow(studio);
             }
             let solids = scene::scene(&studio.seen(), &self.setting);
+            let is_same = self.solids.as_ref().is_some_and(|s| s.3 == solids);
+            if let Some(drawn) = self.drawn.as_mut().filter(|_| is_same) {
+                // The picture still shows it.
+                drawn.version = version;
+                drawn.selection.clone_from(&selection);
+                drawn.setting.clone_from(&self.setting);
+            }
             self.solids = Some((version, selection, self.setting.clone(), solids));
             if was_other {
                 self.orbit = None;
