@@ -184,8 +184,9 @@ impl EdgeTool {
                     }
                 });
                 combo.response.labelled_by(label.id);
-                if let Some(&(id, joined)) = chosen {
-                    choices(studio, output, ui, id, joined);
+                match chosen {
+                    Some(&(id, joined)) => choices(studio, output, ui, id, joined),
+                    None => drop(ui.weak("or click one on the sheets: it is cut, or becomes a crease")),
                 }
             });
         });
@@ -258,8 +259,8 @@ fn make(studio: &mut Studio, change: Option<Change>) {
 /// A button that takes up the tool.
 pub fn button(tool: &mut EdgeTool, ui: &mut Ui) {
     let command = &commands::EDGES;
-    let text = egui::RichText::new(command.picture()).size(15.0);
-    let button = ui.add(egui::Button::selectable(tool.is_on, text));
+    let text = format!("{}  Edges", command.picture());
+    let button = ui.add(egui::Button::selectable(tool.is_on, text).frame_when_inactive(true));
     let is_on = tool.is_on;
     button.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_on, command.name));
     let tip = command.hover_text(ui.ctx());

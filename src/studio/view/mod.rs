@@ -30,6 +30,7 @@ mod warnings;
 mod welcome;
 mod wheel;
 
+use super::messages::Cause;
 use super::state::Studio;
 use browser::Purpose;
 pub use dialogs::Chooser;
@@ -233,10 +234,19 @@ impl Window {
                 self.places.sheets = Some(panel.response.rect);
             }
             Mode::Export => {
+                if self.export.has_pages() {
+                    let panel =
+                        egui::Panel::right("preview").resizable(true).default_size(300.0).min_size(160.0);
+                    panel.show(ui, |ui| self.sheets.preview(&mut self.studio, ui));
+                }
                 egui::CentralPanel::default().show(ui, |ui| self.export.show(&mut self.studio, ui));
             }
             Mode::Plot => {
                 egui::CentralPanel::default().show(ui, |ui| self.plot.show(&mut self.studio, ui));
+                if self.plot.wants_profile() {
+                    let folder = crate::app::profiles::folder().map(|folder| folder.join("cutters"));
+                    self.dialogs.ask_file(ui.ctx(), Purpose::Profile, folder, "");
+                }
             }
         }
     }
@@ -306,6 +316,12 @@ impl Window {
         match outcome {
             None => {}
             Some(Outcome::Open(path)) => self.open(&path),
+            Some(Outcome::Profile(path)) => {
+                self.studio.messages_mut().clear(Cause::Opening);
+                if let Err(problem) = self.plot.take_profile(&path) {
+                    self.studio.messages_mut().warn(Cause::Opening, problem);
+                }
+            }
             Some(Outcome::Save(path)) => {
                 self.studio.save_as(&path);
                 if let Some(leave) = self.dialogs.take_leave().filter(|_| !self.work().is_changed) {
