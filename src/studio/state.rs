@@ -1,5 +1,6 @@
 //! The studio without its window: what is open, what is shown, and what the user can do.
 
+use super::book;
 use super::change::Change;
 use super::document::Document;
 use super::messages::{Cause, Messages};
@@ -435,6 +436,16 @@ impl Studio {
     /// A folder for files that come with the program.
     pub fn samples(&self) -> Option<PathBuf> {
         self.store.samples()
+    }
+
+    /// Writes the book that comes with the program; where a page of it is then.
+    ///
+    /// # Errors
+    /// A message where it cannot be written.
+    pub fn book(&self, page: usize) -> Result<PathBuf, String> {
+        let folder = self.store.book().ok_or("there is no home folder to write the book to")?;
+        book::write(&folder)?;
+        Ok(book::file(&folder, page))
     }
 
     /// Lets the layout place all pieces.

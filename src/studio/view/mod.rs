@@ -237,7 +237,7 @@ impl Window {
                 if self.export.has_pages() {
                     let panel =
                         egui::Panel::right("preview").resizable(true).default_size(300.0).min_size(160.0);
-                    panel.show(ui, |ui| self.sheets.preview(&mut self.studio, ui));
+                    panel.show(ui, |ui| self.sheets.preview(&self.studio, ui));
                 }
                 egui::CentralPanel::default().show(ui, |ui| self.export.show(&mut self.studio, ui));
             }
@@ -354,6 +354,15 @@ impl Window {
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
             Leave::Open(path) => self.studio.open(&path),
+        }
+    }
+
+    /// Opens a page of the book in the browser.
+    fn open_book(&mut self, ctx: &egui::Context, page: usize) {
+        self.studio.messages_mut().clear(Cause::Opening);
+        match self.studio.book(page) {
+            Ok(path) => ctx.open_url(egui::OpenUrl::new_tab(format!("file://{}", path.display()))),
+            Err(problem) => self.studio.messages_mut().warn(Cause::Opening, problem),
         }
     }
 

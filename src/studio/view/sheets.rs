@@ -397,8 +397,10 @@ impl SheetsPanel {
             let points: Vec<Pos2> = outline.iter().map(|&p| to_screen(rect, scale, p)).collect();
             let own = look::on_paper(studio.shown().colour(id.net));
             let (width, colour) = match (is_selected, is_over) {
+                // Among edges the chosen ones stand out, not all of the piece.
+                (true, _) if self.edges.is_on() => (2.4, own),
                 (true, _) => (3.0, ACCENT),
-                (_, true) => (2.2, ACCENT),
+                (_, true) if !self.edges.is_on() => (2.2, ACCENT),
                 _ => (1.8, own),
             };
             draw(painter, points, Stroke::new(width, colour));

@@ -439,3 +439,16 @@ fn a_profile_of_the_users_own_is_taken_from_a_file() {
     assert!(plot.take_profile(&wrong).unwrap_err().contains("wrong.toml"));
     assert_eq!(plot.choice()[0], cutter.display().to_string(), "what is no profile changes nothing");
 }
+
+#[test]
+fn pages_of_the_book_are_found_among_the_commands() {
+    let (mut desk, folder) = open();
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    desk.run_ok();
+    desk.event(Event::Text("book cutter".to_owned()));
+    desk.run_ok();
+    desk.key_press(Key::Enter);
+    desk.run_ok();
+    assert!(folder.path().join("state/book/how-to/cutter.html").is_file());
+    assert_eq!(desk.state().studio().problem(), None);
+}
