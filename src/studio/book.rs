@@ -85,8 +85,9 @@ fn file_name(path: &str) -> String {
 fn html_of(page: &Page) -> String {
     let events: Vec<Event<'_>> = Parser::new_ext(page.text, Options::ENABLE_TABLES).collect();
     let mut kept = Vec::with_capacity(events.len());
-    // Of the links and pictures that are open: whether they are left out.
+    // Of the links that are open: whether they are left out.
     let mut left_out: Vec<bool> = Vec::new();
+    let mut is_in_picture = false;
     for (k, event) in events.iter().enumerate() {
         match event {
             Event::Start(Tag::Heading { level, classes, attrs, .. }) => {
@@ -103,9 +104,11 @@ fn html_of(page: &Page) -> String {
                     kept.push(Event::Start(tag));
                 }
             }
-            // Pictures are no part of the program; what they show is told.
-            Event::Start(Tag::Image { .. }) => left_out.push(true),
-            Event::End(TagEnd::Link | TagEnd::Image) => {
+            // Pictures are no part of the program.
+            Event::Start(Tag::Image { .. }) => is_in_picture = true,
+            Event::End(TagEnd::Image) => is_in_picture = false,
+            _ if is_in_picture => {}
+            Event::End(TagEnd::Link) => {
                 if left_out.pop() == Some(false) {
                     kept.push(event.clone());
                 }
@@ -190,6 +193,7 @@ mod tests {
                 "{}",
                 page.path
             );
+            assert!(!text.contains("<img"), "{}", page.path);
             for link in text.split("href=\"").skip(1).filter_map(|rest| rest.split('"').next()) {
                 if link.starts_with("https://") {
                     continue;
