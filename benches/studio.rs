@@ -54,6 +54,24 @@ fn turn(bencher: Bencher, path: &str) {
     });
 }
 
+/// The same, with all other components and the choice among their candidates.
+#[divan::bench(args = meshes(), sample_count = 20, sample_size = 1)]
+fn turn_model(bencher: Bencher, path: &str) {
+    let Some(mesh) = read(path) else { return };
+    let engine = Engine::new(Cow::Owned(mesh));
+    let Ok(shaped) = engine.shape(&Options::default(), &Silent) else { return };
+    let names = shaped.divided().hulls().names().to_vec();
+    let count = AtomicUsize::new(0);
+    bencher.bench(|| {
+        let turn = count.fetch_add(1, Ordering::Relaxed);
+        let mut options = Options::default();
+        let direction_rad = Some(0.0123 + 0.0873 * turn as f64);
+        let own = ComponentOptions { direction_rad, ..ComponentOptions::default() };
+        options.components.insert(names[turn % names.len()].clone(), own);
+        engine.shape(&options, &Silent).is_ok()
+    });
+}
+
 /// One picture of the mesh while the view turns, 1280 × 720 pixels.
 #[divan::bench(args = meshes(), sample_count = 40, sample_size = 1)]
 fn orbit(bencher: Bencher, path: &str) {
@@ -68,4 +86,18 @@ fn orbit(bencher: Bencher, path: &str) {
         orbit.turn(0.05, 0.0);
         orbit.eye([1280, 720]).map(|eye| Frame::draw(&solids, &eye, Rgb::WHITE))
     });
+}
+
+/// The same with smooth edges, once nothing moves.
+#[divan::bench(args = meshes(), sample_count = 10, sample_size = 1)]
+fn smooth(bencher: Bencher, path: &str) {
+    let Some(mesh) = read(path) else { return };
+    let mut solids = Solids::default();
+    for face in 0..mesh.faces().len() {
+        let corners = mesh.corners(face).map(|c| upright().transform_point3(c));
+        solids.push_triangle(corners, Rgb(200, 190, 180), Some(Rgb::WHITE), face as u32, false);
+    }
+    let Some(orbit) = solids.ball().map(Orbit::of_ball) else { return };
+    bencher
+        .bench_local(|| orbit.eye([2560, 1440]).map(|eye| Frame::draw(&solids, &eye, Rgb::WHITE).halved()));
 }

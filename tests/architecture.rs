@@ -157,22 +157,29 @@ fn the_application_knows_no_flags_and_no_windows() {
             let is_used = [format!("use {library}"), format!("{library}::")].iter().any(|u| text.contains(u));
             assert!(!is_used, "{} uses {library}", path.display());
         }
+        let flags = flags_of(&code(&text));
+        assert!(flags.is_empty(), "{}: {flags:?}", path.display());
     }
 }
 
-/// The libraries serve any front, too: they say what was found, and the front names its flags or settings.
-#[test]
-fn the_libraries_name_no_flags() {
+/// The texts in quotes that have a flag.
+fn flags_of(code: &str) -> Vec<String> {
     let is_flag = |text: &str| {
         let is_start = |at: usize| text[..at].ends_with([' ', '(']) || at == 0;
         let is_word = |at: usize| text[at + 2..].starts_with(|c: char| c.is_ascii_lowercase());
         text.match_indices("--").any(|(at, _)| is_start(at) && is_word(at))
     };
+    // Every second piece is in quotes.
+    let text = code.replace("\\\"", "'").replace("'\"'", "' '");
+    text.split('"').skip(1).step_by(2).filter(|text| is_flag(text)).map(str::to_owned).collect()
+}
+
+/// The libraries serve any front, too: they say what was found, and the front names its flags or settings.
+#[test]
+fn the_libraries_name_no_flags() {
     for name in table().keys().filter(|name| *name != "the program") {
         for (module, code) in modules(name) {
-            // Every second piece is in quotes.
-            let text = code.replace("\\\"", "'").replace("'\"'", "' '");
-            let flags: Vec<&str> = text.split('"').skip(1).step_by(2).filter(|text| is_flag(text)).collect();
+            let flags = flags_of(&code);
             assert!(flags.is_empty(), "{name}, {module:?}: {flags:?}");
         }
     }

@@ -69,6 +69,14 @@ pub enum AppError {
     /// Ctrl-C.
     #[error(transparent)]
     Cancelled(Cancelled),
+    /// Components were to have card of the mesh's colours.
+    #[error(
+        "the card cannot have the colours of the mesh: {reason}; name the colour of each component yourself"
+    )]
+    NoCardColours { reason: String },
+    /// No size takes so few sheets as were asked for.
+    #[error("the model takes more than {most} sheets at every size that was tried")]
+    ManySheets { most: usize },
     /// A stage failed.
     #[error("{0}")]
     Pipeline(pipeline::Error),
@@ -87,6 +95,7 @@ impl AppError {
             Self::Pipeline(error) => error.remedies(),
             Self::Export(error) => error.remedies(),
             Self::Sheet { remedies, .. } | Self::Machine { remedies, .. } => remedies.clone(),
+            Self::ManySheets { .. } => vec![Remedy::MoreSheets],
             Self::Colour { .. } => vec![Remedy::NoColours],
             Self::ColouredInside => vec![Remedy::BothSides, Remedy::NoColours],
             _ => Vec::new(),

@@ -94,11 +94,7 @@ fn searched_for(
 
 /// The colours that card is chosen by.
 fn colours_of(input: &Input) -> Result<Painting, AppError> {
-    let failed = |reason: String| {
-        AppError::Options(format!(
-            "--card auto: {reason}; name the colours yourself, such as --card body=brown"
-        ))
-    };
+    let failed = |reason: String| AppError::NoCardColours { reason };
     match input.shape {
         Shape::Mesh(_) => input::read_painting(&input.mesh_path).map_err(|error| failed(error.to_string())),
         Shape::Drawn(_) => Err(failed("drawings have no colours".to_owned())),
@@ -135,9 +131,7 @@ fn smaller<T>(
     if output.layout().sheet_count() <= most {
         return Ok((choice, made, output));
     }
-    Err(AppError::Options(format!(
-        "the model takes more than {most} sheets at every size that was tried; allow more with --sheets-max"
-    )))
+    Err(AppError::ManySheets { most })
 }
 
 /// The size that is tried for a size.

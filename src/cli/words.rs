@@ -58,6 +58,8 @@ mod tests {
         let thin = ModelWarning::ThinPart { component: "tail".to_owned(), error_mm: 2.0, least_mm: 3.0 };
         let thin = warning(&thin.into());
         assert!(thin.ends_with("; use a larger --size, or a smaller --min-panel-width than 3 mm"), "{thin}");
+        let many = error(&AppError::ManySheets { most: 2 });
+        assert!(many.ends_with("; allow more with --sheets-max"), "{many}");
         let helps = TrialWarning::Helps { change: Change::Size(250.0), before: 2, left: 1 };
         let helps = warning(&helps.into());
         assert_eq!(helps, "--size 250mm was tried, and leaves 1 such problem instead of 2");

@@ -5,6 +5,7 @@
 
 pub mod colours;
 pub mod dials;
+pub mod edges;
 pub mod hand;
 pub mod notes;
 pub mod opened;

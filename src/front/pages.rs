@@ -144,7 +144,7 @@ pub fn moved_outline(output: &Output, id: PieceId, to: &Move) -> Vec<DVec2> {
 }
 
 /// All pieces with their places.
-fn all(output: &Output) -> impl Iterator<Item = (PieceId, &Piece, &PiecePlace)> {
+pub(super) fn all(output: &Output) -> impl Iterator<Item = (PieceId, &Piece, &PiecePlace)> {
     output.nets().iter().enumerate().flat_map(|(net, own)| {
         let places = own.pieces().iter().zip(output.layout().places(net)).enumerate();
         places.map(move |(piece, (own, place))| (PieceId { net, piece }, own, place))
@@ -193,7 +193,7 @@ fn is_near(a: &[DVec2], b: &[DVec2], room_mm: f64) -> bool {
 }
 
 /// From a sheet as seen from outside to the page as it is printed.
-fn on_page(output: &Output) -> impl Fn(DVec2) -> DVec2 + use<> {
+pub(super) fn on_page(output: &Output) -> impl Fn(DVec2) -> DVec2 + use<> {
     let options = output.layout().options();
     let (width_mm, is_mirrored) = (options.size_mm().x, options.choices.side == Side::Inside);
     move |p| if is_mirrored { DVec2::new(width_mm - p.x, p.y) } else { p }

@@ -29,6 +29,8 @@ pub struct Shown {
     colours: Colours,
     /// Changes whenever what is shown does.
     version: u64,
+    /// Changes whenever the components do, or their distances from the surface.
+    shape_version: u64,
     /// Changes whenever the sheets do.
     sheets_version: u64,
 }
@@ -37,14 +39,15 @@ impl Shown {
     /// Forgets everything: another file is open.
     pub fn clear(&mut self) {
         let (version, sheets_version) = (self.version + 1, self.sheets_version + 1);
-        *self = Self { version, sheets_version, ..Self::default() };
+        let shape_version = self.shape_version + 1;
+        *self = Self { version, shape_version, sheets_version, ..Self::default() };
     }
 
     /// A component that is made before all others.
     pub fn show_component(&mut self, index: usize, component: ModelPart) {
         if self.part(index).is_some_and(|old| *old != component) {
             self.ahead = Some((index, component));
-            self.version += 1;
+            self.show_shape();
         }
     }
 
@@ -53,13 +56,18 @@ impl Shown {
         self.colours.keep(shaped.divided().hulls().names());
         self.shaped = Some(shaped);
         (self.ahead, self.distances) = (None, None);
+        self.show_shape();
+    }
+
+    fn show_shape(&mut self) {
         self.version += 1;
+        self.shape_version += 1;
     }
 
     /// Distances between surface and components.
     pub fn show_distances(&mut self, distances: Distances) {
         self.distances = Some(distances);
-        self.version += 1;
+        self.show_shape();
     }
 
     /// The sheets, perhaps with the order of folding.
@@ -128,6 +136,11 @@ impl Shown {
     /// Changes whenever what is shown does.
     pub fn version(&self) -> u64 {
         self.version
+    }
+
+    /// Changes whenever the components do, or their distances from the surface.
+    pub fn shape_version(&self) -> u64 {
+        self.shape_version
     }
 
     /// Changes whenever the sheets do.

@@ -119,6 +119,7 @@ mod tests {
             Remedy::SmallerPaper,
             Remedy::SmallerMargin,
             Remedy::LargerMargin,
+            Remedy::MoreSheets,
             Remedy::LargerMachine,
             Remedy::SplitPanels,
             Remedy::NarrowerPanels(3.0),
@@ -150,6 +151,13 @@ mod tests {
             let told = error(&failure(Outcome { end, is_confirmed: false, strokes_done: 3 }));
             assert!(told.contains("profile") && !told.contains("--"), "{told}");
         }
+    }
+
+    /// The studio and the page said "allow more with --sheets-max".
+    #[test]
+    fn a_model_of_too_many_sheets_names_the_setting() {
+        let told = error(&AppError::ManySheets { most: 2 });
+        assert!(told.ends_with("; allow more with sheets_max in the project file"), "{told}");
     }
 
     #[test]

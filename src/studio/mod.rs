@@ -7,6 +7,7 @@
 //!
 //! The state knows nothing of the window, and is tested without it.
 
+mod book;
 mod messages;
 mod planning;
 mod plotting;

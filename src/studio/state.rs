@@ -1,5 +1,6 @@
 //! The studio without its window: what is open, what is shown, and what the user can do.
 
+use super::book;
 use super::change::Change;
 use super::document::Document;
 use super::messages::{Cause, Messages};
@@ -44,6 +45,8 @@ pub struct Studio {
     /// What is hidden.
     pub visibility: Visibility,
     measures: bool,
+    /// Whether the last change was a choice about a net, which is taken back if it cannot be followed.
+    is_attempt: bool,
     /// When a component was turned last.
     last_turn_s: f64,
     /// Tells files that were opened apart.
@@ -72,6 +75,7 @@ impl Studio {
             hover: None,
             visibility: Visibility::default(),
             measures: false,
+            is_attempt: false,
             last_turn_s: f64::NEG_INFINITY,
             session: 0,
             wake,
@@ -249,6 +253,10 @@ impl Studio {
                 self.shown.show_output(*output, true);
                 self.busy = None;
             }
+            News::Failed(problem, _) if self.is_attempt => {
+                self.undo();
+                self.messages.warn(Cause::Change, format!("{problem}; the net stays as it was"));
+            }
             News::Failed(problem, missing) => {
                 (self.busy, self.missing) = (None, missing);
                 self.messages.warn(Cause::Model, problem);
@@ -307,7 +315,7 @@ impl Studio {
 
     fn start(&mut self, first: Option<usize>) {
         let (Some(opened), Some(document)) = (&self.opened, &self.document) else { return };
-        self.missing = None;
+        (self.missing, self.is_attempt) = (None, false);
         self.messages.clear(Cause::Model);
         self.busy = Some(Busy { stage: "starting", fraction: None });
         let (engine, options) = (opened.engine.clone(), document.options().clone());
@@ -343,13 +351,16 @@ impl Studio {
         }
         self.messages.clear(Cause::Change);
         let Some(document) = &mut self.document else { return };
+        let before = document.text().to_owned();
         match document.change(change, gesture) {
             Ok(()) => {
+                let is_new = document.text() != before;
                 let first = match change {
                     Change::Component { name, .. } | Change::Reset { name } => self.index_of(name),
                     _ => None,
                 };
                 self.changed(first);
+                self.is_attempt = is_new && matches!(change, Change::Edge { .. } | Change::Pieces { .. });
             }
             Err(problem) => self.messages.warn(Cause::Change, problem),
         }
@@ -357,6 +368,8 @@ impl Studio {
 
     fn changed(&mut self, first: Option<usize>) {
         self.messages.clear(Cause::Saving);
+        // The work begins before the file is written.
+        self.start(first);
         if let (Some(opened), Some(document)) = (&self.opened, &self.document) {
             if document.is_changed() {
                 self.store.keep(&opened.source, document.text());
@@ -364,7 +377,6 @@ impl Studio {
                 self.store.forget(&opened.source);
             }
         }
-        self.start(first);
     }
 
     /// The gesture is over; the next change is a step of its own.
@@ -424,6 +436,16 @@ impl Studio {
     /// A folder for files that come with the program.
     pub fn samples(&self) -> Option<PathBuf> {
         self.store.samples()
+    }
+
+    /// Writes the book that comes with the program; where a page of it is then.
+    ///
+    /// # Errors
+    /// A message where it cannot be written.
+    pub fn book(&self, page: usize) -> Result<PathBuf, String> {
+        let folder = self.store.book().ok_or("there is no home folder to write the book to")?;
+        book::write(&folder)?;
+        Ok(book::file(&folder, page))
     }
 
     /// Lets the layout place all pieces.

@@ -64,6 +64,11 @@ impl Store {
         std::fs::create_dir_all(&folder).ok().map(|()| folder)
     }
 
+    /// The folder of the book, which [`super::book::write`] makes.
+    pub fn book(&self) -> Option<PathBuf> {
+        Some(self.folder.as_ref()?.join("book"))
+    }
+
     /// Changes to a file that were not saved.
     pub fn recovered(&self, file: &Path) -> Option<String> {
         std::fs::read_to_string(self.folder.as_ref()?.join(unsaved(file))).ok()

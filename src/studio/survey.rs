@@ -2,9 +2,8 @@
 //! thread of its own, while nothing else is made.
 
 use super::worker::Wake;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use tatamu::pipeline::{Engine, Options};
 use tatamu::progress::Progress;
 
@@ -20,13 +19,43 @@ pub struct Look {
     pub is_free: bool,
 }
 
+/// Whether to go on.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+enum Wish {
+    #[default]
+    Go,
+    Rest,
+    End,
+}
+
+/// Where the thread asks whether it is to go on, and waits while it is to rest.
+#[derive(Default)]
+struct Gate {
+    wish: Mutex<Wish>,
+    is_changed: Condvar,
+}
+
+impl Gate {
+    fn set(&self, wish: Wish) {
+        *self.wish.lock().unwrap_or_else(PoisonError::into_inner) = wish;
+        self.is_changed.notify_all();
+    }
+
+    /// Whether it is to end.
+    fn is_over(&self) -> bool {
+        let wish = self.wish.lock().unwrap_or_else(PoisonError::into_inner);
+        let wish = self.is_changed.wait_while(wish, |wish| *wish == Wish::Rest);
+        *wish.unwrap_or_else(PoisonError::into_inner) == Wish::End
+    }
+}
+
 /// The directions of one component. The rest is given up when this is dropped.
 pub struct Survey {
     /// What it is of: the component, and the options without its direction.
     of: (String, Options),
     looks: [Option<Look>; COUNT],
     coming: Receiver<(usize, Option<Look>)>,
-    is_given_up: Arc<AtomicBool>,
+    gate: Arc<Gate>,
 }
 
 /// What the thread works with.
@@ -34,17 +63,17 @@ struct Scout {
     engine: Arc<Engine<'static>>,
     options: Options,
     name: String,
-    is_given_up: Arc<AtomicBool>,
+    gate: Arc<Gate>,
 }
 
 impl Survey {
     /// Begins to look.
     pub fn start(engine: Arc<Engine<'static>>, options: &Options, name: &str, wake: Wake) -> Self {
         let (sender, coming) = channel();
-        let is_given_up = Arc::new(AtomicBool::new(false));
+        let gate = Arc::new(Gate::default());
         let of = (name.to_owned(), without_direction(options, name));
         let options = of.1.clone();
-        let scout = Scout { engine, options, name: name.to_owned(), is_given_up: is_given_up.clone() };
+        let scout = Scout { engine, options, name: name.to_owned(), gate: gate.clone() };
         std::thread::spawn(move || {
             // One core is left to the window and to what the user wants next.
             match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
@@ -52,12 +81,17 @@ impl Survey {
                 Err(_) => scout.look_about(&sender, &wake),
             }
         });
-        Self { of, looks: [None; COUNT], coming, is_given_up }
+        Self { of, looks: [None; COUNT], coming, gate }
     }
 
     /// Whether it is of this component, with these options but for its direction.
     pub fn is_of(&self, options: &Options, name: &str) -> bool {
         self.of.0 == name && self.of.1 == without_direction(options, name)
+    }
+
+    /// Leaves the cores to other work for as long as it rests.
+    pub fn rest(&self, rests: bool) {
+        self.gate.set(if rests { Wish::Rest } else { Wish::Go });
     }
 
     /// Takes what was found since the last time.
@@ -82,7 +116,7 @@ impl Survey {
 
 impl Drop for Survey {
     fn drop(&mut self) {
-        self.is_given_up.store(true, Ordering::Relaxed);
+        self.gate.set(Wish::End);
     }
 }
 
@@ -127,6 +161,6 @@ impl Progress for Scout {
     fn fraction(&self, _: f64) {}
 
     fn is_cancelled(&self) -> bool {
-        self.is_given_up.load(Ordering::Relaxed)
+        self.gate.is_over()
     }
 }

@@ -6,10 +6,14 @@ use super::words;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
+use std::time::Duration;
 use tatamu::design::Sketch;
 use tatamu::model::ModelPart;
 use tatamu::pipeline::{Engine, Error, Options, Output, Shaped, shape_drawn};
 use tatamu::progress::Progress;
+
+/// All the rest waits so long after the component that is wanted first: it takes the window as long to show it.
+const REST: Duration = Duration::from_millis(60);
 
 /// What is to be made.
 pub struct Order {
@@ -76,12 +80,18 @@ impl Worker {
         std::thread::spawn(move || {
             // Without a pool of its own it works in that of all.
             let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().ok();
-            while let Ok(order) = latest(&ahead) {
-                match &pool {
+            let mut next = None;
+            while let Some(order) = next.take().or_else(|| latest(&ahead).ok()) {
+                let is_shown = match &pool {
                     Some(pool) => pool.install(|| own.look_ahead(&order)),
                     None => own.look_ahead(&order),
+                };
+                if is_shown {
+                    // The window draws meanwhile, and the wheel may click again.
+                    next =
+                        ahead.recv_timeout(REST).ok().map(|newer| ahead.try_iter().last().unwrap_or(newer));
                 }
-                if pass_on.send(order).is_err() {
+                if next.is_none() && pass_on.send(order).is_err() {
                     break;
                 }
             }
@@ -131,13 +141,17 @@ impl Line {
         (self.wake)();
     }
 
-    fn look_ahead(&self, (number, order): &(u64, Order)) {
+    /// Makes the component that is wanted first; true where there is one to be shown.
+    fn look_ahead(&self, (number, order): &(u64, Order)) -> bool {
         let watch = Watch { line: self, number: *number, is_silent: true };
-        let Some(part) = order.first.filter(|_| order.drawn.is_none()) else { return };
+        let Some(part) = order.first.filter(|_| order.drawn.is_none()) else { return false };
         // What fails here fails in the other thread, too, which says so.
-        if let Ok(component) = order.engine.component(&order.options, part, &watch) {
+        let component = order.engine.component(&order.options, part, &watch).ok();
+        let is_shown = component.is_some() && !watch.is_cancelled();
+        if let Some(component) = component {
             self.tell(*number, News::Component(part, Box::new(component)));
         }
+        is_shown
     }
 
     fn work(&self, (number, order): (u64, Order)) {

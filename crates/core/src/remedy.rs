@@ -17,6 +17,8 @@ pub enum Remedy {
     SmallerMargin,
     /// Use a larger margin.
     LargerMargin,
+    /// Allow more sheets.
+    MoreSheets,
     /// Use a larger machine.
     LargerMachine,
     /// Let panels that are larger than the sheet be split.

@@ -32,7 +32,7 @@ pub use files::{COLOR, GUIDE_LANGUAGE, STYLE};
 pub use given::{Given, Written};
 pub use kind::{Count, Kind, Number, Range, Switch, Text, Unit};
 pub use machine::{CUTTER, MEDIA};
-pub use model::{LEVEL, PROFILE_VERTICES, SIZE, TOLERANCE, TOP_EDGES, UP};
+pub use model::{LEVEL, PROFILE_VERTICES, SHEETS_MAX, SIZE, TOLERANCE, TOP_EDGES, UP};
 pub use nets::{ANGLES, GLUE_MARKS, MIN_PANEL_WIDTH, SPLIT, TAB_WIDTH};
 pub use presets::FOR;
 pub use program::Program;

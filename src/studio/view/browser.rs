@@ -10,6 +10,8 @@ pub enum Purpose {
     Open,
     /// To save the project in it.
     Save,
+    /// To take the profile of a cutter or a medium from it.
+    Profile,
 }
 
 impl Purpose {
@@ -18,6 +20,7 @@ impl Purpose {
         match self {
             Purpose::Open => "Open a mesh or a project",
             Purpose::Save => "Save the project",
+            Purpose::Profile => "Open the profile of a cutter or a medium",
         }
     }
 }
@@ -111,7 +114,7 @@ impl Browser {
             }
             is_done |= field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
             let word = match (self.purpose, &self.replaces) {
-                (Purpose::Open, _) => "Open",
+                (Purpose::Open | Purpose::Profile, _) => "Open",
                 (Purpose::Save, None) => "Save",
                 (Purpose::Save, Some(_)) => "Replace",
             };
@@ -165,7 +168,7 @@ impl Browser {
         let extension = Path::new(&entry.name).extension().map(|e| e.to_ascii_lowercase());
         let among = match self.purpose {
             Purpose::Open => &KNOWN[..],
-            Purpose::Save => &KNOWN[..1],
+            Purpose::Save | Purpose::Profile => &KNOWN[..1],
         };
         let is_known = extension.is_some_and(|e| among.iter().any(|known| e == *known));
         !entry.name.starts_with('.') && (!entry.is_file || self.shows_all || is_known)

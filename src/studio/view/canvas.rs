@@ -1,6 +1,7 @@
 //! Pages on a table that is moved and magnified.
 
-use eframe::egui::{Pos2, Rect, Vec2};
+use eframe::egui::{self, Painter, Pos2, Rect, Shape, Stroke, Vec2};
+use glam::DVec2;
 
 /// Room between pages, mm.
 const GAP_MM: f32 = 12.0;
@@ -68,6 +69,22 @@ impl Canvas {
             self.pan(seen, window.center() - target.center());
         }
     }
+}
+
+/// Draws an outline, edge by edge: mitres of a path would stick out far at its sharp corners.
+pub fn draw(painter: &Painter, points: Vec<Pos2>, stroke: Stroke) {
+    let ends = points.iter().zip(points.iter().cycle().skip(1));
+    painter.extend(ends.map(|(&a, &b)| Shape::line_segment([a, b], stroke)));
+}
+
+/// A point of the screen on a page, mm.
+pub fn to_mm(page: Rect, scale: f32, at: Pos2) -> DVec2 {
+    DVec2::new(f64::from((at.x - page.left()) / scale), f64::from((page.bottom() - at.y) / scale))
+}
+
+/// A point of a page, mm, on the screen.
+pub fn to_screen(page: Rect, scale: f32, at: DVec2) -> Pos2 {
+    egui::pos2(page.left() + scale * at.x as f32, page.bottom() - scale * at.y as f32)
 }
 
 /// As many columns as make the pages largest when all are shown.

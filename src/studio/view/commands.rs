@@ -1,5 +1,6 @@
 //! What the user can do, in one table: menus, keys, tips and the list of commands all read it.
 
+use super::super::book::{COUNT, PAGES};
 use super::super::state::Studio;
 use super::tour::Tour;
 use super::{Mode, Window};
@@ -184,6 +185,16 @@ pub static LAY_OUT: Command = Command {
     can: |w| w.studio.document().is_some_and(|d| !d.project().pins.is_empty()),
     act: |w, _| w.studio.lay_out_again(),
     ..BLANK
+};
+
+pub static EDGES: Command = Command {
+    name: "Cut and glue edges",
+    icon: Some(Icon::ScissorsLineDashed),
+    tip: "a click on the sheets cuts a crease, or makes a crease of a cut edge; tabs are dragged to the other side",
+    keys: &[key(Key::E)],
+    place: Place::Edit(2),
+    can: |w| has_file(w) && w.shows_sheets(),
+    act: |w, _| w.sheets.edges_mut().toggle(),
 };
 
 static STOP: Command = Command {
@@ -419,6 +430,44 @@ static ABOUT: Command = Command {
     ..BLANK
 };
 
+/// A page of the book.
+const fn book<const PAGE: usize>() -> Command {
+    Command {
+        name: PAGES[PAGE].command,
+        icon: Some(Icon::BookOpen),
+        tip: "opens in the browser; works without a network",
+        place: if PAGE == 0 { Place::Help(0) } else { Place::None },
+        can: always,
+        act: |w, ctx| w.open_book(ctx, PAGE),
+        ..BLANK
+    }
+}
+
+static BOOK: [Command; COUNT] = [
+    book::<0>(),
+    book::<1>(),
+    book::<2>(),
+    book::<3>(),
+    book::<4>(),
+    book::<5>(),
+    book::<6>(),
+    book::<7>(),
+    book::<8>(),
+    book::<9>(),
+    book::<10>(),
+    book::<11>(),
+    book::<12>(),
+    book::<13>(),
+    book::<14>(),
+    book::<15>(),
+    book::<16>(),
+    book::<17>(),
+    book::<18>(),
+    book::<19>(),
+    book::<20>(),
+    book::<21>(),
+];
+
 /// All commands. Of two with one key the first that can be done is.
 pub static ALL: &[&Command] = &[
     &OPEN,
@@ -432,6 +481,7 @@ pub static ALL: &[&Command] = &[
     &TURN_LEFT,
     &TURN_RIGHT,
     &LAY_OUT,
+    &EDGES,
     &SELECT_ALL,
     &STOP,
     &SELECT_NONE,
@@ -462,6 +512,28 @@ pub static ALL: &[&Command] = &[
     &SHORTCUTS,
     &TOUR,
     &ABOUT,
+    &BOOK[0],
+    &BOOK[1],
+    &BOOK[2],
+    &BOOK[3],
+    &BOOK[4],
+    &BOOK[5],
+    &BOOK[6],
+    &BOOK[7],
+    &BOOK[8],
+    &BOOK[9],
+    &BOOK[10],
+    &BOOK[11],
+    &BOOK[12],
+    &BOOK[13],
+    &BOOK[14],
+    &BOOK[15],
+    &BOOK[16],
+    &BOOK[17],
+    &BOOK[18],
+    &BOOK[19],
+    &BOOK[20],
+    &BOOK[21],
 ];
 
 impl Command {

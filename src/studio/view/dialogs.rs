@@ -67,6 +67,8 @@ pub enum Outcome {
     Open(PathBuf),
     /// The project is to be saved in this file.
     Save(PathBuf),
+    /// The machine or the medium is to be taken from this profile.
+    Profile(PathBuf),
     /// An answer to the question before something is left.
     Parted(Leave, Parting),
     /// A command was found.
@@ -210,6 +212,7 @@ impl Purpose {
         match self {
             Purpose::Open => Outcome::Open(path),
             Purpose::Save => Outcome::Save(path),
+            Purpose::Profile => Outcome::Profile(path),
         }
     }
 }
@@ -223,12 +226,13 @@ impl SystemDialog {
         dialog = match purpose {
             Purpose::Open => dialog.add_filter("Meshes and projects", &super::browser::KNOWN),
             Purpose::Save => dialog.add_filter("Project", &super::browser::KNOWN[..1]).set_file_name(name),
+            Purpose::Profile => dialog.add_filter("Profiles", &super::browser::KNOWN[..1]),
         };
         let (sender, answer) = channel();
         let wake = ctx.clone();
         std::thread::spawn(move || {
             let chosen = match purpose {
-                Purpose::Open => dialog.pick_file(),
+                Purpose::Open | Purpose::Profile => dialog.pick_file(),
                 Purpose::Save => dialog.save_file(),
             };
             let _ = sender.send(chosen);

@@ -28,6 +28,9 @@ const OPTIONS: [(&str, &[&str]); 13] = [
     ("guide_language", &["html", "guide"]),
 ];
 
+/// Formats that show the sheets as they are drawn.
+const PAGES: [&str; 4] = ["pdf", "svg", "dxf", "png"];
+
 /// The panel of the files.
 pub struct ExportPanel {
     /// The formats, with whether they are wanted.
@@ -52,6 +55,11 @@ impl ExportPanel {
     /// The folder that files were written to last.
     pub fn written_to(&self) -> Option<&Path> {
         self.written_to.as_deref()
+    }
+
+    /// Whether a format with pages is ticked.
+    pub fn has_pages(&self) -> bool {
+        self.wanted().any(|format| PAGES.contains(&format.name))
     }
 
     /// Draws the panel.

@@ -15,6 +15,8 @@ pub struct Questions {
 pub enum Answer {
     /// A profile of a cutter, and of a medium.
     Profiles { cutter: &'static str, media: String, is_usb: bool },
+    /// A profile of the user's own is to be chosen.
+    Own,
     /// The user wants no more.
     Close,
 }
@@ -64,7 +66,10 @@ impl Questions {
                 self.machine = machines.next().filter(|_| machines.next().is_none());
             }
         }
-        None
+        ui.add_space(6.0);
+        ui.weak("It is none of these:");
+        let tip = "a profile of a cutter or a medium that you wrote; profiles in the folder for them are in the lists";
+        ui.button("Profile of your own …").on_hover_text(tip).clicked().then_some(Answer::Own)
     }
 
     fn ask_machine(&mut self, ui: &mut Ui, maker: &'static str) -> Option<Answer> {

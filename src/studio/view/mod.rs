@@ -6,6 +6,7 @@ mod canvas;
 mod commands;
 mod dialogs;
 mod dials;
+mod edges;
 mod export;
 mod finder;
 mod look;
@@ -29,6 +30,7 @@ mod warnings;
 mod welcome;
 mod wheel;
 
+use super::messages::Cause;
 use super::state::Studio;
 use browser::Purpose;
 pub use dialogs::Chooser;
@@ -232,10 +234,19 @@ impl Window {
                 self.places.sheets = Some(panel.response.rect);
             }
             Mode::Export => {
+                if self.export.has_pages() {
+                    let panel =
+                        egui::Panel::right("preview").resizable(true).default_size(300.0).min_size(160.0);
+                    panel.show(ui, |ui| self.sheets.preview(&self.studio, ui));
+                }
                 egui::CentralPanel::default().show(ui, |ui| self.export.show(&mut self.studio, ui));
             }
             Mode::Plot => {
                 egui::CentralPanel::default().show(ui, |ui| self.plot.show(&mut self.studio, ui));
+                if self.plot.wants_profile() {
+                    let folder = crate::app::profiles::folder().map(|folder| folder.join("cutters"));
+                    self.dialogs.ask_file(ui.ctx(), Purpose::Profile, folder, "");
+                }
             }
         }
     }
@@ -253,6 +264,11 @@ impl Window {
         self.places.folding = Some(panel.response.rect);
         let panel = egui::CentralPanel::no_frame().show(ui, |ui| self.space.show(&mut self.studio, ui));
         self.places.model = Some(panel.response.rect);
+    }
+
+    /// Whether the sheets are to be seen.
+    fn shows_sheets(&self) -> bool {
+        self.mode == Mode::Sheets || self.mode == Mode::Model && self.has_sheets_beside
     }
 
     /// Fits what is shown to the window.
@@ -300,6 +316,12 @@ impl Window {
         match outcome {
             None => {}
             Some(Outcome::Open(path)) => self.open(&path),
+            Some(Outcome::Profile(path)) => {
+                self.studio.messages_mut().clear(Cause::Opening);
+                if let Err(problem) = self.plot.take_profile(&path) {
+                    self.studio.messages_mut().warn(Cause::Opening, problem);
+                }
+            }
             Some(Outcome::Save(path)) => {
                 self.studio.save_as(&path);
                 if let Some(leave) = self.dialogs.take_leave().filter(|_| !self.work().is_changed) {
@@ -332,6 +354,15 @@ impl Window {
                 ctx.send_viewport_cmd(egui::ViewportCommand::Close);
             }
             Leave::Open(path) => self.studio.open(&path),
+        }
+    }
+
+    /// Opens a page of the book in the browser.
+    fn open_book(&mut self, ctx: &egui::Context, page: usize) {
+        self.studio.messages_mut().clear(Cause::Opening);
+        match self.studio.book(page) {
+            Ok(path) => ctx.open_url(egui::OpenUrl::new_tab(format!("file://{}", path.display()))),
+            Err(problem) => self.studio.messages_mut().warn(Cause::Opening, problem),
         }
     }
 

@@ -4,6 +4,7 @@ use super::super::planning::{Plan, Planning, Wish};
 use super::super::plotting::Plotting;
 use super::super::preferences::Preferences;
 use super::super::state::Studio;
+use super::super::words;
 use super::super::worker::Wake;
 use super::look;
 use super::machine::{Answer, Questions};
@@ -34,6 +35,8 @@ pub struct PlotPanel {
     running: Option<Plotting>,
     /// The questions for a machine, while they are asked.
     questions: Option<Questions>,
+    /// Whether a profile of the user's own is to be chosen.
+    wants_profile: bool,
     /// Why a job that was stopped cannot go on.
     unreadable: Option<String>,
 }
@@ -57,7 +60,8 @@ impl PlotPanel {
     pub fn new(preferences: &Preferences) -> Self {
         let names = profiles::names();
         let known = |name: &Option<String>, list: &[String], otherwise: &str| {
-            name.clone().filter(|name| list.contains(name)).unwrap_or_else(|| otherwise.to_owned())
+            let is_there = |name: &String| list.contains(name) || Path::new(name).is_file();
+            name.clone().filter(is_there).unwrap_or_else(|| otherwise.to_owned())
         };
         Self {
             cutter: known(&preferences.cutter, &names[0], CUTTER.automatic),
@@ -73,6 +77,7 @@ impl PlotPanel {
             picture: Picture::default(),
             running: None,
             questions: None,
+            wants_profile: false,
             unreadable: None,
         }
     }
@@ -95,6 +100,25 @@ impl PlotPanel {
     /// Lifts the tool and stops.
     pub fn stop(&self) {
         self.running.iter().for_each(Plotting::stop);
+    }
+
+    /// Whether a file is to be asked for, with a profile of the user's own; once.
+    pub fn wants_profile(&mut self) -> bool {
+        std::mem::take(&mut self.wants_profile)
+    }
+
+    /// Takes the cutter or the medium from a file.
+    ///
+    /// # Errors
+    /// A message where it is the profile of neither.
+    pub fn take_profile(&mut self, path: &Path) -> Result<(), String> {
+        let name = path.display().to_string();
+        match (profiles::machine(Some(&name), None), profiles::machine(None, Some(&name))) {
+            (Ok(_), _) => self.cutter = name,
+            (_, Ok(_)) => self.media = name,
+            (Err(error), _) => return Err(words::error(&error)),
+        }
+        Ok(())
     }
 
     /// Chooses the port.
@@ -171,6 +195,7 @@ impl PlotPanel {
         match questions.show(ctx, &self.names[1], &file) {
             None => return,
             Some(Answer::Close) => {}
+            Some(Answer::Own) => self.wants_profile = true,
             Some(Answer::Profiles { cutter, media, is_usb }) => {
                 (self.cutter, self.media) = (cutter.to_owned(), media);
                 if is_usb {
@@ -359,7 +384,11 @@ fn wake(ctx: &egui::Context) -> Wake {
 
 fn names_row(ui: &mut Ui, label: &str, names: &[String], chosen: &mut String) {
     let label = ui.label(label);
-    let combo = egui::ComboBox::from_id_salt(label.id).selected_text(chosen.as_str()).show_ui(ui, |ui| {
+    // Of a file the name serves.
+    let file = Path::new(chosen.as_str());
+    let text =
+        file.extension().and(file.file_name()).map_or(chosen.clone(), |n| n.to_string_lossy().into_owned());
+    let combo = egui::ComboBox::from_id_salt(label.id).selected_text(text).show_ui(ui, |ui| {
         for name in names {
             ui.selectable_value(chosen, name.clone(), name);
         }

@@ -130,7 +130,10 @@ impl Ring {
                 ui.ctx().request_repaint_after_secs((REST_S - (now_s - since_s)) as f32);
             }
         }
-        self.survey.iter_mut().for_each(Survey::poll);
+        if let Some(survey) = &mut self.survey {
+            survey.rest(studio.finished().is_none());
+            survey.poll();
+        }
     }
 
     /// The ring in the colours of what is known, and the line around it.

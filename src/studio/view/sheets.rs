@@ -6,8 +6,9 @@ use super::super::messages::Cause;
 use super::super::pages::{self, Move, PieceId};
 use super::super::selection::Hover;
 use super::super::state::Studio;
-use super::canvas::{Canvas, Seen};
+use super::canvas::{Canvas, Seen, draw, to_mm, to_screen};
 use super::commands;
+use super::edges::{self, EdgeTool, Page};
 use super::look::{self, ACCENT, OVERLAP};
 use super::picture::Picture;
 use super::wheel::Wheel;
@@ -18,6 +19,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use tatamu::component::PanelId;
 use tatamu::drawing::Drawing;
+use tatamu::front::edges::PlacedEdge;
 use tatamu::pipeline::Output;
 
 /// Turn of a piece for a press of a key, radians.
@@ -38,6 +40,9 @@ pub struct SheetsPanel {
     seen: Option<String>,
     hover: Option<Hover>,
     drag: Option<Drag>,
+    edges: EdgeTool,
+    /// The page that is seen before files are written.
+    previewed: usize,
 }
 
 /// The sheets with all that is seen on them.
@@ -48,6 +53,16 @@ struct Drawn {
     drawings: Vec<Drawing>,
     /// The pieces of each sheet with their outlines on the page.
     outlines: Vec<Vec<(PieceId, Vec<DVec2>)>>,
+    /// The edges of the panels on each sheet.
+    edges: Vec<Vec<PlacedEdge>>,
+}
+
+impl Drawn {
+    /// The pages on the screen that have pieces.
+    fn pages(&self, seen: &Seen) -> Vec<Page<'_>> {
+        let pages = seen.pages.iter().zip(&self.edges);
+        pages.map(|(&rect, edges)| Page { rect, scale: seen.scale, edges }).collect()
+    }
 }
 
 /// A piece on its way to another place.
@@ -63,6 +78,11 @@ impl SheetsPanel {
     /// Shows all sheets.
     pub fn fit(&mut self) {
         self.canvas.fit();
+    }
+
+    /// The tool that cuts and glues edges.
+    pub fn edges_mut(&mut self) -> &mut EdgeTool {
+        &mut self.edges
     }
 
     /// Marks what the mouse is over, in any view.
@@ -112,6 +132,7 @@ impl SheetsPanel {
         let mut seen = self.canvas.seen(drawings.len(), size_mm, window);
         self.heed(ui, &table, &mut seen, (drawings.len(), size_mm));
         ui.set_clip_rect(window.intersect(ui.clip_rect()));
+        self.edges.begin(studio, &drawn.output);
         for (k, drawing) in drawings.iter().enumerate() {
             if seen.pages[k].intersects(window) {
                 self.page(studio, &drawn, ui, (k, drawing), &seen);
@@ -119,12 +140,58 @@ impl SheetsPanel {
         }
         self.follow(studio, &drawn, &seen, window);
         self.dragged(studio, &drawn, ui, &seen);
+        self.edges.drop_tab(studio, &drawn.output, ui, &drawn.pages(&seen));
         if table.clicked() {
             studio.selection.clear();
         }
         if table.double_clicked() {
             self.canvas.fit();
         }
+    }
+
+    /// One page after the other, as they are written.
+    pub fn preview(&mut self, studio: &Studio, ui: &mut Ui) {
+        ui.add_space(4.0);
+        let Some(output) = studio.shown().output().cloned() else {
+            ui.weak("arranging the pieces …");
+            return;
+        };
+        self.refresh(studio, &output, ui.ctx());
+        let drawn = match &self.drawn {
+            None => return drop(ui.spinner()),
+            Some(Ok(drawn)) => drawn.clone(),
+            Some(Err(problem)) => return drop(ui.colored_label(ui.visuals().error_fg_color, problem)),
+        };
+        let count = drawn.drawings.len();
+        self.previewed = self.previewed.min(count.saturating_sub(1));
+        ui.horizontal(|ui| {
+            let turn = |ui: &mut Ui, icon: Icon, name: &str, can: bool| {
+                let button = ui.add_enabled(can, egui::Button::new(look::icon(icon)));
+                button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, can, name));
+                button.on_hover_text(name).clicked()
+            };
+            if turn(ui, Icon::ChevronLeft, "Previous page", self.previewed > 0) {
+                self.previewed -= 1;
+            }
+            ui.label(format!("Page {} of {count}", self.previewed + 1));
+            if turn(ui, Icon::ChevronRight, "Next page", self.previewed + 1 < count) {
+                self.previewed += 1;
+            }
+            if self.coming.is_some() || studio.laid().is_none() {
+                ui.spinner();
+            }
+        });
+        ui.add_space(4.0);
+        let Some(drawing) = drawn.drawings.get(self.previewed) else { return };
+        let size_mm = egui::vec2(drawing.size_mm.x as f32, drawing.size_mm.y as f32);
+        let room = ui.available_size() - egui::vec2(2.0, 8.0);
+        let scale = (room / size_mm).min_elem().max(0.05);
+        let (rect, page) = ui.allocate_exact_size(scale * size_mm, Sense::hover());
+        let pixels_per_mm = f64::from(scale * ui.ctx().pixels_per_point());
+        let texture = self.pictures[self.previewed].texture(ui.ctx(), drawing, drawn.version, pixels_per_mm);
+        paint(ui.painter(), rect, texture);
+        ui.painter().rect_stroke(rect, 0.0, ui.visuals().window_stroke, egui::StrokeKind::Outside);
+        page.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Page as it is written"));
     }
 
     /// Moves and magnifies the table.
@@ -249,8 +316,9 @@ impl SheetsPanel {
             std::thread::spawn(move || {
                 let drawn = pages::drawings(&opened, &project, &output).map(|drawings| {
                     let sheets = 0..output.layout().sheet_count();
-                    let outlines = sheets.map(|sheet| pages::outlines(&output, sheet)).collect();
-                    Drawn { version, output, drawings, outlines }
+                    let outlines = sheets.clone().map(|sheet| pages::outlines(&output, sheet)).collect();
+                    let edges = sheets.map(|sheet| tatamu::front::edges::edges(&output, sheet)).collect();
+                    Drawn { version, output, drawings, outlines, edges }
                 });
                 // Nobody waits for the pages of a model that is no more.
                 let _ = sender.send(drawn);
@@ -284,6 +352,7 @@ impl SheetsPanel {
                 if fit.on_hover_text(tip).clicked() {
                     self.canvas.fit();
                 }
+                edges::button(&mut self.edges, ui);
                 let is_pinned = studio.document().is_some_and(|d| !d.project().pins.is_empty());
                 let name = commands::LAY_OUT.name;
                 if is_pinned && ui.button(name).on_hover_text(commands::LAY_OUT.tip).clicked() {
@@ -291,7 +360,10 @@ impl SheetsPanel {
                 }
             });
         });
-        self.piece_bar(studio, output, ui);
+        match self.edges.is_on() {
+            true => self.edges.bar(studio, output, ui),
+            false => self.piece_bar(studio, output, ui),
+        }
         ui.separator();
     }
 
@@ -314,15 +386,21 @@ impl SheetsPanel {
         paint(painter, rect, texture);
         painter.rect_stroke(rect, 0.0, ui.visuals().window_stroke, egui::StrokeKind::Outside);
         let outlines = drawn.outlines.get(k).map_or(&[][..], Vec::as_slice);
-        let over = response.hover_pos().and_then(|at| pages::piece_at(outlines, to_mm(rect, scale, at)));
+        let is_current = studio.laid().is_some() && studio.shown().sheets_version() == drawn.version;
+        let page = Page { rect, scale, edges: drawn.edges.get(k).map_or(&[][..], Vec::as_slice) };
+        let is_on_edge = self.edges.is_on() && self.edges.heed(studio, output, &response, &page, is_current);
+        let over = response.hover_pos().filter(|_| !is_on_edge);
+        let over = over.and_then(|at| pages::piece_at(outlines, to_mm(rect, scale, at)));
         for (id, outline) in outlines {
             let is_selected = is_selected(studio, output, *id);
             let is_over = self.hover.as_ref().is_some_and(|hover| is_under(hover, output, *id));
             let points: Vec<Pos2> = outline.iter().map(|&p| to_screen(rect, scale, p)).collect();
             let own = look::on_paper(studio.shown().colour(id.net));
             let (width, colour) = match (is_selected, is_over) {
+                // Among edges the chosen ones stand out, not all of the piece.
+                (true, _) if self.edges.is_on() => (2.4, own),
                 (true, _) => (3.0, ACCENT),
-                (_, true) => (2.2, ACCENT),
+                (_, true) if !self.edges.is_on() => (2.2, ACCENT),
                 _ => (1.8, own),
             };
             draw(painter, points, Stroke::new(width, colour));
@@ -330,26 +408,30 @@ impl SheetsPanel {
         if let Some(id) = over {
             studio.hover = Some(Hover::panels(id.net, panels(output, id)));
             let piece = pages::piece(output, id).map(|piece| piece.name().to_owned()).unwrap_or_default();
-            ui.ctx().set_cursor_icon(egui::CursorIcon::Grab);
+            if !self.edges.is_on() {
+                ui.ctx().set_cursor_icon(egui::CursorIcon::Grab);
+            }
             if self.drag.is_none() {
                 response.clone().on_hover_text_at_pointer(piece);
             }
         }
         let grabbed =
             response.interact_pointer_pos().filter(|_| response.drag_started_by(PointerButton::Primary));
-        let is_current = studio.laid().is_some() && studio.shown().sheets_version() == drawn.version;
-        if let Some(at) = grabbed.filter(|_| is_current) {
+        if let Some(at) = grabbed.filter(|_| is_current && !self.edges.is_on()) {
             // Where the button was pressed, not where the mouse is by now.
             let at = ui.input(|i| i.pointer.press_origin()).unwrap_or(at);
             let from_mm = to_mm(rect, scale, at);
             let id = pages::piece_at(outlines, from_mm);
             self.drag = id.map(|id| Drag { id, from_mm, turn_rad: 0.0 });
         }
-        if response.dragged_by(PointerButton::Primary) && self.drag.is_none() {
+        if response.dragged_by(PointerButton::Primary) && self.drag.is_none() && !self.edges.is_dragging() {
             let delta = response.drag_delta();
             self.canvas.pan(seen, delta);
         }
-        if response.clicked() {
+        if self.edges.is_on() {
+            self.edges.mark(studio, output, ui, &page);
+        }
+        if response.clicked() && !is_on_edge {
             let piece = over.and_then(|id| pages::piece(output, id).map(|piece| (id, piece)));
             match piece.and_then(|(id, piece)| Some((studio.shown().names().get(id.net)?.clone(), piece))) {
                 Some((name, piece)) => {
@@ -382,12 +464,6 @@ impl SheetsPanel {
     }
 }
 
-/// Draws an outline, edge by edge: mitres of a path would stick out far at its sharp corners.
-fn draw(painter: &egui::Painter, points: Vec<Pos2>, stroke: Stroke) {
-    let ends = points.iter().zip(points.iter().cycle().skip(1));
-    painter.extend(ends.map(|(&a, &b)| egui::Shape::line_segment([a, b], stroke)));
-}
-
 /// Moves a piece; all others stay where they lie.
 fn arrange(studio: &mut Studio, output: &Output, id: PieceId, to: &Move) {
     match pages::rearranged(output, id, to) {
@@ -415,15 +491,6 @@ fn paint(painter: &egui::Painter, page: Rect, texture: Option<&egui::TextureHand
         Some(texture) => drop(painter.image(texture.id(), page, whole, Color32::WHITE)),
         None => drop(painter.rect_filled(page, 0.0, Color32::WHITE)),
     }
-}
-
-/// A point of the screen on a page, mm.
-fn to_mm(page: Rect, scale: f32, at: egui::Pos2) -> DVec2 {
-    DVec2::new(f64::from((at.x - page.left()) / scale), f64::from((page.bottom() - at.y) / scale))
-}
-
-fn to_screen(page: Rect, scale: f32, at: DVec2) -> egui::Pos2 {
-    egui::pos2(page.left() + scale * at.x as f32, page.bottom() - scale * at.y as f32)
 }
 
 /// Whether a piece is selected, or the component or the panel that it is made of.

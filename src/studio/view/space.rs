@@ -12,6 +12,8 @@ use eframe::egui::{
     self, Color32, CursorIcon, PointerButton, Pos2, Rect, Sense, TextureHandle, TextureOptions, Vec2,
 };
 use glam::{DVec2, DVec3};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::sync::LazyLock;
 use tatamu::drawing::Rgb;
 use tatamu::fold::Clash;
 use tatamu::render::Orbit;
@@ -31,6 +33,9 @@ const STILL: f32 = 6.0;
 /// for so many seconds.
 const STILL_S: f64 = 2.0;
 
+/// Threads that draw, so that pictures do not wait for the work that goes on in those of all.
+static DRAWERS: LazyLock<Option<ThreadPool>> = LazyLock::new(|| ThreadPoolBuilder::new().build().ok());
+
 /// The view in space.
 pub struct Space {
     orbit: Option<Orbit>,
@@ -40,7 +45,7 @@ pub struct Space {
     frame: Option<Frame>,
     /// What the picture shows: if it is this, it need not be drawn again.
     drawn: Option<Drawn>,
-    solids: Option<(u64, String, Setting, Solids)>,
+    solids: Option<(Version, String, Setting, Solids)>,
     /// The model's diagonal, which the view follows, mm.
     diagonal_mm: Option<f64>,
     /// The component that was turned last, where and when.
@@ -53,9 +58,12 @@ pub struct Space {
     middles: Vec<(usize, Vec2)>,
 }
 
+/// The version of the components; and that of all results, where these are seen.
+type Version = (u64, Option<u64>);
+
 #[derive(Clone, PartialEq)]
 struct Drawn {
-    version: u64,
+    version: Version,
     selection: String,
     setting: Setting,
     orbit: Orbit,
@@ -248,7 +256,10 @@ impl Space {
         let is_moving = self.heed(studio, ui, &response);
         self.refresh_scene(studio);
         let ground = look::ground(ui.visuals());
-        let is_smooth = !is_moving && !self.is_playing && size_px[0] * size_px[1] <= MOST_SMOOTH;
+        // What is new is shown at once, and smoothly in the next picture.
+        let is_new = self.drawn.as_ref().map(|drawn| drawn.version) != self.solids.as_ref().map(|s| s.0);
+        let is_coarse = is_moving || is_new && self.drawn.is_some();
+        let is_smooth = !is_coarse && !self.is_playing && size_px[0] * size_px[1] <= MOST_SMOOTH;
         self.refresh_picture(ui.ctx(), size_px, is_smooth, ground);
         let painter = ui.painter_at(rect);
         match &self.texture {
@@ -258,7 +269,7 @@ impl Space {
             }
             None => drop(painter.rect_filled(rect, 0.0, look::of_rgb(ground))),
         }
-        if is_moving {
+        if is_coarse {
             // Once nothing moves the picture is drawn anew, smoothly.
             ui.ctx().request_repaint();
         }
@@ -295,8 +306,15 @@ impl Space {
         ui.ctx().request_repaint();
     }
 
+    /// Changes with all that the scene shows: of standing components neither the sheets nor the folding.
+    fn version(&self, studio: &Studio) -> Version {
+        let shows_results =
+            self.setting.folded > 0.0 || self.setting.clash.is_some() || studio.selection.piece().is_some();
+        (studio.shown().shape_version(), shows_results.then(|| studio.shown().version()))
+    }
+
     fn refresh_scene(&mut self, studio: &Studio) {
-        let version = studio.shown().version();
+        let version = self.version(studio);
         let selection = format!("{:?}{:?}", studio.selection, studio.visibility);
         let is_old = self
             .solids
@@ -304,7 +322,7 @@ impl Space {
             .is_none_or(|(v, s, setting, _)| *v != version || *s != selection || *setting != self.setting);
         if is_old {
             // What is measured is where it was, unless it was made anew or folds.
-            if self.solids.as_ref().is_some_and(|s| s.0 != version || s.2.folded != self.setting.folded) {
+            if self.solids.as_ref().is_some_and(|s| s.0.0 != version.0 || s.2.folded != self.setting.folded) {
                 self.measure.clear();
             }
             let was_other = self.solids.as_ref().is_none_or(|s| s.3.facets.is_empty());
@@ -312,6 +330,13 @@ impl Space {
                 self.follow(studio);
             }
             let solids = scene::scene(&studio.seen(), &self.setting);
+            let is_same = self.solids.as_ref().is_some_and(|s| s.3 == solids);
+            if let Some(drawn) = self.drawn.as_mut().filter(|_| is_same) {
+                // The picture still shows it.
+                drawn.version = version;
+                drawn.selection.clone_from(&selection);
+                drawn.setting.clone_from(&self.setting);
+            }
             self.solids = Some((version, selection, self.setting.clone(), solids));
             if was_other {
                 self.orbit = None;
@@ -365,8 +390,14 @@ impl Space {
         }
         let drawn_px = if is_smooth { size_px.map(|n| 2 * n) } else { size_px };
         let Ok(eye) = orbit.eye(drawn_px) else { return };
-        let frame = Frame::draw(solids, &eye, ground);
-        let frame = if is_smooth { frame.halved() } else { frame };
+        let draw = || {
+            let frame = Frame::draw(solids, &eye, ground);
+            if is_smooth { frame.halved() } else { frame }
+        };
+        let frame = match &*DRAWERS {
+            Some(pool) => pool.install(draw),
+            None => draw(),
+        };
         let pixels = frame.rgb().iter().map(|&[r, g, b]| Color32::from_rgb(r, g, b)).collect();
         let image = egui::ColorImage::new(frame.size_px(), pixels);
         match &mut self.texture {

@@ -16,6 +16,7 @@ use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 mod defects;
+mod nets;
 mod tools;
 
 type Desk = Harness<'static, Window>;

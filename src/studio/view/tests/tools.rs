@@ -397,3 +397,58 @@ fn three_questions_lead_to_a_machine() {
     click(&mut desk, "Close");
     assert_eq!(desk.state_mut().plot_mut().choice()[0], "hp-7475a");
 }
+
+/// Before files are written their pages are seen, in the style that they are written in.
+#[test]
+fn pages_are_seen_before_they_are_written() {
+    let (mut desk, _folder) = open();
+    click(&mut desk, "Export");
+    wait_for(&mut desk, "Page as it is written");
+    let count = desk.state().studio().finished().unwrap().layout().sheet_count();
+    assert!(count > 1 && desk.query_by_label(&format!("Page 1 of {count}")).is_some());
+    click(&mut desk, "Next page");
+    assert!(desk.query_by_label(&format!("Page 2 of {count}")).is_some());
+    click(&mut desk, "snowman.pdf");
+    assert!(desk.query_by_label("Page as it is written").is_none(), "nothing with pages is ticked");
+}
+
+#[test]
+fn a_profile_of_the_users_own_is_taken_from_a_file() {
+    let (mut desk, folder) = open();
+    let profile = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let built_in = |list: &[tatamu::plotter::profile::Profile]| list[0].text.to_owned();
+    let cutter = profile("mine.toml", &built_in(tatamu::plotter::profile::CUTTERS));
+    let card = profile("card.toml", &built_in(tatamu::plotter::profile::MEDIA));
+    let wrong = profile("wrong.toml", "name = 3\n");
+    click(&mut desk, "Plot");
+    click(&mut desk, "Find my machine …");
+    click(&mut desk, "Profile of your own …");
+    wait_for(&mut desk, "Open the profile of a cutter or a medium");
+    desk.get_by_role_and_label(Role::TextInput, "File").type_text(&cutter.display().to_string());
+    desk.run_ok();
+    desk.get_by_role_and_label(Role::Button, "Open").click();
+    desk.run_ok();
+    assert_eq!(desk.state_mut().plot_mut().choice()[0], cutter.display().to_string());
+    let plot = desk.state_mut().plot_mut();
+    plot.take_profile(&card).unwrap();
+    assert_eq!(plot.choice()[1], card.display().to_string());
+    assert!(plot.take_profile(&wrong).unwrap_err().contains("wrong.toml"));
+    assert_eq!(plot.choice()[0], cutter.display().to_string(), "what is no profile changes nothing");
+}
+
+#[test]
+fn pages_of_the_book_are_found_among_the_commands() {
+    let (mut desk, folder) = open();
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    desk.run_ok();
+    desk.event(Event::Text("book cutter".to_owned()));
+    desk.run_ok();
+    desk.key_press(Key::Enter);
+    desk.run_ok();
+    assert!(folder.path().join("state/book/how-to/cutter.html").is_file());
+    assert_eq!(desk.state().studio().problem(), None);
+}
