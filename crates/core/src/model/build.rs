@@ -1,8 +1,8 @@
 //! Parts into a model: candidates for each, one combination of them, and everything in its place.
 
 use super::bond::Bond;
-use super::candidate::{Builder, Made};
-use super::choice::{Bump, Choice, Combination};
+use super::candidate::{Builder, Made, Search};
+use super::choice::{Bump, Choice, Combination, Trouble};
 use super::known::Known;
 use super::link::Link;
 use super::pair::Pairs;
@@ -11,7 +11,6 @@ use super::{Hold, Joint, Model, ModelError, ModelPart, Part, Symmetry};
 use crate::mesh::Views;
 use crate::progress::{Cancelled, Progress};
 use rayon::prelude::*;
-use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -75,25 +74,25 @@ pub fn build(
     judge: &dyn Judge,
     progress: &dyn Progress,
 ) -> Result<Built, ModelError> {
-    let (built, troubled) = built(assembly, &BTreeSet::new(), &[], known, judge, progress)?;
-    if troubled.is_empty() {
+    let (built, trouble) = built(assembly, &Trouble::default(), &[], known, judge, progress)?;
+    if trouble == Trouble::default() {
         return Ok(built);
     }
-    Ok(self::built(assembly, &troubled, &built.ids, known, judge, progress)?.0)
+    Ok(self::built(assembly, &trouble, &built.ids, known, judge, progress)?.0)
 }
 
-/// The model from candidates in all directions for the parts in `wide`, and in the most promising ones
-/// for the others; and the parts that could do with more. The search also starts from the candidates with
+/// The model from more candidates for the parts in `trouble` than for the others; and the parts that could do
+/// with more. The search also starts from the candidates with
 /// the ids in `before`, if any.
 fn built(
     assembly: &Assembly<'_>,
-    wide: &BTreeSet<usize>,
+    trouble: &Trouble,
     before: &[u64],
     known: &Known,
     judge: &dyn Judge,
     progress: &dyn Progress,
-) -> Result<(Built, BTreeSet<usize>), ModelError> {
-    let Candidates { of: candidates, links, bonds } = Candidates::new(assembly, wide, known, progress)?;
+) -> Result<(Built, Trouble), ModelError> {
+    let Candidates { of: candidates, links, bonds } = Candidates::new(assembly, trouble, known, progress)?;
     let parts = assembly.parts;
     let pairs = Pairs::new(&links, &candidates);
     let choice = Choice::new(&candidates, &weights(parts), (&links, &pairs), &bonds);
@@ -115,9 +114,9 @@ fn built(
     };
     let place_of = |(id, made): (&u64, &Vec<Made>)| made.iter().position(|m| m.id == *id);
     let start = before.iter().zip(&candidates).map(place_of).collect::<Option<Combination>>();
-    let (best, troubled) = choice.best(start.filter(|of| !of.is_empty()), &bumps, &looks_mm)?;
+    let (best, trouble) = choice.best(start.filter(|of| !of.is_empty()), &bumps, &looks_mm)?;
     let made = made_of(&best);
-    Ok((Built { model: place(parts, (&links, &pairs), &best, &made)?, ids: ids(&made) }, troubled))
+    Ok((Built { model: place(parts, (&links, &pairs), &best, &made)?, ids: ids(&made) }, trouble))
 }
 
 /// How much the cost of each part counts: by its size, about 1 on average.
@@ -142,7 +141,7 @@ impl Candidates {
     /// interfaces are let go, one by one, to stand for themselves.
     fn new(
         assembly: &Assembly<'_>,
-        wide: &BTreeSet<usize>,
+        trouble: &Trouble,
         known: &Known,
         progress: &dyn Progress,
     ) -> Result<Self, ModelError> {
@@ -157,9 +156,13 @@ impl Candidates {
                     return Ok(Arc::default());
                 }
                 let symmetry = symmetry.filter(|_| bonds[part] == Bond::Across);
-                let is_wide = wide.contains(&part);
+                let search = match part {
+                    _ if trouble.weak.contains(&part) => Search::Firm,
+                    _ if trouble.bumping.contains(&part) => Search::Wide,
+                    _ => Search::Promising,
+                };
                 let made =
-                    known.make(&Builder { parts, links: &links, part, symmetry, is_wide, min_panel_mm });
+                    known.make(&Builder { parts, links: &links, part, symmetry, search, min_panel_mm });
                 let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                 progress.fraction(count as f64 / parts.len() as f64);
                 made

@@ -4,7 +4,7 @@
 //! depend on those of another part; [`super::pair`] gives a cost to each two of them.
 
 use super::link::Link;
-use super::seat::{Seating, level_axis, seat_plane, seats};
+use super::seat::{Seating, Snap, level_axis, seat_plane, seats};
 use super::{ModelError, ModelPart, Part, Symmetry, plane};
 use crate::component::{
     self, Component, Finished, JointTarget, PanelId, PrincipalAxis, Target, choose, fewest, finished,
@@ -30,6 +30,9 @@ const JOINT_PRICE: f64 = 0.3;
 const TIGHT_MM2: f64 = 200.0;
 /// up to this many times. With 0.3 times 7 the silhouette of a plane falls from 0.82 to 0.74.
 const TIGHTEST: f64 = 3.0;
+/// In a search for firm joints it is this many times as high: with 1 nine joints of a scorpion are weak, with 6
+/// four. Not bounded from above by a case yet.
+const FIRMNESS: f64 = 6.0;
 /// A joint plane that leaves less than this share of a hull is not used to clip it.
 const LEAST_SHARE: f64 = 0.15;
 
@@ -101,6 +104,29 @@ impl Made {
     }
 }
 
+/// How far the search for the candidates of a part goes; each goes on from what the one before it has found.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Search {
+    /// The directions that promise most for the part alone are finished.
+    #[default]
+    Promising,
+    /// All directions are: the part bumps into another.
+    Wide,
+    /// In all of them joints count more, too: one of the part's joints is weak.
+    Firm,
+}
+
+impl Search {
+    /// The search that this one goes on from.
+    pub(super) fn before(self) -> Option<Self> {
+        match self {
+            Self::Promising => None,
+            Self::Wide => Some(Self::Promising),
+            Self::Firm => Some(Self::Wide),
+        }
+    }
+}
+
 /// What the candidates of one part are made from.
 #[derive(Clone, Copy)]
 pub(super) struct Builder<'a> {
@@ -110,8 +136,7 @@ pub(super) struct Builder<'a> {
     pub(super) part: usize,
     /// Of parts whose component is to be its own mirror image.
     pub(super) symmetry: Option<&'a Symmetry>,
-    /// Whether all directions are finished, rather than those that promise most alone.
-    pub(super) is_wide: bool,
+    pub(super) search: Search,
     pub(super) min_panel_mm: f64,
 }
 
@@ -150,12 +175,15 @@ impl<'a> Builder<'a> {
             }
         }
         let is_new = |direction: &Direction| {
+            if self.search == Search::Firm {
+                return true;
+            }
             let axis = direction.frame.matrix3.z_axis;
             before.iter().all(|made| axis.dot(made.frame.matrix3.z_axis).abs() < libm::cos(SAME_RAD))
         };
         let (directions, mut targets): (Vec<&Direction>, Vec<(Target, f64)>) =
             directions.iter().zip(targets).filter(|(direction, _)| is_new(direction)).unzip();
-        let most = if self.is_wide { targets.len() } else { FINISHED };
+        let most = if self.search == Search::Promising { FINISHED } else { targets.len() };
         let mut found = finished(&targets, most);
         if !before.is_empty() && found.is_empty() {
             return Ok(Vec::new());
@@ -201,7 +229,8 @@ impl<'a> Builder<'a> {
         let tried: Vec<DVec3> = match mirror.map(|mirror| mirror.plane().normal()) {
             None => {
                 let about = (0..DIRECTIONS).map(|k| principal.fold_axis(angle(k)));
-                about.chain(self.is_wide.then(|| principal.axis())).collect()
+                let along = (self.search != Search::Promising).then(|| principal.axis());
+                about.chain(along).collect()
             }
             Some(across) => {
                 let up = mirror.map_or(DVec3::Z, |mirror| mirror.along(DVec3::Z));
@@ -289,7 +318,8 @@ impl<'a> Builder<'a> {
                 seating.image = others.iter().position(|o| *o == symmetry.twin(other));
             }
         }
-        let seats = seats(&seatings);
+        let snap = if self.search == Search::Firm { Snap::NARROW } else { Snap::WIDE };
+        let seats = seats(&seatings, &snap);
         let mut hull = self.parts[self.part].hull.moved(&to_local);
         let whole = hull.volume();
         let mut plane_shift_mm = 0.0;
@@ -319,7 +349,8 @@ impl<'a> Builder<'a> {
         let area_mm2 = polygon::area(&plane::shared_section(&link.plane, parent, child));
         // Hulls that only touch there have a face on the plane, of no known size.
         let tightness = if area_mm2 > 0.0 { (TIGHT_MM2 / area_mm2).clamp(1.0, TIGHTEST) } else { 1.0 };
-        JOINT_PRICE * tightness
+        let firmness = if self.search == Search::Firm { FIRMNESS } else { 1.0 };
+        JOINT_PRICE * tightness * firmness
     }
 
     /// Corners of the section of another part's hull by a joint plane. Those of images are images.

@@ -70,6 +70,15 @@ struct Pair {
 /// A candidate for each part, of which images have the same.
 pub(super) type Combination = Vec<usize>;
 
+/// The parts that could do with more candidates; of two that are images the first.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(super) struct Trouble {
+    /// Those that bump, or are between two that do.
+    pub(super) bumping: BTreeSet<usize>,
+    /// Those with a weak joint.
+    pub(super) weak: BTreeSet<usize>,
+}
+
 impl Choice {
     /// `weights` say how much each part counts; `links` have a parent's own link before its children's.
     pub(super) fn new(
@@ -201,8 +210,7 @@ impl Choice {
         of
     }
 
-    /// The best combination found, and the parts that could do with more candidates: those that bump in
-    /// it, or are between two that do, or whose joint is weak. `bumps` tells what parts of one do to each
+    /// The best combination found, and what is wrong with it. `bumps` tells what parts of one do to each
     /// other while they fold, `looks_mm` what the looks of some cost, each of which is the first one but for
     /// one variable. The search starts from the best of the tree, or from `start` where that is better: the
     /// result is never worse than either.
@@ -211,7 +219,7 @@ impl Choice {
         start: Option<Combination>,
         bumps: &Bumping<'_>,
         looks_mm: &Looks<'_>,
-    ) -> Result<(Combination, BTreeSet<usize>), Cancelled> {
+    ) -> Result<(Combination, Trouble), Cancelled> {
         let (unhindered, near) = self.best_looking(looks_mm);
         let look = |of: Combination| {
             let bumps = bumps(&of)?;
@@ -246,11 +254,11 @@ impl Choice {
                     continue 'better;
                 }
             }
-            let mut troubled = self.involved(&best);
+            let bumping = self.involved(&best);
             let is_weak =
                 |pair: &&Pair| pair.costs[best.of[pair.parent]][best.of[pair.child]] > WEAK_PRICE_MM;
-            troubled.extend(self.pairs.iter().filter(is_weak).flat_map(|pair| [pair.parent, pair.child]));
-            return Ok((best.of, troubled));
+            let weak = self.pairs.iter().filter(is_weak).flat_map(|pair| [pair.parent, pair.child]).collect();
+            return Ok((best.of, Trouble { bumping, weak }));
         }
     }
 
@@ -449,8 +457,8 @@ mod tests {
                 },
                 &no_looks,
             );
-            let (found, troubled) = found.unwrap();
-            assert!(bumps(&found).is_empty() || !troubled.is_empty(), "parts that bump are named");
+            let (found, trouble) = found.unwrap();
+            assert!(bumps(&found).is_empty() || !trouble.bumping.is_empty(), "parts that bump are named");
             let (found_mm, tree_mm) = (total_mm(&found), total_mm(&choice.cheapest(&[])));
             assert!(tree.are_alike(&found));
             assert!(found_mm <= tree_mm, "{found_mm} {tree_mm}");

@@ -1,6 +1,6 @@
 //! Candidates that were made before, so that a change to one part leaves the others as they are.
 
-use super::candidate::{Builder, Made};
+use super::candidate::{Builder, Made, Search};
 use super::link::Link;
 use super::{ModelError, Part, Symmetry};
 use crate::geom::Hull;
@@ -21,7 +21,7 @@ struct Wish {
     /// Its joints, with the hulls of the others.
     links: Vec<(Link, Hull)>,
     symmetry: Option<Symmetry>,
-    is_wide: bool,
+    search: Search,
 }
 
 impl Wish {
@@ -39,7 +39,7 @@ impl Wish {
             own,
             links: builder.own_links().map(with_hull).collect(),
             symmetry: builder.symmetry.cloned(),
-            is_wide: builder.is_wide,
+            search: builder.search,
         }
     }
 }
@@ -60,9 +60,9 @@ impl Default for Known {
 impl Known {
     /// Makes candidates, or takes those that were made of the same.
     pub(super) fn make(&self, builder: &Builder<'_>) -> Result<Arc<Vec<Made>>, ModelError> {
-        let before = match builder.is_wide {
-            true => self.make(&Builder { is_wide: false, ..*builder })?,
-            false => Arc::default(),
+        let before = match builder.search.before() {
+            Some(search) => self.make(&Builder { search, ..*builder })?,
+            None => Arc::default(),
         };
         self.made.get_or(Wish::new(builder), || {
             let mut made = builder.make(&before)?;

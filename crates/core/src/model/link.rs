@@ -1,8 +1,9 @@
 //! Contact planes between neighbouring segments, and the tree of joints (§4.2.1).
 
 use super::{Symmetry, plane};
-use crate::geom::{Hull, Plane};
-use glam::DVec3;
+use crate::geom::{Hull, Plane, polygon};
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// A place where two parts touch: candidate for a joint.
@@ -37,7 +38,8 @@ pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact], symmetry: Option<&S
     let mirrored = symmetry.map(|symmetry| mirrored_contacts(contacts, symmetry));
     let contacts = mirrored.as_deref().unwrap_or(contacts);
     let mut neighbours: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-    let joints = joined(contacts, part_hulls.len(), symmetry);
+    let sizes = sizes_mm2(part_hulls, contacts, symmetry);
+    let joints = joined(contacts, &sizes, part_hulls.len(), symmetry);
     for &(a, b) in &joints {
         neighbours.entry(a).or_default().push(b);
         neighbours.entry(b).or_default().push(a);
@@ -68,10 +70,40 @@ pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact], symmetry: Option<&S
     links
 }
 
+/// A section counts at least as one of this share of the border's length.
+const LEAST_SECTION: f64 = 0.01;
+
+/// How large interfaces are: the border's length times the width of the section in which the two hulls meet
+/// there. A thumb's border with a finger may be longer than that with the palm, but their hulls hardly meet there.
+fn sizes_mm2(part_hulls: &[&Hull], contacts: &[Contact], symmetry: Option<&Symmetry>) -> Vec<f64> {
+    let between = Between::new(part_hulls, contacts, &[], symmetry);
+    let size_mm2 = |contact: &Contact| {
+        let (a, b) = contact.parts;
+        let area_mm2 = between.plane(a, b).map_or(0.0, |(plane, _)| {
+            let sections = [a, b].map(|part| part_hulls[part].section(&plane));
+            // Hulls that only touch have a face on the plane, and no section.
+            if sections.iter().any(|section| section.len() < 3) {
+                let flat: Vec<DVec2> = contact.points.iter().map(|p| plane.flat(*p)).collect();
+                return polygon::area(&polygon::convex_hull(&flat));
+            }
+            polygon::area(&plane::shared_section(&plane, part_hulls[a], part_hulls[b]))
+        });
+        let width_mm = area_mm2.max(0.0).sqrt();
+        contact.length_mm * width_mm.max(LEAST_SECTION * contact.length_mm)
+    };
+    contacts.par_iter().map(size_mm2).collect()
+}
+
 /// Pairs that are joined, largest interfaces first.
-fn joined(contacts: &[Contact], parts: usize, symmetry: Option<&Symmetry>) -> Vec<(usize, usize)> {
-    let mut order: Vec<&Contact> = contacts.iter().collect();
-    order.sort_by(|a, b| b.length_mm.total_cmp(&a.length_mm).then(a.parts.cmp(&b.parts)));
+fn joined(
+    contacts: &[Contact],
+    sizes_mm2: &[f64],
+    parts: usize,
+    symmetry: Option<&Symmetry>,
+) -> Vec<(usize, usize)> {
+    let mut order: Vec<(&Contact, f64)> = contacts.iter().zip(sizes_mm2.iter().copied()).collect();
+    order.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.parts.cmp(&b.0.parts)));
+    let order: Vec<&Contact> = order.into_iter().map(|(contact, _)| contact).collect();
     let twin = |p: usize| symmetry.map_or(p, |s| s.twin(p));
     // A part and its twin count as one at first.
     let mut group: Vec<usize> = (0..parts).map(|p| p.min(twin(p))).collect();
@@ -158,11 +190,11 @@ impl<'a> Between<'a> {
         Self { part_hulls, contacts, joints, symmetry }
     }
 
-    /// Where a part is joined to others than one.
-    fn kept(&self, part: usize, other: usize) -> Vec<DVec3> {
+    /// Where a part is joined to each other than one.
+    fn kept(&self, part: usize, other: usize) -> Vec<Vec<DVec3>> {
         let is_other = |pair: &&(usize, usize)| **pair != (part.min(other), part.max(other));
         let own = self.joints.iter().filter(is_other).filter(|p| p.0 == part || p.1 == part);
-        own.filter_map(|pair| self.contacts.get(pair)).flat_map(|c| c.points.iter().copied()).collect()
+        own.filter_map(|pair| self.contacts.get(pair)).map(|contact| contact.points.clone()).collect()
     }
 
     /// The plane between two parts, normal from the first to the second, and the larger share that
@@ -224,6 +256,27 @@ pub(super) mod tests {
             assert!((link.plane.normal() - DVec3::X).length() < 1e-9);
             assert!((link.plane.offset() - x).abs() < 1e-9);
         }
+    }
+
+    /// A thumb with a longer border to a finger, which it meets along an edge only, than to the palm.
+    #[test]
+    fn a_part_is_joined_where_the_hulls_meet_most() {
+        let (palm, finger) = (cube(DVec3::ZERO, 40.0), cube(DVec3::new(0.0, 0.0, 40.0), 10.0));
+        let thumb = cube(DVec3::new(10.0, 10.0, 40.0), 10.0);
+        let square = |x: f64| -> Vec<DVec3> {
+            [(x, x), (x + 10.0, x), (x + 10.0, x + 10.0), (x, x + 10.0)]
+                .map(|(u, v)| DVec3::new(u, v, 40.0))
+                .to_vec()
+        };
+        let edge =
+            vec![DVec3::new(10.0, 10.0, 40.0), DVec3::new(10.0, 10.0, 50.0), DVec3::new(9.9, 10.1, 45.0)];
+        let contacts = [
+            Contact { parts: (0, 1), points: square(0.0), length_mm: 40.0 },
+            Contact { parts: (0, 2), points: square(10.0), length_mm: 40.0 },
+            Contact { parts: (1, 2), points: edge, length_mm: 45.0 },
+        ];
+        let links = link_tree(&[&palm, &finger, &thumb], &contacts, None);
+        assert_eq!(links.iter().map(|l| (l.parent, l.child)).collect::<Vec<_>>(), [(0, 1), (0, 2)]);
     }
 
     /// A body across x = 0 with arms and a pair of feet that touch each other.

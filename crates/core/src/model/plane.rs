@@ -14,9 +14,19 @@ const SAMPLES: usize = 12;
 const SLIDES: usize = 17;
 /// Planes are looked for this far beyond the interface, as a share of its size.
 const BEYOND: f64 = 0.5;
-/// Price of the share of other joints' interfaces that are cut off, against the share of volume:
-/// a part whose joint is lost falls off.
+/// Price of the share of another joint's interface that is cut off, against the share of volume: a part whose
+/// joint is lost falls off. Each joint counts for itself: as a share of all of them together, the tail of a
+/// scorpion was cut off its body for the sake of one of eight legs.
 const JOINT_PRICE: f64 = 2.0;
+/// A cut less deep than this share of the interface's radius takes nothing: the feet of a table all stand on one
+/// plane, more or less, and turned planes would make a roof of it. With 0.12 the same happens to an octopus; with 0.25
+/// one joint of a lion has less than 40 mm².
+const SHALLOW: f64 = 0.25;
+/// Where planes that are nearly fitted take more than this of another joint, planes are turned farther.
+const SPARED: f64 = 0.1;
+/// By these angles, each to so many sides.
+const TURNS_RAD: [f64; 3] = [20.0_f64.to_radians(), 40.0_f64.to_radians(), 60.0_f64.to_radians()];
+const TURNED: usize = 8;
 /// Price of a joint whose two sections have nothing in common,
 const GLUE_PRICE: f64 = 1.0;
 /// which has enough with this share of the smaller section that the joint can have.
@@ -26,13 +36,13 @@ const ENOUGH_GLUE: f64 = 0.5;
 const MOVE_PRICE: f64 = 0.05;
 
 /// The plane between two parts, its normal from `parent` to `child`, and the larger share of either that
-/// it takes off and the other does not have. `points` are where the two meet; `kept` where either meets others. Between parts that
-/// lie `across` a mirror plane it is its own image.
+/// it takes off and the other does not have. `points` are where the two meet; `kept` where either meets each of
+/// the others. Between parts that lie `across` a mirror plane it is its own image.
 pub(super) fn between(
     points: &[DVec3],
     parent: &Hull,
     child: &Hull,
-    kept: [&[DVec3]; 2],
+    kept: [&[Vec<DVec3>]; 2],
     across: Option<&Mirror>,
 ) -> (Plane, f64) {
     let along = |direction: DVec3| across.map_or(direction, |mirror| mirror.along(direction));
@@ -48,8 +58,7 @@ pub(super) fn between(
     let size = points.iter().map(|p| p.distance(centre)).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let ground = Ground::new(parent, child, kept);
     let halfway = straight.and_then(|s| Plane::through(centre, first.normal() + s.normal()));
-    let normals = [Some(first), halfway, straight].into_iter().flatten();
-    let candidates = normals.flat_map(|plane| {
+    let slid = |plane: Plane| {
         let heights = points.iter().map(|p| plane.normal().dot(*p - centre));
         let (low, high) = heights.fold((0.0f64, 0.0f64), |(l, h), d| (l.min(d), h.max(d)));
         let (low, high) = (low - BEYOND * size, high + BEYOND * size);
@@ -60,11 +69,30 @@ pub(super) fn between(
             let turn = libm::acos(plane.normal().dot(first.normal()).clamp(-1.0, 1.0));
             Some((moved, MOVE_PRICE * (shift.abs() / size + turn / std::f64::consts::FRAC_PI_2)))
         })
-    });
-    let priced = candidates.map(|(plane, price)| (price + ground.price(&plane), plane));
-    let best = priced.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(first, |best| best.1);
+    };
+    let priced = |plane: Plane| slid(plane).map(|(plane, price)| (price + ground.price(&plane), plane));
+    let cheapest = |planes: &mut dyn Iterator<Item = Plane>| {
+        planes.flat_map(priced).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, first))
+    };
+    let mut best = cheapest(&mut [Some(first), halfway, straight].into_iter().flatten());
+    if ground.lost_joints(&best.1) > SPARED {
+        let turned = turned(first.normal()).map(along).filter(is_upright);
+        let other = cheapest(&mut turned.filter_map(|normal| Plane::through(centre, normal)));
+        best = if other.0 < best.0 { other } else { best };
+    }
+    let best = best.1;
     let lost = ground.lost(&best);
     (best, lost[0].max(lost[1]))
+}
+
+/// Normals turned away from one.
+fn turned(normal: DVec3) -> impl Iterator<Item = DVec3> {
+    let (x, y) = normal.any_orthonormal_pair();
+    let ways = (0..TURNED).map(|k| std::f64::consts::TAU * k as f64 / TURNED as f64);
+    ways.flat_map(move |way| {
+        let aside = x * libm::cos(way) + y * libm::sin(way);
+        TURNS_RAD.map(|turn| normal * libm::cos(turn) + aside * libm::sin(turn))
+    })
 }
 
 /// The larger share of volume that the plane cuts off either hull.
@@ -104,18 +132,38 @@ pub(super) fn apart(first: &Hull, second: &Hull) -> Option<(Plane, f64)> {
     least
 }
 
+/// Where a part is joined to another, and how deep a plane may cut into that.
+struct Kept<'a> {
+    points: &'a [DVec3],
+    spared_mm: f64,
+}
+
+impl<'a> Kept<'a> {
+    fn new(points: &'a [DVec3]) -> Self {
+        let centre = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
+        let radius_mm = points.iter().map(|p| p.distance(centre)).fold(0.0, f64::max);
+        Self { points, spared_mm: SHALLOW * radius_mm }
+    }
+
+    /// The share that a plane cuts off.
+    fn lost(&self, side: &Plane) -> f64 {
+        let off = self.points.iter().filter(|p| side.distance(**p) > self.spared_mm).count();
+        off as f64 / self.points.len().max(1) as f64
+    }
+}
+
 /// Samples of two hulls, for the price of many planes between them.
 struct Ground<'a> {
     hulls: [&'a Hull; 2],
     /// Points in one hull only: what the plane takes off the other's inside is not lost.
     alone: [Vec<DVec3>; 2],
     counts: [f64; 2],
-    kept: [&'a [DVec3]; 2],
+    kept: [Vec<Kept<'a>>; 2],
     most_glue: f64,
 }
 
 impl<'a> Ground<'a> {
-    fn new(parent: &'a Hull, child: &'a Hull, kept: [&'a [DVec3]; 2]) -> Self {
+    fn new(parent: &'a Hull, child: &'a Hull, kept: [&'a [Vec<DVec3>]; 2]) -> Self {
         let hulls = [parent, child];
         let mut alone = [Vec::new(), Vec::new()];
         let mut counts = [0.0; 2];
@@ -128,19 +176,20 @@ impl<'a> Ground<'a> {
             }
         }
         let size = |hull: &Hull| libm::cbrt(hull.volume()).powi(2);
+        let kept = kept.map(|kept| kept.iter().map(|points| Kept::new(points)).collect());
         Self { hulls, alone, counts, kept, most_glue: size(parent).min(size(child)) }
     }
 
     fn price(&self, plane: &Plane) -> f64 {
-        let sides = [*plane, plane.flipped()];
-        let is_off = |own: usize, p: &DVec3| sides[own].distance(*p) > 0.0;
-        let joints = |own: usize| {
-            let lost = self.kept[own].iter().filter(|p| is_off(own, p)).count() as f64;
-            lost / self.kept[own].len().max(1) as f64
-        };
         let enough = ENOUGH_GLUE * self.most_glue;
         let lack = (1.0 - self.common(plane) / enough.max(f64::MIN_POSITIVE)).max(0.0);
-        self.lost(plane).iter().sum::<f64>() + JOINT_PRICE * (joints(0) + joints(1)) + GLUE_PRICE * lack
+        self.lost(plane).iter().sum::<f64>() + JOINT_PRICE * self.lost_joints(plane) + GLUE_PRICE * lack
+    }
+
+    /// The shares of the interfaces of other joints that a plane cuts off, together.
+    fn lost_joints(&self, plane: &Plane) -> f64 {
+        let sides = [*plane, plane.flipped()];
+        self.kept.iter().zip(&sides).flat_map(|(kept, side)| kept.iter().map(|joint| joint.lost(side))).sum()
     }
 
     /// The share of each hull that a plane takes off and the other does not have.
@@ -189,4 +238,35 @@ fn samples(hull: &Hull) -> Vec<DVec3> {
         (0..count.y).flat_map(move |y| (0..count.z).map(move |z| DVec3::new(x as f64, y as f64, z as f64)))
     });
     grid.map(|k| low + (k + 0.5) * cell).filter(|p| is_inside(hull, *p)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cuboid(low: DVec3, high: DVec3) -> Hull {
+        let corner = |k: usize| {
+            DVec3::new([low.x, high.x][k & 1], [low.y, high.y][k >> 1 & 1], [low.z, high.z][k >> 2])
+        };
+        Hull::of_points(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
+    }
+
+    /// A body with a large part that overlaps its end, on which a tail sits, and with many legs.
+    #[test]
+    fn a_plane_spares_one_joint_of_many() {
+        let body = cuboid(DVec3::ZERO, DVec3::new(50.0, 40.0, 40.0));
+        let large = cuboid(DVec3::new(38.0, 0.0, -100.0), DVec3::new(60.0, 30.0, 140.0));
+        let square = |at: DVec3, u: DVec3, v: DVec3| vec![at + u + v, at + u - v, at - u - v, at - u + v];
+        let points = square(DVec3::new(38.0, 15.0, 20.0), DVec3::Y * 15.0, DVec3::Z * 20.0);
+        let tail = square(DVec3::new(50.0, 35.0, 20.0), DVec3::Y * 3.0, DVec3::Z * 5.0);
+        let leg = |k: u32| DVec3::new(2.0 * f64::from(k), 20.0, 0.0);
+        let legs = (0..18).map(|k| square(leg(k), DVec3::X, DVec3::Y));
+        let kept: Vec<Vec<DVec3>> = std::iter::once(tail.clone()).chain(legs).collect();
+        let cut = |kept: &[Vec<DVec3>]| {
+            let (plane, _) = between(&points, &body, &large, [kept, &[]], None);
+            tail.iter().filter(|p| plane.distance(**p) > 0.0).count()
+        };
+        assert_eq!(cut(&kept), 0);
+        assert_eq!(cut(&[kept.concat()]), 4, "as a share of all, one joint is not worth the part");
+    }
 }

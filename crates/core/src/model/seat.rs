@@ -9,12 +9,31 @@ use crate::component::Seat;
 use crate::geom::Plane;
 use glam::{DVec2, DVec3};
 
-/// A joint plane within this angle of horizontal is made the top or bottom panel.
-const LEVEL_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
-/// Chains of joint panels differ by at least this; closer ones are merged.
-const SHARE_CHAIN_RAD: f64 = 20.0 * std::f64::consts::PI / 180.0;
-/// Joint panels of one chain differ in slope by at least this; closer ones are merged.
-const SHARE_PANEL_RAD: f64 = 12.0 * std::f64::consts::PI / 180.0;
+/// Up to which angles planes are turned, so that they are seated on fewer panels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Snap {
+    /// A joint plane within this angle of horizontal is made the top or bottom panel.
+    level_rad: f64,
+    /// Chains of joint panels differ by at least this; closer ones are merged.
+    chain_rad: f64,
+    /// Joint panels of one chain differ in slope by at least this; closer ones are merged.
+    panel_rad: f64,
+}
+
+impl Snap {
+    /// Few panels, none of them narrow.
+    pub const WIDE: Self = Self::of_degrees(20.0, 20.0, 12.0);
+    /// Each joint where the parts touch, even if panels are narrow: the wing and the tail of a plane, both at the side
+    /// of the body, do not fit on one panel.
+    pub const NARROW: Self = Self::of_degrees(5.0, 5.0, 3.0);
+
+    const fn of_degrees(level: f64, chain: f64, panel: f64) -> Self {
+        Self { level_rad: level.to_radians(), chain_rad: chain.to_radians(), panel_rad: panel.to_radians() }
+    }
+}
+
+/// A fold axis within this angle of a joint plane's normal is turned onto it.
+const LEVEL_RAD: f64 = Snap::WIDE.level_rad;
 
 /// A joint plane to be seated: plane with outward normal in the component's axes, and a point where
 /// the joint is.
@@ -40,18 +59,18 @@ impl Seating {
         self.plane.normal().truncate().to_angle().rem_euclid(std::f64::consts::TAU)
     }
 
-    fn is_level(&self) -> bool {
-        self.plane.normal().z.abs() > libm::cos(LEVEL_RAD)
+    fn is_level(&self, snap: &Snap) -> bool {
+        self.plane.normal().z.abs() > libm::cos(snap.level_rad)
     }
 }
 
 /// The seat of every joint of a component, in order. A plane that is almost but not exactly horizontal
 /// gets a horizontal seat: the other part is then turned with it.
-pub fn seats(joints: &[Seating]) -> Vec<Seat> {
-    let joints = &evened(joints)[..];
-    let mut out: Vec<Option<Seat>> = joints.iter().map(fixed_seat).collect();
+pub fn seats(joints: &[Seating], snap: &Snap) -> Vec<Seat> {
+    let joints = &evened(joints, snap)[..];
+    let mut out: Vec<Option<Seat>> = joints.iter().map(|joint| fixed_seat(joint, snap)).collect();
     for up in [true, false] {
-        let level = |k: &usize| joints[*k].is_level() && (joints[*k].plane.normal().z > 0.0) == up;
+        let level = |k: &usize| joints[*k].is_level(snap) && (joints[*k].plane.normal().z > 0.0) == up;
         let members: Vec<usize> = (0..joints.len()).filter(level).collect();
         let fixed = members.iter().find(|&&k| joints[k].comes_first).map(|&k| joints[k].centre.z);
         let mean = members.iter().map(|&k| joints[k].centre.z).sum::<f64>() / members.len().max(1) as f64;
@@ -65,7 +84,7 @@ pub fn seats(joints: &[Seating]) -> Vec<Seat> {
     order.sort_by_key(|&k| joints[k].image != Some(k));
     for k in order {
         if out[k].is_none() {
-            out[k] = Some(side_seat(&joints[k], &out));
+            out[k] = Some(side_seat(&joints[k], &out, snap));
         }
     }
     out.into_iter().flatten().collect()
@@ -73,19 +92,21 @@ pub fn seats(joints: &[Seating]) -> Vec<Seat> {
 
 /// The joints, of which images of each other that would share a chain or a panel are turned halfway to
 /// one another.
-fn evened(joints: &[Seating]) -> Vec<Seating> {
+fn evened(joints: &[Seating], snap: &Snap) -> Vec<Seating> {
     let mut evened = joints.to_vec();
     for k in 0..joints.len() {
         let Some(image) = joints[k].image.filter(|&image| image > k) else { continue };
         let (own, other) = (&joints[k], &joints[image]);
-        if own.is_level() || other.is_level() || !is_near(own.angle_rad(), other.angle_rad(), SHARE_CHAIN_RAD)
+        if own.is_level(snap)
+            || other.is_level(snap)
+            || !is_near(own.angle_rad(), other.angle_rad(), snap.chain_rad)
         {
             continue;
         }
         let across = own.plane.normal().truncate().normalize_or_zero()
             + other.plane.normal().truncate().normalize_or_zero();
         let (own_slope, other_slope) = (own.slope_rad(), other.slope_rad());
-        let slopes = match is_near(own_slope, other_slope, SHARE_PANEL_RAD) {
+        let slopes = match is_near(own_slope, other_slope, snap.panel_rad) {
             true => [0.5 * (own_slope + other_slope); 2],
             false => [own_slope, other_slope],
         };
@@ -103,8 +124,8 @@ fn is_near(a: f64, b: f64, limit: f64) -> bool {
 }
 
 /// A fixed sloped plane keeps its direction exactly.
-fn fixed_seat(joint: &Seating) -> Option<Seat> {
-    (joint.comes_first && !joint.is_level()).then(|| Seat::Side {
+fn fixed_seat(joint: &Seating, snap: &Snap) -> Option<Seat> {
+    (joint.comes_first && !joint.is_level(snap)).then(|| Seat::Side {
         angle_rad: joint.angle_rad(),
         slope_rad: joint.slope_rad(),
         offset_mm: joint.plane.offset(),
@@ -112,7 +133,7 @@ fn fixed_seat(joint: &Seating) -> Option<Seat> {
 }
 
 /// The side panel of a free joint: its own direction, or that of a seat close to it.
-fn side_seat(joint: &Seating, others: &[Option<Seat>]) -> Seat {
+fn side_seat(joint: &Seating, others: &[Option<Seat>], snap: &Snap) -> Seat {
     let (own_angle, own_slope) = (joint.angle_rad(), joint.slope_rad());
     let sides = || {
         others.iter().flatten().filter_map(|seat| match *seat {
@@ -120,13 +141,13 @@ fn side_seat(joint: &Seating, others: &[Option<Seat>]) -> Seat {
             _ => None,
         })
     };
-    let chain = sides().filter(|s| is_near(s.0, own_angle, SHARE_CHAIN_RAD));
+    let chain = sides().filter(|s| is_near(s.0, own_angle, snap.chain_rad));
     let chain = chain.min_by(|a, b| {
         let off = |s: &(f64, f64, Seat)| DVec2::from_angle(s.0).angle_to(DVec2::from_angle(own_angle)).abs();
         off(a).total_cmp(&off(b))
     });
     let angle_rad = chain.map_or(own_angle, |c| c.0);
-    if let Some(same) = sides().find(|s| s.0 == angle_rad && is_near(s.1, own_slope, SHARE_PANEL_RAD)) {
+    if let Some(same) = sides().find(|s| s.0 == angle_rad && is_near(s.1, own_slope, snap.panel_rad)) {
         return same.2;
     }
     let normal = side_normal(angle_rad, own_slope);
@@ -169,7 +190,7 @@ mod tests {
     #[test]
     fn a_sloped_plane_gets_a_side_panel_exactly_on_it() {
         let joint = seating(DVec3::new(2.0, 1.0, 0.5), DVec3::new(30.0, 10.0, 5.0), true);
-        let plane = seat_plane(&seats(&[joint])[0]);
+        let plane = seat_plane(&seats(&[joint], &Snap::WIDE)[0]);
         assert!((plane.normal() - joint.plane.normal()).length() < 1e-12);
         assert!((plane.offset() - joint.plane.offset()).abs() < 1e-10);
     }
@@ -177,19 +198,28 @@ mod tests {
     #[test]
     fn an_almost_level_plane_becomes_the_top() {
         let joint = seating(DVec3::new(0.2, 0.0, 1.0), DVec3::new(0.0, 0.0, 40.0), false);
-        assert_eq!(seats(&[joint]), [Seat::Top { height_mm: 40.0 }]);
+        assert_eq!(seats(&[joint], &Snap::WIDE), [Seat::Top { height_mm: 40.0 }]);
     }
 
     #[test]
     fn two_planes_in_almost_one_direction_share_a_chain() {
         let a = seating(DVec3::new(1.0, 0.0, 0.6), DVec3::new(30.0, 0.0, 20.0), true);
         let b = seating(DVec3::new(1.0, 0.2, -0.4), DVec3::new(30.0, 2.0, -20.0), false);
-        let seats = seats(&[b, a]);
+        let seats = seats(&[b, a], &Snap::WIDE);
         let angle = |s: &Seat| match s {
             Seat::Side { angle_rad, .. } => *angle_rad,
             _ => f64::NAN,
         };
         assert_eq!(angle(&seats[0]), angle(&seats[1]));
         assert!(seat_plane(&seats[0]).distance(b.centre).abs() < 1e-9);
+    }
+
+    /// The roots of a wing and of a tail plane at a body that tapers.
+    #[test]
+    fn planes_that_would_cut_each_other_off_get_panels_of_their_own() {
+        let wing = seating(DVec3::new(1.0, 0.0, 0.0), DVec3::new(30.0, 0.0, 0.0), false);
+        let tail = seating(DVec3::new(1.0, 0.2, 0.0), DVec3::new(26.0, 40.0, 0.0), false);
+        let distance = |snap| seat_plane(&seats(&[wing, tail], &snap)[1]).distance(tail.centre).abs();
+        assert!(distance(Snap::WIDE) > 3.9 && distance(Snap::NARROW) < 1e-9);
     }
 }
