@@ -70,9 +70,7 @@ pub enum AppError {
     #[error(transparent)]
     Cancelled(Cancelled),
     /// Components were to have card of the mesh's colours.
-    #[error(
-        "the card cannot have the colours of the mesh: {reason}; name the colour of each component yourself"
-    )]
+    #[error("the card cannot have the colours of the mesh: {reason}")]
     NoCardColours { reason: String },
     /// No size takes so few sheets as were asked for.
     #[error("the model takes more than {most} sheets at every size that was tried")]
@@ -96,6 +94,7 @@ impl AppError {
             Self::Export(error) => error.remedies(),
             Self::Sheet { remedies, .. } | Self::Machine { remedies, .. } => remedies.clone(),
             Self::ManySheets { .. } => vec![Remedy::MoreSheets],
+            Self::NoCardColours { .. } => vec![Remedy::NameCards],
             Self::Colour { .. } => vec![Remedy::NoColours],
             Self::ColouredInside => vec![Remedy::BothSides, Remedy::NoColours],
             _ => Vec::new(),

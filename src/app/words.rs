@@ -4,8 +4,8 @@
 use tatamu::pipeline::{Change, Warning};
 use tatamu::plotter::profile::Handshake;
 use tatamu::project::options::{
-    COLOR, Entry, LEVEL, MARGIN, MIN_PANEL_WIDTH, PAPER, PARTS, PROFILE_VERTICES, SHEETS_MAX, SIDE, SIZE,
-    SPLIT, THICK, TOP_EDGES,
+    CARD, COLOR, Entry, LEVEL, MARGIN, MIN_PANEL_WIDTH, PAPER, PARTS, PROFILE_VERTICES, SHEETS_MAX, SIDE,
+    SIZE, SPLIT, THICK, TOP_EDGES,
 };
 use tatamu::remedy::Remedy;
 
@@ -78,6 +78,7 @@ fn phrase(remedy: &Remedy, names: &dyn Names) -> String {
         Remedy::LargerPaper => return format!("use larger {}", name(&PAPER)),
         Remedy::SmallerPaper => return format!("use smaller {}", name(&PAPER)),
         Remedy::SmallerMargin => return format!("use a smaller {}", name(&MARGIN)),
+        Remedy::NameCards => return format!("name the colour of each component with {}", name(&CARD)),
         Remedy::MoreSheets => return format!("allow more with {}", name(&SHEETS_MAX)),
         Remedy::LargerMargin => return format!("use a larger {}", name(&MARGIN)),
         Remedy::SplitPanels => return names.undo(&SPLIT),

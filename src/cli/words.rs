@@ -60,6 +60,8 @@ mod tests {
         assert!(thin.ends_with("; use a larger --size, or a smaller --min-panel-width than 3 mm"), "{thin}");
         let many = error(&AppError::ManySheets { most: 2 });
         assert!(many.ends_with("; allow more with --sheets-max"), "{many}");
+        let plain = error(&AppError::NoCardColours { reason: "it has no colours".to_owned() });
+        assert!(plain.ends_with("; name the colour of each component with --card"), "{plain}");
         let helps = TrialWarning::Helps { change: Change::Size(250.0), before: 2, left: 1 };
         let helps = warning(&helps.into());
         assert_eq!(helps, "--size 250mm was tried, and leaves 1 such problem instead of 2");

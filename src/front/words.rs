@@ -120,6 +120,7 @@ mod tests {
             Remedy::SmallerMargin,
             Remedy::LargerMargin,
             Remedy::MoreSheets,
+            Remedy::NameCards,
             Remedy::LargerMachine,
             Remedy::SplitPanels,
             Remedy::NarrowerPanels(3.0),

@@ -180,5 +180,9 @@ fn card_has_the_colours_of_the_mesh_unless_others_are_chosen() {
     assert!(out.contains(" blue, ") && out.contains("1 white)"), "{out}");
     let plain = cube::OFF.replace(" 255 0 0", "");
     let cube = [("a.off", plain.as_bytes())];
-    assert_refused(&cube, &["make", "a.off", "--card", "auto"], &["no colours", "--card body=brown"]);
+    assert_refused(
+        &cube,
+        &["make", "a.off", "--card", "auto"],
+        &["no colours", "each component with --card"],
+    );
 }

@@ -19,6 +19,8 @@ pub enum Remedy {
     LargerMargin,
     /// Allow more sheets.
     MoreSheets,
+    /// Name the colour of each component's card.
+    NameCards,
     /// Use a larger machine.
     LargerMachine,
     /// Let panels that are larger than the sheet be split.
