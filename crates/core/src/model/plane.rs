@@ -262,11 +262,11 @@ mod tests {
         let leg = |k: u32| DVec3::new(2.0 * f64::from(k), 20.0, 0.0);
         let legs = (0..18).map(|k| square(leg(k), DVec3::X, DVec3::Y));
         let kept: Vec<Vec<DVec3>> = std::iter::once(tail.clone()).chain(legs).collect();
-        let cut = |kept: &[Vec<DVec3>]| {
+        let lost = |kept: &[Vec<DVec3>]| {
             let (plane, _) = between(&points, &body, &large, [kept, &[]], None);
-            tail.iter().filter(|p| plane.distance(**p) > 0.0).count()
+            Kept::new(&tail).lost(&plane)
         };
-        assert_eq!(cut(&kept), 0);
-        assert_eq!(cut(&[kept.concat()]), 4, "as a share of all, one joint is not worth the part");
+        assert_eq!(lost(&kept), 0.0);
+        assert_eq!(lost(&[kept.concat()]), 1.0, "as a share of all, one joint is not worth the part");
     }
 }
