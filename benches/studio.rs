@@ -35,7 +35,16 @@ fn meshes() -> Vec<String> {
     found
 }
 
-/// From a turn of the biggest component's direction to the new component.
+/// Options with another direction for one component at each turn.
+fn turned(name: &str, turn: usize) -> Options {
+    let mut options = Options::default();
+    let direction_rad = Some(0.0123 + 0.0873 * turn as f64);
+    let own = ComponentOptions { direction_rad, ..ComponentOptions::default() };
+    options.components.insert(name.to_owned(), own);
+    options
+}
+
+/// From a turn of a component's direction to the new component.
 #[divan::bench(args = meshes(), sample_count = 20, sample_size = 1)]
 fn turn(bencher: Bencher, path: &str) {
     let Some(mesh) = read(path) else { return };
@@ -46,11 +55,7 @@ fn turn(bencher: Bencher, path: &str) {
     bencher.bench(|| {
         let turn = count.fetch_add(1, Ordering::Relaxed);
         let part = turn % names.len();
-        let mut options = Options::default();
-        let direction_rad = Some(0.0123 + 0.0873 * turn as f64);
-        let own = ComponentOptions { direction_rad, ..ComponentOptions::default() };
-        options.components.insert(names[part].clone(), own);
-        engine.component(&options, part, &Silent).is_ok()
+        engine.component(&turned(&names[part], turn), part, &Silent).is_ok()
     });
 }
 
@@ -64,11 +69,7 @@ fn turn_model(bencher: Bencher, path: &str) {
     let count = AtomicUsize::new(0);
     bencher.bench(|| {
         let turn = count.fetch_add(1, Ordering::Relaxed);
-        let mut options = Options::default();
-        let direction_rad = Some(0.0123 + 0.0873 * turn as f64);
-        let own = ComponentOptions { direction_rad, ..ComponentOptions::default() };
-        options.components.insert(names[turn % names.len()].clone(), own);
-        engine.shape(&options, &Silent).is_ok()
+        engine.shape(&turned(&names[turn % names.len()], turn), &Silent).is_ok()
     });
 }
 

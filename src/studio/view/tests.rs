@@ -350,22 +350,7 @@ fn a_piece_that_is_dragged_is_pinned() {
         edges.into_iter().find(|&at| super::super::pages::piece_at(&outlines, at) == Some(*id)).unwrap();
     let at = egui::pos2(page.left() + scale * inside.x as f32, page.bottom() - scale * inside.y as f32);
     let by = egui::vec2(12.0, -8.0) * scale;
-    desk.event(Event::PointerMoved(at));
-    desk.run_steps(1);
-    let button = |pos, pressed| Event::PointerButton {
-        pos,
-        button: egui::PointerButton::Primary,
-        pressed,
-        modifiers: Modifiers::NONE,
-    };
-    desk.event(button(at, true));
-    desk.run_steps(1);
-    for share in [0.3, 0.6, 1.0] {
-        desk.event(Event::PointerMoved(at + share * by));
-        desk.run_steps(1);
-    }
-    desk.event(button(at + by, false));
-    desk.run_steps(2);
+    defects::drag(&mut desk, at, at + by);
     let pins = &desk.state().studio().document().unwrap().project().pins;
     let name = output.nets()[id.net].pieces()[id.piece].name();
     let all: usize = output.nets().iter().map(|net| net.pieces().len()).sum();

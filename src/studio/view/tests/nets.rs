@@ -1,5 +1,6 @@
 //! Nets by hand: clicks and drags on the sheets.
 
+use super::defects::drag;
 use super::*;
 use tatamu::front::edges::{self, Joined, PlacedEdge};
 
@@ -89,22 +90,7 @@ fn a_tab_is_dragged_to_the_other_side() {
         };
         wait_for_pages(&mut desk);
         let (at, goal) = (middle(&desk, from), middle(&desk, to));
-        desk.event(Event::PointerMoved(at));
-        desk.run_steps(1);
-        let button = |pos, pressed| Event::PointerButton {
-            pos,
-            button: egui::PointerButton::Primary,
-            pressed,
-            modifiers: Modifiers::NONE,
-        };
-        desk.event(button(at, true));
-        desk.run_steps(1);
-        for share in [0.3, 0.6, 1.0] {
-            desk.event(Event::PointerMoved(at.lerp(goal, share)));
-            desk.run_steps(1);
-        }
-        desk.event(button(goal, false));
-        desk.run_steps(2);
+        drag(&mut desk, at, goal);
         let text = desk.state().studio().document().unwrap().text().to_owned();
         assert!(text.contains(&format!(
             "at = \"{}\", tab = \"{}\"",
