@@ -23,10 +23,21 @@ const A4: DVec2 = DVec2::new(190.0, 277.0);
 const SMALL: DVec2 = DVec2::new(85.0, 115.0);
 const HUGE: DVec2 = DVec2::new(5e3, 5e3);
 
-fn net_of(set: &PanelSet, sheet_mm: DVec2) -> Result<Net, NetError> {
+const BODY: Naming<'static> = Naming { name: "body", prefix: "A" };
+
+/// Options for whole panels.
+fn whole(sheet_mm: DVec2) -> NetOptions {
     let mut options = NetOptions::new(6.0, sheet_mm);
     options.choices.may_split = false;
-    develop(set, Naming { name: "body", prefix: "A" }, &[], &options)
+    options
+}
+
+fn net_of(set: &PanelSet, sheet_mm: DVec2) -> Result<Net, NetError> {
+    develop(set, BODY, &[], &whole(sheet_mm))
+}
+
+fn alternatives_of(set: &PanelSet, sheet_mm: DVec2) -> Result<Vec<BlankNet>, NetError> {
+    alternatives(set, BODY, &[], &whole(sheet_mm))
 }
 
 /// The FOLD master of one component, its pieces side by side on one sheet each.
@@ -121,10 +132,15 @@ proptest! {
     fn alternatives_are_as_good_and_differ(prism in prism()) {
         prop_assume!(prism.least_measure() >= 3.0);
         let set = prism.panel_set();
-        let naming = Naming { name: "body", prefix: "A" };
-        let nets = alternatives(&set, naming, &[], &NetOptions::new(6.0, A4)).expect("nets");
+        let first = match net_of(&set, A4) {
+            Ok(first) => first,
+            Err(error) => {
+                prop_assert_eq!(alternatives_of(&set, A4).err(), Some(error));
+                return Ok(());
+            }
+        };
+        let nets = alternatives_of(&set, A4).expect("nets");
         let nets: Vec<&Net> = nets.iter().map(BlankNet::finished).collect();
-        let first = net_of(&set, A4).expect("a net");
         prop_assert_eq!(cuts(nets[0], &set), cuts(&first, &set));
         for (k, net) in nets.iter().enumerate() {
             assert_good(&set, net, A4);
@@ -132,6 +148,15 @@ proptest! {
             prop_assert!(nets[..k].iter().all(|other| cuts(other, &set) != cuts(net, &set)));
         }
     }
+}
+
+/// The property above drew a panel of 191 × 281 mm, and took alternatives that split it.
+#[test]
+fn alternatives_refuse_a_panel_that_is_too_large() {
+    let set = Prism::cuboid(195.0, 285.0, 30.0).panel_set();
+    let refused = alternatives_of(&set, A4).err();
+    assert!(matches!(refused, Some(NetError::PanelTooLarge { .. })), "{refused:?}");
+    assert_eq!(refused, net_of(&set, A4).err());
 }
 
 #[test]
@@ -407,7 +432,7 @@ fn hinge_at(set: &PanelSet, edge: EdgeName) -> HingeId {
 fn by_hand(set: &PanelSet, hand: &NetHand, sheet_mm: DVec2) -> Result<Net, NetError> {
     let mut options = NetOptions::new(6.0, sheet_mm);
     options.hand = hand.clone();
-    develop(set, Naming { name: "body", prefix: "A" }, &[], &options)
+    develop(set, BODY, &[], &options)
 }
 
 fn choice() -> impl Strategy<Value = EdgeChoice> {
@@ -515,7 +540,7 @@ fn names_of_edges_are_printed_beside_all_of_them() {
     let set = Prism::regular(4, &[(20.0, 60.0), (30.0, 30.0), (20.0, 0.0)]).panel_set();
     let mut options = NetOptions::new(6.0, A4);
     options.choices.edge_names = true;
-    let net = develop(&set, Naming { name: "body", prefix: "A" }, &[], &options).expect("a net");
+    let net = develop(&set, BODY, &[], &options).expect("a net");
     assert!(faults(&set, &net, A4).is_empty());
     let texts = net.pieces().iter().flat_map(|piece| piece.labels()).map(|label| label.text.as_str());
     let printed: std::collections::BTreeSet<&str> = texts.collect();
