@@ -44,9 +44,8 @@ fn turned(name: &str, turn: usize) -> Options {
     options
 }
 
-/// From a turn of a component's direction to the new component.
-#[divan::bench(args = meshes(), sample_count = 20, sample_size = 1)]
-fn turn(bencher: Bencher, path: &str) {
+/// Makes something at each turn of a component's direction, one component after the other.
+fn at_each_turn(bencher: Bencher, path: &str, make: impl Fn(&Engine<'_>, &Options, usize) -> bool + Sync) {
     let Some(mesh) = read(path) else { return };
     let engine = Engine::new(Cow::Owned(mesh));
     let Ok(shaped) = engine.shape(&Options::default(), &Silent) else { return };
@@ -55,22 +54,20 @@ fn turn(bencher: Bencher, path: &str) {
     bencher.bench(|| {
         let turn = count.fetch_add(1, Ordering::Relaxed);
         let part = turn % names.len();
-        engine.component(&turned(&names[part], turn), part, &Silent).is_ok()
+        make(&engine, &turned(&names[part], turn), part)
     });
+}
+
+/// From a turn to the new component.
+#[divan::bench(args = meshes(), sample_count = 20, sample_size = 1)]
+fn turn(bencher: Bencher, path: &str) {
+    at_each_turn(bencher, path, |engine, options, part| engine.component(options, part, &Silent).is_ok());
 }
 
 /// The same, with all other components and the choice among their candidates.
 #[divan::bench(args = meshes(), sample_count = 20, sample_size = 1)]
 fn turn_model(bencher: Bencher, path: &str) {
-    let Some(mesh) = read(path) else { return };
-    let engine = Engine::new(Cow::Owned(mesh));
-    let Ok(shaped) = engine.shape(&Options::default(), &Silent) else { return };
-    let names = shaped.divided().hulls().names().to_vec();
-    let count = AtomicUsize::new(0);
-    bencher.bench(|| {
-        let turn = count.fetch_add(1, Ordering::Relaxed);
-        engine.shape(&turned(&names[turn % names.len()], turn), &Silent).is_ok()
-    });
+    at_each_turn(bencher, path, |engine, options, _| engine.shape(options, &Silent).is_ok());
 }
 
 /// One picture of the mesh while the view turns, 1280 × 720 pixels.

@@ -4,7 +4,7 @@ use super::pages::{PieceId, all, on_page};
 use glam::DVec2;
 use tatamu::component::{HingeId, PanelSet};
 use tatamu::geom::polygon;
-use tatamu::net::{EdgeChoice, EdgeName, Net, TabSide};
+use tatamu::net::{EdgeChoice, EdgeName, Net, NetHand, TabSide};
 use tatamu::pipeline::Output;
 use tatamu::project::Project;
 use tatamu::project::change::Change;
@@ -112,22 +112,17 @@ pub fn of_component(output: &Output, net: usize) -> Vec<(EdgeId, Joined)> {
 
 /// What was chosen by hand about an edge.
 pub fn choice(output: &Output, project: &Project, id: EdgeId) -> Option<EdgeChoice> {
-    let component = component(output, id.net)?;
-    let own = project.nets.iter().find(|table| table.component() == component)?;
-    own.hand().edges().find(|(name, _)| *name == id.name).map(|(_, choice)| choice)
+    hand(output, project, id.net)?.edges().find(|(name, _)| *name == id.name).map(|(_, choice)| choice)
 }
 
 /// The number of pieces that was chosen for a component.
 pub fn pieces(output: &Output, project: &Project, net: usize) -> Option<usize> {
-    let component = component(output, net)?;
-    project.nets.iter().find(|table| table.component() == component)?.hand().pieces()
+    hand(output, project, net)?.pieces()
 }
 
 /// Whether anything was chosen by hand about a component.
 pub fn is_by_hand(output: &Output, project: &Project, net: usize) -> bool {
-    let component = component(output, net);
-    let own = project.nets.iter().find(|table| Some(table.component()) == component);
-    own.is_some_and(|table| !table.hand().is_empty())
+    hand(output, project, net).is_some_and(|own| !own.is_empty())
 }
 
 /// The change that sets what is chosen about an edge, or leaves it to tatamu.
@@ -162,6 +157,12 @@ pub fn in_pieces(output: &Output, net: usize, pieces: Option<usize>) -> Option<C
 /// The other side of an edge.
 pub fn other(side: TabSide) -> TabSide {
     if side == TabSide::Upper { TabSide::Lower } else { TabSide::Upper }
+}
+
+/// What was chosen by hand about a net.
+fn hand<'p>(output: &Output, project: &'p Project, net: usize) -> Option<&'p NetHand> {
+    let component = component(output, net)?;
+    project.nets.iter().find(|table| table.component() == component).map(|table| table.hand())
 }
 
 /// Name of a component as it is printed, by which choices about its net go.

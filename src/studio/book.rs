@@ -26,7 +26,7 @@ macro_rules! page {
 }
 
 /// All pages, the contents first.
-pub const PAGES: [Page; COUNT] = [
+pub const PAGES: &[Page] = &[
     page!("README.md", "The tatamu book"),
     page!("tutorial.md", "From a mesh to a folded bear"),
     page!("how-to/build.md", "Build the paper model"),
@@ -50,9 +50,6 @@ pub const PAGES: [Page; COUNT] = [
     page!("explanation.md", "How it works"),
     page!("figures.md", "Figures"),
 ];
-
-/// Number of pages.
-pub const COUNT: usize = 22;
 
 /// Comfortable to read, in the theme of the system.
 const STYLE: &str = ":root{color-scheme:light dark}body{font:16px/1.55 system-ui,sans-serif;max-width:46em;\
@@ -175,7 +172,7 @@ mod tests {
         };
         let all: BTreeSet<String> = ["", "how-to", "reference"].into_iter().flat_map(pages).collect();
         assert_eq!(PAGES.iter().map(|page| page.path.to_owned()).collect::<BTreeSet<_>>(), all);
-        for page in &PAGES {
+        for page in PAGES {
             assert_eq!(page.text.lines().next(), Some(format!("# {}", page.title).as_str()));
         }
     }

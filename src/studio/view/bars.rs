@@ -69,14 +69,14 @@ fn tab(window: &mut Window, ui: &mut Ui, mode: Mode, command: &Command) {
 /// The commands of a menu, group by group.
 fn menu(window: &mut Window, ui: &mut Ui, group_of: impl Fn(Place) -> Option<u8>) {
     let mut last = None;
-    for command in commands::ALL {
+    for command in commands::all() {
         let Some(group) = group_of(command.place) else { continue };
         if last.is_some_and(|last| last != group) {
             ui.separator();
         }
         last = Some(group);
         command.menu_item(window, ui);
-        if std::ptr::eq(*command, &commands::OPEN) {
+        if std::ptr::eq(command, &commands::OPEN) {
             recent(window, ui);
         }
     }

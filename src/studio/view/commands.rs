@@ -1,6 +1,6 @@
 //! What the user can do, in one table: menus, keys, tips and the list of commands all read it.
 
-use super::super::book::{COUNT, PAGES};
+use super::super::book::PAGES;
 use super::super::state::Studio;
 use super::tour::Tour;
 use super::{Mode, Window};
@@ -443,33 +443,13 @@ const fn book<const PAGE: usize>() -> Command {
     }
 }
 
-static BOOK: [Command; COUNT] = [
-    book::<0>(),
-    book::<1>(),
-    book::<2>(),
-    book::<3>(),
-    book::<4>(),
-    book::<5>(),
-    book::<6>(),
-    book::<7>(),
-    book::<8>(),
-    book::<9>(),
-    book::<10>(),
-    book::<11>(),
-    book::<12>(),
-    book::<13>(),
-    book::<14>(),
-    book::<15>(),
-    book::<16>(),
-    book::<17>(),
-    book::<18>(),
-    book::<19>(),
-    book::<20>(),
-    book::<21>(),
-];
+macro_rules! book {
+    ($($page:literal)*) => { [$(book::<$page>()),*] };
+}
 
-/// All commands. Of two with one key the first that can be done is.
-pub static ALL: &[&Command] = &[
+static BOOK: [Command; PAGES.len()] = book!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21);
+
+static OWN: &[&Command] = &[
     &OPEN,
     &SAVE,
     &SAVE_AS,
@@ -512,29 +492,12 @@ pub static ALL: &[&Command] = &[
     &SHORTCUTS,
     &TOUR,
     &ABOUT,
-    &BOOK[0],
-    &BOOK[1],
-    &BOOK[2],
-    &BOOK[3],
-    &BOOK[4],
-    &BOOK[5],
-    &BOOK[6],
-    &BOOK[7],
-    &BOOK[8],
-    &BOOK[9],
-    &BOOK[10],
-    &BOOK[11],
-    &BOOK[12],
-    &BOOK[13],
-    &BOOK[14],
-    &BOOK[15],
-    &BOOK[16],
-    &BOOK[17],
-    &BOOK[18],
-    &BOOK[19],
-    &BOOK[20],
-    &BOOK[21],
 ];
+
+/// All commands. Of two with one key the first that can be done is.
+pub fn all() -> impl Iterator<Item = &'static Command> {
+    OWN.iter().copied().chain(&BOOK)
+}
 
 impl Command {
     /// Its picture, as a letter of the font of icons; as wide a gap where it has none.
@@ -635,7 +598,7 @@ pub fn heed(window: &mut Window, ctx: &Context) {
     let is_focused = ctx.memory(|memory| memory.focused().is_some());
     // Shift and H is no H: those with Shift come first.
     let keys = |has_shift: bool| {
-        let all = ALL.iter().flat_map(|&command| command.keys.iter().map(move |keys| (command, keys)));
+        let all = all().flat_map(|command| command.keys.iter().map(move |keys| (command, keys)));
         all.filter(move |(_, keys)| keys.modifiers.shift == has_shift)
     };
     for (command, keys) in keys(true).chain(keys(false)) {
@@ -680,9 +643,9 @@ mod tests {
 
     #[test]
     fn names_are_told_apart_and_keys_have_one_meaning() {
-        for (k, command) in ALL.iter().enumerate() {
+        for (k, command) in all().enumerate() {
             assert!(!command.name.is_empty());
-            for other in &ALL[..k] {
+            for other in all().take(k) {
                 assert_ne!(command.name, other.name);
                 let both = command.keys.iter().any(|keys| other.keys.contains(keys));
                 // Escape stops a calculation, or else selects nothing.

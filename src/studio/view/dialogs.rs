@@ -317,7 +317,7 @@ fn shortcuts(ctx: &Context) -> bool {
                     ui.label(effect);
                     ui.end_row();
                 }
-                for command in commands::ALL.iter().filter(|command| !command.keys.is_empty()) {
+                for command in commands::all().filter(|command| !command.keys.is_empty()) {
                     let keys: Vec<String> =
                         command.keys.iter().map(|keys| commands::key_text(ctx, keys)).collect();
                     ui.monospace(keys.join(", "));

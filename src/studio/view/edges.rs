@@ -68,7 +68,7 @@ impl EdgeTool {
         self.dragged.is_some()
     }
 
-    /// The edge under the pointer is found anew.
+    /// A new picture begins: what is under the pointer is not known yet.
     pub fn begin(&mut self, studio: &Studio, output: &Output) {
         self.over = None;
         let is_there = |id: &EdgeId| {
@@ -78,8 +78,8 @@ impl EdgeTool {
         self.chosen = self.chosen.filter(is_there);
     }
 
-    /// Heeds the mouse over a page; true where it is over an edge.
-    pub fn heed(
+    /// Follows the mouse over a page; true where it is over an edge.
+    pub fn follow(
         &mut self,
         studio: &mut Studio,
         output: &Output,

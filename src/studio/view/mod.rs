@@ -309,7 +309,7 @@ impl Window {
             self.dialogs.ask_leave(Leave::Close);
         }
         let commands: Vec<_> = match self.dialogs.is_finding() {
-            true => commands::ALL.iter().copied().filter(|command| command.can(self)).collect(),
+            true => commands::all().filter(|command| command.can(self)).collect(),
             false => Vec::new(),
         };
         let outcome = self.dialogs.show(ctx, &commands, work);

@@ -388,7 +388,8 @@ impl SheetsPanel {
         let outlines = drawn.outlines.get(k).map_or(&[][..], Vec::as_slice);
         let is_current = studio.laid().is_some() && studio.shown().sheets_version() == drawn.version;
         let page = Page { rect, scale, edges: drawn.edges.get(k).map_or(&[][..], Vec::as_slice) };
-        let is_on_edge = self.edges.is_on() && self.edges.heed(studio, output, &response, &page, is_current);
+        let is_on_edge =
+            self.edges.is_on() && self.edges.follow(studio, output, &response, &page, is_current);
         let over = response.hover_pos().filter(|_| !is_on_edge);
         let over = over.and_then(|at| pages::piece_at(outlines, to_mm(rect, scale, at)));
         for (id, outline) in outlines {

@@ -82,8 +82,7 @@ pub fn build(
 }
 
 /// The model from more candidates for the parts in `trouble` than for the others; and the parts that could do
-/// with more. The search also starts from the candidates with
-/// the ids in `before`, if any.
+/// with more. The search also starts from the candidates with the ids in `before`, if any.
 fn built(
     assembly: &Assembly<'_>,
     trouble: &Trouble,

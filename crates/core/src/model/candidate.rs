@@ -105,10 +105,9 @@ impl Made {
 }
 
 /// How far the search for the candidates of a part goes; each goes on from what the one before it has found.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Search {
     /// The directions that promise most for the part alone are finished.
-    #[default]
     Promising,
     /// All directions are: the part bumps into another.
     Wide,
@@ -124,6 +123,16 @@ impl Search {
             Self::Wide => Some(Self::Promising),
             Self::Firm => Some(Self::Wide),
         }
+    }
+
+    /// How many times as much joints count.
+    fn firmness(self) -> f64 {
+        if self == Self::Firm { FIRMNESS } else { 1.0 }
+    }
+
+    /// How far planes are turned to be seated.
+    fn snap(self) -> Snap {
+        if self == Self::Firm { Snap::NARROW } else { Snap::WIDE }
     }
 }
 
@@ -175,11 +184,10 @@ impl<'a> Builder<'a> {
             }
         }
         let is_new = |direction: &Direction| {
-            if self.search == Search::Firm {
-                return true;
-            }
             let axis = direction.frame.matrix3.z_axis;
-            before.iter().all(|made| axis.dot(made.frame.matrix3.z_axis).abs() < libm::cos(SAME_RAD))
+            // Firm joints make another component in the same direction.
+            self.search == Search::Firm
+                || before.iter().all(|made| axis.dot(made.frame.matrix3.z_axis).abs() < libm::cos(SAME_RAD))
         };
         let (directions, mut targets): (Vec<&Direction>, Vec<(Target, f64)>) =
             directions.iter().zip(targets).filter(|(direction, _)| is_new(direction)).unzip();
@@ -318,8 +326,7 @@ impl<'a> Builder<'a> {
                 seating.image = others.iter().position(|o| *o == symmetry.twin(other));
             }
         }
-        let snap = if self.search == Search::Firm { Snap::NARROW } else { Snap::WIDE };
-        let seats = seats(&seatings, &snap);
+        let seats = seats(&seatings, &self.search.snap());
         let mut hull = self.parts[self.part].hull.moved(&to_local);
         let whole = hull.volume();
         let mut plane_shift_mm = 0.0;
@@ -349,8 +356,7 @@ impl<'a> Builder<'a> {
         let area_mm2 = polygon::area(&plane::shared_section(&link.plane, parent, child));
         // Hulls that only touch there have a face on the plane, of no known size.
         let tightness = if area_mm2 > 0.0 { (TIGHT_MM2 / area_mm2).clamp(1.0, TIGHTEST) } else { 1.0 };
-        let firmness = if self.search == Search::Firm { FIRMNESS } else { 1.0 };
-        JOINT_PRICE * tightness * firmness
+        JOINT_PRICE * tightness * self.search.firmness()
     }
 
     /// Corners of the section of another part's hull by a joint plane. Those of images are images.

@@ -80,13 +80,13 @@ fn sizes_mm2(part_hulls: &[&Hull], contacts: &[Contact], symmetry: Option<&Symme
     let size_mm2 = |contact: &Contact| {
         let (a, b) = contact.parts;
         let area_mm2 = between.plane(a, b).map_or(0.0, |(plane, _)| {
-            let sections = [a, b].map(|part| part_hulls[part].section(&plane));
+            let [first, second] = [a, b].map(|part| plane::flat_section(&plane, part_hulls[part]));
             // Hulls that only touch have a face on the plane, and no section.
-            if sections.iter().any(|section| section.len() < 3) {
+            if first.is_empty() || second.is_empty() {
                 let flat: Vec<DVec2> = contact.points.iter().map(|p| plane.flat(*p)).collect();
                 return polygon::area(&polygon::convex_hull(&flat));
             }
-            polygon::area(&plane::shared_section(&plane, part_hulls[a], part_hulls[b]))
+            polygon::area(&polygon::intersect_convex(&first, &second))
         });
         let width_mm = area_mm2.max(0.0).sqrt();
         contact.length_mm * width_mm.max(LEAST_SECTION * contact.length_mm)
@@ -101,8 +101,8 @@ fn joined(
     parts: usize,
     symmetry: Option<&Symmetry>,
 ) -> Vec<(usize, usize)> {
-    let mut order: Vec<(&Contact, f64)> = contacts.iter().zip(sizes_mm2.iter().copied()).collect();
-    order.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.parts.cmp(&b.0.parts)));
+    let mut order: Vec<(&Contact, &f64)> = contacts.iter().zip(sizes_mm2).collect();
+    order.sort_by(|a, b| b.1.total_cmp(a.1).then(a.0.parts.cmp(&b.0.parts)));
     let order: Vec<&Contact> = order.into_iter().map(|(contact, _)| contact).collect();
     let twin = |p: usize| symmetry.map_or(p, |s| s.twin(p));
     // A part and its twin count as one at first.

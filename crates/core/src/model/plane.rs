@@ -47,7 +47,7 @@ pub(super) fn between(
 ) -> (Plane, f64) {
     let along = |direction: DVec3| across.map_or(direction, |mirror| mirror.along(direction));
     let towards = along(child.centroid() - parent.centroid());
-    let centre = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
+    let centre = middle(points);
     let centre = across.map_or(centre, |mirror| mirror.plane().project(centre));
     let facing = |plane: Plane| if plane.normal().dot(towards) < 0.0 { plane.flipped() } else { plane };
     let is_upright = |normal: &DVec3| normal.length() >= UPRIGHT;
@@ -55,7 +55,7 @@ pub(super) fn between(
     let fitted = fitted.and_then(|normal| Plane::through(centre, normal)).map(facing);
     let straight = Plane::through(centre, towards);
     let Some(first) = fitted.or(straight) else { return (Plane::horizontal(centre.z), 0.0) };
-    let size = points.iter().map(|p| p.distance(centre)).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let size = radius_mm(points, centre).max(f64::MIN_POSITIVE);
     let ground = Ground::new(parent, child, kept);
     let halfway = straight.and_then(|s| Plane::through(centre, first.normal() + s.normal()));
     let slid = |plane: Plane| {
@@ -83,6 +83,15 @@ pub(super) fn between(
     let best = best.1;
     let lost = ground.lost(&best);
     (best, lost[0].max(lost[1]))
+}
+
+fn middle(points: &[DVec3]) -> DVec3 {
+    points.iter().sum::<DVec3>() / points.len().max(1) as f64
+}
+
+/// Distance of the point that is farthest from the centre.
+fn radius_mm(points: &[DVec3], centre: DVec3) -> f64 {
+    points.iter().map(|p| p.distance(centre)).fold(0.0, f64::max)
 }
 
 /// Normals turned away from one.
@@ -140,9 +149,7 @@ struct Kept<'a> {
 
 impl<'a> Kept<'a> {
     fn new(points: &'a [DVec3]) -> Self {
-        let centre = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
-        let radius_mm = points.iter().map(|p| p.distance(centre)).fold(0.0, f64::max);
-        Self { points, spared_mm: SHALLOW * radius_mm }
+        Self { points, spared_mm: SHALLOW * radius_mm(points, middle(points)) }
     }
 
     /// The share that a plane cuts off.
@@ -209,9 +216,15 @@ impl<'a> Ground<'a> {
 
 /// What the sections of two hulls share, in the plane's [`Plane::basis`]; empty where that is nothing.
 pub(super) fn shared_section(plane: &Plane, first: &Hull, second: &Hull) -> Vec<DVec2> {
-    let [first, second] = [first, second].map(|hull| flattened(plane, hull.section(plane)));
-    let is_nothing = first.len() < 3 || second.len() < 3;
+    let [first, second] = [first, second].map(|hull| flat_section(plane, hull));
+    let is_nothing = first.is_empty() || second.is_empty();
     if is_nothing { Vec::new() } else { polygon::intersect_convex(&first, &second) }
+}
+
+/// The section of a hull, in the plane's [`Plane::basis`], counter-clockwise; empty where it has no area.
+pub(super) fn flat_section(plane: &Plane, hull: &Hull) -> Vec<DVec2> {
+    let section = hull.section(plane);
+    if section.len() < 3 { Vec::new() } else { flattened(plane, section) }
 }
 
 /// A convex polygon in the plane's [`Plane::basis`], counter-clockwise.
