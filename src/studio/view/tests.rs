@@ -297,7 +297,8 @@ fn a_job_goes_to_the_virtual_plotter() {
                 return state;
             }
             if state.wants_sheet.is_some() {
-                click(desk, "Sheet loaded");
+                // The job may have asked after the last picture was drawn.
+                click_when_there(desk, "Sheet loaded");
             }
             // The machine takes its time; the user stops the rest.
             if stops && state.share > 0.02 {
