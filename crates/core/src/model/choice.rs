@@ -24,9 +24,7 @@ use std::collections::BTreeSet;
 const BUMP_PRICE_MM: f64 = 20.0;
 /// and this for each mm that it bumps deeper.
 const DEPTH_PRICE: f64 = 6.0;
-/// Models that are looked at for each part, and for all. With 8 an ant of 16 parts has nine bumps, with 32 five; with
-/// 128 three, for half as much time again.
-const LOOKS_FOR_EACH: usize = 32;
+/// Models that are looked at, besides those for each part.
 const LOOKS: usize = 24;
 /// Steps towards a better look at most; hardly any choice moves after the fifth.
 const ROUNDS: usize = 8;
@@ -78,6 +76,32 @@ pub(super) struct Trouble {
     pub(super) bumping: BTreeSet<usize>,
     /// Those with a weak joint.
     pub(super) weak: BTreeSet<usize>,
+}
+
+/// The best combination found.
+pub(super) struct Best {
+    pub(super) of: Combination,
+    /// What it costs by its parts, joints, looks and folding, mm of error.
+    pub(super) cost_mm: f64,
+    /// What is wrong with it.
+    pub(super) trouble: Trouble,
+}
+
+/// How many models a search looks at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Effort {
+    /// Few: there will be more candidates where they bump.
+    Short,
+    /// Many.
+    Long,
+}
+
+impl Effort {
+    /// For a combination of so many parts. With 8 for each an ant of 16 parts has nine bumps, with 32 five; with 128
+    /// three, for half as much time again.
+    fn looks(self, parts: usize) -> usize {
+        LOOKS + parts * if self == Self::Short { 8 } else { 32 }
+    }
 }
 
 impl Choice {
@@ -211,16 +235,17 @@ impl Choice {
         of
     }
 
-    /// The best combination found, and what is wrong with it. `bumps` tells what parts of one do to each
+    /// The best combination found. `bumps` tells what parts of one do to each
     /// other while they fold, `looks_mm` what the looks of some cost, each of which is the first one but for
     /// one variable. The search starts from the best of the tree, or from `start` where that is better: the
     /// result is never worse than either.
     pub(super) fn best(
         &self,
         start: Option<Combination>,
+        effort: Effort,
         bumps: &Bumping<'_>,
         looks_mm: &Looks<'_>,
-    ) -> Result<(Combination, Trouble), Cancelled> {
+    ) -> Result<Best, Cancelled> {
         let (unhindered, near) = self.best_looking(looks_mm);
         let look = |of: Combination| {
             let bumps = bumps(&of)?;
@@ -237,7 +262,7 @@ impl Choice {
                 best = other;
             }
         }
-        let mut left = LOOKS + LOOKS_FOR_EACH * self.own.len();
+        let mut left = effort.looks(self.own.len());
         'better: loop {
             for group in near.proposals(&best, &unhindered).chunks(AT_ONCE) {
                 let worth = |of: &&Combination| near.cost_mm(of) < best.cost_mm && !seen.contains(*of);
@@ -259,7 +284,7 @@ impl Choice {
             let is_weak =
                 |pair: &&Pair| pair.costs[best.of[pair.parent]][best.of[pair.child]] > WEAK_PRICE_MM;
             let weak = self.pairs.iter().filter(is_weak).flat_map(|pair| [pair.parent, pair.child]).collect();
-            return Ok((best.of, Trouble { bumping, weak }));
+            return Ok(Best { of: best.of, cost_mm: best.cost_mm, trouble: Trouble { bumping, weak } });
         }
     }
 
@@ -451,6 +476,7 @@ mod tests {
             let anywhere = rng.bool().then(|| tree.combinations(&mut rng).swap_remove(0));
             let found = choice.best(
                 anywhere.clone(),
+                Effort::Long,
                 &|of| {
                     looks.fetch_add(1, Ordering::Relaxed);
                     assert!(tree.are_alike(of), "images have the same candidate");
@@ -458,14 +484,16 @@ mod tests {
                 },
                 &no_looks,
             );
-            let (found, trouble) = found.unwrap();
+            let Best { of: found, trouble, cost_mm } = found.unwrap();
+            let own_mm = total_mm(&found);
+            assert!(cost_mm == own_mm || (cost_mm - own_mm).abs() < 1e-9, "{cost_mm} {own_mm}");
             assert!(bumps(&found).is_empty() || !trouble.bumping.is_empty(), "parts that bump are named");
             let (found_mm, tree_mm) = (total_mm(&found), total_mm(&choice.cheapest(&[])));
             assert!(tree.are_alike(&found));
             assert!(found_mm <= tree_mm, "{found_mm} {tree_mm}");
             assert!(is_bumping || found == choice.cheapest(&[]));
             assert!(anywhere.is_none_or(|of| found_mm <= total_mm(&of)), "never worse than a start");
-            assert!(looks.into_inner() <= 2 + LOOKS + LOOKS_FOR_EACH * found.len());
+            assert!(looks.into_inner() <= 2 + Effort::Long.looks(found.len()));
             worse += usize::from(found_mm < tree_mm);
             let least_mm =
                 tree.combinations(&mut rng).iter().map(|of| total_mm(of)).fold(f64::INFINITY, f64::min);
@@ -495,7 +523,8 @@ mod tests {
             };
             let looks = |all: &[Combination]| all.iter().map(look_mm).collect::<Vec<f64>>();
             let whole_mm = |of: &Combination| tree.cost_mm(of) + look_mm(of);
-            let (found, _) = choice.best(None, &|_| Ok(Vec::new()), &looks).unwrap();
+            let Best { of: found, .. } =
+                choice.best(None, Effort::Long, &|_| Ok(Vec::new()), &looks).unwrap();
             assert!(tree.are_alike(&found));
             let (found_mm, tree_mm) = (whole_mm(&found), whole_mm(&choice.cheapest(&[])));
             assert!(found_mm <= tree_mm, "{found_mm} {tree_mm}");
@@ -512,14 +541,14 @@ mod tests {
     fn a_part_that_avoids_nothing_goes_back_to_its_best() {
         let choice = Choice::of_costs(vec![0, 1], vec![vec![0.0, 5.0]; 2], Vec::new());
         let bumps = |of: &[usize]| Ok(if of == [0, 0] { vec![([0, 1], 1.0)] } else { Vec::<Bump>::new() });
-        let (found, _) = choice.best(Some(vec![1, 1]), &bumps, &no_looks).unwrap();
+        let Best { of: found, .. } = choice.best(Some(vec![1, 1]), Effort::Long, &bumps, &no_looks).unwrap();
         assert_eq!(choice.cost_mm(&found), 5.0);
     }
 
     #[test]
     fn the_search_can_be_stopped() {
         let tree = Tree::random(&mut Rng::with_seed(3));
-        assert!(tree.choice().best(None, &|_| Err(Cancelled), &no_looks).is_err());
+        assert!(tree.choice().best(None, Effort::Long, &|_| Err(Cancelled), &no_looks).is_err());
     }
 
     #[test]

@@ -36,11 +36,17 @@ pub(super) struct Seated {
     pub(super) turn: DAffine3,
     pub(super) parent_panel: PanelId,
     pub(super) child_panel: PanelId,
+    /// How far the child's corners move, at most, mm.
+    moved_mm: f64,
     /// What the joint costs, mm of error.
     cost_mm: f64,
 }
 
 impl Seated {
+    pub(super) fn moved_mm(&self) -> f64 {
+        self.moved_mm
+    }
+
     /// Seats `child` on `parent`; `None` where one has no panel for the joint.
     fn new(link: &Link, parent: &Made, child: &Made) -> Option<Self> {
         let (up_plane, parent_panel) = parent.joint(link.child)?;
@@ -58,8 +64,9 @@ impl Seated {
         let lack = (1.0 - glue_mm2 / enough_mm2).max(0.0);
         let lack_mm = if lack > 0.0 { WEAK_PRICE_MM + GLUE_PRICE_MM * lack } else { 0.0 };
         let overhang = (1.0 - glue_mm2 / own_mm2.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-        let cost_mm = lack_mm + OVERHANG_PRICE_MM * overhang + TURN_PRICE * moved_mm(child, &turn);
-        Some(Self { turn, parent_panel, child_panel, cost_mm })
+        let moved_mm = moved_mm(child, &turn);
+        let cost_mm = lack_mm + OVERHANG_PRICE_MM * overhang + TURN_PRICE * moved_mm;
+        Some(Self { turn, parent_panel, child_panel, moved_mm, cost_mm })
     }
 }
 
