@@ -70,6 +70,9 @@ const TRIM_PRICE: f64 = 0.5;
 /// Openings of more than this look like holes. Each mm² above it costs this many mm, so that any other shape
 /// is better, even one that bumps: with 0.5 a slice of pizza folds freely with a hole of 296 mm².
 const MOST_TRIMMED_MM2: f64 = 10.0;
+/// So do smaller ones in small shapes, of more than this share of the surface: without it, a leg of an animal has one
+/// of 0.3 %.
+const MOST_TRIMMED: f64 = 0.002;
 const OVER_PRICE: f64 = 5.0;
 /// Price of a mm that a shape lacks to be valid, while directions are compared.
 const LACK_PRICE: f64 = 2.0;
@@ -313,7 +316,8 @@ fn finished_cost(fitted: &Fitted, made: &Assembled, (target, own_mm): &(Target, 
 
 /// What the openings of a finished shape cost, mm.
 fn opening_cost(made: &Assembled) -> f64 {
-    let over_mm2 = (made.trimmed_mm2 - MOST_TRIMMED_MM2).max(0.0);
+    let surface_mm2: f64 = made.panels.panels().iter().map(|p| polygon::area(&p.outline).abs()).sum();
+    let over_mm2 = (made.trimmed_mm2 - MOST_TRIMMED_MM2.min(MOST_TRIMMED * surface_mm2)).max(0.0);
     TRIM_PRICE * made.trimmed_mm2.sqrt() + OVER_PRICE * over_mm2
 }
 

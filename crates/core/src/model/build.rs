@@ -77,16 +77,21 @@ pub fn build(
 ) -> Result<Built, ModelError> {
     let run = Run { assembly, known, judge, progress };
     let first = run.attempt(assembly.links, &Trouble::default(), &[])?;
-    let mut ways: Vec<Attempt> = run.settled(&first)?.into_iter().chain([first]).collect();
-    if ways[0].is_clean() {
+    // Where joints as they were leave parts weak, but free, they may have a way out that settled ones have not: the
+    // wings of a plane. Where parts bump, one more search of that kind takes long and seldom helps.
+    let is_way = first.trouble.bumping.is_empty();
+    let mut ways: Vec<Attempt> = match run.settled(&first)? {
+        Some(settled) => std::iter::once(settled).chain(is_way.then_some(first)).collect(),
+        None => vec![first],
+    };
+    if ways[0].trouble == Trouble::default() {
         return Ok(ways.swap_remove(0).built);
     }
     let mut best: Option<Attempt> = None;
-    // Joints as they were may have a way out where settled ones have none: a plane's wings.
     for way in &ways {
         let wider = run.attempt(&way.links, &way.trouble, &way.built.ids)?;
         let wider = run.settled(&wider)?.unwrap_or(wider);
-        let is_clean = wider.is_clean();
+        let is_clean = wider.is_clean;
         if best.as_ref().is_none_or(|best| wider.cost_mm < best.cost_mm) {
             best = Some(wider);
         }
@@ -117,16 +122,12 @@ struct Attempt {
     trouble: Trouble,
     /// and those that have had more.
     widened: Trouble,
+    /// Nothing bumps, and all joints hold.
+    is_clean: bool,
     /// The joints that the parts have room for,
     links: Vec<Link>,
     /// for each the plane of the parent's panel, and how far the child is moved to lie on it, mm.
     seats: Vec<(Plane, f64)>,
-}
-
-impl Attempt {
-    fn is_clean(&self) -> bool {
-        self.trouble == Trouble::default()
-    }
 }
 
 impl Run<'_> {
@@ -169,7 +170,11 @@ impl Run<'_> {
             Some((plane, seated.moved_mm()))
         };
         let seats = links.iter().enumerate().map(|k| seat(k).unwrap_or((k.1.plane, 0.0))).collect();
-        Ok(Attempt { built, cost_mm, trouble: left, widened: trouble.clone(), links, seats })
+        let holds = |(k, link): (usize, &Link)| {
+            pairs.get(k, [of[link.parent], of[link.child]]).is_some_and(|seated| seated.holds())
+        };
+        let is_clean = left.bumping.is_empty() && links.iter().enumerate().all(holds);
+        Ok(Attempt { built, cost_mm, trouble: left, widened: trouble.clone(), is_clean, links, seats })
     }
 
     /// An attempt with joint planes where the parents have their panels, so that children are made to sit there and are

@@ -38,6 +38,8 @@ pub(super) struct Seated {
     pub(super) child_panel: PanelId,
     /// How far the child's corners move, at most, mm.
     moved_mm: f64,
+    /// Whether it is glued over enough.
+    holds: bool,
     /// What the joint costs, mm of error.
     cost_mm: f64,
 }
@@ -45,6 +47,10 @@ pub(super) struct Seated {
 impl Seated {
     pub(super) fn moved_mm(&self) -> f64 {
         self.moved_mm
+    }
+
+    pub(super) fn holds(&self) -> bool {
+        self.holds
     }
 
     /// Seats `child` on `parent`; `None` where one has no panel for the joint.
@@ -66,7 +72,7 @@ impl Seated {
         let overhang = (1.0 - glue_mm2 / own_mm2.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         let moved_mm = moved_mm(child, &turn);
         let cost_mm = lack_mm + OVERHANG_PRICE_MM * overhang + TURN_PRICE * moved_mm;
-        Some(Self { turn, parent_panel, child_panel, moved_mm, cost_mm })
+        Some(Self { turn, parent_panel, child_panel, moved_mm, holds: lack <= 0.0, cost_mm })
     }
 }
 
