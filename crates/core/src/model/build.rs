@@ -91,11 +91,11 @@ pub fn build(
     for way in &ways {
         let wider = run.attempt(&way.links, &way.trouble, &way.built.ids)?;
         let wider = run.settled(&wider)?.unwrap_or(wider);
-        let is_clean = wider.is_clean;
+        let is_last = wider.is_clean || !wider.trouble.bumping.is_empty();
         if best.as_ref().is_none_or(|best| wider.cost_mm < best.cost_mm) {
             best = Some(wider);
         }
-        if is_clean {
+        if is_last {
             break;
         }
     }
