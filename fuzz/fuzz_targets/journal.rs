@@ -1,15 +1,7 @@
-//! Journals of jobs, and the sheets in them.
+//! See [`journal`].
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use tatamu::plotter::{Cutter, Job, journal};
+#[path = "../targets/journal.rs"]
+mod journal;
 
-fuzz_target!(|bytes: &[u8]| {
-    let Some((header, _)) = journal::parse(bytes) else { return };
-    let Ok(cutter) = Cutter::parse(&header.cutter) else { return };
-    for sheet in &header.sheets {
-        if let Some(bytes) = sheet.bytes() {
-            let _ = Job::parse(&bytes, &cutter);
-        }
-    }
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| journal::run(bytes));

@@ -1,12 +1,7 @@
-//! All mesh readers (the format is found from the content), and the repair after them.
+//! See [`mesh`].
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use tatamu::mesh::{self, Mesh};
+#[path = "../targets/mesh.rs"]
+mod mesh;
 
-fuzz_target!(|bytes: &[u8]| {
-    if let Ok(soup) = mesh::read(bytes) {
-        let _ = Mesh::from_soup(&soup);
-    }
-    let _ = mesh::read_painting(bytes, &|_| Err(String::new()));
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| mesh::run(bytes));

@@ -1,9 +1,7 @@
-//! Project files.
+//! See [`project`].
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use tatamu::project::Project;
+#[path = "../targets/project.rs"]
+mod project;
 
-fuzz_target!(|text: &str| {
-    let _ = Project::parse(text);
-});
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| project::run(bytes));

@@ -75,6 +75,12 @@ pub enum AppError {
     /// No size takes so few sheets as were asked for.
     #[error("the model takes more than {most} sheets at every size that was tried")]
     ManySheets { most: usize },
+    /// The model takes more sheets than anybody folds.
+    #[error("the model takes {sheets} sheets, and more than {most} are written only if you ask for it")]
+    TooManySheets { sheets: usize, most: usize },
+    /// The model does not pass the check that "tatamu check" makes.
+    #[error("the model does not pass its own check: {found}; please report this")]
+    Unsound { found: String },
     /// A stage failed.
     #[error("{0}")]
     Pipeline(pipeline::Error),
@@ -93,6 +99,7 @@ impl AppError {
             Self::Pipeline(error) => error.remedies(),
             Self::Export(error) => error.remedies(),
             Self::Sheet { remedies, .. } | Self::Machine { remedies, .. } => remedies.clone(),
+            Self::TooManySheets { .. } => vec![Remedy::SmallerSize, Remedy::LargerPaper],
             Self::ManySheets { .. } => vec![Remedy::MoreSheets],
             Self::NoCardColours { .. } => vec![Remedy::NameCards],
             Self::Colour { .. } => vec![Remedy::NoColours],

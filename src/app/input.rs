@@ -3,7 +3,7 @@
 use super::choice::Choice;
 use super::error::{AppError, reason};
 use std::fs::File;
-use std::io::Read;
+use std::io::{Error, ErrorKind, Read};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use tatamu::design::Sketch;
@@ -93,13 +93,16 @@ const HEAD_BYTES: u64 = 1 << 16;
 pub fn files(path: &Path) -> Vec<PathBuf> {
     let mut head = Vec::new();
     // Of a mesh, which may be large, the beginning is enough.
-    let read = File::open(path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head));
-    let whole = read.ok().filter(|_| is_project(path, &head)).and_then(|_| std::fs::read(path).ok());
+    let read = open(path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head));
+    let whole = read.ok().filter(|_| is_project(path, &head)).and_then(|_| fetch(path).ok());
     let text = whole.map(String::from_utf8);
     let project = text.and_then(Result::ok).and_then(|text| Project::parse(&text).ok());
     let mesh = project.and_then(|project| project.mesh).map(|mesh| path.with_file_name(mesh));
     std::iter::once(path.to_owned()).chain(mesh).collect()
 }
+
+/// Largest input, bytes: a mesh of twenty million triangles in text has fewer.
+const MOST_BYTES: u64 = 2 << 30;
 
 /// Gives the content of a file.
 pub type Fetch<'a> = &'a dyn Fn(&Path) -> std::io::Result<Vec<u8>>;
@@ -203,7 +206,33 @@ fn whole(fetch: Fetch<'_>, path: &Path) -> Result<Vec<u8>, AppError> {
 
 /// From the disk, or from the standard input.
 pub fn fetch(path: &Path) -> std::io::Result<Vec<u8>> {
-    if path == Path::new(STANDARD_INPUT) { standard_input() } else { std::fs::read(path) }
+    if path == Path::new(STANDARD_INPUT) { standard_input() } else { at_most(open(path)?, MOST_BYTES) }
+}
+
+/// Opens a file, and nothing else: a pipe may wait for its writer for ever, and a device has no end.
+fn open(path: &Path) -> std::io::Result<File> {
+    let metadata = std::fs::metadata(path)?;
+    if metadata.is_dir() {
+        return Err(ErrorKind::IsADirectory.into());
+    }
+    if !metadata.is_file() {
+        return Err(Error::other("it is a pipe or a device; use a file, or - for the standard input"));
+    }
+    if metadata.len() > MOST_BYTES {
+        return Err(too_large(MOST_BYTES));
+    }
+    File::open(path)
+}
+
+/// All that a source has, unless it is more than this many bytes.
+fn at_most(source: impl Read, most: u64) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    source.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most { Err(too_large(most)) } else { Ok(bytes) }
+}
+
+fn too_large(most: u64) -> Error {
+    Error::other(format!("it has more than {} GB; reduce the mesh first", most >> 30))
 }
 
 /// The standard input, which is kept: a mesh is read once for its shape and once for its colours.
@@ -213,8 +242,7 @@ fn standard_input() -> std::io::Result<Vec<u8>> {
     if let Some(bytes) = &*read {
         return Ok(bytes.clone());
     }
-    let mut bytes = Vec::new();
-    std::io::stdin().lock().read_to_end(&mut bytes)?;
+    let bytes = at_most(std::io::stdin().lock(), MOST_BYTES)?;
     Ok(read.insert(bytes).clone())
 }
 
@@ -249,6 +277,13 @@ mod tests {
         assert!(is_project(Path::new("a.txt"), b"# x\n mesh = 'a.obj'\n"));
         assert!(!is_project(Path::new("a.obj"), b"# mesh = 3\nv 0 0 0\n"));
         assert!(!is_project(Path::new("a"), b"meshes = 3"));
+    }
+
+    #[test]
+    fn a_source_without_end_is_left() {
+        assert_eq!(at_most(&b"12345"[..], 5).unwrap(), b"12345");
+        assert!(at_most(&b"123456"[..], 5).is_err());
+        assert!(at_most(std::io::repeat(0), 1 << 20).is_err());
     }
 
     #[test]

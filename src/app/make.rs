@@ -6,7 +6,7 @@ use super::fit::fitted_and_advised;
 use super::made::Made;
 use super::output::{self, Target};
 use super::words::Say;
-use super::{input, names, text};
+use super::{input, names, soundness, text};
 use std::path::{Path, PathBuf};
 use tatamu::export::{FORMATS, Format, FormatOptions, GUIDES, Source};
 use tatamu::mesh::{Mesh, Repairs};
@@ -31,6 +31,9 @@ pub enum Guide {
     File(PathBuf),
 }
 
+/// More sheets are written only if that is asked for: a bunny of 2 m takes 180, one of 20 m is a slip of the keyboard.
+pub const MOST_SHEETS: usize = 200;
+
 /// What is asked for of all inputs.
 pub struct Wish {
     /// The options that the user gave.
@@ -43,6 +46,10 @@ pub struct Wish {
     pub segments: Option<PathBuf>,
     /// Whether what is printed and what is cut go into files of their own.
     pub prints_and_cuts: bool,
+    /// Whether the model may take more than [`MOST_SHEETS`].
+    pub takes_any_sheets: bool,
+    /// Whether the model is written even if it does not pass its own check.
+    pub is_forced: bool,
     /// Which pieces and sheets the files show.
     pub selection: Selection,
 }
@@ -126,6 +133,10 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
     warnings.iter().for_each(|warning| tell(&say(warning)));
 
     let (choice, result) = fitted_and_advised(&input, choice, progress)?;
+    let sheets = result.layout().sheet_count();
+    if sheets > MOST_SHEETS && !task.wish.takes_any_sheets {
+        return Err(AppError::TooManySheets { sheets, most: MOST_SHEETS });
+    }
     let selection = task.wish.selection.checked(&result).map_err(AppError::Options)?;
     let stages = progress.finish();
     text::first_of_each_kind(result.warnings(), say).iter().for_each(|message| tell(message));
@@ -146,6 +157,13 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
             .with_content(content)
             .with_selection(selection.clone())
     };
+    soundness::check(&product(files.content), &files.formats).or_else(|error| match error {
+        AppError::Unsound { .. } if task.wish.is_forced => {
+            tell(&error.to_string());
+            Ok(())
+        }
+        error => Err(error),
+    })?;
     let products = match task.wish.prints_and_cuts {
         false => vec![("", product(files.content))],
         true => vec![("-print", product(Content::Print)), ("-cut", product(Content::Cut))],

@@ -15,5 +15,6 @@ pub mod output;
 pub mod plot;
 pub mod profiles;
 pub mod project;
+pub mod soundness;
 pub mod text;
 pub mod words;

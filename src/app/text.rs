@@ -2,6 +2,7 @@
 
 use super::words::Say;
 use std::collections::BTreeMap;
+use tatamu::drawing::text::steers;
 use tatamu::pipeline::{ModelWarning, Warning};
 
 /// So many warnings of one kind are shown; a small model with many labels has dozens.
@@ -10,8 +11,7 @@ const MOST_OF_A_KIND: usize = 4;
 /// A text without control characters other than line ends, and without those that change the
 /// direction of writing, so that no name in a file can steer the terminal or turn its lines round.
 pub fn printable(text: &str) -> String {
-    let turns = |c| matches!(c, '\u{61c}' | '\u{200e}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
-    text.chars().filter(|&c| c == '\n' || !(c.is_control() || turns(c))).collect()
+    text.chars().filter(|&c| c == '\n' || !steers(c)).collect()
 }
 
 /// Whether a warning is the cause of most others, which hide it.

@@ -78,6 +78,19 @@ pub struct MakeArgs {
     #[command(flatten)]
     machine: Flags<OfMachine>,
 
+    /// Writes the model even if it takes more than 200 sheets
+    ///
+    /// So many sheets are more often a slip of the keyboard in a size than a wish.
+    #[arg(long, help_heading = None::<&'static str>)]
+    yes: bool,
+
+    /// Writes the model even if it does not pass its own check
+    ///
+    /// tatamu folds each model again from its FOLD file before it writes anything, as "tatamu check"
+    /// does. A model that fails is an error; with this option it is a warning.
+    #[arg(long, help_heading = None::<&'static str>)]
+    force: bool,
+
     /// Prints warnings and errors only
     #[arg(short, long, help_heading = None::<&'static str>)]
     quiet: bool,
@@ -109,6 +122,8 @@ impl MakeArgs {
             guides: self.guide.wanted().to_vec(),
             segments: self.segments.clone(),
             prints_and_cuts: self.print_and_cut,
+            takes_any_sheets: self.yes,
+            is_forced: self.force,
             selection: Selection { parts: self.only.clone(), sheets: self.sheet.clone() },
         }
     }

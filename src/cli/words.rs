@@ -12,7 +12,12 @@ pub fn warning(warning: &Warning) -> String {
 
 /// The sentence for an error.
 pub fn error(error: &AppError) -> String {
-    words::with_remedies(error.to_string(), &error.remedies(), &Flags)
+    let told = words::with_remedies(error.to_string(), &error.remedies(), &Flags);
+    match error {
+        AppError::TooManySheets { .. } => format!("{told}, or --yes to write them all"),
+        AppError::Unsound { .. } => format!("{told}, or use --force to write it all the same"),
+        _ => told,
+    }
 }
 
 /// Options by their flags.

@@ -79,10 +79,11 @@ impl<'de> Visitor<'de> for JointVisitor {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Joint {
-    /// Name of the component that carries it.
-    pub to: String,
+    /// Name of the component that carries it. A drawing needs it, and the panel; that is checked after the
+    /// other keys, so that a mistake in one of them is what is said.
+    pub to: Option<String>,
     /// The carrier's panel, such as "top" or "chain2.1".
-    pub panel: String,
+    pub panel: Option<String>,
     /// Its own panel; the bottom panel without it.
     pub own: Option<String>,
     /// How far it lies off the middle of the carrier's panel, mm.
@@ -165,9 +166,15 @@ impl Joint {
         if !at_mm.is_finite() || !turn_rad.is_finite() {
             return Err("at and turn of its joint must be finite numbers".to_owned());
         }
+        let (Some(to), Some(carrier)) = (&self.to, &self.panel) else {
+            return Err(
+                "its table [component.joint] needs to and panel, such as to = \"base\" and panel = \"top\""
+                    .to_owned(),
+            );
+        };
         let panel = |name: &str| parse_panel(name).map_err(|e| e.to_string());
         let own = panel(self.own.as_deref().unwrap_or("bottom"))?;
-        Ok(Attachment { to: self.to.clone(), panel: panel(&self.panel)?, own, at_mm, turn_rad })
+        Ok(Attachment { to: to.clone(), panel: panel(carrier)?, own, at_mm, turn_rad })
     }
 }
 
@@ -254,6 +261,7 @@ turn = 45
             ("[0, 0]]]\n[[c", "[0, 60]]]\n[[c", "v must fall"),
             ("'^'", "'x'", "folds \"x\""),
             ("panel = 'top'", "panel = 'lid'", "panels are top"),
+            ("panel = 'top'", "", "needs to and panel"),
             ("folds = ['^']", "top_edges = 3", "no effect on a drawn component"),
         ] {
             let text = BOX.replacen(from, to, 1);

@@ -10,6 +10,7 @@ mod exports;
 mod faults;
 mod film;
 mod guide;
+mod hostile;
 mod make;
 mod mistakes;
 mod presets;

@@ -28,6 +28,27 @@ pub(super) fn area(polygon: &[DVec2]) -> f64 {
     (0..polygon.len()).map(|k| polygon[k].perp_dot(polygon[(k + 1) % polygon.len()])).sum::<f64>() / 2.0
 }
 
+/// The convex hull of points in a plane, counter-clockwise (Andrew 1979).
+pub(super) fn hull(mut points: Vec<DVec2>) -> Vec<DVec2> {
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let chain = |points: &mut dyn Iterator<Item = DVec2>| {
+        let mut chain: Vec<DVec2> = Vec::new();
+        for p in points {
+            while let [.., a, b] = chain[..]
+                && (b - a).perp_dot(p - a) <= 0.0
+            {
+                chain.pop();
+            }
+            chain.push(p);
+        }
+        chain.pop();
+        chain
+    };
+    let lower = chain(&mut points.iter().copied());
+    let upper = chain(&mut points.iter().rev().copied());
+    [lower, upper].concat()
+}
+
 /// Normal with the length of the area (Newell).
 pub(super) fn area_vector(points: impl Iterator<Item = DVec3>) -> DVec3 {
     let points: Vec<DVec3> = points.collect();

@@ -62,6 +62,7 @@ struct SymmetryNumbers {
 struct RepairNumbers {
     input_faces: usize,
     welded_vertices: usize,
+    loose_bodies: usize,
     degenerate_faces: usize,
     duplicate_faces: usize,
     flipped_faces: usize,
@@ -255,6 +256,7 @@ fn repairs(repairs: &Repairs) -> RepairNumbers {
     RepairNumbers {
         input_faces: repairs.input_faces,
         welded_vertices: repairs.welded_vertices,
+        loose_bodies: repairs.loose_bodies,
         degenerate_faces: repairs.degenerate_faces,
         duplicate_faces: repairs.duplicate_faces,
         flipped_faces: repairs.flipped_faces,

@@ -31,7 +31,7 @@ impl Hulls {
     pub fn new(divided: &Parts) -> Result<Self, Error> {
         let Touching { mut solid, symmetry, contacts } = Touching::of(divided);
         if solid.hulls.is_empty() {
-            return Err(Error::NothingSolid);
+            return Err(Error::NothingSolid { parts: divided.segmentation().count() });
         }
         let hulls: Vec<&Hull> = solid.hulls.iter().collect();
         let links = model::link_tree(&hulls, &contacts, symmetry.as_ref());

@@ -185,8 +185,11 @@ pub enum Error {
     #[error(transparent)]
     Edit(#[from] EditError),
     /// No part has a volume.
-    #[error("no part of the mesh has a volume; it is flat, so there is nothing to fold")]
-    NothingSolid,
+    #[error("none of the {parts} parts of the mesh has a volume, so there is nothing to fold")]
+    NothingSolid {
+        /// Number of parts.
+        parts: usize,
+    },
     /// A component failed.
     #[error(transparent)]
     Model(#[from] ModelError),

@@ -12,6 +12,7 @@ pub struct Journal {
     path: PathBuf,
     file: File,
     last: Position,
+    is_synced: bool,
 }
 
 impl Journal {
@@ -24,7 +25,8 @@ impl Journal {
         let whole = format!("{header}\n{position}\n");
         output::write(&[(path.to_owned(), whole.into_bytes())])?;
         let file = File::options().append(true).open(path).map_err(failed)?;
-        Ok(Self { path: path.to_owned(), file, last: at })
+        file.sync_all().map_err(failed)?;
+        Ok(Self { path: path.to_owned(), file, last: at, is_synced: true })
     }
 
     /// Notes how far the job is, where that is news.
@@ -33,10 +35,20 @@ impl Journal {
             return Ok(());
         }
         self.last = at;
+        self.is_synced = false;
         let failed =
             |error: std::io::Error| AppError::Output { path: self.path.clone(), reason: reason(&error) };
         let line = serde_json::to_string(&at).map_err(|error| failed(error.into()))?;
         writeln!(self.file, "{line}").map_err(failed)
+    }
+
+    /// Waits until the disk has it.
+    pub fn sync(&mut self) -> Result<(), AppError> {
+        if std::mem::replace(&mut self.is_synced, true) {
+            return Ok(());
+        }
+        let failed = |error| AppError::Output { path: self.path.clone(), reason: reason(&error) };
+        self.file.sync_data().map_err(failed)
     }
 
     /// How far the job is.

@@ -17,8 +17,8 @@ use tatamu::remedy::Remedy;
 
 /// Longest time between two looks at port and keyboard.
 const LOOK: Duration = Duration::from_millis(4);
-/// The journal is written so often.
-const NOTE_EVERY: Duration = Duration::from_millis(500);
+/// The journal is on the disk so often: what is noted between is lost by a power cut alone.
+const SYNC_EVERY: Duration = Duration::from_millis(500);
 
 /// What a journal says of a job.
 pub fn header(sheets: &[Sheet], cutter: &Cutter, port: String, copies: u16) -> Header {
@@ -163,7 +163,7 @@ impl Live<'_> {
         if let Some(baud) = baud {
             session.set_baud(baud);
         }
-        let (start, mut noted) = (Instant::now(), Instant::now());
+        let (start, mut synced) = (Instant::now(), Instant::now());
         let mut stops = 0;
         let mut pending: Vec<u8> = Vec::new();
         let mut has_hardware = false;
@@ -194,9 +194,11 @@ impl Live<'_> {
                     return Ok(outcome);
                 }
             }
-            if noted.elapsed() >= NOTE_EVERY {
-                noted = Instant::now();
-                journal.note(Position { strokes: at.strokes.max(self.first + status.strokes_done), ..at })?;
+            // A program that is killed leaves what was noted: each stroke, when it is done.
+            journal.note(Position { strokes: at.strokes.max(self.first + status.strokes_done), ..at })?;
+            if synced.elapsed() >= SYNC_EVERY {
+                synced = Instant::now();
+                journal.sync()?;
                 self.operator.show(self.name, self.first, &status);
             }
         }

@@ -1,6 +1,9 @@
 //! What holds in the end: flags first, then the project file, then the defaults.
 
-use super::{CLUSTERS, DETAIL, Entry, Given, PARTS, PROFILE_VERTICES, SMOOTHING, Scope, Settings, TOP_EDGES};
+use super::{
+    CLUSTERS, DETAIL, Entry, Given, Kind, MIN_PANEL_WIDTH, PARTS, PROFILE_VERTICES, SMOOTHING, SPACING,
+    Scope, Settings, TAB_WIDTH, TOP_EDGES,
+};
 use crate::pipeline::{ComponentOptions, Options};
 use crate::project::{NetTable, Project};
 use crate::segment::Method;
@@ -29,6 +32,18 @@ pub enum Refusal {
         paper: String,
         /// Half of its shorter side, mm.
         most_mm: f64,
+    },
+    /// A length that is larger than what it is measured on.
+    #[error("{option} is {mm} mm; on {paper} it must be at most {most_mm} mm")]
+    Beyond {
+        /// Name of the option.
+        option: String,
+        /// Its value, mm.
+        mm: f64,
+        /// The largest that is accepted, mm.
+        most_mm: f64,
+        /// Name of the paper.
+        paper: String,
     },
     /// A value that is not accepted.
     #[error("{0}")]
@@ -67,6 +82,7 @@ pub fn choose(project: Option<&Project>, flags: &[Given]) -> Result<Settings, Re
         _ => {}
     }
     check_margin(&settings.model)?;
+    check_lengths(&settings)?;
     Ok(settings)
 }
 
@@ -96,6 +112,24 @@ fn check_drawn(flags: &[Given]) -> Result<(), Refusal> {
     let given = super::all().filter(|option| option.scope == Scope::Mesh).filter(is_given);
     let names: Vec<String> = given.filter_map(|option| Some(format!("--{}", option.flag?.name))).collect();
     if names.is_empty() { Ok(()) } else { Err(Refusal::Drawn(names)) }
+}
+
+/// Lengths on a sheet with the largest share of its shorter side. Two pieces never need to be farther apart
+/// than a sheet; a panel or a tab wider than half of one can only be cut apart again.
+static SHARES_OF_SHEET: [(&Entry, f64); 3] = [(&SPACING, 1.0), (&TAB_WIDTH, 0.5), (&MIN_PANEL_WIDTH, 0.5)];
+
+fn check_lengths(settings: &Settings) -> Result<(), Refusal> {
+    let paper = settings.model.paper;
+    let side_mm = paper.width_mm().min(paper.height_mm());
+    for (option, share) in SHARES_OF_SHEET {
+        let Kind::Number(number) = &option.kind else { continue };
+        let (mm, most_mm) = ((number.get)(settings).unwrap_or_default(), share * side_mm);
+        if mm > most_mm {
+            let option = option.flag.map_or(option.name().to_owned(), |flag| format!("--{}", flag.name));
+            return Err(Refusal::Beyond { option, mm, most_mm, paper: paper.name() });
+        }
+    }
+    Ok(())
 }
 
 fn check_margin(options: &Options) -> Result<(), Refusal> {

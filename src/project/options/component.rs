@@ -2,6 +2,7 @@
 
 use super::settings::put;
 use super::{Dial, Entry, Flag, Key, Kind, Scope, Settings, Text};
+use crate::drawing::text::steers;
 use crate::pipeline::ComponentOptions;
 
 pub(super) const ALL: &[&Entry] = &[&RENAME, &DIRECTION, &CONCAVE, &CARD, &JOINT];
@@ -151,8 +152,8 @@ pub(in crate::project) fn check_degrees(degrees: f64) -> Result<f64, String> {
 
 /// Checks the name of a component.
 pub(in crate::project) fn checked_name(name: &str) -> Result<&str, &'static str> {
-    let is_usable = !name.trim().is_empty() && !name.contains(char::is_control);
-    let message = "a component's name has at least one letter and no control characters";
+    let is_usable = !name.trim().is_empty() && !name.contains(steers);
+    let message = "this text needs at least one letter, and none that controls a terminal or turns the direction of writing";
     is_usable.then_some(name).ok_or(message)
 }
 

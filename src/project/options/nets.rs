@@ -23,9 +23,10 @@ pub static MIN_PANEL_WIDTH: Entry = Entry {
         set: |s, mm| put(&mut s.model.min_panel_width_mm, mm),
     }),
     short: "Least width and height of a panel",
-    long: "Narrower panels are hard to fold by hand. If the shape allows no wider panel, a warning names it.",
+    long: "Narrower panels are hard to fold by hand. If the shape allows no wider panel, a warning names it. At most half \
+           of the sheet's shorter side.",
     example: "--min-panel-width 4mm",
-    meaning: "least width and height of a panel; a warning names smaller panels",
+    meaning: "least width and height of a panel, at most half of the sheet's shorter side; a warning names smaller panels",
     dial: Dial::spanning("Least panel width", 0.5, 30.0, 1),
     ..Entry::BLANK
 };
@@ -43,9 +44,9 @@ pub static TAB_WIDTH: Entry = Entry {
         set: |s, mm| put(&mut s.model.tab_width_mm, mm),
     }),
     short: "Width of the glue tabs",
-    long: "Tabs are narrower where there is less room.",
+    long: "Tabs are narrower where there is less room. At most half of the sheet's shorter side.",
     example: "--tab-width 8mm",
-    meaning: "width of the glue tabs; narrower where there is less room",
+    meaning: "width of the glue tabs, at most half of the sheet's shorter side; narrower where there is less room",
     dial: Dial::spanning("Tab width", 1.0, 30.0, 1),
     ..Entry::BLANK
 };

@@ -196,8 +196,9 @@ pub static SPACING: Entry = Entry {
         set: |s, mm| put(&mut s.model.sheets.spacing_mm, mm),
     }),
     short: "Least distance between pieces",
+    long: "At most the shorter side of the sheet.",
     example: "--spacing 4mm",
-    meaning: "least distance between pieces",
+    meaning: "least distance between pieces, at most the shorter side of the sheet",
     dial: Dial::spanning("Spacing", 0.0, 30.0, 1),
     ..Entry::BLANK
 };

@@ -177,6 +177,13 @@ impl OutlineBuilder for Pen {
     }
 }
 
+/// Whether a character steers what shows a text, instead of being shown: control characters, line
+/// separators, and those that turn the direction of writing (Unicode UAX #9).
+pub fn steers(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{61c}' | '\u{200e}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
 /// The text as it will be seen: characters that the font lacks become `?`, any white space a
 /// space.
 pub fn printable(content: &str) -> String {

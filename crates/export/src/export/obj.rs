@@ -10,7 +10,7 @@ use std::fmt::Write;
 use tatamu_core::component::PanelId;
 use tatamu_core::design::board;
 use tatamu_core::model::Model;
-use tatamu_draw::drawing::Rgb;
+use tatamu_draw::drawing::{Rgb, text};
 use tatamu_draw::render::palette;
 
 /// The registry's entry.
@@ -24,11 +24,11 @@ pub const FORMAT: Format = Format {
 fn write(product: &Product<'_>, _: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {
     let options = product.output().options();
     let thickness_mm = options.is_thick.then_some(options.thickness_mm);
-    let text = text(product.output().model(), product.title(), thickness_mm);
+    let text = content(product.output().model(), product.title(), thickness_mm);
     Ok(vec![ExportFile::single(text.into_bytes())])
 }
 
-fn text(model: &Model, title: &str, thickness_mm: Option<f64>) -> String {
+fn content(model: &Model, title: &str, thickness_mm: Option<f64>) -> String {
     let creator = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
     let mut out = format!("# {}, by {creator}; millimetres, y up\n", one_line(title));
     let mut count = 0;
@@ -62,5 +62,5 @@ fn text(model: &Model, title: &str, thickness_mm: Option<f64>) -> String {
 
 /// Names cannot begin another line.
 fn one_line(name: &str) -> String {
-    name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+    name.chars().map(|c| if text::steers(c) { ' ' } else { c }).collect()
 }

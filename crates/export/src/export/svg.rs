@@ -300,9 +300,9 @@ impl<'a> Page<'a> {
     }
 }
 
-/// Without the characters that XML forbids.
+/// Without the characters that XML forbids, and those that steer who reads it.
 fn xml_text(content: &str) -> String {
-    let is_forbidden = |c: char| c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}');
+    let is_forbidden = |c: char| text::steers(c) || matches!(c, '\u{fffe}' | '\u{ffff}');
     content.chars().map(|c| if is_forbidden(c) { ' ' } else { c }).collect()
 }
 

@@ -18,7 +18,7 @@ pub fn escaped(content: &str) -> String {
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\'' => out.push_str("&#39;"),
-            c if c.is_control() => out.push(' '),
+            c if text::steers(c) => out.push(' '),
             c => out.push(c),
         }
     }

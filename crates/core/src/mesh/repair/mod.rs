@@ -1,6 +1,7 @@
 //! From the polygons of a file to a clean mesh.
 
 mod clean;
+mod loose;
 mod orient;
 mod triangulate;
 mod warning;
@@ -35,6 +36,8 @@ pub struct Repairs {
     pub degenerate_faces: usize,
     /// Faces that were dropped because another one has the same corners.
     pub duplicate_faces: usize,
+    /// Bodies that were dropped because they are specks, or because there are more than a model can have.
+    pub loose_bodies: usize,
     /// Triangles that were turned round to face outwards like their neighbours.
     pub flipped_faces: usize,
     /// Connected bodies or sheets (over edges).
@@ -101,6 +104,7 @@ impl Mesh {
         let mut triangles = triangulate::triangulate(soup, &positions, &of_input, &mut repairs);
         clean::drop_duplicates(&mut triangles, &mut repairs);
         clean::drop_flat(&positions, &mut triangles, tolerance, &mut repairs);
+        loose::drop_loose(&positions, &mut triangles, &mut repairs);
         if triangles.len() < 4 {
             return Err(MeshError::TooFewFaces { faces: triangles.len(), input: repairs.input_faces });
         }

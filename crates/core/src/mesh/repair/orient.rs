@@ -46,7 +46,7 @@ pub(super) fn orient(positions: &[DVec3], faces: &mut [[u32; 3]], edges: &Edges,
 }
 
 /// Numbers the connected components of faces over edges of any kind.
-fn components(face_count: usize, edges: &Edges) -> (Vec<u32>, usize) {
+pub(super) fn components(face_count: usize, edges: &Edges) -> (Vec<u32>, usize) {
     let mut component_of = vec![u32::MAX; face_count];
     let mut is_done = vec![false; edges.count()];
     let mut count = 0;

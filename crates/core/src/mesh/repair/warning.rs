@@ -18,6 +18,8 @@ pub enum MeshWarning {
     DegenerateFaces(usize),
     /// Repeated faces, which were dropped.
     DuplicateFaces(usize),
+    /// Bodies that are too small or too many, which were dropped.
+    LooseBodies(usize),
     /// Faces that faced inwards, and were turned.
     FlippedFaces(usize),
 }
@@ -28,6 +30,7 @@ codes!(MeshWarning {
     SeveralBodies => "several_bodies",
     DegenerateFaces => "degenerate_faces",
     DuplicateFaces => "duplicate_faces",
+    LooseBodies => "loose_bodies",
     FlippedFaces => "flipped_faces",
 });
 
@@ -40,6 +43,7 @@ impl Repairs {
             MeshWarning::SeveralBodies(self.components.saturating_sub(1)),
             MeshWarning::DegenerateFaces(self.degenerate_faces),
             MeshWarning::DuplicateFaces(self.duplicate_faces),
+            MeshWarning::LooseBodies(self.loose_bodies),
             MeshWarning::FlippedFaces(self.flipped_faces),
         ];
         all.into_iter().filter(|warning| warning.count() > 0).collect()
@@ -60,6 +64,7 @@ impl MeshWarning {
             | Self::SeveralBodies(count)
             | Self::DegenerateFaces(count)
             | Self::DuplicateFaces(count)
+            | Self::LooseBodies(count)
             | Self::FlippedFaces(count) => count,
         }
     }
@@ -75,6 +80,7 @@ impl fmt::Display for MeshWarning {
             Self::SeveralBodies(_) => ("bodies besides the first", "joined where they touch"),
             Self::DegenerateFaces(_) => ("faces without area", "dropped"),
             Self::DuplicateFaces(_) => ("repeated faces", "dropped"),
+            Self::LooseBodies(_) => ("bodies that are too small or too many", "dropped"),
             Self::FlippedFaces(_) => ("faces that faced inwards", "turned"),
         };
         write!(f, "the mesh has {what}: {} ({effect})", self.count())

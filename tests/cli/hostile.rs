@@ -1,0 +1,244 @@
+//! Input that is meant to do harm, or comes from a slip: one sentence or a sound model, and soon.
+
+use super::*;
+use std::fmt::Write;
+
+const CUBE: (&str, &[u8]) = ("cube.off", cube::OFF.as_bytes());
+
+/// The sentence and the exit code within 1 GiB of address space.
+fn run_within_a_gigabyte(folder: &Path, arguments: &str) -> Run {
+    let command = format!("ulimit -v 1048576; exec \"$0\" {arguments}");
+    let program = assert_cmd::cargo::cargo_bin!("tatamu");
+    let mut shell = std::process::Command::new("sh");
+    shell.args(["-c", &command]).arg(program).current_dir(folder).env("RAYON_NUM_THREADS", "1");
+    let output = shell.output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    Run { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }
+}
+
+/// 100 m aborted in an allocation, 50 m took 2 GB.
+#[test]
+#[cfg(unix)]
+fn a_spacing_larger_than_the_sheet_is_refused() {
+    for spacing in ["100m", "50m", "211mm"] {
+        let folder = folder_with(&[CUBE]);
+        let result = run_within_a_gigabyte(folder.path(), &format!("make cube.off --spacing {spacing}"));
+        assert_eq!(result.code, Some(1), "{spacing}: {}", result.err);
+        let is_said = result.err.contains("--spacing") && result.err.contains("at most 210 mm");
+        assert!(is_said && result.err.lines().count() == 1, "{}", result.err);
+        assert_eq!(names(&folder), ["cube.off"]);
+    }
+}
+
+/// A panel of 200 mm came out as a model that its own check refuses.
+#[test]
+fn panels_and_tabs_wider_than_half_a_sheet_are_refused() {
+    for (flag, mm) in
+        [("--min-panel-width", "200mm"), ("--min-panel-width", "100m"), ("--tab-width", "106mm")]
+    {
+        assert_refused(&[CUBE], &["make", "cube.off", flag, mm], &[flag, "at most 105 mm"]);
+    }
+}
+
+/// The check took a side panel that is glued from several parts for a broken chain.
+#[test]
+fn a_model_with_split_side_panels_passes_the_check() {
+    let folder = folder_with(&[CUBE]);
+    let make = ["make", "cube.off", "-q", "--effort", "0", "--size", "400", "-o", "a.fold"];
+    let made = run(folder.path(), &make);
+    assert_eq!(made.code, Some(0), "{}", made.err);
+    assert!(made.err.contains("cut_fold_hinge"), "its side panels are split: {}", made.err);
+    let checked = run(folder.path(), &["check", "a.fold"]);
+    assert_eq!(checked.code, Some(0), "{}{}", checked.out, checked.err);
+}
+
+/// Opening a pipe waits for its writer, and a device has no end.
+#[test]
+#[cfg(unix)]
+fn pipes_and_devices_are_no_inputs() {
+    let folder = folder_with(&[]);
+    let made = std::process::Command::new("mkfifo").current_dir(folder.path()).arg("a.obj").status().unwrap();
+    assert!(made.success());
+    let gltf = r#"{"asset":{"version":"2.0"},"buffers":[{"uri":"a.obj","byteLength":36}],
+        "bufferViews":[{"buffer":0,"byteLength":36}],
+        "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,1]}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}]}"#;
+    std::fs::write(folder.path().join("a.gltf"), gltf).unwrap();
+    std::fs::write(folder.path().join("a.toml"), "mesh = 'a.obj'\n").unwrap();
+    for command in [
+        "make a.obj",
+        "make /dev/zero",
+        "make a.gltf",
+        "make a.toml",
+        "check a.obj",
+        "segment a.obj -o a.png",
+        "make a.obj a.toml -o {name}.json",
+    ] {
+        let result = run_within_a_gigabyte(folder.path(), command);
+        assert_eq!(result.code, Some(1), "{command}: {}", result.err);
+        assert!(result.err.contains("a pipe or a device"), "{command}: {}", result.err);
+    }
+    assert_eq!(names(&folder), ["a.gltf", "a.obj", "a.toml"]);
+}
+
+/// A thousand triangles without a common edge took minutes.
+#[test]
+fn a_thousand_loose_triangles_are_no_model_or_a_small_one() {
+    let mut random = fastrand::Rng::with_seed(7);
+    let mut text = String::new();
+    for k in 0..1000 {
+        for _ in 0..3 {
+            let _ = writeln!(text, "v {} {} {}", random.f64(), random.f64(), random.f64());
+        }
+        let _ = writeln!(text, "f {} {} {}", 3 * k + 1, 3 * k + 2, 3 * k + 3);
+    }
+    let folder = folder_with(&[("a.obj", text.as_bytes())]);
+    let result = run(folder.path(), &["make", "a.obj", "--effort", "0", "-o", "a.fold"]);
+    assert!(result.err.contains("too small or too many: 800 (dropped)"), "{}", result.err);
+    match result.code {
+        Some(0) => {
+            assert_eq!(run(folder.path(), &["check", "a.fold", "--min-panel-width", "0"]).code, Some(0))
+        }
+        code => assert_eq!((code, names(&folder)), (Some(1), vec!["a.obj".to_owned()]), "{}", result.err),
+    }
+}
+
+/// Separate cubes, each with a corner and a size.
+fn cubes(all: impl Iterator<Item = ([f64; 3], f64)>) -> String {
+    let faces = [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 4, 8, 7], [1, 5, 7, 3], [2, 4, 8, 6]];
+    let mut text = String::new();
+    for (k, (at, size)) in all.enumerate() {
+        for corner in 0..8 {
+            let [x, y, z] = [0, 1, 2].map(|i| at[i] + size * f64::from(corner >> i & 1));
+            let _ = writeln!(text, "v {x} {y} {z}");
+        }
+        for f in faces {
+            let [a, b, c, d] = f.map(|v: usize| v + 8 * k);
+            let _ = writeln!(text, "f {a} {b} {c} {d}");
+        }
+    }
+    text
+}
+
+#[test]
+fn a_hundred_thousand_loose_bodies_are_dropped_with_their_count() {
+    let small = (0..100_000).map(|k| [k % 47, k / 47 % 47, k / 2209].map(|i| 2.0 * f64::from(i)));
+    let small = small.map(|[x, y, z]| ([120.0 + x, y, z], 1.0));
+    let text = cubes(std::iter::once(([0.0; 3], 100.0)).chain(small));
+    let folder = folder_with(&[("a.obj", text.as_bytes())]);
+    let result = run(folder.path(), &["make", "a.obj", "--effort", "0", "-o", "a.fold", "-o", "a.json"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    assert!(result.err.contains("too small or too many: 100000 (dropped)"), "{}", result.err);
+    assert_eq!(report(&folder, "a.json")["input"]["repairs"]["loose_bodies"], 100_000);
+    assert_eq!(run(folder.path(), &["check", "a.fold"]).code, Some(0));
+}
+
+#[test]
+fn a_polygon_of_a_hundred_thousand_corners_is_a_face() {
+    let sides = 100_000;
+    let mut text = String::new();
+    for z in [0.0, 1.0] {
+        for k in 0..sides {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(k) / f64::from(sides)).sin_cos();
+            let _ = writeln!(text, "v {cos} {sin} {z}");
+        }
+    }
+    let ring = |indices: &mut dyn Iterator<Item = i32>| indices.map(|k| format!(" {k}")).collect::<String>();
+    let _ = writeln!(text, "f{}", ring(&mut (1..=sides).rev()));
+    let _ = writeln!(text, "f{}", ring(&mut (sides + 1..=2 * sides)));
+    for k in 0..sides {
+        let next = (k + 1) % sides;
+        let _ = writeln!(text, "f {} {} {} {}", k + 1, next + 1, next + sides + 1, k + sides + 1);
+    }
+    let folder = folder_with(&[("a.obj", text.as_bytes())]);
+    let result = run(folder.path(), &["make", "a.obj", "--effort", "0", "-o", "a.fold"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    assert_eq!(run(folder.path(), &["check", "a.fold"]).code, Some(0));
+}
+
+/// They reached HTML and SVG, where they turn the words of others round.
+#[test]
+fn names_that_steer_are_refused_wherever_they_are_given() {
+    let steering = ['\u{7}', '\u{1b}', '\u{85}', '\u{61c}', '\u{200e}', '\u{200f}', '\u{2028}', '\u{2029}']
+        .into_iter()
+        .chain('\u{202a}'..='\u{202e}')
+        .chain('\u{2066}'..='\u{2069}');
+    for c in steering {
+        let name = format!("bo{c}dy");
+        let quoted = format!("\"bo\\u{:04x}dy\"", u32::from(c));
+        for text in [
+            format!("mesh = 'cube.off'\n[[component]]\nname = 'body'\nrename = {quoted}\n"),
+            format!("mesh = 'cube.off'\n[[component]]\nname = {quoted}\n"),
+            format!("mesh = 'cube.off'\n[[component]]\nname = 'body'\ncolor = {quoted}\n"),
+        ] {
+            let folder = folder_with(&[CUBE, ("a.toml", text.as_bytes())]);
+            let result = run(folder.path(), &["make", "a.toml", "-o", "a.svg", "-o", "a.html"]);
+            assert_eq!(result.code, Some(1), "{text}");
+            assert!(!result.err.contains(c) && names(&folder).len() == 2, "{}", result.err);
+        }
+        let folder = folder_with(&[CUBE]);
+        let card = format!("body={name}");
+        assert_eq!(run(folder.path(), &["make", "cube.off", "--card", &card]).code, Some(2), "{card:?}");
+    }
+}
+
+/// "missing field `panel`" was said of whatever was wrong.
+#[test]
+fn a_joint_without_a_panel_says_what_it_needs() {
+    let project = "[[component]]\nname = 'box'\ntop = { edges = 4, radius = 30 }\nprofiles = [[[0, 50], [0, 0]]]\n\
+                   [[component]]\nname = 'knob'\ntop = { edges = 4, radius = 10 }\nprofiles = [[[0, 10], [5, 0]]]\n\
+                   [component.joint]\nto = 'box'\n";
+    assert_refused(&[("a.toml", project.as_bytes())], &["make", "a.toml"], &["knob", "needs to and panel"]);
+}
+
+#[test]
+fn more_than_two_hundred_sheets_are_made_only_on_request() {
+    let text = cubes([0.0, 1.0, 2.0].map(|x| ([1.1 * x, 0.0, 0.0], 1.0)).into_iter());
+    let folder = folder_with(&[("a.obj", text.as_bytes())]);
+    let make = ["make", "a.obj", "-q", "--effort", "0", "--size", "2.1m", "-o", "a.json"];
+    let refused = run(folder.path(), &make);
+    assert_eq!(refused.code, Some(1), "{}", refused.err);
+    assert!(refused.err.contains("more than 200") && refused.err.contains("--yes"), "{}", refused.err);
+    assert_eq!(names(&folder), ["a.obj"]);
+    assert_eq!(run(folder.path(), &[&make[..], &["--yes"]].concat()).code, Some(0));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_full_disk_is_an_error_at_each_write() {
+    let folder = folder_with(&[CUBE]);
+    for output in ["a.pdf", "a.svg", "a.json", "a.fold", "a.html"] {
+        // Nothing is written, so that a place without room is one message.
+        let result = run(
+            folder.path(),
+            &["make", "cube.off", "-q", "--effort", "0", "-o", &format!("/dev/full/{output}")],
+        );
+        assert_eq!(result.code, Some(1), "{output}");
+        assert!(result.err.starts_with("error: cannot write"), "{}", result.err);
+    }
+    // The standard output has no room: the model is there all the same.
+    let program = assert_cmd::cargo::cargo_bin!("tatamu");
+    let mut shell = std::process::Command::new("sh");
+    shell.args(["-c", "exec \"$0\" make cube.off --effort 0 -o a.fold >/dev/full"]).arg(program);
+    assert_eq!(shell.current_dir(folder.path()).status().unwrap().code(), Some(0));
+    assert_eq!(names(&folder), ["a.fold", "cube.off"]);
+}
+
+/// Each file is whole, whichever run was the last to write it.
+#[test]
+fn two_runs_at_once_to_one_output() {
+    let folder = folder_with(&[CUBE]);
+    let make = |size: &str| {
+        let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin!("tatamu"));
+        command.args(["make", "cube.off", "-q", "--effort", "0", "-o", "a.fold", "--size", size]);
+        command.current_dir(folder.path()).stderr(std::process::Stdio::null());
+        command
+    };
+    for _ in 0..4 {
+        let mut running = ["60", "80", "100"].map(|size| make(size).spawn().unwrap());
+        running.iter_mut().for_each(|child| assert!(child.wait().unwrap().success()));
+        let checked = run(folder.path(), &["check", "a.fold"]);
+        assert_eq!(checked.code, Some(0), "{}{}", checked.out, checked.err);
+        assert_eq!(names(&folder), ["a.fold", "cube.off"]);
+    }
+}
