@@ -25,14 +25,25 @@ static STOPS: AtomicU32 = AtomicU32::new(0);
 /// Whether pressing it is only counted, because someone has to put things in order first.
 static IS_COUNTED: AtomicBool = AtomicBool::new(false);
 
-/// Listens for Ctrl-C: unless it is only counted, the second time ends the program at once.
+/// What is not stopped so long after Ctrl-C is ended.
+const GRACE: Duration = Duration::from_secs(3);
+
+/// Listens for Ctrl-C, SIGTERM and SIGHUP: unless they are only counted, the second one ends the program at once, and
+/// so does [`GRACE`] after the first, because some stages look at it seldom.
 fn listen() {
     // Fails only where a handler is set already, which then stays in force.
     let _ = ctrlc::set_handler(|| {
         let was_pressed = STOPS.fetch_add(1, Ordering::SeqCst) > 0;
-        if was_pressed && !IS_COUNTED.load(Ordering::SeqCst) {
+        if IS_COUNTED.load(Ordering::SeqCst) {
+            return;
+        }
+        if was_pressed {
             std::process::exit(i32::from(super::STOPPED));
         }
+        std::thread::spawn(|| {
+            std::thread::sleep(GRACE);
+            std::process::exit(i32::from(super::STOPPED));
+        });
     });
 }
 

@@ -109,11 +109,11 @@ impl Side {
             .iter()
             .map(|&f| area(&master.faces_vertices[f].iter().map(|&v| flat(v)).collect::<Vec<_>>()));
         let is_whole = (parts.sum::<f64>() - area(&outline)).abs() <= PARTS_AREA * area(&outline);
-        let by_height = |a: &usize, b: &usize| flat(*a).y.total_cmp(&flat(*b).y);
-        let ends = [vertices().min_by(by_height)?, vertices().max_by(by_height)?];
-        let place = |v: usize| outline.iter().position(|p| *p == flat(v));
-        let hinges = [place(ends[0])?, place(ends[1])?];
-        is_whole.then_some(Self { face, outline, hinges, ends: ends.map(|v| deployed[v]) })
+        let by_height = |a: &usize, b: &usize| outline[*a].y.total_cmp(&outline[*b].y);
+        let hinges = [(0..outline.len()).min_by(by_height)?, (0..outline.len()).max_by(by_height)?];
+        let end = |k: usize| vertices().find(|&v| flat(v) == outline[k]).map(|v| deployed[v]);
+        let ends = [end(hinges[0])?, end(hinges[1])?];
+        is_whole.then_some(Self { face, outline, hinges, ends })
     }
 
     /// Distance between its hinges.
