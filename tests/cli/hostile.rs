@@ -64,21 +64,21 @@ fn pipes_and_devices_are_no_inputs() {
         "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,1]}],
         "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"nodes":[{"mesh":0}],"scenes":[{"nodes":[0]}]}"#;
     std::fs::write(folder.path().join("a.gltf"), gltf).unwrap();
-    std::fs::write(folder.path().join("a.toml"), "mesh = 'a.obj'\n").unwrap();
+    std::fs::write(folder.path().join("b.toml"), "mesh = 'a.obj'\n").unwrap();
     for command in [
         "make a.obj",
         "make /dev/zero",
         "make a.gltf",
-        "make a.toml",
+        "make b.toml",
         "check a.obj",
         "segment a.obj -o a.png",
-        "make a.obj a.toml -o {name}.json",
+        "make a.obj b.toml -o {name}.json",
     ] {
         let result = run_within_a_gigabyte(folder.path(), command);
         assert_eq!(result.code, Some(1), "{command}: {}", result.err);
         assert!(result.err.contains("a pipe or a device"), "{command}: {}", result.err);
     }
-    assert_eq!(names(&folder), ["a.gltf", "a.obj", "a.toml"]);
+    assert_eq!(names(&folder), ["a.gltf", "a.obj", "b.toml"]);
 }
 
 /// A thousand triangles without a common edge took minutes.
@@ -166,9 +166,9 @@ fn a_joint_without_a_panel_says_what_it_needs() {
 
 #[test]
 fn more_than_two_hundred_sheets_are_made_only_on_request() {
-    let text = cubes([0.0, 1.0, 2.0].map(|x| ([1.1 * x, 0.0, 0.0], 1.0)).into_iter());
+    let text = cubes([0.0, 2.0, 4.0].map(|x| ([x, 0.0, 0.0], 1.0)).into_iter());
     let folder = folder_with(&[("a.obj", text.as_bytes())]);
-    let make = ["make", "a.obj", "-q", "--effort", "0", "--size", "2.1m", "-o", "a.json"];
+    let make = ["make", "a.obj", "-q", "--effort", "0", "--size", "3.5m", "-o", "a.json"];
     let refused = run(folder.path(), &make);
     assert_eq!(refused.code, Some(1), "{}", refused.err);
     assert!(refused.err.contains("more than 200") && refused.err.contains("--yes"), "{}", refused.err);

@@ -153,7 +153,7 @@ pub(in crate::project) fn check_degrees(degrees: f64) -> Result<f64, String> {
 /// Checks the name of a component.
 pub(in crate::project) fn checked_name(name: &str) -> Result<&str, &'static str> {
     let is_usable = !name.trim().is_empty() && !name.contains(steers);
-    let message = "this text needs at least one letter, and none that controls a terminal or turns the direction of writing";
+    let message = "a component's name has at least one letter and no control characters, nor any that turn the direction of writing";
     is_usable.then_some(name).ok_or(message)
 }
 
