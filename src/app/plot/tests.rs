@@ -125,11 +125,8 @@ impl Operator for Watcher {
     }
 }
 
-/// Sends the test figure; how it ended, what was seen, the machine, and the journal that is left.
-fn sent(
-    unplugged_at: Option<u64>,
-    copies: u16,
-) -> (std::result::Result<(), AppError>, Watcher, Line, Option<String>) {
+/// Sends the test figure; how it ended, what was seen, the machine, and whether a journal is left.
+fn sent(unplugged_at: Option<u64>, copies: u16) -> (std::result::Result<(), AppError>, Watcher, Line, bool) {
     let machine = PltOptions::default();
     let sheets = sheets::of_test_cut(&machine).unwrap();
     let header = live::header(&sheets, &machine.cutter, "memory".to_owned(), copies);
@@ -137,15 +134,16 @@ fn sent(
     let journal = folder.path().join("a.tatamu-job");
     let (line, mut watcher) = (Line::to(&machine.cutter, unplugged_at), Watcher::default());
     let end = live::send_all(&line, &mut watcher, &journal, &header, Position::default());
-    (end, watcher, line, std::fs::read_to_string(journal).ok())
+    let is_left = journal.exists();
+    (end, watcher, line, is_left)
 }
 
 #[test]
 fn a_job_reaches_any_port_whole() {
-    let (end, watcher, line, journal) = sent(None, 2);
+    let (end, watcher, line, is_left) = sent(None, 2);
     end.unwrap();
     assert_eq!(watcher.loaded, ["test cut", "test cut"]);
-    assert!(watcher.is_done && watcher.stopped.is_none() && journal.is_none());
+    assert!(watcher.is_done && watcher.stopped.is_none() && !is_left);
     let plotter = &line.0.borrow().plotter;
     assert!(plotter.received() > 100 && plotter.lost() == 0 && plotter.broken() == 0);
     assert!(!plotter.is_pen_down());
@@ -153,20 +151,8 @@ fn a_job_reaches_any_port_whole() {
 
 #[test]
 fn a_port_that_is_gone_leaves_a_journal() {
-    let (end, watcher, _, journal) = sent(Some(60), 1);
+    let (end, watcher, _, is_left) = sent(Some(60), 1);
     assert!(end.unwrap_err().to_string().contains("the port is gone"));
     assert!(watcher.stopped.is_some_and(|(done, all)| done < all));
-    assert!(journal.is_some() && !watcher.is_done);
-}
-
-/// It had a line every half second: who killed the program cut what was done between again.
-#[test]
-fn each_finished_stroke_is_in_the_journal_at_once() {
-    let whole = sent(None, 1).2.0.borrow().plotter.received();
-    let (end, watcher, _, journal) = sent(Some(whole - 20), 1);
-    end.unwrap_err();
-    let (done, _) = watcher.stopped.unwrap();
-    let journal = journal.unwrap();
-    let noted: Vec<&str> = journal.lines().skip(2).collect();
-    assert!(done >= 2 && noted.len() >= 2, "{done} strokes done, noted {noted:?}");
+    assert!(is_left && !watcher.is_done);
 }
