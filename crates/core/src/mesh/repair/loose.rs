@@ -6,10 +6,10 @@ use crate::mesh::{Edges, bounds};
 use glam::DVec3;
 
 /// Bodies smaller than this share of the mesh's diagonal are dropped. At 200 mm it is 2 mm, less than the
-/// narrowest panel; the smallest body of a model that people fold, an eye of a figure, has 0.02.
+/// narrowest panel by default.
 const SPECK: f64 = 0.01;
 
-/// The largest bodies are kept: a model has no more parts than this, and 10⁵ equal bodies took minutes.
+/// The largest bodies are kept: a model has no more parts than this, and 10⁵ bodies took more than a minute.
 const MOST_BODIES: usize = 200;
 
 /// Where there are more, bodies of fewer triangles are scraps of a surface, which no part can be made of.
