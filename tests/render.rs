@@ -102,14 +102,12 @@ fn dashes_and_holes_are_drawn() {
     let dashed = Stroke { width_mm: 2.0, colour: red, dash_mm: vec![4.0, 6.0] };
     let line = Polyline { points: vec![DVec2::new(0.0, 40.0), DVec2::new(50.0, 40.0)], is_closed: false };
     let drawing = Drawing {
-        title: String::new(),
-        size_mm: SIZE,
-        card: None,
         ground: Some(Rgb(255, 255, 255)),
         marks: vec![
             mark(vec![square(5.0, 30.0), square(10.0, 20.0)], None, Some(red)),
             mark(vec![line], Some(dashed), None),
         ],
+        ..Drawing::new("", SIZE)
     };
     let pixmap = png::rasterise(&drawing, DPI).unwrap();
     let at = |x, y| pixel(&pixmap, DVec2::new(x, y)).0;

@@ -23,7 +23,8 @@ pub struct Machine {
 }
 
 /// The machines, by maker.
-pub const MACHINES: [Machine; 17] = [
+pub const MACHINES: [Machine; 19] = [
+    machine("AxiDraw", "V3, SE, and others with an EiBotBoard", Takes::Serial("axidraw")),
     machine("Brother", "ScanNCut CM, DX, SDX", Takes::Program("scanncut")),
     machine("Cricut", "Explore, Maker, Joy, Venture", Takes::Program("cricut")),
     machine("Graphtec", "CE, FC", Takes::Serial("graphtec")),
@@ -31,7 +32,8 @@ pub const MACHINES: [Machine; 17] = [
     machine("HP", "7550A", Takes::Serial("hp-7550a")),
     machine("Houston Instrument", "DMP, and others with DM/PL", Takes::Serial("dmpl")),
     machine("Roland", "CAMM-1", Takes::Serial("roland-camm-1")),
-    machine("Silhouette", "Cameo 3 to 5, 5 Alpha; Portrait 3, 4", Takes::Usb("silhouette")),
+    machine("Silhouette", "Cameo 3 to 5; Portrait 3, 4", Takes::Usb("silhouette")),
+    machine("Silhouette", "Cameo 5 Alpha, Cameo Pro MK-II", Takes::Usb("silhouette-alpha")),
     machine("Silhouette", "Cameo 1, 2; Portrait 1, 2", Takes::Usb("silhouette-classic")),
     machine("Silhouette", "all, with Silhouette Studio", Takes::Program("silhouette-studio")),
     machine("vinyl cutters", "with HP-GL", Takes::Serial("generic-hpgl")),

@@ -64,6 +64,12 @@ pub struct VirtualPlotterArgs {
     #[arg(long, value_name = "N")]
     unplug_at: Option<u64>,
 
+    /// Where the corner of printed registration marks is along its axes, mm [default: it finds none]
+    ///
+    /// A Silhouette counts from the upper left corner of the mat, down and to the right. Example: --marks-at 11.5,9.2
+    #[arg(long, value_name = "X,Y", value_parser = place)]
+    marks_at: Option<[f64; 2]>,
+
     /// Writes what it drew when the host closes the port: .png, .svg, .dxf, .pdf
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -76,6 +82,13 @@ pub struct VirtualPlotterArgs {
 fn factor(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|x: &f64| *x > 0.0 && *x <= 1e6);
     number.ok_or_else(|| "this must be a number above 0, such as 10".to_owned())
+}
+
+fn place(text: &str) -> Result<[f64; 2], String> {
+    let numbers =
+        text.split_once(',').and_then(|(x, y)| Some([x.trim().parse().ok()?, y.trim().parse().ok()?]));
+    let found = numbers.filter(|at: &[f64; 2]| at.iter().all(|mm| mm.abs() < 1e4));
+    found.ok_or_else(|| "this must be two lengths in mm, such as 11.5,9.2".to_owned())
 }
 
 /// Time between two looks at the port.
@@ -130,6 +143,7 @@ pub fn serve(args: &VirtualPlotterArgs, cutter: &Cutter, host: &mut File) -> Box
         buffer_bytes: args.buffer.map_or(cutter.serial().buffer_bytes, |n| n as usize),
         answers: !args.mute,
         xoff_below: args.xoff_below.map(|n| n as usize),
+        marks_mm: args.marks_at,
         faults,
     };
     let mut plotter = virtual_machine(cutter, options);

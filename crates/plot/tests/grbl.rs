@@ -32,10 +32,10 @@ fn long_job(cutter: &Cutter, strokes: usize, lines: usize) -> Vec<u8> {
     job.extend(if cutter.power().is_some() { &b"S300\n"[..] } else { b"" });
     for k in 0..strokes {
         let (x, y) = ((k % 20) as i32 * 9000, (k / 20 % 25) as i32 * 9000);
-        job.extend(cutter.dialect().travel(Point::new(x, y)));
+        job.extend(cutter.dialect().travel(Point::default(), Point::new(x, y)));
         job.extend(lower.as_bytes());
         let to: Vec<Point> = (1..=lines as i32).map(|i| Point::new(x + 150 * i, y + 777 * (i % 3))).collect();
-        job.extend(cutter.dialect().draw(&to).concat());
+        job.extend(cutter.dialect().draw(Point::new(x, y), &to).concat());
         job.extend(&lift);
     }
     job.extend(cutter.end().as_bytes());

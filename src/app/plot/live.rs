@@ -125,6 +125,21 @@ pub fn failure(outcome: Outcome) -> AppError {
              continue the job"
                 .to_owned()
         }
+        End::Refused(code) => format!(
+            "the machine refuses a command (!{code}); check that its profile is right, then continue the job with the \
+             carriage at home"
+        ),
+        End::Firmware { found: [a, b, c], needed: [d, e, f] } => format!(
+            "the machine has firmware {a}.{b}.{c}, and tatamu needs {d}.{e}.{f} or newer, so nothing was sent; update it \
+             (github.com/evil-mad/EggBot)"
+        ),
+        End::MarksNotFound => "the machine did not find the registration marks, so nothing was cut; load the sheet with \
+                               its upper left corner at that of the mat, see that the marks are black, clean and \
+                               printed at 100 %, then continue the job"
+            .to_owned(),
+        End::MarksUnanswered => "the machine did not say whether it found the registration marks, so nothing was cut; \
+                                 see that its profile is the right one, then continue the job"
+            .to_owned(),
         End::LinesLost => "the machine stands still at another place than the job has it, so lines were lost; check \
                            the cable, then continue the job"
             .to_owned(),

@@ -28,5 +28,5 @@ use tatamu::plotter::profile::Handshake;
 /// Reads the name of a handshake.
 pub fn handshake(text: &str) -> Result<Handshake, String> {
     let found = Handshake::ALL.into_iter().find(|handshake| handshake.name() == text);
-    found.ok_or_else(|| "use auto, escb, rtscts, xonxoff, paced, count or usb".to_owned())
+    found.ok_or_else(|| "use auto, escb, rtscts, xonxoff, paced, count, ok or usb".to_owned())
 }

@@ -46,11 +46,11 @@ pub struct PlotArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(300..=4_000_000))]
     baud: Option<u32>,
 
-    /// Flow control: auto, escb, rtscts, xonxoff, paced, count or usb [default: from the profile]
+    /// Flow control: auto, escb, rtscts, xonxoff, paced, count, ok or usb [default: from the profile]
     ///
     /// auto asks the machine and chooses by its answer. escb asks for free bytes, rtscts and xonxoff
-    /// follow the machine's signals, paced goes by time alone, count waits for the ok of GRBL, usb
-    /// asks a Silhouette whether it is ready.
+    /// follow the machine's signals, paced goes by time alone, count waits for the ok of GRBL, ok
+    /// for that of an AxiDraw, usb asks a Silhouette whether it is ready.
     #[arg(long, value_name = "NAME", value_parser = handshake)]
     handshake: Option<Handshake>,
 

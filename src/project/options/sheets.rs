@@ -244,8 +244,9 @@ pub static MARKS: Entry = Entry {
         },
     }),
     short: "Registration marks for a cutter: {names}",
-    long: "silhouette: a square and two corners that Silhouette cutters detect; the margin grows to 18 mm. corners: \
-           four corners to align by eye.",
+    long: "silhouette: a square and two corners that Silhouette cutters detect; the margin grows to 18 mm. \
+           silhouette-alpha: four corners for the Cameo 5 Alpha and the Cameo Pro MK-II. \"plot\" has these machines \
+           look for them. corners: four corners to align by eye.",
     example: "--marks silhouette",
     meaning: "registration marks for a cutter",
     dial: Dial::new("Registration marks"),

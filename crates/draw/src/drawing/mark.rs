@@ -246,7 +246,7 @@ impl Mark {
 impl Drawing {
     /// An empty page without a background.
     pub fn new(title: impl Into<String>, size_mm: DVec2) -> Self {
-        Self { title: title.into(), size_mm, card: None, ground: None, marks: Vec::new() }
+        Self { title: title.into(), size_mm, card: None, registration: None, ground: None, marks: Vec::new() }
     }
 
     /// Adds a group of marks after a rigid motion: a piece at its place on the sheet.

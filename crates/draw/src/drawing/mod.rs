@@ -7,12 +7,14 @@ mod area;
 mod mark;
 mod pages;
 mod raster;
+mod registration;
 pub mod strokes;
 mod style;
 pub mod text;
 
 pub use pages::{Chapter, Pages, PagesError};
 pub use raster::{Raster, RasterError};
+pub use registration::Registration;
 pub use style::{Fill, LineStyles, StyleError};
 pub use tatamu_core::colour::Rgb;
 
@@ -198,6 +200,8 @@ pub struct Drawing {
     pub size_mm: DVec2,
     /// Colour of the card that it is for, where one is chosen.
     pub card: Option<String>,
+    /// The registration marks that it has, where it has some.
+    pub registration: Option<Registration>,
     /// Background; none is transparent.
     pub ground: Option<Rgb>,
     /// Marks, in painting order.

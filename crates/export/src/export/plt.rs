@@ -9,7 +9,7 @@ use tatamu_plot::plotter::{Cutter, Media, Plan, PlanError};
 pub const FORMAT: Format = Format {
     name: "plt",
     extensions: &["plt", "hpgl"],
-    description: "for cutters and plotters (HP-GL, GP-GL, DM/PL), one file per sheet",
+    description: "for cutters and plotters (HP-GL, GP-GL, DM/PL, EBB), one file per sheet",
     source: Source::Pages(|pages, options| write(&FORMAT, pages, options)),
 };
 

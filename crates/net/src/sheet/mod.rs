@@ -10,7 +10,6 @@ mod options;
 mod pages;
 mod pin;
 mod place;
-mod registration;
 
 pub use calibration::{Calibration, CalibrationError};
 pub use layout::{Layout, LayoutError};
@@ -18,4 +17,4 @@ pub use options::{SheetChoices, SheetOptions};
 pub use pages::Imprint;
 pub use pin::{Pin, Unheeded};
 pub use place::PiecePlace;
-pub use registration::Registration;
+pub use tatamu_draw::drawing::Registration;

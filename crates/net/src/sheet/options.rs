@@ -1,10 +1,10 @@
 //! What sheets are like.
 
+use super::Registration;
 use super::calibration::Calibration;
 use super::fit::Rotation;
 use super::furniture;
 use super::nest::{DEFAULT_EFFORT, DEFAULT_SPACING_MM, NestOptions};
-use super::registration::Registration;
 use crate::net::{LabelPlace, Side};
 use glam::DVec2;
 use tatamu_core::units::Paper;

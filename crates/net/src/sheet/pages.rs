@@ -97,6 +97,7 @@ impl Layout {
             if options.has_two_sides() {
                 page.marks.extend(crosses(options, styles));
             }
+            page.registration = options.choices.registration;
             page.marks
                 .extend(options.choices.registration.iter().flat_map(|r| r.marks(page.size_mm, styles)));
         }

@@ -8,6 +8,8 @@ use glam::{DVec2, Vec2Swizzles};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
     sheet_mm: DVec2,
+    /// What the machine takes for the whole sheet: from its lower left to its upper right corner.
+    area_mm: [DVec2; 2],
     is_turned: bool,
 }
 
@@ -17,17 +19,33 @@ impl Placement {
     /// # Errors
     /// [`OffBed`] as drawn, where neither fits.
     pub fn find(strokes: &[Stroke], sheet_mm: DVec2, frame: &Frame) -> Result<Self, OffBed> {
-        let fits = |is_turned| {
-            let placement = Self { sheet_mm, is_turned };
-            let mut points = strokes.iter().flat_map(Stroke::shaft);
-            points.try_for_each(|&p| placement.to_device(frame, p).map(|_| ())).map(|()| placement)
-        };
-        fits(false).or_else(|error| fits(true).map_err(|_| error))
+        let straight = Self::straight(sheet_mm);
+        let turned = Self { is_turned: true, ..straight };
+        straight.fits(strokes, frame).or_else(|error| turned.fits(strokes, frame).map_err(|_| error))
+    }
+
+    /// As it is drawn, on a machine that counts from the corner of the sheet's registration marks.
+    ///
+    /// # Errors
+    /// [`OffBed`] where it does not fit: a sheet with marks cannot be turned.
+    pub fn in_marks(
+        strokes: &[Stroke],
+        sheet_mm: DVec2,
+        marks_mm: [DVec2; 2],
+        frame: &Frame,
+    ) -> Result<Self, OffBed> {
+        let straight = Self::straight(sheet_mm).fits(strokes, frame)?;
+        Self { area_mm: marks_mm, ..straight }.fits(strokes, frame)
+    }
+
+    fn fits(self, strokes: &[Stroke], frame: &Frame) -> Result<Self, OffBed> {
+        let mut points = strokes.iter().flat_map(Stroke::shaft);
+        points.try_for_each(|&p| self.to_device(frame, p).map(|_| ())).map(|()| self)
     }
 
     /// A sheet as it is drawn.
     pub fn straight(sheet_mm: DVec2) -> Self {
-        Self { sheet_mm, is_turned: false }
+        Self { sheet_mm, area_mm: [DVec2::ZERO, sheet_mm], is_turned: false }
     }
 
     /// Size of the sheet as it is drawn, mm.
@@ -45,37 +63,44 @@ impl Placement {
     /// # Errors
     /// See [`OffBed`].
     pub fn to_device(&self, frame: &Frame, at_mm: DVec2) -> Result<Point, OffBed> {
+        let [low, high] = self.area_mm;
+        let (size_mm, at_mm) = (high - low, at_mm - low);
         if self.is_turned {
-            let turned = DVec2::new(self.sheet_mm.y - at_mm.y, at_mm.x);
-            frame.to_device(self.sheet_mm.yx(), turned)
+            let turned = DVec2::new(size_mm.y - at_mm.y, at_mm.x);
+            frame.to_device(size_mm.yx(), turned)
         } else {
-            frame.to_device(self.sheet_mm, at_mm)
+            frame.to_device(size_mm, at_mm)
         }
     }
 
     /// The position on the sheet for one of the machine, mm.
     pub fn to_sheet(&self, frame: &Frame, at: Point) -> DVec2 {
+        let [low, high] = self.area_mm;
+        let size_mm = high - low;
         if self.is_turned {
-            let turned = frame.to_sheet(self.sheet_mm.yx(), at);
-            DVec2::new(turned.y, self.sheet_mm.y - turned.x)
+            let turned = frame.to_sheet(size_mm.yx(), at);
+            low + DVec2::new(turned.y, size_mm.y - turned.x)
         } else {
-            frame.to_sheet(self.sheet_mm, at)
+            low + frame.to_sheet(size_mm, at)
         }
     }
 }
 
-/// The bytes of a job: start, then each operation with its tool, force and speed, then end.
+/// The bytes of a job: start, what has the machine look for marks, then each operation with its tool, force and
+/// speed, then end.
 ///
 /// # Errors
 /// [`OffBed`] before anything is made of it.
 pub fn encode(
     strokes: &[Stroke],
     placement: &Placement,
+    search: &[u8],
     cutter: &Cutter,
     media: &Media,
 ) -> Result<Vec<u8>, OffBed> {
     let mut writer = Writer { cutter, bytes: Vec::new(), at: Point::default() };
     writer.bytes.extend(cutter.start().as_bytes());
+    writer.bytes.extend(search);
     for operation in Operation::ALL {
         let mut own = strokes.iter().filter(|s| s.operation() == operation).peekable();
         if own.peek().is_some() {
@@ -132,9 +157,9 @@ impl Writer<'_> {
             && !through.is_empty()
         {
             let dialect = self.cutter.dialect();
-            self.command(&dialect.travel(*first));
+            self.command(&dialect.travel(self.at, *first));
             self.bytes.extend(lower.as_bytes());
-            dialect.draw(through).iter().for_each(|command| self.command(command));
+            dialect.draw(*first, through).iter().for_each(|command| self.command(command));
             self.at = points[points.len() - 1];
             if !lower.is_empty() {
                 self.command(&dialect.lift(self.at));

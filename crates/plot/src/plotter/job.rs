@@ -139,10 +139,12 @@ impl Job {
 
     /// The bytes of a job that begins with a stroke: all settings up to there, the latest of each
     /// kind, then what lifts the tool if the job says that by itself, the last of the strokes `turns`
-    /// before it, which turn a drag knife, and everything from the travel to that stroke on. The whole
-    /// job where positions are distances, since those need what came before.
+    /// before it, which turn a drag knife, and everything from the travel to that stroke on. Where a language
+    /// has nothing but distances, that travel begins at the origin. The whole job of another language where
+    /// positions are distances, since those need what came before.
     pub fn from_stroke(&self, stroke: usize, turns: &[usize], dialect: &dyn Dialect) -> Vec<u8> {
-        let Some(start) = self.start_of(stroke).filter(|_| !self.is_relative && stroke > 0) else {
+        let is_possible = !self.is_relative || dialect.counts_distances();
+        let Some(start) = self.start_of(stroke).filter(|_| is_possible && stroke > 0) else {
             return self.bytes();
         };
         let turn = turns.iter().copied().filter(|&turn| turn < stroke).max();
@@ -154,13 +156,12 @@ impl Job {
         let kind = |c: &Command| dialect.mnemonic(&c.bytes).to_ascii_uppercase();
         let is_latest = |k: usize| settings[k + 1..].iter().all(|later| kind(later) != kind(settings[k]));
         let settings = (0..settings.len()).filter(|&k| is_latest(k)).map(|k| settings[k]);
-        let rest = self.commands[start..].iter();
-        settings
-            .chain(lift)
-            .chain(turn)
-            .chain(rest)
-            .flat_map(|command| command.bytes.iter().copied())
-            .collect()
+        let mut out: Vec<&[u8]> = settings.chain(lift).chain(turn).map(Command::bytes).collect();
+        let way = dialect.travel(Point::default(), self.commands[start].ends_at);
+        let (way, next) = if self.is_relative { (way, start + 1) } else { (Vec::new(), start) };
+        out.push(&way);
+        out.extend(self.commands[next..].iter().map(Command::bytes));
+        out.concat()
     }
 
     /// The commands of their own, if any, that set the pen down last before command `next`.
@@ -262,7 +263,8 @@ impl<'a> Reader<'a> {
         // A command that lifts the pen begins when the stroke before it is finished.
         let strokes_done = if was_down && !self.is_down { self.done } else { strokes_done };
         let pen_s = if was_down == self.is_down { 0.0 } else { self.pace.pen() };
-        let seconds = pen_s + motions.iter().map(|motion| self.pace.seconds(motion)).sum::<f64>();
+        let by_pace = || pen_s + motions.iter().map(|motion| self.pace.seconds(motion)).sum::<f64>();
+        let seconds = self.cutter.dialect().seconds(bytes).unwrap_or_else(by_pace);
         self.commands.push(Command {
             bytes: bytes.to_vec(),
             motions,

@@ -19,6 +19,8 @@ const XOFF: u8 = 19;
 const ANSWER_DELAY: Duration = Duration::from_millis(2);
 /// The error that ESC.E reports after an overflow.
 const OVERFLOW: u32 = 16;
+/// How far the marks may be from where they should be, mm.
+const SEARCH_RANGE_MM: f64 = 10.0;
 /// CTS falls when fewer bytes are free, and rises again at twice as many.
 const CTS_BELOW: usize = 64;
 
@@ -31,13 +33,21 @@ pub struct VirtualOptions {
     pub answers: bool,
     /// Whether it sends XOFF and XON from the start, at this number of free bytes.
     pub xoff_below: Option<usize>,
+    /// Where the corner of printed marks is along its axes, mm; without them it finds none.
+    pub marks_mm: Option<[f64; 2]>,
     /// Faults.
     pub faults: Faults,
 }
 
 impl Default for VirtualOptions {
     fn default() -> Self {
-        Self { buffer_bytes: 1024, answers: true, xoff_below: None, faults: Faults::default() }
+        Self {
+            buffer_bytes: 1024,
+            answers: true,
+            xoff_below: None,
+            marks_mm: None,
+            faults: Faults::default(),
+        }
     }
 }
 
@@ -66,6 +76,7 @@ pub struct VirtualPlotter {
     options: VirtualOptions,
     dialect: Arc<dyn Dialect>,
     pace: Pace,
+    units_per_mm: f64,
     now: Duration,
     busy_until: Duration,
     buffer: VecDeque<u8>,
@@ -78,6 +89,8 @@ pub struct VirtualPlotter {
     is_down: bool,
     is_relative: bool,
     at: Point,
+    /// Where it counts from: the corner of the marks, once it has found them.
+    origin: Point,
     error: u32,
     received: u64,
     lost: u64,
@@ -162,6 +175,7 @@ impl VirtualPlotter {
             options,
             dialect: cutter.dialect().clone(),
             pace: Pace::new(cutter),
+            units_per_mm: cutter.frame().units_per_mm().value(),
             now: Duration::ZERO,
             busy_until: Duration::ZERO,
             buffer: VecDeque::with_capacity(options.buffer_bytes),
@@ -174,6 +188,7 @@ impl VirtualPlotter {
             is_down: false,
             is_relative: false,
             at: Point::default(),
+            origin: Point::default(),
             error: 0,
             received: 0,
             lost: 0,
@@ -198,6 +213,10 @@ impl VirtualPlotter {
     }
 
     fn answer(&mut self, text: String) {
+        self.answer_at(self.now, text);
+    }
+
+    fn answer_at(&mut self, at: Duration, text: String) {
         let faults = self.options.faults;
         self.asked += 1;
         let is_nth = |every: u32| every > 0 && self.asked.is_multiple_of(every);
@@ -205,8 +224,7 @@ impl VirtualPlotter {
             return;
         }
         let text = if is_nth(faults.garbage_every) { "?\u{7f}9x".to_owned() } else { text };
-        let due = self.now.max(self.busy_until.min(self.now)) + ANSWER_DELAY;
-        self.answers.push_back((due, format!("{text}\r").into_bytes()));
+        self.answers.push_back((at + ANSWER_DELAY, format!("{text}\r").into_bytes()));
     }
 
     /// Acts on device control when it is complete.
@@ -220,6 +238,9 @@ impl VirtualPlotter {
             if control == self.dialect.state_question() {
                 let state = if self.is_idle() { "0" } else { "1" };
                 self.answer(state.to_owned());
+            }
+            if control == self.dialect.initialise() {
+                self.origin = Point::default();
             }
             return;
         }
@@ -258,7 +279,29 @@ impl VirtualPlotter {
         }
     }
 
+    /// Looks for printed marks, up to twice as far from where the search begins as they should be.
+    fn look_for_marks(&mut self, command: &[u8]) {
+        let seconds = self.dialect.seconds(command).unwrap_or_default();
+        self.spend(seconds);
+        let text = String::from_utf8_lossy(command).into_owned();
+        let numbers: Vec<f64> =
+            text.split(|c: char| !c.is_ascii_digit()).filter_map(|n| n.parse().ok()).skip(1).collect();
+        let found = self.options.marks_mm.map(|at_mm| at_mm.map(|mm| (mm * self.units_per_mm).round()));
+        let found = found.filter(|at| {
+            let range = 2.0 * SEARCH_RANGE_MM * self.units_per_mm;
+            numbers.len() == 4 && (0..2).all(|k| (0.0..=range).contains(&(at[k] - numbers[2 + k])))
+        });
+        if let Some([x, y]) = found {
+            self.origin = Point::new(x as i32, y as i32);
+        }
+        let text = if found.is_some() { "    0" } else { "    1" };
+        self.answer_at(self.busy_until, text.to_owned());
+    }
+
     fn execute(&mut self, command: &[u8]) {
+        if self.dialect.is_search(command) {
+            return self.look_for_marks(command);
+        }
         match self.dialect.meaning(command) {
             Meaning::Move { pen, to, is_relative } => {
                 self.is_relative = is_relative.unwrap_or(self.is_relative);
@@ -296,7 +339,7 @@ impl VirtualPlotter {
         self.at = if self.is_relative {
             Point::new(from.x().saturating_add(to.x()), from.y().saturating_add(to.y()))
         } else {
-            to
+            Point::new(self.origin.x().saturating_add(to.x()), self.origin.y().saturating_add(to.y()))
         };
         let motion = Motion { from, to: self.at, is_down: self.is_down };
         let seconds = self.pace.seconds(&motion);

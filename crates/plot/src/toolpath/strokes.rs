@@ -7,7 +7,7 @@ use tatamu_draw::drawing::Drawing;
 
 /// Arms of the angle that is cut first of all, so that a drag knife points the right way, mm.
 const ALIGN_MM: f64 = 4.0;
-/// Its distance from the corner of the sheet, and from everything else, mm.
+/// Its distance from the corner of the sheet or from its marks, and from everything else, mm.
 const ALIGN_INSET_MM: f64 = 3.0;
 const ALIGN_CLEARANCE_MM: f64 = 1.5;
 
@@ -57,7 +57,8 @@ impl Toolpath {
     pub fn of_drawing(drawing: &Drawing, tools: &Toolset, start: DVec2) -> Self {
         let work = tasks(drawing, &tools.operations());
         let file = strokes_of(&in_file_order(&work), tools, None);
-        let align = corner_free_of(&work, drawing.size_mm);
+        let area = drawing.registration.map(|marks| marks.frame_mm(drawing.size_mm));
+        let align = corner_free_of(&work, area.unwrap_or([DVec2::ZERO, drawing.size_mm]));
         let strokes = strokes_of(&in_order(work, start), tools, align);
         Self { strokes, file_travel_mm: travel_between_mm(&file, start) }
     }
@@ -150,16 +151,18 @@ fn beginning(points: &[DVec2], length_mm: f64) -> Vec<DVec2> {
     out
 }
 
-/// A small angle in a corner of the sheet where nothing else is.
-fn corner_free_of(work: &[Task], size_mm: DVec2) -> Option<Vec<DVec2>> {
-    let far = size_mm - DVec2::splat(ALIGN_INSET_MM);
-    let near = DVec2::splat(ALIGN_INSET_MM);
-    let corners = [near, DVec2::new(far.x, near.y), DVec2::new(near.x, far.y), far];
-    let inwards = (size_mm / 2.0 - near).signum() * ALIGN_MM;
+/// A small angle in a corner of an area where nothing else is.
+fn corner_free_of(work: &[Task], [low, high]: [DVec2; 2]) -> Option<Vec<DVec2>> {
+    let far = high - DVec2::splat(ALIGN_INSET_MM);
+    let near = low + DVec2::splat(ALIGN_INSET_MM);
+    // The upper left one last: cutters that look for marks have a printed square there.
+    let corners = [near, DVec2::new(far.x, near.y), far, DVec2::new(near.x, far.y)];
+    let middle = (low + high) / 2.0;
+    let inwards = (middle - near).signum() * ALIGN_MM;
     let angle = |corner: DVec2| {
         let inwards = DVec2::new(
-            if corner.x < size_mm.x / 2.0 { inwards.x } else { -inwards.x },
-            if corner.y < size_mm.y / 2.0 { inwards.y } else { -inwards.y },
+            if corner.x < middle.x { inwards.x } else { -inwards.x },
+            if corner.y < middle.y { inwards.y } else { -inwards.y },
         );
         vec![corner + DVec2::X * inwards.x, corner, corner + DVec2::Y * inwards.y]
     };

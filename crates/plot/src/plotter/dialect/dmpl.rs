@@ -13,12 +13,12 @@ impl Dialect for Dmpl {
         "dmpl"
     }
 
-    fn travel(&self, to: Point) -> Vec<u8> {
+    fn travel(&self, _: Point, to: Point) -> Vec<u8> {
         format!("U{},{},", to.x(), to.y()).into_bytes()
     }
 
     /// One pair a command, so that the plotter knows where each ends.
-    fn draw(&self, through: &[Point]) -> Vec<Vec<u8>> {
+    fn draw(&self, _: Point, through: &[Point]) -> Vec<Vec<u8>> {
         through.iter().map(|at| format!("D{},{},", at.x(), at.y()).into_bytes()).collect()
     }
 
@@ -87,8 +87,8 @@ mod tests {
     #[test]
     fn exact_bytes() {
         let at = Point::new(1000, -45);
-        assert_eq!(Dmpl.travel(at), b"U1000,-45,");
-        assert_eq!(Dmpl.draw(&[at, Point::new(0, 7)]), [&b"D1000,-45,"[..], b"D0,7,"]);
+        assert_eq!(Dmpl.travel(at, at), b"U1000,-45,");
+        assert_eq!(Dmpl.draw(at, &[at, Point::new(0, 7)]), [&b"D1000,-45,"[..], b"D0,7,"]);
         assert_eq!((Dmpl.lift(at), Dmpl.lower(at)), (b"U,".to_vec(), b"D,".to_vec()));
     }
 

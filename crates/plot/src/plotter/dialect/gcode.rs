@@ -59,11 +59,11 @@ impl Dialect for Gcode {
         "gcode"
     }
 
-    fn travel(&self, to: Point) -> Vec<u8> {
+    fn travel(&self, _: Point, to: Point) -> Vec<u8> {
         line("G0", to)
     }
 
-    fn draw(&self, through: &[Point]) -> Vec<Vec<u8>> {
+    fn draw(&self, _: Point, through: &[Point]) -> Vec<Vec<u8>> {
         through.iter().map(|&to| line("G1", to)).collect()
     }
 
@@ -209,8 +209,11 @@ mod tests {
     fn exact_bytes() {
         let laser = Gcode::new("M5\n", &["M4\n"]);
         let at = Point::new(-12_340, 100_005);
-        assert_eq!(laser.travel(at), b"G0 X-12.34 Y100.005\n");
-        assert_eq!(laser.draw(&[at, Point::new(0, -7)]), [&b"G1 X-12.34 Y100.005\n"[..], b"G1 X0 Y-0.007\n"]);
+        assert_eq!(laser.travel(at, at), b"G0 X-12.34 Y100.005\n");
+        assert_eq!(
+            laser.draw(at, &[at, Point::new(0, -7)]),
+            [&b"G1 X-12.34 Y100.005\n"[..], b"G1 X0 Y-0.007\n"]
+        );
         assert_eq!((laser.lift(at), laser.lower(at)), (b"M5\n".to_vec(), Vec::new()));
         assert_eq!(laser.split(b"G21\r\nM5\nG0 X1 Y2"), [&b"G21\r\n"[..], b"M5\n", b"G0 X1 Y2"]);
         assert_eq!((laser.mnemonic(b"G21\n"), laser.mnemonic(b"S400\n")), (&b"G21"[..], &b"S"[..]));

@@ -6,6 +6,9 @@ use crate::plotter::Point;
 /// Ends every command.
 const ETX: u8 = 0x03;
 
+/// Time to look for printed marks, s: a guess, since the machine says when it has them.
+const SEARCH_S: f64 = 20.0;
+
 /// GP-GL.
 #[derive(Debug, Clone, Copy)]
 pub struct Gpgl;
@@ -15,11 +18,11 @@ impl Dialect for Gpgl {
         "gpgl"
     }
 
-    fn travel(&self, to: Point) -> Vec<u8> {
+    fn travel(&self, _: Point, to: Point) -> Vec<u8> {
         format!("M{},{}\x03", to.x(), to.y()).into_bytes()
     }
 
-    fn draw(&self, through: &[Point]) -> Vec<Vec<u8>> {
+    fn draw(&self, _: Point, through: &[Point]) -> Vec<Vec<u8>> {
         chunked(b"D", self.tail(), through)
     }
 
@@ -29,7 +32,7 @@ impl Dialect for Gpgl {
 
     /// A move to where the pen is.
     fn lift(&self, at: Point) -> Vec<u8> {
-        self.travel(at)
+        self.travel(at, at)
     }
 
     fn lower(&self, _: Point) -> Vec<u8> {
@@ -57,7 +60,21 @@ impl Dialect for Gpgl {
     fn mnemonic<'a>(&self, command: &'a [u8]) -> &'a [u8] {
         let command = command.trim_ascii_start();
         let letters = command.iter().take_while(|b| b.is_ascii_alphabetic()).count();
-        &command[..letters.max(1).min(command.len())]
+        // The number after TB is a part of the name.
+        let digits = match &command[..letters] {
+            b"TB" => command[letters..].iter().take_while(|b| b.is_ascii_digit()).count(),
+            _ => 0,
+        };
+        &command[..(letters + digits).max(1).min(command.len())]
+    }
+
+    fn seconds(&self, command: &[u8]) -> Option<f64> {
+        self.is_search(command).then_some(SEARCH_S)
+    }
+
+    /// By hand, three marks, four marks.
+    fn is_search(&self, command: &[u8]) -> bool {
+        matches!(self.mnemonic(command), b"TB23" | b"TB123" | b"TB124")
     }
 
     fn meaning(&self, command: &[u8]) -> Meaning {
@@ -88,11 +105,13 @@ mod tests {
     #[test]
     fn exact_bytes() {
         let at = Point::new(200, 45);
-        assert_eq!(Gpgl.travel(at), b"M200,45\x03");
-        assert_eq!(Gpgl.draw(&[at, Point::new(0, 7)]), [b"D200,45,0,7\x03"]);
+        assert_eq!(Gpgl.travel(at, at), b"M200,45\x03");
+        assert_eq!(Gpgl.draw(at, &[at, Point::new(0, 7)]), [b"D200,45,0,7\x03"]);
         assert_eq!((Gpgl.lift(at), Gpgl.lower(at)), (b"M200,45\x03".to_vec(), Vec::new()));
         assert_eq!(Gpgl.split(b"!10\x03FX14\x03M0,0\x03"), [&b"!10\x03"[..], b"FX14\x03", b"M0,0\x03"]);
         assert_eq!(Gpgl.split(b"\x1b\x04FN0\x03"), [&b"\x1b\x04"[..], b"FN0\x03"]);
         assert_eq!((Gpgl.mnemonic(b"FX14\x03"), Gpgl.mnemonic(b"!10\x03")), (&b"FX"[..], &b"!"[..]));
+        assert_eq!((Gpgl.mnemonic(b"TB50,0\x03"), Gpgl.mnemonic(b"TB99\x03")), (&b"TB50"[..], &b"TB99"[..]));
+        assert!(Gpgl.is_search(b"TB123,1,2,3,4\x03") && !Gpgl.is_search(b"TB50,0\x03"));
     }
 }

@@ -19,11 +19,11 @@ impl Dialect for Hpgl {
         "hpgl"
     }
 
-    fn travel(&self, to: Point) -> Vec<u8> {
+    fn travel(&self, _: Point, to: Point) -> Vec<u8> {
         format!("PU{},{};", to.x(), to.y()).into_bytes()
     }
 
-    fn draw(&self, through: &[Point]) -> Vec<Vec<u8>> {
+    fn draw(&self, _: Point, through: &[Point]) -> Vec<Vec<u8>> {
         chunked(b"PD", self.tail(), through)
     }
 
@@ -123,8 +123,8 @@ mod tests {
     #[test]
     fn exact_bytes() {
         let at = Point::new(-40, 11040);
-        assert_eq!(Hpgl.travel(at), b"PU-40,11040;");
-        assert_eq!(Hpgl.draw(&[at, Point::new(0, 7)]), [b"PD-40,11040,0,7;"]);
+        assert_eq!(Hpgl.travel(at, at), b"PU-40,11040;");
+        assert_eq!(Hpgl.draw(at, &[at, Point::new(0, 7)]), [b"PD-40,11040,0,7;"]);
         assert_eq!((Hpgl.lift(at), Hpgl.lower(at)), (b"PU;".to_vec(), b"PD;".to_vec()));
         assert_eq!(Hpgl.switch_xon_xoff_on(256), b"\x1b.I256;;17:\x1b.N;19:");
     }

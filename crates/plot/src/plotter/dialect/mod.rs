@@ -1,6 +1,7 @@
 //! The languages of plotters, one file each behind one trait.
 
 mod dmpl;
+mod ebb;
 mod gcode;
 mod gpgl;
 mod hpgl;
@@ -8,6 +9,7 @@ mod hpgl;
 use super::Point;
 
 pub use dmpl::Dmpl;
+pub use ebb::Ebb;
 pub use gcode::{Gcode, UNITS_PER_MM};
 pub use gpgl::Gpgl;
 pub use hpgl::Hpgl;
@@ -71,11 +73,11 @@ pub trait Dialect: Send + Sync + std::fmt::Debug {
     /// Name in small letters, as in profiles.
     fn name(&self) -> &'static str;
 
-    /// Moves with the pen up, as one whole command.
-    fn travel(&self, to: Point) -> Vec<u8>;
+    /// Moves with the pen up from where it is, as whole commands.
+    fn travel(&self, from: Point, to: Point) -> Vec<u8>;
 
-    /// Moves with the pen down, as whole commands of at most [`LONGEST_COMMAND`] bytes.
-    fn draw(&self, through: &[Point]) -> Vec<Vec<u8>>;
+    /// Moves with the pen down from where it is, as whole commands of at most [`LONGEST_COMMAND`] bytes.
+    fn draw(&self, from: Point, through: &[Point]) -> Vec<Vec<u8>>;
 
     /// What ends a command.
     fn tail(&self) -> &'static [u8];
@@ -110,6 +112,22 @@ pub trait Dialect: Send + Sync + std::fmt::Debug {
     /// empty where the language cannot.
     fn state_question(&self) -> &'static [u8] {
         b""
+    }
+
+    /// Whether this command makes the machine look for printed marks: it answers when it has, and counts from
+    /// them afterwards.
+    fn is_search(&self, _command: &[u8]) -> bool {
+        false
+    }
+
+    /// Time that a command takes, s, where that does not follow from the speed of the machine.
+    fn seconds(&self, _command: &[u8]) -> Option<f64> {
+        None
+    }
+
+    /// Whether all moves are distances, so that what is left of a job begins with a way from the origin.
+    fn counts_distances(&self) -> bool {
+        false
     }
 
     /// Whether a machine acknowledges this command only when all before it is done.
@@ -187,6 +205,7 @@ fn pairs(parameters: &[u8]) -> Option<Vec<Point>> {
 mod tests {
     use super::*;
 
+    /// Those that write positions; that of the EBB writes distances.
     fn dialects() -> [Box<dyn Dialect>; 4] {
         [Box::new(Hpgl), Box::new(Gpgl), Box::new(Dmpl), Box::new(Gcode::new("M5\n", &["M4\n"]))]
     }
@@ -195,7 +214,7 @@ mod tests {
     fn commands_are_short_and_lose_no_position() {
         let through: Vec<Point> = (0..200).map(|k| Point::new(k * 163 - 16000, -k * 161)).collect();
         for dialect in dialects() {
-            let commands = dialect.draw(&through);
+            let commands = dialect.draw(Point::default(), &through);
             assert!(commands.iter().all(|c| c.len() <= LONGEST_COMMAND), "{}", dialect.name());
             let file = commands.concat();
             assert_eq!(dialect.split(&file), commands, "{}", dialect.name());
@@ -211,7 +230,7 @@ mod tests {
     fn every_first_part_of_a_command_is_incomplete() {
         for dialect in dialects() {
             // DMPL has no sign that ends a command but its comma.
-            let command = dialect.travel(Point::new(12, 345));
+            let command = dialect.travel(Point::default(), Point::new(12, 345));
             assert_eq!(dialect.first(&command), Some(command.len()), "{}", dialect.name());
             for end in 1..command.len() - 1 {
                 let found = dialect.first(&command[..end]);

@@ -3,13 +3,16 @@
 use super::fields::{Ascii, BladeOffset, DialectName, DirectionName, OriginName, Positive, RatioText};
 use super::grbl::Grbl;
 use super::level::Level;
+use super::search::Search;
 use super::{ProfileError, check_unverified};
-use crate::plotter::dialect::{Dialect, Dmpl, Gcode, Gpgl, Hpgl, UNITS_PER_MM};
+use crate::plotter::dialect::{Dialect, Dmpl, Ebb, Gcode, Gpgl, Hpgl, UNITS_PER_MM};
 use crate::plotter::{Direction, Frame, Origin};
 use crate::toolpath::Operation;
 use glam::DVec2;
 use serde::Deserialize;
+use std::collections::BTreeMap;
 use std::sync::Arc;
+use tatamu_draw::drawing::Registration;
 
 /// How the program keeps from sending more than the machine has room for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -27,14 +30,16 @@ pub enum Handshake {
     Paced,
     /// The machine says `ok` to each line, and what it has not said that of has to fit its buffer (GRBL).
     Count,
+    /// The machine says `OK` to each command, and gets the next one then (EBB).
+    Ok,
     /// The port itself takes no more than the machine has room for, and the machine says whether it is ready.
     Usb,
 }
 
 impl Handshake {
     /// All of them, in the order of help texts.
-    pub const ALL: [Self; 7] =
-        [Self::Auto, Self::EscB, Self::RtsCts, Self::XonXoff, Self::Paced, Self::Count, Self::Usb];
+    pub const ALL: [Self; 8] =
+        [Self::Auto, Self::EscB, Self::RtsCts, Self::XonXoff, Self::Paced, Self::Count, Self::Ok, Self::Usb];
 
     /// Name in small letters.
     pub fn name(self) -> &'static str {
@@ -45,6 +50,7 @@ impl Handshake {
             Self::XonXoff => "xonxoff",
             Self::Paced => "paced",
             Self::Count => "count",
+            Self::Ok => "ok",
             Self::Usb => "usb",
         }
     }
@@ -122,13 +128,13 @@ impl TryFrom<SerialTable> for Serial {
         };
         ensure((least..=1 << 30).contains(&buffer_bytes), message)?;
         ensure(
-            answers || handshake != Handshake::Count,
-            "count needs a machine that answers: set answers = true",
+            answers || !matches!(handshake, Handshake::Count | Handshake::Ok),
+            "count and ok need a machine that answers: set answers = true",
         )?;
         let needs_answers = [handshake, fallback].contains(&Handshake::EscB);
         ensure(answers || !needs_answers, "escb needs a machine that answers: set answers = true")?;
         ensure(
-            !matches!(fallback, Handshake::Auto | Handshake::EscB | Handshake::Count | Handshake::Usb),
+            matches!(fallback, Handshake::RtsCts | Handshake::XonXoff | Handshake::Paced),
             "fallback must be rtscts, xonxoff or paced",
         )?;
         Ok(Self { baud, data_bits, parity, stop_bits, handshake, fallback, buffer_bytes, answers })
@@ -189,6 +195,7 @@ pub struct Cutter {
     speed: Option<Level>,
     power: Option<Level>,
     grbl: Option<Grbl>,
+    marks: BTreeMap<String, Search>,
     tools: [Option<MachineTool>; Operation::ALL.len()],
 }
 
@@ -204,27 +211,47 @@ impl Cutter {
         let tools = [tools.pen, tools.crease, tools.fold_hinge, Some(tools.cut)];
         let lower: Vec<&str> = tools.iter().flatten().map(MachineTool::lower).collect();
         let lift = file.commands.lift.0.as_str();
+        let units = file.frame.0.units_per_mm().value();
+        let ensure = |holds: bool, message| if holds { Ok(()) } else { Err(ProfileError::Whole(message)) };
+        let speeds_mm_s = [file.motion.travel_mm_s.0, file.motion.draw_mm_s.0];
+        let ebb = || Ebb::new(lift, units, speeds_mm_s, file.motion.acceleration_mm_s2.0);
+        let too_fast = "the motors step at most 25000 times a second: lower travel_mm_s and draw_mm_s";
         let dialect: Arc<dyn Dialect> = match file.dialect {
             DialectName::Hpgl => Arc::new(Hpgl),
             DialectName::Gpgl => Arc::new(Gpgl),
             DialectName::Dmpl => Arc::new(Dmpl),
             DialectName::Gcode => Arc::new(Gcode::new(lift, &lower)),
+            DialectName::Ebb => Arc::new(ebb().ok_or(ProfileError::Whole(too_fast))?),
         };
         let is_gcode = file.dialect == DialectName::Gcode;
         let counts = file.serial.handshake == Handshake::Count;
-        let units = file.frame.0.units_per_mm().value();
-        let ensure = |holds: bool, message| if holds { Ok(()) } else { Err(ProfileError::Whole(message)) };
+        let is_ebb = file.dialect == DialectName::Ebb;
+        let has_own_pen = is_gcode || is_ebb;
         ensure(!is_gcode || units == f64::from(UNITS_PER_MM), "gcode needs units_per_mm = \"1000\"")?;
         let has_lines = !lift.is_empty() && lower.iter().all(|text| !text.is_empty());
-        ensure(!is_gcode || has_lines, "gcode needs lift in [commands], and lower in each of the tools")?;
         ensure(
-            is_gcode || lift.is_empty() && lower.concat().is_empty(),
-            "lift and lower are for gcode only",
+            !has_own_pen || has_lines,
+            "gcode and ebb need lift in [commands], and lower in each of the tools",
+        )?;
+        ensure(
+            has_own_pen || lift.is_empty() && lower.concat().is_empty(),
+            "lift and lower are for gcode and ebb only",
+        )?;
+        ensure(
+            is_ebb == (file.serial.handshake == Handshake::Ok),
+            "ebb and handshake = \"ok\" need each other",
         )?;
         ensure(counts == file.grbl.is_some(), "handshake = \"count\" and the table [grbl] need each other")?;
         ensure(is_gcode || !counts, "handshake = \"count\" is for gcode only")?;
         let has_state = !dialect.state_question().is_empty() || file.serial.handshake != Handshake::Usb;
         ensure(has_state, "handshake = \"usb\" is for gpgl only")?;
+        let knows = |name: &String| Registration::of_name(name).is_some_and(Registration::is_for_machines);
+        ensure(file.marks.keys().all(knows), "[marks] has tables silhouette and silhouette-alpha only")?;
+        let looks = |search: &Search| {
+            let text = search.command([DVec2::ZERO, DVec2::ONE], DVec2::ONE, &file.frame.0);
+            dialect.split(text.as_bytes()).last().is_some_and(|command| dialect.is_search(command))
+        };
+        ensure(file.marks.values().all(looks), "search must end with TB123 or TB124, and is for gpgl only")?;
         Ok(Self {
             text: text.to_owned(),
             name: file.name,
@@ -239,6 +266,7 @@ impl Cutter {
             speed: file.speed,
             power: file.power,
             grbl: file.grbl,
+            marks: file.marks,
             tools,
         })
     }
@@ -274,7 +302,8 @@ impl Cutter {
             Handshake::EscB => self.can_be_asked(),
             Handshake::Count => self.grbl.is_some(),
             Handshake::Usb => !self.dialect.state_question().is_empty(),
-            _ => true,
+            Handshake::Ok => self.dialect.counts_distances(),
+            _ => !self.dialect.counts_distances(),
         }
     }
 
@@ -286,6 +315,11 @@ impl Cutter {
     /// How a session with GRBL begins and pauses, where it speaks that.
     pub fn grbl(&self) -> Option<&Grbl> {
         self.grbl.as_ref()
+    }
+
+    /// How it looks for marks of a kind, where it can.
+    pub fn search(&self, marks: Registration) -> Option<&Search> {
+        self.marks.get(marks.name())
     }
 
     /// Its coordinates.
@@ -382,6 +416,8 @@ struct CutterFile {
     speed: Option<Level>,
     power: Option<Level>,
     grbl: Option<Grbl>,
+    #[serde(default)]
+    marks: BTreeMap<String, Search>,
     tools: ToolTables,
 }
 

@@ -115,6 +115,7 @@ pub(super) enum DialectName {
     Gpgl,
     Dmpl,
     Gcode,
+    Ebb,
 }
 
 impl TryFrom<String> for DialectName {
@@ -126,7 +127,8 @@ impl TryFrom<String> for DialectName {
             "gpgl" => Ok(Self::Gpgl),
             "dmpl" => Ok(Self::Dmpl),
             "gcode" => Ok(Self::Gcode),
-            _ => Err(format!("\"{name}\" is not a dialect; use hpgl, gpgl, dmpl or gcode")),
+            "ebb" => Ok(Self::Ebb),
+            _ => Err(format!("\"{name}\" is not a dialect; use hpgl, gpgl, dmpl, gcode or ebb")),
         }
     }
 }

@@ -22,9 +22,8 @@ macro_rules! profiles {
 
 /// Cutters.
 pub const CUTTERS: &[Profile] = profiles!["cutters":
-    "generic-hpgl", "hp-7475a", "hp-7550a", "roland-camm-1", "graphtec", "silhouette", "silhouette-classic",
-    "vinyl-cutter",
-    "dmpl", "pen-plotter", "grbl-laser", "grbl-knife", "grbl-pen",
+    "generic-hpgl", "hp-7475a", "hp-7550a", "roland-camm-1", "graphtec", "silhouette", "silhouette-alpha",
+    "silhouette-classic", "vinyl-cutter", "dmpl", "pen-plotter", "grbl-laser", "grbl-knife", "grbl-pen", "axidraw",
 ];
 
 /// Media.
@@ -90,7 +89,7 @@ mod tests {
     #[test]
     fn mistakes_are_shown_with_their_line() {
         for (name, from, to, word) in [
-            ("generic-hpgl", "dialect = \"hpgl\"", "dialect = \"gerber\"", "hpgl, gpgl, dmpl or gcode"),
+            ("generic-hpgl", "dialect = \"hpgl\"", "dialect = \"gerber\"", "hpgl, gpgl, dmpl, gcode or ebb"),
             ("generic-hpgl", "units_per_mm = \"40\"", "units_per_mm = \"forty\"", "5105/127"),
             ("generic-hpgl", "x = \"right\"", "x = \"east\"", "right"),
             ("generic-hpgl", "travel_mm_s = ", "travel_mm_s = -", "above 0"),

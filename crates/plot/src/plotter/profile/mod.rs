@@ -7,12 +7,14 @@ mod grbl;
 mod level;
 mod library;
 mod media;
+mod search;
 
 pub use cutter::{Cutter, Handshake, MachineTool, Parity, Serial};
 pub use grbl::Grbl;
 pub use level::Level;
 pub use library::{CUTTERS, MEDIA, Profile};
 pub use media::{Media, Work};
+pub use search::Search;
 
 /// Why a profile cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

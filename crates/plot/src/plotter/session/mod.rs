@@ -8,10 +8,12 @@
 //! - However a session ends, unless the port is lost, the last thing that is sent lifts the tool.
 
 mod ask;
+mod ebb;
 mod grbl;
 mod ledger;
 mod line;
 mod replies;
+mod search;
 mod stream;
 mod usb;
 
@@ -21,10 +23,12 @@ use super::profile::{Grbl, Handshake, Serial};
 use super::{Cutter, Job, Point};
 use crate::plotter::dialect::Dialect;
 use ask::{Ask, Question};
+use ebb::Board;
 use grbl::Counter;
 use ledger::Ledger;
 use line::Line;
 use replies::{Replies, Reply};
+use search::Search;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;
@@ -60,6 +64,15 @@ pub enum End {
     NoAnswer,
     /// The machine refuses a line (`error:N` of GRBL).
     Rejected(u16),
+    /// The machine refuses a command (`!N` of the EBB).
+    Refused(u16),
+    /// The firmware of the machine is too old; nothing was sent.
+    Firmware {
+        /// Its version.
+        found: [u32; 3],
+        /// The oldest one that will do.
+        needed: [u32; 3],
+    },
     /// The machine is in alarm (`ALARM:N` of GRBL). The tool was not lifted.
     Alarm(u16),
     /// The machine is locked or busy; nothing was sent.
@@ -75,6 +88,10 @@ pub enum End {
     Restarted,
     /// The machine is idle at another place than the lines that were sent lead to.
     LinesLost,
+    /// The machine did not find the printed marks; nothing was cut.
+    MarksNotFound,
+    /// The machine did not say whether it found the printed marks; nothing was cut.
+    MarksUnanswered,
     /// The port is gone. Where the tool is is not known.
     PortLost,
 }
@@ -147,6 +164,8 @@ pub struct Session {
     grbl: Option<Grbl>,
     counter: Counter,
     poll: Poll,
+    board: Board,
+    search: Search,
     phase: Phase,
     /// The next command of the job.
     next: usize,
@@ -184,6 +203,8 @@ impl Session {
             grbl: cutter.grbl().cloned(),
             counter: Counter::default(),
             poll: Poll::default(),
+            board: Board::default(),
+            search: Search::default(),
             phase: Phase::Probe,
             next: 0,
             inserted: VecDeque::new(),
@@ -205,8 +226,11 @@ impl Session {
         for reply in self.replies.read(bytes) {
             match reply {
                 Reply::Line(line) if self.handshake == Handshake::Count => self.grbl_answered(&line),
+                Reply::Line(line) if self.search.is_going_on() => self.search.answered(&line),
                 Reply::Line(line) if self.handshake == Handshake::Usb => self.usb_answered(&line),
-                Reply::Go | Reply::Stop if matches!(self.handshake, Handshake::Count | Handshake::Usb) => {}
+                Reply::Line(line) if self.handshake == Handshake::Ok => self.ebb_answered(&line),
+                Reply::Go | Reply::Stop
+                    if matches!(self.handshake, Handshake::Count | Handshake::Ok | Handshake::Usb) => {}
                 Reply::Go => self.is_held = false,
                 Reply::Stop => self.is_held = true,
                 Reply::Line(line) => self.answered(&line),
@@ -276,6 +300,7 @@ impl Session {
         match self.handshake {
             Handshake::Count => return self.grbl_step(now),
             Handshake::Usb => return self.usb_step(now),
+            Handshake::Ok => return self.ebb_step(now),
             _ => {}
         }
         match self.phase {

@@ -1,5 +1,6 @@
 //! Sending, pausing, finishing and stopping.
 
+use super::search::Search;
 use super::{End, Handshake, MOST_IN_FLIGHT, Phase, Question, RESERVE, Session, Step};
 use std::time::Duration;
 
@@ -27,7 +28,7 @@ impl Session {
             return self.begin_stop(End::Device(self.ask.error), now);
         }
         self.ledger_by_flow(now);
-        if let Some(step) = self.keep_asking(now) {
+        if let Some(step) = self.keep_asking(now).or_else(|| self.await_marks(now)) {
             return step;
         }
         self.heed_pause();
@@ -53,7 +54,7 @@ impl Session {
                 let held = self.line.in_flight(now) + buffer;
                 self.ledger.taken(self.ledger.total().saturating_sub(held as u64));
             }
-            Handshake::Auto | Handshake::EscB | Handshake::Count => {}
+            Handshake::Auto | Handshake::EscB | Handshake::Count | Handshake::Ok => {}
         }
     }
 
@@ -97,15 +98,24 @@ impl Session {
                 self.ledger.sent(length, self.ledger.strokes_done(), 0.0, arrival);
                 out.extend(self.inserted.pop_front().unwrap_or_default());
             } else if let Some(command) = self.job.commands().get(self.next) {
+                let before = self.certain;
                 if self.handshake != Handshake::Count || self.dialect.waits(command.bytes()) {
                     self.certain = command.strokes_done();
                 }
-                self.ledger.sent(length, self.certain, command.seconds(), arrival);
+                // A board says OK when the command before begins.
+                let certain = if self.handshake == Handshake::Ok { before } else { self.certain };
+                self.ledger.sent(length, certain, command.seconds(), arrival);
                 self.counter.sent(command.motions().last().map(|motion| motion.to));
                 out.extend(command.bytes());
                 self.at = command.ends_at();
                 self.is_down = command.is_down_after();
+                let is_search = self.dialect.is_search(command.bytes());
                 self.next += 1;
+                if is_search {
+                    self.search = Search::Sent;
+                    self.line.sent(length, now);
+                    break;
+                }
             }
             self.line.sent(length, now);
         }
@@ -121,6 +131,7 @@ impl Session {
                 Handshake::EscB => length <= self.credit(),
                 Handshake::Paced => self.ledger.held_by_time(now) + length + RESERVE <= self.ask.size,
                 Handshake::Count => self.ledger.unanswered_bytes() + length <= self.ask.size,
+                Handshake::Ok => self.ledger.unanswered_bytes() == 0,
                 Handshake::Auto | Handshake::RtsCts | Handshake::XonXoff | Handshake::Usb => true,
             }
     }
@@ -139,6 +150,7 @@ impl Session {
         bytes.extend(self.dialect.lift(self.at));
         bytes.extend(self.stop.as_bytes());
         self.is_down = false;
+        self.search = Search::Over;
         self.ask.open = None;
         self.ask.stage = 0;
         self.phase = Phase::Finish(end);

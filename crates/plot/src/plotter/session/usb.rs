@@ -47,9 +47,9 @@ impl Session {
         }
     }
 
-    /// An answer came: a digit.
+    /// An answer came: a digit. Numbers with blanks before them are answers to other questions.
     pub(super) fn usb_answered(&mut self, line: &str) {
-        let state = match line.trim() {
+        let state = match line.trim_end() {
             "0" => State::Ready,
             "1" => State::Moving,
             "2" => State::Unloaded,
