@@ -281,3 +281,47 @@ fn a_test_cut_can_be_looked_at() {
     assert!(String::from_utf8_lossy(&output.stdout).contains("test cut: 5 strokes"));
     assert!(std::fs::read(folder.path().join("cut.png")).unwrap().starts_with(b"\x89PNG"));
 }
+
+/// A sheet with marks, sent to a machine on USB that finds them or does not.
+#[test]
+fn a_silhouette_cuts_where_the_marks_are_or_not_at_all() {
+    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/samples/box.obj");
+    let silhouette = ["--cutter", "silhouette"];
+    let speeds = ["--speedup", "500", "--baud", "1000000", "--buffer", "1000000"];
+    for (found, marks) in [(true, &["--marks-at", "12.5,8"][..]), (false, &[])] {
+        let folder = tempfile::tempdir().unwrap();
+        let machine = Machine::start(folder.path(), &[&silhouette[..], &speeds, marks].concat());
+        let output = tatamu(folder.path())
+            .args(["plot", model, "--effort", "0", "--only", "1", "--marks", "silhouette", "--yes"])
+            .args(silhouette)
+            .args(["--port", &machine.port])
+            .output()
+            .unwrap();
+        let report = machine.report();
+        assert!(report.contains("lost 0, broken commands 0") && report.contains("pen up"), "{report}");
+        assert_eq!(output.status.success(), found, "{}", said(&output));
+        assert_eq!(lines_drawn(&report) > 100, found, "{report}");
+        if !found {
+            assert_eq!(lines_drawn(&report), 0, "{report}");
+            assert!(said(&output).contains("did not find the registration marks"), "{}", said(&output));
+            assert!(said(&output).contains("nothing was cut"), "{}", said(&output));
+            assert!(folder.path().join("box.tatamu-job").exists());
+        }
+    }
+}
+
+#[test]
+fn an_axidraw_draws_the_test_figure() {
+    let folder = tempfile::tempdir().unwrap();
+    let axidraw = ["--cutter", "axidraw"];
+    let machine = Machine::start(folder.path(), &[&axidraw[..], &["--speedup", "20"]].concat());
+    let output = tatamu(folder.path())
+        .args(["plot", "--test-cut", "--media", "pen", "--yes", "--port", &machine.port])
+        .args(axidraw)
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    let report = machine.report();
+    assert!(report.contains("lost 0, broken commands 0") && report.contains("pen up"), "{report}");
+    assert!(lines_drawn(&report) > 20, "{report}");
+}

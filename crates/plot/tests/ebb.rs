@@ -40,6 +40,9 @@ struct Rehearsal {
     stop_wishes: u32,
     /// A command that does not arrive.
     swallowed: Option<&'static str>,
+    /// How late each answer comes.
+    late: Duration,
+    answers: VecDeque<(Duration, Vec<u8>)>,
     now: Duration,
     port: VecDeque<u8>,
     notes: Vec<String>,
@@ -54,6 +57,8 @@ impl Rehearsal {
             stop_at: None,
             stop_wishes: 1,
             swallowed: None,
+            late: Duration::ZERO,
+            answers: VecDeque::new(),
             now: Duration::ZERO,
             port: VecDeque::new(),
             notes: Vec::new(),
@@ -94,7 +99,10 @@ impl Rehearsal {
         }
         self.machine.run_until(self.now);
         let answers = self.machine.take_answers(self.now);
-        self.session.received(&answers);
+        self.answers.push_back((self.now + self.late, answers));
+        while self.answers.front().is_some_and(|(due, _)| *due <= self.now) {
+            self.answers.pop_front().iter().for_each(|(_, bytes)| self.session.received(bytes));
+        }
     }
 }
 
@@ -253,4 +261,32 @@ fn a_board_that_is_silent_or_old_is_sent_nothing() {
     session.received(b"EBBv13_and_above EB Firmware Version 2.5.3\r\n");
     let Step::Done(outcome) = session.step(Duration::from_millis(5), 0) else { panic!("goes on") };
     assert_eq!(outcome.end, End::Firmware { found: [2, 5, 3], needed: [2, 6, 2] });
+}
+
+#[test]
+fn answers_that_come_late_change_nothing_of_what_is_drawn() {
+    let cutter = axidraw();
+    let job = figure(&cutter);
+    for late_ms in [30, 700, 2500] {
+        let mut rehearsal = Rehearsal::new(&job, &cutter, options(Faults::default()));
+        rehearsal.late = Duration::from_millis(late_ms);
+        let outcome = rehearsal.run();
+        assert_eq!((outcome.end, outcome.is_confirmed), (End::Finished, true), "{late_ms} ms");
+        assert_eq!(drawn(rehearsal.machine.motions()), drawn(&meant(&job, &cutter)), "{late_ms} ms");
+        assert!(!rehearsal.machine.is_pen_down() && !rehearsal.machine.is_powered(), "{late_ms} ms");
+    }
+}
+
+#[test]
+fn a_megabyte_loses_nothing() {
+    let cutter = axidraw();
+    let figure = figure(&cutter);
+    // Each figure begins by switching the motors on at home, where the one before ends.
+    let job = figure.repeat(1_100_000 / figure.len());
+    let faults = Faults { slowness: 1e-3, ..Faults::default() };
+    let mut rehearsal = Rehearsal::new(&job, &cutter, options(faults));
+    assert_eq!(rehearsal.run().end, End::Finished);
+    assert!(rehearsal.machine.received() > 1_000_000);
+    assert_eq!((rehearsal.machine.lost(), rehearsal.machine.broken()), (0, 0));
+    assert_eq!(drawn(rehearsal.machine.motions()), drawn(&meant(&job, &cutter)));
 }

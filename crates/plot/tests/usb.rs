@@ -7,7 +7,8 @@ use tatamu_draw::drawing::{Drawing, Layer, LineStyles, Mark, Registration};
 use tatamu_plot::plotter::profile::{CUTTERS, Handshake};
 use tatamu_plot::plotter::session::{End, Outcome, SLOWNESS, Session, Step};
 use tatamu_plot::plotter::{
-    Cutter, Faults, Job, Media, Motion, Plan, VirtualMachine, VirtualOptions, VirtualPlotter, test_cut,
+    Cutter, Faults, Job, Media, Motion, Plan, VirtualMachine, VirtualOptions, VirtualPlotter, preview,
+    strokes, test_cut,
 };
 
 const TOO_LONG: Duration = Duration::from_secs(2000);
@@ -24,6 +25,9 @@ struct Rehearsal {
     session: Session,
     machine: VirtualPlotter,
     stop_at: Option<u64>,
+    /// How late each answer comes.
+    late: Duration,
+    answers: VecDeque<(Duration, Vec<u8>)>,
     now: Duration,
     port: VecDeque<u8>,
     notes: Vec<String>,
@@ -37,6 +41,8 @@ impl Rehearsal {
             session: Session::new(job, cutter, Handshake::Usb, None),
             machine: VirtualPlotter::new(cutter, options),
             stop_at: None,
+            late: Duration::ZERO,
+            answers: VecDeque::new(),
             now: Duration::ZERO,
             port: VecDeque::new(),
             notes: Vec::new(),
@@ -78,7 +84,10 @@ impl Rehearsal {
             }
         }
         let answers = self.machine.take_answers(self.now);
-        self.session.received(&answers);
+        self.answers.push_back((self.now + self.late, answers));
+        while self.answers.front().is_some_and(|(due, _)| *due <= self.now) {
+            self.answers.pop_front().iter().for_each(|(_, bytes)| self.session.received(bytes));
+        }
     }
 }
 
@@ -200,6 +209,21 @@ fn lost_and_garbled_answers_do_no_harm() {
 }
 
 #[test]
+fn answers_that_come_late_do_no_harm() {
+    let cutter = cutter("silhouette");
+    let plan = marked(&cutter, Registration::Silhouette);
+    for late_ms in [300, 1400, 4000] {
+        let mut rehearsal = Rehearsal::new(plan.bytes(), &cutter, with_marks(Some([10.0, 10.0])));
+        rehearsal.late = Duration::from_millis(late_ms);
+        let outcome = rehearsal.run();
+        assert_eq!(outcome.end, End::Finished, "{late_ms} ms");
+        let down = |motions: &[Motion]| motions.iter().filter(|motion| motion.is_down).count();
+        assert_eq!(down(rehearsal.machine.motions()), down(&meant(plan.bytes(), &cutter)), "{late_ms} ms");
+        assert!(!rehearsal.machine.is_pen_down(), "{late_ms} ms");
+    }
+}
+
+#[test]
 fn a_machine_without_a_sheet_is_sent_nothing_until_it_has_one() {
     let cutter = cutter("silhouette");
     let mut session =
@@ -269,6 +293,33 @@ fn the_bytes_that_look_for_marks() {
         assert!(!String::from_utf8_lossy(plan.bytes()).contains("TB99"), "{marks:?}");
         assert_eq!(plan.notes().join("").contains("does not look for"), note, "{:?}", plan.notes());
     }
+}
+
+/// The preview of a job that counts from marks shows it where it lies on the sheet.
+#[test]
+fn a_preview_shows_the_marks_and_the_lines_on_the_sheet() {
+    let cutter = cutter("silhouette");
+    let plan = marked(&cutter, Registration::Silhouette);
+    let job = Job::parse(plan.bytes(), &cutter).expect("valid");
+    assert_eq!(plan.placement().marks_mm(), Some([DVec2::splat(10.0), DVec2::new(200.0, 287.0)]));
+    let corner = strokes(&job, &cutter, plan.placement())[0][0] - plan.toolpath().strokes()[0].shaft()[0];
+    let lines = strokes(&job, &cutter, plan.placement());
+    for (line, stroke) in lines.iter().zip(plan.toolpath().strokes()) {
+        let off = line[0].distance(stroke.shaft()[0] + corner);
+        assert!(off < 0.08, "{off}");
+    }
+    let without = Plan::new(
+        &Drawing { registration: None, ..marked_sheet(Registration::Silhouette) },
+        &cutter,
+        &Media::usual(),
+    );
+    let without = without.expect("fits");
+    let plain = Job::parse(without.bytes(), &cutter).expect("valid");
+    let count = |job: &Job, plan: &Plan| {
+        let picture = preview(job, &cutter, plan.placement());
+        picture.marks.len() - 2 * strokes(job, &cutter, plan.placement()).len()
+    };
+    assert_eq!(count(&job, &plan), count(&plain, &without) + 4);
 }
 
 #[test]

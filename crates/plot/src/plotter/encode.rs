@@ -53,6 +53,12 @@ impl Placement {
         self.sheet_mm
     }
 
+    /// The lower left and the upper right corner of the marks that the machine counts from, where it looks for
+    /// some, mm on the sheet.
+    pub fn marks_mm(&self) -> Option<[DVec2; 2]> {
+        (self.area_mm != [DVec2::ZERO, self.sheet_mm]).then_some(self.area_mm)
+    }
+
     /// Whether the sheet has to be turned by 90° to the left.
     pub fn is_turned(&self) -> bool {
         self.is_turned

@@ -17,8 +17,11 @@ const NUMBERS: usize = 120;
 const TRAVEL: Rgb = Rgb(130, 150, 130);
 const TIP: Rgb = Rgb(20, 20, 20);
 const SHEET: Rgb = Rgb(225, 225, 225);
+const MARKS: Rgb = Rgb(150, 150, 150);
+/// Arms of the corners that show registration marks, mm.
+const MARK_ARM_MM: f64 = 8.0;
 
-/// A picture of a job on its sheet: travel as thin grey lines, strokes of the shaft from blue (first)
+/// A picture of a job on its sheet, with the corners of marks that the machine looks for: travel as thin grey lines, strokes of the shaft from blue (first)
 /// to red (last) with a dot where each begins and a number at some, and the way of the tip as a thin
 /// black line.
 pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
@@ -34,6 +37,7 @@ pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
         corners.map(|p| p + shift).to_vec(),
         &Stroke::solid(0.3, SHEET),
     ));
+    picture.marks.extend(placement.marks_mm().into_iter().flat_map(|marks_mm| marks(marks_mm, shift)));
     let runs = runs(job, cutter);
     let travel =
         runs.iter().filter(|run| !run.is_down).map(|run| run.points.iter().map(|&p| at(p)).collect());
@@ -77,6 +81,16 @@ pub fn strokes(job: &Job, cutter: &Cutter, placement: &Placement) -> Vec<Vec<DVe
     let at = |&p: &Point| placement.to_sheet(cutter.frame(), p) + corner();
     let drawn = runs(job, cutter).into_iter().filter(|run| run.is_down);
     drawn.map(|run| run.points.iter().map(at).collect()).collect()
+}
+
+/// The corners of the marks that the machine looks for.
+fn marks([low, high]: [DVec2; 2], shift: DVec2) -> impl Iterator<Item = Mark> {
+    let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+    corners.into_iter().map(move |at| {
+        let inwards = (low + high - 2.0 * at).signum() * MARK_ARM_MM;
+        let line = [at + DVec2::X * inwards.x, at, at + DVec2::Y * inwards.y].map(|p| p + shift);
+        Mark::polyline(Layer::Picture, line.to_vec(), &Stroke::solid(0.5, MARKS))
+    })
 }
 
 /// Where the sheet's corner is in the picture, mm.

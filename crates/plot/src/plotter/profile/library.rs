@@ -107,5 +107,18 @@ mod tests {
         // What is wrong with a table as a whole is shown where the table begins.
         let (message, _) = complaint("generic-hpgl", "y = \"up\"", "y = \"left\"");
         assert!(message.contains("perpendicular") && message.contains("line "), "{message}");
+        for (name, from, to, word) in [
+            ("silhouette", "{top},{left}", "{up},{left}", "search needs {top} once"),
+            ("silhouette", "[marks.silhouette]", "[marks.corners]", "silhouette and silhouette-alpha only"),
+            ("silhouette", "TB123", "TB51", "must end with TB123 or TB124"),
+            ("axidraw", "travel_mm_s = 100", "travel_mm_s = 300", "25000 times a second"),
+            ("axidraw", "handshake = \"ok\"", "handshake = \"paced\"", "need each other"),
+        ] {
+            let text = CUTTERS.iter().find(|p| p.name == name).expect("exists").text;
+            // What the list of unverified fields says of it goes with it.
+            let text = text.replace("\"marks.silhouette.search\", ", "").replacen(from, to, 1);
+            let message = Cutter::parse(&text).unwrap_err().to_string();
+            assert!(message.contains(word), "{to}: {message}");
+        }
     }
 }
