@@ -154,7 +154,7 @@ mod tests {
     }
 
     /// Flags that are no options of a model or its files: what a command reads and writes, and how it runs.
-    const OWN: [&str; 32] = [
+    const OWN: [&str; 33] = [
         "baud",
         "buffer",
         "clashes",
@@ -166,6 +166,7 @@ mod tests {
         "guide",
         "handshake",
         "list-configurations",
+        "marks-at",
         "mute",
         "once",
         "only",
