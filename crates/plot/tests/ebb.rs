@@ -166,7 +166,7 @@ fn a_command_that_does_not_arrive_is_sent_again_or_ends_the_job() {
 }
 
 #[test]
-fn an_error_answer_lifts_the_pen_and_is_told() {
+fn an_error_answer_lifts_the_pen_and_ends_the_job() {
     let cutter = axidraw();
     let job = figure(&cutter);
     for error_at in [60, 300, 600] {

@@ -91,7 +91,7 @@ impl VirtualEbb {
     fn read(&mut self) {
         while let Some(length) = self.dialect.first(self.buffer.make_contiguous()) {
             let command: Vec<u8> = self.buffer.iter().take(length).copied().collect();
-            if !self.heed(&command) {
+            if !self.take(&command) {
                 return;
             }
             self.buffer.drain(..length);
@@ -99,7 +99,7 @@ impl VirtualEbb {
     }
 
     /// Whether a command could be taken.
-    fn heed(&mut self, command: &[u8]) -> bool {
+    fn take(&mut self, command: &[u8]) -> bool {
         let name = self.dialect.mnemonic(command).to_ascii_uppercase();
         let meaning = self.dialect.meaning(command);
         let is_queued = matches!(meaning, Meaning::Move { .. }) || name == b"EM";

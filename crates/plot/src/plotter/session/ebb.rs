@@ -19,7 +19,7 @@ const LEAST_FIRMWARE: [u32; 3] = [2, 6, 2];
 /// Time for an answer to a question, and to a command beyond what was sent before it takes.
 const PATIENCE: Duration = Duration::from_millis(1000);
 const MARGIN: Duration = Duration::from_millis(2000);
-/// How often something is tried; so many questions in a row may be lost.
+/// How often something is tried, and how many questions in a row may be lost.
 const MOST_TRIES: u32 = 4;
 const MOST_SILENCES: u32 = 5;
 /// Time between two questions for the state.
