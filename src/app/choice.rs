@@ -52,6 +52,12 @@ impl Choice {
         self
     }
 
+    /// The same for any number of sheets.
+    pub fn of_any_sheets(mut self) -> Self {
+        self.settings.most_sheets = None;
+        self
+    }
+
     /// The same with colours of card for components of these names that have none.
     pub fn with_cards(mut self, cards: BTreeMap<String, &'static str>) -> Self {
         let components = &mut self.settings.model.components;

@@ -67,12 +67,7 @@ impl Made {
 fn folding(result: &Output) -> String {
     let plan = result.fold_plan();
     let parts = result.model().parts();
-    let told = |motion: &Motion| match (motion, &parts[motion.part()].name) {
-        (Motion::Fold(step), name) if step.ends_flat() => name.clone(),
-        (Motion::Fold(step), name) => format!("{name} to {:.0}%", 100.0 * step.to),
-        (Motion::Unplug(_), name) => format!("unplug {name}"),
-        (Motion::Plug(_), name) => format!("plug in {name}"),
-    };
+    let told = |motion: &Motion| product::motion_words(motion, &parts[motion.part()].name);
     let order: Vec<String> = plan.motions().iter().map(told).collect();
     let flat =
         |s: &Stack| format!("{:.0} × {:.0} mm, {}", s.size_mm.x, s.size_mm.y, counted(s.layers, "layer"));

@@ -184,6 +184,7 @@ pub fn written(
 ) -> Result<Vec<(PathBuf, Vec<u8>)>, AppError> {
     let mut files = Vec::new();
     for target in targets {
+        let first = files.len();
         let is_paged = matches!(target.format.source, Source::Pages(_));
         for (name, product) in if is_paged { products } else { &products[..1] } {
             let name = if is_paged { name } else { "" };
@@ -191,6 +192,12 @@ pub fn written(
                 let suffix = format!("{name}{}", file.suffix);
                 files.push((names::with_suffix(&target.path, &suffix), file.bytes));
             }
+        }
+        if output::is_standard_output(&target.path) {
+            let one_file =
+                AppError::Output { path: target.path.clone(), reason: output::ONE_FILE.to_owned() };
+            let [(name, _)] = &mut files[first..] else { return Err(one_file) };
+            *name = target.path;
         }
     }
     Ok(files)

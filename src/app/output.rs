@@ -7,6 +7,15 @@ use std::path::{Path, PathBuf};
 use tatamu::export::{FORMATS, Format, format_among};
 use tempfile::NamedTempFile;
 
+/// The name before the extension that stands for the standard output, as in `-.pdf`.
+const STANDARD_OUTPUT: &str = "-";
+
+/// Whether a name stands for the standard output; `./-.pdf` is a file of that name.
+pub fn is_standard_output(path: &Path) -> bool {
+    let has_folder = path.parent().is_some_and(|folder| !folder.as_os_str().is_empty());
+    !has_folder && path.extension().is_some() && path.file_stem() == Some(STANDARD_OUTPUT.as_ref())
+}
+
 /// A file name that the user gave, with its format.
 pub struct Target {
     /// The name.
@@ -46,7 +55,10 @@ pub fn targets_among(paths: &[PathBuf], lists: &[&'static [Format]]) -> Result<V
 /// of `inputs` would be lost.
 pub fn check_places(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), AppError> {
     let mut seen: BTreeSet<PathBuf> = BTreeSet::new();
-    for path in paths {
+    if paths.iter().filter(|path| is_standard_output(path)).count() > 1 {
+        return Err(AppError::Output { path: STANDARD_OUTPUT.into(), reason: ONE_FILE.to_owned() });
+    }
+    for path in paths.iter().filter(|path| !is_standard_output(path)) {
         let refuse = |reason: &str| AppError::Output { path: path.clone(), reason: reason.to_owned() };
         if path.is_dir() {
             return Err(refuse("it is a folder; add a file name"));
@@ -81,14 +93,17 @@ fn is_same_file(a: &Path, b: &Path) -> bool {
     }
 }
 
+/// Why the standard output is no place for several files.
+pub const ONE_FILE: &str = "the standard output takes one file; write others under names of their own";
 const TWICE: &str = "two options write it; choose another name";
 
-/// Writes all files to temporary files beside their places, then puts them into place. An error
-/// up to the last step leaves everything as it was.
+/// Writes all files to temporary files beside their places, then puts them into place, the one of the standard
+/// output last. An error up to the last step leaves everything as it was.
 pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), AppError> {
     let mut ready = Vec::with_capacity(files.len());
     let mut seen: BTreeSet<&Path> = BTreeSet::new();
-    for (path, bytes) in files {
+    let (printed, named): (Vec<_>, Vec<_>) = files.iter().partition(|(path, _)| is_standard_output(path));
+    for (path, bytes) in named {
         // The sheets of a.svg may be called as another file that the user asked for.
         if !seen.insert(path) {
             return Err(AppError::Output { path: path.clone(), reason: TWICE.to_owned() });
@@ -100,6 +115,10 @@ pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), AppError> {
     }
     for (path, file) in ready {
         file.persist(path).map_err(|error| failed(path, &error.error))?;
+    }
+    for (path, bytes) in printed {
+        let mut out = std::io::stdout().lock();
+        out.write_all(bytes).and_then(|()| out.flush()).map_err(|error| failed(path, &error))?;
     }
     Ok(())
 }

@@ -11,11 +11,13 @@ pub fn components(result: &Output, options: &Options) -> Vec<TemplateComponent> 
     let has_direction =
         |name: &str| result.options().components.get(name).is_some_and(|c| c.direction_rad.is_some());
     let is_concave = |name: &str| options.components.get(name).is_some_and(|c| c.is_concave);
+    let card = |name: &str| options.components.get(name).and_then(|c| c.card.clone());
     let parts = result.model().parts().iter().map(|part| TemplateComponent {
         name: part.name.clone(),
         direction_deg: part.direction_rad.to_degrees(),
         is_chosen: has_direction(&part.name),
         is_concave: is_concave(&part.name),
+        card: card(&part.name),
     });
     parts.collect()
 }

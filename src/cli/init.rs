@@ -5,6 +5,7 @@ use super::progress::TerminalProgress;
 use super::terminal;
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
+use crate::app::fit::fitted;
 use crate::app::make::Timed;
 use crate::app::project::{components, mesh_from, project_text};
 use crate::app::{input, names, output};
@@ -67,13 +68,15 @@ pub fn run(args: &InitArgs) -> Result<(), AppError> {
     }
     let choice = Choice::new(input.project.as_ref(), args.model.given())?;
     let progress = TerminalProgress::new(args.quiet);
-    let result = input.run(&choice, &progress)?;
+    // The project keeps the size and the limit of sheets; "make" finds the size that fits.
+    let (carded, result) = fitted(&input, choice.clone().of_any_sheets(), &progress)?;
     progress.finish();
-    let components = components(&result, choice.options());
+    let components = components(&result, carded.options());
     let text = project_text(&mesh_from(&path, &input.mesh_path)?, choice.settings(), &components);
     output::write(&[(path.clone(), text.into_bytes())])?;
     if !args.quiet {
-        terminal::say(&format!("wrote {}; edit it, then run: tatamu make {0}", path.display()));
+        let line = format!("wrote {}; edit it, then run: tatamu make {0}", path.display());
+        terminal::say_of_files(std::iter::once(path.as_path()), &line);
     }
     Ok(())
 }

@@ -34,8 +34,9 @@ pub struct MakeArgs {
     /// The extension chooses the format; see the list at the end of this page. An existing file is
     /// replaced once the new one is complete. {name} stands for the input's name without its
     /// extension. In a folder, or a name that ends in a slash, tatamu writes a PDF with that name.
+    /// -.pdf writes a PDF to the standard output.
     /// Example: -o teddy.pdf -o teddy.json, -o 'models/{name}.svg', -o models/
-    #[arg(short, long = "output", value_name = "FILE")]
+    #[arg(short, long = "output", value_name = "FILE", allow_hyphen_values = true)]
     output: Vec<PathBuf>,
 
     #[command(flatten)]
@@ -153,7 +154,7 @@ pub fn run(args: &MakeArgs) -> Result<(), AppError> {
     let made = make(Task::new(&wish, input)?, &progress, words::warning, &tell)?;
     output::write(&made.files)?;
     if !args.quiet {
-        made.summary.iter().for_each(|line| terminal::say(line));
+        made.summary.iter().for_each(|line| terminal::say_of_files(made.paths(), line));
     }
     Ok(())
 }

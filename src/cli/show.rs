@@ -5,6 +5,7 @@ use super::progress::TerminalProgress;
 use super::{terminal, words};
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
+use crate::app::fit::fitted;
 use crate::app::make::Timed;
 use crate::app::text::printable;
 use crate::app::{input, names, output};
@@ -136,7 +137,7 @@ pub fn run(args: &ShowArgs) -> Result<(), AppError> {
         vec![still.take(&mesh_scene(&mesh).map_err(ShowError::from)?)?]
     } else {
         let progress = TerminalProgress::new(args.quiet);
-        let result = input.run(&choice, &progress)?;
+        let (_, result) = fitted(&input, choice, &progress)?;
         progress.finish();
         if args.clashes { clashes(args, &still, &result)? } else { vec![still.take(&scene(args, &result)?)?] }
     };
@@ -146,7 +147,8 @@ pub fn run(args: &ShowArgs) -> Result<(), AppError> {
     output::write(&files)?;
     if !args.quiet {
         let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
-        terminal::say(&format!("written     {}", written.join(", ")));
+        let line = format!("written     {}", written.join(", "));
+        terminal::say_of_files(files.iter().map(|(path, _)| path.as_path()), &line);
     }
     Ok(())
 }

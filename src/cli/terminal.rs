@@ -1,12 +1,24 @@
 //! Text for the terminal.
 
+use crate::app::output::is_standard_output;
 use crate::app::text::printable;
 use std::io::Write;
+use std::path::Path;
 use tatamu::pipeline::Warning;
 
 /// Prints a line on the standard output. A closed pipe there is no error.
 pub fn say(text: &str) {
     let _ = writeln!(std::io::stdout(), "{}", printable(text));
+}
+
+/// Prints a line about files that were written: on the standard error output where one of them went to the
+/// standard output.
+pub fn say_of_files<'a>(mut files: impl Iterator<Item = &'a Path>, text: &str) {
+    if files.any(is_standard_output) {
+        let _ = writeln!(std::io::stderr(), "{}", printable(text));
+    } else {
+        say(text);
+    }
 }
 
 /// Prints a line on the standard error output, after a word such as `warning`.

@@ -2,9 +2,9 @@
 
 use std::ops::RangeInclusive;
 use tatamu::project::options::{
-    ANGLES, CLUSTERS, DETAIL, Entry, GLUE_MARKS, GRAIN, Kind, LEVEL, MARGIN, MARKS, METHOD, MIN_PANEL_WIDTH,
-    PAPER, PARTS, PROFILE_VERTICES, Range, SIDE, SIZE, SMOOTHING, SPACING, SYMMETRY, Settings, TAB_WIDTH,
-    THICKNESS, TOLERANCE, TOP_EDGES, UP,
+    ANGLES, CLUSTERS, DETAIL, Entry, GLUE_MARKS, GRAIN, Kind, LABELS, LEVEL, MARGIN, MARKS, METHOD,
+    MIN_PANEL_WIDTH, PAPER, PARTS, PROFILE_VERTICES, Range, SIDE, SIZE, SMOOTHING, SPACING, SYMMETRY,
+    Settings, TAB_WIDTH, THICKNESS, TOLERANCE, TOP_EDGES, UP,
 };
 use tatamu::segment::Method;
 
@@ -24,7 +24,7 @@ pub fn model(now: &Settings, is_drawn: bool) -> Vec<&'static Entry> {
 }
 
 /// The settings of paper and pieces.
-pub const PAPER_AND_PIECES: [&Entry; 11] = [
+pub const PAPER_AND_PIECES: [&Entry; 12] = [
     &PAPER,
     &MARGIN,
     &THICKNESS,
@@ -32,6 +32,7 @@ pub const PAPER_AND_PIECES: [&Entry; 11] = [
     &MIN_PANEL_WIDTH,
     &SPACING,
     &SIDE,
+    &LABELS,
     &MARKS,
     &GRAIN,
     &GLUE_MARKS,

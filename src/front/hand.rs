@@ -3,7 +3,9 @@
 use super::results::Shown;
 use glam::DVec3;
 use tatamu::component::PrincipalAxis;
+use tatamu::mesh::painting::Painting;
 use tatamu::model::ModelPart;
+use tatamu::paint;
 use tatamu::project::Project;
 use tatamu::project::change::{Change, to_digits};
 use tatamu::project::options::DIRECTION;
@@ -42,6 +44,15 @@ pub fn turned(shown: &Shown, project: &Project, part: usize, degrees: f64) -> Op
     let turned = to_digits((now + degrees + 180.0).rem_euclid(360.0) - 180.0, 1);
     let gesture = format!("turn {name}");
     Some((Change::Component { name, option: &DIRECTION, value: Some(turned.into()) }, gesture))
+}
+
+/// The change that gives each component the card that is most like the mesh's colours on it.
+pub fn cards(shown: &Shown, painting: &Painting) -> Option<Change> {
+    let output = shown.output()?;
+    let found = paint::cards(output, painting);
+    let parts = shown.names().iter().zip(output.model().parts());
+    let cards = parts.filter_map(|(key, part)| Some((key.clone(), (*found.get(&part.name)?).to_owned())));
+    Some(Change::Cards { cards: cards.collect() })
 }
 
 /// The change that divides a part by a plane in the model's axes.

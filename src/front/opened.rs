@@ -11,6 +11,7 @@ use std::sync::Arc;
 use tatamu::design::Sketch;
 use tatamu::export::FormatOptions;
 use tatamu::mesh::Repairs;
+use tatamu::mesh::painting::Painting;
 use tatamu::pipeline::{Engine, Options, Output, Warning, shape_drawn};
 use tatamu::product::Product;
 use tatamu::progress::Silent;
@@ -116,6 +117,14 @@ impl Opened {
         let title = self.title();
         let product = Product::new(output, &title, run).with_styles(choice.styles);
         Ok(give(product.with_painting(painting.as_ref()), choice.formats))
+    }
+
+    /// The colours of the mesh.
+    ///
+    /// # Errors
+    /// It has none, or they cannot be read.
+    pub fn painting(&self) -> Result<Painting, String> {
+        input::read_painting_by(&*self.fetch, &self.mesh_path).map_err(|error| words::error(&error))
     }
 
     /// The title of what is made: the file's name without its extension.

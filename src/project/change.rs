@@ -1,7 +1,7 @@
 //! What can be changed in a project, as changes to the text of its file: comments stay, and the
 //! result is read by the same parser as any project file.
 
-use super::options::{DIRECTION, Entry, PROFILE_VERTICES, RENAME, Scope, TOP_EDGES};
+use super::options::{CARD, DIRECTION, Entry, PROFILE_VERTICES, RENAME, Scope, TOP_EDGES};
 use crate::net::{EdgeChoice, EdgeName};
 use crate::sheet::Pin;
 use glam::DVec3;
@@ -30,6 +30,11 @@ pub enum Change {
         option: &'static Entry,
         /// Its value.
         value: Option<Value>,
+    },
+    /// Gives components the colours of their card.
+    Cards {
+        /// Names of components, before they were renamed, with their colours.
+        cards: Vec<(String, String)>,
     },
     /// Takes away all that was set for a component.
     Reset {
@@ -99,6 +104,7 @@ impl Change {
             Self::Set { option, .. } => words(option),
             Self::Mesh { .. } => "name of the mesh".to_owned(),
             Self::Component { name, option, .. } => format!("{} of {name}", words(option)),
+            Self::Cards { .. } => "colours of card".to_owned(),
             Self::Reset { name } => format!("reset {name}"),
             Self::Forget { name } => format!("settings of {name}"),
             Self::Merge { names } => format!("merge {}", names.join(" and ")),
@@ -130,24 +136,19 @@ impl Change {
             },
             Self::Mesh { file } => set(root, "mesh", Some(&file.into())),
             Self::Component { name, option, value } => {
-                let key = option.name();
+                set_of_component(list(root, "component")?, name, option, value.as_ref());
+            }
+            Self::Cards { cards } => {
                 let list = list(root, "component")?;
-                match (find(list, "name", name), value) {
-                    (Some(place), _) => {
-                        list.get_mut(place).into_iter().for_each(|t| set(t, key, value.as_ref()))
-                    }
-                    (None, Some(_)) => {
-                        let mut table = named("name", name);
-                        set(&mut table, key, value.as_ref());
-                        list.push(table);
-                    }
-                    (None, None) => {}
-                }
+                let mut take = |(name, card): &(String, String)| {
+                    set_of_component(list, name, &CARD, Some(&card.as_str().into()));
+                };
+                cards.iter().for_each(&mut take);
             }
             Self::Reset { name } => {
                 let list = list(root, "component")?;
                 if let Some(table) = find(list, "name", name).and_then(|place| list.get_mut(place)) {
-                    let options = [&RENAME, &DIRECTION, &TOP_EDGES, &PROFILE_VERTICES];
+                    let options = [&RENAME, &DIRECTION, &TOP_EDGES, &PROFILE_VERTICES, &CARD];
                     options.iter().for_each(|option| drop(table.remove(option.name())));
                 }
             }
@@ -195,6 +196,19 @@ impl Change {
             }
         }
         Ok(document.to_string())
+    }
+}
+
+/// Sets an option in the table of a component, which is made where there is none.
+fn set_of_component(list: &mut ArrayOfTables, name: &str, option: &Entry, value: Option<&Value>) {
+    match (find(list, "name", name), value) {
+        (Some(place), _) => list.get_mut(place).into_iter().for_each(|t| set(t, option.name(), value)),
+        (None, Some(_)) => {
+            let mut table = named("name", name);
+            set(&mut table, option.name(), value);
+            list.push(table);
+        }
+        (None, None) => {}
     }
 }
 

@@ -27,6 +27,8 @@ pub struct TemplateComponent {
     pub is_chosen: bool,
     /// Whether it may have dents.
     pub is_concave: bool,
+    /// The colour of its card, where one is chosen.
+    pub card: Option<String>,
 }
 
 /// Characters in a line of comments.
@@ -119,7 +121,7 @@ fn component(own: &TemplateComponent, settings: &Settings) -> String {
         format!("# {} = {value}\n", option.name())
     });
     format!(
-        "\n[[component]]\nname = {name}\n# {} = {name}\n{}{} = {:.1}\n{}{}{} = true\n# {} = \"brown\"\n# {} = {}\n",
+        "\n[[component]]\nname = {name}\n# {} = {name}\n{}{} = {:.1}\n{}{}{} = true\n{}{} = {}\n# {} = {}\n",
         RENAME.name(),
         unless(own.is_chosen),
         DIRECTION.name(),
@@ -127,7 +129,9 @@ fn component(own: &TemplateComponent, settings: &Settings) -> String {
         counts.concat(),
         unless(own.is_concave),
         CONCAVE.name(),
+        unless(own.card.is_some()),
         CARD.name(),
+        quoted(own.card.clone().unwrap_or_else(|| "brown".to_owned())),
         JOINT.name(),
         JOINT.example_toml()
     )
@@ -169,6 +173,7 @@ mod tests {
             direction_deg: 12.3,
             is_chosen,
             is_concave: is_chosen,
+            card: is_chosen.then(|| "dark \"red\"".to_owned()),
         };
         let components = [component("body", false), component("he\"ad", true)];
         to_toml(&Template { mesh: "a \"b\"\\c.obj", settings, components: &components })
@@ -201,6 +206,8 @@ mod tests {
         assert_eq!(project.components[0].direction_deg, None);
         assert_eq!(project.components[1].direction_deg, Some(12.3));
         assert_eq!((project.components[0].concave, project.components[1].concave), (None, Some(true)));
+        let cards = [0, 1].map(|k| project.components[k].color.as_deref());
+        assert_eq!(cards, [None, Some("dark \"red\"")]);
         let mut read = choose(Some(&project), &[]).unwrap();
         read.model.components.clear();
         assert_eq!(read, chosen);

@@ -453,6 +453,19 @@ impl Studio {
         self.change(&Change::Pins { pins: Vec::new() }, None);
     }
 
+    /// Gives each component the card that is most like the mesh's colours on it.
+    pub fn take_cards(&mut self) {
+        let Some(opened) = &self.opened else { return };
+        match opened.painting() {
+            Ok(painting) => {
+                if let Some(change) = hand::cards(&self.shown, &painting) {
+                    self.change(&change, None);
+                }
+            }
+            Err(problem) => self.messages.warn(Cause::Change, problem),
+        }
+    }
+
     /// Makes one part of those that are selected.
     pub fn merge_selected(&mut self) {
         let names = self.selection.names().to_vec();

@@ -138,6 +138,51 @@ fn a_plotted_model_takes_no_more_sheets_than_it_may() {
     assert!(one.starts_with("cube: ") && !one.contains("sheet 2"), "{one}");
 }
 
+/// `tatamu show` took no notice of it.
+#[test]
+fn a_shown_model_takes_no_more_sheets_than_it_may() {
+    let files: [(&str, &[u8]); 1] = [("cube.off", cube::OFF.as_bytes())];
+    let show =
+        ["show", "cube.off", "--size", "60", "--min-panel-width", "1", "--paper", "17x17mm", "-o", "a.png"];
+    let limited = [&show[..], &["--sheets-max", "1"]].concat();
+    assert_refused(&files, &limited, &["1 sheet", "allow more with --sheets-max"]);
+}
+
+/// A tiny model took half a minute of advice that no one could follow.
+#[test]
+fn a_tiny_model_is_told_its_size_and_no_other_remedy() {
+    let folder = folder_with(&[("a.obj", include_bytes!("../../samples/snowman.obj"))]);
+    let result = run(folder.path(), &["make", "a.obj", "--size", "20", "--effort", "0", "-o", "a.json"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    assert!(result.err.contains("too small to fold"), "{}", result.err);
+    let text = std::fs::read_to_string(folder.path().join("a.json")).unwrap();
+    assert!(text.contains("clash") && !text.contains("was tried"), "{}", result.err);
+}
+
+/// `-o -.pdf` was no file name.
+#[test]
+fn one_file_goes_to_the_standard_output_alone() {
+    let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
+    let make = |options: &[&str]| {
+        let mut command = assert_cmd::cargo::cargo_bin_cmd!("tatamu");
+        let all = [&["make", "cube.off", "--size", "60", "--effort", "0"][..], options].concat();
+        command.current_dir(folder.path()).args(all).output().unwrap()
+    };
+    let result = make(&["-o", "-.pdf"]);
+    let told = String::from_utf8_lossy(&result.stderr).into_owned();
+    assert!(result.status.success() && told.contains("sheets      1 of a4"), "{told}");
+    assert!(result.stdout.starts_with(b"%PDF-") && result.stdout.trim_ascii_end().ends_with(b"%%EOF"));
+    let json = make(&["-q", "-o", "-.json", "-o", "a.pdf"]).stdout;
+    assert!(serde_json::from_slice::<serde_json::Value>(&json).is_ok());
+    assert_eq!(names(&folder), ["a.pdf", "cube.off"]);
+    for several in [&["-o", "-.pdf", "-o", "-.json"][..], &["--size", "300", "-o", "-.svg"]] {
+        let result = make(several);
+        let told = String::from_utf8_lossy(&result.stderr).into_owned();
+        assert!(!result.status.success() && result.stdout.is_empty(), "{told}");
+        assert!(told.contains("the standard output takes one file"), "{told}");
+    }
+}
+
 #[test]
 fn a_mesh_comes_from_the_standard_input() {
     let folder = tempfile::tempdir().unwrap();
@@ -191,4 +236,10 @@ fn boards_of_a_mesh_that_cannot_have_them_say_what_they_are_for() {
     let files: [(&str, &[u8]); 1] = [("a.obj", bottle)];
     let arguments = ["make", "a.obj", "--thick", "--thickness", "1.5mm", "-o", "a.json"];
     assert_refused(&files, &arguments, &["drawn components and boxes", "leave out --thick"]);
+    // The ways to fold are those of drawings.
+    let teddy = include_bytes!("../../samples/teddy.obj");
+    let folder = folder_with(&[("a.obj", teddy)]);
+    let result = run(folder.path(), &arguments);
+    assert!(result.err.contains("drawn components and boxes"), "{}", result.err);
+    assert!(!result.err.contains("configurations"), "{}", result.err);
 }

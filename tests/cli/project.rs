@@ -56,3 +56,21 @@ fn init_keeps_an_existing_file() {
     let text = std::fs::read_to_string(folder.path().join("cube.toml")).unwrap();
     assert!(text.contains("mesh = \"cube.off\""));
 }
+
+/// `tatamu init` dropped both without a word.
+#[test]
+fn init_keeps_card_and_the_limit_of_sheets() {
+    let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
+    let init = |options: &[&str]| {
+        let all = [&["init", "cube.off", "--force", "--size", "300"][..], options].concat();
+        let result = run(folder.path(), &all);
+        assert_eq!(result.code, Some(0), "{}", result.err);
+        std::fs::read_to_string(folder.path().join("cube.toml")).unwrap()
+    };
+    assert!(init(&["--card", "body=dark blue"]).contains("\ncolor = \"dark blue\"\n"));
+    let text = init(&["--card", "auto", "--sheets-max", "1"]);
+    assert!(text.contains("\ncolor = \"red\"\n"), "{text}");
+    assert!(text.contains("\nsheets_max = 1\n") && text.contains("\nsize = 300"), "{text}");
+    let result = run(folder.path(), &["make", "cube.toml", "--effort", "0", "-o", "a.pdf"]);
+    assert!(result.out.contains("sheets      1 of a4 (1 red)"), "{}", result.out);
+}

@@ -198,6 +198,7 @@ function show(now) {
   const own = now.parts.filter(part => part.is_selected);
   by('own').hidden = own.length === 0 || now.is_drawn;
   by('parts-hint').hidden = now.is_drawn;
+  by('cards').disabled = now.is_drawn || !now.facts;
   by('merge').disabled = own.length < 2;
   const one = own.at(-1);
   if (one && !now.is_drawn) {
@@ -423,6 +424,7 @@ by('fit').onclick = () => view.postMessage({ what: 'fit' });
 
 by('undo').onclick = () => act('undo');
 by('redo').onclick = () => act('redo');
+by('cards').onclick = () => act('cards');
 by('merge').onclick = () => { by('more').setAttribute('aria-pressed', false); act('merge'); };
 by('more').onclick = () => by('more').setAttribute('aria-pressed', by('more').getAttribute('aria-pressed') !== 'true');
 by('reset').onclick = () => { const part = told.parts.findLast(own => own.is_selected); if (part) act('reset', part.key); };

@@ -60,7 +60,7 @@ async function run() {
 }
 
 // What the page may ask for; those of the first list change the model.
-const changes = ['set', 'rename', 'reset', 'heed', 'undo', 'redo', 'turn', 'merge', 'split'];
+const changes = ['set', 'rename', 'reset', 'heed', 'undo', 'redo', 'turn', 'cards', 'merge', 'split'];
 const calls = {
   open(files, name, history, selected) {
     desk?.free();

@@ -199,6 +199,15 @@ impl Desk {
         }
     }
 
+    /// Gives each component the card that is most like the mesh's colours on it.
+    ///
+    /// # Errors
+    /// As [`Desk::change`]; a message where the mesh has no colours.
+    pub fn take_cards(&mut self) -> Result<(), String> {
+        let change = hand::cards(&self.shown, &self.opened.painting()?);
+        change.map_or(Ok(()), |change| self.change(&change, None))
+    }
+
     /// Makes one part of those that are selected.
     ///
     /// # Errors

@@ -225,6 +225,11 @@ impl Desk {
         self.own()?.turn(part, degrees).map_err(thrown)
     }
 
+    /// Gives each component the card that is most like the mesh's colours on it.
+    pub fn cards(&mut self) -> Told<()> {
+        self.own()?.take_cards().map_err(thrown)
+    }
+
     /// Makes one part of those that are selected.
     pub fn merge(&mut self) -> Told<()> {
         self.own()?.merge().map_err(thrown)
@@ -294,7 +299,7 @@ fn value_of(option: &Entry, text: &str) -> Told<Option<Value>> {
             let x = number.as_f64().unwrap_or_default();
             Some(if is_count { (x.round() as i64).into() } else { x.into() })
         }
-        serde_json::Value::String(text) => Some(text.into()),
+        serde_json::Value::String(text) => Some(text).filter(|text| !text.trim().is_empty()).map(Value::from),
         other => return Err(thrown(format!("{other} is no value"))),
     })
 }

@@ -9,7 +9,9 @@ use tatamu::guide::Estimate;
 use tatamu::model::ModelPart;
 use tatamu::pipeline::{ComponentOptions, Output};
 use tatamu::product;
-use tatamu::project::options::{DIRECTION, Entry, Kind, PARTS, PROFILE_VERTICES, Settings, TOP_EDGES, Unit};
+use tatamu::project::options::{
+    CARD, DIRECTION, Entry, Kind, PARTS, PROFILE_VERTICES, Settings, TOP_EDGES, Unit,
+};
 
 /// All that the page shows beside pictures.
 #[derive(Serialize)]
@@ -134,7 +136,7 @@ impl Desk {
     fn rows(&self, index: usize, key: &str, part: &ModelPart) -> Vec<Row> {
         let options = self.document.options();
         let own = options.components.get(key).cloned().unwrap_or_default();
-        let ComponentOptions { direction_rad, top_edges, profile_vertices, .. } = own;
+        let ComponentOptions { direction_rad, top_edges, profile_vertices, card, .. } = own;
         let [edges, vertices] = hand::edges_and_vertices(part);
         let direction = hand::direction_deg(&self.shown, self.document.project(), index);
         let edges = top_edges.or(options.top_edges).unwrap_or(edges);
@@ -151,6 +153,7 @@ impl Desk {
             row(&DIRECTION, direction.unwrap_or_default(), direction_rad.is_some()),
             row(&TOP_EDGES, edges as f64, top_edges.is_some()),
             row(&PROFILE_VERTICES, vertices as f64, profile_vertices.is_some()),
+            Row { value: card.map(Into::into), ..Row::new(&CARD, self.document.settings()) },
         ]
     }
 

@@ -4,9 +4,10 @@ use crate::paint;
 use crate::report::Run;
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
+use tatamu_core::fold::Motion;
 use tatamu_core::model::ModelPart;
 use tatamu_draw::drawing::{Chapter, Drawing, LineStyles, Mark, Pages, PagesError};
-use tatamu_net::net::{Net, Piece};
+use tatamu_net::net::{Net, Piece, label_letters};
 use tatamu_net::sheet::Imprint;
 use tatamu_pipeline::Output;
 use tatamu_plot::toolpath::Operation;
@@ -158,7 +159,7 @@ impl<'a> Product<'a> {
     /// See [`PagesError`]; no run is known that brings one about.
     pub fn pages(&self) -> Result<&Pages, PagesError> {
         let draw = || {
-            let (note, advice) = (size_note(self.output), order_note(self.output));
+            let (note, advice) = (size_note(self.output), order_notes(self.output));
             let imprint = Imprint { title: self.title, note: &note, advice: &advice };
             let layout = self.output.layout();
             let mut drawings = layout.pages(self.output.nets(), imprint, &self.styles);
@@ -241,10 +242,31 @@ pub fn folding_order(output: &Output) -> Vec<&str> {
     flat.map(|step| output.model().parts()[step.part].name.as_str()).collect()
 }
 
-/// The same as a sentence; nothing where there is one component alone.
-fn order_note(output: &Output) -> String {
-    let order = folding_order(output);
-    if order.len() < 2 { String::new() } else { format!("fold flat in this order: {}", order.join(", ")) }
+/// How the model is folded flat, as a sentence with the names of the components, and as one with the letters of
+/// their labels, which is shorter; nothing where there is one component alone.
+pub fn order_notes(output: &Output) -> Vec<String> {
+    let parts = output.model().parts();
+    let sentence = |begin: &str, name: &dyn Fn(usize) -> String| {
+        let told = |motion: &Motion| motion_words(motion, &name(motion.part()));
+        let order: Vec<String> = output.fold_plan().motions().iter().map(told).collect();
+        format!("{begin}: {}", order.join(", "))
+    };
+    if parts.len() < 2 {
+        return Vec::new();
+    }
+    let of_names = sentence("fold flat in this order", &|part| parts[part].name.clone());
+    let of_letters = sentence("fold flat in this order, by the letters of the labels", &label_letters);
+    vec![of_names, of_letters]
+}
+
+/// What is done to a component of this name: its name alone where it is folded flat.
+pub fn motion_words(motion: &Motion, name: &str) -> String {
+    match motion {
+        Motion::Fold(step) if step.ends_flat() => name.to_owned(),
+        Motion::Fold(step) => format!("{name} to {:.0}%", 100.0 * step.to),
+        Motion::Unplug(_) => format!("unplug {name}"),
+        Motion::Plug(_) => format!("plug in {name}"),
+    }
 }
 
 /// How many sheets of each colour of card there are, such as `1 brown, 3 white`; none where no colour is

@@ -11,7 +11,7 @@ use glam::DAffine3;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
-use tatamu_core::design::thick;
+use tatamu_core::design::{ThickError, thick};
 use tatamu_core::fold::{FoldPlan, ModelMotion, SweepMemory};
 use tatamu_core::memory::Memory;
 use tatamu_core::mesh::{Mesh, Up};
@@ -371,7 +371,15 @@ fn of_boards(shaped: Shaped) -> Result<Shaped, Error> {
     if !options.is_thick {
         return Ok(shaped);
     }
-    let (boards, thick) = thick(&shaped.model, options.thickness_mm, options.min_panel_width_mm)?;
+    let is_mesh = !shaped.divided.hulls().hulls().is_empty();
+    let (boards, thick) = thick(&shaped.model, options.thickness_mm, options.min_panel_width_mm).map_err(
+        // That of missing room says what boards suit.
+        |error| match error {
+            ThickError::NoRoom { .. } => Error::Thick(error),
+            error if is_mesh => Error::ThickMesh(error),
+            error => Error::Thick(error),
+        },
+    )?;
     let mut notes = shaped.notes.clone();
     notes.extend(thick.into_iter().map(Warning::from));
     Ok(Shaped { model: Arc::new(boards), notes, ..shaped })

@@ -196,6 +196,9 @@ pub enum Error {
     /// Thick panels have no room.
     #[error(transparent)]
     Thick(#[from] ThickError),
+    /// The panels of a mesh cannot be boards.
+    #[error("{0}; boards suit drawn components and boxes, not the slanted panels of most meshes")]
+    ThickMesh(ThickError),
     /// A joint cannot be unplugged.
     #[error("{name}: it cannot be plugged: {reason}")]
     NoPlug {
@@ -248,6 +251,7 @@ impl Error {
             }
             Self::Layout(error) => error.remedies(),
             Self::Thick(error) => error.remedies(),
+            Self::ThickMesh(_) => vec![Remedy::NoBoards],
             Self::Design(error) => error.remedies(),
             _ => Vec::new(),
         }

@@ -100,6 +100,7 @@ pub static CARD: Entry = Entry {
     example: "--card head=brown --card body=white",
     automatic: "the same card for all",
     meaning: "colour of its card, in your words; each sheet has pieces of one colour, and says it",
+    dial: Dial::new("Card"),
     ..Entry::BLANK
 };
 

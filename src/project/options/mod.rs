@@ -39,7 +39,7 @@ pub use program::Program;
 pub use reference::{command_line_page, project_page};
 pub use segmentation::{CLUSTERS, DETAIL, METHOD, PARTS, ROOT, SMOOTHING, SYMMETRY};
 pub use settings::{Files, Settings};
-pub use sheets::{GRAIN, MARGIN, MARKS, PAPER, SIDE, SPACING, THICK, THICKNESS};
+pub use sheets::{GRAIN, LABELS, MARGIN, MARKS, PAPER, SIDE, SPACING, THICK, THICKNESS};
 
 pub(super) use component::{check_degrees, checked_name};
 pub(super) use given::quoted;

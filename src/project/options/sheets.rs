@@ -139,7 +139,7 @@ const LABEL_PLACES: [(&str, LabelPlace); 3] =
     [("panels", LabelPlace::Panels), ("tabs", LabelPlace::Tabs), ("inside", LabelPlace::Inside)];
 
 /// Where labels are.
-static LABELS: Entry = Entry {
+pub static LABELS: Entry = Entry {
     key: Key::new("sheets", "labels"),
     flag: Flag::under(HEADING, "labels", "PLACE"),
     kind: Kind::Text(Text {
@@ -164,6 +164,7 @@ static LABELS: Entry = Entry {
     example: "--labels tabs",
     meaning: "place of names and labels: on the `panels`; on `tabs` and joints, all others beside the piece; or \
               `inside`, on a page of their own in a PDF, for printing on both sides",
+    dial: Dial::new("Labels"),
     ..Entry::BLANK
 };
 

@@ -9,13 +9,13 @@ use super::{dials, look};
 use eframe::egui::{self, CollapsingHeader, Grid, RichText, Ui};
 use lucide_icons::Icon;
 use tatamu::front::hand::{self, AXES};
-use tatamu::project::options::{DIRECTION, PROFILE_VERTICES, RENAME, ROOT, TOP_EDGES};
+use tatamu::project::options::{CARD, DIRECTION, Entry, PROFILE_VERTICES, RENAME, ROOT, TOP_EDGES};
 
 /// What the panel remembers.
 #[derive(Debug, Default)]
 pub struct PartsPanel {
-    /// The name that is being written, and of which component.
-    renaming: Option<(String, String)>,
+    /// The text that is being written, of which option, and of which component.
+    writing: Option<(&'static str, String, String)>,
     split: Option<Split>,
 }
 
@@ -59,6 +59,12 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
     }
     CollapsingHeader::new("Paper and pieces").default_open(false).show(ui, |ui| {
         Grid::new("paper").num_columns(2).show(ui, |ui| dials::paper(studio, ui));
+        let tip = "gives each component the card that is most like the mesh's colours on it";
+        let can_take = !studio.is_drawn() && studio.laid().is_some();
+        let button = egui::Button::new("Card in the mesh's colours");
+        if ui.add_enabled(can_take, button).on_hover_text(tip).clicked() {
+            studio.take_cards();
+        }
     });
 }
 
@@ -117,7 +123,8 @@ fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: usize) {
     let Some(options) = studio.document().map(|d| d.options().clone()) else { return };
     let own = options.components.get(&name).cloned().unwrap_or_default();
     Grid::new("component").num_columns(2).show(ui, |ui| {
-        rename_row(panel, studio, ui, &name, own.rename.as_deref().unwrap_or(&name));
+        let renamed = own.rename.clone().unwrap_or_else(|| name.clone());
+        text_row(panel, studio, ui, &name, &RENAME, ("Name", "printed on the pieces"), (&renamed, &name));
         let now = studio.direction_deg(index).unwrap_or_default();
         Dialled::new(&DIRECTION).component_row(studio, ui, &name, (now, own.direction_rad.is_some()));
         let [edges, vertices] = studio.shown().part(index).map(hand::edges_and_vertices).unwrap_or_default();
@@ -127,6 +134,8 @@ fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: usize) {
         let vertices = own.profile_vertices.or(options.profile_vertices).unwrap_or(vertices) as f64;
         let row = Dialled::new(&PROFILE_VERTICES);
         row.component_row(studio, ui, &name, (vertices, own.profile_vertices.is_some()));
+        let card = own.card.clone().unwrap_or_default();
+        text_row(panel, studio, ui, &name, &CARD, ("Card", CARD.meaning), (&card, ""));
         figures(studio, ui, index);
     });
     ui.horizontal(|ui| {
@@ -142,21 +151,31 @@ fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: usize) {
     });
 }
 
-fn rename_row(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, name: &str, now: &str) {
-    let label = ui.label("Name").on_hover_text("printed on the pieces");
-    let mut text = match &panel.renaming {
-        Some((of, text)) if of == name => text.clone(),
+/// A text of a component, which is now the first of two; the other one holds where nothing is written.
+fn text_row(
+    panel: &mut PartsPanel,
+    studio: &mut Studio,
+    ui: &mut Ui,
+    name: &str,
+    option: &'static Entry,
+    (label, tip): (&str, &str),
+    (now, otherwise): (&str, &str),
+) {
+    let label = ui.label(label).on_hover_text(tip);
+    let mut text = match &panel.writing {
+        Some((key, of, text)) if *key == option.name() && of == name => text.clone(),
         _ => now.to_owned(),
     };
     let field = ui.add(egui::TextEdit::singleline(&mut text).desired_width(120.0)).labelled_by(label.id);
     if field.changed() {
-        panel.renaming = Some((name.to_owned(), text.clone()));
+        panel.writing = Some((option.name(), name.to_owned(), text.clone()));
     }
     if field.lost_focus() {
-        panel.renaming = None;
+        panel.writing = None;
         if text != now {
-            let value = (text != name && !text.trim().is_empty()).then(|| text.trim().into());
-            studio.change(&Change::Component { name: name.to_owned(), option: &RENAME, value }, None);
+            let text = text.trim();
+            let value = (text != otherwise && !text.is_empty()).then(|| text.into());
+            studio.change(&Change::Component { name: name.to_owned(), option, value }, None);
         }
     }
     ui.end_row();

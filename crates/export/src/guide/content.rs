@@ -529,26 +529,34 @@ impl Writer<'_> {
             Mark::line(Layer::Picture, from, to, &plain(layer))
         };
         let middle = SAMPLE_MM / 2.0;
+        let area = |layer: Layer| {
+            let corners = [(1.0, 0.2), (SAMPLE_MM.x - 1.0, 0.2), (SAMPLE_MM.x - 1.0, 0.8), (1.0, 0.8)];
+            let corners = corners.map(|(x, y)| DVec2::new(x, y * SAMPLE_MM.y));
+            Mark::area(layer, &corners, self.styles).map(|area| Mark { layer: Layer::Picture, ..area })
+        };
+        // As it is printed: filled.
         let key = [DVec2::new(0.0, 2.0), DVec2::new(-2.0, -2.0), DVec2::new(2.0, -2.0)];
         let key = key.map(|corner| middle + corner).to_vec();
-        let key = Mark::polygon(Layer::Picture, key, &plain(Layer::Glue));
+        let key = Mark::filled(Layer::Picture, key, self.styles.colour(Layer::Glue));
         let label = Text::new("A1", middle - DVec2::Y * 1.5, 3.0).aligned(Align::Middle);
         let label = Mark::text(Layer::Picture, label.coloured(self.styles.colour(Layer::Label)));
-        let folds = folds.into_iter().map(|(layer, word)| (line(layer), word));
-        let first = [(line(Layer::Cut), &words.cut), (line(Layer::Slit), &words.slit)];
+        let folds = folds.into_iter().map(|(layer, word)| (vec![line(layer)], word));
+        let first = [(vec![line(Layer::Cut)], &words.cut), (vec![line(Layer::Slit)], &words.slit)];
+        let tab = area(Layer::Tab).map(|area| (vec![area], &words.tab));
         let last = [
-            (line(Layer::FoldHinge), &words.fold_hinge),
-            (line(Layer::Glue), &words.glue),
-            (label, &words.label),
-            (key, &words.key),
+            (area(Layer::Glue).into_iter().chain([line(Layer::Glue)]).collect(), &words.glue),
+            (vec![label], &words.label),
+            (vec![key], &words.key),
         ];
         first
             .into_iter()
             .chain(folds)
+            .chain([(vec![line(Layer::FoldHinge)], &words.fold_hinge)])
+            .chain(tab)
             .chain(last)
-            .map(|(mark, meaning)| {
+            .map(|(marks, meaning)| {
                 let mut sample = Drawing::new("", SAMPLE_MM);
-                sample.marks.push(mark);
+                sample.marks = marks;
                 Line { sample, meaning: meaning.clone() }
             })
             .collect()

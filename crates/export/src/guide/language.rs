@@ -196,6 +196,7 @@ pub struct LinesWords {
     pub mountain: String,
     pub valley: String,
     pub fold_hinge: String,
+    pub tab: String,
     pub glue: String,
     pub label: String,
     pub key: String,

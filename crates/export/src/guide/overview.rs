@@ -3,11 +3,14 @@
 
 use super::estimate::Estimate;
 use super::picture::{self, PictureError};
-use crate::product::{Product, card_note, folding_order, size_note};
+use super::steps::outwards;
+use crate::product::{Product, card_note, order_notes, size_note};
 use crate::show::{ViewAngle, components_scene, upright};
 use glam::{DAffine2, DVec2, DVec3};
+use tatamu_core::geom::polygon;
 use tatamu_draw::drawing::{Align, Drawing, Layer, Mark, Rgb, Stroke, Text, text};
-use tatamu_draw::render::{Callout, View, callouts, palette};
+use tatamu_draw::render::{Callout, Scene, Spot, View, callouts, clearness, palette};
+use tatamu_net::net::label_letters;
 use tatamu_pipeline::Output;
 
 /// Heights of capitals: the title, texts.
@@ -22,8 +25,12 @@ const NAMES: f64 = 0.2;
 /// Side of the colour before a part's name.
 const SWATCH_MM: f64 = 3.0;
 /// Where columns of the table begin, as shares of its width.
-const COLUMNS: [f64; 5] = [0.0, 0.46, 0.58, 0.70, 0.82];
-const HEADS: [&str; 5] = ["part", "pieces", "panels", "tabs", "sheets"];
+const COLUMNS: [f64; 7] = [0.0, 0.28, 0.38, 0.60, 0.70, 0.80, 0.88];
+const HEADS: [&str; 7] = ["part", "labels", "glued to", "pieces", "panels", "tabs", "sheets"];
+/// What follows the name of a part that the picture hides.
+const HIDDEN: &str = " (hidden)";
+/// How far from the middle of a panel to its corners a part is looked for that shows no middle.
+const TO_CORNERS: [f64; 2] = [0.5, 0.85];
 const SOFT: Rgb = Rgb(96, 96, 102);
 
 /// The page, as large as the sheets.
@@ -52,9 +59,10 @@ pub fn overview(product: &Product<'_>) -> Result<Drawing, PictureError> {
     page.write(&note, TEXT_MM, SOFT);
     page.picture(output)?;
     page.write(&Estimate::new(output).sentence(), TEXT_MM, Rgb::BLACK);
-    let order = folding_order(output);
-    if order.len() > 1 {
-        page.write(&format!("fold flat in this order: {}", order.join(", ")), TEXT_MM, Rgb::BLACK);
+    if let Some(order) = order_notes(output).first() {
+        let build = "build the parts one by one, then glue them together in the order of this list";
+        page.write(build, TEXT_MM, Rgb::BLACK);
+        page.write(order, TEXT_MM, Rgb::BLACK);
     }
     page.y_mm -= TEXT_MM * LINE;
     page.table(output);
@@ -94,16 +102,16 @@ impl Page {
         let view = View::fit(ViewAngle::default().camera()?, scene.points(), room_mm, TEXT_MM)?;
         let low = DVec2::new(self.left_mm, self.y_mm - size_mm.y);
         let shift = DVec2::X * column_mm;
-        let middle = |part: usize| {
-            let own = &output.model().parts()[part];
-            let corners: Vec<DVec3> =
-                own.component.panels().panels().iter().flat_map(|p| p.deployed_outline()).collect();
-            let middle = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
-            view.project((upright() * own.deployed()).transform_point3(middle)) + shift
-        };
-        let parts = output.model().parts().iter().enumerate();
-        let names: Vec<Callout> =
-            parts.map(|(k, part)| Callout { name: &part.name, at_mm: middle(k) }).collect();
+        let parts = output.model().parts();
+        let names: Vec<(String, DVec2)> = (0..parts.len())
+            .map(|part| {
+                let (name, shown) = (&parts[part].name, shown_at(&scene, &view, output, part));
+                let name = if shown.is_some() { name.clone() } else { format!("{name}{HIDDEN}") };
+                let at = shown.unwrap_or_else(|| middle_of(output, part));
+                (name, view.project(at) + shift)
+            })
+            .collect();
+        let names: Vec<Callout> = names.iter().map(|(name, at_mm)| Callout { name, at_mm: *at_mm }).collect();
         let model = picture::taken(&scene, &view, Vec::new()).marks;
         self.drawing.place(model, DAffine2::from_translation(low + shift));
         let names = callouts(&names, size_mm, column_mm, TEXT_MM);
@@ -125,16 +133,23 @@ impl Page {
         let parts = output.model().parts();
         let rows = ((self.y_mm - self.bottom_mm) / step_mm).floor().max(0.0) as usize;
         let shown = if parts.len() <= rows { parts.len() } else { rows.saturating_sub(1) };
-        for (k, (part, net)) in parts.iter().zip(output.nets()).enumerate().take(shown) {
+        for k in outwards(output.model()).into_iter().take(shown) {
+            let (part, net) = (&parts[k], &output.nets()[k]);
             let low = DVec2::new(self.left_mm, self.y_mm - TEXT_MM - (SWATCH_MM - TEXT_MM) / 2.0);
             let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|c| low + c * SWATCH_MM);
             self.drawing.marks.push(Mark::filled(Layer::Furniture, square.to_vec(), palette::colour(k)));
             let sheets: Vec<String> =
                 picture::sheets_of(output, k).iter().map(|sheet| (sheet + 1).to_string()).collect();
             let tabs: usize = net.pieces().iter().map(|piece| piece.tabs().len()).sum();
-            let name_mm = (COLUMNS[1] - COLUMNS[0]) * self.width_mm - 2.0 * SWATCH_MM;
+            let wide = |words: &str, column: usize| {
+                let width_mm = (COLUMNS[column + 1] - COLUMNS[column]) * self.width_mm - 2.0 * SWATCH_MM;
+                text::shortened(words, TEXT_MM, width_mm)
+            };
+            let parent = part.joint.as_ref().map_or("", |joint| &parts[joint.parent].name);
             let cells = [
-                text::shortened(&part.name, TEXT_MM, name_mm),
+                wide(&part.name, 0),
+                label_letters(k),
+                wide(parent, 2),
                 net.pieces().len().to_string(),
                 net.panels().panels().len().to_string(),
                 tabs.to_string(),
@@ -150,6 +165,48 @@ impl Page {
             self.text(&format!("and {} more", parts.len() - shown), 0.0, TEXT_MM, SOFT);
         }
     }
+}
+
+/// Middles of the panels of a part, and places nearer to their corners, by the areas that they stand for.
+fn spots_of(output: &Output, part: usize, is_middle: bool) -> Vec<Spot> {
+    let own = &output.model().parts()[part];
+    let to_picture = upright() * own.deployed();
+    let panels = own.component.panels().panels().iter();
+    let spots = panels.flat_map(|panel| {
+        let motion = to_picture * panel.deployed;
+        let middle = polygon::centroid(&panel.outline);
+        let corners = panel.outline.iter();
+        let near = corners.flat_map(|&corner| TO_CORNERS.map(|share| middle.lerp(corner, share)));
+        let places: Vec<DVec2> = if is_middle { vec![middle] } else { near.collect() };
+        let weight = polygon::area(&panel.outline);
+        places.into_iter().map(move |place| Spot {
+            at: motion.transform_point3(place.extend(0.0)),
+            normal: motion.matrix3.z_axis,
+            weight,
+        })
+    });
+    spots.collect()
+}
+
+/// A place of a part that the picture shows: the one nearest to the middle of all that it shows.
+fn shown_at(scene: &Scene, view: &View, output: &Output, part: usize) -> Option<DVec3> {
+    [true, false].into_iter().find_map(|is_middle| {
+        let spots = spots_of(output, part, is_middle);
+        let seen: Vec<(&Spot, f64)> = spots
+            .iter()
+            .map(|spot| (spot, spot.weight * clearness(scene, view, spot)))
+            .filter(|(_, weight)| *weight > 0.0)
+            .collect();
+        let total: f64 = seen.iter().map(|(_, weight)| weight).sum();
+        let middle = seen.iter().map(|(spot, weight)| spot.at * (weight / total)).sum::<DVec3>();
+        let nearest = seen.iter().min_by(|a, b| a.0.at.distance(middle).total_cmp(&b.0.at.distance(middle)));
+        nearest.map(|(spot, _)| spot.at)
+    })
+}
+
+fn middle_of(output: &Output, part: usize) -> DVec3 {
+    let spots = spots_of(output, part, true);
+    spots.iter().map(|spot| spot.at).sum::<DVec3>() / spots.len().max(1) as f64
 }
 
 #[cfg(test)]

@@ -44,7 +44,7 @@ pub use hand::{EdgeChoice, EdgeName, HandFault, NetHand, PIECES, TAB_WIDTHS_MM, 
 pub use marks::{LabelPlace, Side};
 pub use mesh::{Corner, Edge, EdgeKind, Face, FaceKind, PieceMesh, Vertex};
 pub use net_error::NetError;
-pub use of_model::{KnownNets, NetsError, develop_model};
+pub use of_model::{KnownNets, NetsError, develop_model, label_letters};
 pub use options::{Naming, NetChoices, NetOptions};
 pub use plugs::PlugLines;
 pub use warning::NetWarning;

@@ -50,7 +50,7 @@ impl Default for KnownNets {
 impl KnownNets {
     fn nets(&self, model: &Model, p: usize, options: NetOptions) -> Result<Vec<Arc<BlankNet>>, NetError> {
         let part = &model.parts()[p];
-        let (prefix, marks) = (prefix(p), joint_marks(model, p));
+        let (prefix, marks) = (label_letters(p), joint_marks(model, p));
         let wish = Wish {
             name: part.name.clone(),
             prefix: prefix.clone(),
@@ -99,9 +99,9 @@ pub fn develop_model(
 }
 
 /// Letters that begin the labels of component `p`: A … Z, AA, AB …
-fn prefix(p: usize) -> String {
+pub fn label_letters(p: usize) -> String {
     let letter = char::from(b'A' + (p % 26) as u8);
-    if p < 26 { letter.to_string() } else { format!("{}{letter}", prefix(p / 26 - 1)) }
+    if p < 26 { letter.to_string() } else { format!("{}{letter}", label_letters(p / 26 - 1)) }
 }
 
 /// Marks on the panels of part `p`: what lies on them, and what they lie on.
@@ -122,7 +122,7 @@ fn joint_marks(model: &Model, p: usize) -> Vec<JointMark> {
             outline: model.outline_on(partner, own),
             key: on_panel(model, own, key_point(model, above)),
             text: parts[partner.0].name.clone(),
-            short: prefix(partner.0),
+            short: label_letters(partner.0),
             plug: PlugLines::of(joint, p == child),
         });
     }
@@ -151,7 +151,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn prefixes_go_on_after_z() {
-        assert_eq!([0, 25, 26, 27, 52].map(prefix), ["A", "Z", "AA", "AB", "BA"]);
+    fn letters_go_on_after_z() {
+        assert_eq!([0, 25, 26, 27, 52].map(label_letters), ["A", "Z", "AA", "AB", "BA"]);
     }
 }

@@ -29,8 +29,9 @@ const SIDE_BAR_MARGIN_MM: f64 = 8.0;
 const TICK_GAP_MM: f64 = 1.2;
 /// The titles stand beside the bar where they have at least this width.
 const MIN_TITLES_MM: f64 = 35.0;
-/// Length of a line in the full and in the short legend.
-const SAMPLES_MM: [f64; 2] = [11.0, 8.0];
+/// Forms of the legend, the best first: length of a line, mm, and which of its words it has. On A4, seven kinds of
+/// lines have their full words beside short lines.
+const FORMS: [(f64, usize); 3] = [(11.0, 0), (8.0, 0), (8.0, 1)];
 /// Height of a tab in the legend.
 const TAB_SAMPLE_MM: f64 = 2.6;
 /// Distance between a line in the legend and its word.
@@ -91,7 +92,7 @@ pub fn height_mm(size_mm: DVec2, margin_mm: f64, legend: &[Layer]) -> f64 {
 fn words(layer: Layer) -> Option<[&'static str; 2]> {
     match layer {
         Layer::Cut => Some(["cut", "cut"]),
-        Layer::Slit => Some(["cut (slit)", "slit"]),
+        Layer::Slit => Some(["slit", "slit"]),
         Layer::Mountain => Some(["fold back (mountain)", "mountain"]),
         Layer::Valley => Some(["fold up (valley)", "valley"]),
         Layer::FoldHinge => Some(["fold flat 180°", "180°"]),
@@ -114,11 +115,11 @@ impl Entry {
     }
 }
 
-/// All entries of the full (0) or the short (1) legend.
-fn entries(legend: &[Layer], form: usize) -> Vec<Entry> {
+/// All entries of a form of the legend.
+fn entries(legend: &[Layer], (sample_mm, form): (f64, usize)) -> Vec<Entry> {
     let entry = |&layer: &Layer| {
         let word = words(layer)?[form];
-        Some(Entry { layer, word, sample_mm: SAMPLES_MM[form] })
+        Some(Entry { layer, word, sample_mm })
     };
     legend.iter().filter_map(entry).collect()
 }
@@ -151,7 +152,7 @@ impl Strip {
             corner: DVec2::splat(margin_mm),
             width_mm,
             bar_mm: BARS_MM.into_iter().find(|&bar_mm| bar_mm <= width_mm),
-            legend: [0, 1].map(|form| entries(legend, form)).into_iter().find(fits).unwrap_or_default(),
+            legend: FORMS.map(|form| entries(legend, form)).into_iter().find(fits).unwrap_or_default(),
         }
     }
 
@@ -189,19 +190,25 @@ impl Strip {
         Mark::text(Layer::Furniture, text.coloured(styles.colour(Layer::Furniture)))
     }
 
-    /// A piece of a line, or of a tab.
-    fn sample(&self, entry: &Entry, [x, y]: [f64; 2], styles: &LineStyles) -> Option<Mark> {
-        if entry.layer == Layer::Tab {
-            let (end, half) = (x + entry.sample_mm, TAB_SAMPLE_MM / 2.0);
-            let corners = [[x, y - half], [end, y - half], [end - half, y + half], [x + half, y + half]];
+    /// A piece of a line, of a tab, or of a place where a component is glued.
+    fn sample(&self, entry: &Entry, [x, y]: [f64; 2], styles: &LineStyles) -> Vec<Mark> {
+        let (end, half) = (x + entry.sample_mm, TAB_SAMPLE_MM / 2.0);
+        let area = |slope_mm: f64| {
+            let corners =
+                [[x, y - half], [end, y - half], [end - slope_mm, y + half], [x + slope_mm, y + half]];
             let corners = corners.map(|corner| self.corner + DVec2::from(corner));
-            let area = Mark::area(Layer::Tab, &corners, styles)?;
-            return Some(Mark { layer: Layer::Furniture, ..area });
-        }
+            let area = Mark::area(entry.layer, &corners, styles)?;
+            Some(Mark { layer: Layer::Furniture, ..area })
+        };
         let look = styles.stroke(entry.layer).clone();
         let stroke = Stroke { colour: styles.colour(Layer::Furniture), ..look };
-        let [from, to] = [[x, y], [x + entry.sample_mm, y]].map(|p| self.corner + DVec2::from(p));
-        Some(Mark::line(Layer::Furniture, from, to, &stroke))
+        let [from, to] = [[x, y], [end, y]].map(|p| self.corner + DVec2::from(p));
+        let line = Mark::line(Layer::Furniture, from, to, &stroke);
+        match entry.layer {
+            Layer::Tab => area(half).into_iter().collect(),
+            Layer::Glue => area(0.0).into_iter().chain([line]).collect(),
+            _ => vec![line],
+        }
     }
 
     /// The bar between the middles of its end ticks, a tick at every centimetre, and its words.
@@ -374,6 +381,32 @@ mod tests {
                 Shape::Text(text) => assert!(!worked.contains(&text.colour) && text.content != "cut"),
                 Shape::Path { .. } | Shape::Image(_) => {}
             }
+        }
+    }
+
+    /// With valleys, whose plugs have feet, A4 said "mountain" and "valley", which a beginner does not know.
+    #[test]
+    fn seven_kinds_of_lines_have_full_words_on_a4() {
+        let legend = [
+            Layer::Cut,
+            Layer::Slit,
+            Layer::Mountain,
+            Layer::Valley,
+            Layer::FoldHinge,
+            Layer::Tab,
+            Layer::Glue,
+        ];
+        let furniture = Furniture {
+            size_mm: DVec2::new(210.0, 297.0),
+            margin_mm: 10.0,
+            title: "goat",
+            note: "",
+            number: "sheet 1 of 1",
+            legend: &legend,
+        };
+        let texts = texts(&furniture.marks(&LineStyles::standard()));
+        for words in ["fold back (mountain)", "fold up (valley)", "fold flat 180°", "glue here"] {
+            assert!(texts.iter().any(|text| text == words), "{words}: {texts:?}");
         }
     }
 

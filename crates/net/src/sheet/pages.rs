@@ -22,8 +22,8 @@ pub struct Imprint<'a> {
     pub title: &'a str,
     /// What follows the name, such as its size; may be empty.
     pub note: &'a str,
-    /// What stands above the first sheet where there is room, such as the order of folding; may be empty.
-    pub advice: &'a str,
+    /// What is above the first sheet, such as the order of folding: the first of these that has room on one line.
+    pub advice: &'a [String],
 }
 
 impl Layout {
@@ -58,9 +58,10 @@ impl Layout {
             let mut lines = wrapped(&lost[k], text_width_mm(options));
             let has_room = |lines: usize| lines as f64 * LOST_LINE_MM <= head_mm(options);
             if has_room(lines.len()) {
-                let fits = text::width_mm(imprint.advice, LOST_CAP_MM) <= text_width_mm(options);
-                if k == 0 && fits && !imprint.advice.is_empty() && has_room(lines.len() + 1) {
-                    lines.insert(0, imprint.advice.to_owned());
+                let fits = |words: &&String| text::width_mm(words, LOST_CAP_MM) <= text_width_mm(options);
+                let advice = imprint.advice.iter().find(fits);
+                if let Some(advice) = advice.filter(|_| k == 0 && has_room(lines.len() + 1)) {
+                    lines.insert(0, advice.clone());
                 }
                 let top_mm = LOST_LINE_MM * (lines.len() as f64 + 0.4);
                 page.marks.extend(list(

@@ -177,7 +177,7 @@ impl fmt::Display for ModelWarning {
 }
 
 /// Models that are smaller have panels that no finger holds: at 50 mm those of the samples are 3 to 15 mm wide.
-const TINY_MM: f64 = 50.0;
+pub(crate) const TINY_MM: f64 = 50.0;
 /// More sheets than anybody cuts unless it is meant: a model of a metre, with eight components, takes about 90 of A4.
 const MANY_SHEETS: usize = 60;
 

@@ -11,8 +11,8 @@ use tatamu_core::geom::polygon;
 const ALONG: [f64; 9] = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.12, 0.88];
 /// Distances from the edge to the text, mm.
 const OFF_MM: [f64; 4] = [0.9, 2.0, 4.0, 7.0];
-/// Distances from a crease to its angle.
-const ANGLE_OFF_MM: [f64; 2] = [0.6, 1.2];
+/// Distances from a crease to its angle: at 0.6 mm the eye joins the digits and the line.
+const ANGLE_OFF_MM: [f64; 3] = [1.0, 1.4, 0.6];
 /// A label is nearer to its own edge than to the other labelled edges of its panel by this, mm: half of
 /// the height of the smallest, which the eye sees.
 const CLEARLY_MM: f64 = 0.75;

@@ -38,17 +38,21 @@ impl Placer<'_> {
     /// possible.
     pub(crate) fn lead(&mut self) {
         for waiting in std::mem::take(&mut self.waiting) {
-            let ways =
-                [CAPS_MM, SMALL_CAPS_MM].map(|caps| [FOREIGN_MM, FOREIGN_MM / 2.0].map(|mm| (caps, mm)));
-            let is_led = ways.into_iter().flatten().any(|(caps_mm, foreign_mm)| {
-                self.foreign_mm = foreign_mm;
-                self.lead_one(&waiting, caps_mm)
-            });
-            self.foreign_mm = FOREIGN_MM;
-            if !is_led && !self.beside_target(&waiting) {
+            if !self.led(&waiting) && !self.beside_target(&waiting) {
                 self.unplaced.push(waiting.text);
             }
         }
+    }
+
+    /// Places a text with a leader line; false where there is no room for it.
+    pub(super) fn led(&mut self, waiting: &Waiting) -> bool {
+        let ways = [CAPS_MM, SMALL_CAPS_MM].map(|caps| [FOREIGN_MM, FOREIGN_MM / 2.0].map(|mm| (caps, mm)));
+        let is_led = ways.into_iter().flatten().any(|(caps_mm, foreign_mm)| {
+            self.foreign_mm = foreign_mm;
+            self.lead_one(waiting, caps_mm)
+        });
+        self.foreign_mm = FOREIGN_MM;
+        is_led
     }
 
     /// A joint's text anywhere in the panel of the joint, where no line can lead to it.

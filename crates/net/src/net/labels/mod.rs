@@ -34,6 +34,11 @@ const FOREIGN_MM: f64 = 2.6;
 const LINE_GAP_MM: f64 = 0.4;
 /// Paper between two texts.
 const TEXT_GAP_MM: f64 = 0.6;
+/// More paper about the name of a piece, where its panels have it: at 0.6 mm "body" below "push down" and "top"
+/// beside "C5" were read as one text.
+const NAME_AIR_MM: f64 = 2.4;
+/// The heights of a name with that much paper about it: from 3 mm on it is larger than the texts beside it.
+const AIRY_NAMES: usize = 4;
 /// Places across a panel, each way, that are tried for its name.
 const GRID: usize = 12;
 
@@ -56,13 +61,19 @@ struct Wanted<'t> {
     below_mm: f64,
     /// Paper between it and its frame; 0 without a frame.
     frame_mm: f64,
+    /// Paper about it beyond what all texts have.
+    air_mm: f64,
 }
 
 impl<'t> Wanted<'t> {
     fn new(text: &'t str, kind: LabelKind, cap_mm: f64) -> Self {
         let below_mm = cap_mm / 2.0 + text::depth_mm(text, cap_mm);
         let frame_mm = if kind == LabelKind::Joint { FRAME * cap_mm } else { 0.0 };
-        Self { text, kind, cap_mm, width_mm: text::width_mm(text, cap_mm), below_mm, frame_mm }
+        Self { text, kind, cap_mm, width_mm: text::width_mm(text, cap_mm), below_mm, frame_mm, air_mm: 0.0 }
+    }
+
+    fn with_air(self, air_mm: f64) -> Self {
+        Self { air_mm, ..self }
     }
 }
 
@@ -120,21 +131,22 @@ impl<'a> Placer<'a> {
         panels.sort_by(|a, b| polygon::area(b).total_cmp(&polygon::area(a)));
         let count = self.taken.len();
         self.taken.append(&mut self.covered);
-        let anywhere = |placer: &mut Self| {
-            NAME_CAPS_MM
-                .iter()
-                .any(|&cap| panels.iter().any(|p| placer.in_area(p, name, &[cap], LabelKind::Name)))
+        let anywhere = |placer: &mut Self, caps_mm: &[f64], air_mm: f64| {
+            caps_mm.iter().any(|&cap_mm| {
+                let wanted = Wanted::new(name, LabelKind::Name, cap_mm).with_air(air_mm);
+                panels.iter().any(|panel| placer.put_in(panel, wanted))
+            })
         };
-        if anywhere(self) {
+        if anywhere(self, &NAME_CAPS_MM[..AIRY_NAMES], NAME_AIR_MM) || anywhere(self, &NAME_CAPS_MM, 0.0) {
             return;
         }
         self.taken.truncate(count);
-        if !anywhere(self) {
+        if !anywhere(self, &NAME_CAPS_MM, 0.0) {
             self.unplaced.push(name.to_owned());
         }
     }
 
-    /// The mark of the top panel, where there is room for it.
+    /// The mark of the top panel, on it or with a line to it.
     pub(crate) fn push(&mut self, top: PanelId) {
         let Some(face) = self.face_of(top) else { return };
         let panel = self.outlines[face].clone();
@@ -152,7 +164,11 @@ impl<'a> Placer<'a> {
             return;
         }
         self.taken.truncate(count);
-        anywhere(self);
+        if !anywhere(self) {
+            let targets = spots(&panel).into_iter().filter(|&at| depth_outside(&panel, at) < -LINE_GAP_MM);
+            let [text, _] = PUSH.map(str::to_owned);
+            self.led(&Waiting { text, kind: LabelKind::Push, targets: targets.collect() });
+        }
     }
 
     /// Indices of the faces that are panels.
@@ -168,18 +184,20 @@ impl<'a> Placer<'a> {
     /// Tries an area from its middle outwards, with each height of `caps_mm` in turn: level first,
     /// then along the area's longest edge.
     fn in_area(&mut self, area: &[DVec2], text: &str, caps_mm: &[f64], kind: LabelKind) -> bool {
+        caps_mm.iter().any(|&cap_mm| self.put_in(area, Wanted::new(text, kind, cap_mm)))
+    }
+
+    /// The same with one height.
+    fn put_in(&mut self, area: &[DVec2], wanted: Wanted) -> bool {
         let spots = spots(area);
         let directions = [DVec2::X, longest_edge(area)];
-        caps_mm.iter().any(|&cap_mm| {
-            let wanted = Wanted::new(text, kind, cap_mm);
-            directions.iter().any(|&d| spots.iter().any(|&at| self.put(area, at, d, wanted)))
-        })
+        directions.iter().any(|&d| spots.iter().any(|&at| self.put(area, at, d, wanted)))
     }
 
     /// Puts a text with its middle at `centre` if it stays inside `area` and off everything else.
     fn put(&mut self, area: &[DVec2], centre: DVec2, direction: DVec2, wanted: Wanted) -> bool {
-        let letters = text_box(centre, direction, wanted);
-        let is_free = self.is_free(area, &letters);
+        let is_free = self.is_free(area, &text_box(centre, direction, wanted))
+            && (wanted.air_mm == 0.0 || self.is_off_texts(&air_box(centre, direction, wanted)));
         if is_free {
             self.accept(centre, direction, wanted);
         }
@@ -189,14 +207,18 @@ impl<'a> Placer<'a> {
     /// Whether a text's box is inside an area and off all lines and texts.
     fn is_free(&self, area: &[DVec2], letters: &[DVec2; 4]) -> bool {
         letters.iter().all(|&p| depth_outside(area, p) <= -LINE_GAP_MM)
-            && !self.taken.iter().any(|t| convex_overlap(letters, t, -TEXT_GAP_MM))
+            && self.is_off_texts(letters)
             && !self.lines.iter().any(|l| convex_overlap(letters, l, -LINE_GAP_MM))
             && self.leaders.iter().all(|l| is_foreign(letters, l.from, self.foreign_mm))
     }
 
+    fn is_off_texts(&self, letters: &[DVec2; 4]) -> bool {
+        !self.taken.iter().any(|t| convex_overlap(letters, t, -TEXT_GAP_MM))
+    }
+
     fn accept(&mut self, centre: DVec2, direction: DVec2, wanted: Wanted) {
         let along = upright(direction);
-        self.taken.push(text_box(centre, direction, wanted).to_vec());
+        self.taken.push(air_box(centre, direction, wanted).to_vec());
         self.labels.push(Label {
             kind: wanted.kind,
             text: wanted.text.to_owned(),
@@ -217,6 +239,11 @@ fn text_box(centre: DVec2, direction: DVec2, wanted: Wanted) -> [DVec2; 4] {
     let (low, high) = (-wanted.below_mm - wanted.frame_mm, wanted.cap_mm / 2.0 + wanted.frame_mm);
     let [low, high] = [low, high].map(|mm| along.perp() * mm);
     [low - aside, low + aside, high + aside, high - aside].map(|corner| centre + corner)
+}
+
+/// The same with the paper about it.
+fn air_box(centre: DVec2, direction: DVec2, wanted: Wanted) -> [DVec2; 4] {
+    text_box(centre, direction, Wanted { frame_mm: wanted.frame_mm + wanted.air_mm, ..wanted })
 }
 
 /// Whether a leader line that begins at a point cannot be taken for the one of a text.
