@@ -338,6 +338,13 @@ fn distance_mm(text: &[DVec2; 4], point: DVec2) -> f64 {
     polygon::edges(text).map(|(a, b)| polygon::distance_to_segment(point, a, b)).fold(f64::INFINITY, f64::min)
 }
 
+/// Distance of two texts; 0 where they overlap.
+fn between_mm(one: &[DVec2; 4], other: &[DVec2; 4]) -> f64 {
+    let to =
+        |a: &[DVec2; 4], b: &[DVec2; 4]| a.iter().map(|&p| distance_mm(b, p)).fold(f64::INFINITY, f64::min);
+    to(one, other).min(to(other, one))
+}
+
 /// The labels D5 and F2 of the snowman had the beginning of another label's leader line beside them; D2
 /// and E5 of the rabbit had no place.
 #[test]
@@ -347,12 +354,34 @@ fn no_label_of_the_samples_can_be_read_for_another_edge() {
         let (mesh, _) = Mesh::from_soup(&mesh::read(&std::fs::read(path).unwrap()).unwrap()).unwrap();
         let output = pipeline::run(&mesh, &Options::default(), &Silent).unwrap();
         for net in output.nets() {
+            let labels = || net.pieces().iter().flat_map(|piece| piece.labels());
+            let pushes = labels().filter(|label| label.kind == LabelKind::Push).count();
+            assert_eq!(pushes, 1, "{name}: {} marks of the top panel", net.pieces()[0].name());
             for piece in net.pieces() {
                 assert_eq!(piece.unplaced_labels(), [] as [String; 0], "{name}: {}", piece.name());
                 assert_readable(net, piece, name);
             }
         }
     }
+}
+
+/// "push down" and "body" were read as one text.
+#[test]
+fn the_name_of_a_piece_stands_apart_where_there_is_room() {
+    let path = format!("{}/samples/box.obj", env!("CARGO_MANIFEST_DIR"));
+    let (mesh, _) = Mesh::from_soup(&mesh::read(&std::fs::read(path).unwrap()).unwrap()).unwrap();
+    let output = pipeline::run(&mesh, &Options::default(), &Silent).unwrap();
+    let pieces: Vec<_> = output.nets().iter().flat_map(|net| net.pieces()).collect();
+    for piece in &pieces {
+        let (names, others): (Vec<&Label>, Vec<&Label>) =
+            piece.labels().iter().partition(|label| label.kind == LabelKind::Name);
+        let [name] = names[..] else { panic!("{} has {} names", piece.name(), names.len()) };
+        for other in others {
+            let apart_mm = between_mm(&letters(name), &letters(other));
+            assert!(apart_mm > 2.5, "{}: {apart_mm} mm to {}", piece.name(), other.text);
+        }
+    }
+    assert!(!pieces.is_empty());
 }
 
 fn assert_readable(net: &Net, piece: &tatamu::net::Piece, model: &str) {

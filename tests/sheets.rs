@@ -233,6 +233,19 @@ fn labels_are_on_tabs_or_on_paper_that_is_cut_off() {
     );
 }
 
+/// An armadillo with long names had no order of folding on its sheets.
+#[test]
+fn the_first_advice_that_fits_is_above_the_first_sheet() {
+    let made = Made::new(&prisms(), &a4(), |_| ());
+    let advice = ["left front foot, ".repeat(30), "A, B, C".to_owned(), "D".to_owned()];
+    let imprint = Imprint { title: "t", advice: &advice, ..Imprint::default() };
+    let pages = made.layout.pages(&made.nets, imprint, &LineStyles::standard());
+    let says =
+        |page: &Drawing, words: &str| page.marks.iter().filter_map(text_of).any(|text| text.content == words);
+    assert!(says(&pages[0], "A, B, C") && !says(&pages[0], "D"));
+    assert!(pages[1..].iter().all(|page| !says(page, "A, B, C")));
+}
+
 #[test]
 fn labels_on_the_other_side_are_where_they_were() {
     let mut sheets = a4();

@@ -20,6 +20,7 @@ fn packed(main: &[u8], other: &[u8]) -> zip::result::ZipResult<Vec<u8>> {
 pub fn run(bytes: &[u8]) {
     let (main, other) = bytes.split_at(bytes.iter().position(|&b| b == 0).unwrap_or(bytes.len()));
     let Ok(file) = packed(main, other.strip_prefix(&[0]).unwrap_or(other)) else { return };
+    let _ = mesh::read_painting(&file, &|_| Err(String::new()));
     if let Ok(soup) = mesh::read(&file) {
         let _ = Mesh::from_soup(&soup);
     }

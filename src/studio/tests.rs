@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tatamu::project::Project;
-use tatamu::project::options::{DIRECTION, PAPER, TOP_EDGES};
+use tatamu::project::options::{CARD, DIRECTION, PAPER, TOP_EDGES};
 use tatamu::sheet::Pin;
 
 /// A studio with a small model, quick to make, in a folder of its own.
@@ -276,4 +276,37 @@ fn stays_where_it_is_pinned(name: &str) {
             }
         }
     }
+}
+
+/// A box with one colour on all sides.
+const BROWN_BOX: &str = "OFF\n8 6 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0 1 1\n1 1 1\n\
+    4 0 2 3 1 139 69 19\n4 4 5 7 6 139 69 19\n4 0 1 5 4 139 69 19\n4 2 6 7 3 139 69 19\n\
+    4 0 4 6 2 139 69 19\n4 1 3 7 5 139 69 19\n";
+
+/// Card in the colours of the mesh could be chosen on the command line alone.
+#[test]
+fn card_in_the_colours_of_the_mesh_is_one_step() {
+    let Desk { mut studio, folder } = desk();
+    studio.take_cards();
+    assert!(studio.notice().unwrap().contains("no colours"), "{:?}", studio.notice());
+    let path = folder.path().join("box.off");
+    std::fs::write(&path, BROWN_BOX).unwrap();
+    studio.open(&path);
+    wait(&mut studio, "the box", |s| s.finished().is_some() && s.shown().names().len() == 1);
+    let name = studio.shown().names()[0].clone();
+    let card = |studio: &Studio| {
+        let components = &studio.document().unwrap().options().components;
+        components.get(&name).and_then(|own| own.card.clone())
+    };
+    studio.take_cards();
+    assert_eq!(card(&studio).as_deref(), Some("brown"));
+    wait(&mut studio, "brown sheets", |s| s.finished().is_some());
+    assert_eq!(studio.finished().unwrap().layout().card(0), Some("brown"));
+    studio.undo();
+    assert_eq!(card(&studio), None);
+    let value = Some("blue".into());
+    studio.change(&Change::Component { name: name.clone(), option: &CARD, value }, None);
+    assert_eq!(card(&studio).as_deref(), Some("blue"));
+    studio.change(&Change::Reset { name: name.clone() }, None);
+    assert_eq!(card(&studio), None);
 }

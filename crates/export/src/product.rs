@@ -283,3 +283,20 @@ pub fn size_note(output: &Output) -> String {
     let size = high - low;
     format!("{:.0} × {:.0} × {:.0} mm", size.x, size.y, size.z)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tatamu_core::fold::{Pull, Step};
+
+    /// Sheets and overview did not say what to unplug before the model folds.
+    #[test]
+    fn an_order_says_what_is_unplugged_and_what_is_left_half_folded() {
+        let step = |to: f64| Motion::Fold(Step { part: 0, from: 0.0, to });
+        assert_eq!(motion_words(&step(1.0), "ear"), "ear");
+        assert_eq!(motion_words(&step(0.5), "ear"), "ear to 50%");
+        let pull = Pull { part: 0, way_mm: 9.0 };
+        assert_eq!(motion_words(&Motion::Unplug(pull), "ear"), "unplug ear");
+        assert_eq!(motion_words(&Motion::Plug(pull), "ear"), "plug in ear");
+    }
+}

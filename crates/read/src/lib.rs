@@ -294,7 +294,8 @@ pub fn read_painting(
         Format::Ply => ply::read_painting(bytes)?,
         Format::Off => off::read_painting(bytes)?,
         Format::Gltf => gltf::read_painting(bytes, sibling)?,
-        Format::StlAscii | Format::StlBinary | Format::ThreeMf => None,
+        Format::ThreeMf => threemf::read_painting(bytes)?,
+        Format::StlAscii | Format::StlBinary => None,
     };
     painting.ok_or(ColourError::None { format })
 }

@@ -1,7 +1,12 @@
 //! 3D Manufacturing Format: a ZIP archive with models in XML (3MF Core Specification 1.3, and the paths of the
-//! Production Extension 1.1, which slicers write). Colours are not read.
+//! Production Extension 1.1, which slicers write). Units say nothing, since models are made in a size of their own.
+
+mod colour;
+
+pub(super) use colour::read_painting;
 
 use super::{Format, Place, ReadError};
+use colour::Palettes;
 use glam::{DAffine3, DMat3, DVec3};
 use roxmltree::{Document, Node};
 use std::collections::BTreeMap;
@@ -32,6 +37,18 @@ pub(super) fn is_archive(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
+    let scene = scene(bytes, false)?;
+    Soup::new(scene.positions, &scene.faces).map_err(|error| ReadError::from_soup(Format::ThreeMf, &error))
+}
+
+/// What a file shows, in the coordinates of its build, with the light at the corners of its faces, if that is wanted.
+struct Shown {
+    positions: Vec<DVec3>,
+    faces: Vec<[u32; 3]>,
+    lights: Vec<Option<[DVec3; 3]>>,
+}
+
+fn scene(bytes: &[u8], has_colours: bool) -> Result<Shown, ReadError> {
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error.to_string()))?;
     let limit = (bytes.len() as u64).saturating_mul(MOST_UNPACKED).min(MOST_BYTES);
     let main = main_model(&mut archive, limit)?;
@@ -50,9 +67,11 @@ pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
     let documents = texts.iter().map(|(path, text)| Ok((path.as_str(), parsed(path, text)?)));
     let documents: BTreeMap<&str, Document> = documents.collect::<Result<_, ReadError>>()?;
     let objects = objects(&documents);
-    let mut scene = Scene { objects, copies: 0, positions: Vec::new(), faces: Vec::new() };
+    let palettes = has_colours.then(|| Palettes::of(&documents));
+    let shown = Shown { positions: Vec::new(), faces: Vec::new(), lights: Vec::new() };
+    let mut scene = Scene { objects, palettes, copies: 0, shown };
     scene.build(&main, &documents)?;
-    Soup::new(scene.positions, &scene.faces).map_err(|error| ReadError::from_soup(Format::ThreeMf, &error))
+    Ok(scene.shown)
 }
 
 fn damaged(what: &str) -> ReadError {
@@ -129,9 +148,10 @@ fn objects<'a, 't>(documents: &'a BTreeMap<&'a str, Document<'t>>) -> Objects<'a
 
 struct Scene<'a, 't> {
     objects: Objects<'a, 't>,
+    /// Where colours are wanted.
+    palettes: Option<Palettes<'a>>,
     copies: usize,
-    positions: Vec<DVec3>,
-    faces: Vec<[u32; 3]>,
+    shown: Shown,
 }
 
 impl<'a, 't> Scene<'a, 't> {
@@ -170,7 +190,7 @@ impl<'a, 't> Scene<'a, 't> {
         }
         let place = outer * transform(path, &user)?;
         for mesh in object.children().filter(|node| node.tag_name().name() == "mesh") {
-            self.mesh(path, mesh, place)?;
+            self.mesh(path, object, mesh, place)?;
         }
         for component in elements(object, "component") {
             self.place(path, component, "objectid", place, depth - 1)?;
@@ -178,8 +198,15 @@ impl<'a, 't> Scene<'a, 't> {
         Ok(())
     }
 
-    fn mesh(&mut self, path: &str, mesh: Node<'a, 't>, place: DAffine3) -> Result<(), ReadError> {
-        let first = self.positions.len();
+    fn mesh(
+        &mut self,
+        path: &str,
+        object: Node<'a, 't>,
+        mesh: Node<'a, 't>,
+        place: DAffine3,
+    ) -> Result<(), ReadError> {
+        let shown = &mut self.shown;
+        let first = shown.positions.len();
         for (k, vertex) in elements(mesh, "vertex").enumerate() {
             let [x, y, z] = ["x", "y", "z"].map(|key| number(path, &vertex, key));
             let at = place.transform_point3(DVec3::new(x?, y?, z?));
@@ -187,11 +214,12 @@ impl<'a, 't> Scene<'a, 't> {
                 let place = Place::Vertex(k);
                 return Err(ReadError::NotFinite { format: Format::ThreeMf, place, found: at.to_string() });
             }
-            self.positions.push(at);
+            shown.positions.push(at);
         }
-        let count = self.positions.len() - first;
+        let count = shown.positions.len() - first;
         // A mirror turns the faces over.
-        let order = if place.matrix3.determinant() < 0.0 { ["v1", "v3", "v2"] } else { ["v1", "v2", "v3"] };
+        let is_mirrored = place.matrix3.determinant() < 0.0;
+        let order = if is_mirrored { ["v1", "v3", "v2"] } else { ["v1", "v2", "v3"] };
         for (k, triangle) in elements(mesh, "triangle").enumerate() {
             let corner = |key: &str| {
                 let index = number(path, &triangle, key)?;
@@ -206,9 +234,13 @@ impl<'a, 't> Scene<'a, 't> {
                 is_there.then_some(first as u32 + index as u32).ok_or_else(wrong)
             };
             let [a, b, c] = order.map(corner);
-            self.faces.push([a?, b?, c?]);
+            shown.faces.push([a?, b?, c?]);
+            if let Some(palettes) = &self.palettes {
+                let lights = palettes.lights(path, &object, &triangle);
+                shown.lights.push(lights.map(|[a, b, c]| if is_mirrored { [a, c, b] } else { [a, b, c] }));
+            }
         }
-        if self.faces.len().max(self.positions.len()) > MOST_TRIANGLES {
+        if shown.faces.len().max(shown.positions.len()) > MOST_TRIANGLES {
             return Err(syntax(path, "very many copies of objects", "at most 50 million triangles"));
         }
         Ok(())
@@ -241,7 +273,7 @@ mod tests {
     use zip::ZipWriter;
     use zip::write::SimpleFileOptions;
 
-    fn archive(files: &[(&str, &str)]) -> Vec<u8> {
+    pub(super) fn archive(files: &[(&str, &str)]) -> Vec<u8> {
         let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
         for (name, text) in files {
             zip.start_file(*name, SimpleFileOptions::default()).unwrap();

@@ -449,7 +449,7 @@ impl Writer<'_> {
             ("labels", estimate.labels.to_string()),
             ("joints", estimate.joints.to_string()),
             ("glued", estimate.glued_joints.to_string()),
-            ("time", estimate.time()),
+            ("time", self.words.time(estimate.whole_minutes())),
         ];
         let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
         let say = |text: &str| fill(text, &values);

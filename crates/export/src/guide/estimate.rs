@@ -1,5 +1,6 @@
 //! What the building takes: lengths, and minutes by a stated formula.
 
+use super::language::Language;
 use tatamu_core::component::HingeId;
 use tatamu_net::net::Tab;
 use tatamu_net::net::layout::hinge_length;
@@ -129,14 +130,14 @@ impl Estimate {
         format!("{word}: about {}, {} panels, {} tabs{tab}", self.time(), self.panels, self.tabs)
     }
 
-    /// The minutes as hours and minutes.
+    /// The minutes as far as the estimate can tell.
+    pub fn whole_minutes(&self) -> u64 {
+        ((self.minutes() / STEP_MIN).ceil() * STEP_MIN) as u64
+    }
+
+    /// The same as hours and minutes.
     pub fn time(&self) -> String {
-        let minutes = ((self.minutes() / STEP_MIN).ceil() * STEP_MIN) as u64;
-        match (minutes / 60, minutes % 60) {
-            (0, minutes) => format!("{minutes} min"),
-            (hours, 0) => format!("{hours} h"),
-            (hours, minutes) => format!("{hours} h {minutes} min"),
-        }
+        Language::English.words().time(self.whole_minutes())
     }
 }
 

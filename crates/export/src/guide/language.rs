@@ -63,6 +63,16 @@ impl Words {
     pub fn number(&self, x: f64, decimals: usize) -> String {
         format!("{x:.decimals$}").replace('.', &self.decimal)
     }
+
+    /// A time in whole minutes, as it is written in the language.
+    pub fn time(&self, minutes: u64) -> String {
+        let told = |text: &str, n: u64| fill(text, &[("n", &n.to_string())]);
+        match (minutes / 60, minutes % 60) {
+            (0, minutes) => told(&self.minutes, minutes),
+            (hours, 0) => told(&self.hours, hours),
+            (hours, minutes) => format!("{} {}", told(&self.hours, hours), told(&self.minutes, minutes)),
+        }
+    }
 }
 
 /// A text with places to fill in: each name in braces becomes its value.
@@ -91,6 +101,10 @@ pub struct Words {
     pub code: String,
     /// What stands between whole numbers and their tenths.
     pub decimal: String,
+    /// A number of hours.
+    pub hours: String,
+    /// A number of minutes.
+    pub minutes: String,
     /// On every page.
     pub page: PageWords,
     /// The first page.
@@ -339,6 +353,10 @@ mod tests {
     fn numbers_are_written_as_the_language_does() {
         let written = |language: Language| language.words().number(1234.56, 1);
         assert_eq!([Language::English, Language::German].map(written), ["1234.6", "1234,6"]);
+        // Japanese guides said "1 h 45 min".
+        let time = |language: Language| [45, 120, 105].map(|minutes| language.words().time(minutes));
+        assert_eq!(time(Language::French), ["45 min", "2 h", "1 h 45 min"]);
+        assert_eq!(time(Language::Japanese), ["45 分", "2 時間", "1 時間 45 分"]);
     }
 
     #[test]

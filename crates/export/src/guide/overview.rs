@@ -26,7 +26,7 @@ const NAMES: f64 = 0.2;
 const SWATCH_MM: f64 = 3.0;
 /// Where columns of the table begin, as shares of its width.
 const COLUMNS: [f64; 7] = [0.0, 0.28, 0.38, 0.60, 0.70, 0.80, 0.88];
-const HEADS: [&str; 7] = ["part", "labels", "glued to", "pieces", "panels", "tabs", "sheets"];
+const HEADS: [&str; 7] = ["part", "labels", "sits on", "pieces", "panels", "tabs", "sheets"];
 /// What follows the name of a part that the picture hides.
 const HIDDEN: &str = " (hidden)";
 /// How far from the middle of a panel to its corners a part is looked for that shows no middle.
@@ -215,7 +215,33 @@ mod tests {
     use super::*;
     use crate::report::Run;
     use tatamu_core::mesh::Repairs;
+    use tatamu_core::model::ModelPart;
     use tatamu_draw::drawing::Shape;
+
+    /// The line of a goat's body led to its ear, which was before the middle of the body.
+    #[test]
+    fn a_part_is_named_where_nothing_hides_it() {
+        let output = sample();
+        let scene = components_scene(output.model());
+        let camera = ViewAngle::default().camera().unwrap();
+        let view = View::fit(camera, scene.points(), DVec2::splat(100.0), 0.0).unwrap();
+        let parts = 0..output.model().parts().len();
+        let shown: Vec<DVec3> =
+            parts.clone().filter_map(|part| shown_at(&scene, &view, output, part)).collect();
+        assert!(shown.len() + 1 >= output.model().parts().len(), "{shown:?}");
+        for at in shown {
+            let nearer = |p: DVec3| view.towards_eye(at).normalize().dot(p - at);
+            // No corner of a panel that covers the place is much nearer to the eye.
+            let covers = scene.faces().iter().filter(|face| {
+                let outline: Vec<DVec2> = face.corners().iter().map(|&p| view.project(p)).collect();
+                let outline =
+                    if polygon::area(&outline) < 0.0 { outline.into_iter().rev().collect() } else { outline };
+                polygon::contains(&outline, view.project(at))
+            });
+            let before = covers.filter(|face| face.corners().iter().all(|&p| nearer(p) > 1.0)).count();
+            assert_eq!(before, 0, "{at}");
+        }
+    }
 
     #[test]
     fn the_overview_names_every_part_with_its_sheets_and_stays_on_the_page() {
@@ -232,8 +258,14 @@ mod tests {
             })
             .collect();
         for part in sample().model().parts() {
-            let count = texts.iter().filter(|text| **text == part.name).count();
-            assert_eq!(count, 2, "{} beside the picture and in the table", part.name);
+            let count =
+                texts.iter().filter(|text| text.strip_suffix(HIDDEN).unwrap_or(text) == part.name).count();
+            let is_below = |other: &&ModelPart| {
+                let joint = other.joint.as_ref();
+                joint.is_some_and(|joint| sample().model().parts()[joint.parent].name == part.name)
+            };
+            let on_it = sample().model().parts().iter().filter(is_below).count();
+            assert_eq!(count, 2 + on_it, "{} beside the picture and in the table", part.name);
         }
         assert!(texts.iter().any(|text| text.starts_with("fold flat in this order")), "{texts:?}");
         for mark in &page.marks {

@@ -34,10 +34,12 @@ fn piece(made: &Made, blank: &Blank, joints: &[JointMark]) -> Piece {
     });
     placer.joint_texts();
     placer.lead();
-    if let Some(top) = blank.panels.iter().find(|p| p.kind == PanelKind::Top) {
-        placer.push(top.panel);
-    }
+    let top = blank.panels.iter().find(|p| p.kind == PanelKind::Top).map(|p| p.panel);
+    let afar = top.filter(|&top| !placer.push(top));
     placer.name(&blank.name);
+    if let Some(top) = afar {
+        placer.push_from_afar(top);
+    }
     placer.angles(|kind| angle(made, kind));
     let Texts { labels, leaders, unplaced } = placer.finish();
     Piece { blank: blank.clone(), joints, labels, leaders, unplaced_labels: unplaced }

@@ -146,9 +146,9 @@ impl<'a> Placer<'a> {
         }
     }
 
-    /// The mark of the top panel, on it or with a line to it.
-    pub(crate) fn push(&mut self, top: PanelId) {
-        let Some(face) = self.face_of(top) else { return };
+    /// The mark of the top panel; false where it has no room there.
+    pub(crate) fn push(&mut self, top: PanelId) -> bool {
+        let Some(face) = self.face_of(top) else { return true };
         let panel = self.outlines[face].clone();
         let count = self.taken.len();
         let covered = self.covered.clone();
@@ -161,14 +161,22 @@ impl<'a> Placer<'a> {
             let own = self.taken.split_off(self.taken.len() - 1);
             self.taken.truncate(count);
             self.taken.extend(own);
-            return;
+            return true;
         }
         self.taken.truncate(count);
-        if !anywhere(self) {
-            let targets = spots(&panel).into_iter().filter(|&at| depth_outside(&panel, at) < -LINE_GAP_MM);
-            let [text, _] = PUSH.map(str::to_owned);
-            self.led(&Waiting { text, kind: LabelKind::Push, targets: targets.collect() });
-        }
+        anywhere(self)
+    }
+
+    /// The same elsewhere, with a line to the top panel; after all texts that count more.
+    pub(crate) fn push_from_afar(&mut self, top: PanelId) {
+        let Some(face) = self.face_of(top) else { return };
+        let panel = &self.outlines[face];
+        let targets = spots(panel).into_iter().filter(|&at| depth_outside(panel, at) < -LINE_GAP_MM);
+        let targets: Vec<DVec2> = targets.collect();
+        PUSH.iter().any(|&text| {
+            let text = text.to_owned();
+            self.led(&Waiting { text, kind: LabelKind::Push, targets: targets.clone() })
+        });
     }
 
     /// Indices of the faces that are panels.
