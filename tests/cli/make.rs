@@ -146,7 +146,7 @@ fn both_sides_are_pages_in_turn_and_an_overview_comes_first() {
 }
 
 /// Two boxes, one on the other, brown and white.
-fn two_boxes() -> String {
+pub(crate) fn two_boxes() -> String {
     let corners = |low: [u32; 3], size: u32| {
         (0..8_u32)
             .map(move |k| [low[0] + (k >> 2) * size, low[1] + (k >> 1 & 1) * size, low[2] + (k & 1) * size])

@@ -141,11 +141,11 @@ fn a_plotted_model_takes_no_more_sheets_than_it_may() {
 /// `tatamu show` took no notice of it.
 #[test]
 fn a_shown_model_takes_no_more_sheets_than_it_may() {
-    let files: [(&str, &[u8]); 1] = [("cube.off", cube::OFF.as_bytes())];
-    let show =
-        ["show", "cube.off", "--size", "60", "--min-panel-width", "1", "--paper", "17x17mm", "-o", "a.png"];
-    let limited = [&show[..], &["--sheets-max", "1"]].concat();
-    assert_refused(&files, &limited, &["1 sheet", "allow more with --sheets-max"]);
+    let mesh = crate::make::two_boxes();
+    let files: [(&str, &[u8]); 1] = [("a.off", mesh.as_bytes())];
+    // Two colours of card are never on one sheet.
+    let show = ["show", "a.off", "--effort", "0", "--card", "auto", "--sheets-max", "1", "-o", "a.png"];
+    assert_refused(&files, &show, &["1 sheet", "allow more with --sheets-max"]);
 }
 
 /// A tiny model took half a minute of advice that no one could follow.
@@ -165,14 +165,14 @@ fn one_file_goes_to_the_standard_output_alone() {
     let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
     let make = |options: &[&str]| {
         let mut command = assert_cmd::cargo::cargo_bin_cmd!("tatamu");
-        let all = [&["make", "cube.off", "--size", "60", "--effort", "0"][..], options].concat();
+        let all = [&["make", "cube.off", "--effort", "0"][..], options].concat();
         command.current_dir(folder.path()).args(all).output().unwrap()
     };
-    let result = make(&["-o", "-.pdf"]);
+    let result = make(&["--size", "60", "-o", "-.pdf"]);
     let told = String::from_utf8_lossy(&result.stderr).into_owned();
     assert!(result.status.success() && told.contains("sheets      1 of a4"), "{told}");
     assert!(result.stdout.starts_with(b"%PDF-") && result.stdout.trim_ascii_end().ends_with(b"%%EOF"));
-    let json = make(&["-q", "-o", "-.json", "-o", "a.pdf"]).stdout;
+    let json = make(&["-q", "--size", "60", "-o", "-.json", "-o", "a.pdf"]).stdout;
     assert!(serde_json::from_slice::<serde_json::Value>(&json).is_ok());
     assert_eq!(names(&folder), ["a.pdf", "cube.off"]);
     for several in [&["-o", "-.pdf", "-o", "-.json"][..], &["--size", "300", "-o", "-.svg"]] {

@@ -22,7 +22,8 @@ pub struct Imprint<'a> {
     pub title: &'a str,
     /// What follows the name, such as its size; may be empty.
     pub note: &'a str,
-    /// What is above the first sheet, such as the order of folding: the first of these that has room on one line.
+    /// What is above a sheet, such as the order of folding: the first of these that has room on one line, on the first
+    /// sheet that has a line free.
     pub advice: &'a [String],
 }
 
@@ -54,14 +55,14 @@ impl Layout {
             }
         }
         let mut rest = Vec::new();
+        let fits = |words: &&String| text::width_mm(words, LOST_CAP_MM) <= text_width_mm(options);
+        let mut advice = imprint.advice.iter().find(fits);
         for (k, page) in pages.iter_mut().enumerate() {
             let mut lines = wrapped(&lost[k], text_width_mm(options));
             let has_room = |lines: usize| lines as f64 * LOST_LINE_MM <= head_mm(options);
             if has_room(lines.len()) {
-                let fits = |words: &&String| text::width_mm(words, LOST_CAP_MM) <= text_width_mm(options);
-                let advice = imprint.advice.iter().find(fits);
-                if let Some(advice) = advice.filter(|_| k == 0 && has_room(lines.len() + 1)) {
-                    lines.insert(0, advice.clone());
+                if has_room(lines.len() + 1) {
+                    lines.splice(0..0, advice.take().cloned());
                 }
                 let top_mm = LOST_LINE_MM * (lines.len() as f64 + 0.4);
                 page.marks.extend(list(
