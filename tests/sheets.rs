@@ -236,7 +236,8 @@ fn labels_are_on_tabs_or_on_paper_that_is_cut_off() {
 /// An armadillo with long names had no order of folding on its sheets.
 #[test]
 fn the_first_advice_that_fits_is_above_one_sheet() {
-    let made = Made::new(&prisms(), &a4(), |_| ());
+    // The smallest pieces have labels without a place, which stand on the same line.
+    let made = Made::new(&prisms()[8..], &a4(), |_| ());
     let advice = ["left front foot, ".repeat(30), "A, B, C".to_owned(), "D".to_owned()];
     let imprint = Imprint { title: "t", advice: &advice, ..Imprint::default() };
     let pages = made.layout.pages(&made.nets, imprint, &LineStyles::standard());

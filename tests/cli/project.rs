@@ -70,7 +70,7 @@ fn init_keeps_card_and_the_limit_of_sheets() {
     assert!(init(&["--card", "body=dark blue"]).contains("\ncolor = \"dark blue\"\n"));
     let text = init(&["--card", "auto", "--sheets-max", "1"]);
     assert!(text.contains("\ncolor = \"white\"\n"), "{text}");
-    assert!(text.contains("\nsheets_max = 1\n") && text.contains("\nsize = 300"), "{text}");
+    assert!(text.contains("\nsheets_max = 1\n") && text.contains("\nsize = \"300mm\"\n"), "{text}");
     let result = run(folder.path(), &["make", "cube.toml", "--effort", "0", "-o", "a.pdf"]);
     assert!(result.out.contains("sheets      1 of a4 (1 white)"), "{}", result.out);
 }
