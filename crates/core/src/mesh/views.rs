@@ -2,6 +2,7 @@
 
 use super::Mesh;
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 /// Pixels along the longest side of the mesh: of a model of 200 mm one is 2 mm, and errors of single pixels
 /// cancel along an outline.
@@ -41,7 +42,8 @@ impl Views {
     /// The views of a mesh.
     pub fn of_mesh(mesh: &Mesh) -> Self {
         let triangles: Vec<[DVec3; 3]> = (0..mesh.faces().len()).map(|f| mesh.corners(f)).collect();
-        Self { views: sides().map(|side| View::new(side, &triangles)).collect() }
+        let sides: Vec<DVec3> = sides().collect();
+        Self { views: sides.into_par_iter().map(|side| View::new(side, &triangles)).collect() }
     }
 
     /// What nothing covers.

@@ -6,6 +6,7 @@
 
 mod bodies;
 mod choose;
+mod clean;
 mod coarsen;
 mod contact;
 mod cut;

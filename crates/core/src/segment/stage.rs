@@ -1,6 +1,7 @@
 //! The stage as a whole.
 
 use super::choose::{Chosen, Tree};
+use super::clean::Cleaner;
 use super::coarsen::{Coarse, coarsen};
 use super::cut::soft_labels;
 use super::gmm::Mixture;
@@ -11,7 +12,7 @@ use super::patches::{Partition, absorb_small, connected, split_large};
 use super::sdf::{Probe, Target};
 use super::surface::{Surface, outward_faces};
 use super::{Method, SegmentError, SegmentOptions, Segmentation, SymmetryChoice};
-use super::{bodies, grid, halves, refine, smooth};
+use super::{bodies, grid, halves, smooth};
 use crate::geom::Mirror;
 use crate::mesh::{Mesh, MirrorPlane};
 use crate::progress::{Cancelled, Progress};
@@ -61,10 +62,12 @@ pub fn segment(
     let mirror = plane.map(|plane| plane.mirror);
     let diameters = target.and_then(|target| shape_diameters(&target, &fine, &coarse, &cell_of_face));
     progress.check()?;
-    let cells = match options.method {
+    let part_cost = PART_COST / libm::pow(DETAIL_RANGE, options.detail);
+    let (cells, further) = match options.method {
         Method::Sdf { clusters, smoothing } => {
             let label = labels(&coarse, diameters.as_deref(), clusters, smoothing);
-            absorb_small(&coarse, connected(&coarse, &label), LEAST_SEGMENT * coarse.total_area())
+            let least = LEAST_SEGMENT * coarse.total_area();
+            (absorb_small(&coarse, connected(&coarse, &label), least), None)
         }
         Method::Merge => {
             progress.stage("patches");
@@ -74,7 +77,6 @@ pub fn segment(
             progress.stage("parts");
             let ground = Ground { faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
             let solid = Solid::filled(positions, &faces, grid::CELLS);
-            let part_cost = PART_COST / libm::pow(DETAIL_RANGE, options.detail);
             let choose = |tree: Tree| match options.parts {
                 Some(count) => tree.parts(&solid, count, progress),
                 None => tree.best_parts(&solid, part_cost, progress),
@@ -91,27 +93,25 @@ pub fn segment(
             let ways: Vec<_> = halves.iter().flat_map(|half| SIDES.map(|sides| (half, sides))).collect();
             let chosen: Result<Vec<Chosen>, Cancelled> =
                 ways.into_par_iter().map(|(half, sides)| merged(Some(half), sides)).collect();
-            match chosen?.into_iter().reduce(|best, next| if next.worth > best.worth { next } else { best }) {
-                Some(best) => best.partition,
-                None => merged(None, SIDES[0])?.partition,
-            }
+            let best =
+                chosen?.into_iter().reduce(|best, next| if next.worth > best.worth { next } else { best });
+            let best = best.map_or_else(|| merged(None, SIDES[0]), Ok)?;
+            (best.partition, Some((best.finer, solid)))
         }
     };
     progress.stage("borders");
-    let mut of_cell = vec![0; borders.surface.len()];
-    for (&cell, &coarse) in borders.cell_of.iter().zip(&cell_of_face) {
-        of_cell[cell as usize] = cells.of_cell[coarse as usize];
-    }
-    let found = Partition { of_cell, count: cells.count };
-    let refined = refine::refine_borders(&borders.surface, found.clone());
     // Borders that moved may have left slivers; a number that was asked for stands.
-    let refined = match options.parts {
-        None => absorb_small(&borders.surface, refined, LEAST_SEGMENT * fine.total_area()),
-        Some(_) => refined,
+    let least_share = if options.parts.is_some() { 0.0 } else { LEAST_SEGMENT };
+    let cleaner = Cleaner {
+        mesh,
+        fine: &borders,
+        coarse_cell_of: &cell_of_face,
+        least_area: least_share * fine.total_area(),
+        halves: mirror.and_then(|mirror| Halves::new(&borders.surface, &mirror)),
     };
-    let refined = match mirror.and_then(|mirror| Halves::new(&borders.surface, &mirror)) {
-        Some(halves) => halves.alike(&borders.surface, &found, refined),
-        None => refined,
+    let refined = match &further {
+        Some((finer, solid)) => cleaner.best((&cells, finer), solid, part_cost, progress)?,
+        None => cleaner.clean(&cells),
     };
     let of_face: Vec<u32> = borders.cell_of.iter().map(|&cell| refined.of_cell[cell as usize]).collect();
     Ok(Segmentation::numbered(&of_face, refined.count, fine.areas()).mirrored_in(plane))
