@@ -288,7 +288,7 @@ const BROWN_BOX: &str = "OFF\n8 6 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 0 1\n1 0 1\n0
 fn card_in_the_colours_of_the_mesh_is_one_step() {
     let Desk { mut studio, folder } = desk();
     studio.take_cards();
-    assert!(studio.notice().unwrap().contains("no colours"), "{:?}", studio.notice());
+    assert!(studio.problem().unwrap().contains("no colours"), "{:?}", studio.problem());
     let path = folder.path().join("box.off");
     std::fs::write(&path, BROWN_BOX).unwrap();
     studio.open(&path);

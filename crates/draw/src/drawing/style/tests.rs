@@ -20,7 +20,7 @@ fn the_standard_lines_differ_without_colour() {
     }
     assert!(styles.stroke(Layer::Cut).dash_mm.is_empty());
     assert_eq!(styles.stroke(Layer::Cut).width_mm, 0.25);
-    assert_eq!(styles.colour(Layer::Glue), Rgb(0x70, 0x70, 0x70));
+    assert_eq!(styles.colour(Layer::Glue), Rgb(0x50, 0x50, 0x50));
     assert_eq!(styles.layer_name(Layer::FoldHinge), "FOLD180");
 }
 
@@ -32,7 +32,7 @@ fn mistakes_are_shown_with_their_line() {
         ("width_mm = 0.25", "width_mm = 0.0", "a width of 0 mm"),
         ("colour = \"#808080\"", "colour = \"grey\"", "#rrggbb"),
         ("dash_mm = [2.0, 1.0]", "dash_mm = [2.0]", "even number"),
-        ("dash_mm = [0.5, 1.0]", "dash_mm = [0.5, nan]", "NaN"),
+        ("dash_mm = [0.6, 0.9]", "dash_mm = [0.6, nan]", "NaN"),
         ("[glue]", "[glu]", "glu"),
         ("layer = \"GLUE\"", "layer = \"a b\"", "cannot be a layer"),
         ("layer = \"GLUE\"", "layer = \"\"", "cannot be a layer"),

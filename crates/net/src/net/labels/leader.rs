@@ -45,9 +45,17 @@ impl Placer<'_> {
     }
 
     /// Places a text with a leader line; false where there is no room for it.
-    pub(super) fn led(&mut self, waiting: &Waiting) -> bool {
-        let ways = [CAPS_MM, SMALL_CAPS_MM].map(|caps| [FOREIGN_MM, FOREIGN_MM / 2.0].map(|mm| (caps, mm)));
-        let is_led = ways.into_iter().flatten().any(|(caps_mm, foreign_mm)| {
+    fn led(&mut self, waiting: &Waiting) -> bool {
+        self.led_large(waiting) || self.led_with(waiting, SMALL_CAPS_MM)
+    }
+
+    /// The same, in letters as large as those of other texts.
+    pub(super) fn led_large(&mut self, waiting: &Waiting) -> bool {
+        self.led_with(waiting, CAPS_MM)
+    }
+
+    fn led_with(&mut self, waiting: &Waiting, caps_mm: [f64; 2]) -> bool {
+        let is_led = [FOREIGN_MM, FOREIGN_MM / 2.0].into_iter().any(|foreign_mm| {
             self.foreign_mm = foreign_mm;
             self.lead_one(waiting, caps_mm)
         });

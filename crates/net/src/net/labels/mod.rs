@@ -175,7 +175,7 @@ impl<'a> Placer<'a> {
         let targets: Vec<DVec2> = targets.collect();
         PUSH.iter().any(|&text| {
             let text = text.to_owned();
-            self.led(&Waiting { text, kind: LabelKind::Push, targets: targets.clone() })
+            self.led_large(&Waiting { text, kind: LabelKind::Push, targets: targets.clone() })
         });
     }
 
