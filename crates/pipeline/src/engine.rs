@@ -375,8 +375,7 @@ fn of_boards(shaped: Shaped) -> Result<Shaped, Error> {
     let (boards, thick) = thick(&shaped.model, options.thickness_mm, options.min_panel_width_mm).map_err(
         // That of missing room says what boards suit.
         |error| match error {
-            ThickError::NoRoom { .. } => Error::Thick(error),
-            error if is_mesh => Error::ThickMesh(error),
+            error if is_mesh && !matches!(error, ThickError::NoRoom { .. }) => Error::ThickMesh(error),
             error => Error::Thick(error),
         },
     )?;

@@ -101,32 +101,27 @@ impl Hull {
         self.facets.iter().flat_map(|f| f.outline.windows(2).skip(1).map(|w| [f.outline[0], w[0], w[1]]))
     }
 
+    /// The corners of the same triangles.
+    pub fn corners(&self) -> impl Iterator<Item = [DVec3; 3]> + '_ {
+        self.triangles().map(|t| t.map(|v| self.vertices[v as usize]))
+    }
+
     /// Surface area, mm².
     pub fn area(&self) -> f64 {
-        let triangle = |t: [u32; 3]| {
-            let [a, b, c] = t.map(|v| self.vertices[v as usize]);
-            (b - a).cross(c - a).length() / 2.0
-        };
-        self.triangles().map(triangle).sum()
+        self.corners().map(|[a, b, c]| (b - a).cross(c - a).length() / 2.0).sum()
     }
 
     /// Enclosed volume.
     pub fn volume(&self) -> f64 {
         let o = self.vertices[0];
-        self.triangles()
-            .map(|t| {
-                let [a, b, c] = t.map(|v| self.vertices[v as usize] - o);
-                a.dot(b.cross(c)) / 6.0
-            })
-            .sum()
+        self.corners().map(|t| t.map(|p| p - o)).map(|[a, b, c]| a.dot(b.cross(c)) / 6.0).sum()
     }
 
     /// Centre of the volume.
     pub fn centroid(&self) -> DVec3 {
         let o = self.vertices[0];
         let (mut sum, mut weight) = (DVec3::ZERO, 0.0);
-        for t in self.triangles() {
-            let [a, b, c] = t.map(|v| self.vertices[v as usize] - o);
+        for [a, b, c] in self.corners().map(|t| t.map(|p| p - o)) {
             let w = a.dot(b.cross(c));
             sum += (a + b + c) * (w / 4.0);
             weight += w;

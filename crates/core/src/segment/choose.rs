@@ -92,6 +92,16 @@ impl<'a> Cover<'a> {
         if self.solid.is_inside(column, height) { &mut self.inside } else { &mut self.outside }
     }
 
+    /// Cells of the solid that a hull covers.
+    pub fn inside(&self) -> usize {
+        self.inside
+    }
+
+    /// Cells outside of the solid that a hull covers.
+    pub fn outside(&self) -> usize {
+        self.outside
+    }
+
     /// Intersection over union of the hulls' union with the solid.
     pub fn iou(&self) -> f64 {
         self.inside as f64 / (self.solid.inside() + self.outside).max(1) as f64

@@ -97,15 +97,11 @@ impl Cleaner<'_> {
             points[parts.of_cell[cell as usize] as usize].extend(self.mesh.corners(face));
         }
         let hulls: Vec<Hull> = points.par_iter().filter_map(|points| Hull::of_points(points).ok()).collect();
-        let triangles = |hull: &Hull| -> Vec<[DVec3; 3]> {
-            hull.triangles().map(|t| t.map(|v| hull.vertices()[v as usize])).collect()
-        };
         let (mut cover, mut outlines) = (Cover::new(solid), views.nothing());
         for hull in &hulls {
-            let triangles = triangles(hull);
             let edges: Vec<[DVec3; 2]> =
-                triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
-            cover.add(&solid.runs(triangles.into_iter()));
+                hull.corners().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+            cover.add(&solid.runs(hull.corners()));
             outlines = outlines.or(&views.cover(&edges));
         }
         let borders = parts.border_costs(&self.fine.surface).values().sum();

@@ -1,5 +1,6 @@
 //! How well convex hulls stand for the solid.
 
+use super::choose::Cover;
 use super::grid::Solid;
 use crate::geom::Hull;
 use crate::mesh::Mesh;
@@ -23,26 +24,10 @@ pub struct Overlap {
 /// nothing.
 pub fn overlap<'a>(mesh: &Mesh, hulls: impl IntoIterator<Item = &'a Hull>) -> Option<Overlap> {
     let solid = Solid::of_mesh(mesh.positions(), mesh.faces(), CELLS);
-    let mut covered = vec![false; solid.len()];
-    let (mut inside, mut outside) = (0usize, 0usize);
-    for hull in hulls {
-        let triangles = hull.triangles().map(|t| t.map(|v| hull.vertices()[v as usize]));
-        for (column, first, end) in solid.runs(triangles) {
-            for height in first..end {
-                let cell = &mut covered[solid.index(column, height)];
-                if !std::mem::replace(cell, true) {
-                    let count = if solid.is_inside(column, height) { &mut inside } else { &mut outside };
-                    *count += 1;
-                }
-            }
-        }
-    }
-    let [all, inside, outside] = [solid.inside(), inside, outside].map(|n| n as f64);
-    (all > 0.0).then(|| Overlap {
-        iou: inside / (all + outside),
-        missing: 1.0 - inside / all,
-        outside: outside / all,
-    })
+    let mut cover = Cover::new(&solid);
+    hulls.into_iter().for_each(|hull| cover.add(&solid.runs(hull.corners())));
+    let [all, inside, outside] = [solid.inside(), cover.inside(), cover.outside()].map(|n| n as f64);
+    (all > 0.0).then(|| Overlap { iou: cover.iou(), missing: 1.0 - inside / all, outside: outside / all })
 }
 
 #[cfg(test)]

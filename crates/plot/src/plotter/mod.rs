@@ -38,5 +38,5 @@ pub use profile::{Cutter, Media, ProfileError};
 pub use simulated::virtual_machine;
 pub use virtual_ebb::VirtualEbb;
 pub use virtual_grbl::VirtualGrbl;
-pub use virtual_machine::VirtualMachine;
+pub use virtual_machine::{Record, VirtualMachine};
 pub use virtual_plotter::{Faults, VirtualOptions, VirtualPlotter};

@@ -4,14 +4,12 @@
 //! Source: docs/ebb.html of github.com/evil-mad/EggBot.
 
 use super::dialect::{Dialect, Meaning, Pen};
-use super::virtual_machine::VirtualMachine;
+use super::virtual_machine::{ANSWER_DELAY, Record, VirtualMachine};
 use super::{Cutter, Motion, Point, VirtualOptions};
 use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Duration;
 
-/// Delay of every answer.
-const ANSWER_DELAY: Duration = Duration::from_millis(2);
 /// Commands that wait while one is worked on.
 const QUEUE: usize = 1;
 
@@ -38,13 +36,9 @@ pub struct VirtualEbb {
     at: Point,
     is_down: bool,
     is_powered: bool,
-    answers: VecDeque<(Duration, Vec<u8>)>,
+    record: Record,
     said: u32,
-    received: u64,
-    lost: u64,
-    broken: u64,
     has_failed: bool,
-    motions: Vec<Motion>,
 }
 
 impl VirtualEbb {
@@ -61,13 +55,9 @@ impl VirtualEbb {
             at: Point::default(),
             is_down: false,
             is_powered: false,
-            answers: VecDeque::new(),
+            record: Record::default(),
             said: 0,
-            received: 0,
-            lost: 0,
-            broken: 0,
             has_failed: false,
-            motions: Vec::new(),
         }
     }
 
@@ -84,7 +74,7 @@ impl VirtualEbb {
             return;
         }
         let text = if is_nth(faults.garbage_every) { "?\u{7f}9x\r\n" } else { text };
-        self.answers.push_back((self.now + ANSWER_DELAY, text.as_bytes().to_vec()));
+        self.record.say(self.now + ANSWER_DELAY, text.as_bytes().to_vec());
     }
 
     /// Reads commands until one has to wait for room in the queue.
@@ -106,7 +96,7 @@ impl VirtualEbb {
         if is_queued && self.work.is_some() && self.queue.len() >= QUEUE {
             return false;
         }
-        if self.options.faults.error_at.is_some_and(|at| self.received >= at) && !self.has_failed {
+        if self.options.faults.error_at.is_some_and(|at| self.record.received >= at) && !self.has_failed {
             self.has_failed = true;
             self.say("!3 Err: Need comma next, found: 'x'\r\nOK\r\n");
             return true;
@@ -137,7 +127,7 @@ impl VirtualEbb {
             }
             _ if meaning == Meaning::Setup => self.say("OK\r\n"),
             _ => {
-                self.broken += 1;
+                self.record.broken += 1;
                 self.say("!8 Err: Unknown command\r\nOK\r\n");
             }
         }
@@ -194,7 +184,7 @@ impl VirtualEbb {
 
     fn log(&mut self, from: Point, to: Point) {
         if from != to {
-            self.motions.push(Motion { from, to, is_down: self.is_down });
+            self.record.motions.push(Motion { from, to, is_down: self.is_down });
         }
     }
 
@@ -211,11 +201,11 @@ impl VirtualEbb {
 impl VirtualMachine for VirtualEbb {
     fn receive(&mut self, byte: u8, now: Duration) {
         self.run_until(now);
-        self.received += 1;
+        self.record.received += 1;
         if self.buffer.len() < self.options.buffer_bytes {
             self.buffer.push_back(byte);
         } else {
-            self.lost += 1;
+            self.record.lost += 1;
         }
         self.run_until(now);
     }
@@ -231,14 +221,6 @@ impl VirtualMachine for VirtualEbb {
         self.now = self.now.max(now);
     }
 
-    fn take_answers(&mut self, now: Duration) -> Vec<u8> {
-        let mut out = Vec::new();
-        while self.answers.front().is_some_and(|(due, _)| *due <= now) {
-            out.extend(self.answers.pop_front().map(|(_, bytes)| bytes).unwrap_or_default());
-        }
-        out
-    }
-
     fn is_idle(&self) -> bool {
         self.work.is_none() && self.queue.is_empty()
     }
@@ -247,19 +229,11 @@ impl VirtualMachine for VirtualEbb {
         self.is_down
     }
 
-    fn received(&self) -> u64 {
-        self.received
+    fn record(&self) -> &Record {
+        &self.record
     }
 
-    fn lost(&self) -> u64 {
-        self.lost
-    }
-
-    fn broken(&self) -> u64 {
-        self.broken
-    }
-
-    fn motions(&self) -> &[Motion] {
-        &self.motions
+    fn record_mut(&mut self) -> &mut Record {
+        &mut self.record
     }
 }

@@ -5,7 +5,7 @@
 //! `protocol_main_loop`, `spindle_sync`, `report_realtime_status`.
 
 use super::dialect::{Dialect, Meaning, Pen};
-use super::virtual_machine::VirtualMachine;
+use super::virtual_machine::{ANSWER_DELAY, Record, VirtualMachine};
 use super::{Cutter, Motion, Point, VirtualOptions};
 use crate::plotter::dialect::UNITS_PER_MM;
 use std::collections::{BTreeMap, VecDeque};
@@ -14,8 +14,6 @@ use std::time::Duration;
 
 /// Moves that are planned ahead (`BLOCK_BUFFER_SIZE` less one).
 const PLANNER: usize = 15;
-/// Delay of every answer.
-const ANSWER_DELAY: Duration = Duration::from_millis(2);
 /// Time to come to rest in a hold.
 const BRAKING: Duration = Duration::from_millis(60);
 /// Machine coordinates of the work zero, mm.
@@ -71,14 +69,10 @@ pub struct VirtualGrbl {
     spindle: u8,
     power: f64,
     is_down: bool,
-    answers: VecDeque<(Duration, Vec<u8>)>,
+    record: Record,
     said: u32,
     reports: u32,
-    received: u64,
-    lost: u64,
-    broken: u64,
     has_failed: bool,
-    motions: Vec<Motion>,
 }
 
 impl VirtualGrbl {
@@ -106,14 +100,10 @@ impl VirtualGrbl {
             spindle: 5,
             power: 0.0,
             is_down: false,
-            answers: VecDeque::new(),
+            record: Record::default(),
             said: 0,
             reports: 0,
-            received: 0,
-            lost: 0,
-            broken: 0,
             has_failed: false,
-            motions: Vec::new(),
         }
     }
 
@@ -153,7 +143,7 @@ impl VirtualGrbl {
             return;
         }
         let text = if is_nth(faults.garbage_every) { "?\u{7f}9x".to_owned() } else { text };
-        self.answers.push_back((self.now + ANSWER_DELAY, format!("{text}\r\n").into_bytes()));
+        self.record.say(self.now + ANSWER_DELAY, format!("{text}\r\n").into_bytes());
     }
 
     /// Where it is now, also within a move.
@@ -183,7 +173,7 @@ impl VirtualGrbl {
         };
         let (from, to) = (point(from), point(to));
         if from != to {
-            self.motions.push(Motion { from, to, is_down: self.is_down });
+            self.record.motions.push(Motion { from, to, is_down: self.is_down });
         }
     }
 
@@ -266,13 +256,13 @@ impl VirtualGrbl {
             self.say("error:9".to_owned());
             return true;
         }
-        if self.options.faults.error_at.is_some_and(|at| self.received >= at) && !self.has_failed {
+        if self.options.faults.error_at.is_some_and(|at| self.record.received >= at) && !self.has_failed {
             self.has_failed = true;
             self.say("error:2".to_owned());
             return true;
         }
         let Some(words) = words(line) else {
-            self.broken += 1;
+            self.record.broken += 1;
             self.say("error:1".to_owned());
             return true;
         };
@@ -386,7 +376,7 @@ impl VirtualGrbl {
 impl VirtualMachine for VirtualGrbl {
     fn receive(&mut self, byte: u8, now: Duration) {
         self.run_until(now);
-        self.received += 1;
+        self.record.received += 1;
         match byte {
             0x18 => self.reset(),
             b'?' => self.report(),
@@ -398,7 +388,7 @@ impl VirtualMachine for VirtualGrbl {
             b'~' => self.hold = self.hold.filter(|&hold| hold != Hold::Held),
             0x80.. => {}
             _ if self.buffer.len() < self.options.buffer_bytes => self.buffer.push_back(byte),
-            _ => self.lost += 1,
+            _ => self.record.lost += 1,
         }
         self.run_until(now);
     }
@@ -418,14 +408,6 @@ impl VirtualMachine for VirtualGrbl {
         self.now = self.now.max(now);
     }
 
-    fn take_answers(&mut self, now: Duration) -> Vec<u8> {
-        let mut out = Vec::new();
-        while self.answers.front().is_some_and(|(due, _)| *due <= now) {
-            out.extend(self.answers.pop_front().map(|(_, bytes)| bytes).unwrap_or_default());
-        }
-        out
-    }
-
     fn is_idle(&self) -> bool {
         self.moving.is_none() && self.planner.is_empty() && self.dwell.is_none() && self.line.is_none()
     }
@@ -434,20 +416,12 @@ impl VirtualMachine for VirtualGrbl {
         self.is_down
     }
 
-    fn received(&self) -> u64 {
-        self.received
+    fn record(&self) -> &Record {
+        &self.record
     }
 
-    fn lost(&self) -> u64 {
-        self.lost
-    }
-
-    fn broken(&self) -> u64 {
-        self.broken
-    }
-
-    fn motions(&self) -> &[Motion] {
-        &self.motions
+    fn record_mut(&mut self) -> &mut Record {
+        &mut self.record
     }
 }
 

@@ -6,7 +6,7 @@
 
 use super::dialect::{Dialect, Meaning, Pen};
 use super::pace::Pace;
-use super::virtual_machine::VirtualMachine;
+use super::virtual_machine::{ANSWER_DELAY, Record, VirtualMachine};
 use super::{Cutter, Motion, Point};
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -15,8 +15,6 @@ use std::time::Duration;
 const ESC: u8 = 0x1B;
 const XON: u8 = 17;
 const XOFF: u8 = 19;
-/// Delay of every answer.
-const ANSWER_DELAY: Duration = Duration::from_millis(2);
 /// The error that ESC.E reports after an overflow.
 const OVERFLOW: u32 = 16;
 /// How far the marks may be from where they should be, mm.
@@ -81,7 +79,7 @@ pub struct VirtualPlotter {
     busy_until: Duration,
     buffer: VecDeque<u8>,
     control: Vec<u8>,
-    answers: VecDeque<(Duration, Vec<u8>)>,
+    record: Record,
     asked: u32,
     xoff_below: Option<usize>,
     has_sent_xoff: bool,
@@ -92,17 +90,13 @@ pub struct VirtualPlotter {
     /// Where it counts from: the corner of the marks, once it has found them.
     origin: Point,
     error: u32,
-    received: u64,
-    lost: u64,
-    broken: u64,
-    motions: Vec<Motion>,
 }
 
 impl VirtualMachine for VirtualPlotter {
     fn receive(&mut self, byte: u8, now: Duration) {
         self.run_until(now);
-        self.received += 1;
-        if self.options.faults.error_at == Some(self.received) {
+        self.record.received += 1;
+        if self.options.faults.error_at == Some(self.record.received) {
             self.error = 15;
         }
         let has_state = !self.dialect.state_question().is_empty();
@@ -113,7 +107,7 @@ impl VirtualMachine for VirtualPlotter {
         } else if self.buffer.len() < self.options.buffer_bytes {
             self.buffer.push_back(byte);
         } else {
-            self.lost += 1;
+            self.record.lost += 1;
             self.error = OVERFLOW;
         }
         self.run_until(now);
@@ -134,14 +128,6 @@ impl VirtualMachine for VirtualPlotter {
         self.now = self.now.max(now);
     }
 
-    fn take_answers(&mut self, now: Duration) -> Vec<u8> {
-        let mut out = Vec::new();
-        while self.answers.front().is_some_and(|(due, _)| *due <= now) {
-            out.extend(self.answers.pop_front().map(|(_, bytes)| bytes).unwrap_or_default());
-        }
-        out
-    }
-
     fn is_idle(&self) -> bool {
         let bytes: Vec<u8> = self.buffer.iter().copied().collect();
         self.busy_until <= self.now && self.dialect.first(&bytes).is_none_or(|n| n == 0)
@@ -151,20 +137,12 @@ impl VirtualMachine for VirtualPlotter {
         self.is_down
     }
 
-    fn received(&self) -> u64 {
-        self.received
+    fn record(&self) -> &Record {
+        &self.record
     }
 
-    fn lost(&self) -> u64 {
-        self.lost
-    }
-
-    fn broken(&self) -> u64 {
-        self.broken
-    }
-
-    fn motions(&self) -> &[Motion] {
-        &self.motions
+    fn record_mut(&mut self) -> &mut Record {
+        &mut self.record
     }
 }
 
@@ -180,7 +158,7 @@ impl VirtualPlotter {
             busy_until: Duration::ZERO,
             buffer: VecDeque::with_capacity(options.buffer_bytes),
             control: Vec::new(),
-            answers: VecDeque::new(),
+            record: Record::default(),
             asked: 0,
             xoff_below: options.xoff_below,
             has_sent_xoff: false,
@@ -190,10 +168,6 @@ impl VirtualPlotter {
             at: Point::default(),
             origin: Point::default(),
             error: 0,
-            received: 0,
-            lost: 0,
-            broken: 0,
-            motions: Vec::new(),
         }
     }
 
@@ -224,7 +198,7 @@ impl VirtualPlotter {
             return;
         }
         let text = if is_nth(faults.garbage_every) { "?\u{7f}9x".to_owned() } else { text };
-        self.answers.push_back((at + ANSWER_DELAY, format!("{text}\r").into_bytes()));
+        self.record.say(at + ANSWER_DELAY, format!("{text}\r").into_bytes());
     }
 
     /// Acts on device control when it is complete.
@@ -275,7 +249,7 @@ impl VirtualPlotter {
         if is_low && !self.has_sent_xoff || is_high && self.has_sent_xoff {
             self.has_sent_xoff = is_low;
             let sign = if is_low { XOFF } else { XON };
-            self.answers.push_back((self.now, vec![sign]));
+            self.record.say(self.now, vec![sign]);
         }
     }
 
@@ -329,7 +303,7 @@ impl VirtualPlotter {
                     _ => self.answer("0".to_owned()),
                 }
             }
-            Meaning::Broken | Meaning::Control => self.broken += 1,
+            Meaning::Broken | Meaning::Control => self.record.broken += 1,
             Meaning::Setup => self.pace.heed(command),
         }
     }
@@ -344,7 +318,7 @@ impl VirtualPlotter {
         let motion = Motion { from, to: self.at, is_down: self.is_down };
         let seconds = self.pace.seconds(&motion);
         self.spend(seconds);
-        self.motions.push(motion);
+        self.record.motions.push(motion);
     }
 
     fn spend(&mut self, seconds: f64) {
