@@ -4,7 +4,7 @@ use super::{Error, Options};
 use glam::DVec3;
 use std::collections::BTreeSet;
 use std::sync::Arc;
-use tatamu_core::geom::{Hull, Mirror, Plane};
+use tatamu_core::geom::{Hull, Plane};
 use tatamu_core::mesh::{Mesh, MirrorPlane, Views};
 use tatamu_core::model::{self, Assembly, Contact, Link, Part, PartOptions, Parted, Symmetry};
 use tatamu_core::segment::{self, Parts, SegmentId, Segmentation};
@@ -105,7 +105,7 @@ impl Touching {
     fn of(divided: &Parts) -> Self {
         let mut solid = hulls(divided);
         let segmentation = divided.segmentation();
-        let symmetry = segmentation.mirror().and_then(|plane| solid.mirrored(divided, &plane.mirror));
+        let symmetry = segmentation.mirror().and_then(|plane| solid.mirrored(divided, plane));
         let contacts = contacts(divided.mesh(), segmentation, &solid.part_of_segment);
         Self { solid, symmetry, contacts }
     }
@@ -172,7 +172,8 @@ impl Solid {
     /// Makes the hulls of twins images of each other, each round its own points and the images of
     /// its twin's, and the others their own images; `None`, and all as they were, where not every
     /// hull has a twin.
-    fn mirrored(&mut self, divided: &Parts, mirror: &Mirror) -> Option<Symmetry> {
+    fn mirrored(&mut self, divided: &Parts, plane: &MirrorPlane) -> Option<Symmetry> {
+        let mirror = &plane.mirror;
         let twins = divided.segmentation().twins(divided.mesh())?;
         let of_segment = self.part_of_segment.iter().zip(twins);
         let twin = of_segment.filter_map(|(part, twin)| part.map(|_| self.part_of_segment[twin.0 as usize]));
@@ -190,7 +191,10 @@ impl Solid {
             }
         }
         self.hulls = hulls;
-        Some(symmetry)
+        Some(match plane.crossing {
+            Some(crossing) => symmetry.crossed(crossing, &mut self.hulls),
+            None => symmetry,
+        })
     }
 }
 

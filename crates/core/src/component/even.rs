@@ -8,7 +8,7 @@ use super::target::FoldSpot;
 use super::worth::{Edge, WORTH_MM, WORTH_SHARE, bulge, meet};
 use crate::geom::polygon;
 use glam::DVec2;
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Directions of the top edges about y = 0: pairs of candidates, thinned out where that adds the
 /// least area to the circumscribed polygon, with a direction in the plane itself at neither end,
@@ -96,6 +96,89 @@ fn thinned(mut set: Vec<Edge>, edges: usize, worth_mm2: f64) -> Vec<Edge> {
             _ => return set,
         }
     }
+}
+
+/// Rounds in which each direction of [`choose_fours`] is exchanged for a better one; two are enough for most.
+const EXCHANGES: usize = 4;
+
+/// Directions of the top edges about y = 0 and x = 0: directions in neither plane, in one or both, and others in
+/// fours, spread evenly and exchanged for candidates as long as the circumscribed polygon becomes smaller.
+pub(super) fn choose_fours(outline: &[DVec2], locked: &[f64], edges: usize) -> Vec<f64> {
+    let quarter = |a: f64| a.abs().min(PI - a.abs());
+    let locked: Vec<f64> = locked.iter().map(|&a| quarter(a)).collect();
+    let perimeter: f64 = polygon::edges(outline).map(|(a, b)| a.distance(b)).sum();
+    let long = polygon::edges(outline).filter(|(a, b)| a.distance(*b) > 0.05 * perimeter);
+    let long = long.map(|(a, b)| quarter((-(b - a).perp()).to_angle()));
+    let candidates: Vec<f64> = (1..18).map(|k| f64::from(k) * STEP_RAD).chain(long).collect();
+    let mut fixed: Vec<f64> = locked.iter().copied().filter(|a| *a > 0.0 && *a < FRAC_PI_2).collect();
+    fixed.sort_by(f64::total_cmp);
+    fixed.dedup();
+    let whole = polygon::area(outline);
+    let mut best: Option<(usize, f64, Vec<f64>)> = None;
+    for selves in [[false, false], [true, false], [false, true], [true, true]] {
+        let own: Vec<f64> = [0.0, FRAC_PI_2].into_iter().zip(selves).filter(|s| s.1).map(|s| s.0).collect();
+        if locked.iter().any(|l| !fixed.contains(l) && !own.contains(l)) {
+            continue;
+        }
+        let cost = |free: &[f64]| {
+            let fours: Vec<f64> = fixed.iter().chain(free).copied().collect();
+            let all = round(&own, &fours);
+            let apart = |k: usize| (all[(k + 1) % all.len()] - all[k]).rem_euclid(2.0 * PI);
+            // Those that are fixed may be nearer to one another.
+            let is_fixed = |k: usize| locked.contains(&quarter(all[k % all.len()]));
+            let is_spread =
+                (0..all.len()).all(|k| apart(k) > MIN_TURN_RAD - 1e-9 || (is_fixed(k) && is_fixed(k + 1)));
+            let area = area_within(outline, &all).filter(|_| is_spread)?;
+            Some(area + WORTH_SHARE * whole * all.len() as f64)
+        };
+        let room = edges.saturating_sub(2 * own.len() + 4 * fixed.len()) / 4;
+        for count in 0..=room {
+            let first = if selves[0] { 1.0 } else { 0.5 };
+            let place = |k: usize| FRAC_PI_2 * (k as f64 + first) / (count as f64 + 0.5 * own.len() as f64);
+            let mut free: Vec<f64> = (0..count).map(place).collect();
+            let mut least = cost(&free).unwrap_or(f64::INFINITY);
+            for k in (0..EXCHANGES).flat_map(|_| 0..count) {
+                for &angle_rad in &candidates {
+                    let before = std::mem::replace(&mut free[k], angle_rad);
+                    match cost(&free) {
+                        Some(cost) if cost < least => least = cost,
+                        _ => free[k] = before,
+                    }
+                }
+            }
+            let fours: Vec<f64> = fixed.iter().chain(&free).copied().collect();
+            let all = round(&own, &fours);
+            let key = (all.len().max(edges), least);
+            if least < f64::INFINITY && best.as_ref().is_none_or(|b| (b.0, b.1) > key) {
+                best = Some((key.0, key.1, all));
+            }
+        }
+    }
+    best.map_or_else(Vec::new, |b| b.2)
+}
+
+/// Directions in the planes and others in fours, with their images, in order.
+fn round(own: &[f64], fours: &[f64]) -> Vec<f64> {
+    let fours = fours.iter().flat_map(|&a| [-a, a, PI - a, a - PI]);
+    let own = own.iter().flat_map(|&a| [a, if a == 0.0 { PI } else { -a }]);
+    let mut all: Vec<f64> = fours.chain(own).collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+/// Area of the polygon round an outline with edges in these directions; `None` where it is open.
+fn area_within(outline: &[DVec2], angles: &[f64]) -> Option<f64> {
+    let edge = |&angle_rad: &f64| {
+        let normal = DVec2::from_angle(angle_rad);
+        let support = outline.iter().map(|p| normal.dot(*p)).fold(f64::NEG_INFINITY, f64::max);
+        Edge { angle_rad, normal, support, is_locked: false }
+    };
+    let edges: Vec<Edge> = angles.iter().map(edge).collect();
+    let next = |k: usize| &edges[(k + 1) % edges.len()];
+    let gap = |k: usize| (next(k).angle_rad - edges[k].angle_rad).rem_euclid(2.0 * PI);
+    let is_closed = edges.len() > 2 && (0..edges.len()).all(|k| gap(k) <= MAX_TURN_RAD);
+    let corners = || (0..edges.len()).map(|k| meet(&edges[k], next(k))).collect::<Vec<DVec2>>();
+    is_closed.then(|| polygon::area(&corners()))
 }
 
 /// Number of vertices of a level profile of `planes` planes: an odd number folds inside the middle one.

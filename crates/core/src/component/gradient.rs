@@ -2,7 +2,7 @@
 
 use super::shape::{ChainShape, Line, Shape};
 use super::solid::{Corner, FaceId, Solid};
-use super::symmetry::{Symmetry, twin};
+use super::symmetry::{Image, Symmetry, chain_at, images};
 use glam::{DMat3, DVec2, DVec3};
 use smallvec::SmallVec;
 
@@ -37,18 +37,29 @@ impl Freedom {
             })
         };
         let is_level = symmetry.is_some_and(Symmetry::is_level);
-        let is_upright = symmetry.is_some_and(Symmetry::is_upright);
         let image = |parameter: Parameter| parameter.map(|(k, sign)| (k, -sign));
-        let twins: Vec<usize> = (0..solid.chains.len()).map(|j| twin(solid, symmetry, j)).collect();
-        let mut angles: Vec<Parameter> = Vec::with_capacity(twins.len());
+        // The images of each chain, with how changes of its direction become theirs.
+        let others: Vec<SmallVec<[(usize, f64); 3]>> = solid
+            .chains
+            .iter()
+            .map(|chain| {
+                let at = |i: &Image| (chain_at(solid, i.angle(chain.angle_rad)), i.sign());
+                images(symmetry).iter().map(at).collect()
+            })
+            .collect();
+        let first = |j: usize| others[j].iter().copied().filter(|o| o.0 < j).min_by_key(|o| o.0);
+        let mut angles: Vec<Parameter> = Vec::with_capacity(others.len());
         for (j, chain) in solid.chains.iter().enumerate() {
-            let is_free = !(chain.is_locked || is_upright && twins[j] == j);
-            angles.push(if twins[j] < j { image(angles[twins[j]]) } else { take(is_free) });
+            let is_in_plane = others[j].iter().any(|o| o.0 == j);
+            angles.push(match first(j) {
+                Some((k, sign)) => angles[k].map(|(variable, own)| (variable, sign * own)),
+                None => take(!(chain.is_locked || is_in_plane)),
+            });
         }
-        let mut facets: Vec<Vec<[Parameter; 2]>> = Vec::with_capacity(twins.len());
+        let mut facets: Vec<Vec<[Parameter; 2]>> = Vec::with_capacity(others.len());
         for (j, chain) in solid.chains.iter().enumerate() {
-            if twins[j] < j {
-                facets.push(facets[twins[j]].clone());
+            if let Some((k, _)) = first(j) {
+                facets.push(facets[k].clone());
                 continue;
             }
             let mut own: Vec<[Parameter; 2]> = Vec::with_capacity(chain.facets.len());

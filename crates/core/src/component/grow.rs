@@ -5,7 +5,7 @@ use super::even;
 use super::fit::Fitted;
 use super::solid::{Chain, SideFacet, Solid};
 use super::start::{fold_spots, tangents, thin_out};
-use super::symmetry::{Symmetry, settled, twin};
+use super::symmetry::{Symmetry, directions, orbit, settled};
 use super::target::{FoldSpot, Target};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -29,17 +29,15 @@ pub(super) fn grown(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<Fold
     let nearest = (0..solid.chains.len())
         .min_by(|&a, &b| turned(&solid.chains[a]).total_cmp(&turned(&solid.chains[b])))?;
     let has_turn = turned(&solid.chains[nearest]) >= MIN_TURN_RAD;
-    let has_image =
-        target.symmetry.is_some_and(Symmetry::is_upright) && turn(angle_rad, -angle_rad).abs() > 0.0;
-    if has_turn && solid.chains.len() + usize::from(has_image) < target.top_edges {
+    let directions = directions(angle_rad, target.symmetry);
+    if has_turn && solid.chains.len() + directions.len() <= target.top_edges {
         let facets = add_chain(&mut solid, angle_rad, tangents(target, angle_rad), target);
-        if has_image {
-            add_chain(&mut solid, -angle_rad, facets, target);
+        for &image in &directions[1..] {
+            add_chain(&mut solid, image, facets.clone(), target);
         }
     } else {
         add_facet(&mut solid.chains[nearest], out, target)?;
-        let image = twin(&solid, target.symmetry, nearest);
-        if image != nearest {
+        for &image in &orbit(&solid, target.symmetry, nearest)[1..] {
             solid.chains[image].facets = solid.chains[nearest].facets.clone();
         }
     }

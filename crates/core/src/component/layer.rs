@@ -108,11 +108,10 @@ pub(super) fn trim(walls: &Walls, sides: &mut [Side], are_boards: bool) -> f64 {
                 clashes.contains(&(j.min(k), j.max(k)))
             };
             for j in 0..walls.count() {
-                let image = corner_image(walls, j);
-                if image.is_some_and(|image| image < j) {
+                if walls.corner_images(j).any(|image| image.0 < j) {
                     continue;
                 }
-                if everywhere || clash(j) || image.is_some_and(clash) {
+                if everywhere || clash(j) || walls.corner_images(j).any(|image| clash(image.0)) {
                     trimmed += trim_corner(walls, sides, layer, j);
                 }
             }
@@ -138,32 +137,27 @@ pub(super) fn overlaps(sides: &[Side], layer: Layer) -> Vec<(usize, usize)> {
     pairs
 }
 
-/// The chain whose corner with the next is the image, in an upright plane, of that of chain j.
-fn corner_image(walls: &Walls, j: usize) -> Option<usize> {
-    walls.symmetry().filter(|symmetry| symmetry.is_upright()).map(|_| walls.twin(walls.next(j)))
-}
-
 /// Cuts chains j and j + 1 back to the ray from their corner that costs the least area, and their
-/// image to its image.
+/// images to its images.
 fn trim_corner(walls: &Walls, sides: &mut [Side], layer: Layer, j: usize) -> f64 {
-    let image = corner_image(walls, j);
     let costs: Vec<f64> = (0..RAYS).map(|ray| Cut { walls, layer, j, ray }.area(sides)).collect();
-    let best = match image {
+    let best = match walls.corner_images(j).any(|image| image.0 == j) {
         // Of the rays from a corner in the plane, one is its own image.
-        Some(image) if image == j => RAYS / 2,
-        _ => (0..RAYS).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(RAYS / 2),
+        true => RAYS / 2,
+        false => (0..RAYS).min_by(|&a, &b| costs[a].total_cmp(&costs[b])).unwrap_or(RAYS / 2),
     };
-    let other = match walls.symmetry() {
-        Some(Symmetry::Level { .. }) => Some(Cut { walls, layer: Layer::Bottom, j, ray: best }),
-        _ => image.filter(|&i| i != j).map(|j| Cut { walls, layer, j, ray: RAYS - 1 - best }),
-    };
-    let own = Cut { walls, layer, j, ray: best };
-    own.make(sides);
-    let area = costs[best].max(0.0);
-    other.map_or(area, |other| {
-        other.make(sides);
-        2.0 * area
-    })
+    let mut cuts = vec![Cut { walls, layer, j, ray: best }];
+    if walls.symmetry().is_some_and(Symmetry::is_level) {
+        cuts.push(Cut { walls, layer: Layer::Bottom, j, ray: best });
+    }
+    for (image, is_reflected) in walls.corner_images(j) {
+        if cuts.iter().all(|cut| cut.j != image) {
+            let ray = if is_reflected { RAYS - 1 - best } else { best };
+            cuts.push(Cut { walls, layer, j: image, ray });
+        }
+    }
+    cuts.iter().for_each(|cut| cut.make(sides));
+    cuts.len() as f64 * costs[best].max(0.0)
 }
 
 /// A cut along one of the rays from the corner of chain j with the next.

@@ -7,13 +7,14 @@ use super::{Component, JointTarget, Seat, Symmetry, Target, choose, convert, fin
 use crate::geom::{Hull, Plane};
 use glam::{DMat3, DVec2, DVec3};
 use proptest::prelude::*;
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 const SAME_MM: f64 = 1e-9;
 
 /// The image of a point in the mirror plane.
 fn image(symmetry: Symmetry, p: DVec3) -> DVec3 {
     match symmetry {
-        Symmetry::Upright { angle_rad, offset_mm } => {
+        Symmetry::Upright { angle_rad, offset_mm, .. } => {
             let n = DVec2::from_angle(angle_rad).extend(0.0);
             p - n * (2.0 * (n.dot(p) - offset_mm))
         }
@@ -74,12 +75,12 @@ fn symmetric_hull(symmetry: Symmetry, axes: DVec3, count: usize, seed: u64) -> H
     Hull::of_points(&points).unwrap()
 }
 
+fn upright(angle_rad: f64, offset_mm: f64) -> Symmetry {
+    Symmetry::Upright { angle_rad, offset_mm, crossing_mm: None }
+}
+
 fn symmetry_of(is_level: bool, angle_rad: f64, offset_mm: f64) -> Symmetry {
-    if is_level {
-        Symmetry::Level { height_mm: offset_mm }
-    } else {
-        Symmetry::Upright { angle_rad, offset_mm }
-    }
+    if is_level { Symmetry::Level { height_mm: offset_mm } } else { upright(angle_rad, offset_mm) }
 }
 
 /// A joint at a side, and its image, with the hull clipped to both.
@@ -90,8 +91,8 @@ fn with_side_joints(
 ) -> Vec<JointTarget> {
     let normal_of = |a: f64, s: f64| (DVec2::from_angle(a) * libm::cos(s)).extend(libm::sin(s));
     let image_of = |a: f64, s: f64, o: f64| match symmetry {
-        Symmetry::Upright { angle_rad, offset_mm } => {
-            let a2 = 2.0 * angle_rad + std::f64::consts::PI - a;
+        Symmetry::Upright { angle_rad, offset_mm, .. } => {
+            let a2 = 2.0 * angle_rad + PI - a;
             let across = DVec2::from_angle(angle_rad).extend(0.0);
             (a2, s, o - 2.0 * offset_mm * across.dot(normal_of(a, s)))
         }
@@ -130,7 +131,7 @@ proptest! {
         let mut hull = symmetric_hull(symmetry, DVec3::new(axes.0, axes.1, axes.2), count, seed);
         let joints = joint.map_or_else(Vec::new, |(is_on_plane, beside, slope_rad, share)| {
             // In the plane, or beside it far enough for both.
-            let beside = if is_on_plane { std::f64::consts::FRAC_PI_2 } else { beside };
+            let beside = if is_on_plane { FRAC_PI_2 } else { beside };
             with_side_joints(&mut hull, symmetry, (angle_rad + beside, slope_rad, share))
         });
         let target = Target { symmetry: Some(symmetry), top_edges, profile_vertices, ..target(&hull, joints) };
@@ -147,6 +148,94 @@ proptest! {
         for joint in &target.joints {
             prop_assert!(component.joint_panel(&target, joint).is_some());
         }
+    }
+}
+
+/// Where the joints of a component with two mirror planes are.
+#[derive(Debug, Clone, Copy)]
+enum Joined {
+    Nowhere,
+    AtTheTop,
+    /// In the first plane, on both sides.
+    InThePlane,
+    /// Beside it, four of them.
+    Around,
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(16))]
+
+    #[test]
+    fn random_hulls_become_their_own_images_in_two_planes(
+        axes in (15.0f64..80.0, 15.0f64..80.0, 15.0f64..80.0),
+        (count, seed, top_edges, profile_vertices) in (10usize..160, 0u64..1 << 40, 4usize..11, 3usize..8),
+        (angle_rad, offset_mm, crossing_mm) in (-3.0f64..3.0, -20.0f64..20.0, -20.0f64..20.0),
+        (slope_rad, share) in (0.1f64..0.6, 0.6f64..0.95),
+        joined in prop::sample::select(vec![Joined::Nowhere, Joined::AtTheTop, Joined::InThePlane, Joined::Around]),
+    ) {
+        let planes = [upright(angle_rad, offset_mm), upright(angle_rad + FRAC_PI_2, crossing_mm)];
+        let both = Symmetry::Upright { angle_rad, offset_mm, crossing_mm: Some(crossing_mm) };
+        let half = symmetric_hull(planes[0], DVec3::new(axes.0, axes.1, axes.2), count, seed);
+        let images = half.vertices().iter().map(|&p| image(planes[1], p));
+        let points: Vec<DVec3> = half.vertices().iter().copied().chain(images).collect();
+        let mut hull = Hull::of_points(&points).unwrap();
+        let directions = match joined {
+            Joined::Nowhere | Joined::AtTheTop => vec![],
+            Joined::InThePlane => vec![FRAC_PI_2, -FRAC_PI_2],
+            Joined::Around => [FRAC_PI_4, 3.0 * FRAC_PI_4].into_iter().flat_map(|a| [a, -a]).collect(),
+        };
+        let mut planes_of: Vec<(Seat, Plane)> = directions.into_iter().map(|turn| {
+            let angle_rad = angle_rad + turn;
+            let n = (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad));
+            let inside = hull.centroid().dot(n);
+            let offset_mm = inside + (hull.support(n) - inside) * share;
+            (Seat::Side { angle_rad, slope_rad, offset_mm }, Plane::through(n * offset_mm, n).unwrap())
+        }).collect();
+        if let Joined::AtTheTop = joined {
+            let centre = hull.centroid().z;
+            let height_mm = centre + (hull.support(DVec3::Z) - centre) * share;
+            planes_of.push((Seat::Top { height_mm }, Plane::horizontal(height_mm)));
+        }
+        for (_, plane) in &planes_of {
+            hull = hull.clip(plane).unwrap();
+        }
+        let joint = |(seat, _)| JointTarget { seat, cover: vec![], within: vec![], price: 0.3 };
+        let joints: Vec<JointTarget> = planes_of.into_iter().map(joint).collect();
+        let target = Target { symmetry: Some(both), top_edges, profile_vertices, ..target(&hull, joints) };
+        let component = match convert(&target) {
+            Ok(component) => component,
+            Err(error) => {
+                prop_assert!(!target.joints.is_empty(), "{error}");
+                return Ok(());
+            }
+        };
+        check(&component);
+        planes.iter().for_each(|&plane| check_symmetric(&component, plane));
+        prop_assert!(component.profiles().len() <= top_edges);
+        for joint in &target.joints {
+            prop_assert!(component.joint_panel(&target, joint).is_some());
+        }
+    }
+}
+
+/// A vase folds along its axis, and its top panel is a regular polygon, nearly.
+#[test]
+fn turned_hulls_get_even_tops() {
+    let both = Symmetry::Upright { angle_rad: 0.3, offset_mm: 0.0, crossing_mm: Some(0.0) };
+    let ring = |z: f64, r: f64| {
+        let at = move |k: usize| (DVec2::from_angle(0.3 + PI / 24.0 * k as f64) * r).extend(z);
+        (0..48).map(at)
+    };
+    let points: Vec<DVec3> = ring(-40.0, 22.0).chain(ring(0.0, 34.0)).chain(ring(40.0, 20.0)).collect();
+    let hull = Hull::of_points(&points).unwrap();
+    for top_edges in [4, 6, 8] {
+        let wanted = Target { symmetry: Some(both), top_edges, panel_worth: 0.0, ..target(&hull, vec![]) };
+        let component = convert(&wanted).unwrap();
+        assert_eq!(component.profiles().len(), top_edges);
+        let top = &component.panels().panels()[0].outline;
+        let lengths: Vec<f64> = (0..top_edges).map(|k| top[k].distance(top[(k + 1) % top_edges])).collect();
+        let (least, most) = lengths.iter().fold((f64::MAX, 0.0f64), |(l, m), v| (l.min(*v), m.max(*v)));
+        assert!(most < 1.35 * least, "{top_edges}: edges from {least} to {most} mm");
     }
 }
 
@@ -197,7 +286,7 @@ fn a_level_joint_across_the_plane_is_refused() {
 
 #[test]
 fn the_box_round_a_turned_box_is_turned() {
-    let symmetry = Symmetry::Upright { angle_rad: 0.4, offset_mm: 5.0 };
+    let symmetry = upright(0.4, 5.0);
     let (n, t) = (DVec2::from_angle(0.4), DVec2::from_angle(0.4).perp());
     let corners: Vec<DVec3> = (0..8)
         .map(|k| {
@@ -215,7 +304,7 @@ fn the_box_round_a_turned_box_is_turned() {
 /// Bowls flare, so that their flat layers come near to overlapping.
 #[test]
 fn flaring_bowls_become_their_own_images() {
-    let symmetry = Symmetry::Upright { angle_rad: std::f64::consts::FRAC_PI_2, offset_mm: 0.0 };
+    let symmetry = upright(FRAC_PI_2, 0.0);
     let mut points = blob(DVec3::new(60.0, 60.0, 20.0), 200);
     points.retain(|p| p.z > -1.0);
     points.extend(blob(DVec3::new(20.0, 80.0, 20.0), 100));
@@ -233,7 +322,7 @@ fn flaring_bowls_become_their_own_images() {
 /// Every corner and every hinge of the mirrored component is the image of one of the component.
 #[test]
 fn mirrored_components_are_images() {
-    let plane = Symmetry::Upright { angle_rad: 0.0, offset_mm: 0.0 };
+    let plane = upright(0.0, 0.0);
     let mut random = fastrand::Rng::with_seed(8);
     for _ in 0..6 {
         let points: Vec<DVec3> = blob(DVec3::new(50.0, 35.0, 42.0), 70)

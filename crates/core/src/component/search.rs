@@ -378,12 +378,16 @@ fn height_mm(hull: &Hull) -> f64 {
 fn goal<'h>(target: &Target, hull: &'h Hull) -> Target<'h> {
     let (girth, height) = girth_and_height(hull);
     let at_most = |length: f64| (length / target.comfortable_mm.max(1e-9)) as usize;
+    let least_edges = target.symmetry.map_or(3, Symmetry::least_edges);
     Target {
         hull,
         joints: target.joints.clone(),
         borders: target.borders.clone(),
         symmetry: target.symmetry,
-        top_edges: target.top_edges.min(at_most(0.5 * girth)).max(target.locked_angles().len().max(3)),
+        top_edges: target
+            .top_edges
+            .min(at_most(0.5 * girth))
+            .max(target.locked_angles().len().max(least_edges)),
         profile_vertices: target.profile_vertices.min(1 + at_most(0.7 * height)).max(3),
         min_panel_mm: target.comfortable_mm,
         panel_worth: target.panel_worth,
@@ -524,15 +528,20 @@ impl<'h> Simpler<'h> {
     }
 }
 
-/// Hull of the extreme points in evenly spread directions, and their images in a straight plane.
+/// Hull of the extreme points in evenly spread directions, and their images in straight planes.
 fn simplified(hull: &Hull, symmetry: Option<Symmetry>, directions: usize) -> Hull {
     if hull.vertices().len() <= directions {
         return hull.clone();
     }
-    let across = symmetry.map(|s| if s.is_level() { DVec3::Z } else { DVec3::Y });
-    let one_side = geom::directions(directions).filter(|d| across.is_none_or(|n| n.dot(*d) >= 0.0));
+    let across: &[DVec3] = match symmetry {
+        None => &[],
+        Some(Symmetry::Level { .. }) => &[DVec3::Z],
+        Some(Symmetry::Upright { crossing_mm: None, .. }) => &[DVec3::Y],
+        Some(Symmetry::Upright { .. }) => &[DVec3::Y, DVec3::X],
+    };
+    let one_side = geom::directions(directions).filter(|d| across.iter().all(|n| n.dot(*d) >= 0.0));
     let mut points: Vec<DVec3> = one_side.map(|d| hull.farthest(d)).collect();
-    if let Some(n) = across {
+    for &n in across {
         points.extend(points.clone().into_iter().map(|p| p - n * (2.0 * n.dot(p))));
     }
     Hull::of_points(&points).unwrap_or_else(|_| hull.clone())

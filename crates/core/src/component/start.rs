@@ -1,12 +1,12 @@
 //! First guess of a component's half-spaces: tangent planes of the hull in well-chosen directions.
 
 use super::angles::{MAX_SLOPE_RAD, MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD, STEP_RAD, turn};
-use super::even::{choose_pairs, drop_pair, levelled, middle, pair_bulge, thin_out_level};
+use super::even::{choose_fours, choose_pairs, drop_pair, levelled, middle, pair_bulge, thin_out_level};
 use super::fit::{Fitted, rooms};
 use super::profile::{Balance, balance, imbalance};
 use super::shape::Shape;
 use super::solid::{Chain, SideFacet, Solid};
-use super::symmetry::{Symmetry, evened, twin};
+use super::symmetry::{Symmetry, evened, orbit};
 use super::target::{FoldSpot, Seat, Target};
 use super::worth::{Edge, WORTH_MM, WORTH_SHARE, bulge, meet};
 use crate::geom::polygon;
@@ -21,7 +21,8 @@ pub(super) fn circumscribe(target: &Target, edges: usize) -> Solid {
     let locked: Vec<f64> = target.locked_angles();
     let outline = polygon::convex_hull(&flat);
     let angles = match target.symmetry {
-        Some(Symmetry::Upright { .. }) => choose_pairs(&outline, &locked, edges),
+        Some(Symmetry::Upright { crossing_mm: None, .. }) => choose_pairs(&outline, &locked, edges),
+        Some(Symmetry::Upright { .. }) => choose_fours(&outline, &locked, edges),
         _ => choose_angles(&outline, &locked, edges),
     };
     let chains = angles
@@ -278,7 +279,7 @@ pub(super) fn simplify(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<F
         let area = |k: usize| bulge_without(shape, symmetry, j, k);
         free.min_by(|&a, &b| area(a).total_cmp(&area(b)))
     };
-    let can_go = |j: usize| can_go(solid, j, twin(solid, symmetry, j));
+    let can_go = |j: usize| can_go(solid, &orbit(solid, symmetry, j));
     if let Some(j) = worst(&low, &|j| spare(j).is_some()) {
         drop_plane(&mut simpler, symmetry, j, spare(j)?);
     } else if let Some(j) = worst(&narrow, &can_go) {
@@ -326,7 +327,7 @@ pub(super) fn without_chain(fitted: &Fitted, target: &Target) -> Option<(Solid, 
         parts.map(|w| w[0].distance(w[1]) * shape.width_at(j, (w[0].y + w[1].y) / 2.0)).sum()
     };
     let least = (0..solid.chains.len())
-        .filter(|&j| can_go(&solid, j, twin(&solid, symmetry, j)))
+        .filter(|&j| can_go(&solid, &orbit(&solid, symmetry, j)))
         .min_by(|&a, &b| area(a).total_cmp(&area(b)))?;
     drop_chain(&mut solid, symmetry, least);
     let spots = fold_spots(&mut solid, target);
@@ -358,32 +359,33 @@ fn bulge_without(shape: &Shape, symmetry: Option<Symmetry>, j: usize, k: usize) 
 
 /// Drops a plane and its images.
 fn drop_plane(solid: &mut Solid, symmetry: Option<Symmetry>, j: usize, k: usize) {
-    let other = twin(solid, symmetry, j);
+    let all = orbit(solid, symmetry, j);
     let facets = &mut solid.chains[j].facets;
     if symmetry.is_some_and(Symmetry::is_level) {
         drop_pair(facets, k);
     } else {
         facets.remove(k);
     }
-    if other != j {
+    for &other in &all[1..] {
         solid.chains[other].facets = solid.chains[j].facets.clone();
     }
 }
 
-/// Drops a chain and its image.
+/// Drops a chain and its images.
 fn drop_chain(solid: &mut Solid, symmetry: Option<Symmetry>, j: usize) {
-    let other = twin(solid, symmetry, j);
-    solid.chains.remove(j.max(other));
-    if other != j {
-        solid.chains.remove(j.min(other));
-    }
+    let mut all = orbit(solid, symmetry, j);
+    all.sort_unstable_by(|a, b| b.cmp(a));
+    all.into_iter().for_each(|k| drop(solid.chains.remove(k)));
 }
 
-/// Whether a solid stays closed without chain j and its image.
-fn can_go(solid: &Solid, j: usize, image: usize) -> bool {
+/// Whether a solid stays closed without these chains, which are images of one another.
+fn can_go(solid: &Solid, gone: &[usize]) -> bool {
+    if solid.chains.len() < gone.len() + 3 || solid.chains[gone[0]].is_locked {
+        return false;
+    }
     let gap_without = |k: usize| {
         let beside = |mut next: usize, step: &dyn Fn(usize) -> usize| {
-            while next == j || next == image {
+            while gone.contains(&next) {
                 next = step(next);
             }
             solid.chains[next].angle_rad
@@ -391,7 +393,5 @@ fn can_go(solid: &Solid, j: usize, image: usize) -> bool {
         let (before, after) = (beside(k, &|c| solid.previous(c)), beside(k, &|c| solid.next(c)));
         (after - before).rem_euclid(TAU)
     };
-    let left = solid.chains.len() - if image == j { 1 } else { 2 };
-    let is_closed = left >= 3 && [j, image].into_iter().all(|k| gap_without(k) <= MAX_TURN_RAD);
-    is_closed && !solid.chains[j].is_locked
+    gone.iter().all(|&k| gap_without(k) <= MAX_TURN_RAD)
 }

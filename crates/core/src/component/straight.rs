@@ -1,8 +1,8 @@
-//! Targets moved so that their mirror plane is y = 0 or z = 0, and solids moved back.
+//! Targets moved so that their mirror plane is y = 0, and one across it x = 0, or z = 0; and solids moved back.
 
 use super::angles::turn;
 use super::solid::Solid;
-use super::symmetry::{Symmetry, settled, wrapped};
+use super::symmetry::{Image, Symmetry, images, settled, wrapped};
 use super::target::{JointTarget, Seat, Target};
 use crate::geom::Hull;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
@@ -12,10 +12,14 @@ use std::f64::consts::FRAC_PI_2;
 const SAME: f64 = 1e-6;
 
 impl Symmetry {
-    /// The same plane through the origin: y = 0 or z = 0.
+    /// The same plane through the origin: y = 0, with one across it as x = 0, or z = 0.
     fn straight(self) -> Self {
         match self {
-            Symmetry::Upright { .. } => Symmetry::Upright { angle_rad: FRAC_PI_2, offset_mm: 0.0 },
+            Symmetry::Upright { crossing_mm, .. } => Symmetry::Upright {
+                angle_rad: FRAC_PI_2,
+                offset_mm: 0.0,
+                crossing_mm: crossing_mm.map(|_| 0.0),
+            },
             Symmetry::Level { .. } => Symmetry::Level { height_mm: 0.0 },
         }
     }
@@ -23,7 +27,9 @@ impl Symmetry {
     /// The turn about z, and the shift after it, that make the plane straight.
     fn motion(self) -> (f64, DVec3) {
         match self {
-            Symmetry::Upright { angle_rad, offset_mm } => (FRAC_PI_2 - angle_rad, -DVec3::Y * offset_mm),
+            Symmetry::Upright { angle_rad, offset_mm, crossing_mm } => {
+                (FRAC_PI_2 - angle_rad, DVec3::new(crossing_mm.unwrap_or(0.0), -offset_mm, 0.0))
+            }
             Symmetry::Level { height_mm } => (0.0, -DVec3::Z * height_mm),
         }
     }
@@ -42,16 +48,34 @@ impl Symmetry {
         }
     }
 
-    /// The image of a seat in the straight plane.
-    fn seat_image(self, seat: Seat) -> Seat {
+    /// The motions of seats that take the straight solid to itself, but rest.
+    fn seat_images(self) -> Vec<SeatImage> {
+        match self {
+            Symmetry::Upright { .. } => self.images().iter().copied().map(SeatImage::About).collect(),
+            Symmetry::Level { .. } => vec![SeatImage::Level],
+        }
+    }
+}
+
+/// How seats become their images; that of an image is the seat itself.
+#[derive(Debug, Clone, Copy)]
+enum SeatImage {
+    /// Directions do.
+    About(Image),
+    /// In z = 0.
+    Level,
+}
+
+impl SeatImage {
+    fn of(self, seat: Seat) -> Seat {
         match (self, seat) {
-            (Symmetry::Upright { .. }, Seat::Side { angle_rad, slope_rad, offset_mm }) => {
-                Seat::Side { angle_rad: wrapped(-angle_rad), slope_rad, offset_mm }
+            (Self::About(image), Seat::Side { angle_rad, slope_rad, offset_mm }) => {
+                Seat::Side { angle_rad: image.angle(angle_rad), slope_rad, offset_mm }
             }
-            (Symmetry::Upright { .. }, end) => end,
-            (Symmetry::Level { .. }, Seat::Top { height_mm }) => Seat::Bottom { height_mm: -height_mm },
-            (Symmetry::Level { .. }, Seat::Bottom { height_mm }) => Seat::Top { height_mm: -height_mm },
-            (Symmetry::Level { .. }, Seat::Side { angle_rad, slope_rad, offset_mm }) => {
+            (Self::About(_), end) => end,
+            (Self::Level, Seat::Top { height_mm }) => Seat::Bottom { height_mm: -height_mm },
+            (Self::Level, Seat::Bottom { height_mm }) => Seat::Top { height_mm: -height_mm },
+            (Self::Level, Seat::Side { angle_rad, slope_rad, offset_mm }) => {
                 Seat::Side { angle_rad, slope_rad: -slope_rad, offset_mm }
             }
         }
@@ -156,24 +180,26 @@ impl Straight {
     }
 }
 
-/// The seat, made exactly the image of its partner among all seats: the first of each two counts.
+/// The seat, made exactly the image of its partners among all seats: the first of them counts.
 fn paired(symmetry: Symmetry, all: &[Seat], seat: Seat) -> Option<Seat> {
-    let image = symmetry.seat_image(seat);
-    let own = all.iter().position(|s| is_same(*s, seat))?;
-    let other = all.iter().position(|s| is_same(*s, image))?;
-    let first = if own <= other { all[own] } else { symmetry.seat_image(all[other]) };
+    let place = |seat: Seat| all.iter().position(|s| is_same(*s, seat));
+    let own = place(seat)?;
+    let others = symmetry.seat_images().into_iter().map(|image| Some((place(image.of(seat))?, image)));
+    let others = others.collect::<Option<Vec<_>>>()?;
+    let first = match others.iter().min_by_key(|other| other.0) {
+        Some((other, image)) if *other < own => image.of(all[*other]),
+        _ => all[own],
+    };
     let Seat::Side { slope_rad, offset_mm, .. } = first else { return Some(first) };
-    if symmetry.is_level() && own == other {
+    if symmetry.is_level() && others.iter().any(|other| other.0 == own) {
         return None;
     }
     // Several seats may have one direction, which must stay one.
     let Seat::Side { angle_rad: own_rad, .. } = seat else { return None };
-    let angle_rad = all.iter().find_map(|s| match *s {
-        Seat::Side { angle_rad, .. } if turn(angle_rad, own_rad).abs() < SAME => Some(angle_rad),
-        Seat::Side { angle_rad, .. } if symmetry.is_upright() && turn(-angle_rad, own_rad).abs() < SAME => {
-            Some(wrapped(-angle_rad))
-        }
-        _ => None,
+    let angle_rad = all.iter().find_map(|s| {
+        let Seat::Side { angle_rad, .. } = *s else { return None };
+        let images = images(Some(symmetry)).iter().map(|image| image.angle(angle_rad));
+        std::iter::once(angle_rad).chain(images).find(|a| turn(*a, own_rad).abs() < SAME)
     })?;
     Some(Seat::Side { angle_rad: settled(angle_rad, Some(symmetry), 2.0 * SAME), slope_rad, offset_mm })
 }

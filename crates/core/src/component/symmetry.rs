@@ -6,6 +6,7 @@
 use super::angles::turn;
 use super::solid::Solid;
 use glam::DVec2;
+use smallvec::{SmallVec, smallvec};
 use std::f64::consts::PI;
 
 /// The mirror plane of a component, in its own axes.
@@ -17,6 +18,9 @@ pub enum Symmetry {
         angle_rad: f64,
         /// Its distance from the origin, along n.
         offset_mm: f64,
+        /// Where another upright mirror plane crosses it at a right angle: that one's distance from the
+        /// origin along n turned by 90° counter-clockwise.
+        crossing_mm: Option<f64>,
     },
     /// A horizontal plane: the bottom is the image of the top, and all chains fold in it.
     Level {
@@ -31,21 +35,78 @@ impl Symmetry {
         matches!(self, Symmetry::Level { .. })
     }
 
-    /// Whether the mirror plane is vertical.
-    pub(super) fn is_upright(self) -> bool {
-        !self.is_level()
-    }
-
-    /// The direction of a horizontal normal's image.
-    pub(super) fn image(self, normal: DVec2) -> DVec2 {
+    /// The least number of top edges that a solid has.
+    pub fn least_edges(self) -> usize {
         match self {
-            Symmetry::Upright { angle_rad, .. } => {
-                let across = DVec2::from_angle(angle_rad);
-                normal - 2.0 * across.dot(normal) * across
-            }
-            Symmetry::Level { .. } => normal,
+            Symmetry::Upright { crossing_mm: Some(_), .. } => 4,
+            _ => 3,
         }
     }
+
+    /// The motions, but rest, that take a straight solid to itself and move its chains.
+    pub(super) fn images(self) -> &'static [Image] {
+        match self {
+            Symmetry::Upright { crossing_mm: None, .. } => &[Image::ACROSS_Y],
+            Symmetry::Upright { crossing_mm: Some(_), .. } => {
+                &[Image::ACROSS_Y, Image::ACROSS_X, Image::HALF_TURN]
+            }
+            Symmetry::Level { .. } => &[],
+        }
+    }
+
+    /// The images of a horizontal normal, with whether they are reflected.
+    pub(super) fn normals(self, normal: DVec2) -> impl Iterator<Item = (DVec2, bool)> {
+        let across = match self {
+            Symmetry::Upright { angle_rad, .. } => DVec2::from_angle(angle_rad),
+            Symmetry::Level { .. } => DVec2::Y,
+        };
+        let [along_n, along] = [across, across.perp()].map(|n| n * n.dot(normal));
+        self.images().iter().map(move |image| match *image {
+            Image::ACROSS_Y => (along - along_n, true),
+            Image::ACROSS_X => (along_n - along, true),
+            _ => (-normal, false),
+        })
+    }
+}
+
+/// A motion about the z axis: the direction a becomes sign · a + turn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Image {
+    sign: f64,
+    turn_rad: f64,
+}
+
+impl Image {
+    const ACROSS_Y: Self = Self { sign: -1.0, turn_rad: 0.0 };
+    const ACROSS_X: Self = Self { sign: -1.0, turn_rad: PI };
+    const HALF_TURN: Self = Self { sign: 1.0, turn_rad: PI };
+
+    /// The image of a direction; that of the image is the direction itself.
+    pub(super) fn angle(self, angle_rad: f64) -> f64 {
+        wrapped(self.sign * angle_rad + self.turn_rad)
+    }
+
+    /// How a change of a direction becomes that of its image: 1, or −1 for a reflection.
+    pub(super) fn sign(self) -> f64 {
+        self.sign
+    }
+
+    /// The direction in the mirror plane that is nearest; `None` for a turn.
+    fn in_plane(self, angle_rad: f64) -> Option<f64> {
+        let own = self.turn_rad / 2.0;
+        let ends = [wrapped(own), wrapped(own + PI)];
+        let nearest = ends.into_iter().min_by(|a, b| away(*a, angle_rad).total_cmp(&away(*b, angle_rad)));
+        nearest.filter(|_| self.sign < 0.0)
+    }
+}
+
+fn away(a: f64, b: f64) -> f64 {
+    turn(a, b).abs()
+}
+
+/// The motions that take a straight solid to itself and move its chains.
+pub(super) fn images(symmetry: Option<Symmetry>) -> &'static [Image] {
+    symmetry.map_or(&[], Symmetry::images)
 }
 
 /// The same direction in (−π, π].
@@ -53,49 +114,70 @@ pub(super) fn wrapped(angle_rad: f64) -> f64 {
     if angle_rad > -PI && angle_rad <= PI { angle_rad } else { turn(angle_rad, 0.0) }
 }
 
-/// The direction itself, or the one in the upright plane that it comes so near to that its image
+/// The direction itself, or the one in an upright plane that it comes so near to that its image
 /// would be nearer to it than `least_rad`.
 pub(super) fn settled(angle_rad: f64, symmetry: Option<Symmetry>, least_rad: f64) -> f64 {
-    match symmetry {
-        Some(Symmetry::Upright { .. }) if turn(angle_rad, -angle_rad).abs() < least_rad => {
-            if libm::cos(angle_rad) > 0.0 { 0.0 } else { PI }
+    let near = |image: &&Image| away(angle_rad, image.angle(angle_rad)) < least_rad;
+    let own = images(symmetry).iter().filter(near).find_map(|image| image.in_plane(angle_rad));
+    own.unwrap_or(angle_rad)
+}
+
+/// A direction, which is `settled`, and its images, each once.
+pub(super) fn directions(angle_rad: f64, symmetry: Option<Symmetry>) -> SmallVec<[f64; 4]> {
+    let mut all: SmallVec<[f64; 4]> = smallvec![angle_rad];
+    for image in images(symmetry) {
+        let other = image.angle(angle_rad);
+        if all.iter().all(|a| away(*a, other) > SAME_RAD) {
+            all.push(other);
         }
-        _ => angle_rad,
     }
+    all
 }
 
-/// The chain that is the image of chain j of a straight solid: itself, but for an upright plane.
-pub(super) fn twin(solid: &Solid, symmetry: Option<Symmetry>, j: usize) -> usize {
-    if !symmetry.is_some_and(Symmetry::is_upright) {
-        return j;
+/// Directions nearer to each other than this are one.
+const SAME_RAD: f64 = 1e-9;
+
+/// Chain j of a straight solid and its images, each once; the chain itself comes first.
+pub(super) fn orbit(solid: &Solid, symmetry: Option<Symmetry>, j: usize) -> SmallVec<[usize; 4]> {
+    let mut all: SmallVec<[usize; 4]> = smallvec![j];
+    for image in images(symmetry) {
+        let other = chain_at(solid, image.angle(solid.chains[j].angle_rad));
+        if !all.contains(&other) {
+            all.push(other);
+        }
     }
-    let away = |k: usize| turn(solid.chains[k].angle_rad, -solid.chains[j].angle_rad).abs();
-    (0..solid.chains.len()).min_by(|&a, &b| away(a).total_cmp(&away(b))).unwrap_or(j)
+    all
 }
 
-/// A straight solid whose chains are nearly images of one another, made exactly so: of two the
-/// first counts. Chains are taken as they are where the plane is level, which ends are not.
+/// The chain of a straight solid whose direction is nearest.
+pub(super) fn chain_at(solid: &Solid, angle_rad: f64) -> usize {
+    let from = |k: usize| away(solid.chains[k].angle_rad, angle_rad);
+    (0..solid.chains.len()).min_by(|&a, &b| from(a).total_cmp(&from(b))).unwrap_or(0)
+}
+
+/// A straight solid whose chains are nearly images of one another, made exactly so: of those that are,
+/// the first counts. Chains are taken as they are where the plane is level, which ends are not.
 pub(super) fn evened(mut solid: Solid, symmetry: Option<Symmetry>) -> Solid {
-    match symmetry {
-        Some(Symmetry::Upright { .. }) => {
-            for j in 0..solid.chains.len() {
-                let k = twin(&solid, symmetry, j);
-                let own = &mut solid.chains[j];
-                if k == j {
-                    own.angle_rad = if libm::cos(own.angle_rad) > 0.0 { 0.0 } else { PI };
-                } else if k > j {
-                    own.angle_rad = wrapped(own.angle_rad);
-                    let (angle_rad, facets) = (-own.angle_rad, own.facets.clone());
-                    solid.chains[k].angle_rad = angle_rad;
-                    solid.chains[k].facets = facets;
-                }
-            }
+    if let Some(Symmetry::Level { .. }) = symmetry {
+        let half = (solid.top_mm - solid.bottom_mm) / 2.0;
+        (solid.top_mm, solid.bottom_mm) = (half, -half);
+    }
+    for j in 0..solid.chains.len() {
+        let own = solid.chains[j].angle_rad;
+        let others: SmallVec<[(Image, usize); 3]> =
+            images(symmetry).iter().map(|&image| (image, chain_at(&solid, image.angle(own)))).collect();
+        if others.iter().any(|&(_, k)| k < j) {
+            continue;
         }
-        Some(Symmetry::Level { .. }) => {
-            let half = (solid.top_mm - solid.bottom_mm) / 2.0;
-            (solid.top_mm, solid.bottom_mm) = (half, -half);
+        let in_plane = others.iter().filter(|&&(_, k)| k == j).find_map(|(image, _)| image.in_plane(own));
+        if !others.is_empty() {
+            solid.chains[j].angle_rad = in_plane.unwrap_or_else(|| wrapped(own));
         }
-        None => {}
+        let (own, facets) = (solid.chains[j].angle_rad, solid.chains[j].facets.clone());
+        for (image, k) in others.into_iter().filter(|&(_, k)| k != j) {
+            solid.chains[k].angle_rad = image.angle(own);
+            solid.chains[k].facets = facets.clone();
+        }
     }
     solid
 }

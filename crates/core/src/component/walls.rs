@@ -35,11 +35,18 @@ impl Walls {
         self.symmetry
     }
 
-    /// The chain that is the image of chain j.
-    pub(super) fn twin(&self, j: usize) -> usize {
-        let image = self.symmetry.map_or(self.normals[j], |symmetry| symmetry.image(self.normals[j]));
-        let chains = 0..self.count();
-        chains.max_by(|&a, &b| image.dot(self.normals[a]).total_cmp(&image.dot(self.normals[b]))).unwrap_or(j)
+    /// The images, in upright mirror planes, of the corner of chain j with the next: their chains, and
+    /// whether they are reflected.
+    pub(super) fn corner_images(&self, j: usize) -> impl Iterator<Item = (usize, bool)> + '_ {
+        let images = move |symmetry: Symmetry| {
+            let [own, next] = [j, self.next(j)].map(|k| symmetry.normals(self.normals[k]));
+            own.zip(next).map(|(own, next)| if next.1 { next } else { own })
+        };
+        let chain = move |n: DVec2| {
+            let along = |k: &usize| n.dot(self.normals[*k]);
+            (0..self.count()).max_by(|a, b| along(a).total_cmp(&along(b))).unwrap_or(j)
+        };
+        self.symmetry.into_iter().flat_map(images).map(move |(n, is_reflected)| (chain(n), is_reflected))
     }
 
     /// Number of chains.

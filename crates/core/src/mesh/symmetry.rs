@@ -13,6 +13,8 @@ pub struct MirrorPlane {
     /// Mean distance of the mirror image from the mesh, in percent of the diagonal of the bounding
     /// box.
     pub error_percent: f64,
+    /// Another mirror plane at a right angle to it, where there is one: of vases and hammers.
+    pub crossing: Option<Mirror>,
 }
 
 /// A mesh whose image is farther from it than this on average, in percent of the diagonal, is not
@@ -38,6 +40,9 @@ const HOPELESS_PERCENT: f64 = 1.5;
 
 /// Distances count as this share of the diagonal at most: what is farther need not be looked for.
 const FARTHEST: f64 = 0.05;
+
+/// Planes that have less than this share of their normals along another are not turned to stand across it.
+const ACROSS: f64 = 0.5;
 
 /// Points that planes are ranked by, improved by, and judged by.
 const RANKED_BY: usize = 150;
@@ -78,7 +83,7 @@ impl Mesh {
         let fit: Vec<_> = judged.filter(|(error, ..)| error.is_symmetric()).collect();
         let least = fit.iter().map(|f| f.0.mean_percent).fold(f64::INFINITY, f64::min);
         let alike = fit.into_iter().filter(|f| f.0.mean_percent <= least + ALIKE_PERCENT);
-        alike.min_by_key(|f| f.1).map(|(error, _, plane)| error.of(plane))
+        alike.min_by_key(|f| f.1).map(|(error, _, plane)| probe.found(&error, plane))
     }
 
     /// The plane through the middle of the mesh with a normal along a coordinate axis, whether or
@@ -88,7 +93,7 @@ impl Mesh {
         let planes = [probe.middle, probe.centre].map(|p| Plane::through(p, DVec3::AXES[axis]));
         let judged = planes.into_iter().flatten().map(|plane| (probe.error(&plane, JUDGED_BY), plane));
         let best = judged.min_by(|a, b| a.0.mean_percent.total_cmp(&b.0.mean_percent));
-        best.map(|(error, plane)| error.of(plane))
+        best.map(|(error, plane)| probe.found(&error, plane))
     }
 }
 
@@ -103,13 +108,13 @@ impl Error {
     fn is_symmetric(&self) -> bool {
         self.mean_percent <= MOST_PERCENT && self.far <= MOST_FAR
     }
+}
 
-    fn of(self, plane: Plane) -> MirrorPlane {
-        let normal = plane.normal();
-        let faces_up = normal[normal.abs().max_position()] > 0.0;
-        let mirror = Mirror::new(if faces_up { plane } else { plane.flipped() });
-        MirrorPlane { mirror, error_percent: self.mean_percent }
-    }
+/// The reflection in a plane, turned so that the largest coordinate of its normal is positive.
+fn mirror(plane: Plane) -> Mirror {
+    let normal = plane.normal();
+    let faces_up = normal[normal.abs().max_position()] > 0.0;
+    Mirror::new(if faces_up { plane } else { plane.flipped() })
 }
 
 /// A mesh, ready to be compared with its images.
@@ -171,6 +176,26 @@ impl Probe {
         let principal = principal.map(|axis| Plane::through(self.centre, axis));
         let [x, y, z] = DVec3::AXES.map(across);
         [x, y].into_iter().flatten().chain(principal).chain(z).flatten().collect()
+    }
+
+    fn found(&self, error: &Error, plane: Plane) -> MirrorPlane {
+        let mirror = mirror(plane);
+        MirrorPlane { mirror, error_percent: error.mean_percent, crossing: self.crossing(&mirror) }
+    }
+
+    /// The best mirror plane at a right angle to the first; of those that are equally good, the one that is
+    /// liked best.
+    fn crossing(&self, first: &Mirror) -> Option<Mirror> {
+        let normals = self.candidates().into_iter().map(|plane| first.along(plane.normal()));
+        let normals = normals.filter(|normal| normal.length() > ACROSS);
+        let planes = normals.flat_map(|normal| [self.centre, self.middle].map(|p| Plane::through(p, normal)));
+        let promising =
+            planes.flatten().filter(|p| self.error(p, RANKED_BY).mean_percent <= HOPELESS_PERCENT);
+        let judged = promising.map(|plane| (self.error(&plane, JUDGED_BY), plane));
+        let fit: Vec<(Error, Plane)> = judged.filter(|(error, _)| error.is_symmetric()).collect();
+        let least = fit.iter().map(|f| f.0.mean_percent).fold(f64::INFINITY, f64::min);
+        let best = fit.into_iter().find(|f| f.0.mean_percent <= least + ALIKE_PERCENT);
+        best.map(|(_, plane)| mirror(plane))
     }
 
     /// The first samples, each with the point of the mesh nearest to its image, where one is near.
@@ -313,6 +338,25 @@ mod tests {
             assert!(found.error_percent < 0.15, "blob {seed}: {}", found.error_percent);
             assert!(plane.normal().dot(turn * DVec3::X).abs() > 0.9999, "blob {seed}: {}", plane.normal());
             assert!(plane.distance(place).abs() < 0.4, "blob {seed}: {}", plane.distance(place));
+        }
+    }
+
+    /// Balls with waves in fours have two planes, however they lie; others have no second one.
+    #[test]
+    fn a_second_plane_crosses_the_first() {
+        for seed in 0..8 {
+            let own = blob(seed, true);
+            let fours = |p: DVec3| {
+                let d = p.normalize();
+                d * (1.0 + 0.3 * libm::exp(-4.0 * d.y * d.y) + 0.15 * d.z)
+            };
+            let turn = DQuat::from_rotation_z(0.7 * seed as f64);
+            let found = moved(&own, |p| turn * fours(p) * 30.0).mirror_plane().unwrap();
+            let crossing = found.crossing.unwrap_or_else(|| panic!("blob {seed}"));
+            let normals = [found.mirror, crossing].map(|mirror| mirror.plane().normal());
+            assert!(normals[0].dot(normals[1]).abs() < 1e-9, "blob {seed}: {normals:?}");
+            let single = moved(&own, |p| turn * p * 30.0).mirror_plane().unwrap();
+            assert_eq!(single.crossing, None, "blob {seed}");
         }
     }
 

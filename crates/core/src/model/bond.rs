@@ -2,6 +2,7 @@
 
 use super::link::Link;
 use super::{Part, PartOptions, Symmetry};
+use crate::geom::Mirror;
 
 /// What symmetry asks of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,6 +61,19 @@ impl Bond {
         }
         bonds
     }
+}
+
+/// The mirror plane across the first that a part should be its own image in: where all that it is joined to lie across
+/// it as well.
+pub(super) fn crossing<'a>(
+    parts: &[Part],
+    links: &[Link],
+    symmetry: &'a Symmetry,
+    part: usize,
+) -> Option<&'a Mirror> {
+    let is_free = parts[part].options.direction_rad.is_none();
+    let is_alone = others(links, part).all(|other| symmetry.crossing(other).is_some());
+    symmetry.crossing(part).filter(|_| is_free && is_alone)
 }
 
 /// The parts that a part is joined to.

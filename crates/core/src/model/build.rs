@@ -1,6 +1,6 @@
 //! Parts into a model: candidates for each, one combination of them, and everything in its place.
 
-use super::bond::Bond;
+use super::bond::{Bond, crossing};
 use super::candidate::{Builder, Made, Search};
 use super::choice::{Best, Bump, Choice, Combination, Effort, Trouble};
 use super::known::Known;
@@ -240,14 +240,22 @@ impl Candidates {
                 if let Bond::ImageOf(_) = bonds[part] {
                     return Ok(Arc::default());
                 }
+                let crossing = symmetry.and_then(|symmetry| crossing(parts, &links, symmetry, part));
                 let symmetry = symmetry.filter(|_| bonds[part] == Bond::Across);
                 let search = match part {
                     _ if trouble.weak.contains(&part) => Search::Firm,
                     _ if trouble.bumping.contains(&part) => Search::Wide,
                     _ => Search::Promising,
                 };
-                let made =
-                    known.make(&Builder { parts, links: &links, part, symmetry, search, min_panel_mm });
+                let made = known.make(&Builder {
+                    parts,
+                    links: &links,
+                    part,
+                    symmetry,
+                    crossing,
+                    search,
+                    min_panel_mm,
+                });
                 let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                 progress.fraction(count as f64 / parts.len() as f64);
                 made

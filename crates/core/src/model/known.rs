@@ -3,7 +3,7 @@
 use super::candidate::{Builder, Made, Search};
 use super::link::Link;
 use super::{ModelError, Part, Symmetry};
-use crate::geom::Hull;
+use crate::geom::{Hull, Mirror};
 use crate::memory::Memory;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -21,6 +21,7 @@ struct Wish {
     /// Its joints, with the hulls of the others.
     links: Vec<(Link, Hull)>,
     symmetry: Option<Symmetry>,
+    crossing: Option<Mirror>,
     search: Search,
 }
 
@@ -39,6 +40,7 @@ impl Wish {
             own,
             links: builder.own_links().map(with_hull).collect(),
             symmetry: builder.symmetry.cloned(),
+            crossing: builder.crossing.copied(),
             search: builder.search,
         }
     }

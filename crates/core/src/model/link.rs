@@ -1,7 +1,7 @@
 //! Contact planes between neighbouring segments, and the tree of joints (§4.2.1).
 
 use super::{Symmetry, plane};
-use crate::geom::{Hull, Plane, polygon};
+use crate::geom::{Hull, Mirror, Plane, polygon};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -203,20 +203,21 @@ impl<'a> Between<'a> {
         let contact = self.contacts.get(&(from.min(to), from.max(to)))?;
         let [first, second] = [from, to].map(|p| self.part_hulls[p]);
         let kept = [self.kept(from, to), self.kept(to, from)];
-        let fitted = |across| plane::between(&contact.points, first, second, [&kept[0], &kept[1]], across);
+        let fitted =
+            |across: &[Mirror]| plane::between(&contact.points, first, second, [&kept[0], &kept[1]], across);
         let Some(symmetry) = self.symmetry else {
-            return Some(fitted(None));
+            return Some(fitted(&[]));
         };
-        let (mirror, image) = (symmetry.mirror(), (symmetry.twin(from), symmetry.twin(to)));
+        let image = (symmetry.twin(from), symmetry.twin(to));
         if image == (to, from) {
             let plane = mirror_plane_between(symmetry, first, second);
             return Some((plane, plane::cut_off(&plane, first, second)));
         }
         if image < (from, to) {
             let (plane, cut_off) = self.plane(image.0, image.1)?;
-            return Some((mirror.image(&plane), cut_off));
+            return Some((symmetry.mirror().image(&plane), cut_off));
         }
-        Some(fitted((image == (from, to)).then_some(mirror)))
+        Some(fitted(&symmetry.mirrors_across(&[from, to])))
     }
 }
 

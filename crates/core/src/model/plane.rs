@@ -37,18 +37,18 @@ const MOVE_PRICE: f64 = 0.05;
 
 /// The plane between two parts, its normal from `parent` to `child`, and the larger share of either that
 /// it takes off and the other does not have. `points` are where the two meet; `kept` where either meets each of
-/// the others. Between parts that lie `across` a mirror plane it is its own image.
+/// the others. Between parts that lie `across` mirror planes it is its own image in them.
 pub(super) fn between(
     points: &[DVec3],
     parent: &Hull,
     child: &Hull,
     kept: [&[Vec<DVec3>]; 2],
-    across: Option<&Mirror>,
+    across: &[Mirror],
 ) -> (Plane, f64) {
-    let along = |direction: DVec3| across.map_or(direction, |mirror| mirror.along(direction));
+    let along = |direction: DVec3| across.iter().fold(direction, |d, mirror| mirror.along(d));
     let towards = along(child.centroid() - parent.centroid());
     let centre = middle(points);
-    let centre = across.map_or(centre, |mirror| mirror.plane().project(centre));
+    let centre = across.iter().fold(centre, |c, mirror| mirror.plane().project(c));
     let facing = |plane: Plane| if plane.normal().dot(towards) < 0.0 { plane.flipped() } else { plane };
     let is_upright = |normal: &DVec3| normal.length() >= UPRIGHT;
     let fitted = Plane::fit(points).map(|(plane, _)| along(plane.normal())).filter(is_upright);
@@ -276,7 +276,7 @@ mod tests {
         let legs = (0..18).map(|k| square(leg(k), DVec3::X, DVec3::Y));
         let kept: Vec<Vec<DVec3>> = std::iter::once(tail.clone()).chain(legs).collect();
         let lost = |kept: &[Vec<DVec3>]| {
-            let (plane, _) = between(&points, &body, &large, [kept, &[]], None);
+            let (plane, _) = between(&points, &body, &large, [kept, &[]], &[]);
             Kept::new(&tail).lost(&plane)
         };
         assert_eq!(lost(&kept), 0.0);

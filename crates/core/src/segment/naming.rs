@@ -87,7 +87,7 @@ mod tests {
         let face_segment = shapes.iter().enumerate().flat_map(of_shape).collect();
         let mirror = normal.map(|normal| {
             let mirror = Mirror::new(Plane::through(DVec3::ZERO, normal).unwrap());
-            MirrorPlane { mirror, error_percent: 0.0 }
+            MirrorPlane { mirror, error_percent: 0.0, crossing: None }
         });
         let segmentation = Segmentation { face_segment, count: shapes.len(), mirror };
         names(&mesh(&together(&shapes)), &segmentation, &vec![1.0; shapes.len()])
