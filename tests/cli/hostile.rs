@@ -215,3 +215,26 @@ fn two_runs_at_once_to_one_output() {
         assert_eq!(names(&folder), ["a.fold", "cube.off"]);
     }
 }
+
+/// Openings up to 350 mm² were said nowhere.
+#[test]
+fn openings_are_in_the_report_and_large_ones_have_a_warning() {
+    let project = include_bytes!("../../samples/figure-1.toml");
+    let folder = folder_with(&[("a.toml", project)]);
+    for (size, largest_mm2, is_told) in [("126mm", 6.3, false), ("250mm", 24.8, true)] {
+        let result = run(folder.path(), &["design", "a.toml", "--size", size, "-o", "a.json"]);
+        assert_eq!(result.code, Some(0), "{}", result.err);
+        let report = report(&folder, "a.json");
+        let openings = report["components"][0]["openings_mm2"].as_array().unwrap();
+        assert_eq!(openings.len(), 4, "{openings:?}");
+        assert!((openings[0].as_f64().unwrap() - largest_mm2).abs() < 0.1, "{openings:?}");
+        assert_eq!(
+            result.err.contains("4 openings at slits, the largest of 25 mm²"),
+            is_told,
+            "{}",
+            result.err
+        );
+        let mut warnings = report["warnings"].as_array().unwrap().iter();
+        assert_eq!(warnings.any(|warning| warning["code"] == "opening"), is_told);
+    }
+}

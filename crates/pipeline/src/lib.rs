@@ -22,6 +22,7 @@ mod drawn;
 mod engine;
 mod judge;
 mod level;
+mod openings;
 mod output;
 mod plugs;
 mod trial;
@@ -31,6 +32,7 @@ pub use bodies::{Bodies, Hulls};
 pub use drawn::{run_drawn, shape_drawn};
 pub use engine::Engine;
 pub use level::Level;
+pub use openings::openings_mm2;
 pub use output::{Divided, Output, Shaped};
 pub use warning::{Change, ModelWarning, PanelSide, ProjectWarning, TrialWarning, Warning};
 
