@@ -56,6 +56,23 @@ impl Rehearsal {
         }
     }
 
+    /// Another session with the machine as this one left it, after so much time.
+    pub fn again(self, job: Job, cutter: &Cutter, pause: Duration) -> Self {
+        let fresh = Self::new(job, cutter, self.handshake, VirtualOptions::default());
+        let mut again = Self { plotter: self.plotter, now: self.now + pause, ..fresh };
+        again.plotter.run_until(again.now);
+        // Nobody reads what was answered meanwhile.
+        again.plotter.take_answers(again.now);
+        again
+    }
+
+    /// The host dies: what the port holds goes out as it does.
+    pub fn die(&mut self) {
+        while !self.port.is_empty() {
+            self.pass(LOOK, false);
+        }
+    }
+
     /// Runs to the end of the session, and until the plotter has nothing left to do.
     pub fn run(&mut self) -> Outcome {
         let outcome = self.advance_to_end();
