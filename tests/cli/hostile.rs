@@ -216,6 +216,40 @@ fn two_runs_at_once_to_one_output() {
     }
 }
 
+/// A file of so many blocks of 512 bytes at most: the signal of the limit ended the program, and its temporary file
+/// stayed.
+#[test]
+#[cfg(unix)]
+fn a_file_that_may_not_grow_leaves_nothing_half_written() {
+    let program = assert_cmd::cargo::cargo_bin!("tatamu");
+    for output in ["a.pdf", "a.svg", "a.dxf", "a.png", "a.fold", "a.json", "a.html", "a.stl"] {
+        let folder = folder_with(&[CUBE]);
+        let make = format!("make cube.off -q --effort 0 --size 60 -o {output}");
+        let within = |limit: &str| {
+            let mut shell = std::process::Command::new("sh");
+            shell.args(["-c", &format!("ulimit -f {limit}; exec \"$0\" {make}")]).arg(program);
+            shell.current_dir(folder.path()).output().unwrap()
+        };
+        assert_eq!(within("unlimited").status.code(), Some(0), "{output}");
+        let all: Vec<String> = names(&folder).into_iter().filter(|name| name != "cube.off").collect();
+        let size = |name: &String| std::fs::metadata(folder.path().join(name)).unwrap().len();
+        let blocks = all.iter().map(size).max().unwrap().div_ceil(512);
+        all.iter().for_each(|name| std::fs::write(folder.path().join(name), "old").unwrap());
+        // At the first write, in the middle, and at the last block.
+        for limit in [0, 1, blocks / 2, blocks - 1].into_iter().filter(|&limit| limit < blocks) {
+            let result = within(&limit.to_string());
+            let said = String::from_utf8(result.stderr).unwrap();
+            assert_eq!(result.status.code(), Some(1), "{output} of {blocks} blocks within {limit}: {said}");
+            assert!(said.starts_with("error: cannot write a") && said.contains("ulimit -f"), "{said}");
+            assert_eq!(names(&folder).len(), all.len() + 1, "{output}: {:?}", names(&folder));
+            for name in &all {
+                assert_eq!(std::fs::read(folder.path().join(name)).unwrap(), b"old", "{name} within {limit}");
+            }
+        }
+        assert_eq!(within(&blocks.to_string()).status.code(), Some(0), "{output} within {blocks}");
+    }
+}
+
 /// Openings up to 350 mm² were said nowhere.
 #[test]
 fn openings_are_in_the_report_and_large_ones_have_a_warning() {
