@@ -250,6 +250,26 @@ fn a_file_that_may_not_grow_leaves_nothing_half_written() {
     }
 }
 
+/// 10,000,000 took more than half an hour.
+#[test]
+fn an_effort_that_takes_hours_is_refused() {
+    let folder = folder_with(&[CUBE]);
+    let result = run(folder.path(), &["make", "cube.off", "--effort", "10000000"]);
+    assert_eq!((result.code, names(&folder).len()), (Some(2), 1), "{}", result.err);
+    assert!(result.err.contains("the effort must be from 0 to 1000000"), "{}", result.err);
+}
+
+/// "use --size 3mm at most" was said of a sheet that is nearly all margin.
+#[test]
+fn a_sheet_that_is_all_margin_asks_for_a_smaller_margin() {
+    let make = ["make", "cube.off", "--margin", "104mm"];
+    assert_refused(&[CUBE], &make, &["within the sheet's margins", "use a smaller --margin"]);
+    let make = ["make", "cube.off", "--size", "1m", "--no-split"];
+    let folder = folder_with(&[CUBE]);
+    let result = run(folder.path(), &make);
+    assert!(!result.err.contains("--margin"), "{}", result.err);
+}
+
 /// Openings up to 350 mm² were said nowhere.
 #[test]
 fn openings_are_in_the_report_and_large_ones_have_a_warning() {
