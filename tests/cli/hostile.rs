@@ -207,9 +207,15 @@ fn two_runs_at_once_to_one_output() {
         command.current_dir(folder.path()).stderr(std::process::Stdio::null());
         command
     };
+    let written = || std::fs::read(folder.path().join("a.fold")).unwrap();
+    let whole = ["60", "80", "100"].map(|size| {
+        assert!(make(size).status().unwrap().success());
+        written()
+    });
     for _ in 0..4 {
         let mut running = ["60", "80", "100"].map(|size| make(size).spawn().unwrap());
         running.iter_mut().for_each(|child| assert!(child.wait().unwrap().success()));
+        assert!(whole.contains(&written()), "it is not what any one of them writes");
         let checked = run(folder.path(), &["check", "a.fold"]);
         assert_eq!(checked.code, Some(0), "{}{}", checked.out, checked.err);
         assert_eq!(names(&folder), ["a.fold", "cube.off"]);
