@@ -41,7 +41,7 @@ fn job(strokes: usize) -> Vec<u8> {
             job += &format!("PD{},{},{x},{};", x + 5, y + 25, y + 9);
         }
     }
-    job.extend("PU;SP0;".chars());
+    job += "PU;SP0;";
     job.into_bytes()
 }
 
