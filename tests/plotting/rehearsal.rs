@@ -30,8 +30,10 @@ pub struct Rehearsal {
     pub most_queued: usize,
     handshake: Handshake,
     byte: Duration,
-    now: Duration,
-    port: VecDeque<u8>,
+    /// Modelled time that has passed.
+    pub now: Duration,
+    /// What the port holds.
+    pub port: VecDeque<u8>,
     line_free: Duration,
     /// Time in which the plotter had room: all of it, and that in which the line carried the job.
     room: Duration,
@@ -59,23 +61,6 @@ impl Rehearsal {
             room: Duration::ZERO,
             busy: Duration::ZERO,
             question: 0,
-        }
-    }
-
-    /// Another session with the machine as this one left it, after so much time.
-    pub fn again(self, job: Job, cutter: &Cutter, pause: Duration) -> Self {
-        let fresh = Self::new(job, cutter, self.handshake, VirtualOptions::default());
-        let mut again = Self { plotter: self.plotter, now: self.now + pause, ..fresh };
-        again.plotter.run_until(again.now);
-        // Nobody reads what was answered meanwhile.
-        again.plotter.take_answers(again.now);
-        again
-    }
-
-    /// The host dies: what the port holds goes out as it does.
-    pub fn die(&mut self) {
-        while !self.port.is_empty() {
-            self.pass(LOOK, false);
         }
     }
 
@@ -128,7 +113,7 @@ impl Rehearsal {
     }
 
     /// Time passes: bytes go over the line, answers come back.
-    fn pass(&mut self, wait: Duration, is_sending: bool) {
+    pub fn pass(&mut self, wait: Duration, is_sending: bool) {
         let end = self.now + wait;
         self.line_free = self.line_free.max(self.now);
         while self.line_free + self.byte <= end {

@@ -71,6 +71,24 @@ fn bytes_of(job: &Job, from: usize, to: usize) -> usize {
     commands.map(|command| command.bytes().len()).sum()
 }
 
+/// The host dies: what the port holds goes out as it does.
+fn die(first: &mut Rehearsal) {
+    while !first.port.is_empty() {
+        first.pass(Duration::from_millis(4), false);
+    }
+}
+
+/// Another session with the machine as the first one left it, after some time.
+fn again(first: Rehearsal, rest: &[u8], cutter: &Cutter, handshake: Handshake) -> Rehearsal {
+    let job = Job::parse(rest, cutter).expect("valid");
+    let mut second = Rehearsal::new(job, cutter, handshake, VirtualOptions::default());
+    (second.plotter, second.now) = (first.plotter, first.now + PAUSE);
+    second.plotter.run_until(second.now);
+    // Nobody reads what was answered meanwhile.
+    second.plotter.take_answers(second.now);
+    second
+}
+
 fn ends_and_goes_on(handshake: Handshake, random: &mut fastrand::Rng, bytes: &[u8]) {
     let buffer_bytes = random.usize(60..=1024);
     let answers = handshake == Handshake::EscB || handshake != Handshake::Paced && random.bool();
@@ -93,7 +111,7 @@ fn ends_and_goes_on(handshake: Handshake, random: &mut fastrand::Rng, bytes: &[u
     let is_finished = match fault {
         Fault::Kill => loop {
             if first.plotter.received() >= at {
-                first.die();
+                die(&mut first);
                 break false;
             }
             if let Some(outcome) = first.advance() {
@@ -120,7 +138,7 @@ fn ends_and_goes_on(handshake: Handshake, random: &mut fastrand::Rng, bytes: &[u
         // It cannot be told to forget the part of a command: the message says to switch it off and on.
         first.plotter.switch_off_and_on();
     }
-    let mut second = first.again(Job::parse(&rest, &cutter).expect("valid"), &cutter, PAUSE);
+    let mut second = again(first, &rest, &cutter, handshake);
     let before = drawn(second.plotter.motions());
     let outcome = second.run();
     assert_eq!(outcome.end, End::Finished, "{case}");
