@@ -1,6 +1,7 @@
 //! What each fuzz target does with one input; `tests/fuzz_corpus.rs` does it with the stored inputs.
 
 pub mod fold;
+pub mod folding;
 pub mod journal;
 pub mod mesh;
 pub mod model;

@@ -126,6 +126,9 @@ pub fn reason(error: &std::io::Error) -> String {
         K::PermissionDenied => "permission denied".to_owned(),
         K::IsADirectory => "it is a folder, not a file".to_owned(),
         K::StorageFull => "the disk is full".to_owned(),
+        K::FileTooLarge => {
+            "the file is larger than this system allows; raise its limit (ulimit -f)".to_owned()
+        }
         _ => error.to_string(),
     }
 }

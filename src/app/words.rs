@@ -107,6 +107,7 @@ fn phrase(remedy: &Remedy, names: &dyn Names) -> String {
         Remedy::ThinnerBoard => "use thinner board",
         Remedy::TapeJoint => "tape it as well",
         Remedy::TapeBehind => "join its two edges with tape from behind",
+        Remedy::CoverOpening => "cover it from inside with a flap of paper that is glued on one side only",
         Remedy::TapeHinge => "join it with tape so that it can move",
         Remedy::GlueWithCare => "glue it with care",
         Remedy::FoldWithCare => "fold it with care",

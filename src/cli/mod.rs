@@ -81,8 +81,19 @@ Examples:
 
 \"tatamu make --help\" explains every option.";
 
+/// Makes a write beyond a limit of the file size (`ulimit -f`) fail like any other, so that no part of a file is
+/// left: its signal would end the program first.
+#[cfg(unix)]
+fn survive_file_limits() {
+    let was_raised = std::sync::Arc::default();
+    // Fails only for signals that a program may not catch.
+    let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, was_raised);
+}
+
 /// Runs the program.
 pub fn run() -> ExitCode {
+    #[cfg(unix)]
+    survive_file_limits();
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => match mistakes::advice(&error) {

@@ -30,6 +30,7 @@ pub fn about(warning: &Warning) -> Vec<&str> {
             ModelWarning::NarrowPanel { component, .. }
             | ModelWarning::ToleranceMissed { component, .. }
             | ModelWarning::ThinPart { component, .. }
+            | ModelWarning::Opening { component, .. }
             | ModelWarning::StaysConvex { component, .. } => vec![component],
             ModelWarning::WeakJoint { component, parent, .. } => vec![component, parent],
             ModelWarning::NotJoined { roots } => roots.iter().map(String::as_str).collect(),

@@ -207,11 +207,94 @@ fn two_runs_at_once_to_one_output() {
         command.current_dir(folder.path()).stderr(std::process::Stdio::null());
         command
     };
+    let written = || std::fs::read(folder.path().join("a.fold")).unwrap();
+    let whole = ["60", "80", "100"].map(|size| {
+        assert!(make(size).status().unwrap().success());
+        written()
+    });
     for _ in 0..4 {
         let mut running = ["60", "80", "100"].map(|size| make(size).spawn().unwrap());
         running.iter_mut().for_each(|child| assert!(child.wait().unwrap().success()));
+        assert!(whole.contains(&written()), "it is not what any one of them writes");
         let checked = run(folder.path(), &["check", "a.fold"]);
         assert_eq!(checked.code, Some(0), "{}{}", checked.out, checked.err);
         assert_eq!(names(&folder), ["a.fold", "cube.off"]);
+    }
+}
+
+/// A file of so many blocks of 512 bytes at most: the signal of the limit ended the program, and its temporary file
+/// stayed.
+#[test]
+#[cfg(unix)]
+fn a_file_that_may_not_grow_leaves_nothing_half_written() {
+    let program = assert_cmd::cargo::cargo_bin!("tatamu");
+    for output in ["a.pdf", "a.svg", "a.dxf", "a.png", "a.fold", "a.json", "a.html", "a.stl"] {
+        let folder = folder_with(&[CUBE]);
+        let make = format!("make cube.off -q --effort 0 --size 60 -o {output}");
+        let within = |limit: &str| {
+            let mut shell = std::process::Command::new("sh");
+            shell.args(["-c", &format!("ulimit -f {limit}; exec \"$0\" {make}")]).arg(program);
+            shell.current_dir(folder.path()).output().unwrap()
+        };
+        assert_eq!(within("unlimited").status.code(), Some(0), "{output}");
+        let all: Vec<String> = names(&folder).into_iter().filter(|name| name != "cube.off").collect();
+        let size = |name: &String| std::fs::metadata(folder.path().join(name)).unwrap().len();
+        let blocks = all.iter().map(size).max().unwrap().div_ceil(512);
+        all.iter().for_each(|name| std::fs::write(folder.path().join(name), "old").unwrap());
+        // At the first write, in the middle, and at the last block.
+        for limit in [0, 1, blocks / 2, blocks - 1].into_iter().filter(|&limit| limit < blocks) {
+            let result = within(&limit.to_string());
+            let said = String::from_utf8(result.stderr).unwrap();
+            assert_eq!(result.status.code(), Some(1), "{output} of {blocks} blocks within {limit}: {said}");
+            assert!(said.starts_with("error: cannot write a") && said.contains("ulimit -f"), "{said}");
+            assert_eq!(names(&folder).len(), all.len() + 1, "{output}: {:?}", names(&folder));
+            for name in &all {
+                assert_eq!(std::fs::read(folder.path().join(name)).unwrap(), b"old", "{name} within {limit}");
+            }
+        }
+        assert_eq!(within(&blocks.to_string()).status.code(), Some(0), "{output} within {blocks}");
+    }
+}
+
+/// 10,000,000 took more than half an hour.
+#[test]
+fn an_effort_that_takes_hours_is_refused() {
+    let folder = folder_with(&[CUBE]);
+    let result = run(folder.path(), &["make", "cube.off", "--effort", "10000000"]);
+    assert_eq!((result.code, names(&folder).len()), (Some(2), 1), "{}", result.err);
+    assert!(result.err.contains("the effort must be from 0 to 1000000"), "{}", result.err);
+}
+
+/// "use --size 3mm at most" was said of a sheet that is nearly all margin.
+#[test]
+fn a_sheet_that_is_all_margin_asks_for_a_smaller_margin() {
+    let make = ["make", "cube.off", "--margin", "104mm"];
+    assert_refused(&[CUBE], &make, &["within the sheet's margins", "use a smaller --margin"]);
+    let make = ["make", "cube.off", "--size", "1m", "--no-split"];
+    let folder = folder_with(&[CUBE]);
+    let result = run(folder.path(), &make);
+    assert!(!result.err.contains("--margin"), "{}", result.err);
+}
+
+/// Openings up to 350 mm² were said nowhere.
+#[test]
+fn openings_are_in_the_report_and_large_ones_have_a_warning() {
+    let project = include_bytes!("../../samples/figure-1.toml");
+    let folder = folder_with(&[("a.toml", project)]);
+    for (size, largest_mm2, is_told) in [("126mm", 6.3, false), ("250mm", 24.8, true)] {
+        let result = run(folder.path(), &["design", "a.toml", "--size", size, "-o", "a.json"]);
+        assert_eq!(result.code, Some(0), "{}", result.err);
+        let report = report(&folder, "a.json");
+        let openings = report["components"][0]["openings_mm2"].as_array().unwrap();
+        assert_eq!(openings.len(), 4, "{openings:?}");
+        assert!((openings[0].as_f64().unwrap() - largest_mm2).abs() < 0.1, "{openings:?}");
+        assert_eq!(
+            result.err.contains("4 openings at slits, the largest of 25 mm²"),
+            is_told,
+            "{}",
+            result.err
+        );
+        let mut warnings = report["warnings"].as_array().unwrap().iter();
+        assert_eq!(warnings.any(|warning| warning["code"] == "opening"), is_told);
     }
 }

@@ -2,6 +2,7 @@
 
 mod measure;
 mod rehearsal;
+mod resuming;
 mod sessions;
 mod sheets;
 

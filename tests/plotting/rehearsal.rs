@@ -6,11 +6,11 @@ use tatamu::plotter::profile::Handshake;
 use tatamu::plotter::session::{End, Outcome, Session, State, Step};
 use tatamu::plotter::{Cutter, Job, VirtualMachine, VirtualOptions, VirtualPlotter};
 
-/// Longest time between two looks at the port.
+/// Longest time between two looks at the port, unless a test says otherwise.
 const LOOK: Duration = Duration::from_millis(4);
 /// So many free bytes are room: the reserve, what may be on its way, and a chunk to send.
 const ROOM: usize = 384;
-/// No job of these tests takes longer.
+/// Most jobs of these tests take no longer.
 const TOO_LONG: Duration = Duration::from_secs(20_000);
 
 /// A host, a line and a plotter.
@@ -22,12 +22,18 @@ pub struct Rehearsal {
     pub stop_wishes: u32,
     /// After this byte the port is gone.
     pub unplug_at: Option<u64>,
+    /// Shortest time between two looks at the port.
+    pub least_look: Duration,
+    /// The job takes no longer.
+    pub too_long: Duration,
     /// Most bytes that the port held.
     pub most_queued: usize,
     handshake: Handshake,
     byte: Duration,
-    now: Duration,
-    port: VecDeque<u8>,
+    /// Modelled time that has passed.
+    pub now: Duration,
+    /// What the port holds.
+    pub port: VecDeque<u8>,
     line_free: Duration,
     /// Time in which the plotter had room: all of it, and that in which the line carried the job.
     room: Duration,
@@ -44,6 +50,8 @@ impl Rehearsal {
             stop_at: None,
             stop_wishes: 1,
             unplug_at: None,
+            least_look: Duration::from_micros(100),
+            too_long: TOO_LONG,
             most_queued: 0,
             handshake,
             byte: Duration::from_secs_f64(cutter.serial().byte_s()),
@@ -73,7 +81,7 @@ impl Rehearsal {
             if let Some(outcome) = self.advance() {
                 return outcome;
             }
-            assert!(self.now < TOO_LONG, "no end: {:?}", self.session.status());
+            assert!(self.now < self.too_long, "no end: {:?}", self.session.status());
         }
     }
 
@@ -87,7 +95,7 @@ impl Rehearsal {
                 self.most_queued = self.most_queued.max(self.port.len());
                 Duration::ZERO
             }
-            Step::Wait(wait) => wait.clamp(Duration::from_micros(100), LOOK),
+            Step::Wait(wait) => wait.clamp(self.least_look, LOOK.max(self.least_look)),
         };
         self.pass(wait, is_sending);
         None
@@ -105,7 +113,7 @@ impl Rehearsal {
     }
 
     /// Time passes: bytes go over the line, answers come back.
-    fn pass(&mut self, wait: Duration, is_sending: bool) {
+    pub fn pass(&mut self, wait: Duration, is_sending: bool) {
         let end = self.now + wait;
         self.line_free = self.line_free.max(self.now);
         while self.line_free + self.byte <= end {

@@ -78,6 +78,34 @@ fn arrives_whole(job: &[u8], handshake: Handshake, baud: u32) {
     assert!(busy >= 0.95, "{handshake:?} {baud}: {busy}");
 }
 
+/// Strokes of 64 cm, each as slow as a machine can draw it.
+#[test]
+fn a_job_of_a_day_and_a_night_arrives_whole_by_every_handshake() {
+    const DAY: Duration = Duration::from_secs(24 * 3600);
+    let mut job = "IN;PA;SP1;VS1;".to_owned();
+    for k in 0..1400 {
+        let y = 4 * k;
+        job += &format!("PU0,{y};PD24000,{y};");
+    }
+    job += "PU;SP0;";
+    std::thread::scope(|scope| {
+        for handshake in REAL {
+            let job = job.as_bytes();
+            scope.spawn(move || {
+                let answers = handshake != Handshake::Paced;
+                let cutter = cutter("generic-hpgl", 9600, answers);
+                let options = VirtualOptions { answers, ..VirtualOptions::default() };
+                let mut rehearsal = rehearse(job, &cutter, handshake, options);
+                (rehearsal.least_look, rehearsal.too_long) = (Duration::from_millis(250), 2 * DAY);
+                assert_eq!(rehearsal.run().end, End::Finished, "{handshake:?}");
+                assert!(rehearsal.now() >= DAY, "{handshake:?}: {:?}", rehearsal.now());
+                assert_eq!((rehearsal.plotter.lost(), rehearsal.plotter.broken()), (0, 0), "{handshake:?}");
+                assert_eq!(rehearsal.plotter.motions(), meant(job, &cutter), "{handshake:?}");
+            });
+        }
+    });
+}
+
 #[test]
 fn a_naive_host_loses_bytes_here() {
     // The virtual plotter is worth something only if it catches hosts that do not wait.

@@ -45,6 +45,8 @@ pub enum Remedy {
     TapeJoint,
     /// Tape two edges together from behind.
     TapeBehind,
+    /// Cover an opening at a slit.
+    CoverOpening,
     /// Tape a hinge that moves.
     TapeHinge,
     /// Glue a narrow tab with care.

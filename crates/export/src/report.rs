@@ -8,7 +8,7 @@ use tatamu_core::geom::polygon;
 use tatamu_core::mesh::{MirrorPlane, Repairs};
 use tatamu_core::model::{ModelPart, Plug};
 use tatamu_net::net::{Net, Piece};
-use tatamu_pipeline::{Output, Warning};
+use tatamu_pipeline::{Output, Warning, openings_mm2};
 
 /// Version of the report's structure.
 const SCHEMA: u32 = 1;
@@ -88,6 +88,7 @@ struct Component<'a> {
     hausdorff_mm: f64,
     hausdorff_ratio: f64,
     min_panel_width_mm: f64,
+    openings_mm2: Vec<f64>,
     parent: Option<&'a str>,
     joint: Option<Joint>,
     placement: [f64; 16],
@@ -324,6 +325,7 @@ fn component<'a>(output: &'a Output, p: usize, part: &'a ModelPart, diagonal_mm:
         hausdorff_mm: shape.hausdorff_mm(),
         hausdorff_ratio: shape.hausdorff_mm() / diagonal_mm,
         min_panel_width_mm: shape.narrowest_panel().1,
+        openings_mm2: openings_mm2(shape.panels()),
         parent: joint.map(|j| parts[j.parent].name.as_str()),
         joint: joint.map(|j| Joint {
             parent_panel: panel_name(&parts[j.parent], j.parent_panel),

@@ -318,7 +318,7 @@ impl<'m> Engine<'m> {
         }
         progress.stage("nets");
         let alternatives = develop_model(model, &net_options, &options.hands, &self.nets, progress)
-            .map_err(|error| Error::Net { error, size_mm: options.size_mm })?;
+            .map_err(|error| Error::Net { error, size_mm: options.size_mm, margin_mm: options.margin_mm })?;
         let alternatives = Arc::new(alternatives);
         let cards: Vec<Option<String>> =
             model.parts().iter().map(|part| options.card(&part.name).cloned()).collect();

@@ -22,6 +22,7 @@ mod drawn;
 mod engine;
 mod judge;
 mod level;
+mod openings;
 mod output;
 mod plugs;
 mod trial;
@@ -31,6 +32,7 @@ pub use bodies::{Bodies, Hulls};
 pub use drawn::{run_drawn, shape_drawn};
 pub use engine::Engine;
 pub use level::Level;
+pub use openings::openings_mm2;
 pub use output::{Divided, Output, Shaped};
 pub use warning::{Change, ModelWarning, PanelSide, ProjectWarning, TrialWarning, Warning};
 
@@ -217,6 +219,8 @@ pub enum Error {
         error: NetsError,
         /// The size that was asked for.
         size_mm: f64,
+        /// The margin of the sheets.
+        margin_mm: f64,
     },
     /// The layout failed.
     #[error(transparent)]
@@ -242,12 +246,16 @@ impl Error {
     pub fn remedies(&self) -> Vec<Remedy> {
         match self {
             Self::Net {
-                error: NetsError::Net(NetError::PanelTooLarge { scale, may_split, .. }),
+                error: NetsError::Net(NetError::PanelTooLarge { scale, may_split, sheet_mm, .. }),
                 size_mm,
+                margin_mm,
             } => {
                 let fits_mm = (size_mm * scale * FITS).floor();
+                // Margins that take more of the sheet than they leave are a slip.
+                let is_mostly_margin = 2.0 * margin_mm > sheet_mm.min_element();
+                let size = if is_mostly_margin { Remedy::SmallerMargin } else { Remedy::SizeAtMost(fits_mm) };
                 let split = (!may_split).then_some(Remedy::SplitPanels);
-                [Remedy::SizeAtMost(fits_mm), Remedy::LargerPaper].into_iter().chain(split).collect()
+                [size, Remedy::LargerPaper].into_iter().chain(split).collect()
             }
             Self::Layout(error) => error.remedies(),
             Self::Thick(error) => error.remedies(),

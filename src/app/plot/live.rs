@@ -100,7 +100,8 @@ pub fn failure(outcome: Outcome) -> AppError {
         End::NoAnswer => "the machine does not answer".to_owned(),
         End::PortLost => {
             "the port is gone, and the tool may be down; lift it by hand before you do anything else, and switch a \
-             laser off"
+             laser off. Switch the machine off and on before you continue the job, so that it forgets the part of a \
+             command"
                 .to_owned()
         }
         End::Rejected(code) => format!(

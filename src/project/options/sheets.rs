@@ -11,8 +11,9 @@ pub(super) const PAPERS: &[&Entry] = &[&PAPER, &MARGIN, &THICKNESS, &THICK];
 pub(super) const ALL: &[&Entry] = &[&SIDE, &LABELS, &GRAIN, &SPACING, &EFFORT, &MARKS, &CALIBRATE];
 
 const HEADING: &str = "Sheets";
-/// The most effort that may be asked for: minutes for a large model.
-const MOST_EFFORT: usize = 10_000_000;
+/// The most effort that may be asked for: 200,000 take half a minute for the sample teddy, so that this takes minutes;
+/// ten times as much would take half an hour.
+const MOST_EFFORT: usize = 1_000_000;
 /// What else is paper.
 pub(super) const OR_SIZE: &str = "or width and height such as `\"210x297mm\"`";
 
@@ -218,9 +219,9 @@ static EFFORT: Entry = Entry {
     }),
     short: "How long to search for fewer sheets: number of trial placements",
     long: "Ten times the number takes ten times as long and sometimes saves a sheet; 0 is quickest. The same number \
-           gives the same sheets on any computer.",
+           gives the same sheets on any computer. At most 1000000, which takes minutes.",
     example: "--effort 20000",
-    meaning: "how long to search for fewer sheets: number of trial placements",
+    meaning: "how long to search for fewer sheets: number of trial placements, at most 1000000",
     ..Entry::BLANK
 };
 

@@ -1,7 +1,7 @@
 //! What the user should know about the components and their joints.
 
 use super::Warning;
-use crate::Options;
+use crate::{Options, openings_mm2};
 use glam::DVec3;
 use std::fmt;
 use tatamu_core::codes;
@@ -81,6 +81,15 @@ pub enum ModelWarning {
         /// The area from which it holds well.
         needed_mm2: f64,
     },
+    /// A component has an opening that looks like a hole.
+    Opening {
+        /// The component.
+        component: String,
+        /// How many it has, smaller ones too.
+        openings: usize,
+        /// Area of the largest.
+        largest_mm2: f64,
+    },
     /// A component that could have dents stays convex.
     StaysConvex {
         /// The component.
@@ -108,6 +117,7 @@ codes!(ModelWarning {
     ToleranceMissed => "tolerance_missed",
     ThinPart => "thin_part",
     WeakJoint => "weak_joint",
+    Opening => "opening",
     StaysConvex => "concave_refused",
 });
 
@@ -122,6 +132,7 @@ impl ModelWarning {
             Self::ToleranceMissed { .. } => vec![Remedy::MorePanels],
             Self::ThinPart { least_mm, .. } => vec![Remedy::LargerSize, Remedy::NarrowerPanels(*least_mm)],
             Self::WeakJoint { .. } => vec![Remedy::TapeJoint],
+            Self::Opening { .. } => vec![Remedy::CoverOpening],
         }
     }
 }
@@ -169,6 +180,16 @@ impl fmt::Display for ModelWarning {
                 "{component}: its joint with {parent} has {glue_mm2:.0} mm² to glue, and holds well from \
                  {needed_mm2:.0} mm²"
             ),
+            Self::Opening { component, openings: 1, largest_mm2 } => write!(
+                f,
+                "{component}: its panels leave an opening of {largest_mm2:.0} mm² at a slit, because its flat layers \
+                 would overlap without it"
+            ),
+            Self::Opening { component, openings, largest_mm2 } => write!(
+                f,
+                "{component}: its panels leave {openings} openings at slits, the largest of {largest_mm2:.0} mm², \
+                 because its flat layers would overlap without them"
+            ),
             Self::StaysConvex { component, reason } => {
                 write!(f, "{component}: it stays convex, though concave was asked for: {reason}")
             }
@@ -187,6 +208,9 @@ pub(crate) fn many_sheets(layout: &Layout) -> Option<ModelWarning> {
     let paper = || layout.options().paper.name();
     (sheets > MANY_SHEETS).then(|| ModelWarning::ManySheets { sheets, paper: paper() })
 }
+
+/// Larger openings look like holes: a child's finger is 5 mm wide.
+const MOST_OPEN_MM2: f64 = 20.0;
 
 /// An error of this share of its thickness changes a component's looks,
 const SWOLLEN: f64 = 0.3;
@@ -227,6 +251,11 @@ fn part_warnings(part: &ModelPart, options: &Options) -> Vec<ModelWarning> {
     let error_mm = part.component.hausdorff_mm();
     if let Some(tolerance_mm) = options.tolerance_mm.filter(|t| error_mm > *t) {
         out.push(ModelWarning::ToleranceMissed { component: component(), error_mm, tolerance_mm });
+    }
+    // Boards are taped at all edges.
+    let openings = if options.is_thick { Vec::new() } else { openings_mm2(part.component.panels()) };
+    if let Some(&largest_mm2) = openings.first().filter(|&&mm2| mm2 > MOST_OPEN_MM2) {
+        out.push(ModelWarning::Opening { component: component(), openings: openings.len(), largest_mm2 });
     }
     let thickness_mm = thickness_mm(&part.component);
     if error_mm > SWOLLEN * thickness_mm && thickness_mm < THIN_PANELS * least_mm {

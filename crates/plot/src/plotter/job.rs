@@ -5,6 +5,7 @@ use super::dialect::{Dialect, Meaning, Pen};
 use super::job_error::{JobError, LONGEST_FOREIGN_COMMAND};
 use super::motion::Motion;
 use super::pace::Pace;
+use super::profile::Handshake;
 use super::{Cutter, OffBed, Point};
 
 /// One whole command.
@@ -98,7 +99,7 @@ impl Job {
                 Meaning::Move { .. } | Meaning::Setup => match reader.take_whole(command, meaning, dialect) {
                     Err(Fault::OffBed(error)) => return Err(JobError::OffBed { at, error }),
                     Err(Fault::Long(length)) => {
-                        too_long.get_or_insert(JobError::Long { at, length });
+                        too_long.get_or_insert(JobError::Long { at, length, longest: reader.longest() });
                     }
                     Ok(()) => {}
                 },
@@ -217,13 +218,23 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// The longest command that is sent whole: with the room that stays free, and one that is on its way when the
+    /// machine says stop, it fits half a buffer. A machine that counts what it is sent has room for whole lines.
+    fn longest(&self) -> usize {
+        let serial = self.cutter.serial();
+        match serial.handshake {
+            Handshake::Count | Handshake::Ok | Handshake::Usb => LONGEST_FOREIGN_COMMAND,
+            _ => LONGEST_FOREIGN_COMMAND.min(serial.buffer_bytes / 3),
+        }
+    }
+
     /// Takes a command, in parts where it is a move that is too long to be sent whole.
     fn take_whole(&mut self, bytes: &[u8], meaning: Meaning, dialect: &dyn Dialect) -> Result<(), Fault> {
         let first = self.commands.len();
-        if bytes.len() <= LONGEST_FOREIGN_COMMAND {
+        if bytes.len() <= self.longest() {
             self.take(bytes, meaning);
         } else {
-            let parts = dialect.in_parts(bytes);
+            let parts = dialect.in_parts(bytes, self.longest());
             if parts.is_empty() {
                 return Err(Fault::Long(bytes.len()));
             }

@@ -2,7 +2,7 @@
 
 use super::OffBed;
 
-/// Commands longer than this are refused: they could not be on their way as a whole.
+/// Commands longer than this are sent in parts, or refused: they could not be on their way as a whole.
 pub(super) const LONGEST_FOREIGN_COMMAND: usize = 128;
 
 /// Why a file is no job.
@@ -23,14 +23,16 @@ pub enum JobError {
     },
     /// A command that is too long to be sent whole.
     #[error(
-        "the command at byte {at} is {length} bytes long; at most {LONGEST_FOREIGN_COMMAND} can be sent so that \
-         a stop leaves no part of it"
+        "the command at byte {at} is {length} bytes long; at most {longest} can be sent so that a stop leaves no \
+         part of it"
     )]
     Long {
         /// Offset of the command.
         at: usize,
         /// Its length.
         length: usize,
+        /// The length that is possible.
+        longest: usize,
     },
     /// A position that the machine cannot reach.
     #[error("{error} (command at byte {at}); move the drawing, or use a larger machine")]

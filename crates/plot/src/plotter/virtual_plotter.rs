@@ -102,6 +102,10 @@ impl VirtualMachine for VirtualPlotter {
         let has_state = !self.dialect.state_question().is_empty();
         let knows_control = self.options.answers && (self.dialect.controls().is_some() || has_state);
         if knows_control && (byte == ESC || !self.control.is_empty()) {
+            if byte == ESC {
+                // The part of a sequence that a lost port left is none.
+                self.control.clear();
+            }
             self.control.push(byte);
             self.heed_control();
         } else if self.buffer.len() < self.options.buffer_bytes {
@@ -186,6 +190,14 @@ impl VirtualPlotter {
         self.has_sent_xoff
     }
 
+    /// Forgets what is in the buffer, and lifts the pen.
+    pub fn switch_off_and_on(&mut self) {
+        self.buffer.clear();
+        self.control.clear();
+        self.is_down = false;
+        self.signal();
+    }
+
     fn answer(&mut self, text: String) {
         self.answer_at(self.now, text);
     }
@@ -240,7 +252,8 @@ impl VirtualPlotter {
     /// XOFF, XON and CTS by the number of free bytes.
     fn signal(&mut self) {
         let free = self.free();
-        self.is_clear_to_send = free >= if self.is_clear_to_send { CTS_BELOW } else { 2 * CTS_BELOW };
+        let low = CTS_BELOW.min(self.options.buffer_bytes / 4);
+        self.is_clear_to_send = free >= if self.is_clear_to_send { low } else { 2 * low };
         let Some(below) = self.xoff_below else {
             return;
         };

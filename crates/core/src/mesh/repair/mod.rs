@@ -1,6 +1,7 @@
 //! From the polygons of a file to a clean mesh.
 
 mod clean;
+mod large;
 mod loose;
 mod orient;
 mod triangulate;

@@ -1,6 +1,6 @@
 //! Cutting polygons into triangles.
 
-use super::{Repairs, Triangle};
+use super::{Repairs, Triangle, large};
 use crate::geom::{Plane, polygon};
 use crate::mesh::Soup;
 use earcut::Earcut;
@@ -49,7 +49,10 @@ fn sorted(outline: &[u32]) -> Vec<u32> {
     corners
 }
 
-/// Ears of a polygon of four or more corners, which may be concave, in the plane that fits it
+/// Ears are cut off polygons of no more corners: a comb of 2,000 takes 6 ms, one of 10^5 takes 7 s.
+const MOST_EARS: usize = 2000;
+
+/// Triangles of a polygon of four or more corners, which may be concave, in the plane that fits it
 /// best; empty where it has no area.
 fn cut(positions: &[DVec3], outline: &[u32]) -> Vec<[u32; 3]> {
     let corners: Vec<DVec3> = outline.iter().map(|&v| positions[v as usize]).collect();
@@ -59,11 +62,10 @@ fn cut(positions: &[DVec3], outline: &[u32]) -> Vec<[u32; 3]> {
     let (a, b) = plane.basis();
     let flat: Vec<DVec2> =
         corners.iter().map(|&p| DVec2::new(a.dot(p - corners[0]), b.dot(p - corners[0]))).collect();
-    let mut ears: Vec<usize> = Vec::new();
-    Earcut::new().earcut(flat.iter().map(|p| [p.x, p.y]), &[], &mut ears);
-    let (ears, _) = ears.as_chunks::<3>();
+    let triangles = if flat.len() > MOST_EARS { large::cut(&flat) } else { ears(&flat) };
     let different = |&[i, j, k]: &[u32; 3]| i != j && j != k && k != i;
-    ears.iter()
+    triangles
+        .iter()
         .map(|&[i, j, k]| {
             let is_turned = polygon::cross3(flat[i], flat[j], flat[k]) < 0.0;
             let (j, k) = if is_turned { (k, j) } else { (j, k) };
@@ -71,6 +73,12 @@ fn cut(positions: &[DVec3], outline: &[u32]) -> Vec<[u32; 3]> {
         })
         .filter(different)
         .collect()
+}
+
+fn ears(outline: &[DVec2]) -> Vec<[usize; 3]> {
+    let mut ears: Vec<usize> = Vec::new();
+    Earcut::new().earcut(outline.iter().map(|p| [p.x, p.y]), &[], &mut ears);
+    ears.as_chunks::<3>().0.to_vec()
 }
 
 /// Twice the vector area: the normal of the plane that fits best in the sense of area (Newell),

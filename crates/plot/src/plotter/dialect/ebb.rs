@@ -178,7 +178,7 @@ impl Dialect for Ebb {
     }
 
     /// A move is never divided.
-    fn in_parts(&self, _: &[u8]) -> Vec<Vec<u8>> {
+    fn in_parts(&self, _: &[u8], _: usize) -> Vec<Vec<u8>> {
         Vec::new()
     }
 }

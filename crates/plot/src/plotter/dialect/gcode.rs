@@ -144,7 +144,7 @@ impl Dialect for Gcode {
     }
 
     /// A line is never divided.
-    fn in_parts(&self, _: &[u8]) -> Vec<Vec<u8>> {
+    fn in_parts(&self, _: &[u8], _: usize) -> Vec<Vec<u8>> {
         Vec::new()
     }
 }

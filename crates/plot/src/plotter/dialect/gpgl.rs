@@ -1,6 +1,6 @@
 //! GP-GL, the language of Graphtec's cutters: one letter, parameters, ETX.
 
-use super::{Dialect, Meaning, Pen, chunked, pairs};
+use super::{Dialect, LONGEST_COMMAND, Meaning, Pen, chunked, pairs};
 use crate::plotter::Point;
 
 /// Ends every command.
@@ -23,7 +23,7 @@ impl Dialect for Gpgl {
     }
 
     fn draw(&self, _: Point, through: &[Point]) -> Vec<Vec<u8>> {
-        chunked(b"D", self.tail(), through)
+        chunked(b"D", self.tail(), through, LONGEST_COMMAND)
     }
 
     fn tail(&self) -> &'static [u8] {

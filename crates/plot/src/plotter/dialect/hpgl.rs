@@ -1,6 +1,6 @@
 //! HP-GL, the common language: HP 7475A Interfacing and Programming Manual, chapters 3 to 10.
 
-use super::{Controls, Dialect, Meaning, Pen, chunked, pairs};
+use super::{Controls, Dialect, LONGEST_COMMAND, Meaning, Pen, chunked, pairs};
 use crate::plotter::Point;
 
 /// The escape character, which begins device control.
@@ -24,7 +24,7 @@ impl Dialect for Hpgl {
     }
 
     fn draw(&self, _: Point, through: &[Point]) -> Vec<Vec<u8>> {
-        chunked(b"PD", self.tail(), through)
+        chunked(b"PD", self.tail(), through, LONGEST_COMMAND)
     }
 
     fn tail(&self) -> &'static [u8] {

@@ -141,11 +141,11 @@ pub trait Dialect: Send + Sync + std::fmt::Debug {
         Vec::new()
     }
 
-    /// A move through many positions as several commands of at most [`LONGEST_COMMAND`] bytes;
+    /// A move through many positions as several commands of at most so many bytes where a position takes no more;
     /// nothing for other commands.
-    fn in_parts(&self, command: &[u8]) -> Vec<Vec<u8>> {
+    fn in_parts(&self, command: &[u8], longest: usize) -> Vec<Vec<u8>> {
         match self.meaning(command) {
-            Meaning::Move { to, .. } => chunked(self.mnemonic(command), self.tail(), &to),
+            Meaning::Move { to, .. } => chunked(self.mnemonic(command), self.tail(), &to, longest),
             _ => Vec::new(),
         }
     }
@@ -165,12 +165,12 @@ pub trait Dialect: Send + Sync + std::fmt::Debug {
 }
 
 /// Commands of one kind for many positions, each as long as it may be.
-fn chunked(head: &[u8], tail: &[u8], through: &[Point]) -> Vec<Vec<u8>> {
+fn chunked(head: &[u8], tail: &[u8], through: &[Point], longest: usize) -> Vec<Vec<u8>> {
     let mut out = Vec::new();
     let mut command: Vec<u8> = Vec::new();
     for &at in through {
         let pair = format!("{},{}", at.x(), at.y());
-        let is_full = command.len() + 1 + pair.len() + tail.len() > LONGEST_COMMAND;
+        let is_full = command.len() + 1 + pair.len() + tail.len() > longest;
         if is_full && !command.is_empty() {
             command.extend(tail);
             out.push(std::mem::take(&mut command));

@@ -14,6 +14,9 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use tatamu_draw::drawing::Registration;
 
+/// The smallest buffer of a machine that is not counted by lines, bytes: that of the HP 7440A.
+pub const LEAST_BUFFER: usize = 60;
+
 /// How the program keeps from sending more than the machine has room for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -124,7 +127,7 @@ impl TryFrom<SerialTable> for Serial {
         // A machine that counts takes single lines; others keep room for what lifts the tool.
         let (least, message) = match handshake {
             Handshake::Count => (80, "buffer_bytes must be at least 80"),
-            _ => (256, "buffer_bytes must be at least 256"),
+            _ => (LEAST_BUFFER, "buffer_bytes must be at least 60"),
         };
         ensure((least..=1 << 30).contains(&buffer_bytes), message)?;
         ensure(

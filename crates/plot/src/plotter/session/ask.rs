@@ -1,6 +1,7 @@
 //! Questions to the machine and their answers: one at a time.
 
-use super::{End, Handshake, Phase, RESERVE, Session, Step};
+use super::{End, Handshake, Phase, Session, Step};
+use crate::plotter::profile::LEAST_BUFFER;
 use std::time::Duration;
 
 /// A machine that is to answer at once has so much time.
@@ -107,7 +108,7 @@ impl Session {
                 let held = (self.ask.size - free) as u64;
                 self.ledger.taken(sent.saturating_sub(held));
             }
-            (Question::Size, Some(size)) if (64..1 << 30).contains(&size) => self.ask.size = size,
+            (Question::Size, Some(size)) if (LEAST_BUFFER..1 << 30).contains(&size) => self.ask.size = size,
             (Question::Error, Some(code)) if code < 100 => self.ask.error = code as u32,
             (Question::Model, None) => {
                 let name: String = line.chars().filter(|c| !c.is_control()).take(40).collect();
@@ -187,8 +188,10 @@ impl Session {
         self.ask.stage = 0;
         self.ask.open = None;
         let switch = self.dialect.switch_xon_xoff_on(XOFF_BELOW.min(self.ask.size / 2));
-        let is_switched = self.handshake == Handshake::XonXoff && self.may_ask() && !switch.is_empty();
-        if is_switched { self.send_control(&switch, now) } else { Step::Wait(Duration::ZERO) }
+        let is_switched = self.handshake == Handshake::XonXoff && self.may_ask();
+        let switch = if is_switched { switch } else { Vec::new() };
+        let has_control = !switch.is_empty() || self.may_ask() && !self.is_cleared;
+        if has_control { self.send_control(&switch, now) } else { Step::Wait(Duration::ZERO) }
     }
 
     /// The next question while sending by ESC.B, if it is time for one.
@@ -199,7 +202,7 @@ impl Session {
         if self.ask.is_unanswered(now, PATIENCE) && self.ask.silences >= MOST_SILENCES {
             return Some(self.begin_stop(End::NoAnswer, now));
         }
-        let is_low = self.credit() < (self.ask.size - RESERVE.min(self.ask.size)) / 2;
+        let is_low = self.credit() < (self.ask.size - self.reserve()) / 2;
         let interval = if self.credit() > 0 { SHORT_INTERVAL } else { INTERVAL };
         let is_time = now >= self.ask.last + interval;
         if self.ask.open.is_some() || !is_low || !is_time {
@@ -217,6 +220,6 @@ impl Session {
             return 0;
         };
         let since = (self.ledger.total() - asked) as usize;
-        free.saturating_sub(RESERVE + since)
+        free.saturating_sub(self.reserve() + since)
     }
 }

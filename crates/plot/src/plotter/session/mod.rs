@@ -4,7 +4,7 @@
 //! # Guarantees
 //! - Only whole commands are sent, so that stopping never leaves a part of one.
 //! - At most [`MOST_IN_FLIGHT`] bytes are on their way at any time, and [`RESERVE`] bytes of the
-//!   machine's buffer stay free, so that what lifts the tool always fits.
+//!   machine's buffer stay free, so that what lifts the tool always fits; less where the buffer is small.
 //! - However a session ends, unless the port is lost, the last thing that is sent lifts the tool.
 
 mod ask;
@@ -183,6 +183,7 @@ pub struct Session {
     has_clear_to_send: Option<bool>,
     /// Whether the user knows what is waited for at the end.
     is_wait_told: bool,
+    is_cleared: bool,
     notes: Vec<String>,
 }
 
@@ -217,6 +218,7 @@ impl Session {
             is_held: false,
             has_clear_to_send,
             is_wait_told: false,
+            is_cleared: false,
             notes: Vec::new(),
         }
     }
@@ -330,8 +332,17 @@ impl Session {
 
     /// Hands bytes over that the machine acts on at receipt.
     fn send_control(&mut self, bytes: &[u8], now: Duration) -> Step {
+        let bytes = [self.clearing(), bytes].concat();
         self.line.sent(bytes.len(), now);
-        Step::Send(bytes.to_vec())
+        Step::Send(bytes)
+    }
+
+    /// What comes first: the machine forgets the part of a command that a lost port left in its buffer, which would
+    /// be read as one with what follows.
+    fn clearing(&mut self) -> &'static [u8] {
+        let is_first = !std::mem::replace(&mut self.is_cleared, true);
+        let controls = self.dialect.controls().filter(|_| is_first && self.serial.answers);
+        controls.map_or(&[], |controls| controls.discard)
     }
 
     /// Whether the machine may be asked.

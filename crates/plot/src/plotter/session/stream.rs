@@ -41,7 +41,7 @@ impl Session {
             self.phase = Phase::Finish(End::Finished);
             return Step::Wait(Duration::ZERO);
         }
-        let excess = self.line.in_flight(now).saturating_sub(MOST_IN_FLIGHT / 2);
+        let excess = self.line.in_flight(now).saturating_sub(self.most_in_flight() / 2);
         Step::Wait(self.line.time(excess.max(1)).min(TICK))
     }
 
@@ -122,14 +122,28 @@ impl Session {
         out
     }
 
+    /// Most bytes that may be on their way: a small buffer has no room for more after it said stop.
+    fn most_in_flight(&self) -> usize {
+        match self.handshake {
+            Handshake::XonXoff => MOST_IN_FLIGHT.min(self.ask.size / 4),
+            _ => MOST_IN_FLIGHT,
+        }
+    }
+
+    /// Bytes of the machine's buffer that stay free.
+    pub(super) fn reserve(&self) -> usize {
+        RESERVE.min(self.ask.size / 4)
+    }
+
     /// Whether a command may be sent: the line is not too far behind, and the machine has room.
     fn has_room(&self, length: usize, now: Duration) -> bool {
-        let is_line_free = self.line.in_flight(now) + length <= MOST_IN_FLIGHT;
+        let in_flight = self.line.in_flight(now);
+        let is_line_free = in_flight + length <= self.most_in_flight() || in_flight == 0;
         is_line_free
             && !self.is_held
             && match self.handshake {
                 Handshake::EscB => length <= self.credit(),
-                Handshake::Paced => self.ledger.held_by_time(now) + length + RESERVE <= self.ask.size,
+                Handshake::Paced => self.ledger.held_by_time(now) + length + self.reserve() <= self.ask.size,
                 Handshake::Count => self.ledger.unanswered_bytes() + length <= self.ask.size,
                 Handshake::Ok => self.ledger.unanswered_bytes() == 0,
                 Handshake::Auto | Handshake::RtsCts | Handshake::XonXoff | Handshake::Usb => true,
