@@ -35,10 +35,13 @@ impl Symmetry {
         matches!(self, Symmetry::Level { .. })
     }
 
+    /// Solids with two upright planes have at least this many top edges.
+    pub const LEAST_CROSSED_EDGES: usize = 4;
+
     /// The least number of top edges that a solid has.
-    pub fn least_edges(self) -> usize {
+    pub(super) fn least_edges(self) -> usize {
         match self {
-            Symmetry::Upright { crossing_mm: Some(_), .. } => 4,
+            Symmetry::Upright { crossing_mm: Some(_), .. } => Self::LEAST_CROSSED_EDGES,
             _ => 3,
         }
     }

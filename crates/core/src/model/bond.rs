@@ -1,5 +1,6 @@
 //! How the choice of a part is bound by the symmetry of the whole.
 
+use super::candidate::IN_PLANE;
 use super::link::Link;
 use super::{Part, PartOptions, Symmetry};
 use crate::geom::Mirror;
@@ -63,8 +64,7 @@ impl Bond {
     }
 }
 
-/// The mirror plane across the first that a part should be its own image in: where all that it is joined to lie across
-/// it as well.
+/// The mirror plane across the first that a part should be its own image in: where its joints are.
 pub(super) fn crossing<'a>(
     parts: &[Part],
     links: &[Link],
@@ -72,8 +72,11 @@ pub(super) fn crossing<'a>(
     part: usize,
 ) -> Option<&'a Mirror> {
     let is_free = parts[part].options.direction_rad.is_none();
-    let is_alone = others(links, part).all(|other| symmetry.crossing(other).is_some());
-    symmetry.crossing(part).filter(|_| is_free && is_alone)
+    let own = || links.iter().filter(|link| link.parent == part || link.child == part);
+    let lies_across = |mirror: &&Mirror| {
+        own().all(|link| link.plane.normal().dot(mirror.plane().normal()).abs() < IN_PLANE)
+    };
+    symmetry.crossing(part).filter(|_| is_free).filter(lies_across)
 }
 
 /// The parts that a part is joined to.

@@ -31,9 +31,8 @@ const TIGHT_MM2: f64 = 200.0;
 /// up to this many times. With 0.3 times 7 the silhouette of a plane falls from 0.82 to 0.74.
 const TIGHTEST: f64 = 3.0;
 /// Price of a component that is not its own image in a second plane in which its hull is, as a share of its size.
-/// With 0 the body of a snowman stays crooked; with 0.1 the parts of another get too few panels, and its silhouette
-/// falls from 0.957 to 0.940.
-const LOPSIDED_PRICE: f64 = 0.03;
+/// With 0.03 a bottle leans by 0.28 % of its size, with 0.05 by 0.01. Not bounded from above by a case yet.
+const LOPSIDED_PRICE: f64 = 0.05;
 /// In a search for firm joints it is this many times as high: with 1 nine joints of a scorpion are weak, with 6
 /// four. Not bounded from above by a case yet.
 const FIRMNESS: f64 = 6.0;
@@ -43,7 +42,7 @@ const LEAST_SHARE: f64 = 0.15;
 /// Set in the ids of mirror images.
 const IMAGE: u64 = 1 << 63;
 /// Directions nearer to a mirror plane than this lie in it.
-const IN_PLANE: f64 = 1e-6;
+pub(super) const IN_PLANE: f64 = 1e-6;
 
 /// A part's component in one fold direction, before it is placed.
 #[derive(Debug, Clone)]
@@ -161,6 +160,8 @@ struct Direction {
     hull: Hull,
     joints: Vec<(usize, JointTarget)>,
     plane_shift_mm: f64,
+    /// Whether the component is to be its own image in two planes.
+    is_crossed: bool,
 }
 
 impl<'a> Builder<'a> {
@@ -177,15 +178,16 @@ impl<'a> Builder<'a> {
         let principal = PrincipalAxis::of_hull(&part.hull);
         let prices: Vec<f64> = self.own_links().map(|link| self.joint_price(link)).collect();
         let axes = self.axes(&principal);
-        let directions: Vec<Direction> =
-            axes.par_iter().map(|&axis| self.direction(principal.frame(axis), &prices)).collect();
-        let lopsided_mm = LOPSIDED_PRICE * libm::cbrt(part.hull.volume());
-        let priced = |direction| {
-            let target = self.target(direction);
-            let lack_mm = if self.is_lopsided(&target) { lopsided_mm } else { 0.0 };
-            (target, PLANE_PRICE * direction.plane_shift_mm + lack_mm)
+        let crossed = self.common_axis().map(|axis| (axis, true));
+        let tried: Vec<(DVec3, bool)> =
+            crossed.into_iter().chain(axes.into_iter().map(|a| (a, false))).collect();
+        let direction = |&(axis, is_crossed): &(DVec3, bool)| Direction {
+            is_crossed,
+            ..self.direction(principal.frame(axis), &prices)
         };
-        let mut targets: Vec<(Target, f64)> = directions.iter().map(priced).collect();
+        let directions: Vec<Direction> = tried.par_iter().map(direction).collect();
+        let mut targets: Vec<(Target, f64)> =
+            directions.iter().map(|d| (self.target(d), self.own_mm(d, crossed.is_some()))).collect();
         let lost = || ModelError::NoJointPanel(part.options.name.clone());
         let fail = |error| ModelError::Component { name: part.options.name.clone(), error };
         if let Some(tolerance_mm) = part.options.tolerance_mm {
@@ -203,7 +205,12 @@ impl<'a> Builder<'a> {
         let (directions, mut targets): (Vec<&Direction>, Vec<(Target, f64)>) =
             directions.iter().zip(targets).filter(|(direction, _)| is_new(direction)).unzip();
         let most = if self.search == Search::Promising { FINISHED } else { targets.len() };
-        let mut found = finished(&targets, most);
+        // The fold axis in two mirror planes, which comes first, promises little before it is fitted to the end.
+        let crossed = directions.iter().take_while(|direction| direction.is_crossed).count();
+        let (first, others) = targets.split_at(crossed);
+        let after = |f: Finished| Finished { target: f.target + crossed, ..f };
+        let mut found = finished(first, crossed);
+        found.extend(finished(others, most).into_iter().map(after));
         if !before.is_empty() && found.is_empty() {
             return Ok(Vec::new());
         }
@@ -275,17 +282,14 @@ impl<'a> Builder<'a> {
         self.symmetry.map(Symmetry::mirror).or(self.crossing)
     }
 
-    /// The line that lies in both mirror planes, where there are two.
+    /// The line that lies in both mirror planes, where there are two and edges enough for both.
     fn common_axis(&self) -> Option<DVec3> {
+        let own = &self.parts[self.part].options;
+        if own.top_edges < component::Symmetry::LEAST_CROSSED_EDGES || own.direction_rad.is_some() {
+            return None;
+        }
         let planes = [self.symmetry?.mirror().plane(), self.crossing?.plane()];
         planes[0].normal().cross(planes[1].normal()).try_normalize()
-    }
-
-    /// Whether a component could be its own image in two planes, and is to be so in one.
-    fn is_lopsided(&self, target: &Target) -> bool {
-        let is_crossed =
-            matches!(target.symmetry, Some(component::Symmetry::Upright { crossing_mm: Some(_), .. }));
-        self.common_axis().is_some() && !is_crossed
     }
 
     /// An axis turned onto the normal of the nearest joint plane, where that is almost level for it.
@@ -301,6 +305,13 @@ impl<'a> Builder<'a> {
         nearest.map_or(axis, |normal| level_axis(axis, normal))
     }
 
+    /// What a direction costs by itself, mm of error, where the component could have two mirror planes or not.
+    fn own_mm(&self, direction: &Direction, can_be_crossed: bool) -> f64 {
+        let size_mm = libm::cbrt(self.parts[self.part].hull.volume());
+        let is_lopsided = can_be_crossed && !direction.is_crossed;
+        PLANE_PRICE * direction.plane_shift_mm + if is_lopsided { LOPSIDED_PRICE * size_mm } else { 0.0 }
+    }
+
     fn target<'h>(&self, direction: &'h Direction) -> Target<'h> {
         let options = &self.parts[self.part].options;
         Target {
@@ -312,7 +323,7 @@ impl<'a> Builder<'a> {
             min_panel_mm: self.min_panel_mm,
             panel_worth: options.panel_worth,
             comfortable_mm: options.comfortable_mm,
-            symmetry: self.mirror_plane(&direction.frame),
+            symmetry: self.mirror_plane(direction),
         }
     }
 
@@ -323,9 +334,9 @@ impl<'a> Builder<'a> {
         local.map(|plane| (plane.normal(), plane.offset())).collect()
     }
 
-    /// The mirror planes in the axes of `frame`: two, where the fold axis lies in both, else one.
-    fn mirror_plane(&self, frame: &DAffine3) -> Option<component::Symmetry> {
-        let to_local = frame.inverse();
+    /// The mirror plane of a component in its own axes, with one across it where it is to have two.
+    fn mirror_plane(&self, direction: &Direction) -> Option<component::Symmetry> {
+        let to_local = direction.frame.inverse();
         let plane = self.mirror()?.plane().moved(&to_local);
         let (normal, offset_mm) = (plane.normal(), plane.offset());
         if normal.z.abs() > 0.5 {
@@ -333,9 +344,7 @@ impl<'a> Builder<'a> {
         }
         let across = normal.truncate().perp();
         let other =
-            self.crossing.filter(|_| self.symmetry.is_some()).map(|mirror| mirror.plane().moved(&to_local));
-        let has_room = self.parts[self.part].options.top_edges >= 4;
-        let other = other.filter(|other| has_room && other.normal().z.abs() < IN_PLANE);
+            self.crossing.filter(|_| direction.is_crossed).map(|mirror| mirror.plane().moved(&to_local));
         let crossing_mm = other.map(|other| other.offset() * across.dot(other.normal().truncate()).signum());
         Some(component::Symmetry::Upright { angle_rad: normal.truncate().to_angle(), offset_mm, crossing_mm })
     }
@@ -386,7 +395,7 @@ impl<'a> Builder<'a> {
             };
             joints.push((other, JointTarget { seat, cover, within, price }));
         }
-        Direction { frame, hull, joints, plane_shift_mm }
+        Direction { frame, hull, joints, plane_shift_mm, is_crossed: false }
     }
 
     /// Price of a mm by which a joint panel misses its partner.

@@ -70,6 +70,10 @@ pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact], symmetry: Option<&S
     links
 }
 
+/// Where one of two parts lies across a mirror plane that the other does not, their joint does if that turns it by less:
+/// the neck of a snowman whose head has a nose.
+const TILT_RAD: f64 = 10.0_f64.to_radians();
+
 /// A section counts at least as one of this share of the border's length.
 const LEAST_SECTION: f64 = 0.01;
 
@@ -217,7 +221,12 @@ impl<'a> Between<'a> {
             let (plane, cut_off) = self.plane(image.0, image.1)?;
             return Some((symmetry.mirror().image(&plane), cut_off));
         }
-        Some(fitted(&symmetry.mirrors_across(&[from, to])))
+        let across = symmetry.mirrors_across(&[from, to]);
+        let own = fitted(&across);
+        let crossing = symmetry.crossing(from).or(symmetry.crossing(to)).filter(|m| !across.contains(m));
+        let upright = crossing.map(|mirror| fitted(&[&across[..], &[*mirror]].concat()));
+        let is_near = |(plane, _): &(Plane, f64)| plane.normal().dot(own.0.normal()) > libm::cos(TILT_RAD);
+        Some(upright.filter(is_near).unwrap_or(own))
     }
 }
 
