@@ -1,6 +1,6 @@
 //! Which parts of a model are mirror images of each other.
 
-use crate::geom::{Hull, Mirror};
+use crate::geom::{Hull, Mirror, directions};
 use glam::DVec3;
 
 /// The mirror plane of a model, and what becomes of each part in it.
@@ -25,6 +25,8 @@ struct Crossing {
 /// snowman miss by 0.01: its mesh was cut down, and one side has other corners. Not bounded from above by a case
 /// yet.
 const ALIKE: f64 = 0.03;
+/// In this many directions.
+const DIRECTIONS: usize = 150;
 
 impl Symmetry {
     /// Of the twin of each part, by index; a part across the plane is its own. `None` where that is
@@ -38,11 +40,13 @@ impl Symmetry {
     /// it become so exactly.
     #[must_use]
     pub fn crossed(self, mirror: Mirror, hulls: &mut [Hull]) -> Self {
+        let plane = *mirror.plane();
         let is_alike = |hull: &Hull| {
-            let far = |p: &DVec3| {
-                hull.facets().iter().map(|f| f.plane().distance(mirror.point(*p))).fold(0.0, f64::max)
-            };
-            hull.vertices().iter().map(far).fold(0.0, f64::max) < ALIKE * libm::cbrt(hull.volume())
+            // The support function of the image is that of the hull in the image of the direction, and so much more.
+            let beyond = |d: DVec3| 2.0 * plane.offset() * plane.normal().dot(d);
+            let off = |d: DVec3| hull.support(d) - hull.support(mirror.direction(d)) - beyond(d);
+            let off_mm = directions(DIRECTIONS).map(|d| off(d).abs()).fold(0.0, f64::max);
+            off_mm < ALIKE * libm::cbrt(hull.volume())
         };
         let mut is_across: Vec<bool> = hulls.iter().map(is_alike).collect();
         for part in 0..hulls.len() {
@@ -108,6 +112,29 @@ impl Symmetry {
 mod tests {
     use super::*;
     use crate::geom::Plane;
+
+    /// Two balls on a line, of which one has a nose: the other lies across a second plane.
+    #[test]
+    fn parts_without_a_nose_lie_across_a_second_plane() {
+        let ball = |x: f64| directions(80).map(move |d| 10.0 * d + DVec3::new(x, 2.0, 3.0));
+        let nose = DVec3::new(20.0, 16.0, 3.0);
+        let mut hulls = [
+            Hull::of_points(&ball(0.0).collect::<Vec<_>>()).unwrap(),
+            Hull::of_points(&ball(20.0).chain([nose]).collect::<Vec<_>>()).unwrap(),
+        ];
+        let across = |normal: DVec3| Mirror::new(Plane::through(DVec3::new(0.0, 2.0, 3.0), normal).unwrap());
+        let first = Symmetry::new(across(DVec3::Z), vec![0, 1]).unwrap();
+        let crossed = first.crossed(across(DVec3::Y), &mut hulls);
+        assert_eq!([0, 1].map(|part| crossed.crossing(part).is_some()), [true, false]);
+        assert_eq!([0, 1].map(|part| crossed.mirrors_across(&[part]).len()), [2, 1]);
+        assert_eq!(crossed.mirrors_across(&[0, 1]).len(), 1);
+        for d in directions(50) {
+            let image = crossed.crossing(0).unwrap().direction(d);
+            let centre = DVec3::new(0.0, 2.0, 3.0);
+            let from = |d: DVec3| hulls[0].support(d) - centre.dot(d);
+            assert!((from(d) - from(image)).abs() < 1e-9);
+        }
+    }
 
     #[test]
     fn twins_are_mutual() {
