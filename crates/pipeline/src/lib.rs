@@ -251,8 +251,9 @@ impl Error {
                 margin_mm,
             } => {
                 let fits_mm = (size_mm * scale * FITS).floor();
-                // Margins that take more of the sheet than they leave are a slip.
-                let is_mostly_margin = 2.0 * margin_mm > sheet_mm.min_element();
+                // Margins that take eight times as much of the sheet as they leave are a slip; those of a note of
+                // 40 mm are not.
+                let is_mostly_margin = *margin_mm > 4.0 * sheet_mm.min_element();
                 let size = if is_mostly_margin { Remedy::SmallerMargin } else { Remedy::SizeAtMost(fits_mm) };
                 let split = (!may_split).then_some(Remedy::SplitPanels);
                 [size, Remedy::LargerPaper].into_iter().chain(split).collect()

@@ -3,6 +3,9 @@
 use crate::geom::{Hull, eigen};
 use glam::{DAffine3, DMat3, DVec3};
 
+/// A fold axis is the principal axis where the sine of the angle between them is no more than this.
+const ALONG: f64 = 1e-6;
+
 /// The axes in which a hull's fold direction is measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrincipalAxis {
@@ -40,8 +43,10 @@ impl PrincipalAxis {
     /// Component axes for a fold axis: z along it, x along the principal axis as far as that is
     /// perpendicular (along angle 0 for the principal axis itself), origin at the hull's centre. Maps component axes to the hull's.
     pub fn frame(&self, fold_axis: DVec3) -> DAffine3 {
-        let x = (self.axis - fold_axis * self.axis.dot(fold_axis)).try_normalize();
-        let x = x.unwrap_or(self.zero);
+        let across = |direction: DVec3| direction - fold_axis * direction.dot(fold_axis);
+        let along = across(self.axis);
+        // What is left of an axis that is almost the fold axis is rounding, and not perpendicular.
+        let x = if along.length() > ALONG { along } else { across(self.zero) }.normalize();
         DAffine3::from_mat3_translation(DMat3::from_cols(x, fold_axis.cross(x), fold_axis), self.centre)
     }
 }
@@ -65,6 +70,14 @@ mod tests {
             let frame = axis.frame(fold);
             assert!((frame.matrix3.determinant() - 1.0).abs() < 1e-12);
             assert!((frame.transform_vector3(DVec3::Z) - fold).length() < 1e-12);
+        }
+        // A cylinder was folded 88 mm wide of itself along an axis that was almost its own.
+        for off in [0.0, 1e-16, 1e-12, 5e-8, 1e-7, 1e-5] {
+            let fold = (axis.axis() + DVec3::new(0.0, off, -0.3 * off)).normalize();
+            let m = axis.frame(fold).matrix3;
+            let unit = m.transpose() * m - DMat3::IDENTITY;
+            assert!(unit.to_cols_array().iter().all(|v| v.abs() < 1e-9), "{off}: {unit}");
+            assert!((m.determinant() - 1.0).abs() < 1e-9);
         }
     }
 }

@@ -122,7 +122,7 @@ pub(super) fn choose_fours(outline: &[DVec2], locked: &[f64], edges: usize) -> V
         }
         let cost = |free: &[f64]| {
             let fours: Vec<f64> = fixed.iter().chain(free).copied().collect();
-            let all = round(&own, &fours);
+            let all = all_around(&own, &fours);
             let apart = |k: usize| (all[(k + 1) % all.len()] - all[k]).rem_euclid(2.0 * PI);
             // Those that are fixed may be nearer to one another.
             let is_fixed = |k: usize| locked.contains(&quarter(all[k % all.len()]));
@@ -147,7 +147,7 @@ pub(super) fn choose_fours(outline: &[DVec2], locked: &[f64], edges: usize) -> V
                 }
             }
             let fours: Vec<f64> = fixed.iter().chain(&free).copied().collect();
-            let all = round(&own, &fours);
+            let all = all_around(&own, &fours);
             let key = (all.len().max(edges), least);
             if least < f64::INFINITY && best.as_ref().is_none_or(|b| (b.0, b.1) > key) {
                 best = Some((key.0, key.1, all));
@@ -158,7 +158,7 @@ pub(super) fn choose_fours(outline: &[DVec2], locked: &[f64], edges: usize) -> V
 }
 
 /// Directions in the planes and others in fours, with their images, in order.
-fn round(own: &[f64], fours: &[f64]) -> Vec<f64> {
+fn all_around(own: &[f64], fours: &[f64]) -> Vec<f64> {
     let fours = fours.iter().flat_map(|&a| [-a, a, PI - a, a - PI]);
     let own = own.iter().flat_map(|&a| [a, if a == 0.0 { PI } else { -a }]);
     let mut all: Vec<f64> = fours.chain(own).collect();

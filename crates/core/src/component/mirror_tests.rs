@@ -239,6 +239,23 @@ fn turned_hulls_get_even_tops() {
     }
 }
 
+/// A cylinder between two others has joints at both ends.
+#[test]
+fn cylinders_joined_at_both_ends_become_prisms() {
+    let both = Symmetry::Upright { angle_rad: 0.0, offset_mm: 0.0, crossing_mm: Some(0.0) };
+    let ring = |z: f64| (0..24).map(move |k| (DVec2::from_angle(PI / 12.0 * f64::from(k)) * 30.0).extend(z));
+    let hull = Hull::of_points(&ring(-38.0).chain(ring(38.0)).collect::<Vec<_>>()).unwrap();
+    let joint = |seat| JointTarget { seat, cover: vec![], within: vec![], price: 0.3 };
+    let joints = vec![joint(Seat::Top { height_mm: 38.0 }), joint(Seat::Bottom { height_mm: -38.0 })];
+    for top_edges in [4, 6, 8, 10] {
+        for joints in [vec![], joints.clone()] {
+            let wanted = Target { symmetry: Some(both), top_edges, ..target(&hull, joints) };
+            let component = convert(&wanted).unwrap();
+            assert!(component.hausdorff_mm() < 13.0, "{top_edges}: {}", component.hausdorff_mm());
+        }
+    }
+}
+
 #[test]
 fn joints_at_both_ends_are_images_in_a_level_plane() {
     let symmetry = Symmetry::Level { height_mm: 7.0 };

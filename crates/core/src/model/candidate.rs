@@ -209,8 +209,8 @@ impl<'a> Builder<'a> {
         let crossed = directions.iter().take_while(|direction| direction.is_crossed).count();
         let (first, others) = targets.split_at(crossed);
         let after = |f: Finished| Finished { target: f.target + crossed, ..f };
-        let mut found = finished(first, crossed);
-        found.extend(finished(others, most).into_iter().map(after));
+        let (mut found, rest) = rayon::join(|| finished(first, crossed), || finished(others, most));
+        found.extend(rest.into_iter().map(after));
         if !before.is_empty() && found.is_empty() {
             return Ok(Vec::new());
         }
