@@ -3,6 +3,10 @@
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use tatamu::component::{Hinge, HingeSide, Panel, PanelId, PanelKind, PanelSet};
 
+/// Points nearer than this are one point. Twice this is missing from a flat state that closes, so
+/// it is far below what the checks allow; a wall's rounding is 1e-14.
+const SAME_MM: f64 = 1e-9;
+
 /// A component as an intersection of prisms: at height v the polygon { x : n_j · x ≤ u_j(v) }.
 #[derive(Debug, Clone)]
 pub struct Prism {
@@ -64,10 +68,10 @@ impl Prism {
         let mut left = (total + profile[profile.len() - 1].x - profile[0].x) / 2.0;
         for k in 1..profile.len() {
             let length = profile[k - 1].distance(profile[k]);
-            if left < 1e-6 {
+            if left < SAME_MM {
                 return (profile.clone(), k - 1);
             }
-            if left < length - 1e-6 {
+            if left < length - SAME_MM {
                 let mut out = profile.clone();
                 out.insert(k, profile[k - 1].lerp(profile[k], left / length));
                 return (out, k);
@@ -188,7 +192,7 @@ impl Prism {
         let local =
             |chain: usize, v: f64| DVec2::new(along.dot(self.corner(chain, v)), -arc - slope * (upper.y - v));
         let bends = |chain: usize| {
-            let between = |v: &f64| *v < upper.y - 1e-9 && *v > lower.y + 1e-9;
+            let between = |v: &f64| *v < upper.y - SAME_MM && *v > lower.y + SAME_MM;
             self.folded(chain).0.into_iter().map(|p| p.y).filter(between)
         };
         let mut rising: Vec<f64> = bends((j + 1) % n).collect();

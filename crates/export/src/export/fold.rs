@@ -33,8 +33,9 @@ pub const FORMAT: Format = Format {
 /// Version of the format.
 const SPEC: f64 = 1.2;
 const CREATOR: &str = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
-/// Shorter edges are points.
-const SHORTEST_MM: f64 = 1e-6;
+/// Shorter edges are points. A face may be stretched by twice this, which is far below what its readers allow
+/// (1e-6 mm).
+const SHORTEST_MM: f64 = 1e-7;
 /// Distance between sheets in the crease pattern, mm.
 const SHEET_GAP_MM: f64 = 20.0;
 
