@@ -5,7 +5,7 @@ mod clip;
 use super::{Mirror, Plane, directions, quickhull};
 use glam::DVec3;
 use std::cmp::Ordering;
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 /// Why there is no hull.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -158,14 +158,17 @@ impl Hull {
     }
 
     /// Drops unused vertices.
-    fn compact(points: Vec<DVec3>, mut facets: Vec<Facet>) -> Self {
-        let mut fresh = BTreeMap::new();
+    fn compact(points: &[DVec3], mut facets: Vec<Facet>) -> Self {
+        let mut fresh = vec![u32::MAX; points.len()];
+        let mut vertices = Vec::new();
         for v in facets.iter_mut().flat_map(|f| &mut f.outline) {
-            let next = fresh.len() as u32;
-            *v = *fresh.entry(*v).or_insert(next);
+            let at = &mut fresh[*v as usize];
+            if *at == u32::MAX {
+                *at = vertices.len() as u32;
+                vertices.push(points[*v as usize]);
+            }
+            *v = *at;
         }
-        let mut vertices = vec![DVec3::ZERO; fresh.len()];
-        fresh.into_iter().for_each(|(old, new)| vertices[new as usize] = points[old as usize]);
         Self { vertices, facets }
     }
 }
@@ -184,8 +187,7 @@ const PREFILTER_DIRECTIONS: usize = 90;
 
 /// Drops the points that lie inside the hull of the extreme ones in a few directions.
 fn outer_points(points: Vec<DVec3>, lo: DVec3, size: f64) -> Result<Vec<DVec3>, HullError> {
-    let extreme: std::collections::BTreeSet<usize> =
-        directions(PREFILTER_DIRECTIONS).map(|d| farthest(&points, d)).collect();
+    let extreme: BTreeSet<usize> = directions(PREFILTER_DIRECTIONS).map(|d| farthest(&points, d)).collect();
     let core: Vec<DVec3> = extreme.iter().map(|&i| points[i]).collect();
     let Ok(triangles) = triangles_of(&core, lo, size) else { return Ok(points) };
     let planes: Vec<Plane> = triangles
@@ -201,14 +203,13 @@ fn outer_points(points: Vec<DVec3>, lo: DVec3, size: f64) -> Result<Vec<DVec3>, 
 
 /// Outward triangles of the hull, as indices into `points` (which are sorted and distinct).
 fn triangles_of(points: &[DVec3], lo: DVec3, size: f64) -> Result<Vec<[usize; 3]>, HullError> {
-    let mut by_cell = BTreeMap::new();
-    for (i, p) in points.iter().enumerate() {
-        let cell = ((*p - lo) / size * GRID).round();
-        by_cell.entry([cell.x as i64, cell.y as i64, cell.z as i64]).or_insert(i);
-    }
+    let cell = |p: &DVec3| ((*p - lo) / size * GRID).round().to_array().map(|x| x as i64);
+    let mut by_cell: Vec<([i64; 3], usize)> = points.iter().enumerate().map(|(i, p)| (cell(p), i)).collect();
+    by_cell.sort_unstable();
+    by_cell.dedup_by_key(|entry| entry.0);
     let snapped: Vec<DVec3> =
-        by_cell.keys().map(|cell| DVec3::from_array(cell.map(|x| x as f64 / GRID))).collect();
-    let origin_index: Vec<usize> = by_cell.into_values().collect();
+        by_cell.iter().map(|(cell, _)| DVec3::from_array(cell.map(|x| x as f64 / GRID))).collect();
+    let origin_index: Vec<usize> = by_cell.into_iter().map(|entry| entry.1).collect();
     let triangles = quickhull::triangles(&snapped, COPLANAR).ok_or(HullError::Flat)?;
     Ok(triangles.into_iter().map(|t| t.map(|v| origin_index[v])).collect())
 }
@@ -230,11 +231,7 @@ fn merge_facets(points: &[DVec3], triangles: &[[usize; 3]], size: f64) -> Result
             (b - a).cross(c - a)
         })
         .collect();
-    let across: BTreeMap<(usize, usize), usize> = triangles
-        .iter()
-        .enumerate()
-        .flat_map(|(i, t)| (0..3).map(move |k| ((t[k], t[(k + 1) % 3]), i)))
-        .collect();
+    let across = neighbours(&triangles);
 
     // Grow each facet from its largest triangle, whose plane is the most trustworthy.
     let mut order: Vec<usize> = (0..triangles.len()).collect();
@@ -253,9 +250,7 @@ fn merge_facets(points: &[DVec3], triangles: &[[usize; 3]], size: f64) -> Result
         facet_of[seed] = id;
         let mut stack = vec![seed];
         while let Some(i) = stack.pop() {
-            let t = triangles[i];
-            for k in 0..3 {
-                let Some(&next) = across.get(&(t[(k + 1) % 3], t[k])) else { continue };
+            for next in across[i].into_iter().flatten() {
                 let fits =
                     || corner(&triangles[next]).iter().all(|&p| plane.distance(p).abs() <= COPLANAR * size);
                 if facet_of[next] == usize::MAX && fits() {
@@ -265,49 +260,58 @@ fn merge_facets(points: &[DVec3], triangles: &[[usize; 3]], size: f64) -> Result
             }
         }
     }
-    let mut borders: Vec<BTreeMap<usize, usize>> = vec![BTreeMap::new(); planes.len()];
+    let mut borders: Vec<Vec<(usize, usize)>> = vec![Vec::new(); planes.len()];
     for (i, t) in triangles.iter().enumerate() {
         for k in 0..3 {
-            let (a, b) = (t[k], t[(k + 1) % 3]);
-            let other = across.get(&(b, a)).map_or(usize::MAX, |&o| facet_of[o]);
+            let other = across[i][k].map_or(usize::MAX, |other| facet_of[other]);
             if facet_of[i] != usize::MAX && other != facet_of[i] {
-                borders[facet_of[i]].insert(a, b);
+                borders[facet_of[i]].push((t[k], t[(k + 1) % 3]));
             }
         }
     }
-    collect_hull(points, &planes, &borders)
+    collect_hull(points, &planes, borders)
+}
+
+/// For each edge of each triangle the one on its other side.
+fn neighbours(triangles: &[[usize; 3]]) -> Vec<[Option<usize>; 3]> {
+    let edges = triangles.iter().enumerate();
+    let mut edges: Vec<([usize; 2], usize)> =
+        edges.flat_map(|(i, t)| (0..3).map(move |k| ([t[k], t[(k + 1) % 3]], i))).collect();
+    edges.sort_unstable();
+    let other_side = |from: usize, to: usize| {
+        let at = edges.binary_search_by_key(&[to, from], |edge| edge.0).ok()?;
+        Some(edges[at].1)
+    };
+    triangles.iter().map(|t| [0, 1, 2].map(|k| other_side(t[k], t[(k + 1) % 3]))).collect()
 }
 
 /// Joins the border edges of each facet into its outline.
 fn collect_hull(
     points: &[DVec3],
     planes: &[Plane],
-    borders: &[BTreeMap<usize, usize>],
+    borders: Vec<Vec<(usize, usize)>>,
 ) -> Result<Hull, HullError> {
-    let mut used = BTreeMap::new();
+    let mut fresh = vec![u32::MAX; points.len()];
+    let mut vertices = Vec::new();
     let mut facets = Vec::new();
-    for (plane, next) in planes.iter().zip(borders) {
-        let Some((&start, _)) = next.first_key_value() else { continue };
+    for (plane, mut next) in planes.iter().zip(borders) {
+        next.sort_unstable();
+        let Some(&(start, mut at)) = next.first() else { continue };
+        let after = |at: usize| next.binary_search_by_key(&at, |edge| edge.0).ok().map(|k| next[k].1);
         let mut outline = vec![start];
-        let mut at = next[&start];
         while at != start && outline.len() <= next.len() {
             outline.push(at);
-            at = *next.get(&at).ok_or(HullError::Flat)?;
+            at = after(at).ok_or(HullError::Flat)?;
         }
         if outline.len() >= 3 {
-            let outline = outline
-                .into_iter()
-                .map(|v| {
-                    let fresh = used.len() as u32;
-                    *used.entry(v).or_insert(fresh)
-                })
-                .collect();
-            facets.push(Facet { plane: *plane, outline });
+            for &v in &outline {
+                if fresh[v] == u32::MAX {
+                    fresh[v] = vertices.len() as u32;
+                    vertices.push(points[v]);
+                }
+            }
+            facets.push(Facet { plane: *plane, outline: outline.into_iter().map(|v| fresh[v]).collect() });
         }
-    }
-    let mut vertices = vec![DVec3::ZERO; used.len()];
-    for (v, k) in used {
-        vertices[k as usize] = points[v];
     }
     if vertices.len() < 4 || facets.len() < 4 {
         return Err(HullError::Flat);

@@ -27,7 +27,7 @@ impl Hull {
         let cap = cut.cap(plane, &sides);
         (cap.len() >= 3 && facets.len() >= 3).then(|| {
             facets.push(Facet { plane: *plane, outline: cap });
-            Self::compact(cut.points, facets)
+            Self::compact(&cut.points, facets)
         })
     }
 
