@@ -95,7 +95,7 @@ fn one_component_alone_is_the_one_of_the_model() {
         let model = fresh.shape(&options, &Silent).expect("a model");
         let whole = &model.model().parts()[part];
         assert_eq!(alone.component, whole.component);
-        assert_eq!(alone.deployed(), whole.deployed());
+        assert_eq!(alone.frame, whole.frame, "not yet moved onto its parent");
     }
     assert!(fresh.component(&options(), 2, &Silent).is_err());
 }

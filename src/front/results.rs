@@ -43,12 +43,11 @@ impl Shown {
         *self = Self { version, shape_version, sheets_version, ..Self::default() };
     }
 
-    /// A component that is made before all others.
+    /// A component that is made before all others. Until they are, it sits where the one before it does.
     pub fn show_component(&mut self, index: usize, component: ModelPart) {
-        if self.part(index).is_some_and(|old| *old != component) {
-            self.ahead = Some((index, component));
-            self.show_shape();
-        }
+        let Some(old) = self.part(index).filter(|old| old.component != component.component) else { return };
+        self.ahead = Some((index, ModelPart { placement: old.placement, ..component }));
+        self.show_shape();
     }
 
     /// All components.

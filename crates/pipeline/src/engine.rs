@@ -10,12 +10,12 @@ use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
 use glam::DAffine3;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 use tatamu_core::design::{ThickError, thick};
 use tatamu_core::fold::{FoldPlan, ModelMotion, SweepMemory};
 use tatamu_core::memory::Memory;
 use tatamu_core::mesh::{Mesh, Up};
-use tatamu_core::model::{self, Assembly, Built, Bump, JointChoice, Judge, Known, Model, ModelPart};
+use tatamu_core::model::{self, Built, JointChoice, Known, Model, ModelPart};
 use tatamu_core::progress::{Beside, Cancelled, Progress};
 use tatamu_core::segment::{self, Edit, Parts, SegmentOptions};
 use tatamu_net::net::{BlankNet, KnownNets, Net, NetChoices, NetHand, NetOptions, develop_model};
@@ -197,8 +197,8 @@ impl<'m> Engine<'m> {
         Ok(None)
     }
 
-    /// Makes one component, by its index, as parts and joints alone decide it: sooner than the model that
-    /// looks and folds best.
+    /// Makes one component, by its index, as it and its joints alone decide it, and where the mesh has it, not yet
+    /// moved onto its parent: sooner than the model that looks and folds best.
     ///
     /// # Errors
     /// As [`Engine::shape`]; [`Error::NoComponent`] where there are not so many.
@@ -214,14 +214,8 @@ impl<'m> Engine<'m> {
             let known = divided.hulls().names().join(", ");
             return Err(Error::NoComponent { name: format!("number {}", part + 1), known });
         }
-        // How the whole looks takes longer than all else here.
-        let assembly = Assembly { views: None, ..bodies.assembly(options.min_panel_width_mm) };
-        let glimpse = Glimpse { part, seen: OnceLock::new() };
-        let built = model::build(&assembly, &self.components, &glimpse, progress);
-        match glimpse.seen.into_inner() {
-            Some(component) => Ok(component),
-            None => Ok(built?.model.parts()[part].clone()),
-        }
+        progress.check()?;
+        Ok(model::alone(&bodies.assembly(options.min_panel_width_mm), &self.components, part)?)
     }
 
     /// Whether components fold without a clash, some of them plugged if need be.
@@ -343,19 +337,6 @@ impl<'m> Engine<'m> {
     pub fn fold(&self, laid: Output, progress: &dyn Progress) -> Result<Output, Error> {
         let planned = self.plan(&laid.shaped.model, laid.options(), progress)?;
         self.with_plan(laid, planned, progress)
-    }
-}
-
-/// Takes one component of the first model that is looked at, and looks no further.
-struct Glimpse {
-    part: usize,
-    seen: OnceLock<ModelPart>,
-}
-
-impl Judge for Glimpse {
-    fn bumps(&self, model: &Model, _: &[u64]) -> Result<Vec<Bump>, Cancelled> {
-        self.seen.get_or_init(|| model.parts()[self.part].clone());
-        Err(Cancelled)
     }
 }
 

@@ -102,6 +102,41 @@ pub fn build(
     Ok(best.unwrap_or_else(|| ways.swap_remove(0)).built)
 }
 
+/// One part, not yet placed on its parent, as it and its joints alone decide it: sooner than the model that looks and
+/// folds best.
+///
+/// # Errors
+/// [`ModelError`], where no shape of the part has room for all its joints.
+pub fn alone(assembly: &Assembly<'_>, known: &Known, part: usize) -> Result<ModelPart, ModelError> {
+    let Assembly { parts, links, symmetry, .. } = *assembly;
+    let bonds = Bond::of_parts(parts, links, symmetry);
+    let own = match (bonds[part], symmetry) {
+        (Bond::ImageOf(first), Some(symmetry)) => {
+            let made = assembly.candidates(links, (first, bonds[first]), Search::Promising, known)?;
+            made.first().map(|made| made.mirrored(symmetry, &parts[part]))
+        }
+        (bond, _) => assembly.candidates(links, (part, bond), Search::Promising, known)?.first().cloned(),
+    };
+    let lost = || ModelError::NoJointPanel(parts[part].options.name.clone());
+    Ok(own.ok_or_else(lost)?.unplaced(&parts[part]))
+}
+
+impl Assembly<'_> {
+    /// Candidates of a part that is bound by symmetry, the cheapest first.
+    fn candidates(
+        &self,
+        links: &[Link],
+        (part, bond): (usize, Bond),
+        search: Search,
+        known: &Known,
+    ) -> Result<Arc<Vec<Made>>, ModelError> {
+        let Self { parts, symmetry, min_panel_mm, .. } = *self;
+        let crossing = symmetry.and_then(|symmetry| crossing(parts, links, symmetry, part));
+        let symmetry = symmetry.filter(|_| bond == Bond::Across);
+        known.make(&Builder { parts, links, part, symmetry, crossing, search, min_panel_mm })
+    }
+}
+
 /// Joint planes are settled where a part is moved by more than this to sit on its parent, mm.
 const SETTLED_MM: f64 = 1.0;
 
@@ -230,7 +265,7 @@ impl Candidates {
         known: &Known,
         progress: &dyn Progress,
     ) -> Result<Self, ModelError> {
-        let Assembly { parts, symmetry, min_panel_mm, .. } = *assembly;
+        let Assembly { parts, symmetry, .. } = *assembly;
         let mut links = assembly.links.to_vec();
         loop {
             let done = AtomicUsize::new(0);
@@ -240,22 +275,12 @@ impl Candidates {
                 if let Bond::ImageOf(_) = bonds[part] {
                     return Ok(Arc::default());
                 }
-                let crossing = symmetry.and_then(|symmetry| crossing(parts, &links, symmetry, part));
-                let symmetry = symmetry.filter(|_| bonds[part] == Bond::Across);
                 let search = match part {
                     _ if trouble.weak.contains(&part) => Search::Firm,
                     _ if trouble.bumping.contains(&part) => Search::Wide,
                     _ => Search::Promising,
                 };
-                let made = known.make(&Builder {
-                    parts,
-                    links: &links,
-                    part,
-                    symmetry,
-                    crossing,
-                    search,
-                    min_panel_mm,
-                });
+                let made = assembly.candidates(&links, (part, bonds[part]), search, known);
                 let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                 progress.fraction(count as f64 / parts.len() as f64);
                 made

@@ -18,7 +18,7 @@ mod seen;
 mod sturdy;
 mod symmetry;
 
-pub use build::{Assembly, Built, Judge, Unjudged, build};
+pub use build::{Assembly, Built, Judge, Unjudged, alone, build};
 pub use choice::Bump;
 pub use joined::{JoinedPart, Seam};
 pub use known::Known;
