@@ -29,12 +29,16 @@ impl Hulls {
     /// # Errors
     /// [`Error::NothingSolid`].
     pub fn new(divided: &Parts) -> Result<Self, Error> {
-        let Touching { mut solid, symmetry, contacts } = Touching::of(divided);
+        Self::parted(divided, Touching::of(divided))
+    }
+
+    /// The hulls of `divided`, from those that do not leave each other room yet.
+    pub(super) fn parted(divided: &Parts, touching: Touching) -> Result<Self, Error> {
+        let Touching { mut solid, symmetry, contacts, links } = touching;
         if solid.hulls.is_empty() {
             return Err(Error::NothingSolid { parts: divided.segmentation().count() });
         }
         let hulls: Vec<&Hull> = solid.hulls.iter().collect();
-        let links = model::link_tree(&hulls, &contacts, symmetry.as_ref());
         let Parted { hulls, borders } = model::parted(&hulls, &contacts, &links, symmetry.as_ref());
         solid.hulls = model::sturdy(hulls, &links, symmetry.as_ref());
         let mirror_plane = divided.segmentation().mirror().filter(|_| symmetry.is_some()).copied();
@@ -78,14 +82,14 @@ impl Hulls {
     }
 }
 
-/// The same parts, but made one where the plane of a joint would take more off two than one hull adds.
-pub(super) fn without_needless_joints(mut divided: Parts) -> Parts {
+/// The same parts, but made one where the plane of a joint would take more off two than one hull adds; with their hulls.
+pub(super) fn without_needless_joints(mut divided: Parts) -> (Parts, Touching) {
     loop {
-        let Touching { solid, symmetry, contacts } = Touching::of(&divided);
-        let hulls: Vec<&Hull> = solid.hulls.iter().collect();
-        let pairs = model::needless(&hulls, &contacts, symmetry.as_ref());
+        let touching = Touching::of(&divided);
+        let solid = &touching.solid;
+        let pairs = model::needless(&solid.hulls.iter().collect::<Vec<_>>(), &touching.links);
         if pairs.is_empty() {
-            return divided;
+            return (divided, touching);
         }
         let segment = |part| solid.part_of_segment.iter().position(|p| *p == Some(part));
         let pairs: Vec<(usize, usize)> =
@@ -95,10 +99,12 @@ pub(super) fn without_needless_joints(mut divided: Parts) -> Parts {
 }
 
 /// Hulls of all parts, before they leave each other room, and where they touch.
-struct Touching {
+#[derive(Debug, Clone)]
+pub(super) struct Touching {
     solid: Solid,
     symmetry: Option<Symmetry>,
     contacts: Vec<Contact>,
+    links: Vec<Link>,
 }
 
 impl Touching {
@@ -107,7 +113,9 @@ impl Touching {
         let segmentation = divided.segmentation();
         let symmetry = segmentation.mirror().and_then(|plane| solid.mirrored(divided, plane));
         let contacts = contacts(divided.mesh(), segmentation, &solid.part_of_segment);
-        Self { solid, symmetry, contacts }
+        let hulls: Vec<&Hull> = solid.hulls.iter().collect();
+        let links = model::link_tree(&hulls, &contacts, symmetry.as_ref());
+        Self { solid, symmetry, contacts, links }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The stages, with a memory for what each of them made: what is asked for again is not made again.
 //! The command line runs an engine once; the studio keeps one and changes a little at a time.
 
-use super::bodies::without_needless_joints;
+use super::bodies::{Touching, without_needless_joints};
 use super::concave::{self, Refitted};
 use super::judge::FoldJudge;
 use super::plugs::{self, Planned};
@@ -31,7 +31,7 @@ const FEW: usize = 4;
 #[derive(Debug)]
 pub struct Engine<'m> {
     mesh: Cow<'m, Mesh>,
-    segmented: Memory<Found, Arc<(Parts, DAffine3)>>,
+    segmented: Memory<Found, Arc<Segmented>>,
     divided: Memory<(Found, Vec<Edit>, Option<String>), Arc<Divided>>,
     components: Known,
     sweeps: SweepMemory,
@@ -51,6 +51,15 @@ type PlanKey = (Arc<Model>, f64, f64, Vec<bool>);
 
 /// What decides the parts before they are changed by hand: size, axis and segmentation.
 type Found = (f64, Up, SegmentOptions);
+
+/// The parts before they are changed by hand.
+#[derive(Debug, Clone)]
+struct Segmented {
+    parts: Parts,
+    to_model: DAffine3,
+    /// Their hulls, where these had to be looked at.
+    touching: Option<Touching>,
+}
 
 impl<'m> Engine<'m> {
     /// An engine for a mesh as it was read.
@@ -93,9 +102,9 @@ impl<'m> Engine<'m> {
     pub fn divide(&self, options: &Options, progress: &dyn Progress) -> Result<Arc<Divided>, Error> {
         let found = (options.size_mm, options.up, options.segmentation);
         self.divided.get_or((found, options.edits.clone(), options.root.clone()), || {
-            let parts = self.find_parts(options, progress)?;
+            let Segmented { parts, to_model, touching } = self.segmented(options, progress)?;
             progress.stage("hulls");
-            let divided = Divided::new(parts)?;
+            let divided = Divided::new(parts, to_model, touching)?;
             progress.check()?;
             Ok(Arc::new(divided))
         })
@@ -107,6 +116,12 @@ impl<'m> Engine<'m> {
     /// # Errors
     /// [`Error::Segment`], [`Error::Edit`], [`Error::Cancelled`].
     pub fn find_parts(&self, options: &Options, progress: &dyn Progress) -> Result<(Parts, DAffine3), Error> {
+        let Segmented { parts, to_model, .. } = self.segmented(options, progress)?;
+        Ok((parts, to_model))
+    }
+
+    /// The parts after they are changed by hand.
+    fn segmented(&self, options: &Options, progress: &dyn Progress) -> Result<Segmented, Error> {
         let found = (options.size_mm, options.up, options.segmentation);
         let segmented = self.segmented.get_or(found, || {
             let (mesh, to_model) = self.mesh.scaled(options.size_mm, options.up);
@@ -114,20 +129,24 @@ impl<'m> Engine<'m> {
             let wanted = SegmentOptions { symmetry, ..options.segmentation };
             let segmentation = segment::segment(&mesh, &wanted, progress)?;
             let parts = Parts::new(mesh, segmentation);
-            let is_chosen = wanted.parts.is_some();
-            let parts = if is_chosen { parts } else { without_needless_joints(parts) };
-            Ok::<_, Error>(Arc::new((parts, to_model)))
+            if wanted.parts.is_some() {
+                return Ok::<_, Error>(Arc::new(Segmented { parts, to_model, touching: None }));
+            }
+            let (parts, touching) = without_needless_joints(parts);
+            Ok(Arc::new(Segmented { parts, to_model, touching: Some(touching) }))
         })?;
-        let (mut parts, to_model) = Arc::unwrap_or_clone(segmented);
+        let Segmented { mut parts, to_model, touching } = Arc::unwrap_or_clone(segmented);
+        if options.edits.is_empty() && options.root.is_none() {
+            return Ok(Segmented { parts, to_model, touching });
+        }
         for edit in &options.edits {
             parts = parts.edited(&edit.moved(&to_model))?;
         }
         parts = match &options.root {
             Some(root) => parts.with_root(root)?,
-            None if options.edits.is_empty() => parts,
             None => parts.with_root_in_the_middle(),
         };
-        Ok((parts, to_model))
+        Ok(Segmented { parts, to_model, touching: None })
     }
 
     /// Makes the components.

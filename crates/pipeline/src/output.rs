@@ -1,5 +1,6 @@
 //! Results.
 
+use super::bodies::Touching;
 use super::{Error, Hulls, Options, Warning};
 use glam::DAffine3;
 use std::sync::Arc;
@@ -21,9 +22,12 @@ pub struct Divided {
 }
 
 impl Divided {
-    /// Finds the hulls.
-    pub(super) fn new((parts, to_model): (Parts, DAffine3)) -> Result<Self, Error> {
-        let hulls = Hulls::new(&parts)?;
+    /// Finds the hulls; `touching` are those of the same parts before they leave each other room, where they are known.
+    pub(super) fn new(parts: Parts, to_model: DAffine3, touching: Option<Touching>) -> Result<Self, Error> {
+        let hulls = match touching {
+            Some(touching) => Hulls::parted(&parts, touching)?,
+            None => Hulls::new(&parts)?,
+        };
         let segments = parts.segmentation().face_segments();
         let face_part: Vec<Option<u32>> =
             segments.iter().map(|&segment| hulls.part_of(segment).map(|p| p as u32)).collect();

@@ -207,10 +207,9 @@ impl<'a> Between<'a> {
         let contact = self.contacts.get(&(from.min(to), from.max(to)))?;
         let [first, second] = [from, to].map(|p| self.part_hulls[p]);
         let kept = [self.kept(from, to), self.kept(to, from)];
-        let fitted =
-            |across: &[Mirror]| plane::between(&contact.points, first, second, [&kept[0], &kept[1]], across);
+        let ground = || plane::Ground::new(first, second, [&kept[0], &kept[1]]);
         let Some(symmetry) = self.symmetry else {
-            return Some(fitted(&[]));
+            return Some(plane::between(&contact.points, &ground(), &[]));
         };
         let image = (symmetry.twin(from), symmetry.twin(to));
         if image == (to, from) {
@@ -222,6 +221,8 @@ impl<'a> Between<'a> {
             return Some((symmetry.mirror().image(&plane), cut_off));
         }
         let across = symmetry.mirrors_across(&[from, to]);
+        let ground = ground();
+        let fitted = |across: &[Mirror]| plane::between(&contact.points, &ground, across);
         let own = fitted(&across);
         let crossing = symmetry.crossing(from).or(symmetry.crossing(to)).filter(|m| !across.contains(m));
         let upright = crossing.map(|mirror| fitted(&[&across[..], &[*mirror]].concat()));

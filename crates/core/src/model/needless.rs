@@ -1,17 +1,12 @@
 //! Joints that cost more than they give.
 
-use super::link::{Contact, link_tree};
-use super::{Symmetry, plane};
+use super::link::Link;
+use super::plane;
 use crate::geom::Hull;
 
 /// Pairs of parts that are better one: the plane of their joint takes more off the two than one hull round
 /// both adds to them. The fin of a fish that lies along its body costs it the belly.
-pub fn needless(
-    part_hulls: &[&Hull],
-    contacts: &[Contact],
-    symmetry: Option<&Symmetry>,
-) -> Vec<(usize, usize)> {
-    let links = link_tree(part_hulls, contacts, symmetry);
+pub fn needless(part_hulls: &[&Hull], links: &[Link]) -> Vec<(usize, usize)> {
     let is_needless = |plane, [parent, child]: [usize; 2]| {
         let volumes = plane::lost_and_added_mm3(plane, part_hulls[parent], part_hulls[child]);
         volumes.is_some_and(|[lost, added]| lost > added)
@@ -22,6 +17,7 @@ pub fn needless(
 
 #[cfg(test)]
 mod tests {
+    use super::super::link::{Contact, link_tree};
     use super::*;
     use glam::DVec3;
 
@@ -40,7 +36,8 @@ mod tests {
             let points =
                 sides.concat().into_iter().map(|p| 30.0 * p * DVec3::new(width, 0.8, width)).collect();
             let contact = Contact { parts: (0, 1), points, length_mm: 90.0 };
-            let found = needless(&[&bars[0], &bars[1]], std::slice::from_ref(&contact), None);
+            let hulls = [&bars[0], &bars[1]];
+            let found = needless(&hulls, &link_tree(&hulls, std::slice::from_ref(&contact), None));
             assert_eq!(found, if expected { vec![(0, 1)] } else { vec![] }, "{width}");
         }
     }

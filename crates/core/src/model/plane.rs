@@ -1,8 +1,9 @@
 //! The plane of a joint between two parts (§4.2.1): least squares through the interface, moved or
 //! turned where that takes less off the two.
 
-use crate::geom::{Hull, Mirror, Plane, polygon};
+use crate::geom::{Facet, Hull, Mirror, Plane, polygon};
 use glam::{DVec2, DVec3};
+use std::ops::RangeInclusive;
 
 /// A fitted plane's normal has at least this share along the mirror plane, else it is one between two
 /// sides and not between two parts across.
@@ -36,15 +37,10 @@ const ENOUGH_GLUE: f64 = 0.5;
 const MOVE_PRICE: f64 = 0.05;
 
 /// The plane between two parts, its normal from `parent` to `child`, and the larger share of either that
-/// it takes off and the other does not have. `points` are where the two meet; `kept` where either meets each of
-/// the others. Between parts that lie `across` mirror planes it is its own image in them.
-pub(super) fn between(
-    points: &[DVec3],
-    parent: &Hull,
-    child: &Hull,
-    kept: [&[Vec<DVec3>]; 2],
-    across: &[Mirror],
-) -> (Plane, f64) {
+/// it takes off and the other does not have. `points` are where the two meet. Between parts that lie `across` mirror
+/// planes it is its own image in them.
+pub(super) fn between(points: &[DVec3], ground: &Ground<'_>, across: &[Mirror]) -> (Plane, f64) {
+    let [parent, child] = ground.hulls;
     let along = |direction: DVec3| across.iter().fold(direction, |d, mirror| mirror.along(d));
     let towards = along(child.centroid() - parent.centroid());
     let centre = middle(points);
@@ -56,7 +52,6 @@ pub(super) fn between(
     let straight = Plane::through(centre, towards);
     let Some(first) = fitted.or(straight) else { return (Plane::horizontal(centre.z), 0.0) };
     let size = radius_mm(points, centre).max(f64::MIN_POSITIVE);
-    let ground = Ground::new(parent, child, kept);
     let halfway = straight.and_then(|s| Plane::through(centre, first.normal() + s.normal()));
     let slid = |plane: Plane| {
         let heights = points.iter().map(|p| plane.normal().dot(*p - centre));
@@ -160,7 +155,7 @@ impl<'a> Kept<'a> {
 }
 
 /// Samples of two hulls, for the price of many planes between them.
-struct Ground<'a> {
+pub(super) struct Ground<'a> {
     hulls: [&'a Hull; 2],
     /// Points in one hull only: what the plane takes off the other's inside is not lost.
     alone: [Vec<DVec3>; 2],
@@ -170,15 +165,20 @@ struct Ground<'a> {
 }
 
 impl<'a> Ground<'a> {
-    fn new(parent: &'a Hull, child: &'a Hull, kept: [&'a [Vec<DVec3>]; 2]) -> Self {
+    /// `kept` is where each hull meets each of the others.
+    pub(super) fn new(parent: &'a Hull, child: &'a Hull, kept: [&'a [Vec<DVec3>]; 2]) -> Self {
         let hulls = [parent, child];
         let mut alone = [Vec::new(), Vec::new()];
         let mut counts = [0.0; 2];
         for own in 0..2 {
-            for point in samples(hulls[own]) {
-                counts[own] += 1.0;
-                if !is_inside(hulls[1 - own], point) {
-                    alone[own].push(point);
+            for column in columns(hulls[own]) {
+                let inside = column.inside(hulls[own]);
+                let shared = column.inside(hulls[1 - own]);
+                for point in column.points().filter(|p| inside.contains(&p.z)) {
+                    counts[own] += 1.0;
+                    if !shared.contains(&point.z) {
+                        alone[own].push(point);
+                    }
                 }
             }
         }
@@ -236,21 +236,46 @@ pub(super) fn flattened(plane: &Plane, outline: impl IntoIterator<Item = DVec3>)
     flat
 }
 
-fn is_inside(hull: &Hull, point: DVec3) -> bool {
-    hull.facets().iter().all(|facet| facet.plane().distance(point) <= 0.0)
+/// Points above one another.
+struct Column {
+    lowest: DVec3,
+    step_mm: f64,
+    count: u64,
 }
 
-/// Points of an even grid in a hull.
-fn samples(hull: &Hull) -> Vec<DVec3> {
+impl Column {
+    fn points(&self) -> impl Iterator<Item = DVec3> {
+        (0..self.count).map(|k| self.lowest + DVec3::Z * (self.step_mm * k as f64))
+    }
+
+    /// The heights at which it is in a hull.
+    fn inside(&self, hull: &Hull) -> RangeInclusive<f64> {
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for plane in hull.facets().iter().map(Facet::plane) {
+            let normal = plane.normal();
+            let room = plane.offset() - normal.truncate().dot(self.lowest.truncate());
+            if normal.z > 0.0 {
+                high = high.min(room / normal.z);
+            } else if normal.z < 0.0 {
+                low = low.max(room / normal.z);
+            } else if room < 0.0 {
+                high = f64::NEG_INFINITY;
+            }
+        }
+        low..=high
+    }
+}
+
+/// An even grid in the box of a hull.
+fn columns(hull: &Hull) -> impl Iterator<Item = Column> {
     let low = hull.vertices().iter().copied().fold(DVec3::INFINITY, DVec3::min);
     let high = hull.vertices().iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
     let step = (high - low).max_element() / SAMPLES as f64;
     let count = ((high - low) / step).ceil().max(DVec3::ONE).as_u64vec3();
     let cell = (high - low) / count.as_dvec3();
-    let grid = (0..count.x).flat_map(move |x| {
-        (0..count.y).flat_map(move |y| (0..count.z).map(move |z| DVec3::new(x as f64, y as f64, z as f64)))
-    });
-    grid.map(|k| low + (k + 0.5) * cell).filter(|p| is_inside(hull, *p)).collect()
+    let at = move |x: u64, y: u64| low + (DVec3::new(x as f64, y as f64, 0.0) + 0.5) * cell;
+    let column = move |x, y| Column { lowest: at(x, y), step_mm: cell.z, count: count.z };
+    (0..count.x).flat_map(move |x| (0..count.y).map(move |y| column(x, y)))
 }
 
 #[cfg(test)]
@@ -276,7 +301,7 @@ mod tests {
         let legs = (0..18).map(|k| square(leg(k), DVec3::X, DVec3::Y));
         let kept: Vec<Vec<DVec3>> = std::iter::once(tail.clone()).chain(legs).collect();
         let lost = |kept: &[Vec<DVec3>]| {
-            let (plane, _) = between(&points, &body, &large, [kept, &[]], &[]);
+            let (plane, _) = between(&points, &Ground::new(&body, &large, [kept, &[]]), &[]);
             Kept::new(&tail).lost(&plane)
         };
         assert_eq!(lost(&kept), 0.0);

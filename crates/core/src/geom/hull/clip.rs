@@ -34,6 +34,7 @@ impl Hull {
     /// Corners of the section by a plane, counter-clockwise seen from the side that the normal
     /// points to; empty where the plane misses the hull.
     pub fn section(&self, plane: &Plane) -> Vec<DVec3> {
+        let heights: Vec<f64> = self.vertices.iter().map(|&v| plane.distance(v)).collect();
         let mut cut = Vec::new();
         for facet in &self.facets {
             for (k, &a) in facet.outline.iter().enumerate() {
@@ -41,9 +42,9 @@ impl Hull {
                 if a > b {
                     continue;
                 }
-                let (p, q) = (self.vertices[a as usize], self.vertices[b as usize]);
-                let (dp, dq) = (plane.distance(p), plane.distance(q));
+                let (dp, dq) = (heights[a as usize], heights[b as usize]);
                 if (dp <= 0.0) != (dq <= 0.0) {
+                    let (p, q) = (self.vertices[a as usize], self.vertices[b as usize]);
                     cut.push(plane.project(p + (q - p) * (dp / (dp - dq))));
                 }
             }
