@@ -334,18 +334,11 @@ fn letters(label: &Label) -> [DVec2; 4] {
     [low - aside, low + aside, high + aside, high - aside]
 }
 
-/// Distance of a point from a text; 0 within it.
-fn distance_mm(text: &[DVec2; 4], point: DVec2) -> f64 {
-    if polygon::contains(text, point) {
-        return 0.0;
-    }
-    polygon::edges(text).map(|(a, b)| polygon::distance_to_segment(point, a, b)).fold(f64::INFINITY, f64::min)
-}
-
 /// Distance of two texts; 0 where they overlap.
 fn between_mm(one: &[DVec2; 4], other: &[DVec2; 4]) -> f64 {
-    let to =
-        |a: &[DVec2; 4], b: &[DVec2; 4]| a.iter().map(|&p| distance_mm(b, p)).fold(f64::INFINITY, f64::min);
+    let to = |a: &[DVec2; 4], b: &[DVec2; 4]| {
+        a.iter().map(|&p| polygon::distance(b, p)).fold(f64::INFINITY, f64::min)
+    };
     to(one, other).min(to(other, one))
 }
 
@@ -392,13 +385,13 @@ fn assert_readable(net: &Net, piece: &tatamu::net::Piece, model: &str) {
     let texts: Vec<(&Label, [DVec2; 4])> = piece.labels().iter().map(|l| (l, letters(l))).collect();
     // A leader line begins 0.5 mm from its own text, whose descenders count.
     let own = |from: DVec2| {
-        let distances = texts.iter().map(|(_, text)| distance_mm(text, from)).enumerate();
+        let distances = texts.iter().map(|(_, text)| polygon::distance(text, from)).enumerate();
         distances.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(k, _)| k)
     };
     let led: Vec<usize> = piece.leaders().iter().filter_map(|leader| own(leader.from)).collect();
     for (k, (label, text)) in texts.iter().enumerate() {
         for (leader, &owner) in piece.leaders().iter().zip(&led) {
-            let distance_mm = distance_mm(text, leader.from);
+            let distance_mm = polygon::distance(text, leader.from);
             assert!(
                 owner == k || distance_mm > 1.2,
                 "{model}: a line begins {distance_mm} mm from {}",

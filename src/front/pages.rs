@@ -180,10 +180,7 @@ fn is_near(a: &[DVec2], b: &[DVec2], room_mm: f64) -> bool {
         side(p, q, r) != side(p, q, s) && side(r, s, p) != side(r, s, q)
     };
     let touches = |ring: &[DVec2], other: &[DVec2]| {
-        room_mm > 0.0
-            && ring
-                .iter()
-                .any(|&p| polygon::edges(other).any(|(a, b)| polygon::distance_to_segment(p, a, b) < room_mm))
+        room_mm > 0.0 && ring.iter().any(|&p| polygon::distance_to_edges(other, p) < room_mm)
     };
     is_inside(a, b)
         || is_inside(b, a)

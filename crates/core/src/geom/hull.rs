@@ -157,7 +157,8 @@ impl Hull {
         Self { vertices, facets: facets.collect() }
     }
 
-    /// Drops unused vertices.
+    /// A hull of facets whose outlines are indices into other points: those that none has are dropped, the rest
+    /// numbered as they come.
     fn compact(points: &[DVec3], mut facets: Vec<Facet>) -> Self {
         let mut fresh = vec![u32::MAX; points.len()];
         let mut vertices = Vec::new();
@@ -291,32 +292,22 @@ fn collect_hull(
     planes: &[Plane],
     borders: Vec<Vec<(usize, usize)>>,
 ) -> Result<Hull, HullError> {
-    let mut fresh = vec![u32::MAX; points.len()];
-    let mut vertices = Vec::new();
     let mut facets = Vec::new();
     for (plane, mut next) in planes.iter().zip(borders) {
         next.sort_unstable();
         let Some(&(start, mut at)) = next.first() else { continue };
         let after = |at: usize| next.binary_search_by_key(&at, |edge| edge.0).ok().map(|k| next[k].1);
-        let mut outline = vec![start];
+        let mut outline = vec![start as u32];
         while at != start && outline.len() <= next.len() {
-            outline.push(at);
+            outline.push(at as u32);
             at = after(at).ok_or(HullError::Flat)?;
         }
         if outline.len() >= 3 {
-            for &v in &outline {
-                if fresh[v] == u32::MAX {
-                    fresh[v] = vertices.len() as u32;
-                    vertices.push(points[v]);
-                }
-            }
-            facets.push(Facet { plane: *plane, outline: outline.into_iter().map(|v| fresh[v]).collect() });
+            facets.push(Facet { plane: *plane, outline });
         }
     }
-    if vertices.len() < 4 || facets.len() < 4 {
-        return Err(HullError::Flat);
-    }
-    Ok(Hull { vertices, facets })
+    let hull = Hull::compact(points, facets);
+    if hull.vertices.len() < 4 || hull.facets.len() < 4 { Err(HullError::Flat) } else { Ok(hull) }
 }
 
 #[cfg(test)]

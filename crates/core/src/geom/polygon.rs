@@ -45,6 +45,17 @@ pub fn contains(ring: &[DVec2], p: DVec2) -> bool {
     crossings.count() % 2 == 1
 }
 
+/// Distance of a point from a ring and what it surrounds; 0 within it. Unlike [`depth_outside`] it does not ask
+/// for the direction of an edge, which one of 1e-8 mm does not have.
+pub fn distance(ring: &[DVec2], point: DVec2) -> f64 {
+    if contains(ring, point) { 0.0 } else { distance_to_edges(ring, point) }
+}
+
+/// Distance of a point from the edges of a ring, within it as well; infinite for a ring without corners.
+pub fn distance_to_edges(ring: &[DVec2], point: DVec2) -> f64 {
+    edges(ring).map(|(a, b)| distance_to_segment(point, a, b)).fold(f64::INFINITY, f64::min)
+}
+
 /// Smallest and largest coordinates; `None` for no points.
 pub fn bounds(points: impl IntoIterator<Item = DVec2>) -> Option<(DVec2, DVec2)> {
     points.into_iter().fold(None, |acc, p| match acc {
@@ -164,6 +175,16 @@ mod tests {
         let s = square(1.0, 2.0, 4.0);
         assert_eq!(area(&s), 16.0);
         assert!((centroid(&s) - DVec2::new(3.0, 4.0)).length() < 1e-12);
+    }
+
+    /// The edge of 1e-9 mm at the corner points anywhere; the point beside it is 1 mm away.
+    #[test]
+    fn distances_do_not_ask_for_the_direction_of_an_edge() {
+        let mut ring = square(0.0, 0.0, 2.0);
+        ring.insert(2, DVec2::new(2.0, 2.0 - 1e-9));
+        assert!((distance(&ring, DVec2::new(3.0, 1.0)) - 1.0).abs() < 1e-12);
+        assert_eq!(distance(&ring, DVec2::new(1.5, 1.0)), 0.0);
+        assert!((distance_to_edges(&ring, DVec2::new(1.5, 1.0)) - 0.5).abs() < 1e-12);
     }
 
     #[test]

@@ -6,7 +6,7 @@ use glam::DVec2;
 use std::collections::BTreeMap;
 use std::f64::consts::FRAC_PI_2;
 use tatamu_core::component::{HingeId, PanelId, PanelSet};
-use tatamu_core::geom::polygon::{area, contains, distance_to_segment, edges, intersect_convex};
+use tatamu_core::geom::polygon::{area, distance, intersect_convex};
 
 /// Polygons that share less than this area touch and do not overlap.
 const OVERLAP_MM2: f64 = 1e-5;
@@ -166,22 +166,13 @@ fn behind(set: &PanelSet, tab: &Tab) -> Vec<DVec2> {
         .collect()
 }
 
-/// Distance of a point from a polygon; 0 within it. Not the depth behind the edges' lines: an edge
-/// of 1e-8 mm has no direction that can be trusted.
-fn outside_mm(outline: &[DVec2], point: DVec2) -> f64 {
-    if contains(outline, point) {
-        return 0.0;
-    }
-    edges(outline).map(|(a, b)| distance_to_segment(point, a, b)).fold(f64::INFINITY, f64::min)
-}
-
 fn tabs(set: &PanelSet, net: &Net, out: &mut Vec<NetFault>) {
     let mut behind_panel: BTreeMap<PanelId, Vec<(&Tab, Vec<DVec2>)>> = BTreeMap::new();
     for tab in all_tabs(net) {
         let mate = set.hinges()[tab.hinge.0].sides[1 - tab.side].panel;
         let here = behind(set, tab);
         let outline = &set.panel(mate).outline;
-        let by_mm = here.iter().map(|p| outside_mm(outline, *p)).fold(0.0, f64::max);
+        let by_mm = here.iter().map(|p| distance(outline, *p)).fold(0.0, f64::max);
         let moved = here.iter().zip(&tab.on_mate).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
         if by_mm.max(moved) > ROUNDING_MM {
             out.push(NetFault::OutsideMate { label: tab.label.clone(), by_mm: by_mm.max(moved) });
@@ -207,7 +198,7 @@ fn texts(piece: &Piece, out: &mut Vec<NetFault>) {
         let (start, up) = (label.anchor - along * label.width_mm / 2.0, along.perp() * label.cap_height_mm);
         let end = start + along * label.width_mm;
         let letters = [start, end, end + up, start + up];
-        let is_on_one = faces.iter().any(|f| letters.iter().all(|&p| outside_mm(f, p) < ROUNDING_MM));
+        let is_on_one = faces.iter().any(|f| letters.iter().all(|&p| distance(f, p) < ROUNDING_MM));
         let is_on_text = before.iter().any(|b| area(&intersect_convex(b, &letters)).abs() > OVERLAP_MM2);
         let problems = [
             (label.cap_height_mm < least_cap_mm, "is too small"),

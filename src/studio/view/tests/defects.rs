@@ -175,11 +175,8 @@ fn grips(desk: &Desk, sheet: usize) -> Vec<(String, glam::DVec2)> {
         let tried =
             (1..40).flat_map(|x| (1..40).map(move |y| glam::DVec2::new(f64::from(x), f64::from(y)) / 40.0));
         let inside = tried.map(|share| low + share * (high - low)).find(|&at| {
-            let rim = tatamu::geom::polygon::edges(outline);
-            let away = rim
-                .map(|(a, b)| tatamu::geom::polygon::distance_to_segment(at, a, b))
-                .fold(f64::MAX, f64::min);
-            away > 2.0 && crate::studio::pages::piece_at(&outlines, at) == Some(*id)
+            tatamu::geom::polygon::distance_to_edges(outline, at) > 2.0
+                && crate::studio::pages::piece_at(&outlines, at) == Some(*id)
         });
         let name = crate::studio::pages::piece(output, *id).unwrap().name().to_owned();
         inside.map(|at| (name, at))

@@ -256,7 +256,7 @@ fn air_box(centre: DVec2, direction: DVec2, wanted: Wanted) -> [DVec2; 4] {
 
 /// Whether a leader line that begins at a point cannot be taken for the one of a text.
 fn is_foreign(letters: &[DVec2], from: DVec2, foreign_mm: f64) -> bool {
-    polygon::edges(letters).all(|(a, b)| polygon::distance_to_segment(from, a, b) > foreign_mm)
+    polygon::distance_to_edges(letters, from) > foreign_mm
 }
 
 /// Points all over an area, its middle first and then from there outwards.
