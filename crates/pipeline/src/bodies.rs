@@ -21,6 +21,8 @@ pub struct Hulls {
     mirror_plane: Option<MirrorPlane>,
     /// What the model should look like; nothing for drawn components.
     views: Option<Arc<Views>>,
+    /// The hulls before they left each other room, and where they touch; none for drawn components.
+    touching: Option<Arc<Touching>>,
 }
 
 impl Hulls {
@@ -34,16 +36,39 @@ impl Hulls {
 
     /// The hulls of `divided`, from those that do not leave each other room yet.
     pub(super) fn parted(divided: &Parts, touching: Touching) -> Result<Self, Error> {
-        let Touching { mut solid, symmetry, contacts, links } = touching;
-        if solid.hulls.is_empty() {
+        if touching.solid.hulls.is_empty() {
             return Err(Error::NothingSolid { parts: divided.segmentation().count() });
         }
-        let hulls: Vec<&Hull> = solid.hulls.iter().collect();
-        let Parted { hulls, borders } = model::parted(&hulls, &contacts, &links, symmetry.as_ref());
-        solid.hulls = model::sturdy(hulls, &links, symmetry.as_ref());
-        let mirror_plane = divided.segmentation().mirror().filter(|_| symmetry.is_some()).copied();
-        let views = Some(Arc::new(Views::of_mesh(divided.mesh())));
-        Ok(Self { names: solid.names(divided.names()), solid, borders, links, symmetry, mirror_plane, views })
+        let (hulls, borders) = touching.parted();
+        let has_images = touching.symmetry.is_some();
+        Ok(Self {
+            borders,
+            names: touching.solid.names(divided.names()),
+            links: touching.links.clone(),
+            symmetry: touching.symmetry.clone(),
+            mirror_plane: divided.segmentation().mirror().filter(|_| has_images).copied(),
+            views: Some(Arc::new(Views::of_mesh(divided.mesh()))),
+            solid: Solid { hulls, ..touching.solid.clone() },
+            touching: Some(Arc::new(touching)),
+        })
+    }
+
+    /// The same with thicker hulls where parts hang on their parents.
+    #[must_use]
+    pub(super) fn sturdier(&self, children: &[usize]) -> Self {
+        let links: Vec<Link> = self.links.iter().filter(|l| children.contains(&l.child)).cloned().collect();
+        let hulls = model::sturdier(self.solid.hulls.clone(), &links, self.symmetry.as_ref());
+        Self { solid: Solid { hulls, ..self.solid.clone() }, ..self.clone() }
+    }
+
+    /// The same with a part, and its image, on other parents; `None` where there are none that it touches.
+    pub(super) fn on_another_parent(&self, child: usize) -> Option<Self> {
+        let link = self.links.iter().find(|link| link.child == child)?;
+        let touching = self.touching.as_ref()?.without(link)?;
+        let (hulls, borders) = touching.parted();
+        let solid = Solid { hulls, ..self.solid.clone() };
+        let links = touching.links.clone();
+        Some(Self { solid, borders, links, touching: Some(Arc::new(touching)), ..self.clone() })
     }
 
     /// No hulls; drawn components have names alone.
@@ -87,7 +112,7 @@ pub(super) fn without_needless_joints(mut divided: Parts) -> (Parts, Touching) {
     loop {
         let touching = Touching::of(&divided);
         let solid = &touching.solid;
-        let pairs = model::needless(&solid.hulls.iter().collect::<Vec<_>>(), &touching.links);
+        let pairs = model::needless(&touching.hulls(), &touching.links);
         if pairs.is_empty() {
             return (divided, touching);
         }
@@ -113,9 +138,34 @@ impl Touching {
         let segmentation = divided.segmentation();
         let symmetry = segmentation.mirror().and_then(|plane| solid.mirrored(divided, plane));
         let contacts = contacts(divided.mesh(), segmentation, &solid.part_of_segment);
-        let hulls: Vec<&Hull> = solid.hulls.iter().collect();
-        let links = model::link_tree(&hulls, &contacts, symmetry.as_ref());
+        let links = model::link_tree(&solid.hulls.iter().collect::<Vec<_>>(), &contacts, symmetry.as_ref());
         Self { solid, symmetry, contacts, links }
+    }
+
+    /// The hulls when they leave each other room, thick enough for their joints, and the planes beyond which others are.
+    fn parted(&self) -> (Vec<Hull>, Vec<Vec<Plane>>) {
+        let (hulls, symmetry) = (self.hulls(), self.symmetry.as_ref());
+        let Parted { hulls, borders } = model::parted(&hulls, &self.contacts, &self.links, symmetry);
+        (model::sturdy(hulls, &self.links, symmetry), borders)
+    }
+
+    fn hulls(&self) -> Vec<&Hull> {
+        self.solid.hulls.iter().collect()
+    }
+
+    /// The same without a joint between two parts, and between their images; `None` where a part would be left alone.
+    fn without(&self, gone: &Link) -> Option<Self> {
+        let image = |part: usize| self.symmetry.as_ref().map_or(part, |symmetry| symmetry.twin(part));
+        let pair = [gone.parent, gone.child];
+        let is_gone = |contact: &Contact| {
+            let (a, b) = contact.parts;
+            [pair, pair.map(image)].iter().any(|pair| *pair == [a, b] || *pair == [b, a])
+        };
+        // What touches keeps its room, but joins nothing.
+        let contacts: Vec<Contact> =
+            self.contacts.iter().filter(|contact| !is_gone(contact)).cloned().collect();
+        let links = model::link_tree(&self.hulls(), &contacts, self.symmetry.as_ref());
+        (links.len() == self.links.len()).then(|| Self { links, ..self.clone() })
     }
 }
 
@@ -286,4 +336,73 @@ fn rim_mm(points: &[DVec3]) -> f64 {
     let centre = points.iter().sum::<DVec3>() / n;
     let square = points.iter().map(|p| p.distance_squared(centre)).sum::<f64>() / n;
     std::f64::consts::TAU * square.sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tatamu_core::mesh::Soup;
+    use tatamu_core::progress::Silent;
+    use tatamu_core::segment::SegmentOptions;
+
+    /// Boxes, from their least and largest corners, as parts that touch.
+    fn hulls_of(boxes: &[[DVec3; 2]]) -> Hulls {
+        let mut positions = Vec::new();
+        let mut faces: Vec<[u32; 4]> = Vec::new();
+        for (k, [low, high]) in boxes.iter().enumerate() {
+            let corner = |c: u32| {
+                let pick = |axis: usize| if c >> axis & 1 == 0 { low[axis] } else { high[axis] };
+                DVec3::new(pick(0), pick(1), pick(2))
+            };
+            positions.extend((0..8).map(corner));
+            let sides = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+            faces.extend(sides.map(|side| side.map(|c: u32| c + 8 * k as u32)));
+        }
+        let mesh = Mesh::from_soup(&Soup::new(positions, faces).unwrap()).unwrap().0;
+        let options = SegmentOptions { parts: Some(boxes.len()), ..SegmentOptions::default() };
+        let segmentation = segment::segment(&mesh, &options, &Silent).unwrap();
+        Hulls::new(&Parts::new(mesh, segmentation)).unwrap()
+    }
+
+    fn pairs(hulls: &Hulls) -> Vec<[usize; 2]> {
+        hulls.links.iter().map(|link| [link.parent, link.child]).collect()
+    }
+
+    /// A post in the corner of a floor and a wall, which is most of all on the floor.
+    #[test]
+    fn a_part_gets_another_parent_that_it_touches() {
+        let floor = [DVec3::ZERO, DVec3::new(80.0, 60.0, 20.0)];
+        let wall = [DVec3::new(0.0, 0.0, 20.0), DVec3::new(20.0, 60.0, 70.0)];
+        let post = [DVec3::new(20.0, 20.0, 20.0), DVec3::new(52.0, 37.0, 40.0)];
+        let hulls = hulls_of(&[floor, wall, post]);
+        let size = |part: usize| hulls.hulls()[part].volume();
+        let post = (0..3).min_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap();
+        let parent = |hulls: &Hulls| hulls.links.iter().find(|l| l.child == post).map(|l| l.parent);
+        let other = hulls.on_another_parent(post).expect("it touches both");
+        assert!(parent(&hulls) != parent(&other) && parent(&other).is_some(), "{:?}", pairs(&other));
+        assert_eq!(other.links.len(), 2);
+        assert_eq!(hulls.names(), other.names());
+        // And back again; but not where nothing else touches it.
+        assert_eq!(parent(&other.on_another_parent(post).expect("as before")), parent(&hulls));
+        let alone = hulls_of(&[floor, wall]);
+        assert!((0..2).all(|part| alone.on_another_parent(part).is_none()));
+    }
+
+    #[test]
+    fn hulls_are_sturdier_where_they_are_asked_to_be() {
+        let body = [DVec3::ZERO, DVec3::new(80.0, 60.0, 50.0)];
+        let arm = |y: f64| [DVec3::new(80.0, y, 20.0), DVec3::new(130.0, y + 8.0, 28.0)];
+        let hulls = hulls_of(&[body, arm(5.0), arm(40.0)]);
+        let [first, second] = [hulls.links[0].child, hulls.links[1].child];
+        let thicker = hulls.sturdier(&[first]);
+        let volume = |hulls: &Hulls, part: usize| hulls.hulls()[part].volume();
+        assert!(
+            volume(&thicker, first) > 1.02 * volume(&hulls, first),
+            "{} {}",
+            volume(&thicker, first),
+            volume(&hulls, first)
+        );
+        assert_eq!(volume(&thicker, second), volume(&hulls, second));
+        assert_eq!(pairs(&thicker), pairs(&hulls));
+    }
 }

@@ -4,6 +4,7 @@
 use super::bodies::{Touching, without_needless_joints};
 use super::concave::{self, Refitted};
 use super::judge::FoldJudge;
+use super::mend::Mended;
 use super::plugs::{self, Planned};
 use super::warning::{self, not_joined};
 use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
@@ -15,7 +16,7 @@ use tatamu_core::design::{ThickError, thick};
 use tatamu_core::fold::{FoldPlan, ModelMotion, SweepMemory};
 use tatamu_core::memory::Memory;
 use tatamu_core::mesh::{Mesh, Up};
-use tatamu_core::model::{self, Built, JointChoice, Known, Model, ModelPart};
+use tatamu_core::model::{self, Built, JointChoice, Known, Model, ModelError, ModelPart, Run};
 use tatamu_core::progress::{Beside, Cancelled, Progress};
 use tatamu_core::segment::{self, Edit, Parts, SegmentOptions};
 use tatamu_net::net::{BlankNet, KnownNets, Net, NetChoices, NetHand, NetOptions, develop_model};
@@ -157,7 +158,9 @@ impl<'m> Engine<'m> {
     pub fn shape(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
         let divided = self.divide(options, progress)?;
         progress.stage("components");
-        let mut found = self.refitted(&divided, options, progress)?;
+        let Mended { divided, built, .. } = self.mended(divided, options, progress)?;
+        self.know(&built);
+        let mut found = refitted(built.model, &divided, options, progress)?;
         for name in found.refused.clone() {
             if options.components.get(&name).is_some_and(|own| own.direction_rad.is_none())
                 && let Some(other) = self.dented(&divided, options, &name, progress)?
@@ -176,20 +179,23 @@ impl<'m> Engine<'m> {
         Ok(Shaped { options: Arc::new(options.clone()), divided, model, notes, remarks })
     }
 
-    /// The components, with dents where they may have them.
-    fn refitted(
+    /// Components are built of parts, all of them convex.
+    pub(super) fn building<T>(
         &self,
         divided: &Divided,
         options: &Options,
         progress: &dyn Progress,
-    ) -> Result<Refitted, Error> {
+        build: impl FnOnce(Run<'_>) -> Result<T, ModelError>,
+    ) -> Result<T, Error> {
         let bodies = Bodies::new(divided.hulls(), options)?;
         let assembly = bodies.assembly(options.min_panel_width_mm);
         let judge = FoldJudge { thickness_mm: options.thickness_mm, memory: &self.sweeps, progress };
-        let Built { model, ids } = model::build(&assembly, &self.components, &judge, progress)?;
-        self.ids.keep(Arc::new(model.clone()), ids);
-        let (mesh, face_parts) = (divided.mesh(), divided.face_parts());
-        Ok(concave::refitted(model, mesh, face_parts, options, progress)?)
+        Ok(build(Run { assembly: &assembly, known: &self.components, judge: &judge, progress })?)
+    }
+
+    /// Remembers what the parts of a model are known by, for its folding.
+    pub(super) fn know(&self, built: &Built) {
+        self.ids.keep(Arc::new(built.model.clone()), built.ids.clone());
     }
 
     /// The components in the first direction of one of them in which it has dents; none where it has them
@@ -206,7 +212,11 @@ impl<'m> Engine<'m> {
             if let Some(own) = options.components.get_mut(name) {
                 own.direction_rad = Some(direction_rad);
             }
-            match self.refitted(divided, &options, progress) {
+            let built = self.building(divided, &options, progress, |run| run.finished(run.sketch()?));
+            if let Ok(built) = &built {
+                self.know(built);
+            }
+            match built.and_then(|built| refitted(built.model, divided, &options, progress)) {
                 Ok(found) if !found.refused.contains(name) => return Ok(Some(found)),
                 // Not every direction has room for all joints.
                 Ok(_) | Err(Error::Model(_)) => progress.check()?,
@@ -357,6 +367,16 @@ impl<'m> Engine<'m> {
         let planned = self.plan(&laid.shaped.model, laid.options(), progress)?;
         self.with_plan(laid, planned, progress)
     }
+}
+
+/// The components, with dents where they may have them.
+fn refitted(
+    model: Model,
+    divided: &Divided,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Refitted, Error> {
+    Ok(concave::refitted(model, divided.mesh(), divided.face_parts(), options, progress)?)
 }
 
 fn plan_key(model: &Arc<Model>, options: &Options) -> PlanKey {

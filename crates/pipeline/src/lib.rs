@@ -22,6 +22,7 @@ mod drawn;
 mod engine;
 mod judge;
 mod level;
+mod mend;
 mod openings;
 mod output;
 mod plugs;

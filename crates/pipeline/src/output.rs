@@ -14,10 +14,10 @@ use tatamu_net::sheet::Layout;
 /// A mesh at the size of the model with its parts and their hulls.
 #[derive(Debug)]
 pub struct Divided {
-    mesh: Mesh,
+    mesh: Arc<Mesh>,
     to_model: DAffine3,
     hulls: Hulls,
-    face_part: Vec<Option<u32>>,
+    face_part: Arc<Vec<Option<u32>>>,
     part_faces: Vec<usize>,
 }
 
@@ -33,14 +33,22 @@ impl Divided {
             segments.iter().map(|&segment| hulls.part_of(segment).map(|p| p as u32)).collect();
         let mut part_faces = vec![0; hulls.hulls().len()];
         face_part.iter().flatten().for_each(|&p| part_faces[p as usize] += 1);
-        Ok(Self { mesh: parts.into_mesh(), to_model, hulls, face_part, part_faces })
+        let (mesh, face_part) = (Arc::new(parts.into_mesh()), Arc::new(face_part));
+        Ok(Self { mesh, to_model, hulls, face_part, part_faces })
     }
 
     /// The surface of drawn components, which nothing was divided into.
     pub(super) fn drawn(mesh: Mesh, face_part: Vec<Option<u32>>, names: Vec<String>) -> Self {
         let mut part_faces = vec![0; names.len()];
         face_part.iter().flatten().for_each(|&p| part_faces[p as usize] += 1);
+        let (mesh, face_part) = (Arc::new(mesh), Arc::new(face_part));
         Self { mesh, to_model: DAffine3::IDENTITY, hulls: Hulls::drawn(names), face_part, part_faces }
+    }
+
+    /// The same parts with other hulls, or other joints between them.
+    pub(super) fn with_hulls(&self, hulls: Hulls) -> Self {
+        let (mesh, face_part) = (self.mesh.clone(), self.face_part.clone());
+        Self { mesh, to_model: self.to_model, hulls, face_part, part_faces: self.part_faces.clone() }
     }
 
     /// The hulls of the parts.

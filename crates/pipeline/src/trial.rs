@@ -1,7 +1,7 @@
 //! Where parts of a model clash, overlap or hardly hold, other options are tried, so that only what
 //! helps is advised.
 
-use super::warning::{TINY_MM, weak_joint};
+use super::warning::TINY_MM;
 use super::{Change, Engine, Error, Level, Options, Output, TrialWarning};
 use tatamu_core::fold::FoldPlan;
 use tatamu_core::model::Model;
@@ -73,8 +73,7 @@ impl Engine<'_> {
 
 /// Overlaps, pairs that clash, and weak joints.
 fn problems(model: &Model, plan: &FoldPlan) -> usize {
-    plan.encounter_count()
-        + (0..model.parts().len()).filter(|&part| weak_joint(model, part).is_some()).count()
+    plan.encounter_count() + (0..model.parts().len()).filter(|&part| model.is_weak(part)).count()
 }
 
 /// What is tried: what changes the least of the model comes first.

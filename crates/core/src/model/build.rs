@@ -62,6 +62,26 @@ pub struct Built {
     pub model: Model,
     /// For each part a number that is equal only where its shape and its joints are.
     pub ids: Vec<u64>,
+    /// What is wrong with it, and how it looks.
+    pub verdict: Verdict,
+}
+
+/// What is wrong with a model, and how it looks: two models of one mesh can be compared by it, whatever their parts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verdict {
+    /// Parts that bump into each other, deployed or while they fold.
+    pub bumps: Vec<Bump>,
+    /// Parts whose joint with their parent has hardly enough glue.
+    pub weak: Vec<usize>,
+    /// One minus the overlap of its outlines with those of the mesh, the mean of all views; 0 where there are none.
+    pub unlike: f64,
+}
+
+impl Verdict {
+    /// Nothing is wrong.
+    pub fn is_clean(&self) -> bool {
+        self.bumps.is_empty() && self.weak.is_empty()
+    }
 }
 
 /// Builds the model whose parts, joints and folding are best together. Components are taken from
@@ -76,30 +96,20 @@ pub fn build(
     progress: &dyn Progress,
 ) -> Result<Built, ModelError> {
     let run = Run { assembly, known, judge, progress };
-    let first = run.attempt(assembly.links, &Trouble::default(), &[])?;
-    // Where joints as they were leave parts weak, but free, they may have a way out that settled ones have not: the
-    // wings of a plane. Where parts bump, one more search of that kind takes long and seldom helps.
-    let is_way = first.trouble.bumping.is_empty();
-    let mut ways: Vec<Attempt> = match run.settled(&first)? {
-        Some(settled) => std::iter::once(settled).chain(is_way.then_some(first)).collect(),
-        None => vec![first],
-    };
-    if ways[0].trouble == Trouble::default() {
-        return Ok(ways.swap_remove(0).built);
+    run.finished(run.sketch()?)
+}
+
+/// A model from few candidates for each part. Most models need no more.
+pub struct Sketch {
+    /// The best one, and another one to go on from where there is one.
+    ways: Vec<Attempt>,
+}
+
+impl Sketch {
+    /// The model as it is.
+    pub fn built(&self) -> &Built {
+        &self.ways[0].built
     }
-    let mut best: Option<Attempt> = None;
-    for way in &ways {
-        let wider = run.attempt(&way.links, &way.trouble, &way.built.ids)?;
-        let wider = run.settled(&wider)?.unwrap_or(wider);
-        let is_last = wider.is_clean || !wider.trouble.bumping.is_empty();
-        if best.as_ref().is_none_or(|best| wider.cost_mm < best.cost_mm) {
-            best = Some(wider);
-        }
-        if is_last {
-            break;
-        }
-    }
-    Ok(best.unwrap_or_else(|| ways.swap_remove(0)).built)
 }
 
 /// One part, not yet placed on its parent, as it and its joints alone decide it: sooner than the model that looks and
@@ -141,11 +151,16 @@ impl Assembly<'_> {
 const SETTLED_MM: f64 = 1.0;
 
 /// What attempts at a model have in common.
-struct Run<'a> {
-    assembly: &'a Assembly<'a>,
-    known: &'a Known,
-    judge: &'a dyn Judge,
-    progress: &'a dyn Progress,
+#[derive(Clone, Copy)]
+pub struct Run<'a> {
+    /// What the model is built from.
+    pub assembly: &'a Assembly<'a>,
+    /// Components that were made before.
+    pub known: &'a Known,
+    /// Tells where parts bump.
+    pub judge: &'a dyn Judge,
+    /// Told how far it is.
+    pub progress: &'a dyn Progress,
 }
 
 /// The best model of some candidates.
@@ -157,8 +172,6 @@ struct Attempt {
     trouble: Trouble,
     /// and those that have had more.
     widened: Trouble,
-    /// Nothing bumps, and all joints hold.
-    is_clean: bool,
     /// The joints that the parts have room for,
     links: Vec<Link>,
     /// for each the plane of the parent's panel, and how far the child is moved to lie on it, mm.
@@ -166,6 +179,45 @@ struct Attempt {
 }
 
 impl Run<'_> {
+    /// The first look at a model.
+    ///
+    /// # Errors
+    /// [`ModelError`].
+    pub fn sketch(&self) -> Result<Sketch, ModelError> {
+        let first = self.attempt(self.assembly.links, &Trouble::default(), &[])?;
+        // Where joints as they were leave parts weak, but free, they may have a way out that settled ones have not: the
+        // wings of a plane. Where parts bump, one more search of that kind takes long and seldom helps.
+        let is_way = first.trouble.bumping.is_empty();
+        let ways = match self.settled(&first)? {
+            Some(settled) => std::iter::once(settled).chain(is_way.then_some(first)).collect(),
+            None => vec![first],
+        };
+        Ok(Sketch { ways })
+    }
+
+    /// The model of a sketch, with more candidates for the parts that are in trouble there.
+    ///
+    /// # Errors
+    /// [`ModelError`].
+    pub fn finished(&self, Sketch { mut ways }: Sketch) -> Result<Built, ModelError> {
+        if ways[0].trouble == Trouble::default() {
+            return Ok(ways.swap_remove(0).built);
+        }
+        let mut best: Option<Attempt> = None;
+        for way in &ways {
+            let wider = self.attempt(&way.links, &way.trouble, &way.built.ids)?;
+            let wider = self.settled(&wider)?.unwrap_or(wider);
+            let is_last = wider.built.verdict.is_clean() || !wider.trouble.bumping.is_empty();
+            if best.as_ref().is_none_or(|best| wider.cost_mm < best.cost_mm) {
+                best = Some(wider);
+            }
+            if is_last {
+                break;
+            }
+        }
+        Ok(best.unwrap_or_else(|| ways.swap_remove(0)).built)
+    }
+
     /// A model from more candidates for the parts in `trouble` than for the others. The search also starts
     /// from the candidates with the ids in `before`, if any.
     fn attempt(&self, links: &[Link], trouble: &Trouble, before: &[u64]) -> Result<Attempt, ModelError> {
@@ -195,21 +247,27 @@ impl Run<'_> {
         let place_of = |(id, made): (&u64, &Vec<Made>)| made.iter().position(|m| m.id == *id);
         let start = before.iter().zip(&candidates).map(place_of).collect::<Option<Combination>>();
         let effort = if *trouble == Trouble::default() { Effort::Short } else { Effort::Long };
-        let Best { of, cost_mm, trouble: left } =
+        let Best { of, cost_mm, trouble: left, bumps } =
             choice.best(start.filter(|of| !of.is_empty()), effort, &bumps, &looks_mm)?;
         let made = made_of(&of);
-        let built = Built { model: place(parts, (&links, &pairs), &of, &made)?, ids: ids(&made) };
+        let model = place(parts, (&links, &pairs), &of, &made)?;
+        let holds = |(k, link): &(usize, &Link)| {
+            pairs.get(*k, [of[link.parent], of[link.child]]).is_some_and(|seated| seated.holds())
+        };
+        let weak = links.iter().enumerate().filter(|link| !holds(link));
+        let verdict = Verdict {
+            weak: weak.map(|(_, link)| link.child).collect(),
+            bumps,
+            unlike: seen.map_or(0.0, |seen| seen.unlike(std::slice::from_ref(&of)).iter().sum()),
+        };
+        let built = Built { model, ids: ids(&made), verdict };
         let seat = |(k, link): (usize, &Link)| {
             let seated = pairs.get(k, [of[link.parent], of[link.child]])?;
             let (plane, _) = made[link.parent].joint(link.child)?;
             Some((plane, seated.moved_mm()))
         };
         let seats = links.iter().enumerate().map(|k| seat(k).unwrap_or((k.1.plane, 0.0))).collect();
-        let holds = |(k, link): (usize, &Link)| {
-            pairs.get(k, [of[link.parent], of[link.child]]).is_some_and(|seated| seated.holds())
-        };
-        let is_clean = left.bumping.is_empty() && links.iter().enumerate().all(holds);
-        Ok(Attempt { built, cost_mm, trouble: left, widened: trouble.clone(), is_clean, links, seats })
+        Ok(Attempt { built, cost_mm, trouble: left, widened: trouble.clone(), links, seats })
     }
 
     /// An attempt with joint planes where the parents have their panels, so that children are made to sit there and are

@@ -40,6 +40,11 @@ type Bumping<'a> = dyn Fn(&[usize]) -> Result<Vec<Bump>, Cancelled> + Sync + 'a;
 /// Tells what the looks of combinations cost, mm.
 type Looks<'a> = dyn Fn(&[Combination]) -> Vec<f64> + Sync + 'a;
 
+/// What parts that bump cost, mm of error.
+pub(super) fn harm_mm(bumps: &[Bump]) -> f64 {
+    bumps.iter().map(|bump| BUMP_PRICE_MM + DEPTH_PRICE * bump.1).sum()
+}
+
 /// Candidates of all parts and what they cost.
 ///
 /// Parts that are images of each other share a variable, as candidate k of one is the image of
@@ -85,6 +90,8 @@ pub(super) struct Best {
     pub(super) cost_mm: f64,
     /// What is wrong with it.
     pub(super) trouble: Trouble,
+    /// Which parts bump.
+    pub(super) bumps: Vec<Bump>,
 }
 
 /// How many models a search looks at.
@@ -249,7 +256,7 @@ impl Choice {
         let (unhindered, near) = self.best_looking(looks_mm);
         let look = |of: Combination| {
             let bumps = bumps(&of)?;
-            let harm: f64 = bumps.iter().map(|b| BUMP_PRICE_MM + DEPTH_PRICE * b.1).sum();
+            let harm = harm_mm(&bumps);
             let looks_mm: f64 = looks_mm(std::slice::from_ref(&of)).iter().sum();
             Ok(Look { cost_mm: self.cost_mm(&of) + looks_mm + harm, of, bumps })
         };
@@ -284,7 +291,8 @@ impl Choice {
             let is_weak =
                 |pair: &&Pair| pair.costs[best.of[pair.parent]][best.of[pair.child]] > WEAK_PRICE_MM;
             let weak = self.pairs.iter().filter(is_weak).flat_map(|pair| [pair.parent, pair.child]).collect();
-            return Ok(Best { of: best.of, cost_mm: best.cost_mm, trouble: Trouble { bumping, weak } });
+            let Look { of, bumps, cost_mm } = best;
+            return Ok(Best { of, cost_mm, trouble: Trouble { bumping, weak }, bumps });
         }
     }
 
@@ -469,10 +477,7 @@ mod tests {
                 };
                 pairs.filter(|_| is_bumping).filter_map(bump).collect()
             };
-            let total_mm = |of: &[usize]| {
-                let harm_mm: f64 = bumps(of).iter().map(|b| BUMP_PRICE_MM + DEPTH_PRICE * b.1).sum();
-                tree.cost_mm(of) + harm_mm
-            };
+            let total_mm = |of: &[usize]| tree.cost_mm(of) + harm_mm(&bumps(of));
             let anywhere = rng.bool().then(|| tree.combinations(&mut rng).swap_remove(0));
             let found = choice.best(
                 anywhere.clone(),
@@ -484,7 +489,7 @@ mod tests {
                 },
                 &no_looks,
             );
-            let Best { of: found, trouble, cost_mm } = found.unwrap();
+            let Best { of: found, trouble, cost_mm, .. } = found.unwrap();
             let own_mm = total_mm(&found);
             assert!(cost_mm == own_mm || (cost_mm - own_mm).abs() < 1e-9, "{cost_mm} {own_mm}");
             assert!(bumps(&found).is_empty() || !trouble.bumping.is_empty(), "parts that bump are named");

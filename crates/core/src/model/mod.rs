@@ -18,7 +18,7 @@ mod seen;
 mod sturdy;
 mod symmetry;
 
-pub use build::{Assembly, Built, Judge, Unjudged, alone, build};
+pub use build::{Assembly, Built, Judge, Run, Sketch, Unjudged, Verdict, alone, build};
 pub use choice::Bump;
 pub use joined::{JoinedPart, Seam};
 pub use known::Known;
@@ -27,7 +27,7 @@ pub use needless::needless;
 pub use part::{ModelError, Part, PartOptions};
 pub use parted::{Parted, parted};
 pub use plug::{JointChoice, Plug};
-pub use sturdy::sturdy;
+pub use sturdy::{sturdier, sturdy};
 pub use symmetry::Symmetry;
 
 use crate::component::{Component, PanelId};
@@ -144,6 +144,22 @@ impl Model {
         let area = |p: usize, id| polygon::area(&self.parts[p].component.panels().panel(id).outline).abs();
         let [own, below] = [area(part, joint.child_panel), area(joint.parent, joint.parent_panel)];
         Some(pair::needed_glue_mm2(own, below))
+    }
+
+    /// Whether a part is glued to its parent over less than that.
+    pub fn is_weak(&self, part: usize) -> bool {
+        self.lack_mm(part) > 0.0
+    }
+
+    /// What parts that bump and joints that lack glue cost, mm of error.
+    pub fn harm_mm(&self, bumps: &[Bump]) -> f64 {
+        choice::harm_mm(bumps) + (0..self.parts.len()).map(|part| self.lack_mm(part)).sum::<f64>()
+    }
+
+    fn lack_mm(&self, part: usize) -> f64 {
+        let glued = self.parts[part].joint.as_ref().filter(|joint| joint.plug().is_none());
+        let lack_mm = |(joint, needed_mm2): (&Joint, f64)| pair::lack_mm(joint.glue_mm2, needed_mm2);
+        glued.zip(self.needed_glue_mm2(part)).map_or(0.0, lack_mm)
     }
 
     /// Corners of a panel in the deployed model.

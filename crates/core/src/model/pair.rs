@@ -67,12 +67,11 @@ impl Seated {
         let (slide, glue_mm2) = slide(&above, &below, enough_mm2);
         let (x, y) = up_plane.basis();
         let turn = DAffine3::from_translation(x * slide.x + y * slide.y) * turn;
-        let lack = (1.0 - glue_mm2 / enough_mm2).max(0.0);
-        let lack_mm = if lack > 0.0 { WEAK_PRICE_MM + GLUE_PRICE_MM * lack } else { 0.0 };
+        let lack_mm = lack_mm(glue_mm2, enough_mm2);
         let overhang = (1.0 - glue_mm2 / own_mm2.max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         let moved_mm = moved_mm(child, &turn);
         let cost_mm = lack_mm + OVERHANG_PRICE_MM * overhang + TURN_PRICE * moved_mm;
-        Some(Self { turn, parent_panel, child_panel, moved_mm, holds: lack <= 0.0, cost_mm })
+        Some(Self { turn, parent_panel, child_panel, moved_mm, holds: lack_mm == 0.0, cost_mm })
     }
 }
 
@@ -128,6 +127,12 @@ fn slide(above: &[DVec2], below: &[DVec2], enough_mm2: f64) -> (DVec2, f64) {
         if glue_mm2(middle) < goal { low = middle } else { high = middle }
     }
     (way * high, glue_mm2(high))
+}
+
+/// What it costs that a joint lacks glue, mm of error; 0 where it does not.
+pub(super) fn lack_mm(glue_mm2: f64, enough_mm2: f64) -> f64 {
+    let lack = (1.0 - glue_mm2 / enough_mm2).max(0.0);
+    if lack > 0.0 { WEAK_PRICE_MM + GLUE_PRICE_MM * lack } else { 0.0 }
 }
 
 /// The area over which two panels must be glued, mm².

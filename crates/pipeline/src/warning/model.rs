@@ -265,10 +265,9 @@ fn part_warnings(part: &ModelPart, options: &Options) -> Vec<ModelWarning> {
 }
 
 /// A joint with too little glue.
-pub(crate) fn weak_joint(model: &Model, part: usize) -> Option<ModelWarning> {
-    let joint = model.parts()[part].joint.as_ref().filter(|joint| joint.plug().is_none())?;
-    let glue_mm2 = joint.glue_mm2;
-    let needed_mm2 = model.needed_glue_mm2(part).filter(|needed| glue_mm2 < *needed)?;
+fn weak_joint(model: &Model, part: usize) -> Option<ModelWarning> {
+    let joint = model.parts()[part].joint.as_ref().filter(|_| model.is_weak(part))?;
+    let (glue_mm2, needed_mm2) = (joint.glue_mm2, model.needed_glue_mm2(part)?);
     let [component, parent] = [part, joint.parent].map(|p| model.parts()[p].name.clone());
     Some(ModelWarning::WeakJoint { component, parent, glue_mm2, needed_mm2 })
 }
