@@ -2,12 +2,14 @@
 
 use super::{Error, Options};
 use glam::DVec3;
+use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::Arc;
+use tatamu_core::component::Filling;
 use tatamu_core::geom::{Hull, Plane};
 use tatamu_core::mesh::{Mesh, MirrorPlane, Views};
-use tatamu_core::model::{self, Assembly, Contact, Link, Part, PartOptions, Parted, Symmetry};
-use tatamu_core::segment::{self, Parts, SegmentId, Segmentation};
+use tatamu_core::model::{self, Assembly, Bump, Contact, Link, Part, PartOptions, Parted, Symmetry};
+use tatamu_core::segment::{self, Interior, Parts, SegmentId, Segmentation};
 
 /// Hulls of the parts of a mesh with the joints between them, as the shape alone decides them.
 #[derive(Debug, Clone, Default)]
@@ -21,6 +23,10 @@ pub struct Hulls {
     mirror_plane: Option<MirrorPlane>,
     /// What the model should look like; nothing for drawn components.
     views: Option<Arc<Views>>,
+    /// The solid that the mesh bounds; nothing for drawn components.
+    interior: Option<Arc<Interior>>,
+    /// What of each hull is solid.
+    fillings: Vec<Option<Arc<Filling>>>,
     /// The hulls before they left each other room, and where they touch; none for drawn components.
     touching: Option<Arc<Touching>>,
 }
@@ -41,16 +47,34 @@ impl Hulls {
         }
         let (hulls, borders) = touching.parted();
         let has_images = touching.symmetry.is_some();
-        Ok(Self {
-            borders,
+        let mesh = divided.mesh();
+        let (views, interior) = rayon::join(|| Views::of_mesh(mesh), || Interior::of(mesh));
+        let unfilled = Self {
             names: touching.solid.names(divided.names()),
             links: touching.links.clone(),
             symmetry: touching.symmetry.clone(),
             mirror_plane: divided.segmentation().mirror().filter(|_| has_images).copied(),
-            views: Some(Arc::new(Views::of_mesh(divided.mesh()))),
-            solid: Solid { hulls, ..touching.solid.clone() },
+            views: Some(Arc::new(views)),
+            interior: Some(Arc::new(interior)),
+            solid: Solid { hulls: Vec::new(), ..touching.solid.clone() },
             touching: Some(Arc::new(touching)),
-        })
+            ..Self::default()
+        };
+        Ok(unfilled.with(Parted { hulls, borders }))
+    }
+
+    /// The same parts with other hulls.
+    fn with(&self, Parted { hulls, borders }: Parted) -> Self {
+        let before = self.solid.hulls.iter().zip(&self.fillings).collect::<Vec<_>>();
+        let filling = |(part, hull): (usize, &Hull)| match before.get(part) {
+            Some((before, filling)) if *before == hull => (*filling).clone(),
+            _ => {
+                let interior = self.interior.as_ref()?;
+                Filling::new(hull, |point| interior.contains(point)).map(Arc::new)
+            }
+        };
+        let fillings = hulls.par_iter().enumerate().map(filling).collect();
+        Self { solid: Solid { hulls, ..self.solid.clone() }, borders, fillings, ..self.clone() }
     }
 
     /// The same with thicker hulls where parts hang on their parents.
@@ -58,7 +82,13 @@ impl Hulls {
     pub(super) fn sturdier(&self, children: &[usize]) -> Self {
         let links: Vec<Link> = self.links.iter().filter(|l| children.contains(&l.child)).cloned().collect();
         let hulls = model::sturdier(self.solid.hulls.clone(), &links, self.symmetry.as_ref());
-        Self { solid: Solid { hulls, ..self.solid.clone() }, ..self.clone() }
+        self.with(Parted { hulls, borders: self.borders.clone() })
+    }
+
+    /// The same with parts that bump farther from each other; `None` where that is not possible.
+    pub(super) fn farther(&self, bumps: &[Bump]) -> Option<Self> {
+        let parted = Parted { hulls: self.solid.hulls.clone(), borders: self.borders.clone() };
+        model::farther(parted, &self.links, bumps, self.symmetry.as_ref()).map(|parted| self.with(parted))
     }
 
     /// The same with a part, and its image, on other parents; `None` where there are none that it touches.
@@ -66,9 +96,8 @@ impl Hulls {
         let link = self.links.iter().find(|link| link.child == child)?;
         let touching = self.touching.as_ref()?.without(link)?;
         let (hulls, borders) = touching.parted();
-        let solid = Solid { hulls, ..self.solid.clone() };
         let links = touching.links.clone();
-        Some(Self { solid, borders, links, touching: Some(Arc::new(touching)), ..self.clone() })
+        Some(Self { links, touching: Some(Arc::new(touching)), ..self.with(Parted { hulls, borders }) })
     }
 
     /// No hulls; drawn components have names alone.
@@ -283,26 +312,31 @@ fn parts(hulls: &Hulls, options: &Options) -> Result<Vec<Part>, Error> {
         return Err(Error::NoComponent { name: name.clone(), known: names.join(", ") });
     }
     let all_mm2: f64 = hulls.hulls().iter().map(Hull::area).sum();
-    let part = |((hull, borders), name): ((&Hull, &Vec<Plane>), &String)| {
-        let own = options.components.get(name).cloned().unwrap_or_default();
-        let is_set = own.top_edges.is_some() || own.profile_vertices.is_some();
-        let comfortable_mm = options.min_panel_width_mm * if is_set { 1.0 } else { COMFORTABLE };
-        let (top_edges, profile_vertices) = options.counts((hull.area() / all_mm2).sqrt());
-        Part {
-            hull: hull.clone(),
-            borders: borders.clone(),
-            options: PartOptions {
-                name: own.rename.unwrap_or_else(|| name.clone()),
-                direction_rad: own.direction_rad,
-                top_edges: own.top_edges.unwrap_or(top_edges),
-                profile_vertices: own.profile_vertices.unwrap_or(profile_vertices),
-                tolerance_mm: options.tolerance_mm,
-                panel_worth: if is_set { 0.0 } else { options.panel_worth() },
-                comfortable_mm,
-            },
-        }
+    let part =
+        |(((hull, filling), borders), name): (((&Hull, &Option<Arc<Filling>>), &Vec<Plane>), &String)| {
+            let own = options.components.get(name).cloned().unwrap_or_default();
+            let is_set = own.top_edges.is_some() || own.profile_vertices.is_some();
+            let comfortable_mm = options.min_panel_width_mm * if is_set { 1.0 } else { COMFORTABLE };
+            let (top_edges, profile_vertices) = options.counts((hull.area() / all_mm2).sqrt());
+            Part {
+                hull: hull.clone(),
+                filling: filling.clone(),
+                borders: borders.clone(),
+                options: PartOptions {
+                    name: own.rename.unwrap_or_else(|| name.clone()),
+                    direction_rad: own.direction_rad,
+                    top_edges: own.top_edges.unwrap_or(top_edges),
+                    profile_vertices: own.profile_vertices.unwrap_or(profile_vertices),
+                    tolerance_mm: options.tolerance_mm,
+                    panel_worth: if is_set { 0.0 } else { options.panel_worth() },
+                    comfortable_mm,
+                },
+            }
+        };
+    let parts: Vec<Part> = {
+        let shapes = hulls.hulls().iter().zip(&hulls.fillings).zip(&hulls.borders);
+        shapes.zip(names).map(part).collect()
     };
-    let parts: Vec<Part> = hulls.hulls().iter().zip(&hulls.borders).zip(names).map(part).collect();
     let mut seen = BTreeSet::new();
     match parts.iter().find(|part| !seen.insert(part.options.name.as_str())) {
         Some(part) => Err(Error::SameName(part.options.name.clone())),

@@ -89,12 +89,12 @@ impl Engine<'_> {
             for hulls in others(best.divided.hulls(), &best.built.verdict).take(OTHERS) {
                 let divided = Arc::new(best.divided.with_hulls(hulls));
                 let Some(draft) = possible(self.draft(divided, options, progress))? else { continue };
-                let draft = self.thicker(&draft, options, progress)?.unwrap_or(draft);
                 if next.as_ref().is_none_or(|next| draft.price() < next.price()) {
                     next = Some(draft);
                 }
             }
             let Some(next) = next else { break };
+            let next = self.thicker(&next, options, progress)?.unwrap_or(next);
             let other = self.finished(next, options, progress)?;
             if other.price() >= best.price() {
                 break;
@@ -167,5 +167,8 @@ fn others(hulls: &Hulls, verdict: &Verdict) -> impl Iterator<Item = Hulls> {
     let Verdict { bumps, weak, .. } = verdict;
     let thicker = (!weak.is_empty()).then(|| hulls.sturdier(weak));
     let parts: BTreeSet<usize> = weak.iter().chain(bumps.iter().flat_map(|bump| &bump.0)).copied().collect();
-    thicker.into_iter().chain(parts.into_iter().filter_map(|part| hulls.on_another_parent(part)))
+    thicker
+        .into_iter()
+        .chain(hulls.farther(bumps))
+        .chain(parts.into_iter().filter_map(|part| hulls.on_another_parent(part)))
 }

@@ -244,10 +244,10 @@ pub struct Finished {
     pub cost_mm: f64,
 }
 
-/// The best component for each of the `most` most promising of several targets (as for [`choose`]),
-/// those of the least cost first. Targets for which nothing has room are left out.
-pub fn finished(targets: &[(Target, f64)], most: usize) -> Vec<Finished> {
-    let found = search::each(targets, most).into_par_iter();
+/// The best component for each of several targets (as for [`choose`]), those of the least cost first. Targets for
+/// which nothing has room are left out.
+pub fn finished(targets: &[(Target, f64)]) -> Vec<Finished> {
+    let found = search::each(targets).into_par_iter();
     let finished = found.map(|found| Finished {
         target: found.target,
         cost_mm: found.cost_mm(),

@@ -65,6 +65,9 @@ impl Aim {
     /// fit stops long before it is there (silhouettes of snowman, bunny, koala and fish 0.894 against
     /// 0.914).
     pub(super) const LIKENESS: Self = Self { out: 6.0, short: 2.0, worst: 0.6, mean: 0.8, step: 0.05 };
+    /// The same where it is known what of the hull is solid. Both sides count alike: with 6 for `out`, or with 0.3 for
+    /// `worst` and 0.5 for `mean`, outlines of 24 meshes are as much alike within 0.001.
+    const FILLED: Self = Self { out: 4.0, short: 4.0, ..Self::LIKENESS };
 
     /// Whether volumes count.
     pub(super) fn has_volume(&self) -> bool {
@@ -120,6 +123,7 @@ impl<'a> Fit<'a> {
         let hull = Polytope::of_hull(target.hull);
         let centre = target.hull.centroid();
         let radius_mm = target.hull.vertices().iter().map(|v| v.distance(centre)).fold(0.0, f64::max);
+        let aim = if aim == Aim::LIKENESS && target.filling.is_some() { Aim::FILLED } else { aim };
         let sides = faces(&hull);
         let hull_mm3 = cones_mm3(&hull, &sides);
         let hull_mm2 = sides.iter().map(|f| f.area_mm2).sum();
@@ -213,14 +217,17 @@ impl Task<'_> {
         self.target.borders.iter().map(|&(n, c)| reach(n) - c).fold(0.0, f64::max)
     }
 
-    /// The volumes in one of solid and hull alone over the hull's area, as the aim weighs them.
+    /// The volumes in one of the solid and what it should be alone, over the hull's area, as the aim weighs them.
     fn beside_mm(&self, solid: &Polytope) -> f64 {
         if !self.aim.has_volume() {
             return 0.0;
         }
-        let shared_mm3 = shared_mm3(solid, &self.hull);
+        let (wanted_mm3, shared_mm3) = match &self.target.filling {
+            Some((filling, to_filling)) => (filling.volume_mm3(), filling.shared_mm3(solid, to_filling)),
+            None => (self.hull_mm3, shared_mm3(solid, &self.hull)),
+        };
         let out_mm3 = (cones_mm3(solid, &faces(solid)) - shared_mm3).max(0.0);
-        let short_mm3 = (self.hull_mm3 - shared_mm3).max(0.0);
+        let short_mm3 = (wanted_mm3 - shared_mm3).max(0.0);
         (self.aim.out * out_mm3 + self.aim.short * short_mm3) / self.hull_mm2
     }
 

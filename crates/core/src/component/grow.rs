@@ -1,4 +1,4 @@
-//! One plane more where a component stands out farthest from its hull.
+//! One plane more where a component stands out far from its hull.
 
 use super::angles::{MAX_SLOPE_RAD, MIN_BEND_RAD, MIN_TURN_RAD, turn};
 use super::even;
@@ -10,15 +10,17 @@ use super::target::{FoldSpot, Target};
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
 
-/// A solid with a chain more, or a plane more in a chain, that cuts off the corner farthest from
-/// the hull; `None` where the limits of `target` leave no place for one.
-pub(super) fn grown(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<FoldSpot>)> {
+/// A solid with a chain more, or a plane more in a chain, that cuts off one of the corners farthest from the hull, by
+/// their rank; `None` where the limits of `target` leave no place for one.
+pub(super) fn grown(fitted: &Fitted, target: &Target, rank: usize) -> Option<(Solid, Vec<FoldSpot>)> {
     let shape = &fitted.shape;
     let away =
         fitted.own.iter().zip(&shape.corners).map(|(position, corner)| {
             position.nearest.map_or(DVec3::ZERO, |nearest| corner.point - nearest.0)
         });
-    let out = away.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))?;
+    let mut away: Vec<DVec3> = away.collect();
+    away.sort_by(|a, b| b.length_squared().total_cmp(&a.length_squared()));
+    let out = *away.get(rank)?;
     let aside = out.truncate();
     if out.z.abs() > aside.length() * libm::tan(MAX_SLOPE_RAD) || aside.length() == 0.0 {
         return None;

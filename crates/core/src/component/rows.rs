@@ -2,6 +2,7 @@
 
 use super::angles::{MAX_SLOPE_RAD, MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD};
 use super::distance::{Feature, Position};
+use super::filling::Filled;
 use super::fit::{BORDER_PRICE, Fitted, MARGIN, SIZE_PRICE, Task, rooms};
 use super::gradient::{Freedom, Parameter, ProfileLength, Terms, sum};
 use super::likeness::{Figure, faces, faces_inside};
@@ -132,34 +133,46 @@ impl Model<'_> {
         }
     }
 
-    /// The volume that the solid and the hull do not share. The rate of each face is that of its
-    /// area outside of the hull less that inside, the mean of what it is with the hull `step_mm`
-    /// larger and smaller; between the two it changes with the face's place.
+    /// The volume that the solid and what it should be do not share. The rate of each face is that of its
+    /// area outside less that inside, the mean of what it is up to `step_mm` farther out and farther in;
+    /// between the two it changes with the face's place.
     fn likeness(&mut self, step_mm: f64) {
         let (shape, task) = (&self.at.shape, self.task);
         let out = task.aim.out / task.hull_mm2;
-        let both = (task.aim.out + task.aim.short) / 2.0 / task.hull_mm2;
+        let both = (task.aim.out + task.aim.short) / task.hull_mm2;
         let whole = faces(&shape.polytope);
-        let [larger, smaller] = faces_inside(&shape.polytope, &task.hull, [step_mm, -step_mm]);
-        for (k, whole) in whole.iter().enumerate() {
+        for (k, (whole, filled)) in whole.iter().zip(self.filled(step_mm)).enumerate() {
             let face = shape.face(k);
-            let mut rate = |figure: &Figure, weight: f64| {
+            for (figure, weight) in [(whole, out), (&filled.inside, -both)] {
                 for (variable, rate) in self.freedom.plane(shape, face, figure.centroid()) {
                     self.programme.add_cost(variable, weight * figure.area_mm2 * rate, 0.0);
                 }
-            };
-            rate(whole, out);
-            rate(&larger[k], -both);
-            rate(&smaller[k], -both);
-            let near_mm2 = (larger[k].area_mm2 - smaller[k].area_mm2).max(0.0);
+            }
             let corners = shape.polytope.outline_corners(k);
-            let curvature = both * near_mm2 / (step_mm * corners.len() as f64);
+            let curvature = both * filled.near_mm2 / (2.0 * step_mm * corners.len() as f64);
             let middle = whole.centroid();
-            for corner in shape.polytope.outline(k).filter(|_| near_mm2 > 0.0) {
+            for corner in shape.polytope.outline(k).filter(|_| filled.near_mm2 > 0.0) {
                 let terms = self.freedom.plane(shape, face, middle.lerp(corner, SPREAD));
                 self.programme.add_square(&terms, 0.0, curvature);
             }
         }
+    }
+
+    /// What of each face is inside of what the solid should be.
+    fn filled(&self, step_mm: f64) -> Vec<Filled> {
+        let (solid, task) = (&self.at.shape.polytope, self.task);
+        if let Some((filling, to_filling)) = &task.target.filling {
+            return filling.faces(solid, to_filling, step_mm);
+        }
+        let [larger, smaller] = faces_inside(solid, &task.hull, [step_mm, -step_mm]);
+        let between = |(larger, smaller): (&Figure, &Figure)| Filled {
+            inside: Figure {
+                area_mm2: (larger.area_mm2 + smaller.area_mm2) / 2.0,
+                moment: (larger.moment + smaller.moment) / 2.0,
+            },
+            near_mm2: (larger.area_mm2 - smaller.area_mm2).max(0.0),
+        };
+        larger.iter().zip(&smaller).map(between).collect()
     }
 
     /// Signed distance and direction in which it grows.

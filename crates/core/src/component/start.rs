@@ -16,23 +16,7 @@ use std::f64::consts::{PI, TAU};
 /// Circumscribes the hull of `target` with `edges` chains, each with as many planes as the limit
 /// on profile vertices allows.
 pub(super) fn circumscribe(target: &Target, edges: usize) -> Solid {
-    let points = target.hull.vertices();
-    let flat: Vec<DVec2> = points.iter().map(|p| p.truncate()).collect();
-    let locked: Vec<f64> = target.locked_angles();
-    let outline = polygon::convex_hull(&flat);
-    let angles = match target.symmetry {
-        Some(Symmetry::Upright { crossing_mm: None, .. }) => choose_pairs(&outline, &locked, edges),
-        Some(Symmetry::Upright { .. }) => choose_fours(&outline, &locked, edges),
-        _ => choose_angles(&outline, &locked, edges),
-    };
-    let chains = angles
-        .iter()
-        .map(|&angle_rad| Chain {
-            angle_rad,
-            is_locked: locked.contains(&angle_rad),
-            facets: tangents(target, angle_rad),
-        })
-        .collect();
+    let chains = chains(target, edges, |angle_rad| tangents(target, angle_rad));
     let mut solid = evened(with_ends(target, chains), target.symmetry);
     lower_ends(&mut solid, target.min_panel_mm);
     solid = evened(solid, target.symmetry);
@@ -40,6 +24,68 @@ pub(super) fn circumscribe(target: &Target, edges: usize) -> Solid {
         thin_out(&mut solid, j, target);
     }
     solid
+}
+
+/// Panels of a lens are at most this share of its width; the rest is for the top panel.
+const LENS_SHARE: f64 = 0.3;
+
+/// Hulls are flat where half of their height is less than this share of a comfortable panel: less than any panel may be.
+const FLAT: f64 = 2.0 / 3.0;
+
+/// A lens with the outline of a hull that is too flat for panels one above the other: two at each edge that meet in
+/// the middle, as wide as is comfortable. `None` for hulls that are not flat. Without it a blade of 2 mm is one of 6 mm.
+pub(super) fn lens(target: &Target, edges: usize) -> Option<Solid> {
+    let ends = with_ends(target, Vec::new());
+    let half_mm = (ends.top_mm - ends.bottom_mm) / 2.0;
+    let reach = |angle_rad: f64| target.hull.support(DVec2::from_angle(angle_rad).extend(0.0));
+    let width_mm = (0..36)
+        .map(|k| PI / 36.0 * f64::from(k))
+        .map(|angle_rad| reach(angle_rad) + reach(angle_rad + PI))
+        .fold(f64::INFINITY, f64::min);
+    let long_mm = target.comfortable_mm.min(LENS_SHARE * width_mm);
+    if half_mm >= FLAT * target.comfortable_mm || half_mm >= long_mm {
+        return None;
+    }
+    let in_mm = (long_mm * long_mm - half_mm * half_mm).sqrt();
+    let slope_rad = in_mm.atan2(half_mm).min(MAX_SLOPE_RAD);
+    let middle_mm = (ends.top_mm + ends.bottom_mm) / 2.0;
+    let facets = |angle_rad: f64| -> Vec<SideFacet> {
+        if target.side_joints(angle_rad).next().is_some() {
+            return tangents(target, angle_rad);
+        }
+        let rim = DVec2::new(reach(angle_rad), middle_mm);
+        [slope_rad, -slope_rad]
+            .map(|slope_rad| SideFacet {
+                slope_rad,
+                offset_mm: DVec2::from_angle(slope_rad).dot(rim),
+                is_joint: false,
+            })
+            .to_vec()
+    };
+    let chains = chains(target, edges, facets);
+    let mut solid = evened(with_ends(target, chains), target.symmetry);
+    for j in 0..solid.chains.len() {
+        thin_out(&mut solid, j, target);
+    }
+    Some(solid)
+}
+
+/// Chains in the directions that suit a hull's outline, with these planes.
+fn chains(target: &Target, edges: usize, facets: impl Fn(f64) -> Vec<SideFacet>) -> Vec<Chain> {
+    let flat: Vec<DVec2> = target.hull.vertices().iter().map(|p| p.truncate()).collect();
+    let locked: Vec<f64> = target.locked_angles();
+    let outline = polygon::convex_hull(&flat);
+    let angles = match target.symmetry {
+        Some(Symmetry::Upright { crossing_mm: None, .. }) => choose_pairs(&outline, &locked, edges),
+        Some(Symmetry::Upright { .. }) => choose_fours(&outline, &locked, edges),
+        _ => choose_angles(&outline, &locked, edges),
+    };
+    let chain = |&angle_rad: &f64| Chain {
+        angle_rad,
+        is_locked: locked.contains(&angle_rad),
+        facets: facets(angle_rad),
+    };
+    angles.iter().map(chain).collect()
 }
 
 /// The box round a hull; `None` for joints at its sides, and where four edges are too many.

@@ -101,6 +101,8 @@ fn is_same(a: Seat, b: Seat) -> bool {
 /// A target's hull, joints and borders, moved so that its mirror plane is straight.
 pub(super) struct Straight {
     symmetry: Symmetry,
+    /// From the target's axes.
+    motion: DAffine3,
     hull: Hull,
     joints: Vec<JointTarget>,
     borders: Vec<(DVec3, f64)>,
@@ -127,13 +129,14 @@ impl Straight {
         });
         let joints = joints.collect::<Option<Vec<_>>>()?;
         let borders = half_spaces(&target.borders);
-        Some(Self { symmetry, hull: target.hull.moved(&motion), joints, borders })
+        Some(Self { symmetry, motion, hull: target.hull.moved(&motion), joints, borders })
     }
 
     /// The target moved.
-    pub(super) fn target(&self, own: &Target) -> Target<'_> {
+    pub(super) fn target<'t>(&'t self, own: &Target<'t>) -> Target<'t> {
         Target {
             hull: &self.hull,
+            filling: own.filling.map(|(filling, to_filling)| (filling, to_filling * self.motion.inverse())),
             joints: self.joints.clone(),
             borders: self.borders.clone(),
             symmetry: Some(self.symmetry.straight()),

@@ -1,9 +1,10 @@
 //! What a component has to match: a hull, its joints, and the user's limits.
 
+use super::filling::Filling;
 use super::solid::{FaceId, SideFacet, Solid};
 use super::symmetry::Symmetry;
 use crate::geom::Hull;
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 /// Where a joint panel sits on a component, in the component's axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,6 +50,9 @@ pub struct JointTarget {
 pub struct Target<'a> {
     /// The convex body to match.
     pub hull: &'a Hull,
+    /// What of it is solid, with the way from the component's axes to those of the filling; nothing where all of it
+    /// counts.
+    pub filling: Option<(&'a Filling, DAffine3)>,
     /// Its joints.
     pub joints: Vec<JointTarget>,
     /// Half-spaces `n·x <= c` that the component should stay within: other parts are beyond them.

@@ -14,12 +14,11 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// Directions tried about the principal axis, evenly over a half turn.
+/// Directions tried about the principal axis, evenly over a half turn. All are finished: with the six alone that promise
+/// most after a few steps, outlines of 24 meshes are 0.921 instead of 0.925; with 18, they are 0.924.
 const DIRECTIONS: usize = 12;
 /// Directions nearer to each other than this are one.
 const SAME_RAD: f64 = std::f64::consts::PI / 180.0;
-/// So many of them are finished.
-const FINISHED: usize = 6;
 /// Price of a mm by which joint planes are moved off their interfaces.
 const PLANE_PRICE: f64 = 0.3;
 /// Price of a mm by which a joint panel misses its partner. With 0.8 for all joints the silhouettes of bunny
@@ -110,9 +109,9 @@ impl Made {
 /// How far the search for the candidates of a part goes; each goes on from what the one before it has found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Search {
-    /// The directions that promise most for the part alone are finished.
+    /// Directions about the longest axis.
     Promising,
-    /// All directions are: the part bumps into another.
+    /// That axis, too: the part bumps into another.
     Wide,
     /// In all of them joints count more, too: one of the part's joints is weak.
     Firm,
@@ -204,19 +203,13 @@ impl<'a> Builder<'a> {
         };
         let (directions, mut targets): (Vec<&Direction>, Vec<(Target, f64)>) =
             directions.iter().zip(targets).filter(|(direction, _)| is_new(direction)).unzip();
-        let most = if self.search == Search::Promising { FINISHED } else { targets.len() };
-        // The fold axis in two mirror planes, which comes first, promises little before it is fitted to the end.
-        let crossed = directions.iter().take_while(|direction| direction.is_crossed).count();
-        let (first, others) = targets.split_at(crossed);
-        let after = |f: Finished| Finished { target: f.target + crossed, ..f };
-        let (mut found, rest) = rayon::join(|| finished(first, crossed), || finished(others, most));
-        found.extend(rest.into_iter().map(after));
+        let mut found = finished(&targets);
         if !before.is_empty() && found.is_empty() {
             return Ok(Vec::new());
         }
         if found.is_empty() && self.mirror().is_some() {
             targets.iter_mut().for_each(|(target, _)| target.symmetry = None);
-            found = finished(&targets, most);
+            found = finished(&targets);
         }
         if found.is_empty() {
             return Err(choose(&targets).map_or_else(fail, |_| lost()));
@@ -243,7 +236,7 @@ impl<'a> Builder<'a> {
         if candidates.is_empty() && before.is_empty() { Err(lost()) } else { Ok(candidates) }
     }
 
-    /// The fold axes to try: the user's, or some about the principal axis and, where all are finished, that
+    /// The fold axes to try: the user's, or some about the principal axis and, in a wide search, that
     /// axis: a finger that folds along itself keeps its outline, but spreads wide. All are turned so that joint planes
     /// that they almost cross at a right angle are crossed exactly.
     fn axes(&self, principal: &PrincipalAxis) -> Vec<DVec3> {
@@ -312,10 +305,14 @@ impl<'a> Builder<'a> {
         PLANE_PRICE * direction.plane_shift_mm + if is_lopsided { LOPSIDED_PRICE * size_mm } else { 0.0 }
     }
 
-    fn target<'h>(&self, direction: &'h Direction) -> Target<'h> {
+    fn target<'h>(&self, direction: &'h Direction) -> Target<'h>
+    where
+        'a: 'h,
+    {
         let options = &self.parts[self.part].options;
         Target {
             hull: &direction.hull,
+            filling: self.parts[self.part].filling.as_deref().map(|filling| (filling, direction.frame)),
             joints: direction.joints.iter().map(|j| j.1.clone()).collect(),
             borders: self.borders(&direction.frame),
             top_edges: options.top_edges,

@@ -25,7 +25,7 @@ pub use known::Known;
 pub use link::{Contact, Link, link_tree};
 pub use needless::needless;
 pub use part::{ModelError, Part, PartOptions};
-pub use parted::{Parted, parted};
+pub use parted::{Parted, farther, parted};
 pub use plug::{JointChoice, Plug};
 pub use sturdy::{sturdier, sturdy};
 pub use symmetry::Symmetry;

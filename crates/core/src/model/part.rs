@@ -1,8 +1,9 @@
 //! Parts, as the model takes them.
 
-use crate::component::ConvertError;
+use crate::component::{ConvertError, Filling};
 use crate::geom::{Hull, Plane};
 use crate::progress::Cancelled;
+use std::sync::Arc;
 
 /// What the user may set for one part.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +31,8 @@ pub struct PartOptions {
 pub struct Part {
     /// Convex hull of the segment, in the mesh's scaled axes.
     pub hull: Hull,
+    /// What of it is solid, in the same axes; nothing where all of it counts.
+    pub filling: Option<Arc<Filling>>,
     /// Planes beyond which other parts are that it is not joined to, in the same axes, normals outwards.
     pub borders: Vec<Plane>,
     /// The user's wishes.

@@ -136,6 +136,16 @@ pub(super) fn apart(first: &Hull, second: &Hull) -> Option<(Plane, f64)> {
     least
 }
 
+/// The same for hulls that need not overlap: then the depth is less than 0, and the plane in the widest gap between
+/// their faces.
+pub(super) fn between_faces(first: &Hull, second: &Hull) -> Option<(Plane, f64)> {
+    let [own, other] = [first, second].map(|hull| hull.facets().iter().map(|f| f.plane().normal()));
+    let depth = |normal: DVec3| (normal, first.support(normal), -second.support(-normal));
+    let all = own.chain(other.map(|n| -n)).map(depth);
+    let (normal, end, start) = all.min_by(|a, b| (a.1 - a.2).total_cmp(&(b.1 - b.2)))?;
+    Some((Plane::through(normal * ((start + end) / 2.0), normal)?, end - start))
+}
+
 /// Where a part is joined to another, and how deep a plane may cut into that.
 struct Kept<'a> {
     points: &'a [DVec3],

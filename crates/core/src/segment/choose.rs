@@ -1,7 +1,7 @@
 //! Which parts of the tree of merges become segments: from the whole downwards, the split goes
 //! first after which the union of the hulls is nearest to the solid, at a short border.
 
-use super::grid::{Run, Solid};
+use super::grid::{Interior, Run};
 use super::patches::Partition;
 use crate::progress::{Cancelled, Progress};
 
@@ -53,14 +53,14 @@ pub(super) fn price(part_cost: f64, parts: usize, borders: f64) -> f64 {
 
 /// How often each cell of the grid is covered by a hull.
 pub(super) struct Cover<'a> {
-    solid: &'a Solid,
+    solid: &'a Interior,
     times: Vec<u16>,
     inside: usize,
     outside: usize,
 }
 
 impl<'a> Cover<'a> {
-    pub fn new(solid: &'a Solid) -> Self {
+    pub fn new(solid: &'a Interior) -> Self {
         Self { solid, times: vec![0; solid.len()], inside: 0, outside: 0 }
     }
 
@@ -121,7 +121,12 @@ impl<'a> Cover<'a> {
 impl Tree {
     /// As many parts as asked for, or as near to it as there are without splitting one of twins
     /// alone.
-    pub fn parts(&self, solid: &Solid, count: usize, progress: &dyn Progress) -> Result<Chosen, Cancelled> {
+    pub fn parts(
+        &self,
+        solid: &Interior,
+        count: usize,
+        progress: &dyn Progress,
+    ) -> Result<Chosen, Cancelled> {
         let mut cover = Cover::new(solid);
         let mut front = self.roots();
         front.iter().for_each(|&r| cover.add(&self.nodes[r].runs));
@@ -136,7 +141,7 @@ impl Tree {
     /// union by `part_cost` and what its border costs. Separate bodies stay separate.
     pub fn best_parts(
         &self,
-        solid: &Solid,
+        solid: &Interior,
         part_cost: f64,
         progress: &dyn Progress,
     ) -> Result<Chosen, Cancelled> {

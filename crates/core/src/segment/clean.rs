@@ -2,7 +2,7 @@
 
 use super::choose::{Cover, price};
 use super::coarsen::Coarse;
-use super::grid::Solid;
+use super::grid::Interior;
 use super::halves::Halves;
 use super::patches::{Partition, absorb_small};
 use super::refine::refine_borders;
@@ -62,7 +62,7 @@ impl Cleaner<'_> {
     pub fn best(
         &self,
         (first, finer): (&Partition, &[Partition]),
-        solid: &Solid,
+        solid: &Interior,
         part_cost: f64,
         progress: &dyn Progress,
     ) -> Result<Partition, Cancelled> {
@@ -91,7 +91,7 @@ impl Cleaner<'_> {
         Ok(first.parts)
     }
 
-    fn weighed(&self, parts: Partition, solid: &Solid, part_cost: f64, views: &Views) -> Weighed {
+    fn weighed(&self, parts: Partition, solid: &Interior, part_cost: f64, views: &Views) -> Weighed {
         let mut points: Vec<Vec<DVec3>> = vec![Vec::new(); parts.count];
         for (face, &cell) in self.fine.cell_of.iter().enumerate() {
             points[parts.of_cell[cell as usize] as usize].extend(self.mesh.corners(face));
@@ -128,7 +128,7 @@ mod tests {
         let above = |c: &DVec3| u32::from(c.z > cut);
         let whole = Partition { of_cell: vec![0; coarse.surface.len()], count: 1 };
         let halves = Partition { of_cell: coarse.surface.centres().iter().map(above).collect(), count: 2 };
-        let solid = Solid::filled(mesh.positions(), mesh.faces(), CELLS);
+        let solid = Interior::filled(mesh.positions(), mesh.faces(), CELLS);
         let cleaner = Cleaner {
             mesh: &mesh,
             fine: &fine,

@@ -2,7 +2,7 @@
 //! the least more volume outside of the solid than their own hulls.
 
 use super::choose::{Node, Tree};
-use super::grid::{Run, Solid};
+use super::grid::{Interior, Run};
 use super::patches::Partition;
 use super::rough_hull::Extremes;
 use crate::progress::{Cancelled, Progress};
@@ -107,7 +107,7 @@ impl PartialOrd for Candidate {
 /// What surrounds the merging: it reads this and does not change it.
 pub(super) struct Scene<'a> {
     pub positions: &'a [DVec3],
-    pub solid: &'a Solid,
+    pub solid: &'a Interior,
     pub sides: Sides,
 }
 

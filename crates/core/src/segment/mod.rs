@@ -37,6 +37,7 @@ mod tests;
 
 pub use contact::near_contacts;
 pub use edit::{Edit, EditError};
+pub use grid::Interior;
 pub use interface::Interface;
 pub use overlap::{Overlap, overlap};
 pub use parts::Parts;

@@ -1,7 +1,7 @@
 //! How well convex hulls stand for the solid.
 
 use super::choose::Cover;
-use super::grid::Solid;
+use super::grid::Interior;
 use crate::geom::Hull;
 use crate::mesh::Mesh;
 
@@ -23,7 +23,7 @@ pub struct Overlap {
 /// Compares the union of hulls with the solid that a mesh bounds; `None` where it encloses
 /// nothing.
 pub fn overlap<'a>(mesh: &Mesh, hulls: impl IntoIterator<Item = &'a Hull>) -> Option<Overlap> {
-    let solid = Solid::of_mesh(mesh.positions(), mesh.faces(), CELLS);
+    let solid = Interior::of_mesh(mesh.positions(), mesh.faces(), CELLS);
     let mut cover = Cover::new(&solid);
     hulls.into_iter().for_each(|hull| cover.add(&solid.runs(hull.corners())));
     let [all, inside, outside] = [solid.inside(), cover.inside(), cover.outside()].map(|n| n as f64);

@@ -5,7 +5,7 @@ use super::clean::Cleaner;
 use super::coarsen::{Coarse, coarsen};
 use super::cut::soft_labels;
 use super::gmm::Mixture;
-use super::grid::Solid;
+use super::grid::Interior;
 use super::halves::Halves;
 use super::merge::{Patches, SIDES, Scene, merge_all};
 use super::patches::{Partition, absorb_small, connected, split_large};
@@ -76,7 +76,7 @@ pub fn segment(
             let patches = bodies::join_crumbs(&coarse, patches, &gaps, options.parts);
             progress.stage("parts");
             let ground = Ground { faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
-            let solid = Solid::filled(positions, &faces, grid::CELLS);
+            let solid = Interior::filled(positions, &faces, grid::CELLS);
             let choose = |tree: Tree| match options.parts {
                 Some(count) => tree.parts(&solid, count, progress),
                 None => tree.best_parts(&solid, part_cost, progress),
