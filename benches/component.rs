@@ -22,6 +22,7 @@ fn one_component(bencher: Bencher, (top_edges, profile_vertices): (usize, usize)
     let hull = Hull::of_points(&points).expect("an ellipsoid");
     let target = Target {
         hull: &hull,
+        filling: None,
         joints: Vec::new(),
         borders: Vec::new(),
         symmetry: None,

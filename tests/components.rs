@@ -24,6 +24,7 @@ impl Body {
     fn target(&self) -> Target<'_> {
         Target {
             hull: &self.hull,
+            filling: None,
             joints: self.joints.clone(),
             borders: Vec::new(),
             symmetry: None,

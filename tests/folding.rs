@@ -24,7 +24,7 @@ fn cuboid(name: &str, low: DVec3, size: DVec3) -> Part {
         panel_worth: 0.0015,
         comfortable_mm: 3.0,
     };
-    Part { hull: Hull::of_points(&corners).unwrap(), borders: Vec::new(), options }
+    Part { hull: Hull::of_points(&corners).unwrap(), filling: None, borders: Vec::new(), options }
 }
 
 fn built(parts: &[Part], links: &[Link]) -> Model {

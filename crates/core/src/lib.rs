@@ -13,6 +13,7 @@
 //! let hull = Hull::of_points(&(0..8).map(corner).collect::<Vec<_>>())?;
 //! let target = Target {
 //!     hull: &hull,
+//!     filling: None,
 //!     joints: Vec::new(),
 //!     borders: Vec::new(),
 //!     symmetry: None,

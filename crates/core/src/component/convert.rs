@@ -272,6 +272,7 @@ pub(crate) mod tests {
     pub(crate) fn target(hull: &Hull, joints: Vec<JointTarget>) -> Target<'_> {
         Target {
             hull,
+            filling: None,
             joints,
             borders: Vec::new(),
             symmetry: None,

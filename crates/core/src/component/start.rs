@@ -441,3 +441,40 @@ fn can_go(solid: &Solid, gone: &[usize]) -> bool {
     };
     gone.iter().all(|&k| gap_without(k) <= MAX_TURN_RAD)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::component::convert;
+    use crate::component::convert::tests::target;
+    use crate::geom::Hull;
+
+    fn plate(height_mm: f64) -> Hull {
+        let corner = |k: usize| {
+            DVec3::new([-40.0, 40.0][k & 1], [-20.0, 20.0][k >> 1 & 1], [-0.5, 0.5][k >> 2] * height_mm)
+        };
+        Hull::of_points(&(0..8).map(corner).collect::<Vec<_>>()).unwrap()
+    }
+
+    #[test]
+    fn a_lens_is_as_thin_as_its_hull_with_panels_that_are_wide_enough() {
+        let hull = plate(2.0);
+        let lens = lens(&target(&hull, vec![]), 4).unwrap();
+        assert_eq!((lens.top_mm, lens.bottom_mm), (1.0, -1.0));
+        for j in 0..lens.chains.len() {
+            let profile = lens.profile(j);
+            assert_eq!(profile.len(), 3);
+            assert!(profile.windows(2).all(|w| w[0].distance(w[1]) >= 3.0), "{profile:?}");
+        }
+        assert!(super::lens(&target(&plate(20.0), vec![]), 4).is_none());
+    }
+
+    /// A blade of 2 mm was one of 6 mm: two panels of 3 mm, one above the other.
+    #[test]
+    fn a_blade_is_no_thicker_than_it_should_be() {
+        let component = convert(&target(&plate(2.0), vec![])).unwrap();
+        let thick_mm = component.top_mm() - component.bottom_mm();
+        assert!(thick_mm < 3.0, "{thick_mm}");
+        assert!(component.lowest_panel().1 >= 2.9, "{:?}", component.lowest_panel());
+    }
+}

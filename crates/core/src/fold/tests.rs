@@ -29,6 +29,7 @@ pub(super) fn components() -> impl Strategy<Value = Component> {
             let limits = (3.0, 4.5);
             convert(&Target {
                 hull: &hull,
+                filling: None,
                 joints,
                 borders: vec![],
                 symmetry: None,
@@ -145,6 +146,7 @@ fn walls_of_a_box_bend_evenly() {
     let hull = Hull::of_points(&corners).unwrap();
     let target = Target {
         hull: &hull,
+        filling: None,
         joints: vec![],
         borders: vec![],
         symmetry: None,

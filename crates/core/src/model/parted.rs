@@ -204,4 +204,25 @@ mod tests {
         let points = face.map(|p| p - DVec3::X * 4.5).to_vec();
         assert_eq!(ends(&parted(&hulls, &[Contact { points, ..contact }], &[], None).hulls), (30.0, 0.0));
     }
+
+    #[test]
+    fn parts_that_bump_end_farther_apart() {
+        let parted = || Parted {
+            hulls: vec![cube(DVec3::ZERO, 20.0), cube(DVec3::X * 20.5, 20.0)],
+            borders: vec![Vec::new(); 2],
+        };
+        let gap_mm = |hulls: &[Hull]| -hulls[1].support(-DVec3::X) - hulls[0].support(DVec3::X);
+        let moved = farther(parted(), &[], &[([0, 1], 1.5)], None).unwrap();
+        // Components bump though hulls do not: by as much they move from where they end.
+        assert!((gap_mm(&moved.hulls) - (0.5 + 1.5 + 2.0 * FARTHER_MM)).abs() < 1e-9);
+        assert!(moved.borders.iter().all(|borders| borders.len() == 1));
+        // Not by more than a part can lose, nor those that are joined.
+        assert!(farther(parted(), &[], &[([0, 1], 15.0)], None).is_none());
+        let hulls = parted().hulls;
+        let face = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)].map(|(y, z)| DVec3::new(20.2, y, z));
+        let contact = Contact { parts: (0, 1), points: face.to_vec(), length_mm: 80.0 };
+        let links = link_tree(&hulls.iter().collect::<Vec<_>>(), &[contact], None);
+        assert_eq!(links.len(), 1);
+        assert!(farther(parted(), &links, &[([0, 1], 1.5)], None).is_none());
+    }
 }
