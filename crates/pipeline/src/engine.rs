@@ -4,7 +4,7 @@
 use super::bodies::{Touching, without_needless_joints};
 use super::concave::{self, Refitted};
 use super::judge::FoldJudge;
-use super::mend::Mended;
+use super::mend::{Maker, Mended, mended};
 use super::plugs::{self, Planned};
 use super::warning::{self, not_joined};
 use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
@@ -16,7 +16,7 @@ use tatamu_core::design::{ThickError, thick};
 use tatamu_core::fold::{FoldPlan, ModelMotion, SweepMemory};
 use tatamu_core::memory::Memory;
 use tatamu_core::mesh::{Mesh, Up};
-use tatamu_core::model::{self, Built, JointChoice, Known, Model, ModelError, ModelPart, Run};
+use tatamu_core::model::{self, Built, JointChoice, Known, Model, ModelError, ModelPart, Run, Sketch};
 use tatamu_core::progress::{Beside, Cancelled, Progress};
 use tatamu_core::segment::{self, Edit, Parts, SegmentOptions};
 use tatamu_net::net::{BlankNet, KnownNets, Net, NetChoices, NetHand, NetOptions, develop_model};
@@ -158,7 +158,7 @@ impl<'m> Engine<'m> {
     pub fn shape(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
         let divided = self.divide(options, progress)?;
         progress.stage("components");
-        let Mended { divided, built, .. } = self.mended(divided, options, progress)?;
+        let Mended { divided, built, .. } = mended(&Making { engine: self, options, progress }, divided)?;
         self.know(&built);
         let mut found = refitted(built.model, &divided, options, progress)?;
         for name in found.refused.clone() {
@@ -180,7 +180,7 @@ impl<'m> Engine<'m> {
     }
 
     /// Components are built of parts, all of them convex.
-    pub(super) fn building<T>(
+    fn building<T>(
         &self,
         divided: &Divided,
         options: &Options,
@@ -194,7 +194,7 @@ impl<'m> Engine<'m> {
     }
 
     /// Remembers what the parts of a model are known by, for its folding.
-    pub(super) fn know(&self, built: &Built) {
+    fn know(&self, built: &Built) {
         self.ids.keep(Arc::new(built.model.clone()), built.ids.clone());
     }
 
@@ -402,4 +402,30 @@ fn of_boards(shaped: Shaped) -> Result<Shaped, Error> {
     let mut notes = shaped.notes.clone();
     notes.extend(thick.into_iter().map(Warning::from));
     Ok(Shaped { model: Arc::new(boards), notes, ..shaped })
+}
+
+/// Models with one set of options.
+struct Making<'m> {
+    engine: &'m Engine<'m>,
+    options: &'m Options,
+    progress: &'m dyn Progress,
+}
+
+impl Maker for Making<'_> {
+    fn sketch(&self, divided: &Divided) -> Result<Sketch, Error> {
+        self.engine.building(divided, self.options, self.progress, |run| run.sketch())
+    }
+
+    fn finish(&self, divided: &Divided, sketch: Sketch) -> Result<(Built, f64), Error> {
+        let Self { engine, options, progress } = *self;
+        let built = engine.building(divided, options, progress, |run| run.finished(sketch))?;
+        engine.know(&built);
+        if built.verdict.is_clean() {
+            return Ok((built, 0.0));
+        }
+        // Some that bump at first sight have a way past each other, or a plug.
+        let planned = engine.plan(&Arc::new(built.model.clone()), options, progress)?;
+        let harm_mm = planned.model.harm_mm(&planned.plan.bumps());
+        Ok((built, harm_mm))
+    }
 }

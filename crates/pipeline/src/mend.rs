@@ -2,11 +2,10 @@
 //! others. What serves the whole model best is kept.
 
 use super::openings::openings_mm2;
-use super::{Divided, Engine, Error, Hulls, Options};
+use super::{Divided, Error, Hulls};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use tatamu_core::model::{Built, ModelError, Sketch, Verdict};
-use tatamu_core::progress::Progress;
 
 /// What a mm of harm costs, as a share of outlines: a pair that bumps by 2 mm is worth 0.026, a joint that lacks a tenth of
 /// its glue 0.018. Joints that are thick enough for glue show.
@@ -63,94 +62,78 @@ fn price(verdict: &Verdict, harm_mm: f64) -> f64 {
     verdict.unlike + HARM_PRICE * harm_mm
 }
 
-impl Engine<'_> {
-    /// The parts with the joints that serve the model best, where those that the shape suggests do it harm.
-    pub(super) fn mended(
-        &self,
-        divided: Arc<Divided>,
-        options: &Options,
-        progress: &dyn Progress,
-    ) -> Result<Mended, Error> {
-        let draft = self.draft(divided, options, progress)?;
-        let mut best = match self.thicker(&draft, options, progress)? {
-            None => self.finished(draft, options, progress)?,
-            Some(thicker) => {
-                let best = self.finished(thicker, options, progress)?;
-                // Thick joints may bump, as the nose of a small snowman does, or be ugly.
-                let is_good = best.price() < draft.verdict().unlike + UGLY;
-                if is_good { best } else { best.or(self.finished(draft, options, progress)?) }
-            }
-        };
-        for _ in 0..ROUNDS {
-            if best.harm_mm == 0.0 {
-                break;
-            }
-            let mut next: Option<Draft> = None;
-            for hulls in others(best.divided.hulls(), &best.built.verdict).take(OTHERS) {
-                let divided = Arc::new(best.divided.with_hulls(hulls));
-                let Some(draft) = possible(self.draft(divided, options, progress))? else { continue };
-                if next.as_ref().is_none_or(|next| draft.price() < next.price()) {
-                    next = Some(draft);
-                }
-            }
-            let Some(next) = next else { break };
-            let next = self.thicker(&next, options, progress)?.unwrap_or(next);
-            let other = self.finished(next, options, progress)?;
-            if other.price() >= best.price() {
-                break;
-            }
-            best = other;
-        }
-        Ok(best)
-    }
+/// What makes models of divided meshes.
+pub(super) trait Maker {
+    /// A first look at a model.
+    fn sketch(&self, divided: &Divided) -> Result<Sketch, Error>;
 
-    /// A draft with thicker joints where they lack glue, as long as that is better; `None` where it is not.
-    fn thicker(
-        &self,
-        draft: &Draft,
-        options: &Options,
-        progress: &dyn Progress,
-    ) -> Result<Option<Draft>, Error> {
-        let mut thicker: Option<Draft> = None;
-        for _ in 0..THICKER {
-            let best = thicker.as_ref().unwrap_or(draft);
-            let weak = &best.verdict().weak;
-            if weak.is_empty() {
-                break;
-            }
-            let divided = Arc::new(best.divided.with_hulls(best.divided.hulls().sturdier(weak)));
-            match possible(self.draft(divided, options, progress))? {
-                Some(other) if other.price() < best.price() => thicker = Some(other),
-                _ => break,
+    /// The model of a sketch, and what is wrong with it once its folding is planned, mm.
+    fn finish(&self, divided: &Divided, sketch: Sketch) -> Result<(Built, f64), Error>;
+}
+
+/// The parts with the joints that serve the model best, where those that the shape suggests do it harm.
+pub(super) fn mended(maker: &impl Maker, divided: Arc<Divided>) -> Result<Mended, Error> {
+    let draft = drafted(maker, divided)?;
+    let mut best = match thicker(maker, &draft)? {
+        None => finished(maker, draft)?,
+        Some(thicker) => {
+            let best = finished(maker, thicker)?;
+            // Thick joints may bump, as the nose of a small snowman does, or be ugly.
+            let is_good = best.price() < draft.verdict().unlike + UGLY;
+            if is_good { best } else { best.or(finished(maker, draft)?) }
+        }
+    };
+    for _ in 0..ROUNDS {
+        if best.harm_mm == 0.0 {
+            break;
+        }
+        let mut next: Option<Draft> = None;
+        for hulls in others(best.divided.hulls(), &best.built.verdict).take(OTHERS) {
+            let divided = Arc::new(best.divided.with_hulls(hulls));
+            let Some(draft) = possible(drafted(maker, divided))? else { continue };
+            if next.as_ref().is_none_or(|next| draft.price() < next.price()) {
+                next = Some(draft);
             }
         }
-        Ok(thicker)
-    }
-
-    fn draft(
-        &self,
-        divided: Arc<Divided>,
-        options: &Options,
-        progress: &dyn Progress,
-    ) -> Result<Draft, Error> {
-        let sketch = self.building(&divided, options, progress, |run| run.sketch())?;
-        Ok(Draft { divided, sketch })
-    }
-
-    fn finished(&self, draft: Draft, options: &Options, progress: &dyn Progress) -> Result<Mended, Error> {
-        let Draft { divided, sketch } = draft;
-        let built = self.building(&divided, options, progress, |run| run.finished(sketch))?;
-        self.know(&built);
-        let openings = built.model.parts().iter().flat_map(|part| openings_mm2(part.component.panels()));
-        let openings_mm2: f64 = openings.sum();
-        let mut harm_mm = OPENING_PRICE * openings_mm2;
-        if !built.verdict.is_clean() {
-            // Some that bump at first sight have a way past each other, or a plug.
-            let planned = self.plan(&Arc::new(built.model.clone()), options, progress)?;
-            harm_mm += planned.model.harm_mm(&planned.plan.bumps());
+        let Some(next) = next else { break };
+        let next = thicker(maker, &next)?.unwrap_or(next);
+        let other = finished(maker, next)?;
+        if other.price() >= best.price() {
+            break;
         }
-        Ok(Mended { divided, built, harm_mm })
+        best = other;
     }
+    Ok(best)
+}
+
+/// A draft with thicker joints where they lack glue, as long as that is better; `None` where it is not.
+fn thicker(maker: &impl Maker, draft: &Draft) -> Result<Option<Draft>, Error> {
+    let mut thicker: Option<Draft> = None;
+    for _ in 0..THICKER {
+        let best = thicker.as_ref().unwrap_or(draft);
+        let weak = &best.verdict().weak;
+        if weak.is_empty() {
+            break;
+        }
+        let divided = Arc::new(best.divided.with_hulls(best.divided.hulls().sturdier(weak)));
+        match possible(drafted(maker, divided))? {
+            Some(other) if other.price() < best.price() => thicker = Some(other),
+            _ => break,
+        }
+    }
+    Ok(thicker)
+}
+
+fn drafted(maker: &impl Maker, divided: Arc<Divided>) -> Result<Draft, Error> {
+    let sketch = maker.sketch(&divided)?;
+    Ok(Draft { divided, sketch })
+}
+
+fn finished(maker: &impl Maker, Draft { divided, sketch }: Draft) -> Result<Mended, Error> {
+    let (built, planned_mm) = maker.finish(&divided, sketch)?;
+    let openings = built.model.parts().iter().flat_map(|part| openings_mm2(part.component.panels()));
+    let openings_mm2: f64 = openings.sum();
+    Ok(Mended { divided, built, harm_mm: OPENING_PRICE * openings_mm2 + planned_mm })
 }
 
 /// Not every joint has room.
