@@ -21,14 +21,14 @@ use std::collections::BTreeSet;
 
 /// A pair that bumps costs this much, mm of error: with half of both prices a hand and a plane of 7 and 10
 /// parts bump,
-const BUMP_PRICE_MM: f64 = 20.0;
+const BUMP_PRICE_MM: f64 = 50.0;
 /// and this for each mm that it bumps deeper.
-const DEPTH_PRICE: f64 = 6.0;
+const DEPTH_PRICE: f64 = 12.0;
 /// Models that are looked at, besides those for each part.
 const LOOKS: usize = 24;
 /// A search is given up after so many models in a row that are no better, and this share of all that it may look at: with
 /// the share alone the wrist of a hand leans; without it, an ant of 16 parts takes twice as long and is no better.
-const PATIENCE: usize = 32;
+const PATIENCE: usize = 64;
 const PATIENCE_SHARE: usize = 16;
 /// Steps towards a better look at most; hardly any choice moves after the fifth.
 const ROUNDS: usize = 8;
