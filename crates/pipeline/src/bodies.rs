@@ -312,31 +312,28 @@ fn parts(hulls: &Hulls, options: &Options) -> Result<Vec<Part>, Error> {
         return Err(Error::NoComponent { name: name.clone(), known: names.join(", ") });
     }
     let all_mm2: f64 = hulls.hulls().iter().map(Hull::area).sum();
-    let part =
-        |(((hull, filling), borders), name): (((&Hull, &Option<Arc<Filling>>), &Vec<Plane>), &String)| {
-            let own = options.components.get(name).cloned().unwrap_or_default();
-            let is_set = own.top_edges.is_some() || own.profile_vertices.is_some();
-            let comfortable_mm = options.min_panel_width_mm * if is_set { 1.0 } else { COMFORTABLE };
-            let (top_edges, profile_vertices) = options.counts((hull.area() / all_mm2).sqrt());
-            Part {
-                hull: hull.clone(),
-                filling: filling.clone(),
-                borders: borders.clone(),
-                options: PartOptions {
-                    name: own.rename.unwrap_or_else(|| name.clone()),
-                    direction_rad: own.direction_rad,
-                    top_edges: own.top_edges.unwrap_or(top_edges),
-                    profile_vertices: own.profile_vertices.unwrap_or(profile_vertices),
-                    tolerance_mm: options.tolerance_mm,
-                    panel_worth: if is_set { 0.0 } else { options.panel_worth() },
-                    comfortable_mm,
-                },
-            }
-        };
-    let parts: Vec<Part> = {
-        let shapes = hulls.hulls().iter().zip(&hulls.fillings).zip(&hulls.borders);
-        shapes.zip(names).map(part).collect()
+    let part = |(name, k): (&String, usize)| {
+        let hull = &hulls.hulls()[k];
+        let own = options.components.get(name).cloned().unwrap_or_default();
+        let is_set = own.top_edges.is_some() || own.profile_vertices.is_some();
+        let comfortable_mm = options.min_panel_width_mm * if is_set { 1.0 } else { COMFORTABLE };
+        let (top_edges, profile_vertices) = options.counts((hull.area() / all_mm2).sqrt());
+        Part {
+            hull: hull.clone(),
+            filling: hulls.fillings[k].clone(),
+            borders: hulls.borders[k].clone(),
+            options: PartOptions {
+                name: own.rename.unwrap_or_else(|| name.clone()),
+                direction_rad: own.direction_rad,
+                top_edges: own.top_edges.unwrap_or(top_edges),
+                profile_vertices: own.profile_vertices.unwrap_or(profile_vertices),
+                tolerance_mm: options.tolerance_mm,
+                panel_worth: if is_set { 0.0 } else { options.panel_worth() },
+                comfortable_mm,
+            },
+        }
     };
+    let parts: Vec<Part> = names.iter().zip(0..).map(part).collect();
     let mut seen = BTreeSet::new();
     match parts.iter().find(|part| !seen.insert(part.options.name.as_str())) {
         Some(part) => Err(Error::SameName(part.options.name.clone())),

@@ -47,7 +47,7 @@ pub(super) fn lens(target: &Target, edges: usize) -> Option<Solid> {
         return None;
     }
     let in_mm = (long_mm * long_mm - half_mm * half_mm).sqrt();
-    let slope_rad = in_mm.atan2(half_mm).min(MAX_SLOPE_RAD);
+    let slope_rad = libm::atan2(in_mm, half_mm).min(MAX_SLOPE_RAD);
     let middle_mm = (ends.top_mm + ends.bottom_mm) / 2.0;
     let facets = |angle_rad: f64| -> Vec<SideFacet> {
         if target.side_joints(angle_rad).next().is_some() {
