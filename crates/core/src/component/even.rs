@@ -100,24 +100,28 @@ fn thinned(mut set: Vec<Edge>, edges: usize, worth_mm2: f64) -> Vec<Edge> {
 
 /// Rounds in which each direction of [`choose_fours`] is exchanged for a better one; two are enough for most.
 const EXCHANGES: usize = 4;
+/// Directions that are nearer than this are one, which was mirrored on different ways.
+const SAME_RAD: f64 = 1e-9;
 
 /// Directions of the top edges about y = 0 and x = 0: directions in neither plane, in one or both, and others in
 /// fours, spread evenly and exchanged for candidates as long as the circumscribed polygon becomes smaller.
 pub(super) fn choose_fours(outline: &[DVec2], locked: &[f64], edges: usize) -> Vec<f64> {
     let quarter = |a: f64| a.abs().min(PI - a.abs());
-    let locked: Vec<f64> = locked.iter().map(|&a| quarter(a)).collect();
+    let is_in = |set: &[f64], a: f64| set.iter().any(|b| (a - b).abs() < SAME_RAD);
+    let in_quarter: Vec<f64> = locked.iter().map(|&a| quarter(a)).collect();
     let perimeter: f64 = polygon::edges(outline).map(|(a, b)| a.distance(b)).sum();
     let long = polygon::edges(outline).filter(|(a, b)| a.distance(*b) > 0.05 * perimeter);
     let long = long.map(|(a, b)| quarter((-(b - a).perp()).to_angle()));
     let candidates: Vec<f64> = (1..18).map(|k| f64::from(k) * STEP_RAD).chain(long).collect();
-    let mut fixed: Vec<f64> = locked.iter().copied().filter(|a| *a > 0.0 && *a < FRAC_PI_2).collect();
+    let mut fixed = in_quarter.clone();
+    fixed.retain(|a| !is_in(&[0.0, FRAC_PI_2], *a));
     fixed.sort_by(f64::total_cmp);
-    fixed.dedup();
+    fixed.dedup_by(|a, b| (*a - *b).abs() < SAME_RAD);
     let whole = polygon::area(outline);
     let mut best: Option<(usize, f64, Vec<f64>)> = None;
     for selves in [[false, false], [true, false], [false, true], [true, true]] {
         let own: Vec<f64> = [0.0, FRAC_PI_2].into_iter().zip(selves).filter(|s| s.1).map(|s| s.0).collect();
-        if locked.iter().any(|l| !fixed.contains(l) && !own.contains(l)) {
+        if in_quarter.iter().any(|&l| !is_in(&fixed, l) && !is_in(&own, l)) {
             continue;
         }
         let cost = |free: &[f64]| {
@@ -125,7 +129,7 @@ pub(super) fn choose_fours(outline: &[DVec2], locked: &[f64], edges: usize) -> V
             let all = all_around(&own, &fours);
             let apart = |k: usize| (all[(k + 1) % all.len()] - all[k]).rem_euclid(2.0 * PI);
             // Those that are fixed may be nearer to one another.
-            let is_fixed = |k: usize| locked.contains(&quarter(all[k % all.len()]));
+            let is_fixed = |k: usize| is_in(&in_quarter, quarter(all[k % all.len()]));
             let is_spread =
                 (0..all.len()).all(|k| apart(k) > MIN_TURN_RAD - 1e-9 || (is_fixed(k) && is_fixed(k + 1)));
             let area = area_within(outline, &all).filter(|_| is_spread)?;
@@ -154,7 +158,13 @@ pub(super) fn choose_fours(outline: &[DVec2], locked: &[f64], edges: usize) -> V
             }
         }
     }
-    best.map_or_else(Vec::new, |b| b.2)
+    let mut all = best.map_or_else(Vec::new, |b| b.2);
+    for angle_rad in &mut all {
+        if let Some(&own) = locked.iter().find(|l| turn(**l, *angle_rad).abs() < SAME_RAD) {
+            *angle_rad = own;
+        }
+    }
+    all
 }
 
 /// Directions in the planes and others in fours, with their images, in order.
@@ -242,4 +252,24 @@ pub(super) fn pair_bulge(lines: &[shape::Line], k: usize, ends: (f64, f64)) -> (
         _ => bulge(lines, k, ends),
     };
     (if 2 * k + 1 == count { area } else { 2.0 * area }, mean_mm)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_4;
+
+    /// The four joints of a body in two planes are mirrored on different ways, so that they are images but for rounding.
+    #[test]
+    fn locked_directions_are_taken_once_and_as_they_are() {
+        let outline: Vec<DVec2> =
+            (0..24).map(|k| 10.0 * DVec2::from_angle(f64::from(k) * PI / 12.0)).collect();
+        let locked = [FRAC_PI_4, -FRAC_PI_4 + 1e-15, 3.0 * FRAC_PI_4, PI - FRAC_PI_4 - PI * 1.5];
+        for edges in 4..11 {
+            let all = choose_fours(&outline, &locked, edges);
+            assert!(locked.iter().all(|l| all.contains(l)), "{all:?}");
+            let apart = |k: usize| turn(all[(k + 1) % all.len()], all[k]);
+            assert!((0..all.len()).all(|k| apart(k) > MIN_TURN_RAD / 2.0), "{all:?}");
+        }
+    }
 }
