@@ -332,7 +332,7 @@ fn steps_in_turn_are_told_as_they_are() {
     for model in bulges() {
         let motion = ModelMotion::new(&model);
         let (memory, ids) = (SweepMemory::default(), [0, 1, 2]);
-        let quick = FoldPlan::quick(&motion, THICKNESS_MM, &ids, &memory, &Silent).unwrap();
+        let quick = FoldPlan::quick(&motion, THICKNESS_MM, &ids, &memory, &|_| false, &Silent).unwrap();
         let plan = plan(&motion);
         assert!(quick.is_order() && quick.harm_mm() > 0.0, "no order is free");
         // The quick plan is told by samples, so that only the whole one is sound.

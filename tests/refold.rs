@@ -13,6 +13,8 @@ use tatamu::pipeline::{Bodies, Options};
 
 /// Rounding of lengths.
 const TOLERANCE_MM: f64 = 1e-6;
+/// Panels have no shorter edges, but those that are none at all.
+const LEAST_EDGE_MM: f64 = 1e-3;
 /// Gaps must be smaller than this share of the mean segment.
 const GAP_SHARE: f64 = 1e-9;
 /// PDF numbers are `f32` points.
@@ -102,7 +104,16 @@ fn deployed_panels_are_the_faces_of_the_components() {
             let facets = hull.facets().iter().map(|facet| hull.facet_points(facet).collect::<Vec<_>>());
             let surface_mm2: f64 = facets.map(|points| area_vector(&points).length()).sum();
             let missing = surface_mm2 - area_mm2;
-            assert!(missing.abs() <= 1e-9 * surface_mm2, "{name}: {missing} mm² of {surface_mm2}");
+            // A corner nearer to another one than this is left out, and with it a triangle of that height.
+            let edges = solid.outlines().into_iter().flat_map(|(_, outline)| {
+                let n = outline.len();
+                (0..n).map(move |k| outline[k].distance(outline[(k + 1) % n])).collect::<Vec<f64>>()
+            });
+            let edges: Vec<f64> = edges.collect();
+            let left_out = edges.iter().filter(|mm| **mm < LEAST_EDGE_MM).count() as f64;
+            let longest_mm = edges.iter().copied().fold(0.0, f64::max);
+            let allowed_mm2 = 1e-9 * surface_mm2 + left_out * LEAST_EDGE_MM * longest_mm / 2.0;
+            assert!(missing.abs() <= allowed_mm2, "{name}: {missing} mm² of {surface_mm2}");
         }
     }
 }

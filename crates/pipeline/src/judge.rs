@@ -1,7 +1,7 @@
 //! What the parts of a model do to each other while they fold, for the choice between models.
 
 use tatamu_core::fold::{FoldPlan, ModelMotion, SweepMemory};
-use tatamu_core::model::{Bump, Judge, Model};
+use tatamu_core::model::{Bump, Enough, Judge, Model};
 use tatamu_core::progress::{Beside, Cancelled, Progress};
 
 /// Folds models, and tells where they bump.
@@ -12,8 +12,8 @@ pub(super) struct FoldJudge<'a> {
 }
 
 impl Judge for FoldJudge<'_> {
-    fn bumps(&self, model: &Model, ids: &[u64]) -> Result<Vec<Bump>, Cancelled> {
+    fn bumps(&self, model: &Model, ids: &[u64], is_enough: &Enough<'_>) -> Result<Vec<Bump>, Cancelled> {
         let (motion, progress) = (ModelMotion::new(model), Beside::new(self.progress));
-        Ok(FoldPlan::quick(&motion, self.thickness_mm, ids, self.memory, &progress)?.bumps())
+        Ok(FoldPlan::quick(&motion, self.thickness_mm, ids, self.memory, is_enough, &progress)?.bumps())
     }
 }

@@ -91,12 +91,12 @@ pub(super) fn mended(maker: &impl Maker, divided: Arc<Divided>) -> Result<Mended
         for hulls in others(best.divided.hulls(), &best.built.verdict).take(OTHERS) {
             let divided = Arc::new(best.divided.with_hulls(hulls));
             let Some(draft) = possible(drafted(maker, divided))? else { continue };
-            let draft = thicker(maker, &draft)?.unwrap_or(draft);
             if next.as_ref().is_none_or(|next| draft.price() < next.price()) {
                 next = Some(draft);
             }
         }
         let Some(next) = next else { break };
+        let next = thicker(maker, &next)?.unwrap_or(next);
         let other = finished(maker, next)?;
         if other.price() >= best.price() {
             break;

@@ -11,7 +11,7 @@ use super::sequence::{Motion, Sequence};
 use super::stack::{Stack, stacks};
 use super::step::{Move, Pull, Step};
 use super::sweep::Care;
-use crate::model::Model;
+use crate::model::{Enough, Model};
 use crate::progress::{Cancelled, Progress};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -29,10 +29,10 @@ pub struct FoldPlan {
 }
 
 /// How far the search goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Effort {
-    /// A good order, one component after another, by samples.
-    Order,
+#[derive(Clone, Copy)]
+enum Effort<'a> {
+    /// A good order, one component after another, by samples; none where the bumps that no order avoids are enough.
+    Order(&'a Enough<'a>),
     /// Steps of several components in turn, where no order is free; and the flat stacks.
     Whole,
 }
@@ -76,7 +76,8 @@ impl FoldPlan {
     }
 
     /// A plan for the comparison of many models: a good order by samples of the motions, without steps
-    /// of several components in turn, and without stacks. Ids and memory as for [`FoldPlan::with_memory`].
+    /// of several components in turn, and without stacks. Where the bumps that no order avoids are enough, no order is
+    /// looked for. Ids and memory as for [`FoldPlan::with_memory`].
     ///
     /// # Errors
     /// [`Cancelled`] at the user's wish.
@@ -85,9 +86,10 @@ impl FoldPlan {
         thickness_mm: f64,
         ids: &[u64],
         memory: &SweepMemory,
+        is_enough: &Enough<'_>,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        Self::searched(motion, thickness_mm, ids, memory, progress, Effort::Order)
+        Self::searched(motion, thickness_mm, ids, memory, progress, Effort::Order(is_enough))
     }
 
     /// A plan in which some components are unplugged, outer ones after those that carry them, fold
@@ -125,12 +127,19 @@ impl FoldPlan {
         ids: &[u64],
         memory: &SweepMemory,
         progress: &dyn Progress,
-        effort: Effort,
+        effort: Effort<'_>,
     ) -> Result<Self, Cancelled> {
         let overlaps = overlaps(motion, thickness_mm / 2.0, ids, memory);
+        let is_whole = matches!(effort, Effort::Whole);
+        if let Effort::Order(is_enough) = effort {
+            let known = Self { overlaps: overlaps.clone(), ..Self::unchecked(motion.model(), thickness_mm) };
+            if is_enough(&known.bumps()) {
+                return Ok(known);
+            }
+        }
         let parts = motion.model().parts().len();
         let care = match effort {
-            Effort::Order => Care::rough(thickness_mm),
+            Effort::Order(_) => Care::rough(thickness_mm),
             Effort::Whole => Care::exact(thickness_mm),
         };
         let mut checker = Checker::new(motion, care, &overlaps, ids, memory);
@@ -139,9 +148,9 @@ impl FoldPlan {
         progress.check()?;
         let mut moves = Vec::new();
         for root in (0..parts).filter(|&p| root_of(motion.model(), p) == p) {
-            let order = Search::new(motion, &mut checker, progress, effort == Effort::Whole).tree(root)?;
+            let order = Search::new(motion, &mut checker, progress, is_whole).tree(root)?;
             let mut tree: Vec<Move> = order.into_iter().map(Move::whole).collect();
-            if effort == Effort::Whole {
+            if is_whole {
                 tree = interleaved(&mut checker, tree, parts, thickness_mm, progress)?;
             }
             clashes.extend(replay(&mut checker, &tree, parts));
@@ -149,7 +158,7 @@ impl FoldPlan {
         }
         let steps: Vec<Step> = moves.iter().map(Move::step).collect();
         let order = steps.iter().filter(|step| step.ends_flat()).map(|step| step.part).collect();
-        let stacks = if effort == Effort::Whole { stacks(motion, thickness_mm) } else { Vec::new() };
+        let stacks = if is_whole { stacks(motion, thickness_mm) } else { Vec::new() };
         Ok(Self { thickness_mm, pulls: Vec::new(), steps, order, clashes, overlaps, stacks })
     }
 

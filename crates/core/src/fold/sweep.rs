@@ -20,6 +20,7 @@ use super::step::{FLAT, share};
 use super::track::{Moment, Track};
 use crate::component::PanelId;
 use glam::DVec3;
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 /// Spans that each cell between two levels is divided into at first: in spans of more than a 16th of the
@@ -92,6 +93,14 @@ impl Body {
         let (End::Top(Some(chain)) | End::Bottom(Some(chain))) = self.end else { return 0.0 };
         let (from, to) = (from.shares[chain], to.shares[chain]);
         ball.sway_mm[0] * (from.above - to.above).abs() + ball.sway_mm[1] * (from.below - to.below).abs()
+    }
+
+    /// Writes one of its sheets at a moment.
+    fn pose(&self, sheet: usize, at: &Moment<'_>, posed: &mut Sheet) {
+        let (motion, sheet) = (at.moved(self.carrier), &self.sheets[sheet].0);
+        posed.corners.clear();
+        posed.corners.extend(sheet.corners.iter().map(|&c| motion.transform_point3(c)));
+        posed.normal = motion.transform_vector3(sheet.normal);
     }
 
     fn hangs_from_top(&self) -> bool {
@@ -203,11 +212,15 @@ impl<'a> Sweep<'a> {
             }
             let sample = |k: usize| self.track.at(low + (high - low) * k as f64 / (DEPTH_SAMPLES - 1) as f64);
             let moments: Vec<Moment<'_>> = (0..DEPTH_SAMPLES).map(sample).collect();
+            let poses: Vec<Poses<'_>> =
+                moments.iter().map(|moment| Poses::new(self.bodies, moment)).collect();
             for (list, First { sheets, folded }) in found {
                 // What has changed sides has no depth, but is no lighter than what is just too deep.
                 let mut deepest = Contact { folded, sheets, depth_mm: self.care.allowed_mm };
-                for moment in &moments {
-                    if let Some((sheets, depth_mm)) = self.deepest(&lists[list], moment, deepest.depth_mm) {
+                for poses in &poses {
+                    if let Some((sheets, depth_mm)) =
+                        poses.deepest(&lists[list], deepest.depth_mm, &mut Axes::new())
+                    {
                         deepest = Contact { sheets, depth_mm, ..deepest };
                     }
                 }
@@ -220,14 +233,16 @@ impl<'a> Sweep<'a> {
     /// Contacts at a few moments of each cell.
     fn sampled(&self, lists: &[Vec<[usize; 2]>]) -> Vec<Contacts> {
         let mut contacts: Vec<Contacts> = vec![[None; FLAT as usize]; lists.len()];
+        let mut axes = vec![Axes::new(); lists.len()];
         for cell in 0..FLAT {
             let (low, high) = (share(cell), share(cell + 1));
             for k in 1..=ROUGH_SAMPLES {
                 let moment = self.track.at(low + (high - low) * k as f64 / ROUGH_SAMPLES as f64);
-                for (list, contacts) in lists.iter().zip(&mut contacts) {
+                let poses = Poses::new(self.bodies, &moment);
+                for ((list, contacts), axes) in lists.iter().zip(&mut contacts).zip(&mut axes) {
                     let contact = &mut contacts[usize::from(cell)];
                     let least_mm = contact.map_or(self.care.allowed_mm, |contact| contact.depth_mm);
-                    if let Some((sheets, depth_mm)) = self.deepest(list, &moment, least_mm) {
+                    if let Some((sheets, depth_mm)) = poses.deepest(list, least_mm, axes) {
                         let folded = contact.map_or(moment.folded, |contact| contact.folded);
                         *contact = Some(Contact { folded, sheets, depth_mm });
                     }
@@ -237,46 +252,9 @@ impl<'a> Sweep<'a> {
         contacts
     }
 
-    /// The sheets of a list that are deepest in each other at some moment, and how deep, where that is
-    /// more than `least_mm`.
-    fn deepest(
-        &self,
-        list: &[[usize; 2]],
-        moment: &Moment<'_>,
-        least_mm: f64,
-    ) -> Option<([SheetId; 2], f64)> {
-        let mut deepest = None;
-        let mut deepest_mm = least_mm;
-        let mut scratch = Default::default();
-        for &[a, b] in list {
-            let bodies = [a, b].map(|body| &self.bodies[body]);
-            if are_far(bodies.map(|body| (body, &body.ball)), moment, 0.0) {
-                continue;
-            }
-            for (i, p) in bodies[0].sheets.iter().enumerate() {
-                for (j, q) in bodies[1].sheets.iter().enumerate() {
-                    if are_far([(bodies[0], &p.1), (bodies[1], &q.1)], moment, 0.0) {
-                        continue;
-                    }
-                    let sheets = [(a, i), (b, j)];
-                    self.pose(sheets, moment, &mut scratch);
-                    let depth_mm = -gap(&scratch[0], &scratch[1], -deepest_mm, 0).mm;
-                    if depth_mm > deepest_mm {
-                        (deepest, deepest_mm) = (Some(sheets), depth_mm);
-                    }
-                }
-            }
-        }
-        deepest.map(|sheets| (sheets, deepest_mm))
-    }
-
     fn pose(&self, sheets: [SheetId; 2], at: &Moment<'_>, scratch: &mut [Sheet; 2]) {
         for (posed, (body, sheet)) in scratch.iter_mut().zip(sheets) {
-            let body = &self.bodies[body];
-            let (motion, sheet) = (at.moved(body.carrier), &body.sheets[sheet].0);
-            posed.corners.clear();
-            posed.corners.extend(sheet.corners.iter().map(|&c| motion.transform_point3(c)));
-            posed.normal = motion.transform_vector3(sheet.normal);
+            self.bodies[body].pose(sheet, at, posed);
         }
     }
 
@@ -288,6 +266,80 @@ impl<'a> Sweep<'a> {
             own + if is_one_end { 0.0 } else { (from.height_mm - to.height_mm).abs() }
         };
         way(from, middle).max(way(middle, to))
+    }
+}
+
+/// The direction in which two sheets were apart when they were looked at last: most often they still are.
+/// By the pair of bodies in its list, and the two sheets.
+type Axes = Vec<Vec<usize>>;
+
+/// Bodies at a moment; their sheets are placed when they are asked for.
+struct Poses<'a> {
+    bodies: &'a [Body],
+    moment: &'a Moment<'a>,
+    /// The middle of each body's ball, and of that of each of its sheets.
+    centres: Vec<OnceCell<(DVec3, Vec<DVec3>)>>,
+    sheets: Vec<Vec<OnceCell<Sheet>>>,
+}
+
+impl<'a> Poses<'a> {
+    fn new(bodies: &'a [Body], moment: &'a Moment<'a>) -> Self {
+        let sheets = bodies.iter().map(|body| vec![OnceCell::new(); body.sheets.len()]).collect();
+        Self { bodies, moment, centres: vec![OnceCell::new(); bodies.len()], sheets }
+    }
+
+    fn centres(&self, body: usize) -> &(DVec3, Vec<DVec3>) {
+        self.centres[body].get_or_init(|| {
+            let Body { carrier, ball, sheets, .. } = &self.bodies[body];
+            let motion = self.moment.moved(*carrier);
+            let centre = |ball: &Ball| motion.transform_point3(ball.centre);
+            (centre(ball), sheets.iter().map(|(_, ball)| centre(ball)).collect())
+        })
+    }
+
+    fn sheet(&self, (body, sheet): SheetId) -> &Sheet {
+        self.sheets[body][sheet].get_or_init(|| {
+            let mut posed = Sheet::default();
+            self.bodies[body].pose(sheet, self.moment, &mut posed);
+            posed
+        })
+    }
+
+    /// The sheets of a list that are deepest in each other, and how deep, where that is more than `least_mm`.
+    fn deepest(&self, list: &[[usize; 2]], least_mm: f64, axes: &mut Axes) -> Option<([SheetId; 2], f64)> {
+        let mut deepest = None;
+        let mut deepest_mm = least_mm;
+        let are_far = |p: DVec3, q: DVec3, [a, b]: [&Ball; 2]| {
+            let reach_mm = a.radius_mm + b.radius_mm;
+            p.distance_squared(q) > reach_mm * reach_mm
+        };
+        axes.resize(list.len(), Vec::new());
+        for (&[a, b], axes) in list.iter().zip(axes) {
+            let (first, second) = (&self.bodies[a], &self.bodies[b]);
+            let (p, q) = (self.centres(a), self.centres(b));
+            if are_far(p.0, q.0, [&first.ball, &second.ball]) {
+                continue;
+            }
+            axes.resize(first.sheets.len() * second.sheets.len(), 0);
+            for (i, (_, p_ball)) in first.sheets.iter().enumerate() {
+                if are_far(p.1[i], q.0, [p_ball, &second.ball]) {
+                    continue;
+                }
+                for (j, (_, q_ball)) in second.sheets.iter().enumerate() {
+                    if are_far(p.1[i], q.1[j], [p_ball, q_ball]) {
+                        continue;
+                    }
+                    let sheets = [(a, i), (b, j)];
+                    let axis = &mut axes[i * second.sheets.len() + j];
+                    let gap = gap(self.sheet(sheets[0]), self.sheet(sheets[1]), -deepest_mm, *axis);
+                    *axis = gap.axis;
+                    if -gap.mm > deepest_mm {
+                        (deepest, deepest_mm) = (Some(sheets), -gap.mm);
+                    }
+                }
+            }
+        }
+        deepest.map(|sheets| (sheets, deepest_mm))
     }
 }
 

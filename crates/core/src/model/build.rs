@@ -2,7 +2,7 @@
 
 use super::bond::{Bond, crossing};
 use super::candidate::{Builder, Made, Search};
-use super::choice::{Best, Bump, Choice, Combination, Effort, Trouble};
+use super::choice::{Best, Bump, Choice, Combination, Effort, Enough, Trouble};
 use super::known::Known;
 use super::link::Link;
 use super::pair::Pairs;
@@ -38,11 +38,12 @@ pub struct Assembly<'a> {
 /// Tells what the parts of a model do to each other while they fold.
 pub trait Judge: Sync {
     /// Pairs of parts that bump into each other, deployed or on the way. Two models whose parts have
-    /// the same `ids` from one part to another are alike there.
+    /// the same `ids` from one part to another are alike there. Once those found are enough to rule the model
+    /// out, the others are not looked for.
     ///
     /// # Errors
     /// [`Cancelled`] at the user's wish.
-    fn bumps(&self, model: &Model, ids: &[u64]) -> Result<Vec<Bump>, Cancelled>;
+    fn bumps(&self, model: &Model, ids: &[u64], is_enough: &Enough<'_>) -> Result<Vec<Bump>, Cancelled>;
 }
 
 /// Of those that look no further: parts and joints alone decide.
@@ -50,7 +51,7 @@ pub trait Judge: Sync {
 pub struct Unjudged;
 
 impl Judge for Unjudged {
-    fn bumps(&self, _: &Model, _: &[u64]) -> Result<Vec<Bump>, Cancelled> {
+    fn bumps(&self, _: &Model, _: &[u64], _: &Enough<'_>) -> Result<Vec<Bump>, Cancelled> {
         Ok(Vec::new())
     }
 }
@@ -237,12 +238,12 @@ impl Run<'_> {
         let made_of =
             |of: &[usize]| -> Vec<&Made> { of.iter().zip(&candidates).map(|(&k, made)| &made[k]).collect() };
         let ids = |made: &[&Made]| made.iter().map(|m| m.id).collect::<Vec<u64>>();
-        let bumps = |of: &[usize]| {
+        let bumps = |of: &[usize], is_enough: &Enough<'_>| {
             progress.check()?;
             let made = made_of(of);
             // A combination that cannot be joined costs too much to be looked at.
             place(parts, (&links, &pairs), of, &made)
-                .map_or(Ok(Vec::new()), |model| judge.bumps(&model, &ids(&made)))
+                .map_or(Ok(Vec::new()), |model| judge.bumps(&model, &ids(&made), is_enough))
         };
         let place_of = |(id, made): (&u64, &Vec<Made>)| made.iter().position(|m| m.id == *id);
         let start = before.iter().zip(&candidates).map(place_of).collect::<Option<Combination>>();

@@ -3,9 +3,10 @@
 //! The costs of single candidates and of pairs along joints make a tree: the best combination of these
 //! is found exactly, by dynamic programming from the leaves (n·K² pair costs). Clashes depend on all parts
 //! between two parts, and on the order of folding, so only whole models are checked for them. A search
-//! starts from the best of the tree: a part that bumps gets another candidate, the others the best that
-//! goes with it, as long as that makes the whole cheaper. The result is never worse than the tree's best, but not
-//! necessarily the best of all.
+//! starts from the best of the tree and learns from each model that it looks at: two parts that bump with some
+//! candidates, and with the same ones between them, are expected to bump so again. What is cheapest as far as is
+//! known is looked at next; then a part that bumps gets another candidate, the others the best that goes with it.
+//! The result is never worse than the tree's best, but not necessarily the best of all.
 //!
 //! How the whole model looks depends on all parts at once, too. Near one combination it is nearly a sum: each
 //! candidate changes the outlines where its own part is seen. So these changes count as costs of single
@@ -17,7 +18,7 @@ use super::link::Link;
 use super::pair::{Pairs, WEAK_PRICE_MM};
 use crate::progress::Cancelled;
 use rayon::prelude::*;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A pair that bumps costs this much, mm of error: with half of both prices a hand and a plane of 7 and 10
 /// parts bump,
@@ -32,14 +33,19 @@ const PATIENCE: usize = 64;
 const PATIENCE_SHARE: usize = 16;
 /// Steps towards a better look at most; hardly any choice moves after the fifth.
 const ROUNDS: usize = 8;
+/// The most promising exchanges of one candidate for which those of others are sought that go with it.
+const STARTS: usize = 8;
 /// Models that are looked at together.
 const AT_ONCE: usize = 2;
 
 /// What two parts do to each other: their numbers, and how deep they bump, mm.
 pub type Bump = ([usize; 2], f64);
 
-/// Tells what the parts of a combination do to each other.
-type Bumping<'a> = dyn Fn(&[usize]) -> Result<Vec<Bump>, Cancelled> + Sync + 'a;
+/// Tells whether so many bumps are enough to rule a model out.
+pub type Enough<'a> = dyn Fn(&[Bump]) -> bool + Sync + 'a;
+
+/// Tells what the parts of a combination do to each other: all, or enough to rule it out.
+type Bumping<'a> = dyn Fn(&[usize], &Enough<'_>) -> Result<Vec<Bump>, Cancelled> + Sync + 'a;
 
 /// Tells what the looks of combinations cost, mm.
 type Looks<'a> = dyn Fn(&[Combination]) -> Vec<f64> + Sync + 'a;
@@ -247,8 +253,7 @@ impl Choice {
     }
 
     /// The best combination found. `bumps` tells what parts of one do to each
-    /// other while they fold, `looks_mm` what the looks of some cost, each of which is the first one but for
-    /// one variable. The search starts from the best of the tree, or from `start` where that is better: the
+    /// other while they fold, `looks_mm` what the looks of some cost. The search starts from the best of the tree, or from `start` where that is better: the
     /// result is never worse than either.
     pub(super) fn best(
         &self,
@@ -258,49 +263,101 @@ impl Choice {
         looks_mm: &Looks<'_>,
     ) -> Result<Best, Cancelled> {
         let (unhindered, near) = self.best_looking(looks_mm);
-        let look = |of: Combination| {
-            let bumps = bumps(&of)?;
-            let harm = harm_mm(&bumps);
+        // A look ends where the combination is known to cost more than `most_mm`.
+        let look = |of: Combination, most_mm: f64| {
             let looks_mm: f64 = looks_mm(std::slice::from_ref(&of)).iter().sum();
-            Ok(Look { cost_mm: self.cost_mm(&of) + looks_mm + harm, of, bumps })
+            let free_mm = self.cost_mm(&of) + looks_mm;
+            let is_enough = |bumps: &[Bump]| free_mm + harm_mm(bumps) >= most_mm;
+            let bumps = bumps(&of, &is_enough)?;
+            Ok(Look { cost_mm: free_mm + harm_mm(&bumps), is_whole: !is_enough(&bumps), of, bumps })
         };
-        let mut best = look(unhindered.clone())?;
+        let mut harms = Harms::new(self);
+        let mut best = look(unhindered.clone(), f64::INFINITY)?;
+        harms.learn(&best);
         let mut seen = BTreeSet::from([best.of.clone()]);
         if let Some(other) = start.filter(|of| *of != best.of) {
             seen.insert(other.clone());
-            let other = look(other)?;
+            let other = look(other, best.cost_mm)?;
+            harms.learn(&other);
             if other.cost_mm < best.cost_mm {
                 best = other;
             }
         }
         let mut left = effort.looks(self.own.len());
         let patience = PATIENCE + left / PATIENCE_SHARE;
-        'better: loop {
-            let mut idle = 0;
-            for group in near.proposals(&best, &unhindered).chunks(AT_ONCE) {
-                let worth = |of: &&Combination| near.cost_mm(of) < best.cost_mm && !seen.contains(*of);
-                let group: Vec<Combination> = group.iter().filter(worth).cloned().collect();
-                if left < group.len() || group.is_empty() || idle >= patience {
-                    continue;
-                }
-                left -= group.len();
-                idle += group.len();
-                seen.extend(group.iter().cloned());
-                let looks: Vec<Result<Look, Cancelled>> = group.into_par_iter().map(look).collect();
-                let looks = looks.into_iter().collect::<Result<Vec<Look>, Cancelled>>()?;
-                let cheapest = looks.into_iter().min_by(|a, b| a.cost_mm.total_cmp(&b.cost_mm));
-                if let Some(better) = cheapest.filter(|other| other.cost_mm < best.cost_mm) {
-                    best = better;
-                    continue 'better;
+        let mut idle = 0;
+        let mut neighbours = near.neighbours(&best, &unhindered);
+        while idle < patience {
+            let expected_mm = |of: &[usize]| near.cost_mm(of) + harms.expected_mm(of);
+            // What differs from the best in one choice, and what is best as far as is known: from there, too.
+            let mut next: Vec<(f64, Combination)> =
+                neighbours.iter().map(|(_, of)| (expected_mm(of), of.clone())).collect();
+            let starts = neighbours.iter().zip(&next).map(|((held, _), (mm, of))| (*mm, Some(*held), of));
+            let mut starts: Vec<(f64, Option<usize>, &Combination)> = starts.collect();
+            starts.sort_by(|a, b| a.0.total_cmp(&b.0));
+            starts.truncate(STARTS);
+            starts.extend([&best.of, &unhindered].map(|of| (0.0, None, of)));
+            let descended = |&(_, held, of): &(f64, Option<usize>, &Combination)| {
+                let of = self.descended(of.clone(), held, &expected_mm);
+                (expected_mm(&of), of)
+            };
+            let known: Vec<(f64, Combination)> = starts.par_iter().map(descended).collect();
+            next.extend(known);
+            next.retain(|(mm, of)| *mm < best.cost_mm && !seen.contains(of));
+            next.sort_by(|a, b| a.0.total_cmp(&b.0));
+            next.dedup_by(|a, b| a.1 == b.1);
+            let group: Vec<Combination> = next.into_iter().take(AT_ONCE).map(|(_, of)| of).collect();
+            if group.is_empty() || left < group.len() {
+                break;
+            }
+            left -= group.len();
+            idle += group.len();
+            seen.extend(group.iter().cloned());
+            let looks: Vec<Result<Look, Cancelled>> =
+                group.into_par_iter().map(|of| look(of, best.cost_mm)).collect();
+            let looks = looks.into_iter().collect::<Result<Vec<Look>, Cancelled>>()?;
+            looks.iter().for_each(|look| harms.learn(look));
+            let cheapest = looks.into_iter().min_by(|a, b| a.cost_mm.total_cmp(&b.cost_mm));
+            if let Some(better) = cheapest.filter(|other| other.cost_mm < best.cost_mm) {
+                best = better;
+                idle = 0;
+                neighbours = near.neighbours(&best, &unhindered);
+            }
+        }
+        let bumping = self.involved(&best);
+        let is_weak = |pair: &&Pair| pair.costs[best.of[pair.parent]][best.of[pair.child]] > WEAK_PRICE_MM;
+        let weak = self.pairs.iter().filter(is_weak).flat_map(|pair| [pair.parent, pair.child]).collect();
+        let Look { of, bumps, cost_mm, .. } = best;
+        Ok(Best { of, cost_mm, trouble: Trouble { bumping, weak }, bumps })
+    }
+
+    /// The combination with the candidates exchanged, variable by variable but for the one that is held, as long as that
+    /// makes it cheaper.
+    fn descended(
+        &self,
+        mut of: Combination,
+        held: Option<usize>,
+        cost_mm: &(dyn Fn(&[usize]) -> f64 + Sync),
+    ) -> Combination {
+        let mut least_mm = cost_mm(&of);
+        for _ in 0..ROUNDS {
+            let before_mm = least_mm;
+            for &v in self.downwards.iter().filter(|v| held != Some(**v)) {
+                for k in 0..self.own[v].len() {
+                    let mut other = of.clone();
+                    other[v] = k;
+                    let other = self.spread(other);
+                    let other_mm = cost_mm(&other);
+                    if other_mm < least_mm {
+                        (of, least_mm) = (other, other_mm);
+                    }
                 }
             }
-            let bumping = self.involved(&best);
-            let is_weak =
-                |pair: &&Pair| pair.costs[best.of[pair.parent]][best.of[pair.child]] > WEAK_PRICE_MM;
-            let weak = self.pairs.iter().filter(is_weak).flat_map(|pair| [pair.parent, pair.child]).collect();
-            let Look { of, bumps, cost_mm } = best;
-            return Ok(Best { of, cost_mm, trouble: Trouble { bumping, weak }, bumps });
+            if least_mm == before_mm {
+                break;
+            }
         }
+        of
     }
 
     /// Variables of the parts that bump, and of those between them.
@@ -309,22 +366,20 @@ impl Choice {
     }
 
     /// Combinations in which a part that bumps, or one between two that do, has another candidate, or one
-    /// that differs from what would be best if nothing bumped: the cheapest first.
-    fn proposals(&self, from: &Look, unhindered: &[usize]) -> Vec<Combination> {
-        let mut proposals: BTreeSet<Combination> = BTreeSet::new();
+    /// that differs from what would be best if nothing bumped; each with the part.
+    fn neighbours(&self, from: &Look, unhindered: &[usize]) -> BTreeSet<(usize, Combination)> {
+        let mut neighbours = BTreeSet::new();
         let mut parts = self.involved(from);
         parts.extend((0..from.of.len()).filter(|&p| self.variable[p] == p && from.of[p] != unhindered[p]));
         for part in parts {
             for k in (0..self.own[part].len()).filter(|k| *k != from.of[part]) {
                 let mut only = from.of.clone();
                 only[part] = k;
-                proposals.insert(self.spread(only));
-                proposals.insert(self.cheapest(&[(part, k)]));
+                neighbours.insert((part, self.spread(only)));
+                neighbours.insert((part, self.cheapest(&[(part, k)])));
             }
         }
-        let mut proposals: Vec<Combination> = proposals.into_iter().collect();
-        proposals.sort_by(|a, b| self.cost_mm(a).total_cmp(&self.cost_mm(b)));
-        proposals
+        neighbours
     }
 
     /// Two parts and those between them.
@@ -338,10 +393,60 @@ impl Choice {
     }
 }
 
+/// What pairs of parts did to each other in the combinations that were looked at.
+///
+/// It depends on the candidates of the two and of the parts between them, and on the order of folding, which depends
+/// on all. So the least harm seen with the same candidates there is a guess, and most often the truth.
+struct Harms {
+    /// All pairs, each with the parts between its two, both ends included.
+    ways: Vec<([usize; 2], Vec<usize>)>,
+    /// For each the candidates on its way that were seen, and the harm, mm of error.
+    least_mm: Vec<BTreeMap<Combination, f64>>,
+    /// Those with harm: the number of the pair and the candidates.
+    harmful: BTreeMap<(usize, Combination), f64>,
+}
+
+impl Harms {
+    fn new(choice: &Choice) -> Self {
+        let parts = choice.parents.len();
+        let pairs = (0..parts).flat_map(|b| (0..=b).map(move |a| [a, b]));
+        let ways: Vec<_> = pairs.map(|pair| (pair, choice.way(pair))).collect();
+        Self { least_mm: vec![BTreeMap::new(); ways.len()], ways, harmful: BTreeMap::new() }
+    }
+
+    fn learn(&mut self, look: &Look) {
+        for (k, (pair, way)) in self.ways.iter().enumerate() {
+            let bumps: Vec<Bump> = look.bumps.iter().filter(|bump| bump.0 == *pair).copied().collect();
+            let on_way: Combination = way.iter().map(|&part| look.of[part]).collect();
+            if bumps.is_empty() && !look.is_whole {
+                continue;
+            }
+            let mm = harm_mm(&bumps);
+            let least_mm = self.least_mm[k].entry(on_way.clone()).or_insert(mm);
+            *least_mm = least_mm.min(mm);
+            if *least_mm > 0.0 {
+                self.harmful.insert((k, on_way), *least_mm);
+            } else {
+                self.harmful.remove(&(k, on_way));
+            }
+        }
+    }
+
+    /// What a combination is expected to cost by its bumps: those that are known.
+    fn expected_mm(&self, of: &[usize]) -> f64 {
+        let is_here = |(k, on_way): &(usize, Combination)| {
+            self.ways[*k].1.iter().zip(on_way).all(|(&part, &candidate)| of[part] == candidate)
+        };
+        self.harmful.iter().filter(|(key, _)| is_here(key)).map(|(_, mm)| mm).sum()
+    }
+}
+
 /// A combination that was looked at.
 struct Look {
     of: Combination,
     bumps: Vec<Bump>,
+    /// Whether these are all.
+    is_whole: bool,
     cost_mm: f64,
 }
 
@@ -489,7 +594,7 @@ mod tests {
             let found = choice.best(
                 anywhere.clone(),
                 Effort::Long,
-                &|of| {
+                &|of, _| {
                     looks.fetch_add(1, Ordering::Relaxed);
                     assert!(tree.are_alike(of), "images have the same candidate");
                     Ok(bumps(of))
@@ -536,7 +641,7 @@ mod tests {
             let looks = |all: &[Combination]| all.iter().map(look_mm).collect::<Vec<f64>>();
             let whole_mm = |of: &Combination| tree.cost_mm(of) + look_mm(of);
             let Best { of: found, .. } =
-                choice.best(None, Effort::Long, &|_| Ok(Vec::new()), &looks).unwrap();
+                choice.best(None, Effort::Long, &|_, _| Ok(Vec::new()), &looks).unwrap();
             assert!(tree.are_alike(&found));
             let (found_mm, tree_mm) = (whole_mm(&found), whole_mm(&choice.cheapest(&[])));
             assert!(found_mm <= tree_mm, "{found_mm} {tree_mm}");
@@ -552,15 +657,37 @@ mod tests {
     #[test]
     fn a_part_that_avoids_nothing_goes_back_to_its_best() {
         let choice = Choice::of_costs(vec![0, 1], vec![vec![0.0, 5.0]; 2], Vec::new());
-        let bumps = |of: &[usize]| Ok(if of == [0, 0] { vec![([0, 1], 1.0)] } else { Vec::<Bump>::new() });
+        let bumps = |of: &[usize], _: &Enough<'_>| {
+            Ok(if of == [0, 0] { vec![([0, 1], 1.0)] } else { Vec::<Bump>::new() })
+        };
         let Best { of: found, .. } = choice.best(Some(vec![1, 1]), Effort::Long, &bumps, &no_looks).unwrap();
         assert_eq!(choice.cost_mm(&found), 5.0);
+    }
+
+    /// Of a row of parts each bumps into the next in three of four combinations of the two: of all combinations one in
+    /// four million is free. Each pair has to be seen to bump only once.
+    #[test]
+    fn what_bumped_is_not_looked_at_again() {
+        let (parts, candidates) = (12, 8);
+        let own: Vec<f64> = (0..candidates).map(|k| k as f64 / 100.0).collect();
+        let choice = Choice::of_costs((0..parts).collect(), vec![own; parts], Vec::new());
+        let looks = AtomicUsize::new(0);
+        let bumps = |of: &[usize], _: &Enough<'_>| {
+            looks.fetch_add(1, Ordering::Relaxed);
+            let is_free = |a: usize, b: usize| (3 * of[a] + 5 * of[b] + a).is_multiple_of(4);
+            let pairs = (1..parts).filter(|&b| !is_free(b - 1, b));
+            Ok(pairs.map(|b| ([b - 1, b], 1.0)).collect())
+        };
+        let Best { bumps: left, .. } = choice.best(None, Effort::Long, &bumps, &no_looks).unwrap();
+        assert_eq!(left, []);
+        let looks = looks.into_inner();
+        assert!(looks < parts * candidates, "{looks}");
     }
 
     #[test]
     fn the_search_can_be_stopped() {
         let tree = Tree::random(&mut Rng::with_seed(3));
-        assert!(tree.choice().best(None, Effort::Long, &|_| Err(Cancelled), &no_looks).is_err());
+        assert!(tree.choice().best(None, Effort::Long, &|_, _| Err(Cancelled), &no_looks).is_err());
     }
 
     #[test]

@@ -19,7 +19,7 @@ mod sturdy;
 mod symmetry;
 
 pub use build::{Assembly, Built, Judge, Run, Sketch, Unjudged, Verdict, alone, build};
-pub use choice::Bump;
+pub use choice::{Bump, Enough};
 pub use joined::{JoinedPart, Seam};
 pub use known::Known;
 pub use link::{Contact, Link, link_tree};
