@@ -27,8 +27,8 @@ const BUMP_PRICE_MM: f64 = 50.0;
 const DEPTH_PRICE: f64 = 12.0;
 /// Models that are looked at, besides those for each part.
 const LOOKS: usize = 24;
-/// A search is given up after so many models in a row that are no better, and this share of all that it may look at: with
-/// the share alone the wrist of a hand leans; without it, an ant of 16 parts takes twice as long and is no better.
+/// A search is given up after so many models in a row that are no better, and this share of all that it may look at. Most
+/// end sooner, as nothing better is expected.
 const PATIENCE: usize = 64;
 const PATIENCE_SHARE: usize = 16;
 /// Steps towards a better look at most; hardly any choice moves after the fifth.
