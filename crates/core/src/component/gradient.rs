@@ -25,7 +25,10 @@ pub(super) struct Freedom {
 pub(super) type Parameter = Option<(usize, f64)>;
 
 /// A linear form over the free parameters.
-pub(super) type Terms = SmallVec<[(usize, f64); 16]>;
+pub(super) type Terms = SmallVec<[(usize, f64); 12]>;
+
+/// That of a single plane.
+pub(super) type PlaneTerms = SmallVec<[(usize, f64); 3]>;
 
 impl Freedom {
     pub(super) fn of(solid: &Solid, radius_mm: f64, symmetry: Option<Symmetry>) -> Self {
@@ -125,7 +128,7 @@ impl Freedom {
     }
 
     /// Change of `offset − normal · point` of a face, for a fixed point on it.
-    pub(super) fn plane(&self, shape: &Shape, face: FaceId, point: DVec3) -> Terms {
+    pub(super) fn plane(&self, shape: &Shape, face: FaceId, point: DVec3) -> PlaneTerms {
         match face {
             FaceId::Top => self.top.into_iter().collect(),
             FaceId::Bottom => self.bottom.map(|(k, sign)| (k, -sign)).into_iter().collect(),
@@ -133,7 +136,7 @@ impl Freedom {
                 let chain = &shape.chains[j];
                 let Line { sin, cos, .. } = chain.lines[i];
                 let (u, t) = (chain.normal.dot(point.truncate()), chain.tangent().dot(point.truncate()));
-                let mut terms = Terms::new();
+                let mut terms = PlaneTerms::new();
                 let [slope, offset] = self.facets[j][i];
                 if let Some((k, sign)) = slope {
                     terms.push((k, sign * (sin * u - cos * point.z) / self.radius_mm));
@@ -153,7 +156,7 @@ impl Freedom {
         let normals = corner.faces.map(|f| shape.polytope.normal(shape.index(f)));
         let weights = DMat3::from_cols(normals[0], normals[1], normals[2]).inverse() * direction;
         let planes = corner.faces.map(|f| self.plane(shape, f, corner.point));
-        sum((0..3).map(|k| (weights[k], &planes[k])))
+        sum((0..3).map(|k| (weights[k], planes[k].as_slice())))
     }
 
     /// Change of the distance from a fixed point outside to the edge that two faces share at `at`,
@@ -163,14 +166,14 @@ impl Freedom {
         let (ab, da, db) = (a.dot(b), direction.dot(a), direction.dot(b));
         let det = (1.0 - ab * ab).max(1e-12);
         let planes = faces.map(|f| self.plane(shape, f, at));
-        sum([((da - ab * db) / det, &planes[0]), ((db - ab * da) / det, &planes[1])])
+        sum([((da - ab * db) / det, planes[0].as_slice()), ((db - ab * da) / det, planes[1].as_slice())])
     }
 
     /// Change of the width of chain j at height v (see [`Solid::width_at`]), for fixed v.
     pub(super) fn width(&self, shape: &Shape, j: usize, v_mm: f64) -> Terms {
         let here = &shape.chains[j];
         let u_here = here.u_at(v_mm);
-        let mut parts: Vec<(f64, Terms)> = Vec::new();
+        let mut parts: SmallVec<[(f64, PlaneTerms); 8]> = SmallVec::new();
         for (k, sign) in [(shape.solid.previous(j), -1.0), (shape.solid.next(j), 1.0)] {
             let other = &shape.chains[k];
             let (sin, cos) = (here.normal.perp_dot(other.normal).abs(), here.normal.dot(other.normal));
@@ -181,15 +184,15 @@ impl Freedom {
             parts.push((turn, self.angles[k].into_iter().collect()));
             parts.push((-turn, self.angles[j].into_iter().collect()));
         }
-        sum(parts.iter().map(|(w, t)| (*w, t)))
+        sum(parts.iter().map(|(w, t)| (*w, t.as_slice())))
     }
 
     /// Change of chain j's u at height v; where v is an end of the solid, its change too.
-    fn reach(&self, shape: &Shape, j: usize, v_mm: f64) -> Terms {
+    fn reach(&self, shape: &Shape, j: usize, v_mm: f64) -> PlaneTerms {
         let chain = &shape.chains[j];
         let i = chain.facet_at(v_mm);
         let Line { sin, cos, offset } = chain.lines[i];
-        let mut terms = Terms::new();
+        let mut terms = PlaneTerms::new();
         let [slope, shift] = self.facets[j][i];
         if let Some((k, sign)) = slope {
             terms.push((k, sign * (offset * sin - v_mm) / (cos * cos) / self.radius_mm));
@@ -242,7 +245,7 @@ impl Freedom {
                 None => push(end, second_share),
             }
         }
-        sum([(1.0, &terms)])
+        sum([(1.0, terms.as_slice())])
     }
 }
 
@@ -295,7 +298,7 @@ impl ProfileLength {
 }
 
 /// Weighted sum of linear forms, each variable once.
-pub(super) fn sum<'a>(parts: impl IntoIterator<Item = (f64, &'a Terms)>) -> Terms {
+pub(super) fn sum<'a>(parts: impl IntoIterator<Item = (f64, &'a [(usize, f64)])>) -> Terms {
     let mut all: Terms =
         parts.into_iter().flat_map(|(w, terms)| terms.iter().map(move |&(k, a)| (k, w * a))).collect();
     all.sort_by_key(|t| t.0);

@@ -119,7 +119,7 @@ impl Model<'_> {
                 let (distance, direction) =
                     self.distance(position, corner.point, |face| task.hull.normal(face));
                 let terms = self.freedom.corner(&at.shape, corner, direction);
-                self.error_row(terms, distance, weight);
+                self.error_row(&terms, distance, weight);
             }
         }
         for (&corner, position) in corners.iter().zip(&at.hulls) {
@@ -128,7 +128,7 @@ impl Model<'_> {
                     self.distance(position, corner, |face| at.shape.polytope.normal(face));
                 let mut terms = self.reach(position, corner, direction);
                 terms.iter_mut().for_each(|t| t.1 = -t.1);
-                self.error_row(terms, distance, weight);
+                self.error_row(&terms, distance, weight);
             }
         }
     }
@@ -185,18 +185,17 @@ impl Model<'_> {
         }
     }
 
-    fn error_row(&mut self, mut terms: Terms, distance: f64, weight: f64) {
+    fn error_row(&mut self, terms: &[(usize, f64)], distance: f64, weight: f64) {
         if distance > 0.0 {
-            self.programme.add_square(&terms, distance, weight);
+            self.programme.add_square(terms, distance, weight);
         }
-        terms.push((self.worst, -1.0));
-        self.programme.at_most(terms, -distance);
+        self.programme.at_most(terms.iter().copied().chain([(self.worst, -1.0)]), -distance);
     }
 
     /// Change of the solid's reach in a direction at the place nearest to a point.
     fn reach(&self, position: &Position, point: DVec3, direction: DVec3) -> Terms {
         let (shape, freedom) = (self.shape(), &self.freedom);
-        let by_face = |face: usize, at: DVec3| freedom.plane(shape, shape.face(face), at);
+        let by_face = |face: usize, at: DVec3| freedom.plane(shape, shape.face(face), at).into_iter().collect();
         match position.nearest {
             Some((_, Feature::Corner(c))) => freedom.corner(shape, &shape.corners[c], direction),
             Some((at, Feature::Edge(a, b))) => {
@@ -224,14 +223,14 @@ impl Model<'_> {
                 let width = shape.width_at(j, v);
                 if width < least + 12.0 * step_mm {
                     let terms = self.freedom.width(shape, j, v);
-                    self.at_least(terms, width, least);
+                    self.at_least(&terms, width, least);
                 }
             }
             for room in rooms(shape, &at.spots, j) {
                 let now = room.value(&shape.chains[j].profile);
                 if now < least + 6.0 * step_mm {
                     let terms = self.freedom.length(shape, j, &room);
-                    self.at_least(terms, now, least);
+                    self.at_least(&terms, now, least);
                 }
             }
             if let (FoldSpot::Bend(i), false) = (at.spots[j], is_level) {
@@ -239,16 +238,16 @@ impl Model<'_> {
                 for length in [beyond.clone().reversed(), beyond] {
                     let now = length.value(&shape.chains[j].profile);
                     let terms = self.freedom.length(shape, j, &length);
-                    self.at_least(terms, now, 0.0);
+                    self.at_least(&terms, now, 0.0);
                 }
             }
         }
     }
 
     /// A measure does not fall below `least`, or lacks no more of it than now.
-    fn at_least(&mut self, terms: Terms, now: f64, least: f64) {
+    fn at_least(&mut self, terms: &[(usize, f64)], now: f64, least: f64) {
         let lacking = (least - now).max(0.0);
-        let terms = terms.into_iter().map(|(k, a)| (k, -a)).chain([(self.lack, -lacking)]);
+        let terms = terms.iter().map(|&(k, a)| (k, -a)).chain([(self.lack, -lacking)]);
         self.programme.at_most(terms, now - least);
     }
 
@@ -262,8 +261,8 @@ impl Model<'_> {
         let (shape, near_mm) = (&self.at.shape, NEAR_JOINT * self.task.radius_mm);
         for &(n, c) in &self.task.target.borders {
             for corner in shape.corners.iter().filter(|corner| c - n.dot(corner.point) < near_mm) {
-                let mut terms = self.freedom.corner(shape, corner, n);
-                terms.push((self.beyond, -1.0));
+                let terms = self.freedom.corner(shape, corner, n);
+                let terms = terms.iter().copied().chain([(self.beyond, -1.0)]);
                 self.programme.at_most(terms, c - n.dot(corner.point));
             }
         }
@@ -275,8 +274,8 @@ impl Model<'_> {
         let solid = &self.at.shape.solid;
         let (freedom, programme) = (&self.freedom, &mut self.programme);
         let mut difference = |a: Parameter, b: Parameter, room: f64| {
-            let [a, b] = [a, b].map(|parameter| parameter.into_iter().collect::<Terms>());
-            programme.at_most(sum([(1.0, &a), (-1.0, &b)]), room.max(0.0) * r);
+            let terms = sum([(1.0, a.as_slice()), (-1.0, b.as_slice())]);
+            programme.at_most(terms.iter().copied(), room.max(0.0) * r);
         };
         for (j, chain) in solid.chains.iter().enumerate() {
             for (i, w) in chain.facets.windows(2).enumerate() {

@@ -57,8 +57,8 @@ pub(super) fn rows(
         for &point in &joint.cover {
             let inside = (c - n.dot(point)) * scale;
             if inside < near_mm {
-                let terms = freedom.plane(shape, shape.face(f), point).into_iter();
-                programme.at_most(terms.map(|(k, a)| (k, -a * scale)).chain([(miss, -1.0)]), inside);
+                let terms = freedom.plane(shape, shape.face(f), point);
+                programme.at_most(terms.iter().map(|&(k, a)| (k, -a * scale)).chain([(miss, -1.0)]), inside);
             }
         }
     }
@@ -68,7 +68,7 @@ pub(super) fn rows(
             let inside = c - n.dot(corner.point);
             if inside < near_mm {
                 let terms = freedom.corner(shape, corner, n);
-                programme.at_most(terms.into_iter().chain([(miss, -1.0)]), inside);
+                programme.at_most(terms.iter().copied().chain([(miss, -1.0)]), inside);
             }
         }
     }
