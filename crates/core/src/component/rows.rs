@@ -195,7 +195,8 @@ impl Model<'_> {
     /// Change of the solid's reach in a direction at the place nearest to a point.
     fn reach(&self, position: &Position, point: DVec3, direction: DVec3) -> Terms {
         let (shape, freedom) = (self.shape(), &self.freedom);
-        let by_face = |face: usize, at: DVec3| freedom.plane(shape, shape.face(face), at).into_iter().collect();
+        let by_face =
+            |face: usize, at: DVec3| freedom.plane(shape, shape.face(face), at).into_iter().collect();
         match position.nearest {
             Some((_, Feature::Corner(c))) => freedom.corner(shape, &shape.corners[c], direction),
             Some((at, Feature::Edge(a, b))) => {

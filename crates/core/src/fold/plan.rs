@@ -11,7 +11,7 @@ use super::sequence::{Motion, Sequence};
 use super::stack::{Stack, stacks};
 use super::step::{Move, Pull, Step};
 use super::sweep::Care;
-use crate::model::{Enough, Model};
+use crate::model::{Bump, Enough, Model};
 use crate::progress::{Cancelled, Progress};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -131,11 +131,9 @@ impl FoldPlan {
     ) -> Result<Self, Cancelled> {
         let overlaps = overlaps(motion, thickness_mm / 2.0, ids, memory);
         let is_whole = matches!(effort, Effort::Whole);
-        if let Effort::Order(is_enough) = effort {
-            let known = Self { overlaps: overlaps.clone(), ..Self::unchecked(motion.model(), thickness_mm) };
-            if is_enough(&known.bumps()) {
-                return Ok(known);
-            }
+        let is_enough = |bumps: &[Bump]| matches!(effort, Effort::Order(is_enough) if is_enough(bumps));
+        if is_enough(&bumps(&[], &overlaps, thickness_mm)) {
+            return Ok(Self { overlaps, ..Self::unchecked(motion.model(), thickness_mm) });
         }
         let parts = motion.model().parts().len();
         let care = match effort {
@@ -213,17 +211,8 @@ impl FoldPlan {
 
     /// Pairs that overlap by more than the paper's thickness, unfolded or while they fold, and by how much
     /// more, mm. The two indices are equal for chains of one component.
-    pub fn bumps(&self) -> Vec<([usize; 2], f64)> {
-        let mut bumps: BTreeMap<[usize; 2], f64> = BTreeMap::new();
-        let clashes = self.clashes.iter().map(|clash| (clash.parts, clash.depth_mm));
-        for (parts, depth_mm) in clashes.chain(self.overlaps.iter().map(|o| (o.parts, o.depth_mm))) {
-            let excess_mm = depth_mm - self.thickness_mm;
-            if excess_mm > 0.0 {
-                let worst_mm = bumps.entry(parts).or_insert(0.0);
-                *worst_mm = worst_mm.max(excess_mm);
-            }
-        }
-        bumps.into_iter().collect()
+    pub fn bumps(&self) -> Vec<Bump> {
+        bumps(&self.clashes, &self.overlaps, self.thickness_mm)
     }
 
     /// Pairs of components that bump by more than the paper is thick while they fold.
@@ -241,6 +230,20 @@ impl FoldPlan {
     pub fn harm_mm(&self) -> f64 {
         self.bumps().iter().fold(0.0, |sum, (_, excess_mm)| sum + excess_mm)
     }
+}
+
+/// Pairs that are deeper in each other than paper is thick, and by how much more, mm.
+fn bumps(clashes: &[Clash], overlaps: &[Overlap], thickness_mm: f64) -> Vec<Bump> {
+    let mut bumps: BTreeMap<[usize; 2], f64> = BTreeMap::new();
+    let clashes = clashes.iter().map(|clash| (clash.parts, clash.depth_mm));
+    for (parts, depth_mm) in clashes.chain(overlaps.iter().map(|o| (o.parts, o.depth_mm))) {
+        let excess_mm = depth_mm - thickness_mm;
+        if excess_mm > 0.0 {
+            let worst_mm = bumps.entry(parts).or_insert(0.0);
+            *worst_mm = worst_mm.max(excess_mm);
+        }
+    }
+    bumps.into_iter().collect()
 }
 
 impl Sequence {

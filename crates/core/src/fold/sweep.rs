@@ -54,6 +54,12 @@ impl Ball {
         let radius_mm = corners.map(|c| c.distance(centre)).fold(0.0, f64::max);
         Self { centre, radius_mm, sway_mm }
     }
+
+    /// Whether two balls with their middles at these points can meet once they have moved by `way_mm`.
+    fn can_meet([a, b]: [&Self; 2], [p, q]: [DVec3; 2], way_mm: f64) -> bool {
+        let reach_mm = a.radius_mm + b.radius_mm + way_mm;
+        p.distance_squared(q) <= reach_mm * reach_mm
+    }
 }
 
 /// Sheets that ride on one panel.
@@ -309,10 +315,7 @@ impl<'a> Poses<'a> {
     fn deepest(&self, list: &[[usize; 2]], least_mm: f64, axes: &mut Axes) -> Option<([SheetId; 2], f64)> {
         let mut deepest = None;
         let mut deepest_mm = least_mm;
-        let are_far = |p: DVec3, q: DVec3, [a, b]: [&Ball; 2]| {
-            let reach_mm = a.radius_mm + b.radius_mm;
-            p.distance_squared(q) > reach_mm * reach_mm
-        };
+        let are_far = |p: DVec3, q: DVec3, balls: [&Ball; 2]| !Ball::can_meet(balls, [p, q], 0.0);
         axes.resize(list.len(), Vec::new());
         for (&[a, b], axes) in list.iter().zip(axes) {
             let (first, second) = (&self.bodies[a], &self.bodies[b]);
@@ -345,9 +348,8 @@ impl<'a> Poses<'a> {
 
 /// Whether two balls are farther apart than `way_mm`.
 fn are_far([a, b]: [(&Body, &Ball); 2], at: &Moment<'_>, way_mm: f64) -> bool {
-    let [p, q] = [a, b].map(|(body, ball)| at.moved(body.carrier).transform_point3(ball.centre));
-    let reach = a.1.radius_mm + b.1.radius_mm + way_mm;
-    p.distance_squared(q) > reach * reach
+    let centres = [a, b].map(|(body, ball)| at.moved(body.carrier).transform_point3(ball.centre));
+    !Ball::can_meet([a.1, b.1], centres, way_mm)
 }
 
 /// The first contact of a list in a cell.

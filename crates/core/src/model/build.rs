@@ -2,7 +2,8 @@
 
 use super::bond::{Bond, crossing};
 use super::candidate::{Builder, Made, Search};
-use super::choice::{Best, Bump, Choice, Combination, Effort, Enough, Trouble};
+use super::choice::{Best, Choice, Combination, Effort, Trouble};
+use super::harms::{Bump, Enough};
 use super::known::Known;
 use super::link::Link;
 use super::pair::Pairs;

@@ -14,17 +14,13 @@
 
 use super::bond::Bond;
 use super::candidate::Made;
+use super::harms::{Bump, Enough, Harms, harm_mm, way};
 use super::link::Link;
 use super::pair::{Pairs, WEAK_PRICE_MM};
 use crate::progress::Cancelled;
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
-/// A pair that bumps costs this much, mm of error: with half of both prices a hand and a plane of 7 and 10
-/// parts bump,
-const BUMP_PRICE_MM: f64 = 50.0;
-/// and this for each mm that it bumps deeper.
-const DEPTH_PRICE: f64 = 12.0;
 /// Models that are looked at, besides those for each part.
 const LOOKS: usize = 24;
 /// A search is given up after so many models in a row that are no better, and this share of all that it may look at. Most
@@ -38,22 +34,11 @@ const STARTS: usize = 8;
 /// Models that are looked at together.
 const AT_ONCE: usize = 2;
 
-/// What two parts do to each other: their numbers, and how deep they bump, mm.
-pub type Bump = ([usize; 2], f64);
-
-/// Tells whether so many bumps are enough to rule a model out.
-pub type Enough<'a> = dyn Fn(&[Bump]) -> bool + Sync + 'a;
-
 /// Tells what the parts of a combination do to each other: all, or enough to rule it out.
 type Bumping<'a> = dyn Fn(&[usize], &Enough<'_>) -> Result<Vec<Bump>, Cancelled> + Sync + 'a;
 
 /// Tells what the looks of combinations cost, mm.
 type Looks<'a> = dyn Fn(&[Combination]) -> Vec<f64> + Sync + 'a;
-
-/// What parts that bump cost, mm of error.
-pub(super) fn harm_mm(bumps: &[Bump]) -> f64 {
-    bumps.iter().map(|bump| BUMP_PRICE_MM + DEPTH_PRICE * bump.1).sum()
-}
 
 /// Candidates of all parts and what they cost.
 ///
@@ -271,14 +256,14 @@ impl Choice {
             let bumps = bumps(&of, &is_enough)?;
             Ok(Look { cost_mm: free_mm + harm_mm(&bumps), is_whole: !is_enough(&bumps), of, bumps })
         };
-        let mut harms = Harms::new(self);
+        let mut harms = Harms::new(&self.parents);
         let mut best = look(unhindered.clone(), f64::INFINITY)?;
-        harms.learn(&best);
+        harms.learn(&best.of, &best.bumps, best.is_whole);
         let mut seen = BTreeSet::from([best.of.clone()]);
         if let Some(other) = start.filter(|of| *of != best.of) {
             seen.insert(other.clone());
             let other = look(other, best.cost_mm)?;
-            harms.learn(&other);
+            harms.learn(&other.of, &other.bumps, other.is_whole);
             if other.cost_mm < best.cost_mm {
                 best = other;
             }
@@ -316,7 +301,7 @@ impl Choice {
             let looks: Vec<Result<Look, Cancelled>> =
                 group.into_par_iter().map(|of| look(of, best.cost_mm)).collect();
             let looks = looks.into_iter().collect::<Result<Vec<Look>, Cancelled>>()?;
-            looks.iter().for_each(|look| harms.learn(look));
+            looks.iter().for_each(|look| harms.learn(&look.of, &look.bumps, look.is_whole));
             let cheapest = looks.into_iter().min_by(|a, b| a.cost_mm.total_cmp(&b.cost_mm));
             if let Some(better) = cheapest.filter(|other| other.cost_mm < best.cost_mm) {
                 best = better;
@@ -362,7 +347,7 @@ impl Choice {
 
     /// Variables of the parts that bump, and of those between them.
     fn involved(&self, look: &Look) -> BTreeSet<usize> {
-        look.bumps.iter().flat_map(|b| self.way(b.0)).map(|part| self.variable[part]).collect()
+        look.bumps.iter().flat_map(|b| way(&self.parents, b.0)).map(|part| self.variable[part]).collect()
     }
 
     /// Combinations in which a part that bumps, or one between two that do, has another candidate, or one
@@ -380,64 +365,6 @@ impl Choice {
             }
         }
         neighbours
-    }
-
-    /// Two parts and those between them.
-    fn way(&self, [a, b]: [usize; 2]) -> Vec<usize> {
-        let line = |p: usize| std::iter::successors(Some(p), |p| self.parents[*p]).collect::<Vec<_>>();
-        let (a, b) = (line(a), line(b));
-        let shared = a.iter().rev().zip(b.iter().rev()).take_while(|(x, y)| x == y).count();
-        // The last shared one is between them.
-        let keep = shared.saturating_sub(1);
-        a[..a.len() - keep].iter().chain(&b[..b.len() - shared]).copied().collect()
-    }
-}
-
-/// What pairs of parts did to each other in the combinations that were looked at.
-///
-/// It depends on the candidates of the two and of the parts between them, and on the order of folding, which depends
-/// on all. So the least harm seen with the same candidates there is a guess, and most often the truth.
-struct Harms {
-    /// All pairs, each with the parts between its two, both ends included.
-    ways: Vec<([usize; 2], Vec<usize>)>,
-    /// For each the candidates on its way that were seen, and the harm, mm of error.
-    least_mm: Vec<BTreeMap<Combination, f64>>,
-    /// Those with harm: the number of the pair and the candidates.
-    harmful: BTreeMap<(usize, Combination), f64>,
-}
-
-impl Harms {
-    fn new(choice: &Choice) -> Self {
-        let parts = choice.parents.len();
-        let pairs = (0..parts).flat_map(|b| (0..=b).map(move |a| [a, b]));
-        let ways: Vec<_> = pairs.map(|pair| (pair, choice.way(pair))).collect();
-        Self { least_mm: vec![BTreeMap::new(); ways.len()], ways, harmful: BTreeMap::new() }
-    }
-
-    fn learn(&mut self, look: &Look) {
-        for (k, (pair, way)) in self.ways.iter().enumerate() {
-            let bumps: Vec<Bump> = look.bumps.iter().filter(|bump| bump.0 == *pair).copied().collect();
-            let on_way: Combination = way.iter().map(|&part| look.of[part]).collect();
-            if bumps.is_empty() && !look.is_whole {
-                continue;
-            }
-            let mm = harm_mm(&bumps);
-            let least_mm = self.least_mm[k].entry(on_way.clone()).or_insert(mm);
-            *least_mm = least_mm.min(mm);
-            if *least_mm > 0.0 {
-                self.harmful.insert((k, on_way), *least_mm);
-            } else {
-                self.harmful.remove(&(k, on_way));
-            }
-        }
-    }
-
-    /// What a combination is expected to cost by its bumps: those that are known.
-    fn expected_mm(&self, of: &[usize]) -> f64 {
-        let is_here = |(k, on_way): &(usize, Combination)| {
-            self.ways[*k].1.iter().zip(on_way).all(|(&part, &candidate)| of[part] == candidate)
-        };
-        self.harmful.iter().filter(|(key, _)| is_here(key)).map(|(_, mm)| mm).sum()
     }
 }
 
@@ -688,18 +615,5 @@ mod tests {
     fn the_search_can_be_stopped() {
         let tree = Tree::random(&mut Rng::with_seed(3));
         assert!(tree.choice().best(None, Effort::Long, &|_, _| Err(Cancelled), &no_looks).is_err());
-    }
-
-    #[test]
-    fn a_way_has_the_parts_between() {
-        // 0 carries 1 and 2, 1 carries 3; 4 stands by itself.
-        let joints = [[0, 1], [0, 2], [1, 3]].map(|ends| (ends, vec![vec![0.0]]));
-        let choice = Choice::of_costs((0..5).collect(), vec![vec![0.0]; 5], joints.to_vec());
-        let way = |a, b| choice.way([a, b]).into_iter().collect::<BTreeSet<usize>>();
-        assert_eq!(way(3, 2), BTreeSet::from([0, 1, 2, 3]));
-        assert_eq!(way(0, 3), BTreeSet::from([0, 1, 3]));
-        assert_eq!(way(1, 3), BTreeSet::from([1, 3]));
-        assert_eq!(way(2, 2), BTreeSet::from([2]));
-        assert!(way(3, 4).is_superset(&BTreeSet::from([3, 4])));
     }
 }

@@ -4,6 +4,7 @@ mod bond;
 mod build;
 mod candidate;
 mod choice;
+mod harms;
 mod joined;
 mod known;
 mod link;
@@ -19,7 +20,7 @@ mod sturdy;
 mod symmetry;
 
 pub use build::{Assembly, Built, Judge, Run, Sketch, Unjudged, Verdict, alone, build};
-pub use choice::{Bump, Enough};
+pub use harms::{Bump, Enough};
 pub use joined::{JoinedPart, Seam};
 pub use known::Known;
 pub use link::{Contact, Link, link_tree};
@@ -153,7 +154,7 @@ impl Model {
 
     /// What parts that bump and joints that lack glue cost, mm of error.
     pub fn harm_mm(&self, bumps: &[Bump]) -> f64 {
-        choice::harm_mm(bumps) + (0..self.parts.len()).map(|part| self.lack_mm(part)).sum::<f64>()
+        harms::harm_mm(bumps) + (0..self.parts.len()).map(|part| self.lack_mm(part)).sum::<f64>()
     }
 
     fn lack_mm(&self, part: usize) -> f64 {
