@@ -49,7 +49,7 @@ fn at_each_turn(bencher: Bencher, path: &str, make: impl Fn(&Engine<'_>, &Option
     let Some(mesh) = read(path) else { return };
     let engine = Engine::new(Cow::Owned(mesh));
     let Ok(shaped) = engine.shape(&Options::default(), &Silent) else { return };
-    let names = shaped.divided().hulls().names().to_vec();
+    let names = shaped.source().names().to_vec();
     let count = AtomicUsize::new(0);
     bencher.bench(|| {
         let turn = count.fetch_add(1, Ordering::Relaxed);

@@ -56,5 +56,5 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn scenes(input: &str) -> Result<[Scene; 2], Box<dyn Error>> {
     let (mesh, _) = Mesh::from_soup(&mesh::read(&std::fs::read(input)?)?)?;
     let shaped = Engine::new(Cow::Owned(mesh)).shape(&Options::default(), &Silent)?;
-    Ok([mesh_scene(shaped.divided().mesh())?, components_scene(shaped.model())])
+    Ok([mesh_scene(shaped.source().mesh())?, components_scene(shaped.model())])
 }

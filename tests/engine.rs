@@ -55,7 +55,7 @@ fn going_to_and_fro_gives_what_a_fresh_run_gives() {
     let mesh = bottle();
     let engine = Engine::new(Cow::Borrowed(&mesh));
     let first = engine.run(&options(), &Silent).expect("a model");
-    let names = first.shaped().divided().hulls().names().to_vec();
+    let names = first.shaped().source().names().to_vec();
     assert_eq!(names.len(), 2);
     let merged = Options { edits: vec![Edit::Merge { parts: names.clone() }], ..options() };
     let small = Options { paper: parse_paper("a3").expect("a3"), ..turned(&names[1], 30.0) };

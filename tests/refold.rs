@@ -162,7 +162,7 @@ fn joints_hold_from_deployed_to_flat() {
 fn profiles_are_within_their_limits_and_have_no_gap() {
     let options = Options::default();
     for Made { name, output, .. } in samples() {
-        let bodies = Bodies::new(output.shaped().divided().hulls(), &options).unwrap();
+        let bodies = Bodies::new(output.shaped().source().hulls().unwrap(), &options).unwrap();
         for (part, body) in output.model().parts().iter().zip(bodies.parts()) {
             let limits = &body.options;
             let profiles = part.component.profiles();
@@ -285,7 +285,7 @@ fn bars(content: &[u8]) -> Vec<[DVec2; 2]> {
 fn models_of_symmetric_meshes_are_their_own_mirror_images() {
     let mut symmetric = Vec::new();
     for Made { name, output, .. } in samples() {
-        let hulls = output.shaped().divided().hulls();
+        let hulls = output.shaped().source().hulls().unwrap();
         let Some(symmetry) = hulls.symmetry() else { continue };
         symmetric.push(*name);
         let (model, mirror) = (output.model(), symmetry.mirror());

@@ -57,7 +57,7 @@ pub fn cards(shown: &Shown, painting: &Painting) -> Option<Change> {
 
 /// The change that divides a part by a plane in the model's axes.
 pub fn split(shown: &Shown, part: usize, point: DVec3, normal: DVec3) -> Option<Change> {
-    let to_file = shown.shaped()?.divided().to_model().inverse();
+    let to_file = shown.shaped()?.source().to_model().inverse();
     let (point, normal) = (to_file.transform_point3(point), to_file.transform_vector3(normal));
     let name = shown.names().get(part)?.clone();
     Some(Change::Split { name, point, normal: normal.normalize_or_zero() })
@@ -66,7 +66,7 @@ pub fn split(shown: &Shown, part: usize, point: DVec3, normal: DVec3) -> Option<
 /// The plane across a part's hull, one of [`AXES`], at a share of its way: a point and a normal in the
 /// model's axes.
 pub fn plane(shown: &Shown, part: usize, axis: usize, share: f64) -> Option<(DVec3, DVec3)> {
-    let hull = shown.shaped()?.divided().hulls().hulls().get(part)?;
+    let hull = shown.shaped()?.source().hulls()?.hulls().get(part)?;
     let normal = match AXES.get(axis)?.1 {
         DVec3::ZERO => {
             // Fold axes are across the length.

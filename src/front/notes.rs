@@ -39,7 +39,7 @@ fn is_grave(warning: &Warning) -> bool {
 
 /// The names, before they were changed, of the components that a warning is about.
 fn about(output: &Output, warning: &Warning) -> Vec<String> {
-    let shown = output.model().parts().iter().zip(output.shaped().divided().hulls().names());
+    let shown = output.model().parts().iter().zip(output.shaped().source().names());
     let named: Vec<(&str, &String)> = shown.map(|(part, name)| (part.name.as_str(), name)).collect();
     let of = |about: &&str| named.iter().find(|(shown, _)| shown == about).map(|(_, name)| (*name).clone());
     let mut names: Vec<String> = words::about(warning).iter().filter_map(of).collect();

@@ -56,7 +56,7 @@ impl Opened {
                 let options = Options::default();
                 let shaped = shape_drawn(&sketches, None, &options, &Silent)
                     .map_err(|error| words::failure(&error))?;
-                (shaped.divided().mesh().clone(), Some(Arc::new(sketches)))
+                (shaped.source().mesh().clone(), Some(Arc::new(sketches)))
             }
         };
         let is_project = input.project.is_some();

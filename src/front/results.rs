@@ -52,7 +52,7 @@ impl Shown {
 
     /// All components.
     pub fn show_shaped(&mut self, shaped: Shaped) {
-        self.colours.keep(shaped.divided().hulls().names());
+        self.colours.keep(shaped.source().names());
         self.shaped = Some(shaped);
         (self.ahead, self.distances) = (None, None);
         self.show_shape();
@@ -149,6 +149,6 @@ impl Shown {
 
     /// Names of the components that edits and options go by.
     pub fn names(&self) -> &[String] {
-        self.shaped.as_ref().map_or(&[], |shaped| shaped.divided().hulls().names())
+        self.shaped.as_ref().map_or(&[], |shaped| shaped.source().names())
     }
 }

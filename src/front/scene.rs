@@ -10,7 +10,7 @@ use tatamu::drawing::Rgb;
 use tatamu::fold::{Clash, ModelMotion, ModelPose, Moment, Motion, Sequence};
 use tatamu::mesh::Mesh;
 use tatamu::model::ModelPart;
-use tatamu::pipeline::Options;
+use tatamu::pipeline::{Hulls, Options};
 use tatamu::render::light;
 use tatamu::render::zbuffer::{Frame, Line, Solids};
 use tatamu::show::upright;
@@ -128,15 +128,15 @@ pub fn scene(seen: &Seen<'_>, setting: &Setting) -> Solids {
         return solids;
     };
     let layers = setting.layers;
-    let divided = shaped.divided();
-    let of_face = |face: usize| divided.face_parts()[face].map(|p| p as usize);
+    let source = shaped.source();
+    let of_face = |face: usize| source.face_parts()[face].map(|p| p as usize);
     let is_hidden = |part: usize| shown.names().get(part).is_some_and(|name| seen.visibility.is_hidden(name));
     let is_seen = |face: usize| !of_face(face).is_some_and(is_hidden);
     let tag = |face: usize| of_face(face).map_or(Frame::NOTHING, |part| Tag { part, panel: None }.number());
     if layers.distances
         && let Some(distances) = shown.distances()
     {
-        push_mesh(&mut solids, divided.mesh(), |f| is_seen(f).then(|| (distances.colour(f), tag(f))), false);
+        push_mesh(&mut solids, source.mesh(), |f| is_seen(f).then(|| (distances.colour(f), tag(f))), false);
     } else if layers.segments {
         let names = shown.names();
         let colour = |face: usize| {
@@ -145,17 +145,13 @@ pub fn scene(seen: &Seen<'_>, setting: &Setting) -> Solids {
                 || setting.hover.as_ref().is_some_and(|h| h.is_on(part));
             lit(shown.colour(part), is_lit)
         };
-        push_mesh(
-            &mut solids,
-            divided.mesh(),
-            |f| is_seen(f).then(|| (colour(f), tag(f))),
-            layers.components,
-        );
+        push_mesh(&mut solids, source.mesh(), |f| is_seen(f).then(|| (colour(f), tag(f))), layers.components);
     } else if layers.input {
-        push_mesh(&mut solids, divided.mesh(), |f| is_seen(f).then(|| (PLAIN, tag(f))), layers.components);
+        push_mesh(&mut solids, source.mesh(), |f| is_seen(f).then(|| (PLAIN, tag(f))), layers.components);
     }
     if layers.hulls {
-        for (part, hull) in divided.hulls().hulls().iter().enumerate().filter(|(part, _)| !is_hidden(*part)) {
+        let hulls = source.hulls().map_or(&[][..], Hulls::hulls);
+        for (part, hull) in hulls.iter().enumerate().filter(|(part, _)| !is_hidden(*part)) {
             let colour = light::mixed(shown.colour(part), Rgb::BLACK, 0.4);
             for facet in hull.facets() {
                 let outline: Vec<DVec3> = facet
@@ -175,10 +171,10 @@ pub fn scene(seen: &Seen<'_>, setting: &Setting) -> Solids {
         push_components(&mut solids, seen, setting);
     }
     if layers.grid {
-        push_grid(&mut solids, divided.mesh());
+        push_grid(&mut solids, source.mesh());
     }
     if let Some((point, normal)) = setting.split {
-        push_plane(&mut solids, point, normal, 0.3 * divided.mesh().diagonal_mm());
+        push_plane(&mut solids, point, normal, 0.3 * source.mesh().diagonal_mm());
     }
     solids
 }

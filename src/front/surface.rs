@@ -33,20 +33,20 @@ impl Distances {
 
 /// Measures the distances.
 pub fn distances(shaped: &Shaped) -> Distances {
-    let divided = shaped.divided();
+    let source = shaped.source();
     let solids: Vec<(Option<Polytope>, DAffine3)> = shaped
         .model()
         .parts()
         .iter()
         .map(|p| (p.component.solid().map(polytope), p.frame.inverse()))
         .collect();
-    let of_face_mm: Vec<Option<f32>> = divided
+    let of_face_mm: Vec<Option<f32>> = source
         .face_parts()
         .par_iter()
         .enumerate()
         .map(|(face, part)| {
             let (solid, to_local) = &solids[(*part)? as usize];
-            let middle = to_local.transform_point3(divided.mesh().corners(face).iter().sum::<DVec3>() / 3.0);
+            let middle = to_local.transform_point3(source.mesh().corners(face).iter().sum::<DVec3>() / 3.0);
             let position = solid.as_ref()?.position(middle);
             Some(position.nearest.map_or(position.depth_mm, |(point, _)| point.distance(middle)) as f32)
         })

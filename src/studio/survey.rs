@@ -149,7 +149,7 @@ impl Scout {
         let own = options.components.entry(self.name.clone()).or_default();
         own.direction_rad = Some(std::f64::consts::TAU * k as f64 / COUNT as f64);
         let shaped = self.engine.shape(&options, self).ok()?;
-        let part = shaped.divided().hulls().names().iter().position(|name| *name == self.name)?;
+        let part = shaped.source().names().iter().position(|name| *name == self.name)?;
         let error_mm = shaped.model().parts()[part].component.hausdorff_mm();
         Some(Look { error_mm, is_free: self.engine.folds_freely(&shaped, self).ok()? })
     }

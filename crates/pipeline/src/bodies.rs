@@ -12,7 +12,7 @@ use tatamu_core::model::{self, Assembly, Bump, Contact, Link, Part, PartOptions,
 use tatamu_core::segment::{self, Interior, Parts, SegmentId, Segmentation};
 
 /// Hulls of the parts of a mesh with the joints between them, as the shape alone decides them.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Hulls {
     solid: Solid,
     /// Of each hull the planes beyond which others are.
@@ -21,14 +21,14 @@ pub struct Hulls {
     links: Vec<Link>,
     symmetry: Option<Symmetry>,
     mirror_plane: Option<MirrorPlane>,
-    /// What the model should look like; nothing for drawn components.
-    views: Option<Arc<Views>>,
-    /// The solid that the mesh bounds; nothing for drawn components.
-    interior: Option<Arc<Interior>>,
+    /// What the model should look like.
+    views: Arc<Views>,
+    /// The solid that the mesh bounds.
+    interior: Arc<Interior>,
     /// What of each hull is solid.
     fillings: Vec<Option<Arc<Filling>>>,
-    /// The hulls before they left each other room, and where they touch; none for drawn components.
-    touching: Option<Arc<Touching>>,
+    /// The hulls before they left each other room, and where they touch.
+    touching: Arc<Touching>,
 }
 
 impl Hulls {
@@ -54,11 +54,12 @@ impl Hulls {
             links: touching.links.clone(),
             symmetry: touching.symmetry.clone(),
             mirror_plane: divided.segmentation().mirror().filter(|_| has_images).copied(),
-            views: Some(Arc::new(views)),
-            interior: Some(Arc::new(interior)),
+            views: Arc::new(views),
+            interior: Arc::new(interior),
             solid: Solid { hulls: Vec::new(), ..touching.solid.clone() },
-            touching: Some(Arc::new(touching)),
-            ..Self::default()
+            touching: Arc::new(touching),
+            borders: Vec::new(),
+            fillings: Vec::new(),
         };
         Ok(unfilled.with(Parted { hulls, borders }))
     }
@@ -68,10 +69,7 @@ impl Hulls {
         let before = self.solid.hulls.iter().zip(&self.fillings).collect::<Vec<_>>();
         let filling = |(part, hull): (usize, &Hull)| match before.get(part) {
             Some((before, filling)) if *before == hull => (*filling).clone(),
-            _ => {
-                let interior = self.interior.as_ref()?;
-                Filling::new(hull, |point| interior.contains(point)).map(Arc::new)
-            }
+            _ => Filling::new(hull, |point| self.interior.contains(point)).map(Arc::new),
         };
         let fillings = hulls.par_iter().enumerate().map(filling).collect();
         Self { solid: Solid { hulls, ..self.solid.clone() }, borders, fillings, ..self.clone() }
@@ -94,15 +92,10 @@ impl Hulls {
     /// The same with a part, and its image, on other parents; `None` where there are none that it touches.
     pub(super) fn on_another_parent(&self, child: usize) -> Option<Self> {
         let link = self.links.iter().find(|link| link.child == child)?;
-        let touching = self.touching.as_ref()?.without(link)?;
+        let touching = self.touching.without(link)?;
         let (hulls, borders) = touching.parted();
         let links = touching.links.clone();
-        Some(Self { links, touching: Some(Arc::new(touching)), ..self.with(Parted { hulls, borders }) })
-    }
-
-    /// No hulls; drawn components have names alone.
-    pub(super) fn drawn(names: Vec<String>) -> Self {
-        Self { names, ..Self::default() }
+        Some(Self { links, touching: Arc::new(touching), ..self.with(Parted { hulls, borders }) })
     }
 
     /// The hulls, clipped where joints are.
@@ -204,7 +197,7 @@ pub struct Bodies {
     parts: Vec<Part>,
     links: Vec<Link>,
     symmetry: Option<Symmetry>,
-    views: Option<Arc<Views>>,
+    views: Arc<Views>,
 }
 
 impl Bodies {
@@ -219,7 +212,7 @@ impl Bodies {
 
     /// What a model is built from.
     pub fn assembly(&self, min_panel_mm: f64) -> Assembly<'_> {
-        let (symmetry, views) = (self.symmetry(), self.views.as_deref());
+        let (symmetry, views) = (self.symmetry(), Some(&*self.views));
         Assembly { parts: &self.parts, links: &self.links, symmetry, min_panel_mm, views }
     }
 
@@ -241,7 +234,7 @@ impl Bodies {
 }
 
 /// Hulls of the segments that have one.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 struct Solid {
     hulls: Vec<Hull>,
     part_of_segment: Vec<Option<usize>>,

@@ -1,6 +1,6 @@
 //! The way from drawings to sheets.
 
-use super::{Divided, Engine, Error, Options, Output, Shaped, Warning, plugs};
+use super::{Drawing, Engine, Error, Options, Output, Shaped, Source, Warning, plugs};
 use glam::DVec3;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -21,8 +21,8 @@ pub fn run_drawn(
     progress: &dyn Progress,
 ) -> Result<Output, Error> {
     let shaped = shape_drawn(sketches, size_mm, options, progress)?;
-    let divided = shaped.divided.clone();
-    Engine::new(Cow::Borrowed(divided.mesh())).finish(shaped, progress)
+    let source = shaped.source.clone();
+    Engine::new(Cow::Borrowed(source.mesh())).finish(shaped, progress)
 }
 
 /// Makes the components of drawings, as [`Engine::shape`] does of a mesh.
@@ -49,10 +49,10 @@ pub fn shape_drawn(
     let Surface { mesh, face_part } = surface;
     let notes = drawn.warnings.into_iter().map(Warning::from).collect();
     let names = sketches.iter().map(|sketch| sketch.name().to_owned()).collect();
-    let divided = Arc::new(Divided::drawn(mesh, face_part, names));
+    let source = Source::Drawing(Arc::new(Drawing::new(mesh, face_part, names)));
     let model = Arc::new(plugs::as_chosen(drawn.model, &options)?);
     let remarks = Vec::new();
-    Ok(Shaped { options: Arc::new(options), divided, model, notes, remarks })
+    Ok(Shaped { options: Arc::new(options), source, model, notes, remarks })
 }
 
 /// The deployed panels as a mesh.

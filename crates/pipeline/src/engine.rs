@@ -7,7 +7,7 @@ use super::judge::FoldJudge;
 use super::mend::{Maker, Mended, mended};
 use super::plugs::{self, Planned};
 use super::warning::{self, not_joined};
-use super::{Bodies, Divided, Error, Options, Output, Shaped, Warning};
+use super::{Bodies, Divided, Error, Hulls, Options, Output, Shaped, Source, Warning};
 use glam::DAffine3;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -176,7 +176,8 @@ impl<'m> Engine<'m> {
             // How parts are held changes nothing about how they fold.
             self.ids.keep(model.clone(), ids);
         }
-        Ok(Shaped { options: Arc::new(options.clone()), divided, model, notes, remarks })
+        let source = Source::Mesh(divided);
+        Ok(Shaped { options: Arc::new(options.clone()), source, model, notes, remarks })
     }
 
     /// Components are built of parts, all of them convex.
@@ -352,7 +353,8 @@ impl<'m> Engine<'m> {
             Ok::<_, Error>((Arc::new(laid.0), Arc::new(laid.1)))
         })?;
         let mut warnings = shaped.notes.clone();
-        warnings.extend(warning::warnings(model, &nets, shaped.divided.hulls().flat_faces(), options));
+        let flat_faces = shaped.source.hulls().map_or(&[][..], Hulls::flat_faces);
+        warnings.extend(warning::warnings(model, &nets, flat_faces, options));
         warnings.extend(warning::many_sheets(&layout).map(Warning::from));
         warnings.extend(layout.unheeded_pins().iter().cloned().map(Warning::from));
         let fold_plan = Arc::new(FoldPlan::unchecked(model, options.thickness_mm));
@@ -391,7 +393,7 @@ fn of_boards(shaped: Shaped) -> Result<Shaped, Error> {
     if !options.is_thick {
         return Ok(shaped);
     }
-    let is_mesh = !shaped.divided.hulls().hulls().is_empty();
+    let is_mesh = matches!(shaped.source, Source::Mesh(_));
     let (boards, thick) = thick(&shaped.model, options.thickness_mm, options.min_panel_width_mm).map_err(
         // That of missing room says what boards suit.
         |error| match error {

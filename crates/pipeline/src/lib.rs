@@ -26,6 +26,7 @@ mod mend;
 mod openings;
 mod output;
 mod plugs;
+mod source;
 mod trial;
 mod warning;
 
@@ -34,7 +35,8 @@ pub use drawn::{run_drawn, shape_drawn};
 pub use engine::Engine;
 pub use level::Level;
 pub use openings::openings_mm2;
-pub use output::{Divided, Output, Shaped};
+pub use output::{Output, Shaped};
+pub use source::{Divided, Drawing, Source};
 pub use warning::{Change, ModelWarning, PanelSide, ProjectWarning, TrialWarning, Warning};
 
 use glam::DAffine3;

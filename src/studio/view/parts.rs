@@ -185,7 +185,7 @@ fn text_row(
 fn figures(studio: &Studio, ui: &mut Ui, index: usize) {
     let (Some(part), Some(shaped)) = (studio.shown().part(index), studio.shown().shaped()) else { return };
     let error_mm = part.component.hausdorff_mm();
-    let share = 100.0 * error_mm / shaped.divided().mesh().diagonal_mm();
+    let share = 100.0 * error_mm / shaped.source().mesh().diagonal_mm();
     ui.label("Distance")
         .on_hover_text("Hausdorff distance from the part's hull, and its share of the model's diagonal");
     ui.label(format!("{error_mm:.2} mm ({share:.1} %)"));

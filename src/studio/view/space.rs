@@ -346,7 +346,7 @@ impl Space {
 
     /// Follows a new model: the view keeps it as large as it was, and a clash that is no more is not shown.
     fn follow(&mut self, studio: &Studio) {
-        let diagonal_mm = studio.shown().shaped().map(|shaped| shaped.divided().mesh().diagonal_mm());
+        let diagonal_mm = studio.shown().shaped().map(|shaped| shaped.source().mesh().diagonal_mm());
         if let (Some(before), Some(now), Some(orbit)) = (self.diagonal_mm, diagonal_mm, &mut self.orbit)
             && before != now
         {

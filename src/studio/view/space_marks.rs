@@ -118,7 +118,7 @@ pub fn legend(studio: &Studio, ui: &Ui, rect: Rect, layers: Layers) {
         });
     }
     if let Some(shaped) = studio.shown().shaped().filter(|_| layers.grid) {
-        lines.push(format!("grid {} mm", scene::grid_mm(shaped.divided().mesh().diagonal_mm())));
+        lines.push(format!("grid {} mm", scene::grid_mm(shaped.source().mesh().diagonal_mm())));
     }
     if !lines.is_empty() {
         let at = rect.left_top() + egui::vec2(14.0, 12.0);

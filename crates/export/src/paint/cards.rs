@@ -58,7 +58,7 @@ struct Cluster {
 
 /// The name of a colour of card for each component, by its name.
 pub fn cards(output: &Output, painting: &Painting) -> BTreeMap<String, &'static str> {
-    let tree = Tree::new(painting.corners(output.to_model()));
+    let tree = Tree::new(painting.corners(&output.to_model()));
     let parts = output.model().parts().iter().zip(output.nets());
     let clusters = parts.map(|(part, net)| {
         let area_mm2: f64 = net.panels().panels().iter().map(|panel| polygon::area(&panel.outline)).sum();

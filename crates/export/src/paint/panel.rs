@@ -32,7 +32,7 @@ struct Place<'a> {
 
 /// A picture for each panel, with the index of its sheet, in the order of the nets.
 pub fn pictures(output: &Output, painting: &Painting) -> Vec<(usize, Mark)> {
-    let tree = Tree::new(painting.corners(output.to_model()));
+    let tree = Tree::new(painting.corners(&output.to_model()));
     let parts = output.model().parts().iter().zip(output.nets()).enumerate();
     let places: Vec<Place> = parts
         .flat_map(|(n, (part, net))| {

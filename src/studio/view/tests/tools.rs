@@ -326,7 +326,7 @@ fn two_corners_that_are_clicked_are_measured() {
         press(&mut desk, at, Modifiers::NONE);
     }
     let mm = desk.state().space().measure().length_mm().unwrap();
-    let whole_mm = desk.state().studio().shown().shaped().unwrap().divided().mesh().diagonal_mm();
+    let whole_mm = desk.state().studio().shown().shaped().unwrap().source().mesh().diagonal_mm();
     assert!(mm > 1.0 && mm < whole_mm, "{mm} mm");
     assert!(desk.query_by_label(&format!("{mm:.1} mm")).is_some());
     assert!(desk.state().studio().selection.names().is_empty(), "a click is for the measure alone");
