@@ -1,72 +1,30 @@
-"""Reads a job with a program that is not ours, and compares it with the DXF file of the same sheet: HP-GL with
-hp2xx, G-code with gcodeparser.
+"""Compares a job, read by a program that is not ours, with the DXF file of the same sheet.
 
-    check_job.py JOB.plt|JOB.gcode SHEET.dxf [BLADE_OFFSET_MM]
+    check_job.py LANGUAGE JOB SHEET.dxf [BLADE_OFFSET_MM]
 
-Fails where the program ignores a command, and where a line of the one is farther than the tolerance from
-the lines of the other. The job has to be that of a pen or a laser without overcut, so that both are the same
-geometry. With a blade's offset it is that of a drag knife in G-code, whose tip is simulated.
+LANGUAGE is that of the job: the name of a function of job_readers.py. Fails where the reader does not know a
+command, and where a line of the one is farther than the tolerance from the lines of the other. The job has to be
+that of a pen or a laser without overcut, so that both are the same geometry. With a blade's offset it is that of a
+drag knife, whose tip is simulated.
 """
 
 import math
-import re
-import subprocess
 import sys
-import tempfile
+
+import dxf_lines
+import job_readers
 
 TOLERANCE_MM = 0.025
 KNIFE_TOLERANCE_MM = 0.05
+# A unit of GP-GL is 0.05 mm: rounded, a corner is up to 0.036 mm off.
+COARSE_TOLERANCE_MM = 0.04
+COARSE = {"gpgl"}
+# A blade that points along its way to so many radians does not turn any more.
+ALIGNED = 1e-4
 SKIPPED_LAYERS = {"0"}
-DRAWN_LAYERS = {"GLUE", "LABEL"}
-
-
-def pairs(path):
-    lines = open(path, encoding="utf-8").read().splitlines()
-    return [(lines[k].strip(), lines[k + 1].strip()) for k in range(0, len(lines) - 1, 2)]
-
-
-def entities(path):
-    """(type, {code: [values]}) of the section ENTITIES."""
-    found, is_inside, entity = [], False, None
-    for code, value in pairs(path):
-        if code == "2" and value == "ENTITIES":
-            is_inside = True
-        elif code == "0":
-            if value == "ENDSEC":
-                is_inside = False
-            entity = (value, {}) if is_inside else None
-            if entity:
-                found.append(entity)
-        elif entity:
-            entity[1].setdefault(code, []).append(value)
-    return found
-
-
-def segments(path):
-    out, polyline = [], None
-    for kind, codes in entities(path):
-        layer = codes.get("8", ["0"])[0]
-        number = lambda code: [float(v) for v in codes.get(code, [])]
-        if kind == "LINE":
-            points, is_closed = [(number("10")[0], number("20")[0]), (number("11")[0], number("21")[0])], False
-        elif kind == "LWPOLYLINE":
-            points = list(zip(number("10"), number("20")))
-            is_closed = int(codes.get("70", ["0"])[0]) & 1
-        elif kind == "POLYLINE":
-            polyline = ([], int(codes.get("70", ["0"])[0]) & 1, layer)
-            continue
-        elif kind == "VERTEX" and polyline:
-            polyline[0].append((number("10")[0], number("20")[0]))
-            continue
-        elif kind == "SEQEND" and polyline:
-            points, is_closed, layer = polyline
-            polyline = None
-        else:
-            continue
-        if is_closed:
-            points = points + points[:1]
-        out += [(a, b, layer) for a, b in zip(points, points[1:])]
-    return out
+# Knives, and ScanNCut's files, leave labels out.
+WITHOUT_PEN = {"fcm", "gpgl"}
+DRAWN_LAYERS = {"GLUE", "LABEL", "ENGRAVE"}
 
 
 def distance(p, a, b):
@@ -101,37 +59,29 @@ def samples(lines):
             yield (a[0] + (b[0] - a[0]) * k / steps, a[1] + (b[1] - a[1]) * k / steps)
 
 
-def drawn_by_hpgl(job):
-    with tempfile.TemporaryDirectory() as folder:
-        drawn_path = f"{folder}/drawn.dxf"
-        command = ["hp2xx", "-t", "-x", "0", "-y", "0", "-m", "dxf", "-f", drawn_path, job]
-        run = subprocess.run(command, capture_output=True, text=True)
-        said = run.stdout + run.stderr
-        ignored = re.search(r"HPGL command\(s\) ignored:\s*(\d+)", said)
-        if run.returncode or not ignored or ignored[1] != "0":
-            sys.exit(f"hp2xx did not read all of it:\n{said}")
-        return segments(drawn_path)
-
-
 def tip(shaft, offset, direction):
     """The way of a blade's tip behind its shaft, and where the blade points at last: each step turns it by the
     tractrix, tan(a/2) = tan(a0/2) exp(-s/r)."""
     way = [(shaft[0][0] - offset * math.cos(direction), shaft[0][1] - offset * math.sin(direction))]
     for (ax, ay), (bx, by) in zip(shaft, shaft[1:]):
         length, along = math.hypot(bx - ax, by - ay), math.atan2(by - ay, bx - ax)
-        steps = max(1, math.ceil(length / 0.02))
+        steps = max(1, math.ceil(length / 0.05))
         for k in range(1, steps + 1):
             angle = math.remainder(direction - along, math.tau)
             direction = along + 2 * math.atan(math.tan(angle / 2) * math.exp(-length / steps / offset))
+            if abs(angle) < ALIGNED:
+                k = steps
             x, y = ax + (bx - ax) * k / steps, ay + (by - ay) * k / steps
             way.append((x - offset * math.cos(direction), y - offset * math.sin(direction)))
+            if k == steps:
+                break
     return way, direction
 
 
-def cut_by_knife(job, offset):
+def cut_by_knife(shaft, offset):
     """The lines that the tip cuts, without the first stroke, which only turns the blade."""
     strokes = []
-    for a, b in drawn_by_gcode(job):
+    for a, b in shaft:
         if strokes and strokes[-1][-1] == a:
             strokes[-1].append(b)
         else:
@@ -144,48 +94,14 @@ def cut_by_knife(job, offset):
     return lines
 
 
-def drawn_by_gcode(job):
-    """The moves with the beam on, or with the knife near the mat."""
-    from gcodeparser import parse_gcode_lines
-
-    text = open(job, encoding="ascii").read()
-    commands = list(parse_gcode_lines(text))
-    # Lines of one setting, F or S, are none to it.
-    written = [line for line in text.splitlines() if line.strip() and not re.fullmatch(r"[FS][0-9.]+", line)]
-    if len(commands) != len(written):
-        sys.exit(f"gcodeparser read {len(commands)} commands of {len(written)} lines")
-    at, is_down, drawn = (0.0, 0.0), False, []
-    for line in commands:
-        kind, params = line.command, line.params
-        if kind in (("M", 3), ("M", 4)):
-            is_down = params.get("S", 1) > 0
-        elif kind == ("M", 5):
-            is_down = False
-        elif kind in (("G", 0), ("G", 1)):
-            if "Z" in params:
-                is_down = params["Z"] < 1
-                continue
-            to = (params.get("X", at[0]), params.get("Y", at[1]))
-            if kind == ("G", 0) and is_down and to != at:
-                sys.exit(f"it travels with the beam on: {line}")
-            if is_down:
-                drawn.append((at, to))
-            at = to
-        elif kind[0] == "G" and kind[1] not in (4, 17, 21, 54, 90, 94):
-            sys.exit(f"unexpected {line}")
-    if is_down:
-        sys.exit("the beam is on at the end")
-    return drawn
-
-
-def main(job, sheet, offset=None):
-    skipped, tolerance = SKIPPED_LAYERS, TOLERANCE_MM
+def main(language, job, sheet, offset=None):
+    drawn = getattr(job_readers, language)(job, dxf_lines.height(sheet))
+    tolerance = COARSE_TOLERANCE_MM if language in COARSE else TOLERANCE_MM
     if offset:
-        drawn = cut_by_knife(job, float(offset))
-        skipped, tolerance = SKIPPED_LAYERS | DRAWN_LAYERS, KNIFE_TOLERANCE_MM
-    else:
-        drawn = drawn_by_gcode(job) if job.endswith(".gcode") else drawn_by_hpgl(job)
-    meant = [line for line in segments(sheet) if line[2] not in skipped]
+        drawn = cut_by_knife(drawn, float(offset))
+        tolerance = KNIFE_TOLERANCE_MM
+    skipped = SKIPPED_LAYERS | (DRAWN_LAYERS if offset or language in WITHOUT_PEN else set())
+    meant = [line for line in dxf_lines.segments(sheet) if line[2] not in skipped]
     if not drawn or not meant:
         sys.exit(f"{len(drawn)} lines drawn, {len(meant)} meant")
     for name, ours, others in [("drawn, not meant", drawn, meant), ("meant, not drawn", meant, drawn)]:
@@ -193,7 +109,7 @@ def main(job, sheet, offset=None):
         worst, place = max((grid.distance(p), p) for p in samples(ours))
         print(f"{name}: {worst:.4f} mm at most, at {place[0]:.2f}, {place[1]:.2f}")
         if worst > tolerance:
-            sys.exit(1)
+            sys.exit(f"more than {tolerance} mm")
 
 
 main(*sys.argv[1:])

@@ -223,6 +223,29 @@ fn a_machine_that_is_unplugged_or_reports_an_error_is_told_as_such() {
     }
 }
 
+/// Once, `--resume` took no notice of both flags, and sent the job.
+#[test]
+fn what_is_left_of_a_stopped_job_can_be_looked_at_without_a_machine() {
+    let folder = folder(100);
+    let machine =
+        Machine::start(folder.path(), &["--baud", "38400", "--speedup", "8", "--unplug-at", "9000"]);
+    let options = ["--cutter", "generic-hpgl", "--baud", "38400", "--yes"];
+    let mut plot = tatamu(folder.path());
+    let output = plot.args(["plot", "a.plt", "--port", &machine.port]).args(options).output().unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+    let journal = std::fs::read(folder.path().join("a.tatamu-job")).unwrap();
+    for look in [&["--dry-run"][..], &["--preview", "rest.png"], &["--dry-run", "--preview", "rest.png"]] {
+        let mut plot = tatamu(folder.path());
+        let output = plot.args(["plot", "--resume", "a.tatamu-job", "--yes"]).args(look).output().unwrap();
+        assert!(output.status.success(), "{}", said(&output));
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        let left: usize = text.split("a.plt: ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+        assert!((50..100).contains(&left), "{text}");
+        assert_eq!(std::fs::read(folder.path().join("a.tatamu-job")).unwrap(), journal);
+    }
+    assert!(std::fs::read(folder.path().join("rest.png")).unwrap().starts_with(b"\x89PNG"));
+}
+
 #[test]
 fn a_busy_port_is_refused() {
     let folder = folder(1);

@@ -37,8 +37,9 @@ pub fn find(name: &str, kind: &str, built_in: &[Profile]) -> Result<String, AppE
     let found = built_in.iter().find(|profile| profile.name == name);
     found.map(|profile| profile.text.to_owned()).ok_or_else(|| {
         let names: Vec<&str> = built_in.iter().map(|profile| profile.name).collect();
+        let all = if kind == "cutters" { "; \"tatamu cutters\" says what each machine takes" } else { "" };
         AppError::Options(format!(
-            "there is no profile \"{name}\" for {kind}; use one of: {}",
+            "there is no profile \"{name}\" for {kind}; use one of: {}{all}",
             names.join(", ")
         ))
     })

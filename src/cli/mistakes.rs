@@ -39,6 +39,9 @@ pub fn advice(error: &clap::Error) -> Option<String> {
         }
         ErrorKind::UnknownArgument => {
             let flag = said(ContextKind::InvalidArg)?;
+            if flag == "--for" {
+                return Some("--for writes files for another program; use it with tatamu make".to_owned());
+            }
             let (_, meant) = OTHER_NAMES.iter().find(|(other, _)| *other == flag)?;
             Some(format!("there is no option {flag}; use {meant}, which --help explains"))
         }

@@ -5,14 +5,14 @@ use super::worker::Wake;
 use crate::app::error::AppError;
 use crate::app::output;
 use crate::app::plot::Sheet;
-use crate::app::plot::{Operator, SystemPorts, doing, minutes};
+use crate::app::plot::{Operator, SystemPorts, doing};
 use crate::app::plot::{journal, live};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
-use tatamu::plotter::Cutter;
 use tatamu::plotter::journal::{Header, Position};
 use tatamu::plotter::session::Status;
+use tatamu::plotter::{Cutter, in_minutes};
 use tatamu::progress::Cancelled;
 
 /// Time between two looks at what the user wants.
@@ -147,7 +147,7 @@ impl Operator for Hand {
 
     fn show(&mut self, sheet: &str, first: usize, status: &Status) {
         let (done, all) = (first + status.strokes_done, first + status.strokes);
-        let left = minutes(status.seconds_left);
+        let left = in_minutes(status.seconds_left);
         let mut state = locked(&self.state);
         state.text = format!("{sheet}: stroke {done} of {all}, {left} left ({})", doing(status.state));
         state.share = done as f32 / all.max(1) as f32;

@@ -42,7 +42,11 @@ pub fn open() -> std::result::Result<Option<Bus>, AppError> {
         AppError::Port { port: "usb".to_owned(), reason: format!("the cutter cannot be used: {error}{hint}") }
     };
     let is_cutter = |device: &DeviceInfo| MAKERS.contains(&device.vendor_id());
-    let Some(found) = nusb::list_devices().wait().map_err(failed)?.find(is_cutter) else {
+    let unlisted = |error| AppError::Port {
+        port: "usb".to_owned(),
+        reason: format!("the devices on USB cannot be listed: {error}"),
+    };
+    let Some(found) = nusb::list_devices().wait().map_err(unlisted)?.find(is_cutter) else {
         return Ok(None);
     };
     let device = found.open().wait().map_err(failed)?;

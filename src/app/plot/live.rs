@@ -4,7 +4,7 @@ use super::grbl_words as words;
 use super::journal::Journal;
 use super::port::{Port, Ports, exchange};
 use super::sheets::{self, Sheet};
-use super::{Operator, handshake};
+use super::{Operator, handshake, rest};
 use crate::app::error::AppError;
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -41,19 +41,14 @@ pub fn send_all(
     header: &Header,
     start: Position,
 ) -> Result<(), AppError> {
-    let cutter = Cutter::parse(&header.cutter)
-        .map_err(|error| AppError::Profile { name: path.display().to_string(), error })?;
-    let damaged = || AppError::Input {
-        path: path.to_owned(),
-        reason: "the journal is damaged; start the job again".to_owned(),
-    };
+    let cutter = rest::cutter(path, header)?;
     let chosen = header.handshake.as_deref().map(handshake).transpose().map_err(AppError::Options)?;
     if let Some(chosen) = chosen.filter(|&handshake| !cutter.can_use(handshake)) {
         return Err(AppError::Options(format!(
-            "{} does not answer the host in that way (answers and dialect in its profile), so the handshake {} cannot \
-             work; use paced, or the handshake of the profile (\"tatamu profiles show\")",
+            "{} cannot use the handshake {}, because it answers in another way; use that of its profile, {}",
             cutter.name(),
-            chosen.name()
+            chosen.name(),
+            cutter.serial().handshake.name()
         )));
     }
     let mut port = ports.open(&header.port, header.baud, &cutter)?;
@@ -62,10 +57,8 @@ pub fn send_all(
     let mut at = start;
     while at.copy < header.copies {
         while at.sheet < header.sheets.len() {
-            let sheet = &header.sheets[at.sheet];
-            let name = &sheet.name;
-            let whole = sheets::parse(name, &sheet.bytes().ok_or_else(damaged)?, &cutter)?;
-            let rest = whole.from_stroke(at.strokes, &sheet.turns, cutter.dialect().as_ref());
+            let name = &header.sheets[at.sheet].name;
+            let (whole, rest) = rest::of_sheet(path, header, at, &cutter)?;
             let job = sheets::parse(name, &rest, &cutter)?;
             let first = whole.strokes() - job.strokes();
             if let Err(error) = operator.load(name, (at.copy + 1, header.copies)) {

@@ -7,6 +7,7 @@ pub mod journal;
 pub mod live;
 mod operator;
 mod port;
+pub mod rest;
 #[cfg(not(target_family = "wasm"))]
 mod serial;
 pub mod sheets;
@@ -19,7 +20,7 @@ pub use live::failure;
 pub use operator::{Operator, doing};
 #[cfg(not(target_family = "wasm"))]
 pub use serial::hint;
-pub use sheets::{Sheet, minutes};
+pub use sheets::Sheet;
 #[cfg(not(target_family = "wasm"))]
 pub use usb::{ANY, SystemPorts, usb_cutters};
 

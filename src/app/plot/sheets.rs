@@ -10,7 +10,7 @@ use glam::DVec2;
 use std::path::{Path, PathBuf};
 use tatamu::drawing::Drawing;
 use tatamu::export::{ExportError, Format, PltOptions, format_of};
-use tatamu::plotter::{Cutter, Job, Placement, Plan, PlanError, Point, test_cut};
+use tatamu::plotter::{Cutter, Job, Placement, Plan, PlanError, Point, in_minutes, test_cut};
 use tatamu::product::Product;
 use tatamu::project::options::Given;
 use tatamu::report::Run;
@@ -76,12 +76,13 @@ impl Sheet {
                 count => format!("{count} strokes"),
             },
             length(drawn),
-            minutes(self.job.seconds()),
+            in_minutes(self.job.seconds()),
             self.bytes.len()
         )
     }
 
-    fn of_file(name: String, bytes: Vec<u8>, cutter: &Cutter) -> Result<Self, AppError> {
+    /// A sheet of a file in the machine's language; where it lies on paper is not known.
+    pub(super) fn of_file(name: String, bytes: Vec<u8>, cutter: &Cutter) -> Result<Self, AppError> {
         let job = parse(&name, &bytes, cutter)?;
         let places = job.commands().iter().flat_map(|c| c.motions()).flat_map(|m| [m.from, m.to]);
         let on_sheet = |p: Point| cutter.frame().to_sheet(DVec2::ZERO, p);
@@ -126,12 +127,6 @@ pub fn parse(name: &str, bytes: &[u8], cutter: &Cutter) -> Result<Job, AppError>
 /// A length in words.
 fn length(mm: f64) -> String {
     if mm < 1000.0 { format!("{mm:.0} mm") } else { format!("{:.1} m", mm / 1000.0) }
-}
-
-/// A time in words.
-pub fn minutes(seconds: f64) -> String {
-    let whole = seconds.ceil() as u64;
-    if whole < 60 { format!("{whole} s") } else { format!("{} min {:02} s", whole / 60, whole % 60) }
 }
 
 /// Extensions of files in the language of a machine beside those that are written.

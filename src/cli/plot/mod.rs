@@ -8,7 +8,7 @@ use super::progress::TerminalProgress;
 use super::{terminal, words};
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
-use crate::app::plot::{Sheet, SystemPorts, handshake, journal, live, sheets};
+use crate::app::plot::{Sheet, SystemPorts, handshake, journal, live, rest, sheets};
 use crate::app::{names, output};
 use clap::Args;
 use operator::Terminal;
@@ -69,6 +69,8 @@ pub struct PlotArgs {
     test_cut: bool,
 
     /// Continues a stopped job from its journal (.tatamu-job)
+    ///
+    /// With --dry-run or --preview it shows what is left of the copy that it is at.
     #[arg(long, value_name = "JOB", conflicts_with_all = ["input", "test_cut", "only", "copies"])]
     resume: Option<PathBuf>,
 
@@ -106,7 +108,7 @@ pub fn run(args: &PlotArgs) -> Result<(), AppError> {
     }
     let chosen = Choice::new(None, args.machine.given())?;
     let machine = chosen.machine()?;
-    let is_live = !args.dry_run && (args.port.is_some() || args.preview.is_none());
+    let is_live = args.is_live();
     if is_live && args.port.is_none() {
         let message = "add --port (\"tatamu ports\" lists the ports), --dry-run or --preview";
         return Err(AppError::Options(message.to_owned()));
@@ -128,13 +130,26 @@ pub fn run(args: &PlotArgs) -> Result<(), AppError> {
         });
     }
     sheets.iter().flat_map(Sheet::notes).for_each(|note| terminal::complain("note", note));
+    show(args, &sheets, &machine.cutter)?;
+    if is_live { start(args, &machine.cutter, &sheets) } else { Ok(()) }
+}
+
+impl PlotArgs {
+    /// Whether anything is sent.
+    fn is_live(&self) -> bool {
+        !self.dry_run && (self.port.is_some() || self.preview.is_none())
+    }
+}
+
+/// Shows what is to be sent.
+fn show(args: &PlotArgs, sheets: &[Sheet], cutter: &Cutter) -> Result<(), AppError> {
     if let Some(path) = &args.preview {
-        draw(path, &sheets, &machine)?;
+        draw(path, sheets, cutter)?;
     }
     if args.dry_run || !args.quiet {
-        sheets.iter().for_each(|sheet| terminal::say(&sheet.summary(&machine.cutter)));
+        sheets.iter().for_each(|sheet| terminal::say(&sheet.summary(cutter)));
     }
-    if is_live { start(args, &machine.cutter, &sheets) } else { Ok(()) }
+    Ok(())
 }
 
 /// The sheets that the user asked for.
@@ -173,7 +188,9 @@ fn resume(args: &PlotArgs, path: &Path, (header, at): (Header, Position)) -> Res
     header.port = args.port.clone().unwrap_or(header.port);
     header.baud = args.baud.or(header.baud);
     header.handshake = args.handshake.map(|h| h.name().to_owned()).or(header.handshake);
-    send(args, path, &header, at)
+    let cutter = rest::cutter(path, &header)?;
+    show(args, &rest::sheets(path, &header, at, &cutter)?, &cutter)?;
+    if args.is_live() { send(args, path, &header, at) } else { Ok(()) }
 }
 
 fn send(args: &PlotArgs, path: &Path, header: &Header, at: Position) -> Result<(), AppError> {
@@ -181,17 +198,16 @@ fn send(args: &PlotArgs, path: &Path, header: &Header, at: Position) -> Result<(
 }
 
 /// Writes the pictures of all sheets.
-fn draw(path: &Path, sheets: &[Sheet], machine: &PltOptions) -> Result<(), AppError> {
+fn draw(path: &Path, sheets: &[Sheet], cutter: &Cutter) -> Result<(), AppError> {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
-    let format = format_of(&extension);
-    let Some((Source::Pages(write), false)) = format.map(|f| (f.source, f.is_job())) else {
-        let is_picture = |f: &&tatamu::export::Format| matches!(f.source, Source::Pages(_)) && !f.is_job();
-        let known: Vec<String> =
-            FORMATS.iter().filter(is_picture).map(|f| format!(".{}", f.extensions[0])).collect();
+    let format = format_of(&extension).filter(|format| format.is_picture());
+    let Some(Source::Pages(write)) = format.map(|format| format.source) else {
+        let pictures = FORMATS.iter().filter(|format| format.is_picture());
+        let known: Vec<String> = pictures.map(|f| format!(".{}", f.extensions[0])).collect();
         return Err(AppError::Extension { path: path.to_owned(), known: known.join(", ") });
     };
     output::check_places(&[path.to_owned()], &[])?;
-    let pictures = sheets.iter().map(|sheet| preview(sheet.job(), &machine.cutter, sheet.placement()));
+    let pictures = sheets.iter().map(|sheet| preview(sheet.job(), cutter, sheet.placement()));
     let pages = Pages::new("preview", pictures.collect(), LineStyles::standard());
     let pages = pages.map_err(|error| AppError::Options(error.to_string()))?;
     let files = write(&pages, &FormatOptions::default())?;

@@ -2,12 +2,13 @@
 
 use super::keys::Keys;
 use crate::app::error::AppError;
-use crate::app::plot::{Operator, doing, minutes};
+use crate::app::plot::{Operator, doing};
 use crate::cli::{progress, terminal};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::Path;
 use std::time::Duration;
+use tatamu::plotter::in_minutes;
 use tatamu::plotter::session::{State, Status};
 use tatamu::progress::Cancelled;
 
@@ -91,7 +92,7 @@ impl Operator for Terminal {
         let (done, all) = (first + status.strokes_done, first + status.strokes);
         bar.set_length(all as u64);
         bar.set_position(done as u64);
-        let left = minutes(status.seconds_left);
+        let left = in_minutes(status.seconds_left);
         bar.set_message(format!("{sheet}: stroke {done} of {all}, {left} left ({what})"));
         self.bar = Some(bar);
     }

@@ -174,6 +174,12 @@ impl Format {
         [plt::FORMAT.name, plt::GCODE.name].contains(&self.name)
     }
 
+    /// Whether its files are pages to look at: neither jobs nor projects of a cutter's program.
+    pub fn is_picture(&self) -> bool {
+        let is_of_program = [fcm::FORMAT.name, lbrn::FORMAT.name].contains(&self.name);
+        matches!(self.source, Source::Pages(_)) && !self.is_job() && !is_of_program
+    }
+
     /// The files of a model in this format.
     ///
     /// # Errors

@@ -222,6 +222,15 @@ impl Frame {
         Ok(())
     }
 
+    /// Two corners of the bed: the least coordinates, and the greatest.
+    pub fn bed(&self) -> [Point; 2] {
+        let corner = |end: usize| {
+            let [x, y] = self.bed_mm.map(|span| self.units_per_mm.times(span[end]).round() as i32);
+            Point { x, y }
+        };
+        [corner(0), corner(1)]
+    }
+
     /// Where on the sheet a position is, mm.
     pub fn to_sheet(&self, sheet_mm: DVec2, at: Point) -> DVec2 {
         let along = at.as_vec() / self.units_per_mm.value() + self.offset_mm;

@@ -11,6 +11,7 @@
 
 pub mod dialect;
 mod encode;
+mod field;
 mod frame;
 mod job;
 mod job_error;
@@ -32,6 +33,7 @@ pub use frame::{Direction, Frame, OffBed, Origin, Point, Ratio};
 pub use job::{Command, Job};
 pub use job_error::JobError;
 pub use motion::Motion;
+pub use pace::in_minutes;
 pub use plan::{Plan, PlanError, test_cut, toolset};
 pub use preview::{preview, strokes};
 pub use profile::{Cutter, Media, ProfileError};

@@ -76,6 +76,12 @@ impl Pace {
     }
 }
 
+/// A time in words.
+pub fn in_minutes(seconds: f64) -> String {
+    let whole = seconds.ceil() as u64;
+    if whole < 60 { format!("{whole} s") } else { format!("{} min {:02} s", whole / 60, whole % 60) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

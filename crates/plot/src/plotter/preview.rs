@@ -1,13 +1,14 @@
 //! A picture of a job: where the machine goes, in which order, and where the tip cuts.
 
-use super::{Command, Cutter, Job, Motion, Placement, Point};
+use super::field::Field;
+use super::{Command, Cutter, Job, Motion, Placement, Point, in_minutes};
 use crate::toolpath::{Operation, Tip};
 use glam::DVec2;
 use tatamu_draw::drawing::{Align, Drawing, Layer, Mark, Polyline, Rgb, Stroke, Text};
 
 /// Border round the sheet, and the strip for the legend, mm.
 const BORDER_MM: f64 = 8.0;
-const STRIP_MM: f64 = 12.0;
+const STRIP_MM: f64 = 18.0;
 /// Height of letters of the legend and of the numbers of strokes, mm.
 const LEGEND_CAP_MM: f64 = 2.2;
 const NUMBER_CAP_MM: f64 = 1.2;
@@ -16,27 +17,21 @@ const NUMBERS: usize = 120;
 
 const TRAVEL: Rgb = Rgb(130, 150, 130);
 const TIP: Rgb = Rgb(20, 20, 20);
-const SHEET: Rgb = Rgb(225, 225, 225);
 const MARKS: Rgb = Rgb(150, 150, 150);
 /// Arms of the corners that show registration marks, mm.
 const MARK_ARM_MM: f64 = 8.0;
 
-/// A picture of a job on its sheet, with the corners of marks that the machine looks for: travel as thin grey lines, strokes of the shaft from blue (first)
-/// to red (last) with a dot where each begins and a number at some, and the way of the tip as a thin
-/// black line.
+/// A picture of a job on its sheet and the bed round it, with the corners of marks that the machine looks for: travel as
+/// thin grey lines, strokes of the shaft from blue (first) to red (last) with a dot where each begins and a number at
+/// some, and the way of the tip as a thin black line.
 pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
-    let sheet_mm = placement.sheet_mm();
-    let size_mm = sheet_mm + DVec2::new(2.0 * BORDER_MM, 2.0 * BORDER_MM + STRIP_MM);
-    let shift = corner();
+    let field = Field::new(cutter, placement);
+    let size_mm = field.size_mm() + DVec2::new(2.0 * BORDER_MM, 2.0 * BORDER_MM + STRIP_MM);
+    let shift = shift(&field);
     let at = |p: Point| placement.to_sheet(cutter.frame(), p) + shift;
     let mut picture = Drawing::new("preview", size_mm);
     picture.ground = Some(Rgb::WHITE);
-    let corners = [DVec2::ZERO, DVec2::new(sheet_mm.x, 0.0), sheet_mm, DVec2::new(0.0, sheet_mm.y)];
-    picture.marks.push(Mark::polygon(
-        Layer::Picture,
-        corners.map(|p| p + shift).to_vec(),
-        &Stroke::solid(0.3, SHEET),
-    ));
+    picture.marks.extend(field.marks(shift));
     picture.marks.extend(placement.marks_mm().into_iter().flat_map(|marks_mm| marks(marks_mm, shift)));
     let runs = runs(job, cutter);
     let travel =
@@ -72,13 +67,14 @@ pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
             picture.marks.push(Mark::text(Layer::Picture, text.coloured(colour(share(k)))));
         }
     }
-    picture.marks.extend(legend(size_mm, job, cutter, placement));
+    picture.marks.extend(legend(size_mm, job, cutter, placement, &field));
     picture
 }
 
 /// The strokes of a job, in their order, where [`preview`] draws them, mm.
 pub fn strokes(job: &Job, cutter: &Cutter, placement: &Placement) -> Vec<Vec<DVec2>> {
-    let at = |&p: &Point| placement.to_sheet(cutter.frame(), p) + corner();
+    let shift = shift(&Field::new(cutter, placement));
+    let at = |&p: &Point| placement.to_sheet(cutter.frame(), p) + shift;
     let drawn = runs(job, cutter).into_iter().filter(|run| run.is_down);
     drawn.map(|run| run.points.iter().map(at).collect()).collect()
 }
@@ -94,8 +90,8 @@ fn marks([low, high]: [DVec2; 2], shift: DVec2) -> impl Iterator<Item = Mark> {
 }
 
 /// Where the sheet's corner is in the picture, mm.
-fn corner() -> DVec2 {
-    DVec2::new(BORDER_MM, BORDER_MM + STRIP_MM)
+fn shift(field: &Field) -> DVec2 {
+    DVec2::new(BORDER_MM, BORDER_MM + STRIP_MM) - field.low()
 }
 
 /// A run of motions with the pen up or down.
@@ -139,21 +135,25 @@ fn tool_of(command: &Command, cutter: &Cutter) -> Option<Operation> {
     Operation::ALL.into_iter().find(|o| command.is_setup() && takes(o))
 }
 
-fn legend(size_mm: DVec2, job: &Job, cutter: &Cutter, placement: &Placement) -> Vec<Mark> {
-    let turned = if placement.is_turned() { "; the sheet is turned by 90° to the left" } else { "" };
-    let words = format!("{}: {} strokes, blue first, red last{turned}", cutter.name(), job.strokes());
-    let at = |x: f64| DVec2::new(BORDER_MM + x, BORDER_MM + STRIP_MM / 2.0);
+fn legend(size_mm: DVec2, job: &Job, cutter: &Cutter, placement: &Placement, field: &Field) -> Vec<Mark> {
+    let time = in_minutes(job.seconds());
+    let words = format!("{}: {time}, {} strokes, blue first, red last", cutter.name(), job.strokes());
+    let turned = placement.is_turned().then(|| "the sheet is turned by 90° to the left".to_owned());
+    let place: Vec<String> = field.bed_in_words().into_iter().chain(turned).collect();
+    let at = |x: f64| DVec2::new(BORDER_MM + x, BORDER_MM + STRIP_MM - 6.0);
     let sample = |x: f64, look: &Stroke, words: &str| {
         let text = Text::new(words, at(x + 8.0) - DVec2::Y, LEGEND_CAP_MM).aligned(Align::Start);
         [Mark::line(Layer::Picture, at(x), at(x + 6.0), look), Mark::text(Layer::Picture, text)]
     };
-    let second = Text::new(words, at(0.0) - DVec2::Y * 6.0, LEGEND_CAP_MM);
+    let line = |words: String, k: f64| {
+        Mark::text(Layer::Picture, Text::new(words, at(0.0) - DVec2::Y * 6.0 * k, LEGEND_CAP_MM))
+    };
     let step = (size_mm.x - 2.0 * BORDER_MM) / 3.0;
     let mut marks = Vec::new();
     marks.extend(sample(0.0, &Stroke::solid(0.35, colour(0.0)), "shaft, tool down"));
     marks.extend(sample(step, &Stroke::solid(0.1, TIP), "tip of the blade"));
     marks.extend(sample(2.0 * step, &Stroke::solid(0.12, TRAVEL), "travel, tool up"));
-    marks.push(Mark::text(Layer::Picture, second));
+    marks.extend([line(words, 1.0), line(place.join("; "), 2.0)]);
     marks
 }
 

@@ -66,6 +66,11 @@ impl VirtualEbb {
         self.is_powered
     }
 
+    /// The user switches the motors off and pushes the carriage home.
+    pub fn push_home(&mut self) {
+        (self.at, self.is_powered) = (Point::default(), false);
+    }
+
     fn say(&mut self, text: &str) {
         let faults = self.options.faults;
         self.said += 1;

@@ -82,7 +82,9 @@ impl Session {
         if is_at_work && self.stop_wishes > 0 {
             return self.ebb_halt(End::Stopped, now);
         }
-        if let Some(fault) = self.board.fault.filter(|_| is_at_work) {
+        // The first question may end the part of a command that a lost port left: the board refuses both.
+        let is_begun = is_at_work && self.phase != Phase::Probe;
+        if let Some(fault) = self.board.fault.filter(|_| is_begun) {
             return self.ebb_halt(fault, now);
         }
         match self.phase {

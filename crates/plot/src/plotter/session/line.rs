@@ -26,6 +26,11 @@ impl Line {
         self.queued += bytes;
     }
 
+    /// Bytes that the port holds, as far as it says.
+    pub(super) fn queued(&self) -> usize {
+        self.queued
+    }
+
     /// Bytes that may not have arrived yet.
     pub(super) fn in_flight(&self, now: Duration) -> usize {
         let left = self.busy_until.saturating_sub(now).as_secs_f64();

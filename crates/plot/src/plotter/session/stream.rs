@@ -167,6 +167,7 @@ impl Session {
         self.search = Search::Over;
         self.ask.open = None;
         self.ask.stage = 0;
+        self.poll.forget();
         self.phase = Phase::Finish(end);
         self.ledger.sent(bytes.len(), self.ledger.strokes_done(), 0.0, now);
         self.send_control(&bytes, now)

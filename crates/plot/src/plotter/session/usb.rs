@@ -37,6 +37,13 @@ pub(super) struct Poll {
     is_load_told: bool,
 }
 
+impl Poll {
+    /// What it said of itself does not count any more.
+    pub(super) fn forget(&mut self) {
+        (self.asked, self.readies) = (None, 0);
+    }
+}
+
 impl Session {
     pub(super) fn usb_step(&mut self, now: Duration) -> Step {
         match self.phase {
@@ -88,13 +95,17 @@ impl Session {
         if end == End::Finished && self.stop_wishes > 0 {
             return self.begin_stop(End::Stopped, now);
         }
-        let is_empty = self.line.in_flight(now) == 0;
+        // Without a line, nothing is on its way but what the port holds.
+        let is_empty = self.line.queued() == 0;
         let is_overdue = now >= self.line.busy_until() + HURRY;
         if self.stop_wishes > 2 || self.stop_wishes > 1 && (is_empty || is_overdue) {
             return self.end(end, false);
         }
         if !is_empty {
-            self.poll.readies = 0;
+            // What it said before it had everything does not count. A question is on its way, too.
+            if self.poll.asked.is_none() {
+                self.poll.readies = 0;
+            }
             return Step::Wait(TICK);
         }
         if self.poll.readies >= SURE {

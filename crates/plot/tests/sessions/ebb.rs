@@ -1,109 +1,26 @@
-//! Sessions with an EiBotBoard (AxiDraw), against a simulated one, in modelled time.
+//! Sessions with an EiBotBoard (AxiDraw).
 
-use std::collections::VecDeque;
+use super::jobs::{self, meant, moved, profile};
+use super::rehearsal;
 use std::time::Duration;
-use tatamu_plot::plotter::profile::{CUTTERS, Handshake, MEDIA};
-use tatamu_plot::plotter::session::{End, Outcome, Session, State, Step};
-use tatamu_plot::plotter::{
-    Cutter, Faults, Job, Media, Motion, Plan, Point, VirtualEbb, VirtualMachine, VirtualOptions, test_cut,
-};
+use tatamu_plot::plotter::profile::Handshake;
+use tatamu_plot::plotter::session::{End, Session, State, Step};
+use tatamu_plot::plotter::{Cutter, Faults, Job, Motion, Point, VirtualEbb, VirtualMachine, VirtualOptions};
 
-/// No job of these tests takes longer.
-const TOO_LONG: Duration = Duration::from_secs(3000);
+type Rehearsal = rehearsal::Rehearsal<VirtualEbb>;
 
 fn axidraw() -> Cutter {
-    Cutter::parse(CUTTERS.iter().find(|p| p.name == "axidraw").expect("exists").text).expect("valid")
+    profile("axidraw")
 }
 
 /// The test figure as a job.
 fn figure(cutter: &Cutter) -> Vec<u8> {
-    let medium = Media::parse(MEDIA.iter().find(|p| p.name == "pen").expect("exists").text).expect("valid");
-    Plan::new(&test_cut(), cutter, &medium).expect("fits").bytes().to_vec()
-}
-
-fn meant(job: &[u8], cutter: &Cutter) -> Vec<Motion> {
-    let job = Job::parse(job, cutter).expect("valid");
-    let motions = job.commands().iter().flat_map(|command| command.motions().to_vec());
-    motions.filter(|motion| motion.from != motion.to).collect()
+    jobs::figure(cutter, "pen")
 }
 
 /// What is drawn, without the pauses within a line.
-fn drawn(motions: &[Motion]) -> Vec<(Point, Point)> {
-    motions.iter().filter(|motion| motion.is_down).map(|motion| (motion.from, motion.to)).collect()
-}
-
-/// A host and a machine.
-struct Rehearsal {
-    session: Session,
-    machine: VirtualEbb,
-    stop_at: Option<u64>,
-    stop_wishes: u32,
-    /// A command that does not arrive.
-    swallowed: Option<&'static str>,
-    /// How late each answer comes.
-    late: Duration,
-    answers: VecDeque<(Duration, Vec<u8>)>,
-    now: Duration,
-    port: VecDeque<u8>,
-    notes: Vec<String>,
-}
-
-impl Rehearsal {
-    fn new(job: &[u8], cutter: &Cutter, options: VirtualOptions) -> Self {
-        let job = Job::parse(job, cutter).expect("valid");
-        Self {
-            session: Session::new(job, cutter, Handshake::Ok, None),
-            machine: VirtualEbb::new(cutter, options),
-            stop_at: None,
-            stop_wishes: 1,
-            swallowed: None,
-            late: Duration::ZERO,
-            answers: VecDeque::new(),
-            now: Duration::ZERO,
-            port: VecDeque::new(),
-            notes: Vec::new(),
-        }
-    }
-
-    fn run(&mut self) -> Outcome {
-        let outcome = loop {
-            if let Some(outcome) = self.advance() {
-                break outcome;
-            }
-            assert!(self.now < TOO_LONG, "no end: {:?}", self.session.status());
-        };
-        (0..1000).for_each(|_| self.pass(Duration::from_millis(10)));
-        outcome
-    }
-
-    fn advance(&mut self) -> Option<Outcome> {
-        self.notes.extend(self.session.take_notes());
-        match self.session.step(self.now, self.port.len()) {
-            Step::Done(outcome) => return Some(outcome),
-            Step::Send(bytes) => match self.swallowed.filter(|text| bytes.starts_with(text.as_bytes())) {
-                Some(_) => self.swallowed = None,
-                None => self.port.extend(bytes),
-            },
-            Step::Wait(wait) => self.pass(wait.clamp(Duration::from_micros(500), Duration::from_millis(4))),
-        }
-        None
-    }
-
-    fn pass(&mut self, wait: Duration) {
-        self.now += wait;
-        while let Some(byte) = self.port.pop_front() {
-            self.machine.receive(byte, self.now);
-            if self.stop_at == Some(self.machine.received()) {
-                (0..self.stop_wishes).for_each(|_| self.session.stop());
-            }
-        }
-        self.machine.run_until(self.now);
-        let answers = self.machine.take_answers(self.now);
-        self.answers.push_back((self.now + self.late, answers));
-        while self.answers.front().is_some_and(|(due, _)| *due <= self.now) {
-            self.answers.pop_front().iter().for_each(|(_, bytes)| self.session.received(bytes));
-        }
-    }
+pub fn drawn(motions: &[Motion]) -> Vec<(Point, Point)> {
+    moved(motions).iter().filter(|motion| motion.is_down).map(|motion| (motion.from, motion.to)).collect()
 }
 
 fn options(faults: Faults) -> VirtualOptions {
@@ -118,7 +35,7 @@ fn a_job_is_drawn_as_it_is_meant_and_ends_at_home_with_the_motors_off() {
     let outcome = rehearsal.run();
     assert_eq!((outcome.end, outcome.is_confirmed), (End::Finished, true));
     assert_eq!((rehearsal.machine.lost(), rehearsal.machine.broken()), (0, 0));
-    assert_eq!(rehearsal.machine.motions(), meant(&job, &cutter));
+    assert_eq!(rehearsal.machine.motions(), moved(&meant(&job, &cutter)));
     assert_eq!(rehearsal.machine.motions().last().map(|motion| motion.to), Some(Point::default()));
     assert!(!rehearsal.machine.is_pen_down() && !rehearsal.machine.is_powered());
     assert!(rehearsal.notes.join("").contains("firmware 2.7.0"), "{:?}", rehearsal.notes);
@@ -134,7 +51,7 @@ fn answers_that_are_lost_or_noise_change_nothing_of_what_is_drawn() {
         let outcome = rehearsal.run();
         assert!(!rehearsal.machine.is_pen_down(), "{faults:?}");
         assert_eq!(outcome.end, End::Finished, "{faults:?}");
-        assert_eq!(rehearsal.machine.motions(), meant(&job, &cutter), "{faults:?}");
+        assert_eq!(rehearsal.machine.motions(), moved(&meant(&job, &cutter)), "{faults:?}");
     }
     // Where every second answer is lost, the job may end, but no line is wrong and the pen is up.
     for (garbage_every, silence_every) in [(2, 0), (0, 2)] {
