@@ -92,8 +92,8 @@ fn push_cover(out: &mut String, guide: &Guide) {
     // Its words and its step are of the reader's device.
     out.push_str("<a class=\"resume\" id=\"resume\" href=\"#step-1\" hidden></a>\n<div class=\"pictures\">");
     push_slider(out, guide, &words.deployed);
-    if let Some(last) = guide.frames.last() {
-        let picture = svg(&last.trimmed(), &words.flat);
+    if let (Some(last), k) = (guide.frames.last(), guide.frames.len() - 1) {
+        let picture = reference(&format!("frame-{k}"), last, &words.flat);
         let _ = write!(out, "<figure>{picture}<figcaption>{}</figcaption></figure>", escaped(&words.flat));
     }
     out.push_str("</div>\n");
