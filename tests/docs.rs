@@ -157,7 +157,7 @@ fn tatamu(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tatamu"));
     // Documents run side by side, and nothing of the user's own may count.
     command.current_dir(folder).stdin(Stdio::null()).env("RAYON_NUM_THREADS", "1");
-    command.env("HOME", folder).env_remove("XDG_CONFIG_HOME");
+    command.env("HOME", folder).env_remove("XDG_CONFIG_HOME").env("LC_ALL", "C");
     command
 }
 

@@ -62,15 +62,16 @@ macro_rules! corpus {
         )*
         #[test]
         fn every_target_has_inputs_and_a_binary() {
-            let folder = format!("{}/fuzz", env!("CARGO_MANIFEST_DIR"));
-            let mut seeds: Vec<String> = std::fs::read_dir(format!("{folder}/seeds"))
-                .unwrap()
-                .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-                .collect();
-            seeds.sort();
-            assert_eq!(seeds, [$(stringify!($name)),*]);
-            for name in seeds {
-                assert!(std::path::Path::new(&format!("{folder}/fuzz_targets/{name}.rs")).exists(), "{name}");
+            let names = |folder: &str| {
+                let folder = format!("{}/fuzz/{folder}", env!("CARGO_MANIFEST_DIR"));
+                let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+                let name = |path: std::path::PathBuf| path.file_stem().unwrap().to_str().unwrap().to_owned();
+                let mut names: Vec<String> = entries.map(name).filter(|name| name != "mod").collect();
+                names.sort();
+                names
+            };
+            for folder in ["seeds", "fuzz_targets", "targets"] {
+                assert_eq!(names(folder), [$(stringify!($name)),*], "{folder}");
             }
         }
     };

@@ -16,7 +16,7 @@ struct Machine {
 
 fn tatamu(folder: &Path) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tatamu"));
-    command.current_dir(folder).stdin(Stdio::null());
+    command.current_dir(folder).stdin(Stdio::null()).env("LC_ALL", "C");
     command
 }
 

@@ -1,7 +1,7 @@
 //! What is chosen for an input: flags first, then its project file, then the defaults.
 
 use super::error::AppError;
-use super::{input, profiles};
+use super::{input, locale, profiles};
 use std::collections::BTreeMap;
 use std::path::Path;
 use tatamu::drawing::{Layer, LineStyles};
@@ -9,7 +9,7 @@ use tatamu::export::{FormatOptions, PltOptions, Timestamp};
 use tatamu::pipeline::Options;
 use tatamu::product::Content;
 use tatamu::project::Project;
-use tatamu::project::options::{Entry, Given, SIZE, STYLE, Settings, choose};
+use tatamu::project::options::{Entry, Given, SIZE, STYLE, Settings, choose_on};
 
 /// What is chosen for an input.
 #[derive(Clone)]
@@ -34,7 +34,10 @@ pub struct FileChoice {
 impl Choice {
     /// The choice of an input, which may be a project.
     pub fn new(project: Option<&Project>, flags: &[Given]) -> Result<Self, AppError> {
-        let settings = choose(project, flags).map_err(|refusal| AppError::Options(refusal.to_string()))?;
+        // A project is the same everywhere; a mesh goes to the printer that is here.
+        let base = project.map_or_else(locale::settings, |_| Settings::standard().clone());
+        let settings = choose_on(base, project, flags);
+        let settings = settings.map_err(|refusal| AppError::Options(refusal.to_string()))?;
         let is_flag = |option: &Entry| flags.iter().any(|flag| flag.option() == option);
         let is_sized = is_flag(&SIZE) || project.is_some_and(|project| project.has(&SIZE));
         Ok(Self { settings, is_sized, is_style_of_flag: is_flag(&STYLE) })

@@ -8,7 +8,7 @@ use super::output::{self, Target};
 use super::words::Say;
 use super::{input, names, soundness, text};
 use std::path::{Path, PathBuf};
-use tatamu::export::{FORMATS, Format, FormatOptions, GUIDES, Source};
+use tatamu::export::{FORMATS, Format, FormatOptions, GUIDES, Source, format_among};
 use tatamu::mesh::{Mesh, Repairs};
 use tatamu::net::Side;
 use tatamu::product::{Content, Product, Selection};
@@ -33,6 +33,9 @@ pub enum Guide {
 
 /// More sheets are written only if that is asked for: a box of 900 mm takes 192 of A4.
 pub const MOST_SHEETS: usize = 200;
+
+/// What to do for the sheets where all files are guides.
+const GUIDES_ALONE: &str = "for the sheets, too, name both files: -o FILE.pdf --guide FILE.html";
 
 /// What is asked for of all inputs.
 pub struct Wish {
@@ -110,6 +113,16 @@ impl<'a> Task<'a> {
         Ok(Self { input, targets, segments, wish })
     }
 
+    /// Whether guides take the places of the sheets, which are in no other file.
+    fn lacks_sheets(&self) -> bool {
+        let is_meant = self.wish.guides.iter().any(|wanted| matches!(wanted, Guide::Outputs));
+        let named = |target: &Target| {
+            let extension = target.path.extension().unwrap_or_default().to_string_lossy();
+            format_among(GUIDES, &extension).is_some()
+        };
+        is_meant && !self.wish.outputs.is_empty() && self.targets.iter().all(named)
+    }
+
     /// The names that the user gave; sheets may get numbers.
     pub fn places(&self) -> Vec<PathBuf> {
         self.targets.iter().map(|target| &target.path).chain(&self.segments).cloned().collect()
@@ -168,11 +181,13 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
         false => vec![("", product(files.content))],
         true => vec![("-print", product(Content::Print)), ("-cut", product(Content::Cut))],
     };
+    let lacks_sheets = task.lacks_sheets();
     let mut written = written(task.targets, &products, &files.formats)?;
     if let Some(path) = task.segments {
         written.push((path, segments(result.mesh(), result.face_parts(), &input.repairs)));
     }
     let advice = choice.settings().files.program.map(|program| program.advice);
+    let advice = advice.or(lacks_sheets.then_some(GUIDES_ALONE));
     Ok(Made::new(&result, input.named_mesh(), written).with_advice(advice))
 }
 

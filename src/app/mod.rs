@@ -8,6 +8,7 @@ pub mod choice;
 pub mod error;
 pub mod fit;
 pub mod input;
+pub mod locale;
 pub mod made;
 pub mod make;
 pub mod names;

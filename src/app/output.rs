@@ -2,7 +2,7 @@
 
 use super::error::{AppError, reason};
 use std::collections::BTreeSet;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tatamu::export::{FORMATS, Format, format_among};
 use tempfile::NamedTempFile;
@@ -145,12 +145,26 @@ fn temporary(path: &Path) -> Result<NamedTempFile, AppError> {
 }
 
 fn failed(path: &Path, error: &std::io::Error) -> AppError {
-    AppError::Output { path: path.to_owned(), reason: reason(error) }
+    let advice = match error.kind() {
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            "; choose a folder that you may write to"
+        }
+        _ => "",
+    };
+    AppError::Output { path: path.to_owned(), reason: format!("{}{advice}", reason(error)) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_folder_that_may_not_be_written_to_says_what_to_do() {
+        let message = failed(Path::new("a.pdf"), &ErrorKind::PermissionDenied.into()).to_string();
+        assert_eq!(message, "cannot write a.pdf: permission denied; choose a folder that you may write to");
+        let full = failed(Path::new("a.pdf"), &ErrorKind::StorageFull.into()).to_string();
+        assert_eq!(full, "cannot write a.pdf: the disk is full");
+    }
 
     #[test]
     fn all_files_or_none() {

@@ -42,8 +42,19 @@ pub fn advice(error: &clap::Error) -> Option<String> {
             if flag == "--for" {
                 return Some("--for writes files for another program; use it with tatamu make".to_owned());
             }
+            if flag.strip_prefix('-').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit())) {
+                return Some(format!("\"{flag}\" was read as an option; give a number above zero"));
+            }
             let (_, meant) = OTHER_NAMES.iter().find(|(other, _)| *other == flag)?;
             Some(format!("there is no option {flag}; use {meant}, which --help explains"))
+        }
+        ErrorKind::MissingRequiredArgument => {
+            let Some(ContextValue::Strings(missing)) = error.get(ContextKind::InvalidArg) else {
+                return None;
+            };
+            let is_input =
+                missing.iter().any(|name| name.starts_with("<INPUT>") || name.starts_with("<MESH>"));
+            is_input.then(|| "no input is named; add a mesh, such as: tatamu make teddy.obj".to_owned())
         }
         _ => None,
     }

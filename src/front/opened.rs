@@ -4,7 +4,7 @@ use super::words;
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
 use crate::app::input::Shape;
-use crate::app::{input, project};
+use crate::app::{input, locale, project};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -16,7 +16,6 @@ use tatamu::pipeline::{Engine, Options, Output, Warning, shape_drawn};
 use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::project::Project;
-use tatamu::project::options::Settings;
 use tatamu::report::Run;
 
 /// Gives the content of a file, on any thread.
@@ -66,7 +65,7 @@ impl Opened {
         } else {
             let project = source.with_extension("toml");
             let name = project::mesh_from(&project, source).map_err(|error| error.to_string())?;
-            project::project_text(&name, Settings::standard(), &[])
+            project::project_text(&name, &locale::settings(), &[])
         };
         Ok(Self {
             fetch,

@@ -9,8 +9,8 @@ use toml_edit::Value;
 /// How much larger, or smaller, a size is that is only said to be so.
 const STEP: f64 = 1.25;
 
-/// Papers, each half of the next.
-const PAPERS: [&str; 6] = ["a5", "a4", "a3", "a2", "a1", "a0"];
+/// Papers from small to large, of each kind.
+const PAPERS: [&[&str]; 2] = [&["a5", "a4", "a3"], &["letter", "legal"]];
 
 /// What a warning advises, as far as it is not done by hand: what the user reads, and the change.
 pub fn changes(warning: &Warning, now: &Settings) -> Vec<(String, Change)> {
@@ -23,8 +23,10 @@ fn change(remedy: &Remedy, now: &Settings) -> Option<(String, Change)> {
         (format!("{} {mm} mm", label(option)), Change::Set { option, value: Some(mm.into()) })
     };
     let paper = |by: isize| {
-        let place = PAPERS.iter().position(|name| *name == now.model.paper.name())?;
-        let name = *PAPERS.get(place.checked_add_signed(by)?)?;
+        let now = now.model.paper.name();
+        let place = |papers: &&[&str]| papers.iter().position(|name| *name == now);
+        let (papers, place) = PAPERS.iter().find_map(|papers| Some((papers, place(papers)?)))?;
+        let name = *papers.get(place.checked_add_signed(by)?)?;
         let value: Value = name.into();
         Some((format!("{} {name}", label(&PAPER)), Change::Set { option: &PAPER, value: Some(value) }))
     };
@@ -52,6 +54,7 @@ mod tests {
     use super::*;
     use tatamu::project::Project;
     use tatamu::project::options::choose;
+    use tatamu::units::parse_paper;
 
     #[test]
     fn a_click_does_what_is_advised() {
@@ -68,5 +71,21 @@ mod tests {
             choose(Some(&Project::parse(&changed).unwrap()), &[]).unwrap();
         }
         assert!(super::change(&Remedy::TapeJoint, now).is_none(), "this is done by hand");
+    }
+
+    /// A sheet of A3 led to one of A2, which no option takes.
+    #[test]
+    fn papers_that_are_advised_are_accepted() {
+        for name in PAPERS.concat() {
+            let mut now = Settings::standard().clone();
+            now.model.paper = parse_paper(name).unwrap();
+            for remedy in [Remedy::LargerPaper, Remedy::SmallerPaper] {
+                let Some((label, change)) = super::change(&remedy, &now) else { continue };
+                let changed = change.apply("mesh = \"a.obj\"\n").unwrap();
+                let other = choose(Some(&Project::parse(&changed).unwrap()), &[]).unwrap().model.paper;
+                let is_larger = other.height_mm() > now.model.paper.height_mm();
+                assert_eq!(is_larger, remedy == Remedy::LargerPaper, "{name}: {label}");
+            }
+        }
     }
 }

@@ -24,8 +24,11 @@ fn without_a_file_the_pdf_is_the_guide() {
     let result = run(folder.path(), &["make", "a.obj", "--guide", "-o", "guide.pdf", "-o", "guide.html"]);
     assert_eq!(result.code, Some(0), "{}", result.err);
     assert_eq!(names(&folder), ["a.obj", "guide.html", "guide.pdf"]);
+    // Who wanted the sheets as well finds none.
+    assert!(result.out.contains("for the sheets, too"), "{}", result.out);
     let result = run(folder.path(), &["make", "a.obj", "--guide"]);
     assert_eq!(result.code, Some(0), "{}", result.err);
+    assert!(!result.out.contains("for the sheets"), "{}", result.out);
     assert_eq!(content("a-guide.pdf"), content("guide.pdf"));
     assert_ne!(content("a.pdf"), content("guide.pdf"));
 }

@@ -10,7 +10,8 @@ fn run_within_a_gigabyte(folder: &Path, arguments: &str) -> Run {
     let command = format!("ulimit -v 1048576; exec \"$0\" {arguments}");
     let program = assert_cmd::cargo::cargo_bin!("tatamu");
     let mut shell = std::process::Command::new("sh");
-    shell.args(["-c", &command]).arg(program).current_dir(folder).env("RAYON_NUM_THREADS", "1");
+    shell.args(["-c", &command]).arg(program).current_dir(folder);
+    shell.env("RAYON_NUM_THREADS", "1").env("LC_ALL", "C");
     let output = shell.output().unwrap();
     let text = |bytes| String::from_utf8(bytes).unwrap();
     Run { code: output.status.code(), out: text(output.stdout), err: text(output.stderr) }

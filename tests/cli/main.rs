@@ -31,8 +31,13 @@ struct Run {
 }
 
 fn run(folder: &Path, arguments: &[&str]) -> Run {
+    run_in("C", folder, arguments)
+}
+
+/// The same where the user's locale is another one.
+fn run_in(locale: &str, folder: &Path, arguments: &[&str]) -> Run {
     let mut command = assert_cmd::cargo::cargo_bin_cmd!("tatamu");
-    let result = command.current_dir(folder).args(arguments).output().unwrap();
+    let result = command.current_dir(folder).env("LC_ALL", locale).args(arguments).output().unwrap();
     Run {
         code: result.status.code(),
         out: String::from_utf8(result.stdout).unwrap(),

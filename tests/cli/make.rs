@@ -96,6 +96,35 @@ fn ctrl_c_stops_the_work_and_leaves_nothing() {
     assert!(names(&folder).is_empty());
 }
 
+/// Nothing asks while a mesh is read; the program ends all the same.
+#[test]
+#[cfg(unix)]
+fn ctrl_c_ends_even_the_reading_of_a_large_mesh() {
+    const SIDE: usize = 700;
+    let mut text = String::new();
+    for (i, j) in (0..SIDE).flat_map(|i| (0..SIDE).map(move |j| (i, j))) {
+        text += &format!("v {i} {j} {}\n", (i * j) % 17);
+    }
+    for (i, j) in (1..SIDE).flat_map(|i| (1..SIDE).map(move |j| (i, j))) {
+        let at = (i - 1) * SIDE + j;
+        text += &format!("f {at} {} {} {}\n", at + 1, at + SIDE + 1, at + SIDE);
+    }
+    let folder = folder_with(&[("a.obj", text.as_bytes())]);
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_tatamu"))
+        .current_dir(folder.path())
+        .args(["make", "a.obj", "-q", "-o", "a.pdf"])
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    let begun = std::time::Instant::now();
+    let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(begun.elapsed().as_secs() < 6, "{:?}", begun.elapsed());
+    assert_eq!(names(&folder), ["a.obj"]);
+}
+
 #[test]
 fn quiet_says_nothing() {
     let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);

@@ -65,6 +65,54 @@ fn flags_of_other_programs_lead_to_ours() {
     }
 }
 
+/// "the following required arguments were not provided", and five lines of usage.
+#[test]
+fn a_command_without_an_input_says_what_to_add() {
+    let folder = folder_with(&[CUBE]);
+    for command in ["make", "init", "show", "plot", "segment"] {
+        let result = run(folder.path(), &[command]);
+        assert_eq!(result.code, Some(2), "{command}");
+        assert!(result.err.contains("tatamu make teddy.obj"), "{}", result.err);
+        assert_eq!(result.err.lines().count(), 1, "{}", result.err);
+    }
+}
+
+/// The tip was to write `-- -5`, which makes an input of it.
+#[test]
+fn a_number_below_zero_is_no_option() {
+    for size in ["-5", "-20mm"] {
+        let (result, folder) = made(&["--size", size]);
+        assert_eq!(result.code, Some(2), "{size}");
+        assert!(result.err.contains("above zero"), "{}", result.err);
+        assert_eq!((result.err.lines().count(), names(&folder).len()), (1, 1), "{}", result.err);
+    }
+}
+
+/// A model was on A4 in America, and its pages were cut off or scaled.
+#[test]
+fn a_mesh_is_laid_out_on_the_paper_of_the_country() {
+    let project = "mesh = \"cube.off\"\nsize = 60\n";
+    let folder = folder_with(&[CUBE, ("a.toml", project.as_bytes())]);
+    let sheets = |locale: &str, more: &[&str]| {
+        let make = [&["make"], more, &["--effort", "0", "-o", "a.json"]].concat();
+        let result = run_in(locale, folder.path(), &make);
+        assert_eq!(result.code, Some(0), "{}", result.err);
+        let line = result.out.lines().find(|line| line.starts_with("sheets")).unwrap();
+        line.split([' ', ',']).nth_back(3).unwrap().to_owned()
+    };
+    let cube = ["cube.off", "--size", "60"];
+    assert_eq!(sheets("en_US.UTF-8", &cube), "letter");
+    assert_eq!(sheets("de_DE.UTF-8", &cube), "a4");
+    assert_eq!(sheets("C", &cube), "a4");
+    // What is said goes first, and a project gives the same everywhere.
+    assert_eq!(sheets("en_US.UTF-8", &[&cube[..], &["--paper", "a4"]].concat()), "a4");
+    assert_eq!(sheets("en_US.UTF-8", &["a.toml"]), "a4");
+    let init = run_in("es_MX.UTF-8", folder.path(), &["init", "cube.off", "-o", "b.toml"]);
+    assert_eq!(init.code, Some(0), "{}", init.err);
+    let written = std::fs::read_to_string(folder.path().join("b.toml")).unwrap();
+    assert!(written.lines().any(|line| line == "size = \"letter\""), "{written}");
+}
+
 #[test]
 fn one_is_no_plural() {
     let (result, _) = made(&["--size", "60"]);
@@ -166,7 +214,7 @@ fn one_file_goes_to_the_standard_output_alone() {
     let make = |options: &[&str]| {
         let mut command = assert_cmd::cargo::cargo_bin_cmd!("tatamu");
         let all = [&["make", "cube.off", "--effort", "0"][..], options].concat();
-        command.current_dir(folder.path()).args(all).output().unwrap()
+        command.current_dir(folder.path()).env("LC_ALL", "C").args(all).output().unwrap()
     };
     let result = make(&["--size", "60", "-o", "-.pdf"]);
     let told = String::from_utf8_lossy(&result.stderr).into_owned();

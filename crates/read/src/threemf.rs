@@ -6,6 +6,7 @@ mod colour;
 pub(super) use colour::read_painting;
 
 use super::{Format, Place, ReadError};
+use crate::painting::Paint;
 use colour::Palettes;
 use glam::{DAffine3, DMat3, DVec3};
 use roxmltree::{Document, Node};
@@ -37,40 +38,91 @@ pub(super) fn is_archive(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read(bytes: &[u8]) -> Result<Soup, ReadError> {
-    let scene = scene(bytes, false)?;
-    Soup::new(scene.positions, &scene.faces).map_err(|error| ReadError::from_soup(Format::ThreeMf, &error))
+    let mut package = Package::open(bytes)?;
+    let models = package.models()?;
+    let shown = shown(&models.documents()?, &models.main, None)?;
+    Soup::new(shown.positions, &shown.faces).map_err(|error| ReadError::from_soup(Format::ThreeMf, &error))
 }
 
-/// What a file shows, in the coordinates of its build, with the light at the corners of its faces, if that is wanted.
+/// The archive, and how many bytes of it may still be unpacked.
+struct Package<'b> {
+    archive: ZipArchive<Cursor<&'b [u8]>>,
+    left: u64,
+}
+
+/// The models of a package.
+struct Models {
+    main: String,
+    texts: BTreeMap<String, String>,
+}
+
+/// The models as XML, by their paths.
+type Documents<'t> = BTreeMap<&'t str, Document<'t>>;
+
+impl<'b> Package<'b> {
+    fn open(bytes: &'b [u8]) -> Result<Self, ReadError> {
+        let archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error.to_string()))?;
+        Ok(Self { archive, left: (bytes.len() as u64).saturating_mul(MOST_UNPACKED).min(MOST_BYTES) })
+    }
+
+    /// The main model, and all that it leads to.
+    fn models(&mut self) -> Result<Models, ReadError> {
+        let main = self.main_model()?;
+        let mut texts = BTreeMap::new();
+        let mut waiting = vec![main.clone()];
+        while let Some(path) = waiting.pop() {
+            if texts.contains_key(&path) {
+                continue;
+            }
+            let text = self.text(&path)?;
+            waiting.extend(paths(&parsed(&path, &text)?));
+            texts.insert(path, text);
+        }
+        Ok(Models { main, texts })
+    }
+
+    /// The path of the model that the package is about.
+    fn main_model(&mut self) -> Result<String, ReadError> {
+        let Ok(text) = self.text(RELATIONSHIPS) else { return Ok(USUAL_MODEL.to_owned()) };
+        let document = parsed(RELATIONSHIPS, &text)?;
+        let is_model = |node: &Node| node.attribute("Type").is_some_and(|kind| kind.ends_with(MODEL_TYPE));
+        let found = document.descendants().find(is_model).and_then(|node| node.attribute("Target"));
+        Ok(found.map_or(USUAL_MODEL, name).to_owned())
+    }
+
+    fn text(&mut self, path: &str) -> Result<String, ReadError> {
+        let bytes = self.bytes(path).map_err(|found| syntax(path, &found, "a model"))?;
+        String::from_utf8(bytes).map_err(|error| syntax(path, &error.to_string(), "XML in UTF-8"))
+    }
+
+    /// A file in the archive, or what is wrong with it.
+    fn bytes(&mut self, path: &str) -> Result<Vec<u8>, String> {
+        let file = self.archive.by_name(name(path)).map_err(|error| error.to_string())?;
+        let mut bytes = Vec::new();
+        file.take(self.left.saturating_add(1)).read_to_end(&mut bytes).map_err(|error| error.to_string())?;
+        let is_small = bytes.len() as u64 <= self.left;
+        self.left = self.left.saturating_sub(bytes.len() as u64);
+        is_small.then_some(bytes).ok_or_else(|| "far more bytes than the file has room for".to_owned())
+    }
+}
+
+impl Models {
+    fn documents(&self) -> Result<Documents<'_>, ReadError> {
+        self.texts.iter().map(|(path, text)| Ok((path.as_str(), parsed(path, text)?))).collect()
+    }
+}
+
+/// What a file shows, in the coordinates of its build, with the paint of its faces, if that is wanted.
 struct Shown {
     positions: Vec<DVec3>,
     faces: Vec<[u32; 3]>,
-    lights: Vec<Option<[DVec3; 3]>>,
+    paints: Vec<Option<Paint>>,
 }
 
-fn scene(bytes: &[u8], has_colours: bool) -> Result<Shown, ReadError> {
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error.to_string()))?;
-    let limit = (bytes.len() as u64).saturating_mul(MOST_UNPACKED).min(MOST_BYTES);
-    let main = main_model(&mut archive, limit)?;
-    let mut texts = BTreeMap::new();
-    let mut waiting = vec![main.clone()];
-    let mut left = limit;
-    while let Some(path) = waiting.pop() {
-        if texts.contains_key(&path) {
-            continue;
-        }
-        let text = unpacked(&mut archive, &path, left)?;
-        left = left.saturating_sub(text.len() as u64);
-        waiting.extend(paths(&parsed(&path, &text)?));
-        texts.insert(path, text);
-    }
-    let documents = texts.iter().map(|(path, text)| Ok((path.as_str(), parsed(path, text)?)));
-    let documents: BTreeMap<&str, Document> = documents.collect::<Result<_, ReadError>>()?;
-    let objects = objects(&documents);
-    let palettes = has_colours.then(|| Palettes::of(&documents));
-    let shown = Shown { positions: Vec::new(), faces: Vec::new(), lights: Vec::new() };
-    let mut scene = Scene { objects, palettes, copies: 0, shown };
-    scene.build(&main, &documents)?;
+fn shown(documents: &Documents<'_>, main: &str, palettes: Option<&Palettes<'_>>) -> Result<Shown, ReadError> {
+    let shown = Shown { positions: Vec::new(), faces: Vec::new(), paints: Vec::new() };
+    let mut scene = Scene { objects: objects(documents), palettes, copies: 0, shown };
+    scene.build(main, documents)?;
     Ok(scene.shown)
 }
 
@@ -93,29 +145,8 @@ fn name(path: &str) -> &str {
     path.trim_start_matches('/')
 }
 
-/// The text of a file in the archive, of at most so many bytes.
-fn unpacked(archive: &mut ZipArchive<Cursor<&[u8]>>, path: &str, limit: u64) -> Result<String, ReadError> {
-    let file = archive.by_name(name(path)).map_err(|error| syntax(path, &error.to_string(), "a model"))?;
-    let mut text = String::new();
-    let read = file.take(limit.saturating_add(1)).read_to_string(&mut text);
-    read.map_err(|error| syntax(path, &error.to_string(), "XML in UTF-8"))?;
-    if text.len() as u64 > limit {
-        return Err(syntax(path, &format!("more than {limit} bytes"), "a model that the file has room for"));
-    }
-    Ok(text)
-}
-
 fn parsed<'t>(path: &str, text: &'t str) -> Result<Document<'t>, ReadError> {
     Document::parse(text).map_err(|error| syntax(path, &error.to_string(), "XML"))
-}
-
-/// The path of the model that the package is about.
-fn main_model(archive: &mut ZipArchive<Cursor<&[u8]>>, limit: u64) -> Result<String, ReadError> {
-    let Ok(text) = unpacked(archive, RELATIONSHIPS, limit) else { return Ok(USUAL_MODEL.to_owned()) };
-    let document = parsed(RELATIONSHIPS, &text)?;
-    let is_model = |node: &Node| node.attribute("Type").is_some_and(|kind| kind.ends_with(MODEL_TYPE));
-    let found = document.descendants().find(is_model).and_then(|node| node.attribute("Target"));
-    Ok(found.map_or(USUAL_MODEL, name).to_owned())
 }
 
 /// Elements of this name, whatever their namespace.
@@ -138,7 +169,7 @@ fn paths(document: &Document<'_>) -> Vec<String> {
 /// All objects by the path of their model and their number.
 type Objects<'a, 't> = BTreeMap<(&'a str, &'a str), Node<'a, 't>>;
 
-fn objects<'a, 't>(documents: &'a BTreeMap<&'a str, Document<'t>>) -> Objects<'a, 't> {
+fn objects<'a, 't>(documents: &'a Documents<'t>) -> Objects<'a, 't> {
     let each = documents.iter().flat_map(|(path, document)| {
         elements(document.root(), "object")
             .filter_map(move |node| Some(((*path, attribute(&node, "id")?), node)))
@@ -149,14 +180,14 @@ fn objects<'a, 't>(documents: &'a BTreeMap<&'a str, Document<'t>>) -> Objects<'a
 struct Scene<'a, 't> {
     objects: Objects<'a, 't>,
     /// Where colours are wanted.
-    palettes: Option<Palettes<'a>>,
+    palettes: Option<&'a Palettes<'a>>,
     copies: usize,
     shown: Shown,
 }
 
 impl<'a, 't> Scene<'a, 't> {
     /// What the main model puts on the plate; supports and other helpers are left out.
-    fn build(&mut self, main: &str, documents: &'a BTreeMap<&'a str, Document<'t>>) -> Result<(), ReadError> {
+    fn build(&mut self, main: &str, documents: &'a Documents<'t>) -> Result<(), ReadError> {
         let Some((path, document)) = documents.get_key_value(main) else { return Ok(()) };
         for item in elements(document.root(), "item") {
             self.place(path, item, "objectid", DAffine3::IDENTITY, MOST_DEPTH)?;
@@ -235,9 +266,8 @@ impl<'a, 't> Scene<'a, 't> {
             };
             let [a, b, c] = order.map(corner);
             shown.faces.push([a?, b?, c?]);
-            if let Some(palettes) = &self.palettes {
-                let lights = palettes.lights(path, &object, &triangle);
-                shown.lights.push(lights.map(|[a, b, c]| if is_mirrored { [a, c, b] } else { [a, b, c] }));
+            if let Some(palettes) = self.palettes {
+                shown.paints.push(palettes.paint(path, &object, &triangle, is_mirrored));
             }
         }
         if shown.faces.len().max(shown.positions.len()) > MOST_TRIANGLES {
@@ -273,11 +303,11 @@ mod tests {
     use zip::ZipWriter;
     use zip::write::SimpleFileOptions;
 
-    pub(super) fn archive(files: &[(&str, &str)]) -> Vec<u8> {
+    pub(super) fn archive<T: AsRef<[u8]>>(files: &[(&str, T)]) -> Vec<u8> {
         let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-        for (name, text) in files {
+        for (name, content) in files {
             zip.start_file(*name, SimpleFileOptions::default()).unwrap();
-            zip.write_all(text.as_bytes()).unwrap();
+            zip.write_all(content.as_ref()).unwrap();
         }
         zip.finish().unwrap().into_inner()
     }

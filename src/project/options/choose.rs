@@ -55,7 +55,15 @@ pub enum Refusal {
 /// # Errors
 /// See [`Refusal`].
 pub fn choose(project: Option<&Project>, flags: &[Given]) -> Result<Settings, Refusal> {
-    let mut settings = Settings::standard().clone();
+    choose_on(Settings::standard().clone(), project, flags)
+}
+
+/// The same on a base that holds where neither of them says anything.
+///
+/// # Errors
+/// See [`Refusal`].
+pub fn choose_on(base: Settings, project: Option<&Project>, flags: &[Given]) -> Result<Settings, Refusal> {
+    let mut settings = base;
     let of_file = project.map_or(&[][..], Project::given);
     if let Some(project) = project {
         if project.mesh.is_none() {

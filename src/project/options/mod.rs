@@ -25,7 +25,7 @@ mod sheets;
 mod tests;
 mod words;
 
-pub use choose::{Refusal, choose};
+pub use choose::{Refusal, choose, choose_on};
 pub use component::{CARD, CONCAVE, DIRECTION, JOINT, RENAME};
 pub use entry::{Dial, Entry, Flag, Key, Scope};
 pub use files::{COLOR, GUIDE_LANGUAGE, STYLE};

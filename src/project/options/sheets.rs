@@ -34,9 +34,11 @@ pub static PAPER: Entry = Entry {
         set: |s, text| put(&mut s.model.paper, parse_paper(text).map_err(|error| error.to_string())?),
     }),
     short: "Size of the sheets: {names}, or width and height such as 210x297mm",
-    long: "Width and height are in mm unless they have a unit.",
+    long: "Width and height are in mm unless they have a unit. A mesh without a project file gets letter where your \
+           locale (LC_PAPER, LANG) is of a country that uses it.",
     example: "--paper 210x297mm, --paper 12x12in",
-    meaning: "size of the sheets; another SIZE is width and height, such as `210x297mm`",
+    meaning: "size of the sheets; another SIZE is width and height, such as `210x297mm`. A mesh without a project \
+              file gets `letter` where your locale (`LC_PAPER`, `LANG`) is of a country that uses it",
     dial: Dial::new("Paper"),
     ..Entry::BLANK
 };

@@ -254,6 +254,15 @@ impl Drawing {
         self.marks.extend(marks.into_iter().map(|mark| mark.placed(place)));
     }
 
+    /// The same picture without free space around its marks.
+    #[must_use]
+    pub fn trimmed(&self) -> Self {
+        let Some((low, high)) = self.bounds() else { return self.clone() };
+        let shift = DAffine2::from_translation(-low);
+        let marks = self.marks.iter().map(|mark| mark.clone().placed(shift)).collect();
+        Self { size_mm: high - low, marks, ..self.clone() }
+    }
+
     /// Bounds of all marks, as in [`Mark::bounds`].
     pub fn bounds(&self) -> Option<(DVec2, DVec2)> {
         polygon::bounds(self.marks.iter().filter_map(Mark::bounds).flat_map(|(lo, hi)| [lo, hi]))
@@ -323,5 +332,9 @@ mod tests {
         page.marks.push(Mark::line(Layer::Cut, DVec2::new(1.0, 8.0), DVec2::new(3.0, 4.0), &stroke()));
         page.marks.push(Mark::polygon(Layer::Cut, vec![DVec2::ZERO, DVec2::X, DVec2::Y], &stroke()));
         assert_eq!(page.bounds(), Some((DVec2::ZERO, DVec2::new(3.0, 8.0))));
+        page.marks.remove(1);
+        let trimmed = page.trimmed();
+        assert_eq!(trimmed.size_mm, DVec2::new(2.0, 4.0));
+        assert_eq!(trimmed.bounds(), Some((DVec2::ZERO, trimmed.size_mm)));
     }
 }

@@ -144,7 +144,7 @@ impl Guide {
 }
 
 /// With a capital at its beginning: A4, Letter.
-fn capital(name: &str) -> String {
+pub(super) fn capital(name: &str) -> String {
     let mut letters = name.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

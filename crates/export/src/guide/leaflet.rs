@@ -23,6 +23,8 @@ const COLUMN_MM: f64 = 86.0;
 const GAP_MM: f64 = 8.0;
 const PICTURE: f64 = 0.70;
 const MAP: f64 = 0.85;
+/// Height of the pictures on the first page at most.
+const COVER_MM: f64 = 76.0;
 /// Space below a step.
 const BELOW_MM: f64 = 6.0;
 /// A chapter begins where there is room for its first steps.
@@ -51,15 +53,16 @@ pub fn leaflet(guide: &Guide, paper: Paper) -> Result<Pages, GuideError> {
     Ok(Pages::new(heading, book.finish(), LineStyles::standard())?.with_chapters(chapters))
 }
 
-/// Marks with a height, whose top is at y = 0.
+/// Marks with a height, whose top is at y = 0, and free space below them, which a page need not have at its end.
 struct Block {
     marks: Vec<Mark>,
     height_mm: f64,
+    below_mm: f64,
 }
 
 impl Block {
     fn new() -> Self {
-        Self { marks: Vec::new(), height_mm: 0.0 }
+        Self { marks: Vec::new(), height_mm: 0.0, below_mm: 0.0 }
     }
 
     /// Lines of text below what is there.
@@ -120,8 +123,9 @@ impl<'a> Book<'a> {
 
     /// Puts blocks side by side, with their left edges at these places.
     fn put(&mut self, blocks: Vec<(f64, Block)>) {
-        let height_mm = blocks.iter().map(|(_, block)| block.height_mm).fold(0.0, f64::max);
-        self.ensure(height_mm);
+        let highest = |height: fn(&Block) -> f64| blocks.iter().map(|(_, b)| height(b)).fold(0.0, f64::max);
+        let height_mm = highest(|block| block.height_mm + block.below_mm);
+        self.ensure(highest(|block| block.height_mm));
         let y_mm = self.y_mm;
         if let Some(page) = self.pages.last_mut() {
             for (x_mm, block) in blocks {
@@ -146,7 +150,7 @@ impl<'a> Book<'a> {
         if self.y_mm < self.size_mm.y - MARGIN_MM {
             let stroke = Stroke::solid(0.3, FRAME);
             let line = Mark::line(Layer::Picture, DVec2::ZERO, DVec2::X * self.width_mm(), &stroke);
-            self.put(vec![(0.0, Block { marks: vec![line], height_mm: 5.0 })]);
+            self.put(vec![(0.0, Block { marks: vec![line], height_mm: 5.0, below_mm: 0.0 })]);
         }
         self.heading(title, CHAPTER_MM);
     }
@@ -155,20 +159,24 @@ impl<'a> Book<'a> {
         let (words, guide) = (&self.guide.words, self.guide);
         self.heading(&fill(&words.page.heading, &[("title", &guide.title)]), TITLE_MM);
         let column = (self.width_mm() - GAP_MM) / 2.0;
-        let picture = |frame: Option<&Drawing>, caption: &str| {
-            let mut block = Block::new();
-            if let Some(frame) = frame {
-                let factor = column / frame.size_mm.x;
-                block.draw(frame, factor, DVec2::ZERO);
-                block.height_mm = frame.size_mm.y * factor + 2.0;
-            }
-            block.write(caption, TEXT_MM, column, 0.0, SOFT);
-            block.height_mm += 4.0;
-            block
-        };
-        let deployed = picture(guide.frames.first(), &words.cover.deployed);
-        let flat = picture(guide.frames.last(), &words.cover.flat);
-        self.put(vec![(0.0, deployed), (column + GAP_MM, flat)]);
+        // Both in one scale, as large as there is room, and on one ground.
+        let ends = guide.frames.first().zip(guide.frames.last());
+        let ends = ends.map(|(unfolded, flat)| [unfolded.trimmed(), flat.trimmed()]);
+        if let Some([unfolded, flat]) = ends {
+            let size_mm = unfolded.size_mm.max(flat.size_mm);
+            let factor = (DVec2::new(column, COVER_MM) / size_mm).min_element();
+            let picture = |drawing: &Drawing, caption: &str| {
+                let mut block = Block::new();
+                let air_mm = factor * (size_mm.y - drawing.size_mm.y);
+                block.draw(drawing, factor, DVec2::NEG_Y * air_mm);
+                block.height_mm = factor * size_mm.y + 3.0;
+                block.write(caption, TEXT_MM, column, 0.0, SOFT);
+                block.height_mm += 4.0;
+                block
+            };
+            let unfolded = picture(&unfolded, &words.cover.deployed);
+            self.put(vec![(0.0, unfolded), (column + GAP_MM, picture(&flat, &words.cover.flat))]);
+        }
         for pair in guide.facts.chunks(2) {
             let fact = |(title, sentences): &(String, Vec<String>)| {
                 let mut block = Block::new();
@@ -289,7 +297,7 @@ impl<'a> Book<'a> {
             block.write(sentence, TEXT_MM, width_mm, 0.0, Rgb::BLACK);
             block.height_mm += 0.5;
         }
-        block.height_mm += BELOW_MM;
+        block.below_mm = BELOW_MM;
         block
     }
 

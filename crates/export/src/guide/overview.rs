@@ -1,6 +1,7 @@
 //! One page about the whole model: a picture with names, the parts with their sheets, the order of folding,
 //! and how long it takes.
 
+use super::content::capital;
 use super::estimate::Estimate;
 use super::picture::{self, PictureError};
 use super::steps::outwards;
@@ -55,7 +56,8 @@ pub fn overview(product: &Product<'_>) -> Result<Drawing, PictureError> {
         count => format!("{count} sheets"),
     };
     let cards = card_note(output).map(|cards| format!(": {cards}")).unwrap_or_default();
-    let note = format!("{} · {sheets} of {}{cards}", size_note(output), layout.options().paper.name());
+    let paper = capital(&layout.options().paper.name());
+    let note = format!("{} · {sheets} of {paper}{cards}", size_note(output));
     page.write(&note, TEXT_MM, SOFT);
     page.picture(output)?;
     page.write(&Estimate::new(output).sentence(), TEXT_MM, Rgb::BLACK);

@@ -13,7 +13,7 @@ const LOST_LINE_MM: f64 = 3.6;
 /// Half the size of the crosses that both sides of a sheet have.
 const CROSS_MM: f64 = 2.0;
 /// What the list begins with.
-const LOST: &str = "no room on the piece for ";
+const LOST: &str = "labels without room on their piece: ";
 
 /// What pages say of the model.
 #[derive(Debug, Clone, Copy, Default)]

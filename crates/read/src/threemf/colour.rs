@@ -1,65 +1,129 @@
-//! Colours of 3MF files: base materials (Core Specification 1.3, 5.1) and groups of colours (Materials and
-//! Properties Extension 1.2, 3). Textures and the paint of single slicers are not read.
+//! Colours of 3MF files: base materials (Core Specification 1.3, 5.1), groups of colours and textures (Materials and
+//! Properties Extension 1.2, 3 and 4). Layers of several properties and the paint of single slicers are not read.
 
-use super::{attribute, elements, scene};
-use crate::ReadError;
-use crate::painting::{Paint, Painting, light_of};
-use glam::DVec3;
-use roxmltree::{Document, Node};
+use super::{Documents, Package, attribute, elements, name, shown};
+use crate::painting::{Paint, Painting, Texture, light_of};
+use crate::{ColourError, texture};
+use glam::{DVec2, DVec3};
+use roxmltree::Node;
 use std::collections::BTreeMap;
 
 /// The colours of a file; none where it has none.
-pub(in super::super) fn read_painting(bytes: &[u8]) -> Result<Option<Painting>, ReadError> {
-    let scene = scene(bytes, true)?;
-    if scene.lights.iter().all(Option::is_none) {
+pub(in super::super) fn read_painting(bytes: &[u8]) -> Result<Option<Painting>, ColourError> {
+    let mut package = Package::open(bytes)?;
+    let models = package.models()?;
+    let documents = models.documents()?;
+    let palettes = Palettes::read(&documents, &mut package)?;
+    let shown = shown(&documents, &models.main, Some(&palettes))?;
+    if shown.paints.iter().all(Option::is_none) {
         return Ok(None);
     }
-    let triangles = scene.faces.iter().zip(&scene.lights).map(|(face, light)| {
-        let corners = face.map(|v| scene.positions[v as usize]);
-        (corners, Paint::Corners(light.unwrap_or([DVec3::ONE; 3])))
+    let triangles = shown.faces.iter().zip(shown.paints).map(|(face, paint)| {
+        let corners = face.map(|v| shown.positions[v as usize]);
+        (corners, paint.unwrap_or_else(|| Paint::plain(DVec3::ONE)))
     });
-    Ok(Painting::new(triangles.collect(), Vec::new()))
+    Ok(Painting::new(triangles.collect(), palettes.textures))
 }
 
-/// Lists of colours, by the path of their model and their number.
-#[derive(Default)]
+/// What triangles refer to: entries by their places in a list.
+enum List {
+    Colours(Vec<Option<DVec3>>),
+    /// Places on a texture.
+    Places(usize, Vec<Option<DVec2>>),
+}
+
+/// All lists, by the path of their model and their number.
 pub(super) struct Palettes<'a> {
-    lists: BTreeMap<(&'a str, &'a str), Vec<Option<DVec3>>>,
+    lists: BTreeMap<(&'a str, &'a str), List>,
+    textures: Vec<Texture>,
+}
+
+/// Pictures of the package that textures show; several may show the same one.
+struct Pictures<'p, 'b> {
+    package: &'p mut Package<'b>,
+    numbers: BTreeMap<String, usize>,
+    textures: Vec<Texture>,
+}
+
+impl Pictures<'_, '_> {
+    /// The number of a picture among the textures.
+    fn number(&mut self, picture: &str) -> Result<usize, ColourError> {
+        if let Some(&number) = self.numbers.get(picture) {
+            return Ok(number);
+        }
+        let failed = |reason| ColourError::Texture { name: picture.to_owned(), reason };
+        let bytes = self.package.bytes(picture).map_err(failed)?;
+        self.textures.push(texture::decode(picture, &bytes)?);
+        let number = self.textures.len() - 1;
+        self.numbers.insert(picture.to_owned(), number);
+        Ok(number)
+    }
 }
 
 impl<'a> Palettes<'a> {
-    pub(super) fn of<'t>(documents: &'a BTreeMap<&'a str, Document<'t>>) -> Self {
-        let each = documents.iter().flat_map(|(path, document)| {
-            let kinds = [("basematerials", "base", "displaycolor"), ("colorgroup", "color", "color")];
-            kinds.into_iter().flat_map(move |(list, entry, key)| {
-                elements(document.root(), list).filter_map(move |node| {
-                    let colours = elements(node, entry).map(|own| attribute(&own, key).and_then(light));
-                    Some(((*path, attribute(&node, "id")?), colours.collect()))
-                })
-            })
-        });
-        Self { lists: each.collect() }
+    fn read(documents: &'a Documents<'_>, package: &mut Package<'_>) -> Result<Self, ColourError> {
+        let mut lists = BTreeMap::new();
+        let mut pictures = Pictures { package, numbers: BTreeMap::new(), textures: Vec::new() };
+        for (&path, document) in documents {
+            let root = document.root();
+            for (kind, entry, key) in
+                [("basematerials", "base", "displaycolor"), ("colorgroup", "color", "color")]
+            {
+                for list in elements(root, kind) {
+                    let colours = elements(list, entry).map(|own| attribute(&own, key).and_then(light));
+                    let id = attribute(&list, "id").unwrap_or_default();
+                    lists.insert((path, id), List::Colours(colours.collect()));
+                }
+            }
+            for list in elements(root, "texture2dgroup") {
+                let is_its = |node: &Node| attribute(node, "id") == attribute(&list, "texid");
+                let texture = elements(root, "texture2d").find(is_its);
+                let Some(picture) = texture.and_then(|node| attribute(&node, "path")) else { continue };
+                let places = elements(list, "tex2coord").map(|own| place(&own)).collect();
+                let id = attribute(&list, "id").unwrap_or_default();
+                lists.insert((path, id), List::Places(pictures.number(name(picture))?, places));
+            }
+        }
+        Ok(Self { lists, textures: pictures.textures })
     }
 
-    /// The light at the corners of a triangle, which has properties of its own or those of its object.
-    pub(super) fn lights(
+    /// The paint of a triangle, which has properties of its own or those of its object.
+    pub(super) fn paint(
         &self,
         path: &str,
         object: &Node<'_, '_>,
         triangle: &Node<'_, '_>,
-    ) -> Option<[DVec3; 3]> {
-        let light = |list: &str, index: &str| {
-            let index: usize = index.trim().parse().ok()?;
-            self.lists.get(&(path, list))?.get(index).copied().flatten()
-        };
-        let list = attribute(triangle, "pid").or_else(|| attribute(object, "pid"))?;
-        let Some(first) = attribute(triangle, "p1") else {
-            let light = light(attribute(object, "pid")?, attribute(object, "pindex")?)?;
-            return Some([light; 3]);
-        };
-        let corner = |key: &str| light(list, attribute(triangle, key).unwrap_or(first));
-        Some([corner("p1")?, corner("p2")?, corner("p3")?])
+        is_mirrored: bool,
+    ) -> Option<Paint> {
+        let first = attribute(triangle, "p1");
+        // A triangle without entries of its own has those of its object.
+        let own = first.and_then(|_| attribute(triangle, "pid"));
+        let list = self.lists.get(&(path, own.or_else(|| attribute(object, "pid"))?))?;
+        let rest = first.or_else(|| attribute(object, "pindex"))?;
+        let keys = if is_mirrored { ["p1", "p3", "p2"] } else { ["p1", "p2", "p3"] };
+        let corners = keys.map(|key| first.and(attribute(triangle, key)).unwrap_or(rest).trim().parse().ok());
+        let [Some(a), Some(b), Some(c)] = corners else { return None };
+        let corners: [usize; 3] = [a, b, c];
+        match list {
+            List::Colours(colours) => {
+                all(corners.map(|k| colours.get(k).copied().flatten())).map(Paint::Corners)
+            }
+            List::Places(texture, places) => {
+                let at = all(corners.map(|k| places.get(k).copied().flatten()))?;
+                Some(Paint::Texture { texture: *texture, at, tint: [DVec3::ONE; 3] })
+            }
+        }
     }
+}
+
+fn all<T>([a, b, c]: [Option<T>; 3]) -> Option<[T; 3]> {
+    Some([a?, b?, c?])
+}
+
+/// A place on a texture, whose coordinates begin at the lower left corner.
+fn place(node: &Node<'_, '_>) -> Option<DVec2> {
+    let [u, v] = ["u", "v"].map(|key| attribute(node, key).and_then(|text| text.trim().parse::<f64>().ok()));
+    Some(DVec2::new(u?, 1.0 - v?))
 }
 
 /// The linear light of `#RRGGBB` or `#RRGGBBAA`.
@@ -79,13 +143,23 @@ mod tests {
         </vertices>";
 
     fn colours(resources: &str, object: &str, triangle: &str, item: &str) -> Option<[Rgb; 3]> {
+        let painting = painting(&[], resources, object, triangle, item).unwrap()?;
+        Some([DVec3::X, DVec3::Y, DVec3::Z].map(|corner| painting.colour(0, corner)))
+    }
+
+    fn painting(
+        pictures: &[(&str, &[u8])],
+        resources: &str,
+        object: &str,
+        triangle: &str,
+        item: &str,
+    ) -> Result<Option<Painting>, ColourError> {
         let model = format!(
             "<model xmlns='core' xmlns:m='material'><resources>{resources}<object id='9' {object}><mesh>{VERTICES}\
              <triangles><triangle v1='0' v2='1' v3='2' {triangle}/></triangles></mesh></object></resources>\
              <build><item objectid='9' {item}/></build></model>"
         );
-        let painting = read_painting(&archive(&[("3D/3dmodel.model", &model)])).unwrap()?;
-        Some([DVec3::X, DVec3::Y, DVec3::Z].map(|corner| painting.colour(0, corner)))
+        read_painting(&archive(&[&[("3D/3dmodel.model", model.as_bytes())], pictures].concat()))
     }
 
     const BASE: &str = "<basematerials id='5'><base name='a' displaycolor='#D22323'/>\
@@ -114,5 +188,48 @@ mod tests {
         assert_eq!(colours(GROUP, "", triangle, ""), Some([red, green, blue]));
         let mirror = "transform='-1 0 0 0 1 0 0 0 1 0 0 0'";
         assert_eq!(colours(GROUP, "", triangle, mirror), Some([red, blue, green]));
+    }
+
+    /// Red and green above, blue and white below.
+    fn picture() -> Vec<u8> {
+        let mut png = Vec::new();
+        let mut encoder = png::Encoder::new(&mut png, 2, 2);
+        encoder.set_color(png::ColorType::Rgb);
+        let pixels = [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255, 255, 255]].concat();
+        encoder.write_header().unwrap().write_image_data(&pixels).unwrap();
+        png
+    }
+
+    const TEXTURE: &str = "<m:texture2d id='7' path='/3D/Textures/skin.png' contenttype='image/png'/>\
+        <m:texture2dgroup id='8' texid='7'><m:tex2coord u='0.25' v='0.75'/><m:tex2coord u='0.75' v='0.75'/>\
+        <m:tex2coord u='0.25' v='0.25'/></m:texture2dgroup>";
+
+    #[test]
+    fn textures_lie_as_their_coordinates_say() {
+        let skin: &[(&str, &[u8])] = &[("3D/Textures/skin.png", &picture())];
+        let [red, green, blue] = [Rgb(255, 0, 0), Rgb(0, 255, 0), Rgb(0, 0, 255)];
+        let corners = |object: &str, triangle: &str, item: &str| {
+            let painting = painting(skin, TEXTURE, object, triangle, item).unwrap().expect("colours");
+            [DVec3::X, DVec3::Y, DVec3::Z].map(|corner| painting.colour(0, corner))
+        };
+        let triangle = "pid='8' p1='0' p2='1' p3='2'";
+        assert_eq!(corners("", triangle, ""), [red, green, blue]);
+        assert_eq!(corners("", triangle, "transform='-1 0 0 0 1 0 0 0 1 0 0 0'"), [red, blue, green]);
+        assert_eq!(corners("pid='8' pindex='2'", "", ""), [blue; 3]);
+    }
+
+    #[test]
+    fn a_texture_that_is_missing_is_named() {
+        let wrong = |pictures: &[(&str, &[u8])]| {
+            let triangle = "pid='8' p1='0' p2='1' p3='2'";
+            painting(pictures, TEXTURE, "", triangle, "").unwrap_err().to_string()
+        };
+        assert!(wrong(&[]).contains("3D/Textures/skin.png"), "{}", wrong(&[]));
+        let bitmap = wrong(&[("3D/Textures/skin.png", b"BM")]);
+        assert!(bitmap.contains("neither PNG nor JPEG"), "{bitmap}");
+        // What no texture names is as good as nothing.
+        let lost = TEXTURE.replace("texid='7'", "texid='1'");
+        let triangle = "pid='8' p1='0' p2='1' p3='2'";
+        assert_eq!(painting(&[], &lost, "", triangle, ""), Ok(None));
     }
 }

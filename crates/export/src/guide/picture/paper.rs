@@ -2,7 +2,7 @@
 
 use glam::{DAffine2, DVec2};
 use tatamu_core::geom::polygon;
-use tatamu_draw::drawing::{Align, Drawing, Layer, LineStyles, Mark, Rgb, Shape, Stroke, Text};
+use tatamu_draw::drawing::{Align, Drawing, Layer, LineStyles, Mark, Rgb, Shape, Stroke, Text, text};
 use tatamu_draw::render::palette;
 use tatamu_net::net::{Net, Side};
 use tatamu_pipeline::Output;
@@ -13,6 +13,8 @@ const BORDER_MM: f64 = 2.0;
 const GAP: f64 = 0.06;
 /// Widest line.
 const LINE_MM: f64 = 0.25;
+/// Height of the numbers of sheets on maps.
+const NUMBER_MM: f64 = 2.2;
 /// Paper on maps, and pieces of other components.
 const PAPER: Rgb = Rgb(255, 255, 255);
 const OTHERS: Rgb = Rgb(226, 226, 230);
@@ -83,8 +85,14 @@ pub fn sheet_map(output: &Output, sheet: usize, part: usize, height_mm: f64) -> 
             drawing.marks.push(Mark::polygon(Layer::Picture, outline, &thin));
         }
     }
+    // Pieces that lie in the corner leave the number room.
+    let number = (sheet + 1).to_string();
+    let low = DVec2::new(size_mm.x - 1.6 - text::width_mm(&number, NUMBER_MM), 0.0);
+    let high = DVec2::new(size_mm.x, NUMBER_MM + 1.6);
+    let ground = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+    drawing.marks.push(Mark::filled(Layer::Picture, ground.to_vec(), PAPER));
     drawing.marks.push(Mark::polygon(Layer::Picture, corners.to_vec(), &edge));
-    let number = Text::new((sheet + 1).to_string(), DVec2::new(size_mm.x - 1.0, 1.0), 2.2);
+    let number = Text::new(number, DVec2::new(size_mm.x - 0.8, 0.8), NUMBER_MM);
     drawing.marks.push(Mark::text(Layer::Picture, number.aligned(Align::End).coloured(EDGE)));
     drawing
 }
