@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn words_find_commands_in_any_order() {
-        assert!(is_like(&commands::MERGE, "comp merge"));
+        assert!(is_like(&commands::LAY_OUT, "again lay"));
         assert!(is_like(&commands::OPEN, ""));
         assert!(!is_like(&commands::OPEN, "merge"));
     }

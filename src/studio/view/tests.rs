@@ -17,6 +17,8 @@ use tempfile::TempDir;
 
 mod defects;
 mod nets;
+#[cfg(unix)]
+mod plots;
 mod tools;
 
 type Desk = Harness<'static, Window>;
@@ -262,77 +264,6 @@ fn folding_is_played_and_scrubbed() {
     let stopped = desk.state().space().folded();
     desk.run_steps(5);
     assert_eq!(desk.state().space().folded(), stopped);
-}
-
-#[cfg(unix)]
-#[test]
-fn a_job_goes_to_the_virtual_plotter() {
-    use crate::app::profiles;
-    use crate::cli::virtual_plotter::{self, VirtualPlotterArgs};
-    use clap::Parser;
-
-    #[derive(Parser)]
-    struct Command {
-        #[command(flatten)]
-        args: VirtualPlotterArgs,
-    }
-
-    let plug_in = || {
-        let (mut host, port) = virtual_plotter::open().unwrap();
-        let machine = std::thread::spawn(move || {
-            let flags = ["x", "--cutter", "generic-hpgl", "--speedup", "1000", "--baud", "4000000"];
-            let command = Command::parse_from(flags);
-            let cutter = profiles::machine(Some("generic-hpgl"), Some("cardstock-200")).unwrap().cutter;
-            virtual_plotter::serve(&command.args, &cutter, &mut host)
-        });
-        (port, machine)
-    };
-    let run = |desk: &mut Desk, stops: bool| {
-        let start = Instant::now();
-        loop {
-            assert!(start.elapsed() < Duration::from_secs(60), "the job hangs");
-            desk.run_steps(1);
-            let state = desk.state_mut().plot_mut().running().expect("a job").state();
-            if state.end.is_some() {
-                return state;
-            }
-            if state.wants_sheet.is_some() {
-                // The job may have asked after the last picture was drawn.
-                click_when_there(desk, "Sheet loaded");
-            }
-            // The machine takes its time; the user stops the rest.
-            if stops && state.share > 0.02 {
-                click(desk, "Stop");
-            }
-            std::thread::sleep(Duration::from_millis(5));
-        }
-    };
-    let (mut desk, folder) = open();
-    let (port, machine) = plug_in();
-    click(&mut desk, "Plot");
-    desk.state_mut().plot_mut().choose("generic-hpgl", &port);
-    desk.run_ok();
-    click(&mut desk, "all sheets");
-    click_when_there(&mut desk, "Start");
-    let state = run(&mut desk, true);
-    let plotter = machine.join().unwrap();
-    assert!(plotter.received() > 100, "{state:?}");
-    assert_eq!(plotter.lost(), 0);
-    assert!(!plotter.is_pen_down(), "the pen is lifted");
-    let journal = folder.path().join("snowman.tatamu-job");
-    assert_eq!(journal.exists(), state.end != Some(Ok(())), "a job that was stopped can go on");
-    if journal.exists() {
-        let (_, done) = state.at.expect("strokes were sent");
-        let (port, machine) = plug_in();
-        desk.state_mut().plot_mut().choose("generic-hpgl", &port);
-        desk.run_ok();
-        click(&mut desk, "Continue the stopped job");
-        let state = run(&mut desk, false);
-        assert_eq!(state.end, Some(Ok(())));
-        assert!(state.at.is_some_and(|(_, now)| now > done), "{done} strokes were done before");
-        assert!(!machine.join().unwrap().is_pen_down() && !journal.exists());
-        assert!(desk.query_by_label("Continue the stopped job").is_none());
-    }
 }
 
 #[test]

@@ -1,29 +1,28 @@
 //! The sheets as they will be printed. A piece that is clicked is selected in space, too; one that is
 //! dragged moves alone.
 
-use super::super::change::Change;
-use super::super::messages::Cause;
-use super::super::pages::{self, Move, PieceId};
+mod pieces;
+mod preview;
+
+use super::super::pages::{self, PieceId};
 use super::super::selection::Hover;
 use super::super::state::Studio;
 use super::canvas::{Canvas, Seen, draw, to_mm, to_screen};
 use super::commands;
 use super::edges::{self, EdgeTool, Page};
-use super::look::{self, ACCENT, OVERLAP};
+use super::look::{self, ACCENT};
 use super::picture::Picture;
 use super::wheel::Wheel;
 use eframe::egui::{self, Color32, PointerButton, Pos2, Rect, Sense, Stroke, Ui, Vec2};
 use glam::DVec2;
 use lucide_icons::Icon;
+use pieces::Drag;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use tatamu::component::PanelId;
 use tatamu::drawing::Drawing;
 use tatamu::front::edges::PlacedEdge;
 use tatamu::pipeline::Output;
-
-/// Turn of a piece for a press of a key, radians.
-const TURN_RAD: f64 = std::f64::consts::PI / 12.0;
 
 /// The panel of the sheets.
 #[derive(Default)]
@@ -63,15 +62,6 @@ impl Drawn {
         let pages = seen.pages.iter().zip(&self.edges);
         pages.map(|(&rect, edges)| Page { rect, scale: seen.scale, edges }).collect()
     }
-}
-
-/// A piece on its way to another place.
-#[derive(Debug, Clone, Copy)]
-struct Drag {
-    id: PieceId,
-    /// Where it was taken, on its page.
-    from_mm: DVec2,
-    turn_rad: f64,
 }
 
 impl SheetsPanel {
@@ -149,51 +139,6 @@ impl SheetsPanel {
         }
     }
 
-    /// One page after the other, as they are written.
-    pub fn preview(&mut self, studio: &Studio, ui: &mut Ui) {
-        ui.add_space(4.0);
-        let Some(output) = studio.shown().output().cloned() else {
-            ui.weak("arranging the pieces …");
-            return;
-        };
-        self.refresh(studio, &output, ui.ctx());
-        let drawn = match &self.drawn {
-            None => return drop(ui.spinner()),
-            Some(Ok(drawn)) => drawn.clone(),
-            Some(Err(problem)) => return drop(ui.colored_label(ui.visuals().error_fg_color, problem)),
-        };
-        let count = drawn.drawings.len();
-        self.previewed = self.previewed.min(count.saturating_sub(1));
-        ui.horizontal(|ui| {
-            let turn = |ui: &mut Ui, icon: Icon, name: &str, can: bool| {
-                let button = ui.add_enabled(can, egui::Button::new(look::icon(icon)));
-                button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, can, name));
-                button.on_hover_text(name).clicked()
-            };
-            if turn(ui, Icon::ChevronLeft, "Previous page", self.previewed > 0) {
-                self.previewed -= 1;
-            }
-            ui.label(format!("Page {} of {count}", self.previewed + 1));
-            if turn(ui, Icon::ChevronRight, "Next page", self.previewed + 1 < count) {
-                self.previewed += 1;
-            }
-            if self.coming.is_some() || studio.laid().is_none() {
-                ui.spinner();
-            }
-        });
-        ui.add_space(4.0);
-        let Some(drawing) = drawn.drawings.get(self.previewed) else { return };
-        let size_mm = egui::vec2(drawing.size_mm.x as f32, drawing.size_mm.y as f32);
-        let room = ui.available_size() - egui::vec2(2.0, 8.0);
-        let scale = (room / size_mm).min_elem().max(0.05);
-        let (rect, page) = ui.allocate_exact_size(scale * size_mm, Sense::hover());
-        let pixels_per_mm = f64::from(scale * ui.ctx().pixels_per_point());
-        let texture = self.pictures[self.previewed].texture(ui.ctx(), drawing, drawn.version, pixels_per_mm);
-        paint(ui.painter(), rect, texture);
-        ui.painter().rect_stroke(rect, 0.0, ui.visuals().window_stroke, egui::StrokeKind::Outside);
-        page.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Page as it is written"));
-    }
-
     /// Moves and magnifies the table.
     fn heed(&mut self, ui: &Ui, table: &egui::Response, seen: &mut Seen, (count, size_mm): (usize, Vec2)) {
         let window = table.rect;
@@ -219,88 +164,6 @@ impl SheetsPanel {
             return;
         }
         *seen = self.canvas.seen(count, size_mm, window);
-    }
-
-    /// Draws the piece that is on its way, and lays it down where it is let go.
-    fn dragged(&mut self, studio: &mut Studio, drawn: &Drawn, ui: &Ui, seen: &Seen) {
-        let output = &drawn.output;
-        let Some(drag) = &mut self.drag else { return };
-        let (at, is_down, turns) = ui.input(|i| {
-            let turns =
-                f64::from(i.key_pressed(egui::Key::Comma)) - f64::from(i.key_pressed(egui::Key::Period));
-            (i.pointer.latest_pos(), i.pointer.primary_down(), turns)
-        });
-        drag.turn_rad += turns * TURN_RAD;
-        let drag = *drag;
-        let Some(at) = at else { return };
-        let count = output.layout().sheet_count();
-        let sheet = seen.pages.iter().take(count).position(|page| page.contains(at));
-        let to = match sheet {
-            Some(sheet) => {
-                let by_mm = to_mm(seen.pages[sheet], seen.scale, at) - drag.from_mm;
-                Move { sheet, by_mm, turn_rad: drag.turn_rad }
-            }
-            // Beside the sheets: on one of its own.
-            None => Move { sheet: count, by_mm: DVec2::ZERO, turn_rad: drag.turn_rad },
-        };
-        let over = pages::overlapped(output, drag.id, &to);
-        let page = sheet.map(|sheet| seen.pages[sheet]);
-        let outline = pages::moved_outline(output, drag.id, &to);
-        let stroke = Stroke::new(2.5, if over.is_empty() { ACCENT } else { OVERLAP });
-        match page {
-            Some(page) => {
-                let points: Vec<Pos2> = outline.iter().map(|&p| to_screen(page, seen.scale, p)).collect();
-                draw(ui.painter(), points, stroke);
-                let others = drawn.outlines.iter().flatten().filter(|(id, _)| over.contains(id));
-                for (_, outline) in others {
-                    let points: Vec<Pos2> = outline.iter().map(|&p| to_screen(page, seen.scale, p)).collect();
-                    draw(ui.painter(), points, Stroke::new(2.5, OVERLAP));
-                }
-            }
-            None => {
-                let text = "on a sheet of its own";
-                let font = egui::FontId::proportional(13.0);
-                let colour = ui.visuals().strong_text_color();
-                ui.painter().text(at + egui::vec2(14.0, 14.0), egui::Align2::LEFT_TOP, text, font, colour);
-            }
-        }
-        ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing);
-        if !is_down {
-            self.drag = None;
-            arrange(studio, output, drag.id, &to);
-        }
-    }
-
-    /// What can be done with the piece that is selected.
-    fn piece_bar(&mut self, studio: &mut Studio, output: &Output, ui: &mut Ui) {
-        let Some(piece) = studio.selection.piece().map(str::to_owned) else { return };
-        let net = studio.selected_index();
-        let Some(id) = net.and_then(|net| pages::named(output, net, &piece)) else { return };
-        let pins = studio.document().map(|d| &d.project().pins);
-        let is_pinned = pins.is_some_and(|pins| pins.iter().any(|pin| pin.piece() == piece));
-        let is_current = studio.laid().is_some();
-        let sheet = output.layout().places(id.net)[id.piece].sheet;
-        let turned = |turn_rad| Move { sheet, by_mm: DVec2::ZERO, turn_rad };
-        let aside = Move { sheet: output.layout().sheet_count(), by_mm: DVec2::ZERO, turn_rad: 0.0 };
-        ui.horizontal_wrapped(|ui| {
-            let pinned = if is_pinned { ", pinned" } else { "" };
-            ui.label(format!("piece {piece}{pinned}"));
-            let help = "rotates the piece by 15°; while you drag it, press , or .";
-            for (picture, name, help, to) in [
-                (look::icon(Icon::RotateCcw), "Rotate left", help, turned(TURN_RAD)),
-                (look::icon(Icon::RotateCw), "Rotate right", help, turned(-TURN_RAD)),
-                (look::icon(Icon::FilePlus), "Put aside", "puts the piece on a sheet of its own", aside),
-            ] {
-                let button = ui.add_enabled(is_current, egui::Button::new(format!("{picture}  {name}")));
-                button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, is_current, name));
-                if button.on_hover_text(help).clicked() {
-                    arrange(studio, output, id, &to);
-                }
-            }
-            if is_pinned && ui.button("Unpin").on_hover_text("lets the layout place it again").clicked() {
-                studio.change(&Change::Unpin { piece: piece.clone() }, None);
-            }
-        });
     }
 
     /// Begins to draw the sheets where they have changed; what was drawn stays until then.
@@ -462,14 +325,6 @@ impl SheetsPanel {
             self.canvas.bring(seen, window, Rect::from_points(&points));
             self.seen = name;
         }
-    }
-}
-
-/// Moves a piece; all others stay where they lie.
-fn arrange(studio: &mut Studio, output: &Output, id: PieceId, to: &Move) {
-    match pages::rearranged(output, id, to) {
-        Ok(pins) => studio.change(&Change::Pins { pins }, None),
-        Err(problem) => studio.messages_mut().warn(Cause::Change, problem),
     }
 }
 

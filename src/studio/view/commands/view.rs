@@ -1,0 +1,180 @@
+//! What is shown, and from where.
+
+use super::super::{Mode, Window};
+use super::keys::{ctrl, key, shift};
+use super::{BLANK, Command, Place, has_file, has_selection};
+use eframe::egui::{Context, Key, KeyboardShortcut};
+use lucide_icons::Icon;
+
+/// All of them.
+pub(super) static ALL: &[&Command] = &[
+    &MODEL, &SHEETS, &EXPORT, &PLOT, &BESIDE, &PLAY, &GHOST, &NAMES, &GRID, &MEASURE, &HIDE, &ISOLATE,
+    &SHOW_ALL, &FIT, &FRONT, &SIDE, &TOP, &LEFT, &RIGHT, &UP, &DOWN, &ZOOM_IN, &ZOOM_OUT,
+];
+
+/// Turn of the view for a press of an arrow key, radians.
+const STEP_RAD: f64 = 0.12;
+
+pub static MODEL: Command =
+    mode("Model", Icon::Box, "the model, its folding and its sheets", &[ctrl(Key::Num1)], |w, _| {
+        w.mode = Mode::Model
+    });
+pub static SHEETS: Command =
+    mode("Sheets", Icon::Files, "the sheets alone", &[ctrl(Key::Num2)], |w, _| w.mode = Mode::Sheets);
+pub static EXPORT: Command = mode(
+    "Export",
+    Icon::FileOutput,
+    "writes files to print, cut or show",
+    &[ctrl(Key::Num3), ctrl(Key::E)],
+    |w, _| w.mode = Mode::Export,
+);
+pub static PLOT: Command =
+    mode("Plot", Icon::Scissors, "sends sheets to a cutter", &[ctrl(Key::Num4)], |w, _| w.mode = Mode::Plot);
+
+const fn mode(
+    name: &'static str,
+    icon: Icon,
+    tip: &'static str,
+    keys: &'static [KeyboardShortcut],
+    act: fn(&mut Window, &Context),
+) -> Command {
+    Command { name, icon: Some(icon), tip, keys, place: Place::View(0), act, ..BLANK }
+}
+
+pub static BESIDE: Command = Command {
+    name: "Sheets beside the model",
+    icon: Some(Icon::Columns2),
+    tip: "shows or hides the sheets at the right of the model",
+    keys: &[key(Key::B)],
+    place: Place::View(1),
+    can: |w| has_file(w) && w.mode == Mode::Model,
+    act: |w, _| w.has_sheets_beside = !w.has_sheets_beside,
+};
+
+pub static PLAY: Command = Command {
+    name: "Play or pause the folding",
+    icon: Some(Icon::Play),
+    tip: "folds the components one by one, in the folding order",
+    keys: &[key(Key::Space)],
+    place: Place::View(1),
+    act: |w, _| w.space.play(),
+    ..BLANK
+};
+
+pub static GHOST: Command = Command {
+    name: "Ghost of the mesh",
+    icon: Some(Icon::Ghost),
+    tip: "shows the mesh half see-through over the components",
+    keys: &[key(Key::G)],
+    place: Place::View(2),
+    act: |w, _| w.space.toggle_ghost(),
+    ..BLANK
+};
+
+pub static NAMES: Command = Command {
+    name: "Names of the components",
+    icon: Some(Icon::Tag),
+    tip: "shows or hides names in the view",
+    keys: &[key(Key::N)],
+    place: Place::View(2),
+    act: |w, _| w.space.toggle_names(),
+    ..BLANK
+};
+
+pub static GRID: Command = Command {
+    name: "Ground grid",
+    icon: Some(Icon::Grid3x3),
+    tip: "shows or hides lines on the ground, 10 mm apart or as the size needs",
+    place: Place::View(2),
+    act: |w, _| w.space.toggle_grid(),
+    ..BLANK
+};
+
+pub static HIDE: Command = Command {
+    name: "Hide selected components",
+    icon: Some(Icon::EyeOff),
+    keys: &[key(Key::H)],
+    place: Place::View(3),
+    can: has_selection,
+    act: |w, _| {
+        let names = w.studio.selection.names().to_vec();
+        w.studio.visibility.hide(&names);
+    },
+    ..BLANK
+};
+
+pub static ISOLATE: Command = Command {
+    name: "Isolate selected components",
+    icon: Some(Icon::SquareDashed),
+    tip: "hides all others; a second time shows all",
+    keys: &[key(Key::I)],
+    place: Place::View(3),
+    can: has_selection,
+    act: |w, _| {
+        let (names, all) = (w.studio.selection.names().to_vec(), w.studio.shown().names().to_vec());
+        w.studio.visibility.isolate(&names, &all);
+    },
+};
+
+pub static SHOW_ALL: Command = Command {
+    name: "Show all components",
+    icon: Some(Icon::Eye),
+    keys: &[shift(Key::H)],
+    place: Place::View(3),
+    can: |w| w.studio.visibility.hides_some(),
+    act: |w, _| w.studio.visibility.show_all(),
+    ..BLANK
+};
+
+pub static FIT: Command = Command {
+    name: "Fit",
+    icon: Some(Icon::Maximize),
+    tip: "fits the model or the sheets to the window",
+    keys: &[key(Key::F)],
+    place: Place::View(4),
+    act: |w, _| w.fit(),
+    ..BLANK
+};
+
+pub static MEASURE: Command = Command {
+    name: "Measure",
+    icon: Some(Icon::Ruler),
+    tip: "measures between two corners that you click on",
+    keys: &[key(Key::D)],
+    place: Place::View(2),
+    act: |w, _| w.space.measure_mut().toggle(),
+    ..BLANK
+};
+
+static FRONT: Command = view("View from the front", &[key(Key::Num1)], |w, _| w.space.look_from(0.0, 0.0));
+static SIDE: Command =
+    view("View from the side", &[key(Key::Num2)], |w, _| w.space.look_from(std::f64::consts::FRAC_PI_2, 0.0));
+static TOP: Command = view("View from above", &[key(Key::Num3)], |w, _| w.space.look_from(0.0, 1.5));
+static LEFT: Command =
+    hidden("Rotate the view to the left", &[key(Key::ArrowLeft)], |w, _| w.space.nudge(STEP_RAD, 0.0, 1.0));
+static RIGHT: Command = hidden("Rotate the view to the right", &[key(Key::ArrowRight)], |w, _| {
+    w.space.nudge(-STEP_RAD, 0.0, 1.0)
+});
+static UP: Command =
+    hidden("Rotate the view up", &[key(Key::ArrowUp)], |w, _| w.space.nudge(0.0, STEP_RAD, 1.0));
+static DOWN: Command =
+    hidden("Rotate the view down", &[key(Key::ArrowDown)], |w, _| w.space.nudge(0.0, -STEP_RAD, 1.0));
+static ZOOM_IN: Command =
+    hidden("Zoom in", &[key(Key::Plus), key(Key::Equals)], |w, _| w.space.nudge(0.0, 0.0, 1.2));
+static ZOOM_OUT: Command = hidden("Zoom out", &[key(Key::Minus)], |w, _| w.space.nudge(0.0, 0.0, 1.0 / 1.2));
+
+const fn view(
+    name: &'static str,
+    keys: &'static [KeyboardShortcut],
+    act: fn(&mut Window, &Context),
+) -> Command {
+    Command { name, keys, place: Place::View(4), act, ..BLANK }
+}
+
+const fn hidden(
+    name: &'static str,
+    keys: &'static [KeyboardShortcut],
+    act: fn(&mut Window, &Context),
+) -> Command {
+    Command { name, keys, act, ..BLANK }
+}

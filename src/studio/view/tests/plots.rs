@@ -1,0 +1,133 @@
+//! Jobs for a simulated machine.
+
+use super::*;
+use crate::app::profiles;
+use crate::cli::virtual_plotter::{self, VirtualPlotterArgs};
+use crate::studio::plotting::State;
+use clap::Parser;
+use std::thread::JoinHandle;
+use tatamu::plotter::VirtualMachine;
+
+#[derive(Parser)]
+struct Command {
+    #[command(flatten)]
+    args: VirtualPlotterArgs,
+}
+
+/// A machine that works for one job: its port, and what it did then.
+fn plug_in(cutter: &'static str, flags: &[&'static str]) -> (String, JoinHandle<Box<dyn VirtualMachine>>) {
+    let (mut host, port) = virtual_plotter::open().unwrap();
+    let flags = [&["x", "--cutter", cutter, "--speedup", "1000", "--baud", "4000000"], flags].concat();
+    let machine = std::thread::spawn(move || {
+        let command = Command::parse_from(flags);
+        let cutter = profiles::machine(Some(cutter), Some("cardstock-200")).unwrap().cutter;
+        virtual_plotter::serve(&command.args, &cutter, &mut host)
+    });
+    (port, machine)
+}
+
+/// Waits for the end of the job; the user loads sheets, and perhaps stops.
+fn run(desk: &mut Desk, stops: bool) -> State {
+    let start = Instant::now();
+    loop {
+        assert!(start.elapsed() < Duration::from_secs(60), "the job hangs");
+        desk.run_steps(1);
+        let state = desk.state_mut().plot_mut().running().expect("a job").state();
+        if state.end.is_some() {
+            desk.run_ok();
+            return state;
+        }
+        if state.wants_sheet.is_some() {
+            // The job may have asked after the last picture was drawn.
+            click_when_there(desk, "Sheet loaded");
+        }
+        // The machine takes its time; the user stops the rest.
+        if stops && state.share > 0.02 {
+            click(desk, "Stop");
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}
+
+/// Writes the machine's port into its field.
+fn write_port(desk: &mut Desk, port: &str) {
+    desk.get_by_role_and_label(Role::TextInput, "Port").focus();
+    desk.run_ok();
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    desk.run_ok();
+    desk.get_by_role_and_label(Role::TextInput, "Port").type_text(port);
+    desk.run_ok();
+}
+
+#[test]
+fn a_job_goes_to_the_virtual_plotter() {
+    let (mut desk, folder) = open();
+    let (port, machine) = plug_in("generic-hpgl", &[]);
+    click(&mut desk, "Plot");
+    desk.state_mut().plot_mut().choose("generic-hpgl", &port);
+    desk.run_ok();
+    click(&mut desk, "all sheets");
+    click_when_there(&mut desk, "Start");
+    let state = run(&mut desk, true);
+    let plotter = machine.join().unwrap();
+    assert!(plotter.received() > 100, "{state:?}");
+    assert_eq!(plotter.lost(), 0);
+    assert!(!plotter.is_pen_down(), "the pen is lifted");
+    let journal = folder.path().join("snowman.tatamu-job");
+    assert_eq!(journal.exists(), state.end != Some(Ok(())), "a job that was stopped can go on");
+    if journal.exists() {
+        let (_, done) = state.at.expect("strokes were sent");
+        let (port, machine) = plug_in("generic-hpgl", &[]);
+        desk.state_mut().plot_mut().choose("generic-hpgl", &port);
+        desk.run_ok();
+        click(&mut desk, "Continue the stopped job");
+        let state = run(&mut desk, false);
+        assert_eq!(state.end, Some(Ok(())));
+        assert!(state.at.is_some_and(|(_, now)| now > done), "{done} strokes were done before");
+        assert!(!machine.join().unwrap().is_pen_down() && !journal.exists());
+        assert!(desk.query_by_label("Continue the stopped job").is_none());
+    }
+}
+
+/// Marks are chosen, the machine is found by three questions, and it cuts where the marks are, or not at all.
+#[test]
+fn a_silhouette_cuts_where_the_marks_are_or_not_at_all() {
+    for marks in [&["--marks-at", "12.5,8"][..], &[]] {
+        let is_found = !marks.is_empty();
+        let (mut desk, folder) = open();
+        click(&mut desk, "Whole model");
+        click(&mut desk, "Paper and pieces");
+        desk.get_by_role_and_label(Role::ComboBox, "Registration marks").click();
+        desk.run_ok();
+        click(&mut desk, "silhouette");
+        let is_marked = |s: &Studio| s.finished().is_some_and(|o| o.options().sheets.registration.is_some());
+        settle(&mut desk, "sheets with marks", is_marked);
+        click(&mut desk, "Plot");
+        click(&mut desk, "Find my machine …");
+        for answer in ["Silhouette", "Cameo 3 to 5; Portrait 3, 4", "cardstock-200"] {
+            desk.get_by_role_and_label(Role::Button, answer).click();
+            desk.run_ok();
+        }
+        assert_eq!(desk.state_mut().plot_mut().choice(), ["silhouette", "cardstock-200", "usb"]);
+        let (port, machine) = plug_in("silhouette", &[&["--buffer", "1000000"], marks].concat());
+        write_port(&mut desk, &port);
+        click(&mut desk, "all sheets");
+        click_when_there(&mut desk, "Start");
+        let state = run(&mut desk, false);
+        let machine = machine.join().unwrap();
+        assert_eq!((machine.lost(), machine.broken(), machine.is_pen_down()), (0, 0, false), "{state:?}");
+        let cut: Vec<_> = machine.motions().iter().filter(|motion| motion.is_down).collect();
+        assert_eq!(state.end.clone().map(|end| end.is_ok()), Some(is_found), "{state:?}");
+        assert_eq!(cut.len() > 50, is_found, "{} lines", cut.len());
+        assert_eq!(folder.path().join("snowman.tatamu-job").exists(), !is_found);
+        if is_found {
+            assert!(desk.query_by_label("Done.").is_some());
+        } else {
+            assert!(cut.is_empty());
+            let problem = state.end.unwrap().unwrap_err();
+            assert!(problem.contains("did not find the registration marks"), "{problem}");
+            assert!(desk.query_by_label(&problem).is_some(), "the window says it");
+            assert!(desk.query_by_label("Continue the stopped job").is_some());
+        }
+    }
+}
