@@ -82,7 +82,7 @@ pub struct PlotArgs {
     #[arg(long)]
     dry_run: bool,
 
-    /// Writes a picture of the job: travel, order, path of the blade tip
+    /// Writes a picture of the job: bed, order, travel, path of the blade tip, time
     ///
     /// The extension chooses the format, such as .png, .svg or .pdf. Example: --preview job.png
     #[arg(long, value_name = "FILE")]
