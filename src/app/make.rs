@@ -35,7 +35,7 @@ pub enum Guide {
 pub const MOST_SHEETS: usize = 200;
 
 /// What to do for the sheets where all files are guides.
-const GUIDES_ALONE: &str = "for the sheets, too, name both files: -o FILE.pdf --guide FILE.html";
+const GUIDES_ALONE: &str = "for the sheets, too, give them and the guide a file each";
 
 /// What is asked for of all inputs.
 pub struct Wish {
