@@ -19,6 +19,7 @@ mod defects;
 mod nets;
 #[cfg(unix)]
 mod plots;
+mod reach;
 mod tools;
 
 type Desk = Harness<'static, Window>;
