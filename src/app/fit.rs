@@ -5,9 +5,10 @@ use super::choice::Choice;
 use super::error::AppError;
 use super::input::{self, Input, Shape};
 use std::borrow::Cow;
+use tatamu::design::Sketch;
 use tatamu::mesh::painting::Painting;
 use tatamu::paint;
-use tatamu::pipeline::{self, Engine, Output};
+use tatamu::pipeline::{self, Engine, Output, Shaped};
 use tatamu::progress::Progress;
 
 /// Sizes are multiples of this, mm.
@@ -64,12 +65,7 @@ fn searched_for(
     match &input.shape {
         Shape::Mesh(mesh) => {
             let engine = Engine::new(Cow::Borrowed(mesh));
-            // How the parts fold is asked of the last model alone.
-            let laid_out = |choice: &Choice| {
-                let shaped = engine.shape(choice.options(), progress).map_err(failed)?;
-                let output = engine.lay_out(shaped.clone(), progress).map_err(failed)?;
-                Ok((shaped, output))
-            };
+            let laid_out = laid_out(&engine, progress);
             let choice = match &painting {
                 Some(painting) => {
                     let (_, output) = laid_out(&choice)?;
@@ -82,13 +78,52 @@ fn searched_for(
             Ok((choice, advise(&engine, output).map_err(failed)?))
         }
         Shape::Drawn(sketches) => {
-            let run = |choice: &Choice| {
-                let output = pipeline::run_drawn(sketches, choice.size_mm(), choice.options(), progress);
-                Ok(((), output.map_err(failed)?))
-            };
-            let (choice, (), output) = smaller(choice, most, progress, run)?;
+            let (choice, (), output) = smaller(choice, most, progress, drawn(sketches, progress))?;
             Ok((choice, output))
         }
+    }
+}
+
+/// The largest size found, mm, in which a model takes no more sheets than its choice allows: of a mesh, or of
+/// drawings.
+///
+/// # Errors
+/// If there is none, or it was stopped.
+pub fn fitting_size_mm(
+    engine: &Engine<'_>,
+    sketches: Option<&[Sketch]>,
+    choice: Choice,
+    progress: &dyn Progress,
+) -> Result<f64, AppError> {
+    let most = choice.settings().most_sheets.unwrap_or(usize::MAX);
+    let output = match sketches {
+        None => smaller(choice, most, progress, laid_out(engine, progress))?.2,
+        Some(sketches) => smaller(choice, most, progress, drawn(sketches, progress))?.2,
+    };
+    Ok(output.options().size_mm)
+}
+
+/// Makes the sheets of a mesh. How the parts fold is asked of the last model alone.
+fn laid_out<'a>(
+    engine: &'a Engine<'_>,
+    progress: &'a dyn Progress,
+) -> impl Fn(&Choice) -> Result<(Shaped, Output), AppError> + 'a {
+    move |choice| {
+        let failed = |error| AppError::of_run(error, progress);
+        let shaped = engine.shape(choice.options(), progress).map_err(failed)?;
+        let output = engine.lay_out(shaped.clone(), progress).map_err(failed)?;
+        Ok((shaped, output))
+    }
+}
+
+/// Makes a model of drawings.
+fn drawn<'a>(
+    sketches: &'a [Sketch],
+    progress: &'a dyn Progress,
+) -> impl Fn(&Choice) -> Result<((), Output), AppError> + 'a {
+    move |choice| {
+        let output = pipeline::run_drawn(sketches, choice.size_mm(), choice.options(), progress);
+        Ok(((), output.map_err(|error| AppError::of_run(error, progress))?))
     }
 }
 

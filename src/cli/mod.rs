@@ -90,6 +90,12 @@ fn survive_file_limits() {
     let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, was_raised);
 }
 
+/// All commands with their flags.
+#[cfg(all(test, feature = "studio-test"))]
+pub fn command() -> clap::Command {
+    Cli::command()
+}
+
 /// Runs the program.
 pub fn run() -> ExitCode {
     #[cfg(unix)]

@@ -2,9 +2,10 @@
 
 use std::ops::RangeInclusive;
 use tatamu::project::options::{
-    ANGLES, CLUSTERS, DETAIL, Entry, GLUE_MARKS, GRAIN, Kind, LABELS, LEVEL, MARGIN, MARKS, METHOD,
-    MIN_PANEL_WIDTH, PAPER, PARTS, PROFILE_VERTICES, Range, SIDE, SIZE, SMOOTHING, SPACING, SYMMETRY,
-    Settings, TAB_WIDTH, THICKNESS, TOLERANCE, TOP_EDGES, UP,
+    ANGLES, CALIBRATE, CLUSTERS, DETAIL, EDGE_NAMES, EFFORT, Entry, GLUE_MARKS, GRAIN, HIDE_BELOW, Kind,
+    LABELS, LEVEL, MARGIN, MARKS, METHOD, MIN_PANEL_WIDTH, PAPER, PARTS, PROFILE_VERTICES, Range, SHEETS_MAX,
+    SIDE, SIZE, SMOOTHING, SPACING, SPLIT, SYMMETRY, Settings, TAB_WIDTH, THICK, THICKNESS, TOLERANCE,
+    TOP_EDGES, UP,
 };
 use tatamu::segment::Method;
 
@@ -38,6 +39,9 @@ pub const PAPER_AND_PIECES: [&Entry; 12] = [
     &GLUE_MARKS,
     &ANGLES,
 ];
+
+/// The settings of the whole model that few need.
+pub const RARE: [&Entry; 7] = [&SHEETS_MAX, &THICK, &SPLIT, &HIDE_BELOW, &EDGE_NAMES, &EFFORT, &CALIBRATE];
 
 /// Least and most of a number that can be dragged to.
 pub fn range(option: &Entry) -> RangeInclusive<f64> {

@@ -3,13 +3,17 @@
 use super::opened::Opened;
 use super::words;
 use super::worker::Wake;
+use crate::app::choice::Choice;
+use crate::app::fit::fitting_size_mm;
 use crate::app::output::{self, Target};
 use crate::app::{input, make};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use tatamu::export::format_of;
 use tatamu::pipeline::Output;
+use tatamu::progress::Progress;
 use tatamu::project::Project;
 
 /// What was done, or why not.
@@ -22,6 +26,25 @@ pub enum Finished {
     Exported(Result<Vec<String>, String>),
     /// The sheets were written, to be printed; where.
     Printable(Result<PathBuf, String>),
+    /// A size was found in which the model takes no more sheets than it may, mm.
+    Sized(Result<f64, String>),
+}
+
+/// The wish to stop a search.
+#[derive(Debug, Clone, Default)]
+pub struct Stop(Arc<AtomicBool>);
+
+impl Stop {
+    /// Wishes it.
+    pub fn stop(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
+impl Progress for Stop {
+    fn is_cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
 }
 
 /// Threads that read and write.
@@ -85,6 +108,16 @@ impl Tasks {
     pub fn print(&mut self, opened: Arc<Opened>, project: &Project, output: Output) {
         let project = project.clone();
         self.spawn(0, move || Finished::Printable(printable(&opened, &project, &output)));
+    }
+
+    /// Begins to look for the largest size in which the model takes no more sheets than its project allows.
+    pub fn fit(&mut self, opened: Arc<Opened>, project: &Project, stop: Stop) {
+        let choice = Choice::new(Some(project), &[]);
+        self.spawn(0, move || {
+            let sketches = opened.drawn.as_deref().map(Vec::as_slice);
+            let size = choice.and_then(|choice| fitting_size_mm(&opened.engine, sketches, choice, &stop));
+            Finished::Sized(size.map_err(|error| words::error(&error)))
+        });
     }
 
     /// Begins to write files.

@@ -33,13 +33,13 @@ pub use given::{Given, Written};
 pub use kind::{Count, Kind, Number, Range, Switch, Text, Unit};
 pub use machine::{CUTTER, MEDIA};
 pub use model::{LEVEL, PROFILE_VERTICES, SHEETS_MAX, SIZE, TOLERANCE, TOP_EDGES, UP};
-pub use nets::{ANGLES, GLUE_MARKS, MIN_PANEL_WIDTH, SPLIT, TAB_WIDTH};
+pub use nets::{ANGLES, EDGE_NAMES, GLUE_MARKS, HIDE_BELOW, MIN_PANEL_WIDTH, SPLIT, TAB_WIDTH};
 pub use presets::FOR;
 pub use program::Program;
 pub use reference::{command_line_page, project_page};
 pub use segmentation::{CLUSTERS, DETAIL, METHOD, PARTS, ROOT, SMOOTHING, SYMMETRY};
 pub use settings::{Files, Settings};
-pub use sheets::{GRAIN, LABELS, MARGIN, MARKS, PAPER, SIDE, SPACING, THICK, THICKNESS};
+pub use sheets::{CALIBRATE, EFFORT, GRAIN, LABELS, MARGIN, MARKS, PAPER, SIDE, SPACING, THICK, THICKNESS};
 
 pub(super) use component::{check_degrees, checked_name};
 pub(super) use given::quoted;

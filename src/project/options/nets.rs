@@ -100,7 +100,7 @@ pub static ANGLES: Entry = Entry {
 };
 
 /// Whether names of edges are printed.
-static EDGE_NAMES: Entry = Entry {
+pub static EDGE_NAMES: Entry = Entry {
     key: Key::new("nets", "edge_names"),
     flag: Flag::under(HEADING, "edge-names", "BOOL"),
     kind: Kind::Switch(Switch {
@@ -111,11 +111,12 @@ static EDGE_NAMES: Entry = Entry {
     long: "2.3 is the third edge of chain 2, counted from the top panel. A project says by these names where a net \
            is cut and which side has the tab.",
     meaning: "prints the name of each edge beside it, for [`[[net]]`](project.md#net), such as 2.3",
+    dial: Dial::new("Edge names"),
     ..Entry::BLANK
 };
 
 /// Below which angle creases are left out.
-static HIDE_BELOW: Entry = Entry {
+pub static HIDE_BELOW: Entry = Entry {
     key: Key::new("nets", "hide_below"),
     flag: Flag::under(HEADING, "hide-below", "DEGREES"),
     kind: Kind::Number(Number {
@@ -131,5 +132,6 @@ static HIDE_BELOW: Entry = Entry {
     long: "This is the angle in the unfolded model. Creases that fold flat are always drawn.",
     example: "--hide-below 3",
     meaning: "leaves out creases that fold by less, in degrees",
+    dial: Dial::spanning("Hide creases below", 0.0, MOST_HIDDEN_DEG, 1),
     ..Entry::BLANK
 };

@@ -208,7 +208,7 @@ pub static SPACING: Entry = Entry {
 };
 
 /// How much the nesting tries.
-static EFFORT: Entry = Entry {
+pub static EFFORT: Entry = Entry {
     key: Key::new("sheets", "effort"),
     flag: Flag::under(HEADING, "effort", "N"),
     kind: Kind::Count(Count {
@@ -224,6 +224,7 @@ static EFFORT: Entry = Entry {
            gives the same sheets on any computer. At most 1000000, which takes minutes.",
     example: "--effort 20000",
     meaning: "how long to search for fewer sheets: number of trial placements, at most 1000000",
+    dial: Dial::new("Search effort"),
     ..Entry::BLANK
 };
 
@@ -258,7 +259,7 @@ pub static MARKS: Entry = Entry {
 };
 
 /// What a printer makes of a length.
-static CALIBRATE: Entry = Entry {
+pub static CALIBRATE: Entry = Entry {
     key: Key::new("sheets", "calibrate"),
     flag: Flag::under(HEADING, "calibrate", "X:MM,Y:MM"),
     kind: Kind::Text(Text {
@@ -276,5 +277,6 @@ static CALIBRATE: Entry = Entry {
            with these lengths.",
     example: "--calibrate X:97.3,Y:100.1",
     meaning: "measured lengths of the horizontal (X) and the vertical (Y) bar of 100 mm",
+    dial: Dial::new("Measured bars"),
     ..Entry::BLANK
 };

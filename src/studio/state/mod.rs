@@ -2,6 +2,7 @@
 
 mod edits;
 mod files;
+mod fitting;
 
 use super::document::Document;
 use super::messages::{Cause, Messages};
@@ -10,7 +11,7 @@ use super::preferences::Preferences;
 use super::results::{Busy, Shown};
 use super::selection::{Hover, Selection};
 use super::store::Store;
-use super::tasks::{Finished, Tasks};
+use super::tasks::{Finished, Stop, Tasks};
 use super::visibility::Visibility;
 use super::watch::Watch;
 use super::worker::{News, Order, Wake, Worker};
@@ -51,6 +52,8 @@ pub struct Studio {
     watch: Option<Watch>,
     /// Sheets to be shown by a viewer that prints them.
     printed: Option<PathBuf>,
+    /// The search for a size that goes on.
+    sizing: Option<Stop>,
 }
 
 impl Studio {
@@ -77,6 +80,7 @@ impl Studio {
             wake,
             watch: None,
             printed: None,
+            sizing: None,
         }
     }
 
@@ -104,7 +108,8 @@ impl Studio {
 
     /// The work that goes on.
     pub fn busy(&self) -> Option<Busy> {
-        self.busy
+        let sizing = self.sizing.as_ref().map(|_| Busy { stage: "looking for the size", fraction: None });
+        self.busy.or(sizing)
     }
 
     /// What the user is told.
@@ -199,6 +204,7 @@ impl Studio {
                     self.messages.warn(Cause::Export, problem);
                 }
                 Finished::Printable(Ok(path)) => self.printed = Some(path),
+                Finished::Sized(size) => self.take_size(size),
             }
         }
         if self.watch.as_ref().is_some_and(Watch::is_changed) {
@@ -241,6 +247,7 @@ impl Studio {
     }
 
     fn start(&mut self, first: Option<usize>) {
+        self.stop_sizing();
         let (Some(opened), Some(document)) = (&self.opened, &self.document) else { return };
         (self.missing, self.is_attempt) = (None, false);
         self.messages.clear(Cause::Model);
@@ -254,6 +261,9 @@ impl Studio {
 
     /// Stops the work; what is shown stays.
     pub fn cancel(&mut self) {
+        if self.stop_sizing() {
+            return;
+        }
         self.worker.cancel();
         if self.busy.take().is_some() {
             self.messages.tell(Cause::Model, "stopped; the next change starts it again".to_owned());

@@ -1,5 +1,6 @@
 //! A dialog for files, where the system has none.
 
+use super::modal;
 use eframe::egui::{self, Context, Key, Ui};
 use std::path::{Path, PathBuf};
 
@@ -75,12 +76,12 @@ impl Browser {
     /// Draws the dialog.
     pub fn show(&mut self, ctx: &Context) -> Answer {
         let mut answer = Answer::Open;
-        let modal = egui::Modal::new(egui::Id::unique("files")).show(ctx, |ui| {
+        let shown = modal::new(ctx, "files").show(ctx, |ui| {
             ui.set_width(520.0);
             ui.heading(self.purpose.title());
             answer = self.content(ui);
         });
-        if modal.should_close() { Answer::Cancelled } else { answer }
+        if shown.should_close() { Answer::Cancelled } else { answer }
     }
 
     fn content(&mut self, ui: &mut Ui) -> Answer {
@@ -108,7 +109,7 @@ impl Browser {
             let label = ui.label("File");
             let field =
                 ui.add(egui::TextEdit::singleline(&mut self.name).desired_width(260.0)).labelled_by(label.id);
-            super::modal::focus_once(ui, &field);
+            modal::focus_once(ui, &field);
             if field.changed() {
                 self.replaces = None;
             }

@@ -1,10 +1,11 @@
 //! What opens over the window: one at a time, and nothing behind it heeds keys or mouse.
 
 use super::browser::{Answer, Browser, Purpose};
+use super::command_line::{self, Named};
 use super::commands::{self, Command};
 use super::finder::Finder;
-use super::modal::focus_once;
-use eframe::egui::{self, Context, Id, Modal};
+use super::modal::{self, focus_once};
+use eframe::egui::{self, Context};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
@@ -58,6 +59,7 @@ enum Dialog {
     Parting(Leave),
     Find(Finder),
     Shortcuts,
+    CommandLine,
     About,
 }
 
@@ -137,13 +139,24 @@ impl Dialogs {
         self.begin(Dialog::Shortcuts);
     }
 
+    /// Lists what is on the command line alone.
+    pub fn list_command_line(&mut self) {
+        self.begin(Dialog::CommandLine);
+    }
+
     /// Shows what this program is.
     pub fn about(&mut self) {
         self.begin(Dialog::About);
     }
 
-    /// Draws the dialog that is open, with the commands that can be done and what would be lost.
-    pub fn show(&mut self, ctx: &Context, commands: &[&'static Command], work: Work) -> Option<Outcome> {
+    /// Draws the dialog that is open, with the commands that can be done, what would be lost, and the file.
+    pub fn show(
+        &mut self,
+        ctx: &Context,
+        commands: &[&'static Command],
+        work: Work,
+        named: &Named<'_>,
+    ) -> Option<Outcome> {
         let mut outcome = None;
         if std::mem::take(&mut self.is_new) {
             // A field behind it, in which something was being written, has the focus no more.
@@ -186,6 +199,7 @@ impl Dialogs {
                 }
             },
             Dialog::Shortcuts => shortcuts(ctx),
+            Dialog::CommandLine => command_line::show(ctx, named),
             Dialog::About => about(ctx),
         };
         if is_over {
@@ -243,7 +257,7 @@ impl SystemDialog {
 
     /// Waits for it; the own dialog is to be opened where the system has none.
     fn show(&self, ctx: &Context) -> Option<Answer> {
-        Modal::new(Id::unique("system dialog")).show(ctx, |ui| {
+        modal::new(ctx, "system dialog").show(ctx, |ui| {
             ui.label("Choose a file in the dialog of your desktop.");
         });
         match self.answer.try_recv() {
@@ -266,7 +280,7 @@ fn parting(ctx: &Context, leave: &Leave, work: Work) -> Option<Parting> {
         Leave::Close => ("Save and close", "Close without saving"),
         Leave::Open(_) => ("Save and open", "Open without saving"),
     };
-    let modal = Modal::new(Id::unique("leave")).show(ctx, |ui| {
+    let shown = modal::new(ctx, "leave").show(ctx, |ui| {
         ui.set_width(380.0);
         ui.heading(if work.is_changed { "Unsaved changes" } else { "A job is running" });
         if work.is_cutting && *leave == Leave::Close {
@@ -293,14 +307,14 @@ fn parting(ctx: &Context, leave: &Leave, work: Work) -> Option<Parting> {
             }
         });
     });
-    answer.or(modal.should_close().then_some(Parting::Stay))
+    answer.or(shown.should_close().then_some(Parting::Stay))
 }
 
 /// The list of keys and what the mouse does; whether it is to be closed.
 fn shortcuts(ctx: &Context) -> bool {
     let mut is_closed = false;
     let height = (ctx.content_rect().height() - 160.0).max(160.0);
-    let modal = Modal::new(Id::unique("shortcuts")).show(ctx, |ui| {
+    let shown = modal::new(ctx, "shortcuts").show(ctx, |ui| {
         ui.set_width(680.0);
         ui.horizontal(|ui| {
             ui.heading("Shortcuts");
@@ -328,14 +342,14 @@ fn shortcuts(ctx: &Context) -> bool {
         });
     });
     is_closed
-        || modal.should_close()
+        || shown.should_close()
         || ctx.input_mut(|i| i.consume_key(egui::Modifiers::NONE, egui::Key::F1))
 }
 
 /// What this program is; whether it is to be closed.
 fn about(ctx: &Context) -> bool {
     let mut is_closed = false;
-    let modal = Modal::new(Id::unique("about")).show(ctx, |ui| {
+    let shown = modal::new(ctx, "about").show(ctx, |ui| {
         ui.set_width(420.0);
         ui.heading(format!("tatamu {}", env!("CARGO_PKG_VERSION")));
         ui.label("turns a mesh into a paper model that folds flat");
@@ -349,7 +363,7 @@ fn about(ctx: &Context) -> bool {
         focus_once(ui, &close);
         is_closed = close.clicked();
     });
-    is_closed || modal.should_close()
+    is_closed || shown.should_close()
 }
 
 impl Purpose {

@@ -31,6 +31,12 @@ pub fn paper(studio: &mut Studio, ui: &mut Ui) {
     dials::PAPER_AND_PIECES.iter().for_each(|option| row(studio, ui, option, &settings));
 }
 
+/// The settings that few need, as rows of a grid.
+pub fn rare(studio: &mut Studio, ui: &mut Ui) {
+    let Some(settings) = studio.document().map(|d| d.settings().clone()) else { return };
+    dials::RARE.iter().for_each(|option| row(studio, ui, option, &settings));
+}
+
 fn row(studio: &mut Studio, ui: &mut Ui, option: &'static Entry, settings: &Settings) {
     Dialled::new(option).row(studio, ui, settings);
 }

@@ -2,10 +2,10 @@
 
 use super::super::messages::Cause;
 use super::super::state::Studio;
-use super::look;
 use super::values::Dialled;
+use super::{commands, look, modal};
 use crate::app::output::{Target, place};
-use eframe::egui::{self, Modal, RichText, Ui};
+use eframe::egui::{self, Ui};
 use lucide_icons::Icon;
 use std::path::{Path, PathBuf};
 use tatamu::export::{FORMATS, Format, GUIDES};
@@ -62,12 +62,12 @@ impl ExportPanel {
         self.wanted().any(|format| PAGES.contains(&format.name))
     }
 
-    /// Draws the panel.
-    pub fn show(&mut self, studio: &mut Studio, ui: &mut Ui) {
-        let Some(opened) = studio.opened().cloned() else { return };
+    /// Draws the panel; whether what is on the command line alone is to be listed.
+    pub fn show(&mut self, studio: &mut Studio, ui: &mut Ui) -> bool {
+        let mut is_more_wanted = false;
+        let Some(opened) = studio.opened().cloned() else { return false };
         let (mut folder, mut stem) = self.place.clone().unwrap_or_else(|| {
-            let folder = opened.source.parent().map(Path::to_owned).unwrap_or_default();
-            let folder = std::path::absolute(&folder).unwrap_or(folder);
+            let folder = folder_of(&opened.source);
             (folder.display().to_string(), opened.title())
         });
         ui.heading("Export");
@@ -96,10 +96,8 @@ impl ExportPanel {
         ui.horizontal(|ui| {
             let is_ready =
                 studio.finished().is_some() && self.wanted().next().is_some() && !stem.trim().is_empty();
-            let button = egui::Button::new(
-                RichText::new(format!("{}  Write files", look::icon(Icon::FileOutput))).strong(),
-            );
-            let button = ui.add_enabled(is_ready, button);
+            let text = format!("{}  Write files", look::icon(Icon::FileOutput));
+            let button = ui.add_enabled(is_ready, look::primary(ui.visuals(), &text));
             button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, is_ready, "Write files"));
             if button.clicked() {
                 self.replaces =
@@ -113,8 +111,14 @@ impl ExportPanel {
             } else if studio.tasks.is_busy() {
                 ui.spinner();
             }
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let name = commands::COMMAND_LINE.name;
+                let more = ui.link(name).on_hover_text(commands::COMMAND_LINE.tip);
+                is_more_wanted = more.clicked();
+            });
         });
         self.ask(studio, ui.ctx(), &folder, stem.trim());
+        is_more_wanted
     }
 
     fn formats(&mut self, ui: &mut Ui, stem: &str) {
@@ -158,7 +162,7 @@ impl ExportPanel {
             return;
         }
         let mut answer = None;
-        let modal = Modal::new(egui::Id::unique("replace")).show(ctx, |ui| {
+        let shown = modal::new(ctx, "replace").show(ctx, |ui| {
             ui.set_width(420.0);
             ui.heading("Replace files?");
             for path in &self.replaces {
@@ -168,7 +172,7 @@ impl ExportPanel {
             ui.add_space(8.0);
             ui.horizontal(|ui| {
                 let replace = ui.button("Replace");
-                super::modal::focus_once(ui, &replace);
+                modal::focus_once(ui, &replace);
                 if replace.clicked() {
                     answer = Some(true);
                 }
@@ -177,7 +181,7 @@ impl ExportPanel {
                 }
             });
         });
-        match answer.or(modal.should_close().then_some(false)) {
+        match answer.or(shown.should_close().then_some(false)) {
             None => return,
             Some(true) => self.write(studio, folder, stem),
             Some(false) => {}
@@ -206,6 +210,12 @@ impl ExportPanel {
     }
 }
 
+/// The whole path of the folder that a file is in.
+fn folder_of(source: &Path) -> PathBuf {
+    let whole = std::path::absolute(source).unwrap_or_else(|_| source.to_owned());
+    whole.parent().map(Path::to_owned).unwrap_or_default()
+}
+
 /// The printed guide shares its extension with the sheets.
 fn file_name(stem: &str, format: &Format) -> String {
     let is_other = FORMATS.iter().any(|f| f.name != format.name && f.extensions[0] == format.extensions[0]);
@@ -220,6 +230,14 @@ fn text(ui: &mut Ui, text: &mut String, label: egui::Id) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The field was empty after `tatamu studio teddy.obj`.
+    #[test]
+    fn a_file_with_a_bare_name_is_in_the_current_folder() {
+        let here = std::env::current_dir().unwrap();
+        assert_eq!(folder_of(Path::new("teddy.obj")), here);
+        assert_eq!(folder_of(&here.join("a/b.obj")), here.join("a"));
+    }
 
     #[test]
     fn every_option_of_files_is_read_by_a_format_that_there_is() {

@@ -1,7 +1,8 @@
 //! How the window looks: colours of both themes, spacing, letters and icons.
 
 use eframe::egui::{
-    self, Color32, CornerRadius, FontData, FontDefinitions, FontId, Stroke, TextStyle, Theme, Visuals,
+    self, Button, Color32, CornerRadius, FontData, FontDefinitions, FontId, RichText, Stroke, TextStyle,
+    Theme, Visuals,
 };
 use lucide_icons::{Icon, LUCIDE_FONT_BYTES};
 use tatamu::drawing::Rgb;
@@ -144,6 +145,18 @@ fn visuals(theme: Theme, tones: &Tones) -> Visuals {
 /// A picture, as a letter of the font of icons.
 pub fn icon(icon: Icon) -> String {
     char::from(icon).to_string()
+}
+
+/// The button of what one is here for.
+pub fn primary(visuals: &Visuals, text: &str) -> Button<'static> {
+    let (fill, colour) = (visuals.selection.bg_fill, visuals.selection.stroke.color);
+    Button::new(RichText::new(text).strong().color(colour)).fill(fill).min_size(egui::vec2(0.0, 28.0))
+}
+
+/// A name with a capital letter: A4, Letter.
+pub fn capital(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or(String::new(), |first| first.to_uppercase().chain(letters).collect())
 }
 
 /// The colour behind the model.

@@ -1,8 +1,8 @@
 //! Three questions that lead to a machine: who made it, which one it is, and what it works on.
 
-use super::modal::focus_once;
+use super::{look, modal};
 use crate::app::catalogue::{MACHINES, Machine, Takes};
-use eframe::egui::{self, Modal, Ui};
+use eframe::egui::{self, Ui};
 
 /// The questions, as far as they are answered.
 #[derive(Debug, Default)]
@@ -25,7 +25,7 @@ impl Questions {
     /// Asks; `media` are the names of the profiles of media, `file` is the one that is open.
     pub fn show(&mut self, ctx: &egui::Context, media: &[String], file: &str) -> Option<Answer> {
         let mut answer = None;
-        let modal = Modal::new(egui::Id::unique("machine")).show(ctx, |ui| {
+        let shown = modal::new(ctx, "machine").show(ctx, |ui| {
             ui.set_width(420.0);
             ui.heading("Find my machine");
             answer = match (self.maker, self.machine) {
@@ -48,7 +48,7 @@ impl Questions {
                 }
             });
         });
-        answer.or(modal.should_close().then_some(Answer::Close))
+        answer.or(shown.should_close().then_some(Answer::Close))
     }
 
     fn ask_maker(&mut self, ui: &mut Ui) -> Option<Answer> {
@@ -56,9 +56,9 @@ impl Questions {
         let mut makers: Vec<&'static str> = MACHINES.iter().map(|machine| machine.maker).collect();
         makers.dedup();
         for (k, maker) in makers.into_iter().enumerate() {
-            let button = ui.button(maker);
+            let button = wide(ui, &look::capital(maker));
             if k == 0 {
-                focus_once(ui, &button);
+                modal::focus_once(ui, &button);
             }
             if button.clicked() {
                 self.maker = Some(maker);
@@ -75,7 +75,7 @@ impl Questions {
     fn ask_machine(&mut self, ui: &mut Ui, maker: &'static str) -> Option<Answer> {
         ui.strong("2 of 3: Which one is it?");
         for machine in of(maker) {
-            if ui.button(machine.models).clicked() {
+            if wide(ui, &look::capital(machine.models)).clicked() {
                 self.machine = Some(machine);
             }
         }
@@ -99,8 +99,17 @@ fn ask_medium(ui: &mut Ui, machine: &'static Machine, media: &[String], file: &s
         }
     };
     ui.strong("3 of 3: What does it work on?");
-    let chosen = media.iter().find(|name| ui.button(name.as_str()).clicked());
+    let chosen = media.iter().find(|name| wide(ui, name).clicked());
     chosen.map(|name| Answer::Profiles { cutter, media: name.clone(), is_usb })
+}
+
+/// An answer: buttons of one width are read like a list.
+fn wide(ui: &mut Ui, text: &str) -> egui::Response {
+    let width = ui.available_width();
+    let button = egui::Button::new((text, egui::Atom::grow())).min_size(egui::vec2(width, 0.0));
+    let button = ui.add(button);
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, text));
+    button
 }
 
 fn of(maker: &'static str) -> impl Iterator<Item = &'static Machine> {

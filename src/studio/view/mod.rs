@@ -3,12 +3,14 @@
 mod bars;
 mod browser;
 mod canvas;
+mod command_line;
 mod commands;
 mod dialogs;
 mod dials;
 mod edges;
 mod export;
 mod finder;
+mod focus;
 mod look;
 mod machine;
 mod measure;
@@ -33,10 +35,12 @@ mod wheel;
 use super::messages::Cause;
 use super::state::Studio;
 use browser::Purpose;
+use command_line::Named;
 pub use dialogs::Chooser;
 use dialogs::{Dialogs, Leave, Outcome, Parting, Work};
 use eframe::egui::{self, Rect};
 use export::ExportPanel;
+use focus::FocusRing;
 use memory::Memory;
 use plot::PlotPanel;
 use sheets::SheetsPanel;
@@ -86,6 +90,7 @@ pub struct Window {
     places: Places,
     title: String,
     memory: Memory,
+    focus: FocusRing,
 }
 
 impl Window {
@@ -108,6 +113,7 @@ impl Window {
             places: Places::default(),
             title: String::new(),
             memory: Memory::new(preferences),
+            focus: FocusRing::default(),
             studio,
         }
     }
@@ -197,6 +203,7 @@ impl Window {
         }
         self.show_tour(&ctx);
         self.show_dialogs(&ctx);
+        self.focus.show(&ctx);
         self.memory.keep(&self.studio, &ctx, &self.plot, self.has_sheets_beside, self.tour.is_none());
     }
 
@@ -239,7 +246,11 @@ impl Window {
                         egui::Panel::right("preview").resizable(true).default_size(300.0).min_size(160.0);
                     panel.show(ui, |ui| self.sheets.preview(&self.studio, ui));
                 }
-                egui::CentralPanel::default().show(ui, |ui| self.export.show(&mut self.studio, ui));
+                let panel =
+                    egui::CentralPanel::default().show(ui, |ui| self.export.show(&mut self.studio, ui));
+                if panel.inner {
+                    self.dialogs.list_command_line();
+                }
             }
             Mode::Plot => {
                 egui::CentralPanel::default().show(ui, |ui| self.plot.show(&mut self.studio, ui));
@@ -312,7 +323,11 @@ impl Window {
             true => commands::all().filter(|command| command.can(self)).collect(),
             false => Vec::new(),
         };
-        let outcome = self.dialogs.show(ctx, &commands, work);
+        let path = self.studio.document().and_then(|document| document.path());
+        let path = path.or(self.studio.opened().map(|opened| opened.source.as_path()));
+        let file = path.and_then(Path::file_name).unwrap_or_default().to_string_lossy().into_owned();
+        let named = Named { file: &file, is_whole: !work.is_changed };
+        let outcome = self.dialogs.show(ctx, &commands, work, &named);
         match outcome {
             None => {}
             Some(Outcome::Open(path)) => self.open(&path),

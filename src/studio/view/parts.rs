@@ -9,7 +9,10 @@ use super::{dials, look};
 use eframe::egui::{self, CollapsingHeader, Grid, RichText, Ui};
 use lucide_icons::Icon;
 use tatamu::front::hand::{self, AXES};
-use tatamu::project::options::{CARD, DIRECTION, Entry, PROFILE_VERTICES, RENAME, ROOT, TOP_EDGES};
+use tatamu::model::JointChoice;
+use tatamu::project::options::{
+    CARD, CONCAVE, DIRECTION, Entry, JOINT, PROFILE_VERTICES, RENAME, ROOT, TOP_EDGES,
+};
 
 /// What the panel remembers.
 #[derive(Debug, Default)]
@@ -17,6 +20,8 @@ pub struct PartsPanel {
     /// The text that is being written, of which option, and of which component.
     writing: Option<(&'static str, String, String)>,
     split: Option<Split>,
+    /// The component whose settings were in view.
+    seen: Option<String>,
 }
 
 /// A plane that the user moves about before a part is split.
@@ -31,24 +36,28 @@ struct Split {
 /// Draws the panel.
 pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: &mut Ui) {
     ui.add_space(6.0);
-    CollapsingHeader::new("Whole model").default_open(true).show(ui, |ui| {
+    CollapsingHeader::new(heading("Whole model")).default_open(true).show(ui, |ui| {
         Grid::new("model").num_columns(2).show(ui, |ui| dials::model(studio, ui));
     });
-    CollapsingHeader::new("Components").default_open(true).show(ui, |ui| components(studio, ui));
+    CollapsingHeader::new(heading("Components")).default_open(true).show(ui, |ui| components(studio, ui));
     if let Some(index) = studio.selected_index() {
         let title = studio.shown().part(index).map_or(String::new(), |part| part.name.clone());
-        CollapsingHeader::new(RichText::new(title).strong()).id_salt("own").default_open(true).show(
-            ui,
-            |ui| match studio.is_drawn() {
-                true => drop(ui.weak("drawn in the project file")),
-                false => {
-                    own(panel, studio, ui, index);
-                    splitting(panel, studio, space, ui, index);
-                }
-            },
-        );
+        let header = CollapsingHeader::new(heading(title)).id_salt("own").default_open(true);
+        let shown = header.show(ui, |ui| match studio.is_drawn() {
+            true => drop(ui.weak("drawn in the project file")),
+            false => {
+                own(panel, studio, ui, index);
+                splitting(panel, studio, space, ui, index);
+            }
+        });
+        let name = studio.shown().names().get(index).cloned();
+        if panel.seen != name {
+            panel.seen = name;
+            let body = shown.body_response.map_or(shown.header_response.rect, |body| body.rect);
+            ui.scroll_to_rect(shown.header_response.rect.union(body), None);
+        }
     } else {
-        panel.split = None;
+        (panel.split, panel.seen) = (None, None);
         space.show_split(None);
     }
     if studio.selection.names().len() > 1 && !studio.is_drawn() {
@@ -57,7 +66,7 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
             studio.merge_selected();
         }
     }
-    CollapsingHeader::new("Paper and pieces").default_open(false).show(ui, |ui| {
+    CollapsingHeader::new(heading("Paper and pieces")).default_open(false).show(ui, |ui| {
         Grid::new("paper").num_columns(2).show(ui, |ui| dials::paper(studio, ui));
         let tip = "gives each component the card that is most like the mesh's colours on it";
         let can_take = !studio.is_drawn() && studio.laid().is_some();
@@ -66,6 +75,14 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
             studio.take_cards();
         }
     });
+    CollapsingHeader::new(heading("More settings")).default_open(false).show(ui, |ui| {
+        Grid::new("rare").num_columns(2).show(ui, |ui| dials::rare(studio, ui));
+    });
+}
+
+/// The title of a section.
+fn heading(text: impl Into<String>) -> RichText {
+    RichText::new(text).strong().size(15.0)
 }
 
 /// The list of components.
@@ -136,6 +153,7 @@ fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: usize) {
         row.component_row(studio, ui, &name, (vertices, own.profile_vertices.is_some()));
         let card = own.card.clone().unwrap_or_default();
         text_row(panel, studio, ui, &name, &CARD, ("Card", CARD.meaning), (&card, ""));
+        dents_and_joint(studio, ui, &name, (own.is_concave, own.joint));
         figures(studio, ui, index);
     });
     ui.horizontal(|ui| {
@@ -149,6 +167,39 @@ fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: usize) {
             studio.change(&Change::Set { option: &ROOT, value }, None);
         }
     });
+}
+
+/// Whether the component may have dents, and how it is attached.
+fn dents_and_joint(
+    studio: &mut Studio,
+    ui: &mut Ui,
+    name: &str,
+    (mut is_concave, joint): (bool, Option<JointChoice>),
+) {
+    let set = |option: &'static Entry, value| Change::Component { name: name.to_owned(), option, value };
+    ui.label("");
+    if ui.checkbox(&mut is_concave, "Dents").on_hover_text(CONCAVE.tip()).changed() {
+        studio.change(&set(&CONCAVE, is_concave.then(|| true.into())), None);
+    }
+    ui.end_row();
+    let label = ui.label("Joint").on_hover_text(JOINT.tip());
+    let now = match joint {
+        None => "automatic",
+        Some(JointChoice::Glue) => "glue",
+        Some(JointChoice::Plug) => "plug",
+    };
+    let mut chosen = now;
+    let combo = egui::ComboBox::from_id_salt("joint").selected_text(now).show_ui(ui, |ui| {
+        for word in ["automatic"].into_iter().chain(JOINT.kind.names()) {
+            ui.selectable_value(&mut chosen, word, word);
+        }
+    });
+    combo.response.labelled_by(label.id);
+    ui.end_row();
+    if chosen != now {
+        let value = Some(chosen).filter(|word| *word != "automatic").map(Into::into);
+        studio.change(&set(&JOINT, value), None);
+    }
 }
 
 /// A text of a component, which is now the first of two; the other one holds where nothing is written.
@@ -201,7 +252,7 @@ fn figures(studio: &Studio, ui: &mut Ui, index: usize) {
         && joint.support_ratio > 0.0
         && let Some(parent) = shaped.model().parts().get(joint.parent)
     {
-        ui.label("Joint").on_hover_text("share of its joint panel that lies on the other component");
+        ui.label("Glued area").on_hover_text("share of its joint panel that lies on the other component");
         ui.label(format!("{:.0} % on {}", 100.0 * joint.support_ratio, parent.name));
         ui.end_row();
     }

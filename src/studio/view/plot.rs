@@ -9,12 +9,14 @@ use super::super::worker::Wake;
 use super::look;
 use super::machine::{Answer, Questions};
 use super::picture::Picture;
+use crate::app::plot::sheets::of_test_cut;
 use crate::app::plot::{ANY, hint, usb_cutters};
 use crate::app::profiles;
 use eframe::egui::{self, Color32, Rect, Sense, Ui};
 use glam::DVec2;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use tatamu::export::PltOptions;
 use tatamu::project::options::{CUTTER, MEDIA};
 
 /// The panel of the cutter.
@@ -37,7 +39,7 @@ pub struct PlotPanel {
     questions: Option<Questions>,
     /// Whether a profile of the user's own is to be chosen.
     wants_profile: bool,
-    /// Why a job that was stopped cannot go on.
+    /// Why a job that was stopped cannot go on, or why there is no test cut.
     unreadable: Option<String>,
 }
 
@@ -143,6 +145,7 @@ impl PlotPanel {
 
     fn dials(&mut self, studio: &mut Studio, ui: &mut Ui) {
         let is_running = self.is_running();
+        ui.heading("Plot");
         ui.add_enabled_ui(!is_running, |ui| self.choices(ui));
         self.ask(studio, ui.ctx());
         self.refresh(studio, ui.ctx());
@@ -166,6 +169,7 @@ impl PlotPanel {
                     }
                 }
                 if let Some(sheet) = plan.sheets.get(self.shown) {
+                    ui.add_space(4.0);
                     ui.label(sheet.summary(&plan.machine.cutter));
                     sheet.notes().iter().for_each(|note| drop(ui.label(note)));
                 }
@@ -283,12 +287,24 @@ impl PlotPanel {
     fn start(&mut self, studio: &Studio, ui: &mut Ui) {
         self.resume(studio, ui);
         let Some((_, Ok(plan))) = &self.plan else { return };
-        let is_ready = !self.port.trim().is_empty() && studio.finished().is_some();
-        let button = ui.add_enabled(is_ready, egui::Button::new("Start"));
-        if !is_ready {
+        let has_port = !self.port.trim().is_empty();
+        let is_ready = has_port && studio.finished().is_some();
+        let (starts, tests) = ui
+            .horizontal(|ui| {
+                let start = ui.add_enabled(is_ready, look::primary(ui.visuals(), "Start")).clicked();
+                let button = egui::Button::new("Test cut").min_size(egui::vec2(0.0, 28.0));
+                let tip = "a square of 10 mm with a triangle in it and two creases, to find the right force";
+                (start, ui.add_enabled(has_port, button).on_hover_text(tip).clicked())
+            })
+            .inner;
+        if !has_port {
             ui.weak("enter or choose the machine's port");
         }
-        let Some(opened) = studio.opened().filter(|_| button.clicked()) else { return };
+        let machine = plan.machine.clone();
+        if let Some(opened) = studio.opened().filter(|_| tests) {
+            return self.test_cut(&machine, &opened.source, wake(ui.ctx()));
+        }
+        let Some(opened) = studio.opened().filter(|_| starts) else { return };
         let sheets = match self.only {
             Some(k) => &plan.sheets[k..=k],
             None => &plan.sheets,
@@ -298,14 +314,24 @@ impl PlotPanel {
         self.running = Some(Plotting::start(&plan.machine.cutter, port, self.copies, sheets, journal, wake));
     }
 
+    /// Cuts a small figure.
+    fn test_cut(&mut self, machine: &PltOptions, source: &Path, wake: Wake) {
+        match of_test_cut(machine) {
+            Ok(sheets) => {
+                let journal = journal(&source.with_file_name("test-cut"));
+                let port = self.port.trim();
+                self.running = Some(Plotting::start(&machine.cutter, port, 1, &sheets, journal, wake));
+                self.unreadable = None;
+            }
+            Err(error) => self.unreadable = Some(words::error(&error)),
+        }
+    }
+
     /// Offers to go on with a job that was stopped.
     fn resume(&mut self, studio: &Studio, ui: &mut Ui) {
         let Some(journal) = studio.opened().map(|opened| journal(&opened.source)) else { return };
-        if !journal.is_file() {
-            return;
-        }
         let tip = format!("sends the rest of the job in {}", journal.display());
-        if ui.button("Continue the stopped job").on_hover_text(tip).clicked() {
+        if journal.is_file() && ui.button("Continue the stopped job").on_hover_text(tip).clicked() {
             match Plotting::resume(journal, self.port.trim(), wake(ui.ctx())) {
                 Ok(running) => (self.running, self.unreadable) = (Some(running), None),
                 Err(problem) => self.unreadable = Some(problem),
@@ -353,7 +379,8 @@ impl PlotPanel {
         let room = ui.available_size();
         let page = egui::vec2(drawing.size_mm.x as f32, drawing.size_mm.y as f32);
         let scale = (room.x / page.x).min(room.y / page.y).max(0.1);
-        let (rect, response) = ui.allocate_exact_size(scale * page, Sense::hover());
+        let rect = Rect::from_center_size(ui.available_rect_before_wrap().center(), scale * page);
+        let response = ui.allocate_rect(rect, Sense::hover());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Preview of the job"));
         let version = key.version * 1000 + self.shown as u64;
         let pixels_per_mm = f64::from(scale * ui.ctx().pixels_per_point());

@@ -87,13 +87,13 @@ pub fn hint(studio: &Studio, ui: &mut Ui, rect: Rect, over: Option<Tag>) {
             let what = panel.map_or(String::new(), |panel| format!(" · {}", panel.kind));
             let hint = match studio.is_selected(tag.part) {
                 true if studio.is_drawn() => "drawn in the project file",
-                true => "turn the wheel: rotates its fold direction by 5° per click, with Shift by 1°",
+                true => "wheel: rotates its fold direction by 5°, with Shift by 1°",
                 false => "click: selects it",
             };
             format!("{}{what}   ({hint})", part.name)
         }
         None if studio.selected_index().is_some() && !studio.is_drawn() => {
-            "turn the wheel over the selected component to rotate its fold direction".to_owned()
+            "wheel over the selected component: rotates its fold direction".to_owned()
         }
         None => return,
     };

@@ -18,7 +18,8 @@ use tempfile::TempDir;
 mod defects;
 mod nets;
 #[cfg(unix)]
-mod plots;
+mod plot_tests;
+mod reach_tests;
 mod tools;
 
 type Desk = Harness<'static, Window>;

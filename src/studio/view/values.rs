@@ -49,6 +49,9 @@ impl Dialled {
                 }
             }
             Kind::Switch(switch) => self.tick_row(studio, ui, (switch.get)(now)),
+            Kind::Text(text) if self.option.kind.names().is_empty() => {
+                self.text_row(studio, ui, &(text.get)(now).unwrap_or_default());
+            }
             Kind::Text(text) => self.choice_row(studio, ui, &(text.get)(now).unwrap_or_default()),
         }
     }
@@ -68,7 +71,9 @@ impl Dialled {
         ui.horizontal(|ui| {
             let mut is_set = now.is_some();
             let name = format!("choose {}", self.label());
-            let tick = ui.add(egui::Checkbox::without_text(&mut is_set)).on_hover_text("off: automatic");
+            let tick = ui
+                .add(egui::Checkbox::without_text(&mut is_set))
+                .on_hover_text(format!("off: {}", self.automatic()));
             tick.widget_info(|| egui::WidgetInfo::selected(egui::Role::CheckBox, true, now.is_some(), &name));
             if tick.changed() {
                 studio.change(&self.set(is_set.then(|| self.value(otherwise))), None);
@@ -79,7 +84,8 @@ impl Dialled {
                         studio.change(&self.set(Some(self.value(x))), Some(self.option.name()));
                     }
                 }
-                None => drop(ui.weak("automatic")),
+                // Of an option that has a name of its own the default has one, too.
+                None => drop(ui.weak(self.option.dial.map_or(self.option.automatic, |_| "automatic"))),
             }
         });
         ui.end_row();
@@ -129,6 +135,25 @@ impl Dialled {
         }
     }
 
+    /// A row with a text, which counts once it is written.
+    fn text_row(&self, studio: &mut Studio, ui: &mut Ui, now: &str) {
+        let label = ui.label(self.label()).on_hover_text(self.option.tip());
+        let id = ui.scope_id().with(self.option.name());
+        let mut text = ui.data(|data| data.get_temp(id)).unwrap_or_else(|| now.to_owned());
+        let field = egui::TextEdit::singleline(&mut text).desired_width(120.0);
+        let field = ui.add(field).labelled_by(label.id).on_hover_text(self.option.tip());
+        if field.lost_focus() {
+            ui.data_mut(|data| data.remove::<String>(id));
+            if text != now {
+                let value = Some(text.trim()).filter(|text| !text.is_empty()).map(Value::from);
+                studio.change(&self.set(value), None);
+            }
+        } else if field.changed() {
+            ui.data_mut(|data| data.insert_temp(id, text));
+        }
+        ui.end_row();
+    }
+
     /// A row with a box to tick.
     fn tick_row(&self, studio: &mut Studio, ui: &mut Ui, now: bool) {
         let mut is_set = now;
@@ -137,6 +162,11 @@ impl Dialled {
             studio.change(&self.set(Some(is_set.into())), None);
         }
         ui.end_row();
+    }
+
+    /// What holds where nothing is chosen.
+    fn automatic(&self) -> &'static str {
+        Some(self.option.automatic).filter(|text| !text.is_empty()).unwrap_or("automatic")
     }
 
     fn set(&self, value: Option<Value>) -> Change {
@@ -154,6 +184,7 @@ impl Dialled {
     fn suffix(&self) -> &'static str {
         match &self.option.kind {
             Kind::Number(number) if number.unit == Unit::Length => " mm",
+            Kind::Number(number) if number.unit == Unit::Degrees => "°",
             // A direction is an angle with a name before it.
             Kind::Text(_) => "°",
             _ => "",

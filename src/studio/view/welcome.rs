@@ -1,7 +1,7 @@
 //! What is shown before a file is open: samples and recent files.
 
 use super::{Window, commands, look};
-use eframe::egui::{self, RichText, Ui};
+use eframe::egui::{self, Align2, FontId, RichText, Ui};
 use lucide_icons::Icon;
 use std::path::PathBuf;
 
@@ -16,19 +16,19 @@ struct Sample {
 const SAMPLES: [Sample; 4] = [
     Sample {
         title: "Teddy",
-        about: "a mesh in eight parts",
+        about: "ears, arms and legs",
         file: "teddy.obj",
         bytes: include_bytes!("../../../samples/teddy.obj"),
     },
     Sample {
         title: "Rabbit",
-        about: "a mesh with long ears",
+        about: "long ears",
         file: "rabbit.obj",
         bytes: include_bytes!("../../../samples/rabbit.obj"),
     },
     Sample {
         title: "Teapot",
-        about: "a mesh with handle and spout",
+        about: "handle and spout",
         file: "teapot.obj",
         bytes: include_bytes!("../../../samples/teapot.obj"),
     },
@@ -51,9 +51,8 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
             ui.spinner();
             ui.label("reading …");
         } else {
-            let text = RichText::new(format!("{}  Open a mesh or a project …", look::icon(Icon::FolderOpen)))
-                .size(17.0);
-            let button = ui.add(egui::Button::new(text).min_size(egui::vec2(300.0, 40.0)));
+            let text = format!("{}  Open a mesh or a project …", look::icon(Icon::FolderOpen));
+            let button = ui.add(look::primary(ui.visuals(), &text).min_size(egui::vec2(300.0, 40.0)));
             let name = "Open a mesh or a project …";
             button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, name));
             if button.on_hover_text(commands::OPEN.hover_text(ui.ctx())).clicked() {
@@ -94,8 +93,14 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
 }
 
 fn card(window: &mut Window, ui: &mut Ui, sample: &Sample) {
-    let text = format!("{}\n{}", sample.title, sample.about);
-    let button = ui.add(egui::Button::new(text).min_size(egui::vec2(160.0, 50.0)));
+    let button = ui.add(egui::Button::new("").min_size(egui::vec2(160.0, 50.0)));
+    let visuals = ui.visuals();
+    for (line, above, colour) in
+        [(sample.title, 9.0, visuals.strong_text_color()), (sample.about, -9.0, visuals.weak_text_color())]
+    {
+        let at = button.rect.center() - egui::vec2(0.0, above);
+        ui.painter().text(at, Align2::CENTER_CENTER, line, FontId::proportional(14.0), colour);
+    }
     let name = format!("Sample: {}", sample.title);
     button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &name));
     if button.clicked() {

@@ -7,8 +7,19 @@ use eframe::egui::{Context, Key};
 use lucide_icons::Icon;
 
 /// All of them.
-pub(super) static ALL: &[&Command] =
-    &[&REDO, &UNDO, &MERGE, &TURN_LEFT, &TURN_RIGHT, &LAY_OUT, &EDGES, &SELECT_ALL, &STOP, &SELECT_NONE];
+pub(super) static ALL: &[&Command] = &[
+    &UNDO,
+    &REDO,
+    &MERGE,
+    &TURN_LEFT,
+    &TURN_RIGHT,
+    &LAY_OUT,
+    &FIT_SHEETS,
+    &EDGES,
+    &SELECT_ALL,
+    &STOP,
+    &SELECT_NONE,
+];
 
 /// Turn of a fold direction for a press of a key, degrees.
 const TURN_DEG: f64 = 5.0;
@@ -70,6 +81,16 @@ pub static LAY_OUT: Command = Command {
     place: Place::Edit(2),
     can: |w| w.studio.document().is_some_and(|d| !d.project().pins.is_empty()),
     act: |w, _| w.studio.lay_out_again(),
+    ..BLANK
+};
+
+pub static FIT_SHEETS: Command = Command {
+    name: "Fit the size to the sheets",
+    icon: Some(Icon::Shrink),
+    tip: "makes the model smaller, in steps of 5 mm, until it takes no more sheets than \u{201c}Sheets max\u{201d}",
+    place: Place::Edit(2),
+    can: |w| w.studio.exceeded_sheets().is_some() && w.studio.busy().is_none(),
+    act: |w, _| w.studio.fit_sheets(),
     ..BLANK
 };
 

@@ -8,7 +8,7 @@ use eframe::egui::Key;
 use lucide_icons::Icon;
 
 /// All of them but the pages of the book.
-pub(super) static ALL: &[&Command] = &[&FIND, &SHORTCUTS, &TOUR, &ABOUT];
+pub(super) static ALL: &[&Command] = &[&FIND, &SHORTCUTS, &COMMAND_LINE, &TOUR, &ABOUT];
 
 pub static FIND: Command = Command {
     name: "Commands …",
@@ -28,6 +28,15 @@ pub static SHORTCUTS: Command = Command {
     place: Place::Help(0),
     can: always,
     act: |w, _| w.dialogs.list_shortcuts(),
+};
+
+pub static COMMAND_LINE: Command = Command {
+    name: "On the command line …",
+    icon: Some(Icon::Terminal),
+    tip: "lists what the window has no settings for, with commands to copy",
+    place: Place::Help(0),
+    act: |w, _| w.dialogs.list_command_line(),
+    ..BLANK
 };
 
 static TOUR: Command = Command {

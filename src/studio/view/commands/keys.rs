@@ -37,7 +37,7 @@ pub fn key_text(ctx: &Context, keys: &KeyboardShortcut) -> String {
 
 /// Heeds the keys, unless a text is being written. Keys that widgets know are theirs while one has the focus.
 pub fn heed(window: &mut Window, ctx: &Context) {
-    let writes = ctx.egui_wants_keyboard_input();
+    let writes = ctx.text_edit_focused();
     let is_focused = ctx.memory(|memory| memory.focused().is_some());
     // Shift and H is no H: those with Shift come first.
     let keys = |has_shift: bool| {
@@ -71,11 +71,8 @@ pub const MOUSE: [(&str, &str); 11] = [
     ("Shift and click", "select several components"),
     ("two fingers on a trackpad", "move the view or the sheets; pinch to zoom"),
     ("wheel over a selected component", "rotate its fold direction by 5° per click, with Shift by 1°"),
-    (
-        "drag the handle on the ring",
-        "rotate the fold direction; green directions fold without a clash, red ones clash",
-    ),
-    ("drag a piece", "move it; all other pieces stay. Comma and full stop rotate it meanwhile"),
+    ("drag the handle on the ring", "rotate the fold direction; green folds without a clash, red clashes"),
+    ("drag a piece", "move it alone; comma and full stop rotate it meanwhile"),
     ("drop a piece beside the sheets", "put it on a sheet of its own"),
     ("drop a file", "open it"),
 ];

@@ -8,10 +8,10 @@ mod view;
 
 use super::super::state::Studio;
 use super::Window;
-pub use edit::{EDGES, LAY_OUT, REDO, UNDO};
+pub use edit::{EDGES, FIT_SHEETS, LAY_OUT, REDO, UNDO};
 use eframe::egui::{self, Context, KeyboardShortcut, Response, Ui};
 pub use file::{OPEN, SAVE};
-pub use help::{FIND, SHORTCUTS};
+pub use help::{COMMAND_LINE, FIND, SHORTCUTS};
 pub use keys::{MOUSE, heed, key_text};
 use lucide_icons::Icon;
 pub use view::{BESIDE, EXPORT, FIT, GHOST, MEASURE, MODEL, NAMES, PLAY, PLOT, SHEETS};

@@ -202,7 +202,18 @@ impl SheetsPanel {
             let sheets = layout.sheet_count();
             let name = layout.options().paper.name();
             let word = if sheets == 1 { "sheet" } else { "sheets" };
+            let name = look::capital(&name);
             ui.label(format!("{sheets} {word} of {name}, {:.0} % used", 100.0 * layout.utilisation()));
+            if let Some(most) = studio.exceeded_sheets() {
+                let text = format!("{}  Fit to {most}", look::icon(Icon::Shrink));
+                let can = studio.busy().is_none();
+                let button = ui.add_enabled(can, egui::Button::new(text));
+                let label = commands::FIT_SHEETS.name;
+                button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, can, label));
+                if button.on_hover_text(commands::FIT_SHEETS.tip).clicked() {
+                    studio.fit_sheets();
+                }
+            }
             if studio.laid().is_none() {
                 ui.spinner();
                 ui.weak("of the previous model");

@@ -9,6 +9,8 @@ use lucide_icons::Icon;
 impl SheetsPanel {
     /// One page after the other, as they are written.
     pub fn preview(&mut self, studio: &Studio, ui: &mut Ui) {
+        // What is beside the page is of the panel, too.
+        ui.set_min_size(ui.available_size());
         ui.add_space(4.0);
         let Some(output) = studio.shown().output().cloned() else {
             ui.weak("arranging the pieces …");

@@ -30,7 +30,7 @@ fn plug_in(cutter: &'static str, flags: &[&'static str]) -> (String, JoinHandle<
 fn run(desk: &mut Desk, stops: bool) -> State {
     let start = Instant::now();
     loop {
-        assert!(start.elapsed() < Duration::from_secs(60), "the job hangs");
+        assert!(start.elapsed() < Duration::from_secs(180), "the job hangs");
         desk.run_steps(1);
         let state = desk.state_mut().plot_mut().running().expect("a job").state();
         if state.end.is_some() {
@@ -95,6 +95,12 @@ fn a_silhouette_cuts_where_the_marks_are_or_not_at_all() {
     for marks in [&["--marks-at", "12.5,8"][..], &[]] {
         let is_found = !marks.is_empty();
         let (mut desk, folder) = open();
+        // A few strokes: what is sent takes its time, as on a real line.
+        let mesh = folder.path().join("box.obj");
+        std::fs::write(&mesh, include_bytes!("../../../../samples/box.obj")).unwrap();
+        desk.state_mut().open(&mesh);
+        let is_box = |s: &Studio| s.finished().is_some() && s.shown().names().len() == 1;
+        settle(&mut desk, "the box", is_box);
         click(&mut desk, "Whole model");
         click(&mut desk, "Paper and pieces");
         desk.get_by_role_and_label(Role::ComboBox, "Registration marks").click();
@@ -111,6 +117,7 @@ fn a_silhouette_cuts_where_the_marks_are_or_not_at_all() {
         assert_eq!(desk.state_mut().plot_mut().choice(), ["silhouette", "cardstock-200", "usb"]);
         let (port, machine) = plug_in("silhouette", &[&["--buffer", "1000000"], marks].concat());
         write_port(&mut desk, &port);
+        click_when_there(&mut desk, "box, sheet 3 of 5");
         click(&mut desk, "all sheets");
         click_when_there(&mut desk, "Start");
         let state = run(&mut desk, false);
@@ -118,8 +125,8 @@ fn a_silhouette_cuts_where_the_marks_are_or_not_at_all() {
         assert_eq!((machine.lost(), machine.broken(), machine.is_pen_down()), (0, 0, false), "{state:?}");
         let cut: Vec<_> = machine.motions().iter().filter(|motion| motion.is_down).collect();
         assert_eq!(state.end.clone().map(|end| end.is_ok()), Some(is_found), "{state:?}");
-        assert_eq!(cut.len() > 50, is_found, "{} lines", cut.len());
-        assert_eq!(folder.path().join("snowman.tatamu-job").exists(), !is_found);
+        assert_eq!(cut.len() > 20, is_found, "{} lines", cut.len());
+        assert_eq!(folder.path().join("box.tatamu-job").exists(), !is_found);
         if is_found {
             assert!(desk.query_by_label("Done.").is_some());
         } else {
@@ -130,4 +137,20 @@ fn a_silhouette_cuts_where_the_marks_are_or_not_at_all() {
             assert!(desk.query_by_label("Continue the stopped job").is_some());
         }
     }
+}
+
+#[test]
+fn a_test_cut_is_one_click() {
+    let (mut desk, folder) = open();
+    click(&mut desk, "Plot");
+    wait_for(&mut desk, "Test cut");
+    let (port, machine) = plug_in("generic-hpgl", &[]);
+    write_port(&mut desk, &port);
+    click(&mut desk, "Test cut");
+    let state = run(&mut desk, false);
+    let machine = machine.join().unwrap();
+    assert_eq!((state.end.clone(), machine.lost()), (Some(Ok(())), 0), "{state:?}");
+    assert!(state.at.is_some_and(|(sheet, _)| sheet == "test cut"));
+    assert!(machine.motions().iter().filter(|motion| motion.is_down).count() >= 5, "five strokes");
+    assert!(!folder.path().join("test-cut.tatamu-job").exists());
 }
