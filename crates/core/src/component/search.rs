@@ -72,12 +72,13 @@ const SPREAD_PRICE: f64 = 0.03;
 /// area measures.
 const TRIM_PRICE: f64 = 0.5;
 /// Openings of more than this look like holes. Each mm² above it costs this many mm, so that any other shape
-/// is better, even one that bumps: with 0.5 a slice of pizza folds freely with a hole of 296 mm².
+/// is better, even one that bumps: with 0.5 a slice of pizza folds freely with a hole of 296 mm², with 5 a human with one of
+/// 17 mm². Not bounded from above by a case yet.
 const MOST_TRIMMED_MM2: f64 = 10.0;
 /// So do smaller ones in small shapes, of more than this share of the surface: without it, a leg of an animal has one
 /// of 0.3 %.
 const MOST_TRIMMED: f64 = 0.002;
-const OVER_PRICE: f64 = 5.0;
+const OVER_PRICE: f64 = 10.0;
 /// Price of a mm that a shape lacks to be valid, while directions are compared.
 const LACK_PRICE: f64 = 2.0;
 
