@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec2, DVec3};
 use std::collections::BTreeSet;
 use tatamu::component::{Panel, PanelId, PanelKind};
-use tatamu::fold::{FoldPlan, FoldWarning, ModelMotion, ModelPose, Sequence, SweepMemory};
+use tatamu::fold::{Detection, FoldPlan, FoldWarning, ModelMotion, ModelPose, Sequence, SweepMemory};
 use tatamu::geom::{self, Hull, Plane};
 use tatamu::model::{Assembly, Known, Link, Model, Part, PartOptions, Unjudged, build};
 use tatamu::progress::Silent;
@@ -332,7 +332,9 @@ fn steps_in_turn_are_told_as_they_are() {
     for model in bulges() {
         let motion = ModelMotion::new(&model);
         let (memory, ids) = (SweepMemory::default(), [0, 1, 2]);
-        let quick = FoldPlan::quick(&motion, THICKNESS_MM, &ids, &memory, &|_| false, &Silent).unwrap();
+        let quick =
+            FoldPlan::quick(&motion, THICKNESS_MM, &ids, &memory, (Detection::Discrete, &|_| false), &Silent)
+                .unwrap();
         let plan = plan(&motion);
         assert!(quick.is_order() && quick.harm_mm() > 0.0, "no order is free");
         // The quick plan is told by samples, so that only the whole one is sound.

@@ -1,12 +1,13 @@
 //! What the parts of a model do to each other while they fold, for the choice between models.
 
-use tatamu_core::fold::{FoldPlan, ModelMotion, SweepMemory};
+use tatamu_core::fold::{Detection, FoldPlan, ModelMotion, SweepMemory};
 use tatamu_core::model::{Bump, Enough, Judge, Model};
 use tatamu_core::progress::{Beside, Cancelled, Progress};
 
 /// Folds models, and tells where they bump.
 pub(super) struct FoldJudge<'a> {
     pub(super) thickness_mm: f64,
+    pub(super) detection: Detection,
     pub(super) memory: &'a SweepMemory,
     pub(super) progress: &'a dyn Progress,
 }
@@ -14,6 +15,7 @@ pub(super) struct FoldJudge<'a> {
 impl Judge for FoldJudge<'_> {
     fn bumps(&self, model: &Model, ids: &[u64], is_enough: &Enough<'_>) -> Result<Vec<Bump>, Cancelled> {
         let (motion, progress) = (ModelMotion::new(model), Beside::new(self.progress));
-        Ok(FoldPlan::quick(&motion, self.thickness_mm, ids, self.memory, is_enough, &progress)?.bumps())
+        let how = (self.detection, is_enough);
+        Ok(FoldPlan::quick(&motion, self.thickness_mm, ids, self.memory, how, &progress)?.bumps())
     }
 }

@@ -29,7 +29,7 @@ pub use memory::SweepMemory;
 pub use moment::Moment;
 pub use motion::{ComponentMotion, ComponentPose};
 pub use overlap::Overlap;
-pub use plan::FoldPlan;
+pub use plan::{Detection, FoldPlan};
 pub use pose::{ModelMotion, ModelPose, PartPose, ancestors, root_of};
 pub use sequence::{Motion, Sequence};
 pub use stack::Stack;

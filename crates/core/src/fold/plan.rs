@@ -28,11 +28,20 @@ pub struct FoldPlan {
     stacks: Vec<Stack>,
 }
 
+/// How bumps are found: by discrete or continuous collision detection.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Detection {
+    /// In samples of the motion, as a person would step through them: a corner that passes between two may slip through.
+    Discrete,
+    /// All along the motion: nothing deeper than half the paper's thickness slips through.
+    Continuous,
+}
+
 /// How far the search goes.
 #[derive(Clone, Copy)]
 enum Effort<'a> {
-    /// A good order, one component after another, by samples; none where the bumps that no order avoids are enough.
-    Order(&'a Enough<'a>),
+    /// A good order, one component after another; none where the bumps that no order avoids are enough.
+    Order(Detection, &'a Enough<'a>),
     /// Steps of several components in turn, where no order is free; and the flat stacks.
     Whole,
 }
@@ -75,9 +84,8 @@ impl FoldPlan {
         Self::searched(motion, thickness_mm, ids, memory, progress, Effort::Whole)
     }
 
-    /// A plan for the comparison of many models: a good order by samples of the motions, without steps
-    /// of several components in turn, and without stacks. Where the bumps that no order avoids are enough, no order is
-    /// looked for. Ids and memory as for [`FoldPlan::with_memory`].
+    /// A plan for the comparison of many models: a good order, without steps of several components in turn, and without
+    /// stacks. Where the bumps that no order avoids are enough, no order is looked for. Ids and memory as for [`FoldPlan::with_memory`].
     ///
     /// # Errors
     /// [`Cancelled`] at the user's wish.
@@ -86,10 +94,10 @@ impl FoldPlan {
         thickness_mm: f64,
         ids: &[u64],
         memory: &SweepMemory,
-        is_enough: &Enough<'_>,
+        (detection, is_enough): (Detection, &Enough<'_>),
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        Self::searched(motion, thickness_mm, ids, memory, progress, Effort::Order(is_enough))
+        Self::searched(motion, thickness_mm, ids, memory, progress, Effort::Order(detection, is_enough))
     }
 
     /// A plan in which some components are unplugged, outer ones after those that carry them, fold
@@ -131,14 +139,14 @@ impl FoldPlan {
     ) -> Result<Self, Cancelled> {
         let overlaps = overlaps(motion, thickness_mm / 2.0, ids, memory);
         let is_whole = matches!(effort, Effort::Whole);
-        let is_enough = |bumps: &[Bump]| matches!(effort, Effort::Order(is_enough) if is_enough(bumps));
+        let is_enough = |bumps: &[Bump]| matches!(effort, Effort::Order(_, is_enough) if is_enough(bumps));
         if is_enough(&bumps(&[], &overlaps, thickness_mm)) {
             return Ok(Self { overlaps, ..Self::unchecked(motion.model(), thickness_mm) });
         }
         let parts = motion.model().parts().len();
         let care = match effort {
-            Effort::Order(_) => Care::rough(thickness_mm),
-            Effort::Whole => Care::exact(thickness_mm),
+            Effort::Order(Detection::Discrete, _) => Care::rough(thickness_mm),
+            Effort::Order(Detection::Continuous, _) | Effort::Whole => Care::exact(thickness_mm),
         };
         let mut checker = Checker::new(motion, care, &overlaps, ids, memory);
         let own: Vec<Option<Clash>> = (0..parts).into_par_iter().map(|p| checker.own_clash(p)).collect();

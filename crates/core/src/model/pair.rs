@@ -14,10 +14,10 @@ pub(super) const LEAST_GLUE_MM2: f64 = 40.0;
 /// and over this share of the smaller of its two panels.
 const LEAST_GLUE_SHARE: f64 = 0.1;
 /// Price of a joint without any glue, mm of error. Nothing that is seen is worth a part that falls off.
-const GLUE_PRICE_MM: f64 = 120.0;
-/// Price of a joint that lacks any. With half of both, two legs of a human hang
-/// on less than 40 mm²; with 15, and 160 for one without any, the nose of a snowman of 80 mm bumps into its hat.
-pub(super) const WEAK_PRICE_MM: f64 = 10.0;
+const GLUE_PRICE_MM: f64 = 160.0;
+/// Price of a joint that lacks any. With 10, and 120 for one without any, two legs of a chair hang on 39 mm². Not bounded
+/// from above by a case yet.
+pub(super) const WEAK_PRICE_MM: f64 = 15.0;
 /// Joints with just enough would lack some after rounding and another choice of tabs.
 const GLUE_MARGIN: f64 = 1.1;
 /// Price of a mm by which a child is moved off its shape, at its far end.
