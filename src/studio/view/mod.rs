@@ -20,6 +20,7 @@ mod notices;
 mod parts;
 mod picture;
 mod plot;
+mod profile_choice;
 mod ring;
 mod sheets;
 mod space;
@@ -246,8 +247,8 @@ impl Window {
                         egui::Panel::right("preview").resizable(true).default_size(300.0).min_size(160.0);
                     panel.show(ui, |ui| self.sheets.preview(&self.studio, ui));
                 }
-                let panel =
-                    egui::CentralPanel::default().show(ui, |ui| self.export.show(&mut self.studio, ui));
+                let panel = egui::CentralPanel::default()
+                    .show(ui, |ui| self.export.show(&mut self.studio, self.plot.profiles_mut(), ui));
                 if panel.inner {
                     self.dialogs.list_command_line();
                 }
@@ -333,7 +334,7 @@ impl Window {
             Some(Outcome::Open(path)) => self.open(&path),
             Some(Outcome::Profile(path)) => {
                 self.studio.messages_mut().clear(Cause::Opening);
-                if let Err(problem) = self.plot.take_profile(&path) {
+                if let Err(problem) = self.plot.profiles_mut().take(&path) {
                     self.studio.messages_mut().warn(Cause::Opening, problem);
                 }
             }
