@@ -5,6 +5,7 @@ mod browser;
 mod canvas;
 mod command_line;
 mod commands;
+mod context;
 mod dialogs;
 mod dials;
 mod edges;
@@ -25,6 +26,7 @@ mod ring;
 mod sheets;
 mod space;
 mod space_marks;
+mod strokes;
 #[cfg(all(test, feature = "studio-test"))]
 mod tests;
 mod tour;
@@ -197,6 +199,7 @@ impl Window {
                 });
             });
             self.places.settings = Some(panel.response.rect);
+            context::of_names(self, ui, &panel.response);
             self.middle(ui);
         }
         if self.studio.hover != hover {
@@ -240,6 +243,7 @@ impl Window {
                 let panel =
                     egui::CentralPanel::default().show(ui, |ui| self.sheets.show(&mut self.studio, ui));
                 self.places.sheets = Some(panel.response.rect);
+                context::of_pieces(self, ui, &panel.response);
             }
             Mode::Export => {
                 if self.export.has_pages() {
@@ -271,11 +275,13 @@ impl Window {
             let panel = egui::Panel::right("sheets").resizable(true).default_size(width).min_size(220.0);
             let panel = panel.show(ui, |ui| self.sheets.show(&mut self.studio, ui));
             self.places.sheets = Some(panel.response.rect);
+            context::of_pieces(self, ui, &panel.response);
         }
         let panel = egui::Panel::bottom("folding").show(ui, |ui| space_marks::folding_bar(self, ui));
         self.places.folding = Some(panel.response.rect);
         let panel = egui::CentralPanel::no_frame().show(ui, |ui| self.space.show(&mut self.studio, ui));
         self.places.model = Some(panel.response.rect);
+        context::of_components(self, ui, &panel.response);
     }
 
     /// Whether the sheets are to be seen.

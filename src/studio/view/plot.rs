@@ -10,10 +10,10 @@ use super::look;
 use super::machine::{Answer, Questions};
 use super::picture::Picture;
 use super::profile_choice::ProfileChoice;
+use super::strokes;
 use crate::app::plot::sheets::of_test_cut;
 use crate::app::plot::{ANY, hint, usb_cutters};
 use eframe::egui::{self, Color32, Rect, Sense, Ui};
-use glam::DVec2;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tatamu::export::PltOptions;
@@ -153,6 +153,11 @@ impl PlotPanel {
                 if let Some(sheet) = plan.sheets.get(self.shown) {
                     ui.add_space(4.0);
                     ui.label(sheet.summary(&plan.machine.cutter));
+                    ui.add_space(4.0);
+                    strokes::key(ui, &plan.strokes[self.shown]);
+                    if is_running {
+                        strokes::key_of_done(ui);
+                    }
                     sheet.notes().iter().for_each(|note| drop(ui.label(note)));
                 }
             }
@@ -370,11 +375,7 @@ impl PlotPanel {
         }
         // What the machine has done stands out.
         let done = at.filter(|(name, _)| plan.sheets[self.shown].name() == name).map_or(0, |(_, done)| done);
-        let to_screen = |p: &DVec2| rect.left_bottom() + scale * egui::vec2(p.x as f32, -p.y as f32);
-        for stroke in plan.strokes[self.shown].iter().take(done) {
-            let points: Vec<egui::Pos2> = stroke.iter().map(to_screen).collect();
-            ui.painter().line(points, egui::Stroke::new(2.5, look::ACCENT));
-        }
+        strokes::draw(ui.painter(), (rect, scale), &plan.strokes[self.shown], done);
     }
 }
 

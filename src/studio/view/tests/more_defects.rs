@@ -124,7 +124,7 @@ fn a_piece_is_put_aside_and_rotated_there_alone() {
     settle(&mut desk, "a sheet more", |s| s.finished().is_some());
     let aside = places(&desk);
     assert!(aside[&name].0 > before.values().map(|place| place.0).max().unwrap());
-    click_when_there(&mut desk, "Rotate left");
+    click_when_there(&mut desk, "Rotate piece left");
     settle(&mut desk, "the rotated piece", |s| s.finished().is_some());
     let turned = places(&desk);
     assert_eq!(turned[&name].0, aside[&name].0);
@@ -199,4 +199,47 @@ fn the_size_of_the_window_is_remembered() {
     desk.input_mut().viewports.insert(egui::ViewportId::ROOT, viewport);
     desk.run_ok();
     assert_eq!(store.preferences().window, Some([1010.0, 690.0]));
+}
+
+fn right_click(desk: &mut Desk, at: Pos2) {
+    desk.event(Event::PointerMoved(at));
+    desk.run_ok();
+    for pressed in [true, false] {
+        let button = egui::PointerButton::Secondary;
+        desk.event(Event::PointerButton { pos: at, button, pressed, modifiers: Modifiers::NONE });
+        desk.run_steps(1);
+    }
+    desk.run_ok();
+}
+
+#[test]
+fn a_right_click_opens_a_menu_for_what_is_under_the_mouse() {
+    let (mut desk, _folder) = open_sheets();
+    let at = on_page(&desk, 0, grips(&desk, 0)[0].1);
+    right_click(&mut desk, at);
+    let piece = desk.state().studio().selection.piece().expect("it is selected").to_owned();
+    assert_eq!(piece, grips(&desk, 0)[0].0);
+    let sheet = places(&desk)[&piece].0;
+    desk.get_all_by_role_and_label(Role::Button, "Put aside").last().expect("in the menu").click();
+    desk.run_ok();
+    settle(&mut desk, "the layout", |s| s.finished().is_some());
+    assert!(places(&desk)[&piece].0 > sheet);
+    desk.key_press(Key::Escape);
+    desk.run_ok();
+    // In space.
+    click(&mut desk, "Model");
+    wait_for(&mut desk, "Model in space");
+    desk.run_ok();
+    let at = on_component(&desk, 1);
+    right_click(&mut desk, at);
+    let name = desk.state().studio().shown().names()[1].clone();
+    assert_eq!(desk.state().studio().selection.names(), std::slice::from_ref(&name));
+    click(&mut desk, "Hide selected components");
+    assert!(desk.state().studio().visibility.is_hidden(&name));
+    assert!(desk.query_by_label("Hide selected components").is_none(), "the menu is closed");
+    // In the list of components.
+    let at = desk.get_by_role_and_label(Role::Button, &name).rect().center();
+    right_click(&mut desk, at);
+    click(&mut desk, "Show all components");
+    assert!(!desk.state().studio().visibility.is_hidden(&name));
 }

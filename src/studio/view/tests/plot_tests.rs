@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::app::profiles;
+use crate::app::text::counted;
 use crate::cli::virtual_plotter::{self, VirtualPlotterArgs};
 use crate::studio::plotting::State;
 use clap::Parser;
@@ -206,4 +207,45 @@ fn files_for_a_cutter_are_for_the_one_that_is_chosen() {
     desk.run_ok();
     click(&mut desk, "Plot");
     assert_eq!(desk.state_mut().plot_mut().choice()[0], "grbl-laser", "the plot is for the same");
+}
+
+/// Lines had the colour of their place in the order, and the key was too small to read.
+#[test]
+fn strokes_have_the_colour_of_what_is_done_along_them() {
+    let (mut desk, _folder) = open();
+    click(&mut desk, "Plot");
+    for cutter in ["generic-hpgl", "silhouette", "grbl-knife", "vinyl-cutter"] {
+        desk.state_mut().plot_mut().choose(cutter, "");
+        desk.run_ok();
+        wait_for(&mut desk, "Start");
+        desk.run_ok();
+        let painted = |desk: &Desk| {
+            let mut counts: BTreeMap<[u8; 4], usize> = BTreeMap::new();
+            for shape in &desk.output().shapes {
+                if let egui::Shape::Path(path) = &shape.shape
+                    && let egui::epaint::ColorMode::Solid(colour) = path.stroke.color
+                {
+                    *counts.entry(colour.to_array()).or_default() += 1;
+                }
+            }
+            counts
+        };
+        let counts = painted(&desk);
+        let kinds = [
+            ("Cuts", [190, 20, 60, 255]),
+            ("Creases", [20, 90, 200, 255]),
+            ("Creases that fold by 180°", [0, 130, 90, 255]),
+            ("Lines of the pen", [96, 96, 96, 255]),
+        ];
+        let mut all = 0;
+        for (kind, colour) in kinds {
+            let count = counts.get(&colour).copied().unwrap_or_default();
+            let row = format!("{kind}: {}", counted(count, "stroke"));
+            assert_eq!(desk.query_by_label(&row).is_some(), count > 0, "{cutter}: {row}");
+            all += count;
+        }
+        assert!(all > 5 && counts.contains_key(&kinds[0].1), "{cutter}");
+        let summary = format!(": {all} strokes");
+        assert!(desk.query_by_label_contains(&summary).is_some(), "{cutter}: every stroke has a kind");
+    }
 }
