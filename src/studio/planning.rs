@@ -13,8 +13,9 @@ use std::sync::{Arc, OnceLock};
 use tatamu::drawing::Drawing;
 use tatamu::export::PltOptions;
 use tatamu::pipeline::Output;
-use tatamu::plotter::{preview, strokes};
+use tatamu::plotter::{ground, strokes};
 use tatamu::project::Project;
+use tatamu::toolpath::Operation;
 
 /// The job as it would be sent.
 pub struct Plan {
@@ -22,10 +23,19 @@ pub struct Plan {
     pub machine: PltOptions,
     /// What is sent for each sheet.
     pub sheets: Vec<Sheet>,
-    /// Pictures of the sheets.
+    /// Pictures of the sheets, on which the strokes are drawn.
     pub previews: Vec<Drawing>,
     /// Their strokes in the order of the job, in the coordinates of the pictures, mm.
-    pub strokes: Vec<Vec<Vec<DVec2>>>,
+    pub strokes: Vec<Vec<Stroke>>,
+}
+
+/// One line that the machine follows with the tool down.
+#[derive(Debug, Clone)]
+pub struct Stroke {
+    /// What is done along it.
+    pub operation: Operation,
+    /// Its corners.
+    pub points: Vec<DVec2>,
 }
 
 /// What a plan is made of.
@@ -115,8 +125,12 @@ impl Hand {
         let Some(sheets) = sheets.map_err(|e| words::error(&e))? else { return Ok(None) };
         let (mut previews, mut drawn) = (Vec::new(), Vec::new());
         for sheet in &sheets {
-            previews.push(preview(sheet.job(), &machine.cutter, sheet.placement()));
-            drawn.push(strokes(sheet.job(), &machine.cutter, sheet.placement()));
+            previews.push(ground(sheet.job(), &machine.cutter, sheet.placement()));
+            let lines = strokes(sheet.job(), &machine.cutter, sheet.placement());
+            let operations = sheet.operations().iter().copied();
+            drawn.push(
+                operations.zip(lines).map(|(operation, points)| Stroke { operation, points }).collect(),
+            );
             if !step() {
                 return Ok(None);
             }

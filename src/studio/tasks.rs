@@ -6,7 +6,7 @@ use super::worker::Wake;
 use crate::app::choice::Choice;
 use crate::app::fit::fitting_size_mm;
 use crate::app::output::{self, Target};
-use crate::app::{input, make};
+use crate::app::{input, make, profiles};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -120,10 +120,19 @@ impl Tasks {
         });
     }
 
-    /// Begins to write files.
-    pub fn export(&mut self, opened: Arc<Opened>, project: &Project, output: Output, targets: Vec<Target>) {
+    /// Begins to write files; those for a machine are for this cutter and this medium.
+    pub fn export(
+        &mut self,
+        opened: Arc<Opened>,
+        project: &Project,
+        output: Output,
+        machine: [String; 2],
+        targets: Vec<Target>,
+    ) {
         let project = project.clone();
-        self.spawn(0, move || Finished::Exported(export(&opened, &project, &output, targets)));
+        self.spawn(0, move || {
+            Finished::Exported(export(&opened, &project, &output, Some(&machine), targets))
+        });
     }
 }
 
@@ -132,7 +141,7 @@ fn printable(opened: &Opened, project: &Project, output: &Output) -> Result<Path
     let folder = tempfile::Builder::new().prefix("tatamu-").tempdir().map_err(|error| error.to_string())?;
     let path = folder.path().join(format!("{}.pdf", opened.title()));
     let format = format_of("pdf").ok_or("there is no format pdf")?;
-    export(opened, project, output, vec![Target { path: path.clone(), format }])?;
+    export(opened, project, output, None, vec![Target { path: path.clone(), format }])?;
     let _ = folder.keep();
     Ok(path)
 }
@@ -141,12 +150,18 @@ fn export(
     opened: &Opened,
     project: &Project,
     output: &Output,
+    machine: Option<&[String; 2]>,
     targets: Vec<Target>,
 ) -> Result<Vec<String>, String> {
     let run = || {
         let paths: Vec<PathBuf> = targets.iter().map(|target| target.path.clone()).collect();
         output::check_places(&paths, &[&opened.source, &opened.mesh_path])?;
-        let files = opened.with_product(project, output, |product, formats| {
+        let has_job = targets.iter().any(|target| target.format.is_job());
+        let machine = machine.filter(|_| has_job);
+        let machine =
+            machine.map(|[cutter, medium]| profiles::machine(Some(cutter), Some(medium))).transpose()?;
+        let files = opened.with_product(project, output, |product, mut formats| {
+            formats.plt = machine.unwrap_or(formats.plt);
             make::written(targets, &[("", product)], &formats)
         })??;
         output::write(&files)?;

@@ -131,9 +131,8 @@ pub enum ReadError {
     },
     /// A face refers to a vertex that does not exist.
     #[error(
-        "{format} file, {place}: refers to vertex {index}, but there are {count} vertices, \
-         {first} to {last}; the file is incomplete or damaged",
-        last = last_number(*.count, *.first)
+        "{format} file, {place}: refers to vertex {index}, but {}; the file is incomplete or damaged",
+        vertices(*.count, *.first)
     )]
     Index {
         /// The format.
@@ -186,9 +185,14 @@ pub enum ReadError {
     },
 }
 
-/// The number of the last vertex in messages.
-fn last_number(count: usize, first: u8) -> i64 {
-    count as i64 + i64::from(first) - 1
+/// How many vertices there are, with their numbers.
+fn vertices(count: usize, first: u8) -> String {
+    let last = count as i64 + i64::from(first) - 1;
+    match count {
+        0 => "there are no vertices".to_owned(),
+        1 => format!("the only vertex is {first}"),
+        _ => format!("there are {count} vertices, {first} to {last}"),
+    }
 }
 
 impl ReadError {

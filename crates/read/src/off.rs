@@ -189,6 +189,8 @@ mod tests {
         assert!(faces("3 0 1 -1").contains("refers to vertex -1"));
         assert!(faces("3 0 1").contains("line 7: found \"3 0 1\""));
         assert!(message("0 0 0\n0 0 nan\n").contains("line 4"));
+        let single = read(b"OFF\n1 1 0\n0 0 0\n3 0 1 2\n").unwrap_err().to_string();
+        assert!(single.contains("refers to vertex 1, but the only vertex is 0;"), "{single}");
         assert!(message("0 0\n").contains("three coordinates"));
         assert!(message("0 0 0\n").contains("4 vertices, but has only 1"));
         let lying = read(b"OFF\n18446744073709551615 9999999999 0\n0 0 0\n").unwrap_err();

@@ -14,6 +14,7 @@ use tatamu::plotter::{Cutter, Job, Placement, Plan, PlanError, Point, in_minutes
 use tatamu::product::Product;
 use tatamu::project::options::Given;
 use tatamu::report::Run;
+use tatamu::toolpath::Operation;
 
 /// One sheet, ready to be sent.
 pub struct Sheet {
@@ -25,6 +26,8 @@ pub struct Sheet {
     travel_mm: Option<[f64; 2]>,
     /// Strokes that only turn a drag knife.
     turns: Vec<usize>,
+    /// What each stroke does; of files nobody knows.
+    operations: Vec<Operation>,
     notes: Vec<String>,
 }
 
@@ -52,6 +55,11 @@ impl Sheet {
     /// Its strokes that only turn a drag knife.
     pub fn turns(&self) -> &[usize] {
         &self.turns
+    }
+
+    /// What each of its strokes does; none of a file in the machine's language.
+    pub fn operations(&self) -> &[Operation] {
+        &self.operations
     }
 
     /// What the user should know.
@@ -95,7 +103,16 @@ impl Sheet {
             ));
         }
         let placement = Placement::straight(reach.ceil() + DVec2::splat(5.0));
-        Ok(Self { name, bytes, job, placement, travel_mm: None, turns: Vec::new(), notes })
+        Ok(Self {
+            name,
+            bytes,
+            job,
+            placement,
+            travel_mm: None,
+            turns: Vec::new(),
+            operations: Vec::new(),
+            notes,
+        })
     }
 
     fn of_plan(name: String, drawing: &Drawing, plan: &Plan, machine: &PltOptions) -> Result<Self, AppError> {
@@ -110,6 +127,7 @@ impl Sheet {
             placement: *plan.placement(),
             travel_mm,
             turns: (0..strokes.len()).filter(|&k| strokes[k].is_turn()).collect(),
+            operations: strokes.iter().map(|stroke| stroke.operation()).collect(),
             notes: plan.notes().to_vec(),
         })
     }

@@ -23,6 +23,10 @@ impl Studio {
         match document.change(change, gesture) {
             Ok(()) => {
                 let is_new = document.text() != before;
+                if is_new {
+                    // Undo takes back this change now.
+                    self.messages.clear(Cause::Recovery);
+                }
                 let first = match change {
                     Change::Component { name, .. } | Change::Reset { name } => self.index_of(name),
                     _ => None,

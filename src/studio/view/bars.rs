@@ -2,6 +2,7 @@
 
 use super::commands::{self, Command, Place};
 use super::{Mode, Window, look};
+use crate::app::text::counted;
 use eframe::egui::{self, Ui};
 use lucide_icons::Icon;
 use std::path::PathBuf;
@@ -160,8 +161,7 @@ fn summary(window: &mut Window, ui: &mut Ui) {
     let text = match count {
         0 if !window.studio.shown().is_folded() => "folding not checked yet".to_owned(),
         0 => "no warnings".to_owned(),
-        1 => "1 warning".to_owned(),
-        n => format!("{n} warnings"),
+        n => counted(n, "warning"),
     };
     if count > 0 {
         let is_on = window.shows_warnings;
@@ -171,7 +171,7 @@ fn summary(window: &mut Window, ui: &mut Ui) {
     } else {
         ui.weak(text);
     }
-    let count = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
-    let counts = [(parts, "component"), (pieces, "piece"), (sheets, "sheet")].map(|(n, what)| count(n, what));
+    let counts =
+        [(parts, "component"), (pieces, "piece"), (sheets, "sheet")].map(|(n, what)| counted(n, what));
     ui.weak(format!("{} ·", counts.join(" · ")));
 }

@@ -109,11 +109,12 @@ impl Browser {
             let label = ui.label("File");
             let field =
                 ui.add(egui::TextEdit::singleline(&mut self.name).desired_width(260.0)).labelled_by(label.id);
+            // The Enter key takes the focus, which comes back where the dialog stays.
+            is_done |= field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
             modal::focus_once(ui, &field);
             if field.changed() {
                 self.replaces = None;
             }
-            is_done |= field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
             let word = match (self.purpose, &self.replaces) {
                 (Purpose::Open | Purpose::Profile, _) => "Open",
                 (Purpose::Save, None) => "Save",

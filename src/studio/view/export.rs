@@ -2,6 +2,7 @@
 
 use super::super::messages::Cause;
 use super::super::state::Studio;
+use super::profile_choice::ProfileChoice;
 use super::values::Dialled;
 use super::{commands, look, modal};
 use crate::app::output::{Target, place};
@@ -63,7 +64,7 @@ impl ExportPanel {
     }
 
     /// Draws the panel; whether what is on the command line alone is to be listed.
-    pub fn show(&mut self, studio: &mut Studio, ui: &mut Ui) -> bool {
+    pub fn show(&mut self, studio: &mut Studio, profiles: &mut ProfileChoice, ui: &mut Ui) -> bool {
         let mut is_more_wanted = false;
         let Some(opened) = studio.opened().cloned() else { return false };
         let (mut folder, mut stem) = self.place.clone().unwrap_or_else(|| {
@@ -89,7 +90,7 @@ impl ExportPanel {
                 let width = 0.62 * ui.available_width();
                 ui.allocate_ui(egui::vec2(width, height), |ui| self.formats(ui, &stem));
                 ui.separator();
-                ui.vertical(|ui| self.options(studio, ui));
+                ui.vertical(|ui| self.options(studio, profiles, ui));
             });
         });
         ui.add_space(6.0);
@@ -103,7 +104,7 @@ impl ExportPanel {
                 self.replaces =
                     self.paths(&folder, stem.trim()).into_iter().filter(|path| path.exists()).collect();
                 if self.replaces.is_empty() {
-                    self.write(studio, &folder, stem.trim());
+                    self.write(studio, profiles, &folder, stem.trim());
                 }
             }
             if studio.finished().is_none() {
@@ -117,7 +118,7 @@ impl ExportPanel {
                 is_more_wanted = more.clicked();
             });
         });
-        self.ask(studio, ui.ctx(), &folder, stem.trim());
+        self.ask(studio, profiles, ui.ctx(), &folder, stem.trim());
         is_more_wanted
     }
 
@@ -134,7 +135,7 @@ impl ExportPanel {
     }
 
     /// The options of the formats that are ticked.
-    fn options(&self, studio: &mut Studio, ui: &mut Ui) {
+    fn options(&self, studio: &mut Studio, profiles: &mut ProfileChoice, ui: &mut Ui) {
         ui.strong("Options");
         let names: Vec<&str> = self.wanted().map(|format| format.name).collect();
         let is_read = |entry: &&Entry| {
@@ -143,11 +144,22 @@ impl ExportPanel {
                 .any(|(name, formats)| *name == entry.name() && formats.iter().any(|f| names.contains(f)))
         };
         let wanted: Vec<&'static Entry> = options::of_table("export").filter(is_read).collect();
-        if wanted.is_empty() {
+        let is_for_cutter = self.wanted().any(Format::is_job);
+        if wanted.is_empty() && !is_for_cutter {
             ui.weak("the ticked formats have none");
         }
         egui::ScrollArea::vertical().id_salt("options").show(ui, |ui| {
             egui::Grid::new("options").num_columns(2).show(ui, |ui| {
+                if is_for_cutter {
+                    profiles.rows(ui);
+                    let misfits = self.wanted().filter_map(|format| profiles.misfit(format));
+                    misfits.for_each(|problem| {
+                        ui.label("");
+                        let text = egui::RichText::new(problem).color(ui.visuals().error_fg_color);
+                        ui.add(egui::Label::new(text).wrap());
+                        ui.end_row();
+                    });
+                }
                 for entry in wanted {
                     let Some(settings) = studio.document().map(|d| d.settings().clone()) else { return };
                     Dialled::new(entry).row(studio, ui, &settings);
@@ -157,7 +169,14 @@ impl ExportPanel {
     }
 
     /// Asks before files are replaced.
-    fn ask(&mut self, studio: &mut Studio, ctx: &egui::Context, folder: &str, stem: &str) {
+    fn ask(
+        &mut self,
+        studio: &mut Studio,
+        profiles: &ProfileChoice,
+        ctx: &egui::Context,
+        folder: &str,
+        stem: &str,
+    ) {
         if self.replaces.is_empty() {
             return;
         }
@@ -183,7 +202,7 @@ impl ExportPanel {
         });
         match answer.or(shown.should_close().then_some(false)) {
             None => return,
-            Some(true) => self.write(studio, folder, stem),
+            Some(true) => self.write(studio, profiles, folder, stem),
             Some(false) => {}
         }
         self.replaces.clear();
@@ -198,14 +217,15 @@ impl ExportPanel {
         self.wanted().map(|format| PathBuf::from(folder).join(file_name(stem, format))).collect()
     }
 
-    fn write(&mut self, studio: &mut Studio, folder: &str, stem: &str) {
+    fn write(&mut self, studio: &mut Studio, profiles: &ProfileChoice, folder: &str, stem: &str) {
         let (Some(opened), Some(document)) = (studio.opened().cloned(), studio.document()) else { return };
         let Some(output) = studio.finished().cloned() else { return };
         let targets =
             self.wanted().zip(self.paths(folder, stem)).map(|(format, path)| Target { path, format });
         let project = document.project().clone();
         studio.messages_mut().clear(Cause::Export);
-        studio.tasks.export(opened, &project, output, targets.collect());
+        let machine = [profiles.cutter(), profiles.medium()].map(str::to_owned);
+        studio.tasks.export(opened, &project, output, machine, targets.collect());
         self.written_to = place(&PathBuf::from(folder).join(stem)).parent().map(Path::to_owned);
     }
 }

@@ -13,6 +13,9 @@ pub const ACCENT: Color32 = Color32::from_rgb(230, 90, 20);
 /// What would overlap.
 pub const OVERLAP: Color32 = Color32::from_rgb(205, 30, 30);
 
+/// Under what stops a machine, and the letters on it.
+const STOP: [Color32; 2] = [Color32::from_rgb(176, 20, 20), Color32::WHITE];
+
 /// Colours of a theme.
 struct Tones {
     panel: Color32,
@@ -60,16 +63,16 @@ const DARK: Tones = Tones {
     window: Color32::from_rgb(40, 42, 47),
     field: Color32::from_rgb(20, 21, 24),
     button: Color32::from_rgb(56, 59, 65),
-    hovered: Color32::from_rgb(70, 74, 82),
+    hovered: Color32::from_rgb(64, 68, 76),
     line: Color32::from_rgb(70, 73, 80),
     edge: grey(118),
     text: grey(218),
     strong: grey(255),
-    weak: grey(168),
+    weak: grey(180),
     link: Color32::from_rgb(130, 186, 250),
     error: Color32::from_rgb(255, 134, 124),
     warn: Color32::from_rgb(250, 180, 80),
-    selection: Color32::from_rgb(30, 84, 140),
+    selection: Color32::from_rgb(24, 70, 120),
     on_selection: grey(255),
 };
 
@@ -153,6 +156,12 @@ pub fn primary(visuals: &Visuals, text: &str) -> Button<'static> {
     Button::new(RichText::new(text).strong().color(colour)).fill(fill).min_size(egui::vec2(0.0, 28.0))
 }
 
+/// The button that stops a machine.
+pub fn stop(text: &str) -> Button<'static> {
+    let [fill, colour] = STOP;
+    Button::new(RichText::new(text).strong().color(colour)).fill(fill).min_size(egui::vec2(0.0, 28.0))
+}
+
 /// A name with a capital letter: A4, Letter.
 pub fn capital(name: &str) -> String {
     let mut letters = name.chars();
@@ -224,8 +233,11 @@ mod tests {
                 let edge = contrast(visuals.widgets.inactive.bg_stroke.color, ground);
                 assert!(edge >= 3.0, "{theme:?}: edges on {ground:?}: {edge:.2}");
             }
-            // Weak text stands on buttons of the menu, too: keys.
-            pairs.push((visuals.weak_text_color(), widgets.inactive.weak_bg_fill));
+            // Weak text stands on buttons of the menu and of the list of commands, too: keys.
+            let under_keys =
+                [widgets.inactive.weak_bg_fill, widgets.hovered.weak_bg_fill, visuals.selection.bg_fill];
+            pairs.extend(under_keys.map(|ground| (visuals.weak_text_color(), ground)));
+            pairs.push((STOP[1], STOP[0]));
             for (text, ground) in pairs {
                 assert!(
                     contrast(text, ground) >= 4.5,

@@ -1,5 +1,6 @@
 //! Three questions that lead to a machine: who made it, which one it is, and what it works on.
 
+use super::profile_choice::Listed;
 use super::{look, modal};
 use crate::app::catalogue::{MACHINES, Machine, Takes};
 use eframe::egui::{self, Ui};
@@ -22,8 +23,8 @@ pub enum Answer {
 }
 
 impl Questions {
-    /// Asks; `media` are the names of the profiles of media, `file` is the one that is open.
-    pub fn show(&mut self, ctx: &egui::Context, media: &[String], file: &str) -> Option<Answer> {
+    /// Asks; `media` are all that there are, `file` is the one that is open.
+    pub fn show(&mut self, ctx: &egui::Context, media: &[Listed], file: &str) -> Option<Answer> {
         let mut answer = None;
         let shown = modal::new(ctx, "machine").show(ctx, |ui| {
             ui.set_width(420.0);
@@ -84,7 +85,7 @@ impl Questions {
 }
 
 /// The last question; of a machine that takes files of another program, how they are written.
-fn ask_medium(ui: &mut Ui, machine: &'static Machine, media: &[String], file: &str) -> Option<Answer> {
+fn ask_medium(ui: &mut Ui, machine: &'static Machine, media: &[Listed], file: &str) -> Option<Answer> {
     let (cutter, is_usb) = match machine.takes {
         Takes::Serial(profile) => (profile, false),
         Takes::Usb(profile) => (profile, true),
@@ -99,8 +100,8 @@ fn ask_medium(ui: &mut Ui, machine: &'static Machine, media: &[String], file: &s
         }
     };
     ui.strong("3 of 3: What does it work on?");
-    let chosen = media.iter().find(|name| wide(ui, name).clicked());
-    chosen.map(|name| Answer::Profiles { cutter, media: name.clone(), is_usb })
+    let chosen = media.iter().find(|medium| wide(ui, &medium.name).clicked());
+    chosen.map(|medium| Answer::Profiles { cutter, media: medium.key.clone(), is_usb })
 }
 
 /// An answer: buttons of one width are read like a list.

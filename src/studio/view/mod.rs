@@ -5,6 +5,7 @@ mod browser;
 mod canvas;
 mod command_line;
 mod commands;
+mod context;
 mod dialogs;
 mod dials;
 mod edges;
@@ -20,10 +21,12 @@ mod notices;
 mod parts;
 mod picture;
 mod plot;
+mod profile_choice;
 mod ring;
 mod sheets;
 mod space;
 mod space_marks;
+mod strokes;
 #[cfg(all(test, feature = "studio-test"))]
 mod tests;
 mod tour;
@@ -196,6 +199,7 @@ impl Window {
                 });
             });
             self.places.settings = Some(panel.response.rect);
+            context::of_names(self, ui, &panel.response);
             self.middle(ui);
         }
         if self.studio.hover != hover {
@@ -239,6 +243,7 @@ impl Window {
                 let panel =
                     egui::CentralPanel::default().show(ui, |ui| self.sheets.show(&mut self.studio, ui));
                 self.places.sheets = Some(panel.response.rect);
+                context::of_pieces(self, ui, &panel.response);
             }
             Mode::Export => {
                 if self.export.has_pages() {
@@ -246,8 +251,8 @@ impl Window {
                         egui::Panel::right("preview").resizable(true).default_size(300.0).min_size(160.0);
                     panel.show(ui, |ui| self.sheets.preview(&self.studio, ui));
                 }
-                let panel =
-                    egui::CentralPanel::default().show(ui, |ui| self.export.show(&mut self.studio, ui));
+                let panel = egui::CentralPanel::default()
+                    .show(ui, |ui| self.export.show(&mut self.studio, self.plot.profiles_mut(), ui));
                 if panel.inner {
                     self.dialogs.list_command_line();
                 }
@@ -270,11 +275,13 @@ impl Window {
             let panel = egui::Panel::right("sheets").resizable(true).default_size(width).min_size(220.0);
             let panel = panel.show(ui, |ui| self.sheets.show(&mut self.studio, ui));
             self.places.sheets = Some(panel.response.rect);
+            context::of_pieces(self, ui, &panel.response);
         }
         let panel = egui::Panel::bottom("folding").show(ui, |ui| space_marks::folding_bar(self, ui));
         self.places.folding = Some(panel.response.rect);
         let panel = egui::CentralPanel::no_frame().show(ui, |ui| self.space.show(&mut self.studio, ui));
         self.places.model = Some(panel.response.rect);
+        context::of_components(self, ui, &panel.response);
     }
 
     /// Whether the sheets are to be seen.
@@ -333,7 +340,7 @@ impl Window {
             Some(Outcome::Open(path)) => self.open(&path),
             Some(Outcome::Profile(path)) => {
                 self.studio.messages_mut().clear(Cause::Opening);
-                if let Err(problem) = self.plot.take_profile(&path) {
+                if let Err(problem) = self.plot.profiles_mut().take(&path) {
                     self.studio.messages_mut().warn(Cause::Opening, problem);
                 }
             }

@@ -9,21 +9,18 @@ use super::super::worker::Wake;
 use super::look;
 use super::machine::{Answer, Questions};
 use super::picture::Picture;
+use super::profile_choice::ProfileChoice;
+use super::strokes;
 use crate::app::plot::sheets::of_test_cut;
 use crate::app::plot::{ANY, hint, usb_cutters};
-use crate::app::profiles;
 use eframe::egui::{self, Color32, Rect, Sense, Ui};
-use glam::DVec2;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tatamu::export::PltOptions;
-use tatamu::project::options::{CUTTER, MEDIA};
 
 /// The panel of the cutter.
 pub struct PlotPanel {
-    names: [Vec<String>; 2],
-    cutter: String,
-    media: String,
+    profiles: ProfileChoice,
     port: String,
     ports: Vec<String>,
     copies: u16,
@@ -60,17 +57,10 @@ fn port_names() -> Vec<String> {
 impl PlotPanel {
     /// The panel with the machine of the last time.
     pub fn new(preferences: &Preferences) -> Self {
-        let names = profiles::names();
-        let known = |name: &Option<String>, list: &[String], otherwise: &str| {
-            let is_there = |name: &String| list.contains(name) || Path::new(name).is_file();
-            name.clone().filter(is_there).unwrap_or_else(|| otherwise.to_owned())
-        };
         Self {
-            cutter: known(&preferences.cutter, &names[0], CUTTER.automatic),
-            media: known(&preferences.media, &names[1], MEDIA.automatic),
+            profiles: ProfileChoice::new(preferences),
             port: preferences.port.clone().unwrap_or_default(),
             ports: port_names(),
-            names,
             copies: 1,
             only: None,
             shown: 0,
@@ -86,7 +76,7 @@ impl PlotPanel {
 
     /// The cutter, the medium and the port.
     pub fn choice(&self) -> [&str; 3] {
-        [&self.cutter, &self.media, self.port.trim()]
+        [self.profiles.cutter(), self.profiles.medium(), self.port.trim()]
     }
 
     /// Whether a job is on its way.
@@ -109,24 +99,16 @@ impl PlotPanel {
         std::mem::take(&mut self.wants_profile)
     }
 
-    /// Takes the cutter or the medium from a file.
-    ///
-    /// # Errors
-    /// A message where it is the profile of neither.
-    pub fn take_profile(&mut self, path: &Path) -> Result<(), String> {
-        let name = path.display().to_string();
-        match (profiles::machine(Some(&name), None), profiles::machine(None, Some(&name))) {
-            (Ok(_), _) => self.cutter = name,
-            (_, Ok(_)) => self.media = name,
-            (Err(error), _) => return Err(words::error(&error)),
-        }
-        Ok(())
+    /// The cutter and the medium, to be chosen elsewhere, too.
+    pub fn profiles_mut(&mut self) -> &mut ProfileChoice {
+        &mut self.profiles
     }
 
     /// Chooses the port.
     #[cfg(test)]
     pub fn choose(&mut self, cutter: &str, port: &str) {
-        (self.cutter, self.port) = (cutter.to_owned(), port.to_owned());
+        self.profiles.set_cutter(cutter.to_owned());
+        self.port = port.to_owned();
     }
 
     /// The job on its way.
@@ -171,6 +153,11 @@ impl PlotPanel {
                 if let Some(sheet) = plan.sheets.get(self.shown) {
                     ui.add_space(4.0);
                     ui.label(sheet.summary(&plan.machine.cutter));
+                    ui.add_space(4.0);
+                    strokes::key(ui, &plan.strokes[self.shown]);
+                    if is_running {
+                        strokes::key_of_done(ui);
+                    }
                     sheet.notes().iter().for_each(|note| drop(ui.label(note)));
                 }
             }
@@ -196,12 +183,13 @@ impl PlotPanel {
         let Some(questions) = &mut self.questions else { return };
         let file = studio.opened().and_then(|opened| opened.source.file_name());
         let file = file.unwrap_or_default().to_string_lossy();
-        match questions.show(ctx, &self.names[1], &file) {
+        match questions.show(ctx, self.profiles.media(), &file) {
             None => return,
             Some(Answer::Close) => {}
             Some(Answer::Own) => self.wants_profile = true,
             Some(Answer::Profiles { cutter, media, is_usb }) => {
-                (self.cutter, self.media) = (cutter.to_owned(), media);
+                self.profiles.set_cutter(cutter.to_owned());
+                self.profiles.set_medium(media);
                 if is_usb {
                     self.port = ANY.to_owned();
                 }
@@ -216,9 +204,7 @@ impl PlotPanel {
             self.questions = Some(Questions::default());
         }
         egui::Grid::new("machine").num_columns(2).show(ui, |ui| {
-            let [cutters, media] = &self.names;
-            names_row(ui, "Cutter", cutters, &mut self.cutter);
-            names_row(ui, "Medium", media, &mut self.media);
+            self.profiles.rows(ui);
             let label = ui.label("Port");
             ui.horizontal(|ui| {
                 ui.add(egui::TextEdit::singleline(&mut self.port).desired_width(140.0)).labelled_by(label.id);
@@ -265,13 +251,13 @@ impl PlotPanel {
         let Some(output) = studio.finished() else { return };
         let (Some(opened), Some(document)) = (studio.opened(), studio.document()) else { return };
         let version = studio.shown().version();
-        let key = Key { version, cutter: self.cutter.clone(), media: self.media.clone() };
+        let (cutter, media) = (self.profiles.cutter().to_owned(), self.profiles.medium().to_owned());
+        let key = Key { version, cutter: cutter.clone(), media: media.clone() };
         let is_known = self.plan.as_ref().is_some_and(|(old, _)| *old == key);
         let is_begun = self.planning.as_ref().is_some_and(|(begun, _)| *begun == key);
         if is_known || is_begun || self.is_running() {
             return;
         }
-        let (cutter, media) = (self.cutter.clone(), self.media.clone());
         let (opened, project) = (opened.clone(), document.project().clone());
         let wish = Wish { opened, project, output: output.clone(), cutter, media };
         self.plan = None;
@@ -359,8 +345,7 @@ impl PlotPanel {
             if ui.button(word).on_hover_text("lifts the tool").clicked() {
                 running.pause();
             }
-            let stop = egui::Button::new("Stop").fill(Color32::from_rgb(190, 60, 50));
-            if ui.add(stop).on_hover_text("lifts the tool and ends the job").clicked() {
+            if ui.add(look::stop("Stop")).on_hover_text("lifts the tool and ends the job").clicked() {
                 running.stop();
             }
         });
@@ -390,11 +375,7 @@ impl PlotPanel {
         }
         // What the machine has done stands out.
         let done = at.filter(|(name, _)| plan.sheets[self.shown].name() == name).map_or(0, |(_, done)| done);
-        let to_screen = |p: &DVec2| rect.left_bottom() + scale * egui::vec2(p.x as f32, -p.y as f32);
-        for stroke in plan.strokes[self.shown].iter().take(done) {
-            let points: Vec<egui::Pos2> = stroke.iter().map(to_screen).collect();
-            ui.painter().line(points, egui::Stroke::new(2.5, look::ACCENT));
-        }
+        strokes::draw(ui.painter(), (rect, scale), &plan.strokes[self.shown], done);
     }
 }
 
@@ -407,19 +388,4 @@ fn journal(source: &Path) -> PathBuf {
 fn wake(ctx: &egui::Context) -> Wake {
     let ctx = ctx.clone();
     Arc::new(move || ctx.request_repaint())
-}
-
-fn names_row(ui: &mut Ui, label: &str, names: &[String], chosen: &mut String) {
-    let label = ui.label(label);
-    // Of a file the name serves.
-    let file = Path::new(chosen.as_str());
-    let text =
-        file.extension().and(file.file_name()).map_or(chosen.clone(), |n| n.to_string_lossy().into_owned());
-    let combo = egui::ComboBox::from_id_salt(label.id).selected_text(text).show_ui(ui, |ui| {
-        for name in names {
-            ui.selectable_value(chosen, name.clone(), name);
-        }
-    });
-    combo.response.labelled_by(label.id);
-    ui.end_row();
 }

@@ -16,6 +16,7 @@ use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 mod defects;
+mod more_defects;
 mod nets;
 #[cfg(unix)]
 mod plot_tests;

@@ -19,7 +19,7 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
                 ui.label(look::icon(Icon::TriangleAlert));
             } else {
                 let (word, tip) = match clash {
-                    Some(_) => ("Show", "shows the model at this moment, with the two panels in red"),
+                    Some(_) => ("Show clash", "shows the model at this moment, with the two panels in red"),
                     None => ("Go to", "selects what it is about"),
                 };
                 if ui.small_button(word).on_hover_text(tip).clicked() {

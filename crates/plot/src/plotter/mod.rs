@@ -35,7 +35,7 @@ pub use job_error::JobError;
 pub use motion::Motion;
 pub use pace::in_minutes;
 pub use plan::{Plan, PlanError, test_cut, toolset};
-pub use preview::{preview, strokes};
+pub use preview::{ground, preview, strokes};
 pub use profile::{Cutter, Media, ProfileError};
 pub use simulated::virtual_machine;
 pub use virtual_ebb::VirtualEbb;

@@ -25,7 +25,7 @@ pub enum PlanError {
     /// A laser needs to know its power.
     #[error(
         "{media} sets no power_percent for {operation}, so a laser must not work on it; choose a medium for lasers, \
-         such as laser-card"
+         such as \"Card for a laser\" (laser-card)"
     )]
     Power {
         /// Name of the medium.

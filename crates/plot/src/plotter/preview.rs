@@ -26,18 +26,11 @@ const MARK_ARM_MM: f64 = 8.0;
 /// some, and the way of the tip as a thin black line.
 pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
     let field = Field::new(cutter, placement);
-    let size_mm = field.size_mm() + DVec2::new(2.0 * BORDER_MM, 2.0 * BORDER_MM + STRIP_MM);
+    let mut picture = ground(job, cutter, placement);
+    let size_mm = picture.size_mm;
     let shift = shift(&field);
     let at = |p: Point| placement.to_sheet(cutter.frame(), p) + shift;
-    let mut picture = Drawing::new("preview", size_mm);
-    picture.ground = Some(Rgb::WHITE);
-    picture.marks.extend(field.marks(shift));
-    picture.marks.extend(placement.marks_mm().into_iter().flat_map(|marks_mm| marks(marks_mm, shift)));
     let runs = runs(job, cutter);
-    let travel =
-        runs.iter().filter(|run| !run.is_down).map(|run| run.points.iter().map(|&p| at(p)).collect());
-    let travel = travel.map(Polyline::open).collect();
-    picture.marks.push(Mark::path(Layer::Picture, travel, Some(Stroke::solid(0.12, TRAVEL)), None));
     let drawn: Vec<&Run> = runs.iter().filter(|run| run.is_down).collect();
     let strokes: Vec<Vec<DVec2>> =
         drawn.iter().map(|run| run.points.iter().map(|&p| at(p)).collect()).collect();
@@ -68,6 +61,22 @@ pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
         }
     }
     picture.marks.extend(legend(size_mm, job, cutter, placement, &field));
+    picture
+}
+
+/// What is under the [`strokes`] of a job: the sheet, the bed, the corners of marks, and travel.
+pub fn ground(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
+    let field = Field::new(cutter, placement);
+    let size_mm = field.size_mm() + DVec2::new(2.0 * BORDER_MM, 2.0 * BORDER_MM + STRIP_MM);
+    let shift = shift(&field);
+    let at = |p: Point| placement.to_sheet(cutter.frame(), p) + shift;
+    let mut picture = Drawing::new("preview", size_mm);
+    picture.ground = Some(Rgb::WHITE);
+    picture.marks.extend(field.marks(shift));
+    picture.marks.extend(placement.marks_mm().into_iter().flat_map(|marks_mm| marks(marks_mm, shift)));
+    let runs = runs(job, cutter).into_iter().filter(|run| !run.is_down);
+    let travel = runs.map(|run| Polyline::open(run.points.iter().map(|&p| at(p)).collect())).collect();
+    picture.marks.push(Mark::path(Layer::Picture, travel, Some(Stroke::solid(0.12, TRAVEL)), None));
     picture
 }
 

@@ -54,7 +54,7 @@ pub static MERGE: Command = Command {
     act: |w, _| w.studio.merge_selected(),
 };
 
-static TURN_LEFT: Command = Command {
+pub static TURN_LEFT: Command = Command {
     name: "Rotate the fold direction to the left",
     tip: "by 5°; the wheel over a selected component does the same",
     keys: &[key(Key::OpenBracket)],
@@ -64,7 +64,7 @@ static TURN_LEFT: Command = Command {
     ..BLANK
 };
 
-static TURN_RIGHT: Command = Command {
+pub static TURN_RIGHT: Command = Command {
     name: "Rotate the fold direction to the right",
     tip: "by 5°; the wheel over a selected component does the same",
     keys: &[key(Key::CloseBracket)],
@@ -114,7 +114,7 @@ static STOP: Command = Command {
     ..BLANK
 };
 
-static SELECT_NONE: Command = Command {
+pub static SELECT_NONE: Command = Command {
     name: "Select nothing",
     keys: &[key(Key::Escape)],
     place: Place::Edit(3),
@@ -123,7 +123,7 @@ static SELECT_NONE: Command = Command {
     ..BLANK
 };
 
-static SELECT_ALL: Command = Command {
+pub static SELECT_ALL: Command = Command {
     name: "Select all components",
     keys: &[ctrl(Key::A)],
     place: Place::Edit(3),

@@ -63,12 +63,13 @@ pub fn heed(window: &mut Window, ctx: &Context) {
 }
 
 /// What the mouse does.
-pub const MOUSE: [(&str, &str); 11] = [
+pub const MOUSE: [(&str, &str); 12] = [
     ("drag", "rotate the view; move the sheets"),
     ("right or middle button, or Shift and drag", "move the view"),
     ("wheel", "zoom at the pointer"),
     ("click", "select a component and a panel, or a piece"),
     ("Shift and click", "select several components"),
+    ("right click", "open a menu for what is under the mouse"),
     ("two fingers on a trackpad", "move the view or the sheets; pinch to zoom"),
     ("wheel over a selected component", "rotate its fold direction by 5° per click, with Shift by 1°"),
     ("drag the handle on the ring", "rotate the fold direction; green folds without a clash, red clashes"),

@@ -4,17 +4,23 @@ mod edit;
 mod file;
 mod help;
 mod keys;
+mod pieces;
 mod view;
 
 use super::super::state::Studio;
 use super::Window;
-pub use edit::{EDGES, FIT_SHEETS, LAY_OUT, REDO, UNDO};
+pub use edit::{
+    EDGES, FIT_SHEETS, LAY_OUT, MERGE, REDO, SELECT_ALL, SELECT_NONE, TURN_LEFT, TURN_RIGHT, UNDO,
+};
 use eframe::egui::{self, Context, KeyboardShortcut, Response, Ui};
 pub use file::{OPEN, SAVE};
 pub use help::{COMMAND_LINE, FIND, SHORTCUTS};
 pub use keys::{MOUSE, heed, key_text};
 use lucide_icons::Icon;
-pub use view::{BESIDE, EXPORT, FIT, GHOST, MEASURE, MODEL, NAMES, PLAY, PLOT, SHEETS};
+pub use pieces::{PIECE_LEFT, PIECE_RIGHT, PUT_ASIDE, UNPIN};
+pub use view::{
+    BESIDE, EXPORT, FIT, GHOST, HIDE, ISOLATE, MEASURE, MODEL, NAMES, PLAY, PLOT, SHEETS, SHOW_ALL,
+};
 
 /// The menu that lists a command, and its group there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,7 +71,7 @@ fn has_selection(window: &Window) -> bool {
 
 /// All commands. Of two with one key the first that can be done is.
 pub fn all() -> impl Iterator<Item = &'static Command> {
-    [file::ALL, edit::ALL, view::ALL, help::ALL].concat().into_iter().chain(&help::BOOK)
+    [file::ALL, edit::ALL, pieces::ALL, view::ALL, help::ALL].concat().into_iter().chain(&help::BOOK)
 }
 
 impl Command {

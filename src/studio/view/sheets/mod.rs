@@ -1,7 +1,7 @@
 //! The sheets as they will be printed. A piece that is clicked is selected in space, too; one that is
 //! dragged moves alone.
 
-mod pieces;
+pub mod pieces;
 mod preview;
 
 use super::super::pages::{self, PieceId};
@@ -13,6 +13,7 @@ use super::edges::{self, EdgeTool, Page};
 use super::look::{self, ACCENT};
 use super::picture::Picture;
 use super::wheel::Wheel;
+use crate::app::text::counted;
 use eframe::egui::{self, Color32, PointerButton, Pos2, Rect, Sense, Stroke, Ui, Vec2};
 use glam::DVec2;
 use lucide_icons::Icon;
@@ -201,9 +202,8 @@ impl SheetsPanel {
             let layout = output.layout();
             let sheets = layout.sheet_count();
             let name = layout.options().paper.name();
-            let word = if sheets == 1 { "sheet" } else { "sheets" };
-            let name = look::capital(&name);
-            ui.label(format!("{sheets} {word} of {name}, {:.0} % used", 100.0 * layout.utilisation()));
+            let (sheets, name) = (counted(sheets, "sheet"), look::capital(&name));
+            ui.label(format!("{sheets} of {name}, {:.0} % used", 100.0 * layout.utilisation()));
             if let Some(most) = studio.exceeded_sheets() {
                 let text = format!("{}  Fit to {most}", look::icon(Icon::Shrink));
                 let can = studio.busy().is_none();
@@ -236,7 +236,7 @@ impl SheetsPanel {
         });
         match self.edges.is_on() {
             true => self.edges.bar(studio, output, ui),
-            false => self.piece_bar(studio, output, ui),
+            false => self.piece_bar(studio, ui),
         }
         ui.separator();
     }
@@ -306,7 +306,7 @@ impl SheetsPanel {
         if self.edges.is_on() {
             self.edges.mark(studio, output, ui, &page);
         }
-        if response.clicked() && !is_on_edge {
+        if (response.clicked() || response.secondary_clicked()) && !is_on_edge {
             let piece = over.and_then(|id| pages::piece(output, id).map(|piece| (id, piece)));
             match piece.and_then(|(id, piece)| Some((studio.shown().names().get(id.net)?.clone(), piece))) {
                 Some((name, piece)) => {

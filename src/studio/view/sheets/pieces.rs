@@ -5,11 +5,11 @@ use super::super::super::messages::Cause;
 use super::super::super::pages::{self, Move, PieceId};
 use super::super::super::state::Studio;
 use super::super::canvas::{Seen, draw, to_mm, to_screen};
-use super::super::look::{self, ACCENT, OVERLAP};
+use super::super::commands;
+use super::super::look::{ACCENT, OVERLAP};
 use super::{Drawn, SheetsPanel};
 use eframe::egui::{self, Pos2, Stroke, Ui};
 use glam::DVec2;
-use lucide_icons::Icon;
 use tatamu::pipeline::Output;
 
 /// Turn of a piece for a press of a key, radians.
@@ -76,36 +76,75 @@ impl SheetsPanel {
     }
 
     /// What can be done with the piece that is selected.
-    pub(super) fn piece_bar(&mut self, studio: &mut Studio, output: &Output, ui: &mut Ui) {
-        let Some(piece) = studio.selection.piece().map(str::to_owned) else { return };
-        let net = studio.selected_index();
-        let Some(id) = net.and_then(|net| pages::named(output, net, &piece)) else { return };
-        let pins = studio.document().map(|d| &d.project().pins);
-        let is_pinned = pins.is_some_and(|pins| pins.iter().any(|pin| pin.piece() == piece));
-        let is_current = studio.laid().is_some();
-        let sheet = output.layout().places(id.net)[id.piece].sheet;
-        let turned = |turn_rad| Move { sheet, by_mm: DVec2::ZERO, turn_rad };
-        let aside = Move { sheet: output.layout().sheet_count(), by_mm: DVec2::ZERO, turn_rad: 0.0 };
+    pub(super) fn piece_bar(&mut self, studio: &mut Studio, ui: &mut Ui) {
+        let Some((piece, _)) = selected(studio) else { return };
         ui.horizontal_wrapped(|ui| {
-            let pinned = if is_pinned { ", pinned" } else { "" };
+            let pinned = if can(studio, Hand::Unpin) { ", pinned" } else { "" };
             ui.label(format!("piece {piece}{pinned}"));
-            let help = "rotates the piece by 15°; while you drag it, press , or .";
-            for (picture, name, help, to) in [
-                (look::icon(Icon::RotateCcw), "Rotate left", help, turned(TURN_RAD)),
-                (look::icon(Icon::RotateCw), "Rotate right", help, turned(-TURN_RAD)),
-                (look::icon(Icon::FilePlus), "Put aside", "puts the piece on a sheet of its own", aside),
+            for (hand, command) in [
+                (Hand::Left, &commands::PIECE_LEFT),
+                (Hand::Right, &commands::PIECE_RIGHT),
+                (Hand::Aside, &commands::PUT_ASIDE),
+                (Hand::Unpin, &commands::UNPIN),
             ] {
-                let button = ui.add_enabled(is_current, egui::Button::new(format!("{picture}  {name}")));
-                button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, is_current, name));
-                if button.on_hover_text(help).clicked() {
-                    arrange(studio, output, id, &to);
+                let can = can(studio, hand);
+                if hand == Hand::Unpin && !can {
+                    continue;
                 }
-            }
-            if is_pinned && ui.button("Unpin").on_hover_text("lets the layout place it again").clicked() {
-                studio.change(&Change::Unpin { piece: piece.clone() }, None);
+                let text = format!("{}  {}", command.picture(), command.name);
+                let button = ui.add_enabled(can, egui::Button::new(text));
+                button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, can, command.name));
+                if button.on_hover_text(command.tip).clicked() {
+                    act(studio, hand);
+                }
             }
         });
     }
+}
+
+/// What a user does with a piece.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Hand {
+    /// Rotates it to the left.
+    Left,
+    /// Rotates it to the right.
+    Right,
+    /// Puts it on a sheet of its own.
+    Aside,
+    /// Lets the layout place it.
+    Unpin,
+}
+
+/// The piece that is selected, by its name and in the layout.
+fn selected(studio: &Studio) -> Option<(String, PieceId)> {
+    let piece = studio.selection.piece()?.to_owned();
+    let id = pages::named(studio.shown().output()?, studio.selected_index()?, &piece)?;
+    Some((piece, id))
+}
+
+/// Whether it can be done with the piece that is selected.
+pub fn can(studio: &Studio, hand: Hand) -> bool {
+    let Some((piece, _)) = selected(studio) else { return false };
+    match hand {
+        Hand::Unpin => {
+            studio.document().is_some_and(|d| d.project().pins.iter().any(|pin| pin.piece() == piece))
+        }
+        Hand::Left | Hand::Right | Hand::Aside => studio.laid().is_some(),
+    }
+}
+
+/// Does it.
+pub fn act(studio: &mut Studio, hand: Hand) {
+    let Some(((piece, id), output)) = selected(studio).zip(studio.shown().output().cloned()) else { return };
+    let layout = output.layout();
+    let sheet = layout.places(id.net)[id.piece].sheet;
+    let to = match hand {
+        Hand::Unpin => return studio.change(&Change::Unpin { piece }, None),
+        Hand::Left => Move { sheet, by_mm: DVec2::ZERO, turn_rad: TURN_RAD },
+        Hand::Right => Move { sheet, by_mm: DVec2::ZERO, turn_rad: -TURN_RAD },
+        Hand::Aside => Move { sheet: layout.sheet_count(), by_mm: DVec2::ZERO, turn_rad: 0.0 },
+    };
+    arrange(studio, &output, id, &to);
 }
 
 /// Moves a piece; all others stay where they lie.

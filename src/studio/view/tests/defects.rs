@@ -111,6 +111,21 @@ fn what_is_typed_into_a_dialog_is_no_command() {
     assert_eq!(desk.state().studio().selection.names().len(), 2, "Escape closed the dialog alone");
 }
 
+/// It did nothing: the field had the focus again before anyone saw that the key had taken it.
+#[test]
+fn the_enter_key_ends_the_dialog_for_files() {
+    let (mut desk, folder) = open();
+    std::fs::copy(folder.path().join("snowman.toml"), folder.path().join("other.toml")).unwrap();
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    desk.run_ok();
+    desk.event(Event::Text("other.toml".to_owned()));
+    desk.run_ok();
+    desk.key_press(Key::Enter);
+    desk.run_ok();
+    assert!(desk.query_by_label("Open a mesh or a project").is_none());
+    settle(&mut desk, "the other file", |s| s.opened().is_some_and(|o| o.source.ends_with("other.toml")));
+}
+
 /// The field behind the dialog kept the focus.
 #[test]
 fn a_dialog_takes_the_focus_from_a_field_that_is_being_written() {
@@ -146,7 +161,7 @@ fn the_hint_for_the_wheel_stands_before_the_picture() {
 }
 
 /// Where the pieces lie, by name.
-fn places(desk: &Desk) -> BTreeMap<String, (usize, glam::DVec2)> {
+pub(super) fn places(desk: &Desk) -> BTreeMap<String, (usize, glam::DVec2)> {
     let output = desk.state().studio().shown().output().unwrap();
     let all = output.nets().iter().enumerate();
     all.flat_map(|(net, own)| {
@@ -159,7 +174,7 @@ fn places(desk: &Desk) -> BTreeMap<String, (usize, glam::DVec2)> {
 }
 
 /// A page of the sheets, and a way from a point of it to the screen.
-fn on_page(desk: &Desk, sheet: usize, at: glam::DVec2) -> Pos2 {
+pub(super) fn on_page(desk: &Desk, sheet: usize, at: glam::DVec2) -> Pos2 {
     let page = desk.get_by_label(&format!("Sheet {}", sheet + 1)).rect();
     let size = desk.state().studio().shown().output().unwrap().layout().options().size_mm();
     let scale = page.width() / size.x as f32;
@@ -167,7 +182,7 @@ fn on_page(desk: &Desk, sheet: usize, at: glam::DVec2) -> Pos2 {
 }
 
 /// A point in the middle of each piece of a sheet that is in the piece, too.
-fn grips(desk: &Desk, sheet: usize) -> Vec<(String, glam::DVec2)> {
+pub(super) fn grips(desk: &Desk, sheet: usize) -> Vec<(String, glam::DVec2)> {
     let output = desk.state().studio().shown().output().unwrap();
     let outlines = crate::studio::pages::outlines(output, sheet);
     let grip = |(id, outline): &(crate::studio::pages::PieceId, Vec<glam::DVec2>)| {

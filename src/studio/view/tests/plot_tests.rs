@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::app::profiles;
+use crate::app::text::counted;
 use crate::cli::virtual_plotter::{self, VirtualPlotterArgs};
 use crate::studio::plotting::State;
 use clap::Parser;
@@ -110,7 +111,7 @@ fn a_silhouette_cuts_where_the_marks_are_or_not_at_all() {
         settle(&mut desk, "sheets with marks", is_marked);
         click(&mut desk, "Plot");
         click(&mut desk, "Find my machine …");
-        for answer in ["Silhouette", "Cameo 3 to 5; Portrait 3, 4", "cardstock-200"] {
+        for answer in ["Silhouette", "Cameo 3 to 5; Portrait 3, 4", "Cardstock, 200 g/m²"] {
             desk.get_by_role_and_label(Role::Button, answer).click();
             desk.run_ok();
         }
@@ -153,4 +154,98 @@ fn a_test_cut_is_one_click() {
     assert!(state.at.is_some_and(|(sheet, _)| sheet == "test cut"));
     assert!(machine.motions().iter().filter(|motion| motion.is_down).count() >= 5, "five strokes");
     assert!(!folder.path().join("test-cut.tatamu-job").exists());
+}
+
+/// They were listed by the names of their profiles: "generic-hpgl".
+#[test]
+fn cutters_and_media_are_listed_by_their_names() {
+    let (mut desk, _folder) = open();
+    click(&mut desk, "Plot");
+    for (label, name) in [("Cutter", "Silhouette Cameo 3 to 5, Portrait 3 and 4"), ("Medium", "Vinyl")] {
+        desk.get_by_role_and_label(Role::ComboBox, label).click();
+        desk.run_ok();
+        click(&mut desk, name);
+        assert_eq!(desk.get_by_role_and_label(Role::ComboBox, label).value().as_deref(), Some(name));
+    }
+    assert_eq!(desk.state_mut().plot_mut().choice()[..2], ["silhouette", "vinyl"]);
+}
+
+/// Files were written for a generic cutter, whatever was chosen.
+#[test]
+fn files_for_a_cutter_are_for_the_one_that_is_chosen() {
+    let (mut desk, folder) = open();
+    click(&mut desk, "Plot");
+    desk.state_mut().plot_mut().choose("silhouette", "");
+    click(&mut desk, "Export");
+    click(&mut desk, "snowman.pdf");
+    click(&mut desk, "snowman.plt");
+    let now = desk.get_by_role_and_label(Role::ComboBox, "Cutter").value();
+    assert_eq!(now.as_deref(), Some("Silhouette Cameo 3 to 5, Portrait 3 and 4"));
+    click(&mut desk, "Write files");
+    wait(desk.state_mut().studio_mut(), "files", |s| s.notice().is_some() || s.problem().is_some());
+    assert_eq!(desk.state().studio().problem(), None);
+    let first = folder.path().join("snowman-1.plt");
+    let bytes = std::fs::read(&first).unwrap();
+    assert!(bytes.starts_with(b"\x1b\x04"), "GP-GL begins with ESC EOT: {:?}", &bytes[..bytes.len().min(20)]);
+    desk.run_ok();
+    // One of another language is chosen here.
+    desk.get_by_role_and_label(Role::ComboBox, "Cutter").click();
+    desk.run_ok();
+    click(&mut desk, "Laser with GRBL");
+    assert_eq!(desk.state_mut().plot_mut().choice()[0], "grbl-laser");
+    assert!(desk.query_by_label_contains("a .plt file is not for this cutter").is_some());
+    desk.get_by_role_and_label(Role::ComboBox, "Medium").click();
+    desk.run_ok();
+    click(&mut desk, "Card for a laser");
+    click(&mut desk, "snowman.plt");
+    click(&mut desk, "snowman.gcode");
+    assert!(desk.query_by_label_contains("is not for this cutter").is_none());
+    click(&mut desk, "Write files");
+    let has_written = |s: &Studio| s.notice().is_some_and(|n| n.contains("gcode")) || s.problem().is_some();
+    wait(desk.state_mut().studio_mut(), "G-code", has_written);
+    assert_eq!(desk.state().studio().problem(), None);
+    desk.run_ok();
+    click(&mut desk, "Plot");
+    assert_eq!(desk.state_mut().plot_mut().choice()[0], "grbl-laser", "the plot is for the same");
+}
+
+/// Lines had the colour of their place in the order, and the key was too small to read.
+#[test]
+fn strokes_have_the_colour_of_what_is_done_along_them() {
+    let (mut desk, _folder) = open();
+    click(&mut desk, "Plot");
+    for cutter in ["generic-hpgl", "silhouette", "grbl-knife", "vinyl-cutter"] {
+        desk.state_mut().plot_mut().choose(cutter, "");
+        desk.run_ok();
+        wait_for(&mut desk, "Start");
+        desk.run_ok();
+        let painted = |desk: &Desk| {
+            let mut counts: BTreeMap<[u8; 4], usize> = BTreeMap::new();
+            for shape in &desk.output().shapes {
+                if let egui::Shape::Path(path) = &shape.shape
+                    && let egui::epaint::ColorMode::Solid(colour) = path.stroke.color
+                {
+                    *counts.entry(colour.to_array()).or_default() += 1;
+                }
+            }
+            counts
+        };
+        let counts = painted(&desk);
+        let kinds = [
+            ("Cuts", [190, 20, 60, 255]),
+            ("Creases", [20, 90, 200, 255]),
+            ("Creases that fold by 180°", [0, 130, 90, 255]),
+            ("Lines of the pen", [96, 96, 96, 255]),
+        ];
+        let mut all = 0;
+        for (kind, colour) in kinds {
+            let count = counts.get(&colour).copied().unwrap_or_default();
+            let row = format!("{kind}: {}", counted(count, "stroke"));
+            assert_eq!(desk.query_by_label(&row).is_some(), count > 0, "{cutter}: {row}");
+            all += count;
+        }
+        assert!(all > 5 && counts.contains_key(&kinds[0].1), "{cutter}");
+        let summary = format!(": {all} strokes");
+        assert!(desk.query_by_label_contains(&summary).is_some(), "{cutter}: every stroke has a kind");
+    }
 }

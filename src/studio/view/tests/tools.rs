@@ -384,11 +384,11 @@ fn three_questions_lead_to_a_machine() {
         desk.get_by_role_and_label(Role::Button, label).click();
         desk.run_ok();
     };
-    ["Roland", "cardstock-200"].iter().for_each(|label| press(&mut desk, label));
+    ["Roland", "Cardstock, 200 g/m²"].iter().for_each(|label| press(&mut desk, label));
     assert_eq!(desk.state_mut().plot_mut().choice()[..2], ["roland-camm-1", "cardstock-200"]);
     assert!(desk.query_by_label("Find my machine").is_none(), "all is answered");
     click(&mut desk, "Find my machine …");
-    ["HP", "7550A", "Back", "7475A", "pen"].iter().for_each(|label| press(&mut desk, label));
+    ["HP", "7550A", "Back", "7475A", "Any paper, drawn"].iter().for_each(|label| press(&mut desk, label));
     assert_eq!(desk.state_mut().plot_mut().choice()[..2], ["hp-7475a", "pen"]);
     // One that takes files of another program.
     click(&mut desk, "Find my machine …");
@@ -434,9 +434,9 @@ fn a_profile_of_the_users_own_is_taken_from_a_file() {
     desk.run_ok();
     assert_eq!(desk.state_mut().plot_mut().choice()[0], cutter.display().to_string());
     let plot = desk.state_mut().plot_mut();
-    plot.take_profile(&card).unwrap();
+    plot.profiles_mut().take(&card).unwrap();
     assert_eq!(plot.choice()[1], card.display().to_string());
-    assert!(plot.take_profile(&wrong).unwrap_err().contains("wrong.toml"));
+    assert!(plot.profiles_mut().take(&wrong).unwrap_err().contains("wrong.toml"));
     assert_eq!(plot.choice()[0], cutter.display().to_string(), "what is no profile changes nothing");
 }
 

@@ -1,0 +1,245 @@
+//! Further defects that were found by using the window: recovery, clashes, pieces and what is remembered.
+
+use super::defects::{drag, grips, on_page, places};
+use super::*;
+
+/// A drawn head with two ears so near to each other that they clash in any order.
+const EARS: &str = "[[component]]\nname = \"head\"\ntop = [[-80, -35], [80, -35], [80, 35], [-80, 35]]\n\
+                    profiles = [[[0, 40], [0, 0]]]\n";
+
+fn ear(name: &str, at_mm: f64) -> String {
+    format!(
+        "[[component]]\nname = \"{name}\"\ntop = [[-10, -22], [10, -22], [10, 22], [-10, 22]]\n\
+         profiles = [[[0, 30], [0, 0]]]\n[component.joint]\nto = \"head\"\npanel = \"top\"\nat = [{at_mm}, 0]\n"
+    )
+}
+
+fn turn_by_wheel(desk: &mut Desk) {
+    let at = on_component(desk, 1);
+    press(desk, at, Modifiers::NONE);
+    let at = on_component(desk, 1);
+    wheel(desk, at, 1.0);
+    desk.run_ok();
+}
+
+/// Changes after a mesh was saved as a project were lost when the window was killed, and the message that
+/// they are back stayed when they were no more what Undo takes back.
+#[test]
+fn what_a_killed_window_had_is_back_and_the_message_goes_with_the_next_change() {
+    let (mut desk, folder) = open();
+    desk.state_mut().open(&folder.path().join("snowman.obj"));
+    settle(&mut desk, "the mesh", |s| s.finished().is_some() && !s.opened().unwrap().is_project);
+    desk.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+    desk.run_ok();
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    desk.event(Event::Text("mine.toml".to_owned()));
+    desk.run_ok();
+    desk.key_press(Key::Enter);
+    desk.run_ok();
+    assert!(desk.query_by_label("mine.toml").is_some(), "it is saved");
+    turn_by_wheel(&mut desk);
+    assert!(desk.query_by_label("mine.toml *").is_some());
+    let text = desk.state().studio().document().unwrap().text().to_owned();
+    drop(desk);
+    let mut again = window(folder.path());
+    again.run_ok();
+    again.state_mut().open(&folder.path().join("mine.toml"));
+    settle(&mut again, "the project", |s| s.finished().is_some());
+    assert_eq!(again.state().studio().document().unwrap().text(), text);
+    assert!(again.query_by_label_contains("recovered unsaved changes").is_some());
+    turn_by_wheel(&mut again);
+    assert!(again.query_by_label_contains("recovered unsaved changes").is_none());
+    // Undo takes back the turn, then what was recovered.
+    for _ in 0..2 {
+        again.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+        again.run_ok();
+    }
+    assert!(again.query_by_label("mine.toml").is_some());
+}
+
+/// The text named another part, in words of the command line.
+#[test]
+fn a_clash_is_told_of_the_components_that_it_shows() {
+    let (mut desk, folder) = open();
+    let project = folder.path().join("ears.toml");
+    std::fs::write(&project, [EARS, &ear("left", -14.0), &ear("right", 14.0)].concat()).unwrap();
+    desk.state_mut().open(&project);
+    settle(&mut desk, "the ears", |s| s.finished().is_some() && s.shown().names()[0] == "head");
+    desk.get_by_label_contains("1 warning").click();
+    desk.run_ok();
+    let told = "left's right panel and right's left panel bump by 6.0 mm when left is three quarters folded; \
+                bend one of them aside by hand there, or leave out the part right";
+    assert!(desk.query_by_label(told).is_some());
+    desk.get_by_role_and_label(Role::Button, "Show clash").click();
+    desk.run_ok();
+    let clash = desk.state().space().clash().expect("it is shown");
+    let names = desk.state().studio().shown().names().to_vec();
+    assert_eq!(clash.parts.map(|part| names[part].as_str()), ["left", "right"]);
+    assert_eq!(desk.state().studio().selection.names(), ["left", "right"]);
+    let folded = desk.state().space().folded();
+    assert!(folded > 0.0 && folded < 1.0, "the moment of it: {folded}");
+}
+
+fn is_red(desk: &Desk) -> bool {
+    let red = super::super::look::OVERLAP;
+    let is_red =
+        |shape: &egui::Shape| matches!(shape, egui::Shape::LineSegment { stroke, .. } if stroke.color == red);
+    desk.output().shapes.iter().any(|shape| is_red(&shape.shape))
+}
+
+#[test]
+fn pieces_that_would_overlap_are_red_while_one_is_dragged() {
+    let (mut desk, _folder) = open_sheets();
+    let all = grips(&desk, 0);
+    let (from, to) = (on_page(&desk, 0, all[0].1), on_page(&desk, 0, all[1].1));
+    let button = |pos, pressed| Event::PointerButton {
+        pos,
+        button: egui::PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    assert!(!is_red(&desk));
+    desk.event(Event::PointerMoved(from));
+    desk.run_steps(1);
+    desk.event(button(from, true));
+    desk.run_steps(1);
+    for share in [0.5, 1.0] {
+        desk.event(Event::PointerMoved(from + share * (to - from)));
+        desk.run_steps(2);
+    }
+    assert!(is_red(&desk), "one lies on the other");
+    desk.event(button(to, false));
+    desk.run_steps(3);
+    assert!(!is_red(&desk), "it is back");
+}
+
+#[test]
+fn a_piece_is_put_aside_and_rotated_there_alone() {
+    let (mut desk, _folder) = open_sheets();
+    let before = places(&desk);
+    let (name, grip) = grips(&desk, 0)[0].clone();
+    let at = on_page(&desk, 0, grip);
+    press(&mut desk, at, Modifiers::NONE);
+    click(&mut desk, "Put aside");
+    settle(&mut desk, "a sheet more", |s| s.finished().is_some());
+    let aside = places(&desk);
+    assert!(aside[&name].0 > before.values().map(|place| place.0).max().unwrap());
+    click_when_there(&mut desk, "Rotate piece left");
+    settle(&mut desk, "the rotated piece", |s| s.finished().is_some());
+    let turned = places(&desk);
+    assert_eq!(turned[&name].0, aside[&name].0);
+    assert!(turned[&name].1.distance(aside[&name].1) > 0.01, "it is rotated");
+    for (other, place) in before.iter().filter(|(other, _)| **other != name) {
+        assert_eq!(turned[other].0, place.0, "{other}");
+        assert!(turned[other].1.distance(place.1) < 0.01, "{other}");
+    }
+    // Back onto a sheet with others, where there is room, or not at all.
+    let from = on_page(&desk, turned[&name].0, grips(&desk, turned[&name].0)[0].1);
+    let to = on_page(&desk, 0, grips(&desk, 0)[0].1);
+    drag(&mut desk, from, to);
+    assert!(desk.state().studio().problem().is_some_and(|problem| problem.contains("overlap")));
+    assert_eq!(places(&desk), turned);
+}
+
+#[test]
+fn two_fingers_move_the_sheets() {
+    let (mut desk, _folder) = open_sheets();
+    let at = on_page(&desk, 0, glam::DVec2::new(60.0, 200.0));
+    wheel(&mut desk, at, 3.0);
+    let before = desk.get_by_label("Sheet 1").rect();
+    desk.run_steps(100);
+    desk.event(Event::MouseWheel {
+        unit: MouseWheelUnit::Point,
+        delta: egui::vec2(20.0, 30.0),
+        phase: TouchPhase::Move,
+        source: egui::MouseWheelSource::Unknown,
+        modifiers: Modifiers::NONE,
+    });
+    desk.run_ok();
+    let after = desk.get_by_label("Sheet 1").rect();
+    assert_eq!(after.size(), before.size(), "nothing is magnified");
+    assert!((after.min - before.min - egui::vec2(20.0, 30.0)).length() < 0.5, "{before:?} {after:?}");
+}
+
+/// Where the toolkit tells a click twice, as the wheel's button goes down and up.
+#[test]
+fn a_click_of_an_old_wheel_turns_once() {
+    let (mut desk, _folder) = open();
+    let at = on_component(&desk, 1);
+    press(&mut desk, at, Modifiers::NONE);
+    let before = desk.state().studio().direction_deg(1).unwrap();
+    let at = on_component(&desk, 1);
+    desk.event(Event::PointerMoved(at));
+    desk.run_steps(1);
+    for _ in 0..2 {
+        desk.event(Event::MouseWheel {
+            unit: MouseWheelUnit::Line,
+            delta: egui::vec2(0.0, 1.0),
+            phase: TouchPhase::Move,
+            source: egui::MouseWheelSource::Unknown,
+            modifiers: Modifiers::NONE,
+        });
+        desk.run_steps(1);
+    }
+    let turned = desk.state().studio().direction_deg(1).unwrap();
+    assert!(((turned - before).rem_euclid(360.0) - 5.0).abs() < 0.2, "{before} {turned}");
+}
+
+#[test]
+fn the_size_of_the_window_is_remembered() {
+    let (desk, folder) = open();
+    let store = Store::at(&folder.path().join("state"));
+    assert_eq!(store.preferences().window, None, "the tests have no window");
+    drop(desk);
+    let mut desk = window(folder.path());
+    let viewport = egui::ViewportInfo {
+        inner_rect: Some(egui::Rect::from_min_size(Pos2::ZERO, egui::vec2(1010.0, 690.0))),
+        ..Default::default()
+    };
+    desk.input_mut().viewports.insert(egui::ViewportId::ROOT, viewport);
+    desk.run_ok();
+    assert_eq!(store.preferences().window, Some([1010.0, 690.0]));
+}
+
+fn right_click(desk: &mut Desk, at: Pos2) {
+    desk.event(Event::PointerMoved(at));
+    desk.run_ok();
+    for pressed in [true, false] {
+        let button = egui::PointerButton::Secondary;
+        desk.event(Event::PointerButton { pos: at, button, pressed, modifiers: Modifiers::NONE });
+        desk.run_steps(1);
+    }
+    desk.run_ok();
+}
+
+#[test]
+fn a_right_click_opens_a_menu_for_what_is_under_the_mouse() {
+    let (mut desk, _folder) = open_sheets();
+    let at = on_page(&desk, 0, grips(&desk, 0)[0].1);
+    right_click(&mut desk, at);
+    let piece = desk.state().studio().selection.piece().expect("it is selected").to_owned();
+    assert_eq!(piece, grips(&desk, 0)[0].0);
+    let sheet = places(&desk)[&piece].0;
+    desk.get_all_by_role_and_label(Role::Button, "Put aside").last().expect("in the menu").click();
+    desk.run_ok();
+    settle(&mut desk, "the layout", |s| s.finished().is_some());
+    assert!(places(&desk)[&piece].0 > sheet);
+    desk.key_press(Key::Escape);
+    desk.run_ok();
+    // In space.
+    click(&mut desk, "Model");
+    wait_for(&mut desk, "Model in space");
+    desk.run_ok();
+    let at = on_component(&desk, 1);
+    right_click(&mut desk, at);
+    let name = desk.state().studio().shown().names()[1].clone();
+    assert_eq!(desk.state().studio().selection.names(), std::slice::from_ref(&name));
+    click(&mut desk, "Hide selected components");
+    assert!(desk.state().studio().visibility.is_hidden(&name));
+    assert!(desk.query_by_label("Hide selected components").is_none(), "the menu is closed");
+    // In the list of components.
+    let at = desk.get_by_role_and_label(Role::Button, &name).rect().center();
+    right_click(&mut desk, at);
+    click(&mut desk, "Show all components");
+    assert!(!desk.state().studio().visibility.is_hidden(&name));
+}
