@@ -4,7 +4,7 @@ use super::{Cutter, Media, OffBed, Placement, Point, encode};
 use crate::toolpath::{Operation, Perforation, Tooling, ToolingError, Toolpath, Toolset};
 use glam::DVec2;
 use tatamu_core::remedy::Remedy;
-use tatamu_draw::drawing::{Drawing, Layer, Mark, Stroke as Look};
+use tatamu_draw::drawing::{Drawing, Layer, Mark, Stroke as Look, rectangle};
 
 /// Dashes and gaps of creases where nothing but a full cut is possible, mm.
 const STOPGAP_MM: [f64; 2] = [1.5, 1.5];
@@ -194,7 +194,7 @@ pub fn test_cut() -> Drawing {
     let look = Look { width_mm: 0.2, colour: tatamu_draw::drawing::Rgb::BLACK, dash_mm: Vec::new() };
     let mut sheet = Drawing::new("test cut", DVec2::new(1.8, 1.0) * TEST_SIDE_MM + 2.0 * TEST_INSET_MM);
     let at = |x: f64, y: f64| DVec2::splat(TEST_INSET_MM) + DVec2::new(x, y) * TEST_SIDE_MM;
-    let square = vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)];
+    let square = rectangle(at(0.0, 0.0), at(1.0, 1.0)).to_vec();
     let triangle = vec![at(0.3, 0.3), at(0.7, 0.3), at(0.5, 0.7)];
     sheet.marks = vec![
         Mark::polygon(Layer::Cut, square, &look),
