@@ -37,7 +37,7 @@ pub use pace::in_minutes;
 pub use plan::{Plan, PlanError, test_cut, toolset};
 pub use preview::{preview, strokes};
 pub use profile::{Cutter, Media, ProfileError};
-pub use simulated::virtual_machine;
+pub use simulated::{Interruption, virtual_machine};
 pub use virtual_ebb::VirtualEbb;
 pub use virtual_grbl::VirtualGrbl;
 pub use virtual_machine::{Record, VirtualMachine};
