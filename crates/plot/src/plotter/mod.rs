@@ -28,7 +28,7 @@ mod virtual_grbl;
 mod virtual_machine;
 mod virtual_plotter;
 
-pub use encode::{Placement, encode};
+pub use encode::Placement;
 pub use frame::{Direction, Frame, OffBed, Origin, Point, Ratio};
 pub use job::{Command, Job};
 pub use job_error::JobError;

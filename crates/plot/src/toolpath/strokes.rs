@@ -68,6 +68,11 @@ impl Toolpath {
         &self.strokes
     }
 
+    /// Leaves out the strokes for which `is_nothing`.
+    pub fn leave_out(&mut self, is_nothing: impl Fn(&Stroke) -> bool) {
+        self.strokes.retain(|stroke| !is_nothing(stroke));
+    }
+
     /// Way with the tool up, from `start` on, mm.
     pub fn travel_mm(&self, start: DVec2) -> f64 {
         travel_between_mm(&self.strokes, start)
