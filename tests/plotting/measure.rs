@@ -90,7 +90,7 @@ pub fn sheet(drawing: &Drawing, cutter: &Cutter, media: &Media) -> Result<Figure
         unit_error: unit_errors.fold(0.0, f64::max),
         tip_mm,
         missed_mm,
-        drawing_mm: drawing_error_mm(drawing, strokes, &toolset(cutter, media)?.0.operations()),
+        drawing_mm: drawing_error_mm(drawing, &plan, cutter, &toolset(cutter, media)?.0.operations()),
         lost: plotter.lost() + plotter.broken(),
     })
 }
@@ -136,17 +136,21 @@ fn tips(ways: &[Vec<DVec2>], strokes: &[Stroke], cutter: &Cutter) -> (f64, f64) 
     (tip_mm, missed_mm)
 }
 
-/// How far the lines that are followed are from those of the drawing, both ways.
-fn drawing_error_mm(drawing: &Drawing, strokes: &[Stroke], operations: &[Operation]) -> f64 {
+/// How far the lines that are followed are from those of the drawing, both ways. Lines that are a point to the machine
+/// need not be followed.
+fn drawing_error_mm(drawing: &Drawing, plan: &Plan, cutter: &Cutter, operations: &[Operation]) -> f64 {
+    let strokes = plan.toolpath().strokes();
     let mut worst = 0.0_f64;
     for &operation in operations {
-        let meant: Vec<Vec<DVec2>> = tasks(drawing, &[operation]).iter().map(ring).collect();
+        let mut meant: Vec<Vec<DVec2>> = tasks(drawing, &[operation]).iter().map(ring).collect();
         let own = strokes.iter().filter(|s| s.operation() == operation && !s.is_turn());
         let followed: Vec<Vec<DVec2>> = own.map(|s| s.line().to_vec()).collect();
         let off = |lines: &[Vec<DVec2>], others: &[Vec<DVec2>]| {
             lines.iter().flatten().map(|&p| distance_mm(p, others)).fold(0.0, f64::max)
         };
-        worst = worst.max(off(&followed, &meant)).max(off(&meant, &followed));
+        worst = worst.max(off(&followed, &meant));
+        meant.retain(|line| !plan.placement().is_point(cutter.frame(), line));
+        worst = worst.max(off(&meant, &followed));
     }
     worst
 }

@@ -5,23 +5,12 @@ use super::rehearsal::Rehearsal;
 use std::time::Duration;
 use tatamu::plotter::profile::Handshake;
 use tatamu::plotter::session::{End, MOST_IN_FLIGHT};
-use tatamu::plotter::{Cutter, Faults, Job, Motion, VirtualMachine, VirtualOptions};
+use tatamu::plotter::{Cutter, Faults, Interruption, Job, Motion, VirtualMachine, VirtualOptions};
 
 /// Ends of a job, for each handshake.
 const ENDS: usize = 1000;
 /// The machine stands still for so long before the job goes on.
 const PAUSE: Duration = Duration::from_secs(600);
-
-/// How a job ends before its end.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Fault {
-    /// The user stops it.
-    Stop,
-    /// The host is killed: what the port holds still goes out.
-    Kill,
-    /// The port is gone, with what it holds.
-    Unplug,
-}
 
 /// A cutter with a buffer of so many bytes.
 fn cutter(buffer_bytes: usize, answers: bool) -> Cutter {
@@ -102,14 +91,15 @@ fn ends_and_goes_on(handshake: Handshake, random: &mut fastrand::Rng, bytes: &[u
         faults,
         ..VirtualOptions::default()
     };
-    let fault = [Fault::Stop, Fault::Kill, Fault::Unplug][random.usize(..3)];
+    let interruption = Interruption::ALL[random.usize(..3)];
     let at = random.u64(1..=bytes.len() as u64);
-    let case = format!("{handshake:?}, buffer of {buffer_bytes}, answers {answers}, {fault:?} at byte {at}");
+    let case =
+        format!("{handshake:?}, buffer of {buffer_bytes}, answers {answers}, {interruption:?} at byte {at}");
 
     let mut first = Rehearsal::new(whole.clone(), &cutter, handshake, options);
     let mut done = 0;
-    let is_finished = match fault {
-        Fault::Kill => loop {
+    let is_finished = match interruption {
+        Interruption::Kill => loop {
             if first.plotter.received() >= at {
                 die(&mut first);
                 break false;
@@ -120,11 +110,12 @@ fn ends_and_goes_on(handshake: Handshake, random: &mut fastrand::Rng, bytes: &[u
             done = first.session.status().strokes_done;
         },
         _ => {
-            let when = if fault == Fault::Stop { &mut first.stop_at } else { &mut first.unplug_at };
+            let when =
+                if interruption == Interruption::Stop { &mut first.stop_at } else { &mut first.unplug_at };
             *when = Some(at);
             let outcome = first.run();
             done = outcome.strokes_done;
-            assert!(fault != Fault::Stop || !first.plotter.is_pen_down(), "{case}");
+            assert!(interruption != Interruption::Stop || !first.plotter.is_pen_down(), "{case}");
             outcome.end == End::Finished
         }
     };
@@ -134,7 +125,7 @@ fn ends_and_goes_on(handshake: Handshake, random: &mut fastrand::Rng, bytes: &[u
     assert!(done <= whole.strokes(), "{case}");
 
     let rest = whole.from_stroke(done, &[], cutter.dialect().as_ref());
-    if fault == Fault::Unplug && !answers {
+    if interruption == Interruption::Unplug && !answers {
         // It cannot be told to forget the part of a command: the message says to switch it off and on.
         first.plotter.switch_off_and_on();
     }

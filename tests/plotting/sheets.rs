@@ -45,6 +45,25 @@ fn the_sheets_of_a_model_are_executed_as_they_are_drawn() {
     }
 }
 
+/// Once "4 strokes executed of 5": a snowman has slits of a hundredth of a millimetre, which a unit of 0.025 mm cannot
+/// show.
+#[test]
+fn a_slit_shorter_than_a_unit_is_no_stroke() {
+    let look = Stroke { width_mm: 0.2, colour: Rgb::BLACK, dash_mm: Vec::new() };
+    let mut page = Drawing::new("page", DVec2::new(210.0, 297.0));
+    let slit = |from: DVec2, by: DVec2| Mark::line(Layer::Slit, from, from + by, &look);
+    page.marks.extend((1..5).map(|k| slit(DVec2::splat(20.0 * f64::from(k)), DVec2::X * 5.0)));
+    page.marks.push(slit(DVec2::splat(30.0), DVec2::new(0.0094, -0.0041)));
+    // As short, but over the border of two units.
+    let border = slit(DVec2::splat(50.0125) - DVec2::X * 0.004, DVec2::X * 0.008);
+    for (marks, strokes) in [(vec![], 4), (vec![border], 5)] {
+        page.marks.extend(marks);
+        let figures = measure::sheet(&page, &profile("pen-plotter"), &media("pen")).unwrap();
+        assert_eq!((figures.strokes, figures.lost), (strokes, 0));
+        assert!(figures.unit_error <= 0.5 + 1e-6 && figures.drawing_mm <= 2.5e-4, "{figures:?}");
+    }
+}
+
 /// Contours as nets really have them: corners twice at one place, next to each other or not, a spike
 /// that goes out and back, and edges far shorter than a unit of the machine.
 #[test]

@@ -8,6 +8,11 @@ use tatamu_core::geom::polygon;
 /// Distance of the lines of a hatch, mm.
 const HATCH_MM: f64 = 1.4;
 
+/// The corners of an upright rectangle, from the lower left one to the right and round.
+pub fn rectangle(low: DVec2, high: DVec2) -> [DVec2; 4] {
+    [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
+}
+
 impl Mark {
     /// A convex area of a layer, filled as its style says; none where that leaves it plain.
     pub fn area(layer: Layer, corners: &[DVec2], styles: &LineStyles) -> Option<Self> {
@@ -50,6 +55,15 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_rectangle_runs_round_its_middle_counterclockwise() {
+        let (low, high) = (DVec2::new(-1.0, 2.0), DVec2::new(3.0, 7.0));
+        let corners = rectangle(low, high);
+        assert_eq!((corners[0], polygon::bounds(corners)), (low, Some((low, high))));
+        // The area is the product of the sides only if no two corners are swapped.
+        assert_eq!(polygon::area(&corners), 20.0);
+    }
+
+    #[test]
     fn a_hatch_fills_an_area_and_stays_in_it() {
         let tab = [DVec2::ZERO, DVec2::new(30.0, 0.0), DVec2::new(27.0, 6.0), DVec2::new(4.0, 6.0)];
         let lines = hatch(&tab);
@@ -64,7 +78,7 @@ mod tests {
 
     #[test]
     fn the_style_decides_how_an_area_is_filled() {
-        let square = [DVec2::ZERO, DVec2::X * 9.0, DVec2::splat(9.0), DVec2::Y * 9.0];
+        let square = rectangle(DVec2::ZERO, DVec2::splat(9.0));
         let area = |styles: &LineStyles| Mark::area(Layer::Tab, &square, styles);
         let style = |fill: &str| LineStyles::parse(&format!("[tab]\nfill = \"{fill}\"")).unwrap();
         assert!(area(&style("none")).is_none());

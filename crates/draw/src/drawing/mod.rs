@@ -12,6 +12,7 @@ pub mod strokes;
 mod style;
 pub mod text;
 
+pub use area::rectangle;
 pub use pages::{Chapter, Pages, PagesError};
 pub use raster::{Raster, RasterError};
 pub use registration::Registration;

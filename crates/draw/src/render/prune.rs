@@ -1,6 +1,6 @@
 //! Leaves out what is painted over or beyond the picture's border.
 
-use crate::drawing::{Mark, Shape};
+use crate::drawing::{Mark, Shape, rectangle};
 use glam::DVec2;
 use tatamu_core::geom::polygon;
 
@@ -37,7 +37,7 @@ pub fn seen(marks: Vec<Mark>, size_mm: DVec2) -> Vec<Mark> {
 
 /// A mark as far as it is in the picture.
 fn cut(mut mark: Mark, size_mm: DVec2) -> Mark {
-    let frame = [DVec2::ZERO, DVec2::X * size_mm.x, size_mm, DVec2::Y * size_mm.y];
+    let frame = rectangle(DVec2::ZERO, size_mm);
     let is_in = |p: &DVec2| p.cmpge(DVec2::ZERO).all() && p.cmple(size_mm).all();
     if let Shape::Path { contours, fill, .. } = &mut mark.shape {
         if contours.iter().flat_map(|c| &c.points).all(is_in) {

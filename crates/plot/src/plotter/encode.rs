@@ -79,6 +79,13 @@ impl Placement {
         }
     }
 
+    /// Whether a machine cannot tell a line from a point: all of it rounds to one position.
+    pub fn is_point(&self, frame: &Frame, line: &[DVec2]) -> bool {
+        let mut places = line.iter().map(|&p| self.to_device(frame, p));
+        let first = places.next();
+        places.all(|place| Some(place) == first)
+    }
+
     /// The position on the sheet for one of the machine, mm.
     pub fn to_sheet(&self, frame: &Frame, at: Point) -> DVec2 {
         let [low, high] = self.area_mm;
@@ -93,11 +100,11 @@ impl Placement {
 }
 
 /// The bytes of a job: start, what has the machine look for marks, then each operation with its tool, force and
-/// speed, then end.
+/// speed, then end. No stroke may be a point of the machine: see [`Placement::is_point`].
 ///
 /// # Errors
 /// [`OffBed`] before anything is made of it.
-pub fn encode(
+pub(super) fn encode(
     strokes: &[Stroke],
     placement: &Placement,
     search: &[u8],
@@ -155,13 +162,10 @@ impl Writer<'_> {
         }
     }
 
-    /// One stroke; nothing is left of one that is shorter than a unit. Where a command of its own sets the tool
-    /// down, another lifts it.
+    /// One stroke. Where a command of its own sets the tool down, another lifts it.
     fn stroke(&mut self, mut points: Vec<Point>, lower: &str) {
         points.dedup();
-        if let [first, through @ ..] = points.as_slice()
-            && !through.is_empty()
-        {
+        if let [first, through @ ..] = points.as_slice() {
             let dialect = self.cutter.dialect();
             self.command(&dialect.travel(self.at, *first));
             self.bytes.extend(lower.as_bytes());

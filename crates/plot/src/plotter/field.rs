@@ -2,7 +2,7 @@
 
 use super::{Cutter, Placement, Point};
 use glam::DVec2;
-use tatamu_draw::drawing::{Align, Layer, Mark, Rgb, Stroke, Text};
+use tatamu_draw::drawing::{Align, Layer, Mark, Rgb, Stroke, Text, rectangle};
 
 /// Farther than this from the sheet the bed is not shown, as a share of the sheet's longer side: the job stays large.
 const BEYOND: f64 = 0.4;
@@ -57,15 +57,13 @@ impl Field {
 
     /// Bed and sheet, and the machine's zero.
     pub(super) fn marks(&self, shift: DVec2) -> Vec<Mark> {
-        let rectangle = |low: DVec2, high: DVec2| {
-            [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)].map(|p| p + shift).to_vec()
-        };
+        let shifted = |low: DVec2, high: DVec2| rectangle(low + shift, high + shift).to_vec();
         let mut marks = Vec::new();
         if let Some([low, high]) = self.bed {
             let (shown_low, shown_high) = (low.max(self.low), high.min(self.high));
-            marks.push(Mark::filled(Layer::Picture, rectangle(shown_low, shown_high), BED));
+            let corners = shifted(shown_low, shown_high);
+            marks.push(Mark::filled(Layer::Picture, corners.clone(), BED));
             // An edge that is farther away is not drawn.
-            let corners = rectangle(shown_low, shown_high);
             let is_shown =
                 [low.y >= self.low.y, high.x <= self.high.x, high.y <= self.high.y, low.x >= self.low.x];
             for k in (0..4).filter(|&k| is_shown[k]) {
@@ -73,7 +71,7 @@ impl Field {
                 marks.push(Mark::line(Layer::Picture, corners[k], corners[(k + 1) % 4], &look));
             }
         }
-        let sheet = rectangle(DVec2::ZERO, self.sheet_mm);
+        let sheet = shifted(DVec2::ZERO, self.sheet_mm);
         marks.push(Mark::filled(Layer::Picture, sheet.clone(), Rgb::WHITE));
         marks.push(Mark::polygon(Layer::Picture, sheet, &Stroke::solid(0.3, SHEET)));
         if self.zero.clamp(self.low, self.high) == self.zero {

@@ -28,7 +28,7 @@ mod virtual_grbl;
 mod virtual_machine;
 mod virtual_plotter;
 
-pub use encode::{Placement, encode};
+pub use encode::Placement;
 pub use frame::{Direction, Frame, OffBed, Origin, Point, Ratio};
 pub use job::{Command, Job};
 pub use job_error::JobError;
@@ -37,7 +37,7 @@ pub use pace::in_minutes;
 pub use plan::{Plan, PlanError, test_cut, toolset};
 pub use preview::{ground, preview, strokes};
 pub use profile::{Cutter, Media, ProfileError};
-pub use simulated::virtual_machine;
+pub use simulated::{Interruption, virtual_machine};
 pub use virtual_ebb::VirtualEbb;
 pub use virtual_grbl::VirtualGrbl;
 pub use virtual_machine::{Record, VirtualMachine};

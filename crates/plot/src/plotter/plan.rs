@@ -1,10 +1,11 @@
 //! From a sheet to the bytes that a machine is sent.
 
-use super::{Cutter, Media, OffBed, Placement, Point, encode};
+use super::encode::encode;
+use super::{Cutter, Media, OffBed, Placement, Point};
 use crate::toolpath::{Operation, Perforation, Tooling, ToolingError, Toolpath, Toolset};
 use glam::DVec2;
 use tatamu_core::remedy::Remedy;
-use tatamu_draw::drawing::{Drawing, Layer, Mark, Stroke as Look};
+use tatamu_draw::drawing::{Drawing, Layer, Mark, Stroke as Look, rectangle};
 
 /// Dashes and gaps of creases where nothing but a full cut is possible, mm.
 const STOPGAP_MM: [f64; 2] = [1.5, 1.5];
@@ -65,10 +66,7 @@ impl Plan {
     pub fn new(drawing: &Drawing, cutter: &Cutter, media: &Media) -> Result<Self, PlanError> {
         let (tools, mut notes) = toolset(cutter, media)?;
         let home = cutter.frame().to_sheet(drawing.size_mm, Point::default());
-        let toolpath = Toolpath::of_drawing(drawing, &tools, home);
-        if toolpath.strokes().is_empty() {
-            return Err(PlanError::Nothing);
-        }
+        let mut toolpath = Toolpath::of_drawing(drawing, &tools, home);
         check_power(&toolpath, cutter, media)?;
         let marks = drawing.registration.filter(|marks| marks.is_for_machines());
         let search = marks.and_then(|marks| Some((marks, cutter.search(marks)?)));
@@ -88,11 +86,15 @@ impl Plan {
             }
             None => (Placement::find(strokes, drawing.size_mm, cutter.frame())?, String::new()),
         };
-        let bytes = encode(strokes, &placement, search.as_bytes(), cutter, media)?;
+        toolpath.leave_out(|stroke| placement.is_point(cutter.frame(), stroke.shaft()));
+        if toolpath.strokes().is_empty() {
+            return Err(PlanError::Nothing);
+        }
+        let bytes = encode(toolpath.strokes(), &placement, search.as_bytes(), cutter, media)?;
         Ok(Self { toolpath, placement, bytes, notes })
     }
 
-    /// The strokes.
+    /// The strokes, each of them one of the job; those that are shorter than a unit of the machine are left out.
     pub fn toolpath(&self) -> &Toolpath {
         &self.toolpath
     }
@@ -194,7 +196,7 @@ pub fn test_cut() -> Drawing {
     let look = Look { width_mm: 0.2, colour: tatamu_draw::drawing::Rgb::BLACK, dash_mm: Vec::new() };
     let mut sheet = Drawing::new("test cut", DVec2::new(1.8, 1.0) * TEST_SIDE_MM + 2.0 * TEST_INSET_MM);
     let at = |x: f64, y: f64| DVec2::splat(TEST_INSET_MM) + DVec2::new(x, y) * TEST_SIDE_MM;
-    let square = vec![at(0.0, 0.0), at(1.0, 0.0), at(1.0, 1.0), at(0.0, 1.0)];
+    let square = rectangle(at(0.0, 0.0), at(1.0, 1.0)).to_vec();
     let triangle = vec![at(0.3, 0.3), at(0.7, 0.3), at(0.5, 0.7)];
     sheet.marks = vec![
         Mark::polygon(Layer::Cut, square, &look),
@@ -337,6 +339,31 @@ mod tests {
         assert!(tools.of(Operation::Cut).unwrap().perforation().is_none());
         let (tools, _) = toolset(&cutter("generic-hpgl"), &media("paper-120")).unwrap();
         assert!(tools.of(Operation::Crease).unwrap().perforation().is_none());
+    }
+
+    /// Once such a line was a stroke of the plan and none of the job, so that a job that went on turned its knife by
+    /// the wrong stroke.
+    #[test]
+    fn a_line_shorter_than_a_unit_is_a_stroke_of_neither_plan_nor_job() {
+        let look = Look { width_mm: 0.2, colour: tatamu_draw::drawing::Rgb::BLACK, dash_mm: Vec::new() };
+        let at = DVec2::new(15.0, 15.0);
+        let mut short = sheet();
+        short.marks.insert(0, Mark::line(Layer::Mountain, at, at + DVec2::new(0.009, 0.004), &look));
+        let plan = Plan::new(&short, &cutter("pen-plotter"), &media("pen")).unwrap();
+        assert_eq!(plan.toolpath().strokes().len(), 2);
+        for profile in CUTTERS {
+            let cutter = cutter(profile.name);
+            let medium = if cutter.power().is_some() { "laser-card" } else { "cardstock-200" };
+            let plan = Plan::new(&short, &cutter, &media(medium)).unwrap();
+            let half_mm = 0.5 / cutter.frame().units_per_mm().value() + 1e-9;
+            for (way, stroke) in executed(&cutter, &plan).iter().zip(plan.toolpath().strokes()) {
+                let apart_mm = (way[0] - stroke.shaft()[0]).abs().max_element();
+                assert!(apart_mm <= half_mm, "{}: {apart_mm}", cutter.name());
+            }
+        }
+        short.marks.truncate(1);
+        let nothing = Plan::new(&short, &cutter("pen-plotter"), &media("pen")).map(|_| ());
+        assert_eq!(nothing, Err(PlanError::Nothing));
     }
 
     #[test]

@@ -4,7 +4,7 @@ use super::field::Field;
 use super::{Command, Cutter, Job, Motion, Placement, Point, in_minutes};
 use crate::toolpath::{Operation, Tip};
 use glam::DVec2;
-use tatamu_draw::drawing::{Align, Drawing, Layer, Mark, Polyline, Rgb, Stroke, Text};
+use tatamu_draw::drawing::{Align, Drawing, Layer, Mark, Polyline, Rgb, Stroke, Text, rectangle};
 
 /// Border round the sheet, and the strip for the legend, mm.
 const BORDER_MM: f64 = 8.0;
@@ -90,8 +90,7 @@ pub fn strokes(job: &Job, cutter: &Cutter, placement: &Placement) -> Vec<Vec<DVe
 
 /// The corners of the marks that the machine looks for.
 fn marks([low, high]: [DVec2; 2], shift: DVec2) -> impl Iterator<Item = Mark> {
-    let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-    corners.into_iter().map(move |at| {
+    rectangle(low, high).into_iter().map(move |at| {
         let inwards = (low + high - 2.0 * at).signum() * MARK_ARM_MM;
         let line = [at + DVec2::X * inwards.x, at, at + DVec2::Y * inwards.y].map(|p| p + shift);
         Mark::polyline(Layer::Picture, line.to_vec(), &Stroke::solid(0.5, MARKS))

@@ -3,7 +3,7 @@
 use super::blade::Blade;
 use super::{Operation, Task, Tooling, Toolset, in_order, tasks};
 use glam::DVec2;
-use tatamu_draw::drawing::Drawing;
+use tatamu_draw::drawing::{Drawing, rectangle};
 
 /// Arms of the angle that is cut first of all, so that a drag knife points the right way, mm.
 const ALIGN_MM: f64 = 4.0;
@@ -66,6 +66,11 @@ impl Toolpath {
     /// The strokes.
     pub fn strokes(&self) -> &[Stroke] {
         &self.strokes
+    }
+
+    /// Leaves out the strokes for which `is_nothing`.
+    pub fn leave_out(&mut self, is_nothing: impl Fn(&Stroke) -> bool) {
+        self.strokes.retain(|stroke| !is_nothing(stroke));
     }
 
     /// Way with the tool up, from `start` on, mm.
@@ -156,7 +161,7 @@ fn corner_free_of(work: &[Task], [low, high]: [DVec2; 2]) -> Option<Vec<DVec2>> 
     let far = high - DVec2::splat(ALIGN_INSET_MM);
     let near = low + DVec2::splat(ALIGN_INSET_MM);
     // The upper left one last: cutters that look for marks have a printed square there.
-    let corners = [near, DVec2::new(far.x, near.y), far, DVec2::new(near.x, far.y)];
+    let corners = rectangle(near, far);
     let middle = (low + high) / 2.0;
     let inwards = (middle - near).signum() * ALIGN_MM;
     let angle = |corner: DVec2| {

@@ -1,5 +1,6 @@
 //! Sessions with machines that have a protocol of their own, against simulated ones, in modelled time.
 
+mod day;
 mod ebb;
 mod grbl;
 mod grbl_stops;

@@ -8,7 +8,9 @@ use tatamu_plot::plotter::{
     Cutter, Job, VirtualEbb, VirtualGrbl, VirtualMachine, VirtualOptions, VirtualPlotter,
 };
 
-/// No job of these tests takes longer.
+/// Longest time between two looks at the port, unless a test says otherwise.
+const LOOK: Duration = Duration::from_millis(4);
+/// Most jobs of these tests take no longer.
 pub const TOO_LONG: Duration = Duration::from_secs(3000);
 
 /// A machine with a protocol of its own.
@@ -99,6 +101,10 @@ pub struct Rehearsal<M> {
     pub greets: bool,
     /// The command with this text does not arrive, once.
     pub swallowed: Option<&'static str>,
+    /// Shortest time between two looks at the port.
+    pub least_look: Duration,
+    /// The job takes no longer.
+    pub too_long: Duration,
     /// How late each answer comes.
     pub late: Duration,
     pub now: Duration,
@@ -128,6 +134,8 @@ impl<M: Simulated> Rehearsal<M> {
             unplug_at: None,
             greets: true,
             swallowed: None,
+            least_look: Duration::from_micros(200),
+            too_long: TOO_LONG,
             late: Duration::ZERO,
             now: Duration::ZERO,
             notes: Vec::new(),
@@ -153,7 +161,7 @@ impl<M: Simulated> Rehearsal<M> {
     pub fn die(&mut self) {
         self.session.port_lost();
         while !self.port.is_empty() {
-            self.pass(Duration::from_millis(4));
+            self.pass(LOOK);
         }
     }
 
@@ -166,7 +174,7 @@ impl<M: Simulated> Rehearsal<M> {
             if let Some(outcome) = self.advance() {
                 break outcome;
             }
-            assert!(self.now < TOO_LONG, "no end: {:?}", self.session.status());
+            assert!(self.now < self.too_long, "no end: {:?}", self.session.status());
         };
         self.notes.extend(self.session.take_notes());
         self.ended_at = self.now;
@@ -186,7 +194,7 @@ impl<M: Simulated> Rehearsal<M> {
         match self.session.step(self.now, self.port.len()) {
             Step::Done(outcome) => return Some(outcome),
             Step::Send(bytes) => self.send(bytes),
-            Step::Wait(wait) => self.pass(wait.clamp(Duration::from_micros(200), Duration::from_millis(4))),
+            Step::Wait(wait) => self.pass(wait.clamp(self.least_look, LOOK.max(self.least_look))),
         }
         None
     }

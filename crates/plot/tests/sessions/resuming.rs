@@ -6,24 +6,14 @@ use super::rehearsal::{Rehearsal, Simulated};
 use std::time::Duration;
 use tatamu_plot::plotter::session::{End, MOST_IN_FLIGHT};
 use tatamu_plot::plotter::{
-    Command, Cutter, Faults, Job, Motion, Point, VirtualEbb, VirtualGrbl, VirtualOptions, VirtualPlotter,
+    Command, Cutter, Faults, Interruption, Job, Motion, Point, VirtualEbb, VirtualGrbl, VirtualOptions,
+    VirtualPlotter,
 };
 
 /// Ends of a job, for each machine.
 const ENDS: usize = 1000;
 /// The machine stands still for so long before the job goes on.
 const PAUSE: Duration = Duration::from_secs(600);
-
-/// How a job ends before its end.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Fault {
-    /// The user stops it.
-    Stop,
-    /// The host is killed: what the port holds still goes out.
-    Kill,
-    /// The port is gone, with what it holds.
-    Unplug,
-}
 
 /// Strokes of three or four lines; no two lines are the same.
 fn job(cutter: &Cutter, settings: &str, strokes: usize) -> Vec<u8> {
@@ -73,19 +63,19 @@ fn ends_and_goes_on<M: Simulated>(cutter: &Cutter, bytes: &[u8], random: &mut fa
     let buffer_bytes = random.usize(80..=1024);
     let faults = Faults { slowness: 0.02 + 0.1 * random.f64(), ..Faults::default() };
     let options = VirtualOptions { buffer_bytes, faults, ..VirtualOptions::default() };
-    let fault = [Fault::Stop, Fault::Kill, Fault::Unplug][random.usize(..3)];
+    let interruption = Interruption::ALL[random.usize(..3)];
     let at = random.u64(1..=bytes.len() as u64);
-    let case = format!("{:?}, buffer of {buffer_bytes}, {fault:?} at byte {at}", M::HANDSHAKE);
+    let case = format!("{:?}, buffer of {buffer_bytes}, {interruption:?} at byte {at}", M::HANDSHAKE);
 
     let cutter = &with_buffer(cutter, buffer_bytes);
     let whole = Job::parse(bytes, cutter).expect("valid");
     let mut first = Rehearsal::<M>::new(bytes, cutter, options);
-    match fault {
-        Fault::Stop => first.stop_at = Some(at),
-        Fault::Unplug => first.unplug_at = Some(at),
-        Fault::Kill => {}
+    match interruption {
+        Interruption::Stop => first.stop_at = Some(at),
+        Interruption::Unplug => first.unplug_at = Some(at),
+        Interruption::Kill => {}
     }
-    let done = if fault == Fault::Kill {
+    let done = if interruption == Interruption::Kill {
         first.session.received(first.machine.greeting());
         while first.machine.received() < at {
             if first.advance().is_some() {
@@ -100,7 +90,7 @@ fn ends_and_goes_on<M: Simulated>(cutter: &Cutter, bytes: &[u8], random: &mut fa
         if outcome.end == End::Finished {
             return;
         }
-        assert!(fault != Fault::Stop || !first.machine.is_pen_down(), "{case}");
+        assert!(interruption != Interruption::Stop || !first.machine.is_pen_down(), "{case}");
         outcome.strokes_done
     };
 
@@ -114,7 +104,7 @@ fn ends_and_goes_on<M: Simulated>(cutter: &Cutter, bytes: &[u8], random: &mut fa
     assert!(!second.machine.is_pen_down() && !second.worked_after_end, "{case}");
     assert_eq!(second.machine.lost(), 0, "{case}");
     // The part of a command that a board was left with is refused, together with the first question.
-    assert!(second.machine.broken() <= broken + u64::from(fault == Fault::Unplug), "{case}");
+    assert!(second.machine.broken() <= broken + u64::from(interruption == Interruption::Unplug), "{case}");
 
     let after = drawn(&second.machine.motions()[after_from..]);
     let lines = lines_of(&whole);

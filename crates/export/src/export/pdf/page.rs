@@ -10,7 +10,9 @@ use printpdf::{
 };
 use std::collections::BTreeMap;
 use tatamu_draw::drawing::text;
-use tatamu_draw::drawing::{Drawing, Image, LineStyles, Mark, Pages, Polyline, Rgb, Shape, Stroke, Text};
+use tatamu_draw::drawing::{
+    Drawing, Image, LineStyles, Mark, Pages, Polyline, Rgb, Shape, Stroke, Text, rectangle,
+};
 
 /// Points in a millimetre.
 pub(super) const PT_PER_MM: f64 = 72.0 / 25.4;
@@ -54,10 +56,9 @@ impl<'a> Builder<'a> {
     }
 
     fn push_ground(&self, ops: &mut Vec<Op>, drawing: &Drawing) {
-        let size = drawing.size_mm;
         if let Some(ground) = drawing.ground {
-            let corners = vec![DVec2::ZERO, DVec2::new(size.x, 0.0), size, DVec2::new(0.0, size.y)];
-            push_fill(ops, &[Polyline::closed(corners)], ground);
+            let corners = rectangle(DVec2::ZERO, drawing.size_mm);
+            push_fill(ops, &[Polyline::closed(corners.to_vec())], ground);
         }
     }
 

@@ -5,7 +5,7 @@ use super::{PictureError, overlay, taken};
 use glam::{DAffine2, DVec2, DVec3};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use tatamu_core::geom::polygon;
-use tatamu_draw::drawing::{Layer, Mark, Rgb, Stroke};
+use tatamu_draw::drawing::{Layer, Mark, Rgb, Stroke, rectangle};
 use tatamu_draw::render::{Camera, Scene, Spot, View, clearness};
 
 /// What is seen of an area is magnified below this, mm². On a phone, whose screen is 65 mm wide, it is 5 by 4 mm.
@@ -67,10 +67,7 @@ pub fn lens(
     }
     let Some(low) = corner(scene, view, clear) else { return Ok(None) };
     let corners = [low, low + side];
-    let square = |gap_mm: f64| {
-        let [low, high] = [low - gap_mm, low + side + gap_mm];
-        vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
-    };
+    let square = |gap_mm: f64| rectangle(low - gap_mm, low + side + gap_mm).to_vec();
     let frame = Stroke::solid(FRAME_MM, overlay::INK);
     let flat = area.map(|p| view.project(p));
     let place = polygon::centroid(&polygon::convex_hull(&flat));

@@ -2,7 +2,9 @@
 
 use glam::{DAffine2, DVec2};
 use tatamu_core::geom::polygon;
-use tatamu_draw::drawing::{Align, Drawing, Layer, LineStyles, Mark, Rgb, Shape, Stroke, Text, text};
+use tatamu_draw::drawing::{
+    Align, Drawing, Layer, LineStyles, Mark, Rgb, Shape, Stroke, Text, rectangle, text,
+};
 use tatamu_draw::render::palette;
 use tatamu_net::net::{Net, Side};
 use tatamu_pipeline::Output;
@@ -66,7 +68,7 @@ pub fn sheet_map(output: &Output, sheet: usize, part: usize, height_mm: f64) -> 
     let scale = height_mm / paper_mm.y;
     let size_mm = paper_mm * scale;
     let mut drawing = Drawing::new("", size_mm);
-    let corners = [DVec2::ZERO, DVec2::X * size_mm.x, size_mm, DVec2::Y * size_mm.y];
+    let corners = rectangle(DVec2::ZERO, size_mm);
     let edge = Stroke::solid(0.3, EDGE);
     let thin = Stroke::solid(0.12, EDGE);
     drawing.marks.push(Mark::filled(Layer::Picture, corners.to_vec(), PAPER));
@@ -89,8 +91,7 @@ pub fn sheet_map(output: &Output, sheet: usize, part: usize, height_mm: f64) -> 
     let number = (sheet + 1).to_string();
     let low = DVec2::new(size_mm.x - 1.6 - text::width_mm(&number, NUMBER_MM), 0.0);
     let high = DVec2::new(size_mm.x, NUMBER_MM + 1.6);
-    let ground = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
-    drawing.marks.push(Mark::filled(Layer::Picture, ground.to_vec(), PAPER));
+    drawing.marks.push(Mark::filled(Layer::Picture, rectangle(low, high).to_vec(), PAPER));
     drawing.marks.push(Mark::polygon(Layer::Picture, corners.to_vec(), &edge));
     let number = Text::new(number, DVec2::new(size_mm.x - 0.8, 0.8), NUMBER_MM);
     drawing.marks.push(Mark::text(Layer::Picture, number.aligned(Align::End).coloured(EDGE)));
