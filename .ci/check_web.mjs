@@ -30,10 +30,11 @@ door.initSync({ module: wasm });
 const native = join(folder, "native");
 mkdirSync(native, { recursive: true });
 
-const made = (sample) => {
+const run = (locale, ...words) => execFileSync(tatamu, words, { stdio: "pipe", env: { ...process.env, LC_ALL: locale } });
+const made = (sample, locale = "de-DE") => {
   const desk = new door.Desk();
   desk.add(sample, readFileSync(join("samples", sample)));
-  desk.open(sample);
+  desk.open(sample, locale);
   while (desk.work());
   return desk;
 };
@@ -41,7 +42,7 @@ const FORMATS = ["svg", "dxf", "pdf", "fold", "obj", "stl", "plt"];
 for (const sample of readdirSync("samples").filter((name) => /\.obj$|^(gift-box|lamp|vase)\.toml$/.test(name))) {
   const stem = sample.replace(/\.\w+$/, "");
   const outputs = FORMATS.flatMap((format) => ["-o", join(native, `${stem}.${format}`)]);
-  execFileSync(tatamu, ["make", join("samples", sample), "--quiet", ...outputs], { stdio: "pipe" });
+  run("de_DE.UTF-8", "make", join("samples", sample), "--quiet", ...outputs);
   const desk = made(sample);
   for (const format of FORMATS) {
     for (const file of desk.export(format)) {
@@ -58,9 +59,25 @@ for (const sample of ["teddy.obj", "snowman.obj", "lamp.toml"]) {
   writeFileSync(path, file.bytes);
   execFileSync(tatamu, ["check", path, "--quiet"], { stdio: "pipe" });
   const report = join(native, "report.json");
-  execFileSync(tatamu, ["make", join("samples", sample), "--quiet", "-o", report], { stdio: "pipe" });
+  run("de_DE.UTF-8", "make", join("samples", sample), "--quiet", "-o", report);
   const names = JSON.parse(readFileSync(report)).components.map((part) => part.name);
   expect(told.parts.map((part) => part.name).join() === names.join(), `${sample}: the components of the native program`);
+  desk.free();
+}
+// On the paper of another country, and in the size that takes no more sheets.
+{
+  const desk = made("teddy.obj", "en-US");
+  const same = (what, ...words) => {
+    run("en_US.UTF-8", "make", "samples/teddy.obj", "--quiet", ...words, "-o", join(native, "teddy.svg"));
+    for (const file of desk.export("svg")) {
+      expect(readFileSync(join(native, file.name)).equals(Buffer.from(file.bytes)), `${file.name} ${what}: the same bytes as the native program`);
+    }
+  };
+  same("on letter");
+  desk.set(".sheets_max", "2", undefined, false);
+  desk.fit_sheets();
+  while (desk.work());
+  same("on two sheets", "--sheets-max", "2");
   desk.free();
 }
 
@@ -87,6 +104,7 @@ const browser = await puppeteer.launch({
 });
 const page = await browser.newPage();
 page.on("console", (message) => faults.push(`console: ${message.text()}`));
+page.on("dialog", (dialog) => dialog.accept());
 page.on("pageerror", (error) => faults.push(`error: ${error.message}`));
 page.on("request", (request) => {
   if (!/^(http:\/\/127\.0\.0\.1|blob:|data:)/.test(request.url())) faults.push(`request: ${request.url().slice(0, 200)}`);
@@ -152,7 +170,13 @@ const drop = (name) => page.evaluate(async (name) => {
   dispatchEvent(new DragEvent("drop", { dataTransfer: given, bubbles: true, cancelable: true }));
 }, name);
 
+// As a browser of this language.
+const tab = await page.createCDPSession();
+const speak = async (acceptLanguage) => tab.send("Emulation.setUserAgentOverride", { userAgent: await browser.userAgent(), acceptLanguage });
+const facts = () => page.$eval("#facts", (p) => p.textContent);
+
 await page.setViewport({ width: 1360, height: 820 });
+await speak("de-DE");
 await page.goto(address);
 await page.waitForSelector("#samples button");
 await pause(600);
@@ -272,12 +296,62 @@ while (!(await page.$eval("#undo", (undo) => undo.disabled))) {
 }
 expect((await size()) === sized, `all is undone after a cancel: ${await size()} mm of ${sized} mm`);
 
+// A size for a number of sheets: found, undone, and cancelled while it is searched for.
+const sheets = async () => Number((await facts()).match(/(\d+) sheets?/)[1]);
+const many = await sheets();
+expect(await page.$eval("#fit-sheets", (button) => button.hidden), "there is nothing to fit while any number of sheets will do");
+await page.click("#sheet-rows input[type=checkbox]");
+await until("the number of sheets is exceeded", () => !document.getElementById("fit-sheets").hidden && document.getElementById("busy").hidden);
+await page.$eval('[id="sheet-rows-.sheets_max"]', (input) => { input.value = 2; input.dispatchEvent(new Event("change")); });
+await until("two sheets are exceeded", () => document.getElementById("fit-sheets").textContent.includes("2 sheets") && !document.getElementById("fit-sheets").disabled);
+await pause(500);
+await picture("sheets-max");
+const fit = () => page.click("#fit-sheets");
+await fit();
+await until("the search is seen", () => !document.getElementById("busy").hidden && document.getElementById("fit-sheets").disabled);
+await pause(300);
+expect((await sheets()) === many, "the model is there while its size is searched for");
+await picture("fitting");
+await page.click("#cancel");
+await until("the search is cancelled", isDone);
+expect((await size()) === sized && (await sheets()) === many, `after a cancel: ${await size()} mm on ${await sheets()} sheets`);
+const asked = Date.now();
+await fit();
+await pause(300);
+await until("the size is found", isDone, 120);
+figure("two sheets of teddy", `${await size()} mm instead of ${sized} mm, found in ${((Date.now() - asked) / 1000).toFixed(1)} s`);
+expect((await sheets()) <= 2 && (await size()) < sized, `fitted: ${await size()} mm on ${await sheets()} sheets`);
+expect(await page.$eval("#fit-sheets", (button) => button.hidden), "nothing is left to fit");
+await picture("fitted");
+await page.click("#undo");
+await pause(300);
+await until("the size is undone", isDone);
+expect((await size()) === sized && (await sheets()) === many, `undone: ${await size()} mm on ${await sheets()} sheets`);
+
 // Accessible, as far as a program can tell.
 const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 await page.evaluate(axe);
 const found = await page.evaluate(() => axe.run({ resultTypes: ["violations"] }));
 const serious = found.violations.filter(({ impact }) => ["serious", "critical"].includes(impact));
 expect(serious.length === 0, `axe: ${JSON.stringify(serious.map(({ id, nodes }) => [id, nodes.slice(0, 3).map((node) => node.html.slice(0, 120))]))}`);
+
+// The paper of the country; a project has its own everywhere.
+const paper = () => page.$eval('[id="paper-rows-paper.size"]', (input) => input.value);
+expect((await paper()) === "a4" && /of a4/i.test(await facts()), `in German: ${await facts()}`);
+await speak("en-US");
+await page.reload();
+await page.waitForSelector("#samples button");
+await drop("box.obj");
+await until("the box is finished in America", isDone);
+expect((await paper()) === "letter" && /of letter/i.test(await facts()), `in America: ${await facts()}`);
+await picture("letter");
+writeFileSync(join(downloads, "plain.toml"), 'mesh = "box.obj"\n');
+writeFileSync(join(downloads, "box.obj"), readFileSync("samples/box.obj"));
+await (await page.$("#file")).uploadFile(join(downloads, "plain.toml"), join(downloads, "box.obj"));
+await pause(500);
+await until("a project is finished in America", isDone);
+expect((await paper()) === "a4", `a project without a paper, in America: ${await paper()}`);
+await speak("de-DE");
 
 // A job on the stub: pause, go on, stop with the tool up, continue.
 const isUp = () => page.evaluate(() => /(^|;|\x1b[^;]*)PU[^;]*;?(?!.*PD)/s.test(globalThis.got.text.slice(globalThis.got.text.lastIndexOf("PD") + 1)));
@@ -332,7 +406,12 @@ expect((await overflow()) <= 0, `the work is ${await overflow()} px too wide for
 await picture("phone");
 await page.evaluate(() => scrollTo(0, 900));
 await picture("phone-below");
-page.on("dialog", (dialog) => dialog.accept());
+await page.click("#sheet-rows input[type=checkbox]");
+await until("the sheets are exceeded on a phone", () => !document.getElementById("fit-sheets").hidden && document.getElementById("busy").hidden);
+await page.evaluate(() => document.getElementById("sheets-title").scrollIntoView());
+await pause(300);
+expect((await overflow()) <= 0, `the sheets are ${await overflow()} px too wide for a phone`);
+await picture("phone-sheets");
 await page.reload();
 await page.waitForSelector("#samples button");
 await pause(400);

@@ -9,8 +9,13 @@ const LETTER: [&str; 14] =
 
 /// What holds for a mesh where nothing is chosen: the defaults, on the usual paper of the user's country.
 pub fn settings() -> Settings {
+    named().map_or_else(|| Settings::standard().clone(), |locale| settings_of(&locale))
+}
+
+/// The same for a locale that is known, such as the language of a browser.
+pub fn settings_of(locale: &str) -> Settings {
     let mut settings = Settings::standard().clone();
-    settings.model.paper = named().map_or(settings.model.paper, |locale| usual_paper(&locale));
+    settings.model.paper = usual_paper(locale);
     settings
 }
 
@@ -26,7 +31,7 @@ fn of_system() -> Option<String> {
     sys_locale::get_locale()
 }
 
-/// A page would have to ask its browser.
+/// A page gives its browser's language to [`settings_of`].
 #[cfg(target_family = "wasm")]
 fn of_system() -> Option<String> {
     None

@@ -16,6 +16,7 @@ use tatamu::pipeline::{Engine, Options, Output, Warning, shape_drawn};
 use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::project::Project;
+use tatamu::project::options::Settings;
 use tatamu::report::Run;
 
 /// Gives the content of a file, on any thread.
@@ -43,11 +44,19 @@ pub struct Opened {
 }
 
 impl Opened {
-    /// Reads a file.
+    /// Reads a file. A mesh begins on the usual paper of the country that the system names.
     ///
     /// # Errors
     /// A message that says what is wrong with which file.
     pub fn read(fetch: Fetch, source: &Path) -> Result<Self, String> {
+        Self::read_with(fetch, source, &locale::settings())
+    }
+
+    /// The same where a mesh begins with other settings. A project has its own.
+    ///
+    /// # Errors
+    /// As [`Opened::read`].
+    pub fn read_with(fetch: Fetch, source: &Path, fresh: &Settings) -> Result<Self, String> {
         let input = input::read_by(&*fetch, source).map_err(|error| words::error(&error))?;
         let (mesh, drawn) = match input.shape {
             Shape::Mesh(mesh) => (mesh, None),
@@ -65,7 +74,7 @@ impl Opened {
         } else {
             let project = source.with_extension("toml");
             let name = project::mesh_from(&project, source).map_err(|error| error.to_string())?;
-            project::project_text(&name, &locale::settings(), &[])
+            project::project_text(&name, fresh, &[])
         };
         Ok(Self {
             fetch,

@@ -1,5 +1,6 @@
 //! What a warning advises, as a change that one click makes.
 
+use super::dials::label;
 use tatamu::pipeline::Warning;
 use tatamu::project::change::{Change, to_digits};
 use tatamu::project::options::{Entry, MARGIN, MIN_PANEL_WIDTH, PAPER, SIZE, SPLIT, Settings, THICK};
@@ -43,10 +44,6 @@ fn change(remedy: &Remedy, now: &Settings) -> Option<(String, Change)> {
         Remedy::NoBoards => reset("Fold without boards", &THICK),
         _ => None,
     }
-}
-
-fn label(option: &Entry) -> &'static str {
-    option.dial.map_or(option.name(), |dial| dial.label)
 }
 
 #[cfg(test)]

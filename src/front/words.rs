@@ -1,12 +1,13 @@
 //! Sentences that name settings.
 
+use super::dials;
 use crate::app::error::AppError;
 use crate::app::words::{self, Names};
 use tatamu::design::DesignWarning;
 use tatamu::fold::{FoldWarning, Place};
 use tatamu::net::NetWarning;
 use tatamu::pipeline::{self, ModelWarning, Warning};
-use tatamu::project::options::Entry;
+use tatamu::project::options::{Entry, SHEETS_MAX};
 
 /// The sentence for a warning.
 pub fn warning(warning: &Warning) -> String {
@@ -63,9 +64,10 @@ struct Settings;
 
 impl Names for Settings {
     fn option(&self, option: &Entry) -> String {
-        match option.dial {
-            Some(dial) => format!("\u{201c}{}\u{201d}", dial.label),
-            None => format!("{} in the project file", option.name()),
+        if option.dial.is_some() || *option == SHEETS_MAX {
+            format!("\u{201c}{}\u{201d}", dials::label(option))
+        } else {
+            format!("{} in the project file", option.name())
         }
     }
 
@@ -155,11 +157,11 @@ mod tests {
         }
     }
 
-    /// The studio and the page said "allow more with --sheets-max".
+    /// The studio and the page said "allow more with --sheets-max", and then named the key of a setting that both have.
     #[test]
     fn a_model_of_too_many_sheets_names_the_setting() {
         let told = error(&AppError::ManySheets { most: 2 });
-        assert!(told.ends_with("; allow more with sheets_max in the project file"), "{told}");
+        assert!(told.ends_with("; allow more with \u{201c}Sheets max\u{201d}"), "{told}");
     }
 
     #[test]

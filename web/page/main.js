@@ -126,13 +126,13 @@ async function open(name) {
   by('problem').hidden = true;
   await hired;
   try {
-    await ask('open', [...files], name);
+    await ask('open', [...files], name, navigator.language);
   } catch (error) {
     waiting = isProject(name) ? name : null;
     problem(waiting ? `${error} Choose that file as well.` : error);
     return false;
   }
-  [opened, waiting, told] = [name, null, null];
+  [opened, waiting, told, seenSize] = [name, null, null, undefined];
   by('welcome').hidden = true;
   by('work').hidden = by('bar').hidden = false;
   by('sheets').replaceChildren();
@@ -174,6 +174,7 @@ function show(now) {
   // The model may be smaller than the mesh that was seen before.
   if (now.parts.length && !told?.parts.length) view.postMessage({ what: 'fit' });
   told = now;
+  followSize();
   // A clash is of the model that it was found in.
   if (now.is_busy) sight.clash = undefined;
   by('title').textContent = now.title;
@@ -194,6 +195,10 @@ function show(now) {
   const end = () => act('end_gesture');
   rows(by('model-rows'), now.model, set(), end);
   rows(by('paper-rows'), now.paper, set(), end);
+  rows(by('sheet-rows'), now.sheets, set(), end);
+  by('fit-sheets').hidden = now.exceeded_sheets === null;
+  by('fit-sheets').disabled = now.is_busy;
+  by('fit-sheets').textContent = `Fit the size to ${counted(now.exceeded_sheets, 'sheet')}`;
   showParts(now.parts);
   const own = now.parts.filter(part => part.is_selected);
   by('own').hidden = own.length === 0 || now.is_drawn;
@@ -211,6 +216,15 @@ function show(now) {
     endSplit();
   }
   showNotes(now);
+}
+
+// The view follows a change of size, once the model has it.
+let seenSize;
+function followSize() {
+  if (!told.facts) return;
+  const size = told.model.find(row => row.option === '.size').value;
+  if (seenSize !== undefined && seenSize !== size) view.postMessage({ what: 'fit' });
+  seenSize = size;
 }
 
 function showParts(parts) {
@@ -425,6 +439,7 @@ by('fit').onclick = () => view.postMessage({ what: 'fit' });
 by('undo').onclick = () => act('undo');
 by('redo').onclick = () => act('redo');
 by('cards').onclick = () => act('cards');
+by('fit-sheets').onclick = () => { stopPlaying(0); act('fit_sheets'); };
 by('merge').onclick = () => { by('more').setAttribute('aria-pressed', false); act('merge'); };
 by('more').onclick = () => by('more').setAttribute('aria-pressed', by('more').getAttribute('aria-pressed') !== 'true');
 by('reset').onclick = () => { const part = told.parts.findLast(own => own.is_selected); if (part) act('reset', part.key); };
@@ -447,6 +462,8 @@ by('split-here').onclick = () => { act('split', sight.axis, sight.share); endSpl
 // The worker hears this after the stage that it is at. One that does not end soon ends with its worker; the next
 // worker goes on with the same history.
 by('cancel').onclick = async () => {
+  // A model that was whole while a size was searched for stays.
+  const isWhole = Boolean(told.facts?.order);
   const isHeard = ask('stop').then(() => true, () => true);
   if (!await Promise.race([isHeard, new Promise(done => setTimeout(() => done(false), PATIENCE))])) {
     work.terminate();
@@ -454,10 +471,14 @@ by('cancel').onclick = async () => {
     answers.clear();
     await hire();
     const selected = told.parts.filter(part => part.is_selected).map(part => part.key);
-    await ask('open', [...files], opened, kept, selected).catch(problem);
+    await ask('open', [...files], opened, navigator.language, kept, selected, isWhole).catch(problem);
+    if (isWhole) {
+      say('stopped; the size stays');
+      act('run');
+      return;
+    }
   }
-  by('busy').hidden = true;
-  told = { ...told, is_busy: false };
+  show({ ...told, is_busy: false });
   say('stopped');
   problem('Stopped; the next change starts it again.');
 };

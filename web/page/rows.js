@@ -54,7 +54,7 @@ export function rows(place, list, set, end) {
       const input = control(row, (...given) => place.set(...given), end);
       [input.id, input.title] = [id, row.tip];
       if (row.is_optional) {
-        const box = Object.assign(document.createElement('input'), { type: 'checkbox', title: 'off: automatic' });
+        const box = Object.assign(document.createElement('input'), { type: 'checkbox', title: `off: ${row.automatic}` });
         box.setAttribute('aria-label', `choose ${row.label}`);
         box.onchange = () => place.set(input.row, box.checked ? input.row.such_as : null, false);
         const both = Object.assign(document.createElement('div'), { className: 'auto' });

@@ -60,15 +60,18 @@ async function run() {
 }
 
 // What the page may ask for; those of the first list change the model.
-const changes = ['set', 'rename', 'reset', 'heed', 'undo', 'redo', 'turn', 'cards', 'merge', 'split'];
+const changes = ['set', 'rename', 'reset', 'heed', 'undo', 'redo', 'turn', 'cards', 'merge', 'split', 'fit_sheets'];
 const calls = {
-  open(files, name, history, selected) {
+  open(files, name, locale, history, selected, isWanted) {
     desk?.free();
     desk = new Desk();
     laid = kept = '';
     for (const [name, bytes] of files) desk.add(name, bytes);
-    desk.open(name);
-    if (history) desk.go_on(history, selected);
+    desk.open(name, locale);
+    if (history) {
+      desk.go_on(history, selected);
+      if (!isWanted) desk.stop();
+    }
     sight = { folded: 0, isMesh: false };
   },
   run() { show(); run(); },

@@ -5,6 +5,10 @@ use std::collections::BTreeMap;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use tatamu::app::choice::Choice;
+use tatamu::app::error::AppError;
+use tatamu::app::fit::fitting_size_mm;
+use tatamu::app::locale;
 use tatamu::fold::Clash;
 use tatamu::front::opened::Opened;
 use tatamu::front::results::Shown;
@@ -34,6 +38,8 @@ pub struct Desk {
 enum Stage {
     /// The component that the user turns, before all others.
     Ahead(usize),
+    /// The largest size in which the model takes no more sheets than its project allows.
+    Size,
     Shape,
     LayOut(Shaped),
     Fold(Output),
@@ -54,30 +60,30 @@ pub struct Sight {
 }
 
 impl Desk {
-    /// Opens a mesh, a project or drawings; `files` are all that the user gave, by name.
+    /// Opens a mesh, a project or drawings; `files` are all that the user gave, by name. A mesh begins on the
+    /// usual paper of the locale.
     ///
     /// # Errors
     /// A message that says what is wrong with which file.
-    pub fn open(files: BTreeMap<String, Vec<u8>>, name: &str) -> Result<Self, String> {
+    pub fn open(files: BTreeMap<String, Vec<u8>>, name: &str, locale: &str) -> Result<Self, String> {
         let fetch = move |path: &Path| {
             let found = path.file_name().and_then(|name| files.get(name.to_str()?));
             found.cloned().ok_or_else(|| ErrorKind::NotFound.into())
         };
-        let opened = Opened::read(Arc::new(fetch), Path::new(name))?;
+        let opened = Opened::read_with(Arc::new(fetch), Path::new(name), &locale::settings_of(locale))?;
         let path = opened.is_project.then(|| PathBuf::from(name));
         let document = Document::new(opened.text.clone(), path)?;
         let (shown, selection, visibility) = Default::default();
         Ok(Self { opened, document, shown, selection, visibility, next: Some(Stage::Shape) })
     }
 
-    /// Goes on where another desk was, with the same file; nothing is made until the next change.
+    /// Goes on where another desk was, with the same file.
     ///
     /// # Errors
     /// A message where its history is none of projects.
     pub fn go_on(&mut self, history: History, selected: &[String]) -> Result<(), String> {
         self.document = Document::of_history(history, self.document.path().map(Path::to_owned))?;
         selected.iter().for_each(|key| self.selection.select(key, None, true));
-        self.stop();
         Ok(())
     }
 
@@ -99,13 +105,24 @@ impl Desk {
         let Some(stage) = self.next.take() else { return Ok(()) };
         match self.make(stage, progress) {
             Ok(next) => self.next = next,
-            Err(Error::Cancelled(_)) => self.next = Some(Stage::Shape),
-            Err(error) => return Err(words::failure(&error)),
+            Err(AppError::Pipeline(Error::Cancelled(_))) => self.next = Some(Stage::Shape),
+            Err(error) => return Err(words::error(&error)),
         }
         Ok(())
     }
 
-    fn make(&mut self, stage: Stage, progress: &dyn Progress) -> Result<Option<Stage>, Error> {
+    /// The sheets that the model may take, where it takes more.
+    pub fn exceeded_sheets(&self) -> Option<usize> {
+        let most = self.document.settings().most_sheets?;
+        (self.laid()?.layout().sheet_count() > most).then_some(most)
+    }
+
+    /// Makes the model smaller next, until it takes no more sheets than its project allows.
+    pub fn fit_sheets(&mut self) {
+        self.next = Some(Stage::Size);
+    }
+
+    fn make(&mut self, stage: Stage, progress: &dyn Progress) -> Result<Option<Stage>, AppError> {
         let (engine, options) = (&self.opened.engine, self.document.options());
         match stage {
             Stage::Ahead(part) => {
@@ -115,23 +132,33 @@ impl Desk {
                 }
                 Ok(Some(Stage::Shape))
             }
+            Stage::Size => {
+                let sketches = self.opened.drawn.as_deref().map(Vec::as_slice);
+                let choice = Choice::new(Some(self.document.project()), &[])?;
+                let size_mm = fitting_size_mm(engine, sketches, choice, progress)?;
+                let change = Change::Set { option: &SIZE, value: Some(size_mm.into()) };
+                self.document.change(&change, None).map_err(AppError::Options)?;
+                Ok(Some(Stage::Shape))
+            }
             Stage::Shape => {
                 let size_mm = self.document.project().has(&SIZE).then_some(options.size_mm);
                 let shaped = match &self.opened.drawn {
-                    None => engine.shape(options, progress)?,
-                    Some(sketches) => shape_drawn(sketches, size_mm, options, progress)?,
+                    None => engine.shape(options, progress),
+                    Some(sketches) => shape_drawn(sketches, size_mm, options, progress),
                 };
+                let shaped = shaped.map_err(AppError::Pipeline)?;
                 self.shown.show_shaped(shaped.clone());
                 self.selection.keep(self.shown.names());
                 Ok(Some(Stage::LayOut(shaped)))
             }
             Stage::LayOut(shaped) => {
-                let laid = engine.lay_out(shaped, progress)?;
+                let laid = engine.lay_out(shaped, progress).map_err(AppError::Pipeline)?;
                 self.shown.show_output(laid.clone(), false);
                 Ok(Some(Stage::Fold(laid)))
             }
             Stage::Fold(laid) => {
-                self.shown.show_output(engine.fold(laid, progress)?, true);
+                let folded = engine.fold(laid, progress).map_err(AppError::Pipeline)?;
+                self.shown.show_output(folded, true);
                 Ok(None)
             }
         }
@@ -267,5 +294,84 @@ impl Desk {
     /// How far the model is folded when a clash happens.
     pub fn moment(&self, clash: usize) -> Option<f64> {
         scene::moment(&self.shown, &self.clash(clash)?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tatamu::progress::Silent;
+    use tatamu::project::options::{Entry, SHEETS_MAX};
+
+    fn opened(name: &str, text: &[u8], locale: &str) -> Desk {
+        let mesh = ("box.obj".to_owned(), include_bytes!("../../samples/box.obj").to_vec());
+        Desk::open([mesh, (name.to_owned(), text.to_vec())].into(), name, locale).unwrap()
+    }
+
+    fn a_box(locale: &str) -> Desk {
+        opened("cube.obj", include_bytes!("../../samples/box.obj"), locale)
+    }
+
+    fn finish(desk: &mut Desk) {
+        while desk.is_busy() {
+            desk.work(&Silent).unwrap();
+        }
+    }
+
+    fn set(desk: &mut Desk, option: &'static Entry, value: f64) {
+        let value = if *option == SHEETS_MAX { (value as i64).into() } else { value.into() };
+        desk.change(&Change::Set { option, value: Some(value) }, None).unwrap();
+    }
+
+    #[test]
+    fn a_mesh_begins_on_the_paper_of_the_browsers_language() {
+        for (language, paper) in [("en-US", "letter"), ("es-MX", "letter"), ("en-GB", "a4"), ("de", "a4")] {
+            assert_eq!(a_box(language).document.options().paper.name(), paper, "{language}");
+        }
+        let project = a_box("en-US").document.text().to_owned();
+        assert!(project.contains("size = \"letter\""), "{project}");
+    }
+
+    #[test]
+    fn a_project_has_the_same_paper_in_every_language() {
+        let desk = opened("a.toml", b"mesh = \"box.obj\"\n", "en-US");
+        assert_eq!(desk.document.options().paper.name(), "a4");
+    }
+
+    #[test]
+    fn the_size_is_fitted_to_the_sheets_in_one_step_of_undo() {
+        let mut desk = a_box("de");
+        set(&mut desk, &SIZE, 300.0);
+        finish(&mut desk);
+        let sheets = desk.finished().unwrap().layout().sheet_count();
+        assert!(sheets > 1, "{sheets}");
+        set(&mut desk, &SHEETS_MAX, 1.0);
+        finish(&mut desk);
+        assert_eq!(desk.exceeded_sheets(), Some(1));
+        desk.fit_sheets();
+        finish(&mut desk);
+        assert_eq!(desk.finished().unwrap().layout().sheet_count(), 1);
+        assert_eq!(desk.exceeded_sheets(), None);
+        let fitted_mm = desk.document.options().size_mm;
+        assert!(fitted_mm < 300.0 && fitted_mm % 5.0 == 0.0, "{fitted_mm}");
+        desk.undo();
+        assert_eq!(desk.document.options().size_mm, 300.0);
+    }
+
+    #[test]
+    fn a_model_with_too_many_sheets_at_every_size_stays_as_it_is_and_says_so() {
+        let mut desk = opened("snowman.obj", include_bytes!("../../samples/snowman.obj"), "de");
+        finish(&mut desk);
+        // Each card has sheets of its own.
+        let cards = desk.shown.names().iter().cloned().zip(["white", "brown"].map(str::to_owned));
+        desk.change(&Change::Cards { cards: cards.collect() }, None).unwrap();
+        set(&mut desk, &SHEETS_MAX, 1.0);
+        finish(&mut desk);
+        let before = desk.document.text().to_owned();
+        desk.fit_sheets();
+        let told = desk.work(&Silent).unwrap_err();
+        assert!(told.ends_with("allow more with \u{201c}Sheets max\u{201d}"), "{told}");
+        assert_eq!(desk.document.text(), before);
+        assert!(desk.finished().is_some() && !desk.is_busy());
     }
 }

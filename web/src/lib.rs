@@ -121,9 +121,9 @@ impl Desk {
         self.files.insert(name, bytes);
     }
 
-    /// Opens one of the files.
-    pub fn open(&mut self, name: &str) -> Told<()> {
-        self.own = Some(desk::Desk::open(self.files.clone(), name).map_err(thrown)?);
+    /// Opens one of the files. A mesh begins on the usual paper of the locale, such as `en-US`.
+    pub fn open(&mut self, name: &str, locale: &str) -> Told<()> {
+        self.own = Some(desk::Desk::open(self.files.clone(), name, locale).map_err(thrown)?);
         Ok(())
     }
 
@@ -228,6 +228,12 @@ impl Desk {
     /// Gives each component the card that is most like the mesh's colours on it.
     pub fn cards(&mut self) -> Told<()> {
         self.own()?.take_cards().map_err(thrown)
+    }
+
+    /// Makes the model smaller until it takes no more sheets than its project allows.
+    pub fn fit_sheets(&mut self) -> Told<()> {
+        self.own()?.fit_sheets();
+        Ok(())
     }
 
     /// Makes one part of those that are selected.

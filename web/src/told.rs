@@ -10,7 +10,7 @@ use tatamu::model::ModelPart;
 use tatamu::pipeline::{ComponentOptions, Output};
 use tatamu::product;
 use tatamu::project::options::{
-    CARD, DIRECTION, Entry, Kind, PARTS, PROFILE_VERTICES, Settings, TOP_EDGES, Unit,
+    CARD, DIRECTION, Entry, Kind, PARTS, PROFILE_VERTICES, SHEETS_MAX, Settings, TOP_EDGES, Unit,
 };
 
 /// All that the page shows beside pictures.
@@ -26,6 +26,9 @@ pub struct Told {
     parts: Vec<Part>,
     model: Vec<Row>,
     paper: Vec<Row>,
+    sheets: Vec<Row>,
+    /// The sheets that the model may take, where it takes more.
+    exceeded_sheets: Option<usize>,
     facts: Option<Facts>,
     warnings: Vec<WarningTold>,
 }
@@ -57,6 +60,8 @@ struct Row {
     /// Where it begins once it is no longer automatic.
     such_as: Option<f64>,
     is_optional: bool,
+    /// What holds where it is automatic.
+    automatic: &'static str,
     least: Option<f64>,
     most: Option<f64>,
     digits: i32,
@@ -102,6 +107,10 @@ impl Desk {
             row
         });
         let output = self.laid();
+        let mut most_sheets = Row::new(&SHEETS_MAX, settings);
+        if let Some(output) = output {
+            most_sheets.such_as = Some(output.layout().sheet_count().saturating_sub(1).max(1) as f64);
+        }
         Told {
             title: self.opened.title(),
             is_project: self.opened.is_project,
@@ -113,6 +122,8 @@ impl Desk {
             parts: (0..self.shown.names().len()).filter_map(|index| self.part(index)).collect(),
             model: model.collect(),
             paper: dials::PAPER_AND_PIECES.iter().map(row).collect(),
+            sheets: vec![most_sheets],
+            exceeded_sheets: self.exceeded_sheets(),
             facts: output.map(|output| Facts::new(output, self.finished().is_some())),
             warnings: self.notes().into_iter().map(|note| self.warning(note)).collect(),
         }
@@ -214,12 +225,13 @@ impl Row {
         let is_length = matches!(&option.kind, Kind::Number(number) if number.unit == Unit::Length);
         Self {
             option: id(option),
-            label: option.dial.map_or(option.name(), |dial| dial.label).to_owned(),
+            label: dials::label(option),
             tip: option.tip(),
             kind,
             value,
             such_as,
             is_optional,
+            automatic: if option.automatic.is_empty() { "automatic" } else { option.automatic },
             least: Some(*range.start()),
             most: Some(*range.end()).filter(|most| most.is_finite()),
             digits: option.dial.map_or(0, |dial| dial.digits),
