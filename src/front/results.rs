@@ -5,6 +5,7 @@ use super::surface::Distances;
 use tatamu::drawing::Rgb;
 use tatamu::model::ModelPart;
 use tatamu::pipeline::{Options, Output, Shaped};
+use tatamu::project::options::Settings;
 use tatamu::render::palette;
 
 /// The work that goes on.
@@ -14,6 +15,11 @@ pub struct Busy {
     pub stage: &'static str,
     /// Share of it that is done, as far as that is known.
     pub fraction: Option<f64>,
+}
+
+/// How many sheets a model may take, where it takes more.
+pub fn exceeded_sheets(settings: &Settings, laid: &Output) -> Option<usize> {
+    settings.most_sheets.filter(|most| laid.layout().sheet_count() > *most)
 }
 
 /// The last good results. They stay while others are made.

@@ -11,7 +11,7 @@ use tatamu::app::fit::fitting_size_mm;
 use tatamu::app::locale;
 use tatamu::fold::Clash;
 use tatamu::front::opened::Opened;
-use tatamu::front::results::Shown;
+use tatamu::front::results::{Shown, exceeded_sheets};
 use tatamu::front::scene::{self, Layers, Seen, Setting, Tag};
 use tatamu::front::selection::{Hover, Selection};
 use tatamu::front::visibility::Visibility;
@@ -113,8 +113,7 @@ impl Desk {
 
     /// The sheets that the model may take, where it takes more.
     pub fn exceeded_sheets(&self) -> Option<usize> {
-        let most = self.document.settings().most_sheets?;
-        (self.laid()?.layout().sheet_count() > most).then_some(most)
+        exceeded_sheets(self.document.settings(), self.laid()?)
     }
 
     /// Makes the model smaller next, until it takes no more sheets than its project allows.

@@ -4,13 +4,13 @@ use super::super::change::Change;
 use super::super::messages::Cause;
 use super::super::tasks::Stop;
 use super::Studio;
+use tatamu::front::results::exceeded_sheets;
 use tatamu::project::options::SIZE;
 
 impl Studio {
     /// How many sheets the model may take, where it takes more.
     pub fn exceeded_sheets(&self) -> Option<usize> {
-        let most = self.document.as_ref()?.settings().most_sheets?;
-        (self.laid()?.layout().sheet_count() > most).then_some(most)
+        exceeded_sheets(self.document.as_ref()?.settings(), self.laid()?)
     }
 
     /// Begins to look for the largest size in which the model takes no more; then the project has it.

@@ -26,14 +26,6 @@ impl Dialled {
         Self { option, dial: option.dial.unwrap_or(plain) }
     }
 
-    /// What it is called: a key of the project file in words.
-    fn label(&self) -> String {
-        let words = self.dial.label.replace('_', " ");
-        let mut letters = words.chars();
-        let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
-        first + letters.as_str()
-    }
-
     /// The row that fits its kind, with its value as it is now.
     pub fn row(&self, studio: &mut Studio, ui: &mut Ui, now: &Settings) {
         match &self.option.kind {
@@ -58,7 +50,7 @@ impl Dialled {
 
     /// A row with a number.
     pub fn number_row(&self, studio: &mut Studio, ui: &mut Ui, now: f64) {
-        let label = ui.label(self.label()).on_hover_text(self.option.tip());
+        let label = ui.label(dials::label(self.option)).on_hover_text(self.option.tip());
         if let Some(x) = self.field(ui, now, label.id, studio) {
             studio.change(&self.set(Some(self.value(x))), Some(self.option.name()));
         }
@@ -67,10 +59,10 @@ impl Dialled {
 
     /// A row with a box: without a tick there is no number, and the default holds.
     pub fn optional_row(&self, studio: &mut Studio, ui: &mut Ui, now: Option<f64>, otherwise: f64) {
-        let label = ui.label(self.label()).on_hover_text(self.option.tip());
+        let label = ui.label(dials::label(self.option)).on_hover_text(self.option.tip());
         ui.horizontal(|ui| {
             let mut is_set = now.is_some();
-            let name = format!("choose {}", self.label());
+            let name = format!("choose {}", dials::label(self.option));
             let tick = ui
                 .add(egui::Checkbox::without_text(&mut is_set))
                 .on_hover_text(format!("off: {}", self.automatic()));
@@ -93,7 +85,7 @@ impl Dialled {
 
     /// The same for a component.
     pub fn component_row(&self, studio: &mut Studio, ui: &mut Ui, name: &str, (now, is_set): (f64, bool)) {
-        let label = ui.label(self.label()).on_hover_text(self.option.tip());
+        let label = ui.label(dials::label(self.option)).on_hover_text(self.option.tip());
         let set = |value| Change::Component { name: name.to_owned(), option: self.option, value };
         ui.horizontal(|ui| {
             if let Some(x) = self.field(ui, now, label.id, studio) {
@@ -113,7 +105,7 @@ impl Dialled {
 
     /// A row with a choice among names.
     fn choice_row(&self, studio: &mut Studio, ui: &mut Ui, now: &str) {
-        let label = ui.label(self.label()).on_hover_text(self.option.tip());
+        let label = ui.label(dials::label(self.option)).on_hover_text(self.option.tip());
         let mut chosen = now.to_owned();
         // Where nothing is chosen, what holds then.
         let automatic = Some(self.option.automatic).filter(|text| !text.is_empty()).unwrap_or("none");
@@ -137,7 +129,7 @@ impl Dialled {
 
     /// A row with a text, which counts once it is written.
     fn text_row(&self, studio: &mut Studio, ui: &mut Ui, now: &str) {
-        let label = ui.label(self.label()).on_hover_text(self.option.tip());
+        let label = ui.label(dials::label(self.option)).on_hover_text(self.option.tip());
         let id = ui.scope_id().with(self.option.name());
         let mut text = ui.data(|data| data.get_temp(id)).unwrap_or_else(|| now.to_owned());
         let field = egui::TextEdit::singleline(&mut text).desired_width(120.0);
@@ -158,7 +150,7 @@ impl Dialled {
     fn tick_row(&self, studio: &mut Studio, ui: &mut Ui, now: bool) {
         let mut is_set = now;
         ui.label("");
-        if ui.checkbox(&mut is_set, self.label()).on_hover_text(self.option.tip()).changed() {
+        if ui.checkbox(&mut is_set, dials::label(self.option)).on_hover_text(self.option.tip()).changed() {
             studio.change(&self.set(Some(is_set.into())), None);
         }
         ui.end_row();
@@ -219,7 +211,7 @@ impl Dialled {
         match typed.into_inner() {
             Some(Ok(typed)) => (typed != now).then_some(to_digits(typed, TYPED_DIGITS)),
             Some(Err(problem)) => {
-                let problem = format!("{}: {problem}", self.label());
+                let problem = format!("{}: {problem}", dials::label(self.option));
                 studio.messages_mut().warn(Cause::Change, problem);
                 None
             }
