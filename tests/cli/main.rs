@@ -12,6 +12,7 @@ mod film;
 mod guide;
 mod hostile;
 mod make;
+mod measures;
 mod mistakes;
 mod presets;
 mod profiles;
