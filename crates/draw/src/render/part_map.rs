@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 const PIXELS: f64 = 240.0;
 const LEAST_PIXELS: usize = 10;
 /// Places of a part: as far from its border as this share of the deepest one, so far apart, and so many.
-/// From 9 places on, no line of the samples got any shorter.
+/// The number bounds the work; the fewest and the most that serve are not measured.
 const DEEP: f64 = 0.4;
 const APART_PX: f64 = 6.0;
 const MOST_PLACES: usize = 9;
