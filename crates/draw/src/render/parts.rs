@@ -2,8 +2,9 @@
 
 use super::callouts::{Callout, callouts};
 use super::palette;
+use super::part_map::PartMap;
 use super::picture::{Look, picture};
-use super::proxy::{Proxy, proxy};
+use super::proxy::proxy;
 use super::scene::{Scene, SceneError};
 use super::view::{Camera, View, ViewError};
 use crate::drawing::{Drawing, Rgb};
@@ -23,11 +24,6 @@ const FIELD_OF_VIEW_RAD: f64 = 0.3;
 
 /// Meshes of more faces are drawn by fewer.
 const MOST_FACES: usize = 9_000;
-
-/// Pixels along the longer side of the small picture that shows where each part is seen, and the
-/// fewest pixels of a part that is named.
-const PIXELS: f64 = 240.0;
-const LEAST_PIXELS: usize = 10;
 
 /// Why there is no picture.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -66,99 +62,15 @@ pub fn parts_picture(
         let corner = DVec2::X * (SIDE_MM.x * side as f64);
         let marks = picture(&scene, &view, &Look::for_size(SIDE_MM), None, Vec::new()).marks;
         drawing.place(marks, DAffine2::from_translation(corner + DVec2::X * COLUMN_MM));
-        let seen = Seen::new(&few, &view, &part);
-        let items: Vec<Callout> = (0..names.len())
-            .filter_map(|p| {
-                let at_mm = seen.middle(p)? + DVec2::X * (COLUMN_MM - MARGIN_MM);
-                Some(Callout { name: &names[p], at_mm })
-            })
-            .collect();
-        let inner = SIDE_MM - DVec2::X * (2.0 * MARGIN_MM);
-        let marks = callouts(&items, inner, COLUMN_MM - MARGIN_MM, CAP_MM);
+        let mut map = PartMap::new(&view);
+        for (t, triangle) in few.triangles.iter().enumerate() {
+            map.push(&triangle.map(|v| few.vertices[v as usize]), part(t));
+        }
+        let items = names.iter().enumerate();
+        let items: Vec<Callout> =
+            items.map(|(part, name)| Callout { name, part, places: map.places(part) }).collect();
+        let marks = callouts(&items, &map, COLUMN_MM - MARGIN_MM, CAP_MM);
         drawing.place(marks, DAffine2::from_translation(corner + DVec2::X * MARGIN_MM));
     }
     Ok(drawing)
-}
-
-/// Which part is seen at each pixel of a small picture.
-struct Seen {
-    width: usize,
-    height: usize,
-    pixel_mm: f64,
-    part: Vec<Option<usize>>,
-}
-
-impl Seen {
-    fn new(mesh: &Proxy, view: &View, part: &dyn Fn(usize) -> usize) -> Self {
-        let pixel_mm = view.size_mm().max_element() / PIXELS;
-        let [width, height] = (view.size_mm() / pixel_mm).ceil().to_array().map(|n| n as usize);
-        let mut nearest = vec![f64::INFINITY; width * height];
-        let mut seen = Self { width, height, pixel_mm, part: vec![None; width * height] };
-        for (t, triangle) in mesh.triangles.iter().enumerate() {
-            let corners = triangle.map(|v| mesh.vertices[v as usize]);
-            let flat = corners.map(|c| view.project(c) / pixel_mm);
-            let away = corners.map(|c| view.towards_eye(c).length());
-            seen.fill(flat, away, part(t), &mut nearest);
-        }
-        seen
-    }
-
-    fn fill(&mut self, flat: [DVec2; 3], away: [f64; 3], part: usize, nearest: &mut [f64]) {
-        let doubled = (flat[1] - flat[0]).perp_dot(flat[2] - flat[0]);
-        if doubled == 0.0 {
-            return;
-        }
-        let span = |k: usize, most: usize| {
-            let values = flat.map(|p| p[k]);
-            let low = values.iter().copied().fold(f64::INFINITY, f64::min).floor().max(0.0) as usize;
-            let high = values.iter().copied().fold(0.0, f64::max).ceil() as usize;
-            low..high.min(most)
-        };
-        for y in span(1, self.height) {
-            for x in span(0, self.width) {
-                let p = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-                let share = |k: usize| {
-                    let (a, b) = (flat[(k + 1) % 3], flat[(k + 2) % 3]);
-                    (b - a).perp_dot(p - a) / doubled
-                };
-                let shares = [share(0), share(1), share(2)];
-                let depth: f64 = shares.iter().zip(away).map(|(s, d)| s * d).sum();
-                let pixel = y * self.width + x;
-                if shares.iter().all(|s| *s >= 0.0) && depth < nearest[pixel] {
-                    nearest[pixel] = depth;
-                    self.part[pixel] = Some(part);
-                }
-            }
-        }
-    }
-
-    /// The place within a part, as it is seen, that is farthest from what is not the part, mm;
-    /// `None` where hardly any of it is seen.
-    fn middle(&self, part: usize) -> Option<DVec2> {
-        let is_part = |x: usize, y: usize| self.part[y * self.width + x] == Some(part);
-        // Distance in steps to the next pixel that is not of the part, from two sweeps.
-        let mut depth = vec![0u32; self.part.len()];
-        let mut count = 0;
-        for y in 1..self.height - 1 {
-            for x in 1..self.width - 1 {
-                if is_part(x, y) {
-                    count += 1;
-                    let k = y * self.width + x;
-                    depth[k] = 1 + depth[k - 1].min(depth[k - self.width]);
-                }
-            }
-        }
-        let mut best = (0, 0);
-        for y in (1..self.height - 1).rev() {
-            for x in (1..self.width - 1).rev() {
-                let k = y * self.width + x;
-                if is_part(x, y) {
-                    depth[k] = depth[k].min(1 + depth[k + 1].min(depth[k + self.width]));
-                    best = best.max((depth[k], k));
-                }
-            }
-        }
-        let centre = DVec2::new((best.1 % self.width) as f64, (best.1 / self.width) as f64) + 0.5;
-        (count >= LEAST_PIXELS).then(|| centre * self.pixel_mm)
-    }
 }

@@ -8,9 +8,10 @@ use super::steps::outwards;
 use crate::product::{Product, card_note, order_notes, size_note};
 use crate::show::{ViewAngle, components_scene, upright};
 use glam::{DAffine2, DVec2, DVec3};
-use tatamu_core::geom::polygon;
+use tatamu_core::component::Panel;
+use tatamu_core::model::Model;
 use tatamu_draw::drawing::{Align, Drawing, Layer, Mark, Rgb, Stroke, Text, text};
-use tatamu_draw::render::{Callout, Scene, Spot, View, callouts, clearness, palette};
+use tatamu_draw::render::{Callout, PartMap, Place, View, callouts, palette};
 use tatamu_net::net::label_letters;
 use tatamu_pipeline::Output;
 
@@ -30,8 +31,6 @@ const COLUMNS: [f64; 7] = [0.0, 0.28, 0.38, 0.60, 0.70, 0.80, 0.88];
 const HEADS: [&str; 7] = ["part", "labels", "sits on", "pieces", "panels", "tabs", "sheets"];
 /// What follows the name of a part that the picture hides.
 const HIDDEN: &str = " (hidden)";
-/// How far from the middle of a panel to its corners a part is looked for that shows no middle.
-const TO_CORNERS: [f64; 2] = [0.5, 0.85];
 const SOFT: Rgb = Rgb(96, 96, 102);
 
 /// The page, as large as the sheets.
@@ -103,20 +102,23 @@ impl Page {
         let scene = components_scene(output.model());
         let view = View::fit(ViewAngle::default().camera()?, scene.points(), room_mm, TEXT_MM)?;
         let low = DVec2::new(self.left_mm, self.y_mm - size_mm.y);
-        let shift = DVec2::X * column_mm;
-        let parts = output.model().parts();
-        let names: Vec<(String, DVec2)> = (0..parts.len())
-            .map(|part| {
-                let (name, shown) = (&parts[part].name, shown_at(&scene, &view, output, part));
-                let name = if shown.is_some() { name.clone() } else { format!("{name}{HIDDEN}") };
-                let at = shown.unwrap_or_else(|| middle_of(output, part));
-                (name, view.project(at) + shift)
+        let map = part_map(output.model(), &view);
+        let parts = output.model().parts().iter().enumerate();
+        let names: Vec<(String, Vec<Place>)> = parts
+            .map(|(k, part)| match map.places(k) {
+                seen if !seen.is_empty() => (part.name.clone(), seen),
+                _ => {
+                    let at_mm = view.project(middle_of(&part_faces(output.model(), k)));
+                    (format!("{}{HIDDEN}", part.name), vec![Place { at_mm, worth: 1.0 }])
+                }
             })
             .collect();
-        let names: Vec<Callout> = names.iter().map(|(name, at_mm)| Callout { name, at_mm: *at_mm }).collect();
+        let names = names.iter().enumerate();
+        let names: Vec<Callout> =
+            names.map(|(part, (name, places))| Callout { name, part, places: places.clone() }).collect();
         let model = picture::taken(&scene, &view, Vec::new()).marks;
-        self.drawing.place(model, DAffine2::from_translation(low + shift));
-        let names = callouts(&names, size_mm, column_mm, TEXT_MM);
+        self.drawing.place(model, DAffine2::from_translation(low + DVec2::X * column_mm));
+        let names = callouts(&names, &map, column_mm, TEXT_MM);
         self.drawing.place(names, DAffine2::from_translation(low));
         self.y_mm = low.y - TEXT_MM;
         Ok(())
@@ -169,46 +171,31 @@ impl Page {
     }
 }
 
-/// Middles of the panels of a part, and places nearer to their corners, by the areas that they stand for.
-fn spots_of(output: &Output, part: usize, is_middle: bool) -> Vec<Spot> {
-    let own = &output.model().parts()[part];
+/// The panels of a part in the picture's axes, unfolded.
+fn part_faces(model: &Model, part: usize) -> Vec<Vec<DVec3>> {
+    let own = &model.parts()[part];
     let to_picture = upright() * own.deployed();
-    let panels = own.component.panels().panels().iter();
-    let spots = panels.flat_map(|panel| {
+    let corners = |panel: &Panel| {
         let motion = to_picture * panel.deployed;
-        let middle = polygon::centroid(&panel.outline);
-        let corners = panel.outline.iter();
-        let near = corners.flat_map(|&corner| TO_CORNERS.map(|share| middle.lerp(corner, share)));
-        let places: Vec<DVec2> = if is_middle { vec![middle] } else { near.collect() };
-        let weight = polygon::area(&panel.outline);
-        places.into_iter().map(move |place| Spot {
-            at: motion.transform_point3(place.extend(0.0)),
-            normal: motion.matrix3.z_axis,
-            weight,
-        })
-    });
-    spots.collect()
+        panel.outline.iter().map(|corner| motion.transform_point3(corner.extend(0.0))).collect()
+    };
+    own.component.panels().panels().iter().map(corners).collect()
 }
 
-/// A place of a part that the picture shows: the one nearest to the middle of all that it shows.
-fn shown_at(scene: &Scene, view: &View, output: &Output, part: usize) -> Option<DVec3> {
-    [true, false].into_iter().find_map(|is_middle| {
-        let spots = spots_of(output, part, is_middle);
-        let seen: Vec<(&Spot, f64)> = spots
-            .iter()
-            .map(|spot| (spot, spot.weight * clearness(scene, view, spot)))
-            .filter(|(_, weight)| *weight > 0.0)
-            .collect();
-        let total: f64 = seen.iter().map(|(_, weight)| weight).sum();
-        let middle = seen.iter().map(|(spot, weight)| spot.at * (weight / total)).sum::<DVec3>();
-        let nearest = seen.iter().min_by(|a, b| a.0.at.distance(middle).total_cmp(&b.0.at.distance(middle)));
-        nearest.map(|(spot, _)| spot.at)
-    })
+/// Which part the picture shows where.
+fn part_map<'v>(model: &Model, view: &'v View) -> PartMap<'v> {
+    let mut map = PartMap::new(view);
+    for part in 0..model.parts().len() {
+        for face in part_faces(model, part) {
+            map.push(&face, part);
+        }
+    }
+    map
 }
 
-fn middle_of(output: &Output, part: usize) -> DVec3 {
-    let spots = spots_of(output, part, true);
-    spots.iter().map(|spot| spot.at).sum::<DVec3>() / spots.len().max(1) as f64
+fn middle_of(faces: &[Vec<DVec3>]) -> DVec3 {
+    let count = faces.iter().flatten().count().max(1);
+    faces.iter().flatten().sum::<DVec3>() / count as f64
 }
 
 #[cfg(test)]
@@ -216,6 +203,7 @@ mod tests {
     use super::super::tests::sample;
     use super::*;
     use crate::report::Run;
+    use tatamu_core::geom::polygon;
     use tatamu_core::mesh::Repairs;
     use tatamu_core::model::ModelPart;
     use tatamu_draw::drawing::Shape;
@@ -223,26 +211,34 @@ mod tests {
     /// The line of a goat's body led to its ear, which was before the middle of the body.
     #[test]
     fn a_part_is_named_where_nothing_hides_it() {
-        let output = sample();
-        let scene = components_scene(output.model());
+        let model = sample().model();
+        let scene = components_scene(model);
         let camera = ViewAngle::default().camera().unwrap();
         let view = View::fit(camera, scene.points(), DVec2::splat(100.0), 0.0).unwrap();
-        let parts = 0..output.model().parts().len();
-        let shown: Vec<DVec3> =
-            parts.clone().filter_map(|part| shown_at(&scene, &view, output, part)).collect();
-        assert!(shown.len() + 1 >= output.model().parts().len(), "{shown:?}");
-        for at in shown {
-            let nearer = |p: DVec3| view.towards_eye(at).normalize().dot(p - at);
-            // No corner of a panel that covers the place is much nearer to the eye.
-            let covers = scene.faces().iter().filter(|face| {
-                let outline: Vec<DVec2> = face.corners().iter().map(|&p| view.project(p)).collect();
-                let outline =
-                    if polygon::area(&outline) < 0.0 { outline.into_iter().rev().collect() } else { outline };
-                polygon::contains(&outline, view.project(at))
-            });
-            let before = covers.filter(|face| face.corners().iter().all(|&p| nearer(p) > 1.0)).count();
-            assert_eq!(before, 0, "{at}");
+        let map = part_map(model, &view);
+        let mut named = 0;
+        for part in 0..model.parts().len() {
+            for place in map.places(part) {
+                // Where the part's own faces meet the line of sight, by three corners of each.
+                let flat = |face: &[DVec3]| -> Vec<DVec2> { face.iter().map(|&p| view.project(p)).collect() };
+                let met = |face: &[DVec3]| {
+                    let at = flat(face);
+                    let twice = (at[1] - at[0]).perp_dot(at[2] - at[0]);
+                    let share = |a: DVec2, b: DVec2| (b - a).perp_dot(place.at_mm - a) / twice;
+                    let (u, v) = (share(at[2], at[0]), share(at[0], at[1]));
+                    face[0] + u * (face[1] - face[0]) + v * (face[2] - face[0])
+                };
+                let covers = |face: &[DVec3]| polygon::contains(&flat(face), place.at_mm);
+                let away = |p: DVec3| view.towards_eye(p).length();
+                let own = part_faces(model, part).into_iter().filter(|face| covers(face));
+                let own = own.map(|face| away(met(&face))).fold(f64::INFINITY, f64::min);
+                let all = scene.faces().iter().filter(|face| covers(face.corners()));
+                let nearest = all.map(|face| away(met(face.corners()))).fold(f64::INFINITY, f64::min);
+                assert!(own <= nearest + 1.0, "{part} {place:?}: {own} {nearest}");
+                named += usize::from(place.worth == 1.0);
+            }
         }
+        assert!(named + 1 >= model.parts().len(), "{named}");
     }
 
     #[test]

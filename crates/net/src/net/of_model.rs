@@ -98,10 +98,14 @@ pub fn develop_model(
     }
 }
 
-/// Letters that begin the labels of component `p`: A … Z, AA, AB …
+/// Without I and O: a framed I on its side was read as a bar, and "I1" and "O1" as numbers.
+const LETTERS: &[u8] = b"ABCDEFGHJKLMNPQRSTUVWXYZ";
+
+/// Letters that begin the labels of component `p`: A … Z, AA, AB … without I and O.
 pub fn label_letters(p: usize) -> String {
-    let letter = char::from(b'A' + (p % 26) as u8);
-    if p < 26 { letter.to_string() } else { format!("{}{letter}", label_letters(p / 26 - 1)) }
+    let count = LETTERS.len();
+    let letter = char::from(LETTERS[p % count]);
+    if p < count { letter.to_string() } else { format!("{}{letter}", label_letters(p / count - 1)) }
 }
 
 /// Marks on the panels of part `p`: what lies on them, and what they lie on.
@@ -152,6 +156,15 @@ mod tests {
 
     #[test]
     fn letters_go_on_after_z() {
-        assert_eq!([0, 25, 26, 27, 52].map(label_letters), ["A", "Z", "AA", "AB", "BA"]);
+        assert_eq!([0, 23, 24, 25, 48].map(label_letters), ["A", "Z", "AA", "AB", "BA"]);
+    }
+
+    /// "I" in the frame of a joint, on its side, looked like a bar.
+    #[test]
+    fn no_letter_looks_like_a_figure() {
+        let letters: Vec<String> = (0..1000).map(label_letters).collect();
+        assert!(letters.iter().all(|label| !label.contains(['I', 'O'])));
+        let distinct: std::collections::BTreeSet<&String> = letters.iter().collect();
+        assert_eq!(distinct.len(), letters.len());
     }
 }

@@ -29,9 +29,9 @@ const SIDE_BAR_MARGIN_MM: f64 = 8.0;
 const TICK_GAP_MM: f64 = 1.2;
 /// The titles stand beside the bar where they have at least this width.
 const MIN_TITLES_MM: f64 = 35.0;
-/// Forms of the legend, the best first: length of a line, mm, and which of its words it has. On A4, seven kinds of
-/// lines have their full words beside short lines.
-const FORMS: [(f64, usize); 3] = [(11.0, 0), (8.0, 0), (8.0, 1)];
+/// Forms of the legend, the best first: length of a line, mm, and which of its words it has. On A4, six kinds of
+/// lines have their full words, and seven those of the second form, beside short lines.
+const FORMS: [(f64, usize); 5] = [(11.0, 0), (8.0, 0), (11.0, 1), (8.0, 1), (8.0, 2)];
 /// Height of a tab in the legend.
 const TAB_SAMPLE_MM: f64 = 2.6;
 /// Distance between a line in the legend and its word.
@@ -88,16 +88,16 @@ pub fn height_mm(size_mm: DVec2, margin_mm: f64, legend: &[Layer]) -> f64 {
     Strip::new(size_mm, margin_mm, legend).top_mm() + CLEARANCE_MM
 }
 
-/// The full and the short explanation of a kind of line.
-fn words(layer: Layer) -> Option<[&'static str; 2]> {
+/// The explanations of a kind of line, the longest first.
+fn words(layer: Layer) -> Option<[&'static str; 3]> {
     match layer {
-        Layer::Cut => Some(["cut", "cut"]),
-        Layer::Slit => Some(["slit", "slit"]),
-        Layer::Mountain => Some(["fold back (mountain)", "mountain"]),
-        Layer::Valley => Some(["fold up (valley)", "valley"]),
-        Layer::FoldHinge => Some(["fold flat 180°", "180°"]),
-        Layer::Glue => Some(["glue here", "glue"]),
-        Layer::Tab => Some(["tab", "tab"]),
+        Layer::Cut => Some(["cut"; 3]),
+        Layer::Slit => Some(["slit"; 3]),
+        Layer::Mountain => Some(["fold back (mountain)", "fold back (mountain)", "mountain"]),
+        Layer::Valley => Some(["fold up (valley)", "fold up (valley)", "valley"]),
+        Layer::FoldHinge => Some(["fold flat 180°", "fold flat 180°", "180°"]),
+        Layer::Glue => Some(["glue here, triangles meet", "glue here", "glue"]),
+        Layer::Tab => Some(["tab"; 3]),
         Layer::Label | Layer::Furniture | Layer::Registration | Layer::Picture => None,
     }
 }
@@ -206,9 +206,20 @@ impl Strip {
         let line = Mark::line(Layer::Furniture, from, to, &stroke);
         match entry.layer {
             Layer::Tab => area(half).into_iter().collect(),
-            Layer::Glue => area(0.0).into_iter().chain([line]).collect(),
+            Layer::Glue => {
+                area(0.0).into_iter().chain([line, self.key_sample(entry, [x, y], styles)]).collect()
+            }
             _ => vec![line],
         }
+    }
+
+    /// The triangle that shows which way round a component is glued on, above the line of the sample.
+    fn key_sample(&self, entry: &Entry, [x, y]: [f64; 2], styles: &LineStyles) -> Mark {
+        let half = TAB_SAMPLE_MM / 2.0;
+        let middle = x + entry.sample_mm / 2.0;
+        let corners = [[middle - half, y - half], [middle + half, y - half], [middle, y + half]];
+        let corners = corners.map(|corner| self.corner + DVec2::from(corner)).to_vec();
+        Mark::filled(Layer::Furniture, corners, styles.colour(Layer::Furniture))
     }
 
     /// The bar between the middles of its end ticks, a tick at every centimetre, and its words.
@@ -407,6 +418,30 @@ mod tests {
         let texts = texts(&furniture.marks(&LineStyles::standard()));
         for words in ["fold back (mountain)", "fold up (valley)", "fold flat 180°", "glue here"] {
             assert!(texts.iter().any(|text| text == words), "{words}: {texts:?}");
+        }
+    }
+
+    /// Nobody knew what the black triangle in each place for glue was for.
+    #[test]
+    fn the_legend_explains_the_triangles_on_a4_and_letter() {
+        let legend = [Layer::Cut, Layer::Slit, Layer::Mountain, Layer::FoldHinge, Layer::Tab, Layer::Glue];
+        for size_mm in [DVec2::new(210.0, 297.0), DVec2::new(215.9, 279.4)] {
+            let furniture = Furniture {
+                size_mm,
+                margin_mm: 10.0,
+                title: "a",
+                note: "",
+                number: "sheet 1 of 1",
+                legend: &legend,
+            };
+            let marks = furniture.marks(&LineStyles::standard());
+            let texts = texts(&marks);
+            assert!(texts.iter().any(|text| text == "glue here, triangles meet"), "{texts:?}");
+            let is_triangle = |mark: &Mark| match &mark.shape {
+                Shape::Path { contours, fill: Some(_), .. } => contours[0].points.len() == 3,
+                Shape::Path { .. } | Shape::Text(_) | Shape::Image(_) => false,
+            };
+            assert_eq!(marks.iter().filter(|mark| is_triangle(mark)).count(), 1);
         }
     }
 

@@ -101,7 +101,13 @@ impl SheetOptions {
             Side::Inside => [Layer::Valley, Layer::Mountain],
         };
         let folds = &folds[..if self.has_valleys { 2 } else { 1 }];
-        [&[Layer::Cut, Layer::Slit], folds, &[Layer::FoldHinge, Layer::Tab, Layer::Glue]].concat()
+        let places: &[Layer] = if self.shows_joints() { &[Layer::Glue] } else { &[] };
+        [&[Layer::Cut, Layer::Slit], folds, &[Layer::FoldHinge, Layer::Tab], places].concat()
+    }
+
+    /// Whether the places are printed where components are glued on: they are outside.
+    fn shows_joints(&self) -> bool {
+        self.choices.side == Side::Outside || self.choices.is_duplex
     }
 
     fn strip_mm(&self) -> f64 {
@@ -128,5 +134,22 @@ impl SheetOptions {
             effort: self.choices.effort,
             ..NestOptions::new(room_mm.x, room_mm.y)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sheets that are printed inside only have no place to glue a component on, but explained one.
+    #[test]
+    fn the_legend_explains_only_what_is_printed() {
+        let explains = |side: Side, is_duplex: bool| {
+            let choices = SheetChoices { side, is_duplex, ..SheetChoices::default() };
+            let options = SheetOptions { choices, ..SheetOptions::new(Paper::default(), 10.0) };
+            options.legend().contains(&Layer::Glue)
+        };
+        assert!(explains(Side::Outside, false) && explains(Side::Inside, true));
+        assert!(!explains(Side::Inside, false));
     }
 }
