@@ -1,20 +1,9 @@
 //! Names beside a picture, with thin lines to what they name.
 
-use super::leaders::Leaders;
-use super::part_map::{PartMap, Place};
+use super::leaders::{Callout, Leaders};
+use super::part_map::PartMap;
 use crate::drawing::{Align, Layer, Mark, Rgb, Stroke, Text, text};
 use glam::DVec2;
-
-/// A name and the part that it belongs to.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Callout<'a> {
-    /// What is written.
-    pub name: &'a str,
-    /// The part, as the map of the picture calls it.
-    pub part: usize,
-    /// Places in the picture that the line may lead to, the best first.
-    pub places: Vec<Place>,
-}
 
 /// Radius of the dot at a place, and width of lines, against the height of capitals.
 const DOT_SHARE: f64 = 0.3;

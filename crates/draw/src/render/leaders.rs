@@ -1,8 +1,7 @@
 //! To which side of a picture each name goes, and to which place of its part its line leads: lines run over
 //! no other part and do not cross, where that can be.
 
-use super::callouts::Callout;
-use super::part_map::PartMap;
+use super::part_map::{PartMap, Place};
 use glam::DVec2;
 use tatamu_core::geom::polygon;
 
@@ -23,6 +22,17 @@ const SMALLER: f64 = 1000.0;
 /// Rounds of changes, and the most names that are changed: the work grows with the cube of their number.
 const ROUNDS: usize = 4;
 const MOST: usize = 60;
+
+/// A name and the part that it belongs to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Callout<'a> {
+    /// What is written.
+    pub name: &'a str,
+    /// The part, as the map of the picture calls it.
+    pub part: usize,
+    /// Places in the picture that the line may lead to, the best first.
+    pub places: Vec<Place>,
+}
 
 /// A name with its line.
 #[derive(Debug, Clone, Copy)]

@@ -24,7 +24,8 @@ mod view;
 pub mod zbuffer;
 
 pub use best_view::{Spot, best_view, clearness};
-pub use callouts::{Callout, callouts};
+pub use callouts::callouts;
+pub use leaders::Callout;
 pub use orbit::{Eye, Orbit};
 pub use part_map::{PartMap, Place};
 pub use parts::{PartsPictureError, parts_picture};

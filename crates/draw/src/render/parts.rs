@@ -1,6 +1,7 @@
 //! A picture of the parts of a mesh in colour, from two sides, with their names.
 
-use super::callouts::{Callout, callouts};
+use super::callouts::callouts;
+use super::leaders::Callout;
 use super::palette;
 use super::part_map::PartMap;
 use super::picture::{Look, picture};
