@@ -152,11 +152,12 @@ fn hairlines_are_thinner_than_a_thousandth_of_an_inch() {
     let widths = xml.descendants().filter_map(|n| n.attribute("stroke-width"));
     let widths = widths.map(|w| w.parse::<f64>().expect("number")).collect::<Vec<_>>();
     assert!(widths.len() > 10 && widths.iter().all(|&w| w / 96.0 <= 0.001 && w > 0.0));
-    // Letters are lines too, so nothing is filled but the place of glue in the legend, the picture and the tabs.
+    // Letters are lines too, so nothing is filled but the place of glue in the legend with its triangle, the picture and
+    // the tabs.
     let fills = xml.descendants().filter_map(|n| n.attribute("fill"));
     assert_eq!(
         fills.filter(|&fill| fill != "none").collect::<Vec<_>>(),
-        ["#fdf1cc", "#faf0dc", "#faf0dc", "#e2e2e2", "#e2e2e2"]
+        ["#fdf1cc", "#404040", "#faf0dc", "#faf0dc", "#e2e2e2", "#e2e2e2"]
     );
 }
 
