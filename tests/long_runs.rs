@@ -72,8 +72,13 @@ fn makes_without_growth(models: usize) {
     };
     make_all(0..warm);
     let before = resident();
-    make_all(warm..models);
-    let after = resident();
+    make_all(warm..models - 2 * warm);
+    // What the allocator keeps goes up and down by 3 MB; what leaks stays.
+    let ends = [models - 2 * warm, models - warm].map(|start| {
+        make_all(start..start + warm);
+        resident()
+    });
+    let after = ends[0].min(ends[1]);
     println!("{before} bytes after {warm} models, {after} after {models}");
     assert!(after < before + GROWTH, "{before} bytes after {warm} models, {after} after {models}");
 }
