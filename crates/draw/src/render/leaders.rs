@@ -6,7 +6,7 @@ use glam::DVec2;
 use tatamu_core::geom::polygon;
 
 /// Height of capitals against the distance of lines of text.
-pub(super) const CAP_SHARE: f64 = 0.5;
+const CAP_SHARE: f64 = 0.5;
 /// What a crossing of two lines costs, and a line so near to the dot of another that it is taken for its own,
 /// as mm over parts of others. Chosen by eye on a man, a teddy, a plane and an animal; no case bounds them.
 const CROSSING: f64 = 30.0;

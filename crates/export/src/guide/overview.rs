@@ -8,7 +8,7 @@ use super::steps::outwards;
 use crate::product::{Product, card_note, order_notes, size_note};
 use crate::show::{ViewAngle, components_scene, upright};
 use glam::{DAffine2, DVec2, DVec3};
-use tatamu_core::component::Panel;
+use tatamu_core::component::PanelId;
 use tatamu_core::model::Model;
 use tatamu_draw::drawing::{Align, Drawing, Layer, Mark, Rgb, Stroke, Text, text};
 use tatamu_draw::render::{Callout, PartMap, Place, View, callouts, palette};
@@ -173,13 +173,12 @@ impl Page {
 
 /// The panels of a part in the picture's axes, unfolded.
 fn part_faces(model: &Model, part: usize) -> Vec<Vec<DVec3>> {
-    let own = &model.parts()[part];
-    let to_picture = upright() * own.deployed();
-    let corners = |panel: &Panel| {
-        let motion = to_picture * panel.deployed;
-        panel.outline.iter().map(|corner| motion.transform_point3(corner.extend(0.0))).collect()
+    let panels = 0..model.parts()[part].component.panels().panels().len();
+    let corners = |panel: usize| {
+        let outline = model.deployed_outline(part, PanelId(panel));
+        outline.into_iter().map(|corner| upright().transform_point3(corner)).collect()
     };
-    own.component.panels().panels().iter().map(corners).collect()
+    panels.map(corners).collect()
 }
 
 /// Which part the picture shows where.

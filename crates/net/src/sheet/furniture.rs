@@ -317,6 +317,11 @@ mod tests {
         furniture.marks(&LineStyles::standard())
     }
 
+    /// What stands on the only sheet of a model.
+    fn only_sheet<'a>(size_mm: DVec2, legend: &'a [Layer]) -> Furniture<'a> {
+        Furniture { size_mm, margin_mm: 10.0, title: "a", note: "", number: "sheet 1 of 1", legend }
+    }
+
     fn texts(marks: &[Mark]) -> Vec<String> {
         let content = |mark: &Mark| match &mark.shape {
             Shape::Text(text) => Some(text.content.clone()),
@@ -376,15 +381,7 @@ mod tests {
         let worked =
             Layer::ALL.into_iter().filter(|layer| layer.is_worked()).map(|layer| styles.colour(layer));
         let worked: Vec<_> = worked.collect();
-        let size_mm = DVec2::new(210.0, 297.0);
-        let furniture = Furniture {
-            size_mm,
-            margin_mm: 10.0,
-            title: "a",
-            note: "",
-            number: "sheet 1 of 1",
-            legend: &LEGEND,
-        };
+        let furniture = only_sheet(DVec2::new(210.0, 297.0), &LEGEND);
         let marks = furniture.marks(&styles).into_iter().chain(furniture.side_bar(&styles));
         for mark in marks {
             match mark.shape {
@@ -407,14 +404,7 @@ mod tests {
             Layer::Tab,
             Layer::Glue,
         ];
-        let furniture = Furniture {
-            size_mm: DVec2::new(210.0, 297.0),
-            margin_mm: 10.0,
-            title: "goat",
-            note: "",
-            number: "sheet 1 of 1",
-            legend: &legend,
-        };
+        let furniture = only_sheet(DVec2::new(210.0, 297.0), &legend);
         let texts = texts(&furniture.marks(&LineStyles::standard()));
         for words in ["fold back (mountain)", "fold up (valley)", "fold flat 180°", "glue here"] {
             assert!(texts.iter().any(|text| text == words), "{words}: {texts:?}");
@@ -426,15 +416,7 @@ mod tests {
     fn the_legend_explains_the_triangles_on_a4_and_letter() {
         let legend = [Layer::Cut, Layer::Slit, Layer::Mountain, Layer::FoldHinge, Layer::Tab, Layer::Glue];
         for size_mm in [DVec2::new(210.0, 297.0), DVec2::new(215.9, 279.4)] {
-            let furniture = Furniture {
-                size_mm,
-                margin_mm: 10.0,
-                title: "a",
-                note: "",
-                number: "sheet 1 of 1",
-                legend: &legend,
-            };
-            let marks = furniture.marks(&LineStyles::standard());
+            let marks = only_sheet(size_mm, &legend).marks(&LineStyles::standard());
             let texts = texts(&marks);
             assert!(texts.iter().any(|text| text == "glue here, triangles meet"), "{texts:?}");
             let is_triangle = |mark: &Mark| match &mark.shape {
