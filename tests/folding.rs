@@ -141,6 +141,25 @@ fn ears_too_near_to_each_other_clash_in_any_order() {
     }
 }
 
+/// Their sides lie in the same planes, so that no panel cuts through another.
+#[test]
+fn ears_in_each_other_overlap_when_unfolded() {
+    for (gap_mm, depth_mm) in [(-4.0, 4.0), (-18.0, 18.0)] {
+        let model = ears(gap_mm);
+        let motion = ModelMotion::new(&model);
+        let plan = plan(&motion);
+        let [overlap] = plan.overlaps() else { panic!("{gap_mm}: {:?}", plan.overlaps()) };
+        assert_eq!(overlap.parts, [1, 2]);
+        assert!((overlap.depth_mm - depth_mm).abs() < 1e-6, "{overlap:?}");
+        let [encounter] = plan.encounters(&motion).try_into().expect("one");
+        assert!(encounter.line.iter().all(|end| end.is_finite()), "{encounter:?}");
+    }
+    for gap_mm in [0.0, 4.0] {
+        let model = ears(gap_mm);
+        assert_eq!(plan(&ModelMotion::new(&model)).overlaps(), [], "{gap_mm}");
+    }
+}
+
 #[test]
 fn an_encounter_is_where_and_when_the_two_panels_are_in_each_other() {
     let model = ears(0.3 * EAR_MM);

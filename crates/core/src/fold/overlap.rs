@@ -5,15 +5,20 @@ use super::memory::{Key, SweepMemory};
 use super::pose::{ModelMotion, ancestors, root_of};
 use super::way::{push_way, ways};
 use crate::component::Panel;
+use crate::geom::Hull;
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
+
+/// A corner above another panel's plane by less is rounding.
+const CONVEX_MM: f64 = 1e-6;
 
 /// Two components that overlap when all are unfolded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overlap {
     /// The two, the smaller index first.
     pub parts: [usize; 2],
-    /// How deep two of their panels are in each other, at most, mm.
+    /// How deep two of their panels are in each other, at most, mm; the shift that parts the two where panels
+    /// only touch.
     pub depth_mm: f64,
 }
 
@@ -22,6 +27,17 @@ struct Solid {
     sheets: Vec<(Sheet, DVec3, f64)>,
     low: DVec3,
     high: DVec3,
+}
+
+impl Solid {
+    fn corners(&self) -> impl Iterator<Item = DVec3> {
+        self.sheets.iter().flat_map(|s| s.0.corners.iter().copied())
+    }
+
+    fn is_convex(&self) -> bool {
+        let is_below = |sheet: &Sheet, corner| sheet.normal.dot(corner - sheet.corners[0]) < CONVEX_MM;
+        self.sheets.iter().all(|s| self.corners().all(|corner| is_below(&s.0, corner)))
+    }
 }
 
 /// Pairs of components that overlap by more than `tolerance_mm` when unfolded.
@@ -72,8 +88,46 @@ fn solid(panels: &[Panel], deployed: DAffine3) -> Solid {
     Solid { sheets, low, high }
 }
 
-/// How deep two panels of two components are in each other at most, as far as above the tolerance.
+/// How deep two components are in each other, as far as above the tolerance.
 fn depth_mm(a: &Solid, b: &Solid, tolerance_mm: f64) -> f64 {
+    let panels_mm = panels_depth_mm(a, b, tolerance_mm);
+    if panels_mm > tolerance_mm || !a.is_convex() || !b.is_convex() {
+        return panels_mm;
+    }
+    // No panel cuts through another where sides lie in the same planes, or one body is inside of the other.
+    let hulls = [a, b].map(|solid| Hull::of_points(&solid.corners().collect::<Vec<_>>()));
+    let [Ok(p), Ok(q)] = &hulls else { return panels_mm };
+    solids_depth_mm(p, q, tolerance_mm)
+}
+
+/// How deep two convex bodies are in each other, as far as above the tolerance, by the separating axis theorem.
+fn solids_depth_mm(a: &Hull, b: &Hull, tolerance_mm: f64) -> f64 {
+    let normals =
+        [a, b].into_iter().flat_map(|hull| hull.facets().iter().map(|facet| facet.plane().normal()));
+    let [e, f] = [a, b].map(edges);
+    let across = e.iter().flat_map(|e| f.iter().map(|f| e.cross(*f))).filter_map(DVec3::try_normalize);
+    let mut depth_mm = f64::INFINITY;
+    for axis in normals.chain(across) {
+        let ways = [axis, -axis].map(|axis| a.support(axis) + b.support(-axis));
+        depth_mm = depth_mm.min(ways[0]).min(ways[1]);
+        if depth_mm <= tolerance_mm {
+            return 0.0;
+        }
+    }
+    depth_mm
+}
+
+/// The edges of a hull, each once.
+fn edges(hull: &Hull) -> Vec<DVec3> {
+    let edges = hull.facets().iter().flat_map(|facet| {
+        let next = facet.outline().iter().cycle().skip(1);
+        facet.outline().iter().zip(next).filter(|(from, to)| from < to)
+    });
+    edges.map(|(from, to)| hull.vertices()[*to as usize] - hull.vertices()[*from as usize]).collect()
+}
+
+/// How deep two panels of two components are in each other at most, as far as above the tolerance.
+fn panels_depth_mm(a: &Solid, b: &Solid, tolerance_mm: f64) -> f64 {
     let mut deepest_mm = 0.0_f64;
     for (p, p_centre, p_radius) in &a.sheets {
         for (q, q_centre, q_radius) in &b.sheets {

@@ -20,7 +20,6 @@ use super::step::{FLAT, share};
 use super::track::{Moment, Track};
 use crate::component::PanelId;
 use glam::DVec3;
-use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 /// Spans that each cell between two levels is divided into at first: in spans of more than a 16th of the
@@ -204,6 +203,7 @@ impl<'a> Sweep<'a> {
             scratch: Default::default(),
         };
         let mut contacts = vec![[None; FLAT as usize]; lists.len()];
+        let mut poses = Poses::new(self.bodies);
         let mut from = self.track.at(0.0);
         for cell in 0..FLAT {
             let (low, high) = (share(cell), share(cell + 1));
@@ -216,21 +216,22 @@ impl<'a> Sweep<'a> {
             if found.is_empty() {
                 continue;
             }
-            let sample = |k: usize| self.track.at(low + (high - low) * k as f64 / (DEPTH_SAMPLES - 1) as f64);
-            let moments: Vec<Moment<'_>> = (0..DEPTH_SAMPLES).map(sample).collect();
-            let poses: Vec<Poses<'_>> =
-                moments.iter().map(|moment| Poses::new(self.bodies, moment)).collect();
-            for (list, First { sheets, folded }) in found {
-                // What has changed sides has no depth, but is no lighter than what is just too deep.
-                let mut deepest = Contact { folded, sheets, depth_mm: self.care.allowed_mm };
-                for poses in &poses {
+            // What has changed sides has no depth, but is no lighter than what is just too deep.
+            let depth_mm = self.care.allowed_mm;
+            for &(list, First { sheets, folded }) in &found {
+                contacts[list][usize::from(cell)] = Some(Contact { folded, sheets, depth_mm });
+            }
+            for k in 0..DEPTH_SAMPLES {
+                let moment = self.track.at(low + (high - low) * k as f64 / (DEPTH_SAMPLES - 1) as f64);
+                let mut poses = poses.at(&moment);
+                for &(list, _) in &found {
+                    let deepest = contacts[list][usize::from(cell)].as_mut().expect("as set above");
                     if let Some((sheets, depth_mm)) =
                         poses.deepest(&lists[list], deepest.depth_mm, &mut Axes::new())
                     {
-                        deepest = Contact { sheets, depth_mm, ..deepest };
+                        *deepest = Contact { sheets, depth_mm, ..*deepest };
                     }
                 }
-                contacts[list][usize::from(cell)] = Some(deepest);
             }
         }
         contacts
@@ -240,11 +241,12 @@ impl<'a> Sweep<'a> {
     fn sampled(&self, lists: &[Vec<[usize; 2]>]) -> Vec<Contacts> {
         let mut contacts: Vec<Contacts> = vec![[None; FLAT as usize]; lists.len()];
         let mut axes = vec![Axes::new(); lists.len()];
+        let mut poses = Poses::new(self.bodies);
         for cell in 0..FLAT {
             let (low, high) = (share(cell), share(cell + 1));
             for k in 1..=ROUGH_SAMPLES {
                 let moment = self.track.at(low + (high - low) * k as f64 / ROUGH_SAMPLES as f64);
-                let poses = Poses::new(self.bodies, &moment);
+                let mut poses = poses.at(&moment);
                 for ((list, contacts), axes) in lists.iter().zip(&mut contacts).zip(&mut axes) {
                     let contact = &mut contacts[usize::from(cell)];
                     let least_mm = contact.map_or(self.care.allowed_mm, |contact| contact.depth_mm);
@@ -279,62 +281,105 @@ impl<'a> Sweep<'a> {
 /// By the pair of bodies in its list, and the two sheets.
 type Axes = Vec<Vec<usize>>;
 
-/// Bodies at a moment; their sheets are placed when they are asked for.
+/// Room for bodies and their sheets at a moment, kept for the next one.
 struct Poses<'a> {
     bodies: &'a [Body],
-    moment: &'a Moment<'a>,
-    /// The middle of each body's ball, and of that of each of its sheets.
-    centres: Vec<OnceCell<(DVec3, Vec<DVec3>)>>,
-    sheets: Vec<Vec<OnceCell<Sheet>>>,
+    /// Of each body the index of its first sheet in the lists of sheets.
+    first_sheet: Vec<usize>,
+    /// The middle of each body's ball, and of that of each sheet; the latter hold where the former do.
+    body_centres: Vec<Option<DVec3>>,
+    sheet_centres: Vec<DVec3>,
+    sheets: Vec<Sheet>,
+    is_posed: Vec<bool>,
+}
+
+/// Bodies at a moment; their sheets are placed when they are asked for.
+struct PosesAt<'p, 'a> {
+    poses: &'p mut Poses<'a>,
+    moment: &'p Moment<'p>,
 }
 
 impl<'a> Poses<'a> {
-    fn new(bodies: &'a [Body], moment: &'a Moment<'a>) -> Self {
-        let sheets = bodies.iter().map(|body| vec![OnceCell::new(); body.sheets.len()]).collect();
-        Self { bodies, moment, centres: vec![OnceCell::new(); bodies.len()], sheets }
+    fn new(bodies: &'a [Body]) -> Self {
+        let mut count = 0;
+        let mut first_sheet = Vec::with_capacity(bodies.len());
+        for body in bodies {
+            first_sheet.push(count);
+            count += body.sheets.len();
+        }
+        Self {
+            bodies,
+            first_sheet,
+            body_centres: vec![None; bodies.len()],
+            sheet_centres: vec![DVec3::ZERO; count],
+            sheets: vec![Sheet::default(); count],
+            is_posed: vec![false; count],
+        }
     }
 
-    fn centres(&self, body: usize) -> &(DVec3, Vec<DVec3>) {
-        self.centres[body].get_or_init(|| {
-            let Body { carrier, ball, sheets, .. } = &self.bodies[body];
+    fn at<'p>(&'p mut self, moment: &'p Moment<'p>) -> PosesAt<'p, 'a> {
+        self.body_centres.fill(None);
+        self.is_posed.fill(false);
+        PosesAt { poses: self, moment }
+    }
+}
+
+impl PosesAt<'_, '_> {
+    /// The middle of a body's ball; those of its sheets' are known from then on.
+    fn centre(&mut self, index: usize) -> DVec3 {
+        let Poses { bodies, first_sheet, body_centres, sheet_centres, .. } = &mut *self.poses;
+        *body_centres[index].get_or_insert_with(|| {
+            let Body { carrier, ball, sheets, .. } = &bodies[index];
             let motion = self.moment.moved(*carrier);
-            let centre = |ball: &Ball| motion.transform_point3(ball.centre);
-            (centre(ball), sheets.iter().map(|(_, ball)| centre(ball)).collect())
+            for ((_, ball), centre) in sheets.iter().zip(&mut sheet_centres[first_sheet[index]..]) {
+                *centre = motion.transform_point3(ball.centre);
+            }
+            motion.transform_point3(ball.centre)
         })
     }
 
-    fn sheet(&self, (body, sheet): SheetId) -> &Sheet {
-        self.sheets[body][sheet].get_or_init(|| {
-            let mut posed = Sheet::default();
-            self.bodies[body].pose(sheet, self.moment, &mut posed);
-            posed
-        })
+    /// Places a sheet and gives its index.
+    fn pose(&mut self, (body, sheet): SheetId) -> usize {
+        let Poses { bodies, first_sheet, sheets, is_posed, .. } = &mut *self.poses;
+        let index = first_sheet[body] + sheet;
+        if !std::mem::replace(&mut is_posed[index], true) {
+            bodies[body].pose(sheet, self.moment, &mut sheets[index]);
+        }
+        index
     }
 
     /// The sheets of a list that are deepest in each other, and how deep, where that is more than `least_mm`.
-    fn deepest(&self, list: &[[usize; 2]], least_mm: f64, axes: &mut Axes) -> Option<([SheetId; 2], f64)> {
+    fn deepest(
+        &mut self,
+        list: &[[usize; 2]],
+        least_mm: f64,
+        axes: &mut Axes,
+    ) -> Option<([SheetId; 2], f64)> {
         let mut deepest = None;
         let mut deepest_mm = least_mm;
         let are_far = |p: DVec3, q: DVec3, balls: [&Ball; 2]| !Ball::can_meet(balls, [p, q], 0.0);
         axes.resize(list.len(), Vec::new());
         for (&[a, b], axes) in list.iter().zip(axes) {
-            let (first, second) = (&self.bodies[a], &self.bodies[b]);
-            let (p, q) = (self.centres(a), self.centres(b));
-            if are_far(p.0, q.0, [&first.ball, &second.ball]) {
+            let (first, second) = (&self.poses.bodies[a], &self.poses.bodies[b]);
+            let (p_centre, q_centre) = (self.centre(a), self.centre(b));
+            if are_far(p_centre, q_centre, [&first.ball, &second.ball]) {
                 continue;
             }
+            let [p_first, q_first] = [a, b].map(|body| self.poses.first_sheet[body]);
             axes.resize(first.sheets.len() * second.sheets.len(), 0);
             for (i, (_, p_ball)) in first.sheets.iter().enumerate() {
-                if are_far(p.1[i], q.0, [p_ball, &second.ball]) {
+                let p_centre = self.poses.sheet_centres[p_first + i];
+                if are_far(p_centre, q_centre, [p_ball, &second.ball]) {
                     continue;
                 }
                 for (j, (_, q_ball)) in second.sheets.iter().enumerate() {
-                    if are_far(p.1[i], q.1[j], [p_ball, q_ball]) {
+                    if are_far(p_centre, self.poses.sheet_centres[q_first + j], [p_ball, q_ball]) {
                         continue;
                     }
                     let sheets = [(a, i), (b, j)];
+                    let [p, q] = sheets.map(|sheet| self.pose(sheet));
                     let axis = &mut axes[i * second.sheets.len() + j];
-                    let gap = gap(self.sheet(sheets[0]), self.sheet(sheets[1]), -deepest_mm, *axis);
+                    let gap = gap(&self.poses.sheets[p], &self.poses.sheets[q], -deepest_mm, *axis);
                     *axis = gap.axis;
                     if -gap.mm > deepest_mm {
                         (deepest, deepest_mm) = (Some(sheets), -gap.mm);

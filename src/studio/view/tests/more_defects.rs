@@ -137,7 +137,8 @@ fn a_piece_is_put_aside_and_rotated_there_alone() {
     let from = on_page(&desk, turned[&name].0, grips(&desk, turned[&name].0)[0].1);
     let to = on_page(&desk, 0, grips(&desk, 0)[0].1);
     drag(&mut desk, from, to);
-    assert!(desk.state().studio().problem().is_some_and(|problem| problem.contains("overlap")));
+    let problem = desk.state().studio().problem();
+    assert!(problem.is_some_and(|p| p.contains("overlap")), "{problem:?} {from} {to} {:?}", places(&desk));
     assert_eq!(places(&desk), turned);
 }
 
