@@ -68,7 +68,7 @@ fn open_sheets() -> (Desk, TempDir) {
     desk.state_mut().open(&project);
     settle(&mut desk, "a small model", |s| s.finished().is_some_and(|o| o.options().size_mm == 110.0));
     click(&mut desk, "Sheets");
-    wait_for(&mut desk, "Sheet 1");
+    wait_for_pages(&mut desk);
     (desk, folder)
 }
 
@@ -90,6 +90,23 @@ fn wait_for(desk: &mut Desk, label: &str) {
         std::thread::sleep(Duration::from_millis(5));
         desk.run_steps(1);
     }
+}
+
+/// The pages of what is made by now are on the screen: they are drawn in the background, and pieces on older ones
+/// cannot be dragged.
+fn wait_for_pages(desk: &mut Desk) {
+    settle(desk, "the sheets", |s| s.finished().is_some());
+    let start = Instant::now();
+    loop {
+        let wanted = desk.state().studio().shown().sheets_version();
+        if desk.state_mut().sheets.drawn().is_some_and(|(version, _)| version == wanted) {
+            break;
+        }
+        assert!(start.elapsed() < Duration::from_secs(60), "the pages do not come");
+        std::thread::sleep(Duration::from_millis(5));
+        desk.run_steps(1);
+    }
+    desk.run_ok();
 }
 
 /// Clicks on it.

@@ -121,11 +121,11 @@ fn a_piece_is_put_aside_and_rotated_there_alone() {
     let at = on_page(&desk, 0, grip);
     press(&mut desk, at, Modifiers::NONE);
     click(&mut desk, "Put aside");
-    settle(&mut desk, "a sheet more", |s| s.finished().is_some());
+    wait_for_pages(&mut desk);
     let aside = places(&desk);
     assert!(aside[&name].0 > before.values().map(|place| place.0).max().unwrap());
     click_when_there(&mut desk, "Rotate piece left");
-    settle(&mut desk, "the rotated piece", |s| s.finished().is_some());
+    wait_for_pages(&mut desk);
     let turned = places(&desk);
     assert_eq!(turned[&name].0, aside[&name].0);
     assert!(turned[&name].1.distance(aside[&name].1) > 0.01, "it is rotated");
@@ -138,7 +138,7 @@ fn a_piece_is_put_aside_and_rotated_there_alone() {
     let to = on_page(&desk, 0, grips(&desk, 0)[0].1);
     drag(&mut desk, from, to);
     let problem = desk.state().studio().problem();
-    assert!(problem.is_some_and(|p| p.contains("overlap")), "{problem:?} {from} {to} {:?}", places(&desk));
+    assert!(problem.is_some_and(|problem| problem.contains("overlap")), "{problem:?}");
     assert_eq!(places(&desk), turned);
 }
 

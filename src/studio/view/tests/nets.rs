@@ -25,22 +25,6 @@ fn middle(desk: &Desk, edge: &PlacedEdge) -> Pos2 {
     egui::pos2(page.left() + scale * at.x as f32, page.bottom() - scale * at.y as f32)
 }
 
-/// The pages of what is made by now are on the screen.
-fn wait_for_pages(desk: &mut Desk) {
-    settle(desk, "the sheets", |s| s.finished().is_some());
-    let start = Instant::now();
-    loop {
-        let wanted = desk.state().studio().shown().sheets_version();
-        if desk.state_mut().sheets.drawn().is_some_and(|(version, _)| version == wanted) {
-            break;
-        }
-        assert!(start.elapsed() < Duration::from_secs(60), "the pages do not come");
-        std::thread::sleep(Duration::from_millis(5));
-        desk.run_steps(1);
-    }
-    desk.run_ok();
-}
-
 fn joined(desk: &Desk, edge: &PlacedEdge) -> Joined {
     let all = edges::of_component(desk.state().studio().finished().unwrap(), edge.id.net);
     all.iter().find(|(id, _)| *id == edge.id).unwrap().1

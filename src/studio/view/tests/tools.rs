@@ -140,12 +140,7 @@ fn pages_and_outlines_are_of_one_layout() {
     for size_mm in [170.0, 120.0] {
         let change = Change::Set { option: &SIZE, value: Some(size_mm.into()) };
         desk.state_mut().studio_mut().change(&change, None);
-        settle(&mut desk, "the model", |s| s.finished().is_some());
-        let start = Instant::now();
-        while desk.state().sheets.drawn().unwrap().0 != desk.state().studio().shown().sheets_version() {
-            assert!(start.elapsed() < Duration::from_secs(60), "the pages do not come");
-            desk.run_steps(1);
-        }
+        wait_for_pages(&mut desk);
         let studio = desk.state().studio();
         let (opened, project) = (studio.opened().unwrap(), studio.document().unwrap().project());
         let wanted = crate::studio::pages::drawings(opened, project, studio.finished().unwrap()).unwrap();
