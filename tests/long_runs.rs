@@ -89,6 +89,6 @@ fn five_hundred_models_in_one_process() {
 /// `.ci/interop` runs it.
 #[test]
 #[ignore = "minutes"]
-fn ten_thousand_models_in_one_process() {
-    makes_without_growth(10_000);
+fn three_thousand_models_in_one_process() {
+    makes_without_growth(3_000);
 }

@@ -2,10 +2,13 @@
 //! are filled by nature, so while parts are searched for hollows count as solid: else nothing about
 //! a cup is worth having but its walls.
 
+/// All directions, in the unit of the shares below: their least common denominator.
+const ALL: u16 = 840;
+
 /// Directions to the neighbours of a cell, each with the share of all directions that it stands
-/// for: faces, edges and corners of a cube (Lebedev's quadrature of 26 points).
-fn directions() -> impl Iterator<Item = ([isize; 3], f64)> {
-    const SHARES: [f64; 4] = [0.0, 1.0 / 21.0, 4.0 / 105.0, 9.0 / 280.0];
+/// for: faces 1/21, edges 4/105 and corners 9/280 of a cube (Lebedev's quadrature of 26 points).
+fn directions() -> impl Iterator<Item = ([isize; 3], u16)> {
+    const SHARES: [u16; 4] = [0, ALL / 21, 4 * ALL / 105, 9 * ALL / 280];
     (0..27).filter(|k| *k != 13).map(|k| {
         let step: [isize; 3] = [k / 9 - 1, k / 3 % 3 - 1, k % 3 - 1];
         let length: isize = step.iter().map(|s| s.abs()).sum();
@@ -13,41 +16,63 @@ fn directions() -> impl Iterator<Item = ([isize; 3], f64)> {
     })
 }
 
-/// Marks the cells of a grid of `count` cells from which at least `least` of all directions meet
-/// an occupied cell. Cells are in the order of their coordinates, the last one fastest.
+/// Marks the cells of a grid of `count` cells from which at least the share `least` of all directions
+/// meets an occupied cell. Cells are in the order of their coordinates, the last one fastest.
 pub(super) fn enclosed(count: [usize; 3], is_occupied: &[bool], least: f64) -> Vec<bool> {
-    let mut met = vec![0.0f32; is_occupied.len()];
+    let mut met = vec![0u16; is_occupied.len()];
     let mut blocked = vec![false; is_occupied.len()];
     for (step, share) in directions() {
         sweep(count, step, is_occupied, &mut blocked);
         for (sum, blocked) in met.iter_mut().zip(&blocked) {
-            if *blocked {
-                *sum += share as f32;
-            }
+            *sum += share * u16::from(*blocked);
         }
     }
-    met.iter().zip(is_occupied).map(|(m, occupied)| *occupied || f64::from(*m) >= least).collect()
+    // Rounding is no reason to miss a whole number.
+    let least = (least * f64::from(ALL) - 1e-9).ceil() as u16;
+    met.iter().zip(is_occupied).map(|(met, occupied)| *occupied || *met >= least).collect()
 }
 
 /// For each cell, whether a straight way by `step` meets an occupied one.
 fn sweep(count: [usize; 3], step: [isize; 3], is_occupied: &[bool], blocked: &mut [bool]) {
-    // The cell ahead is done before its own.
+    // The row ahead is done before its own.
     let along = |axis: usize| {
         let n = count[axis];
         (0..n).map(move |i| if step[axis] > 0 { n - 1 - i } else { i })
     };
     let ahead = |axis: usize, i: usize| i.checked_add_signed(step[axis]).filter(|&next| next < count[axis]);
     let [_, ny, nz] = count;
+    let mut seen = vec![false; nz];
     for i in along(0) {
         let next_i = ahead(0, i);
         for j in along(1) {
-            let next_j = ahead(1, j);
             let row = (i * ny + j) * nz;
-            let next_row = next_i.zip(next_j).map(|(i, j)| (i * ny + j) * nz);
-            for k in along(2) {
-                let next = next_row.zip(ahead(2, k)).map(|(row, k)| row + k);
-                blocked[row + k] = next.is_some_and(|n| is_occupied[n] || blocked[n]);
+            match next_i.zip(ahead(1, j)).map(|(i, j)| (i * ny + j) * nz) {
+                None => seen.fill(false),
+                Some(next) if next == row => {
+                    let mut is_blocked = false;
+                    for k in along(2) {
+                        seen[k] = is_blocked;
+                        is_blocked |= is_occupied[row + k];
+                    }
+                }
+                Some(next) => {
+                    let occupied = &is_occupied[next..next + nz];
+                    let beyond = &blocked[next..next + nz];
+                    // Along the row by one cell, forwards or back; what comes in from outside is free.
+                    let (to, from) = match step[2] {
+                        0 => (0..nz, 0..nz),
+                        1 => (0..nz - 1, 1..nz),
+                        _ => (1..nz, 0..nz - 1),
+                    };
+                    seen.fill(false);
+                    for ((seen, occupied), beyond) in
+                        seen[to].iter_mut().zip(&occupied[from.clone()]).zip(&beyond[from])
+                    {
+                        *seen = occupied | beyond;
+                    }
+                }
             }
+            blocked[row..row + nz].copy_from_slice(&seen);
         }
     }
 }
@@ -77,7 +102,7 @@ mod tests {
 
     #[test]
     fn shares_of_directions_are_a_whole() {
-        assert!((directions().map(|d| d.1).sum::<f64>() - 1.0).abs() < 1e-12);
+        assert_eq!(directions().map(|d| d.1).sum::<u16>(), ALL);
     }
 
     #[test]
