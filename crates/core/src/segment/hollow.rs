@@ -46,30 +46,28 @@ fn sweep(count: [usize; 3], step: [isize; 3], is_occupied: &[bool], blocked: &mu
         let next_i = ahead(0, i);
         for j in along(1) {
             let row = (i * ny + j) * nz;
-            match next_i.zip(ahead(1, j)).map(|(i, j)| (i * ny + j) * nz) {
-                None => seen.fill(false),
-                Some(next) if next == row => {
+            // What comes in from outside is free.
+            seen.fill(false);
+            if let Some(next) = next_i.zip(ahead(1, j)).map(|(i, j)| (i * ny + j) * nz) {
+                if next == row {
                     let mut is_blocked = false;
                     for k in along(2) {
                         seen[k] = is_blocked;
                         is_blocked |= is_occupied[row + k];
                     }
-                }
-                Some(next) => {
-                    let occupied = &is_occupied[next..next + nz];
-                    let beyond = &blocked[next..next + nz];
-                    // Along the row by one cell, forwards or back; what comes in from outside is free.
-                    let (to, from) = match step[2] {
+                } else {
+                    // The cells of this row that have one ahead, and those ahead.
+                    let (own, ahead) = match step[2] {
                         0 => (0..nz, 0..nz),
                         1 => (0..nz - 1, 1..nz),
                         _ => (1..nz, 0..nz - 1),
                     };
-                    seen.fill(false);
-                    for ((seen, occupied), beyond) in
-                        seen[to].iter_mut().zip(&occupied[from.clone()]).zip(&beyond[from])
-                    {
-                        *seen = occupied | beyond;
-                    }
+                    let ahead = next + ahead.start..next + ahead.end;
+                    let met = is_occupied[ahead.clone()].iter().zip(&blocked[ahead]);
+                    seen[own]
+                        .iter_mut()
+                        .zip(met)
+                        .for_each(|(seen, (occupied, beyond))| *seen = occupied | beyond);
                 }
             }
             blocked[row..row + nz].copy_from_slice(&seen);
