@@ -25,6 +25,13 @@ macro_rules! page {
     };
 }
 
+impl Page {
+    /// Its file in the book's folder.
+    pub fn path(&self) -> &'static str {
+        self.path
+    }
+}
+
 /// All pages, the contents first.
 pub const PAGES: &[Page] = &[
     page!("README.md", "The tatamu book"),
@@ -47,6 +54,7 @@ pub const PAGES: &[Page] = &[
     page!("reference/styles.md", "Line styles"),
     page!("reference/report.md", "The report"),
     page!("reference/messages.md", "Warnings, exit codes, environment"),
+    page!("reference/libraries.md", "Libraries and their licences"),
     page!("explanation.md", "How it works"),
     page!("figures.md", "Figures"),
 ];

@@ -200,7 +200,7 @@ impl Dialogs {
             },
             Dialog::Shortcuts => shortcuts(ctx),
             Dialog::CommandLine => command_line::show(ctx, named),
-            Dialog::About => about(ctx),
+            Dialog::About => about(ctx, &mut outcome),
         };
         if is_over {
             self.open = None;
@@ -347,7 +347,7 @@ fn shortcuts(ctx: &Context) -> bool {
 }
 
 /// What this program is; whether it is to be closed.
-fn about(ctx: &Context) -> bool {
+fn about(ctx: &Context, outcome: &mut Option<Outcome>) -> bool {
     let mut is_closed = false;
     let shown = modal::new(ctx, "about").show(ctx, |ui| {
         ui.set_width(420.0);
@@ -359,11 +359,16 @@ fn about(ctx: &Context) -> bool {
             "Letters: Ubuntu Light and Hack in the window, Inter and Hershey's Roman on pages. Icons: Lucide (ISC).",
         );
         ui.add_space(8.0);
-        let close = ui.button("Close");
-        focus_once(ui, &close);
-        is_closed = close.clicked();
+        ui.horizontal(|ui| {
+            let close = ui.button("Close");
+            focus_once(ui, &close);
+            is_closed = close.clicked();
+            if ui.button("Libraries and their licences").on_hover_text(commands::BOOK_TIP).clicked() {
+                *outcome = Some(Outcome::Run(commands::libraries()));
+            }
+        });
     });
-    is_closed || shown.should_close()
+    is_closed || outcome.is_some() || shown.should_close()
 }
 
 impl Purpose {

@@ -243,10 +243,10 @@ fn figures(studio: &Studio, ui: &mut Ui, index: usize) {
     ui.end_row();
     let gap =
         part.component.profiles().iter().map(|p| p.gap_mm().abs() / p.mean_segment_mm()).fold(0.0, f64::max);
-    ui.label("Gap").on_hover_text(
-        "how far the worst chain is from folding flat, in mean segment lengths; below 1e-9 is rounding",
-    );
-    ui.label(format!("{gap:.1e}"));
+    ui.label("Folds flat");
+    let is_exact = gap <= tatamu::check::Limits::default().gap_share;
+    let text = if is_exact { "exactly" } else { "with a gap" };
+    ui.label(text).on_hover_text(format!("gap of the worst chain: {gap:.1e} of its mean segment"));
     ui.end_row();
     if let Some(joint) = &part.joint
         && joint.support_ratio > 0.0

@@ -57,12 +57,15 @@ static ABOUT: Command = Command {
     ..BLANK
 };
 
+/// What a page of the book does.
+pub const BOOK_TIP: &str = "opens in the browser; works without a network";
+
 /// A page of the book.
 const fn book<const PAGE: usize>() -> Command {
     Command {
         name: PAGES[PAGE].command,
         icon: Some(Icon::BookOpen),
-        tip: "opens in the browser; works without a network",
+        tip: BOOK_TIP,
         place: if PAGE == 0 { Place::Help(0) } else { Place::None },
         can: always,
         act: |w, ctx| w.open_book(ctx, PAGE),
@@ -75,4 +78,10 @@ macro_rules! book {
 }
 
 pub(super) static BOOK: [Command; PAGES.len()] =
-    book!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21);
+    book!(0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22);
+
+/// The page of the book that names the libraries.
+pub fn libraries() -> &'static Command {
+    let page = PAGES.iter().position(|page| page.path() == "reference/libraries.md");
+    &BOOK[page.expect("a test compares the pages with the files")]
+}

@@ -14,7 +14,7 @@ pub use edit::{
 };
 use eframe::egui::{self, Context, KeyboardShortcut, Response, Ui};
 pub use file::{OPEN, SAVE};
-pub use help::{COMMAND_LINE, FIND, SHORTCUTS};
+pub use help::{BOOK_TIP, COMMAND_LINE, FIND, SHORTCUTS, libraries};
 pub use keys::{MOUSE, heed, key_text};
 use lucide_icons::Icon;
 pub use pieces::{PIECE_LEFT, PIECE_RIGHT, PUT_ASIDE, UNPIN};
