@@ -32,7 +32,9 @@ impl Made {
             counted(pieces, "piece"),
             counted(sheets, "sheet")
         );
-        let cards = product::card_note(result).map(|cards| format!(" ({cards})")).unwrap_or_default();
+        let cards = product::card_note(result, "of any colour")
+            .map(|cards| format!(" ({cards})"))
+            .unwrap_or_default();
         let mesh = mesh.map(|path| format!("mesh        {}", path.display()));
         let mut summary: Vec<String> = mesh.into_iter().collect();
         summary.extend([

@@ -207,6 +207,9 @@ fn card_has_the_colours_of_the_mesh_unless_others_are_chosen() {
     assert!(files.contains("-brown.svg") && files.contains("-white.svg"), "{files}");
     let (out, _) = make(&["--card", "body=blue", "--card", "auto"]);
     assert!(out.contains(" blue, ") && out.contains("1 white)"), "{out}");
+    // The sheets of no colour were not counted beside the others.
+    let (out, _) = make(&["--card", "body=blue"]);
+    assert!(out.contains(" blue, 1 of any colour)"), "{out}");
     let plain = cube::OFF.replace(" 255 0 0", "");
     let cube = [("a.off", plain.as_bytes())];
     assert_refused(

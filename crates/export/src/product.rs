@@ -269,12 +269,12 @@ pub fn motion_words(motion: &Motion, name: &str) -> String {
     }
 }
 
-/// How many sheets of each colour of card there are, such as `1 brown, 3 white`; none where no colour is
-/// chosen. Sheets without one are left out.
-pub fn card_note(output: &Output) -> Option<String> {
+/// How many sheets of each colour of card there are, such as `1 brown, 3 white, 2 of any colour`; none where
+/// no colour is chosen. `no_colour` stands for sheets without one.
+pub fn card_note(output: &Output, no_colour: &str) -> Option<String> {
     let cards = output.layout().cards();
-    let words = |(card, count): &(Option<&str>, usize)| Some(format!("{count} {}", (*card)?));
-    (!cards.is_empty()).then(|| cards.iter().filter_map(words).collect::<Vec<_>>().join(", "))
+    let words = |(card, count): &(Option<&str>, usize)| format!("{count} {}", card.unwrap_or(no_colour));
+    (!cards.is_empty()).then(|| cards.iter().map(words).collect::<Vec<_>>().join(", "))
 }
 
 /// Width, depth and height of the model in words.

@@ -453,7 +453,8 @@ impl Writer<'_> {
         ];
         let values: Vec<(&str, &str)> = values.iter().map(|(name, value)| (*name, value.as_str())).collect();
         let say = |text: &str| fill(text, &values);
-        let cards = product::card_note(output).map(|cards| fill(&words.cards, &[("cards", &cards)]));
+        let cards =
+            product::card_note(output, &words.no_card).map(|cards| fill(&words.cards, &[("cards", &cards)]));
         vec![
             (words.size_title.clone(), sizes),
             (

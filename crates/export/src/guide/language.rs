@@ -167,6 +167,8 @@ pub struct CoverWords {
     pub paper_many: String,
     /// Colours of card.
     pub cards: String,
+    /// Of sheets for which no colour is chosen.
+    pub no_card: String,
     pub measure: String,
     pub tools_title: String,
     pub tools: String,

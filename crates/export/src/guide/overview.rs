@@ -54,7 +54,7 @@ pub fn overview(product: &Product<'_>) -> Result<Drawing, PictureError> {
         1 => "1 sheet".to_owned(),
         count => format!("{count} sheets"),
     };
-    let cards = card_note(output).map(|cards| format!(": {cards}")).unwrap_or_default();
+    let cards = card_note(output, "of any colour").map(|cards| format!(": {cards}")).unwrap_or_default();
     let paper = capital(&layout.options().paper.name());
     let note = format!("{} · {sheets} of {paper}{cards}", size_note(output));
     page.write(&note, TEXT_MM, SOFT);

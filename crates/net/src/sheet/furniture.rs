@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 use tatamu_draw::drawing::text::{shortened, width_mm};
-use tatamu_draw::drawing::{Align, Layer, LineStyles, Mark, Stroke, Text};
+use tatamu_draw::drawing::{Align, Fill, Layer, LineStyles, Mark, Stroke, Text};
 
 /// Capital height of all texts in the strip.
 const CAP_MM: f64 = 1.9;
@@ -277,15 +277,17 @@ impl Strip {
     fn legend_marks(&self, styles: &LineStyles) -> Vec<Mark> {
         let look = |layer: Layer| (styles.stroke(layer).width_mm, &styles.stroke(layer).dash_mm);
         let folds = self.legend.iter().map(|entry| entry.layer).filter(|layer| layer.is_worked());
-        let is_told = folds.clone().any(|layer| look(layer) != look(Layer::Cut));
-        if !is_told {
+        let are_distinct = folds.clone().any(|layer| look(layer) != look(Layer::Cut));
+        if !are_distinct {
             return Vec::new();
         }
+        // A tab without a fill has no look of its own.
+        let is_seen = |entry: &Entry| entry.layer != Layer::Tab || styles.fill(Layer::Tab) != Fill::Plain;
         let (entries_mm, gaps) = legend_mm(&self.legend);
         let gap_mm = ((self.width_mm - entries_mm) / gaps.max(1) as f64).min(MAX_GAP_MM);
         let mut x = 0.0;
         let mut marks = Vec::with_capacity(2 * self.legend.len());
-        for entry in &self.legend {
+        for entry in self.legend.iter().filter(|entry| is_seen(entry)) {
             let y = CAP_MM / 2.0;
             marks.extend(self.sample(entry, [x, y], styles));
             let word = [x + entry.sample_mm + WORD_GAP_MM, 0.0];
@@ -393,6 +395,17 @@ mod tests {
     }
 
     /// With valleys, whose plugs have feet, A4 said "mountain" and "valley", which a beginner does not know.
+    /// The sample of a tab without a fill was a blank beside its word.
+    #[test]
+    fn a_tab_without_a_fill_is_not_in_the_legend() {
+        let words = |styles: &LineStyles| {
+            let furniture = only_sheet(DVec2::new(210.0, 297.0), &[Layer::Cut, Layer::Mountain, Layer::Tab]);
+            texts(&furniture.marks(styles)).contains(&"tab".to_owned())
+        };
+        let styles = LineStyles::standard();
+        assert!(words(&styles) && !words(&styles.with_plain(Layer::Tab)));
+    }
+
     #[test]
     fn seven_kinds_of_lines_have_full_words_on_a4() {
         let legend = [
