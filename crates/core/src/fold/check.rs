@@ -54,6 +54,9 @@ const SHARES_OF_SWEEP: usize = 4;
 /// Most parts of which all states are tried, to see whether a clash can be avoided.
 const MOST_BETWEEN: usize = 4;
 
+/// A clash that is deeper than it must be by no more than this is not avoided, mm.
+const ALIKE_MM: f64 = 0.01;
+
 /// Depths are rounded to this, so that a slightly rotated model gets the same.
 const DEPTH_GRID_MM: f64 = 1e-6;
 
@@ -75,7 +78,8 @@ pub(super) struct Checker<'a> {
     known: HashMap<Question, Answer>,
     /// Clashes of moves, by the levels of all.
     listed: HashMap<(Move, Levels), Arc<[Clash]>>,
-    accepted: BTreeSet<(usize, [usize; 2])>,
+    /// How deep pairs get at least in each other while a component folds, in any order, mm.
+    accepted_mm: BTreeMap<(usize, [usize; 2]), f64>,
     sweeps: usize,
 }
 
@@ -109,7 +113,7 @@ impl<'a> Checker<'a> {
             watched: Vec::new(),
             known: HashMap::new(),
             listed: HashMap::new(),
-            accepted: BTreeSet::new(),
+            accepted_mm: BTreeMap::new(),
             sweeps: 0,
         };
         let deployed_mm: BTreeMap<[usize; 2], f64> = overlaps.iter().map(|o| (o.parts, o.depth_mm)).collect();
@@ -142,14 +146,15 @@ impl<'a> Checker<'a> {
         pairs
     }
 
-    /// Clashes of a move that an order could avoid: without accepted ones and without pairs that stand
+    /// Clashes of a move that an order could avoid: without those as deep as accepted, and without pairs that stand
     /// in each other when deployed.
     pub(super) fn clashes(&mut self, step: Move, levels: &[Level]) -> Vec<Clash> {
         let mut clashes = self.all_clashes(step, levels).to_vec();
         clashes.retain(|clash| {
             let pair = self.watched[step.part].iter().find(|pair| pair.parts == clash.parts);
+            let accepted_mm = self.accepted_mm.get(&(step.part, clash.parts));
             pair.is_none_or(|pair| pair.overlap_mm.is_none())
-                && !self.accepted.contains(&(step.part, clash.parts))
+                && accepted_mm.is_none_or(|mm| clash.depth_mm > mm + ALIKE_MM)
         });
         clashes
     }
@@ -178,8 +183,8 @@ impl<'a> Checker<'a> {
         (clash.depth_mm > told_mm).then_some(clash)
     }
 
-    /// Accepts a clash that happens whatever the states of the parts between are, since no order
-    /// can help. Gives up, and does not accept it, where there are too many of them.
+    /// Accepts a clash that happens whatever the states of the parts between are, as deep as it is in the best of them,
+    /// since no order can help. Gives up, and does not accept it, where there are too many of them.
     pub(super) fn accept_if_unavoidable(&mut self, clash: &Clash, levels: &[Level]) {
         let (mover, parts) = (clash.mover, clash.parts);
         let Some(pair) = self.watched[mover].iter().position(|pair| pair.parts == parts) else { return };
@@ -187,7 +192,7 @@ impl<'a> Checker<'a> {
         if free.len() > MOST_BETWEEN {
             return;
         }
-        let is_always = (0..1_usize << free.len()).all(|states| {
+        let depth_mm = |states: usize| {
             let mut levels = levels.to_vec();
             free.iter()
                 .enumerate()
@@ -197,10 +202,11 @@ impl<'a> Checker<'a> {
                 let answers = self.ask(vec![question.clone()], mover, &levels);
                 self.learn(answers);
             }
-            self.known.get(&question).is_some_and(Option::is_some)
-        });
-        if is_always {
-            self.accepted.insert((mover, parts));
+            Some(self::clash(Move::whole(mover), parts, self.known.get(&question)?)?.depth_mm)
+        };
+        let depths_mm: Option<Vec<f64>> = (0..1_usize << free.len()).map(depth_mm).collect();
+        if let Some(depths_mm) = depths_mm {
+            self.accepted_mm.insert((mover, parts), depths_mm.into_iter().fold(f64::INFINITY, f64::min));
         }
     }
 
@@ -219,6 +225,11 @@ impl<'a> Checker<'a> {
     pub(super) fn learn(&mut self, answers: Vec<(Question, Answer)>) {
         self.sweeps += usize::from(!answers.is_empty());
         self.known.extend(answers);
+    }
+
+    /// Contacts up to this depth are none, mm.
+    pub(super) fn allowed_mm(&self) -> f64 {
+        self.care.allowed_mm()
     }
 
     /// How often answers had to be found, whether the memory had them or not: what a search may cost

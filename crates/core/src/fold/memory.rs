@@ -3,10 +3,15 @@
 use super::step::FLAT;
 use super::track::Table;
 use crate::component::PanelId;
-use std::collections::HashMap;
+use quick_cache::sync::Cache;
 use std::fmt;
 use std::hash::Hash;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
+
+/// Tables that are kept, of 60 kB each.
+const TABLES: usize = 600;
+/// Answers that are kept, of up to 1 kB each.
+const ANSWERS: usize = 100_000;
 
 /// Contact of a pair between one level and the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,12 +34,22 @@ pub(super) type Key = Box<[u64]>;
 ///
 /// # Guarantees
 /// A plan is the same with any memory; only the time that it takes differs.
-#[derive(Default)]
 pub struct SweepMemory {
     tables: Store<u64, Arc<Table>>,
     own: Store<[u64; 2], Answer>,
     answers: Store<Key, Answer>,
     overlaps: Store<Key, f64>,
+}
+
+impl Default for SweepMemory {
+    fn default() -> Self {
+        Self {
+            tables: Store::new(TABLES),
+            own: Store::new(ANSWERS),
+            answers: Store::new(ANSWERS),
+            overlaps: Store::new(ANSWERS),
+        }
+    }
 }
 
 impl SweepMemory {
@@ -71,24 +86,25 @@ impl fmt::Debug for SweepMemory {
     }
 }
 
-/// Values by key, for several threads. Two threads may make a value at the same time: it is the same.
-pub(super) struct Store<K, V>(Mutex<HashMap<K, V>>);
-
-impl<K, V> Default for Store<K, V> {
-    fn default() -> Self {
-        Self(Mutex::default())
-    }
-}
+/// The values that were asked for most of late, for several threads. Two threads may make a value at the same time: it is
+/// the same.
+pub(super) struct Store<K, V>(Cache<K, V>);
 
 impl<K: Hash + Eq, V: Clone> Store<K, V> {
+    /// Keeps at most so many.
+    fn new(most: usize) -> Self {
+        Self(Cache::new(most))
+    }
+
     pub(super) fn get(&self, key: &K) -> Option<V> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).get(key).cloned()
+        self.0.get(key)
     }
 
     pub(super) fn insert(&self, key: K, value: V) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(key, value);
+        self.0.insert(key, value);
     }
 
+    // The cache's own way to make a value lets others wait for it: for ever, where the one who makes it helps rayon.
     pub(super) fn get_or(&self, key: K, make: impl FnOnce() -> V) -> V {
         self.get(&key).unwrap_or_else(|| {
             let value = make();
@@ -98,6 +114,6 @@ impl<K: Hash + Eq, V: Clone> Store<K, V> {
     }
 
     fn len(&self) -> usize {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).len()
+        self.0.len()
     }
 }

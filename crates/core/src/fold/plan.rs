@@ -154,7 +154,7 @@ impl FoldPlan {
         progress.check()?;
         let mut moves = Vec::new();
         for root in (0..parts).filter(|&p| root_of(motion.model(), p) == p) {
-            let order = Search::new(motion, &mut checker, progress, is_whole).tree(root)?;
+            let order = Search::new(motion, &mut checker, thickness_mm, is_whole, progress).tree(root)?;
             let mut tree: Vec<Move> = order.into_iter().map(Move::whole).collect();
             if is_whole {
                 tree = interleaved(&mut checker, tree, parts, thickness_mm, progress)?;
