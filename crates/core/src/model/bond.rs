@@ -64,6 +64,19 @@ impl Bond {
     }
 }
 
+/// The joints, and the images of those whose images are none: of parts that meet all round a ring only a tree is joined. With
+/// both, parts are their own images or each other's, and meet as well where they are not joined: the back of a chair,
+/// joined to one stile, was crooked and stood 2 mm in the other.
+pub(super) fn with_images(links: &[Link], symmetry: Option<&Symmetry>) -> Vec<Link> {
+    let Some(symmetry) = symmetry else { return links.to_vec() };
+    let image = |link: &Link| {
+        let [parent, child] = [link.parent, link.child].map(|part| symmetry.twin(part));
+        let is_joint = others(links, parent).any(|other| other == child);
+        (!is_joint).then(|| Link { parent, child, plane: symmetry.mirror().image(&link.plane) })
+    };
+    links.iter().cloned().chain(links.iter().filter_map(image)).collect()
+}
+
 /// The mirror plane across the first that a part should be its own image in: where its joints are.
 pub(super) fn crossing<'a>(
     parts: &[Part],

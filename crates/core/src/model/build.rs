@@ -1,6 +1,6 @@
 //! Parts into a model: candidates for each, one combination of them, and everything in its place.
 
-use super::bond::{Bond, crossing};
+use super::bond::{Bond, crossing, with_images};
 use super::candidate::{Builder, Made, Search};
 use super::choice::{Best, Choice, Combination, Effort, Trouble};
 use super::harms::{Bump, Enough};
@@ -121,6 +121,7 @@ impl Sketch {
 /// [`ModelError`], where no shape of the part has room for all its joints.
 pub fn alone(assembly: &Assembly<'_>, known: &Known, part: usize) -> Result<ModelPart, ModelError> {
     let Assembly { parts, links, symmetry, .. } = *assembly;
+    let links = &with_images(links, symmetry);
     let bonds = Bond::of_parts(parts, links, symmetry);
     let own = match (bonds[part], symmetry) {
         (Bond::ImageOf(first), Some(symmetry)) => {
@@ -151,6 +152,8 @@ impl Assembly<'_> {
 
 /// Joint planes are settled where a part is moved by more than this to sit on its parent, mm.
 const SETTLED_MM: f64 = 1.0;
+/// By more than this where the other half of a ring stays: what is moved comes into it.
+const SETTLED_RING_MM: f64 = 0.1;
 
 /// What attempts at a model have in common.
 #[derive(Clone, Copy)]
@@ -276,14 +279,25 @@ impl Run<'_> {
     /// not moved; `None` where that is not better. The legs of a human were turned by 4° to sit on the
     /// level bottom of the body, and met at the feet.
     fn settled(&self, from: &Attempt) -> Result<Option<Attempt>, ModelError> {
-        if from.seats.iter().all(|seat| seat.1 <= SETTLED_MM) {
+        let bound = with_images(&from.links, self.assembly.symmetry);
+        let rings = &bound[from.links.len()..];
+        let symmetry = self.assembly.symmetry;
+        let limits_mm = from.links.iter().map(|link| {
+            let image = symmetry.map(|symmetry| [link.parent, link.child].map(|part| symmetry.twin(part)));
+            let is_in_ring =
+                image.is_some_and(|ends| rings.iter().any(|ring| [ring.parent, ring.child] == ends));
+            if is_in_ring { SETTLED_RING_MM } else { SETTLED_MM }
+        });
+        let limits_mm: Vec<f64> = limits_mm.collect();
+        let is_settled = |k: usize| from.seats[k].1 <= limits_mm[k];
+        if (0..limits_mm.len()).all(is_settled) {
             return Ok(None);
         }
         let mut links = from.links.clone();
-        for (k, (seat, moved_mm)) in from.seats.iter().enumerate() {
-            match self.assembly.symmetry.and_then(|symmetry| image_of(&links[k], &links[..k], symmetry)) {
+        for (k, (seat, _)) in from.seats.iter().enumerate() {
+            match symmetry.and_then(|symmetry| image_of(&links[k], &links[..k], symmetry)) {
                 Some(image) => links[k].plane = image,
-                None if *moved_mm > SETTLED_MM => links[k].plane = *seat,
+                None if !is_settled(k) => links[k].plane = *seat,
                 None => {}
             }
         }
@@ -329,7 +343,8 @@ impl Candidates {
         let mut links = assembly.links.to_vec();
         loop {
             let done = AtomicUsize::new(0);
-            let bonds = Bond::of_parts(parts, &links, symmetry);
+            let bound = with_images(&links, symmetry);
+            let bonds = Bond::of_parts(parts, &bound, symmetry);
             let make = |part: usize| {
                 progress.check()?;
                 if let Bond::ImageOf(_) = bonds[part] {
@@ -340,7 +355,7 @@ impl Candidates {
                     _ if trouble.bumping.contains(&part) => Search::Wide,
                     _ => Search::Promising,
                 };
-                let made = assembly.candidates(&links, (part, bonds[part]), search, known);
+                let made = assembly.candidates(&bound, (part, bonds[part]), search, known);
                 let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                 progress.fraction(count as f64 / parts.len() as f64);
                 made
