@@ -417,7 +417,8 @@ fn place(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::Hull;
+    use crate::component::PanelId;
+    use crate::geom::{Hull, Mirror};
     use crate::model::{Known, PartOptions, Unjudged};
     use crate::progress::Silent;
     use glam::{DQuat, DVec3};
@@ -474,6 +475,55 @@ mod tests {
         for part in model.parts() {
             let foot = DVec3::new(0.0, 0.0, -75.0);
             assert!(part.placement.transform_point3(foot).distance(foot) < SETTLED_MM, "{}", part.name);
+        }
+    }
+
+    /// A lintel on two posts, joined to the left one only, as a tree has it. It was no image of itself, and stood in the
+    /// right post.
+    #[test]
+    fn what_closes_a_ring_is_its_own_image() {
+        let mirror = Mirror::new(Plane::through(DVec3::ZERO, DVec3::X).unwrap());
+        let symmetry = Symmetry::new(mirror, vec![0, 2, 1, 3]).unwrap();
+        let cuboid = |name: &str, low: DVec3, size: DVec3| part(name, low, size, DQuat::IDENTITY);
+        let post = |name: &str, x_mm: f64| {
+            cuboid(name, DVec3::new(x_mm - 10.0, -10.0, 0.0), DVec3::new(20.0, 20.0, 80.0))
+        };
+        let across = |name: &str, z_mm: f64| {
+            cuboid(name, DVec3::new(-75.0, -14.0, z_mm), DVec3::new(150.0, 28.0, 30.0))
+        };
+        let parts = [across("base", -25.0), post("left", -40.0), post("right", 40.0), across("lintel", 70.0)];
+        let link =
+            |parent: usize, child: usize, z_mm: f64| Link { parent, child, plane: Plane::horizontal(z_mm) };
+        let links = [link(0, 1, 4.0), link(0, 2, 4.0), link(1, 3, 76.0)];
+        let bound = with_images(&links, Some(&symmetry));
+        let ends: Vec<(usize, usize)> = bound.iter().map(|link| (link.parent, link.child)).collect();
+        assert_eq!(ends, [(0, 1), (0, 2), (1, 3), (2, 3)]);
+        assert_eq!(with_images(&bound, Some(&symmetry)), bound, "all have an image");
+        assert_ne!(Bond::of_parts(&parts, &links, Some(&symmetry))[3], Bond::Across);
+        assert_eq!(
+            Bond::of_parts(&parts, &bound, Some(&symmetry)),
+            [Bond::Across, Bond::HasImage, Bond::ImageOf(1), Bond::Across]
+        );
+        let assembly = Assembly {
+            parts: &parts,
+            links: &links,
+            symmetry: Some(&symmetry),
+            min_panel_mm: 3.0,
+            views: None,
+        };
+        let model = build(&assembly, &Known::default(), &Unjudged, &Silent).unwrap().model;
+        assert_eq!(model.parts()[3].joint.as_ref().map(|joint| joint.parent), Some(1));
+        let corners = |part: usize| -> Vec<DVec3> {
+            let panels = model.parts()[part].component.panels().panels().len();
+            (0..panels).flat_map(|panel| model.deployed_outline(part, PanelId(panel))).collect()
+        };
+        for part in 0..4 {
+            let twins = corners(symmetry.twin(part));
+            for corner in corners(part) {
+                let image = mirror.point(corner);
+                let off_mm = twins.iter().map(|twin| twin.distance(image)).fold(f64::INFINITY, f64::min);
+                assert!(off_mm < 2.0 * SETTLED_RING_MM, "{part}: {off_mm}");
+            }
         }
     }
 }
