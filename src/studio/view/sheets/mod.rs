@@ -203,7 +203,14 @@ impl SheetsPanel {
             let sheets = layout.sheet_count();
             let name = layout.options().paper.name();
             let (sheets, name) = (counted(sheets, "sheet"), look::capital(&name));
-            ui.label(format!("{sheets} of {name}, {:.0} % used", 100.0 * layout.utilisation()));
+            // Those of the model before stay until the new ones are laid out.
+            if studio.laid().is_none() {
+                ui.label(format!("{sheets} of {name}"));
+                ui.spinner();
+                ui.weak("laying out …");
+            } else {
+                ui.label(format!("{sheets} of {name}, {:.0} % used", 100.0 * layout.utilisation()));
+            }
             if let Some(most) = studio.exceeded_sheets() {
                 let text = format!("{}  Fit to {most}", look::icon(Icon::Shrink));
                 let can = studio.busy().is_none();
@@ -213,10 +220,6 @@ impl SheetsPanel {
                 if button.on_hover_text(commands::FIT_SHEETS.tip).clicked() {
                     studio.fit_sheets();
                 }
-            }
-            if studio.laid().is_none() {
-                ui.spinner();
-                ui.weak("of the previous model");
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 let tip = commands::FIT.hover_text(ui.ctx());
