@@ -68,13 +68,16 @@ impl Bond {
 /// both, parts are their own images or each other's, and meet as well where they are not joined: the back of a chair,
 /// joined to one stile, was crooked and stood 2 mm in the other.
 pub(super) fn with_images(links: &[Link], symmetry: Option<&Symmetry>) -> Vec<Link> {
-    let Some(symmetry) = symmetry else { return links.to_vec() };
-    let image = |link: &Link| {
-        let [parent, child] = [link.parent, link.child].map(|part| symmetry.twin(part));
-        let is_joint = others(links, parent).any(|other| other == child);
-        (!is_joint).then(|| Link { parent, child, plane: symmetry.mirror().image(&link.plane) })
-    };
-    links.iter().cloned().chain(links.iter().filter_map(image)).collect()
+    let images = links.iter().filter_map(|link| lone_image(link, links, symmetry));
+    links.iter().cloned().chain(images).collect()
+}
+
+/// The image of a joint, where it is none.
+pub(super) fn lone_image(link: &Link, links: &[Link], symmetry: Option<&Symmetry>) -> Option<Link> {
+    let symmetry = symmetry?;
+    let [parent, child] = [link.parent, link.child].map(|part| symmetry.twin(part));
+    let is_joint = others(links, parent).any(|other| other == child);
+    (!is_joint).then(|| Link { parent, child, plane: symmetry.mirror().image(&link.plane) })
 }
 
 /// The mirror plane across the first that a part should be its own image in: where its joints are.

@@ -1,6 +1,6 @@
 //! Parts into a model: candidates for each, one combination of them, and everything in its place.
 
-use super::bond::{Bond, crossing, with_images};
+use super::bond::{Bond, crossing, lone_image, with_images};
 use super::candidate::{Builder, Made, Search};
 use super::choice::{Best, Choice, Combination, Effort, Trouble};
 use super::harms::{Bump, Enough};
@@ -279,18 +279,12 @@ impl Run<'_> {
     /// not moved; `None` where that is not better. The legs of a human were turned by 4° to sit on the
     /// level bottom of the body, and met at the feet.
     fn settled(&self, from: &Attempt) -> Result<Option<Attempt>, ModelError> {
-        let bound = with_images(&from.links, self.assembly.symmetry);
-        let rings = &bound[from.links.len()..];
         let symmetry = self.assembly.symmetry;
-        let limits_mm = from.links.iter().map(|link| {
-            let image = symmetry.map(|symmetry| [link.parent, link.child].map(|part| symmetry.twin(part)));
-            let is_in_ring =
-                image.is_some_and(|ends| rings.iter().any(|ring| [ring.parent, ring.child] == ends));
-            if is_in_ring { SETTLED_RING_MM } else { SETTLED_MM }
-        });
-        let limits_mm: Vec<f64> = limits_mm.collect();
-        let is_settled = |k: usize| from.seats[k].1 <= limits_mm[k];
-        if (0..limits_mm.len()).all(is_settled) {
+        let is_settled = |k: usize| {
+            let is_in_ring = lone_image(&from.links[k], &from.links, symmetry).is_some();
+            from.seats[k].1 <= if is_in_ring { SETTLED_RING_MM } else { SETTLED_MM }
+        };
+        if (0..from.seats.len()).all(is_settled) {
             return Ok(None);
         }
         let mut links = from.links.clone();
