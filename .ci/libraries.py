@@ -31,7 +31,7 @@ def libraries():
         package, licence = line.rsplit("|", 1)
         name, version = package.split()[:2]
         if not name.startswith("tatamu"):
-            found.add((name, version.removeprefix("v"), licence.replace("/", " OR ") if " OR " not in licence else licence))
+            found.add((name, version.removeprefix("v"), " OR ".join(term.strip() for term in licence.split("/"))))
     return sorted(found)
 
 

@@ -32,7 +32,7 @@ impl Made {
             counted(pieces, "piece"),
             counted(sheets, "sheet")
         );
-        let cards = product::card_note(result, "of any colour")
+        let cards = product::card_note(result, product::ANY_COLOUR)
             .map(|cards| format!(" ({cards})"))
             .unwrap_or_default();
         let mesh = mesh.map(|path| format!("mesh        {}", path.display()));

@@ -7,7 +7,7 @@ use std::path::{Component, Path, PathBuf};
 /// A page of the book.
 pub struct Page {
     /// Its file in the book's folder.
-    path: &'static str,
+    pub path: &'static str,
     /// What the command is called that opens it.
     pub command: &'static str,
     title: &'static str,
@@ -23,13 +23,6 @@ macro_rules! page {
             text: include_str!(concat!("../../docs/", $path)),
         }
     };
-}
-
-impl Page {
-    /// Its file in the book's folder.
-    pub fn path(&self) -> &'static str {
-        self.path
-    }
 }
 
 /// All pages, the contents first.

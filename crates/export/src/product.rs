@@ -269,6 +269,9 @@ pub fn motion_words(motion: &Motion, name: &str) -> String {
     }
 }
 
+/// What [`card_note`] says in English of sheets for which no colour is chosen.
+pub const ANY_COLOUR: &str = "of any colour";
+
 /// How many sheets of each colour of card there are, such as `1 brown, 3 white, 2 of any colour`; none where
 /// no colour is chosen. `no_colour` stands for sheets without one.
 pub fn card_note(output: &Output, no_colour: &str) -> Option<String> {

@@ -54,8 +54,8 @@ const SHARES_OF_SWEEP: usize = 4;
 /// Most parts of which all states are tried, to see whether a clash can be avoided.
 const MOST_BETWEEN: usize = 4;
 
-/// A clash that is deeper than it must be by no more than this is not avoided, mm.
-const ALIKE_MM: f64 = 0.01;
+/// What is less deep by no more than this is no better, mm.
+pub(super) const LEAST_GAIN_MM: f64 = 0.01;
 
 /// Depths are rounded to this, so that a slightly rotated model gets the same.
 const DEPTH_GRID_MM: f64 = 1e-6;
@@ -154,7 +154,7 @@ impl<'a> Checker<'a> {
             let pair = self.watched[step.part].iter().find(|pair| pair.parts == clash.parts);
             let accepted_mm = self.accepted_mm.get(&(step.part, clash.parts));
             pair.is_none_or(|pair| pair.overlap_mm.is_none())
-                && accepted_mm.is_none_or(|mm| clash.depth_mm > mm + ALIKE_MM)
+                && accepted_mm.is_none_or(|mm| clash.depth_mm > mm + LEAST_GAIN_MM)
         });
         clashes
     }
@@ -204,9 +204,10 @@ impl<'a> Checker<'a> {
             }
             Some(self::clash(Move::whole(mover), parts, self.known.get(&question)?)?.depth_mm)
         };
-        let depths_mm: Option<Vec<f64>> = (0..1_usize << free.len()).map(depth_mm).collect();
-        if let Some(depths_mm) = depths_mm {
-            self.accepted_mm.insert((mover, parts), depths_mm.into_iter().fold(f64::INFINITY, f64::min));
+        let least_mm =
+            (0..1_usize << free.len()).map(depth_mm).try_fold(f64::INFINITY, |a, b| Some(a.min(b?)));
+        if let Some(least_mm) = least_mm {
+            self.accepted_mm.insert((mover, parts), least_mm);
         }
     }
 

@@ -6,7 +6,7 @@
 //! it the cheapest path is found exactly (Dijkstra 1959). What does not help is not taken, so that a
 //! plan only gets better; bumps are looked at one after another, the deepest first.
 
-use super::check::{Checker, Clash};
+use super::check::{Checker, Clash, LEAST_GAIN_MM};
 use super::order::replay;
 use super::step::{FLAT, Level, Move};
 use crate::progress::{Cancelled, Progress};
@@ -26,8 +26,6 @@ const MOST_SWEEPS: usize = 120;
 /// A plan is changed for another one that does less harm by more than this for each step that it has
 /// more, or for one without bumps: ten steps that still bump by 4 instead of 6 mm help nobody.
 const GAIN_FOR_STEP_MM: f64 = 0.3;
-/// And by more than this in all.
-const LEAST_GAIN_MM: f64 = 0.01;
 /// What gets less deep than the paper is thick counts by this share of its depth.
 const RUB_PRICE: f64 = 0.1;
 

@@ -8,9 +8,9 @@ use std::fmt;
 use std::hash::Hash;
 use std::sync::Arc;
 
-/// Tables that are kept, of 60 kB each.
+/// Tables that are kept, of 60 kB each, and answers, of up to 1 kB. A hand of nine parts needs 38 and
+/// 14,059 of them. An octopus of 18 parts fills both: it takes 126 MB instead of 272, and 39 s instead of 37.
 const TABLES: usize = 600;
-/// Answers that are kept, of up to 1 kB each.
 const ANSWERS: usize = 100_000;
 
 /// Contact of a pair between one level and the next.

@@ -1,7 +1,7 @@
 //! The order in which components fold, one at a time: outer ones first where that works, else any
 //! order in which nothing bumps into anything, found by a search that turns back at dead ends.
 
-use super::check::{Checker, Clash};
+use super::check::{Checker, Clash, LEAST_GAIN_MM};
 use super::pose::{ModelMotion, ancestors, root_of};
 use super::step::{FLAT, Level, Move};
 use crate::model::Model;
@@ -9,16 +9,13 @@ use crate::progress::{Cancelled, Progress};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Computed motions for each component of a model after which the search gives up.
+/// Computed motions for each component of a model after which a quick search gives up.
 const SWEEPS_FOR_EACH: usize = 1;
 /// States of the model after which it gives up.
 const MOST_STATES: usize = 20_000;
-/// If no order is free of clashes, components are compared at every step until this many motions are
-/// computed for each, and at least this many in all; the rest follows as listed.
-const COMPARED_FOR_EACH: usize = 3;
-const COMPARED: usize = 150;
-/// Another order replaces the current one if it does less harm by more than this.
-const LEAST_GAIN_MM: f64 = 0.01;
+/// A thorough search gives up after this many for each, and at least this many in all.
+const THOROUGH_FOR_EACH: usize = 3;
+const THOROUGH: usize = 150;
 
 /// Sorts components, which come in the order of their numbers, so that children come before those that
 /// carry them.
@@ -83,8 +80,7 @@ impl<'s, 'a> Search<'s, 'a> {
 
     /// An order in which nothing gets deeper than this into anything else.
     fn without_clashes(&mut self, parts: &[usize], allowed_mm: f64) -> Result<Option<Vec<usize>>, Cancelled> {
-        let most = if self.is_thorough { self.compared(parts) } else { SWEEPS_FOR_EACH * parts.len() };
-        self.most_sweeps = self.checker.sweeps() + most;
+        self.most_sweeps = self.affordable_sweeps(parts);
         self.dead_ends.clear();
         let (mut order, mut levels) = (Vec::new(), self.deployed());
         let is_found = self.extend(parts, allowed_mm, &mut order, &mut levels)?;
@@ -95,8 +91,11 @@ impl<'s, 'a> Search<'s, 'a> {
         vec![0; self.motion.model().parts().len()]
     }
 
-    fn compared(&self, parts: &[usize]) -> usize {
-        COMPARED.max(COMPARED_FOR_EACH * parts.len())
+    /// The number of computed motions at which a search among these parts gives up.
+    fn affordable_sweeps(&self, parts: &[usize]) -> usize {
+        let (each, least) =
+            if self.is_thorough { (THOROUGH_FOR_EACH, THOROUGH) } else { (SWEEPS_FOR_EACH, 0) };
+        self.checker.sweeps() + least.max(each * parts.len())
     }
 
     /// An order that does little harm where all do some.
@@ -206,8 +205,7 @@ impl<'s, 'a> Search<'s, 'a> {
     fn least_bad(&mut self, parts: &[usize]) -> Result<Vec<usize>, Cancelled> {
         let mut levels = self.deployed();
         let mut order = Vec::new();
-        let compared = if self.is_thorough { self.compared(parts) } else { parts.len() };
-        let most_sweeps = self.checker.sweeps() + compared;
+        let most_sweeps = self.affordable_sweeps(parts);
         while order.len() < parts.len() {
             if self.checker.sweeps() > most_sweeps {
                 order.extend(parts.iter().filter(|&&p| levels[p] == 0));
@@ -238,29 +236,20 @@ mod tests {
     use super::super::memory::SweepMemory;
     use super::super::sweep::Care;
     use super::*;
-    use crate::geom::{Hull, Plane};
-    use crate::model::{Assembly, Known, Link, Part, PartOptions, Unjudged, build};
+    use crate::geom::Plane;
+    use crate::model::{Assembly, Known, Link, Part, Unjudged, build, part};
     use crate::progress::Silent;
     use fastrand::Rng;
-    use glam::DVec3;
+    use glam::{DQuat, DVec3};
 
     /// Thick enough that some only rub.
     const THICKNESS_MM: f64 = 4.0;
 
+    /// A box that folds along the first of its directions.
     fn cuboid(k: usize, low: DVec3, size: DVec3) -> Part {
-        let corner =
-            |k: u32| low + size * DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2));
-        let corners: Vec<DVec3> = (0..8).map(corner).collect();
-        let options = PartOptions {
-            name: format!("part {k}"),
-            direction_rad: Some(0.0),
-            top_edges: 4,
-            profile_vertices: 3,
-            tolerance_mm: None,
-            panel_worth: 0.0015,
-            comfortable_mm: 3.0,
-        };
-        Part { hull: Hull::of_points(&corners).unwrap(), filling: None, borders: Vec::new(), options }
+        let mut part = part(&format!("part {k}"), low, size, DQuat::IDENTITY);
+        part.options.direction_rad = Some(0.0);
+        part
     }
 
     /// Two towers of two boxes on a plate, so near to each other that it matters which box folds first.

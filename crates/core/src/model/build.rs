@@ -409,7 +409,7 @@ fn place(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::component::PanelId;
     use crate::geom::{Hull, Mirror};
@@ -417,7 +417,7 @@ mod tests {
     use crate::progress::Silent;
     use glam::{DQuat, DVec3};
 
-    fn part(name: &str, low: DVec3, size: DVec3, turn: DQuat) -> Part {
+    pub(crate) fn part(name: &str, low: DVec3, size: DVec3, turn: DQuat) -> Part {
         let corner =
             |k: u32| low + size * DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2));
         let corners: Vec<DVec3> = (0..8).map(|k| turn * corner(k)).collect();

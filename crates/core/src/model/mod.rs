@@ -19,6 +19,8 @@ mod seen;
 mod sturdy;
 mod symmetry;
 
+#[cfg(test)]
+pub(crate) use build::tests::part;
 pub use build::{Assembly, Built, Judge, Run, Sketch, Unjudged, Verdict, alone, build};
 pub use harms::{Bump, Enough};
 pub use joined::{JoinedPart, Seam};

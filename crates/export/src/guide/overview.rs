@@ -5,7 +5,7 @@ use super::content::capital;
 use super::estimate::Estimate;
 use super::picture::{self, PictureError};
 use super::steps::outwards;
-use crate::product::{Product, card_note, order_notes, size_note};
+use crate::product::{ANY_COLOUR, Product, card_note, order_notes, size_note};
 use crate::show::{ViewAngle, components_scene, upright};
 use glam::{DAffine2, DVec2, DVec3};
 use tatamu_core::component::PanelId;
@@ -54,7 +54,7 @@ pub fn overview(product: &Product<'_>) -> Result<Drawing, PictureError> {
         1 => "1 sheet".to_owned(),
         count => format!("{count} sheets"),
     };
-    let cards = card_note(output, "of any colour").map(|cards| format!(": {cards}")).unwrap_or_default();
+    let cards = card_note(output, ANY_COLOUR).map(|cards| format!(": {cards}")).unwrap_or_default();
     let paper = capital(&layout.options().paper.name());
     let note = format!("{} · {sheets} of {paper}{cards}", size_note(output));
     page.write(&note, TEXT_MM, SOFT);

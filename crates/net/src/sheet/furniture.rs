@@ -394,7 +394,6 @@ mod tests {
         }
     }
 
-    /// With valleys, whose plugs have feet, A4 said "mountain" and "valley", which a beginner does not know.
     /// The sample of a tab without a fill was a blank beside its word.
     #[test]
     fn a_tab_without_a_fill_is_not_in_the_legend() {
@@ -406,6 +405,7 @@ mod tests {
         assert!(words(&styles) && !words(&styles.with_plain(Layer::Tab)));
     }
 
+    /// With valleys, whose plugs have feet, A4 said "mountain" and "valley", which a beginner does not know.
     #[test]
     fn seven_kinds_of_lines_have_full_words_on_a4() {
         let legend = [

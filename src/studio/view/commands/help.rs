@@ -82,6 +82,6 @@ pub(super) static BOOK: [Command; PAGES.len()] =
 
 /// The page of the book that names the libraries.
 pub fn libraries() -> &'static Command {
-    let page = PAGES.iter().position(|page| page.path() == "reference/libraries.md");
+    let page = PAGES.iter().position(|page| page.path == "reference/libraries.md");
     &BOOK[page.expect("a test compares the pages with the files")]
 }
