@@ -163,6 +163,39 @@ fn alternatives_refuse_a_panel_that_is_too_large() {
     assert_eq!(refused, net_of(&set, A4).err());
 }
 
+/// The property above drew this prism: a strip fitted the sheet as it lay in the search, and not as it lay in its piece,
+/// because some angles only were tried.
+#[test]
+fn a_strip_that_fits_in_the_search_fits_as_a_piece() {
+    let wall = |points: [(f64, f64); 3]| points.map(DVec2::from).to_vec();
+    let prism = Prism {
+        normals_rad: vec![0.3761551849192716, 1.7059663621017278, 3.7887129499069343],
+        profiles: vec![
+            wall([
+                (37.146206280500394, 82.07916087302745),
+                (37.27480251353159, 8.207916087302745),
+                (37.08336261901613, 0.0),
+            ]),
+            wall([
+                (31.35958340229646, 82.07916087302745),
+                (31.468146959622096, 8.207916087302745),
+                (31.30652950417454, 0.0),
+            ]),
+            wall([
+                (26.05067891544202, 82.07916087302745),
+                (26.304288300205616, 23.47981314966903),
+                (26.006606580441378, 0.0),
+            ]),
+        ],
+    };
+    let set = prism.panel_set();
+    let nets = alternatives_of(&set, A4).expect("nets");
+    assert!(!nets.is_empty());
+    for net in &nets {
+        assert_good(&set, net.finished(), A4);
+    }
+}
+
 #[test]
 fn a_box_is_one_piece_with_three_tabs() {
     let set = Prism::cuboid(50.0, 40.0, 30.0).panel_set();

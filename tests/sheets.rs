@@ -12,7 +12,7 @@ use tatamu::net::{
     BlankNet, LabelKind, LabelPlace, Naming, Net, NetOptions, Side, alternatives, check::faults,
 };
 use tatamu::progress::Silent;
-use tatamu::sheet::fit::Rotation;
+use tatamu::sheet::Rotation;
 use tatamu::sheet::{Calibration, Imprint, Layout, PiecePlace, Pin, Registration, SheetOptions, Unheeded};
 use tatamu::units::parse_paper;
 

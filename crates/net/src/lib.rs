@@ -23,5 +23,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod fit;
 pub mod net;
 pub mod sheet;

@@ -1,5 +1,6 @@
 //! Laying panels out flat: across hinges, into pieces, and on a sheet of given size.
 
+use crate::fit::{self, Rotation};
 use glam::{DAffine2, DMat2, DVec2};
 use std::f64::consts::PI;
 use tatamu_core::component::{HingeId, HingeSide, PanelId, PanelSet};
@@ -142,7 +143,13 @@ pub(crate) fn best_turn(points: &[DVec2], sheet_mm: DVec2) -> BestTurn {
             best = turn;
         }
     }
-    best
+    if best.fits() {
+        return best;
+    }
+    // Whether a piece fits must not depend on how it lies beforehand, as the even steps do.
+    let exact = fit::best_fit(&hull, sheet_mm.x, sheet_mm.y, Rotation::Free);
+    let turn = measured(&hull, DVec2::from_angle(exact.angle_rad), sheet_mm);
+    if turn.beats(&best) { turn } else { best }
 }
 
 /// How points lie on a sheet after one rotation.
@@ -184,6 +191,22 @@ mod tests {
         let best = best_turn(&rectangle(300.0, 10.0, 0.0), DVec2::new(190.0, 277.0));
         assert!(best.fits());
         assert!(best.size_mm.x <= 190.0 && best.size_mm.y <= 277.0);
+    }
+
+    /// A strip that fits the diagonal within 0.1° only: once it fitted where it was searched for, and not where its
+    /// piece was laid out.
+    #[test]
+    fn whether_a_strip_fits_does_not_depend_on_how_it_lies() {
+        let sheet_mm = DVec2::new(190.0, 277.0);
+        let strip = |share: f64| rectangle(320.0 * share, 12.0 * share, 0.0);
+        let most = fit::best_fit(&strip(1.0), sheet_mm.x, sheet_mm.y, Rotation::Free).scale;
+        for turn in (0..90).map(|k| DVec2::from_angle(f64::from(k) * 0.037)) {
+            let fits = |share: f64| {
+                let turned: Vec<DVec2> = strip(share * most).iter().map(|&p| turn.rotate(p)).collect();
+                best_turn(&turned, sheet_mm).fits()
+            };
+            assert!(fits(1.0 - 1e-6) && !fits(1.0 + 1e-6), "{turn}");
+        }
     }
 
     #[test]

@@ -2,7 +2,6 @@
 
 mod beside;
 mod calibration;
-pub mod fit;
 pub mod furniture;
 mod layout;
 pub mod nest;
@@ -11,6 +10,7 @@ mod pages;
 mod pin;
 mod place;
 
+pub use crate::fit::Rotation;
 pub use calibration::{Calibration, CalibrationError};
 pub use layout::{Layout, LayoutError};
 pub use options::{SheetChoices, SheetOptions};

@@ -24,7 +24,7 @@ mod tests;
 
 pub use check::{NestFault, check};
 
-use super::fit::{self, Rotation};
+use crate::fit::{self, Rotation};
 use glam::{DAffine2, DVec2};
 use item::Item;
 use occupancy::{Pose, Spot};

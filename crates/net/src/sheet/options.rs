@@ -2,9 +2,9 @@
 
 use super::Registration;
 use super::calibration::Calibration;
-use super::fit::Rotation;
 use super::furniture;
 use super::nest::{DEFAULT_EFFORT, DEFAULT_SPACING_MM, NestOptions};
+use crate::fit::Rotation;
 use crate::net::{LabelPlace, Side};
 use glam::DVec2;
 use tatamu_core::units::Paper;

@@ -3,7 +3,7 @@
 use super::occupancy::Pose;
 use super::raster::Grid;
 use super::{Rotation, Shape};
-use crate::sheet::fit;
+use crate::fit;
 use glam::DVec2;
 use std::f64::consts::FRAC_PI_2;
 use std::sync::OnceLock;
