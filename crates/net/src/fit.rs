@@ -49,12 +49,6 @@ pub fn best_fit(outline: &[DVec2], width_mm: f64, height_mm: f64, rotation: Rota
     })
 }
 
-/// An angle at which the polygon fits the sheet, if there is one.
-pub fn fits(outline: &[DVec2], width_mm: f64, height_mm: f64, rotation: Rotation) -> Option<f64> {
-    let fit = best_fit(outline, width_mm, height_mm, rotation);
-    (fit.scale >= 1.0 - ROUNDING).then_some(fit.angle_rad)
-}
-
 /// Whether an extent fits the sheet within rounding.
 pub(super) fn is_within(extent: DVec2, width_mm: f64, height_mm: f64) -> bool {
     let sheet = DVec2::new(width_mm, height_mm);
@@ -101,6 +95,12 @@ fn equal_share_angle(hull: &[DVec2], sheet: DVec2, middle: f64) -> f64 {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    /// An angle at which the polygon fits the sheet, if there is one.
+    fn fits(outline: &[DVec2], width_mm: f64, height_mm: f64, rotation: Rotation) -> Option<f64> {
+        let fit = best_fit(outline, width_mm, height_mm, rotation);
+        (fit.scale >= 1.0 - ROUNDING).then_some(fit.angle_rad)
+    }
 
     fn rectangle(width: f64, height: f64) -> Vec<DVec2> {
         [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)].map(DVec2::from).to_vec()
