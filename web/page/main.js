@@ -151,7 +151,9 @@ by('file').onchange = async event => {
   event.target.value = '';
 };
 for (const name of SAMPLES) {
-  const button = element('button', { textContent: name.replace(/\.\w+$/, '').replace('-', ' ') });
+  const stem = name.replace(/\.\w+$/, '');
+  const picture = element('img', { src: `samples/cards/${stem}.png`, alt: '', width: 90, height: 90 });
+  const button = element('button', {}, picture, stem.replace('-', ' '));
   button.onclick = async () => {
     files.set(name, new Uint8Array(await (await fetch(`samples/${name}`)).arrayBuffer()));
     open(name);

@@ -94,6 +94,8 @@ pub struct Window {
     title: String,
     memory: Memory,
     focus: FocusRing,
+    /// Pictures of the page before a file is open.
+    samples: welcome::Pictures,
 }
 
 impl Window {
@@ -117,6 +119,7 @@ impl Window {
             title: String::new(),
             memory: Memory::new(preferences),
             focus: FocusRing::default(),
+            samples: welcome::Pictures::default(),
             studio,
         }
     }
@@ -193,6 +196,7 @@ impl Window {
         if self.studio.document().is_none() {
             egui::CentralPanel::default().show(ui, |ui| welcome::show(self, ui));
         } else {
+            self.samples.clear();
             let panel = egui::Panel::left("parts").resizable(true).default_size(290.0).show(ui, |ui| {
                 egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     parts::show(&mut self.parts, &mut self.studio, &mut self.space, ui);

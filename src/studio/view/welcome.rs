@@ -1,7 +1,7 @@
 //! What is shown before a file is open: samples and recent files.
 
 use super::{Window, commands, look};
-use eframe::egui::{self, Align2, FontId, RichText, Ui};
+use eframe::egui::{self, Align2, FontId, RichText, TextureHandle, Ui};
 use lucide_icons::Icon;
 use std::path::PathBuf;
 
@@ -11,6 +11,8 @@ struct Sample {
     about: &'static str,
     file: &'static str,
     bytes: &'static [u8],
+    /// Its paper model, a PNG without a ground.
+    picture: &'static [u8],
 }
 
 const SAMPLES: [Sample; 4] = [
@@ -19,26 +21,56 @@ const SAMPLES: [Sample; 4] = [
         about: "ears, arms and legs",
         file: "teddy.obj",
         bytes: include_bytes!("../../../samples/teddy.obj"),
+        picture: include_bytes!("../../../samples/cards/teddy.png"),
     },
     Sample {
         title: "Rabbit",
         about: "long ears",
         file: "rabbit.obj",
         bytes: include_bytes!("../../../samples/rabbit.obj"),
+        picture: include_bytes!("../../../samples/cards/rabbit.png"),
     },
     Sample {
         title: "Teapot",
         about: "handle and spout",
         file: "teapot.obj",
         bytes: include_bytes!("../../../samples/teapot.obj"),
+        picture: include_bytes!("../../../samples/cards/teapot.png"),
     },
     Sample {
         title: "Gift box",
         about: "drawn in a project file",
         file: "gift-box.toml",
         bytes: include_bytes!("../../../samples/gift-box.toml"),
+        picture: include_bytes!("../../../samples/cards/gift-box.png"),
     },
 ];
+
+/// A card of a sample, its picture and its two lines.
+const CARD: egui::Vec2 = egui::vec2(160.0, 176.0);
+const PICTURE: egui::Vec2 = egui::Vec2::splat(110.0);
+
+/// The pictures of the samples, while they are to be seen.
+#[derive(Default)]
+pub struct Pictures(Option<[TextureHandle; SAMPLES.len()]>);
+
+impl Pictures {
+    fn of(&mut self, ctx: &egui::Context) -> &[TextureHandle; SAMPLES.len()] {
+        self.0.get_or_insert_with(|| SAMPLES.each_ref().map(|sample| texture(ctx, sample)))
+    }
+
+    /// Frees them.
+    pub fn clear(&mut self) {
+        self.0 = None;
+    }
+}
+
+fn texture(ctx: &egui::Context, sample: &Sample) -> TextureHandle {
+    let image = eframe::icon_data::from_png_bytes(sample.picture).map(|icon| {
+        egui::ColorImage::from_rgba_unmultiplied([icon.width as usize, icon.height as usize], &icon.rgba)
+    });
+    ctx.load_texture(sample.file, image.unwrap_or_default(), egui::TextureOptions::LINEAR)
+}
 
 /// Draws it.
 pub fn show(window: &mut Window, ui: &mut Ui) {
@@ -64,9 +96,15 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
         ui.add_space(26.0);
         ui.strong("Try a sample");
         ui.add_space(2.0);
-        let width = 4.0 * 160.0 + 3.0 * 8.0;
-        ui.allocate_ui(egui::vec2(width, 54.0), |ui| {
-            ui.horizontal(|ui| SAMPLES.iter().for_each(|sample| card(window, ui, sample)));
+        let count = SAMPLES.len() as f32;
+        let width = count * CARD.x + (count - 1.0) * ui.spacing().item_spacing.x;
+        let pictures = window.samples.of(ui.ctx()).clone();
+        ui.allocate_ui(egui::vec2(width, CARD.y), |ui| {
+            ui.horizontal(|ui| {
+                for (sample, picture) in SAMPLES.iter().zip(&pictures) {
+                    card(window, ui, sample, picture);
+                }
+            });
         });
         let files = window.studio.recent();
         if !files.is_empty() {
@@ -92,13 +130,20 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
     });
 }
 
-fn card(window: &mut Window, ui: &mut Ui, sample: &Sample) {
-    let button = ui.add(egui::Button::new("").min_size(egui::vec2(160.0, 50.0)));
+fn card(window: &mut Window, ui: &mut Ui, sample: &Sample, picture: &TextureHandle) {
+    let button = ui.add(egui::Button::new("").min_size(CARD));
     let visuals = ui.visuals();
-    for (line, above, colour) in
-        [(sample.title, 9.0, visuals.strong_text_color()), (sample.about, -9.0, visuals.weak_text_color())]
+    let size = picture.size_vec2();
+    let within = egui::Rect::from_center_size(
+        button.rect.center_top() + egui::vec2(0.0, 10.0 + 0.5 * PICTURE.y),
+        size * (PICTURE / size.max(egui::Vec2::splat(1.0))).min_elem(),
+    );
+    let whole = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+    ui.painter().image(picture.id(), within, whole, egui::Color32::WHITE);
+    for (line, below, colour) in
+        [(sample.title, 138.0, visuals.strong_text_color()), (sample.about, 157.0, visuals.weak_text_color())]
     {
-        let at = button.rect.center() - egui::vec2(0.0, above);
+        let at = button.rect.center_top() + egui::vec2(0.0, below);
         ui.painter().text(at, Align2::CENTER_CENTER, line, FontId::proportional(14.0), colour);
     }
     let name = format!("Sample: {}", sample.title);
