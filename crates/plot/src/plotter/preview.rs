@@ -26,9 +26,9 @@ const MARK_ARM_MM: f64 = 8.0;
 /// some, and the way of the tip as a thin black line.
 pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
     let field = Field::new(cutter, placement);
-    let mut picture = ground(job, cutter, placement);
+    let mut picture = above(STRIP_MM, job, cutter, placement);
     let size_mm = picture.size_mm;
-    let shift = shift(&field);
+    let shift = shift(&field, STRIP_MM);
     let at = |p: Point| placement.to_sheet(cutter.frame(), p) + shift;
     let runs = runs(job, cutter);
     let drawn: Vec<&Run> = runs.iter().filter(|run| run.is_down).collect();
@@ -66,9 +66,14 @@ pub fn preview(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
 
 /// What is under the [`strokes`] of a job: the sheet, the bed, the corners of marks, and travel.
 pub fn ground(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
+    above(0.0, job, cutter, placement)
+}
+
+/// The [`ground`] above a strip that is left free.
+fn above(strip_mm: f64, job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
     let field = Field::new(cutter, placement);
-    let size_mm = field.size_mm() + DVec2::new(2.0 * BORDER_MM, 2.0 * BORDER_MM + STRIP_MM);
-    let shift = shift(&field);
+    let size_mm = field.size_mm() + DVec2::new(2.0 * BORDER_MM, 2.0 * BORDER_MM + strip_mm);
+    let shift = shift(&field, strip_mm);
     let at = |p: Point| placement.to_sheet(cutter.frame(), p) + shift;
     let mut picture = Drawing::new("preview", size_mm);
     picture.ground = Some(Rgb::WHITE);
@@ -80,9 +85,9 @@ pub fn ground(job: &Job, cutter: &Cutter, placement: &Placement) -> Drawing {
     picture
 }
 
-/// The strokes of a job, in their order, where [`preview`] draws them, mm.
+/// The strokes of a job, in their order, on its [`ground`], mm.
 pub fn strokes(job: &Job, cutter: &Cutter, placement: &Placement) -> Vec<Vec<DVec2>> {
-    let shift = shift(&Field::new(cutter, placement));
+    let shift = shift(&Field::new(cutter, placement), 0.0);
     let at = |&p: &Point| placement.to_sheet(cutter.frame(), p) + shift;
     let drawn = runs(job, cutter).into_iter().filter(|run| run.is_down);
     drawn.map(|run| run.points.iter().map(at).collect()).collect()
@@ -97,9 +102,9 @@ fn marks([low, high]: [DVec2; 2], shift: DVec2) -> impl Iterator<Item = Mark> {
     })
 }
 
-/// Where the sheet's corner is in the picture, mm.
-fn shift(field: &Field) -> DVec2 {
-    DVec2::new(BORDER_MM, BORDER_MM + STRIP_MM) - field.low()
+/// Where the sheet's corner is in a picture above a strip, mm.
+fn shift(field: &Field, strip_mm: f64) -> DVec2 {
+    DVec2::new(BORDER_MM, BORDER_MM + strip_mm) - field.low()
 }
 
 /// A run of motions with the pen up or down.
