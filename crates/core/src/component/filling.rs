@@ -53,6 +53,7 @@ impl Filling {
     }
 
     /// The volume that a solid shares with what is solid here, mm³. `to_hull` leads from its axes to the hull's.
+    #[inline(never)]
     pub(super) fn shared_mm3(&self, solid: &Polytope, to_hull: &DAffine3) -> f64 {
         let planes = planes(solid, to_hull);
         let shared_mm3 = |grid: &Grid| {
@@ -67,6 +68,7 @@ impl Filling {
 
     /// What of each face of a solid is solid here, the mean of what it is with the face up to `step_mm` farther out and
     /// farther in.
+    #[inline(never)]
     pub(super) fn faces(&self, solid: &Polytope, to_hull: &DAffine3, step_mm: f64) -> Vec<Filled> {
         let mut faces = vec![Filled::default(); solid.face_count()];
         let planes = planes(solid, to_hull);
@@ -174,7 +176,7 @@ impl Grid {
     fn spans(&self, planes: &[(DVec3, f64)], mut each: impl FnMut(Span)) {
         // Each plane as the place where the first line of a row meets it, and how that changes with row and line.
         let [mut lower, mut upper] = [Vec::new(), Vec::new()];
-        for (k, &(normal, offset)) in planes.iter().enumerate() {
+        for (k, &(normal, offset)) in (0..).zip(planes) {
             let normal = self.axes.transpose() * normal;
             let slope = if normal.z.abs() < f64::EPSILON { f64::EPSILON } else { normal.z };
             let first = (offset - normal.truncate().dot(self.place(0))) / slope;
@@ -182,8 +184,9 @@ impl Grid {
             if slope < 0.0 { &mut lower } else { &mut upper }.push((k, first, change));
         }
         for row in 0..LINES {
-            let mut from = [(f64::NEG_INFINITY, 0); LINES];
-            let mut to = [(f64::INFINITY, 0); LINES];
+            // Faces are as wide as places, in WebAssembly too, so that both are moved at once.
+            let mut from = [(f64::NEG_INFINITY, 0_u64); LINES];
+            let mut to = [(f64::INFINITY, 0_u64); LINES];
             for &(k, first, change) in &lower {
                 let first = first + row as f64 * change.x;
                 for (line, from) in from.iter_mut().enumerate() {
@@ -199,7 +202,8 @@ impl Grid {
                 }
             }
             for (line, (from, to)) in from.into_iter().zip(to).enumerate().filter(|(_, (a, b))| a.0 < b.0) {
-                each(Span { line: row * LINES + line, ends: [from, to] });
+                let ends = [from, to].map(|(along, face)| (along, face as usize));
+                each(Span { line: row * LINES + line, ends });
             }
         }
     }

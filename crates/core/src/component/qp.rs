@@ -2,6 +2,9 @@
 //! and Idnani ("A numerically stable dual method for solving strictly convex quadratic programs",
 //! Mathematical Programming 27, 1983): it starts at the unconstrained minimum and adds violated
 //! rows one by one, so hundreds of rows of which few matter cost little.
+//!
+//! Here and in the files that fill a programme, what takes time is not inlined: browsers make slower code of one large
+//! function than of several small ones, a tenth of the time of a whole model.
 
 /// Minimise `cost · x + ½ xᵀ H x` subject to rows `a · x <= b`.
 #[derive(Debug, Clone)]
@@ -64,6 +67,7 @@ impl Programme {
 
     /// The minimiser; `None` where the curvature is not positive definite or no point keeps all
     /// rows.
+    #[inline(never)]
     pub(super) fn solve(&self) -> Option<Vec<f64>> {
         let mut basis = Basis::new(self.size, &self.curvature)?;
         let mut x = basis.unconstrained(&self.cost);
@@ -101,6 +105,7 @@ impl Programme {
 
     /// The row that is violated most and by how much, of those that have been violated since all
     /// were looked at; where none is left, of all.
+    #[inline(never)]
     fn most_violated(
         &self,
         x: &[f64],
@@ -150,6 +155,7 @@ struct Step {
 impl Basis {
     /// Factorises the curvature (Cholesky) and inverts the factor.
     /// Of `curvature` only the entries on and above the diagonal are read.
+    #[inline(never)]
     fn new(size: usize, curvature: &[f64]) -> Option<Self> {
         let n = size;
         // Row k of `upper` is column k of L: what has been found of it is taken from the rows below.
@@ -199,6 +205,7 @@ impl Basis {
         x
     }
 
+    #[inline(never)]
     fn step(&self, terms: &[(usize, f64)]) -> Step {
         let projected: Vec<f64> = (0..self.size)
             .map(|k| {
@@ -231,6 +238,7 @@ impl Basis {
 
     /// Makes a row active: the part of its normal outside of the active rows' span becomes one
     /// column, by Householder's reflection.
+    #[inline(never)]
     fn add(&mut self, row: usize, multiplier: f64, step: Step) {
         let q = self.active.len();
         let Step { mut projected, primal: mut mirror, slope, .. } = step;
@@ -256,6 +264,7 @@ impl Basis {
     }
 
     /// Lets go active row k and returns its index in the programme.
+    #[inline(never)]
     fn remove(&mut self, k: usize) -> usize {
         self.r.remove(k);
         self.multipliers.remove(k);

@@ -108,6 +108,7 @@ impl Model<'_> {
     }
 
     /// Distances of corners from the hull, and of the hull's corners from the solid.
+    #[inline(never)]
     fn error_rows(&mut self, step_mm: f64) {
         let lowest = self.at.error_mm - REACH * step_mm;
         let (at, task) = (self.at, self.task);
@@ -136,6 +137,7 @@ impl Model<'_> {
     /// The volume that the solid and what it should be do not share. The rate of each face is that of its
     /// area outside less that inside, the mean of what it is up to `step_mm` farther out and farther in;
     /// between the two it changes with the face's place.
+    #[inline(never)]
     fn likeness(&mut self, step_mm: f64) {
         let (shape, task) = (&self.at.shape, self.task);
         let out = task.aim.out / task.hull_mm2;
@@ -213,6 +215,7 @@ impl Model<'_> {
     }
 
     /// Panels stay wide and long enough, balance points in their places.
+    #[inline(never)]
     fn size_rows(&mut self, step_mm: f64) {
         let least = self.task.target.min_panel_mm * MARGIN;
         let at = self.at;

@@ -45,6 +45,7 @@ pub(super) fn miss_mm(shape: &Shape, target: &Target, joint: &JointTarget) -> f6
 }
 
 /// Rows that keep `miss` above what [`miss_mm`] will be, for what is nearer than `near_mm`.
+#[inline(never)]
 pub(super) fn rows(
     (shape, freedom): (&Shape, &Freedom),
     (target, joint): (&Target, &JointTarget),
