@@ -139,6 +139,17 @@ impl Hull {
         self.vertices[farthest(&self.vertices, direction)]
     }
 
+    /// The hull of the vertices farthest in `most` directions, where it has more vertices than that: of a ball's radius
+    /// less than 1 / `most` is lost.
+    #[must_use]
+    pub fn of_at_most(self, most: usize) -> Self {
+        if self.vertices.len() <= most {
+            return self;
+        }
+        let farthest: Vec<DVec3> = directions(most).map(|direction| self.farthest(direction)).collect();
+        Self::of_points(&farthest).unwrap_or(self)
+    }
+
     /// The hull after a rigid motion.
     pub fn moved(&self, motion: &glam::DAffine3) -> Self {
         let vertices = self.vertices.iter().map(|v| motion.transform_point3(*v)).collect();
@@ -313,7 +324,7 @@ fn collect_hull(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DQuat;
+    use glam::{DQuat, DVec2};
 
     pub(super) fn grid_cube(n: usize) -> Vec<DVec3> {
         let turn = DQuat::from_euler(glam::EulerRot::XYZ, 0.4, 0.7, -1.3);
@@ -338,6 +349,23 @@ mod tests {
         assert!(
             hull.facets().iter().all(|f| hull.facet_points(f).all(|p| f.plane().distance(p).abs() < 1e-8))
         );
+    }
+
+    /// What works with hulls takes the square of their vertices where rounding lifts them out of a plane, as the base of
+    /// this cone when it is turned: with 30,000 corners a minute, with 100,000 more than ten.
+    #[test]
+    fn a_cone_over_many_corners_keeps_its_shape_with_fewer() {
+        let turn = DQuat::from_euler(glam::EulerRot::XYZ, 0.4, 0.7, -1.3);
+        let on_circle =
+            |k: u32| DVec2::from_angle(f64::from(k) / 20_000.0 * std::f64::consts::TAU).extend(0.0);
+        let points: Vec<DVec3> = (0..20_000).map(on_circle).chain([DVec3::Z * 2.0]).collect();
+        let fine = Hull::of_points(&points).unwrap();
+        let coarse =
+            Hull::of_points(&points.iter().map(|&p| turn * p).collect::<Vec<_>>()).unwrap().of_at_most(1000);
+        assert!(fine.vertices().len() == 20_001 && coarse.vertices().len() <= 1000);
+        assert!((coarse.volume() / fine.volume() - 1.0).abs() < 1e-4, "{}", coarse.volume());
+        let cube = Hull::of_points(&grid_cube(2)).unwrap();
+        assert_eq!(cube.clone().of_at_most(8), cube);
     }
 
     #[test]

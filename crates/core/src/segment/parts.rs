@@ -8,6 +8,10 @@ use crate::mesh::{Mesh, MirrorPlane};
 use glam::DVec3;
 use rayon::prelude::*;
 
+/// Vertices of a hull at most. Hulls of scans have hundreds; those of a ball and a cone with 100,000 in all get coarser
+/// by 0.03 mm of a model of 200 mm.
+const MOST_VERTICES: usize = 4000;
+
 /// A mesh divided into parts with names.
 ///
 /// # Guarantees
@@ -119,7 +123,7 @@ impl Parts {
             corners.sort_unstable();
             corners.dedup();
             let points: Vec<DVec3> = corners.iter().map(|&v| self.mesh.positions()[v as usize]).collect();
-            Hull::of_points(&points)
+            Hull::of_points(&points).map(|hull| hull.of_at_most(MOST_VERTICES))
         };
         corners.into_par_iter().map(hull).collect()
     }
