@@ -7,6 +7,8 @@ use obvhs::cwbvh::CwBvh;
 use obvhs::cwbvh::bvh2_to_cwbvh::bvh2_to_cwbvh;
 use obvhs::ploc::PlocBuilder;
 use obvhs::ray::{Ray, RayHit};
+use obvhs::splits::split_aabbs_precise;
+use obvhs::triangle::Triangle;
 use obvhs::{Boundable, BvhBuildParams};
 use rayon::prelude::*;
 
@@ -18,6 +20,15 @@ const CONE_RAD: f64 = std::f64::consts::FRAC_PI_3;
 
 /// Distances farther from the median than this many median deviations are dropped.
 const OUTLIER_DEVIATIONS: f64 = 1.5;
+
+/// A box is large from half a surface of this over the number of faces, in the unit cube: that of a cube's diagonal where
+/// there are 1,000 faces or fewer, so that simple meshes are left as they are.
+const LARGE_BOX: f32 = 1000.0;
+/// A cut makes the surface of boxes so many times smaller, or is not made.
+const SPLIT_GAIN: f32 = 1.5;
+/// Cuts of one box within the other, and in how many equal pieces each is tried.
+const SPLIT_ROUNDS: u32 = 8;
+const SPLIT_PLACES: u32 = 2;
 
 /// Where a cone starts.
 #[derive(Debug, Clone, Copy)]
@@ -37,24 +48,37 @@ pub(super) struct Target {
     scale: f64,
 }
 
-struct Bounds(Aabb);
-
-impl Boundable for Bounds {
-    fn aabb(&self) -> Aabb {
-        self.0
+/// The boxes of faces in the unit cube, each with its face. Large boxes of slivers that lie aslant are cut: where
+/// 100,000 of them meet at a point, each ray would meet most of their boxes.
+fn boxes(triangles: &[[DVec3; 3]]) -> (Vec<Aabb>, Vec<u32>) {
+    let single = |t: &[DVec3; 3]| {
+        let [v0, v1, v2] = t.map(|p| p.as_vec3a());
+        Triangle { v0, v1, v2 }
+    };
+    let single: Vec<Triangle> = triangles.iter().map(single).collect();
+    let mut boxes: Vec<Aabb> = single.iter().map(Boundable::aabb).collect();
+    let mut faces: Vec<u32> = (0..triangles.len() as u32).collect();
+    let large = LARGE_BOX / triangles.len() as f32;
+    let (gain, rounds, places) = (SPLIT_GAIN, SPLIT_ROUNDS, SPLIT_PLACES);
+    split_aabbs_precise(&mut boxes, &mut faces, &single, large, large, gain, gain, rounds, places);
+    for aabb in &mut boxes {
+        aabb.min -= Vec3A::splat(1e-6);
+        aabb.max += Vec3A::splat(1e-6);
     }
+    (boxes, faces)
 }
 
-/// The steps of obvhs' `build_cwbvh` without its clock, which a browser does not have.
-fn hierarchy(bounds: &[Bounds]) -> CwBvh {
+/// The steps of obvhs' `build_cwbvh_from_tris` without its clock, which a browser does not have.
+fn hierarchy(boxes: &[Aabb], faces: Vec<u32>) -> CwBvh {
     let params = BvhBuildParams::very_fast_build();
-    let mut tree = PlocBuilder::with_capacity(bounds.len()).build(
+    let mut tree = PlocBuilder::with_capacity(boxes.len()).build(
         params.ploc_search_distance,
-        bounds,
-        (0..bounds.len() as u32).collect(),
+        boxes,
+        faces,
         params.sort_precision,
         params.search_depth_threshold,
     );
+    tree.uses_spatial_splits = true;
     ReinsertionOptimizer::default().run(&mut tree, params.reinsertion_batch_ratio, None);
     bvh2_to_cwbvh(&tree, params.max_prims_per_leaf.clamp(1, 3), true, false)
 }
@@ -73,16 +97,8 @@ impl Target {
         let (origin, scale) = ((lo + hi) / 2.0, 1.0 / size);
         let triangles: Vec<[DVec3; 3]> =
             faces.iter().map(|f| f.map(|v| (positions[v as usize] - origin) * scale)).collect();
-        let bounds: Vec<Bounds> = triangles
-            .iter()
-            .map(|t| {
-                let mut aabb = Aabb::from_points(&t.map(|p| p.as_vec3a()));
-                aabb.min -= Vec3A::splat(1e-6);
-                aabb.max += Vec3A::splat(1e-6);
-                Bounds(aabb)
-            })
-            .collect();
-        Some(Self { bvh: hierarchy(&bounds), triangles, origin, scale })
+        let (boxes, faces) = boxes(&triangles);
+        Some(Self { bvh: hierarchy(&boxes, faces), triangles, origin, scale })
     }
 
     /// Distance to the nearest face that the ray leaves the solid through.
@@ -187,6 +203,42 @@ mod tests {
             let probe = Probe { face: 0, origin: DVec3::new(-3.0, -5.0, 0.0), inward: DVec3::Z };
             let found = target.diameters(&[probe])[0].unwrap();
             assert!((found - 1.23337 * thickness).abs() < 1e-4 * thickness, "{found}");
+        }
+    }
+
+    /// Slivers from the tip of a cone to its base, whose boxes are cut: each ray meets the face that is nearest of all.
+    #[test]
+    fn slivers_of_a_cone_are_met_where_they_are() {
+        let count = 6000;
+        let on_circle = |k: u32| {
+            let (sin, cos) = libm::sincos(f64::from(k) / f64::from(count) * std::f64::consts::TAU);
+            DVec3::new(cos, sin, 0.0) * 50.0
+        };
+        let positions: Vec<DVec3> =
+            (0..count).map(on_circle).chain([DVec3::Z * 100.0, DVec3::ZERO]).collect();
+        let ring = |k: u32| [k, (k + 1) % count];
+        let sides = (0..count).map(ring).flat_map(|[a, b]| [[a, b, count], [b, a, count + 1]]);
+        let faces: Vec<[u32; 3]> = sides.collect();
+        let target = Target::new(&positions, &faces).unwrap();
+        let scaled = |f: &[u32; 3]| f.map(|v| (positions[v as usize] - target.origin) * target.scale);
+        let triangles: Vec<[DVec3; 3]> = faces.iter().map(scaled).collect();
+        let (boxes, _) = boxes(&triangles);
+        assert!(boxes.len() > 3 * count as usize, "{}", boxes.len());
+        for k in (0..count).step_by(411) {
+            let face = 2 * k;
+            let [a, b, c] = faces[face as usize].map(|v| positions[v as usize]);
+            let inward = (c - a).cross(b - a).normalize();
+            let probe = Probe { face, origin: (a + b + c) / 3.0, inward };
+            for direction in cone(inward) {
+                let start = (probe.origin - target.origin) * target.scale;
+                let others = (0..).zip(&triangles).filter(|(k, _)| *k != face);
+                let nearest = others.filter_map(|(_, t)| exit_distance(t, start, direction)).reduce(f64::min);
+                let (found, nearest) = (target.exit(&probe, direction), nearest.map(|t| t / target.scale));
+                assert!(
+                    found.zip(nearest).is_some_and(|(a, b)| (a - b).abs() < 1e-4),
+                    "{found:?} {nearest:?}"
+                );
+            }
         }
     }
 
