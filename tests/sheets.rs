@@ -12,8 +12,9 @@ use tatamu::net::{
     BlankNet, LabelKind, LabelPlace, Naming, Net, NetOptions, Side, alternatives, check::faults,
 };
 use tatamu::progress::Silent;
-use tatamu::sheet::Rotation;
-use tatamu::sheet::{Calibration, Imprint, Layout, PiecePlace, Pin, Registration, SheetOptions, Unheeded};
+use tatamu::sheet::{
+    Calibration, Imprint, Layout, PiecePlace, Pin, Registration, Rotation, SheetOptions, Unheeded,
+};
 use tatamu::units::parse_paper;
 
 /// Less common area is rounding.

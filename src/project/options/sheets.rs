@@ -3,8 +3,7 @@
 use super::settings::put;
 use super::{Count, Dial, Entry, Flag, Key, Kind, Number, Range, Switch, Text, Unit};
 use crate::net::{LabelPlace, Side};
-use crate::sheet::Rotation;
-use crate::sheet::{Calibration, Registration};
+use crate::sheet::{Calibration, Registration, Rotation};
 use crate::units::parse_paper;
 
 pub(super) const PAPERS: &[&Entry] = &[&PAPER, &MARGIN, &THICKNESS, &THICK];

@@ -76,6 +76,12 @@ const DARK: Tones = Tones {
     on_selection: grey(255),
 };
 
+/// Paints all of a picture into a rectangle.
+pub fn paint(painter: &egui::Painter, picture: &egui::TextureHandle, rect: egui::Rect) {
+    let whole = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
+    painter.image(picture.id(), rect, whole, Color32::WHITE);
+}
+
 /// Gives a window its look.
 pub fn set(ctx: &egui::Context) {
     // A second pass over a frame would do what the user did a second time.

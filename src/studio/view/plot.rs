@@ -13,7 +13,7 @@ use super::profile_choice::ProfileChoice;
 use super::strokes;
 use crate::app::plot::sheets::of_test_cut;
 use crate::app::plot::{ANY, hint, usb_cutters};
-use eframe::egui::{self, Color32, Rect, Sense, Ui};
+use eframe::egui::{self, Rect, Sense, Ui};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tatamu::export::PltOptions;
@@ -370,8 +370,7 @@ impl PlotPanel {
         let version = key.version * 1000 + self.shown as u64;
         let pixels_per_mm = f64::from(scale * ui.ctx().pixels_per_point());
         if let Some(texture) = self.picture.texture(ui.ctx(), drawing, version, pixels_per_mm) {
-            let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
-            ui.painter().image(texture.id(), rect, whole, Color32::WHITE);
+            look::paint(ui.painter(), texture, rect);
         }
         // What the machine has done stands out.
         let done = at.filter(|(name, _)| plan.sheets[self.shown].name() == name).map_or(0, |(_, done)| done);

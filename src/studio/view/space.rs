@@ -263,10 +263,7 @@ impl Space {
         self.refresh_picture(ui.ctx(), size_px, is_smooth, ground);
         let painter = ui.painter_at(rect);
         match &self.texture {
-            Some(texture) => {
-                let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
-                painter.image(texture.id(), rect, whole, Color32::WHITE);
-            }
+            Some(texture) => look::paint(&painter, texture, rect),
             None => drop(painter.rect_filled(rect, 0.0, look::of_rgb(ground))),
         }
         if is_coarse {

@@ -138,8 +138,7 @@ fn card(window: &mut Window, ui: &mut Ui, sample: &Sample, picture: &TextureHand
         button.rect.center_top() + egui::vec2(0.0, 10.0 + 0.5 * PICTURE.y),
         size * (PICTURE / size.max(egui::Vec2::splat(1.0))).min_elem(),
     );
-    let whole = egui::Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
-    ui.painter().image(picture.id(), within, whole, egui::Color32::WHITE);
+    look::paint(ui.painter(), picture, within);
     for (line, below, colour) in
         [(sample.title, 138.0, visuals.strong_text_color()), (sample.about, 157.0, visuals.weak_text_color())]
     {

@@ -140,7 +140,7 @@ impl Polytope {
         let (mut depth_mm, mut face) = (f64::NEG_INFINITY, 0);
         for (chunk, four) in self.fours.iter().enumerate() {
             let depths = four.depths_mm(point);
-            // `f64::max` minds what is no number, which takes twice the time.
+            // There is no NaN, for which `f64::max` would look.
             let larger = |a: f64, b: f64| if a > b { a } else { b };
             let deepest = larger(larger(depths[0], depths[1]), larger(depths[2], depths[3]));
             if deepest > depth_mm {

@@ -140,7 +140,7 @@ impl Hull {
     }
 
     /// The hull of the vertices farthest in `most` directions, where it has more vertices than that: of a ball's radius
-    /// less than 1 / `most` is lost.
+    /// less than 3 / `most` is lost.
     #[must_use]
     pub fn of_at_most(self, most: usize) -> Self {
         if self.vertices.len() <= most {

@@ -9,7 +9,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 /// Vertices of a hull at most. Hulls of scans have hundreds; those of a ball and a cone with 100,000 in all get coarser
-/// by 0.03 mm of a model of 200 mm.
+/// by 0.07 mm in a model of 200 mm.
 const MOST_VERTICES: usize = 4000;
 
 /// A mesh divided into parts with names.

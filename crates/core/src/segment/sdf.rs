@@ -21,8 +21,8 @@ const CONE_RAD: f64 = std::f64::consts::FRAC_PI_3;
 /// Distances farther from the median than this many median deviations are dropped.
 const OUTLIER_DEVIATIONS: f64 = 1.5;
 
-/// A box is large from half a surface of this over the number of faces, in the unit cube: that of a cube's diagonal where
-/// there are 1,000 faces or fewer, so that simple meshes are left as they are.
+/// A box is cut while half its surface is more than this over the number of faces. In the unit cube that half is 3 at
+/// most, so that meshes of up to 333 faces stay as they are; with 100,000 the limit is 0.01.
 const LARGE_BOX: f32 = 1000.0;
 /// A cut makes the surface of boxes so many times smaller, or is not made.
 const SPLIT_GAIN: f32 = 1.5;

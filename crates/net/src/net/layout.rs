@@ -6,8 +6,8 @@ use std::f64::consts::PI;
 use tatamu_core::component::{HingeId, HingeSide, PanelId, PanelSet};
 use tatamu_core::geom::polygon;
 
-/// Turns tried between those of the hull's edges, so that a slanted position is found within
-/// half a step: at worst 0.03% of the size is lost.
+/// Turns tried between those of the hull's edges, for a smaller box among those that fit: half a step from the best
+/// at worst, which is 0.03% of the size.
 const TURN_STEP_RAD: f64 = PI / 120.0;
 
 /// Excess that counts as fitting: below what any printer resolves, above the rounding.

@@ -356,9 +356,8 @@ fn is_under(hover: &Hover, output: &Output, id: PieceId) -> bool {
 
 /// Paints a page; a white one until its picture is made.
 fn paint(painter: &egui::Painter, page: Rect, texture: Option<&egui::TextureHandle>) {
-    let whole = Rect::from_min_max(egui::pos2(0.0, 0.0), egui::pos2(1.0, 1.0));
     match texture {
-        Some(texture) => drop(painter.image(texture.id(), page, whole, Color32::WHITE)),
+        Some(texture) => look::paint(painter, texture, page),
         None => drop(painter.rect_filled(page, 0.0, Color32::WHITE)),
     }
 }
