@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use tatamu::pipeline::{Options, Output};
 use tatamu::project::options::Settings;
 use tatamu::project::{Template, TemplateComponent, to_toml};
+use tatamu::segment::Edit;
 
 /// The components of a model, as a fresh project file has them.
 pub fn components(result: &Output, options: &Options) -> Vec<TemplateComponent> {
@@ -23,8 +24,13 @@ pub fn components(result: &Output, options: &Options) -> Vec<TemplateComponent> 
 }
 
 /// A fresh project file.
-pub fn project_text(mesh: &str, settings: &Settings, components: &[TemplateComponent]) -> String {
-    to_toml(&Template { mesh, settings, components })
+pub fn project_text(
+    mesh: &str,
+    settings: &Settings,
+    merges: &[Edit],
+    components: &[TemplateComponent],
+) -> String {
+    to_toml(&Template { mesh, settings, merges, components })
 }
 
 /// The name by which a project file finds its mesh: relative where the project file is in or

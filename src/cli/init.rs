@@ -72,7 +72,8 @@ pub fn run(args: &InitArgs) -> Result<(), AppError> {
     let (carded, result) = fitted(&input, choice.clone().of_any_sheets(), &progress)?;
     progress.finish();
     let components = components(&result, carded.options());
-    let text = project_text(&mesh_from(&path, &input.mesh_path)?, choice.settings(), &components);
+    let mesh = mesh_from(&path, &input.mesh_path)?;
+    let text = project_text(&mesh, choice.settings(), result.merges(), &components);
     output::write(&[(path.clone(), text.into_bytes())])?;
     if !args.quiet {
         let line = format!("wrote {}; edit it, then run: tatamu make {0}", path.display());

@@ -74,7 +74,7 @@ impl Opened {
         } else {
             let project = source.with_extension("toml");
             let name = project::mesh_from(&project, source).map_err(|error| error.to_string())?;
-            project::project_text(&name, fresh, &[])
+            project::project_text(&name, fresh, &[], &[])
         };
         Ok(Self {
             fetch,

@@ -51,7 +51,9 @@ impl Shown {
 
     /// A component that is made before all others. Until they are, it sits where the one before it does.
     pub fn show_component(&mut self, index: usize, component: ModelPart) {
-        let Some(old) = self.part(index).filter(|old| old.component != component.component) else { return };
+        // Where parts were made one, those of the mesh have other numbers.
+        let is_other = |old: &&ModelPart| old.name == component.name && old.component != component.component;
+        let Some(old) = self.part(index).filter(is_other) else { return };
         self.ahead = Some((index, ModelPart { placement: old.placement, ..component }));
         self.show_shape();
     }

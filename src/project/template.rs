@@ -4,6 +4,7 @@ use super::options::{
     CARD, CONCAVE, DIRECTION, Entry, JOINT, PARTS, PROFILE_VERTICES, RENAME, Settings, TOP_EDGES, of_table,
     quoted,
 };
+use crate::segment::Edit;
 
 /// What `init` writes into a fresh project file.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,6 +13,8 @@ pub struct Template<'a> {
     pub mesh: &'a str,
     /// What is chosen.
     pub settings: &'a Settings,
+    /// Parts that are made one; splits are not among them.
+    pub merges: &'a [Edit],
     /// The components.
     pub components: &'a [TemplateComponent],
 }
@@ -81,6 +84,7 @@ pub fn to_toml(template: &Template) -> String {
     }
     text += &table("segmentation", template, false);
     text += EDITS;
+    text += &template.merges.iter().filter_map(merge).collect::<String>();
     for name in ["defaults", "paper", "nets", "sheets"] {
         text += &table(name, template, true);
     }
@@ -90,6 +94,16 @@ pub fn to_toml(template: &Template) -> String {
         text += &comment(&format!("{}: {}", option.name(), option.short_comment()));
     }
     text + &template.components.iter().map(|own| component(own, template.settings)).collect::<String>()
+}
+
+/// The table of parts that are made one.
+fn merge(edit: &Edit) -> Option<String> {
+    let Edit::Merge { parts } = edit else { return None };
+    let names: Vec<String> = parts.iter().cloned().map(quoted).collect();
+    Some(format!(
+        "\n# Parts of their own would bump or hardly hold.\n[[edit]]\nmerge = [{}]\n",
+        names.join(", ")
+    ))
 }
 
 /// A table of options. Without `shows_defaults` those that nobody chose stand in comments.
@@ -176,7 +190,8 @@ mod tests {
             card: is_chosen.then(|| "dark \"red\"".to_owned()),
         };
         let components = [component("body", false), component("he\"ad", true)];
-        to_toml(&Template { mesh: "a \"b\"\\c.obj", settings, components: &components })
+        let merges = [Edit::Merge { parts: vec!["body".to_owned(), "\"top\"".to_owned()] }];
+        to_toml(&Template { mesh: "a \"b\"\\c.obj", settings, merges: &merges, components: &components })
     }
 
     #[test]
@@ -202,6 +217,9 @@ mod tests {
         let text = written(&chosen);
         let project = Project::parse(&text).unwrap();
         assert_eq!(project.mesh.as_deref(), Some("a \"b\"\\c.obj"));
+        let merged = ["body", "\"top\""].map(str::to_owned).to_vec();
+        assert_eq!(project.edits.len(), 1);
+        assert_eq!(project.edits[0].change(), &Edit::Merge { parts: merged });
         assert_eq!(project.components[1].name, "he\"ad");
         assert_eq!(project.components[0].direction_deg, None);
         assert_eq!(project.components[1].direction_deg, Some(12.3));
@@ -232,7 +250,7 @@ mod tests {
             let is_own = option.key.is_some_and(|key| key.table == "component");
             assert!(is_own || project.has(option), "{} is not read back", option.name());
         }
-        assert_eq!((project.edits.len(), project.pins.len()), (2, 1));
+        assert_eq!((project.edits.len(), project.pins.len()), (3, 1));
         assert_eq!(project.nets[0].hand().edges().count(), 2);
         let own = &project.components[0];
         assert_eq!((own.direction_deg, own.top_edges, own.concave), (Some(12.3), Some(6), Some(true)));

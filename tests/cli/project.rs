@@ -46,6 +46,68 @@ fn init_writes_a_project_that_make_honours() {
     }
 }
 
+/// A box with two rods on it that stand 0.3 mm apart: panels of the one leave those of the other no room, and it is glued
+/// over 39 mm².
+fn rods() -> String {
+    let boxes = [
+        [[0.0, 0.0, 0.0], [120.0, 60.0, 80.0]],
+        [[50.0, 60.0, 40.0], [53.0, 140.0, 43.0]],
+        [[53.3, 60.0, 40.0], [56.3, 140.0, 43.0]],
+    ];
+    let mut text = String::new();
+    for [low, high] in boxes {
+        for k in 0..8 {
+            let at = |axis: usize| if k >> axis & 1 == 0 { low[axis] } else { high[axis] };
+            text += &format!("v {} {} {}\n", at(0), at(1), at(2));
+        }
+    }
+    for k in 0..boxes.len() {
+        for face in [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]] {
+            let [a, b, c, d] = face.map(|corner| corner + 8 * k);
+            text += &format!("f {a} {b} {c} {d}\n");
+        }
+    }
+    text
+}
+
+#[test]
+fn parts_that_hardly_hold_apart_are_one_and_init_writes_so() {
+    let kept = "mesh = 'rods.obj'\n[[component]]\nname = 'top-2'\n";
+    let folder = folder_with(&[("rods.obj", rods().as_bytes()), ("kept.toml", kept.as_bytes())]);
+    let quick = ["--top-edges", "4", "--profile-vertices", "4"];
+    let make = |input: &str, output: &str| {
+        let result = run(folder.path(), &[&["make", input, "-o", output][..], &quick].concat());
+        assert_eq!(result.code, Some(0), "{}", result.err);
+        (result, report(&folder, output))
+    };
+    let names = |report: &serde_json::Value| -> Vec<String> {
+        let all = report["components"].as_array().unwrap();
+        all.iter().map(|component| component["name"].as_str().unwrap().to_owned()).collect()
+    };
+    let weak = |report: &serde_json::Value| {
+        report["warnings"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .filter(|warning| warning["code"] == "weak_joint")
+            .count()
+    };
+    let (told, one) = make("rods.obj", "one.json");
+    assert_eq!((names(&one), weak(&one)), (vec!["body".to_owned(), "top".to_owned()], 0));
+    assert!(told.out.contains("top and top-2 are one part"), "{}", told.out);
+
+    let result = run(folder.path(), &[&["init", "rods.obj"][..], &quick].concat());
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    let project = std::fs::read_to_string(folder.path().join("rods.toml")).unwrap();
+    assert!(project.contains("\nmerge = [\"top\", \"top-2\"]\n"), "{project}");
+    let (told, same) = make("rods.toml", "same.json");
+    assert!(!told.out.contains("are one part"), "nothing is left to be merged: {}", told.out);
+    assert_eq!(same["components"], one["components"]);
+
+    let (_, apart) = make("kept.toml", "apart.json");
+    assert_eq!((names(&apart).len(), weak(&apart)), (3, 1), "the user speaks of top-2");
+}
+
 #[test]
 fn init_keeps_an_existing_file() {
     let files: [(&str, &[u8]); 2] = [("cube.off", cube::OFF.as_bytes()), ("cube.toml", b"mine")];

@@ -103,6 +103,11 @@ impl Hulls {
         &self.solid.hulls
     }
 
+    /// The tree of joints between them.
+    pub(super) fn links(&self) -> &[Link] {
+        &self.links
+    }
+
     /// Which hulls are mirror images of each other, where the mesh has a mirror plane.
     pub fn symmetry(&self) -> Option<&Symmetry> {
         self.symmetry.as_ref()
@@ -385,7 +390,7 @@ mod tests {
         let mesh = Mesh::from_soup(&Soup::new(positions, faces).unwrap()).unwrap().0;
         let options = SegmentOptions { parts: Some(boxes.len()), ..SegmentOptions::default() };
         let segmentation = segment::segment(&mesh, &options, &Silent).unwrap();
-        Hulls::new(&Parts::new(mesh, segmentation)).unwrap()
+        Hulls::new(&Parts::new(Arc::new(mesh), segmentation)).unwrap()
     }
 
     fn pairs(hulls: &Hulls) -> Vec<[usize; 2]> {

@@ -52,7 +52,7 @@ pub fn shape_drawn(
     let source = Source::Drawing(Arc::new(Drawing::new(mesh, face_part, names)));
     let model = Arc::new(plugs::as_chosen(drawn.model, &options)?);
     let remarks = Vec::new();
-    Ok(Shaped { options: Arc::new(options), source, model, notes, remarks })
+    Ok(Shaped { options: Arc::new(options), source, model, notes, remarks, merges: Vec::new() })
 }
 
 /// The deployed panels as a mesh.

@@ -5,6 +5,7 @@ use super::bodies::{Touching, without_needless_joints};
 use super::concave::{self, Refitted};
 use super::judge::FoldJudge;
 use super::mend::{Maker, Mended, mended};
+use super::merge;
 use super::plugs::{self, Planned};
 use super::warning::{self, not_joined};
 use super::{Bodies, Divided, Error, Hulls, Options, Output, Shaped, Source, Warning};
@@ -78,11 +79,6 @@ impl<'m> Engine<'m> {
         }
     }
 
-    /// An engine for a mesh that is divided in one way only: the parts need not be copied then.
-    pub(super) fn for_one_division(mesh: Cow<'m, Mesh>) -> Self {
-        Self { segmented: Memory::new(0), ..Self::new(mesh) }
-    }
-
     /// The mesh as it was read.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
@@ -105,7 +101,7 @@ impl<'m> Engine<'m> {
         self.divided.get_or((found, options.edits.clone(), options.root.clone()), || {
             let Segmented { parts, to_model, touching } = self.segmented(options, progress)?;
             progress.stage("hulls");
-            let divided = Divided::new(parts, to_model, touching)?;
+            let divided = Divided::new(&parts, to_model, touching)?;
             progress.check()?;
             Ok(Arc::new(divided))
         })
@@ -129,7 +125,7 @@ impl<'m> Engine<'m> {
             let symmetry = options.segmentation.symmetry.moved(&to_model);
             let wanted = SegmentOptions { symmetry, ..options.segmentation };
             let segmentation = segment::segment(&mesh, &wanted, progress)?;
-            let parts = Parts::new(mesh, segmentation);
+            let parts = Parts::new(Arc::new(mesh), segmentation);
             if wanted.parts.is_some() {
                 return Ok::<_, Error>(Arc::new(Segmented { parts, to_model, touching: None }));
             }
@@ -156,9 +152,7 @@ impl<'m> Engine<'m> {
     /// As [`Engine::divide`], and [`Error::Model`], [`Error::NoComponent`], [`Error::SameName`],
     /// [`Error::NoPlug`].
     pub fn shape(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
-        let divided = self.divide(options, progress)?;
-        progress.stage("components");
-        let Mended { divided, built, .. } = mended(&Making { engine: self, options, progress }, divided)?;
+        let Mended { divided, built, merges, .. } = mended(&Making { engine: self, options, progress })?;
         self.know(&built);
         let mut found = refitted(built.model, &divided, options, progress)?;
         for name in found.refused.clone() {
@@ -168,7 +162,7 @@ impl<'m> Engine<'m> {
                 found = other;
             }
         }
-        let Refitted { model, warnings: mut notes, remarks, .. } = found;
+        let Refitted { model, warnings: mut notes, mut remarks, .. } = found;
         notes.extend(not_joined(&model).map(Warning::from));
         let glued = Arc::new(model);
         let model = Arc::new(plugs::as_chosen(Model::clone(&glued), options)?);
@@ -177,7 +171,8 @@ impl<'m> Engine<'m> {
             self.ids.keep(model.clone(), ids);
         }
         let source = Source::Mesh(divided);
-        Ok(Shaped { options: Arc::new(options.clone()), source, model, notes, remarks })
+        remarks.extend(merges.iter().filter_map(merge::remark));
+        Ok(Shaped { options: Arc::new(options.clone()), source, model, notes, remarks, merges })
     }
 
     /// Components are built of parts, all of them convex. `detection` finds where they bump.
@@ -416,6 +411,18 @@ struct Making<'m> {
 }
 
 impl Maker for Making<'_> {
+    fn divided(&self, merges: &[Edit]) -> Result<Arc<Divided>, Error> {
+        let mut options = self.options.clone();
+        options.edits.extend_from_slice(merges);
+        let divided = self.engine.divide(&options, self.progress)?;
+        self.progress.stage("components");
+        Ok(divided)
+    }
+
+    fn may_vanish(&self, part: &str) -> bool {
+        !self.options.speaks_of(part)
+    }
+
     fn sketch(&self, divided: &Divided) -> Result<Sketch, Error> {
         self.engine.building(divided, self.options, (Detection::Discrete, self.progress), |run| run.sketch())
     }

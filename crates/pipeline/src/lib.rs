@@ -23,6 +23,7 @@ mod engine;
 mod judge;
 mod level;
 mod mend;
+mod merge;
 mod openings;
 mod output;
 mod plugs;
@@ -136,6 +137,20 @@ impl Options {
     fn panel_worth(&self) -> f64 {
         let is_chosen = self.top_edges.is_none() && self.profile_vertices.is_none();
         if is_chosen { self.level.panel_worth() } else { 0.0 }
+    }
+
+    /// Whether the user chose the parts, or names this one.
+    fn speaks_of(&self, part: &str) -> bool {
+        let is_edited = |edit: &Edit| match edit {
+            Edit::Merge { parts } => parts.first().is_some_and(|kept| kept == part),
+            // Its pieces have names of their own.
+            Edit::Split { part: split, .. } => part.starts_with(split),
+        };
+        self.segmentation.parts.is_some()
+            || self.root.as_deref() == Some(part)
+            || self.components.contains_key(part)
+            || self.hands.contains_key(part)
+            || self.edits.iter().any(is_edited)
     }
 
     /// What was chosen for the component of a name, and the name before it was renamed.
@@ -289,7 +304,7 @@ fn too_large(error: &NetsError) -> String {
 /// # Errors
 /// See [`Error`].
 pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
-    Engine::for_one_division(Cow::Borrowed(mesh)).run(options, progress)
+    Engine::new(Cow::Borrowed(mesh)).run(options, progress)
 }
 
 /// The same, and where problems are left, tries other options: [`Engine::advise`].
@@ -297,7 +312,7 @@ pub fn run(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Ou
 /// # Errors
 /// See [`Error`].
 pub fn run_and_advise(mesh: &Mesh, options: &Options, progress: &dyn Progress) -> Result<Output, Error> {
-    let engine = Engine::for_one_division(Cow::Borrowed(mesh));
+    let engine = Engine::new(Cow::Borrowed(mesh));
     engine.advise(engine.run(options, progress)?, progress)
 }
 
@@ -311,5 +326,5 @@ pub fn find_parts(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<(Parts, DAffine3), Error> {
-    Engine::for_one_division(Cow::Borrowed(mesh)).find_parts(options, progress)
+    Engine::new(Cow::Borrowed(mesh)).find_parts(options, progress)
 }

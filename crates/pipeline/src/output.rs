@@ -6,6 +6,7 @@ use std::sync::Arc;
 use tatamu_core::fold::FoldPlan;
 use tatamu_core::mesh::{Mesh, MirrorPlane};
 use tatamu_core::model::Model;
+use tatamu_core::segment::Edit;
 use tatamu_net::net::Net;
 use tatamu_net::sheet::Layout;
 
@@ -19,6 +20,8 @@ pub struct Shaped {
     pub(super) notes: Vec<Warning>,
     /// What was done as it was asked for.
     pub(super) remarks: Vec<String>,
+    /// Parts that were made one.
+    pub(super) merges: Vec<Edit>,
 }
 
 impl Shaped {
@@ -107,6 +110,12 @@ impl Output {
     /// What was done as the user asked for it, such as a component with dents.
     pub fn remarks(&self) -> &[String] {
         &self.shaped.remarks
+    }
+
+    /// Parts that were made one as they bump, or hardly hold, as two: with these among the edits of
+    /// the options, the same model comes out.
+    pub fn merges(&self) -> &[Edit] {
+        &self.shaped.merges
     }
 
     /// With the order of folding, and what that means for the user.

@@ -73,10 +73,10 @@ struct Surface {
 }
 
 impl Surface {
-    fn new(mesh: Mesh, face_part: Vec<Option<u32>>, parts: usize) -> Self {
+    fn new(mesh: Arc<Mesh>, face_part: Vec<Option<u32>>, parts: usize) -> Self {
         let mut part_faces = vec![0; parts];
         face_part.iter().flatten().for_each(|&part| part_faces[part as usize] += 1);
-        Self { mesh: Arc::new(mesh), face_part: Arc::new(face_part), part_faces }
+        Self { mesh, face_part: Arc::new(face_part), part_faces }
     }
 }
 
@@ -90,14 +90,14 @@ pub struct Divided {
 
 impl Divided {
     /// Finds the hulls; `touching` are those of the same parts before they leave each other room, where they are known.
-    pub(super) fn new(parts: Parts, to_model: DAffine3, touching: Option<Touching>) -> Result<Self, Error> {
+    pub(super) fn new(parts: &Parts, to_model: DAffine3, touching: Option<Touching>) -> Result<Self, Error> {
         let hulls = match touching {
-            Some(touching) => Hulls::parted(&parts, touching)?,
-            None => Hulls::new(&parts)?,
+            Some(touching) => Hulls::parted(parts, touching)?,
+            None => Hulls::new(parts)?,
         };
         let segments = parts.segmentation().face_segments();
         let face_part = segments.iter().map(|&segment| hulls.part_of(segment).map(|p| p as u32)).collect();
-        let surface = Surface::new(parts.into_mesh(), face_part, hulls.hulls().len());
+        let surface = Surface::new(parts.mesh().clone(), face_part, hulls.hulls().len());
         Ok(Self { surface, to_model, hulls })
     }
 
@@ -132,6 +132,6 @@ pub struct Drawing {
 impl Drawing {
     /// Components with these names, and the surface of their deployed panels.
     pub(super) fn new(mesh: Mesh, face_part: Vec<Option<u32>>, names: Vec<String>) -> Self {
-        Self { surface: Surface::new(mesh, face_part, names.len()), names }
+        Self { surface: Surface::new(Arc::new(mesh), face_part, names.len()), names }
     }
 }

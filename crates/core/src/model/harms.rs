@@ -15,7 +15,7 @@ pub type Bump = ([usize; 2], f64);
 pub type Enough<'a> = dyn Fn(&[Bump]) -> bool + Sync + 'a;
 
 /// What parts that bump cost, mm of error.
-pub(super) fn harm_mm(bumps: &[Bump]) -> f64 {
+pub fn harm_mm(bumps: &[Bump]) -> f64 {
     bumps.iter().map(|bump| BUMP_PRICE_MM + DEPTH_PRICE * bump.1).sum()
 }
 

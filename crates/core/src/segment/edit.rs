@@ -5,6 +5,7 @@ use super::surface::Surface;
 use crate::geom::Plane;
 use glam::DAffine3;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// Pieces smaller than this share of a part that is split stay with the largest on their side.
 const CRUMB: f64 = 0.02;
@@ -159,7 +160,7 @@ impl Parts {
             *label = new.unwrap_or(*label);
         }
         let mirror = self.segmentation().mirror().copied();
-        Ok(Self::of_labels(mesh, &labels, &names, mirror))
+        Ok(Self::of_labels(Arc::new(mesh), &labels, &names, mirror))
     }
 }
 
@@ -205,7 +206,7 @@ mod tests {
             _ => SegmentId(2),
         };
         let face_segment = (0..row.faces().len()).map(ball).collect();
-        Parts::new(row, Segmentation { face_segment, count: 3, mirror: None })
+        Parts::new(Arc::new(row), Segmentation { face_segment, count: 3, mirror: None })
     }
 
     fn merge(names: &[&str]) -> Edit {

@@ -7,6 +7,7 @@ use crate::geom::{Hull, HullError};
 use crate::mesh::{Mesh, MirrorPlane};
 use glam::DVec3;
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Vertices of a hull at most. Hulls of scans have hundreds; those of a ball and a cone with 100,000 in all get coarser
 /// by 0.07 mm in a model of 200 mm.
@@ -19,7 +20,7 @@ const MOST_VERTICES: usize = 4000;
 /// first, but for the root, which is the first: one that was chosen, or the one in the middle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parts {
-    mesh: Mesh,
+    mesh: Arc<Mesh>,
     segmentation: Segmentation,
     names: Vec<String>,
 }
@@ -27,7 +28,7 @@ pub struct Parts {
 impl Parts {
     /// Makes the segment in the middle the first, and names all by their place. The viewer looks
     /// along +y, with z up.
-    pub fn new(mesh: Mesh, segmentation: Segmentation) -> Self {
+    pub fn new(mesh: Arc<Mesh>, segmentation: Segmentation) -> Self {
         let names = vec![String::new(); segmentation.count()];
         let mut parts = Self { mesh, segmentation, names }.with_root_in_the_middle();
         parts.names = naming::names(&parts.mesh, &parts.segmentation, &parts.area_shares());
@@ -37,7 +38,7 @@ impl Parts {
     /// Parts from a label for each face and a name for each label; labels without a face are
     /// dropped.
     pub(super) fn of_labels(
-        mesh: Mesh,
+        mesh: Arc<Mesh>,
         labels: &[u32],
         names: &[String],
         mirror: Option<MirrorPlane>,
@@ -94,13 +95,8 @@ impl Parts {
     }
 
     /// The mesh. Where a part was split, its faces are cut.
-    pub fn mesh(&self) -> &Mesh {
+    pub fn mesh(&self) -> &Arc<Mesh> {
         &self.mesh
-    }
-
-    /// The mesh alone.
-    pub fn into_mesh(self) -> Mesh {
-        self.mesh
     }
 
     /// Its segments.

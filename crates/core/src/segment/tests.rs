@@ -264,7 +264,7 @@ fn the_parts_of_a_symmetric_mesh_are_twins_or_across() {
             assert!(twins.iter().enumerate().any(|(k, twin)| twin.0 as usize != k));
             assert!(parts.is_none_or(|n| n.abs_diff(found.count()) <= 1), "{parts:?}: {}", found.count());
             // Twins have the same area.
-            let shares = Parts::new(mesh.clone(), found.clone());
+            let shares = Parts::new(Arc::new(mesh.clone()), found.clone());
             let twins = shares.segmentation().twins(&mesh).unwrap();
             let shares = shares.area_shares();
             for (k, twin) in twins.iter().enumerate() {
@@ -293,7 +293,7 @@ fn a_mirrored_mesh_gives_mirrored_parts() {
 #[test]
 fn changes_to_one_side_end_the_symmetry_and_to_both_bring_it_back() {
     let whole = mesh(&figure());
-    let parts = Parts::new(whole.clone(), run(&figure()));
+    let parts = Parts::new(Arc::new(whole.clone()), run(&figure()));
     let twins = parts.segmentation().twins(&whole).unwrap();
     let one = (0..twins.len()).find(|&k| twins[k].0 as usize > k).unwrap();
     let other = twins[one].0 as usize;
