@@ -5,6 +5,7 @@ use super::surface::Surface;
 use super::*;
 use crate::progress::{Progress, Silent};
 use glam::{DQuat, DVec3};
+use std::sync::Arc;
 
 const ROW: [(f64, f64); 3] = [(0.0, 1.0), (1.5, 0.75), (2.65, 0.6)];
 
