@@ -20,6 +20,7 @@ mod project;
 mod refusals;
 mod segment;
 mod shell;
+mod texts;
 mod trust;
 
 use std::path::Path;
