@@ -187,7 +187,8 @@ impl<'m> Engine<'m> {
         let assembly = bodies.assembly(options.min_panel_width_mm);
         let judge =
             FoldJudge { thickness_mm: options.thickness_mm, detection, memory: &self.sweeps, progress };
-        Ok(build(Run { assembly: &assembly, known: &self.components, judge: &judge, progress })?)
+        let (known, firmness) = (&self.components, divided.hulls().firmness());
+        Ok(build(Run { assembly: &assembly, known, firmness, judge: &judge, progress })?)
     }
 
     /// Remembers what the parts of a model are known by, for its folding.

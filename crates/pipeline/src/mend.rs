@@ -161,7 +161,15 @@ fn joined(maker: &impl Maker, divided: Arc<Divided>) -> Result<Mended, Error> {
         }
         best = other;
     }
-    Ok(best)
+    if best.built.verdict.weak.is_empty() {
+        return Ok(best);
+    }
+    // Last, as thicker joints cost the outlines less.
+    let firmer = Arc::new(best.divided.with_hulls(best.divided.hulls().firmer()));
+    Ok(match possible(drafted(maker, firmer))? {
+        Some(firmer) => best.or(finished(maker, firmer)?),
+        None => best,
+    })
 }
 
 /// A draft with thicker joints where they lack glue, as long as that is better; `None` where it is not.

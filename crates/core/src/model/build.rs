@@ -97,7 +97,7 @@ pub fn build(
     judge: &dyn Judge,
     progress: &dyn Progress,
 ) -> Result<Built, ModelError> {
-    let run = Run { assembly, known, judge, progress };
+    let run = Run { assembly, known, firmness: 1.0, judge, progress };
     run.finished(run.sketch()?)
 }
 
@@ -162,6 +162,8 @@ pub struct Run<'a> {
     pub assembly: &'a Assembly<'a>,
     /// Components that were made before.
     pub known: &'a Known,
+    /// How many times as much a lack of glue costs as it does in the comparison of whole models; 1 or more.
+    pub firmness: f64,
     /// Tells where parts bump.
     pub judge: &'a dyn Judge,
     /// Told how far it is.
@@ -226,12 +228,12 @@ impl Run<'_> {
     /// A model from more candidates for the parts in `trouble` than for the others. The search also starts
     /// from the candidates with the ids in `before`, if any.
     fn attempt(&self, links: &[Link], trouble: &Trouble, before: &[u64]) -> Result<Attempt, ModelError> {
-        let Self { judge, progress, .. } = *self;
+        let Self { judge, progress, firmness, .. } = *self;
         let assembly = &Assembly { links, ..*self.assembly };
         let Candidates { of: candidates, links, bonds } =
             Candidates::new(assembly, trouble, self.known, progress)?;
         let parts = assembly.parts;
-        let pairs = Pairs::new(&links, &candidates);
+        let pairs = Pairs::new(&links, &candidates, firmness);
         let choice = Choice::new(&candidates, &weights(parts), (&links, &pairs), &bonds);
         let seen = assembly.views.map(|views| Seen::new(views, &candidates, (&links, &pairs)));
         let price_mm = LOOK_PRICE * parts.iter().map(size_mm).sum::<f64>();
