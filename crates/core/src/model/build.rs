@@ -457,7 +457,8 @@ pub(super) mod tests {
         let assembly =
             Assembly { parts: &parts, links: &links, symmetry: None, min_panel_mm: 3.0, views: None };
         let known = Known::default();
-        let run = Run { assembly: &assembly, known: &known, judge: &Unjudged, progress: &Silent };
+        let run =
+            Run { assembly: &assembly, known: &known, firmness: 1.0, judge: &Unjudged, progress: &Silent };
         let first = run.attempt(&links, &Trouble::default(), &[]).unwrap();
         let settled = run.settled(&first).unwrap().unwrap();
         let most_mm = |of: &Attempt| of.seats.iter().map(|seat| seat.1).fold(0.0, f64::max);
