@@ -1,12 +1,12 @@
 //! Where parts of a model bump or hang on too little glue, the same parts with other joints: thicker there, or between
 //! others; and where that is not enough, one part instead of two. What serves the whole model best is kept.
 
-use super::merge::mergers;
+use super::merge::{mergers, serious};
 use super::openings::openings_mm2;
 use super::{Divided, Error, Hulls};
 use std::collections::BTreeSet;
 use std::sync::Arc;
-use tatamu_core::model::{self, Built, Bump, Model, ModelError, Sketch, Verdict};
+use tatamu_core::model::{self, Built, Model, ModelError, Sketch, Verdict};
 use tatamu_core::segment::Edit;
 
 /// What a mm of harm costs, as a share of outlines: a pair that bumps by 2 mm is worth 0.026, a joint that lacks a tenth of
@@ -26,9 +26,6 @@ const OTHERS: usize = 3;
 const ROUNDS: usize = 2;
 /// Models with fewer parts that are looked at once nothing else helps; those first whose hulls grow the least.
 const MERGERS: usize = 3;
-/// Excess of a bump that is gone once a model is finished, mm, as 0.015 mm between the wings of a bird are. Not bounded from
-/// above by a case yet.
-const SLIGHT_MM: f64 = 0.1;
 /// Price of a part that stands alone since another has no room for its joint, mm of error: that of one without any glue. An
 /// armadillo fell into five groups to spare a bump of 0.1 mm.
 const LOST_PRICE_MM: f64 = 175.0;
@@ -72,8 +69,7 @@ impl Draft {
     /// The price without what joints lack and slight bumps: these may be mended.
     fn price_once_mended(&self) -> f64 {
         let Built { model, verdict, .. } = self.sketch.built();
-        let bumps: Vec<Bump> = verdict.bumps.iter().filter(|bump| bump.1 > SLIGHT_MM).copied().collect();
-        price(verdict, model::harm_mm(&bumps) + lost_mm(&self.divided, model))
+        price(verdict, model::harm_mm(&serious(verdict)) + lost_mm(&self.divided, model))
     }
 }
 
