@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 use tatamu::pipeline::{Options, Output};
 use tatamu::project::options::Settings;
 use tatamu::project::{Template, TemplateComponent, to_toml};
-use tatamu::segment::Edit;
 
 /// The components of a model, as a fresh project file has them.
 pub fn components(result: &Output, options: &Options) -> Vec<TemplateComponent> {
@@ -27,7 +26,7 @@ pub fn components(result: &Output, options: &Options) -> Vec<TemplateComponent> 
 pub fn project_text(
     mesh: &str,
     settings: &Settings,
-    merges: &[Edit],
+    merges: &[Vec<String>],
     components: &[TemplateComponent],
 ) -> String {
     to_toml(&Template { mesh, settings, merges, components })

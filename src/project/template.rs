@@ -4,7 +4,6 @@ use super::options::{
     CARD, CONCAVE, DIRECTION, Entry, JOINT, PARTS, PROFILE_VERTICES, RENAME, Settings, TOP_EDGES, of_table,
     quoted,
 };
-use crate::segment::Edit;
 
 /// What `init` writes into a fresh project file.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,8 +12,8 @@ pub struct Template<'a> {
     pub mesh: &'a str,
     /// What is chosen.
     pub settings: &'a Settings,
-    /// Parts that are made one; splits are not among them.
-    pub merges: &'a [Edit],
+    /// Names of parts that are made one.
+    pub merges: &'a [Vec<String>],
     /// The components.
     pub components: &'a [TemplateComponent],
 }
@@ -84,7 +83,7 @@ pub fn to_toml(template: &Template) -> String {
     }
     text += &table("segmentation", template, false);
     text += EDITS;
-    text += &template.merges.iter().filter_map(merge).collect::<String>();
+    text += &template.merges.iter().map(|parts| merge(parts)).collect::<String>();
     for name in ["defaults", "paper", "nets", "sheets"] {
         text += &table(name, template, true);
     }
@@ -97,13 +96,9 @@ pub fn to_toml(template: &Template) -> String {
 }
 
 /// The table of parts that are made one.
-fn merge(edit: &Edit) -> Option<String> {
-    let Edit::Merge { parts } = edit else { return None };
+fn merge(parts: &[String]) -> String {
     let names: Vec<String> = parts.iter().cloned().map(quoted).collect();
-    Some(format!(
-        "\n# Parts of their own would bump or hardly hold.\n[[edit]]\nmerge = [{}]\n",
-        names.join(", ")
-    ))
+    format!("\n# Parts of their own would bump or hardly hold.\n[[edit]]\nmerge = [{}]\n", names.join(", "))
 }
 
 /// A table of options. Without `shows_defaults` those that nobody chose stand in comments.
@@ -170,6 +165,7 @@ mod tests {
     use super::super::options::{Given, choose};
     use super::*;
     use crate::project::Project;
+    use crate::segment::Edit;
 
     fn settings(flags: &[(&str, &str)]) -> Settings {
         let option = |name: &str| {
@@ -190,7 +186,7 @@ mod tests {
             card: is_chosen.then(|| "dark \"red\"".to_owned()),
         };
         let components = [component("body", false), component("he\"ad", true)];
-        let merges = [Edit::Merge { parts: vec!["body".to_owned(), "\"top\"".to_owned()] }];
+        let merges = [vec!["body".to_owned(), "\"top\"".to_owned()]];
         to_toml(&Template { mesh: "a \"b\"\\c.obj", settings, merges: &merges, components: &components })
     }
 

@@ -93,7 +93,7 @@ impl Hulls {
     /// The same, to be made into components with more regard for glue.
     #[must_use]
     pub(super) fn firmer(&self) -> Self {
-        Self { firmness: FIRMER * self.firmness, ..self.clone() }
+        Self { firmness: FIRMER, ..self.clone() }
     }
 
     /// How many times as much a lack of glue costs in the choice of components.

@@ -5,7 +5,7 @@ use super::bodies::{Touching, without_needless_joints};
 use super::concave::{self, Refitted};
 use super::judge::FoldJudge;
 use super::mend::{Maker, Mended, mended};
-use super::merge;
+use super::merge::{self, Merge};
 use super::plugs::{self, Planned};
 use super::warning::{self, not_joined};
 use super::{Bodies, Divided, Error, Hulls, Options, Output, Shaped, Source, Warning};
@@ -171,7 +171,7 @@ impl<'m> Engine<'m> {
             self.ids.keep(model.clone(), ids);
         }
         let source = Source::Mesh(divided);
-        remarks.extend(merges.iter().filter_map(merge::remark));
+        remarks.extend(merges.iter().map(merge::remark));
         Ok(Shaped { options: Arc::new(options.clone()), source, model, notes, remarks, merges })
     }
 
@@ -412,9 +412,9 @@ struct Making<'m> {
 }
 
 impl Maker for Making<'_> {
-    fn divided(&self, merges: &[Edit]) -> Result<Arc<Divided>, Error> {
+    fn divided(&self, merges: &[Merge]) -> Result<Arc<Divided>, Error> {
         let mut options = self.options.clone();
-        options.edits.extend_from_slice(merges);
+        options.edits.extend(merges.iter().map(|parts| Edit::Merge { parts: parts.clone() }));
         let divided = self.engine.divide(&options, self.progress)?;
         self.progress.stage("components");
         Ok(divided)

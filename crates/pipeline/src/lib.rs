@@ -143,8 +143,10 @@ impl Options {
     fn speaks_of(&self, part: &str) -> bool {
         let is_edited = |edit: &Edit| match edit {
             Edit::Merge { parts } => parts.first().is_some_and(|kept| kept == part),
-            // Its pieces have names of their own.
-            Edit::Split { part: split, .. } => part.starts_with(split),
+            // More pieces have numbers behind these names.
+            Edit::Split { part: back, front, .. } => {
+                part.starts_with(back) || front.as_ref().is_some_and(|front| part.starts_with(front))
+            }
         };
         self.segmentation.parts.is_some()
             || self.root.as_deref() == Some(part)
@@ -327,4 +329,22 @@ pub fn find_parts(
     progress: &dyn Progress,
 ) -> Result<(Parts, DAffine3), Error> {
     Engine::new(Cow::Borrowed(mesh)).find_parts(options, progress)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::DVec3;
+    use tatamu_core::geom::Plane;
+
+    /// A part that a split had named could become a piece of another.
+    #[test]
+    fn the_user_speaks_of_all_pieces_of_a_split() {
+        let plane = Plane::through(DVec3::ZERO, DVec3::Y).unwrap();
+        let split = Edit::Split { part: "body".to_owned(), plane, front: Some("chest".to_owned()) };
+        let merge = Edit::Merge { parts: vec!["left".to_owned(), "right".to_owned()] };
+        let options = Options { edits: vec![split, merge], ..Options::default() };
+        let spoken_of = ["body", "chest", "chest-2", "left"].map(|part| options.speaks_of(part));
+        assert_eq!((spoken_of, options.speaks_of("top")), ([true; 4], false));
+    }
 }

@@ -1,13 +1,12 @@
 //! Where parts of a model bump or hang on too little glue, the same parts with other joints: thicker there, or between
 //! others; and where that is not enough, one part instead of two. What serves the whole model best is kept.
 
-use super::merge::{mergers, serious};
+use super::merge::{Merge, mergers, serious};
 use super::openings::openings_mm2;
 use super::{Divided, Error, Hulls};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use tatamu_core::model::{self, Built, Model, ModelError, Sketch, Verdict};
-use tatamu_core::segment::Edit;
 
 /// What a mm of harm costs, as a share of outlines: a pair that bumps by 2 mm is worth 0.026, a joint that lacks a tenth of
 /// its glue 0.018. Joints that are thick enough for glue show.
@@ -26,16 +25,13 @@ const OTHERS: usize = 3;
 const ROUNDS: usize = 2;
 /// Models with fewer parts that are looked at once nothing else helps; those first whose hulls grow the least.
 const MERGERS: usize = 3;
-/// Price of a part that stands alone since another has no room for its joint, mm of error: that of one without any glue. An
-/// armadillo fell into five groups to spare a bump of 0.1 mm.
-const LOST_PRICE_MM: f64 = 175.0;
 
 /// Parts and what was built of them.
 pub(super) struct Mended {
     pub(super) divided: Arc<Divided>,
     pub(super) built: Built,
     /// What made one part of several.
-    pub(super) merges: Vec<Edit>,
+    pub(super) merges: Vec<Merge>,
     harm_mm: f64,
 }
 
@@ -76,7 +72,7 @@ impl Draft {
 /// What joints cost that parts have no room for, mm of error.
 fn lost_mm(divided: &Divided, model: &Model) -> f64 {
     let joined = model.parts().iter().filter(|part| part.joint.is_some()).count();
-    LOST_PRICE_MM * divided.hulls().links().len().saturating_sub(joined) as f64
+    model::LOST_PRICE_MM * divided.hulls().links().len().saturating_sub(joined) as f64
 }
 
 /// Outlines and harm in one number.
@@ -87,7 +83,7 @@ fn price(verdict: &Verdict, harm_mm: f64) -> f64 {
 /// What makes models of divided meshes.
 pub(super) trait Maker {
     /// The parts, once some more of them are made one.
-    fn divided(&self, merges: &[Edit]) -> Result<Arc<Divided>, Error>;
+    fn divided(&self, merges: &[Merge]) -> Result<Arc<Divided>, Error>;
 
     /// Whether the part of this name may become a piece of another.
     fn may_vanish(&self, part: &str) -> bool;
@@ -102,21 +98,21 @@ pub(super) trait Maker {
 /// The parts with the joints that serve the model best, where those that the shape suggests do it harm; and one part
 /// instead of two where no joint serves.
 pub(super) fn mended(maker: &impl Maker) -> Result<Mended, Error> {
-    let mut best = joined(maker, maker.divided(&[])?)?;
+    let mut best = joined(maker, drafted(maker, maker.divided(&[])?)?)?;
     while best.harm_mm > 0.0 {
         let mut least = best.price();
-        let mut next: Option<Vec<Edit>> = None;
+        let mut next: Option<(Draft, Vec<Merge>)> = None;
         let may_vanish = |part: &str| maker.may_vanish(part);
         for more in mergers(best.divided.hulls(), &best.built.verdict, &may_vanish).take(MERGERS) {
             let merges = [&best.merges[..], &more].concat();
             let Some(draft) = possible(drafted(maker, maker.divided(&merges)?))? else { continue };
             let price = draft.price_once_mended();
             if price < least {
-                (least, next) = (price, Some(merges));
+                (least, next) = (price, Some((draft, merges)));
             }
         }
-        let Some(merges) = next else { break };
-        let other = Mended { merges: merges.clone(), ..joined(maker, maker.divided(&merges)?)? };
+        let Some((draft, merges)) = next else { break };
+        let other = Mended { merges, ..joined(maker, draft)? };
         if other.price() >= best.price() {
             break;
         }
@@ -125,9 +121,8 @@ pub(super) fn mended(maker: &impl Maker) -> Result<Mended, Error> {
     Ok(best)
 }
 
-/// The same parts with the joints that serve the model best.
-fn joined(maker: &impl Maker, divided: Arc<Divided>) -> Result<Mended, Error> {
-    let draft = drafted(maker, divided)?;
+/// The parts of a draft with the joints that serve the model best.
+fn joined(maker: &impl Maker, draft: Draft) -> Result<Mended, Error> {
     let mut best = match thicker(maker, &draft)? {
         None => finished(maker, draft)?,
         Some(thicker) => {
@@ -157,7 +152,7 @@ fn joined(maker: &impl Maker, divided: Arc<Divided>) -> Result<Mended, Error> {
         }
         best = other;
     }
-    if best.built.verdict.weak.is_empty() {
+    if best.harm_mm == 0.0 || best.built.verdict.weak.is_empty() {
         return Ok(best);
     }
     // Last, as thicker joints cost the outlines less.

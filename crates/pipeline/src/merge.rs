@@ -4,12 +4,14 @@ use super::Hulls;
 use std::collections::BTreeSet;
 use tatamu_core::geom::Hull;
 use tatamu_core::model::{Bump, Verdict};
-use tatamu_core::segment::Edit;
+
+/// Names of parts that are made one; it keeps the first.
+pub(super) type Merge = Vec<String>;
 
 /// Parts are kept apart where they bump by no more than this beyond the thickness of the paper, mm: paper gives. Without it
 /// outlines of a human lose 0.014 for two bumps of 0.3 mm, and the wings of a bird become its body.
 const SLIGHT_MM: f64 = 0.25;
-/// No one part less helps where more pairs bump: each look at a knot, with 20 of them, takes 10 s. Chairs and an ant are freed
+/// No one part less helps where more pairs bump: each look at a knot, with 20 of them, takes 10 s. A chair and a bird are freed
 /// of two.
 const MANY_BUMPS: usize = 6;
 
@@ -21,7 +23,7 @@ pub(super) fn mergers(
     hulls: &Hulls,
     verdict: &Verdict,
     may_vanish: &dyn Fn(&str) -> bool,
-) -> impl Iterator<Item = Vec<Edit>> {
+) -> impl Iterator<Item = Vec<Merge>> {
     let (names, parts) = (hulls.names(), hulls.hulls());
     let image = |part: usize| hulls.symmetry().map_or(part, |symmetry| symmetry.twin(part));
     let pairs = pairs(hulls, verdict).into_iter().filter(|[a, b]| a != b);
@@ -35,8 +37,7 @@ pub(super) fn mergers(
     let possible = alike.into_iter().filter(|sets| sets.iter().all(is_possible));
     let mut mergers: Vec<_> = possible.map(|sets| (sets.iter().map(grown_mm3).sum::<f64>(), sets)).collect();
     mergers.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let merge =
-        |set: Vec<usize>| Edit::Merge { parts: set.iter().map(|&part| names[part].clone()).collect() };
+    let merge = |set: Vec<usize>| -> Merge { set.iter().map(|&part| names[part].clone()).collect() };
     mergers.into_iter().map(move |(_, sets)| sets.into_iter().map(merge).collect())
 }
 
@@ -73,14 +74,13 @@ fn merged_sets(pair: [usize; 2], image: [usize; 2]) -> Vec<Vec<usize>> {
 }
 
 /// What the user should know of a merge.
-pub(super) fn remark(merge: &Edit) -> Option<String> {
-    let Edit::Merge { parts } = merge else { return None };
-    let gone = parts.get(1..)?.join(" and ");
-    Some(format!(
+pub(super) fn remark(merge: &Merge) -> String {
+    let gone = merge[1..].join(" and ");
+    format!(
         "{} are one part, since apart they bump or have too little glue; to keep {gone}, give it a table in the project \
          file",
-        parts.join(" and ")
-    ))
+        merge.join(" and ")
+    )
 }
 
 #[cfg(test)]

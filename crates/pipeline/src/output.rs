@@ -1,12 +1,12 @@
 //! Results.
 
+use super::merge::Merge;
 use super::{Options, Source, Warning};
 use glam::DAffine3;
 use std::sync::Arc;
 use tatamu_core::fold::FoldPlan;
 use tatamu_core::mesh::{Mesh, MirrorPlane};
 use tatamu_core::model::Model;
-use tatamu_core::segment::Edit;
 use tatamu_net::net::Net;
 use tatamu_net::sheet::Layout;
 
@@ -21,7 +21,7 @@ pub struct Shaped {
     /// What was done as it was asked for.
     pub(super) remarks: Vec<String>,
     /// Parts that were made one.
-    pub(super) merges: Vec<Edit>,
+    pub(super) merges: Vec<Merge>,
 }
 
 impl Shaped {
@@ -112,9 +112,9 @@ impl Output {
         &self.shaped.remarks
     }
 
-    /// Parts that were made one as they bump, or hardly hold, as two: with these among the edits of
-    /// the options, the same model comes out.
-    pub fn merges(&self) -> &[Edit] {
+    /// Names of parts that were made one as they bump, or hardly hold, as two: with these merges among the
+    /// edits of the options, the same model comes out.
+    pub fn merges(&self) -> &[Vec<String>] {
         &self.shaped.merges
     }
 

@@ -27,6 +27,7 @@ pub use joined::{JoinedPart, Seam};
 pub use known::Known;
 pub use link::{Contact, Link, link_tree};
 pub use needless::needless;
+pub use pair::LOST_PRICE_MM;
 pub use part::{ModelError, Part, PartOptions};
 pub use parted::{Parted, farther, parted};
 pub use plug::{JointChoice, Plug};
