@@ -32,7 +32,7 @@ pub enum Level {
     /// As many as make the model look like the mesh.
     #[default]
     Normal,
-    /// Twice as many, for patient hands.
+    /// Up to half as many again, for patient hands.
     Fine,
 }
 
