@@ -38,7 +38,7 @@ const FEWER_EDGES: [usize; 2] = [1, 2];
 const FEWER_VERTICES: f64 = 0.6;
 /// Where a panel must add less than this to the likeness, every direction starts a second time with few panels, to which
 /// those are added that are worth most: models of the level `fine` have 20 panels less and outlines more alike by 0.002
-/// (16 meshes), in 1.4 times the time. With the worth of the level `normal` there are fewer panels as well, but outlines of
+/// (16 meshes), in 1.5 to 1.9 times the time. With the worth of the level `normal` there are fewer panels as well, but outlines of
 /// 38 meshes are less alike by 0.001, in 1.7 times the time.
 const CHEAP_PANELS: f64 = 0.001;
 /// Shares of top edges and profile vertices that it starts with, and the least counts. With 0.7 and 0.6 outlines are less
