@@ -445,4 +445,24 @@ pub(crate) mod tests {
             assert!(component.trimmed_mm2() <= 10.0, "{turn}: {} mm2", component.trimmed_mm2());
         }
     }
+
+    /// In directions that do not suit a hull, too, as the one that does may not suit its neighbours: one of these
+    /// had a hole of 225 mm².
+    #[test]
+    fn a_flaring_bowl_has_no_holes_in_any_direction() {
+        let mut points = blob(DVec3::new(60.0, 60.0, 20.0), 200);
+        points.retain(|p| p.z > -1.0);
+        points.extend(blob(DVec3::new(20.0, 110.0, 20.0), 100));
+        let hull = Hull::of_points(&points).unwrap();
+        let turned: Vec<Hull> = (0..6)
+            .map(|turn| hull.moved(&glam::DAffine3::from_rotation_x(f64::from(turn) * 30_f64.to_radians())))
+            .collect();
+        let targets: Vec<_> = turned.iter().map(|hull| (target(hull, vec![]), 0.0)).collect();
+        let found = finished(&targets);
+        assert_eq!(found.len(), targets.len());
+        for Finished { target, component, .. } in &found {
+            check(component);
+            assert!(component.trimmed_mm2() <= 10.0, "{target}: {} mm2", component.trimmed_mm2());
+        }
+    }
 }

@@ -106,10 +106,25 @@ pub(super) struct Found {
 /// search also starts with all, so that more edges and vertices never make the error larger.
 const SURE: usize = 6;
 
+/// What leaves out a panel or a chain; `None` where none can be spared.
+type Spare = fn(&Fitted, &Target) -> Option<(Solid, Vec<FoldSpot>)>;
+
 impl Found {
     /// What it is compared by, mm.
     pub(super) fn cost_mm(&self) -> f64 {
         self.cost_mm
+    }
+
+    /// With a plane or a chain less, where that leaves a valid shape.
+    fn simpler(&self, way: Spare, targets: &[(Target, f64)], hulls: &[Simpler]) -> Option<Self> {
+        let (target, fine) = (&targets[self.target], hulls[self.target].fine());
+        let goal = Target { hull: fine, ..goal(&target.0, fine) };
+        let (solid, spots) = way(&self.fitted, &goal)?;
+        let fit = Fit::new(goal, Aim::LIKENESS, solid, spots).run(PRUNE_STEPS);
+        let made = assemble_unbroken(fit.best(), fit.target().symmetry).ok()?;
+        let is_valid = fit.best().lack_mm < NEAR_ENOUGH_MM;
+        let cost_mm = finished_cost(fit.best(), &made, target);
+        is_valid.then(|| Self { target: self.target, fitted: fit.into_best(), made, cost_mm })
     }
 
     /// It, or the box round its target's hull where that comes closer.
@@ -137,7 +152,7 @@ pub(super) fn best(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {
         best = Ok(other);
     }
     let best = match best {
-        Ok(best) => Ok(pruned(best, targets, &hulls).or_box(targets)),
+        Ok(best) => Ok(closed(pruned(best, targets, &hulls), targets, &hulls).or_box(targets)),
         Err(error) => as_box(&targets[0].0)
             .map(|(fitted, made)| Found {
                 target: 0,
@@ -166,7 +181,7 @@ pub(super) fn each(targets: &[(Target, f64)]) -> Vec<Found> {
     found.retain(|found| !std::mem::replace(&mut is_taken[found.target], true));
     let finish = |(place, found): (usize, Found)| {
         let found = if place < PRUNED { pruned(found, targets, &hulls) } else { found };
-        let mut found = found.or_box(targets);
+        let mut found = closed(found, targets, &hulls).or_box(targets);
         let (target, panels) = (&targets[found.target].0, found.made.panels.panels().len());
         found.cost_mm += panel_worth_mm(target) * panels as f64;
         found
@@ -317,24 +332,32 @@ fn most_promising(
 
 /// The same with the planes and chains left out that add little to the likeness, one by one.
 fn pruned(mut found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Found {
-    let target = &targets[found.target];
-    if target.0.panel_worth == 0.0 {
+    let (target, _) = &targets[found.target];
+    if target.panel_worth == 0.0 {
         return found;
     }
-    let fine = hulls[found.target].fine();
-    let goal = Target { hull: fine, ..goal(&target.0, fine) };
-    let worth_mm = panel_worth_mm(&target.0);
+    let worth_mm = panel_worth_mm(target);
+    let panels = |found: &Found| found.made.panels.panels().len();
     for way in [without_plane, without_chain] {
-        while let Some((solid, spots)) = way(&found.fitted, &goal) {
-            let fit = Fit::new(goal.clone(), Aim::LIKENESS, solid, spots).run(PRUNE_STEPS);
-            let Ok(made) = assemble_unbroken(fit.best(), goal.symmetry) else { break };
-            let saved = found.made.panels.panels().len().saturating_sub(made.panels.panels().len());
-            let cost_mm = finished_cost(fit.best(), &made, target);
-            let is_valid = fit.best().lack_mm < NEAR_ENOUGH_MM;
-            if saved == 0 || !is_valid || cost_mm > found.cost_mm + saved as f64 * worth_mm {
+        while let Some(simpler) = found.simpler(way, targets, hulls) {
+            let saved = panels(&found).saturating_sub(panels(&simpler));
+            if saved == 0 || simpler.cost_mm > found.cost_mm + saved as f64 * worth_mm {
                 break;
             }
-            found = Found { fitted: fit.into_best(), made, cost_mm, ..found };
+            found = simpler;
+        }
+    }
+    found
+}
+
+/// The same without those planes and chains for which panels are trimmed so much that it looks like a hole.
+fn closed(mut found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Found {
+    while over_mm2(&found.made) > 0.0 {
+        let simpler = [without_plane, without_chain].map(|way| found.simpler(way, targets, hulls));
+        let best = simpler.into_iter().flatten().min_by(|a, b| a.cost_mm.total_cmp(&b.cost_mm));
+        match best.filter(|best| best.cost_mm < found.cost_mm) {
+            Some(best) => found = best,
+            None => break,
         }
     }
     found
@@ -358,9 +381,13 @@ fn finished_cost(fitted: &Fitted, made: &Assembled, (target, own_mm): &(Target, 
 
 /// What the openings of a finished shape cost, mm.
 fn opening_cost(made: &Assembled) -> f64 {
+    TRIM_PRICE * made.trimmed_mm2.sqrt() + OVER_PRICE * over_mm2(made)
+}
+
+/// By how much the openings of a finished shape are larger than what is hardly seen, mm².
+fn over_mm2(made: &Assembled) -> f64 {
     let surface_mm2: f64 = made.panels.panels().iter().map(|p| polygon::area(&p.outline).abs()).sum();
-    let over_mm2 = (made.trimmed_mm2 - MOST_TRIMMED_MM2.min(MOST_TRIMMED * surface_mm2)).max(0.0);
-    TRIM_PRICE * made.trimmed_mm2.sqrt() + OVER_PRICE * over_mm2
+    (made.trimmed_mm2 - MOST_TRIMMED_MM2.min(MOST_TRIMMED * surface_mm2)).max(0.0)
 }
 
 /// Goes on with fits, each with the index of its target, and keeps the best.
