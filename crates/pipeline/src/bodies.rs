@@ -33,6 +33,17 @@ pub struct Hulls {
     firmness: f64,
 }
 
+/// What a model depends on, of those of one mesh with one set of options: see [`Hulls::decisive`].
+#[derive(Debug, PartialEq)]
+pub(super) struct Decisive {
+    hulls: Vec<Hull>,
+    borders: Vec<Vec<Plane>>,
+    names: Vec<String>,
+    links: Vec<Link>,
+    symmetry: Option<Symmetry>,
+    firmness: f64,
+}
+
 /// [`Hulls::firmer`] by this: no arm of a squid hangs on 38 mm² then, for outlines that are worth 0.02 less. One of an octopus
 /// still does. Not bounded from above by a case yet.
 const FIRMER: f64 = 2.0;
@@ -94,6 +105,18 @@ impl Hulls {
     #[must_use]
     pub(super) fn firmer(&self) -> Self {
         Self { firmness: FIRMER, ..self.clone() }
+    }
+
+    /// What decides which model they become. The rest follows from it and the mesh.
+    pub(super) fn decisive(&self) -> Decisive {
+        Decisive {
+            hulls: self.solid.hulls.clone(),
+            borders: self.borders.clone(),
+            names: self.names.clone(),
+            links: self.links.clone(),
+            symmetry: self.symmetry.clone(),
+            firmness: self.firmness,
+        }
     }
 
     /// How many times as much a lack of glue costs in the choice of components.

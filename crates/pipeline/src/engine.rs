@@ -1,7 +1,7 @@
 //! The stages, with a memory for what each of them made: what is asked for again is not made again.
 //! The command line runs an engine once; the studio keeps one and changes a little at a time.
 
-use super::bodies::{Touching, without_needless_joints};
+use super::bodies::{Decisive, Touching, without_needless_joints};
 use super::concave::{self, Refitted};
 use super::judge::FoldJudge;
 use super::mend::{Maker, Mended, mended};
@@ -152,7 +152,8 @@ impl<'m> Engine<'m> {
     /// As [`Engine::divide`], and [`Error::Model`], [`Error::NoComponent`], [`Error::SameName`],
     /// [`Error::NoPlug`].
     pub fn shape(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
-        let Mended { divided, built, merges, .. } = mended(&Making { engine: self, options, progress })?;
+        let maker = Making { engine: self, options, sketches: Memory::new(SKETCHES), progress };
+        let Mended { divided, built, merges, .. } = mended(&maker)?;
         self.know(&built);
         let mut found = refitted(built.model, &divided, options, progress)?;
         for name in found.refused.clone() {
@@ -211,7 +212,7 @@ impl<'m> Engine<'m> {
                 own.direction_rad = Some(direction_rad);
             }
             let how = (Detection::Discrete, progress);
-            let built = self.building(divided, &options, how, |run| run.finished(run.sketch()?));
+            let built = self.building(divided, &options, how, |run| run.finished(&run.sketch()?));
             if let Ok(built) = &built {
                 self.know(built);
             }
@@ -404,10 +405,14 @@ fn of_boards(shaped: Shaped) -> Result<Shaped, Error> {
     Ok(Shaped { model: Arc::new(boards), notes, ..shaped })
 }
 
+/// So many sketches are kept, for joints that are tried again when others have been. A chair has 32.
+const SKETCHES: usize = 100;
+
 /// Models with one set of options.
 struct Making<'m> {
     engine: &'m Engine<'m>,
     options: &'m Options,
+    sketches: Memory<Decisive, Arc<Sketch>>,
     progress: &'m dyn Progress,
 }
 
@@ -424,17 +429,21 @@ impl Maker for Making<'_> {
         !self.options.speaks_of(part)
     }
 
-    fn sketch(&self, divided: &Divided) -> Result<Sketch, Error> {
-        self.engine.building(divided, self.options, (Detection::Discrete, self.progress), |run| run.sketch())
+    fn sketch(&self, divided: &Divided) -> Result<Arc<Sketch>, Error> {
+        let Self { engine, options, ref sketches, progress } = *self;
+        sketches.get_or(divided.hulls().decisive(), || {
+            engine
+                .building(divided, options, (Detection::Discrete, progress), |run| run.sketch().map(Arc::new))
+        })
     }
 
-    fn finish(&self, divided: &Divided, sketch: Sketch) -> Result<(Built, f64), Error> {
+    fn finish(&self, divided: &Divided, sketch: &Sketch) -> Result<(Built, f64), Error> {
         let (built, harm_mm) = self.planned(divided, Detection::Discrete, |run| run.finished(sketch))?;
         if harm_mm == 0.0 || !built.verdict.is_clean() {
             return Ok((built, harm_mm));
         }
         // Discrete detection missed a bump: the nose of a snowman of 80 mm passes its hat between two samples.
-        let closer = self.planned(divided, Detection::Continuous, |run| run.finished(run.sketch()?))?;
+        let closer = self.planned(divided, Detection::Continuous, |run| run.finished(&run.sketch()?))?;
         Ok(if closer.1 < harm_mm { closer } else { (built, harm_mm) })
     }
 }
@@ -447,7 +456,7 @@ impl Making<'_> {
         detection: Detection,
         build: impl FnOnce(Run<'_>) -> Result<Built, ModelError>,
     ) -> Result<(Built, f64), Error> {
-        let Self { engine, options, progress } = *self;
+        let Self { engine, options, progress, .. } = *self;
         let built = engine.building(divided, options, (detection, progress), build)?;
         engine.know(&built);
         // Some that bump at first sight have a way past each other, or a plug.

@@ -49,7 +49,7 @@ impl Mended {
 /// Parts and what was sketched of them.
 struct Draft {
     divided: Arc<Divided>,
-    sketch: Sketch,
+    sketch: Arc<Sketch>,
 }
 
 impl Draft {
@@ -88,11 +88,11 @@ pub(super) trait Maker {
     /// Whether the part of this name may become a piece of another.
     fn may_vanish(&self, part: &str) -> bool;
 
-    /// A first look at a model.
-    fn sketch(&self, divided: &Divided) -> Result<Sketch, Error>;
+    /// A first look at a model, or the one that was taken before at the same parts and joints.
+    fn sketch(&self, divided: &Divided) -> Result<Arc<Sketch>, Error>;
 
     /// The model of a sketch, and what is wrong with it once its folding is planned, mm.
-    fn finish(&self, divided: &Divided, sketch: Sketch) -> Result<(Built, f64), Error>;
+    fn finish(&self, divided: &Divided, sketch: &Sketch) -> Result<(Built, f64), Error>;
 }
 
 /// The parts with the joints that serve the model best, where those that the shape suggests do it harm; and one part
@@ -187,7 +187,7 @@ fn drafted(maker: &impl Maker, divided: Arc<Divided>) -> Result<Draft, Error> {
 }
 
 fn finished(maker: &impl Maker, Draft { divided, sketch }: Draft) -> Result<Mended, Error> {
-    let (built, planned_mm) = maker.finish(&divided, sketch)?;
+    let (built, planned_mm) = maker.finish(&divided, &sketch)?;
     let openings = built.model.parts().iter().flat_map(|part| openings_mm2(part.component.panels()));
     let openings_mm2: f64 = openings.sum();
     let harm_mm = OPENING_PRICE * openings_mm2 + planned_mm + lost_mm(&divided, &built.model);

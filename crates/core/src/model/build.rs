@@ -98,7 +98,7 @@ pub fn build(
     progress: &dyn Progress,
 ) -> Result<Built, ModelError> {
     let run = Run { assembly, known, firmness: 1.0, judge, progress };
-    run.finished(run.sketch()?)
+    run.finished(&run.sketch()?)
 }
 
 /// A model from few candidates for each part. Most models need no more.
@@ -206,12 +206,12 @@ impl Run<'_> {
     ///
     /// # Errors
     /// [`ModelError`].
-    pub fn finished(&self, Sketch { mut ways }: Sketch) -> Result<Built, ModelError> {
+    pub fn finished(&self, Sketch { ways }: &Sketch) -> Result<Built, ModelError> {
         if ways[0].trouble == Trouble::default() {
-            return Ok(ways.swap_remove(0).built);
+            return Ok(ways[0].built.clone());
         }
         let mut best: Option<Attempt> = None;
-        for way in &ways {
+        for way in ways {
             let wider = self.attempt(&way.links, &way.trouble, &way.built.ids)?;
             let wider = self.settled(&wider)?.unwrap_or(wider);
             let is_last = wider.built.verdict.is_clean() || !wider.trouble.bumping.is_empty();
@@ -222,7 +222,7 @@ impl Run<'_> {
                 break;
             }
         }
-        Ok(best.unwrap_or_else(|| ways.swap_remove(0)).built)
+        Ok(best.map_or_else(|| ways[0].built.clone(), |best| best.built))
     }
 
     /// A model from more candidates for the parts in `trouble` than for the others. The search also starts
