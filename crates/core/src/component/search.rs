@@ -88,6 +88,9 @@ const MOST_TRIMMED_MM2: f64 = 10.0;
 /// of 0.3 %.
 const MOST_TRIMMED: f64 = 0.002;
 const OVER_PRICE: f64 = 10.0;
+/// A shape that is closed by leaving out panels may be so many times as unlike. Without it the square top of a table became a
+/// pentagon. XXX
+const CLOSED_AT_MOST: f64 = 1.5;
 /// Price of a mm that a shape lacks to be valid, while directions are compared.
 const LACK_PRICE: f64 = 2.0;
 
@@ -350,17 +353,23 @@ fn pruned(mut found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Fou
     found
 }
 
-/// The same without those planes and chains for which panels are trimmed so much that it looks like a hole.
-fn closed(mut found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Found {
-    while over_mm2(&found.made) > 0.0 {
-        let simpler = [without_plane, without_chain].map(|way| found.simpler(way, targets, hulls));
-        let best = simpler.into_iter().flatten().min_by(|a, b| a.cost_mm.total_cmp(&b.cost_mm));
-        match best.filter(|best| best.cost_mm < found.cost_mm) {
-            Some(best) => found = best,
-            None => break,
+/// The same without those planes and chains for which panels are trimmed so much that it looks like a hole; as it is
+/// where it would be far less alike.
+fn closed(found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Found {
+    let most_mm = CLOSED_AT_MOST * found.fitted.unlike_mm;
+    let mut closed: Option<Found> = None;
+    loop {
+        let now = closed.as_ref().unwrap_or(&found);
+        if over_mm2(&now.made) == 0.0 {
+            return closed.unwrap_or(found);
+        }
+        let simpler = [without_plane, without_chain].map(|way| now.simpler(way, targets, hulls));
+        let alike = simpler.into_iter().flatten().filter(|simpler| simpler.fitted.unlike_mm <= most_mm);
+        match alike.min_by(|a, b| a.cost_mm.total_cmp(&b.cost_mm)) {
+            Some(simpler) => closed = Some(simpler),
+            None => return found,
         }
     }
-    found
 }
 
 /// What a panel less may cost, mm.
