@@ -88,8 +88,7 @@ const MOST_TRIMMED_MM2: f64 = 10.0;
 /// of 0.3 %.
 const MOST_TRIMMED: f64 = 0.002;
 const OVER_PRICE: f64 = 10.0;
-/// A shape that is closed by leaving out panels may be so many times as unlike. Without it the square top of a table became a
-/// pentagon. XXX
+/// A shape that is closed by leaving out panels may be so many times as unlike. Not bounded by a case yet.
 const CLOSED_AT_MOST: f64 = 1.5;
 /// Price of a mm that a shape lacks to be valid, while directions are compared.
 const LACK_PRICE: f64 = 2.0;
