@@ -405,7 +405,7 @@ fn of_boards(shaped: Shaped) -> Result<Shaped, Error> {
     Ok(Shaped { model: Arc::new(boards), notes, ..shaped })
 }
 
-/// So many sketches are kept, for joints that are tried again when others have been. A chair has 32.
+/// So many sketches are kept, for joints that are tried again when others have been. A chair asks for 23.
 const SKETCHES: usize = 100;
 
 /// Models with one set of options.

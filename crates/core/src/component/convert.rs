@@ -417,13 +417,18 @@ pub(crate) mod tests {
         check(&convert(&target(&Hull::of_points(&blob(axes, 30)).unwrap(), vec![])).unwrap());
     }
 
+    /// A bowl with a rim that reaches so far to two sides, mm.
+    fn flaring_bowl(reach_mm: f64) -> Hull {
+        let mut points = blob(DVec3::new(60.0, 60.0, 20.0), 200);
+        points.retain(|p| p.z > -1.0);
+        points.extend(blob(DVec3::new(20.0, reach_mm, 20.0), 100));
+        Hull::of_points(&points).unwrap()
+    }
+
     /// Chains of a flaring bowl overlap when flat and are trimmed back.
     #[test]
     fn overlapping_flat_layers_are_trimmed() {
-        let mut points = blob(DVec3::new(60.0, 60.0, 20.0), 200);
-        points.retain(|p| p.z > -1.0);
-        points.extend(blob(DVec3::new(20.0, 80.0, 20.0), 100));
-        let hull = Hull::of_points(&points).unwrap();
+        let hull = flaring_bowl(80.0);
         for edges in [3, 5, 7, 9] {
             let component = convert(&Target { top_edges: edges, ..target(&hull, vec![]) }).unwrap();
             check(&component);
@@ -434,10 +439,7 @@ pub(crate) mod tests {
     /// is trimmed must not be seen as a hole.
     #[test]
     fn a_flaring_bowl_has_no_holes() {
-        let mut points = blob(DVec3::new(60.0, 60.0, 20.0), 200);
-        points.retain(|p| p.z > -1.0);
-        points.extend(blob(DVec3::new(20.0, 80.0, 20.0), 100));
-        let hull = Hull::of_points(&points).unwrap();
+        let hull = flaring_bowl(80.0);
         for turn in 0..6 {
             let motion = glam::DAffine3::from_rotation_x(f64::from(turn) * 0.5);
             let component = convert(&target(&hull.moved(&motion), vec![])).unwrap();
@@ -450,10 +452,7 @@ pub(crate) mod tests {
     /// had a hole of 225 mm².
     #[test]
     fn a_flaring_bowl_has_no_holes_in_any_direction() {
-        let mut points = blob(DVec3::new(60.0, 60.0, 20.0), 200);
-        points.retain(|p| p.z > -1.0);
-        points.extend(blob(DVec3::new(20.0, 110.0, 20.0), 100));
-        let hull = Hull::of_points(&points).unwrap();
+        let hull = flaring_bowl(110.0);
         let turned: Vec<Hull> = (0..6)
             .map(|turn| hull.moved(&glam::DAffine3::from_rotation_x(f64::from(turn) * 30_f64.to_radians())))
             .collect();

@@ -108,7 +108,7 @@ pub(super) struct Found {
 /// search also starts with all, so that more edges and vertices never make the error larger.
 const SURE: usize = 6;
 
-/// What leaves out a panel or a chain; `None` where none can be spared.
+/// What leaves out a plane or a chain; `None` where none can be spared.
 type Spare = fn(&Fitted, &Target) -> Option<(Solid, Vec<FoldSpot>)>;
 
 impl Found {

@@ -36,7 +36,7 @@ const ALIKE_PERCENT: f64 = 0.05;
 /// of these the planes across x are 1.5 and 2.2 times as bad as the best.
 const ALIGNED: f64 = 2.3;
 
-/// Not where the normals of the two have more than this in common: glasses and planes that are turned by a degree
+/// Not where the normals of the two have more than this in common: glasses and aircraft that are turned by a degree
 /// lose 0.025 of their outlines in a plane that is not quite theirs.
 const NEAR: f64 = 0.9;
 
