@@ -1,6 +1,7 @@
 //! Planes, convex hulls and polygons: the geometry that every stage shares.
 
 pub mod eigen;
+mod flat;
 mod hull;
 mod mirror;
 pub mod nearest;
@@ -11,6 +12,7 @@ mod quickhull;
 mod sphere;
 mod symmetrized;
 
+pub use flat::{FlatSide, Patch};
 pub use hull::{Facet, Hull, HullError};
 pub use mirror::Mirror;
 pub use plane::Plane;

@@ -1,7 +1,7 @@
 //! The plane of a joint between two parts (§4.2.1): least squares through the interface, moved or
 //! turned where that takes less off the two.
 
-use crate::geom::{Facet, Hull, Mirror, Plane, polygon};
+use crate::geom::{Facet, FlatSide, Hull, Mirror, Plane, polygon};
 use glam::{DVec2, DVec3};
 use std::ops::RangeInclusive;
 
@@ -28,6 +28,8 @@ const SPARED: f64 = 0.1;
 /// By these angles, each to so many sides.
 const TURNS_RAD: [f64; 3] = [20.0_f64.to_radians(), 40.0_f64.to_radians(), 60.0_f64.to_radians()];
 const TURNED: usize = 8;
+/// Joints are on flat sides that look to the other part within this angle of the fitted plane.
+const LEANING_RAD: f64 = 60.0_f64.to_radians();
 /// Price of a joint whose two sections have nothing in common,
 const GLUE_PRICE: f64 = 1.0;
 /// which has enough with this share of the smaller section that the joint can have.
@@ -47,6 +49,7 @@ pub(super) fn between(points: &[DVec3], ground: &Ground<'_>, across: &[Mirror]) 
     let centre = across.iter().fold(centre, |c, mirror| mirror.plane().project(c));
     let facing = |plane: Plane| if plane.normal().dot(towards) < 0.0 { plane.flipped() } else { plane };
     let is_upright = |normal: &DVec3| normal.length() >= UPRIGHT;
+    let is_image = |plane: &Plane| along(plane.normal()).length() > 1.0 - 1e-9;
     let fitted = Plane::fit(points).map(|(plane, _)| along(plane.normal())).filter(is_upright);
     let fitted = fitted.and_then(|normal| Plane::through(centre, normal)).map(facing);
     let straight = Plane::through(centre, towards);
@@ -70,12 +73,17 @@ pub(super) fn between(points: &[DVec3], ground: &Ground<'_>, across: &[Mirror]) 
         planes.flat_map(priced).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, first))
     };
     let mut best = cheapest(&mut [Some(first), halfway, straight].into_iter().flatten());
-    if ground.lost_joints(&best.1) > SPARED {
+    if ground.lost_joints(&best.1, 0.0) > SPARED {
         let turned = turned(first.normal()).map(along).filter(is_upright);
         let other = cheapest(&mut turned.filter_map(|normal| Plane::through(centre, normal)));
         best = if other.0 < best.0 { other } else { best };
     }
-    let best = best.1;
+    let on_side =
+        ground.sides().filter(|side| side.plane.normal().dot(first.normal()) > libm::cos(LEANING_RAD));
+    let on_side =
+        on_side.map(|side| (ground.price_on(&side), side.plane)).filter(|(_, plane)| is_image(plane));
+    let on_side = on_side.min_by(|a, b| a.0.total_cmp(&b.0));
+    let best = on_side.filter(|on_side| on_side.0 < best.0).unwrap_or(best).1;
     let lost = ground.lost(&best);
     (best, lost[0].max(lost[1]))
 }
@@ -158,8 +166,9 @@ impl<'a> Kept<'a> {
     }
 
     /// The share that a plane cuts off.
-    fn lost(&self, side: &Plane) -> f64 {
-        let off = self.points.iter().filter(|p| side.distance(**p) > self.spared_mm).count();
+    fn lost(&self, side: &Plane, spared_mm: f64) -> f64 {
+        let spared_mm = spared_mm.max(self.spared_mm);
+        let off = self.points.iter().filter(|p| side.distance(**p) > spared_mm).count();
         off as f64 / self.points.len().max(1) as f64
     }
 }
@@ -197,16 +206,38 @@ impl<'a> Ground<'a> {
         Self { hulls, alone, counts, kept, most_glue: size(parent).min(size(child)) }
     }
 
-    fn price(&self, plane: &Plane) -> f64 {
-        let enough = ENOUGH_GLUE * self.most_glue;
-        let lack = (1.0 - self.common(plane) / enough.max(f64::MIN_POSITIVE)).max(0.0);
-        self.lost(plane).iter().sum::<f64>() + JOINT_PRICE * self.lost_joints(plane) + GLUE_PRICE * lack
+    /// The flat sides of both hulls that look to the other, as planes between them.
+    fn sides(&self) -> impl Iterator<Item = FlatSide> {
+        let [parent, child] = self.hulls.map(FlatSide::of_hull);
+        let child = child.into_iter().map(|side| FlatSide { plane: side.plane.flipped(), ..side });
+        parent.into_iter().chain(child)
     }
 
-    /// The shares of the interfaces of other joints that a plane cuts off, together.
-    fn lost_joints(&self, plane: &Plane) -> f64 {
+    /// The price of a joint on a flat side. Other joints on the side are as rough as it is.
+    fn price_on(&self, side: &FlatSide) -> f64 {
+        self.price_within(&side.plane, side.roughness)
+    }
+
+    fn price(&self, plane: &Plane) -> f64 {
+        self.price_within(plane, 0.0)
+    }
+
+    /// The price of a plane near which both hulls end, by so much before or behind it.
+    fn price_within(&self, plane: &Plane, rough_mm: f64) -> f64 {
+        let enough = ENOUGH_GLUE * self.most_glue;
+        let lack = (1.0 - self.common(plane, rough_mm) / enough.max(f64::MIN_POSITIVE)).max(0.0);
+        let lost_joints = self.lost_joints(plane, 2.0 * rough_mm);
+        self.lost(plane).iter().sum::<f64>() + JOINT_PRICE * lost_joints + GLUE_PRICE * lack
+    }
+
+    /// The shares of the interfaces of other joints that a plane cuts off, together, where it cuts deeper than this.
+    fn lost_joints(&self, plane: &Plane, spared_mm: f64) -> f64 {
         let sides = [*plane, plane.flipped()];
-        self.kept.iter().zip(&sides).flat_map(|(kept, side)| kept.iter().map(|joint| joint.lost(side))).sum()
+        self.kept
+            .iter()
+            .zip(&sides)
+            .flat_map(|(kept, side)| kept.iter().map(|joint| joint.lost(side, spared_mm)))
+            .sum()
     }
 
     /// The share of each hull that a plane takes off and the other does not have.
@@ -218,17 +249,24 @@ impl<'a> Ground<'a> {
         })
     }
 
-    /// Area that the sections of both hulls share.
-    fn common(&self, plane: &Plane) -> f64 {
-        polygon::area(&shared_section(plane, self.hulls[0], self.hulls[1]))
+    /// Area that the sections of both hulls share, each so far within the hull.
+    fn common(&self, plane: &Plane, inset_mm: f64) -> f64 {
+        let [parent, child] = self.hulls;
+        let before = flat_section(&plane.shifted(-inset_mm), parent);
+        let behind = flat_section(&plane.shifted(inset_mm), child);
+        polygon::area(&common_outline(&before, &behind))
     }
 }
 
 /// What the sections of two hulls share, in the plane's [`Plane::basis`]; empty where that is nothing.
 pub(super) fn shared_section(plane: &Plane, first: &Hull, second: &Hull) -> Vec<DVec2> {
-    let [first, second] = [first, second].map(|hull| flat_section(plane, hull));
+    common_outline(&flat_section(plane, first), &flat_section(plane, second))
+}
+
+/// What two convex polygons share; either may be nothing.
+fn common_outline(first: &[DVec2], second: &[DVec2]) -> Vec<DVec2> {
     let is_nothing = first.is_empty() || second.is_empty();
-    if is_nothing { Vec::new() } else { polygon::intersect_convex(&first, &second) }
+    if is_nothing { Vec::new() } else { polygon::intersect_convex(first, second) }
 }
 
 /// The section of a hull, in the plane's [`Plane::basis`], counter-clockwise; empty where it has no area.
@@ -312,9 +350,28 @@ mod tests {
         let kept: Vec<Vec<DVec3>> = std::iter::once(tail.clone()).chain(legs).collect();
         let lost = |kept: &[Vec<DVec3>]| {
             let (plane, _) = between(&points, &Ground::new(&body, &large, [kept, &[]]), &[]);
-            Kept::new(&tail).lost(&plane)
+            Kept::new(&tail).lost(&plane, 0.0)
         };
         assert_eq!(lost(&kept), 0.0);
         assert_eq!(lost(&[kept.concat()]), 1.0, "as a share of all, one joint is not worth the part");
+    }
+
+    /// The borders of four legs with the top of a table are at slightly different heights, and one leans. Planes were turned to
+    /// spare the other joints, and made a roof of the top.
+    #[test]
+    fn legs_stand_on_the_flat_side_of_a_table() {
+        let top = cuboid(DVec3::new(-60.0, -40.0, 0.0), DVec3::new(60.0, 40.0, 6.0));
+        let leg =
+            |x: f64, y: f64| cuboid(DVec3::new(x - 4.0, y - 4.0, -60.0), DVec3::new(x + 4.0, y + 4.0, 0.8));
+        let border = |x: f64, y: f64, z: f64, lean: f64| {
+            let corners = [(4.0, 4.0), (-4.0, 4.0), (-4.0, -4.0), (4.0, -4.0)];
+            corners.map(|(u, v)| DVec3::new(x + u, y + v, z + lean * (u + v))).to_vec()
+        };
+        let places = [(48.0, 28.0), (-48.0, 28.0), (-48.0, -28.0)];
+        let others: Vec<Vec<DVec3>> = places.iter().map(|&(x, y)| border(x, y, -2.2, 0.0)).collect();
+        let own = border(48.0, -28.0, 0.2, 0.15);
+        let (plane, lost) = between(&own, &Ground::new(&top, &leg(48.0, -28.0), [&others, &[]]), &[]);
+        assert!(plane.normal().z < -1.0 + 1e-9, "{plane:?}");
+        assert!(plane.offset().abs() < 1e-9 && lost == 0.0, "{plane:?} {lost}");
     }
 }

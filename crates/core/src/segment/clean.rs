@@ -5,6 +5,7 @@ use super::coarsen::Coarse;
 use super::grid::Interior;
 use super::halves::Halves;
 use super::patches::{Partition, absorb_small};
+use super::plates::without_stubs;
 use super::refine::refine_borders;
 use crate::geom::Hull;
 use crate::mesh::{Mesh, Views};
@@ -55,6 +56,16 @@ impl Cleaner<'_> {
         match &self.halves {
             Some(halves) => halves.alike(surface, &found, refined),
             None => refined,
+        }
+    }
+
+    /// Clean parts without the stubs that plates have of others.
+    pub fn without_stubs(&self, parts: Partition) -> Partition {
+        let surface = &self.fine.surface;
+        let trimmed = without_stubs(surface, parts.clone());
+        match &self.halves {
+            Some(halves) if trimmed.of_cell != parts.of_cell => halves.alike(surface, &parts, trimmed),
+            _ => trimmed,
         }
     }
 

@@ -23,6 +23,7 @@ mod naming;
 mod overlap;
 mod parts;
 mod patches;
+mod plates;
 mod refine;
 mod rough_hull;
 mod sdf;

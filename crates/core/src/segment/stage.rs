@@ -113,6 +113,7 @@ pub fn segment(
         Some((finer, solid)) => cleaner.best((&cells, finer), solid, part_cost, progress)?,
         None => cleaner.clean(&cells),
     };
+    let refined = cleaner.without_stubs(refined);
     let of_face: Vec<u32> = borders.cell_of.iter().map(|&cell| refined.of_cell[cell as usize]).collect();
     Ok(Segmentation::numbered(&of_face, refined.count, fine.areas()).mirrored_in(plane))
 }
