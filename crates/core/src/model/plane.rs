@@ -78,12 +78,19 @@ pub(super) fn between(points: &[DVec3], ground: &Ground<'_>, across: &[Mirror]) 
         let other = cheapest(&mut turned.filter_map(|normal| Plane::through(centre, normal)));
         best = if other.0 < best.0 { other } else { best };
     }
-    let on_side =
-        ground.sides().filter(|side| side.plane.normal().dot(first.normal()) > libm::cos(LEANING_RAD));
-    let on_side =
-        on_side.map(|side| (ground.price_on(&side), side.plane)).filter(|(_, plane)| is_image(plane));
-    let on_side = on_side.min_by(|a, b| a.0.total_cmp(&b.0));
-    let best = on_side.filter(|on_side| on_side.0 < best.0).unwrap_or(best).1;
+    // What hangs under a plate is along its top: the underside may be rough.
+    let along_plate = |side: FlatSide| {
+        let normal = side.plane.normal();
+        let towards = normal * normal.dot(first.normal()).signum();
+        let across = Plane::through(centre, towards)
+            .filter(|plane| plane.normal().dot(first.normal()) > libm::cos(LEANING_RAD) && is_image(plane));
+        let own = across.filter(|_| towards == normal).map(|_| (side.plane, 0.0));
+        let levels = own.into_iter().chain(across.into_iter().flat_map(&slid));
+        let priced = |(plane, price)| (price + ground.price_within(&plane, side.roughness), plane);
+        levels.map(priced).min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let on_plate = ground.sides().filter_map(along_plate).min_by(|a, b| a.0.total_cmp(&b.0));
+    let best = on_plate.filter(|on_plate| on_plate.0 < best.0).unwrap_or(best).1;
     let lost = ground.lost(&best);
     (best, lost[0].max(lost[1]))
 }
@@ -206,16 +213,11 @@ impl<'a> Ground<'a> {
         Self { hulls, alone, counts, kept, most_glue: size(parent).min(size(child)) }
     }
 
-    /// The flat sides of both hulls that look to the other, as planes between them.
+    /// The flat sides of both hulls, as planes between them.
     fn sides(&self) -> impl Iterator<Item = FlatSide> {
         let [parent, child] = self.hulls.map(FlatSide::of_hull);
         let child = child.into_iter().map(|side| FlatSide { plane: side.plane.flipped(), ..side });
         parent.into_iter().chain(child)
-    }
-
-    /// The price of a joint on a flat side. Other joints on the side are as rough as it is.
-    fn price_on(&self, side: &FlatSide) -> f64 {
-        self.price_within(&side.plane, side.roughness)
     }
 
     fn price(&self, plane: &Plane) -> f64 {
