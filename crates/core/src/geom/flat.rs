@@ -11,9 +11,9 @@ const LEAST_SHARE: f64 = 0.35;
 const ROUGH_RAD: f64 = 20.0_f64.to_radians();
 /// And its points from the plane by at most this share of the surface's extent.
 const ROUGH: f64 = 0.01;
-/// So many directions that much of a surface looks to are looked at.
+/// Directions that are looked at, those that most of a surface has first. Not bounded by a case.
 const LOOKS: usize = 6;
-/// Means of normals are taken again around the last so many times.
+/// Times that the mean of normals is taken again around the last one. Not bounded by a case.
 const ROUNDS: usize = 3;
 /// Normals are counted on a grid of this many steps to 1.
 const STEPS: f64 = 4.0;
