@@ -28,7 +28,7 @@ const SPARED: f64 = 0.1;
 /// By these angles, each to so many sides.
 const TURNS_RAD: [f64; 3] = [20.0_f64.to_radians(), 40.0_f64.to_radians(), 60.0_f64.to_radians()];
 const TURNED: usize = 8;
-/// Joints are on flat sides that look to the other part within this angle of the fitted plane.
+/// Planes along a flat side are tried within this angle of the fitted plane.
 const LEANING_RAD: f64 = 60.0_f64.to_radians();
 /// Price of a joint whose two sections have nothing in common,
 const GLUE_PRICE: f64 = 1.0;

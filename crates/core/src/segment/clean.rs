@@ -53,19 +53,20 @@ impl Cleaner<'_> {
         }
         let found = Partition { of_cell, count: parts.count };
         let refined = absorb_small(surface, refine_borders(surface, found.clone()), self.least_area);
-        match &self.halves {
-            Some(halves) => halves.alike(surface, &found, refined),
-            None => refined,
-        }
+        self.alike(&found, refined)
     }
 
     /// Clean parts without the stubs that plates have of others.
     pub fn without_stubs(&self, parts: Partition) -> Partition {
-        let surface = &self.fine.surface;
-        let trimmed = without_stubs(surface, parts.clone());
+        let trimmed = without_stubs(&self.fine.surface, parts.clone());
+        if trimmed.of_cell == parts.of_cell { parts } else { self.alike(&parts, trimmed) }
+    }
+
+    /// Parts that came from `found` by moving borders, with the halves of a symmetric surface alike.
+    fn alike(&self, found: &Partition, moved: Partition) -> Partition {
         match &self.halves {
-            Some(halves) if trimmed.of_cell != parts.of_cell => halves.alike(surface, &parts, trimmed),
-            _ => trimmed,
+            Some(halves) => halves.alike(&self.fine.surface, found, moved),
+            None => moved,
         }
     }
 

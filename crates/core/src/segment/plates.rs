@@ -7,7 +7,7 @@ use super::patches::Partition;
 use super::surface::Surface;
 use crate::geom::{FlatSide, Patch, Plane};
 use glam::DVec3;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// What stands on a plate leads away from its side within this angle of the normal.
 const LEANING_RAD: f64 = 60.0_f64.to_radians();
@@ -26,17 +26,22 @@ pub(super) fn without_stubs(surface: &Surface, mut parts: Partition) -> Partitio
     for (plate, own) in (0u32..).zip(&cells) {
         let most_area = STUB * area(surface, own);
         for side in FlatSide::of_patches(&own.iter().map(patch).collect::<Vec<_>>()) {
-            for (other, border) in borders(surface, &parts, plate) {
+            let borders = borders(surface, &parts, plate);
+            let is_beyond = |cell: usize| {
+                parts.of_cell[cell] == plate && side.plane.distance(surface.centres()[cell]) > side.roughness
+            };
+            let (piece, _) = surface.components(|cell| u32::from(is_beyond(cell)));
+            let mut beyond: Vec<usize> = own.iter().copied().filter(|&cell| is_beyond(cell)).collect();
+            for (other, border) in borders {
                 if !stands_on(surface, &side.plane, &cells[other as usize], &border) {
                     continue;
                 }
-                let is_beyond = |cell: usize| {
-                    parts.of_cell[cell] == plate
-                        && side.plane.distance(surface.centres()[cell]) > side.roughness
-                };
-                let stub = reached(surface, &border, is_beyond);
+                let touched: BTreeSet<u32> = border.iter().map(|[cell, _]| piece[*cell]).collect();
+                let (stub, rest): (Vec<usize>, Vec<usize>) =
+                    beyond.iter().partition(|cell| touched.contains(&piece[**cell]));
                 if area(surface, &stub) <= most_area {
                     stub.into_iter().for_each(|cell| parts.of_cell[cell] = other);
+                    beyond = rest;
                 }
             }
         }
@@ -72,48 +77,17 @@ fn stands_on(surface: &Surface, side: &Plane, cells: &[usize], border: &[[usize;
     away > libm::cos(LEANING_RAD) * end.distance(meets) && side.distance(end) > away / 2.0
 }
 
-/// The cells of a kind that hang together with those at a border.
-fn reached(surface: &Surface, border: &[[usize; 2]], is_kind: impl Fn(usize) -> bool) -> Vec<usize> {
-    let mut is_found = vec![false; surface.len()];
-    let mut stack: Vec<usize> = border.iter().map(|[own, _]| *own).filter(|&cell| is_kind(cell)).collect();
-    let mut found = Vec::new();
-    while let Some(cell) = stack.pop() {
-        if !std::mem::replace(&mut is_found[cell], true) {
-            found.push(cell);
-            stack.extend(surface.around(cell).map(|(other, _)| other).filter(|&other| is_kind(other)));
-        }
-    }
-    found
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::shapes::turned;
     use super::*;
 
-    /// A surface of revolution about z through points of a half plane, from its axis back to it.
-    fn turned(profile: &[(f64, f64)], around: u32) -> Surface {
-        let rings: u32 = profile.len() as u32;
-        let mut positions = Vec::new();
-        for (radius, z) in profile {
-            positions.extend((0..around).map(|k| {
-                let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(k) / f64::from(around));
-                DVec3::new(radius * cos, radius * sin, *z)
-            }));
-        }
-        let mut faces = Vec::new();
-        for ring in 0..rings - 1 {
-            for k in 0..around {
-                let at = |ring: u32, k: u32| ring * around + k % around;
-                let [a, b, c, d] = [at(ring, k), at(ring, k + 1), at(ring + 1, k), at(ring + 1, k + 1)];
-                // The first and the last ring are points. Seen from outside the profile goes down.
-                if ring > 0 {
-                    faces.push([a, d, b]);
-                }
-                if ring < rings - 2 {
-                    faces.push([a, c, d]);
-                }
-            }
-        }
+    /// A surface of revolution through points of a half plane, from its upper end to its lower one.
+    fn surface(corners: &[(f64, f64)], steps: &[u32]) -> Surface {
+        let lines = corners.windows(2).zip(steps).flat_map(|(ends, n)| line(ends[0], ends[1], *n));
+        let mut rings: Vec<(f64, f64)> = lines.skip(1).collect();
+        rings.reverse();
+        let (positions, faces) = turned((corners[corners.len() - 1].1, corners[0].1), &rings, 24);
         Surface::of_faces(&positions, &faces)
     }
 
@@ -129,10 +103,7 @@ mod tests {
     #[test]
     fn the_leg_of_a_table_begins_at_its_top() {
         let corners = [(0.0, 1.0), (20.0, 1.0), (20.0, 0.0), (2.0, 0.0), (2.0, -25.0), (0.0, -25.0)];
-        let mut profile: Vec<(f64, f64)> =
-            corners.windows(2).zip([20, 3, 20, 50, 4]).flat_map(|(w, n)| line(w[0], w[1], n)).collect();
-        profile.push(corners[5]);
-        let surface = turned(&profile, 24);
+        let surface = surface(&corners, &[20, 3, 20, 50, 4]);
         let parts_at = |z: f64| {
             let of_cell = surface.centres().iter().map(|c| u32::from(c.z < z)).collect();
             Partition { of_cell, count: 2 }
@@ -154,10 +125,7 @@ mod tests {
     #[test]
     fn borders_elsewhere_stay() {
         let corners = [(0.0, 20.0), (8.0, 20.0), (8.0, -20.0), (0.0, -20.0)];
-        let mut profile: Vec<(f64, f64)> =
-            corners.windows(2).zip([8, 40, 8]).flat_map(|(w, n)| line(w[0], w[1], n)).collect();
-        profile.push(corners[3]);
-        let surface = turned(&profile, 24);
+        let surface = surface(&corners, &[8, 40, 8]);
         let of_cell: Vec<u32> = surface.centres().iter().map(|c| u32::from(c.z < 3.0)).collect();
         let parts = Partition { of_cell: of_cell.clone(), count: 2 };
         assert_eq!(without_stubs(&surface, parts).of_cell, of_cell);

@@ -12,13 +12,21 @@ pub(super) fn balls_in_a_row(balls: &[(f64, f64)], rings: usize, around: usize) 
     let hi = balls.iter().map(|b| b.0 + b.1).fold(f64::NEG_INFINITY, f64::max);
     let radius =
         |z: f64| balls.iter().map(|b| (b.1 * b.1 - (z - b.0).powi(2)).max(0.0).sqrt()).fold(0.0, f64::max);
-    let mut positions = vec![DVec3::new(0.0, 0.0, lo)];
-    for ring in 1..rings {
+    let ring = |ring: usize| {
         let t = std::f64::consts::PI * ring as f64 / rings as f64;
         let z = lo + (hi - lo) * (1.0 - libm::cos(t)) / 2.0;
+        (radius(z), z)
+    };
+    turned((lo, hi), &(1..rings).map(ring).collect::<Vec<_>>(), around)
+}
+
+/// A closed surface of revolution about z, from its lower end over rings of radius and height to its upper end.
+pub(super) fn turned((lo, hi): (f64, f64), rings: &[(f64, f64)], around: usize) -> Shape {
+    let mut positions = vec![DVec3::new(0.0, 0.0, lo)];
+    for &(radius, z) in rings {
         for k in 0..around {
             let (sin, cos) = libm::sincos(k as f64 / around as f64 * std::f64::consts::TAU);
-            positions.push(DVec3::new(cos * radius(z), sin * radius(z), z));
+            positions.push(DVec3::new(cos * radius, sin * radius, z));
         }
     }
     positions.push(DVec3::new(0.0, 0.0, hi));
@@ -27,8 +35,8 @@ pub(super) fn balls_in_a_row(balls: &[(f64, f64)], rings: usize, around: usize) 
     let mut faces = Vec::new();
     for k in 0..around {
         faces.push([0, at(1, k + 1), at(1, k)]);
-        faces.push([last, at(rings - 1, k), at(rings - 1, k + 1)]);
-        for ring in 1..rings - 1 {
+        faces.push([last, at(rings.len(), k), at(rings.len(), k + 1)]);
+        for ring in 1..rings.len() {
             let [a, b] = [at(ring, k), at(ring, k + 1)];
             let [c, d] = [at(ring + 1, k), at(ring + 1, k + 1)];
             faces.extend([[a, b, d], [a, d, c]]);
