@@ -139,6 +139,11 @@ impl Hulls {
         Some(Self { links, touching: Arc::new(touching), ..self.with(Parted { hulls, borders }) })
     }
 
+    /// Pairs that are better one: see [`model::needless`].
+    pub(super) fn needless(&self) -> Vec<(usize, usize)> {
+        self.touching.needless()
+    }
+
     /// The hulls, clipped where joints are.
     pub fn hulls(&self) -> &[Hull] {
         &self.solid.hulls
@@ -180,7 +185,7 @@ pub(super) fn without_needless_joints(mut divided: Parts) -> (Parts, Touching) {
     loop {
         let touching = Touching::of(&divided);
         let solid = &touching.solid;
-        let pairs = model::needless(&touching.hulls(), &touching.links);
+        let pairs = touching.needless();
         if pairs.is_empty() {
             return (divided, touching);
         }
@@ -219,6 +224,10 @@ impl Touching {
 
     fn hulls(&self) -> Vec<&Hull> {
         self.solid.hulls.iter().collect()
+    }
+
+    fn needless(&self) -> Vec<(usize, usize)> {
+        model::needless(&self.hulls(), &self.links)
     }
 
     /// The same without a joint between two parts, and between their images; `None` where a part would be left alone.
@@ -410,13 +419,14 @@ fn rim_mm(points: &[DVec3]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::merge::needless;
     use super::*;
     use tatamu_core::mesh::Soup;
     use tatamu_core::progress::Silent;
-    use tatamu_core::segment::SegmentOptions;
+    use tatamu_core::segment::{Edit, SegmentOptions};
 
     /// Boxes, from their least and largest corners, as parts that touch.
-    fn hulls_of(boxes: &[[DVec3; 2]]) -> Hulls {
+    fn parts_of(boxes: &[[DVec3; 2]]) -> Parts {
         let mut positions = Vec::new();
         let mut faces: Vec<[u32; 4]> = Vec::new();
         for (k, [low, high]) in boxes.iter().enumerate() {
@@ -431,7 +441,11 @@ mod tests {
         let mesh = Mesh::from_soup(&Soup::new(positions, faces).unwrap()).unwrap().0;
         let options = SegmentOptions { parts: Some(boxes.len()), ..SegmentOptions::default() };
         let segmentation = segment::segment(&mesh, &options, &Silent).unwrap();
-        Hulls::new(&Parts::new(Arc::new(mesh), segmentation)).unwrap()
+        Parts::new(Arc::new(mesh), segmentation)
+    }
+
+    fn hulls_of(boxes: &[[DVec3; 2]]) -> Hulls {
+        Hulls::new(&parts_of(boxes)).unwrap()
     }
 
     fn pairs(hulls: &Hulls) -> Vec<[usize; 2]> {
@@ -456,6 +470,30 @@ mod tests {
         assert_eq!(parent(&other.on_another_parent(post).expect("as before")), parent(&hulls));
         let alone = hulls_of(&[floor, wall]);
         assert!((0..2).all(|part| alone.on_another_parent(part).is_none()));
+    }
+
+    /// A floor and a wall that become one, with a post in the corner between them: its joint would cut off either.
+    #[test]
+    fn what_is_in_the_bend_of_a_part_is_one_with_it() {
+        let floor = [DVec3::ZERO, DVec3::new(80.0, 60.0, 6.0)];
+        let wall = [DVec3::new(0.0, 0.0, 6.0), DVec3::new(6.0, 60.0, 80.0)];
+        let post = [DVec3::new(6.0, 20.0, 6.0), DVec3::new(30.0, 40.0, 30.0)];
+        let parts = parts_of(&[floor, wall, post]);
+        let hulls = Hulls::new(&parts).unwrap();
+        assert_eq!(needless(&hulls, &|_| true), None);
+        let of_height = |is_wanted: &dyn Fn(f64) -> bool| {
+            let height = |hull: &Hull| hull.support(DVec3::Z) + hull.support(-DVec3::Z);
+            let part = (0..3).find(|&part| is_wanted(height(&hulls.solid.hulls[part]))).unwrap();
+            hulls.names()[part].clone()
+        };
+        let [floor, wall] = [of_height(&|h| h < 8.0), of_height(&|h| h > 60.0)];
+        let bent = parts.edited(&Edit::Merge { parts: vec![floor, wall] }).unwrap();
+        let hulls = Hulls::new(&bent).unwrap();
+        let merges = needless(&hulls, &|_| true).expect("one hull adds less than any plane takes off");
+        assert_eq!(merges.len(), 1);
+        assert_eq!(merges[0].iter().collect::<BTreeSet<_>>(), hulls.names().iter().collect());
+        // A part that the user speaks of stays.
+        assert_eq!(needless(&hulls, &|_| false), None);
     }
 
     #[test]

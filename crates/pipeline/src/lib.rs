@@ -27,6 +27,7 @@ mod merge;
 mod openings;
 mod output;
 mod plugs;
+mod reach;
 mod source;
 mod trial;
 mod warning;

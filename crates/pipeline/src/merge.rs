@@ -27,21 +27,38 @@ pub(super) fn mergers(
     verdict: &Verdict,
     may_vanish: &dyn Fn(&str) -> bool,
 ) -> impl Iterator<Item = Vec<Merge>> {
-    let (names, parts) = (hulls.names(), hulls.hulls());
-    let image = |part: usize| hulls.symmetry().map_or(part, |symmetry| symmetry.twin(part));
+    let parts = hulls.hulls();
     let pairs = pairs(hulls, verdict).into_iter().filter(|[a, b]| a != b);
-    let alike: BTreeSet<Vec<Vec<usize>>> = pairs.map(|pair| merged_sets(pair, pair.map(image))).collect();
+    let alike: BTreeSet<Vec<Vec<usize>>> = pairs.map(|pair| with_image(hulls, pair)).collect();
     let grown_mm3 = |set: &Vec<usize>| {
         let corners: Vec<_> = set.iter().flat_map(|&part| parts[part].vertices()).copied().collect();
         let own_mm3: f64 = set.iter().map(|&part| parts[part].volume()).sum();
         Hull::of_points(&corners).map_or(f64::INFINITY, |hull| hull.volume()) - own_mm3
     };
-    let is_possible = |set: &Vec<usize>| set[1..].iter().all(|&part| may_vanish(&names[part]));
-    let possible = alike.into_iter().filter(|sets| sets.iter().all(is_possible));
+    let possible = alike.into_iter().filter(|sets| are_possible(hulls, sets, may_vanish));
     let mut mergers: Vec<_> = possible.map(|sets| (sets.iter().map(grown_mm3).sum::<f64>(), sets)).collect();
     mergers.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let merge = |set: Vec<usize>| -> Merge { set.iter().map(|&part| names[part].clone()).collect() };
-    mergers.into_iter().map(move |(_, sets)| sets.into_iter().map(merge).collect())
+    mergers.into_iter().map(|(_, sets)| named(hulls, sets))
+}
+
+/// What makes one part, and likewise of their images, of two whose joint takes more off them than one hull adds.
+pub(super) fn needless(hulls: &Hulls, may_vanish: &dyn Fn(&str) -> bool) -> Option<Vec<Merge>> {
+    let mut sets = hulls.needless().into_iter().map(|(a, b)| with_image(hulls, [a, b]));
+    sets.find(|sets| are_possible(hulls, sets, may_vanish)).map(|sets| named(hulls, sets))
+}
+
+fn named(hulls: &Hulls, sets: Vec<Vec<usize>>) -> Vec<Merge> {
+    let merge = |set: Vec<usize>| -> Merge { set.iter().map(|&part| hulls.names()[part].clone()).collect() };
+    sets.into_iter().map(merge).collect()
+}
+
+fn are_possible(hulls: &Hulls, sets: &[Vec<usize>], may_vanish: &dyn Fn(&str) -> bool) -> bool {
+    sets.iter().all(|set| set[1..].iter().all(|&part| may_vanish(&hulls.names()[part])))
+}
+
+fn with_image(hulls: &Hulls, pair: [usize; 2]) -> Vec<Vec<usize>> {
+    let image = |part: usize| hulls.symmetry().map_or(part, |symmetry| symmetry.twin(part));
+    merged_sets(pair, pair.map(image))
 }
 
 /// The bumps that are worth a part.
@@ -80,8 +97,8 @@ fn merged_sets(pair: [usize; 2], image: [usize; 2]) -> Vec<Vec<usize>> {
 pub(super) fn remark(merge: &Merge) -> String {
     let gone = merge[1..].join(" and ");
     format!(
-        "{} are one part, since apart they bump or have too little glue; to keep {gone}, give it a table in the project \
-         file",
+        "{} are one part, since apart they bump, cut each other off or have too little glue; to keep {gone}, give it a \
+         table in the project file",
         merge.join(" and ")
     )
 }
