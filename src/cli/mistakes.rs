@@ -45,8 +45,12 @@ pub fn advice(error: &clap::Error) -> Option<String> {
             if flag.strip_prefix('-').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit())) {
                 return Some(format!("\"{flag}\" was read as an option; give a number above zero"));
             }
-            let (_, meant) = OTHER_NAMES.iter().find(|(other, _)| *other == flag)?;
-            Some(format!("there is no option {flag}; use {meant}, which --help explains"))
+            if let Some((_, meant)) = OTHER_NAMES.iter().find(|(other, _)| *other == flag) {
+                return Some(format!("there is no option {flag}; use {meant}, which --help explains"));
+            }
+            // Without one that is like it, clap would suggest that it is the name of a file.
+            let is_unlike_all = flag.starts_with('-') && error.get(ContextKind::SuggestedArg).is_none();
+            is_unlike_all.then(|| format!("there is no option {flag}; --help lists all options"))
         }
         ErrorKind::MissingRequiredArgument => {
             let Some(ContextValue::Strings(missing)) = error.get(ContextKind::InvalidArg) else {
