@@ -5,7 +5,7 @@
 
 use super::distance::Polytope;
 use super::likeness::Figure;
-use crate::geom::Hull;
+use crate::geom::{Hull, bounds};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 /// Lines along each side of a grid: about ten of one grid meet each panel of a component.
@@ -119,9 +119,7 @@ struct Span {
 
 impl Grid {
     fn new(axes: DMat3, hull: &Hull, is_solid: &impl Fn(DVec3) -> bool) -> Self {
-        let local = || hull.vertices().iter().map(|p| axes.transpose() * *p);
-        let low = local().fold(DVec3::INFINITY, DVec3::min);
-        let high = local().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let (low, high) = bounds(hull.vertices().iter().map(|p| axes.transpose() * *p));
         let step = (high - low) / DVec3::new(LINES as f64, LINES as f64, CELLS as f64);
         let mut grid = Self { axes, low, step, before_mm: vec![0.0; LINES * LINES * (CELLS + 1)] };
         let planes: Vec<(DVec3, f64)> =

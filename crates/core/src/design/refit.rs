@@ -9,8 +9,8 @@ use super::ranking::{Ranked, best};
 use super::silhouette::{Drawn, Kept, Silhouette};
 use super::surface_distance::{farthest, samples};
 use crate::component::{Component, PanelId, PanelKind, Profile};
-use crate::geom::eigen;
 use crate::geom::nearest::Tree;
+use crate::geom::{bounds, eigen};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -181,8 +181,7 @@ fn kept(convex: &Component, joint: PanelId, component: &Component) -> Option<Pan
 /// Axes of the body, each with the fold axis as z.
 fn frames(triangles: &[[DVec3; 3]]) -> [DAffine3; 3] {
     let points: Vec<DVec3> = triangles.iter().flatten().copied().collect();
-    let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
-    let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let (low, high) = bounds(points.iter().copied());
     let (_, axes) = eigen::symmetric(eigen::covariance(&points));
     [0, 1, 2].map(|k| {
         // The top is up, as far as there is an up.
@@ -242,8 +241,7 @@ struct Measure {
 
 impl Measure {
     fn new(triangles: &[[DVec3; 3]]) -> Self {
-        let low = triangles.iter().flatten().copied().fold(DVec3::INFINITY, DVec3::min);
-        let high = triangles.iter().flatten().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let (low, high) = bounds(triangles.iter().flatten().copied());
         let size_mm = low.distance(high);
         let points = samples(triangles, FINE * size_mm);
         let cloud = points.iter().copied().step_by(points.len().div_ceil(CLOUD)).collect();

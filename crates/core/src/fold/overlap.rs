@@ -5,7 +5,7 @@ use super::memory::{Key, SweepMemory};
 use super::pose::{ModelMotion, ancestors, root_of};
 use super::way::{push_way, ways};
 use crate::component::Panel;
-use crate::geom::Hull;
+use crate::geom::{Hull, bounds};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
@@ -82,9 +82,7 @@ fn solid(panels: &[Panel], deployed: DAffine3) -> Solid {
         (Sheet { corners, normal: placement.matrix3.z_axis }, centre, radius_mm)
     };
     let sheets: Vec<(Sheet, DVec3, f64)> = panels.iter().map(sheet).collect();
-    let corners = || sheets.iter().flat_map(|s| &s.0.corners).copied();
-    let low = corners().fold(DVec3::INFINITY, DVec3::min);
-    let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let (low, high) = bounds(sheets.iter().flat_map(|s| &s.0.corners).copied());
     Solid { sheets, low, high }
 }
 

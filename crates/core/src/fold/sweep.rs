@@ -19,6 +19,7 @@ use super::motion::{ComponentMotion, End};
 use super::step::{FLAT, share};
 use super::track::{Moment, Track};
 use crate::component::PanelId;
+use crate::geom::bounds;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -47,8 +48,7 @@ struct Ball {
 
 impl Ball {
     fn round<'a>(corners: impl Iterator<Item = &'a DVec3> + Clone, sway_mm: Sway) -> Self {
-        let low = corners.clone().copied().fold(DVec3::INFINITY, DVec3::min);
-        let high = corners.clone().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let (low, high) = bounds(corners.clone().copied());
         let centre = 0.5 * (low + high);
         let radius_mm = corners.map(|c| c.distance(centre)).fold(0.0, f64::max);
         Self { centre, radius_mm, sway_mm }

@@ -1,6 +1,6 @@
 //! Flat sides of surfaces.
 
-use super::{Hull, Plane, polygon};
+use super::{Hull, Plane, bounds, polygon};
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -42,9 +42,7 @@ impl FlatSide {
     /// Those of a surface, which are two at most.
     pub fn of_patches(patches: &[Patch]) -> Vec<Self> {
         let least_area = LEAST_SHARE * area(patches);
-        let (low, high) = patches
-            .iter()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), p| (l.min(p.centre), h.max(p.centre)));
+        let (low, high) = bounds(patches.iter().map(|patch| patch.centre));
         let roughness = ROUGH * low.distance(high);
         let mut left = patches.to_vec();
         let mut sides = Vec::new();

@@ -2,7 +2,7 @@
 
 mod clip;
 
-use super::{Mirror, Plane, directions, quickhull};
+use super::{Mirror, Plane, bounds, directions, quickhull};
 use glam::DVec3;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -65,8 +65,7 @@ impl Hull {
         if points.iter().any(|p| !p.is_finite()) {
             return Err(HullError::NotFinite);
         }
-        let (lo, hi) =
-            points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)));
+        let (lo, hi) = bounds(points.iter().copied());
         let size = (hi - lo).max_element();
         if points.len() < 4 || size <= 0.0 {
             return Err(HullError::Flat);

@@ -1,5 +1,6 @@
 //! Planes, convex hulls and polygons: the geometry that every stage shares.
 
+mod bounds;
 pub mod eigen;
 mod flat;
 mod hull;
@@ -12,6 +13,7 @@ mod quickhull;
 mod sphere;
 mod symmetrized;
 
+pub use bounds::bounds;
 pub use flat::{FlatSide, Patch};
 pub use hull::{Facet, Hull, HullError};
 pub use mirror::Mirror;

@@ -1,5 +1,6 @@
 //! The nearest point of many triangles, by a tree of boxes.
 
+use super::bounds;
 use glam::DVec3;
 
 /// Triangles in a leaf.
@@ -52,9 +53,7 @@ impl Tree {
     }
 
     fn grow(&mut self, start: usize, end: usize) {
-        let corners = || self.order[start..end].iter().flat_map(|&t| self.triangles[t]);
-        let low = corners().fold(DVec3::INFINITY, DVec3::min);
-        let high = corners().fold(DVec3::NEG_INFINITY, DVec3::max);
+        let (low, high) = bounds(self.order[start..end].iter().flat_map(|&t| self.triangles[t]));
         let index = self.nodes.len();
         self.nodes.push(Node { low, high, start, end, right: None });
         if end - start <= LEAF {

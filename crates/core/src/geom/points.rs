@@ -1,5 +1,6 @@
 //! The nearest of many points, by a tree of halves.
 
+use super::bounds;
 use glam::DVec3;
 
 /// Points in a leaf.
@@ -28,8 +29,7 @@ impl PointTree {
                 continue;
             }
             let own = &mut tree.points[start..end];
-            let around = |(lo, hi): (DVec3, DVec3), p: &(DVec3, u32)| (lo.min(p.0), hi.max(p.0));
-            let (lo, hi) = own.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), around);
+            let (lo, hi) = bounds(own.iter().map(|p| p.0));
             let axis = (hi - lo).max_position();
             let half = own.len() / 2;
             own.select_nth_unstable_by(half, |a, b| a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1)));

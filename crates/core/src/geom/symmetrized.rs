@@ -1,6 +1,6 @@
 //! Hulls that are their own mirror images.
 
-use super::{Hull, HullError, Mirror};
+use super::{Hull, HullError, Mirror, bounds};
 use glam::DVec3;
 
 /// Corners nearer to the mirror plane, or to one another's images, than this share of the hull's
@@ -79,8 +79,7 @@ impl Mirror {
     }
 
     fn near(&self, points: &[DVec3]) -> f64 {
-        let reach = |(lo, hi): (DVec3, DVec3), &p: &DVec3| (lo.min(p), hi.max(p));
-        let (lo, hi) = points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), reach);
+        let (lo, hi) = bounds(points.iter().copied());
         ON_PLANE * (hi - lo).max_element().max(0.0)
     }
 }

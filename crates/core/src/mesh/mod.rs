@@ -19,6 +19,7 @@ pub use soup::{Soup, SoupError};
 pub use symmetry::MirrorPlane;
 pub use views::{Cover, Views};
 
+use crate::geom::bounds;
 use glam::DVec3;
 
 /// A clean triangle mesh.
@@ -67,7 +68,7 @@ impl Mesh {
 
     /// Smallest and largest coordinates.
     pub fn bounds(&self) -> (DVec3, DVec3) {
-        bounds(&self.positions)
+        bounds(self.positions.iter().copied())
     }
 
     /// Diagonal of the bounding box; millimetres once the mesh is scaled.
@@ -113,12 +114,6 @@ impl Mesh {
         let six = |[a, b, c]: [DVec3; 3]| (a - centre).dot((b - centre).cross(c - centre));
         (0..self.faces.len()).map(|f| six(self.corners(f))).sum::<f64>() / 6.0
     }
-}
-
-/// Smallest and largest coordinates of points.
-fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
-    let start = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    points.iter().fold(start, |(low, high), &p| (low.min(p), high.max(p)))
 }
 
 #[cfg(test)]

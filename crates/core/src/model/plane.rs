@@ -1,7 +1,7 @@
 //! The plane of a joint between two parts (§4.2.1): least squares through the interface, moved or
 //! turned where that takes less off the two.
 
-use crate::geom::{Facet, FlatSide, Hull, Mirror, Plane, polygon};
+use crate::geom::{Facet, FlatSide, Hull, Mirror, Plane, bounds, polygon};
 use glam::{DVec2, DVec3};
 use std::ops::RangeInclusive;
 
@@ -318,8 +318,7 @@ impl Column {
 
 /// An even grid in the box of a hull.
 fn columns(hull: &Hull) -> impl Iterator<Item = Column> {
-    let low = hull.vertices().iter().copied().fold(DVec3::INFINITY, DVec3::min);
-    let high = hull.vertices().iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+    let (low, high) = bounds(hull.vertices().iter().copied());
     let step = (high - low).max_element() / SAMPLES as f64;
     let count = ((high - low) / step).ceil().max(DVec3::ONE).as_u64vec3();
     let cell = (high - low) / count.as_dvec3();

@@ -2,6 +2,7 @@
 
 use super::patches::Partition;
 use super::surface::Surface;
+use crate::geom::bounds;
 use glam::DVec3;
 
 /// Bodies smaller than this share of the area join the nearest body.
@@ -41,10 +42,7 @@ impl<'a> Tree<'a> {
                 let parent: &mut Node = &mut tree.nodes[parent];
                 parent.second = index;
             }
-            let (lo, hi) = tree.order[first..end]
-                .iter()
-                .map(|&c| centres[c as usize])
-                .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), p| (lo.min(p), hi.max(p)));
+            let (lo, hi) = bounds(tree.order[first..end].iter().map(|&c| centres[c as usize]));
             tree.nodes.push(Node { lo, hi, first, end, second: 0, body: MIXED });
             if end - first > LEAF {
                 let axis = (hi - lo).max_position();

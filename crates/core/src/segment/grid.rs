@@ -1,6 +1,7 @@
 //! The solid that a mesh bounds, as a grid of cells in columns, and how much of a hull is outside.
 
 use super::hollow::enclosed;
+use crate::geom::bounds;
 use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -170,9 +171,7 @@ impl Interior {
 
 impl Frame {
     fn of_points(positions: &[DVec3], cells: f64) -> Self {
-        let (lo, hi) = positions
-            .iter()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)));
+        let (lo, hi) = bounds(positions.iter().copied());
         let side = (hi - lo).max(DVec3::splat((hi - lo).max_element() * LEAST_SIDE));
         let cell = libm::cbrt(side.x * side.y * side.z / cells);
         let count = (side / cell).ceil().to_array().map(|n| (n as usize).max(1));

@@ -1,6 +1,7 @@
 //! What parts are called: by where they are, as seen from the front.
 
 use super::Segmentation;
+use crate::geom::bounds;
 use crate::mesh::Mesh;
 use glam::DVec3;
 use std::collections::BTreeSet;
@@ -55,8 +56,7 @@ fn place(from_middle: DVec3, half: DVec3) -> &'static str {
 
 fn body_box(mesh: &Mesh, segmentation: &Segmentation) -> (DVec3, DVec3) {
     let of_body = segmentation.face_segments().iter().enumerate().filter(|(_, id)| id.0 == 0);
-    let corners = of_body.flat_map(|(f, _)| mesh.corners(f));
-    corners.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)))
+    bounds(of_body.flat_map(|(f, _)| mesh.corners(f)))
 }
 
 /// Centre of each part's surface.

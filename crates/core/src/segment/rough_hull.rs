@@ -1,7 +1,7 @@
 //! A quick inner approximation of a convex hull, by the extreme points in fixed directions. It is
 //! good for ranking: the hulls that become components are the exact ones of `geom::Hull`.
 
-use crate::geom::directions;
+use crate::geom::{bounds, directions};
 use glam::DVec3;
 
 /// Directions of support. A sphere's hull over 128 extreme points has 96% of its volume.
@@ -70,8 +70,7 @@ impl RoughHull {
 
     /// Incremental hull of joggled points: with at most 128 of them plain search is fastest.
     fn of_points(mut points: Vec<DVec3>) -> Option<Self> {
-        let (lo, hi) =
-            points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)));
+        let (lo, hi) = bounds(points.iter().copied());
         let size = (hi - lo).max_element();
         let start = tetrahedron(&points, size)?;
         for (i, p) in points.iter_mut().enumerate() {

@@ -1,5 +1,6 @@
 //! The shape diameter function (Shapira, Shamir and Cohen-Or 2008).
 
+use crate::geom::bounds;
 use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
@@ -86,9 +87,7 @@ fn hierarchy(boxes: &[Aabb], faces: Vec<u32>) -> CwBvh {
 impl Target {
     /// Builds the tree; `None` where there is no extent.
     pub fn new(positions: &[DVec3], faces: &[[u32; 3]]) -> Option<Self> {
-        let (lo, hi) = positions
-            .iter()
-            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(lo, hi), &p| (lo.min(p), hi.max(p)));
+        let (lo, hi) = bounds(positions.iter().copied());
         let size = (hi - lo).max_element();
         if faces.is_empty() || !size.is_finite() || size <= 0.0 {
             return None;

@@ -2,7 +2,8 @@
 
 use super::orient::components;
 use super::{Repairs, Triangle};
-use crate::mesh::{Edges, bounds};
+use crate::geom::bounds;
+use crate::mesh::Edges;
 use glam::DVec3;
 
 /// Bodies smaller than this share of the mesh's diagonal are dropped. At 200 mm it is 2 mm, less than the
@@ -34,7 +35,7 @@ pub(super) fn drop_loose(positions: &[DVec3], triangles: &mut Vec<Triangle>, rep
     }
     let sizes: Vec<f64> = boxes.iter().map(|(low, high)| low.distance(*high)).collect();
     let corners: Vec<DVec3> = boxes.iter().flat_map(|(low, high)| [*low, *high]).collect();
-    let (low, high) = bounds(&corners);
+    let (low, high) = bounds(corners);
     let mut order: Vec<usize> = (0..count).collect();
     order.sort_by(|&a, &b| is_scrap(a).cmp(&is_scrap(b)).then(sizes[b].total_cmp(&sizes[a])).then(a.cmp(&b)));
     let mut is_kept = vec![false; count];

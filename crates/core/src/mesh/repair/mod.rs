@@ -10,8 +10,8 @@ mod weld;
 
 pub use warning::MeshWarning;
 
-use super::{Edges, Mesh, Soup, bounds};
-use crate::geom::Plane;
+use super::{Edges, Mesh, Soup};
+use crate::geom::{Plane, bounds};
 use glam::DVec3;
 
 /// Vertices nearer than this share of the bounding box's diagonal are one vertex, and triangles
@@ -137,7 +137,7 @@ fn used_vertices(soup: &Soup) -> Vec<bool> {
 fn checked_diagonal(soup: &Soup, is_used: &[bool]) -> Result<f64, MeshError> {
     let used: Vec<DVec3> =
         soup.positions().iter().zip(is_used).filter_map(|(&p, &used)| used.then_some(p)).collect();
-    let (low, high) = bounds(&used);
+    let (low, high) = bounds(used.iter().copied());
     let diagonal = (high - low).length();
     if used.is_empty() || low == high {
         return Err(MeshError::OnePoint);
@@ -149,7 +149,7 @@ fn checked_diagonal(soup: &Soup, is_used: &[bool]) -> Result<f64, MeshError> {
 }
 
 fn is_planar(positions: &[DVec3]) -> bool {
-    let (low, high) = bounds(positions);
+    let (low, high) = bounds(positions.iter().copied());
     let diagonal = low.distance(high);
     let unit: Vec<DVec3> = positions.iter().map(|&p| (p - low) / diagonal).collect();
     Plane::fit(&unit).is_none_or(|(plane, _)| {
