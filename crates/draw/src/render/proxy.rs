@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use std::collections::BTreeMap;
+use tatamu_core::geom::bounds;
 
 /// Finest grid of vertices, cells along the longest side.
 const FINEST: f64 = 160.0;
@@ -41,8 +42,7 @@ pub fn proxy(vertices: &[DVec3], triangles: &[[u32; 3]], most: usize) -> Proxy {
 }
 
 fn cluster(vertices: &[DVec3], triangles: &[[u32; 3]], fineness: f64) -> Proxy {
-    let (low, high) =
-        vertices.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
+    let (low, high) = bounds(vertices.iter().copied());
     let cell = (high - low).max_element().max(f64::MIN_POSITIVE) / fineness;
     let mut index: BTreeMap<[i32; 3], u32> = BTreeMap::new();
     let mut sums: Vec<(DVec3, f64)> = Vec::new();
