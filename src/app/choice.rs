@@ -1,12 +1,14 @@
 //! What is chosen for an input: flags first, then its project file, then the defaults.
 
 use super::error::AppError;
+use super::input::{Input, Shape};
 use super::{input, locale, profiles};
 use std::collections::BTreeMap;
 use std::path::Path;
 use tatamu::drawing::{Layer, LineStyles};
 use tatamu::export::{FormatOptions, PltOptions, Timestamp};
-use tatamu::pipeline::Options;
+use tatamu::mesh::Mesh;
+use tatamu::pipeline::{Options, usual_size_mm};
 use tatamu::product::Content;
 use tatamu::project::Project;
 use tatamu::project::options::{Entry, Given, SIZE, STYLE, Settings, choose_on};
@@ -32,10 +34,22 @@ pub struct FileChoice {
 }
 
 impl Choice {
-    /// The choice of an input, which may be a project.
+    /// The choice of an input.
+    pub fn of_input(input: &Input, flags: &[Given]) -> Result<Self, AppError> {
+        let base = match (&input.project, &input.shape) {
+            (None, Shape::Mesh(_)) if flags.iter().any(|flag| flag.option() == &SIZE) => locale::settings(),
+            (None, Shape::Mesh(mesh)) => fresh(mesh, locale::settings()),
+            _ => Settings::standard().clone(),
+        };
+        Self::on(base, input.project.as_ref(), flags)
+    }
+
+    /// The choice of a project, or of flags alone.
     pub fn new(project: Option<&Project>, flags: &[Given]) -> Result<Self, AppError> {
-        // A project is the same everywhere; a mesh goes to the printer that is here.
-        let base = project.map_or_else(locale::settings, |_| Settings::standard().clone());
+        Self::on(Settings::standard().clone(), project, flags)
+    }
+
+    fn on(base: Settings, project: Option<&Project>, flags: &[Given]) -> Result<Self, AppError> {
         let settings = choose_on(base, project, flags);
         let settings = settings.map_err(|refusal| AppError::Options(refusal.to_string()))?;
         let is_flag = |option: &Entry| flags.iter().any(|flag| flag.option() == option);
@@ -108,6 +122,14 @@ impl Choice {
         };
         Ok(FileChoice { formats, styles, is_coloured: files.is_coloured, content })
     }
+}
+
+/// What holds for a mesh without a project: these settings, at the size that suits its shape. A project is the same
+/// everywhere; a mesh goes to the printer that is here.
+pub fn fresh(mesh: &Mesh, settings: Settings) -> Settings {
+    let mut fresh = settings;
+    fresh.model.size_mm = usual_size_mm(mesh);
+    fresh
 }
 
 /// The built-in style of this name, or the file at `path`.

@@ -135,7 +135,7 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
     output::check_places(&places, &[task.input])?;
     let input = input::read(task.input)?;
     output::check_places(&places, &[task.input, &input.mesh_path])?;
-    let choice = Choice::new(input.project.as_ref(), &task.wish.given)?;
+    let choice = Choice::of_input(&input, &task.wish.given)?;
     let files = choice.files(task.input)?;
     let sheets = choice.options().sheets;
     if files.is_coloured && sheets.side == Side::Inside && !sheets.is_duplex {

@@ -66,7 +66,7 @@ pub fn run(args: &InitArgs) -> Result<(), AppError> {
             args.mesh.display()
         )));
     }
-    let choice = Choice::new(input.project.as_ref(), args.model.given())?;
+    let choice = Choice::of_input(&input, args.model.given())?;
     let progress = TerminalProgress::new(args.quiet);
     // The project keeps the size and the limit of sheets; "make" finds the size that fits.
     let (carded, result) = fitted(&input, choice.clone().of_any_sheets(), &progress)?;

@@ -76,7 +76,7 @@ pub fn run(args: &SegmentCommand) -> Result<(), AppError> {
     output::check_places(&places, &[&args.input])?;
     let input = input::read(&args.input)?;
     output::check_places(&places, &[&args.input, &input.mesh_path])?;
-    let choice = Choice::new(input.project.as_ref(), args.division.given())?;
+    let choice = Choice::of_input(&input, args.division.given())?;
     input.warnings().iter().for_each(terminal::warn);
 
     let progress = TerminalProgress::new(args.quiet);

@@ -125,7 +125,7 @@ pub fn run(args: &ShowArgs) -> Result<(), AppError> {
     let input = input::read(&args.input)?;
     output::check_places(std::slice::from_ref(&path), &[&args.input, &input.mesh_path])?;
     input.notes.iter().for_each(terminal::warn);
-    let choice = Choice::new(input.project.as_ref(), args.model.given())?;
+    let choice = Choice::of_input(&input, args.model.given())?;
     let options = choice.options();
     let still = Still {
         size_px: args.size_px.unwrap_or(SIZE_PX),

@@ -1,7 +1,7 @@
 //! A file that is open.
 
 use super::words;
-use crate::app::choice::Choice;
+use crate::app::choice::{self, Choice};
 use crate::app::error::AppError;
 use crate::app::input::Shape;
 use crate::app::{input, locale, project};
@@ -74,7 +74,7 @@ impl Opened {
         } else {
             let project = source.with_extension("toml");
             let name = project::mesh_from(&project, source).map_err(|error| error.to_string())?;
-            project::project_text(&name, fresh, &[], &[])
+            project::project_text(&name, &choice::fresh(&mesh, fresh.clone()), &[], &[])
         };
         Ok(Self {
             fetch,

@@ -28,6 +28,7 @@ mod openings;
 mod output;
 mod plugs;
 mod reach;
+mod size;
 mod source;
 mod trial;
 mod warning;
@@ -38,6 +39,7 @@ pub use engine::Engine;
 pub use level::Level;
 pub use openings::openings_mm2;
 pub use output::{Output, Shaped};
+pub use size::usual_size_mm;
 pub use source::{Divided, Drawing, Source};
 pub use warning::{Change, ModelWarning, PanelSide, ProjectWarning, TrialWarning, Warning};
 

@@ -177,7 +177,7 @@ pub fn of_inputs(
         return Err(AppError::Options(message.to_owned()));
     };
     let input = input::read(path)?;
-    let choice = Choice::new(input.project.as_ref(), given)?;
+    let choice = Choice::of_input(&input, given)?;
     input.warnings().iter().for_each(|warning| tell(&say(warning)));
     let (_, result) = fitted(&input, choice, progress)?;
     progress.finish();

@@ -62,9 +62,12 @@ pub static SIZE: Entry = Entry {
         set: |s, mm| put(&mut s.model.size_mm, mm),
     }),
     short: "Longest side of the model's bounding box",
-    long: "A number with mm, cm, m or in; without a unit, mm.",
+    long: "A number with mm, cm, m or in; without a unit, mm. Without this option a mesh gets a size from 100 to 300 mm \
+           at which most models take three to five sheets of A4; a project file that says nothing gets 200 mm.",
     example: "--size 30cm",
-    meaning: "longest side of the finished model's bounding box",
+    automatic: "by the shape",
+    meaning: "longest side of the finished model's bounding box. A mesh without a project file gets a size from 100 to \
+              300 mm at which most models take three to five sheets of A4; a project file without it gets `200mm`",
     dial: Dial::spanning("Size", 10.0, 2000.0, 0),
     ..Entry::BLANK
 };

@@ -41,9 +41,17 @@ impl Cover {
 impl Views {
     /// The views of a mesh.
     pub fn of_mesh(mesh: &Mesh) -> Self {
-        let triangles: Vec<[DVec3; 3]> = (0..mesh.faces().len()).map(|f| mesh.corners(f)).collect();
         let sides: Vec<DVec3> = sides().collect();
-        Self { views: sides.into_par_iter().map(|side| View::new(side, &triangles)).collect() }
+        Self { views: sides.into_par_iter().map(|side| View::new(side, mesh)).collect() }
+    }
+
+    /// Area of the mesh's outline, the mean of all views: in squares of the mesh's unit.
+    pub fn mean_area(&self) -> f64 {
+        let of_view = |view: &View| {
+            let pixels: u32 = view.mask.iter().map(|row| row.count_ones()).sum();
+            f64::from(pixels) * view.pixel_mm * view.pixel_mm
+        };
+        self.views.iter().map(of_view).sum::<f64>() / self.views.len() as f64
     }
 
     /// What nothing covers.
@@ -55,7 +63,7 @@ impl Views {
     pub fn cover(&self, edges: &[[DVec3; 2]]) -> Cover {
         let mask = |view: &View| {
             let mut mask = [0; PIXELS];
-            view.add_convex(edges.iter().copied(), &mut mask);
+            add_convex(edges.iter().map(|edge| edge.map(|p| view.pixel(p))), &mut mask);
             mask
         };
         Cover { masks: self.views.iter().map(mask).collect() }
@@ -94,46 +102,55 @@ struct View {
 }
 
 impl View {
-    fn new(side: DVec3, triangles: &[[DVec3; 3]]) -> Self {
+    fn new(side: DVec3, mesh: &Mesh) -> Self {
         let (right, up) = side.any_orthonormal_pair();
-        let points = || triangles.iter().flatten().map(|&p| DVec2::new(right.dot(p), up.dot(p)));
-        let low = points().fold(DVec2::INFINITY, DVec2::min);
-        let high = points().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let points: Vec<DVec2> =
+            mesh.positions().iter().map(|&p| DVec2::new(right.dot(p), up.dot(p))).collect();
+        let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
+        let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
         let pixel_mm = ((high - low).max_element() / SEEN as f64).max(f64::MIN_POSITIVE);
         let low = (low + high) / 2.0 - DVec2::splat(pixel_mm * PIXELS as f64 / 2.0);
-        let mut view = Self { right, up, low, pixel_mm, mask: [0; PIXELS] };
-        let mut mask = view.mask;
-        for [a, b, c] in triangles.iter().copied() {
-            view.add_convex([[a, b], [b, c], [c, a]].into_iter(), &mut mask);
+        let points: Vec<DVec2> = points.into_iter().map(|p| (p - low) / pixel_mm).collect();
+        let mut mask = [0; PIXELS];
+        for face in mesh.faces() {
+            let [a, b, c] = face.map(|v| points[v as usize]);
+            add_convex([[a, b], [b, c], [c, a]].into_iter(), &mut mask);
         }
-        view.mask = mask;
-        view
+        Self { right, up, low, pixel_mm, mask }
     }
 
-    /// Adds the pixels whose middle is within the convex outline of some edges.
-    fn add_convex(&self, edges: impl Iterator<Item = [DVec3; 2]>, mask: &mut Mask) {
-        let pixel = |p: DVec3| (DVec2::new(self.right.dot(p), self.up.dot(p)) - self.low) / self.pixel_mm;
-        let mut spans = [(f64::INFINITY, f64::NEG_INFINITY); PIXELS];
-        let (mut least, mut most) = (PIXELS, 0);
-        for edge in edges {
-            let [a, b] = edge.map(pixel);
-            let (lower, upper) = if a.y < b.y { (a, b) } else { (b, a) };
-            let (first, end) = middles(lower.y, upper.y);
-            if first >= end {
-                continue;
-            }
-            let per_row = (upper.x - lower.x) / (upper.y - lower.y);
-            for (row, span) in spans.iter_mut().enumerate().take(end).skip(first) {
-                let x = lower.x + per_row * (row as f64 + 0.5 - lower.y);
-                *span = (span.0.min(x), span.1.max(x));
-            }
-            (least, most) = (least.min(first), most.max(end));
+    /// Where a point is in the picture, in pixels.
+    fn pixel(&self, p: DVec3) -> DVec2 {
+        (DVec2::new(self.right.dot(p), self.up.dot(p)) - self.low) / self.pixel_mm
+    }
+}
+
+/// Adds the pixels whose middle is within the convex outline of some edges.
+fn add_convex(edges: impl Iterator<Item = [DVec2; 2]> + Clone, mask: &mut Mask) {
+    let heights = edges.clone().flatten().map(|p| p.y);
+    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
+    let (least, most) = middles(low, high);
+    if least >= most {
+        // Most triangles of a scan are smaller than a pixel.
+        return;
+    }
+    let mut spans = [(f64::INFINITY, f64::NEG_INFINITY); PIXELS];
+    for [a, b] in edges {
+        let (lower, upper) = if a.y < b.y { (a, b) } else { (b, a) };
+        let (first, end) = middles(lower.y, upper.y);
+        if first >= end {
+            continue;
         }
-        for row in least..most {
-            let (first, end) = middles(spans[row].0, spans[row].1);
-            if first < end {
-                mask[row] |= Row::MAX >> (PIXELS - (end - first)) << first;
-            }
+        let per_row = (upper.x - lower.x) / (upper.y - lower.y);
+        for (row, span) in spans.iter_mut().enumerate().take(end).skip(first) {
+            let x = lower.x + per_row * (row as f64 + 0.5 - lower.y);
+            *span = (span.0.min(x), span.1.max(x));
+        }
+    }
+    for row in least..most {
+        let (first, end) = middles(spans[row].0, spans[row].1);
+        if first < end {
+            mask[row] |= Row::MAX >> (PIXELS - (end - first)) << first;
         }
     }
 }
