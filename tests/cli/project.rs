@@ -22,6 +22,29 @@ fn a_project_whose_mesh_is_missing() {
     assert_refused(&files, &["make", "a.toml", "-o", "a.json"], &["gone.obj", "no such file"]);
 }
 
+/// A cube of the usual amount of paper has sides of 110 mm; the diagonal is their root of three.
+#[test]
+fn a_mesh_has_a_size_by_its_shape_and_a_project_its_own() {
+    let files = [("cube.off", cube::OFF.as_bytes()), ("old.toml", b"mesh = 'cube.off'")];
+    let folder = folder_with(&files);
+    let result = run(folder.path(), &["init", "cube.off"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    let written = std::fs::read_to_string(folder.path().join("cube.toml")).unwrap();
+    assert!(written.contains("\nsize = \"110mm\"\n"), "{written}");
+    let cases: [(&str, &[&str], f64); 4] = [
+        ("cube.off", &[], 110.0),
+        ("cube.off", &["--size", "7cm"], 70.0),
+        ("cube.toml", &[], 110.0),
+        ("old.toml", &[], 200.0),
+    ];
+    for (input, flags, side_mm) in cases {
+        let result = run(folder.path(), &[&["make", input, "-o", "made.json"][..], flags].concat());
+        assert_eq!(result.code, Some(0), "{}", result.err);
+        assert_near(report(&folder, "made.json")["input"]["diagonal_mm"].as_f64(), side_mm * 3f64.sqrt());
+        std::fs::remove_file(folder.path().join("made.json")).unwrap();
+    }
+}
+
 #[test]
 fn init_writes_a_project_that_make_honours() {
     let folder = folder_with(&[("cube.off", cube::OFF.as_bytes())]);
@@ -74,7 +97,7 @@ fn rods() -> String {
 fn parts_that_hardly_hold_apart_are_one_and_init_writes_so() {
     let kept = "mesh = 'rods.obj'\n[[component]]\nname = 'top-2'\n";
     let folder = folder_with(&[("rods.obj", rods().as_bytes()), ("kept.toml", kept.as_bytes())]);
-    let quick = ["--top-edges", "4", "--profile-vertices", "4"];
+    let quick = ["--size", "20cm", "--top-edges", "4", "--profile-vertices", "4"];
     let make = |input: &str, output: &str| {
         let result = run(folder.path(), &[&["make", input, "-o", output][..], &quick].concat());
         assert_eq!(result.code, Some(0), "{}", result.err);

@@ -31,9 +31,7 @@ mod tests {
 
     /// A box, one corner of which is the origin.
     fn a_box(sides: DVec3) -> Mesh {
-        let corner = |k: u32| {
-            DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)) * sides
-        };
+        let corner = |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)) * sides;
         let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
         Mesh::from_soup(&Soup::new((0..8).map(corner).collect(), faces).unwrap()).unwrap().0
     }

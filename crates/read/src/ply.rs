@@ -2,6 +2,7 @@
 
 mod colour;
 mod elements;
+mod strips;
 
 pub(super) use colour::read_painting;
 
@@ -13,7 +14,11 @@ use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{ElementDef, Encoding, Header, PropertyType, ScalarType};
 use std::cell::Cell;
 use std::io::{BufRead, BufReader, ErrorKind};
+use strips::triangles;
 use tatamu_core::mesh::Soup;
+
+/// Name of the element of triangle strips.
+const STRIPS: &str = "tristrips";
 
 /// What is kept of a file.
 struct Elements {
@@ -68,14 +73,7 @@ fn check_header(header: &Header, size: usize) -> Result<(), ReadError> {
     if has("vertex", &["x", "y", "z"]) != 3 {
         return Err(missing("an element vertex with x, y and z", found));
     }
-    if header.elements.contains_key("tristrips") {
-        return Err(ReadError::Unsupported {
-            format: Format::Ply,
-            what: "triangle strips (tristrips)".to_owned(),
-            advice: "save it with plain faces, for example from MeshLab".to_owned(),
-        });
-    }
-    if has("face", &FACE_LISTS) == 0 {
+    if has("face", &FACE_LISTS) == 0 && has(STRIPS, &FACE_LISTS) == 0 {
         let what = "an element face with a list vertex_indices, as for a surface";
         return Err(missing(what, found));
     }
@@ -128,9 +126,16 @@ fn read_elements<R: BufRead>(
                 kept.vertices.extend(vertices);
             }
             "face" => {
-                kept.faces = Parser::new()
+                let faces = Parser::new()
                     .read_payload_for_element(reader, element, header)
                     .map_err(|error| explain(element, &error))?;
+                kept.faces.extend(faces);
+            }
+            STRIPS => {
+                let strips: Vec<Face> = Parser::new()
+                    .read_payload_for_element(reader, element, header)
+                    .map_err(|error| explain(element, &error))?;
+                kept.faces.extend(strips.iter().flat_map(|strip| triangles(&strip.corners)));
             }
             _ => {
                 Parser::<Other>::new()
@@ -244,6 +249,17 @@ mod tests {
         assert_eq!(soup.positions()[2], DVec3::new(0.0, 0.5, -0.5));
         let polygons: Vec<&[u32]> = soup.polygons().collect();
         assert_eq!(polygons, [&[0, 1, 2][..], &[0, 1, 2, 3]]);
+    }
+
+    #[test]
+    fn strips_are_read_as_faces() {
+        let whole = String::from_utf8(text("5 0 1 2 3 -1\n3 0 1 3\n")).unwrap();
+        let strips = whole.replace("element face", "element tristrips").replace("list uchar", "list int");
+        let soup = read(strips.as_bytes()).unwrap();
+        let polygons: Vec<&[u32]> = soup.polygons().collect();
+        assert_eq!(polygons, [&[0, 1, 2][..], &[2, 1, 3], &[0, 1, 3]]);
+        let beyond = strips.replace("5 0 1 2 3 -1", "5 0 1 2 9 -1");
+        assert!(read(beyond.as_bytes()).unwrap_err().to_string().contains("vertex 9"));
     }
 
     #[test]

@@ -81,6 +81,13 @@ pub struct Face {
     pub colour: Colour,
 }
 
+impl Face {
+    /// A face without a colour.
+    pub fn of_corners(corners: [i64; 3]) -> Self {
+        Self { corners: corners.to_vec(), colour: Colour::default() }
+    }
+}
+
 impl PropertyAccess for Face {
     fn new() -> Self {
         Self { corners: Vec::new(), colour: Colour::default() }
