@@ -164,7 +164,7 @@ fn middles(from: f64, to: f64) -> (usize, usize) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DVec3;
+    use crate::mesh::Soup;
 
     const CUBE: [[usize; 2]; 12] =
         [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
@@ -177,15 +177,19 @@ mod tests {
         CUBE.iter().map(|edge| edge.map(|k| corner(low, side, k))).collect()
     }
 
-    /// The views of a box, as a mesh of twelve triangles.
+    /// The views of a box.
     fn views_of_cuboid(low: DVec3, side: DVec3) -> Views {
         let squares = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
-        let triangles: Vec<[DVec3; 3]> = squares
-            .iter()
-            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
-            .map(|t| t.map(|k| corner(low, side, k)))
-            .collect();
-        Views { views: sides().map(|side| View::new(side, &triangles)).collect() }
+        let soup = Soup::new((0..8).map(|k| corner(low, side, k)).collect(), squares).unwrap();
+        Views::of_mesh(&Mesh::from_soup(&soup).unwrap().0)
+    }
+
+    /// A cube is seen as a square from 3 sides, with a root of two of its area from 6 and with a root of three from 4.
+    #[test]
+    fn the_mean_outline_of_a_cube() {
+        let area = views_of_cuboid(DVec3::ONE, DVec3::splat(10.0)).mean_area();
+        let exact = 100.0 * (3.0 + 6.0 * 2f64.sqrt() + 4.0 * 3f64.sqrt()) / 13.0;
+        assert!((area / exact - 1.0).abs() < 0.02, "{area} {exact}");
     }
 
     #[test]
