@@ -3,8 +3,8 @@
 use tatamu_core::mesh::{Mesh, Views};
 
 /// Mean area of the outlines that a model has, mm²: most take three to five sheets of A4 then, as the sample's bear
-/// does, which is 200 mm long. At 200 mm, too, a standing human has 5,600 mm² and two sheets, and outlines 0.03 less
-/// alike, as its limbs are hardly wider than the narrowest panels; the bunny has 22,000 mm² and six sheets.
+/// does, which is 180 mm long. With a third of it, as at 200 mm, a standing human takes two sheets and is 0.03 less like
+/// itself, as its limbs are hardly wider than the narrowest panels; with 22,000 a bunny takes six.
 const SEEN_MM2: f64 = 16_000.0;
 /// Shortest models, mm. A cube, of which more is seen than of any other shape, has 106 mm by its area.
 const LEAST_MM: f64 = 100.0;
