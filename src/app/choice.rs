@@ -126,10 +126,9 @@ impl Choice {
 
 /// What holds for a mesh without a project: these settings, at the size that suits its shape. A project is the same
 /// everywhere; a mesh goes to the printer that is here.
-pub fn fresh(mesh: &Mesh, settings: Settings) -> Settings {
-    let mut fresh = settings;
-    fresh.model.size_mm = usual_size_mm(mesh);
-    fresh
+pub fn fresh(mesh: &Mesh, mut settings: Settings) -> Settings {
+    settings.model.size_mm = usual_size_mm(mesh);
+    settings
 }
 
 /// The built-in style of this name, or the file at `path`.

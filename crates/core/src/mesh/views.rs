@@ -104,19 +104,18 @@ struct View {
 impl View {
     fn new(side: DVec3, mesh: &Mesh) -> Self {
         let (right, up) = side.any_orthonormal_pair();
-        let points: Vec<DVec2> =
-            mesh.positions().iter().map(|&p| DVec2::new(right.dot(p), up.dot(p))).collect();
-        let low = points.iter().copied().fold(DVec2::INFINITY, DVec2::min);
-        let high = points.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+        let points = || mesh.positions().iter().map(|&p| DVec2::new(right.dot(p), up.dot(p)));
+        let low = points().fold(DVec2::INFINITY, DVec2::min);
+        let high = points().fold(DVec2::NEG_INFINITY, DVec2::max);
         let pixel_mm = ((high - low).max_element() / SEEN as f64).max(f64::MIN_POSITIVE);
         let low = (low + high) / 2.0 - DVec2::splat(pixel_mm * PIXELS as f64 / 2.0);
-        let points: Vec<DVec2> = points.into_iter().map(|p| (p - low) / pixel_mm).collect();
-        let mut mask = [0; PIXELS];
+        let mut view = Self { right, up, low, pixel_mm, mask: [0; PIXELS] };
+        let pixels: Vec<DVec2> = mesh.positions().iter().map(|&p| view.pixel(p)).collect();
         for face in mesh.faces() {
-            let [a, b, c] = face.map(|v| points[v as usize]);
-            add_convex([[a, b], [b, c], [c, a]].into_iter(), &mut mask);
+            let [a, b, c] = face.map(|v| pixels[v as usize]);
+            add_convex([[a, b], [b, c], [c, a]].into_iter(), &mut view.mask);
         }
-        Self { right, up, low, pixel_mm, mask }
+        view
     }
 
     /// Where a point is in the picture, in pixels.
