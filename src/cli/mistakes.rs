@@ -64,16 +64,23 @@ pub fn advice(error: &clap::Error) -> Option<String> {
     }
 }
 
-/// A unit that a space parts from its number is no input.
+/// A unit that a space parts from its number is no input, nor is a length after an option that takes none.
 pub fn check_inputs(inputs: &[PathBuf]) -> Result<(), AppError> {
-    let is_unit =
-        |text: &str| text.starts_with(char::is_alphabetic) && parse_length_mm(&format!("1 {text}")).is_ok();
-    let unit =
-        inputs.iter().filter(|path| !path.exists()).find_map(|path| path.to_str().filter(|t| is_unit(t)));
-    let Some(unit) = unit else { return Ok(()) };
-    Err(AppError::Options(format!(
-        "\"{unit}\" was read as another input; write a length and its unit as one word, such as --size 20{unit}"
-    )))
+    let is_length = |text: &str| text.ends_with(char::is_alphabetic) && parse_length_mm(text).is_ok();
+    let is_unit = |text: &str| text.starts_with(char::is_alphabetic) && is_length(&format!("1 {text}"));
+    let missing = || inputs.iter().filter(|path| !path.exists()).filter_map(|path| path.to_str());
+    if let Some(unit) = missing().find(|text| is_unit(text)) {
+        return Err(AppError::Options(format!(
+            "\"{unit}\" was read as another input; write a length and its unit as one word, such as --size 20{unit}"
+        )));
+    }
+    if let Some(length) = missing().find(|text| is_length(text)) {
+        return Err(AppError::Options(format!(
+            "\"{length}\" was read as another input, as the option before it takes no length; write --size {length} for \
+             the model, or --thickness {length} for the paper"
+        )));
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -92,13 +99,16 @@ mod tests {
     }
 
     #[test]
-    fn only_units_are_taken_for_units() {
-        let refused = |name: &str| check_inputs(&[PathBuf::from(name)]).is_err();
+    fn only_units_and_lengths_are_taken_for_them() {
+        let refusal = |name: &str| check_inputs(&[PathBuf::from(name)]).err().map(|error| error.to_string());
         for unit in ["mm", "cm", "m", "in", "inches", "MM"] {
-            assert!(refused(unit), "{unit}");
+            assert!(refusal(unit).is_some_and(|said| said.contains("as one word")), "{unit}");
         }
-        for name in ["gone.obj", "2", "20mm", "", "e3", "km"] {
-            assert!(!refused(name), "{name}");
+        for length in ["3mm", "1.5in"] {
+            assert!(refusal(length).is_some_and(|said| said.contains("takes no length")), "{length}");
+        }
+        for name in ["gone.obj", "2", "", "e3", "km", "3mm.obj"] {
+            assert_eq!(refusal(name), None, "{name}");
         }
     }
 }
