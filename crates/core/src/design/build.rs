@@ -6,7 +6,7 @@ use super::warning::DesignWarning;
 use super::way::Way;
 use crate::component::{AssembleError, Component, PanelId, PanelKind, Profile};
 use crate::geom::polygon;
-use crate::model::{JoinedPart, Model, Seam};
+use crate::model::{JoinedPart, Model, PartId, Seam};
 use crate::progress::{Cancelled, Progress};
 use crate::remedy::Remedy;
 use glam::{DAffine3, DVec2};
@@ -151,8 +151,10 @@ pub fn design(
         made.push(Made::new(sketches, s, min_panel_mm, &mut warnings)?);
     }
     let parts = sketches.iter().enumerate().map(|(s, sketch)| {
-        let seam =
-            sketch.attachment().zip(parents[s]).map(|(a, parent)| seam(a, parent, &made[parent], &made[s]));
+        let seam = sketch
+            .attachment()
+            .zip(parents[s])
+            .map(|(a, parent)| seam(a, PartId(parent), &made[parent], &made[s]));
         Ok(JoinedPart {
             name: sketch.name().to_owned(),
             component: made[s].component.clone(),
@@ -339,7 +341,7 @@ fn warnings_of(sketch: &Sketch, p: usize, ranked: &Ranked) -> Vec<DesignWarning>
 }
 
 /// Where a component lies on its carrier.
-fn seam(attachment: &Attachment, parent: usize, carrier: &Made, own: &Made) -> Result<Seam, DesignError> {
+fn seam(attachment: &Attachment, parent: PartId, carrier: &Made, own: &Made) -> Result<Seam, DesignError> {
     let find = |made: &Made, panel: PanelKind| {
         let error = SketchError::NoPanel(panel.short_name());
         made.panel(panel).ok_or(DesignError::Sketch { name: made.name.clone(), error })

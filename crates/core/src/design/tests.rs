@@ -371,7 +371,7 @@ fn drawn_components_are_joined_by_their_panels() {
     for part in &made.model.parts()[1..] {
         let joint = part.joint.as_ref().unwrap();
         assert!((joint.support_ratio - 1.0).abs() < 1e-9, "{}", part.name);
-        let parent = &made.model.parts()[joint.parent];
+        let parent = made.model.part(joint.parent);
         for state in [0, 1] {
             let place = |p: &crate::model::ModelPart, panel| {
                 let panel = p.component.panels().panel(panel);

@@ -100,9 +100,8 @@ pub fn thick(
     thickness_mm: f64,
     min_panel_mm: f64,
 ) -> Result<(Model, Vec<DesignWarning>), ThickError> {
-    let parts = model.parts();
     let (mut made, mut warnings) = (Vec::new(), Vec::new());
-    for (p, part) in parts.iter().enumerate() {
+    for (p, part) in model.ids().zip(model.parts()) {
         let joints = model.joint_panels(p);
         let boards =
             Boards { name: &part.name, component: &part.component, joints, thickness_mm, min_panel_mm };

@@ -12,6 +12,7 @@ use super::sweep::{Body, Care, Contacts, SheetId, Sweep};
 use super::track::{Track, table};
 use super::way::{push_way, ways};
 use crate::component::{Panel, PanelId, PanelKind};
+use crate::model::PartId;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
@@ -20,13 +21,13 @@ use std::sync::Arc;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Clash {
     /// The component that folds.
-    pub mover: usize,
+    pub mover: PartId,
     /// How far it is folded before and after the step in which they meet: 0 deployed, 1 flat.
     pub from: f64,
     /// See [`Clash::from`].
     pub to: f64,
-    /// The two that meet, the smaller index first; equal for two chains of the one that folds.
-    pub parts: [usize; 2],
+    /// The two that meet, the smaller id first; equal for two chains of the one that folds.
+    pub parts: [PartId; 2],
     /// The panels that get deepest into each other.
     pub panels: [PanelId; 2],
     /// How far the component is folded when the two meet.
@@ -36,14 +37,14 @@ pub struct Clash {
 }
 
 /// The component that moves, the pair by its index, and the levels of the pair's context.
-type Question = (usize, usize, Levels);
+type Question = (PartId, usize, Levels);
 
 /// A pair that moves against each other while a component does.
 #[derive(Debug)]
 struct Watched {
-    parts: [usize; 2],
+    parts: [PartId; 2],
     /// All but the mover whose levels decide where the two are against each other.
-    context: Vec<usize>,
+    context: Vec<PartId>,
     /// How deep the two are in each other when all are deployed, if they are.
     overlap_mm: Option<f64>,
 }
@@ -69,17 +70,17 @@ pub(super) struct Checker<'a> {
     tracks: Vec<Track<'a>>,
     care: Care,
     /// Each component with those above it.
-    above: Vec<Vec<usize>>,
-    roots: Vec<usize>,
+    above: Vec<Vec<PartId>>,
+    roots: Vec<PartId>,
     /// `ways[a][b]` are the parts on the way from a to b, without a and with b.
-    ways: Vec<Vec<Vec<usize>>>,
+    ways: Vec<Vec<Vec<PartId>>>,
     /// By mover.
     watched: Vec<Vec<Watched>>,
     known: HashMap<Question, Answer>,
     /// Clashes of moves, by the levels of all.
     listed: HashMap<(Move, Levels), Arc<[Clash]>>,
     /// How deep pairs get at least in each other while a component folds, in any order, mm.
-    accepted_mm: BTreeMap<(usize, [usize; 2]), f64>,
+    accepted_mm: BTreeMap<(PartId, [PartId; 2]), f64>,
     sweeps: usize,
 }
 
@@ -94,18 +95,18 @@ impl<'a> Checker<'a> {
         memory: &'a SweepMemory,
     ) -> Self {
         let model = motion.model();
-        let parts = 0..model.parts().len();
+        let parts = model.ids();
         let track = |p: usize| {
-            let motion = motion.component(p);
+            let motion = motion.component(PartId(p));
             Track::new(motion, memory.tables().get_or(ids[p], || Arc::new(table(motion))))
         };
-        let above: Vec<Vec<usize>> = parts.clone().map(|p| ancestors(model, p)).collect();
+        let above: Vec<Vec<PartId>> = parts.clone().map(|p| ancestors(model, p)).collect();
         let ways = ways(&above);
         let mut checker = Self {
             motion,
             ids,
             memory,
-            tracks: parts.clone().into_par_iter().map(track).collect(),
+            tracks: (0..parts.len()).into_par_iter().map(track).collect(),
             care,
             roots: parts.clone().map(|p| root_of(model, p)).collect(),
             above,
@@ -116,15 +117,16 @@ impl<'a> Checker<'a> {
             accepted_mm: BTreeMap::new(),
             sweeps: 0,
         };
-        let deployed_mm: BTreeMap<[usize; 2], f64> = overlaps.iter().map(|o| (o.parts, o.depth_mm)).collect();
+        let deployed_mm: BTreeMap<[PartId; 2], f64> =
+            overlaps.iter().map(|o| (o.parts, o.depth_mm)).collect();
         checker.watched = parts.map(|mover| checker.watched_pairs(mover, &deployed_mm)).collect();
         checker
     }
 
     /// Pairs of the mover's tree that do not ride on the same panel of it.
-    fn watched_pairs(&self, mover: usize, deployed_mm: &BTreeMap<[usize; 2], f64>) -> Vec<Watched> {
-        let tree: Vec<usize> =
-            (0..self.roots.len()).filter(|&p| self.roots[p] == self.roots[mover]).collect();
+    fn watched_pairs(&self, mover: PartId, deployed_mm: &BTreeMap<[PartId; 2], f64>) -> Vec<Watched> {
+        let is_near = |p: &PartId| self.roots[p.0] == self.roots[mover.0];
+        let tree: Vec<PartId> = self.motion.model().ids().filter(is_near).collect();
         let carriers: Vec<Option<PanelId>> = tree.iter().map(|&p| self.carrier(mover, p)).collect();
         let mut pairs = Vec::new();
         for k in 0..tree.len() {
@@ -133,9 +135,9 @@ impl<'a> Checker<'a> {
                     continue;
                 }
                 let parts = [tree[k], tree[l]];
-                let context: BTreeSet<usize> = parts
+                let context: BTreeSet<PartId> = parts
                     .iter()
-                    .flat_map(|&p| &self.ways[mover][p])
+                    .flat_map(|&p| &self.ways[mover.0][p.0])
                     .copied()
                     .filter(|&p| p != mover)
                     .collect();
@@ -151,7 +153,7 @@ impl<'a> Checker<'a> {
     pub(super) fn clashes(&mut self, step: Move, levels: &[Level]) -> Vec<Clash> {
         let mut clashes = self.all_clashes(step, levels).to_vec();
         clashes.retain(|clash| {
-            let pair = self.watched[step.part].iter().find(|pair| pair.parts == clash.parts);
+            let pair = self.watched[step.part.0].iter().find(|pair| pair.parts == clash.parts);
             let accepted_mm = self.accepted_mm.get(&(step.part, clash.parts));
             pair.is_none_or(|pair| pair.overlap_mm.is_none())
                 && accepted_mm.is_none_or(|mm| clash.depth_mm > mm + LEAST_GAIN_MM)
@@ -162,7 +164,7 @@ impl<'a> Checker<'a> {
     /// All clashes of a move; `levels` tells where the others are.
     pub(super) fn all_clashes(&mut self, step: Move, levels: &[Level]) -> Arc<[Clash]> {
         let mut key = (step, Levels::from_slice(levels));
-        key.1[step.part] = step.from;
+        key.1[step.part.0] = step.from;
         if let Some(clashes) = self.listed.get(&key) {
             return clashes.clone();
         }
@@ -177,7 +179,7 @@ impl<'a> Checker<'a> {
     /// What a pair does in a step, as far as that is worse than what it does when deployed.
     fn clash(&self, step: Move, question: &Question) -> Option<Clash> {
         let (mover, pair, _) = question;
-        let pair = &self.watched[*mover][*pair];
+        let pair = &self.watched[mover.0][*pair];
         let clash = clash(step, pair.parts, self.known.get(question)?)?;
         let told_mm = pair.overlap_mm.map_or(0.0, |mm| mm + self.care.allowed_mm());
         (clash.depth_mm > told_mm).then_some(clash)
@@ -187,8 +189,8 @@ impl<'a> Checker<'a> {
     /// since no order can help. Gives up, and does not accept it, where there are too many of them.
     pub(super) fn accept_if_unavoidable(&mut self, clash: &Clash, levels: &[Level]) {
         let (mover, parts) = (clash.mover, clash.parts);
-        let Some(pair) = self.watched[mover].iter().position(|pair| pair.parts == parts) else { return };
-        let free = self.watched[mover][pair].context.clone();
+        let Some(pair) = self.watched[mover.0].iter().position(|pair| pair.parts == parts) else { return };
+        let free = self.watched[mover.0][pair].context.clone();
         if free.len() > MOST_BETWEEN {
             return;
         }
@@ -196,7 +198,7 @@ impl<'a> Checker<'a> {
             let mut levels = levels.to_vec();
             free.iter()
                 .enumerate()
-                .for_each(|(k, &p)| levels[p] = if states >> k & 1 == 1 { FLAT } else { 0 });
+                .for_each(|(k, p)| levels[p.0] = if states >> k & 1 == 1 { FLAT } else { 0 });
             let question = self.question(mover, pair, &levels);
             if !self.known.contains_key(&question) {
                 let answers = self.ask(vec![question.clone()], mover, &levels);
@@ -213,10 +215,10 @@ impl<'a> Checker<'a> {
 
     /// The components that a clash has to do with: the two that meet, the one that moves, and those
     /// between them.
-    pub(super) fn involved(&self, clash: &Clash) -> Vec<usize> {
+    pub(super) fn involved(&self, clash: &Clash) -> Vec<PartId> {
         let [a, b] = clash.parts;
         let mut involved = vec![a, b, clash.mover];
-        involved.extend(&self.ways[a][b]);
+        involved.extend(&self.ways[a.0][b.0]);
         let mut seen = BTreeSet::new();
         involved.retain(|part| seen.insert(*part));
         involved
@@ -240,19 +242,19 @@ impl<'a> Checker<'a> {
     }
 
     /// Answers what is not known yet of one component's motion.
-    pub(super) fn answers(&self, mover: usize, levels: &[Level]) -> Vec<(Question, Answer)> {
+    pub(super) fn answers(&self, mover: PartId, levels: &[Level]) -> Vec<(Question, Answer)> {
         let open = self.questions(mover, levels).filter(|question| !self.known.contains_key(question));
         self.ask(open.collect(), mover, levels)
     }
 
-    fn ask(&self, open: Vec<Question>, mover: usize, levels: &[Level]) -> Vec<(Question, Answer)> {
+    fn ask(&self, open: Vec<Question>, mover: PartId, levels: &[Level]) -> Vec<(Question, Answer)> {
         let keys: Vec<Key> = open.iter().map(|question| self.key(question, levels)).collect();
         let mut answers: Vec<Option<Answer>> =
             keys.iter().map(|key| self.memory.answers().get(key)).collect();
         let missing: Vec<usize> = (0..open.len()).filter(|&k| answers[k].is_none()).collect();
         if !missing.is_empty() {
-            let pairs: Vec<[usize; 2]> =
-                missing.iter().map(|&k| self.watched[mover][open[k].1].parts).collect();
+            let pairs: Vec<[PartId; 2]> =
+                missing.iter().map(|&k| self.watched[mover.0][open[k].1].parts).collect();
             for (&k, answer) in missing.iter().zip(self.swept(mover, &pairs, levels)) {
                 self.memory.answers().insert(keys[k].clone(), answer.clone());
                 answers[k] = Some(answer);
@@ -262,50 +264,50 @@ impl<'a> Checker<'a> {
     }
 
     /// Works out what pairs do while a component moves.
-    fn swept(&self, mover: usize, pairs: &[[usize; 2]], levels: &[Level]) -> Vec<Answer> {
+    fn swept(&self, mover: PartId, pairs: &[[PartId; 2]], levels: &[Level]) -> Vec<Answer> {
         let (bodies, owners) = self.bodies(mover, pairs, levels);
-        let sweep = Sweep::new(&self.tracks[mover], &bodies, self.care);
+        let sweep = Sweep::new(&self.tracks[mover.0], &bodies, self.care);
         let lists: Vec<Vec<[usize; 2]>> = pairs.iter().map(|&pair| moving(pair, &bodies, &owners)).collect();
         let shares = lists.par_chunks(lists.len().div_ceil(SHARES_OF_SWEEP));
         let contacts: Vec<Vec<Contacts>> = shares.map(|lists| sweep.contacts(lists)).collect();
         contacts.into_iter().flatten().map(|contacts| answer(&contacts, &owners)).collect()
     }
 
-    fn question(&self, mover: usize, pair: usize, levels: &[Level]) -> Question {
-        let context = &self.watched[mover][pair].context;
-        (mover, pair, context.iter().map(|&p| levels[p]).collect())
+    fn question(&self, mover: PartId, pair: usize, levels: &[Level]) -> Question {
+        let context = &self.watched[mover.0][pair].context;
+        (mover, pair, context.iter().map(|p| levels[p.0]).collect())
     }
 
     /// What must be known of a component's motion.
-    fn questions<'q>(&'q self, mover: usize, levels: &'q [Level]) -> impl Iterator<Item = Question> + 'q {
-        (0..self.watched[mover].len()).map(move |pair| self.question(mover, pair, levels))
+    fn questions<'q>(&'q self, mover: PartId, levels: &'q [Level]) -> impl Iterator<Item = Question> + 'q {
+        (0..self.watched[mover.0].len()).map(move |pair| self.question(mover, pair, levels))
     }
 
     /// All that decides the answer to a question: paper, mover, and the components on both ways from it.
     fn key(&self, (mover, pair, _): &Question, levels: &[Level]) -> Key {
-        let mut key = vec![self.care.key(), self.ids[*mover]];
-        for part in self.watched[*mover][*pair].parts {
-            let way = &self.ways[*mover][part];
+        let mut key = vec![self.care.key(), self.ids[mover.0]];
+        for part in self.watched[mover.0][*pair].parts {
+            let way = &self.ways[mover.0][part.0];
             key.push(way.len() as u64);
-            push_way(&mut key, way, &self.above[*mover], self.ids, levels);
+            push_way(&mut key, way, &self.above[mover.0], self.ids, levels);
         }
         key.into_boxed_slice()
     }
 
     /// What rides on the mover's panels: each of them, and each other part of the pairs; with the
     /// part and the first panel of each.
-    fn bodies(&self, mover: usize, pairs: &[[usize; 2]], levels: &[Level]) -> (Vec<Body>, Vec<Owner>) {
-        let motion = self.tracks[mover].motion();
+    fn bodies(&self, mover: PartId, pairs: &[[PartId; 2]], levels: &[Level]) -> (Vec<Body>, Vec<Owner>) {
+        let motion = self.tracks[mover.0].motion();
         let mut folded: Vec<f64> = levels.iter().map(|&level| share(level)).collect();
-        folded[mover] = 0.0;
+        folded[mover.0] = 0.0;
         let pose = self.motion.pose(&folded);
-        let to_mover = pose.parts[mover].frame.inverse();
+        let to_mover = pose.parts[mover.0].frame.inverse();
         let (mut bodies, mut owners) = (Vec::new(), Vec::new());
-        let asked: BTreeSet<usize> = pairs.iter().flatten().copied().collect();
+        let asked: BTreeSet<PartId> = pairs.iter().flatten().copied().collect();
         for p in asked {
-            let panels = self.motion.model().parts()[p].component.panels().panels().iter().enumerate();
+            let panels = self.motion.model().part(p).component.panels().panels().iter().enumerate();
             let sheets =
-                panels.map(|(k, panel)| Sheet::of_panel(panel, to_mover * pose.parts[p].panel(PanelId(k))));
+                panels.map(|(k, panel)| Sheet::of_panel(panel, to_mover * pose.parts[p.0].panel(PanelId(k))));
             match self.carrier(mover, p) {
                 Some(carrier) => {
                     bodies.push(Body::new(sheets.collect(), carrier, motion));
@@ -323,30 +325,30 @@ impl<'a> Checker<'a> {
     }
 
     /// The mover's panel that another part hangs on; none for the mover itself.
-    fn carrier(&self, mover: usize, part: usize) -> Option<PanelId> {
-        let parts = self.motion.model().parts();
+    fn carrier(&self, mover: PartId, part: PartId) -> Option<PanelId> {
+        let model = self.motion.model();
         if part == mover {
             return None;
         }
         let mut line = vec![part];
-        line.extend(&self.above[part]);
+        line.extend(&self.above[part.0]);
         let below = line.iter().position(|&p| p == mover).map(|at| line[at - 1]);
         match below {
-            Some(child) => parts[child].joint.as_ref().map(|j| j.parent_panel),
-            None => parts[mover].joint.as_ref().map(|j| j.child_panel),
+            Some(child) => model.part(child).joint.as_ref().map(|j| j.parent_panel),
+            None => model.part(mover).joint.as_ref().map(|j| j.child_panel),
         }
     }
 
     /// Clash of two chains of one component, whatever the others do.
-    pub(super) fn own_clash(&self, mover: usize) -> Option<Clash> {
-        let key = [self.care.key(), self.ids[mover]];
+    pub(super) fn own_clash(&self, mover: PartId) -> Option<Clash> {
+        let key = [self.care.key(), self.ids[mover.0]];
         let answer = self.memory.own().get_or(key, || self.own_answer(mover));
         clash(Move::whole(mover), [mover; 2], &answer)
     }
 
-    fn own_answer(&self, mover: usize) -> Answer {
-        let panels = self.motion.model().parts()[mover].component.panels().panels();
-        let track = &self.tracks[mover];
+    fn own_answer(&self, mover: PartId) -> Answer {
+        let panels = self.motion.model().part(mover).component.panels().panels();
+        let track = &self.tracks[mover.0];
         let body = |(k, panel): (usize, &Panel)| {
             Body::new(vec![Sheet::of_panel(panel, panel.deployed)], PanelId(k), track.motion())
         };
@@ -372,13 +374,13 @@ impl<'a> Checker<'a> {
 /// Whose sheets a body has: those of a part from one panel on.
 #[derive(Debug, Clone, Copy)]
 struct Owner {
-    part: usize,
+    part: PartId,
     first_panel: usize,
 }
 
 /// Pairs of bodies of two parts that move against each other.
-fn moving([a, b]: [usize; 2], bodies: &[Body], owners: &[Owner]) -> Vec<[usize; 2]> {
-    let of = |part: usize| (0..owners.len()).filter(move |&k| owners[k].part == part);
+fn moving([a, b]: [PartId; 2], bodies: &[Body], owners: &[Owner]) -> Vec<[usize; 2]> {
+    let of = |part: PartId| (0..owners.len()).filter(move |&k| owners[k].part == part);
     let all = of(a).flat_map(|p| of(b).map(move |q| [p, q]));
     all.filter(|[p, q]| bodies[*p].carrier() != bodies[*q].carrier()).collect()
 }
@@ -399,7 +401,7 @@ fn answer(contacts: &Contacts, owners: &[Owner]) -> Answer {
 }
 
 /// What an answer says about a step.
-fn clash(step: Move, parts: [usize; 2], answer: &Answer) -> Option<Clash> {
+fn clash(step: Move, parts: [PartId; 2], answer: &Answer) -> Option<Clash> {
     let cells = answer.as_ref()?.get(usize::from(step.from)..usize::from(step.to))?;
     let mut meetings = cells.iter().flatten();
     let first = meetings.next()?;

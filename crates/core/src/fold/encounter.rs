@@ -7,6 +7,7 @@ use super::plan::FoldPlan;
 use super::pose::ModelMotion;
 use super::step::Step;
 use crate::component::PanelId;
+use crate::model::PartId;
 use glam::DVec3;
 use std::collections::BTreeMap;
 
@@ -17,12 +18,12 @@ const MOMENTS: u32 = 30;
 /// Two components that are in each other, or two chains of one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Encounter {
-    /// The two, the smaller index first; equal for two chains of one component.
-    pub parts: [usize; 2],
+    /// The two, the smaller id first; equal for two chains of one component.
+    pub parts: [PartId; 2],
     /// The panels that are deepest in each other.
     pub panels: [PanelId; 2],
     /// The component that folds meanwhile; none where the two are in each other when unfolded.
-    pub mover: Option<usize>,
+    pub mover: Option<PartId>,
     /// How far each component is folded when the panels are deepest in each other.
     pub folded: Vec<f64>,
     /// The ends of the line along which the two panels cut through each other then.
@@ -51,7 +52,7 @@ impl FoldPlan {
 
 /// Of clashes of the same two components the deepest one.
 pub(super) fn deepest(clashes: &[Clash]) -> impl Iterator<Item = &Clash> {
-    let mut of_pair: BTreeMap<[usize; 2], &Clash> = BTreeMap::new();
+    let mut of_pair: BTreeMap<[PartId; 2], &Clash> = BTreeMap::new();
     for clash in clashes {
         let kept = of_pair.entry(clash.parts).or_insert(clash);
         if clash.depth_mm > kept.depth_mm {
@@ -64,7 +65,7 @@ pub(super) fn deepest(clashes: &[Clash]) -> impl Iterator<Item = &Clash> {
 fn unfolded(motion: &ModelMotion<'_>, overlap: &Overlap) -> Encounter {
     let folded = vec![0.0; motion.model().parts().len()];
     let [a, b] = overlap.parts.map(|part| {
-        let panels = motion.model().parts()[part].component.panels().panels();
+        let panels = motion.model().part(part).component.panels().panels();
         (0..panels.len()).map(PanelId).collect::<Vec<_>>()
     });
     let pairs = a.iter().flat_map(|&p| b.iter().map(move |&q| [p, q]));
@@ -79,11 +80,11 @@ fn folding(motion: &ModelMotion<'_>, steps: &[Step], clash: &Clash) -> Encounter
     let mut folded = vec![0.0; motion.model().parts().len()];
     let is_own = |step: &&Step| step.part == clash.mover && step.to >= clash.to;
     for step in steps.iter().take_while(|step| !is_own(step)) {
-        folded[step.part] = step.to;
+        folded[step.part.0] = step.to;
     }
     let at = |share: f64| {
         let mut folded = folded.clone();
-        folded[clash.mover] = share;
+        folded[clash.mover.0] = share;
         folded
     };
     let depth_mm = |share: f64| depth_mm(&sheets(motion, &at(share), clash.parts, clash.panels));
@@ -104,11 +105,11 @@ fn depth_mm([a, b]: &[Sheet; 2]) -> f64 {
 }
 
 /// One panel of each of two parts in a pose.
-fn sheets(motion: &ModelMotion<'_>, folded: &[f64], parts: [usize; 2], panels: [PanelId; 2]) -> [Sheet; 2] {
+fn sheets(motion: &ModelMotion<'_>, folded: &[f64], parts: [PartId; 2], panels: [PanelId; 2]) -> [Sheet; 2] {
     let pose = motion.pose(folded);
     [0, 1].map(|k| {
-        let place = pose.parts[parts[k]].panel(panels[k]);
-        Sheet::of_panel(motion.model().parts()[parts[k]].component.panels().panel(panels[k]), place)
+        let place = pose.parts[parts[k].0].panel(panels[k]);
+        Sheet::of_panel(motion.model().part(parts[k]).component.panels().panel(panels[k]), place)
     })
 }
 

@@ -9,6 +9,7 @@
 use super::check::{Checker, Clash, LEAST_GAIN_MM};
 use super::order::replay;
 use super::step::{FLAT, Level, Move};
+use crate::model::PartId;
 use crate::progress::{Cancelled, Progress};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -64,7 +65,7 @@ pub(super) fn interleaved(
     }
 }
 
-fn worst_bump(clashes: &[Clash], thickness_mm: f64, looked_at: &BTreeSet<[usize; 2]>) -> Option<Clash> {
+fn worst_bump(clashes: &[Clash], thickness_mm: f64, looked_at: &BTreeSet<[PartId; 2]>) -> Option<Clash> {
     let least_mm = WORTH_TURNS * thickness_mm;
     let bumps = clashes.iter().filter(|c| c.depth_mm > least_mm && !looked_at.contains(&c.parts));
     bumps.copied().max_by(|a, b| a.depth_mm.total_cmp(&b.depth_mm).then(b.parts.cmp(&a.parts)))
@@ -76,7 +77,7 @@ fn price_mm(clash: &Clash, thickness_mm: f64) -> f64 {
 
 /// Sum over pairs of what their deepest clash costs.
 fn harm_mm(clashes: &[Clash], thickness_mm: f64) -> f64 {
-    let mut of_pair: BTreeMap<[usize; 2], f64> = BTreeMap::new();
+    let mut of_pair: BTreeMap<[PartId; 2], f64> = BTreeMap::new();
     for clash in clashes {
         let worst_mm = of_pair.entry(clash.parts).or_insert(0.0);
         *worst_mm = worst_mm.max(price_mm(clash, thickness_mm));
@@ -98,7 +99,7 @@ struct Place {
 
 struct Lattice {
     /// Components that move in turn.
-    turns: Vec<usize>,
+    turns: Vec<PartId>,
     /// Number of levels above 0, and how far it is from one to the next.
     count: usize,
     stride: Level,
@@ -110,7 +111,7 @@ struct Lattice {
 
 impl Lattice {
     /// None where it would be too large.
-    fn new(moves: &[Move], turns: &[usize], count: Level, parts: usize) -> Option<Self> {
+    fn new(moves: &[Move], turns: &[PartId], count: Level, parts: usize) -> Option<Self> {
         let others: Vec<Move> = moves.iter().filter(|step| !turns.contains(&step.part)).copied().collect();
         let places = (usize::from(count) + 1).pow(turns.len() as u32) * (others.len() + 1);
         if places > MOST_PLACES {
@@ -119,7 +120,7 @@ impl Lattice {
         let mut levels = vec![0; parts];
         let mut others_at = vec![levels.clone()];
         for step in &others {
-            levels[step.part] = step.to;
+            levels[step.part.0] = step.to;
             others_at.push(levels.clone());
         }
         let (count, stride) = (usize::from(count), FLAT / count);
@@ -189,7 +190,7 @@ impl Lattice {
 
     fn levels(&self, place: &Place) -> Vec<Level> {
         let mut levels = self.others_at[place.done].clone();
-        self.turns.iter().zip(place.levels).for_each(|(&part, level)| levels[part] = level);
+        self.turns.iter().zip(place.levels).for_each(|(part, level)| levels[part.0] = level);
         levels
     }
 
@@ -241,8 +242,8 @@ mod tests {
 
     #[test]
     fn places_have_numbers_of_their_own() {
-        let moves: Vec<Move> = [3, 0, 2, 1].map(Move::whole).to_vec();
-        let lattice = Lattice::new(&moves, &[0, 1], 4, 4).unwrap();
+        let moves: Vec<Move> = [3, 0, 2, 1].map(|part| Move::whole(PartId(part))).to_vec();
+        let lattice = Lattice::new(&moves, &[PartId(0), PartId(1)], 4, 4).unwrap();
         let mut seen = 0;
         for index in 0..lattice.place_count() {
             let place = lattice.place(index);
@@ -250,6 +251,6 @@ mod tests {
             seen += usize::from(lattice.is_end(&place));
         }
         assert_eq!(seen, 3, "the end is reached by either of the two, or by another");
-        assert!(Lattice::new(&moves, &[0, 1, 2, 3], 8, 4).is_none(), "too large");
+        assert!(Lattice::new(&moves, &[0, 1, 2, 3].map(PartId), 8, 4).is_none(), "too large");
     }
 }

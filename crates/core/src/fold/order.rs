@@ -4,7 +4,7 @@
 use super::check::{Checker, Clash, LEAST_GAIN_MM};
 use super::pose::{ModelMotion, ancestors, root_of};
 use super::step::{FLAT, Level, Move};
-use crate::model::Model;
+use crate::model::{Model, PartId};
 use crate::progress::{Cancelled, Progress};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -17,9 +17,9 @@ const MOST_STATES: usize = 20_000;
 const THOROUGH_FOR_EACH: usize = 3;
 const THOROUGH: usize = 150;
 
-/// Sorts components, which come in the order of their numbers, so that children come before those that
+/// Sorts components, which come in the order of their ids, so that children come before those that
 /// carry them.
-pub(super) fn outermost_first(model: &Model, parts: &mut [usize]) {
+pub(super) fn outermost_first(model: &Model, parts: &mut [PartId]) {
     parts.sort_by_key(|&part| std::cmp::Reverse(ancestors(model, part).len()));
 }
 
@@ -29,7 +29,7 @@ pub(super) fn replay(checker: &mut Checker<'_>, moves: &[Move], parts: usize) ->
     let mut clashes = Vec::new();
     for step in moves {
         clashes.extend_from_slice(&checker.all_clashes(*step, &levels));
-        levels[step.part] = step.to;
+        levels[step.part.0] = step.to;
     }
     clashes
 }
@@ -60,9 +60,9 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// An order for the tree of a root.
-    pub(super) fn tree(mut self, root: usize) -> Result<Vec<usize>, Cancelled> {
+    pub(super) fn tree(mut self, root: PartId) -> Result<Vec<PartId>, Cancelled> {
         let model = self.motion.model();
-        let mut parts: Vec<usize> = (0..model.parts().len()).filter(|&p| root_of(model, p) == root).collect();
+        let mut parts: Vec<PartId> = model.ids().filter(|&p| root_of(model, p) == root).collect();
         outermost_first(model, &mut parts);
         self.look_ahead(&parts)?;
         if let Some(order) = self.without_clashes(&parts, 0.0)? {
@@ -79,7 +79,11 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// An order in which nothing gets deeper than this into anything else.
-    fn without_clashes(&mut self, parts: &[usize], allowed_mm: f64) -> Result<Option<Vec<usize>>, Cancelled> {
+    fn without_clashes(
+        &mut self,
+        parts: &[PartId],
+        allowed_mm: f64,
+    ) -> Result<Option<Vec<PartId>>, Cancelled> {
         self.most_sweeps = self.affordable_sweeps(parts);
         self.dead_ends.clear();
         let (mut order, mut levels) = (Vec::new(), self.deployed());
@@ -92,35 +96,35 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// The number of computed motions at which a search among these parts gives up.
-    fn affordable_sweeps(&self, parts: &[usize]) -> usize {
+    fn affordable_sweeps(&self, parts: &[PartId]) -> usize {
         let (each, least) =
             if self.is_thorough { (THOROUGH_FOR_EACH, THOROUGH) } else { (SWEEPS_FOR_EACH, 0) };
         self.checker.sweeps() + least.max(each * parts.len())
     }
 
     /// An order that does little harm where all do some.
-    fn fallback(&mut self, parts: &[usize]) -> Result<Vec<usize>, Cancelled> {
+    fn fallback(&mut self, parts: &[PartId]) -> Result<Vec<PartId>, Cancelled> {
         let greedy = self.least_bad(parts)?;
         let (as_listed_mm, greedy_mm) = (self.harm_mm(parts), self.harm_mm(&greedy));
         let better = if as_listed_mm <= greedy_mm { parts.to_vec() } else { greedy };
         if self.is_thorough { self.improved(better) } else { Ok(better) }
     }
 
-    fn replay(&mut self, order: &[usize]) -> Vec<Clash> {
+    fn replay(&mut self, order: &[PartId]) -> Vec<Clash> {
         let moves: Vec<Move> = order.iter().map(|&part| Move::whole(part)).collect();
         replay(self.checker, &moves, self.motion.model().parts().len())
     }
 
-    fn harm_mm(&mut self, order: &[usize]) -> f64 {
+    fn harm_mm(&mut self, order: &[PartId]) -> f64 {
         self.replay(order).iter().map(|clash| clash.depth_mm).sum()
     }
 
     /// Moves single components of an order to other places while that does less harm.
-    fn improved(&mut self, mut order: Vec<usize>) -> Result<Vec<usize>, Cancelled> {
+    fn improved(&mut self, mut order: Vec<PartId>) -> Result<Vec<PartId>, Cancelled> {
         let most_sweeps = self.checker.sweeps() + SWEEPS_FOR_EACH * order.len();
         let mut harm_mm = self.harm_mm(&order);
         'better: loop {
-            let movers: BTreeSet<usize> = self.replay(&order).iter().map(|clash| clash.mover).collect();
+            let movers: BTreeSet<PartId> = self.replay(&order).iter().map(|clash| clash.mover).collect();
             for mover in movers {
                 for place in 0..order.len() {
                     self.progress.check()?;
@@ -142,7 +146,7 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// Answers, in parallel, what the order "as listed" asks, and accepts what no order avoids.
-    fn look_ahead(&mut self, parts: &[usize]) -> Result<(), Cancelled> {
+    fn look_ahead(&mut self, parts: &[PartId]) -> Result<(), Cancelled> {
         let (checker, progress) = (&*self.checker, self.progress);
         let count = self.motion.model().parts().len();
         let answers: Vec<_> = (0..parts.len())
@@ -150,7 +154,7 @@ impl<'s, 'a> Search<'s, 'a> {
             .map(|k| {
                 progress.check()?;
                 let mut levels = vec![0; count];
-                parts[..k].iter().for_each(|&p| levels[p] = FLAT);
+                parts[..k].iter().for_each(|p| levels[p.0] = FLAT);
                 Ok(checker.answers(parts[k], &levels))
             })
             .collect::<Result<_, Cancelled>>()?;
@@ -161,7 +165,7 @@ impl<'s, 'a> Search<'s, 'a> {
                 progress.check()?;
                 self.checker.accept_if_unavoidable(clash, &levels);
             }
-            levels[part] = FLAT;
+            levels[part.0] = FLAT;
         }
         Ok(())
     }
@@ -169,9 +173,9 @@ impl<'s, 'a> Search<'s, 'a> {
     /// Folds what is left, depth first; false where there is no way.
     fn extend(
         &mut self,
-        parts: &[usize],
+        parts: &[PartId],
         allowed_mm: f64,
-        order: &mut Vec<usize>,
+        order: &mut Vec<PartId>,
         levels: &mut [Level],
     ) -> Result<bool, Cancelled> {
         if order.len() == parts.len() {
@@ -181,7 +185,7 @@ impl<'s, 'a> Search<'s, 'a> {
             return Ok(false);
         }
         for &part in parts {
-            if levels[part] == FLAT || self.checker.sweeps() > self.most_sweeps {
+            if levels[part.0] == FLAT || self.checker.sweeps() > self.most_sweeps {
                 continue;
             }
             self.progress.check()?;
@@ -190,29 +194,29 @@ impl<'s, 'a> Search<'s, 'a> {
                 continue;
             }
             order.push(part);
-            levels[part] = FLAT;
+            levels[part.0] = FLAT;
             if self.extend(parts, allowed_mm, order, levels)? {
                 return Ok(true);
             }
             order.pop();
-            levels[part] = 0;
+            levels[part.0] = 0;
         }
         self.dead_ends.insert(levels.to_vec());
         Ok(false)
     }
 
     /// Folds at every step what clashes least, while that takes not too long.
-    fn least_bad(&mut self, parts: &[usize]) -> Result<Vec<usize>, Cancelled> {
+    fn least_bad(&mut self, parts: &[PartId]) -> Result<Vec<PartId>, Cancelled> {
         let mut levels = self.deployed();
         let mut order = Vec::new();
         let most_sweeps = self.affordable_sweeps(parts);
         while order.len() < parts.len() {
             if self.checker.sweeps() > most_sweeps {
-                order.extend(parts.iter().filter(|&&p| levels[p] == 0));
+                order.extend(parts.iter().filter(|p| levels[p.0] == 0));
                 break;
             }
-            let mut best: Option<(f64, usize)> = None;
-            for &part in parts.iter().filter(|&&p| levels[p] == 0) {
+            let mut best: Option<(f64, PartId)> = None;
+            for &part in parts.iter().filter(|p| levels[p.0] == 0) {
                 self.progress.check()?;
                 let harm: f64 =
                     self.checker.clashes(Move::whole(part), &levels).iter().map(|c| c.depth_mm).sum();
@@ -225,7 +229,7 @@ impl<'s, 'a> Search<'s, 'a> {
             }
             let Some((_, part)) = best else { break };
             order.push(part);
-            levels[part] = FLAT;
+            levels[part.0] = FLAT;
         }
         Ok(order)
     }
@@ -265,7 +269,11 @@ mod tests {
                 let child = parts.len();
                 parts.push(cuboid(child, DVec3::new(x_mm, -15.0, z_mm), size));
                 let parent = if storey == 0 { 0 } else { child - 1 };
-                links.push(Link { parent, child, plane: Plane::horizontal(z_mm) });
+                links.push(Link {
+                    parent: PartId(parent),
+                    child: PartId(child),
+                    plane: Plane::horizontal(z_mm),
+                });
                 z_mm += size.z;
             }
         }
@@ -274,9 +282,9 @@ mod tests {
         build(&assembly, &Known::default(), &Unjudged, &Silent).unwrap().model
     }
 
-    fn orders(parts: &[usize]) -> Vec<Vec<usize>> {
+    fn orders(parts: &[PartId]) -> Vec<Vec<PartId>> {
         let Some((first, rest)) = parts.split_first() else { return vec![Vec::new()] };
-        let with_first = |order: Vec<usize>| {
+        let with_first = |order: Vec<PartId>| {
             (0..=order.len()).map(move |at| [&order[..at], &[*first], &order[at..]].concat())
         };
         orders(rest).into_iter().flat_map(with_first).collect()
@@ -295,14 +303,15 @@ mod tests {
             let memory = SweepMemory::default();
             let mut checker = Checker::new(&motion, Care::exact(0.25), &[], &ids, &memory);
             let worst_mm = |clashes: Vec<Clash>| clashes.iter().map(|c| c.depth_mm).fold(0.0, f64::max);
-            let best_mm = orders(&[0, 1, 2, 3, 4])
+            let best_mm = orders(&[0, 1, 2, 3, 4].map(PartId))
                 .iter()
                 .map(|order| {
                     let moves: Vec<Move> = order.iter().map(|&part| Move::whole(part)).collect();
                     worst_mm(replay(&mut checker, &moves, 5))
                 })
                 .fold(f64::INFINITY, f64::min);
-            let order = Search::new(&motion, &mut checker, THICKNESS_MM, true, &Silent).tree(0).unwrap();
+            let order =
+                Search::new(&motion, &mut checker, THICKNESS_MM, true, &Silent).tree(PartId(0)).unwrap();
             let moves: Vec<Move> = order.iter().map(|&part| Move::whole(part)).collect();
             let found_mm = worst_mm(replay(&mut checker, &moves, 5));
             assert!(best_mm > THICKNESS_MM || found_mm <= THICKNESS_MM, "{best_mm} {found_mm}");

@@ -6,6 +6,7 @@ use super::pose::{ModelMotion, ancestors, root_of};
 use super::way::{push_way, ways};
 use crate::component::Panel;
 use crate::geom::{Hull, bounds};
+use crate::model::PartId;
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
@@ -15,8 +16,8 @@ const CONVEX_MM: f64 = 1e-6;
 /// Two components that overlap when all are unfolded.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overlap {
-    /// The two, the smaller index first.
-    pub parts: [usize; 2],
+    /// The two, the smaller id first.
+    pub parts: [PartId; 2],
     /// How deep two of their panels are in each other, at most, mm; the shift that parts the two where panels
     /// only touch.
     pub depth_mm: f64,
@@ -51,19 +52,20 @@ pub(super) fn overlaps(
     let parts = model.parts();
     let solids: Vec<Solid> =
         parts.iter().map(|part| solid(part.component.panels().panels(), part.deployed())).collect();
-    let above: Vec<Vec<usize>> = (0..parts.len()).map(|p| ancestors(model, p)).collect();
+    let above: Vec<Vec<PartId>> = model.ids().map(|p| ancestors(model, p)).collect();
     let (ways, deployed) = (ways(&above), vec![0; parts.len()]);
-    let pairs: Vec<[usize; 2]> = (0..parts.len())
-        .flat_map(|a| (a + 1..parts.len()).map(move |b| [a, b]))
+    let pairs: Vec<[PartId; 2]> = model
+        .ids()
+        .flat_map(|a| model.ids().skip(a.0 + 1).map(move |b| [a, b]))
         .filter(|&[a, b]| root_of(model, a) == root_of(model, b))
         .collect();
-    let depth_mm = |&[a, b]: &[usize; 2]| {
-        let (p, q) = (&solids[a], &solids[b]);
+    let depth_mm = |&[a, b]: &[PartId; 2]| {
+        let (p, q) = (&solids[a.0], &solids[b.0]);
         if (p.low.cmpgt(q.high) | q.low.cmpgt(p.high)).any() {
             return 0.0;
         }
-        let mut key = vec![tolerance_mm.to_bits(), ids[a]];
-        push_way(&mut key, &ways[a][b], &above[a], ids, &deployed);
+        let mut key = vec![tolerance_mm.to_bits(), ids[a.0]];
+        push_way(&mut key, &ways[a.0][b.0], &above[a.0], ids, &deployed);
         let key: Key = key.into_boxed_slice();
         memory.overlaps().get_or(key, || depth_mm(p, q, tolerance_mm))
     };

@@ -11,7 +11,7 @@ use super::sequence::{Motion, Sequence};
 use super::stack::{Stack, stacks};
 use super::step::{Move, Pull, Step};
 use super::sweep::Care;
-use crate::model::{Bump, Enough, Model};
+use crate::model::{Bump, Enough, Model, PartId};
 use crate::progress::{Cancelled, Progress};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -22,7 +22,7 @@ pub struct FoldPlan {
     thickness_mm: f64,
     pulls: Vec<Pull>,
     steps: Vec<Step>,
-    order: Vec<usize>,
+    order: Vec<PartId>,
     clashes: Vec<Clash>,
     overlaps: Vec<Overlap>,
     stacks: Vec<Stack>,
@@ -49,7 +49,7 @@ enum Effort<'a> {
 impl FoldPlan {
     /// The order of folding before anything is checked: children before those that carry them.
     pub fn unchecked(model: &Model, thickness_mm: f64) -> Self {
-        let mut order: Vec<usize> = (0..model.parts().len()).collect();
+        let mut order: Vec<PartId> = model.ids().collect();
         outermost_first(model, &mut order);
         let steps = order.iter().map(|&part| Step::whole(part)).collect();
         let (pulls, clashes, overlaps, stacks) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
@@ -108,7 +108,7 @@ impl FoldPlan {
     /// [`Cancelled`] at the user's wish.
     pub fn unplugged(
         motion: &ModelMotion<'_>,
-        parts: &[usize],
+        parts: &[PartId],
         thickness_mm: f64,
         ids: &[u64],
         memory: &SweepMemory,
@@ -118,8 +118,8 @@ impl FoldPlan {
         let beside = ModelMotion::new(&apart);
         let mut plan = Self::with_memory(&beside, thickness_mm, ids, memory, progress)?;
         // What was pulled off is folded first.
-        let group = |part: usize| parts.iter().position(|&p| p == root_of(&apart, part));
-        let rank = |part: usize| group(part).map_or(0, |at| at as isize - parts.len() as isize);
+        let group = |part: PartId| parts.iter().position(|&p| p == root_of(&apart, part));
+        let rank = |part: PartId| group(part).map_or(0, |at| at as isize - parts.len() as isize);
         plan.steps.sort_by_key(|step| rank(step.part));
         plan.order.sort_by_key(|&part| rank(part));
         plan.pulls = pull::pulls(motion, parts, &plan.steps);
@@ -149,11 +149,12 @@ impl FoldPlan {
             Effort::Order(Detection::Continuous, _) | Effort::Whole => Care::exact(thickness_mm),
         };
         let mut checker = Checker::new(motion, care, &overlaps, ids, memory);
-        let own: Vec<Option<Clash>> = (0..parts).into_par_iter().map(|p| checker.own_clash(p)).collect();
+        let own: Vec<Option<Clash>> =
+            (0..parts).into_par_iter().map(|p| checker.own_clash(PartId(p))).collect();
         let mut clashes: Vec<Clash> = own.into_iter().flatten().collect();
         progress.check()?;
         let mut moves = Vec::new();
-        for root in (0..parts).filter(|&p| root_of(motion.model(), p) == p) {
+        for root in motion.model().ids().filter(|&p| root_of(motion.model(), p) == p) {
             let order = Search::new(motion, &mut checker, thickness_mm, is_whole, progress).tree(root)?;
             let mut tree: Vec<Move> = order.into_iter().map(Move::whole).collect();
             if is_whole {
@@ -193,7 +194,7 @@ impl FoldPlan {
     }
 
     /// All components, in the order in which they become flat.
-    pub fn order(&self) -> &[usize] {
+    pub fn order(&self) -> &[PartId] {
         &self.order
     }
 
@@ -218,13 +219,13 @@ impl FoldPlan {
     }
 
     /// Pairs that overlap by more than the paper's thickness, unfolded or while they fold, and by how much
-    /// more, mm. The two indices are equal for chains of one component.
+    /// more, mm. The two ids are equal for chains of one component.
     pub fn bumps(&self) -> Vec<Bump> {
         bumps(&self.clashes, &self.overlaps, self.thickness_mm)
     }
 
     /// Pairs of components that bump by more than the paper is thick while they fold.
-    pub fn bumping_pairs(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+    pub fn bumping_pairs(&self) -> impl Iterator<Item = [PartId; 2]> + '_ {
         let is_bump = |clash: &&Clash| clash.parts[0] != clash.parts[1] && clash.depth_mm > self.thickness_mm;
         self.clashes.iter().filter(is_bump).map(|clash| clash.parts)
     }
@@ -242,7 +243,7 @@ impl FoldPlan {
 
 /// Pairs that are deeper in each other than paper is thick, and by how much more, mm.
 fn bumps(clashes: &[Clash], overlaps: &[Overlap], thickness_mm: f64) -> Vec<Bump> {
-    let mut bumps: BTreeMap<[usize; 2], f64> = BTreeMap::new();
+    let mut bumps: BTreeMap<[PartId; 2], f64> = BTreeMap::new();
     let clashes = clashes.iter().map(|clash| (clash.parts, clash.depth_mm));
     for (parts, depth_mm) in clashes.chain(overlaps.iter().map(|o| (o.parts, o.depth_mm))) {
         let excess_mm = depth_mm - thickness_mm;

@@ -4,7 +4,7 @@
 use super::moment::Moment;
 use super::motion::{ComponentMotion, ComponentPose};
 use crate::component::PanelId;
-use crate::model::{Model, ModelPart};
+use crate::model::{Model, ModelPart, PartId};
 use glam::{DAffine3, DVec3};
 
 /// How a model moves.
@@ -15,7 +15,7 @@ pub struct ModelMotion<'a> {
     /// From the child's joint panel to the parent's, by child.
     relations: Vec<DAffine3>,
     /// Parents before their children.
-    downwards: Vec<usize>,
+    downwards: Vec<PartId>,
 }
 
 /// A model in one pose.
@@ -49,12 +49,12 @@ impl<'a> ModelMotion<'a> {
             |part: &ModelPart, id: PanelId| part.deployed() * part.component.panels().panel(id).deployed;
         let relation = |part: &ModelPart| match &part.joint {
             Some(joint) => {
-                let parent = panel(&parts[joint.parent], joint.parent_panel);
+                let parent = panel(model.part(joint.parent), joint.parent_panel);
                 parent.inverse() * panel(part, joint.child_panel)
             }
             None => DAffine3::IDENTITY,
         };
-        let mut downwards: Vec<usize> = (0..parts.len()).collect();
+        let mut downwards: Vec<PartId> = model.ids().collect();
         downwards.sort_by_key(|&p| ancestors(model, p).len());
         Self {
             model,
@@ -70,8 +70,8 @@ impl<'a> ModelMotion<'a> {
     }
 
     /// The motion of one component.
-    pub fn component(&self, part: usize) -> &ComponentMotion {
-        &self.motions[part]
+    pub fn component(&self, part: PartId) -> &ComponentMotion {
+        &self.motions[part.0]
     }
 
     /// The pose in which component p is folded by `folded[p]`. The bottom panels of roots stay
@@ -82,17 +82,17 @@ impl<'a> ModelMotion<'a> {
 
     /// The pose of a moment in which components may be pulled off their parents.
     pub fn pose_at(&self, moment: &Moment) -> ModelPose {
-        self.pose_from(moment, 0.0, |part, _| self.model.parts()[part].deployed())
+        self.pose_from(moment, 0.0, |part, _| self.model.part(part).deployed())
     }
 
-    /// The same with roots placed by the caller, given the root's index and pose. Components are
+    /// The same with roots placed by the caller, given the root's id and pose. Components are
     /// lifted off the panels that carry them, and the layers of concave ones off one another, by
     /// `lift_mm` when flat.
     pub fn pose_from(
         &self,
         moment: &Moment,
         lift_mm: f64,
-        place_root: impl Fn(usize, &ComponentPose) -> DAffine3,
+        place_root: impl Fn(PartId, &ComponentPose) -> DAffine3,
     ) -> ModelPose {
         let Moment { folded, pulled_mm } = moment;
         let lifted = |(motion, &folded): (&ComponentMotion, &f64)| {
@@ -106,15 +106,16 @@ impl<'a> ModelMotion<'a> {
         let mut parts: Vec<PartPose> =
             poses.map(|pose| PartPose { frame: DAffine3::IDENTITY, pose }).collect();
         for &p in &self.downwards {
-            parts[p].frame = match &self.model.parts()[p].joint {
-                None => place_root(p, &parts[p].pose),
+            parts[p.0].frame = match &self.model.part(p).joint {
+                None => place_root(p, &parts[p.0].pose),
                 Some(joint) => {
-                    let carrier = parts[joint.parent].panel(joint.parent_panel);
-                    let lift = DAffine3::from_translation(DVec3::Z * (lift_mm * folded[p] + pulled_mm[p]));
+                    let carrier = parts[joint.parent.0].panel(joint.parent_panel);
+                    let lift =
+                        DAffine3::from_translation(DVec3::Z * (lift_mm * folded[p.0] + pulled_mm[p.0]));
                     carrier
                         * lift
-                        * self.relations[p]
-                        * parts[p].pose.placements[joint.child_panel.0].inverse()
+                        * self.relations[p.0]
+                        * parts[p.0].pose.placements[joint.child_panel.0].inverse()
                 }
             };
         }
@@ -123,12 +124,12 @@ impl<'a> ModelMotion<'a> {
 }
 
 /// The parent of a component, its parent and so on to the root.
-pub fn ancestors(model: &Model, part: usize) -> Vec<usize> {
-    let parent = |&p: &usize| model.parts()[p].joint.as_ref().map(|j| j.parent);
+pub fn ancestors(model: &Model, part: PartId) -> Vec<PartId> {
+    let parent = |&p: &PartId| model.part(p).joint.as_ref().map(|j| j.parent);
     std::iter::successors(parent(&part), parent).collect()
 }
 
 /// The root that a component hangs from; itself for a root.
-pub fn root_of(model: &Model, part: usize) -> usize {
+pub fn root_of(model: &Model, part: PartId) -> PartId {
     ancestors(model, part).last().copied().unwrap_or(part)
 }

@@ -11,6 +11,7 @@ use super::pose::{ModelMotion, ModelPose, ancestors, root_of};
 use super::sequence::Sequence;
 use super::step::{Pull, Step};
 use crate::component::PanelId;
+use crate::model::PartId;
 use glam::DVec3;
 
 /// Room between what is pulled off and the rest, mm: a hand comes between.
@@ -22,7 +23,7 @@ const LEAST_STEP_MM: f64 = 0.05;
 
 /// How far components are pulled off before some steps, in their order. Each way is found with
 /// those before it pulled off already.
-pub(super) fn pulls(motion: &ModelMotion<'_>, parts: &[usize], steps: &[Step]) -> Vec<Pull> {
+pub(super) fn pulls(motion: &ModelMotion<'_>, parts: &[PartId], steps: &[Step]) -> Vec<Pull> {
     let sequence = Sequence::new(steps);
     let mut pulls: Vec<Pull> = Vec::new();
     for &part in parts {
@@ -30,7 +31,7 @@ pub(super) fn pulls(motion: &ModelMotion<'_>, parts: &[usize], steps: &[Step]) -
         let reaches: Vec<f64> = (0..=MOMENTS)
             .map(|k| {
                 let mut moment = sequence.moment(k as f64 / MOMENTS as f64);
-                pulls.iter().for_each(|pull| moment.pulled_mm[pull.part] = pull.way_mm);
+                pulls.iter().for_each(|pull| moment.pulled_mm[pull.part.0] = pull.way_mm);
                 reach_mm(motion, part, &is_moved, &motion.pose_at(&moment))
             })
             .collect();
@@ -53,28 +54,28 @@ pub(super) fn are_free(
 ) -> bool {
     let count = motion.model().parts().len();
     let [mut out, mut back] = [0.0, 1.0].map(|folded| Moment::joined(vec![folded; count]));
-    pulls.iter().for_each(|pull| back.pulled_mm[pull.part] = pull.way_mm);
+    pulls.iter().for_each(|pull| back.pulled_mm[pull.part.0] = pull.way_mm);
     pulls.iter().all(|pull| {
         let comes_off = is_free(motion, pull, &out, thickness_mm, overlaps);
-        out.pulled_mm[pull.part] = pull.way_mm;
-        back.pulled_mm[pull.part] = 0.0;
+        out.pulled_mm[pull.part.0] = pull.way_mm;
+        back.pulled_mm[pull.part.0] = 0.0;
         comes_off && is_free(motion, pull, &back, thickness_mm, overlaps)
     })
 }
 
 /// Whether each component comes with another one that is pulled.
-fn carried(motion: &ModelMotion<'_>, part: usize) -> Vec<bool> {
+fn carried(motion: &ModelMotion<'_>, part: PartId) -> Vec<bool> {
     let model = motion.model();
-    (0..model.parts().len()).map(|p| p == part || ancestors(model, p).contains(&part)).collect()
+    model.ids().map(|p| p == part || ancestors(model, p).contains(&part)).collect()
 }
 
 /// How far a part must be pulled off in a pose so that the plane of its parent's joint panel, moved
 /// along, parts the two.
-fn reach_mm(motion: &ModelMotion<'_>, part: usize, is_moved: &[bool], pose: &ModelPose) -> f64 {
+fn reach_mm(motion: &ModelMotion<'_>, part: PartId, is_moved: &[bool], pose: &ModelPose) -> f64 {
     let Some((origin, normal)) = joint_plane(motion, part, pose) else { return 0.0 };
     let heights = |moves: bool| {
-        let of_side = move |p: &usize| is_moved[*p] == moves && is_of_tree(motion, *p, part);
-        let parts = (0..is_moved.len()).filter(of_side);
+        let of_side = move |p: &PartId| is_moved[p.0] == moves && is_of_tree(motion, *p, part);
+        let parts = motion.model().ids().filter(of_side);
         parts.flat_map(|p| sheets(motion, p, pose)).flat_map(move |sheet| {
             sheet.corners.into_iter().map(move |corner| normal.dot(corner - origin)).collect::<Vec<_>>()
         })
@@ -93,9 +94,9 @@ fn is_free(
     let pose = motion.pose_at(moment);
     let Some((_, normal)) = joint_plane(motion, pull.part, &pose) else { return false };
     let is_moved = carried(motion, pull.part);
-    let side = |moves: bool| -> Vec<(usize, Vec<Sheet>)> {
-        let of_side = |p: &usize| is_moved[*p] == moves && is_of_tree(motion, *p, pull.part);
-        (0..is_moved.len()).filter(of_side).map(|p| (p, sheets(motion, p, &pose))).collect()
+    let side = |moves: bool| -> Vec<(PartId, Vec<Sheet>)> {
+        let of_side = |p: &PartId| is_moved[p.0] == moves && is_of_tree(motion, *p, pull.part);
+        motion.model().ids().filter(of_side).map(|p| (p, sheets(motion, p, &pose))).collect()
     };
     let others = side(false);
     side(true).iter().all(|(p, own)| {
@@ -127,17 +128,17 @@ fn passes(moving: &Sheet, other: &Sheet, way: DVec3, allowed_mm: f64) -> bool {
 }
 
 /// A point and the normal of the parent's joint panel.
-fn joint_plane(motion: &ModelMotion<'_>, part: usize, pose: &ModelPose) -> Option<(DVec3, DVec3)> {
-    let joint = motion.model().parts()[part].joint.as_ref()?;
-    let place = pose.parts[joint.parent].panel(joint.parent_panel);
+fn joint_plane(motion: &ModelMotion<'_>, part: PartId, pose: &ModelPose) -> Option<(DVec3, DVec3)> {
+    let joint = motion.model().part(part).joint.as_ref()?;
+    let place = pose.parts[joint.parent.0].panel(joint.parent_panel);
     Some((place.translation, place.matrix3.z_axis))
 }
 
-fn is_of_tree(motion: &ModelMotion<'_>, p: usize, part: usize) -> bool {
+fn is_of_tree(motion: &ModelMotion<'_>, p: PartId, part: PartId) -> bool {
     root_of(motion.model(), p) == root_of(motion.model(), part)
 }
 
-fn sheets(motion: &ModelMotion<'_>, part: usize, pose: &ModelPose) -> Vec<Sheet> {
-    let panels = motion.model().parts()[part].component.panels().panels().iter().enumerate();
-    panels.map(|(k, panel)| Sheet::of_panel(panel, pose.parts[part].panel(PanelId(k)))).collect()
+fn sheets(motion: &ModelMotion<'_>, part: PartId, pose: &ModelPose) -> Vec<Sheet> {
+    let panels = motion.model().part(part).component.panels().panels().iter().enumerate();
+    panels.map(|(k, panel)| Sheet::of_panel(panel, pose.parts[part.0].panel(PanelId(k)))).collect()
 }

@@ -2,6 +2,7 @@
 
 use super::moment::Moment;
 use super::step::{Pull, Step};
+use crate::model::PartId;
 
 /// What moves at a time; all else rests.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -27,7 +28,7 @@ impl Motion {
     }
 
     /// What moves.
-    pub fn part(&self) -> usize {
+    pub fn part(&self) -> PartId {
         match self {
             Self::Fold(step) => step.part,
             Self::Unplug(pull) | Self::Plug(pull) => pull.part,
@@ -37,9 +38,9 @@ impl Motion {
     /// Sets what it has done by some share of its time.
     fn apply(&self, share: f64, moment: &mut Moment) {
         match self {
-            Self::Fold(step) => moment.folded[step.part] = step.from + (step.to - step.from) * share,
-            Self::Unplug(pull) => moment.pulled_mm[pull.part] = pull.way_mm * share,
-            Self::Plug(pull) => moment.pulled_mm[pull.part] = pull.way_mm * (1.0 - share),
+            Self::Fold(step) => moment.folded[step.part.0] = step.from + (step.to - step.from) * share,
+            Self::Unplug(pull) => moment.pulled_mm[pull.part.0] = pull.way_mm * share,
+            Self::Plug(pull) => moment.pulled_mm[pull.part.0] = pull.way_mm * (1.0 - share),
         }
     }
 }
@@ -61,7 +62,7 @@ impl Sequence {
     }
 
     /// Components that fold one after another, in an order that names each of them once.
-    pub fn of_order(order: &[usize]) -> Self {
+    pub fn of_order(order: &[PartId]) -> Self {
         Self::new(&order.iter().map(|&part| Step::whole(part)).collect::<Vec<_>>())
     }
 
@@ -70,7 +71,7 @@ impl Sequence {
         for motion in &motions {
             begins.push(begins[begins.len() - 1] + motion.length());
         }
-        let parts = motions.iter().map(|motion| motion.part() + 1).max().unwrap_or(0);
+        let parts = motions.iter().map(|motion| motion.part().0 + 1).max().unwrap_or(0);
         Self { motions, begins, parts }
     }
 
@@ -119,7 +120,7 @@ mod tests {
 
     #[test]
     fn one_moves_at_a_time_and_in_order() {
-        let sequence = Sequence::of_order(&[2, 0, 1]);
+        let sequence = Sequence::of_order(&[2, 0, 1].map(PartId));
         assert_eq!(sequence.folded(0.0), [0.0; 3]);
         assert_eq!(sequence.folded(1.0), [1.0; 3]);
         assert_eq!(sequence.folded(0.5), [0.5, 0.0, 1.0]);
@@ -131,7 +132,7 @@ mod tests {
 
     #[test]
     fn steps_take_as_long_as_they_move() {
-        let step = |part: usize, from: f64, to: f64| Step { part, from, to };
+        let step = |part: usize, from: f64, to: f64| Step { part: PartId(part), from, to };
         let steps = [step(0, 0.0, 0.5), step(1, 0.0, 0.25), step(0, 0.5, 1.0), step(1, 0.25, 1.0)];
         let sequence = Sequence::new(&steps);
         assert_eq!(sequence.marks(), [0.0, 0.25, 0.375, 0.625, 1.0]);

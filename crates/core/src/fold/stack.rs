@@ -3,6 +3,7 @@
 use super::pose::{ModelMotion, root_of};
 use crate::component::PanelId;
 use crate::geom::polygon;
+use crate::model::PartId;
 use glam::DVec2;
 
 /// Layers are counted on a grid of this step: places narrower than this may be missed.
@@ -16,7 +17,7 @@ const MOST_POINTS: f64 = 1000.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stack {
     /// The group's root.
-    pub root: usize,
+    pub root: PartId,
     /// Sides of the smallest rectangle round it, the longer one first, mm.
     pub size_mm: DVec2,
     /// Sheets of paper on top of one another in the thickest place, without glue tabs.
@@ -29,13 +30,13 @@ pub struct Stack {
 pub(super) fn stacks(motion: &ModelMotion<'_>, thickness_mm: f64) -> Vec<Stack> {
     let model = motion.model();
     let pose = motion.pose(&vec![1.0; model.parts().len()]);
-    let outlines = |root: usize| -> Vec<Vec<DVec2>> {
-        let to_root = pose.parts[root].frame.inverse();
-        let parts = model.parts().iter().enumerate().filter(|(p, _)| root_of(model, *p) == root);
+    let outlines = |root: PartId| -> Vec<Vec<DVec2>> {
+        let to_root = pose.parts[root.0].frame.inverse();
+        let parts = model.ids().zip(model.parts()).filter(|(p, _)| root_of(model, *p) == root);
         parts
             .flat_map(|(p, part)| {
                 let panels = part.component.panels().panels().iter().enumerate();
-                let pose = &pose.parts[p];
+                let pose = &pose.parts[p.0];
                 panels.map(move |(k, panel)| {
                     let motion = to_root * pose.panel(PanelId(k));
                     let corner = |q: &DVec2| motion.transform_point3(q.extend(0.0)).truncate();
@@ -44,7 +45,7 @@ pub(super) fn stacks(motion: &ModelMotion<'_>, thickness_mm: f64) -> Vec<Stack> 
             })
             .collect()
     };
-    let roots = (0..model.parts().len()).filter(|&p| root_of(model, p) == p);
+    let roots = model.ids().filter(|&p| root_of(model, p) == p);
     roots
         .map(|root| {
             let outlines = outlines(root);

@@ -1,12 +1,13 @@
 //! What is done at a time: one component is folded on, all others rest.
 
+use crate::model::PartId;
 use smallvec::SmallVec;
 
 /// One component is folded on while all others rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Step {
     /// The component.
-    pub part: usize,
+    pub part: PartId,
     /// How far it is folded before: 0 deployed, 1 flat.
     pub from: f64,
     /// How far it is folded afterwards.
@@ -15,7 +16,7 @@ pub struct Step {
 
 impl Step {
     /// From deployed to flat.
-    pub fn whole(part: usize) -> Self {
+    pub fn whole(part: PartId) -> Self {
         Self { part, from: 0.0, to: 1.0 }
     }
 
@@ -29,7 +30,7 @@ impl Step {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pull {
     /// The component; what hangs on it comes with it.
-    pub part: usize,
+    pub part: PartId,
     /// How far it is pulled off along the normal of its parent's joint panel, mm: farther than
     /// anything on either side of that panel reaches while it folds.
     pub way_mm: f64,
@@ -46,13 +47,13 @@ pub(super) const FLAT: Level = 8;
 /// A step between two levels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Move {
-    pub(super) part: usize,
+    pub(super) part: PartId,
     pub(super) from: Level,
     pub(super) to: Level,
 }
 
 impl Move {
-    pub(super) fn whole(part: usize) -> Self {
+    pub(super) fn whole(part: PartId) -> Self {
         Self { part, from: 0, to: FLAT }
     }
 

@@ -5,7 +5,7 @@ use super::plan::FoldPlan;
 use super::pose::ModelMotion;
 use crate::codes;
 use crate::component::{PanelId, PanelKind};
-use crate::model::Model;
+use crate::model::{Model, PartId};
 use crate::remedy::Remedy;
 use std::fmt;
 
@@ -112,7 +112,7 @@ impl FoldPlan {
         let encounters = self.encounters(&ModelMotion::new(model)).into_iter();
         let rubs = deepest(self.clashes()).filter(|clash| is_rub(clash.depth_mm, self.thickness_mm()));
         let rubs = rubs.map(|clash| FoldWarning::Rub {
-            parts: clash.parts.map(|p| model.parts()[p].name.clone()),
+            parts: clash.parts.map(|p| model.part(p).name.clone()),
             depth_mm: clash.depth_mm,
             when: When::new(model, clash.mover, clash.folded),
         });
@@ -133,17 +133,17 @@ impl Encounter {
     pub fn warning(&self, model: &Model) -> FoldWarning {
         let panels = [0, 1].map(|k| Place::new(model, self.parts[k], self.panels[k]));
         let depth_mm = self.depth_mm;
-        let parts = self.parts.map(|p| model.parts()[p].name.clone());
+        let parts = self.parts.map(|p| model.part(p).name.clone());
         let Some(mover) = self.mover else { return FoldWarning::Overlap { parts, panels, depth_mm } };
-        let when = When::new(model, mover, self.folded[mover]);
+        let when = When::new(model, mover, self.folded[mover.0]);
         if self.parts[0] == self.parts[1] {
             return FoldWarning::OwnClash { panels, depth_mm, when };
         }
-        FoldWarning::Clash { panels, depth_mm, when, outer: model.parts()[self.outer(model)].name.clone() }
+        FoldWarning::Clash { panels, depth_mm, when, outer: model.part(self.outer(model)).name.clone() }
     }
 
     /// The one of the two that is nearer to the end of the tree of joints.
-    fn outer(&self, model: &Model) -> usize {
+    fn outer(&self, model: &Model) -> PartId {
         let [a, b] = self.parts;
         let depth = |part| super::ancestors(model, part).len();
         if depth(a) > depth(b) { a } else { b }
@@ -185,11 +185,11 @@ impl fmt::Display for FoldWarning {
 }
 
 impl Place {
-    fn new(model: &Model, part: usize, panel: PanelId) -> Self {
-        let own = &model.parts()[part];
+    fn new(model: &Model, part: PartId, panel: PanelId) -> Self {
+        let own = model.part(part);
         let part = own.name.clone();
         if let Some(joint) = own.joint.as_ref().filter(|joint| joint.child_panel == panel) {
-            return Self::Glued { part, to: model.parts()[joint.parent].name.clone() };
+            return Self::Glued { part, to: model.part(joint.parent).name.clone() };
         }
         let panel = own.component.panels().panel(panel);
         let outward = (own.deployed() * panel.deployed).matrix3.z_axis;
@@ -226,9 +226,9 @@ impl Side {
 }
 
 impl When {
-    fn new(model: &Model, mover: usize, folded: f64) -> Self {
+    fn new(model: &Model, mover: PartId, folded: f64) -> Self {
         let quarters = (4.0 * folded).round().clamp(0.0, 4.0) as u8;
-        Self { mover: model.parts()[mover].name.clone(), quarters }
+        Self { mover: model.part(mover).name.clone(), quarters }
     }
 }
 

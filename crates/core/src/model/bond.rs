@@ -2,7 +2,7 @@
 
 use super::candidate::IN_PLANE;
 use super::link::Link;
-use super::{Part, PartOptions, Symmetry};
+use super::{Part, PartId, PartOptions, Symmetry};
 use crate::geom::Mirror;
 
 /// What symmetry asks of a part.
@@ -13,7 +13,7 @@ pub(super) enum Bond {
     /// Its component is its own mirror image.
     Across,
     /// Its component is the mirror image of another part's.
-    ImageOf(usize),
+    ImageOf(PartId),
     /// Another part is its image.
     HasImage,
 }
@@ -23,19 +23,21 @@ impl Bond {
     pub(super) fn of_parts(parts: &[Part], links: &[Link], symmetry: Option<&Symmetry>) -> Vec<Self> {
         let mut bonds = vec![Self::Free; parts.len()];
         let Some(symmetry) = symmetry else { return bonds };
-        let parent = |p: usize| links.iter().find(|l| l.child == p).map(|l| l.parent);
-        let are_bound =
-            |bonds: &[Self], p: usize, q: usize| bonds[p] == Self::ImageOf(q) || bonds[q] == Self::ImageOf(p);
+        let parent = |p: PartId| links.iter().find(|l| l.child == p).map(|l| l.parent);
+        let are_bound = |bonds: &[Self], p: PartId, q: PartId| {
+            bonds[p.0] == Self::ImageOf(q) || bonds[q.0] == Self::ImageOf(p)
+        };
+        let options = |p: PartId| &parts[p.0].options;
         // Parents come before their children in the links.
-        let roots = (0..parts.len()).filter(|&p| parent(p).is_none());
-        let downwards: Vec<usize> = roots.chain(links.iter().map(|l| l.child)).collect();
+        let roots = (0..parts.len()).map(PartId).filter(|&p| parent(p).is_none());
+        let downwards: Vec<PartId> = roots.chain(links.iter().map(|l| l.child)).collect();
         for &part in &downwards {
             let twin = symmetry.twin(part);
             if twin == part {
-                let is_free = parts[part].options.direction_rad.is_none();
-                let has_image = |other: usize| others(links, part).any(|o| o == symmetry.twin(other));
+                let is_free = options(part).direction_rad.is_none();
+                let has_image = |other: PartId| others(links, part).any(|o| o == symmetry.twin(other));
                 if is_free && others(links, part).all(has_image) {
-                    bonds[part] = Self::Across;
+                    bonds[part.0] = Self::Across;
                 }
                 continue;
             }
@@ -51,13 +53,13 @@ impl Bond {
                 (Some(p), None) => p == second,
                 (None, Some(q)) => q == first,
             };
-            let images = |p: usize, q: usize| {
+            let images = |p: PartId, q: PartId| {
                 others(links, p).all(|o| others(links, q).any(|image| image == symmetry.twin(o)))
             };
             let has_same_joints = images(first, second) && images(second, first);
-            if is_alike((&parts[first].options, &parts[second].options)) && of_parents && has_same_joints {
-                bonds[first] = Self::HasImage;
-                bonds[second] = Self::ImageOf(first);
+            if is_alike((options(first), options(second))) && of_parents && has_same_joints {
+                bonds[first.0] = Self::HasImage;
+                bonds[second.0] = Self::ImageOf(first);
             }
         }
         bonds
@@ -85,9 +87,9 @@ pub(super) fn crossing<'a>(
     parts: &[Part],
     links: &[Link],
     symmetry: &'a Symmetry,
-    part: usize,
+    part: PartId,
 ) -> Option<&'a Mirror> {
-    let is_free = parts[part].options.direction_rad.is_none();
+    let is_free = parts[part.0].options.direction_rad.is_none();
     let own = || links.iter().filter(|link| link.parent == part || link.child == part);
     let lies_across = |mirror: &&Mirror| {
         own().all(|link| link.plane.normal().dot(mirror.plane().normal()).abs() < IN_PLANE)
@@ -96,7 +98,7 @@ pub(super) fn crossing<'a>(
 }
 
 /// The parts that a part is joined to.
-fn others(links: &[Link], part: usize) -> impl Iterator<Item = usize> + '_ {
+fn others(links: &[Link], part: PartId) -> impl Iterator<Item = PartId> + '_ {
     links.iter().filter_map(move |link| match part {
         p if p == link.parent => Some(link.child),
         p if p == link.child => Some(link.parent),

@@ -8,7 +8,7 @@ use super::known::Known;
 use super::link::Link;
 use super::pair::Pairs;
 use super::seen::Seen;
-use super::{Hold, Joint, Model, ModelError, ModelPart, Part, Symmetry};
+use super::{Hold, Joint, Model, ModelError, ModelPart, Part, PartId, Symmetry};
 use crate::geom::Plane;
 use crate::mesh::Views;
 use crate::progress::{Cancelled, Progress};
@@ -74,7 +74,7 @@ pub struct Verdict {
     /// Parts that bump into each other, deployed or while they fold.
     pub bumps: Vec<Bump>,
     /// Parts whose joint with their parent has hardly enough glue.
-    pub weak: Vec<usize>,
+    pub weak: Vec<PartId>,
     /// One minus the overlap of its outlines with those of the mesh, the mean of all views; 0 where there are none.
     pub unlike: f64,
 }
@@ -119,19 +119,19 @@ impl Sketch {
 ///
 /// # Errors
 /// [`ModelError`], where no shape of the part has room for all its joints.
-pub fn alone(assembly: &Assembly<'_>, known: &Known, part: usize) -> Result<ModelPart, ModelError> {
+pub fn alone(assembly: &Assembly<'_>, known: &Known, part: PartId) -> Result<ModelPart, ModelError> {
     let Assembly { parts, links, symmetry, .. } = *assembly;
     let links = &with_images(links, symmetry);
     let bonds = Bond::of_parts(parts, links, symmetry);
-    let own = match (bonds[part], symmetry) {
+    let own = match (bonds[part.0], symmetry) {
         (Bond::ImageOf(first), Some(symmetry)) => {
-            let made = assembly.candidates(links, (first, bonds[first]), Search::Promising, known)?;
-            made.first().map(|made| made.mirrored(symmetry, &parts[part]))
+            let made = assembly.candidates(links, (first, bonds[first.0]), Search::Promising, known)?;
+            made.first().map(|made| made.mirrored(symmetry, &parts[part.0]))
         }
         (bond, _) => assembly.candidates(links, (part, bond), Search::Promising, known)?.first().cloned(),
     };
-    let lost = || ModelError::NoJointPanel(parts[part].options.name.clone());
-    Ok(own.ok_or_else(lost)?.unplaced(&parts[part]))
+    let lost = || ModelError::NoJointPanel(parts[part.0].options.name.clone());
+    Ok(own.ok_or_else(lost)?.unplaced(&parts[part.0]))
 }
 
 impl Assembly<'_> {
@@ -139,7 +139,7 @@ impl Assembly<'_> {
     fn candidates(
         &self,
         links: &[Link],
-        (part, bond): (usize, Bond),
+        (part, bond): (PartId, Bond),
         search: Search,
         known: &Known,
     ) -> Result<Arc<Vec<Made>>, ModelError> {
@@ -259,7 +259,7 @@ impl Run<'_> {
         let made = made_of(&of);
         let model = place(parts, (&links, &pairs), &of, &made)?;
         let holds = |(k, link): &(usize, &Link)| {
-            pairs.get(*k, [of[link.parent], of[link.child]]).is_some_and(|seated| seated.holds())
+            pairs.get(*k, [of[link.parent.0], of[link.child.0]]).is_some_and(|seated| seated.holds())
         };
         let weak = links.iter().enumerate().filter(|link| !holds(link));
         let verdict = Verdict {
@@ -269,8 +269,8 @@ impl Run<'_> {
         };
         let built = Built { model, ids: ids(&made), verdict };
         let seat = |(k, link): (usize, &Link)| {
-            let seated = pairs.get(k, [of[link.parent], of[link.child]])?;
-            let (plane, _) = made[link.parent].joint(link.child)?;
+            let seated = pairs.get(k, [of[link.parent.0], of[link.child.0]])?;
+            let (plane, _) = made[link.parent.0].joint(link.child)?;
             Some((plane, seated.moved_mm()))
         };
         let seats = links.iter().enumerate().map(|k| seat(k).unwrap_or((k.1.plane, 0.0))).collect();
@@ -341,9 +341,9 @@ impl Candidates {
             let done = AtomicUsize::new(0);
             let bound = with_images(&links, symmetry);
             let bonds = Bond::of_parts(parts, &bound, symmetry);
-            let make = |part: usize| {
+            let make = |part: PartId| {
                 progress.check()?;
-                if let Bond::ImageOf(_) = bonds[part] {
+                if let Bond::ImageOf(_) = bonds[part.0] {
                     return Ok(Arc::default());
                 }
                 let search = match part {
@@ -351,20 +351,21 @@ impl Candidates {
                     _ if trouble.bumping.contains(&part) => Search::Wide,
                     _ => Search::Promising,
                 };
-                let made = assembly.candidates(&bound, (part, bonds[part]), search, known);
+                let made = assembly.candidates(&bound, (part, bonds[part.0]), search, known);
                 let count = done.fetch_add(1, Ordering::Relaxed) + 1;
                 progress.fraction(count as f64 / parts.len() as f64);
                 made
             };
-            let made: Vec<Result<_, ModelError>> = (0..parts.len()).into_par_iter().map(make).collect();
+            let made: Vec<Result<_, ModelError>> =
+                (0..parts.len()).into_par_iter().map(PartId).map(make).collect();
             let Some((part, error)) =
-                made.iter().enumerate().find_map(|(p, made)| Some((p, made.as_ref().err()?.clone())))
+                made.iter().enumerate().find_map(|(p, made)| Some((PartId(p), made.as_ref().err()?.clone())))
             else {
                 let mut of: Vec<Vec<Made>> = made.into_iter().flatten().map(|made| made.to_vec()).collect();
                 for (part, bond) in bonds.iter().enumerate() {
                     if let (Bond::ImageOf(first), Some(symmetry)) = (bond, symmetry) {
                         of[part] =
-                            of[*first].iter().map(|made| made.mirrored(symmetry, &parts[part])).collect();
+                            of[first.0].iter().map(|made| made.mirrored(symmetry, &parts[part])).collect();
                     }
                 }
                 return Ok(Self { of, links, bonds });
@@ -387,12 +388,12 @@ fn place(
     of: &[usize],
     made: &[&Made],
 ) -> Result<Model, ModelError> {
-    let lost = |p: usize| ModelError::NoJointPanel(parts[p].options.name.clone());
+    let lost = |p: PartId| ModelError::NoJointPanel(parts[p.0].options.name.clone());
     let mut placed: Vec<ModelPart> = parts.iter().zip(made).map(|(part, m)| m.unplaced(part)).collect();
     for (k, link) in links.iter().enumerate() {
-        let seated = pairs.get(k, [of[link.parent], of[link.child]]).ok_or_else(|| lost(link.child))?;
-        let parent = placed[link.parent].clone();
-        let child = &mut placed[link.child];
+        let seated = pairs.get(k, [of[link.parent.0], of[link.child.0]]).ok_or_else(|| lost(link.child))?;
+        let parent = placed[link.parent.0].clone();
+        let child = &mut placed[link.child.0];
         child.placement = parent.placement * seated.turn;
         let panel = |p: &ModelPart, panel| p.component.panels().panel(panel).clone();
         let (above, below) = (panel(child, seated.child_panel), panel(&parent, seated.parent_panel));
@@ -448,8 +449,8 @@ pub(super) mod tests {
         let link = |child: usize, sign: f64| {
             let normal = spread(sign) * DVec3::NEG_Z;
             Link {
-                parent: 0,
-                child,
+                parent: PartId(0),
+                child: PartId(child),
                 plane: Plane::through(DVec3::new(sign * 25.0, 0.0, 0.0), normal).unwrap(),
             }
         };
@@ -480,7 +481,7 @@ pub(super) mod tests {
     #[test]
     fn what_closes_a_ring_is_its_own_image() {
         let mirror = Mirror::new(Plane::through(DVec3::ZERO, DVec3::X).unwrap());
-        let symmetry = Symmetry::new(mirror, vec![0, 2, 1, 3]).unwrap();
+        let symmetry = Symmetry::new(mirror, [0, 2, 1, 3].map(PartId).to_vec()).unwrap();
         let cuboid = |name: &str, low: DVec3, size: DVec3| part(name, low, size, DQuat::IDENTITY);
         let post = |name: &str, x_mm: f64| {
             cuboid(name, DVec3::new(x_mm - 10.0, -10.0, 0.0), DVec3::new(20.0, 20.0, 80.0))
@@ -489,17 +490,20 @@ pub(super) mod tests {
             cuboid(name, DVec3::new(-75.0, -14.0, z_mm), DVec3::new(150.0, 28.0, 30.0))
         };
         let parts = [across("base", -25.0), post("left", -40.0), post("right", 40.0), across("lintel", 70.0)];
-        let link =
-            |parent: usize, child: usize, z_mm: f64| Link { parent, child, plane: Plane::horizontal(z_mm) };
+        let link = |parent: usize, child: usize, z_mm: f64| Link {
+            parent: PartId(parent),
+            child: PartId(child),
+            plane: Plane::horizontal(z_mm),
+        };
         let links = [link(0, 1, 4.0), link(0, 2, 4.0), link(1, 3, 76.0)];
         let bound = with_images(&links, Some(&symmetry));
-        let ends: Vec<(usize, usize)> = bound.iter().map(|link| (link.parent, link.child)).collect();
+        let ends: Vec<(usize, usize)> = bound.iter().map(|link| (link.parent.0, link.child.0)).collect();
         assert_eq!(ends, [(0, 1), (0, 2), (1, 3), (2, 3)]);
         assert_eq!(with_images(&bound, Some(&symmetry)), bound, "all have an image");
         assert_ne!(Bond::of_parts(&parts, &links, Some(&symmetry))[3], Bond::Across);
         assert_eq!(
             Bond::of_parts(&parts, &bound, Some(&symmetry)),
-            [Bond::Across, Bond::HasImage, Bond::ImageOf(1), Bond::Across]
+            [Bond::Across, Bond::HasImage, Bond::ImageOf(PartId(1)), Bond::Across]
         );
         let assembly = Assembly {
             parts: &parts,
@@ -509,17 +513,17 @@ pub(super) mod tests {
             views: None,
         };
         let model = build(&assembly, &Known::default(), &Unjudged, &Silent).unwrap().model;
-        assert_eq!(model.parts()[3].joint.as_ref().map(|joint| joint.parent), Some(1));
-        let corners = |part: usize| -> Vec<DVec3> {
-            let panels = model.parts()[part].component.panels().panels().len();
+        assert_eq!(model.parts()[3].joint.as_ref().map(|joint| joint.parent), Some(PartId(1)));
+        let corners = |part: PartId| -> Vec<DVec3> {
+            let panels = model.part(part).component.panels().panels().len();
             (0..panels).flat_map(|panel| model.deployed_outline(part, PanelId(panel))).collect()
         };
-        for part in 0..4 {
+        for part in model.ids() {
             let twins = corners(symmetry.twin(part));
             for corner in corners(part) {
                 let image = mirror.point(corner);
                 let off_mm = twins.iter().map(|twin| twin.distance(image)).fold(f64::INFINITY, f64::min);
-                assert!(off_mm < 2.0 * SETTLED_RING_MM, "{part}: {off_mm}");
+                assert!(off_mm < 2.0 * SETTLED_RING_MM, "{part:?}: {off_mm}");
             }
         }
     }

@@ -5,7 +5,7 @@
 
 use super::link::Link;
 use super::seat::{Seating, Snap, level_axis, seat_plane, seats};
-use super::{ModelError, ModelPart, Part, Symmetry, plane};
+use super::{ModelError, ModelPart, Part, PartId, Symmetry, plane};
 use crate::component::{
     self, Component, Finished, JointTarget, PanelId, PrincipalAxis, Target, choose, fewest, finished,
 };
@@ -59,7 +59,7 @@ pub(super) struct Made {
     /// What the shape costs by itself, mm of error.
     pub(super) cost_mm: f64,
     /// Joint planes in the mesh's axes, outwards, and the panels on them: by the other part.
-    joints: Vec<(usize, Plane, PanelId)>,
+    joints: Vec<(PartId, Plane, PanelId)>,
 }
 
 impl Made {
@@ -72,7 +72,7 @@ impl Made {
             DMat3::from_cols(-column(0), column(1), column(2)),
             mirror.point(self.frame.translation),
         );
-        let joint = |&(other, plane, panel): &(usize, Plane, PanelId)| {
+        let joint = |&(other, plane, panel): &(PartId, Plane, PanelId)| {
             (symmetry.twin(other), mirror.image(&plane), ids[panel.0])
         };
         let principal = PrincipalAxis::of_hull(&twin.hull);
@@ -86,7 +86,7 @@ impl Made {
         }
     }
 
-    pub(super) fn joint(&self, other: usize) -> Option<(Plane, PanelId)> {
+    pub(super) fn joint(&self, other: PartId) -> Option<(Plane, PanelId)> {
         self.joints.iter().find(|j| j.0 == other).map(|j| (j.1, j.2))
     }
 
@@ -148,7 +148,7 @@ pub(super) struct Builder<'a> {
     pub(super) parts: &'a [Part],
     /// All joints.
     pub(super) links: &'a [Link],
-    pub(super) part: usize,
+    pub(super) part: PartId,
     /// Of parts whose component is to be its own mirror image.
     pub(super) symmetry: Option<&'a Symmetry>,
     /// Another plane that it should be its own image in.
@@ -161,7 +161,7 @@ pub(super) struct Builder<'a> {
 struct Direction {
     frame: DAffine3,
     hull: Hull,
-    joints: Vec<(usize, JointTarget)>,
+    joints: Vec<(PartId, JointTarget)>,
     plane_shift_mm: f64,
     /// Whether the component is to be its own image in two planes.
     is_crossed: bool,
@@ -177,7 +177,7 @@ impl<'a> Builder<'a> {
     /// The candidates, the cheapest first, but those in directions that `before` has; their ids are for the
     /// caller to give.
     pub(super) fn make(&self, before: &[Made]) -> Result<Vec<Made>, ModelError> {
-        let part = &self.parts[self.part];
+        let part = &self.parts[self.part.0];
         let principal = PrincipalAxis::of_hull(&part.hull);
         let prices: Vec<f64> = self.own_links().map(|link| self.joint_price(link)).collect();
         let axes = self.axes(&principal);
@@ -220,7 +220,7 @@ impl<'a> Builder<'a> {
         }
         let made = |finished: Finished| {
             let (direction, target) = (directions[finished.target], &targets[finished.target].0);
-            let seated = |(other, joint): &(usize, JointTarget)| {
+            let seated = |(other, joint): &(PartId, JointTarget)| {
                 let panel = finished.component.joint_panel(target, joint)?;
                 Some((*other, seat_plane(&joint.seat).moved(&direction.frame), panel))
             };
@@ -244,7 +244,7 @@ impl<'a> Builder<'a> {
     /// axis: a finger that folds along itself keeps its outline, but spreads wide. All are turned so that joint planes
     /// that they almost cross at a right angle are crossed exactly.
     fn axes(&self, principal: &PrincipalAxis) -> Vec<DVec3> {
-        if let Some(angle) = self.parts[self.part].options.direction_rad {
+        if let Some(angle) = self.parts[self.part.0].options.direction_rad {
             return vec![principal.fold_axis(angle)];
         }
         let angle = |k: usize| std::f64::consts::PI * k as f64 / DIRECTIONS as f64;
@@ -281,7 +281,7 @@ impl<'a> Builder<'a> {
 
     /// The line that lies in both mirror planes, where there are two and edges enough for both.
     fn common_axis(&self) -> Option<DVec3> {
-        let own = &self.parts[self.part].options;
+        let own = &self.parts[self.part.0].options;
         if own.top_edges < component::Symmetry::LEAST_CROSSED_EDGES || own.direction_rad.is_some() {
             return None;
         }
@@ -304,7 +304,7 @@ impl<'a> Builder<'a> {
 
     /// What a direction costs by itself, mm of error, where the component could have two mirror planes or not.
     fn own_mm(&self, direction: &Direction, can_be_crossed: bool) -> f64 {
-        let size_mm = libm::cbrt(self.parts[self.part].hull.volume());
+        let size_mm = libm::cbrt(self.parts[self.part.0].hull.volume());
         let is_lopsided = can_be_crossed && !direction.is_crossed;
         let of_lopsided = if is_lopsided { LOPSIDED_PRICE } else { 0.0 };
         let up = direction.frame.matrix3.z_axis.z.abs().min(1.0);
@@ -317,10 +317,10 @@ impl<'a> Builder<'a> {
     where
         'a: 'h,
     {
-        let options = &self.parts[self.part].options;
+        let options = &self.parts[self.part.0].options;
         Target {
             hull: &direction.hull,
-            filling: self.parts[self.part].filling.as_deref().map(|filling| (filling, direction.frame)),
+            filling: self.parts[self.part.0].filling.as_deref().map(|filling| (filling, direction.frame)),
             joints: direction.joints.iter().map(|j| j.1.clone()).collect(),
             borders: self.borders(&direction.frame),
             top_edges: options.top_edges,
@@ -335,7 +335,7 @@ impl<'a> Builder<'a> {
     /// The part's borders in the axes of `frame`.
     fn borders(&self, frame: &DAffine3) -> Vec<(DVec3, f64)> {
         let to_local = frame.inverse();
-        let local = self.parts[self.part].borders.iter().map(|plane| plane.moved(&to_local));
+        let local = self.parts[self.part.0].borders.iter().map(|plane| plane.moved(&to_local));
         local.map(|plane| (plane.normal(), plane.offset())).collect()
     }
 
@@ -358,7 +358,7 @@ impl<'a> Builder<'a> {
     /// joints in their order.
     fn direction(&self, frame: DAffine3, prices: &[f64]) -> Direction {
         let to_local = frame.inverse();
-        let mut others: Vec<usize> = Vec::new();
+        let mut others: Vec<PartId> = Vec::new();
         let mut seatings = Vec::new();
         for link in self.own_links() {
             let is_child = link.child == self.part;
@@ -380,7 +380,7 @@ impl<'a> Builder<'a> {
             };
         }
         let seats = seats(&seatings, &self.search.snap());
-        let mut hull = self.parts[self.part].hull.moved(&to_local);
+        let mut hull = self.parts[self.part.0].hull.moved(&to_local);
         let whole = hull.volume();
         let mut plane_shift_mm = 0.0;
         let mut joints = Vec::new();
@@ -405,7 +405,7 @@ impl<'a> Builder<'a> {
 
     /// Price of a mm by which a joint panel misses its partner.
     fn joint_price(&self, link: &Link) -> f64 {
-        let [parent, child] = [link.parent, link.child].map(|p| &self.parts[p].hull);
+        let [parent, child] = [link.parent, link.child].map(|p| &self.parts[p.0].hull);
         let area_mm2 = polygon::area(&plane::shared_section(&link.plane, parent, child));
         // Hulls that only touch there have a face on the plane, of no known size.
         let tightness = if area_mm2 > 0.0 { (TIGHT_MM2 / area_mm2).clamp(1.0, TIGHTEST) } else { 1.0 };
@@ -413,13 +413,13 @@ impl<'a> Builder<'a> {
     }
 
     /// Corners of the section of another part's hull by a joint plane. Those of images are images.
-    fn section(&self, other: usize, plane: &Plane) -> Vec<DVec3> {
+    fn section(&self, other: PartId, plane: &Plane) -> Vec<DVec3> {
         let with_image = |own: Vec<DVec3>, mirror: &Mirror| -> Vec<DVec3> {
             let both = own.iter().copied().chain(own.iter().map(|p| mirror.point(*p)));
             let flat: Vec<DVec2> = both.map(|p| plane.flat(p)).collect();
             polygon::convex_hull(&flat).into_iter().map(|p| plane.lifted(p)).collect()
         };
-        let cut = |p: usize, plane: &Plane| few_corners(self.parts[p].hull.section(plane));
+        let cut = |p: PartId, plane: &Plane| few_corners(self.parts[p.0].hull.section(plane));
         let own = match self.symmetry.map(|symmetry| (symmetry.mirror(), symmetry.twin(other))) {
             Some((mirror, twin)) if twin < other => {
                 cut(twin, &mirror.image(plane)).into_iter().map(|p| mirror.point(p)).collect()
@@ -432,7 +432,7 @@ impl<'a> Builder<'a> {
 
     /// Middle of the place where two parts meet: of the sections of their hulls by the plane.
     fn centre(&self, link: &Link) -> DVec3 {
-        let sections = [link.parent, link.child].map(|p| self.parts[p].hull.section(&link.plane));
+        let sections = [link.parent, link.child].map(|p| self.parts[p.0].hull.section(&link.plane));
         let smaller =
             sections.into_iter().filter(|s| s.len() >= 3).min_by(|a, b| radius(a).total_cmp(&radius(b)));
         let fallback = link.plane.normal() * link.plane.offset();

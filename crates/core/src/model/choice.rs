@@ -12,6 +12,7 @@
 //! candidate changes the outlines where its own part is seen. So these changes count as costs of single
 //! candidates, and are measured again at the best that follows, as long as that is better.
 
+use super::PartId;
 use super::bond::Bond;
 use super::candidate::Made;
 use super::harms::{Bump, Enough, Harms, harm_mm, way};
@@ -55,7 +56,7 @@ pub(super) struct Choice {
     /// Variables, parents before their children.
     downwards: Vec<usize>,
     /// The parent of each part.
-    parents: Vec<Option<usize>>,
+    parents: Vec<Option<PartId>>,
 }
 
 /// What joints between the parts of two variables cost.
@@ -73,9 +74,9 @@ pub(super) type Combination = Vec<usize>;
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Trouble {
     /// Those that bump, or are between two that do.
-    pub(super) bumping: BTreeSet<usize>,
+    pub(super) bumping: BTreeSet<PartId>,
     /// Those with a weak joint.
-    pub(super) weak: BTreeSet<usize>,
+    pub(super) weak: BTreeSet<PartId>,
 }
 
 /// The best combination found.
@@ -117,7 +118,7 @@ impl Choice {
         let variable: Vec<usize> = bonds
             .iter()
             .enumerate()
-            .map(|(part, bond)| if let Bond::ImageOf(first) = bond { *first } else { part })
+            .map(|(part, bond)| if let Bond::ImageOf(first) = bond { first.0 } else { part })
             .collect();
         let mut own: Vec<Vec<f64>> = candidates.iter().map(|made| vec![0.0; made.len()]).collect();
         for (part, made) in candidates.iter().enumerate() {
@@ -135,13 +136,13 @@ impl Choice {
     fn of_costs(
         variable: Vec<usize>,
         mut own: Vec<Vec<f64>>,
-        joints: Vec<([usize; 2], Vec<Vec<f64>>)>,
+        joints: Vec<([PartId; 2], Vec<Vec<f64>>)>,
     ) -> Self {
-        let mut parents: Vec<Option<usize>> = vec![None; variable.len()];
+        let mut parents: Vec<Option<PartId>> = vec![None; variable.len()];
         let mut pairs: Vec<Pair> = Vec::new();
         for ([parent, child], costs) in joints {
-            parents[child] = Some(parent);
-            let (parent, child) = (variable[parent], variable[child]);
+            parents[child.0] = Some(parent);
+            let (parent, child) = (variable[parent.0], variable[child.0]);
             if parent == child {
                 own[parent].iter_mut().enumerate().for_each(|(k, own)| *own += costs[k][k]);
                 continue;
@@ -309,9 +310,10 @@ impl Choice {
                 neighbours = near.neighbours(&best, &unhindered);
             }
         }
-        let bumping = self.involved(&best);
+        let bumping = self.involved(&best).into_iter().map(PartId).collect();
         let is_weak = |pair: &&Pair| pair.costs[best.of[pair.parent]][best.of[pair.child]] > WEAK_PRICE_MM;
-        let weak = self.pairs.iter().filter(is_weak).flat_map(|pair| [pair.parent, pair.child]).collect();
+        let ends = |pair: &Pair| [pair.parent, pair.child].map(PartId);
+        let weak = self.pairs.iter().filter(is_weak).flat_map(ends).collect();
         let Look { of, bumps, cost_mm, .. } = best;
         Ok(Best { of, cost_mm, trouble: Trouble { bumping, weak }, bumps })
     }
@@ -347,7 +349,7 @@ impl Choice {
 
     /// Variables of the parts that bump, and of those between them.
     fn involved(&self, look: &Look) -> BTreeSet<usize> {
-        look.bumps.iter().flat_map(|b| way(&self.parents, b.0)).map(|part| self.variable[part]).collect()
+        look.bumps.iter().flat_map(|b| way(&self.parents, b.0)).map(|part| self.variable[part.0]).collect()
     }
 
     /// Combinations in which a part that bumps, or one between two that do, has another candidate, or one
@@ -388,7 +390,7 @@ mod tests {
         variable: Vec<usize>,
         /// Of each part's candidates; images have the same number of them.
         own: Vec<Vec<f64>>,
-        joints: Vec<([usize; 2], Vec<Vec<f64>>)>,
+        joints: Vec<([PartId; 2], Vec<Vec<f64>>)>,
     }
 
     impl Tree {
@@ -426,7 +428,7 @@ mod tests {
             let joints = ends.into_iter().map(|ends| {
                 let ends = ends.map(|p| numbers[p]);
                 let mut row = |_| (0..own[ends[1]].len()).map(|_| cost()).collect();
-                (ends, (0..own[ends[0]].len()).map(&mut row).collect())
+                (ends.map(PartId), (0..own[ends[0]].len()).map(&mut row).collect())
             });
             let joints = joints.collect();
             Self { variable, own, joints }
@@ -443,7 +445,7 @@ mod tests {
         /// What a combination costs, by all parts and joints.
         fn cost_mm(&self, of: &[usize]) -> f64 {
             let own: f64 = of.iter().zip(&self.own).map(|(&k, own)| own[k]).sum();
-            own + self.joints.iter().map(|([a, b], costs)| costs[of[*a]][of[*b]]).sum::<f64>()
+            own + self.joints.iter().map(|([a, b], costs)| costs[of[a.0]][of[b.0]]).sum::<f64>()
         }
 
         fn are_alike(&self, of: &[usize]) -> bool {
@@ -512,7 +514,7 @@ mod tests {
                 let bump = |[a, b]: [usize; 2]| {
                     let key = [seed, a, b, of[a], of[b], of[0]];
                     let mut rng = Rng::with_seed(key.iter().fold(7, |h, k| h * 31 + *k as u64));
-                    (rng.f64() < 0.3).then(|| ([a, b], 4.0 * rng.f64()))
+                    (rng.f64() < 0.3).then(|| ([a, b].map(PartId), 4.0 * rng.f64()))
                 };
                 pairs.filter(|_| is_bumping).filter_map(bump).collect()
             };
@@ -585,7 +587,7 @@ mod tests {
     fn a_part_that_avoids_nothing_goes_back_to_its_best() {
         let choice = Choice::of_costs(vec![0, 1], vec![vec![0.0, 5.0]; 2], Vec::new());
         let bumps = |of: &[usize], _: &Enough<'_>| {
-            Ok(if of == [0, 0] { vec![([0, 1], 1.0)] } else { Vec::<Bump>::new() })
+            Ok(if of == [0, 0] { vec![([0, 1].map(PartId), 1.0)] } else { Vec::<Bump>::new() })
         };
         let Best { of: found, .. } = choice.best(Some(vec![1, 1]), Effort::Long, &bumps, &no_looks).unwrap();
         assert_eq!(choice.cost_mm(&found), 5.0);
@@ -603,7 +605,7 @@ mod tests {
             looks.fetch_add(1, Ordering::Relaxed);
             let is_free = |a: usize, b: usize| (3 * of[a] + 5 * of[b] + a).is_multiple_of(4);
             let pairs = (1..parts).filter(|&b| !is_free(b - 1, b));
-            Ok(pairs.map(|b| ([b - 1, b], 1.0)).collect())
+            Ok(pairs.map(|b| ([b - 1, b].map(PartId), 1.0)).collect())
         };
         let Best { bumps: left, .. } = choice.best(None, Effort::Long, &bumps, &no_looks).unwrap();
         assert_eq!(left, []);

@@ -1,5 +1,6 @@
 //! Parts that bump into each other: what that costs, and what a search has learned of it.
 
+use super::PartId;
 use std::collections::BTreeMap;
 
 /// A pair that bumps costs this much, mm of error: with 25 a hand and a plane of 7 and 10 parts bump, with 50 the right
@@ -8,8 +9,8 @@ const BUMP_PRICE_MM: f64 = 80.0;
 /// And this for each mm that it bumps deeper; bounded from below by the same hand and plane, with 6.
 const DEPTH_PRICE: f64 = 12.0;
 
-/// What two parts do to each other: their numbers, and how deep they bump, mm.
-pub type Bump = ([usize; 2], f64);
+/// What two parts do to each other: their ids, and how deep they bump, mm.
+pub type Bump = ([PartId; 2], f64);
 
 /// Tells whether so many bumps are enough to rule a model out.
 pub type Enough<'a> = dyn Fn(&[Bump]) -> bool + Sync + 'a;
@@ -20,8 +21,8 @@ pub fn harm_mm(bumps: &[Bump]) -> f64 {
 }
 
 /// Two parts and those between them, by the parent of each part.
-pub(super) fn way(parents: &[Option<usize>], [a, b]: [usize; 2]) -> Vec<usize> {
-    let line = |p: usize| std::iter::successors(Some(p), |p| parents[*p]).collect::<Vec<_>>();
+pub(super) fn way(parents: &[Option<PartId>], [a, b]: [PartId; 2]) -> Vec<PartId> {
+    let line = |p| std::iter::successors(Some(p), |p: &PartId| parents[p.0]).collect::<Vec<_>>();
     let (a, b) = (line(a), line(b));
     let shared = a.iter().rev().zip(b.iter().rev()).take_while(|(x, y)| x == y).count();
     // The last shared one is between them.
@@ -35,7 +36,7 @@ pub(super) fn way(parents: &[Option<usize>], [a, b]: [usize; 2]) -> Vec<usize> {
 /// on all. So the least harm seen with the same candidates there is a guess, and most often the truth.
 pub(super) struct Harms {
     /// All pairs, each with the parts between its two, both ends included.
-    ways: Vec<([usize; 2], Vec<usize>)>,
+    ways: Vec<([PartId; 2], Vec<PartId>)>,
     /// For each the candidates on its way that were seen, and the harm, mm of error.
     least_mm: Vec<BTreeMap<Vec<usize>, f64>>,
     /// Those with harm: the number of the pair and the candidates.
@@ -44,8 +45,8 @@ pub(super) struct Harms {
 
 impl Harms {
     /// Of nothing yet, for parts with these parents.
-    pub(super) fn new(parents: &[Option<usize>]) -> Self {
-        let pairs = (0..parents.len()).flat_map(|b| (0..=b).map(move |a| [a, b]));
+    pub(super) fn new(parents: &[Option<PartId>]) -> Self {
+        let pairs = (0..parents.len()).flat_map(|b| (0..=b).map(move |a| [PartId(a), PartId(b)]));
         let ways: Vec<_> = pairs.map(|pair| (pair, way(parents, pair))).collect();
         Self { least_mm: vec![BTreeMap::new(); ways.len()], ways, harmful: BTreeMap::new() }
     }
@@ -57,7 +58,7 @@ impl Harms {
             if bumps.is_empty() && !is_whole {
                 continue;
             }
-            let on_way: Vec<usize> = way.iter().map(|&part| of[part]).collect();
+            let on_way: Vec<usize> = way.iter().map(|part| of[part.0]).collect();
             let mm = harm_mm(&bumps);
             let least_mm = self.least_mm[k].entry(on_way.clone()).or_insert(mm);
             *least_mm = least_mm.min(mm);
@@ -72,7 +73,7 @@ impl Harms {
     /// What a combination is expected to cost by its bumps: those that are known.
     pub(super) fn expected_mm(&self, of: &[usize]) -> f64 {
         let is_here = |(k, on_way): &(usize, Vec<usize>)| {
-            self.ways[*k].1.iter().zip(on_way).all(|(&part, &candidate)| of[part] == candidate)
+            self.ways[*k].1.iter().zip(on_way).all(|(part, &candidate)| of[part.0] == candidate)
         };
         self.harmful.iter().filter(|(key, _)| is_here(key)).map(|(_, mm)| mm).sum()
     }
@@ -86,8 +87,8 @@ mod tests {
     #[test]
     fn a_way_has_the_parts_between() {
         // 0 carries 1 and 2, 1 carries 3; 4 stands by itself.
-        let parents = [None, Some(0), Some(0), Some(1), None];
-        let way = |a, b| way(&parents, [a, b]).into_iter().collect::<BTreeSet<usize>>();
+        let parents = [None, Some(0), Some(0), Some(1), None].map(|parent| parent.map(PartId));
+        let way = |a, b| way(&parents, [a, b].map(PartId)).iter().map(|p| p.0).collect::<BTreeSet<usize>>();
         assert_eq!(way(3, 2), BTreeSet::from([0, 1, 2, 3]));
         assert_eq!(way(0, 3), BTreeSet::from([0, 1, 3]));
         assert_eq!(way(1, 3), BTreeSet::from([1, 3]));
@@ -98,9 +99,10 @@ mod tests {
     /// Of three parts in a row, the bump of two depends on these two, that of the ends on all three.
     #[test]
     fn harm_is_expected_with_the_same_candidates_on_the_way() {
-        let mut harms = Harms::new(&[None, Some(0), Some(1)]);
-        harms.learn(&[0, 0, 0], &[([0, 1], 1.0), ([0, 2], 2.0)], true);
-        let (near_mm, far_mm) = (harm_mm(&[([0, 1], 1.0)]), harm_mm(&[([0, 2], 2.0)]));
+        let mut harms = Harms::new(&[None, Some(PartId(0)), Some(PartId(1))]);
+        let [near, far] = [([0, 1], 1.0), ([0, 2], 2.0)].map(|(pair, mm)| (pair.map(PartId), mm));
+        harms.learn(&[0, 0, 0], &[near, far], true);
+        let (near_mm, far_mm) = (harm_mm(&[near]), harm_mm(&[far]));
         assert_eq!(harms.expected_mm(&[0, 0, 0]), near_mm + far_mm);
         assert_eq!(harms.expected_mm(&[0, 0, 1]), near_mm);
         assert_eq!(harms.expected_mm(&[0, 1, 0]), 0.0);

@@ -1,6 +1,6 @@
 //! Components joined where the user says.
 
-use super::{Hold, Joint, Model, ModelPart};
+use super::{Hold, Joint, Model, ModelPart, PartId};
 use crate::component::{Component, PanelId};
 use crate::geom::polygon;
 use glam::{DAffine3, DVec3};
@@ -9,8 +9,8 @@ use std::sync::Arc;
 /// How a component lies on another one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Seam {
-    /// Index of the parent.
-    pub parent: usize,
+    /// The parent.
+    pub parent: PartId,
     /// The parent's joint panel.
     pub parent_panel: PanelId,
     /// The child's joint panel.
@@ -47,7 +47,7 @@ impl Model {
                 }
                 let found = match &part.seam {
                     None => Some(standing(part, &mut next_mm)),
-                    Some(seam) => placed[seam.parent].as_ref().map(|parent| on_parent(part, seam, parent)),
+                    Some(seam) => placed[seam.parent.0].as_ref().map(|parent| on_parent(part, seam, parent)),
                 };
                 placed[p] = found;
             }
@@ -61,7 +61,7 @@ impl Model {
     #[must_use]
     pub fn with_component(
         mut self,
-        part: usize,
+        part: PartId,
         component: Component,
         frame: DAffine3,
         became: &[(PanelId, PanelId)],
@@ -69,11 +69,11 @@ impl Model {
         let of = |p: &ModelPart| (0..p.component.panels().panels().len()).map(PanelId).collect();
         let mut components: Vec<(Arc<Component>, Vec<PanelId>)> =
             self.parts.iter().map(|p| (p.component.clone(), of(p))).collect();
-        components[part].0 = Arc::new(component);
+        components[part.0].0 = Arc::new(component);
         for &(old, new) in became {
-            components[part].1[old.0] = new;
+            components[part.0].1[old.0] = new;
         }
-        self.parts[part].frame = frame;
+        self.parts[part.0].frame = frame;
         self.with_components(components)
     }
 
@@ -87,22 +87,22 @@ impl Model {
             part.flat = DAffine3::from_translation(DVec3::Z * -component.bottom_mm());
             if let Some(joint) = &mut part.joint {
                 joint.child_panel = successors[joint.child_panel.0];
-                joint.parent_panel = components[joint.parent].1[joint.parent_panel.0];
+                joint.parent_panel = components[joint.parent.0].1[joint.parent_panel.0];
             }
         }
-        let mut order: Vec<usize> = (0..parts.len()).collect();
-        let depth = |p: &usize| {
-            std::iter::successors(Some(*p), |&p| Some(self.parts[p].joint.as_ref()?.parent)).count()
+        let mut order: Vec<PartId> = self.ids().collect();
+        let depth = |p: &PartId| {
+            std::iter::successors(Some(*p), |&p| Some(self.part(p).joint.as_ref()?.parent)).count()
         };
         order.sort_by_key(depth);
         for p in order {
-            let Some(joint) = parts[p].joint.clone() else { continue };
-            let panel = |p: usize, panel: PanelId| parts[p].component.panels().panel(panel);
+            let Some(joint) = parts[p.0].joint.clone() else { continue };
+            let panel = |p: PartId, panel: PanelId| parts[p.0].component.panels().panel(panel);
             let (below, above) = (panel(joint.parent, joint.parent_panel), panel(p, joint.child_panel));
-            let parent = &parts[joint.parent];
+            let parent = &parts[joint.parent.0];
             let relation =
-                (parent.deployed() * below.deployed).inverse() * parts[p].deployed() * above.deployed;
-            parts[p].flat = parent.flat * below.flat * relation * above.flat.inverse();
+                (parent.deployed() * below.deployed).inverse() * parts[p.0].deployed() * above.deployed;
+            parts[p.0].flat = parent.flat * below.flat * relation * above.flat.inverse();
         }
         Self { parts }.with_support()
     }
@@ -110,13 +110,13 @@ impl Model {
     /// The same with the share of each child's joint panel that lies on its parent's.
     #[must_use]
     pub(super) fn with_support(mut self) -> Self {
-        for p in 0..self.parts.len() {
-            let Some(joint) = self.parts[p].joint.clone() else { continue };
+        for p in self.ids() {
+            let Some(joint) = self.part(p).joint.clone() else { continue };
             let own = self.outline_on((p, joint.child_panel), (joint.parent, joint.parent_panel));
-            let base = &self.parts[joint.parent].component.panels().panel(joint.parent_panel).outline;
+            let base = &self.part(joint.parent).component.panels().panel(joint.parent_panel).outline;
             let glue_mm2 = polygon::area(&polygon::intersect_convex(&own, base)).abs();
             let support_ratio = (glue_mm2 / polygon::area(&own)).abs().min(1.0);
-            self.parts[p].joint = Some(Joint { support_ratio, glue_mm2, ..joint });
+            self.parts[p.0].joint = Some(Joint { support_ratio, glue_mm2, ..joint });
         }
         self
     }

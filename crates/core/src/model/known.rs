@@ -2,7 +2,7 @@
 
 use super::candidate::{Builder, Made, Search};
 use super::link::Link;
-use super::{ModelError, Part, Symmetry};
+use super::{ModelError, Part, PartId, Symmetry};
 use crate::geom::{Hull, Mirror};
 use crate::memory::Memory;
 use std::sync::Arc;
@@ -14,7 +14,7 @@ const MOST: usize = 200;
 /// Everything that the candidates of a part depend on.
 #[derive(Debug, PartialEq)]
 struct Wish {
-    part: usize,
+    part: PartId,
     min_panel_mm: f64,
     /// The part, without its name.
     own: Part,
@@ -28,11 +28,11 @@ struct Wish {
 impl Wish {
     fn new(builder: &Builder<'_>) -> Self {
         let part = builder.part;
-        let mut own = builder.parts[part].clone();
+        let mut own = builder.parts[part.0].clone();
         own.options.name.clear();
         let with_hull = |link: &Link| {
             let other = if link.parent == part { link.child } else { link.parent };
-            (link.clone(), builder.parts[other].hull.clone())
+            (link.clone(), builder.parts[other.0].hull.clone())
         };
         Self {
             part,

@@ -1,6 +1,6 @@
 //! Contact planes between neighbouring segments, and the tree of joints (§4.2.1).
 
-use super::{Symmetry, plane};
+use super::{PartId, Symmetry, plane};
 use crate::geom::{Hull, Mirror, Plane, polygon};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -9,8 +9,8 @@ use std::collections::BTreeMap;
 /// A place where two parts touch: candidate for a joint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contact {
-    /// The two parts, smaller index first.
-    pub parts: (usize, usize),
+    /// The two parts, smaller id first.
+    pub parts: (PartId, PartId),
     /// Positions of the vertices on the border.
     pub points: Vec<DVec3>,
     /// Length of the border, mm: larger interfaces make better joints.
@@ -21,15 +21,15 @@ pub struct Contact {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Link {
     /// The part that carries the other.
-    pub parent: usize,
+    pub parent: PartId,
     /// The part that sits on it.
-    pub child: usize,
+    pub child: PartId,
     /// The plane between them, normal from parent to child.
     pub plane: Plane,
 }
 
 /// Spanning trees of the interface graph, largest interfaces first (Kruskal), each rooted at its
-/// smallest index. Links are ordered so that a parent's own link comes before its children's.
+/// smallest id. Links are ordered so that a parent's own link comes before its children's.
 ///
 /// With a symmetry the trees are their own mirror images, and so are the planes: mirrored contacts
 /// are taken together; twins are joined to each other only where nothing across the mirror plane
@@ -37,7 +37,7 @@ pub struct Link {
 pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact], symmetry: Option<&Symmetry>) -> Vec<Link> {
     let mirrored = symmetry.map(|symmetry| mirrored_contacts(contacts, symmetry));
     let contacts = mirrored.as_deref().unwrap_or(contacts);
-    let mut neighbours: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    let mut neighbours: BTreeMap<PartId, Vec<PartId>> = BTreeMap::new();
     let sizes = sizes_mm2(part_hulls, contacts, symmetry);
     let joints = joined(contacts, &sizes, part_hulls.len(), symmetry);
     for &(a, b) in &joints {
@@ -45,22 +45,22 @@ pub fn link_tree(part_hulls: &[&Hull], contacts: &[Contact], symmetry: Option<&S
         neighbours.entry(b).or_default().push(a);
     }
     let between = Between::new(part_hulls, contacts, &joints, symmetry);
-    let mut roots: Vec<usize> = (0..part_hulls.len()).collect();
-    roots.sort_by_key(|&p| p != 0 && symmetry.is_some_and(|s| !s.is_across(p)));
+    let mut roots: Vec<PartId> = (0..part_hulls.len()).map(PartId).collect();
+    roots.sort_by_key(|&p| p != PartId(0) && symmetry.is_some_and(|s| !s.is_across(p)));
     let mut seen = vec![false; part_hulls.len()];
     let mut links = Vec::new();
     for root in roots {
-        if seen[root] {
+        if seen[root.0] {
             continue;
         }
-        seen[root] = true;
+        seen[root.0] = true;
         let mut queue = std::collections::VecDeque::from([root]);
         while let Some(parent) = queue.pop_front() {
             for &child in neighbours.get(&parent).map_or(&[][..], Vec::as_slice) {
-                if !seen[child]
+                if !seen[child.0]
                     && let Some((plane, _)) = between.plane(parent, child)
                 {
-                    seen[child] = true;
+                    seen[child.0] = true;
                     links.push(Link { parent, child, plane });
                     queue.push_back(child);
                 }
@@ -84,7 +84,7 @@ fn sizes_mm2(part_hulls: &[&Hull], contacts: &[Contact], symmetry: Option<&Symme
     let size_mm2 = |contact: &Contact| {
         let (a, b) = contact.parts;
         let area_mm2 = between.plane(a, b).map_or(0.0, |(plane, _)| {
-            let [first, second] = [a, b].map(|part| plane::flat_section(&plane, part_hulls[part]));
+            let [first, second] = [a, b].map(|part| plane::flat_section(&plane, part_hulls[part.0]));
             // Hulls that only touch have a face on the plane, and no section.
             if first.is_empty() || second.is_empty() {
                 let flat: Vec<DVec2> = contact.points.iter().map(|p| plane.flat(*p)).collect();
@@ -104,13 +104,13 @@ fn joined(
     sizes_mm2: &[f64],
     parts: usize,
     symmetry: Option<&Symmetry>,
-) -> Vec<(usize, usize)> {
+) -> Vec<(PartId, PartId)> {
     let mut order: Vec<(&Contact, &f64)> = contacts.iter().zip(sizes_mm2).collect();
     order.sort_by(|a, b| b.1.total_cmp(a.1).then(a.0.parts.cmp(&b.0.parts)));
     let order: Vec<&Contact> = order.into_iter().map(|(contact, _)| contact).collect();
-    let twin = |p: usize| symmetry.map_or(p, |s| s.twin(p));
+    let twin = |p: PartId| symmetry.map_or(p, |s| s.twin(p));
     // A part and its twin count as one at first.
-    let mut group: Vec<usize> = (0..parts).map(|p| p.min(twin(p))).collect();
+    let mut group: Vec<PartId> = (0..parts).map(|p| PartId(p).min(twin(PartId(p)))).collect();
     let mut pairs = Vec::new();
     for contact in &order {
         let image = image_of(contact.parts, symmetry);
@@ -121,7 +121,7 @@ fn joined(
             }
         }
     }
-    let mut group: Vec<usize> = (0..parts).collect();
+    let mut group: Vec<PartId> = (0..parts).map(PartId).collect();
     for &pair in &pairs {
         join(&mut group, pair);
     }
@@ -133,14 +133,14 @@ fn joined(
 }
 
 /// Makes one group of those of two parts; `false` where it was one.
-fn join(group: &mut [usize], (a, b): (usize, usize)) -> bool {
-    let (ga, gb) = (group[a], group[b]);
+fn join(group: &mut [PartId], (a, b): (PartId, PartId)) -> bool {
+    let (ga, gb) = (group[a.0], group[b.0]);
     group.iter_mut().filter(|g| **g == gb).for_each(|g| *g = ga);
     ga != gb
 }
 
-/// The mirror image of a pair, smaller index first.
-pub(super) fn image_of((a, b): (usize, usize), symmetry: Option<&Symmetry>) -> (usize, usize) {
+/// The mirror image of a pair, smaller id first.
+pub(super) fn image_of((a, b): (PartId, PartId), symmetry: Option<&Symmetry>) -> (PartId, PartId) {
     let (a, b) = symmetry.map_or((a, b), |s| (s.twin(a), s.twin(b)));
     (a.min(b), a.max(b))
 }
@@ -150,7 +150,7 @@ pub(super) fn image_of((a, b): (usize, usize), symmetry: Option<&Symmetry>) -> (
 pub(super) fn mirrored_contacts(contacts: &[Contact], symmetry: &Symmetry) -> Vec<Contact> {
     let mirror = symmetry.mirror();
     // Of a pair and its image, the smaller: its points, the sum of lengths and their number.
-    let mut orbits: BTreeMap<(usize, usize), (Vec<DVec3>, f64, usize)> = BTreeMap::new();
+    let mut orbits: BTreeMap<(PartId, PartId), (Vec<DVec3>, f64, usize)> = BTreeMap::new();
     for contact in contacts {
         let image = image_of(contact.parts, Some(symmetry));
         let (points, length_mm, count) = orbits.entry(contact.parts.min(image)).or_default();
@@ -177,9 +177,9 @@ pub(super) fn mirrored_contacts(contacts: &[Contact], symmetry: &Symmetry) -> Ve
 /// The planes between parts that touch.
 pub(super) struct Between<'a> {
     part_hulls: &'a [&'a Hull],
-    contacts: BTreeMap<(usize, usize), &'a Contact>,
-    /// Pairs that are joined, smaller index first.
-    joints: &'a [(usize, usize)],
+    contacts: BTreeMap<(PartId, PartId), &'a Contact>,
+    /// Pairs that are joined, smaller id first.
+    joints: &'a [(PartId, PartId)],
     symmetry: Option<&'a Symmetry>,
 }
 
@@ -187,7 +187,7 @@ impl<'a> Between<'a> {
     pub(super) fn new(
         part_hulls: &'a [&'a Hull],
         contacts: &'a [Contact],
-        joints: &'a [(usize, usize)],
+        joints: &'a [(PartId, PartId)],
         symmetry: Option<&'a Symmetry>,
     ) -> Self {
         let contacts = contacts.iter().map(|c| (c.parts, c)).collect();
@@ -195,17 +195,17 @@ impl<'a> Between<'a> {
     }
 
     /// Where a part is joined to each other than one.
-    fn kept(&self, part: usize, other: usize) -> Vec<Vec<DVec3>> {
-        let is_other = |pair: &&(usize, usize)| **pair != (part.min(other), part.max(other));
+    fn kept(&self, part: PartId, other: PartId) -> Vec<Vec<DVec3>> {
+        let is_other = |pair: &&(PartId, PartId)| **pair != (part.min(other), part.max(other));
         let own = self.joints.iter().filter(is_other).filter(|p| p.0 == part || p.1 == part);
         own.filter_map(|pair| self.contacts.get(pair)).map(|contact| contact.points.clone()).collect()
     }
 
     /// The plane between two parts, normal from the first to the second, and the larger share that
     /// it cuts off either hull; `None` where they do not touch.
-    pub(super) fn plane(&self, from: usize, to: usize) -> Option<(Plane, f64)> {
+    pub(super) fn plane(&self, from: PartId, to: PartId) -> Option<(Plane, f64)> {
         let contact = self.contacts.get(&(from.min(to), from.max(to)))?;
-        let [first, second] = [from, to].map(|p| self.part_hulls[p]);
+        let [first, second] = [from, to].map(|p| self.part_hulls[p.0]);
         let kept = [self.kept(from, to), self.kept(to, from)];
         let ground = || plane::Ground::new(first, second, [&kept[0], &kept[1]]);
         let Some(symmetry) = self.symmetry else {
@@ -257,12 +257,12 @@ pub(super) mod tests {
             [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(y, z)| DVec3::new(x, y, z)).to_vec()
         };
         let contacts = [
-            Contact { parts: (1, 2), points: face(20.0), length_mm: 40.0 },
-            Contact { parts: (0, 1), points: face(10.0), length_mm: 40.0 },
-            Contact { parts: (0, 2), points: face(15.0), length_mm: 1.0 },
+            Contact { parts: (PartId(1), PartId(2)), points: face(20.0), length_mm: 40.0 },
+            Contact { parts: (PartId(0), PartId(1)), points: face(10.0), length_mm: 40.0 },
+            Contact { parts: (PartId(0), PartId(2)), points: face(15.0), length_mm: 1.0 },
         ];
         let links = link_tree(&hulls.iter().collect::<Vec<_>>(), &contacts, None);
-        assert_eq!(links.iter().map(|l| (l.parent, l.child)).collect::<Vec<_>>(), [(0, 1), (1, 2)]);
+        assert_eq!(links.iter().map(|l| (l.parent.0, l.child.0)).collect::<Vec<_>>(), [(0, 1), (1, 2)]);
         for (link, x) in links.iter().zip([10.0, 20.0]) {
             assert!((link.plane.normal() - DVec3::X).length() < 1e-9);
             assert!((link.plane.offset() - x).abs() < 1e-9);
@@ -282,26 +282,27 @@ pub(super) mod tests {
         let edge =
             vec![DVec3::new(10.0, 10.0, 40.0), DVec3::new(10.0, 10.0, 50.0), DVec3::new(9.9, 10.1, 45.0)];
         let contacts = [
-            Contact { parts: (0, 1), points: square(0.0), length_mm: 40.0 },
-            Contact { parts: (0, 2), points: square(10.0), length_mm: 40.0 },
-            Contact { parts: (1, 2), points: edge, length_mm: 45.0 },
+            Contact { parts: (PartId(0), PartId(1)), points: square(0.0), length_mm: 40.0 },
+            Contact { parts: (PartId(0), PartId(2)), points: square(10.0), length_mm: 40.0 },
+            Contact { parts: (PartId(1), PartId(2)), points: edge, length_mm: 45.0 },
         ];
         let links = link_tree(&[&palm, &finger, &thumb], &contacts, None);
-        assert_eq!(links.iter().map(|l| (l.parent, l.child)).collect::<Vec<_>>(), [(0, 1), (0, 2)]);
+        assert_eq!(links.iter().map(|l| (l.parent.0, l.child.0)).collect::<Vec<_>>(), [(0, 1), (0, 2)]);
     }
 
     /// A body across x = 0 with arms and a pair of feet that touch each other.
     #[test]
     fn mirrored_contacts_make_mirrored_joints() {
         let mirror = Mirror::new(Plane::through(DVec3::ZERO, DVec3::X).unwrap());
-        let symmetry = Symmetry::new(mirror, vec![0, 2, 1, 4, 3, 5]).unwrap();
+        let symmetry = Symmetry::new(mirror, [0, 2, 1, 4, 3, 5].map(PartId).to_vec()).unwrap();
         let arm = cube(DVec3::new(5.0, -5.0, 2.0), 10.0);
         let foot = cube(DVec3::new(0.0, -5.0, -10.0), 10.0);
         let body = cube(DVec3::new(-5.0, -5.0, 0.0), 10.0);
         let head = cube(DVec3::new(-5.0, -5.0, 10.0), 10.0);
         let hulls = [body, arm.clone(), arm.reflected(&mirror), foot.clone(), foot.reflected(&mirror), head];
         let square = |at: DVec3, u: DVec3, v: DVec3| vec![at + u + v, at + u - v, at - u - v, at - u + v];
-        let contact = |parts, points, length_mm| Contact { parts, points, length_mm };
+        let contact =
+            |(a, b), points, length_mm| Contact { parts: (PartId(a), PartId(b)), points, length_mm };
         let contacts = [
             contact((0, 1), square(DVec3::new(5.0, 0.0, 6.0), DVec3::new(0.2, 3.0, 0.0), DVec3::Z), 30.0),
             contact((0, 2), square(DVec3::new(-5.1, 0.0, 6.0), DVec3::Y * 3.0, DVec3::Z), 20.0),
@@ -313,13 +314,13 @@ pub(super) mod tests {
         let links = link_tree(&hulls, &contacts, Some(&symmetry));
         assert_eq!(links.len(), 5);
         for link in &links {
-            assert_eq!(link.parent, 0);
+            assert_eq!(link.parent, PartId(0));
             let image = links.iter().find(|l| l.child == symmetry.twin(link.child)).unwrap();
             let plane = mirror.image(&link.plane);
             assert!((image.plane.normal() - plane.normal()).length() < 1e-12);
             assert!((image.plane.offset() - plane.offset()).abs() < 1e-12);
         }
-        assert!(links.iter().find(|l| l.child == 5).unwrap().plane.normal().x.abs() < 1e-12);
+        assert!(links.iter().find(|l| l.child == PartId(5)).unwrap().plane.normal().x.abs() < 1e-12);
         // Nothing else joins the feet.
         let feet = link_tree(&hulls, &contacts[3..4], Some(&symmetry));
         assert_eq!(feet.len(), 1);

@@ -39,6 +39,10 @@ use crate::geom::polygon;
 use glam::{DAffine3, DVec2, DVec3};
 use std::sync::Arc;
 
+/// Index of a part in its [`Model`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PartId(pub usize);
+
 /// What holds a component on its parent.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Hold {
@@ -51,8 +55,8 @@ pub enum Hold {
 /// Where a component sits on its parent: one panel of each, face to face.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Joint {
-    /// Index of the parent in the model.
-    pub parent: usize,
+    /// The parent.
+    pub parent: PartId,
     /// The parent's joint panel.
     pub parent_panel: PanelId,
     /// The child's joint panel.
@@ -124,14 +128,24 @@ pub struct Model {
 }
 
 impl Model {
-    /// The components; the index is the segment's.
+    /// All components, by id; the index is the segment's.
     pub fn parts(&self) -> &[ModelPart] {
         &self.parts
     }
 
+    /// The ids of all components.
+    pub fn ids(&self) -> impl DoubleEndedIterator<Item = PartId> + ExactSizeIterator + Clone + use<> {
+        (0..self.parts.len()).map(PartId)
+    }
+
+    /// The component with an id.
+    pub fn part(&self, id: PartId) -> &ModelPart {
+        &self.parts[id.0]
+    }
+
     /// The panels of a component that are glued to others, its own joint's first.
-    pub fn joint_panels(&self, part: usize) -> Vec<PanelId> {
-        let own = self.parts[part].joint.iter().map(|joint| joint.child_panel);
+    pub fn joint_panels(&self, part: PartId) -> Vec<PanelId> {
+        let own = self.part(part).joint.iter().map(|joint| joint.child_panel);
         let joints = self.parts.iter().filter_map(|other| other.joint.as_ref());
         own.chain(joints.filter(|joint| joint.parent == part).map(|joint| joint.parent_panel)).collect()
     }
@@ -143,32 +157,32 @@ impl Model {
     }
 
     /// The area over which a part's joint would hold well, mm²; `None` for a root.
-    pub fn needed_glue_mm2(&self, part: usize) -> Option<f64> {
-        let joint = self.parts[part].joint.as_ref()?;
-        let area = |p: usize, id| polygon::area(&self.parts[p].component.panels().panel(id).outline).abs();
+    pub fn needed_glue_mm2(&self, part: PartId) -> Option<f64> {
+        let joint = self.part(part).joint.as_ref()?;
+        let area = |p, id| polygon::area(&self.part(p).component.panels().panel(id).outline).abs();
         let [own, below] = [area(part, joint.child_panel), area(joint.parent, joint.parent_panel)];
         Some(pair::needed_glue_mm2(own, below))
     }
 
     /// Whether a part is glued to its parent over less than that.
-    pub fn is_weak(&self, part: usize) -> bool {
+    pub fn is_weak(&self, part: PartId) -> bool {
         self.lack_mm(part) > 0.0
     }
 
     /// What parts that bump and joints that lack glue cost, mm of error.
     pub fn harm_mm(&self, bumps: &[Bump]) -> f64 {
-        harms::harm_mm(bumps) + (0..self.parts.len()).map(|part| self.lack_mm(part)).sum::<f64>()
+        harms::harm_mm(bumps) + self.ids().map(|part| self.lack_mm(part)).sum::<f64>()
     }
 
-    fn lack_mm(&self, part: usize) -> f64 {
-        let glued = self.parts[part].joint.as_ref().filter(|joint| joint.plug().is_none());
+    fn lack_mm(&self, part: PartId) -> f64 {
+        let glued = self.part(part).joint.as_ref().filter(|joint| joint.plug().is_none());
         let lack_mm = |(joint, needed_mm2): (&Joint, f64)| pair::lack_mm(joint.glue_mm2, needed_mm2);
         glued.zip(self.needed_glue_mm2(part)).map_or(0.0, lack_mm)
     }
 
     /// Corners of a panel in the deployed model.
-    pub fn deployed_outline(&self, part: usize, panel: PanelId) -> Vec<DVec3> {
-        let part = &self.parts[part];
+    pub fn deployed_outline(&self, part: PartId, panel: PanelId) -> Vec<DVec3> {
+        let part = self.part(part);
         let motion = part.deployed() * part.component.panels().panel(panel).deployed;
         let outline = &part.component.panels().panel(panel).outline;
         outline.iter().map(|p| motion.transform_point3(p.extend(0.0))).collect()
@@ -178,10 +192,10 @@ impl Model {
     /// `(part, panel)` as seen on `(on_part, on_panel)`.
     pub fn outline_on(
         &self,
-        (part, panel): (usize, PanelId),
-        (on_part, on_panel): (usize, PanelId),
+        (part, panel): (PartId, PanelId),
+        (on_part, on_panel): (PartId, PanelId),
     ) -> Vec<DVec2> {
-        let base = &self.parts[on_part];
+        let base = self.part(on_part);
         let back = (base.deployed() * base.component.panels().panel(on_panel).deployed).inverse();
         let mut outline: Vec<DVec2> = self
             .deployed_outline(part, panel)

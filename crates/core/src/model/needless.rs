@@ -1,14 +1,14 @@
 //! Joints that cost more than they give.
 
 use super::link::Link;
-use super::plane;
+use super::{PartId, plane};
 use crate::geom::Hull;
 
 /// Pairs of parts that are better one: the plane of their joint takes more off the two than one hull round
 /// both adds to them. The fin of a fish that lies along its body costs it the belly.
-pub fn needless(part_hulls: &[&Hull], links: &[Link]) -> Vec<(usize, usize)> {
-    let is_needless = |plane, [parent, child]: [usize; 2]| {
-        let volumes = plane::lost_and_added_mm3(plane, part_hulls[parent], part_hulls[child]);
+pub fn needless(part_hulls: &[&Hull], links: &[Link]) -> Vec<(PartId, PartId)> {
+    let is_needless = |plane, [parent, child]: [PartId; 2]| {
+        let volumes = plane::lost_and_added_mm3(plane, part_hulls[parent.0], part_hulls[child.0]);
         volumes.is_some_and(|[lost, added]| lost > added)
     };
     let pairs = links.iter().filter(|link| is_needless(&link.plane, [link.parent, link.child]));
@@ -35,10 +35,10 @@ mod tests {
             let sides = [-1.0, 1.0].map(|y| [DVec3::new(-1.0, y, 1.0), DVec3::new(1.0, y, 1.0)]);
             let points =
                 sides.concat().into_iter().map(|p| 30.0 * p * DVec3::new(width, 0.8, width)).collect();
-            let contact = Contact { parts: (0, 1), points, length_mm: 90.0 };
+            let contact = Contact { parts: (PartId(0), PartId(1)), points, length_mm: 90.0 };
             let hulls = [&bars[0], &bars[1]];
             let found = needless(&hulls, &link_tree(&hulls, std::slice::from_ref(&contact), None));
-            assert_eq!(found, if expected { vec![(0, 1)] } else { vec![] }, "{width}");
+            assert_eq!(found, if expected { vec![(PartId(0), PartId(1))] } else { vec![] }, "{width}");
         }
     }
 }

@@ -89,7 +89,7 @@ impl Pairs {
     /// A lack of glue costs `firmness` times as much as it does in the comparison of whole models.
     pub(super) fn new(links: &[Link], candidates: &[Vec<Made>], firmness: f64) -> Self {
         let of_link = |link: &Link| -> Vec<Vec<Option<Seated>>> {
-            let [parents, children] = [&candidates[link.parent], &candidates[link.child]];
+            let [parents, children] = [&candidates[link.parent.0], &candidates[link.child.0]];
             let on = |parent: &Made| {
                 children.iter().map(|child| Seated::new(link, parent, child, firmness)).collect()
             };

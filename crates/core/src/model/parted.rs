@@ -1,7 +1,7 @@
 //! Hulls of parts that are not joined, apart from each other.
 
 use super::link::{Between, Contact, Link, image_of, mirror_plane_between, mirrored_contacts};
-use super::{Bump, Symmetry, plane};
+use super::{Bump, PartId, Symmetry, plane};
 use crate::geom::{Hull, Plane, polygon};
 use std::collections::BTreeMap;
 
@@ -25,14 +25,14 @@ pub fn parted(
 ) -> Parted {
     let mirrored = symmetry.map(|symmetry| mirrored_contacts(contacts, symmetry));
     let contacts = mirrored.as_deref().unwrap_or(contacts);
-    let joints: Vec<(usize, usize)> =
+    let joints: Vec<(PartId, PartId)> =
         links.iter().map(|l| (l.parent.min(l.child), l.parent.max(l.child))).collect();
     let between = Between::new(part_hulls, contacts, &joints, symmetry);
     let mut hulls: Vec<Hull> = part_hulls.iter().map(|&hull| hull.clone()).collect();
     let mut borders: Vec<Vec<Plane>> = vec![Vec::new(); hulls.len()];
-    let is_first = |pair: &(usize, usize)| image_of(*pair, symmetry) >= *pair && !joints.contains(pair);
+    let is_first = |pair: &(PartId, PartId)| image_of(*pair, symmetry) >= *pair && !joints.contains(pair);
     let touching = contacts.iter().map(|contact| (contact.parts, true));
-    let all = (0..hulls.len()).flat_map(|b| (0..b).map(move |a| ((a, b), false)));
+    let all = (0..hulls.len()).flat_map(|b| (0..b).map(move |a| ((PartId(a), PartId(b)), false)));
     for ((a, b), is_touching) in touching.chain(all).filter(|(pair, _)| is_first(pair)) {
         let image = image_of((a, b), symmetry);
         let plane = match is_touching {
@@ -42,7 +42,7 @@ pub fn parted(
         let Some((plane, _)) = plane.filter(|(_, cut_off)| *cut_off <= CLIP_SHARE) else {
             continue;
         };
-        let gap_mm = GAP * libm::cbrt(hulls[a].volume().min(hulls[b].volume()));
+        let gap_mm = GAP * libm::cbrt(hulls[a.0].volume().min(hulls[b.0].volume()));
         let mut clips = vec![(a, plane), (b, plane.flipped())];
         if let Some(symmetry) = symmetry
             && image != (a, b)
@@ -52,8 +52,8 @@ pub fn parted(
         }
         let clipped = clipped(&hulls, &clips, gap_mm);
         if let Some(clipped) = clipped.filter(|clipped| keeps_joints(&hulls, clipped, links, JOINT_SHARE)) {
-            clipped.into_iter().for_each(|(part, hull)| hulls[part] = hull);
-            clips.into_iter().for_each(|(part, plane)| borders[part].push(plane));
+            clipped.into_iter().for_each(|(part, hull)| hulls[part.0] = hull);
+            clips.into_iter().for_each(|(part, plane)| borders[part.0].push(plane));
         }
     }
     if let Some(symmetry) = symmetry {
@@ -62,23 +62,23 @@ pub fn parted(
     Parted { hulls, borders }
 }
 
-/// What is left of hulls by so much behind planes, by their numbers; `None` where one is gone.
-fn clipped(hulls: &[Hull], clips: &[(usize, Plane)], gap_mm: f64) -> Option<BTreeMap<usize, Hull>> {
-    let mut clipped: BTreeMap<usize, Hull> = BTreeMap::new();
+/// What is left of hulls by so much behind planes, by their parts; `None` where one is gone.
+fn clipped(hulls: &[Hull], clips: &[(PartId, Plane)], gap_mm: f64) -> Option<BTreeMap<PartId, Hull>> {
+    let mut clipped: BTreeMap<PartId, Hull> = BTreeMap::new();
     for (part, plane) in clips {
-        let hull = clipped.get(part).unwrap_or(&hulls[*part]).clip(&plane.shifted(-gap_mm))?;
+        let hull = clipped.get(part).unwrap_or(&hulls[part.0]).clip(&plane.shifted(-gap_mm))?;
         clipped.insert(*part, hull);
     }
     Some(clipped)
 }
 
 /// Whether what is left of hulls has room for their joints: a share of each one's section.
-fn keeps_joints(hulls: &[Hull], clipped: &BTreeMap<usize, Hull>, links: &[Link], share: f64) -> bool {
+fn keeps_joints(hulls: &[Hull], clipped: &BTreeMap<PartId, Hull>, links: &[Link], share: f64) -> bool {
     let touched = links.iter().filter(|l| clipped.contains_key(&l.parent) || clipped.contains_key(&l.child));
     let mut areas = touched.map(|link| {
-        let left = |part: usize| clipped.get(&part).unwrap_or(&hulls[part]);
+        let left = |part: PartId| clipped.get(&part).unwrap_or(&hulls[part.0]);
         let area = |parent, child| polygon::area(&plane::shared_section(&link.plane, parent, child)).max(0.0);
-        (area(&hulls[link.parent], &hulls[link.child]), area(left(link.parent), left(link.child)))
+        (area(&hulls[link.parent.0], &hulls[link.child.0]), area(left(link.parent), left(link.child)))
     });
     areas.all(|(before, after)| after >= share * before)
 }
@@ -93,7 +93,8 @@ pub fn farther(
 ) -> Option<Parted> {
     let Parted { mut hulls, mut borders } = parted;
     let mut is_moved = false;
-    let is_joint = |[a, b]: [usize; 2]| links.iter().any(|l| [[a, b], [b, a]].contains(&[l.parent, l.child]));
+    let is_joint =
+        |[a, b]: [PartId; 2]| links.iter().any(|l| [[a, b], [b, a]].contains(&[l.parent, l.child]));
     for &([a, b], depth_mm) in bumps.iter().filter(|bump| bump.0[0] != bump.0[1] && !is_joint(bump.0)) {
         let [first, second] = [a, b].map(|part| without_neighbours(&hulls, links, part));
         let Some((plane, overlap_mm)) = plane::between_faces(&first, &second) else { continue };
@@ -104,16 +105,16 @@ pub fn farther(
             let twins = clips.clone().into_iter();
             clips.extend(twins.map(|(part, plane)| (symmetry.twin(part), symmetry.mirror().image(&plane))));
         }
-        let share = |(part, plane): &(usize, Plane)| {
-            hulls[*part].clip(plane).map_or(1.0, |left| 1.0 - left.volume() / hulls[*part].volume())
+        let share = |(part, plane): &(PartId, Plane)| {
+            hulls[part.0].clip(plane).map_or(1.0, |left| 1.0 - left.volume() / hulls[part.0].volume())
         };
         if clips.iter().any(|clip| share(clip) > CLIP_SHARE) {
             continue;
         }
         let clipped = clipped(&hulls, &clips, 0.0);
         if let Some(clipped) = clipped.filter(|clipped| keeps_joints(&hulls, clipped, links, SMALLER_JOINT)) {
-            clipped.into_iter().for_each(|(part, hull)| hulls[part] = hull);
-            clips.into_iter().for_each(|(part, plane)| borders[part].push(plane));
+            clipped.into_iter().for_each(|(part, hull)| hulls[part.0] = hull);
+            clips.into_iter().for_each(|(part, plane)| borders[part.0].push(plane));
             is_moved = true;
         }
     }
@@ -124,13 +125,13 @@ pub fn farther(
 }
 
 /// What the joints of a part leave of its hull.
-fn without_neighbours(hulls: &[Hull], links: &[Link], part: usize) -> Hull {
+fn without_neighbours(hulls: &[Hull], links: &[Link], part: PartId) -> Hull {
     let own = links.iter().filter_map(|link| match part {
         _ if link.parent == part => Some(link.plane),
         _ if link.child == part => Some(link.plane.flipped()),
         _ => None,
     });
-    own.fold(hulls[part].clone(), |hull, plane| hull.clip(&plane).unwrap_or(hull))
+    own.fold(hulls[part.0].clone(), |hull, plane| hull.clip(&plane).unwrap_or(hull))
 }
 
 /// The plane between two hulls that overlap where their joints leave them, normal from the first to the
@@ -138,7 +139,7 @@ fn without_neighbours(hulls: &[Hull], links: &[Link], part: usize) -> Hull {
 fn overlap(
     hulls: &[Hull],
     links: &[Link],
-    (a, b): (usize, usize),
+    (a, b): (PartId, PartId),
     symmetry: Option<&Symmetry>,
 ) -> Option<(Plane, f64)> {
     let [first, second] = [a, b].map(|part| without_neighbours(hulls, links, part));
@@ -179,7 +180,7 @@ mod tests {
         let hulls = [cube(DVec3::ZERO, 10.0), cube(DVec3::X * 9.0, 10.0), cube(DVec3::X * 30.0, 10.0)];
         let hulls: Vec<&Hull> = hulls.iter().collect();
         let face = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(y, z)| DVec3::new(9.5, y, z));
-        let contact = Contact { parts: (0, 1), points: face.to_vec(), length_mm: 40.0 };
+        let contact = Contact { parts: (PartId(0), PartId(1)), points: face.to_vec(), length_mm: 40.0 };
         let ends = |hulls: &[Hull]| (hulls[0].support(DVec3::X), -hulls[1].support(-DVec3::X));
         let apart = parted(&hulls, std::slice::from_ref(&contact), &[], None).hulls;
         let gap = 10.0 * GAP;
@@ -212,17 +213,17 @@ mod tests {
             borders: vec![Vec::new(); 2],
         };
         let gap_mm = |hulls: &[Hull]| -hulls[1].support(-DVec3::X) - hulls[0].support(DVec3::X);
-        let moved = farther(parted(), &[], &[([0, 1], 1.5)], None).unwrap();
+        let moved = farther(parted(), &[], &[([0, 1].map(PartId), 1.5)], None).unwrap();
         // Components bump though hulls do not: by as much they move from where they end.
         assert!((gap_mm(&moved.hulls) - (0.5 + 1.5 + 2.0 * FARTHER_MM)).abs() < 1e-9);
         assert!(moved.borders.iter().all(|borders| borders.len() == 1));
         // Not by more than a part can lose, nor those that are joined.
-        assert!(farther(parted(), &[], &[([0, 1], 15.0)], None).is_none());
+        assert!(farther(parted(), &[], &[([0, 1].map(PartId), 15.0)], None).is_none());
         let hulls = parted().hulls;
         let face = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)].map(|(y, z)| DVec3::new(20.2, y, z));
-        let contact = Contact { parts: (0, 1), points: face.to_vec(), length_mm: 80.0 };
+        let contact = Contact { parts: (PartId(0), PartId(1)), points: face.to_vec(), length_mm: 80.0 };
         let links = link_tree(&hulls.iter().collect::<Vec<_>>(), &[contact], None);
         assert_eq!(links.len(), 1);
-        assert!(farther(parted(), &links, &[([0, 1], 1.5)], None).is_none());
+        assert!(farther(parted(), &links, &[([0, 1].map(PartId), 1.5)], None).is_none());
     }
 }

@@ -14,7 +14,7 @@
 //! room; behind the panel it springs open and holds. When all is flat, the tab lies turned over
 //! behind the parent's panel, from its foot away from its own hole.
 
-use super::{Hold, Joint, Model};
+use super::{Hold, Joint, Model, PartId};
 use crate::component::PanelId;
 use crate::geom::polygon;
 use glam::{DAffine2, DVec2};
@@ -87,8 +87,8 @@ pub struct Plug {
 impl Plug {
     /// The largest plug for a part's joint, as near to its middle as it can be; none where the smallest
     /// has no room, or for a root.
-    pub fn fit(model: &Model, part: usize, tab_width_mm: f64) -> Option<Self> {
-        let joint = model.parts()[part].joint.as_ref()?;
+    pub fn fit(model: &Model, part: PartId, tab_width_mm: f64) -> Option<Self> {
+        let joint = model.part(part).joint.as_ref()?;
         let room = Room::new(model, part, joint, tab_width_mm + BESIDE_TAB_MM);
         let places = room.places();
         SLITS_MM.rev().find_map(|slit_mm| {
@@ -185,13 +185,13 @@ struct Room {
 }
 
 impl Room {
-    fn new(model: &Model, part: usize, joint: &Joint, rim_mm: f64) -> Self {
+    fn new(model: &Model, part: PartId, joint: &Joint, rim_mm: f64) -> Self {
         let (own, below) = ((part, joint.child_panel), (joint.parent, joint.parent_panel));
-        let outline = |p: (usize, PanelId)| model.outline_on(p, own);
+        let outline = |p: (PartId, PanelId)| model.outline_on(p, own);
         let (child, parent) = (outline(own), outline(below));
         let overlap = polygon::intersect_convex(&child, &parent);
         let others = [own, below].map(|side| {
-            let joints = model.parts().iter().enumerate().filter_map(|(p, q)| Some((p, q.joint.as_ref()?)));
+            let joints = model.ids().zip(model.parts()).filter_map(|(p, q)| Some((p, q.joint.as_ref()?)));
             let partners = joints.filter(|(p, _)| *p != part).filter_map(|(p, other)| {
                 let sides = [(p, other.child_panel), (other.parent, other.parent_panel)];
                 let at = sides.iter().position(|s| *s == side)?;
@@ -252,8 +252,8 @@ impl Room {
 impl Model {
     /// The same with one joint held by a plug.
     #[must_use]
-    pub fn with_plug(mut self, part: usize, plug: Plug) -> Self {
-        if let Some(joint) = &mut self.parts[part].joint {
+    pub fn with_plug(mut self, part: PartId, plug: Plug) -> Self {
+        if let Some(joint) = &mut self.parts[part.0].joint {
             joint.hold = Hold::Plug(plug);
         }
         self
@@ -261,15 +261,15 @@ impl Model {
 
     /// The same with some components taken off their parents: each stands for itself.
     #[must_use]
-    pub fn taken_apart(mut self, parts: &[usize]) -> Self {
-        parts.iter().for_each(|&p| self.parts[p].joint = None);
+    pub fn taken_apart(mut self, parts: &[PartId]) -> Self {
+        parts.iter().for_each(|&p| self.parts[p.0].joint = None);
         self
     }
 
     /// From the plane coordinates of one panel of a joint to those of the other, which it lies on.
-    fn plane_motion(&self, from: (usize, PanelId), to: (usize, PanelId)) -> DAffine2 {
-        let place = |(part, panel): (usize, PanelId)| {
-            self.parts[part].deployed() * self.parts[part].component.panels().panel(panel).deployed
+    fn plane_motion(&self, from: (PartId, PanelId), to: (PartId, PanelId)) -> DAffine2 {
+        let place = |(part, panel): (PartId, PanelId)| {
+            self.part(part).deployed() * self.part(part).component.panels().panel(panel).deployed
         };
         let motion = place(to).inverse() * place(from);
         let [x, y] = [motion.matrix3.x_axis, motion.matrix3.y_axis].map(|axis| axis.truncate());

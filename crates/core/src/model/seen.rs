@@ -1,5 +1,6 @@
 //! How a combination of candidates looks: its outlines against those of the mesh.
 
+use super::PartId;
 use super::candidate::Made;
 use super::choice::Combination;
 use super::link::Link;
@@ -32,7 +33,7 @@ impl<'a> Seen<'a> {
     pub(super) fn unlike(&self, all: &[Combination]) -> Vec<f64> {
         let Some(first) = all.first() else { return Vec::new() };
         let known = self.placements(first).map(|placements| {
-            let draw = |part: usize| self.cover(part, first[part], &placements[part]);
+            let draw = |part: usize| self.cover(PartId(part), first[part], &placements[part]);
             let covers: Vec<Cover> = (0..first.len()).into_par_iter().map(draw).collect();
             (placements, covers)
         });
@@ -42,24 +43,24 @@ impl<'a> Seen<'a> {
                 Some(known) if of[part] == first[part] && placements[part] == known.0[part] => {
                     sum.or(&known.1[part])
                 }
-                _ => sum.or(&self.cover(part, of[part], &placements[part])),
+                _ => sum.or(&self.cover(PartId(part), of[part], &placements[part])),
             };
             self.views.unlike(&(0..of.len()).fold(self.views.nothing(), add))
         };
         all.par_iter().map(unlike).collect()
     }
 
-    fn cover(&self, part: usize, candidate: usize, placement: &DAffine3) -> Cover {
+    fn cover(&self, part: PartId, candidate: usize, placement: &DAffine3) -> Cover {
         let placed = |edge: &[DVec3; 2]| edge.map(|p| placement.transform_point3(p));
-        self.views.cover(&self.edges[part][candidate].iter().map(placed).collect::<Vec<_>>())
+        self.views.cover(&self.edges[part.0][candidate].iter().map(placed).collect::<Vec<_>>())
     }
 
     /// How each part moves to be seated on its parent, from the mesh's axes.
     fn placements(&self, of: &[usize]) -> Option<Vec<DAffine3>> {
         let mut placements = vec![DAffine3::IDENTITY; of.len()];
         for (k, link) in self.links.iter().enumerate() {
-            let seated = self.pairs.get(k, [of[link.parent], of[link.child]])?;
-            placements[link.child] = placements[link.parent] * seated.turn;
+            let seated = self.pairs.get(k, [of[link.parent.0], of[link.child.0]])?;
+            placements[link.child.0] = placements[link.parent.0] * seated.turn;
         }
         Some(placements)
     }

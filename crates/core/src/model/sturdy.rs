@@ -35,7 +35,7 @@ fn padded(
 ) -> Vec<Hull> {
     for link in links {
         let pair = [link.parent, link.child];
-        let sections = pair.map(|part| plane::flat_section(&link.plane, &hulls[part]));
+        let sections = pair.map(|part| plane::flat_section(&link.plane, &hulls[part.0]));
         // Of two boxes that only touch, the plane may miss one: its side is as large as it is.
         let (parts, section) = match [sections[0].is_empty(), sections[1].is_empty()] {
             [false, false] => (&pair[..], polygon::intersect_convex(&sections[0], &sections[1])),
@@ -45,9 +45,9 @@ fn padded(
         let pad = pad(&section, wanted_mm2(polygon::area(&section)));
         let corners: Vec<DVec3> = pad.into_iter().map(|p| link.plane.lifted(p)).collect();
         for &part in parts.iter().filter(|_| !corners.is_empty()) {
-            let points: Vec<DVec3> = hulls[part].vertices().iter().chain(&corners).copied().collect();
+            let points: Vec<DVec3> = hulls[part.0].vertices().iter().chain(&corners).copied().collect();
             if let Ok(hull) = Hull::of_points(&points) {
-                hulls[part] = hull;
+                hulls[part.0] = hull;
             }
         }
     }
@@ -89,6 +89,7 @@ fn axes(polygon: &[DVec2], centre: DVec2) -> DMat2 {
 mod tests {
     use super::*;
     use crate::geom::Plane;
+    use crate::model::PartId;
 
     fn bar(half: DVec3, at: DVec3) -> Hull {
         let corner = |k: usize| at + half * DVec3::new(SIGN[k & 1], SIGN[k >> 1 & 1], SIGN[k >> 2]);
@@ -103,7 +104,11 @@ mod tests {
 
     #[test]
     fn thin_joints_become_thick_enough_and_others_stay() {
-        let link = Link { parent: 0, child: 1, plane: Plane::through(DVec3::ZERO, DVec3::X).unwrap() };
+        let link = Link {
+            parent: PartId(0),
+            child: PartId(1),
+            plane: Plane::through(DVec3::ZERO, DVec3::X).unwrap(),
+        };
         for (width, thickness) in [(2.0, 2.0), (5.0, 4.0), (3.0, 2.9)] {
             let half = DVec3::new(10.0, width / 2.0, thickness / 2.0);
             let hulls = vec![bar(half, -9.0 * DVec3::X), bar(half, 9.0 * DVec3::X)];

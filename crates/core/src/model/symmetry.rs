@@ -1,5 +1,6 @@
 //! Which parts of a model are mirror images of each other.
 
+use super::PartId;
 use crate::geom::{Hull, Mirror, directions};
 use glam::DVec3;
 
@@ -10,7 +11,7 @@ use glam::DVec3;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Symmetry {
     mirror: Mirror,
-    twin: Vec<usize>,
+    twin: Vec<PartId>,
     crossing: Option<Crossing>,
 }
 
@@ -29,10 +30,10 @@ const ALIKE: f64 = 0.03;
 const DIRECTIONS: usize = 150;
 
 impl Symmetry {
-    /// Of the twin of each part, by index; a part across the plane is its own. `None` where that is
+    /// Of the twin of each part, by id; a part across the plane is its own. `None` where that is
     /// not mutual.
-    pub fn new(mirror: Mirror, twin: Vec<usize>) -> Option<Self> {
-        let is_mutual = twin.iter().enumerate().all(|(part, &other)| twin.get(other) == Some(&part));
+    pub fn new(mirror: Mirror, twin: Vec<PartId>) -> Option<Self> {
+        let is_mutual = twin.iter().enumerate().all(|(part, other)| twin.get(other.0) == Some(&PartId(part)));
         is_mutual.then_some(Self { mirror, twin, crossing: None })
     }
 
@@ -50,7 +51,7 @@ impl Symmetry {
         };
         let mut is_across: Vec<bool> = hulls.iter().map(is_alike).collect();
         for part in 0..hulls.len() {
-            is_across[part] &= is_across[self.twin(part)];
+            is_across[part] &= is_across[self.twin[part].0];
         }
         let crossed = Self { crossing: Some(Crossing { mirror, is_across }), ..self };
         crossed.make_alike(hulls);
@@ -63,27 +64,27 @@ impl Symmetry {
     }
 
     /// The twin of each part.
-    pub fn twins(&self) -> &[usize] {
+    pub fn twins(&self) -> &[PartId] {
         &self.twin
     }
 
     /// The mirror image of a part, which may be the part itself.
-    pub fn twin(&self, part: usize) -> usize {
-        self.twin[part]
+    pub fn twin(&self, part: PartId) -> PartId {
+        self.twin[part.0]
     }
 
     /// Whether a part is its own mirror image.
-    pub fn is_across(&self, part: usize) -> bool {
-        self.twin[part] == part
+    pub fn is_across(&self, part: PartId) -> bool {
+        self.twin(part) == part
     }
 
     /// The mirror plane at a right angle to the first that a part lies across, if any.
-    pub fn crossing(&self, part: usize) -> Option<&Mirror> {
-        self.crossing.as_ref().filter(|crossing| crossing.is_across[part]).map(|crossing| &crossing.mirror)
+    pub fn crossing(&self, part: PartId) -> Option<&Mirror> {
+        self.crossing.as_ref().filter(|crossing| crossing.is_across[part.0]).map(|crossing| &crossing.mirror)
     }
 
     /// The mirror planes that all of these parts lie across.
-    pub(super) fn mirrors_across(&self, parts: &[usize]) -> Vec<Mirror> {
+    pub(super) fn mirrors_across(&self, parts: &[PartId]) -> Vec<Mirror> {
         let own = parts.iter().all(|&p| self.is_across(p)).then_some(self.mirror);
         let crossing = parts.iter().map(|&p| self.crossing(p)).reduce(|a, b| a.and(b)).flatten();
         own.into_iter().chain(crossing.copied()).collect()
@@ -91,18 +92,18 @@ impl Symmetry {
 
     /// Makes hulls that are almost mirror images of each other, or of themselves, exactly so.
     pub(super) fn make_alike(&self, hulls: &mut [Hull]) {
-        for part in 0..hulls.len() {
+        for part in (0..hulls.len()).map(PartId) {
             let twin = self.twin(part);
             if twin < part {
                 continue;
             }
             for mirror in self.mirrors_across(&[part]) {
-                if let Ok(hull) = mirror.symmetrized(&hulls[part]) {
-                    hulls[part] = hull;
+                if let Ok(hull) = mirror.symmetrized(&hulls[part.0]) {
+                    hulls[part.0] = hull;
                 }
             }
             if twin > part {
-                hulls[twin] = hulls[part].reflected(&self.mirror);
+                hulls[twin.0] = hulls[part.0].reflected(&self.mirror);
             }
         }
     }
@@ -123,13 +124,13 @@ mod tests {
             Hull::of_points(&ball(20.0).chain([nose]).collect::<Vec<_>>()).unwrap(),
         ];
         let across = |normal: DVec3| Mirror::new(Plane::through(DVec3::new(0.0, 2.0, 3.0), normal).unwrap());
-        let first = Symmetry::new(across(DVec3::Z), vec![0, 1]).unwrap();
+        let first = Symmetry::new(across(DVec3::Z), vec![PartId(0), PartId(1)]).unwrap();
         let crossed = first.crossed(across(DVec3::Y), &mut hulls);
-        assert_eq!([0, 1].map(|part| crossed.crossing(part).is_some()), [true, false]);
-        assert_eq!([0, 1].map(|part| crossed.mirrors_across(&[part]).len()), [2, 1]);
-        assert_eq!(crossed.mirrors_across(&[0, 1]).len(), 1);
+        assert_eq!([0, 1].map(PartId).map(|part| crossed.crossing(part).is_some()), [true, false]);
+        assert_eq!([0, 1].map(PartId).map(|part| crossed.mirrors_across(&[part]).len()), [2, 1]);
+        assert_eq!(crossed.mirrors_across(&[PartId(0), PartId(1)]).len(), 1);
         for d in directions(50) {
-            let image = crossed.crossing(0).unwrap().direction(d);
+            let image = crossed.crossing(PartId(0)).unwrap().direction(d);
             let centre = DVec3::new(0.0, 2.0, 3.0);
             let from = |d: DVec3| hulls[0].support(d) - centre.dot(d);
             assert!((from(d) - from(image)).abs() < 1e-9);
@@ -139,9 +140,12 @@ mod tests {
     #[test]
     fn twins_are_mutual() {
         let mirror = Mirror::new(Plane::horizontal(1.0));
-        assert!(Symmetry::new(mirror, vec![0, 2, 1]).is_some_and(|s| s.is_across(0) && s.twin(1) == 2));
-        for twin in [vec![1, 2, 0], vec![0, 0], vec![3, 1, 2]] {
-            assert_eq!(Symmetry::new(mirror, twin), None);
+        let symmetry = |twin: &[usize]| Symmetry::new(mirror, twin.iter().copied().map(PartId).collect());
+        assert!(
+            symmetry(&[0, 2, 1]).is_some_and(|s| s.is_across(PartId(0)) && s.twin(PartId(1)) == PartId(2))
+        );
+        for twin in [&[1, 2, 0][..], &[0, 0], &[3, 1, 2]] {
+            assert_eq!(symmetry(twin), None);
         }
     }
 }
