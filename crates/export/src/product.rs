@@ -5,7 +5,7 @@ use crate::report::Run;
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use tatamu_core::fold::Motion;
-use tatamu_core::model::ModelPart;
+use tatamu_core::model::{ModelPart, PartId};
 use tatamu_draw::drawing::{Chapter, Drawing, LineStyles, Mark, Pages, PagesError};
 use tatamu_net::net::{Net, Piece, label_letters};
 use tatamu_net::sheet::Imprint;
@@ -60,8 +60,8 @@ impl Selection {
             let all = 0..output.layout().sheet_count();
             return (!self.sheets.is_empty()).then(|| all.filter(|&sheet| is_asked_for(sheet)).collect());
         }
-        let own = (0..output.nets().len()).filter(|&n| self.parts.contains(&output.model().parts()[n].name));
-        let sheets = own.flat_map(|n| output.layout().places(n)).map(|at| at.sheet);
+        let own = output.model().ids().filter(|&part| self.parts.contains(&output.model().part(part).name));
+        let sheets = own.flat_map(|part| output.layout().places(part)).map(|at| at.sheet);
         Some(sheets.filter(|&sheet| is_asked_for(sheet)).collect())
     }
 
@@ -239,22 +239,22 @@ fn chapters(output: &Output) -> Vec<Chapter> {
 /// The names of the components in the order in which they are folded flat.
 pub fn folding_order(output: &Output) -> Vec<&str> {
     let flat = output.fold_plan().steps().iter().filter(|step| step.ends_flat());
-    flat.map(|step| output.model().parts()[step.part].name.as_str()).collect()
+    flat.map(|step| output.model().part(step.part).name.as_str()).collect()
 }
 
 /// How the model is folded flat, as a sentence with the names of the components, and as one with the letters of
 /// their labels, which is shorter; nothing where there is one component alone.
 pub fn order_notes(output: &Output) -> Vec<String> {
-    let parts = output.model().parts();
-    let sentence = |begin: &str, name: &dyn Fn(usize) -> String| {
+    let model = output.model();
+    let sentence = |begin: &str, name: &dyn Fn(PartId) -> String| {
         let told = |motion: &Motion| motion_words(motion, &name(motion.part()));
         let order: Vec<String> = output.fold_plan().motions().iter().map(told).collect();
         format!("{begin}: {}", order.join(", "))
     };
-    if parts.len() < 2 {
+    if model.parts().len() < 2 {
         return Vec::new();
     }
-    let of_names = sentence("fold flat in this order", &|part| parts[part].name.clone());
+    let of_names = sentence("fold flat in this order", &|part| model.part(part).name.clone());
     let of_letters = sentence("fold flat in this order, by the letters of the labels", &label_letters);
     vec![of_names, of_letters]
 }
@@ -295,10 +295,10 @@ mod tests {
     /// Sheets and overview did not say what to unplug before the model folds.
     #[test]
     fn an_order_says_what_is_unplugged_and_what_is_left_half_folded() {
-        let step = |to: f64| Motion::Fold(Step { part: 0, from: 0.0, to });
+        let step = |to: f64| Motion::Fold(Step { part: PartId(0), from: 0.0, to });
         assert_eq!(motion_words(&step(1.0), "ear"), "ear");
         assert_eq!(motion_words(&step(0.5), "ear"), "ear to 50%");
-        let pull = Pull { part: 0, way_mm: 9.0 };
+        let pull = Pull { part: PartId(0), way_mm: 9.0 };
         assert_eq!(motion_words(&Motion::Unplug(pull), "ear"), "unplug ear");
         assert_eq!(motion_words(&Motion::Plug(pull), "ear"), "plug in ear");
     }

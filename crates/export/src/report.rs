@@ -6,7 +6,7 @@ use tatamu_core::component::PanelId;
 use tatamu_core::fold::{Clash, Overlap, Pull, Stack, Step};
 use tatamu_core::geom::polygon;
 use tatamu_core::mesh::{MirrorPlane, Repairs};
-use tatamu_core::model::{ModelPart, Plug};
+use tatamu_core::model::{ModelPart, PartId, Plug};
 use tatamu_net::net::{Net, Piece};
 use tatamu_pipeline::{Output, Warning, openings_mm2};
 
@@ -222,11 +222,7 @@ pub fn to_json(output: &Output, run: &Run<'_>) -> Result<Vec<u8>, serde_json::Er
             repairs: repairs(run.repairs),
         },
         stages: run.stages.iter().map(|&(name, seconds)| Stage { name, seconds }).collect(),
-        components: parts
-            .iter()
-            .enumerate()
-            .map(|(p, part)| component(output, p, part, diagonal_mm))
-            .collect(),
+        components: output.model().ids().map(|p| component(output, p, diagonal_mm)).collect(),
         fold: fold(output),
         nets: parts.iter().zip(output.nets()).map(|(part, net)| numbers(&part.name, net)).collect(),
         sheets: Sheets {
@@ -268,9 +264,10 @@ fn repairs(repairs: &Repairs) -> RepairNumbers {
 }
 
 fn fold(output: &Output) -> Fold<'_> {
-    let (parts, plan) = (output.model().parts(), output.fold_plan());
-    let name = |part: usize| parts[part].name.as_str();
-    let panel = |part: usize, panel: PanelId| parts[part].component.panels().panel(panel).kind.to_string();
+    let (model, plan) = (output.model(), output.fold_plan());
+    let name = |part: PartId| model.part(part).name.as_str();
+    let panel =
+        |part: PartId, panel: PanelId| model.part(part).component.panels().panel(panel).kind.to_string();
     let step = |step: &Step| FoldStep { component: name(step.part), from: step.from, to: step.to };
     let unplugged = |pull: &Pull| Unplugged { component: name(pull.part), way_mm: pull.way_mm };
     let clash = |clash: &Clash| FoldClash {
@@ -301,14 +298,15 @@ fn fold(output: &Output) -> Fold<'_> {
     }
 }
 
-fn component<'a>(output: &'a Output, p: usize, part: &'a ModelPart, diagonal_mm: f64) -> Component<'a> {
-    let parts = output.model().parts();
+fn component(output: &Output, p: PartId, diagonal_mm: f64) -> Component<'_> {
+    let model = output.model();
+    let part = model.part(p);
     let shape = &part.component;
     let panel_name = |part: &ModelPart, panel: PanelId| part.component.panels().panel(panel).kind.to_string();
     let joint = part.joint.as_ref();
     Component {
         name: &part.name,
-        faces: output.part_faces()[p],
+        faces: output.part_faces()[p.0],
         fold_axis: part.fold_axis().to_array(),
         direction_deg: part.direction_rad.to_degrees(),
         top_edges: shape.profiles().len(),
@@ -326,9 +324,9 @@ fn component<'a>(output: &'a Output, p: usize, part: &'a ModelPart, diagonal_mm:
         hausdorff_ratio: shape.hausdorff_mm() / diagonal_mm,
         min_panel_width_mm: shape.narrowest_panel().1,
         openings_mm2: openings_mm2(shape.panels()),
-        parent: joint.map(|j| parts[j.parent].name.as_str()),
+        parent: joint.map(|j| model.part(j.parent).name.as_str()),
         joint: joint.map(|j| Joint {
-            parent_panel: panel_name(&parts[j.parent], j.parent_panel),
+            parent_panel: panel_name(model.part(j.parent), j.parent_panel),
             child_panel: panel_name(part, j.child_panel),
             support_ratio: j.support_ratio,
             glue_mm2: j.glue_mm2,
@@ -350,9 +348,9 @@ fn plug(plug: &Plug) -> PlugNumbers {
 
 fn page(output: &Output, sheet: usize) -> Page<'_> {
     let layout = output.layout();
-    let nets = output.nets().iter().enumerate();
+    let nets = output.model().ids().zip(output.nets());
     let pieces: Vec<(&Piece, DAffine2)> = nets
-        .flat_map(|(n, net)| net.pieces().iter().zip(layout.places(n)))
+        .flat_map(|(part, net)| net.pieces().iter().zip(layout.places(part)))
         .filter(|(_, at)| at.sheet == sheet)
         .map(|(piece, at)| (piece, at.place))
         .collect();

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use tatamu_core::component::Filling;
 use tatamu_core::geom::{Hull, Plane};
 use tatamu_core::mesh::{Mesh, MirrorPlane, Views};
-use tatamu_core::model::{self, Assembly, Bump, Contact, Link, Part, PartOptions, Parted, Symmetry};
+use tatamu_core::model::{self, Assembly, Bump, Contact, Link, Part, PartId, PartOptions, Parted, Symmetry};
 use tatamu_core::segment::{self, Interior, Parts, SegmentId, Segmentation};
 
 /// Hulls of the parts of a mesh with the joints between them, as the shape alone decides them.
@@ -95,7 +95,7 @@ impl Hulls {
 
     /// The same with thicker hulls where parts hang on their parents.
     #[must_use]
-    pub(super) fn sturdier(&self, children: &[usize]) -> Self {
+    pub(super) fn sturdier(&self, children: &[PartId]) -> Self {
         let links: Vec<Link> = self.links.iter().filter(|l| children.contains(&l.child)).cloned().collect();
         let hulls = model::sturdier(self.solid.hulls.clone(), &links, self.symmetry.as_ref());
         self.with(Parted { hulls, borders: self.borders.clone() })
@@ -131,7 +131,7 @@ impl Hulls {
     }
 
     /// The same with a part, and its image, on other parents; `None` where there are none that it touches.
-    pub(super) fn on_another_parent(&self, child: usize) -> Option<Self> {
+    pub(super) fn on_another_parent(&self, child: PartId) -> Option<Self> {
         let link = self.links.iter().find(|link| link.child == child)?;
         let touching = self.touching.without(link)?;
         let (hulls, borders) = touching.parted();
@@ -140,7 +140,7 @@ impl Hulls {
     }
 
     /// Pairs that are better one: see [`model::needless`].
-    pub(super) fn needless(&self) -> Vec<(usize, usize)> {
+    pub(super) fn needless(&self) -> Vec<(PartId, PartId)> {
         self.touching.needless()
     }
 
@@ -170,7 +170,7 @@ impl Hulls {
     }
 
     /// The part that a segment is; none for one that is flat.
-    pub fn part_of(&self, segment: SegmentId) -> Option<usize> {
+    pub fn part_of(&self, segment: SegmentId) -> Option<PartId> {
         self.solid.part_of_segment[segment.0 as usize]
     }
 
@@ -226,13 +226,13 @@ impl Touching {
         self.solid.hulls.iter().collect()
     }
 
-    fn needless(&self) -> Vec<(usize, usize)> {
+    fn needless(&self) -> Vec<(PartId, PartId)> {
         model::needless(&self.hulls(), &self.links)
     }
 
     /// The same without a joint between two parts, and between their images; `None` where a part would be left alone.
     fn without(&self, gone: &Link) -> Option<Self> {
-        let image = |part: usize| self.symmetry.as_ref().map_or(part, |symmetry| symmetry.twin(part));
+        let image = |part: PartId| self.symmetry.as_ref().map_or(part, |symmetry| symmetry.twin(part));
         let pair = [gone.parent, gone.child];
         let is_gone = |contact: &Contact| {
             let (a, b) = contact.parts;
@@ -292,7 +292,7 @@ impl Bodies {
 #[derive(Debug, Clone)]
 struct Solid {
     hulls: Vec<Hull>,
-    part_of_segment: Vec<Option<usize>>,
+    part_of_segment: Vec<Option<PartId>>,
     /// Number of faces of each segment that is flat.
     flat: Vec<usize>,
 }
@@ -312,17 +312,17 @@ impl Solid {
         let twins = divided.segmentation().twins(divided.mesh())?;
         let of_segment = self.part_of_segment.iter().zip(twins);
         let twin = of_segment.filter_map(|(part, twin)| part.map(|_| self.part_of_segment[twin.0 as usize]));
-        let symmetry = Symmetry::new(*mirror, twin.collect::<Option<Vec<usize>>>()?)?;
+        let symmetry = Symmetry::new(*mirror, twin.collect::<Option<Vec<PartId>>>()?)?;
         let mut hulls = self.hulls.clone();
-        for (part, hull) in self.hulls.iter().enumerate() {
+        for (part, hull) in (0..).map(PartId).zip(&self.hulls) {
             let twin = symmetry.twin(part);
             if twin == part {
-                hulls[part] = mirror.symmetrized(hull).ok()?;
+                hulls[part.0] = mirror.symmetrized(hull).ok()?;
             } else if part < twin {
-                let images = self.hulls[twin].vertices().iter().map(|&p| mirror.point(p));
+                let images = self.hulls[twin.0].vertices().iter().map(|&p| mirror.point(p));
                 let points: Vec<DVec3> = hull.vertices().iter().copied().chain(images).collect();
-                hulls[part] = Hull::of_points(&points).ok()?;
-                hulls[twin] = hulls[part].reflected(mirror);
+                hulls[part.0] = Hull::of_points(&points).ok()?;
+                hulls[twin.0] = hulls[part.0].reflected(mirror);
             }
         }
         self.hulls = hulls;
@@ -338,7 +338,7 @@ fn hulls(parts: &Parts) -> Solid {
     for (hull, faces) in parts.hulls().into_iter().zip(parts.face_counts()) {
         match hull {
             Ok(hull) => {
-                solid.part_of_segment.push(Some(solid.hulls.len()));
+                solid.part_of_segment.push(Some(PartId(solid.hulls.len())));
                 solid.hulls.push(hull);
             }
             Err(_) => {
@@ -389,7 +389,7 @@ fn parts(hulls: &Hulls, options: &Options) -> Result<Vec<Part>, Error> {
     }
 }
 
-fn contacts(mesh: &Mesh, segmentation: &Segmentation, part_of_segment: &[Option<usize>]) -> Vec<Contact> {
+fn contacts(mesh: &Mesh, segmentation: &Segmentation, part_of_segment: &[Option<PartId>]) -> Vec<Contact> {
     let part = |s: SegmentId| part_of_segment[s.0 as usize];
     let borders = segmentation.borders(mesh);
     let near = segment::near_contacts(mesh, segmentation);
@@ -448,7 +448,7 @@ mod tests {
         Hulls::new(&parts_of(boxes)).unwrap()
     }
 
-    fn pairs(hulls: &Hulls) -> Vec<[usize; 2]> {
+    fn pairs(hulls: &Hulls) -> Vec<[PartId; 2]> {
         hulls.links.iter().map(|link| [link.parent, link.child]).collect()
     }
 
@@ -459,8 +459,8 @@ mod tests {
         let wall = [DVec3::new(0.0, 0.0, 20.0), DVec3::new(20.0, 60.0, 70.0)];
         let post = [DVec3::new(20.0, 20.0, 20.0), DVec3::new(52.0, 37.0, 40.0)];
         let hulls = hulls_of(&[floor, wall, post]);
-        let size = |part: usize| hulls.hulls()[part].volume();
-        let post = (0..3).min_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap();
+        let size = |part: PartId| hulls.hulls()[part.0].volume();
+        let post = (0..3).map(PartId).min_by(|a, b| size(*a).total_cmp(&size(*b))).unwrap();
         let parent = |hulls: &Hulls| hulls.links.iter().find(|l| l.child == post).map(|l| l.parent);
         let other = hulls.on_another_parent(post).expect("it touches both");
         assert!(parent(&hulls) != parent(&other) && parent(&other).is_some(), "{:?}", pairs(&other));
@@ -469,7 +469,7 @@ mod tests {
         // And back again; but not where nothing else touches it.
         assert_eq!(parent(&other.on_another_parent(post).expect("as before")), parent(&hulls));
         let alone = hulls_of(&[floor, wall]);
-        assert!((0..2).all(|part| alone.on_another_parent(part).is_none()));
+        assert!((0..2).all(|part| alone.on_another_parent(PartId(part)).is_none()));
     }
 
     /// A floor and a wall that become one, with a post in the corner between them: its joint would cut off either.
@@ -503,7 +503,7 @@ mod tests {
         let hulls = hulls_of(&[body, arm(5.0), arm(40.0)]);
         let [first, second] = [hulls.links[0].child, hulls.links[1].child];
         let thicker = hulls.sturdier(&[first]);
-        let volume = |hulls: &Hulls, part: usize| hulls.hulls()[part].volume();
+        let volume = |hulls: &Hulls, part: PartId| hulls.hulls()[part.0].volume();
         assert!(
             volume(&thicker, first) > 1.02 * volume(&hulls, first),
             "{} {}",

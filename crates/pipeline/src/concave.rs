@@ -38,15 +38,15 @@ pub(super) fn refitted(
     progress: &dyn Progress,
 ) -> Result<Refitted, Cancelled> {
     let (mut warnings, mut remarks, mut refusals) = (Vec::new(), Vec::new(), Vec::new());
-    for p in 0..model.parts().len() {
-        let part = &model.parts()[p];
+    for p in model.ids() {
+        let part = model.part(p);
         let Some((key, choice)) = options.component(&part.name).filter(|own| own.1.is_concave) else {
             continue;
         };
         progress.check()?;
         let name = part.name.clone();
         let body = Body {
-            triangles: triangles(mesh, face_part, p as u32),
+            triangles: triangles(mesh, face_part, p.0 as u32),
             top_edges: choice.top_edges.or(options.top_edges).unwrap_or(COUNTS.0),
             profile_vertices: choice.profile_vertices.or(options.profile_vertices).unwrap_or(COUNTS.1),
             min_panel_mm: options.min_panel_width_mm,

@@ -17,7 +17,9 @@ use tatamu_core::design::{ThickError, thick};
 use tatamu_core::fold::{Detection, FoldPlan, ModelMotion, SweepMemory};
 use tatamu_core::memory::Memory;
 use tatamu_core::mesh::{Mesh, Up};
-use tatamu_core::model::{self, Built, JointChoice, Known, Model, ModelError, ModelPart, Run, Sketch};
+use tatamu_core::model::{
+    self, Built, JointChoice, Known, Model, ModelError, ModelPart, PartId, Run, Sketch,
+};
 use tatamu_core::progress::{Beside, Cancelled, Progress};
 use tatamu_core::segment::{self, Edit, Parts, SegmentOptions};
 use tatamu_net::net::{BlankNet, KnownNets, Net, NetChoices, NetHand, NetOptions, develop_model};
@@ -226,7 +228,7 @@ impl<'m> Engine<'m> {
         Ok(None)
     }
 
-    /// Makes one component, by its index, as it and its joints alone decide it, and where the mesh has it, not yet
+    /// Makes one component, by its id, as it and its joints alone decide it, and where the mesh has it, not yet
     /// moved onto its parent: sooner than the model that looks and folds best.
     ///
     /// # Errors
@@ -234,14 +236,14 @@ impl<'m> Engine<'m> {
     pub fn component(
         &self,
         options: &Options,
-        part: usize,
+        part: PartId,
         progress: &dyn Progress,
     ) -> Result<ModelPart, Error> {
         let divided = self.divide(options, progress)?;
         let bodies = Bodies::new(divided.hulls(), options)?;
-        if part >= bodies.parts().len() {
+        if part.0 >= bodies.parts().len() {
             let known = divided.hulls().names().join(", ");
-            return Err(Error::NoComponent { name: format!("number {}", part + 1), known });
+            return Err(Error::NoComponent { name: format!("number {}", part.0 + 1), known });
         }
         progress.check()?;
         Ok(model::alone(&bodies.assembly(options.min_panel_width_mm), &self.components, part)?)

@@ -7,7 +7,7 @@ use super::reach::beyond;
 use super::{Divided, Error, Hulls};
 use std::collections::BTreeSet;
 use std::sync::Arc;
-use tatamu_core::model::{self, Built, Model, ModelError, Sketch, Verdict};
+use tatamu_core::model::{self, Built, Model, ModelError, PartId, Sketch, Verdict};
 
 /// What a mm of harm costs, as a share of outlines: a pair that bumps by 2 mm is worth 0.026, a joint that lacks a tenth of
 /// its glue 0.018. Joints that are thick enough for glue show.
@@ -227,7 +227,7 @@ fn possible<T>(made: Result<T, Error>) -> Result<Option<T>, Error> {
 fn others(hulls: &Hulls, verdict: &Verdict) -> impl Iterator<Item = Hulls> {
     let Verdict { bumps, weak, .. } = verdict;
     let thicker = (!weak.is_empty()).then(|| hulls.sturdier(weak));
-    let parts: BTreeSet<usize> = weak.iter().chain(bumps.iter().flat_map(|bump| &bump.0)).copied().collect();
+    let parts: BTreeSet<PartId> = weak.iter().chain(bumps.iter().flat_map(|bump| &bump.0)).copied().collect();
     thicker
         .into_iter()
         .chain(hulls.farther(bumps))

@@ -3,7 +3,7 @@
 use super::Hulls;
 use std::collections::BTreeSet;
 use tatamu_core::geom::Hull;
-use tatamu_core::model::{Bump, Verdict};
+use tatamu_core::model::{Bump, PartId, Verdict};
 
 /// Names of parts that are made one; it keeps the first.
 pub(super) type Merge = Vec<String>;
@@ -29,10 +29,10 @@ pub(super) fn mergers(
 ) -> impl Iterator<Item = Vec<Merge>> {
     let parts = hulls.hulls();
     let pairs = pairs(hulls, verdict).into_iter().filter(|[a, b]| a != b);
-    let alike: BTreeSet<Vec<Vec<usize>>> = pairs.map(|pair| with_image(hulls, pair)).collect();
-    let grown_mm3 = |set: &Vec<usize>| {
-        let corners: Vec<_> = set.iter().flat_map(|&part| parts[part].vertices()).copied().collect();
-        let own_mm3: f64 = set.iter().map(|&part| parts[part].volume()).sum();
+    let alike: BTreeSet<Vec<Vec<PartId>>> = pairs.map(|pair| with_image(hulls, pair)).collect();
+    let grown_mm3 = |set: &Vec<PartId>| {
+        let corners: Vec<_> = set.iter().flat_map(|part| parts[part.0].vertices()).copied().collect();
+        let own_mm3: f64 = set.iter().map(|part| parts[part.0].volume()).sum();
         Hull::of_points(&corners).map_or(f64::INFINITY, |hull| hull.volume()) - own_mm3
     };
     let possible = alike.into_iter().filter(|sets| are_possible(hulls, sets, may_vanish));
@@ -47,17 +47,18 @@ pub(super) fn needless(hulls: &Hulls, may_vanish: &dyn Fn(&str) -> bool) -> Opti
     sets.find(|sets| are_possible(hulls, sets, may_vanish)).map(|sets| named(hulls, sets))
 }
 
-fn named(hulls: &Hulls, sets: Vec<Vec<usize>>) -> Vec<Merge> {
-    let merge = |set: Vec<usize>| -> Merge { set.iter().map(|&part| hulls.names()[part].clone()).collect() };
+fn named(hulls: &Hulls, sets: Vec<Vec<PartId>>) -> Vec<Merge> {
+    let merge =
+        |set: Vec<PartId>| -> Merge { set.iter().map(|part| hulls.names()[part.0].clone()).collect() };
     sets.into_iter().map(merge).collect()
 }
 
-fn are_possible(hulls: &Hulls, sets: &[Vec<usize>], may_vanish: &dyn Fn(&str) -> bool) -> bool {
-    sets.iter().all(|set| set[1..].iter().all(|&part| may_vanish(&hulls.names()[part])))
+fn are_possible(hulls: &Hulls, sets: &[Vec<PartId>], may_vanish: &dyn Fn(&str) -> bool) -> bool {
+    sets.iter().all(|set| set[1..].iter().all(|part| may_vanish(&hulls.names()[part.0])))
 }
 
-fn with_image(hulls: &Hulls, pair: [usize; 2]) -> Vec<Vec<usize>> {
-    let image = |part: usize| hulls.symmetry().map_or(part, |symmetry| symmetry.twin(part));
+fn with_image(hulls: &Hulls, pair: [PartId; 2]) -> Vec<Vec<PartId>> {
+    let image = |part: PartId| hulls.symmetry().map_or(part, |symmetry| symmetry.twin(part));
     merged_sets(pair, pair.map(image))
 }
 
@@ -67,14 +68,14 @@ pub(super) fn serious(verdict: &Verdict) -> Vec<Bump> {
 }
 
 /// Parts that may be better one.
-fn pairs(hulls: &Hulls, verdict: &Verdict) -> Vec<[usize; 2]> {
+fn pairs(hulls: &Hulls, verdict: &Verdict) -> Vec<[PartId; 2]> {
     let bumps = serious(verdict);
     if bumps.len() > MANY_BUMPS || verdict.weak.len() > MANY_WEAK {
         return Vec::new();
     }
     if bumps.is_empty() {
         // Any other part may be what leaves a joint no room.
-        let others = |&part: &usize| (0..hulls.hulls().len()).map(move |other| [part, other]);
+        let others = |&part: &PartId| (0..hulls.hulls().len()).map(move |other| [part, PartId(other)]);
         return verdict.weak.iter().flat_map(others).collect();
     }
     let bumping = || bumps.iter().map(|bump| bump.0);
@@ -84,10 +85,10 @@ fn pairs(hulls: &Hulls, verdict: &Verdict) -> Vec<[usize; 2]> {
 
 /// The parts that become one with a pair, the largest of each set first: those of the pair, and those of its image; all
 /// of them where the two share a part.
-fn merged_sets(pair: [usize; 2], image: [usize; 2]) -> Vec<Vec<usize>> {
-    let set = |parts: &[usize]| parts.iter().copied().collect::<BTreeSet<usize>>().into_iter().collect();
+fn merged_sets(pair: [PartId; 2], image: [PartId; 2]) -> Vec<Vec<PartId>> {
+    let set = |parts: &[PartId]| parts.iter().copied().collect::<BTreeSet<PartId>>().into_iter().collect();
     let is_shared = pair.iter().any(|part| image.contains(part));
-    let mut sets: Vec<Vec<usize>> =
+    let mut sets: Vec<Vec<PartId>> =
         if is_shared { vec![set(&[pair, image].concat())] } else { vec![set(&pair), set(&image)] };
     sets.sort();
     sets
@@ -109,6 +110,10 @@ mod tests {
 
     #[test]
     fn images_are_merged_likewise_and_what_shares_a_part_becomes_one() {
+        let merged_sets = |pair: [usize; 2], image: [usize; 2]| -> Vec<Vec<usize>> {
+            let sets = merged_sets(pair.map(PartId), image.map(PartId));
+            sets.iter().map(|set| set.iter().map(|part| part.0).collect()).collect()
+        };
         assert_eq!(merged_sets([5, 3], [6, 4]), [vec![3, 5], vec![4, 6]]);
         assert_eq!(merged_sets([6, 4], [5, 3]), merged_sets([5, 3], [6, 4]), "found from either side");
         assert_eq!(merged_sets([7, 0], [8, 0]), [vec![0, 7, 8]], "both on a part across the plane");

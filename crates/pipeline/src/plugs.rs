@@ -4,7 +4,7 @@
 use super::{Error, Options};
 use std::sync::Arc;
 use tatamu_core::fold::{FoldPlan, ModelMotion, SweepMemory, ancestors};
-use tatamu_core::model::{JointChoice, Model, Plug};
+use tatamu_core::model::{JointChoice, Model, PartId, Plug};
 use tatamu_core::progress::{Cancelled, Progress};
 
 /// So many components are unplugged at most: with more the model is put together anew each time.
@@ -30,14 +30,14 @@ pub(super) struct Known<'a> {
 /// # Errors
 /// [`Error::NoPlug`].
 pub(super) fn as_chosen(mut model: Model, options: &Options) -> Result<Model, Error> {
-    for part in 0..model.parts().len() {
-        if options.joint_choice(&model.parts()[part].name) == Some(JointChoice::Plug) {
-            let name = &model.parts()[part].name;
+    for part in model.ids() {
+        if options.joint_choice(&model.part(part).name) == Some(JointChoice::Plug) {
+            let name = &model.part(part).name;
             let refused = |reason: &'static str| Error::NoPlug { name: name.clone(), reason };
             if options.is_thick {
                 return Err(refused("boards do not bend; take thick = true away, or glue it"));
             }
-            if model.parts()[part].joint.is_none() {
+            if model.part(part).joint.is_none() {
                 return Err(refused("it hangs on no other component; leave joint out"));
             }
             let plug = Plug::fit(&model, part, options.tab_width_mm);
@@ -61,12 +61,12 @@ pub(super) fn freed(
     if planned.plan.is_free() || options.is_thick {
         return Ok(None);
     }
-    let plugs: Vec<Option<Plug>> = (0..model.parts().len()).map(|p| plug_of(model, p, options)).collect();
+    let plugs: Vec<Option<Plug>> = model.ids().map(|p| plug_of(model, p, options)).collect();
     let motion = ModelMotion::new(model);
     for parts in candidates(model, &planned.plan, &plugs).into_iter().take(MOST_TRIALS) {
         let plan = FoldPlan::unplugged(&motion, &parts, thickness_mm, known.ids, known.memory, progress)?;
         if let Some(plan) = plan.filter(FoldPlan::is_free) {
-            let with = |model: Model, &part: &usize| match &plugs[part] {
+            let with = |model: Model, &part: &PartId| match &plugs[part.0] {
                 Some(plug) => model.with_plug(part, plug.clone()),
                 None => model,
             };
@@ -78,9 +78,9 @@ pub(super) fn freed(
 }
 
 /// The plug that a part has, or may get.
-fn plug_of(model: &Model, part: usize, options: &Options) -> Option<Plug> {
-    let joint = model.parts()[part].joint.as_ref()?;
-    match (joint.plug(), options.joint_choice(&model.parts()[part].name)) {
+fn plug_of(model: &Model, part: PartId, options: &Options) -> Option<Plug> {
+    let joint = model.part(part).joint.as_ref()?;
+    match (joint.plug(), options.joint_choice(&model.part(part).name)) {
         (Some(plug), _) => Some(plug.clone()),
         (None, Some(JointChoice::Glue)) => None,
         _ => Plug::fit(model, part, options.tab_width_mm),
@@ -89,28 +89,28 @@ fn plug_of(model: &Model, part: usize, options: &Options) -> Option<Plug> {
 
 /// Sets of components, in the order in which they are unplugged, that part every two that bump; the
 /// best first.
-fn candidates(model: &Model, plan: &FoldPlan, plugs: &[Option<Plug>]) -> Vec<Vec<usize>> {
-    let bumps: Vec<[usize; 2]> = plan.bumping_pairs().collect();
-    let line = |p: usize| -> Vec<usize> { std::iter::once(p).chain(ancestors(model, p)).collect() };
-    let parts = |p: usize, [a, b]: [usize; 2]| line(a).contains(&p) != line(b).contains(&p);
-    let depth = |p: usize| ancestors(model, p).len();
-    let mut usable: Vec<usize> = (0..plugs.len()).filter(|&p| plugs[p].is_some()).collect();
+fn candidates(model: &Model, plan: &FoldPlan, plugs: &[Option<Plug>]) -> Vec<Vec<PartId>> {
+    let bumps: Vec<[PartId; 2]> = plan.bumping_pairs().collect();
+    let line = |p: PartId| -> Vec<PartId> { std::iter::once(p).chain(ancestors(model, p)).collect() };
+    let parts = |p: PartId, [a, b]: [PartId; 2]| line(a).contains(&p) != line(b).contains(&p);
+    let depth = |p: PartId| ancestors(model, p).len();
+    let mut usable: Vec<PartId> = model.ids().filter(|p| plugs[p.0].is_some()).collect();
     usable.retain(|&p| bumps.iter().any(|&bump| parts(p, bump)));
     usable.sort_by_key(|&p| depth(p));
     let mut sets = subsets(&usable, MOST_PLUGS);
     sets.retain(|set| bumps.iter().all(|&bump| set.iter().any(|&p| parts(p, bump))));
-    let is_new = |&&p: &&usize| model.parts()[p].joint.as_ref().is_some_and(|joint| joint.plug().is_none());
-    let size = |set: &[usize]| (0..plugs.len()).filter(|&q| line(q).iter().any(|p| set.contains(p))).count();
+    let is_new = |&&p: &&PartId| model.part(p).joint.as_ref().is_some_and(|joint| joint.plug().is_none());
+    let size = |set: &[PartId]| model.ids().filter(|&q| line(q).iter().any(|p| set.contains(p))).count();
     sets.sort_by_key(|set| (set.iter().filter(is_new).count(), set.len(), size(set), set.clone()));
     sets
 }
 
 /// All sets of 1 to `most` of some components, each in their order.
-fn subsets(parts: &[usize], most: usize) -> Vec<Vec<usize>> {
-    let mut all: Vec<Vec<usize>> = vec![Vec::new()];
+fn subsets(parts: &[PartId], most: usize) -> Vec<Vec<PartId>> {
+    let mut all: Vec<Vec<PartId>> = vec![Vec::new()];
     for &part in parts {
         let longer = all.iter().filter(|set| set.len() < most).map(|set| [&set[..], &[part]].concat());
-        let longer: Vec<Vec<usize>> = longer.collect();
+        let longer: Vec<Vec<PartId>> = longer.collect();
         all.extend(longer);
     }
     all.remove(0);
@@ -122,7 +122,7 @@ pub(super) fn remarks(before: &Model, after: &Model) -> Vec<String> {
     let parts = after.parts().iter().zip(before.parts());
     let new = parts.filter(|(new, old)| new.joint != old.joint);
     new.filter_map(|(part, _)| {
-        let parent = &after.parts()[part.joint.as_ref()?.parent].name;
+        let parent = &after.part(part.joint.as_ref()?.parent).name;
         Some(format!(
             "{}: it is plugged into {parent}, not glued, since the model folds flat only when it is unplugged; to keep it \
              glued, write joint = \"glue\" in its table, or hold = \"glue\" where its joint is drawn",
@@ -138,8 +138,9 @@ mod tests {
 
     #[test]
     fn subsets_are_all_there_once() {
-        assert_eq!(subsets(&[4, 2], 2), [vec![4], vec![2], vec![4, 2]]);
-        assert_eq!(subsets(&[1, 2, 3], 2).len(), 6);
+        let [a, b, c] = [4, 2, 3].map(PartId);
+        assert_eq!(subsets(&[a, b], 2), [vec![a], vec![b], vec![a, b]]);
+        assert_eq!(subsets(&[a, b, c], 2).len(), 6);
         assert!(subsets(&[], 2).is_empty());
     }
 }

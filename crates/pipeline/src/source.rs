@@ -96,7 +96,7 @@ impl Divided {
             None => Hulls::new(parts)?,
         };
         let segments = parts.segmentation().face_segments();
-        let face_part = segments.iter().map(|&segment| hulls.part_of(segment).map(|p| p as u32)).collect();
+        let face_part = segments.iter().map(|&segment| hulls.part_of(segment).map(|p| p.0 as u32)).collect();
         let surface = Surface::new(parts.mesh().clone(), face_part, hulls.hulls().len());
         Ok(Self { surface, to_model, hulls })
     }

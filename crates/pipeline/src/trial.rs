@@ -73,7 +73,7 @@ impl Engine<'_> {
 
 /// Overlaps, pairs that clash, and weak joints.
 fn problems(model: &Model, plan: &FoldPlan) -> usize {
-    plan.encounter_count() + (0..model.parts().len()).filter(|&part| model.is_weak(part)).count()
+    plan.encounter_count() + model.ids().filter(|&part| model.is_weak(part)).count()
 }
 
 /// What is tried: what changes the least of the model comes first.

@@ -50,6 +50,7 @@ mod tests {
     use crate::drawing::Shape;
     use crate::render::{Camera, View};
     use glam::DVec3;
+    use tatamu_core::model::PartId;
 
     /// A rectangle that faces the viewer.
     fn plate([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Vec<DVec3> {
@@ -65,7 +66,7 @@ mod tests {
     fn map_of<'v>(view: &'v View, plates: &[Vec<DVec3>]) -> PartMap<'v> {
         let mut map = PartMap::new(view);
         for (part, plate) in plates.iter().enumerate() {
-            map.push(plate, part);
+            map.push(plate, PartId(part));
         }
         map
     }
@@ -88,9 +89,9 @@ mod tests {
         let names: Vec<String> = (0..30).map(|k| format!("part-{k}")).collect();
         let view = view_of(&plates);
         let map = map_of(&view, &plates);
-        let items: Vec<Callout> = names
-            .iter()
-            .enumerate()
+        let items: Vec<Callout> = (0..)
+            .map(PartId)
+            .zip(&names)
             .map(|(part, name)| Callout { name, part, places: map.places(part) })
             .collect();
         let marks = callouts(&items, &map, 25.0, 3.0);
@@ -123,7 +124,7 @@ mod tests {
         let view = view_of(&plates);
         let map = map_of(&view, &plates);
         let names = ["head", "left arm", "right arm", "left hand", "right hand"];
-        let items = names.iter().enumerate();
+        let items = (0..).map(PartId).zip(names);
         let items: Vec<Callout> =
             items.map(|(part, name)| Callout { name, part, places: map.places(part) }).collect();
         let marks = callouts(&items, &map, 25.0, 2.5);
@@ -134,11 +135,11 @@ mod tests {
             let own = map.part_at(*to - shift).unwrap();
             let foreign_mm = map.foreign_mm(*from - shift, *to - shift, own);
             // There is no way from an arm to the edge but over its hand.
-            let is_arm = names[own].ends_with("arm");
+            let is_arm = names[own.0].ends_with("arm");
             assert!(
                 is_arm || foreign_mm < 1.0,
                 "the line of {} runs over others for {foreign_mm} mm",
-                names[own]
+                names[own.0]
             );
         }
         for (k, [a, b]) in lines.iter().enumerate() {

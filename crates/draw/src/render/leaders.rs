@@ -4,6 +4,7 @@
 use super::part_map::{PartMap, Place};
 use glam::DVec2;
 use tatamu_core::geom::polygon;
+use tatamu_core::model::PartId;
 
 /// Height of capitals against the distance of lines of text.
 const CAP_SHARE: f64 = 0.5;
@@ -28,8 +29,8 @@ const MOST: usize = 60;
 pub struct Callout<'a> {
     /// What is written.
     pub name: &'a str,
-    /// The part, as the map of the picture calls it.
-    pub part: usize,
+    /// The part, as the map of the picture has it.
+    pub part: PartId,
     /// Places in the picture that the line may lead to, the best first.
     pub places: Vec<Place>,
 }

@@ -21,7 +21,7 @@ const COLOURS: [Rgb; 14] = [
     Rgb(62, 84, 140),   // ink
 ];
 
-/// Colour of the component of this index; the list repeats after 14.
+/// The colour of this number, which in most pictures is that of the component; the list repeats after 14.
 pub fn colour(index: usize) -> Rgb {
     COLOURS[index % COLOURS.len()]
 }

@@ -2,6 +2,7 @@
 
 use super::view::View;
 use glam::{DVec2, DVec3};
+use tatamu_core::model::PartId;
 
 /// Pixels along the longer side of the map, and the fewest pixels of a part that is named.
 const PIXELS: f64 = 240.0;
@@ -27,7 +28,7 @@ pub struct PartMap<'v> {
     width: usize,
     height: usize,
     pixel_mm: f64,
-    part: Vec<Option<usize>>,
+    part: Vec<Option<PartId>>,
     nearest: Vec<f64>,
 }
 
@@ -41,14 +42,14 @@ impl<'v> PartMap<'v> {
     }
 
     /// Adds a convex face of a part.
-    pub fn push(&mut self, corners: &[DVec3], part: usize) {
+    pub fn push(&mut self, corners: &[DVec3], part: PartId) {
         let Some((&first, others)) = corners.split_first() else { return };
         for pair in others.windows(2) {
             self.fill([first, pair[0], pair[1]], part);
         }
     }
 
-    fn fill(&mut self, corners: [DVec3; 3], part: usize) {
+    fn fill(&mut self, corners: [DVec3; 3], part: PartId) {
         let flat = corners.map(|c| self.view.project(c) / self.pixel_mm);
         let away = corners.map(|c| self.view.towards_eye(c).length());
         let doubled = (flat[1] - flat[0]).perp_dot(flat[2] - flat[0]);
@@ -85,7 +86,7 @@ impl<'v> PartMap<'v> {
     }
 
     /// The part that is seen at a place.
-    pub fn part_at(&self, at_mm: DVec2) -> Option<usize> {
+    pub fn part_at(&self, at_mm: DVec2) -> Option<PartId> {
         let pixel = (at_mm / self.pixel_mm).floor();
         let is_within =
             pixel.min_element() >= 0.0 && pixel.x < self.width as f64 && pixel.y < self.height as f64;
@@ -93,7 +94,7 @@ impl<'v> PartMap<'v> {
     }
 
     /// Length of a line where it runs over parts other than its own, mm.
-    pub(super) fn foreign_mm(&self, from: DVec2, to: DVec2, own: usize) -> f64 {
+    pub(super) fn foreign_mm(&self, from: DVec2, to: DVec2, own: PartId) -> f64 {
         let steps = (from.distance(to) / self.pixel_mm).ceil().max(1.0);
         let is_foreign = |k: usize| self.part_at(from.lerp(to, k as f64 / steps)).is_some_and(|p| p != own);
         (0..steps as usize).filter(|&k| is_foreign(k)).count() as f64 * self.pixel_mm
@@ -101,7 +102,7 @@ impl<'v> PartMap<'v> {
 
     /// Places well within a part, as it is seen: first the one that is farthest from all that is not the
     /// part. None where hardly any of it is seen.
-    pub fn places(&self, part: usize) -> Vec<Place> {
+    pub fn places(&self, part: PartId) -> Vec<Place> {
         let depth = self.depths(part);
         let count = depth.iter().filter(|&&d| d > 0).count();
         let deepest = depth.iter().copied().max().unwrap_or(0);
@@ -126,7 +127,7 @@ impl<'v> PartMap<'v> {
     }
 
     /// Distance of each pixel of a part in steps to the next pixel that is not of it, from two sweeps.
-    fn depths(&self, part: usize) -> Vec<u32> {
+    fn depths(&self, part: PartId) -> Vec<u32> {
         let is_part = |k: usize| self.part[k] == Some(part);
         let mut depth = vec![0u32; self.part.len()];
         for y in 1..self.height - 1 {

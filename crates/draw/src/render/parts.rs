@@ -11,6 +11,7 @@ use super::view::{Camera, View, ViewError};
 use crate::drawing::{Drawing, Rgb};
 use glam::{DAffine2, DVec2, DVec3};
 use tatamu_core::mesh::Mesh;
+use tatamu_core::model::PartId;
 
 /// One of the two sides with its names, mm; the width of the columns of names; free border.
 const SIDE_MM: DVec2 = DVec2::new(150.0, 110.0);
@@ -50,7 +51,7 @@ pub fn parts_picture(
     // Pictures have y up.
     let upright: Vec<DVec3> = mesh.positions().iter().map(|p| DVec3::new(p.x, p.z, -p.y)).collect();
     let few = proxy(&upright, mesh.faces(), MOST_FACES);
-    let part = |triangle: usize| part_of_face[few.origin[triangle] as usize] as usize;
+    let part = |triangle: usize| PartId(part_of_face[few.origin[triangle] as usize] as usize);
     let mut scene = Scene::new();
     let colour_of = |face: usize| palette::colour(part_of_face[face] as usize);
     scene.push_proxy(&few, colour_of, Some(Rgb(235, 235, 235)))?;
@@ -67,7 +68,7 @@ pub fn parts_picture(
         for (t, triangle) in few.triangles.iter().enumerate() {
             map.push(&triangle.map(|v| few.vertices[v as usize]), part(t));
         }
-        let items = names.iter().enumerate();
+        let items = (0..).map(PartId).zip(names);
         let items: Vec<Callout> =
             items.map(|(part, name)| Callout { name, part, places: map.places(part) }).collect();
         let marks = callouts(&items, &map, COLUMN_MM - MARGIN_MM, CAP_MM);

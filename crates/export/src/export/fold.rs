@@ -59,17 +59,16 @@ fn files(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFil
     let layout = output.layout();
     let components: Vec<FoldComponent> = output
         .model()
-        .parts()
-        .iter()
+        .ids()
+        .zip(output.model().parts())
         .zip(output.nets())
-        .enumerate()
-        .map(|(n, (part, net))| FoldComponent {
+        .map(|((id, part), net)| FoldComponent {
             name: &part.name,
             set: net.panels(),
             net,
-            pieces: layout.places(n),
+            pieces: layout.places(id),
             deployed: part.deployed(),
-            between: &between[n],
+            between: &between[id.0],
             flat: part.flat,
         })
         .collect();

@@ -12,7 +12,7 @@ use crate::show::upright;
 use glam::{DAffine3, DQuat, DVec2, DVec3};
 use tatamu_core::component::{PanelId, PanelSet};
 use tatamu_core::fold::{FoldPlan, ModelMotion, ModelPose, Sequence};
-use tatamu_core::model::{Model, ModelPart};
+use tatamu_core::model::{Model, ModelPart, PartId};
 use tatamu_draw::render::palette;
 
 /// The registry's entry.
@@ -61,18 +61,18 @@ pub fn animated(model: &Model, plan: &FoldPlan, title: &str) -> Scene {
         first_node.push(count);
         count += part.component.panels().panels().len();
     }
-    for (p, part) in model.parts().iter().enumerate() {
+    for (p, part) in model.ids().zip(model.parts()) {
         for k in 0..part.component.panels().panels().len() {
-            let place = |pose: &ModelPose| limbs[p].place(part, p, PanelId(k), pose, &limbs);
+            let place = |pose: &ModelPose| limbs[p.0].place(part, p, PanelId(k), pose, &limbs);
             let places: Vec<DAffine3> = keys.poses.iter().map(place).collect();
-            add_node(&mut scene, part, p, k, &limbs[p], &places, &keys);
-            scene.nodes[first_node[p] + k].children = limbs[p].children(PanelId(k), first_node[p]);
+            add_node(&mut scene, part, p, k, &limbs[p.0], &places, &keys);
+            scene.nodes[first_node[p.0] + k].children = limbs[p.0].children(PanelId(k), first_node[p.0]);
         }
     }
     for (p, part) in model.parts().iter().enumerate() {
         let node = first_node[p] + limbs[p].root.0;
         match &part.joint {
-            Some(joint) => scene.nodes[first_node[joint.parent] + joint.parent_panel.0].children.push(node),
+            Some(joint) => scene.nodes[first_node[joint.parent.0] + joint.parent_panel.0].children.push(node),
             None => scene.roots.push(node),
         }
     }
@@ -168,19 +168,19 @@ impl Limbs {
     fn place(
         &self,
         part: &ModelPart,
-        index: usize,
+        index: PartId,
         panel: PanelId,
         pose: &ModelPose,
         all: &[Self],
     ) -> DAffine3 {
-        let own = self.frame(panel, &pose.parts[index].pose.placements);
+        let own = self.frame(panel, &pose.parts[index.0].pose.placements);
         match (self.parents[panel.0], &part.joint) {
-            (Some(parent), _) => self.frame(parent, &pose.parts[index].pose.placements).inverse() * own,
-            (None, None) => upright() * pose.parts[index].frame * own,
+            (Some(parent), _) => self.frame(parent, &pose.parts[index.0].pose.placements).inverse() * own,
+            (None, None) => upright() * pose.parts[index.0].frame * own,
             (None, Some(joint)) => {
-                let parent = &pose.parts[joint.parent];
-                let carrier = all[joint.parent].frame(joint.parent_panel, &parent.pose.placements);
-                (parent.frame * carrier).inverse() * pose.parts[index].frame * own
+                let parent = &pose.parts[joint.parent.0];
+                let carrier = all[joint.parent.0].frame(joint.parent_panel, &parent.pose.placements);
+                (parent.frame * carrier).inverse() * pose.parts[index.0].frame * own
             }
         }
     }
@@ -190,7 +190,7 @@ impl Limbs {
 fn add_node(
     scene: &mut Scene,
     part: &ModelPart,
-    index: usize,
+    index: PartId,
     panel: usize,
     limbs: &Limbs,
     places: &[DAffine3],
@@ -208,7 +208,7 @@ fn add_node(
         mesh: Some(scene.meshes.len()),
         children: Vec::new(),
     });
-    scene.meshes.push(Mesh { name, material: index, polygons: vec![outline] });
+    scene.meshes.push(Mesh { name, material: index.0, polygons: vec![outline] });
     let needed = keys.needed(places);
     if needed.len() <= 2 {
         return;

@@ -32,8 +32,8 @@ fn content(model: &Model, title: &str, thickness_mm: Option<f64>) -> String {
     let creator = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
     let mut out = format!("# {}, by {creator}; millimetres, y up\n", one_line(title));
     let mut count = 0;
-    for (p, part) in model.parts().iter().enumerate() {
-        let Rgb(red, green, blue) = palette::colour(p);
+    for (p, part) in model.ids().zip(model.parts()) {
+        let Rgb(red, green, blue) = palette::colour(p.0);
         let colour = [red, green, blue].map(|c| format!("{:.3}", f64::from(c) / 255.0)).join(" ");
         let _ = writeln!(out, "o {}", one_line(&part.name));
         for (id, panel) in part.component.panels().panels().iter().enumerate() {

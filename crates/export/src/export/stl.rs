@@ -41,8 +41,8 @@ fn triangles(output: &Output) -> Vec<[DVec3; 3]> {
     let step_mm = layout.options().paper.width_mm() + SHEET_GAP_MM;
     let thickness_mm = output.options().thickness_mm;
     let mut triangles = Vec::new();
-    for (n, net) in output.nets().iter().enumerate() {
-        for (piece, at) in net.pieces().iter().zip(layout.places(n)) {
+    for (part, net) in output.model().ids().zip(output.nets()) {
+        for (piece, at) in net.pieces().iter().zip(layout.places(part)) {
             let offset = DVec2::X * (step_mm * at.sheet as f64);
             for placed in piece.panels() {
                 let outline = &net.panels().panel(placed.panel).outline;

@@ -11,6 +11,7 @@ use crate::show::{ShowError, clash_picture};
 use glam::DVec2;
 use rayon::prelude::*;
 use tatamu_core::fold::{Encounter, FoldWarning, ModelMotion, Moment};
+use tatamu_core::model::PartId;
 use tatamu_draw::drawing::{Align, Drawing, Layer, LineStyles, Mark, PagesError, Stroke, Text};
 use tatamu_draw::render::palette;
 use tatamu_net::net::{NetWarning, Side};
@@ -134,7 +135,7 @@ impl Guide {
             facts: writer.facts(),
             clashes: writer.clashes()?,
             lines: writer.lines(),
-            parts: (0..output.nets().len()).map(|part| writer.part_row(part)).collect(),
+            parts: output.model().ids().map(|part| writer.part_row(part)).collect(),
             chapters: writer.chapters(&steps),
             frames: picture::frames(output, FRAMES)?,
             entries,
@@ -158,8 +159,8 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    fn name(&self, part: usize) -> &str {
-        &self.output.model().parts()[part].name
+    fn name(&self, part: PartId) -> &str {
+        &self.output.model().part(part).name
     }
 
     fn side(&self) -> Side {
@@ -176,12 +177,12 @@ impl Writer<'_> {
 
     fn pictures(&self, steps: &[Step], k: usize) -> Result<Vec<Drawing>, PictureError> {
         let (output, part) = (self.output, steps[k].part);
-        let net = &output.nets()[part];
-        let colour = palette::colour(part);
+        let net = &output.nets()[part.0];
+        let colour = palette::colour(part.0);
         let done = &steps[..k];
         let with = |action: &dyn Fn(&Action) -> bool| -> Vec<bool> {
             let mut is_done = vec![false; output.nets().len()];
-            done.iter().filter(|step| action(&step.action)).for_each(|step| is_done[step.part] = true);
+            done.iter().filter(|step| action(&step.action)).for_each(|step| is_done[step.part.0] = true);
             is_done
         };
         Ok(match &steps[k].action {
@@ -199,9 +200,9 @@ impl Writer<'_> {
             }
             Action::Join { .. } => {
                 let mut is_there = with(&|action| matches!(action, Action::Join { .. }));
-                let parts = output.model().parts();
-                (0..parts.len()).filter(|&p| parts[p].joint.is_none()).for_each(|p| is_there[p] = true);
-                let joint = parts[part].joint.iter();
+                let model = output.model();
+                is_there.iter_mut().zip(model.parts()).for_each(|(is, part)| *is |= part.joint.is_none());
+                let joint = model.part(part).joint.iter();
                 let joined = joint.map(|joint| picture::joined(output, part, joint, &is_there));
                 joined.collect::<Result<_, _>>()?
             }
@@ -224,9 +225,9 @@ impl Writer<'_> {
         for Step { part, action } in done.iter().filter(|step| step.action.folds_model()) {
             let pull = self.output.fold_plan().pulls().iter().find(|pull| pull.part == *part);
             match action {
-                Action::Unplug { .. } => moment.pulled_mm[*part] = pull.map_or(0.0, |pull| pull.way_mm),
-                Action::PlugIn { .. } => moment.pulled_mm[*part] = 0.0,
-                _ => moment.folded[*part] = action.folded(),
+                Action::Unplug { .. } => moment.pulled_mm[part.0] = pull.map_or(0.0, |pull| pull.way_mm),
+                Action::PlugIn { .. } => moment.pulled_mm[part.0] = 0.0,
+                _ => moment.folded[part.0] = action.folded(),
             }
         }
         moment
@@ -239,7 +240,7 @@ impl Writer<'_> {
         let is_complete = !matches!(steps.get(k + 1), Some(Step { action: Action::Glue { .. }, .. }));
         match &step.action {
             Action::Fold => {
-                let pieces = self.output.nets()[step.part].pieces().len();
+                let pieces = self.output.nets()[step.part.0].pieces().len();
                 let first = if pieces == 1 { &words.fold.one } else { &words.fold.many };
                 let mut sentences = vec![
                     fill(first, &[("part", part), ("pieces", &pieces.to_string())]),
@@ -249,7 +250,7 @@ impl Writer<'_> {
                 (fill(&words.fold.title, &[("part", part)]), sentences)
             }
             Action::Glue { hinge, label, has_tab, access } => {
-                let is_outside = self.output.nets()[step.part].panels().hinges()[hinge.0].lift_mm > 0.0;
+                let is_outside = self.output.nets()[step.part.0].panels().hinges()[hinge.0].lift_mm > 0.0;
                 let mut glued = match has_tab {
                     true => self.glued(label, *access),
                     false => self.taped(label, is_outside),
@@ -261,11 +262,11 @@ impl Writer<'_> {
             }
             Action::Join { parent } => {
                 let values = [("part", part), ("parent", self.name(*parent))];
-                let (title, texts) = match self.output.model().parts()[step.part].is_plugged() {
+                let (title, texts) = match self.output.model().part(step.part).is_plugged() {
                     false => (&words.join.title, [&words.join.find, &words.join.glue, &words.join.place]),
                     true => (&words.plug.title, [&words.plug.tab, &words.plug.push, &words.plug.place]),
                 };
-                let is_glued = !self.output.model().parts()[step.part].is_plugged();
+                let is_glued = !self.output.model().part(step.part).is_plugged();
                 let press = is_glued.then(|| words.join.press.clone());
                 let sentences = texts.into_iter().map(|text| fill(text, &values)).chain(press);
                 (fill(title, &values), sentences.collect())
@@ -335,8 +336,8 @@ impl Writer<'_> {
     fn cautions(&self, steps: &[Step], k: usize) -> Vec<String> {
         let step = &steps[k];
         let name = self.name(step.part);
-        let is_joined = |part: usize| {
-            let parent = self.output.model().parts()[part].joint.is_none();
+        let is_joined = |part: PartId| {
+            let parent = self.output.model().part(part).joint.is_none();
             parent || steps[..k].iter().any(|s| s.part == part && matches!(s.action, Action::Join { .. }))
         };
         let is_here = |encounter: &&Encounter| match encounter.mover {
@@ -484,7 +485,7 @@ impl Writer<'_> {
         let Some(mover) = encounter.mover else {
             return fill(&words.unfolded, &[("part", a), ("other", b), ("depth", &depth)]);
         };
-        let share = match (4.0 * encounter.folded[mover]).round() as u8 * 25 {
+        let share = match (4.0 * encounter.folded[mover.0]).round() as u8 * 25 {
             0 => words.little.clone(),
             100 => words.almost.clone(),
             percent => self.share(percent),
@@ -495,9 +496,9 @@ impl Writer<'_> {
         fill(text, &values)
     }
 
-    fn part_row(&self, part: usize) -> PartRow {
-        let net = &self.output.nets()[part];
-        let colour = palette::colour(part);
+    fn part_row(&self, part: PartId) -> PartRow {
+        let net = &self.output.nets()[part.0];
+        let colour = palette::colour(part.0);
         let indices = picture::sheets_of(self.output, part);
         let numbers: Vec<String> = indices.iter().map(|sheet| (sheet + 1).to_string()).collect();
         let words = &self.words.page;

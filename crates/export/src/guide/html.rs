@@ -5,6 +5,7 @@ use super::language::fill;
 use super::steps::Action;
 use super::vector::{escaped, reference, svg, symbol};
 use std::fmt::Write;
+use tatamu_core::model::PartId;
 use tatamu_draw::drawing::Drawing;
 
 /// Looks for screens, light and dark, and for paper.
@@ -143,7 +144,7 @@ fn push_parts(out: &mut String, guide: &Guide) {
     let title = escaped(&words.parts_title);
     out.push_str("<section class=\"page\" id=\"parts\" aria-labelledby=\"parts-title\">\n");
     let _ = write!(out, "<h2 id=\"parts-title\">{title}</h2>\n<ul class=\"parts\">\n");
-    for (p, part) in guide.parts.iter().enumerate() {
+    for (p, part) in (0..).map(PartId).zip(&guide.parts) {
         let _ = writeln!(
             out,
             "<li><div class=\"thumb\">{}</div><p><b>{}</b><br>{}: {}<br>{}</p><div class=\"maps\">{}</div></li>",
@@ -172,7 +173,7 @@ fn push_parts(out: &mut String, guide: &Guide) {
 }
 
 /// Maps of the sheets of a part.
-fn maps(p: usize, part: &PartRow) -> String {
+fn maps(PartId(p): PartId, part: &PartRow) -> String {
     let map = |(m, map): (usize, &Drawing)| reference(&format!("map-{p}-{m}"), map, &part.map_text);
     part.maps.iter().enumerate().map(map).collect()
 }
@@ -183,7 +184,7 @@ fn push_step(out: &mut String, guide: &Guide, chapter: &str, k: usize) {
     let number = k + 1;
     let of = [("number", number.to_string()), ("count", guide.entries.len().to_string())];
     let count = fill(&words.step, &of.each_ref().map(|(name, value)| (*name, value.as_str())));
-    let part = &guide.parts[entry.step.part];
+    let part = &guide.parts[entry.step.part.0];
     let _ = write!(
         out,
         "<section class=\"page step\" id=\"step-{number}\" aria-labelledby=\"title-{number}\">\n\

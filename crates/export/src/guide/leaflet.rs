@@ -280,7 +280,7 @@ impl<'a> Book<'a> {
             low = low.max(picture.size_mm.y * factor);
         }
         let mut at = DVec2::new(right, top.y);
-        let part = &self.guide.parts[entry.step.part];
+        let part = &self.guide.parts[entry.step.part.0];
         for map in &part.maps {
             let size = map.size_mm * MAP;
             if at.y - size.y < top.y - low {

@@ -9,7 +9,7 @@ use crate::product::{ANY_COLOUR, Product, card_note, order_notes, size_note};
 use crate::show::{ViewAngle, components_scene, upright};
 use glam::{DAffine2, DVec2, DVec3};
 use tatamu_core::component::PanelId;
-use tatamu_core::model::Model;
+use tatamu_core::model::{Model, PartId};
 use tatamu_draw::drawing::{Align, Drawing, Layer, Mark, Rgb, Stroke, Text, text};
 use tatamu_draw::render::{Callout, PartMap, Place, View, callouts, palette};
 use tatamu_net::net::label_letters;
@@ -103,17 +103,17 @@ impl Page {
         let view = View::fit(ViewAngle::default().camera()?, scene.points(), room_mm, TEXT_MM)?;
         let low = DVec2::new(self.left_mm, self.y_mm - size_mm.y);
         let map = part_map(output.model(), &view);
-        let parts = output.model().parts().iter().enumerate();
+        let parts = output.model().ids().zip(output.model().parts());
         let names: Vec<(String, Vec<Place>)> = parts
-            .map(|(k, part)| match map.places(k) {
+            .map(|(id, part)| match map.places(id) {
                 seen if !seen.is_empty() => (part.name.clone(), seen),
                 _ => {
-                    let at_mm = view.project(middle_of(&part_faces(output.model(), k)));
+                    let at_mm = view.project(middle_of(&part_faces(output.model(), id)));
                     (format!("{}{HIDDEN}", part.name), vec![Place { at_mm, worth: 1.0 }])
                 }
             })
             .collect();
-        let names = names.iter().enumerate();
+        let names = output.model().ids().zip(&names);
         let names: Vec<Callout> =
             names.map(|(part, (name, places))| Callout { name, part, places: places.clone() }).collect();
         let model = picture::taken(&scene, &view, Vec::new()).marks;
@@ -138,10 +138,10 @@ impl Page {
         let rows = ((self.y_mm - self.bottom_mm) / step_mm).floor().max(0.0) as usize;
         let shown = if parts.len() <= rows { parts.len() } else { rows.saturating_sub(1) };
         for k in outwards(output.model()).into_iter().take(shown) {
-            let (part, net) = (&parts[k], &output.nets()[k]);
+            let (part, net) = (output.model().part(k), &output.nets()[k.0]);
             let low = DVec2::new(self.left_mm, self.y_mm - TEXT_MM - (SWATCH_MM - TEXT_MM) / 2.0);
             let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|c| low + c * SWATCH_MM);
-            self.drawing.marks.push(Mark::filled(Layer::Furniture, square.to_vec(), palette::colour(k)));
+            self.drawing.marks.push(Mark::filled(Layer::Furniture, square.to_vec(), palette::colour(k.0)));
             let sheets: Vec<String> =
                 picture::sheets_of(output, k).iter().map(|sheet| (sheet + 1).to_string()).collect();
             let tabs: usize = net.pieces().iter().map(|piece| piece.tabs().len()).sum();
@@ -149,7 +149,7 @@ impl Page {
                 let width_mm = (COLUMNS[column + 1] - COLUMNS[column]) * self.width_mm - 2.0 * SWATCH_MM;
                 text::shortened(words, TEXT_MM, width_mm)
             };
-            let parent = part.joint.as_ref().map_or("", |joint| &parts[joint.parent].name);
+            let parent = part.joint.as_ref().map_or("", |joint| &output.model().part(joint.parent).name);
             let cells = [
                 wide(&part.name, 0),
                 label_letters(k),
@@ -172,8 +172,8 @@ impl Page {
 }
 
 /// The panels of a part in the picture's axes, unfolded.
-fn part_faces(model: &Model, part: usize) -> Vec<Vec<DVec3>> {
-    let panels = 0..model.parts()[part].component.panels().panels().len();
+fn part_faces(model: &Model, part: PartId) -> Vec<Vec<DVec3>> {
+    let panels = 0..model.part(part).component.panels().panels().len();
     let corners = |panel: usize| {
         let outline = model.deployed_outline(part, PanelId(panel));
         outline.into_iter().map(|corner| upright().transform_point3(corner)).collect()
@@ -184,7 +184,7 @@ fn part_faces(model: &Model, part: usize) -> Vec<Vec<DVec3>> {
 /// Which part the picture shows where.
 fn part_map<'v>(model: &Model, view: &'v View) -> PartMap<'v> {
     let mut map = PartMap::new(view);
-    for part in 0..model.parts().len() {
+    for part in model.ids() {
         for face in part_faces(model, part) {
             map.push(&face, part);
         }
@@ -216,7 +216,7 @@ mod tests {
         let view = View::fit(camera, scene.points(), DVec2::splat(100.0), 0.0).unwrap();
         let map = part_map(model, &view);
         let mut named = 0;
-        for part in 0..model.parts().len() {
+        for part in model.ids() {
             for place in map.places(part) {
                 // Where the part's own faces meet the line of sight, by three corners of each.
                 let flat = |face: &[DVec3]| -> Vec<DVec2> { face.iter().map(|&p| view.project(p)).collect() };
@@ -233,7 +233,7 @@ mod tests {
                 let own = own.map(|face| away(met(&face))).fold(f64::INFINITY, f64::min);
                 let all = scene.faces().iter().filter(|face| covers(face.corners()));
                 let nearest = all.map(|face| away(met(face.corners()))).fold(f64::INFINITY, f64::min);
-                assert!(own <= nearest + 1.0, "{part} {place:?}: {own} {nearest}");
+                assert!(own <= nearest + 1.0, "{part:?} {place:?}: {own} {nearest}");
                 named += usize::from(place.worth == 1.0);
             }
         }
@@ -259,7 +259,7 @@ mod tests {
                 texts.iter().filter(|text| text.strip_suffix(HIDDEN).unwrap_or(text) == part.name).count();
             let is_below = |other: &&ModelPart| {
                 let joint = other.joint.as_ref();
-                joint.is_some_and(|joint| sample().model().parts()[joint.parent].name == part.name)
+                joint.is_some_and(|joint| sample().model().part(joint.parent).name == part.name)
             };
             let on_it = sample().model().parts().iter().filter(is_below).count();
             assert_eq!(count, 2 + on_it, "{} beside the picture and in the table", part.name);

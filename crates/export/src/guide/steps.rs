@@ -3,7 +3,7 @@
 use super::order::{Access, gluing_order};
 use tatamu_core::component::HingeId;
 use tatamu_core::fold::{Motion, ancestors};
-use tatamu_core::model::{Joint, Model};
+use tatamu_core::model::{Joint, Model, PartId};
 use tatamu_net::net::Net;
 use tatamu_pipeline::Output;
 
@@ -26,12 +26,12 @@ pub enum Action {
     /// The component is glued on its parent, or plugged into it.
     Join {
         /// The parent.
-        parent: usize,
+        parent: PartId,
     },
     /// The component is unplugged from the deployed model.
     Unplug {
         /// The parent.
-        parent: usize,
+        parent: PartId,
     },
     /// The component is folded within the model, but not flat yet.
     Bend {
@@ -43,7 +43,7 @@ pub enum Action {
     /// The flat component is plugged into the flat model again.
     PlugIn {
         /// The parent.
-        parent: usize,
+        parent: PartId,
     },
     /// The model is deployed again, beginning with this component.
     Deploy,
@@ -69,7 +69,7 @@ impl Action {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Step {
     /// The component that it is about.
-    pub part: usize,
+    pub part: PartId,
     /// What is done.
     pub action: Action,
 }
@@ -83,17 +83,17 @@ pub fn steps(output: &Output) -> Vec<Step> {
     let mut steps = Vec::new();
     for &part in &outwards {
         steps.push(Step { part, action: Action::Fold });
-        steps.extend(glued(&output.nets()[part]).map(|action| Step { part, action }));
+        steps.extend(glued(&output.nets()[part.0]).map(|action| Step { part, action }));
     }
     for &part in &outwards {
-        if let Some(joint) = &model.parts()[part].joint {
+        if let Some(joint) = &model.part(part).joint {
             steps.push(Step { part, action: Action::Join { parent: joint.parent } });
         }
     }
     let plan = output.fold_plan();
     steps.extend(plan.motions().iter().filter_map(|motion| {
         let part = motion.part();
-        Some(Step { part, action: folding(motion, model.parts()[part].joint.as_ref())? })
+        Some(Step { part, action: folding(motion, model.part(part).joint.as_ref())? })
     }));
     steps.extend(plan.order().last().map(|&part| Step { part, action: Action::Deploy }));
     steps
@@ -109,8 +109,8 @@ fn folding(motion: &Motion, joint: Option<&Joint>) -> Option<Action> {
 }
 
 /// Components, roots first, and each after its parent.
-pub fn outwards(model: &Model) -> Vec<usize> {
-    let mut parts: Vec<usize> = (0..model.parts().len()).collect();
+pub fn outwards(model: &Model) -> Vec<PartId> {
+    let mut parts: Vec<PartId> = model.ids().collect();
     parts.sort_by_key(|&part| (ancestors(model, part).len(), part));
     parts
 }

@@ -33,10 +33,10 @@ struct Place<'a> {
 /// A picture for each panel, with the index of its sheet, in the order of the nets.
 pub fn pictures(output: &Output, painting: &Painting) -> Vec<(usize, Mark)> {
     let tree = Tree::new(painting.corners(&output.to_model()));
-    let parts = output.model().parts().iter().zip(output.nets()).enumerate();
+    let parts = output.model().ids().zip(output.model().parts()).zip(output.nets());
     let places: Vec<Place> = parts
-        .flat_map(|(n, (part, net))| {
-            let pieces = net.pieces().iter().zip(output.layout().places(n));
+        .flat_map(|((id, part), net)| {
+            let pieces = net.pieces().iter().zip(output.layout().places(id));
             pieces.flat_map(move |(piece, at)| {
                 piece.panels().iter().map(move |panel| Place {
                     part,

@@ -7,6 +7,7 @@ use super::still::ShowError;
 use glam::{DAffine2, DVec2, DVec3};
 use tatamu_core::component::PanelId;
 use tatamu_core::fold::{Encounter, ModelMotion, ModelPose};
+use tatamu_core::model::PartId;
 use tatamu_draw::drawing::{Drawing, Layer, Mark, Rgb, Stroke, Text, text};
 use tatamu_draw::render::{Look, Scene, Spot, View, best_view, light, palette, picture, seen};
 
@@ -39,7 +40,7 @@ pub fn clash_picture(
     size_mm: DVec2,
 ) -> Result<Drawing, ShowError> {
     let pose = motion.pose(&encounter.folded);
-    let is_met = |part: usize| encounter.parts.contains(&part);
+    let is_met = |part: PartId| encounter.parts.contains(&part);
     let met = scene(motion, &pose, |part, panel| is_met(part).then(|| paint(encounter, part, panel)));
     let pale = Paint { outside: PALE, inside: Some(PALE) };
     let others = scene(motion, &pose, |part, _| (!is_met(part)).then_some(pale));
@@ -79,18 +80,19 @@ pub fn captioned(drawing: Drawing, words: &str) -> Drawing {
 fn scene(
     motion: &ModelMotion<'_>,
     pose: &ModelPose,
-    paint: impl Fn(usize, PanelId) -> Option<Paint>,
+    paint: impl Fn(PartId, PanelId) -> Option<Paint>,
 ) -> Scene {
     let mut scene = Scene::new();
-    for (index, (part, posed)) in motion.model().parts().iter().zip(&pose.parts).enumerate() {
+    let model = motion.model();
+    for ((id, part), posed) in model.ids().zip(model.parts()).zip(&pose.parts) {
         let place = |panel: PanelId| upright() * posed.panel(panel);
-        push_panels(&mut scene, part.component.panels(), place, |panel| paint(index, panel), |_| true);
+        push_panels(&mut scene, part.component.panels(), place, |panel| paint(id, panel), |_| true);
     }
     scene
 }
 
-fn paint(encounter: &Encounter, part: usize, panel: PanelId) -> Paint {
-    let own = palette::colour(part);
+fn paint(encounter: &Encounter, part: PartId, panel: PanelId) -> Paint {
+    let own = palette::colour(part.0);
     let is_met = (0..2).any(|k| encounter.parts[k] == part && encounter.panels[k] == panel);
     Paint::of_paper(if is_met { light::mixed(own, PLACE, TINT) } else { own })
 }
@@ -98,7 +100,7 @@ fn paint(encounter: &Encounter, part: usize, panel: PanelId) -> Paint {
 /// Where the two panels should be seen: in the middle of the place and at its ends, from either's outside.
 fn spots(encounter: &Encounter, pose: &ModelPose) -> Vec<Spot> {
     let [from, to] = encounter.line;
-    let normals = [0, 1].map(|k| pose.parts[encounter.parts[k]].panel(encounter.panels[k]).matrix3.z_axis);
+    let normals = [0, 1].map(|k| pose.parts[encounter.parts[k].0].panel(encounter.panels[k]).matrix3.z_axis);
     let turned = |normal: DVec3| upright().transform_vector3(normal);
     let at = [from.midpoint(to), from, to].map(|at| upright().transform_point3(at));
     let both = normals[0] + normals[1];

@@ -6,7 +6,7 @@ use super::still::{ShowError, Still, framed};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use tatamu_core::fold::{FoldPlan, ModelMotion, Sequence};
-use tatamu_core::model::Model;
+use tatamu_core::model::{Model, PartId};
 use tatamu_draw::drawing::{Layer, Mark, Rgb, Text};
 use tatamu_draw::pixels::rasterise;
 use tatamu_draw::render::{Scene, View};
@@ -170,7 +170,7 @@ impl Captions {
     fn new(model: &Model, sequence: &Sequence) -> Self {
         let count = sequence.motions().len();
         let motions = sequence.motions().iter().zip(sequence.marks().into_iter().skip(1)).enumerate();
-        let caption = |k: usize, part: usize| format!("{}/{count}  {}", k + 1, model.parts()[part].name);
+        let caption = |k: usize, part: PartId| format!("{}/{count}  {}", k + 1, model.part(part).name);
         Self { ends: motions.map(|(k, (motion, end))| (end, caption(k, motion.part()))).collect() }
     }
 

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use tatamu_core::component::{PanelId, PanelSet};
 use tatamu_core::geom::polygon;
 use tatamu_core::memory::Memory;
-use tatamu_core::model::Model;
+use tatamu_core::model::{Model, PartId};
 use tatamu_core::progress::{Cancelled, Progress};
 
 /// Why a model has no nets.
@@ -48,8 +48,8 @@ impl Default for KnownNets {
 }
 
 impl KnownNets {
-    fn nets(&self, model: &Model, p: usize, options: NetOptions) -> Result<Vec<Arc<BlankNet>>, NetError> {
-        let part = &model.parts()[p];
+    fn nets(&self, model: &Model, p: PartId, options: NetOptions) -> Result<Vec<Arc<BlankNet>>, NetError> {
+        let part = model.part(p);
         let (prefix, marks) = (label_letters(p), joint_marks(model, p));
         let wish = Wish {
             name: part.name.clone(),
@@ -82,9 +82,10 @@ pub fn develop_model(
 ) -> Result<Vec<Vec<Arc<BlankNet>>>, NetsError> {
     let nets: Vec<Result<Vec<Arc<BlankNet>>, NetsError>> = (0..model.parts().len())
         .into_par_iter()
+        .map(PartId)
         .map(|p| {
             progress.check()?;
-            let hand = hands.get(&model.parts()[p].name).unwrap_or(&options.hand);
+            let hand = hands.get(&model.part(p).name).unwrap_or(&options.hand);
             Ok(known.nets(model, p, NetOptions { hand: hand.clone(), ..options.clone() })?)
         })
         .collect();
@@ -101,18 +102,21 @@ pub fn develop_model(
 /// Without I and O: a framed I on its side was read as a bar, and "I1" and "O1" as numbers.
 const LETTERS: &[u8] = b"ABCDEFGHJKLMNPQRSTUVWXYZ";
 
-/// Letters that begin the labels of component `p`: A … Z, AA, AB … without I and O.
-pub fn label_letters(p: usize) -> String {
+/// Letters that begin the labels of a component: A … Z, AA, AB … without I and O.
+pub fn label_letters(part: PartId) -> String {
+    letters(part.0)
+}
+
+fn letters(number: usize) -> String {
     let count = LETTERS.len();
-    let letter = char::from(LETTERS[p % count]);
-    if p < count { letter.to_string() } else { format!("{}{letter}", label_letters(p / count - 1)) }
+    let letter = char::from(LETTERS[number % count]);
+    if number < count { letter.to_string() } else { format!("{}{letter}", letters(number / count - 1)) }
 }
 
 /// Marks on the panels of part `p`: what lies on them, and what they lie on.
-fn joint_marks(model: &Model, p: usize) -> Vec<JointMark> {
-    let parts = model.parts();
+fn joint_marks(model: &Model, p: PartId) -> Vec<JointMark> {
     let mut marks = Vec::new();
-    for (child, part) in parts.iter().enumerate() {
+    for (child, part) in model.ids().zip(model.parts()) {
         let Some(joint) = &part.joint else { continue };
         let below = (joint.parent, joint.parent_panel);
         let above = (child, joint.child_panel);
@@ -125,7 +129,7 @@ fn joint_marks(model: &Model, p: usize) -> Vec<JointMark> {
             panel: own.1,
             outline: model.outline_on(partner, own),
             key: on_panel(model, own, key_point(model, above)),
-            text: parts[partner.0].name.clone(),
+            text: model.part(partner.0).name.clone(),
             short: label_letters(partner.0),
             plug: PlugLines::of(joint, p == child),
         });
@@ -135,17 +139,17 @@ fn joint_marks(model: &Model, p: usize) -> Vec<JointMark> {
 
 /// A point of a joint that is the same for both partners: the corner of the child's panel that is
 /// farthest from its middle.
-fn key_point(model: &Model, (part, panel): (usize, PanelId)) -> DVec3 {
+fn key_point(model: &Model, (part, panel): (PartId, PanelId)) -> DVec3 {
     let outline = model.deployed_outline(part, panel);
-    let flat = &model.parts()[part].component.panels().panel(panel).outline;
+    let flat = &model.part(part).component.panels().panel(panel).outline;
     let middle = polygon::centroid(flat);
     let far = |k: &usize| flat[*k].distance_squared(middle);
     let corner = (0..flat.len()).max_by(|a, b| far(a).total_cmp(&far(b)).then(b.cmp(a)));
     corner.map_or(DVec3::ZERO, |k| outline[k])
 }
 
-fn on_panel(model: &Model, (part, panel): (usize, PanelId), point: DVec3) -> DVec2 {
-    let part = &model.parts()[part];
+fn on_panel(model: &Model, (part, panel): (PartId, PanelId), point: DVec3) -> DVec2 {
+    let part = model.part(part);
     let motion = part.deployed() * part.component.panels().panel(panel).deployed;
     motion.inverse().transform_point3(point).truncate()
 }
@@ -156,13 +160,13 @@ mod tests {
 
     #[test]
     fn letters_go_on_after_z() {
-        assert_eq!([0, 23, 24, 25, 48].map(label_letters), ["A", "Z", "AA", "AB", "BA"]);
+        assert_eq!([0, 23, 24, 25, 48].map(PartId).map(label_letters), ["A", "Z", "AA", "AB", "BA"]);
     }
 
     /// "I" in the frame of a joint, on its side, looked like a bar.
     #[test]
     fn no_letter_looks_like_a_figure() {
-        let letters: Vec<String> = (0..1000).map(label_letters).collect();
+        let letters: Vec<String> = (0..1000).map(PartId).map(label_letters).collect();
         assert!(letters.iter().all(|label| !label.contains(['I', 'O'])));
         let distinct: std::collections::BTreeSet<&String> = letters.iter().collect();
         assert_eq!(distinct.len(), letters.len());

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use tatamu_core::geom::polygon;
+use tatamu_core::model::PartId;
 use tatamu_core::progress::Progress;
 use tatamu_core::remedy::Remedy;
 
@@ -197,7 +198,7 @@ impl Layout {
     ) -> Result<usize, LayoutError> {
         let mut colours: BTreeMap<Option<&str>, Vec<Shape>> = BTreeMap::new();
         for (n, net) in nets.iter().enumerate() {
-            for (piece, at) in net.pieces().iter().zip(self.places(n)) {
+            for (piece, at) in net.pieces().iter().zip(self.places(PartId(n))) {
                 let outline = piece.outline().iter().map(|&p| widened(p, piece, 1.0 / factor) * factor);
                 colours.entry(self.card(at.sheet)).or_default().extend(Shape::new(outline.collect(), n));
             }
@@ -209,14 +210,14 @@ impl Layout {
         colours.values().map(sheets_of).sum()
     }
 
-    /// Places of the pieces of net `n`, in the net's order.
-    pub fn places(&self, n: usize) -> &[PiecePlace] {
-        &self.places[n]
+    /// Places of the pieces of a component's net, in the net's order.
+    pub fn places(&self, part: PartId) -> &[PiecePlace] {
+        &self.places[part.0]
     }
 
-    /// Which of its alternatives net `n` is.
-    pub fn taken(&self, n: usize) -> usize {
-        self.taken[n]
+    /// Which of its alternatives a component's net is.
+    pub fn taken(&self, part: PartId) -> usize {
+        self.taken[part.0]
     }
 
     /// The colour of card of a sheet, where one is chosen.

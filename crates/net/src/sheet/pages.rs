@@ -4,6 +4,7 @@ use super::furniture::Furniture;
 use super::{Layout, SheetOptions, beside};
 use crate::net::{LabelPlace, Net, Piece, Side};
 use glam::{DAffine2, DVec2};
+use tatamu_core::model::PartId;
 use tatamu_draw::drawing::{Align, Drawing, Layer, LineStyles, Mark, Text, text};
 
 /// Height of capitals in the list of labels without a place.
@@ -144,8 +145,8 @@ impl Layout {
         &'a self,
         nets: &'a [Net],
     ) -> impl Iterator<Item = (&'a Piece, usize, DAffine2)> + 'a {
-        let of_net = |(n, net): (usize, &'a Net)| net.pieces().iter().zip(self.places(n));
-        nets.iter().enumerate().flat_map(of_net).map(|(piece, at)| (piece, at.sheet, at.place))
+        let of_net = |(part, net): (PartId, &'a Net)| net.pieces().iter().zip(self.places(part));
+        (0..).map(PartId).zip(nets).flat_map(of_net).map(|(piece, at)| (piece, at.sheet, at.place))
     }
 }
 

@@ -7,7 +7,7 @@ use std::fmt;
 use tatamu_core::codes;
 use tatamu_core::component::{Component, Panel, PanelKind};
 use tatamu_core::design::RefitError;
-use tatamu_core::model::{Model, ModelPart};
+use tatamu_core::model::{Model, ModelPart, PartId};
 use tatamu_core::remedy::Remedy;
 use tatamu_net::net::Net;
 use tatamu_net::sheet::Layout;
@@ -227,7 +227,7 @@ pub(crate) fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Op
         out.push(ModelWarning::FlatParts { parts: flat.len(), faces: flat.iter().sum() }.into());
     }
     out.extend(model.parts().iter().flat_map(|part| part_warnings(part, options)).map(Warning::from));
-    out.extend((0..model.parts().len()).filter_map(|part| weak_joint(model, part)).map(Warning::from));
+    out.extend(model.ids().filter_map(|part| weak_joint(model, part)).map(Warning::from));
     // Board is taped at all hinges.
     for net in nets.iter().filter(|_| !options.is_thick) {
         out.extend(net.warnings().iter().cloned().map(Warning::from));
@@ -265,10 +265,10 @@ fn part_warnings(part: &ModelPart, options: &Options) -> Vec<ModelWarning> {
 }
 
 /// A joint with too little glue.
-fn weak_joint(model: &Model, part: usize) -> Option<ModelWarning> {
-    let joint = model.parts()[part].joint.as_ref().filter(|_| model.is_weak(part))?;
+fn weak_joint(model: &Model, part: PartId) -> Option<ModelWarning> {
+    let joint = model.part(part).joint.as_ref().filter(|_| model.is_weak(part))?;
     let (glue_mm2, needed_mm2) = (joint.glue_mm2, model.needed_glue_mm2(part)?);
-    let [component, parent] = [part, joint.parent].map(|p| model.parts()[p].name.clone());
+    let [component, parent] = [part, joint.parent].map(|p| model.part(p).name.clone());
     Some(ModelWarning::WeakJoint { component, parent, glue_mm2, needed_mm2 })
 }
 

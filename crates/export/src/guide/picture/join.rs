@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec2, DVec3};
 use tatamu_core::component::PanelId;
 use tatamu_core::fold::root_of;
 use tatamu_core::geom::polygon;
-use tatamu_core::model::Joint;
+use tatamu_core::model::{Joint, ModelPart, PartId};
 use tatamu_draw::drawing::Drawing;
 use tatamu_draw::render::{Scene, Spot, best_view, palette};
 use tatamu_net::net::{Net, PlacedJoint};
@@ -20,24 +20,24 @@ const AROUND: f64 = 1.3;
 /// A component comes to its place on its parent; `is_there` tells which ones are joined already.
 pub fn joined(
     output: &Output,
-    part: usize,
+    part: PartId,
     joint: &Joint,
     is_there: &[bool],
 ) -> Result<Drawing, PictureError> {
     let model = output.model();
-    let parts = model.parts();
-    let own = upright() * parts[part].deployed();
-    let base = upright() * parts[joint.parent].deployed();
-    let on_parent = base * parts[joint.parent].component.panels().panel(joint.parent_panel).deployed;
+    let (child, parent) = (model.part(part), model.part(joint.parent));
+    let own = upright() * child.deployed();
+    let base = upright() * parent.deployed();
+    let on_parent = base * parent.component.panels().panel(joint.parent_panel).deployed;
     let normal = on_parent.matrix3.z_axis.normalize_or_zero();
-    let corners = || parts[part].component.panels().panels().iter().flat_map(|p| p.deployed_outline());
+    let corners = || child.component.panels().panels().iter().flat_map(|p| p.deployed_outline());
     let low = corners().reduce(DVec3::min).unwrap_or_default();
     let high = corners().reduce(DVec3::max).unwrap_or_default();
     let hover = DAffine3::from_translation(normal * (HOVER * low.distance(high)));
     let scene = standing(output, part, &(hover * own), is_there);
     let outline = model.outline_on((part, joint.child_panel), (joint.parent, joint.parent_panel));
     let middle = polygon::centroid(&outline);
-    let below = mark(&output.nets()[joint.parent], joint.parent_panel, middle);
+    let below = mark(&output.nets()[joint.parent.0], joint.parent_panel, middle);
     let centre = on_parent.transform_point3(middle.extend(0.0));
     let spots = spots(&below, &base, &centre, normal);
     // The joint and what is round it; small components on large ones would not be seen else.
@@ -66,30 +66,27 @@ pub fn joined(
     over.extend(overlay::arrow(&[from, to]));
     over.append(&mut slits);
     let mut drawing = taken(&scene, &view, over);
-    let at = |p: usize, place: &DAffine3| {
-        let panels = parts[p].component.panels().panels();
+    let at = |part: &ModelPart, place: &DAffine3| {
+        let panels = part.component.panels().panels();
         let corners: Vec<DVec3> = panels.iter().flat_map(|p| p.deployed_outline()).collect();
         let middle = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
         view.project(place.transform_point3(middle))
     };
-    let names = [
-        (parts[part].name.as_str(), at(part, &(hover * own))),
-        (parts[joint.parent].name.as_str(), at(joint.parent, &base)),
-    ];
+    let names = [(child.name.as_str(), at(child, &(hover * own))), (parent.name.as_str(), at(parent, &base))];
     let middle = overlay::middle(&drawing.marks);
     drawing.marks.extend(overlay::labels(&names, middle, view.size_mm(), None));
     Ok(drawing)
 }
 
 /// What is joined already, and the component at its place above it.
-fn standing(output: &Output, part: usize, place: &DAffine3, is_there: &[bool]) -> Scene {
+fn standing(output: &Output, part: PartId, place: &DAffine3, is_there: &[bool]) -> Scene {
     let model = output.model();
     let root = root_of(model, part);
     let mut scene = Scene::new();
-    for (p, other) in model.parts().iter().enumerate() {
+    for (p, other) in model.ids().zip(model.parts()) {
         let (place, colour) = match p {
-            _ if p == part => (*place, palette::colour(part)),
-            _ if is_there[p] && root_of(model, p) == root => (upright() * other.deployed(), THERE),
+            _ if p == part => (*place, palette::colour(part.0)),
+            _ if is_there[p.0] && root_of(model, p) == root => (upright() * other.deployed(), THERE),
             _ => continue,
         };
         // Standing components are shut: nothing is seen of their insides.

@@ -2,6 +2,7 @@
 
 use glam::{DAffine2, DVec2};
 use tatamu_core::geom::polygon;
+use tatamu_core::model::PartId;
 use tatamu_draw::drawing::{
     Align, Drawing, Layer, LineStyles, Mark, Rgb, Shape, Stroke, Text, rectangle, text,
 };
@@ -61,8 +62,8 @@ fn fitted(mut marks: Vec<Mark>, size_mm: DVec2) -> Drawing {
 }
 
 /// A small picture of a sheet with all of its pieces; those of `part` are in its colour.
-pub fn sheet_map(output: &Output, sheet: usize, part: usize, height_mm: f64) -> Drawing {
-    let colour = palette::colour(part);
+pub fn sheet_map(output: &Output, sheet: usize, part: PartId, height_mm: f64) -> Drawing {
+    let colour = palette::colour(part.0);
     let options = output.layout().options();
     let paper_mm = options.size_mm();
     let scale = height_mm / paper_mm.y;
@@ -72,7 +73,7 @@ pub fn sheet_map(output: &Output, sheet: usize, part: usize, height_mm: f64) -> 
     let edge = Stroke::solid(0.3, EDGE);
     let thin = Stroke::solid(0.12, EDGE);
     drawing.marks.push(Mark::filled(Layer::Picture, corners.to_vec(), PAPER));
-    for (n, net) in output.nets().iter().enumerate() {
+    for (n, net) in output.model().ids().zip(output.nets()) {
         for (piece, at) in
             net.pieces().iter().zip(output.layout().places(n)).filter(|(_, at)| at.sheet == sheet)
         {
@@ -99,7 +100,7 @@ pub fn sheet_map(output: &Output, sheet: usize, part: usize, height_mm: f64) -> 
 }
 
 /// The sheets on which pieces of a component lie, from 0.
-pub fn sheets_of(output: &Output, part: usize) -> Vec<usize> {
+pub fn sheets_of(output: &Output, part: PartId) -> Vec<usize> {
     let mut sheets: Vec<usize> = output.layout().places(part).iter().map(|at| at.sheet).collect();
     sheets.sort_unstable();
     sheets.dedup();

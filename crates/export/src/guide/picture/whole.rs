@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use tatamu_core::component::{PanelId, PanelKind};
 use tatamu_core::fold::{ModelMotion, ModelPose, Moment};
 use tatamu_core::geom::polygon;
+use tatamu_core::model::PartId;
 use tatamu_draw::drawing::Drawing;
 use tatamu_draw::render::{Scene, Spot, View, best_view, palette};
 use tatamu_pipeline::Output;
@@ -20,36 +21,41 @@ const SHAFT: f64 = 0.2;
 const LIFT_MM: f64 = 0.3;
 
 /// A component folds up to a share of the way: `before` tells where all were before.
-pub fn flattening(output: &Output, part: usize, before: &Moment, to: f64) -> Result<Drawing, PictureError> {
-    let at = |share: f64| before.folded[part] + share * (to - before.folded[part]);
+pub fn flattening(output: &Output, part: PartId, before: &Moment, to: f64) -> Result<Drawing, PictureError> {
+    let at = |share: f64| before.folded[part.0] + share * (to - before.folded[part.0]);
     moving(output, part, before, [at(NOW), at(SOON)])
 }
 
 /// The whole is flat, and a component is pulled up.
-pub fn deploying(output: &Output, part: usize, to: f64) -> Result<Drawing, PictureError> {
+pub fn deploying(output: &Output, part: PartId, to: f64) -> Result<Drawing, PictureError> {
     let at = |share: f64| to + share * (1.0 - to);
     moving(output, part, &Moment::joined(vec![1.0; output.nets().len()]), [at(SOON), at(NOW)])
 }
 
 /// A component is pulled off its parent, or comes back to it.
-pub fn pulling(output: &Output, part: usize, before: &Moment, is_off: bool) -> Result<Drawing, PictureError> {
-    let corners = output.model().parts()[part].component.panels().panels().iter();
+pub fn pulling(
+    output: &Output,
+    part: PartId,
+    before: &Moment,
+    is_off: bool,
+) -> Result<Drawing, PictureError> {
+    let corners = output.model().part(part).component.panels().panels().iter();
     let corners: Vec<DVec3> = corners.flat_map(|p| p.deployed_outline()).collect();
     let low = corners.iter().copied().reduce(DVec3::min).unwrap_or_default();
     let high = corners.into_iter().reduce(DVec3::max).unwrap_or_default();
     let at = |share: f64| {
         let mut moment = before.clone();
-        moment.pulled_mm[part] = share * low.distance(high);
+        moment.pulled_mm[part.0] = share * low.distance(high);
         moment
     };
     let ends = if is_off { [NOW, SOON] } else { [SOON, NOW] };
     between(output, part, ends.map(at), !is_off)
 }
 
-fn moving(output: &Output, part: usize, before: &Moment, ends: [f64; 2]) -> Result<Drawing, PictureError> {
+fn moving(output: &Output, part: PartId, before: &Moment, ends: [f64; 2]) -> Result<Drawing, PictureError> {
     let at = |share: f64| {
         let mut moment = before.clone();
-        moment.folded[part] = share;
+        moment.folded[part.0] = share;
         moment
     };
     between(output, part, ends.map(at), ends[0] < ends[1])
@@ -58,22 +64,22 @@ fn moving(output: &Output, part: usize, before: &Moment, ends: [f64; 2]) -> Resu
 /// A component on its way from one moment to another one, and an arrow that pushes or pulls it.
 fn between(
     output: &Output,
-    part: usize,
+    part: PartId,
     moments: [Moment; 2],
     is_pushed: bool,
 ) -> Result<Drawing, PictureError> {
     let motion = ModelMotion::new(output.model());
     let [pose, next] = moments.map(|moment| motion.pose_on_ground(&moment, LIFT_MM));
     let mut scene = Scene::new();
-    for (p, posed) in pose.parts.iter().enumerate() {
-        let colour = if p == part { palette::colour(p) } else { THERE };
-        let set = output.model().parts()[p].component.panels();
+    for (p, posed) in output.model().ids().zip(&pose.parts) {
+        let colour = if p == part { palette::colour(p.0) } else { THERE };
+        let set = output.model().part(p).component.panels();
         let place = |panel: PanelId| upright() * posed.panel(panel);
         push_panels(&mut scene, set, place, |_| Some(Paint::of_paper(colour)), |_| true);
     }
     let spots: Vec<Spot> = panels(output, part)
         .map(|(panel, middle, area)| {
-            let motion = upright() * pose.parts[part].panel(panel);
+            let motion = upright() * pose.parts[part.0].panel(panel);
             let at = motion.transform_point3(middle.extend(0.0));
             Spot { at, normal: motion.matrix3.z_axis, weight: area }
         })
@@ -90,8 +96,8 @@ fn between(
 }
 
 /// Each panel of a component with its middle and its share of the area.
-fn panels(output: &Output, part: usize) -> impl Iterator<Item = (PanelId, DVec2, f64)> + '_ {
-    let panels = output.model().parts()[part].component.panels().panels();
+fn panels(output: &Output, part: PartId) -> impl Iterator<Item = (PanelId, DVec2, f64)> + '_ {
+    let panels = output.model().part(part).component.panels().panels();
     let total: f64 = panels.iter().map(|p| polygon::area(&p.outline)).sum();
     panels
         .iter()
@@ -100,11 +106,11 @@ fn panels(output: &Output, part: usize) -> impl Iterator<Item = (PanelId, DVec2,
 }
 
 /// Where the middle of the end panel that moves the most is in two poses.
-fn ends(output: &Output, part: usize, poses: [&ModelPose; 2]) -> [DVec3; 2] {
-    let set = output.model().parts()[part].component.panels();
+fn ends(output: &Output, part: PartId, poses: [&ModelPose; 2]) -> [DVec3; 2] {
+    let set = output.model().part(part).component.panels();
     let is_end = |panel: PanelId| matches!(set.panel(panel).kind, PanelKind::Top | PanelKind::Bottom);
     let ways = panels(output, part).filter(|(panel, ..)| is_end(*panel)).map(|(panel, middle, _)| {
-        poses.map(|pose| (upright() * pose.parts[part].panel(panel)).transform_point3(middle.extend(0.0)))
+        poses.map(|pose| (upright() * pose.parts[part.0].panel(panel)).transform_point3(middle.extend(0.0)))
     });
     let length = |way: &[DVec3; 2]| way[0].distance(way[1]);
     ways.max_by(|a, b| length(a).total_cmp(&length(b))).unwrap_or_default()
