@@ -10,6 +10,7 @@ use input::read;
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use tatamu::drawing::Rgb;
+use tatamu::model::PartId;
 use tatamu::pipeline::{ComponentOptions, Engine, Options};
 use tatamu::progress::Silent;
 use tatamu::render::Orbit;
@@ -45,7 +46,7 @@ fn turned(name: &str, turn: usize) -> Options {
 }
 
 /// Makes something at each turn of a component's direction, one component after the other.
-fn at_each_turn(bencher: Bencher, path: &str, make: impl Fn(&Engine<'_>, &Options, usize) -> bool + Sync) {
+fn at_each_turn(bencher: Bencher, path: &str, make: impl Fn(&Engine<'_>, &Options, PartId) -> bool + Sync) {
     let Some(mesh) = read(path) else { return };
     let engine = Engine::new(Cow::Owned(mesh));
     let Ok(shaped) = engine.shape(&Options::default(), &Silent) else { return };
@@ -54,7 +55,7 @@ fn at_each_turn(bencher: Bencher, path: &str, make: impl Fn(&Engine<'_>, &Option
     bencher.bench(|| {
         let turn = count.fetch_add(1, Ordering::Relaxed);
         let part = turn % names.len();
-        make(&engine, &turned(&names[part], turn), part)
+        make(&engine, &turned(&names[part], turn), PartId(part))
     });
 }
 

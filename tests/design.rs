@@ -6,6 +6,7 @@ use tatamu::export::{FORMATS, Format, FormatOptions, format_of};
 use tatamu::fold::ModelMotion;
 use tatamu::geom::polygon;
 use tatamu::mesh::{self, Mesh, Repairs, Soup, Up};
+use tatamu::model::PartId;
 use tatamu::net;
 use tatamu::pipeline::{self, ComponentOptions, Options, Output};
 use tatamu::plotter::Cutter;
@@ -236,15 +237,15 @@ fn a_component_with_joints_keeps_them_when_it_may_have_dents() {
     for (part, before) in parts.iter().zip(convex.model().parts()) {
         assert!(part.deployed().abs_diff_eq(before.deployed(), 1e-9), "{} has moved", part.name);
         let (Some(joint), Some(old)) = (&part.joint, &before.joint) else { continue };
-        let plane = |output: &Output, p: usize, panel| {
-            let place = output.model().parts()[p].deployed();
-            let placed = place * output.model().parts()[p].component.panels().panel(panel).deployed;
+        let plane = |output: &Output, p: PartId, panel| {
+            let part = output.model().part(p);
+            let placed = part.deployed() * part.component.panels().panel(panel).deployed;
             (placed.matrix3.z_axis, placed.matrix3.z_axis.dot(placed.translation))
         };
         let ((n, c), (m, d)) =
             (plane(&concave, joint.parent, joint.parent_panel), plane(&convex, old.parent, old.parent_panel));
         assert!(n.distance(m) < 1e-9 && (c - d).abs() < 1e-6, "{} hangs on another plane", part.name);
-        joints += usize::from(joint.parent == body);
+        joints += usize::from(joint.parent == PartId(body));
     }
     assert!(joints > 0, "nothing is joined to the body");
 }

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Mutex;
 use tatamu::mesh::{self, Mesh};
+use tatamu::model::PartId;
 use tatamu::pipeline::{Change, ComponentOptions, Engine, Options, Output, TrialWarning, Warning};
 use tatamu::progress::{Progress, Silent};
 use tatamu::segment::{Edit, SegmentOptions};
@@ -35,8 +36,8 @@ fn assert_same(a: &Output, b: &Output) {
     assert!(a.nets() == b.nets(), "the nets differ");
     assert!(a.fold_plan() == b.fold_plan(), "the orders of folding differ");
     assert_eq!(a.warnings(), b.warnings());
-    for n in 0..a.nets().len() {
-        assert_eq!(a.layout().places(n), b.layout().places(n));
+    for part in a.model().ids() {
+        assert_eq!(a.layout().places(part), b.layout().places(part));
     }
 }
 
@@ -77,9 +78,11 @@ fn only_what_changed_is_made_again() {
         stages.0.into_inner().expect("no panic")
     };
     assert_eq!(stages(&options()), ["components", "nets"], "nothing is new: a look at what is known");
-    let leaf = (0..2)
+    let leaf = first
+        .model()
+        .ids()
         .find(|&p| first.model().parts().iter().all(|q| q.joint.as_ref().is_none_or(|j| j.parent != p)));
-    let leaf = &first.model().parts()[leaf.expect("a tree has leaves")].name;
+    let leaf = &first.model().part(leaf.expect("a tree has leaves")).name;
     // A model is chosen once its folding is known.
     assert_eq!(stages(&turned(leaf, 40.0)), ["components", "folding", "nets", "sheets"]);
     let paper = Options { margin_mm: 12.0, ..turned(leaf, 40.0) };
@@ -90,15 +93,15 @@ fn only_what_changed_is_made_again() {
 fn one_component_alone_is_the_one_of_the_model() {
     let mesh = bottle();
     let fresh = Engine::new(Cow::Borrowed(&mesh));
-    for part in 0..2 {
+    for part in [0, 1].map(PartId) {
         let options = turned("body", 25.0);
         let alone = fresh.component(&options, part, &Silent).expect("a component");
         let model = fresh.shape(&options, &Silent).expect("a model");
-        let whole = &model.model().parts()[part];
+        let whole = model.model().part(part);
         assert_eq!(alone.component, whole.component);
         assert_eq!(alone.frame, whole.frame, "not yet moved onto its parent");
     }
-    assert!(fresh.component(&options(), 2, &Silent).is_err());
+    assert!(fresh.component(&options(), PartId(2), &Silent).is_err());
 }
 
 /// Two parts of the snowman would bump into each other in the directions that fit them best.

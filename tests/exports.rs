@@ -37,7 +37,7 @@ fn files(product: &Product<'_>, extension: &str, options: &FormatOptions) -> Vec
 
 /// All panels as they stand, mm.
 fn standing(output: &Output) -> Vec<Vec<DVec3>> {
-    let parts = output.model().parts().iter().enumerate();
+    let parts = output.model().ids().zip(output.model().parts());
     let outlines = parts.flat_map(|(p, part)| {
         let panels = 0..part.component.panels().panels().len();
         panels.map(move |id| output.model().deployed_outline(p, PanelId(id)))

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use tatamu::component::{Panel, PanelId, PanelKind};
 use tatamu::fold::{Detection, FoldPlan, FoldWarning, ModelMotion, ModelPose, Sequence, SweepMemory};
 use tatamu::geom::{self, Hull, Plane};
-use tatamu::model::{Assembly, Known, Link, Model, Part, PartOptions, Unjudged, build};
+use tatamu::model::{Assembly, Known, Link, Model, Part, PartId, PartOptions, Unjudged, build};
 use tatamu::progress::Silent;
 
 const THICKNESS_MM: f64 = 0.25;
@@ -39,7 +39,7 @@ fn ears(gap_mm: f64) -> Model {
     let left = cuboid("left", DVec3::new(-0.5 * gap_mm - 20.0, -22.0, 0.0), size);
     let right = cuboid("right", DVec3::new(0.5 * gap_mm, -22.0, 0.0), size);
     let plane = Plane::horizontal(0.0);
-    let links = [1, 2].map(|child| Link { parent: 0, child, plane });
+    let links = [1, 2].map(|child| Link { parent: PartId(0), child: PartId(child), plane });
     built(&[head, left, right], &links)
 }
 
@@ -127,12 +127,16 @@ fn ears_too_near_to_each_other_clash_in_any_order() {
     let model = ears(0.3 * EAR_MM);
     let motion = ModelMotion::new(&model);
     let plan = plan(&motion);
-    assert!(plan.clashes().iter().any(|c| c.parts == [1, 2] && c.depth_mm > 1.0), "{:?}", plan.clashes());
+    assert!(
+        plan.clashes().iter().any(|c| c.parts == [PartId(1), PartId(2)] && c.depth_mm > 1.0),
+        "{:?}",
+        plan.clashes()
+    );
     let mut order = plan.order().to_vec();
     order.sort_unstable();
-    assert_eq!(order, [0, 1, 2], "a model is made all the same");
+    assert_eq!(order, [0, 1, 2].map(PartId), "a model is made all the same");
     let warnings = plan.warnings(&model);
-    let pairs: BTreeSet<[usize; 2]> = plan.clashes().iter().map(|c| c.parts).collect();
+    let pairs: BTreeSet<[PartId; 2]> = plan.clashes().iter().map(|c| c.parts).collect();
     assert_eq!(warnings.len(), pairs.len() + plan.overlaps().len(), "each pair is told of once");
     let clash = warnings.iter().find(|w| matches!(w, FoldWarning::Clash { .. })).expect("a warning");
     let message = clash.to_string();
@@ -149,7 +153,7 @@ fn ears_in_each_other_overlap_when_unfolded() {
         let motion = ModelMotion::new(&model);
         let plan = plan(&motion);
         let [overlap] = plan.overlaps() else { panic!("{gap_mm}: {:?}", plan.overlaps()) };
-        assert_eq!(overlap.parts, [1, 2]);
+        assert_eq!(overlap.parts, [PartId(1), PartId(2)]);
         assert!((overlap.depth_mm - depth_mm).abs() < 1e-6, "{overlap:?}");
         let [encounter] = plan.encounters(&motion).try_into().expect("one");
         assert!(encounter.line.iter().all(|end| end.is_finite()), "{encounter:?}");
@@ -166,13 +170,13 @@ fn an_encounter_is_where_and_when_the_two_panels_are_in_each_other() {
     let motion = ModelMotion::new(&model);
     let plan = plan(&motion);
     let encounters = plan.encounters(&motion);
-    assert!(encounters.iter().any(|encounter| encounter.parts == [1, 2]), "{encounters:?}");
+    assert!(encounters.iter().any(|encounter| encounter.parts == [PartId(1), PartId(2)]), "{encounters:?}");
     for encounter in encounters {
         let pose = motion.pose(&encounter.folded);
         let panels = [0, 1].map(|k| {
             let part = encounter.parts[k];
-            let panel = model.parts()[part].component.panels().panel(encounter.panels[k]);
-            (panel, pose.parts[part].panel(encounter.panels[k]))
+            let panel = model.part(part).component.panels().panel(encounter.panels[k]);
+            (panel, pose.parts[part.0].panel(encounter.panels[k]))
         });
         let fans = panels.map(|(panel, placement)| vec![fan(panel, &placement)]);
         let all: Vec<Vec<[DVec3; 3]>> = fans.into_iter().flatten().collect();
@@ -201,7 +205,7 @@ fn plans_agree_with_brute_force() {
             deep.extend(cuts(&bodies, THICKNESS_MM));
             any.extend(cuts(&bodies, 0.4 * THICKNESS_MM));
         }
-        let told: Vec<[usize; 2]> = plan.clashes().iter().map(|c| c.parts).collect();
+        let told: Vec<[usize; 2]> = plan.clashes().iter().map(|c| c.parts.map(|p| p.0)).collect();
         assert!(deep.iter().all(|pair| told.contains(pair)), "not told of {deep:?}, only of {told:?}");
         assert!(told.iter().all(|pair| any.contains(pair)), "told of {told:?}, but only {any:?} happen");
     }
@@ -234,7 +238,7 @@ fn bulges() -> Vec<Model> {
         [(-18.0, [10.5, 17.5, 18.0], 17.5, 69.5, 0.15), (33.5, [19.5, 29.5, 7.0], 40.0, 65.0, 0.15)],
     ];
     let plane = Plane::horizontal(0.0);
-    let links = [1, 2].map(|child| Link { parent: 0, child, plane });
+    let links = [1, 2].map(|child| Link { parent: PartId(0), child: PartId(child), plane });
     let part = |name: &str, (x, wide, deep, height, middle)| bulge(name, x, wide, deep, height, middle);
     pairs
         .map(|[left, right]| {
@@ -249,13 +253,13 @@ fn assert_sound(model: &Model, plan: &FoldPlan) {
     let motion = ModelMotion::new(model);
     let mut folded = vec![0.0; model.parts().len()];
     for step in plan.steps() {
-        assert!(step.from == folded[step.part] && step.to > step.from, "{:?}", plan.steps());
-        folded[step.part] = step.to;
+        assert!(step.from == folded[step.part.0] && step.to > step.from, "{:?}", plan.steps());
+        folded[step.part.0] = step.to;
     }
     assert!(folded.iter().all(|share| *share == 1.0), "all are flat in the end");
     let sequence = Sequence::new(plan.steps());
-    let told: BTreeSet<[usize; 2]> =
-        plan.clashes().iter().map(|c| c.parts).chain(plan.overlaps().iter().map(|o| o.parts)).collect();
+    let told = plan.clashes().iter().map(|c| c.parts).chain(plan.overlaps().iter().map(|o| o.parts));
+    let told: BTreeSet<[usize; 2]> = told.map(|parts| parts.map(|p| p.0)).collect();
     for k in 0..=240 {
         let pose = motion.pose(&sequence.folded(f64::from(k) / 240.0));
         let happen = cuts(&triangles(model, &pose), THICKNESS_MM);
@@ -272,16 +276,17 @@ fn cap_on_post() -> Model {
         cuboid("body", DVec3::new(21.5, -20.0, 0.0), DVec3::new(19.0, 40.0, 73.5)),
     ];
     let links = [(0, 1, 0.0), (1, 2, 51.0), (0, 3, 0.0)];
-    let links = links.map(|(parent, child, z)| Link { parent, child, plane: Plane::horizontal(z) });
+    let links =
+        links.map(|(a, b, z)| Link { parent: PartId(a), child: PartId(b), plane: Plane::horizontal(z) });
     built(&parts, &links)
 }
 
 /// All orders of so many components.
-fn orders(count: usize) -> Vec<Vec<usize>> {
+fn orders(count: usize) -> Vec<Vec<PartId>> {
     let Some(last) = count.checked_sub(1) else { return vec![Vec::new()] };
     let shorter = orders(last);
-    let longer = |order: &Vec<usize>| -> Vec<Vec<usize>> {
-        (0..count).map(|at| [&order[..at], &[last], &order[at..]].concat()).collect()
+    let longer = |order: &Vec<PartId>| -> Vec<Vec<PartId>> {
+        (0..count).map(|at| [&order[..at], &[PartId(last)], &order[at..]].concat()).collect()
     };
     shorter.iter().flat_map(longer).collect()
 }
@@ -306,7 +311,7 @@ fn a_model_that_no_order_folds_is_folded_in_turn() {
 }
 
 /// A plan in which some components are unplugged.
-fn unplugged(motion: &ModelMotion<'_>, parts: &[usize]) -> Option<FoldPlan> {
+fn unplugged(motion: &ModelMotion<'_>, parts: &[PartId]) -> Option<FoldPlan> {
     let ids: Vec<u64> = (0..motion.model().parts().len() as u64).collect();
     FoldPlan::unplugged(motion, parts, THICKNESS_MM, &ids, &SweepMemory::default(), &Silent).unwrap()
 }
@@ -316,7 +321,7 @@ fn ears_that_clash_in_any_order_fold_when_one_is_unplugged() {
     let model = ears(0.3 * EAR_MM);
     let motion = ModelMotion::new(&model);
     assert!(!plan(&motion).is_free());
-    for ear in [1, 2] {
+    for ear in [1, 2].map(PartId) {
         let plan = unplugged(&motion, &[ear]).unwrap();
         assert!(plan.is_free() && plan.overlaps().is_empty(), "{:?}", plan.clashes());
         assert_eq!(plan.steps()[0].part, ear, "what is pulled off folds first");
@@ -337,11 +342,12 @@ fn what_is_shut_in_is_not_unplugged() {
         cuboid("body", DVec3::new(5.0, -20.0, 0.0), DVec3::new(30.0, 40.0, 50.0)),
     ];
     let links = [(0, 1, 0.0), (1, 2, 51.0), (0, 3, 0.0)];
-    let links = links.map(|(parent, child, z)| Link { parent, child, plane: Plane::horizontal(z) });
+    let links =
+        links.map(|(a, b, z)| Link { parent: PartId(a), child: PartId(b), plane: Plane::horizontal(z) });
     let model = built(&parts, &links);
     let motion = ModelMotion::new(&model);
-    assert_eq!(unplugged(&motion, &[3]), None, "the cap is over it");
-    let plan = unplugged(&motion, &[2]).unwrap();
+    assert_eq!(unplugged(&motion, &[PartId(3)]), None, "the cap is over it");
+    let plan = unplugged(&motion, &[PartId(2)]).unwrap();
     let above_mm = plan.pulls()[0].way_mm;
     assert!(above_mm > 20.0, "off all that folds below it: {above_mm}");
 }
@@ -358,7 +364,7 @@ fn steps_in_turn_are_told_as_they_are() {
         assert!(quick.is_order() && quick.harm_mm() > 0.0, "no order is free");
         // The quick plan is told by samples, so that only the whole one is sound.
         assert_sound(&model, &plan);
-        let order: BTreeSet<usize> = plan.order().iter().copied().collect();
+        let order: BTreeSet<PartId> = plan.order().iter().copied().collect();
         assert_eq!(order.len(), 3, "each becomes flat once");
     }
 }

@@ -13,6 +13,7 @@ use tatamu::component::{HingeId, PanelKind};
 use tatamu::drawing::{LineStyles, Shape};
 use tatamu::guide::{Access, Action, Guide, Language, Step, gluing_order, html, leaflet, steps};
 use tatamu::mesh::{self, Mesh};
+use tatamu::model::PartId;
 use tatamu::net::{Naming, Net, NetOptions, develop};
 use tatamu::pipeline::{self, ComponentOptions, Options, Output};
 use tatamu::progress::Silent;
@@ -87,32 +88,32 @@ fn assert_complete(output: &Output) {
     found.sort();
     assert_eq!(found, labels(output), "every label in one step");
 
-    let parts = output.model().parts();
-    let of = |wanted: fn(&Action) -> bool| -> Vec<usize> {
-        let mut parts: Vec<usize> = steps.iter().filter(|s| wanted(&s.action)).map(|s| s.part).collect();
+    let model = output.model();
+    let of = |wanted: fn(&Action) -> bool| -> Vec<PartId> {
+        let mut parts: Vec<PartId> = steps.iter().filter(|s| wanted(&s.action)).map(|s| s.part).collect();
         parts.sort_unstable();
         parts
     };
-    let all: Vec<usize> = (0..parts.len()).collect();
+    let all: Vec<PartId> = model.ids().collect();
     assert_eq!(of(|a| *a == Action::Fold), all, "every component is folded once");
     assert_eq!(of(|a| *a == Action::Flatten), all, "every component is folded flat once");
-    let jointed: Vec<usize> = all.iter().copied().filter(|&p| parts[p].joint.is_some()).collect();
+    let jointed: Vec<PartId> = all.iter().copied().filter(|&p| model.part(p).joint.is_some()).collect();
     assert_eq!(of(|a| matches!(a, Action::Join { .. })), jointed, "every joint in one step");
 
-    let mut done: BTreeMap<usize, Vec<&Action>> = BTreeMap::new();
+    let mut done: BTreeMap<PartId, Vec<&Action>> = BTreeMap::new();
     for step in &steps {
-        let before = |part: usize| done.get(&part).map_or(&[][..], Vec::as_slice);
-        let is_joined = |part: usize| {
-            parts[part].joint.is_none() || before(part).iter().any(|a| matches!(a, Action::Join { .. }))
+        let before = |part: PartId| done.get(&part).map_or(&[][..], Vec::as_slice);
+        let is_joined = |part: PartId| {
+            model.part(part).joint.is_none() || before(part).iter().any(|a| matches!(a, Action::Join { .. }))
         };
         match &step.action {
             Action::Fold => assert!(before(step.part).is_empty()),
             Action::Glue { .. } => assert_eq!(before(step.part)[0], &Action::Fold),
             Action::Join { parent } => {
-                assert_eq!(Some(*parent), parts[step.part].joint.as_ref().map(|j| j.parent));
+                assert_eq!(Some(*parent), model.part(step.part).joint.as_ref().map(|j| j.parent));
                 assert!(is_joined(*parent), "from the root outwards");
             }
-            _ => assert!((0..parts.len()).all(is_joined)),
+            _ => assert!(model.ids().all(is_joined)),
         }
         done.entry(step.part).or_default().push(&step.action);
     }

@@ -9,7 +9,7 @@ use tatamu::fold::{ModelMotion, ModelPose, Sequence};
 use tatamu::geom::polygon;
 use tatamu::guide::{Action, Guide, Language, steps};
 use tatamu::mesh::Repairs;
-use tatamu::model::JointChoice;
+use tatamu::model::{JointChoice, PartId};
 use tatamu::net::{Piece, PlugLines};
 use tatamu::pipeline::{self, ComponentOptions, Error, Options, Output};
 use tatamu::product::Product;
@@ -37,9 +37,9 @@ fn towers() -> Output {
     made(&[], |_| ()).unwrap()
 }
 
-fn plugged(output: &Output) -> Vec<usize> {
-    let parts = output.model().parts();
-    (0..parts.len()).filter(|&p| parts[p].joint.as_ref().is_some_and(|j| j.plug().is_some())).collect()
+fn plugged(output: &Output) -> Vec<PartId> {
+    let model = output.model();
+    model.ids().filter(|&part| model.part(part).is_plugged()).collect()
 }
 
 fn has_clash(output: &Output) -> bool {
@@ -133,7 +133,7 @@ fn what_is_pulled_off_is_back_in_the_flat_stack() {
         assert_eq!(moment.folded, [folded; 3]);
     }
     let pull = output.fold_plan().pulls()[0];
-    assert_eq!(sequence.moment(0.5).pulled_mm[pull.part], pull.way_mm);
+    assert_eq!(sequence.moment(0.5).pulled_mm[pull.part.0], pull.way_mm);
     // Flat, all panels lie in the planes of the stack, as if they were glued.
     let flat = triangles(&output, &motion.pose_at(&sequence.moment(1.0)));
     let heights = flat.iter().flatten().flatten().map(|corner| corner.z);
@@ -148,10 +148,10 @@ fn choices_are_kept() {
     let glued = made(&[("left", JointChoice::Glue), ("right", JointChoice::Glue)], |_| ()).unwrap();
     assert!(plugged(&glued).is_empty() && has_clash(&glued));
     let right = made(&[("right", JointChoice::Plug)], |_| ()).unwrap();
-    assert_eq!(plugged(&right), [2], "the plug that is there is used");
+    assert_eq!(plugged(&right), [PartId(2)], "the plug that is there is used");
     assert!(right.remarks().is_empty() && !has_clash(&right));
     let left = made(&[("left", JointChoice::Glue)], |_| ()).unwrap();
-    assert_eq!(plugged(&left), [2]);
+    assert_eq!(plugged(&left), [PartId(2)]);
     let both = made(&[("left", JointChoice::Plug), ("right", JointChoice::Plug)], |_| ()).unwrap();
     assert_eq!((plugged(&both).len(), both.fold_plan().pulls().len()), (2, 1));
 }
@@ -181,13 +181,12 @@ fn both() -> Output {
 fn tab_and_slits_meet_and_lie_off_edges_and_other_joints() {
     let output = both();
     let (model, tab_mm) = (output.model(), output.options().tab_width_mm);
-    let parts = model.parts();
     for part in plugged(&output) {
-        let joint = parts[part].joint.as_ref().unwrap();
+        let joint = model.part(part).joint.as_ref().unwrap();
         let plug = joint.plug().unwrap();
         assert!(plug.foot_mm() < plug.slit_mm() && plug.head_mm() > plug.slit_mm() + 1.5);
         let (own, below) = ((part, joint.child_panel), (joint.parent, joint.parent_panel));
-        let outline = |(p, panel): (usize, PanelId)| &parts[p].component.panels().panel(panel).outline;
+        let outline = |(p, panel): (PartId, PanelId)| &model.part(p).component.panels().panel(panel).outline;
         let inside = |points: &[DVec2], ring: &[DVec2], rim_mm: f64| {
             points.iter().all(|p| polygon::depth_outside(ring, *p) <= -rim_mm)
         };
@@ -198,9 +197,10 @@ fn tab_and_slits_meet_and_lie_off_edges_and_other_joints() {
         assert!(inside(&slits.concat(), &model.outline_on(own, below), 1.0), "nor are the slits");
         assert!(inside(&plug.behind(), outline(below), 0.9), "turned over, it stays in the flat stack");
         // The foot lies on the slit, deployed and flat.
-        let place = |(p, panel): (usize, PanelId), is_flat: bool| -> DAffine3 {
-            let shape = parts[p].component.panels().panel(panel);
-            if is_flat { parts[p].flat * shape.flat } else { parts[p].deployed() * shape.deployed }
+        let place = |(p, panel): (PartId, PanelId), is_flat: bool| -> DAffine3 {
+            let part = model.part(p);
+            let shape = part.component.panels().panel(panel);
+            if is_flat { part.flat * shape.flat } else { part.deployed() * shape.deployed }
         };
         for is_flat in [false, true] {
             let at = |side, p: DVec2| place(side, is_flat).transform_point3(p.extend(0.0));
@@ -213,8 +213,9 @@ fn tab_and_slits_meet_and_lie_off_edges_and_other_joints() {
             }
         }
         // Of the other joints on the parent's panel none is cut.
-        for other in (0..parts.len()).filter(|&p| p != part) {
-            let Some(joint) = parts[other].joint.as_ref().filter(|j| (j.parent, j.parent_panel) == below)
+        for other in model.ids().filter(|&p| p != part) {
+            let Some(joint) =
+                model.part(other).joint.as_ref().filter(|j| (j.parent, j.parent_panel) == below)
             else {
                 continue;
             };
@@ -226,8 +227,8 @@ fn tab_and_slits_meet_and_lie_off_edges_and_other_joints() {
 
 /// Every piece with its place.
 fn pieces(output: &Output) -> Vec<(&Piece, PiecePlace)> {
-    let nets = output.nets().iter().enumerate();
-    nets.flat_map(|(n, net)| net.pieces().iter().zip(output.layout().places(n).to_vec())).collect()
+    let nets = output.model().ids().zip(output.nets());
+    nets.flat_map(|(part, net)| net.pieces().iter().zip(output.layout().places(part).to_vec())).collect()
 }
 
 #[test]
@@ -320,12 +321,13 @@ fn plt_points(text: &str) -> Vec<DVec2> {
 fn the_guide_unplugs_folds_and_plugs_in() {
     let output = towers();
     let part = plugged(&output)[0];
-    let (steps, name) = (steps(&output), &output.model().parts()[part].name);
+    let (steps, name) = (steps(&output), &output.model().part(part).name);
     let folding: Vec<&Action> =
         steps.iter().filter(|s| s.part == part && s.action.folds_model()).map(|s| &s.action).collect();
-    assert_eq!(folding, [&Action::Unplug { parent: 0 }, &Action::Flatten, &Action::PlugIn { parent: 0 }]);
+    let parent = PartId(0);
+    assert_eq!(folding, [&Action::Unplug { parent }, &Action::Flatten, &Action::PlugIn { parent }]);
     let first = steps.iter().position(|step| step.action.folds_model()).unwrap();
-    assert_eq!(steps[first].action, Action::Unplug { parent: 0 }, "before anything folds");
+    assert_eq!(steps[first].action, Action::Unplug { parent }, "before anything folds");
     let styles = tatamu::drawing::LineStyles::default();
     for language in Language::ALL {
         let guide = Guide::new(&output, "towers", &styles, language).unwrap();

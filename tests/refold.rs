@@ -9,6 +9,7 @@ use made::{Fold, Made, samples};
 use tatamu::check;
 use tatamu::component::{FaceId, PanelId};
 use tatamu::geom::Hull;
+use tatamu::model::PartId;
 use tatamu::pipeline::{Bodies, Options};
 
 /// Rounding of lengths.
@@ -139,10 +140,10 @@ fn area_vector(points: &[DVec3]) -> DVec3 {
 #[test]
 fn joints_hold_from_deployed_to_flat() {
     for Made { name, output, .. } in samples() {
-        let parts = output.model().parts();
-        for (part, joint) in parts.iter().filter_map(|part| Some((part, part.joint.as_ref()?))) {
+        let model = output.model();
+        for (part, joint) in model.parts().iter().filter_map(|part| Some((part, part.joint.as_ref()?))) {
             let name = format!("{name}, {}", part.name);
-            let parent = &parts[joint.parent];
+            let parent = model.part(joint.parent);
             let base = parent.component.panels().panel(joint.parent_panel);
             let own = part.component.panels().panel(joint.child_panel);
             let deployed = (parent.deployed() * base.deployed).inverse() * part.deployed() * own.deployed;
@@ -229,8 +230,8 @@ fn pieces_are_within_the_margins() {
         let sheets = output.layout().options();
         let low = DVec2::splat(sheets.margin_mm - TOLERANCE_MM);
         let high = DVec2::new(sheets.paper.width_mm(), sheets.paper.height_mm()) - low;
-        for (n, net) in output.nets().iter().enumerate() {
-            for (piece, at) in net.pieces().iter().zip(output.layout().places(n)) {
+        for (part, net) in output.model().ids().zip(output.nets()) {
+            for (piece, at) in net.pieces().iter().zip(output.layout().places(part)) {
                 for vertex in piece.mesh().vertices() {
                     let p = at.place.transform_point2(vertex.at);
                     assert!(p.cmpge(low).all() && p.cmple(high).all(), "{name}, {}: {p}", piece.name());
@@ -289,13 +290,13 @@ fn models_of_symmetric_meshes_are_their_own_mirror_images() {
         let Some(symmetry) = hulls.symmetry() else { continue };
         symmetric.push(*name);
         let (model, mirror) = (output.model(), symmetry.mirror());
-        let outlines = |part: usize| -> Vec<Vec<DVec3>> {
-            let count = model.parts()[part].component.panels().panels().len();
+        let outlines = |part: PartId| -> Vec<Vec<DVec3>> {
+            let count = model.part(part).component.panels().panels().len();
             (0..count).map(|panel| model.deployed_outline(part, PanelId(panel))).collect()
         };
-        for part in 0..model.parts().len() {
+        for part in model.ids() {
             let twins = outlines(symmetry.twin(part));
-            assert_eq!(outlines(part).len(), twins.len(), "{name}: panels of part {part}");
+            assert_eq!(outlines(part).len(), twins.len(), "{name}: panels of {part:?}");
             for outline in outlines(part) {
                 let image: Vec<DVec3> = outline.iter().map(|p| mirror.point(*p)).collect();
                 let is_near =
@@ -303,7 +304,7 @@ fn models_of_symmetric_meshes_are_their_own_mirror_images() {
                 let is_image = |twin: &Vec<DVec3>| {
                     image.iter().all(|p| is_near(p, twin)) && twin.iter().all(|p| is_near(p, &image))
                 };
-                assert!(twins.iter().any(is_image), "{name}: a panel of part {part} has no image");
+                assert!(twins.iter().any(is_image), "{name}: a panel of {part:?} has no image");
             }
         }
     }

@@ -8,6 +8,7 @@ use std::fmt::Write;
 use support::Prism;
 use tatamu::drawing::{LineStyles, Pages};
 use tatamu::export::{FormatOptions, Source, format_of};
+use tatamu::model::PartId;
 use tatamu::net::{Naming, Net, NetOptions, develop};
 use tatamu::pipeline::{self, Options};
 use tatamu::progress::Silent;
@@ -39,11 +40,11 @@ fn a_hundred_components() {
     let parts = output.model().parts();
     assert_eq!(parts.len(), 100);
     assert_eq!(parts.iter().filter(|part| part.joint.is_some()).count(), 99);
-    let order: BTreeSet<usize> = output.fold_plan().order().iter().copied().collect();
+    let order: BTreeSet<PartId> = output.fold_plan().order().iter().copied().collect();
     assert_eq!(order.len(), 100, "each is folded once");
     let flat_mm = output.fold_plan().stacks()[0].size_mm;
     assert!(flat_mm.max_element() < 130.0, "{flat_mm}: the flat tower is as wide as a storey");
-    let placed: usize = (0..100).map(|n| output.layout().places(n).len()).sum();
+    let placed: usize = output.model().ids().map(|part| output.layout().places(part).len()).sum();
     let pieces: usize = output.nets().iter().map(|net| net.pieces().len()).sum();
     assert!(placed == pieces && pieces >= 100);
 }

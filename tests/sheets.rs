@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 use support::Prism;
 use tatamu::drawing::{Drawing, Layer, LineStyles, Mark, Shape, Text, text};
+use tatamu::model::PartId;
 use tatamu::net::{
     BlankNet, LabelKind, LabelPlace, Naming, Net, NetOptions, Side, alternatives, check::faults,
 };
@@ -87,7 +88,10 @@ impl Made {
     /// Every piece with its sheet and place.
     fn placed(&self) -> impl Iterator<Item = (&tatamu::net::Piece, usize, DAffine2)> {
         self.nets.iter().enumerate().flat_map(|(n, net)| {
-            net.pieces().iter().zip(self.layout.places(n)).map(|(piece, at)| (piece, at.sheet, at.place))
+            net.pieces()
+                .iter()
+                .zip(self.layout.places(PartId(n)))
+                .map(|(piece, at)| (piece, at.sheet, at.place))
         })
     }
 }
@@ -325,7 +329,7 @@ fn a_panel_larger_than_the_sheet_is_split_into_parts_that_fit() {
             }
             assert!((area - whole.unsigned_area()).abs() < TOUCH_MM2);
         }
-        let places = made.layout.places(0);
+        let places = made.layout.places(PartId(0));
         assert!(
             net.pieces()
                 .iter()
@@ -478,7 +482,7 @@ fn each_sheet_has_pieces_of_one_colour_of_card() {
     };
     let made = lay_out(&cards, &BTreeMap::new());
     for (n, colour) in colours.iter().enumerate() {
-        for place in made.layout.places(n) {
+        for place in made.layout.places(PartId(n)) {
             assert_eq!(made.layout.card(place.sheet), *colour);
         }
     }
@@ -500,7 +504,7 @@ fn each_sheet_has_pieces_of_one_colour_of_card() {
         }
     }
     // A pin counts all sheets: one on a sheet of another colour is not heeded.
-    let blue = made.layout.places(2)[0].sheet;
+    let blue = made.layout.places(PartId(2))[0].sheet;
     let piece = made.nets[2].pieces()[0].name().to_owned();
     let pin = |sheet| Pin { sheet, at_mm: DVec2::new(40.0, 60.0), turn_rad: 0.0, net: 0 };
     let pinned = lay_out(&cards, &BTreeMap::from([(piece.clone(), pin(blue))]));
@@ -510,7 +514,8 @@ fn each_sheet_has_pieces_of_one_colour_of_card() {
     // One colour for all is no other layout.
     let one = lay_out(&vec![Some("red".to_owned()); 8], &BTreeMap::new());
     let none = lay_out(&[], &BTreeMap::new());
-    let places = |made: &Made| -> Vec<_> { (0..8).flat_map(|n| made.layout.places(n).to_vec()).collect() };
+    let places =
+        |made: &Made| -> Vec<_> { (0..8).flat_map(|n| made.layout.places(PartId(n)).to_vec()).collect() };
     assert_eq!(places(&one), places(&none));
     assert!(none.layout.cards().is_empty());
 }

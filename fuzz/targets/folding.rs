@@ -32,11 +32,11 @@ pub fn run(bytes: &[u8]) {
     let plan = FoldPlan::new(&ModelMotion::new(model), 0.25, &Silent).expect("nobody cancels");
     let mut order = plan.order().to_vec();
     order.sort_unstable();
-    assert!(order.into_iter().eq(0..model.parts().len()), "{:?}", plan.order());
+    assert!(order.into_iter().eq(model.ids()), "{:?}", plan.order());
     let mut folded = vec![0.0; model.parts().len()];
     for step in plan.steps() {
-        assert!(step.from == folded[step.part] && step.to > step.from, "{:?}", plan.steps());
-        folded[step.part] = step.to;
+        assert!(step.from == folded[step.part.0] && step.to > step.from, "{:?}", plan.steps());
+        folded[step.part.0] = step.to;
     }
     assert!(folded.iter().all(|&share| share == 1.0), "{:?}", plan.steps());
     let depths =

@@ -68,8 +68,8 @@ impl Made {
 /// The flat model, and the order of folding.
 fn folding(result: &Output) -> String {
     let plan = result.fold_plan();
-    let parts = result.model().parts();
-    let told = |motion: &Motion| product::motion_words(motion, &parts[motion.part()].name);
+    let model = result.model();
+    let told = |motion: &Motion| product::motion_words(motion, &model.part(motion.part()).name);
     let order: Vec<String> = plan.motions().iter().map(told).collect();
     let flat =
         |s: &Stack| format!("{:.0} × {:.0} mm, {}", s.size_mm.x, s.size_mm.y, counted(s.layers, "layer"));

@@ -4,6 +4,7 @@ use super::pages::{PieceId, all, on_page};
 use glam::DVec2;
 use tatamu::component::{HingeId, PanelSet};
 use tatamu::geom::polygon;
+use tatamu::model::PartId;
 use tatamu::net::{EdgeChoice, EdgeName, Net, NetHand, TabSide};
 use tatamu::pipeline::Output;
 use tatamu::project::Project;
@@ -12,8 +13,8 @@ use tatamu::project::change::Change;
 /// An edge between two panels of a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct EdgeId {
-    /// The net, which is that of the component of this index.
-    pub net: usize,
+    /// The net, which is that of this component.
+    pub net: PartId,
     /// Its name.
     pub name: EdgeName,
 }
@@ -53,7 +54,7 @@ pub fn edges(output: &Output, sheet: usize) -> Vec<PlacedEdge> {
     let on_page = on_page(output);
     let mut found = Vec::new();
     for (piece, own, at) in all(output).filter(|(_, _, at)| at.sheet == sheet) {
-        let net = &output.nets()[piece.net];
+        let net = &output.nets()[piece.net.0];
         let set = net.panels();
         for (k, hinge) in set.hinges().iter().enumerate() {
             let Some(name) = EdgeName::of(set, HingeId(k)) else { continue };
@@ -100,8 +101,8 @@ pub fn edge_at(edges: &[PlacedEdge], at: DVec2, reach_mm: f64) -> Option<&Placed
 }
 
 /// The edges of a component, in the order of their names, with what becomes of them.
-pub fn of_component(output: &Output, net: usize) -> Vec<(EdgeId, Joined)> {
-    let Some(own) = output.nets().get(net) else { return Vec::new() };
+pub fn of_component(output: &Output, net: PartId) -> Vec<(EdgeId, Joined)> {
+    let Some(own) = output.nets().get(net.0) else { return Vec::new() };
     let set: &PanelSet = own.panels();
     let hinges = (0..set.hinges().len()).map(HingeId);
     let named = hinges.filter_map(|hinge| Some((EdgeName::of(set, hinge)?, joined(own, hinge))));
@@ -116,12 +117,12 @@ pub fn choice(output: &Output, project: &Project, id: EdgeId) -> Option<EdgeChoi
 }
 
 /// The number of pieces that was chosen for a component.
-pub fn pieces(output: &Output, project: &Project, net: usize) -> Option<usize> {
+pub fn pieces(output: &Output, project: &Project, net: PartId) -> Option<usize> {
     hand(output, project, net)?.pieces()
 }
 
 /// Whether anything was chosen by hand about a component.
-pub fn is_by_hand(output: &Output, project: &Project, net: usize) -> bool {
+pub fn is_by_hand(output: &Output, project: &Project, net: PartId) -> bool {
     hand(output, project, net).is_some_and(|own| !own.is_empty())
 }
 
@@ -150,7 +151,7 @@ pub fn with_width(output: &Output, project: &Project, id: EdgeId, width_mm: f64)
 }
 
 /// The change that sets the number of pieces of a net, or leaves it to tatamu.
-pub fn in_pieces(output: &Output, net: usize, pieces: Option<usize>) -> Option<Change> {
+pub fn in_pieces(output: &Output, net: PartId, pieces: Option<usize>) -> Option<Change> {
     Some(Change::Pieces { component: component(output, net)?.to_owned(), pieces })
 }
 
@@ -160,12 +161,12 @@ pub fn other(side: TabSide) -> TabSide {
 }
 
 /// What was chosen by hand about a net.
-fn hand<'p>(output: &Output, project: &'p Project, net: usize) -> Option<&'p NetHand> {
+fn hand<'p>(output: &Output, project: &'p Project, net: PartId) -> Option<&'p NetHand> {
     let component = component(output, net)?;
     project.nets.iter().find(|table| table.component() == component).map(|table| table.hand())
 }
 
 /// Name of a component as it is printed, by which choices about its net go.
-fn component(output: &Output, net: usize) -> Option<&str> {
-    output.model().parts().get(net).map(|part| part.name.as_str())
+fn component(output: &Output, net: PartId) -> Option<&str> {
+    output.model().parts().get(net.0).map(|part| part.name.as_str())
 }

@@ -4,7 +4,7 @@ use super::results::Shown;
 use glam::DVec3;
 use tatamu::component::PrincipalAxis;
 use tatamu::mesh::painting::Painting;
-use tatamu::model::ModelPart;
+use tatamu::model::{ModelPart, PartId};
 use tatamu::paint;
 use tatamu::project::Project;
 use tatamu::project::change::{Change, to_digits};
@@ -23,8 +23,8 @@ pub const AXES: [(&str, DVec3); 4] = [
 ];
 
 /// Direction of a component's fold axis in degrees: as chosen, else as found.
-pub fn direction_deg(shown: &Shown, project: &Project, part: usize) -> Option<f64> {
-    let name = shown.names().get(part)?;
+pub fn direction_deg(shown: &Shown, project: &Project, part: PartId) -> Option<f64> {
+    let name = shown.names().get(part.0)?;
     let chosen = project.components.iter().find(|c| c.name == *name).and_then(|c| c.direction_deg);
     let found = || shown.part(part).map(|p| to_digits(p.direction_rad.to_degrees(), 1));
     chosen.or_else(found)
@@ -38,8 +38,8 @@ pub fn edges_and_vertices(part: &ModelPart) -> [usize; 2] {
 }
 
 /// The change that turns the fold direction of a component, and the gesture that it is part of.
-pub fn turned(shown: &Shown, project: &Project, part: usize, degrees: f64) -> Option<(Change, String)> {
-    let name = shown.names().get(part)?.clone();
+pub fn turned(shown: &Shown, project: &Project, part: PartId, degrees: f64) -> Option<(Change, String)> {
+    let name = shown.names().get(part.0)?.clone();
     let now = direction_deg(shown, project, part)?;
     let turned = to_digits((now + degrees + 180.0).rem_euclid(360.0) - 180.0, 1);
     let gesture = format!("turn {name}");
@@ -56,17 +56,17 @@ pub fn cards(shown: &Shown, painting: &Painting) -> Option<Change> {
 }
 
 /// The change that divides a part by a plane in the model's axes.
-pub fn split(shown: &Shown, part: usize, point: DVec3, normal: DVec3) -> Option<Change> {
+pub fn split(shown: &Shown, part: PartId, point: DVec3, normal: DVec3) -> Option<Change> {
     let to_file = shown.shaped()?.source().to_model().inverse();
     let (point, normal) = (to_file.transform_point3(point), to_file.transform_vector3(normal));
-    let name = shown.names().get(part)?.clone();
+    let name = shown.names().get(part.0)?.clone();
     Some(Change::Split { name, point, normal: normal.normalize_or_zero() })
 }
 
 /// The plane across a part's hull, one of [`AXES`], at a share of its way: a point and a normal in the
 /// model's axes.
-pub fn plane(shown: &Shown, part: usize, axis: usize, share: f64) -> Option<(DVec3, DVec3)> {
-    let hull = shown.shaped()?.source().hulls()?.hulls().get(part)?;
+pub fn plane(shown: &Shown, part: PartId, axis: usize, share: f64) -> Option<(DVec3, DVec3)> {
+    let hull = shown.shaped()?.source().hulls()?.hulls().get(part.0)?;
     let normal = match AXES.get(axis)?.1 {
         DVec3::ZERO => {
             // Fold axes are across the length.

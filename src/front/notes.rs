@@ -3,6 +3,7 @@
 use super::words;
 use tatamu::fold::FoldWarning;
 use tatamu::mesh::Repairs;
+use tatamu::model::PartId;
 use tatamu::pipeline::{Output, Warning};
 
 /// A warning, and what it leads to.
@@ -51,7 +52,7 @@ fn about(output: &Output, warning: &Warning) -> Vec<String> {
 fn clash(output: &Output, warning: &Warning) -> Option<usize> {
     let Warning::Fold(_) = warning else { return None };
     let about = words::about(warning);
-    let name = |part: usize| output.model().parts()[part].name.as_str();
+    let name = |part: PartId| output.model().part(part).name.as_str();
     let own = output.fold_plan().clashes().iter().enumerate().filter(|(_, clash)| {
         let parts = clash.parts.map(name);
         about.iter().all(|part| parts.contains(part)) && parts.iter().all(|part| about.contains(part))

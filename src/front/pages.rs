@@ -5,6 +5,7 @@ use super::words;
 use glam::{DAffine2, DVec2};
 use tatamu::drawing::Drawing;
 use tatamu::geom::polygon;
+use tatamu::model::PartId;
 use tatamu::net::{Piece, Side};
 use tatamu::pipeline::Output;
 use tatamu::project::Project;
@@ -24,8 +25,8 @@ pub fn drawings(opened: &Opened, project: &Project, output: &Output) -> Result<V
 /// A piece on a sheet: the net, and its number in the net.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct PieceId {
-    /// The net, which is that of the component of this index.
-    pub net: usize,
+    /// The net, which is that of this component.
+    pub net: PartId,
     /// Number of the piece.
     pub piece: usize,
 }
@@ -43,8 +44,8 @@ pub fn piece_at(outlines: &[(PieceId, Vec<DVec2>)], at: DVec2) -> Option<PieceId
 }
 
 /// The piece with this name of a net.
-pub fn named(output: &Output, net: usize, name: &str) -> Option<PieceId> {
-    let pieces = output.nets().get(net)?.pieces();
+pub fn named(output: &Output, net: PartId, name: &str) -> Option<PieceId> {
+    let pieces = output.nets().get(net.0)?.pieces();
     pieces.iter().position(|piece| piece.name() == name).map(|piece| PieceId { net, piece })
 }
 
@@ -145,7 +146,7 @@ pub fn moved_outline(output: &Output, id: PieceId, to: &Move) -> Vec<DVec2> {
 
 /// All pieces with their places.
 pub(super) fn all(output: &Output) -> impl Iterator<Item = (PieceId, &Piece, &PiecePlace)> {
-    output.nets().iter().enumerate().flat_map(|(net, own)| {
+    output.model().ids().zip(output.nets()).flat_map(|(net, own)| {
         let places = own.pieces().iter().zip(output.layout().places(net)).enumerate();
         places.map(move |(piece, (own, place))| (PieceId { net, piece }, own, place))
     })
@@ -213,7 +214,7 @@ fn moved(output: &Output, id: PieceId, to: &Move) -> Option<PiecePlace> {
 
 /// The piece itself.
 pub fn piece(output: &Output, id: PieceId) -> Option<&Piece> {
-    output.nets().get(id.net)?.pieces().get(id.piece)
+    output.nets().get(id.net.0)?.pieces().get(id.piece)
 }
 
 #[cfg(test)]
@@ -234,7 +235,7 @@ mod tests {
 
     #[test]
     fn a_point_is_in_the_piece_around_it() {
-        let id = |piece| PieceId { net: 0, piece };
+        let id = |piece| PieceId { net: PartId(0), piece };
         let corner = [[0.0, 0.0], [4.0, 0.0], [4.0, 1.0], [1.0, 1.0], [1.0, 4.0], [0.0, 4.0]];
         let square = [[2.0, 2.0], [3.0, 2.0], [3.0, 3.0], [2.0, 3.0]];
         let outlines = [(id(0), corner.map(DVec2::from).to_vec()), (id(1), square.map(DVec2::from).to_vec())];

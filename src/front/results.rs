@@ -3,7 +3,7 @@
 use super::colours::Colours;
 use super::surface::Distances;
 use tatamu::drawing::Rgb;
-use tatamu::model::ModelPart;
+use tatamu::model::{ModelPart, PartId};
 use tatamu::pipeline::{Options, Output, Shaped};
 use tatamu::project::options::Settings;
 use tatamu::render::palette;
@@ -27,7 +27,7 @@ pub fn exceeded_sheets(settings: &Settings, laid: &Output) -> Option<usize> {
 pub struct Shown {
     shaped: Option<Shaped>,
     /// A component that is newer than the model.
-    ahead: Option<(usize, ModelPart)>,
+    ahead: Option<(PartId, ModelPart)>,
     output: Option<Output>,
     /// Whether the order of folding of `output` is known.
     is_folded: bool,
@@ -50,7 +50,7 @@ impl Shown {
     }
 
     /// A component that is made before all others. Until they are, it sits where the one before it does.
-    pub fn show_component(&mut self, index: usize, component: ModelPart) {
+    pub fn show_component(&mut self, index: PartId, component: ModelPart) {
         // Where parts were made one, those of the mesh have other numbers.
         let is_other = |old: &&ModelPart| old.name == component.name && old.component != component.component;
         let Some(old) = self.part(index).filter(is_other) else { return };
@@ -97,14 +97,14 @@ impl Shown {
         self.output.as_ref().filter(is_of)
     }
 
-    /// Index of a component by the name that options go by.
-    pub fn index_of(&self, name: &str) -> Option<usize> {
-        self.names().iter().position(|n| n == name)
+    /// Id of a component by the name that options go by.
+    pub fn index_of(&self, name: &str) -> Option<PartId> {
+        self.names().iter().position(|n| n == name).map(PartId)
     }
 
-    /// The colour of the component of an index.
-    pub fn colour(&self, index: usize) -> Rgb {
-        self.names().get(index).map_or(palette::colour(index), |name| self.colours.of(name))
+    /// The colour of a component.
+    pub fn colour(&self, index: PartId) -> Rgb {
+        self.names().get(index.0).map_or(palette::colour(index.0), |name| self.colours.of(name))
     }
 
     /// The model and what it is made of.
@@ -112,16 +112,16 @@ impl Shown {
         self.shaped.as_ref()
     }
 
-    /// The component of an index, the newest that there is.
-    pub fn part(&self, index: usize) -> Option<&ModelPart> {
+    /// The component with an id, the newest that there is.
+    pub fn part(&self, index: PartId) -> Option<&ModelPart> {
         match &self.ahead {
             Some((own, part)) if *own == index => Some(part),
-            _ => self.shaped.as_ref()?.model().parts().get(index),
+            _ => self.shaped.as_ref()?.model().parts().get(index.0),
         }
     }
 
     /// The component that is newer than the model, if there is one.
-    pub fn ahead(&self) -> Option<usize> {
+    pub fn ahead(&self) -> Option<PartId> {
         self.ahead.as_ref().map(|(index, _)| *index)
     }
 

@@ -9,7 +9,7 @@ use tatamu::component::{PanelId, PanelSet};
 use tatamu::drawing::Rgb;
 use tatamu::fold::{Clash, ModelMotion, ModelPose, Moment, Motion, Sequence};
 use tatamu::mesh::Mesh;
-use tatamu::model::ModelPart;
+use tatamu::model::{ModelPart, PartId};
 use tatamu::pipeline::{Hulls, Options};
 use tatamu::render::light;
 use tatamu::render::zbuffer::{Frame, Line, Solids};
@@ -30,7 +30,7 @@ pub struct Seen<'a> {
 
 impl Seen<'_> {
     /// The component that was selected last.
-    pub fn selected_index(&self) -> Option<usize> {
+    pub fn selected_index(&self) -> Option<PartId> {
         self.selection.last().and_then(|name| self.shown.index_of(name))
     }
 }
@@ -77,7 +77,7 @@ pub struct Setting {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Tag {
     /// The component or part.
-    pub part: usize,
+    pub part: PartId,
     /// The panel; none for the mesh.
     pub panel: Option<PanelId>,
 }
@@ -88,12 +88,12 @@ const PANELS: u32 = 4096;
 impl Tag {
     fn number(self) -> u32 {
         let panel = self.panel.map_or(PANELS - 1, |p| (p.0 as u32).min(PANELS - 2));
-        self.part as u32 * PANELS + panel
+        self.part.0 as u32 * PANELS + panel
     }
 
     /// What a number of a picture stands for.
     pub fn of_number(number: u32) -> Option<Self> {
-        let (part, panel) = ((number / PANELS) as usize, number % PANELS);
+        let (part, panel) = (PartId((number / PANELS) as usize), number % PANELS);
         (number < Frame::NOTHING - PANELS)
             .then_some(Self { part, panel: (panel != PANELS - 1).then_some(PanelId(panel as usize)) })
     }
@@ -129,8 +129,9 @@ pub fn scene(seen: &Seen<'_>, setting: &Setting) -> Solids {
     };
     let layers = setting.layers;
     let source = shaped.source();
-    let of_face = |face: usize| source.face_parts()[face].map(|p| p as usize);
-    let is_hidden = |part: usize| shown.names().get(part).is_some_and(|name| seen.visibility.is_hidden(name));
+    let of_face = |face: usize| source.face_parts()[face].map(|p| PartId(p as usize));
+    let is_hidden =
+        |part: PartId| shown.names().get(part.0).is_some_and(|name| seen.visibility.is_hidden(name));
     let is_seen = |face: usize| !of_face(face).is_some_and(is_hidden);
     let tag = |face: usize| of_face(face).map_or(Frame::NOTHING, |part| Tag { part, panel: None }.number());
     if layers.distances
@@ -141,7 +142,7 @@ pub fn scene(seen: &Seen<'_>, setting: &Setting) -> Solids {
         let names = shown.names();
         let colour = |face: usize| {
             let Some(part) = of_face(face) else { return PLAIN };
-            let is_lit = names.get(part).is_some_and(|name| seen.selection.has(name))
+            let is_lit = names.get(part.0).is_some_and(|name| seen.selection.has(name))
                 || setting.hover.as_ref().is_some_and(|h| h.is_on(part));
             lit(shown.colour(part), is_lit)
         };
@@ -151,7 +152,7 @@ pub fn scene(seen: &Seen<'_>, setting: &Setting) -> Solids {
     }
     if layers.hulls {
         let hulls = source.hulls().map_or(&[][..], Hulls::hulls);
-        for (part, hull) in hulls.iter().enumerate().filter(|(part, _)| !is_hidden(*part)) {
+        for (part, hull) in (0..).map(PartId).zip(hulls).filter(|(part, _)| !is_hidden(*part)) {
             let colour = light::mixed(shown.colour(part), Rgb::BLACK, 0.4);
             for facet in hull.facets() {
                 let outline: Vec<DVec3> = facet
@@ -206,11 +207,11 @@ fn push_edges(solids: &mut Solids, outline: &[DVec3], colour: Rgb, width_px: f32
 /// Where all components are: in the steps that were found, as long as they are known.
 pub fn folded(shown: &Shown, progress: f64) -> Option<Moment> {
     let shaped = shown.shaped()?;
-    let count = shaped.model().parts().len();
+    let ids = shaped.model().ids();
     let plan = shown.output().map(|output| output.fold_plan());
-    let sequence = match plan.filter(|plan| plan.order().len() == count) {
+    let sequence = match plan.filter(|plan| plan.order().len() == ids.len()) {
         Some(plan) => Sequence::of_plan(plan),
-        None => Sequence::of_order(&(0..count).rev().collect::<Vec<_>>()),
+        None => Sequence::of_order(&ids.rev().collect::<Vec<_>>()),
     };
     Some(sequence.moment(progress))
 }
@@ -223,7 +224,7 @@ pub fn moment(shown: &Shown, clash: &Clash) -> Option<f64> {
     let (mut low, mut high) = (sequence.marks()[step], sequence.marks()[step + 1]);
     for _ in 0..30 {
         let middle = 0.5 * (low + high);
-        if sequence.folded(middle)[clash.mover] < clash.folded {
+        if sequence.folded(middle)[clash.mover.0] < clash.folded {
             low = middle;
         } else {
             high = middle;
@@ -235,33 +236,34 @@ pub fn moment(shown: &Shown, clash: &Clash) -> Option<f64> {
 fn push_components(solids: &mut Solids, seen: &Seen<'_>, setting: &Setting) {
     let shown = seen.shown;
     let Some(shaped) = shown.shaped() else { return };
-    let is_hidden = |part: usize| shown.names().get(part).is_some_and(|name| seen.visibility.is_hidden(name));
+    let is_hidden =
+        |part: PartId| shown.names().get(part.0).is_some_and(|name| seen.visibility.is_hidden(name));
     let is_moving = setting.folded > 0.0 && shown.ahead().is_none();
     let pose: Option<ModelPose> = is_moving.then(|| folded(shown, setting.folded)).flatten().map(|moment| {
         let motion = ModelMotion::new(shaped.model());
-        motion.pose_from(&moment, LIFT_MM, |root, _| shaped.model().parts()[root].deployed())
+        motion.pose_from(&moment, LIFT_MM, |root, _| shaped.model().part(root).deployed())
     });
-    for index in 0..shaped.model().parts().len() {
+    for index in shaped.model().ids() {
         let Some(part) = shown.part(index).filter(|_| !is_hidden(index)) else { continue };
         let set = part.component.panels();
         let place = |panel: PanelId| match &pose {
-            Some(pose) => pose.parts[index].panel(panel),
+            Some(pose) => pose.parts[index.0].panel(panel),
             None => part.deployed() * set.panel(panel).deployed,
         };
-        let is_selected = shown.names().get(index).is_some_and(|name| seen.selection.has(name));
+        let is_selected = shown.names().get(index.0).is_some_and(|name| seen.selection.has(name));
         let panels = Panels { part: index, set, is_selected, place: &place };
         push_panels(solids, seen, setting, &panels);
-        let stands = |pose: &ModelPose| pose.parts[index].pose.height_mm > 0.999 * height_mm(part);
+        let stands = |pose: &ModelPose| pose.parts[index.0].pose.height_mm > 0.999 * height_mm(part);
         let is_standing = pose.as_ref().is_none_or(stands);
         if is_selected && is_standing && seen.selected_index() == Some(index) {
-            let frame = pose.as_ref().map_or_else(|| part.deployed(), |pose| pose.parts[index].frame);
+            let frame = pose.as_ref().map_or_else(|| part.deployed(), |pose| pose.parts[index.0].frame);
             push_arrow(solids, part, frame);
         }
     }
 }
 
 struct Panels<'a> {
-    part: usize,
+    part: PartId,
     set: &'a PanelSet,
     is_selected: bool,
     place: &'a dyn Fn(PanelId) -> DAffine3,
@@ -298,9 +300,9 @@ fn push_panels(solids: &mut Solids, seen: &Seen<'_>, setting: &Setting, panels: 
 }
 
 /// The panels of the selected piece, where it is one of this component.
-fn selected_panels(seen: &Seen<'_>, part: usize) -> Vec<PanelId> {
+fn selected_panels(seen: &Seen<'_>, part: PartId) -> Vec<PanelId> {
     let piece = seen.selection.piece().filter(|_| seen.selected_index() == Some(part));
-    let net = seen.shown.output().and_then(|output| output.nets().get(part));
+    let net = seen.shown.output().and_then(|output| output.nets().get(part.0));
     let (Some(piece), Some(net)) = (piece, net) else { return Vec::new() };
     let own = net.pieces().iter().filter(|p| p.name() == piece);
     own.flat_map(|p| p.panels()).map(|placed| net.source(placed.panel)).collect()
@@ -394,7 +396,8 @@ mod tests {
 
     #[test]
     fn tags_are_read_back() {
-        for tag in [Tag { part: 0, panel: None }, Tag { part: 199, panel: Some(PanelId(77)) }] {
+        for tag in [Tag { part: PartId(0), panel: None }, Tag { part: PartId(199), panel: Some(PanelId(77)) }]
+        {
             assert_eq!(Tag::of_number(tag.number()), Some(tag));
         }
         assert_eq!(Tag::of_number(Frame::NOTHING), None);

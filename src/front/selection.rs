@@ -1,6 +1,7 @@
 //! What is selected.
 
 use tatamu::component::PanelId;
+use tatamu::model::PartId;
 
 /// Components by name, so that the selection outlives a change of the parts; and a panel or a piece.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -73,28 +74,28 @@ impl Selection {
 /// What the mouse is over, in any view: some panels of a component, or all of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hover {
-    part: usize,
+    part: PartId,
     panels: Vec<PanelId>,
 }
 
 impl Hover {
     /// Over a whole component.
-    pub fn part(part: usize) -> Self {
+    pub fn part(part: PartId) -> Self {
         Self { part, panels: Vec::new() }
     }
 
     /// Over some panels of a component.
-    pub fn panels(part: usize, panels: Vec<PanelId>) -> Self {
+    pub fn panels(part: PartId, panels: Vec<PanelId>) -> Self {
         Self { part, panels }
     }
 
     /// Whether it is over a panel of a component.
-    pub fn is_over(&self, part: usize, panel: PanelId) -> bool {
+    pub fn is_over(&self, part: PartId, panel: PanelId) -> bool {
         self.part == part && (self.panels.is_empty() || self.panels.contains(&panel))
     }
 
     /// Whether it is over something of a component.
-    pub fn is_on(&self, part: usize) -> bool {
+    pub fn is_on(&self, part: PartId) -> bool {
         self.part == part
     }
 }

@@ -7,6 +7,7 @@ use super::store::Store;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use tatamu::model::PartId;
 use tatamu::project::Project;
 use tatamu::project::options::{CARD, DIRECTION, PAPER, TOP_EDGES};
 use tatamu::sheet::Pin;
@@ -49,21 +50,21 @@ pub fn desk() -> Desk {
 fn a_turn_shows_the_component_first_and_is_undone() {
     let Desk { mut studio, folder: _folder } = desk();
     let before = studio.shown().shaped().unwrap().model().clone();
-    let was = studio.direction_deg(1).unwrap();
-    studio.turn(1, 25.0, 0.0);
+    let was = studio.direction_deg(PartId(1)).unwrap();
+    studio.turn(PartId(1), 25.0, 0.0);
     assert!(studio.finished().is_none(), "the old results are those of another project");
     assert!(studio.shown().output().is_some(), "but they stay");
-    wait(&mut studio, "the component", |s| s.shown().part(1).unwrap() != &before.parts()[1]);
-    let ahead = studio.shown().part(1).unwrap().clone();
+    wait(&mut studio, "the component", |s| s.shown().part(PartId(1)).unwrap() != &before.parts()[1]);
+    let ahead = studio.shown().part(PartId(1)).unwrap().clone();
     wait(&mut studio, "the model", |s| s.finished().is_some());
-    assert_eq!(studio.shown().part(1).unwrap().component, ahead.component);
-    assert_eq!(studio.direction_deg(1).unwrap(), super::change::to_digits(was + 25.0, 1));
+    assert_eq!(studio.shown().part(PartId(1)).unwrap().component, ahead.component);
+    assert_eq!(studio.direction_deg(PartId(1)).unwrap(), super::change::to_digits(was + 25.0, 1));
     studio.undo();
     wait(&mut studio, "the old model", |s| s.finished().is_some());
     assert!(studio.shown().shaped().unwrap().model() == &before);
     studio.redo();
     wait(&mut studio, "the new model", |s| s.finished().is_some());
-    assert_eq!(studio.shown().part(1).unwrap().component, ahead.component);
+    assert_eq!(studio.shown().part(PartId(1)).unwrap().component, ahead.component);
 }
 
 #[test]
@@ -71,7 +72,7 @@ fn what_is_saved_is_what_the_command_line_reads() {
     let Desk { mut studio, folder } = desk();
     let name = studio.shown().names()[2].clone();
     studio.selection.select(&name, None, false);
-    studio.turn(2, 10.0, 0.0);
+    studio.turn(PartId(2), 10.0, 0.0);
     studio.change(&Change::Set { option: &PAPER, value: Some("a3".into()) }, None);
     assert!(studio.document().unwrap().is_changed());
     assert!(studio.save());
@@ -92,7 +93,7 @@ fn what_is_saved_is_what_the_command_line_reads() {
 #[test]
 fn a_killed_studio_loses_nothing() {
     let Desk { mut studio, folder } = desk();
-    studio.turn(1, 15.0, 0.0);
+    studio.turn(PartId(1), 15.0, 0.0);
     let wanted = studio.document().unwrap().text().to_owned();
     drop(studio);
     let mut again = Studio::new(Store::at(&folder.path().join("state")), Arc::new(|| {}));
@@ -182,7 +183,7 @@ fn distances_are_measured_when_asked_for() {
 #[test]
 fn sheets_are_there_before_the_folding_is_known() {
     let Desk { mut studio, folder: _folder } = desk();
-    studio.turn(1, 25.0, 0.0);
+    studio.turn(PartId(1), 25.0, 0.0);
     wait(&mut studio, "the sheets", |s| s.laid().is_some());
     // News come one by one, but several may be taken at once.
     let is_whole = studio.shown().is_folded();
@@ -204,7 +205,7 @@ fn a_drawn_model_opens_and_keeps_its_shape() {
     assert_eq!(studio.problem(), None);
     assert_eq!(studio.shown().names(), ["box", "lid", "knob"]);
     let before = studio.document().unwrap().text().to_owned();
-    studio.turn(0, 5.0, 0.0);
+    studio.turn(PartId(0), 5.0, 0.0);
     assert!(studio.notice().is_some_and(|notice| notice.contains("drawn")));
     assert_eq!(studio.document().unwrap().text(), before);
     studio.change(&Change::Set { option: &PAPER, value: Some("a3".into()) }, None);
@@ -226,7 +227,7 @@ fn a_killed_studio_loses_nothing_of_a_mesh_that_was_saved_as_a_project() {
     wait(&mut studio, "a model", |s| s.shown().shaped().is_some());
     let saved = folder.path().join("mine.toml");
     studio.save_as(&saved);
-    studio.turn(0, 15.0, 0.0);
+    studio.turn(PartId(0), 15.0, 0.0);
     let wanted = studio.document().unwrap().text().to_owned();
     assert!(studio.document().unwrap().is_changed());
     drop(studio);
@@ -260,15 +261,15 @@ fn stays_where_it_is_pinned(name: &str) {
     wait(&mut studio, "a model", |s| s.finished().is_some());
     let before = studio.finished().unwrap().clone();
     let to = Move { sheet: before.layout().sheet_count(), by_mm: glam::DVec2::ZERO, turn_rad: 0.0 };
-    let id = PieceId { net: 1, piece: 0 };
+    let id = PieceId { net: PartId(1), piece: 0 };
     let pins = pages::rearranged(&before, id, &to).unwrap();
     studio.change(&Change::Pins { pins }, None);
     wait(&mut studio, "the layout", |s| s.finished().is_some());
     let after = studio.finished().unwrap();
     assert!(after.layout().unheeded_pins().is_empty(), "{:?}", after.layout().unheeded_pins());
-    for (net, own) in before.nets().iter().enumerate() {
+    for (net, own) in before.model().ids().zip(before.nets()) {
         for (piece, shape) in own.pieces().iter().enumerate() {
-            assert_eq!(after.nets()[net].pieces()[piece].outline(), shape.outline(), "{}", shape.name());
+            assert_eq!(after.nets()[net.0].pieces()[piece].outline(), shape.outline(), "{}", shape.name());
             if (PieceId { net, piece }) != id {
                 let [old, new] =
                     [&before, after].map(|o| Pin::of_place(shape.outline(), &o.layout().places(net)[piece]));

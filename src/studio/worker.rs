@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 use tatamu::design::Sketch;
-use tatamu::model::ModelPart;
+use tatamu::model::{ModelPart, PartId};
 use tatamu::pipeline::{Engine, Error, Options, Output, Shaped, shape_drawn};
 use tatamu::progress::Progress;
 
@@ -24,7 +24,7 @@ pub struct Order {
     /// What is asked for.
     pub options: Options,
     /// The component that is wanted first.
-    pub first: Option<usize>,
+    pub first: Option<PartId>,
     /// Whether the distances between the surface and the components are wanted.
     pub measures: bool,
 }
@@ -36,7 +36,7 @@ pub enum News {
     /// So much of the stage is done, 0 to 1.
     Fraction(f64),
     /// The component that was wanted first.
-    Component(usize, Box<ModelPart>),
+    Component(PartId, Box<ModelPart>),
     /// All components.
     Shaped(Shaped),
     /// Distances between the surface and the components.

@@ -16,6 +16,7 @@ use tatamu::front::scene::{self, Layers, Seen, Setting, Tag};
 use tatamu::front::selection::{Hover, Selection};
 use tatamu::front::visibility::Visibility;
 use tatamu::front::{hand, words};
+use tatamu::model::PartId;
 use tatamu::pipeline::{Error, Output, Shaped, shape_drawn};
 use tatamu::progress::Progress;
 use tatamu::project::change::Change;
@@ -37,7 +38,7 @@ pub struct Desk {
 /// What is to be made next.
 enum Stage {
     /// The component that the user turns, before all others.
-    Ahead(usize),
+    Ahead(PartId),
     /// The largest size in which the model takes no more sheets than its project allows.
     Size,
     Shape,
@@ -190,7 +191,7 @@ impl Desk {
         Ok(())
     }
 
-    fn start(&mut self, turned: Option<usize>) {
+    fn start(&mut self, turned: Option<PartId>) {
         let ahead = turned.filter(|_| self.opened.drawn.is_none());
         self.next = Some(ahead.map_or(Stage::Shape, Stage::Ahead));
     }
@@ -218,7 +219,7 @@ impl Desk {
     ///
     /// # Errors
     /// As [`Desk::change`].
-    pub fn turn(&mut self, part: usize, degrees: f64) -> Result<(), String> {
+    pub fn turn(&mut self, part: PartId, degrees: f64) -> Result<(), String> {
         match hand::turned(&self.shown, self.document.project(), part, degrees) {
             Some((change, gesture)) => self.change(&change, Some(&gesture)),
             None => Ok(()),
@@ -256,7 +257,7 @@ impl Desk {
         change.map_or(Ok(()), |change| self.change(&change, None))
     }
 
-    fn plane(&self, axis: usize, share: f64) -> Option<(usize, (DVec3, DVec3))> {
+    fn plane(&self, axis: usize, share: f64) -> Option<(PartId, (DVec3, DVec3))> {
         let part = self.seen().selected_index()?;
         Some((part, hand::plane(&self.shown, part, axis, share)?))
     }

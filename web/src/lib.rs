@@ -20,6 +20,7 @@ use std::collections::BTreeMap;
 use tatamu::drawing::Rgb;
 use tatamu::front::hand::AXES;
 use tatamu::front::remedies;
+use tatamu::model::PartId;
 use tatamu::progress::Progress;
 use tatamu::project::change::Change;
 use tatamu::project::options::{self, Entry, RENAME};
@@ -222,7 +223,7 @@ impl Desk {
 
     /// Turns the fold direction of a component by some degrees.
     pub fn turn(&mut self, part: usize, degrees: f64) -> Told<()> {
-        self.own()?.turn(part, degrees).map_err(thrown)
+        self.own()?.turn(PartId(part), degrees).map_err(thrown)
     }
 
     /// Gives each component the card that is most like the mesh's colours on it.
@@ -361,7 +362,7 @@ impl View {
 /// Index of the component that a number of a picture belongs to.
 #[wasm_bindgen]
 pub fn part_of(tag: u32) -> Option<usize> {
-    tatamu::front::scene::Tag::of_number(tag).map(|tag| tag.part)
+    tatamu::front::scene::Tag::of_number(tag).map(|tag| tag.part.0)
 }
 
 /// A job on its way to a machine.

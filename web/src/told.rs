@@ -6,7 +6,7 @@ use tatamu::drawing::Rgb;
 use tatamu::front::notes::{self, Note};
 use tatamu::front::{dials, hand, remedies, words};
 use tatamu::guide::Estimate;
-use tatamu::model::ModelPart;
+use tatamu::model::{ModelPart, PartId};
 use tatamu::pipeline::{ComponentOptions, Output};
 use tatamu::product;
 use tatamu::project::options::{
@@ -119,7 +119,7 @@ impl Desk {
             is_busy: self.is_busy(),
             undo: self.document.undo_label().map(str::to_owned),
             redo: self.document.redo_label().map(str::to_owned),
-            parts: (0..self.shown.names().len()).filter_map(|index| self.part(index)).collect(),
+            parts: (0..self.shown.names().len()).filter_map(|index| self.part(PartId(index))).collect(),
             model: model.collect(),
             paper: dials::PAPER_AND_PIECES.iter().map(row).collect(),
             sheets: vec![most_sheets],
@@ -129,8 +129,8 @@ impl Desk {
         }
     }
 
-    fn part(&self, index: usize) -> Option<Part> {
-        let (key, part) = (self.shown.names().get(index)?, self.shown.part(index)?);
+    fn part(&self, index: PartId) -> Option<Part> {
+        let (key, part) = (self.shown.names().get(index.0)?, self.shown.part(index)?);
         let Rgb(r, g, b) = self.shown.colour(index);
         Some(Part {
             key: key.clone(),
@@ -144,7 +144,7 @@ impl Desk {
     }
 
     /// The settings of a component, with what was found where nothing is chosen.
-    fn rows(&self, index: usize, key: &str, part: &ModelPart) -> Vec<Row> {
+    fn rows(&self, index: PartId, key: &str, part: &ModelPart) -> Vec<Row> {
         let options = self.document.options();
         let own = options.components.get(key).cloned().unwrap_or_default();
         let ComponentOptions { direction_rad, top_edges, profile_vertices, card, .. } = own;

@@ -6,6 +6,7 @@ use super::super::messages::Cause;
 use super::Studio;
 use glam::DVec3;
 use tatamu::front::hand;
+use tatamu::model::PartId;
 
 /// Turns of a component that follow each other within this time are undone together, seconds.
 const TURN_PAUSE_S: f64 = 1.0;
@@ -38,7 +39,7 @@ impl Studio {
         }
     }
 
-    pub(super) fn changed(&mut self, first: Option<usize>) {
+    pub(super) fn changed(&mut self, first: Option<PartId>) {
         self.messages.clear(Cause::Saving);
         // The work begins before the file is written.
         self.start(first);
@@ -74,7 +75,7 @@ impl Studio {
 
     /// Turns the fold direction of a component, as the wheel does, at a time of the window's clock. Turns
     /// that follow each other quickly are one step.
-    pub fn turn(&mut self, part: usize, degrees: f64, now_s: f64) {
+    pub fn turn(&mut self, part: PartId, degrees: f64, now_s: f64) {
         if now_s - self.last_turn_s > TURN_PAUSE_S {
             self.end_gesture();
         }
@@ -112,7 +113,7 @@ impl Studio {
     }
 
     /// Divides a part by a plane in the model's coordinates.
-    pub fn split(&mut self, part: usize, point: DVec3, normal: DVec3) {
+    pub fn split(&mut self, part: PartId, point: DVec3, normal: DVec3) {
         if let Some(change) = hand::split(&self.shown, part, point, normal) {
             self.change(&change, None);
         }

@@ -20,6 +20,7 @@ use std::sync::Arc;
 use tatamu::front::hand;
 use tatamu::front::notes::{self, Note};
 use tatamu::front::scene::Seen;
+use tatamu::model::PartId;
 use tatamu::pipeline::Output;
 use tatamu::project::options::SIZE;
 
@@ -246,7 +247,7 @@ impl Studio {
         }
     }
 
-    fn start(&mut self, first: Option<usize>) {
+    fn start(&mut self, first: Option<PartId>) {
         self.stop_sizing();
         let (Some(opened), Some(document)) = (&self.opened, &self.document) else { return };
         (self.missing, self.is_attempt) = (None, false);
@@ -280,23 +281,23 @@ impl Studio {
         }
     }
 
-    /// Index of a component by the name that options go by.
-    pub fn index_of(&self, name: &str) -> Option<usize> {
+    /// Id of a component by the name that options go by.
+    pub fn index_of(&self, name: &str) -> Option<PartId> {
         self.shown.index_of(name)
     }
 
     /// The component that was selected last.
-    pub fn selected_index(&self) -> Option<usize> {
+    pub fn selected_index(&self) -> Option<PartId> {
         self.selection.last().and_then(|name| self.index_of(name))
     }
 
     /// Whether a component is selected.
-    pub fn is_selected(&self, part: usize) -> bool {
-        self.shown.names().get(part).is_some_and(|name| self.selection.has(name))
+    pub fn is_selected(&self, part: PartId) -> bool {
+        self.shown.names().get(part.0).is_some_and(|name| self.selection.has(name))
     }
 
     /// Direction of a component's fold axis in degrees: as chosen, else as found.
-    pub fn direction_deg(&self, part: usize) -> Option<f64> {
+    pub fn direction_deg(&self, part: PartId) -> Option<f64> {
         hand::direction_deg(&self.shown, self.document.as_ref()?.project(), part)
     }
 }

@@ -3,6 +3,7 @@
 use super::Window;
 use super::commands::{self, Command};
 use eframe::egui::{PointerButton, Popup, Response, SetOpenCommand, Ui};
+use tatamu::model::PartId;
 
 /// What can be done with components, in groups.
 const OF_COMPONENTS: [&[&Command]; 3] = [
@@ -59,7 +60,8 @@ fn show(window: &mut Window, ui: &Ui, place: &Response, can_open: bool, groups: 
 fn select(window: &mut Window) {
     let Some(hover) = window.studio.hover.clone() else { return };
     let names = window.studio.shown().names();
-    let name = names.iter().enumerate().find(|(part, _)| hover.is_on(*part)).map(|(_, name)| name.clone());
+    let name =
+        names.iter().enumerate().find(|(part, _)| hover.is_on(PartId(*part))).map(|(_, name)| name.clone());
     if let Some(name) = name.filter(|name| !window.studio.selection.has(name)) {
         window.studio.selection.select(&name, None, false);
     }

@@ -7,6 +7,7 @@ use super::commands;
 use super::look::ACCENT;
 use eframe::egui::{self, CursorIcon, DragValue, PointerButton, Pos2, Rect, Response, Stroke, Ui};
 use tatamu::front::edges::{self, EdgeId, Joined, PlacedEdge};
+use tatamu::model::PartId;
 use tatamu::net::{PIECES, TAB_WIDTHS_MM, TabSide};
 use tatamu::pipeline::Output;
 use tatamu::project::change::Change;
@@ -99,7 +100,7 @@ impl EdgeTool {
             response.clone().on_hover_text_at_pointer(told(edge));
         }
         if response.clicked() && is_current {
-            if let Some(name) = studio.shown().names().get(edge.id.net).cloned() {
+            if let Some(name) = studio.shown().names().get(edge.id.net.0).cloned() {
                 studio.selection.select(&name, None, false);
             }
             self.chosen = Some(edge.id);
@@ -192,7 +193,7 @@ impl EdgeTool {
         });
     }
 
-    fn pieces(&self, studio: &mut Studio, output: &Output, ui: &mut Ui, net: usize) {
+    fn pieces(&self, studio: &mut Studio, output: &Output, ui: &mut Ui, net: PartId) {
         let Some(now) = studio.document().map(|d| edges::pieces(output, d.project(), net)) else { return };
         let mut chosen = now;
         let words = |pieces: Option<usize>| pieces.map_or("automatic".to_owned(), |count| count.to_string());

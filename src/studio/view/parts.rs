@@ -9,7 +9,7 @@ use super::{dials, look};
 use eframe::egui::{self, CollapsingHeader, Grid, RichText, Ui};
 use lucide_icons::Icon;
 use tatamu::front::hand::{self, AXES};
-use tatamu::model::JointChoice;
+use tatamu::model::{JointChoice, PartId};
 use tatamu::project::options::{
     CARD, CONCAVE, DIRECTION, Entry, JOINT, PROFILE_VERTICES, RENAME, ROOT, TOP_EDGES,
 };
@@ -50,7 +50,7 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
                 splitting(panel, studio, space, ui, index);
             }
         });
-        let name = studio.shown().names().get(index).cloned();
+        let name = studio.shown().names().get(index.0).cloned();
         if panel.seen != name {
             panel.seen = name;
             let body = shown.body_response.map_or(shown.header_response.rect, |body| body.rect);
@@ -92,7 +92,7 @@ fn components(studio: &mut Studio, ui: &mut Ui) {
         ui.weak("no components yet");
     }
     let mut clicked = None;
-    for (index, name) in names.iter().enumerate() {
+    for (index, name) in (0..).map(PartId).zip(&names) {
         let Some(part) = studio.shown().part(index) else { continue };
         let shown = part.name.clone();
         let figure = (!studio.is_drawn()).then(|| format!("{:.1} mm", part.component.hausdorff_mm()));
@@ -135,8 +135,8 @@ fn eye(studio: &mut Studio, ui: &mut Ui, name: &str, shown: &str) {
 }
 
 /// The component that is selected.
-fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: usize) {
-    let Some(name) = studio.shown().names().get(index).cloned() else { return };
+fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: PartId) {
+    let Some(name) = studio.shown().names().get(index.0).cloned() else { return };
     let Some(options) = studio.document().map(|d| d.options().clone()) else { return };
     let own = options.components.get(&name).cloned().unwrap_or_default();
     Grid::new("component").num_columns(2).show(ui, |ui| {
@@ -233,7 +233,7 @@ fn text_row(
 }
 
 /// What the component is worth.
-fn figures(studio: &Studio, ui: &mut Ui, index: usize) {
+fn figures(studio: &Studio, ui: &mut Ui, index: PartId) {
     let (Some(part), Some(shaped)) = (studio.shown().part(index), studio.shown().shaped()) else { return };
     let error_mm = part.component.hausdorff_mm();
     let share = 100.0 * error_mm / shaped.source().mesh().diagonal_mm();
@@ -250,7 +250,7 @@ fn figures(studio: &Studio, ui: &mut Ui, index: usize) {
     ui.end_row();
     if let Some(joint) = &part.joint
         && joint.support_ratio > 0.0
-        && let Some(parent) = shaped.model().parts().get(joint.parent)
+        && let Some(parent) = shaped.model().parts().get(joint.parent.0)
     {
         ui.label("Glued area").on_hover_text("share of its joint panel that lies on the other component");
         ui.label(format!("{:.0} % on {}", 100.0 * joint.support_ratio, parent.name));
@@ -259,7 +259,7 @@ fn figures(studio: &Studio, ui: &mut Ui, index: usize) {
 }
 
 /// Splitting by a plane that is shown while it is moved.
-fn splitting(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: &mut Ui, index: usize) {
+fn splitting(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: &mut Ui, index: PartId) {
     let Some(mut split) = panel.split else {
         space.show_split(None);
         if ui.button("Split …").on_hover_text("divides this part by a plane").clicked() {

@@ -8,6 +8,7 @@ use eframe::egui::{self, Align2, Color32, CursorIcon, Pos2, Rect, Sense, Stroke,
 use glam::DVec3;
 use std::f64::consts::TAU;
 use tatamu::component::PrincipalAxis;
+use tatamu::model::PartId;
 use tatamu::render::Orbit;
 use tatamu::show::upright;
 
@@ -46,8 +47,8 @@ struct Circle {
 }
 
 impl Circle {
-    fn of(studio: &Studio, part: usize) -> Option<Self> {
-        let hull = studio.shown().shaped()?.source().hulls()?.hulls().get(part)?;
+    fn of(studio: &Studio, part: PartId) -> Option<Self> {
+        let hull = studio.shown().shaped()?.source().hulls()?.hulls().get(part.0)?;
         let (axis, centre) = (PrincipalAxis::of_hull(hull), hull.centroid());
         let reach = |v: &DVec3| (*v - centre).reject_from_normalized(axis.axis()).length();
         let radius = ROOM * hull.vertices().iter().map(reach).fold(0.0, f64::max);
@@ -112,10 +113,10 @@ impl Ring {
     }
 
     /// Looks at other directions once the work rests.
-    fn look_about(&mut self, studio: &Studio, ui: &Ui, part: usize) {
+    fn look_about(&mut self, studio: &Studio, ui: &Ui, part: PartId) {
         let now_s = ui.input(|i| i.time);
         let (Some(opened), Some(document)) = (studio.opened(), studio.document()) else { return };
-        let Some(name) = studio.shown().names().get(part) else { return };
+        let Some(name) = studio.shown().names().get(part.0) else { return };
         if self.survey.as_ref().is_some_and(|survey| !survey.is_of(document.options(), name)) {
             self.survey = None;
         }
@@ -169,7 +170,7 @@ impl Ring {
         studio: &Studio,
         ui: &mut Ui,
         rect: Rect,
-        (part, now, tip): (usize, f64, Pos2),
+        (part, now, tip): (PartId, f64, Pos2),
     ) -> egui::Response {
         let name = studio.shown().part(part).map(|part| part.name.clone()).unwrap_or_default();
         let place = Rect::from_center_size(tip, Vec2::splat(2.0 * HANDLE + 4.0));

@@ -16,6 +16,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::LazyLock;
 use tatamu::drawing::Rgb;
 use tatamu::fold::Clash;
+use tatamu::model::PartId;
 use tatamu::render::Orbit;
 use tatamu::render::zbuffer::{Frame, Solids};
 
@@ -49,13 +50,13 @@ pub struct Space {
     /// The model's diagonal, which the view follows, mm.
     diagonal_mm: Option<f64>,
     /// The component that was turned last, where and when.
-    turning: Option<(usize, Pos2, f64)>,
+    turning: Option<(PartId, Pos2, f64)>,
     wheel: Wheel,
     shows_names: bool,
     ring: Ring,
     measure: Measure,
     /// Where names stand in the picture, as shares of its size.
-    middles: Vec<(usize, Vec2)>,
+    middles: Vec<(PartId, Vec2)>,
 }
 
 /// The version of the components; and that of all results, where these are seen.
@@ -440,7 +441,7 @@ impl Space {
         } else if response.clicked() {
             match over {
                 Some(tag) => {
-                    if let Some(name) = studio.shown().names().get(tag.part).cloned() {
+                    if let Some(name) = studio.shown().names().get(tag.part.0).cloned() {
                         studio.selection.select(&name, tag.panel, shift || command);
                     }
                 }

@@ -11,6 +11,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 use tatamu::fold::Sequence;
+use tatamu::model::PartId;
 use tatamu::render::Orbit;
 use tatamu::render::zbuffer::Frame;
 
@@ -20,9 +21,9 @@ const SAMPLE: usize = 4;
 const LEAST_SEEN: usize = 40;
 
 /// The middle of what is seen of each component, as a share of the picture; of which most is seen first.
-pub fn middles(frame: &Frame) -> Vec<(usize, Vec2)> {
+pub fn middles(frame: &Frame) -> Vec<(PartId, Vec2)> {
     let [width, height] = frame.size_px();
-    let mut sums: BTreeMap<usize, (usize, usize, usize)> = BTreeMap::new();
+    let mut sums: BTreeMap<PartId, (usize, usize, usize)> = BTreeMap::new();
     for y in (0..height).step_by(SAMPLE) {
         for x in (0..width).step_by(SAMPLE) {
             if let Some(tag) = frame.tag_at(x, y).and_then(Tag::of_number) {
@@ -41,7 +42,7 @@ pub fn middles(frame: &Frame) -> Vec<(usize, Vec2)> {
 
 /// The names of components at their middles: of the selected ones first, then of those of which most is
 /// seen, as far as none is over another.
-pub fn names(studio: &Studio, ui: &Ui, rect: Rect, middles: &[(usize, Vec2)]) {
+pub fn names(studio: &Studio, ui: &Ui, rect: Rect, middles: &[(PartId, Vec2)]) {
     let (selected, others): (Vec<_>, Vec<_>) =
         middles.iter().copied().partition(|(part, _)| studio.is_selected(*part));
     let mut taken: Vec<Rect> = Vec::new();

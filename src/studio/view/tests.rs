@@ -13,6 +13,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use tatamu::model::PartId;
 use tempfile::TempDir;
 
 mod defects;
@@ -116,14 +117,14 @@ fn click_when_there(desk: &mut Desk, label: &str) {
 }
 
 /// The middle of the view in space, and a point of it where a component is seen.
-fn on_component(desk: &Desk, part: usize) -> Pos2 {
+fn on_component(desk: &Desk, part: PartId) -> Pos2 {
     let rect = desk.get_by_label("Model in space").rect();
     let [width, height] = desk.state().space().size_px().unwrap();
     let tags = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let own: Vec<(usize, usize)> = tags
         .filter(|&(x, y)| desk.state().space().tag_at(x, y).is_some_and(|tag| tag.part == part))
         .collect();
-    assert!(!own.is_empty(), "component {part} is seen");
+    assert!(!own.is_empty(), "{part:?} is seen");
     let (x, y) = own[own.len() / 2];
     rect.min + egui::vec2(x as f32 + 0.5, y as f32 + 0.5)
 }
@@ -157,31 +158,31 @@ fn wheel(desk: &mut Desk, at: Pos2, notches: f32) {
 fn a_component_is_selected_turned_by_the_wheel_and_turned_back() {
     let (mut desk, _folder) = open();
     let names = desk.state().studio().shown().names().to_vec();
-    let at = on_component(&desk, 1);
+    let at = on_component(&desk, PartId(1));
     press(&mut desk, at, Modifiers::NONE);
     assert_eq!(desk.state().studio().selection.names(), [names[1].clone()]);
     assert!(desk.query_by_label("Direction").is_some(), "its dials are shown");
-    let before = desk.state().studio().direction_deg(1).unwrap();
+    let before = desk.state().studio().direction_deg(PartId(1)).unwrap();
     wheel(&mut desk, at, 2.0);
     // The component may be elsewhere now.
-    let at = on_component(&desk, 1);
+    let at = on_component(&desk, PartId(1));
     wheel(&mut desk, at, 1.0);
-    let turned = desk.state().studio().direction_deg(1).unwrap();
+    let turned = desk.state().studio().direction_deg(PartId(1)).unwrap();
     assert!(((turned - before).rem_euclid(360.0) - 15.0).abs() < 0.11, "{before} {turned}");
     settle(&mut desk, "the model", |s| s.finished().is_some());
     desk.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     desk.run_ok();
     assert!(!desk.state().studio().document().unwrap().is_changed(), "one gesture is one step");
-    settle(&mut desk, "the direction of before", |s| s.direction_deg(1) == Some(before));
+    settle(&mut desk, "the direction of before", |s| s.direction_deg(PartId(1)) == Some(before));
     desk.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     desk.run_ok();
-    assert_eq!(desk.state().studio().direction_deg(1), Some(turned));
+    assert_eq!(desk.state().studio().direction_deg(PartId(1)), Some(turned));
 }
 
 #[test]
 fn the_wheel_beside_the_selection_magnifies() {
     let (mut desk, _folder) = open();
-    let at = on_component(&desk, 0);
+    let at = on_component(&desk, PartId(0));
     let text = desk.state().studio().document().unwrap().text().to_owned();
     wheel(&mut desk, at, 3.0);
     assert_eq!(desk.state().studio().document().unwrap().text(), text);
@@ -190,9 +191,9 @@ fn the_wheel_beside_the_selection_magnifies() {
 #[test]
 fn two_components_are_merged_by_the_keyboard() {
     let (mut desk, _folder) = open();
-    let at = on_component(&desk, 0);
+    let at = on_component(&desk, PartId(0));
     press(&mut desk, at, Modifiers::NONE);
-    let at = on_component(&desk, 2);
+    let at = on_component(&desk, PartId(2));
     press(&mut desk, at, Modifiers::SHIFT);
     assert_eq!(desk.state().studio().selection.names().len(), 2);
     desk.key_press(Key::M);
@@ -222,8 +223,8 @@ fn sheets_and_space_select_the_same() {
     press(&mut desk, at, Modifiers::NONE);
     let selection = desk.state().studio().selection.clone();
     let names = desk.state().studio().shown().names();
-    assert_eq!(selection.names(), [names[id.net].clone()]);
-    assert_eq!(selection.piece(), Some(output.nets()[id.net].pieces()[id.piece].name()));
+    assert_eq!(selection.names(), [names[id.net.0].clone()]);
+    assert_eq!(selection.piece(), Some(output.nets()[id.net.0].pieces()[id.piece].name()));
 }
 
 #[test]
@@ -303,7 +304,7 @@ fn a_piece_that_is_dragged_is_pinned() {
     let by = egui::vec2(12.0, -8.0) * scale;
     defects::drag(&mut desk, at, at + by);
     let pins = &desk.state().studio().document().unwrap().project().pins;
-    let name = output.nets()[id.net].pieces()[id.piece].name();
+    let name = output.nets()[id.net.0].pieces()[id.piece].name();
     let all: usize = output.nets().iter().map(|net| net.pieces().len()).sum();
     assert_eq!(
         pins.len(),

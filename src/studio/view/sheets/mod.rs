@@ -311,7 +311,7 @@ impl SheetsPanel {
         }
         if (response.clicked() || response.secondary_clicked()) && !is_on_edge {
             let piece = over.and_then(|id| pages::piece(output, id).map(|piece| (id, piece)));
-            match piece.and_then(|(id, piece)| Some((studio.shown().names().get(id.net)?.clone(), piece))) {
+            match piece.and_then(|(id, piece)| Some((studio.shown().names().get(id.net.0)?.clone(), piece))) {
                 Some((name, piece)) => {
                     self.seen = Some(piece.name().to_owned());
                     studio.selection.select_piece(&name, piece.name());
@@ -345,7 +345,7 @@ impl SheetsPanel {
 /// The panels of a piece.
 fn panels(output: &Output, id: PieceId) -> Vec<PanelId> {
     let Some(piece) = pages::piece(output, id) else { return Vec::new() };
-    let net = &output.nets()[id.net];
+    let net = &output.nets()[id.net.0];
     piece.panels().iter().map(|placed| net.source(placed.panel)).collect()
 }
 
@@ -365,7 +365,7 @@ fn paint(painter: &egui::Painter, page: Rect, texture: Option<&egui::TextureHand
 /// Whether a piece is selected, or the component or the panel that it is made of.
 fn is_selected(studio: &Studio, output: &Output, id: PieceId) -> bool {
     let selection = &studio.selection;
-    let name = studio.shown().names().get(id.net);
+    let name = studio.shown().names().get(id.net.0);
     if name.is_none_or(|name| !selection.has(name)) {
         return false;
     }

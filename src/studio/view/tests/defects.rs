@@ -26,7 +26,7 @@ fn another_file_is_opened_only_after_a_question() {
     let (mut desk, folder) = open();
     let other = folder.path().join("other.toml");
     std::fs::copy(folder.path().join("snowman.toml"), &other).unwrap();
-    desk.state_mut().studio_mut().turn(1, 15.0, 0.0);
+    desk.state_mut().studio_mut().turn(PartId(1), 15.0, 0.0);
     desk.run_ok();
     let text = desk.state().studio().document().unwrap().text().to_owned();
     desk.state_mut().open(&other);
@@ -70,10 +70,10 @@ fn an_error_does_not_hide_what_succeeds_later() {
 fn a_clash_is_shown_as_long_as_it_is_there() {
     let (mut desk, _folder) = open();
     let clash = Clash {
-        mover: 1,
+        mover: PartId(1),
         from: 0.0,
         to: 1.0,
-        parts: [0, 1],
+        parts: [PartId(0), PartId(1)],
         panels: [PanelId(0), PanelId(1)],
         folded: 0.5,
         depth_mm: 1.0,
@@ -81,7 +81,7 @@ fn a_clash_is_shown_as_long_as_it_is_there() {
     let window = desk.state_mut();
     window.space.show_clash(&window.studio, clash);
     assert!(desk.state().space().clash().is_some());
-    desk.state_mut().studio_mut().turn(1, 10.0, 0.0);
+    desk.state_mut().studio_mut().turn(PartId(1), 10.0, 0.0);
     settle(&mut desk, "the new model", |s| s.finished().is_some());
     assert_eq!(desk.state().space().clash(), None);
 }
@@ -89,9 +89,9 @@ fn a_clash_is_shown_as_long_as_it_is_there() {
 #[test]
 fn what_is_typed_into_a_dialog_is_no_command() {
     let (mut desk, _folder) = open();
-    let at = on_component(&desk, 0);
+    let at = on_component(&desk, PartId(0));
     press(&mut desk, at, Modifiers::NONE);
-    let at = on_component(&desk, 2);
+    let at = on_component(&desk, PartId(2));
     press(&mut desk, at, Modifiers::SHIFT);
     desk.key_press_modifiers(Modifiers::COMMAND, Key::O);
     desk.run_ok();
@@ -145,7 +145,7 @@ fn a_dialog_takes_the_focus_from_a_field_that_is_being_written() {
 #[test]
 fn the_hint_for_the_wheel_stands_before_the_picture() {
     let (mut desk, _folder) = open();
-    let at = on_component(&desk, 1);
+    let at = on_component(&desk, PartId(1));
     press(&mut desk, at, Modifiers::NONE);
     let words = "rotates its fold direction";
     assert!(desk.query_by_label_contains(words).is_some());
@@ -163,7 +163,7 @@ fn the_hint_for_the_wheel_stands_before_the_picture() {
 /// Where the pieces lie, by name.
 pub(super) fn places(desk: &Desk) -> BTreeMap<String, (usize, glam::DVec2)> {
     let output = desk.state().studio().shown().output().unwrap();
-    let all = output.nets().iter().enumerate();
+    let all = output.model().ids().zip(output.nets());
     all.flat_map(|(net, own)| {
         own.pieces().iter().zip(output.layout().places(net)).map(|(piece, at)| {
             let pin = tatamu::sheet::Pin::of_place(piece.outline(), at);
@@ -321,21 +321,21 @@ fn lengths_are_written_with_their_units_and_refused_in_words() {
 #[test]
 fn presses_that_are_far_apart_are_undone_one_by_one() {
     let (mut desk, _folder) = open();
-    let at = on_component(&desk, 1);
+    let at = on_component(&desk, PartId(1));
     press(&mut desk, at, Modifiers::NONE);
-    let before = desk.state().studio().direction_deg(1);
+    let before = desk.state().studio().direction_deg(PartId(1));
     desk.key_press(Key::CloseBracket);
     desk.run_ok();
-    let once = desk.state().studio().direction_deg(1);
+    let once = desk.state().studio().direction_deg(PartId(1));
     desk.run_steps(200);
     desk.key_press(Key::CloseBracket);
     desk.run_ok();
     desk.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     desk.run_ok();
-    assert_eq!(desk.state().studio().direction_deg(1), once);
+    assert_eq!(desk.state().studio().direction_deg(PartId(1)), once);
     desk.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     desk.run_ok();
-    settle(&mut desk, "the direction of before", |s| s.direction_deg(1) == before);
+    settle(&mut desk, "the direction of before", |s| s.direction_deg(PartId(1)) == before);
     assert!(!desk.state().studio().document().unwrap().is_changed());
 }
 
@@ -346,14 +346,14 @@ fn the_wheel_goes_on_turning_a_component_that_unfolds_under_it() {
     desk.state_mut().studio_mut().selection.select(&name, None, false);
     desk.state_mut().space.fold_to(1.0);
     desk.run_ok();
-    let at = on_component(&desk, 1);
-    let before = desk.state().studio().direction_deg(1).unwrap();
+    let at = on_component(&desk, PartId(1));
+    let before = desk.state().studio().direction_deg(PartId(1)).unwrap();
     let zoom = desk.state().space().orbit().unwrap().zoom;
     for _ in 0..4 {
         wheel(&mut desk, at, 1.0);
         desk.run_steps(40);
     }
-    let turned = desk.state().studio().direction_deg(1).unwrap();
+    let turned = desk.state().studio().direction_deg(PartId(1)).unwrap();
     assert!(((turned - before).rem_euclid(360.0) - 20.0).abs() < 0.2, "{before} {turned}");
     assert_eq!(desk.state().space().orbit().unwrap().zoom, zoom);
 }
@@ -377,7 +377,7 @@ fn the_view_follows_a_change_of_size() {
 fn colours_stay_with_their_owners_after_a_merge() {
     let (mut desk, _folder) = open();
     let names = desk.state().studio().shown().names().to_vec();
-    let colours: Vec<_> = (0..3).map(|k| desk.state().studio().shown().colour(k)).collect();
+    let colours: Vec<_> = (0..3).map(|k| desk.state().studio().shown().colour(PartId(k))).collect();
     let studio = desk.state_mut().studio_mut();
     studio.selection.select(&names[0], None, false);
     studio.selection.select(&names[1], None, true);

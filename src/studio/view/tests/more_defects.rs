@@ -15,9 +15,9 @@ fn ear(name: &str, at_mm: f64) -> String {
 }
 
 fn turn_by_wheel(desk: &mut Desk) {
-    let at = on_component(desk, 1);
+    let at = on_component(desk, PartId(1));
     press(desk, at, Modifiers::NONE);
-    let at = on_component(desk, 1);
+    let at = on_component(desk, PartId(1));
     wheel(desk, at, 1.0);
     desk.run_ok();
 }
@@ -74,7 +74,7 @@ fn a_clash_is_told_of_the_components_that_it_shows() {
     desk.run_ok();
     let clash = desk.state().space().clash().expect("it is shown");
     let names = desk.state().studio().shown().names().to_vec();
-    assert_eq!(clash.parts.map(|part| names[part].as_str()), ["left", "right"]);
+    assert_eq!(clash.parts.map(|part| names[part.0].as_str()), ["left", "right"]);
     assert_eq!(desk.state().studio().selection.names(), ["left", "right"]);
     let folded = desk.state().space().folded();
     assert!(folded > 0.0 && folded < 1.0, "the moment of it: {folded}");
@@ -166,10 +166,10 @@ fn two_fingers_move_the_sheets() {
 #[test]
 fn a_click_of_an_old_wheel_turns_once() {
     let (mut desk, _folder) = open();
-    let at = on_component(&desk, 1);
+    let at = on_component(&desk, PartId(1));
     press(&mut desk, at, Modifiers::NONE);
-    let before = desk.state().studio().direction_deg(1).unwrap();
-    let at = on_component(&desk, 1);
+    let before = desk.state().studio().direction_deg(PartId(1)).unwrap();
+    let at = on_component(&desk, PartId(1));
     desk.event(Event::PointerMoved(at));
     desk.run_steps(1);
     for _ in 0..2 {
@@ -182,7 +182,7 @@ fn a_click_of_an_old_wheel_turns_once() {
         });
         desk.run_steps(1);
     }
-    let turned = desk.state().studio().direction_deg(1).unwrap();
+    let turned = desk.state().studio().direction_deg(PartId(1)).unwrap();
     assert!(((turned - before).rem_euclid(360.0) - 5.0).abs() < 0.2, "{before} {turned}");
 }
 
@@ -231,7 +231,7 @@ fn a_right_click_opens_a_menu_for_what_is_under_the_mouse() {
     click(&mut desk, "Model");
     wait_for(&mut desk, "Model in space");
     desk.run_ok();
-    let at = on_component(&desk, 1);
+    let at = on_component(&desk, PartId(1));
     right_click(&mut desk, at);
     let name = desk.state().studio().shown().names()[1].clone();
     assert_eq!(desk.state().studio().selection.names(), std::slice::from_ref(&name));

@@ -126,7 +126,7 @@ fn the_bar_changes_the_net_of_the_selected_component() {
     let output = desk.state().studio().finished().unwrap();
     assert_eq!(output.nets()[0].pieces().len(), 2);
     let (id, joined) =
-        edges::of_component(output, 0).into_iter().find(|(_, j)| *j == Joined::Crease).unwrap();
+        edges::of_component(output, PartId(0)).into_iter().find(|(_, j)| *j == Joined::Crease).unwrap();
     assert_eq!(joined, Joined::Crease);
     click(&mut desk, "Edge");
     click(&mut desk, &format!("{}, crease", id.name));

@@ -11,7 +11,7 @@ use tatamu::project::options::SIZE;
 #[test]
 fn every_control_has_a_name_for_those_who_do_not_see_it() {
     let (mut desk, _folder) = open();
-    let at = on_component(&desk, 1);
+    let at = on_component(&desk, PartId(1));
     press(&mut desk, at, Modifiers::NONE);
     let roles = [
         Role::Button,
@@ -100,7 +100,7 @@ fn a_command_is_found_by_its_name_and_run() {
 fn the_title_has_the_file_and_a_star() {
     let (mut desk, _folder) = open();
     assert_eq!(desk.state().title(), "snowman.toml – tatamu");
-    desk.state_mut().studio_mut().turn(0, 5.0, 0.0);
+    desk.state_mut().studio_mut().turn(PartId(0), 5.0, 0.0);
     desk.run_ok();
     assert_eq!(desk.state().title(), "snowman.toml * – tatamu");
 }
@@ -108,9 +108,9 @@ fn the_title_has_the_file_and_a_star() {
 #[test]
 fn components_are_hidden_isolated_and_shown() {
     let (mut desk, _folder) = open();
-    let at = on_component(&desk, 1);
+    let at = on_component(&desk, PartId(1));
     press(&mut desk, at, Modifiers::NONE);
-    let seen = |desk: &Desk| -> BTreeSet<usize> {
+    let seen = |desk: &Desk| -> BTreeSet<PartId> {
         let [width, height] = desk.state().space().size_px().unwrap();
         let all = (0..height).step_by(3).flat_map(|y| (0..width).step_by(3).map(move |x| (x, y)));
         all.filter_map(|(x, y)| desk.state().space().tag_at(x, y)).map(|tag| tag.part).collect()
@@ -118,14 +118,14 @@ fn components_are_hidden_isolated_and_shown() {
     assert_eq!(seen(&desk).len(), 3);
     desk.key_press(Key::I);
     desk.run_ok();
-    assert_eq!(seen(&desk), BTreeSet::from([1]));
+    assert_eq!(seen(&desk), BTreeSet::from([PartId(1)]));
     desk.key_press_modifiers(Modifiers::SHIFT, Key::H);
     desk.run_ok();
     assert_eq!(seen(&desk).len(), 3, "{:?}", desk.state().studio().visibility);
     desk.key_press(Key::H);
     desk.run_ok();
-    assert_eq!(seen(&desk), BTreeSet::from([0, 2]));
-    let shown = desk.state().studio().shown().part(1).unwrap().name.clone();
+    assert_eq!(seen(&desk), BTreeSet::from([PartId(0), PartId(2)]));
+    let shown = desk.state().studio().shown().part(PartId(1)).unwrap().name.clone();
     desk.get_by_label(&format!("Show {shown}")).scroll_to_me();
     desk.run_ok();
     click(&mut desk, &format!("Show {shown}"));
@@ -154,11 +154,11 @@ fn pages_and_outlines_are_of_one_layout() {
 fn what_the_mouse_is_over_is_marked_in_both_views() {
     let (mut desk, _folder) = open();
     wait_for(&mut desk, "Sheet 1");
-    let at = on_component(&desk, 1);
+    let at = on_component(&desk, PartId(1));
     desk.event(Event::PointerMoved(at));
     desk.run_ok();
     let hover = desk.state().studio().hover.clone().expect("over a component");
-    assert!(hover.is_on(1));
+    assert!(hover.is_on(PartId(1)));
     desk.run_ok();
     // The same from a sheet.
     let output = desk.state().studio().finished().unwrap().clone();
@@ -253,7 +253,7 @@ fn the_tour_is_shown_once() {
 fn a_mesh_that_another_program_changes_is_read_again() {
     let (mut desk, folder) = open();
     let before = desk.state().studio().opened().unwrap().engine.mesh().faces().len();
-    desk.state_mut().studio_mut().turn(1, 10.0, 0.0);
+    desk.state_mut().studio_mut().turn(PartId(1), 10.0, 0.0);
     let text = desk.state().studio().document().unwrap().text().to_owned();
     let mesh = include_bytes!("../../../../samples/rabbit.obj");
     std::fs::write(folder.path().join("snowman.obj"), mesh).unwrap();
@@ -265,11 +265,11 @@ fn a_mesh_that_another_program_changes_is_read_again() {
 #[test]
 fn the_handle_on_the_ring_turns_the_fold_direction_as_one_step() {
     let (mut desk, _folder) = open();
-    let at = on_component(&desk, 1);
+    let at = on_component(&desk, PartId(1));
     press(&mut desk, at, Modifiers::NONE);
-    let name = desk.state().studio().shown().part(1).unwrap().name.clone();
+    let name = desk.state().studio().shown().part(PartId(1)).unwrap().name.clone();
     let handle = format!("Fold direction of {name}");
-    let direction = |desk: &Desk| desk.state().studio().direction_deg(1).unwrap();
+    let direction = |desk: &Desk| desk.state().studio().direction_deg(PartId(1)).unwrap();
     let before = direction(&desk);
     let from = desk.get_by_label(&handle).rect().center();
     // About the component, by almost a radian.
@@ -289,7 +289,7 @@ fn the_handle_on_the_ring_turns_the_fold_direction_as_one_step() {
 #[test]
 fn the_ring_tells_how_other_directions_are_while_the_work_rests() {
     let (mut desk, _folder) = open();
-    let at = on_component(&desk, 1);
+    let at = on_component(&desk, PartId(1));
     press(&mut desk, at, Modifiers::NONE);
     let start = Instant::now();
     let known =
@@ -316,7 +316,7 @@ fn two_corners_that_are_clicked_are_measured() {
     let (mut desk, _folder) = open();
     click(&mut desk, "Measure");
     assert!(desk.query_by_label("click on a corner to measure from").is_some());
-    for part in [1, 2] {
+    for part in [1, 2].map(PartId) {
         let at = on_component(&desk, part);
         press(&mut desk, at, Modifiers::NONE);
     }
