@@ -53,7 +53,7 @@ fn chains(model: &Model, pose: &ModelPose) -> Vec<Vec<[DVec3; 3]>> {
     let mut chains = vec![Vec::new(); model.parts()[0].component.profiles().len()];
     for (k, panel) in set.panels().iter().enumerate() {
         if let PanelKind::Side { chain, .. } = panel.kind {
-            chains[chain].extend(fan(panel, &pose.parts[0].panel(PanelId(k))));
+            chains[chain.0].extend(fan(panel, &pose.parts[0].panel(PanelId(k))));
         }
     }
     chains

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 use support::Prism;
-use tatamu::component::{HingeId, PanelKind};
+use tatamu::component::{ChainId, HingeId, PanelKind};
 use tatamu::drawing::{LineStyles, Shape};
 use tatamu::guide::{Access, Action, Guide, Language, Step, gluing_order, html, leaflet, steps};
 use tatamu::mesh::{self, Mesh};
@@ -40,7 +40,7 @@ fn labels(output: &Output) -> Vec<String> {
 }
 
 /// Cut hinges of a chain that are not joined.
-fn open_chains(net: &Net, joined: &BTreeSet<usize>) -> BTreeSet<usize> {
+fn open_chains(net: &Net, joined: &BTreeSet<usize>) -> BTreeSet<ChainId> {
     let set = net.panels();
     let chain = |h: usize| {
         set.hinges()[h].sides.iter().find_map(|side| match set.panel(side.panel).kind {

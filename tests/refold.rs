@@ -7,7 +7,7 @@ use lopdf::content::Content;
 use lopdf::{Document, Object};
 use made::{Fold, Made, samples};
 use tatamu::check;
-use tatamu::component::{FaceId, PanelId};
+use tatamu::component::{ChainId, FaceId, PanelId};
 use tatamu::geom::Hull;
 use tatamu::model::PartId;
 use tatamu::pipeline::{Bodies, Options};
@@ -121,7 +121,7 @@ fn deployed_panels_are_the_faces_of_the_components() {
 
 /// Which faces of a solid a panel may be; none for tabs.
 fn own_face(master: &Fold, face: usize) -> Option<Box<dyn Fn(FaceId) -> bool>> {
-    let chain = master.chain[face];
+    let chain = master.chain[face].map(ChainId);
     match master.kind[face].as_str() {
         "top" => Some(Box::new(|id| id == FaceId::Top)),
         "bottom" => Some(Box::new(|id| id == FaceId::Bottom)),

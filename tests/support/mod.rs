@@ -1,7 +1,7 @@
 //! Components made from edge normals and convex profiles, for tests.
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
-use tatamu::component::{Hinge, HingeSide, Panel, PanelId, PanelKind, PanelSet};
+use tatamu::component::{ChainId, Hinge, HingeSide, Panel, PanelId, PanelKind, PanelSet};
 
 /// Points nearer than this are one point. Twice this is missing from a flat state that closes, so
 /// it is far below what the checks allow; a wall's rounding is 1e-14.
@@ -142,7 +142,7 @@ impl Prism {
             let start = profile[0].x + if i < fold { 0.0 } else { 2.0 * fold_arc };
             let up = (upper - lower) / upper.distance(lower);
             panels.push(Panel {
-                kind: PanelKind::Side { chain: j, index: i },
+                kind: PanelKind::Side { chain: ChainId(j), index: i },
                 outline,
                 deployed: self.place(j, up, upper + up * arc),
                 flat: self.place(j, if i < fold { -DVec2::X } else { DVec2::X }, DVec2::X * start),

@@ -94,7 +94,7 @@ fn area_mm2(points: &[DVec3], edges: &[([usize; 2], i32)]) -> f64 {
 mod tests {
     use super::*;
     use glam::{DAffine3, DMat3, DVec2};
-    use tatamu_core::component::{Panel, PanelKind};
+    use tatamu_core::component::{ChainId, Panel, PanelKind};
 
     /// A box of 20 × 30 × 40 mm, in which one side panel is cut back by so much at one corner.
     fn cut_box(cut_mm: f64) -> PanelSet {
@@ -113,7 +113,12 @@ mod tests {
                     outline.splice(2..3, top.map(|(x, y)| DVec2::new(x, y)));
                 }
                 let deployed = DAffine3::from_mat3_translation(DMat3::from_cols(u, v, w), start);
-                Panel { kind: PanelKind::Side { chain: k, index: 0 }, outline, deployed, flat: deployed }
+                Panel {
+                    kind: PanelKind::Side { chain: ChainId(k), index: 0 },
+                    outline,
+                    deployed,
+                    flat: deployed,
+                }
             })
         });
         PanelSet::new(panels.collect(), Vec::new())

@@ -4,7 +4,7 @@
 use super::assemble_error::AssembleError;
 use super::boards::Outside;
 use super::layer::{self, Layer, Side};
-use super::panel::{Hinge, HingeSide, Panel, PanelId, PanelKind, PanelSet};
+use super::panel::{ChainId, Hinge, HingeSide, Panel, PanelId, PanelKind, PanelSet};
 use super::profile::{Fold, Profile, ProfileError, balance};
 use super::solid::Solid;
 use super::spans::{Span, common, edge_of, set_span, span};
@@ -29,9 +29,10 @@ pub(super) fn assemble(
     spots: &[FoldSpot],
     symmetry: Option<Symmetry>,
 ) -> Result<Assembled, AssembleError> {
-    let profiles = (0..solid.chains.len())
+    let profiles = solid
+        .chain_ids()
         .map(|chain| {
-            profile(solid, chain, spots[chain]).map_err(|error| AssembleError::Profile { chain, error })
+            profile(solid, chain, spots[chain.0]).map_err(|error| AssembleError::Profile { chain, error })
         })
         .collect::<Result<Vec<_>, _>>()?;
     let normals = solid.chains.iter().map(|c| c.normal()).collect();
@@ -43,7 +44,7 @@ pub(super) fn assemble(
 pub(super) fn panels(walls: &Walls, outside: Option<&Outside>) -> Result<Assembled, AssembleError> {
     let mut sides: Vec<Side> = Vec::new();
     let mut trimmed_mm2 = 0.0;
-    for (j, profile) in walls.profiles().iter().enumerate() {
+    for (j, profile) in walls.ids().zip(walls.profiles()) {
         for i in 0..profile.points().len() - 1 {
             let mut side = side(walls, outside, j, i);
             let whole_mm2 = polygon::area(&side.outline);
@@ -61,7 +62,7 @@ pub(super) fn panels(walls: &Walls, outside: Option<&Outside>) -> Result<Assembl
     Ok(Assembled { profiles: walls.profiles().to_vec(), panels, trimmed_mm2 })
 }
 
-fn profile(solid: &Solid, chain: usize, spot: FoldSpot) -> Result<Profile, ProfileError> {
+fn profile(solid: &Solid, chain: ChainId, spot: FoldSpot) -> Result<Profile, ProfileError> {
     let mut points = solid.profile(chain);
     match spot {
         FoldSpot::Bend(i) => Profile::new(points, i + 1),
@@ -74,7 +75,7 @@ fn profile(solid: &Solid, chain: usize, spot: FoldSpot) -> Result<Profile, Profi
 }
 
 /// Outline and layer placement of panel i of chain j.
-fn side(walls: &Walls, outside: Option<&Outside>, j: usize, i: usize) -> Side {
+fn side(walls: &Walls, outside: Option<&Outside>, j: ChainId, i: usize) -> Side {
     let profile = walls.profile(j);
     let outline = match outside {
         None => outline(walls, j, i),
@@ -96,15 +97,15 @@ fn side(walls: &Walls, outside: Option<&Outside>, j: usize, i: usize) -> Side {
 
 /// Outline of panel i of chain j. The sides follow the corners with the neighbouring chains, which
 /// bend where the neighbours' profiles do.
-fn outline(walls: &Walls, j: usize, i: usize) -> Vec<DVec2> {
+fn outline(walls: &Walls, j: ChainId, i: usize) -> Vec<DVec2> {
     let points = walls.profile(j).points();
     let (upper, lower) = (points[i], points[i + 1]);
     let length = upper.distance(lower);
     let tangent = walls.tangent(j);
-    let at = |corner: usize, v: f64| {
+    let at = |corner: ChainId, v: f64| {
         DVec2::new(tangent.dot(walls.corner_at(corner, v)), length * (v - lower.y) / (upper.y - lower.y))
     };
-    let between = |neighbour: usize| {
+    let between = |neighbour: ChainId| {
         let inside = move |v: &f64| *v < upper.y - BEND_MM && *v > lower.y + BEND_MM;
         walls.profile(neighbour).bends().filter(inside).collect::<Vec<f64>>()
     };
@@ -164,18 +165,18 @@ struct Ends {
 
 impl Builder<'_> {
     /// Index in `sides` of panel i of chain j.
-    fn index(&self, j: usize, i: usize) -> usize {
-        self.walls.profiles()[..j].iter().map(|p| p.points().len() - 1).sum::<usize>() + i
+    fn index(&self, j: ChainId, i: usize) -> usize {
+        self.walls.profiles()[..j.0].iter().map(|p| p.points().len() - 1).sum::<usize>() + i
     }
 
-    fn length(&self, j: usize, i: usize) -> f64 {
+    fn length(&self, j: ChainId, i: usize) -> f64 {
         let [upper, lower] = self.walls.profile(j).face(i);
         upper.distance(lower)
     }
 
     /// The whole edge of the section that a chain has at a height.
-    fn whole_edge(&self, j: usize, v_mm: f64) -> Span {
-        let at = |corner: usize| self.walls.tangent(j).dot(self.walls.corner_at(corner, v_mm));
+    fn whole_edge(&self, j: ChainId, v_mm: f64) -> Span {
+        let at = |corner: ChainId| self.walls.tangent(j).dot(self.walls.corner_at(corner, v_mm));
         (at(self.walls.previous(j)), at(j))
     }
 
@@ -183,7 +184,7 @@ impl Builder<'_> {
     /// returns these edges by chain, from the top panel's to the bottom panel's.
     fn match_hinges(&mut self) -> Result<Vec<Vec<Span>>, AssembleError> {
         let mut spans = vec![Vec::new(); self.walls.count()];
-        for (j, spans) in spans.iter_mut().enumerate() {
+        for (j, spans) in self.walls.ids().zip(&mut spans) {
             let count = self.walls.profile(j).points().len() - 1;
             for i in 0..=count {
                 let above = (i > 0).then(|| self.index(j, i - 1));
@@ -211,12 +212,12 @@ impl Builder<'_> {
     fn ends(&mut self, spans: &[Vec<Span>]) -> Ends {
         let (top_mm, bottom_mm) = (self.walls.top_mm(), self.walls.bottom_mm());
         let lift = |v: f64| DAffine3::from_translation(DVec3::Z * v);
-        let (outline, top) = self.ring(top_mm, |j| spans[j][0]);
+        let (outline, top) = self.ring(top_mm, |j| spans[j.0][0]);
         let kind = PanelKind::Top;
-        let flat = lift(bottom_mm + self.walls.profile(0).flat_heights_mm().1);
+        let flat = lift(bottom_mm + self.walls.profile(ChainId(0)).flat_heights_mm().1);
         self.panels.push(Panel { kind, outline, deployed: lift(top_mm), flat });
         let turned = lift(bottom_mm) * DAffine3::from_mat3(DMat3::from_diagonal(DVec3::new(1.0, -1.0, -1.0)));
-        let (mut outline, mut bottom) = self.ring(bottom_mm, |j| spans[j][spans[j].len() - 1]);
+        let (mut outline, mut bottom) = self.ring(bottom_mm, |j| spans[j.0][spans[j.0].len() - 1]);
         outline.iter_mut().for_each(|p| p.y = -p.y);
         outline.reverse();
         let count = outline.len();
@@ -226,11 +227,11 @@ impl Builder<'_> {
     }
 
     /// The section at a height, with the edge that is the hinge of each chain.
-    fn ring(&self, v_mm: f64, hinge: impl Fn(usize) -> Span) -> (Vec<DVec2>, Vec<usize>) {
+    fn ring(&self, v_mm: f64, hinge: impl Fn(ChainId) -> Span) -> (Vec<DVec2>, Vec<usize>) {
         let count = self.walls.count();
         let (mut outline, mut edges) = (Vec::new(), vec![0; count]);
         // The corner between chains 0 and 1 comes first, chain 0 last.
-        for j in (1..count).chain([0]) {
+        for j in (1..count).chain([0]).map(ChainId) {
             let (whole, hinge) = (self.whole_edge(j, v_mm), hinge(j));
             let corner = self.walls.corner_at(self.walls.previous(j), v_mm);
             let on_edge = |x: f64| corner + self.walls.tangent(j) * (x - whole.0);
@@ -238,7 +239,7 @@ impl Builder<'_> {
             if hinge.0 > whole.0 {
                 outline.push(on_edge(hinge.0));
             }
-            edges[j] = outline.len() - 1;
+            edges[j.0] = outline.len() - 1;
             if hinge.1 < whole.1 {
                 outline.push(on_edge(hinge.1));
             }
@@ -247,7 +248,7 @@ impl Builder<'_> {
     }
 
     fn side_panels(&mut self, spans: &[Vec<Span>], ends: &Ends) -> Result<(), AssembleError> {
-        for (j, spans) in spans.iter().enumerate() {
+        for (j, spans) in self.walls.ids().zip(spans) {
             let profile = self.walls.profile(j);
             let count = profile.points().len() - 1;
             for i in 0..count {
@@ -268,11 +269,11 @@ impl Builder<'_> {
                     edge.map(|edge| HingeSide { panel, edge }).ok_or(AssembleError::Vanished(j))
                 };
                 let above = match i {
-                    0 => HingeSide { panel: PanelId(0), edge: ends.top[j] },
+                    0 => HingeSide { panel: PanelId(0), edge: ends.top[j.0] },
                     _ => side(self, i - 1, 0.0)?,
                 };
                 let below = match i {
-                    i if i == count => HingeSide { panel: PanelId(1), edge: ends.bottom[j] },
+                    i if i == count => HingeSide { panel: PanelId(1), edge: ends.bottom[j.0] },
                     _ => side(self, i, self.length(j, i))?,
                 };
                 let fold = if i == 0 || i == count { None } else { profile.fold_at(i) };
@@ -296,7 +297,7 @@ impl Builder<'_> {
     }
 
     /// Rigid motions of panel i of chain j, deployed and flat.
-    fn placements(&self, j: usize, i: usize) -> (DAffine3, DAffine3) {
+    fn placements(&self, j: ChainId, i: usize) -> (DAffine3, DAffine3) {
         let profile = self.walls.profile(j);
         let [upper, lower] = profile.face(i);
         let (normal, tangent) = (self.walls.normal(j).extend(0.0), self.walls.tangent(j).extend(0.0));

@@ -4,6 +4,7 @@
 //! that boards of neighbouring chains, dented ones too, do not meet.
 
 use super::assemble_error::AssembleError;
+use super::panel::ChainId;
 use super::profile::{Profile, ProfileError};
 use super::walls::Walls;
 use glam::DVec2;
@@ -23,7 +24,7 @@ impl Outside {
 
     /// Outline of a board of chain j whose inner face is this segment of its profile, in the board's
     /// plane: x along the edge, y up the slope from the lower end. Nothing where no width is left.
-    pub(super) fn outline(&self, j: usize, face: [DVec2; 2]) -> Vec<DVec2> {
+    pub(super) fn outline(&self, j: ChainId, face: [DVec2; 2]) -> Vec<DVec2> {
         let [upper, lower] = face;
         let (length, up) = (upper.distance(lower), (upper - lower).normalize_or_zero());
         let outward = -up.perp();
@@ -57,9 +58,9 @@ impl Outside {
     }
 
     /// How far the sector of chain j reaches along its edge, to both sides, at a point of its profile.
-    fn limits(&self, j: usize, at: DVec2) -> (f64, f64) {
+    fn limits(&self, j: ChainId, at: DVec2) -> (f64, f64) {
         let (normal, tangent) = (self.walls.normal(j), self.walls.tangent(j));
-        let limit = |corner: usize, neighbour: usize| {
+        let limit = |corner: ChainId, neighbour: ChainId| {
             let corner = self.walls.corner_at(corner, at.y);
             let between = normal + self.walls.normal(neighbour);
             tangent.dot(corner) + (at.x - normal.dot(corner)) * tangent.dot(between) / normal.dot(between)
@@ -74,7 +75,7 @@ const SAME_MM: f64 = 1e-6;
 
 /// The inner faces as walls; between two boards at a valley they run straight.
 pub(super) fn inner(walls: &Walls) -> Result<Walls, AssembleError> {
-    let of_chain = |(chain, profile): (usize, &Profile)| {
+    let of_chain = |(chain, profile): (ChainId, &Profile)| {
         let mut points: Vec<DVec2> = Vec::new();
         for end in (0..profile.points().len() - 1).flat_map(|i| profile.face(i)) {
             if points.last().is_none_or(|last| last.distance(end) > SAME_MM) {
@@ -85,6 +86,6 @@ pub(super) fn inner(walls: &Walls) -> Result<Walls, AssembleError> {
         Profile::folded(points, faces_up)
             .map_err(|error: ProfileError| AssembleError::Profile { chain, error })
     };
-    let profiles = walls.profiles().iter().enumerate().map(of_chain).collect::<Result<Vec<_>, _>>()?;
-    Ok(Walls::new((0..walls.count()).map(|j| walls.normal(j)).collect(), profiles))
+    let profiles = walls.ids().zip(walls.profiles()).map(of_chain).collect::<Result<Vec<_>, _>>()?;
+    Ok(Walls::new(walls.ids().map(|j| walls.normal(j)).collect(), profiles))
 }

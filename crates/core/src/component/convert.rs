@@ -6,7 +6,7 @@ use super::assemble_error::AssembleError;
 use super::boards::{self, Outside};
 use super::convert_error::ConvertError;
 use super::distance::{Polytope, hausdorff};
-use super::panel::{PanelId, PanelKind, PanelSet};
+use super::panel::{ChainId, PanelId, PanelKind, PanelSet};
 use super::profile::Profile;
 use super::search::{self, Found};
 use super::solid::{FaceId, Solid};
@@ -93,12 +93,12 @@ impl Component {
     #[must_use]
     pub fn mirrored(&self) -> (Self, Vec<PanelId>) {
         let count = self.normals.len();
-        let image = |j: usize| (count - j) % count;
+        let image = |j: ChainId| ChainId((count - j.0) % count);
         let (panels, ids) = self.panels.mirrored(image);
         let mirrored = Self {
             solid: self.solid.as_ref().map(Solid::mirrored),
-            normals: (0..count).map(|j| self.normals[image(j)] * DVec2::new(-1.0, 1.0)).collect(),
-            profiles: (0..count).map(|j| self.profiles[image(j)].clone()).collect(),
+            normals: self.chain_ids().map(|j| self.normals[image(j).0] * DVec2::new(-1.0, 1.0)).collect(),
+            profiles: self.chain_ids().map(|j| self.profiles[image(j).0].clone()).collect(),
             panels,
             error_mm: self.error_mm,
             trimmed_mm2: self.trimmed_mm2,
@@ -117,9 +117,14 @@ impl Component {
         self.solid.as_ref()
     }
 
+    /// The chains' ids, counter-clockwise.
+    pub fn chain_ids(&self) -> impl Iterator<Item = ChainId> + use<> {
+        (0..self.profiles.len()).map(ChainId)
+    }
+
     /// Outward normal of the top panel's edge j.
-    pub fn normal(&self, j: usize) -> DVec2 {
-        self.normals[j]
+    pub fn normal(&self, j: ChainId) -> DVec2 {
+        self.normals[j.0]
     }
 
     /// Height of the top panel.
@@ -181,7 +186,7 @@ impl Component {
             FaceId::Top => Some(PanelId(0)),
             FaceId::Bottom => Some(PanelId(1)),
             FaceId::Side(chain, facet) => {
-                let profile = &self.profiles[chain];
+                let profile = &self.profiles[chain.0];
                 let shape = solid.profile(chain);
                 let middle = (shape[facet].y + shape[facet + 1].y) / 2.0;
                 let index = profile.points().windows(2).position(|w| w[1].y < middle)?;

@@ -2,6 +2,7 @@
 //! [`super::symmetry`]): directions in pairs, and planes in pairs.
 
 use super::angles::{MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD, STEP_RAD, turn};
+use super::panel::ChainId;
 use super::shape;
 use super::solid::{SideFacet, Solid};
 use super::target::FoldSpot;
@@ -213,9 +214,9 @@ pub(super) fn levelled(facets: Vec<SideFacet>) -> Vec<SideFacet> {
 
 /// Drops planes of level chain j in pairs until its profile has at most `most` vertices and all are
 /// worth having (as [`super::start::thin_out`]).
-pub(super) fn thin_out_level(solid: &mut Solid, j: usize, most: usize) {
+pub(super) fn thin_out_level(solid: &mut Solid, j: ChainId, most: usize) {
     let ends = (solid.top_mm, solid.bottom_mm);
-    let facets = &mut solid.chains[j].facets;
+    let facets = &mut solid.chains[j.0].facets;
     loop {
         let lines = shape::lines_of(facets);
         let count = facets.len();

@@ -12,6 +12,7 @@
 use super::distance::{Polytope, Position};
 use super::gradient::ProfileLength;
 use super::likeness::{cones_mm3, faces, shared_mm3};
+use super::panel::ChainId;
 use super::profile::imbalance;
 use super::seated::miss_mm;
 use super::shape::{Shape, profile};
@@ -233,17 +234,17 @@ impl Task<'_> {
 
     fn lack_mm(&self, shape: &Shape, spots: &[FoldSpot]) -> f64 {
         let least = self.target.min_panel_mm;
-        let lack_of = |j: usize| {
+        let lack_of = |j: ChainId| {
             let widths = shape.heights_about(j).map(|v| least - shape.width_at(j, v));
-            let profile = &shape.chains[j].profile;
+            let profile = &shape.chains[j.0].profile;
             let rooms = rooms(shape, spots, j).map(|room| (least - room.value(profile)).max(0.0));
-            let miss = match spots[j] {
+            let miss = match spots[j.0] {
                 FoldSpot::Bend(i) => imbalance(profile, i + 1).abs() / 2.0,
                 FoldSpot::Inside(_) => 0.0,
             };
             widths.fold(0.0, f64::max) + rooms.sum::<f64>() + miss
         };
-        (0..shape.chains.len()).map(lack_of).sum()
+        shape.solid.chain_ids().map(lack_of).sum()
     }
 }
 
@@ -251,10 +252,10 @@ impl Task<'_> {
 pub(super) fn rooms<'s>(
     shape: &'s Shape,
     spots: &[FoldSpot],
-    j: usize,
+    j: ChainId,
 ) -> impl Iterator<Item = ProfileLength> + use<'s> {
-    let chain = &shape.chains[j];
-    let spot = spots[j];
+    let chain = &shape.chains[j.0];
+    let spot = spots[j.0];
     let about_fold = match spot {
         FoldSpot::Inside(i) => vec![
             ProfileLength::beyond_balance(chain, i).reversed(),

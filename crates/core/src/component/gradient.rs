@@ -1,5 +1,6 @@
 //! First-order change of a solid's measures with its free parameters.
 
+use super::panel::ChainId;
 use super::shape::{ChainShape, Line, Shape};
 use super::solid::{Corner, FaceId, Solid};
 use super::symmetry::{Image, Symmetry, chain_at, images};
@@ -42,7 +43,7 @@ impl Freedom {
         let is_level = symmetry.is_some_and(Symmetry::is_level);
         let image = |parameter: Parameter| parameter.map(|(k, sign)| (k, -sign));
         // The images of each chain, with how changes of its direction become theirs.
-        let others: Vec<SmallVec<[(usize, f64); 3]>> = solid
+        let others: Vec<SmallVec<[(ChainId, f64); 3]>> = solid
             .chains
             .iter()
             .map(|chain| {
@@ -50,19 +51,19 @@ impl Freedom {
                 images(symmetry).iter().map(at).collect()
             })
             .collect();
-        let first = |j: usize| others[j].iter().copied().filter(|o| o.0 < j).min_by_key(|o| o.0);
+        let first = |j: ChainId| others[j.0].iter().copied().filter(|o| o.0 < j).min_by_key(|o| o.0);
         let mut angles: Vec<Parameter> = Vec::with_capacity(others.len());
-        for (j, chain) in solid.chains.iter().enumerate() {
-            let is_in_plane = others[j].iter().any(|o| o.0 == j);
+        for (j, chain) in solid.chain_ids().zip(&solid.chains) {
+            let is_in_plane = others[j.0].iter().any(|o| o.0 == j);
             angles.push(match first(j) {
-                Some((k, sign)) => angles[k].map(|(variable, own)| (variable, sign * own)),
+                Some((k, sign)) => angles[k.0].map(|(variable, own)| (variable, sign * own)),
                 None => take(!(chain.is_locked || is_in_plane)),
             });
         }
         let mut facets: Vec<Vec<[Parameter; 2]>> = Vec::with_capacity(others.len());
-        for (j, chain) in solid.chains.iter().enumerate() {
+        for (j, chain) in solid.chain_ids().zip(&solid.chains) {
             if let Some((k, _)) = first(j) {
-                facets.push(facets[k].clone());
+                facets.push(facets[k.0].clone());
                 continue;
             }
             let mut own: Vec<[Parameter; 2]> = Vec::with_capacity(chain.facets.len());
@@ -113,13 +114,13 @@ impl Freedom {
     }
 
     /// The direction of chain j, if free.
-    pub(super) fn angle(&self, j: usize) -> Parameter {
-        self.angles[j]
+    pub(super) fn angle(&self, j: ChainId) -> Parameter {
+        self.angles[j.0]
     }
 
     /// The slope of a facet, if free.
-    pub(super) fn slope(&self, j: usize, i: usize) -> Parameter {
-        self.facets[j][i][0]
+    pub(super) fn slope(&self, j: ChainId, i: usize) -> Parameter {
+        self.facets[j.0][i][0]
     }
 
     /// Radius at which angles are measured.
@@ -133,16 +134,16 @@ impl Freedom {
             FaceId::Top => self.top.into_iter().collect(),
             FaceId::Bottom => self.bottom.map(|(k, sign)| (k, -sign)).into_iter().collect(),
             FaceId::Side(j, i) => {
-                let chain = &shape.chains[j];
+                let chain = &shape.chains[j.0];
                 let Line { sin, cos, .. } = chain.lines[i];
                 let (u, t) = (chain.normal.dot(point.truncate()), chain.tangent().dot(point.truncate()));
                 let mut terms = PlaneTerms::new();
-                let [slope, offset] = self.facets[j][i];
+                let [slope, offset] = self.facets[j.0][i];
                 if let Some((k, sign)) = slope {
                     terms.push((k, sign * (sin * u - cos * point.z) / self.radius_mm));
                 }
                 terms.extend(offset);
-                if let Some((k, sign)) = self.angles[j] {
+                if let Some((k, sign)) = self.angles[j.0] {
                     terms.push((k, sign * -cos * t / self.radius_mm));
                 }
                 terms
@@ -170,30 +171,30 @@ impl Freedom {
     }
 
     /// Change of the width of chain j at height v (see [`Solid::width_at`]), for fixed v.
-    pub(super) fn width(&self, shape: &Shape, j: usize, v_mm: f64) -> Terms {
-        let here = &shape.chains[j];
+    pub(super) fn width(&self, shape: &Shape, j: ChainId, v_mm: f64) -> Terms {
+        let here = &shape.chains[j.0];
         let u_here = here.u_at(v_mm);
         let mut parts: SmallVec<[(f64, PlaneTerms); 8]> = SmallVec::new();
         for (k, sign) in [(shape.solid.previous(j), -1.0), (shape.solid.next(j), 1.0)] {
-            let other = &shape.chains[k];
+            let other = &shape.chains[k.0];
             let (sin, cos) = (here.normal.perp_dot(other.normal).abs(), here.normal.dot(other.normal));
             let u_other = other.u_at(v_mm);
             parts.push((1.0 / sin, self.reach(shape, k, v_mm)));
             parts.push((-cos / sin, self.reach(shape, j, v_mm)));
             let turn = (u_here - u_other * cos) / (sin * sin) * sign / self.radius_mm;
-            parts.push((turn, self.angles[k].into_iter().collect()));
-            parts.push((-turn, self.angles[j].into_iter().collect()));
+            parts.push((turn, self.angles[k.0].into_iter().collect()));
+            parts.push((-turn, self.angles[j.0].into_iter().collect()));
         }
         sum(parts.iter().map(|(w, t)| (*w, t.as_slice())))
     }
 
     /// Change of chain j's u at height v; where v is an end of the solid, its change too.
-    fn reach(&self, shape: &Shape, j: usize, v_mm: f64) -> PlaneTerms {
-        let chain = &shape.chains[j];
+    fn reach(&self, shape: &Shape, j: ChainId, v_mm: f64) -> PlaneTerms {
+        let chain = &shape.chains[j.0];
         let i = chain.facet_at(v_mm);
         let Line { sin, cos, offset } = chain.lines[i];
         let mut terms = PlaneTerms::new();
-        let [slope, shift] = self.facets[j][i];
+        let [slope, shift] = self.facets[j.0][i];
         if let Some((k, sign)) = slope {
             terms.push((k, sign * (offset * sin - v_mm) / (cos * cos) / self.radius_mm));
         }
@@ -207,8 +208,8 @@ impl Freedom {
     }
 
     /// Change of a length of chain j's profile.
-    pub(super) fn length(&self, shape: &Shape, j: usize, length: &ProfileLength) -> Terms {
-        let chain = &shape.chains[j];
+    pub(super) fn length(&self, shape: &Shape, j: ChainId, length: &ProfileLength) -> Terms {
+        let chain = &shape.chains[j.0];
         let pull = length.pull(&chain.profile);
         let mut terms = Terms::new();
         let mut push = |parameter: Parameter, change: f64| {
@@ -235,7 +236,7 @@ impl Freedom {
             let second_share = DVec2::new(cos, sin).perp_dot(pull) / det;
             let mut of_line = |i: usize, share: f64| {
                 let Line { sin, cos, .. } = chain.lines[i];
-                let [slope, offset] = self.facets[j][i];
+                let [slope, offset] = self.facets[j.0][i];
                 push(slope, -share * (cos * at.y - sin * at.x) / self.radius_mm);
                 push(offset, share);
             };
@@ -348,7 +349,7 @@ pub(crate) mod tests {
         let shape = Shape::of(skewed());
         let freedom = Freedom::of(&shape.solid, 40.0, None);
         let direction = DVec3::new(0.3, -0.5, 0.8);
-        for j in 0..5 {
+        for j in shape.solid.chain_ids() {
             for (k, corner) in shape.solid.corners(j).iter().enumerate() {
                 let terms = freedom.corner(&shape, corner, direction);
                 check(&terms, &freedom, &shape.solid, |s| direction.dot(s.corners(j)[k].point));
@@ -361,7 +362,7 @@ pub(crate) mod tests {
         let shape = Shape::of(skewed());
         let solid = &shape.solid;
         let freedom = Freedom::of(solid, 40.0, None);
-        for j in 0..5 {
+        for j in shape.solid.chain_ids() {
             check(&freedom.width(&shape, j, 3.0), &freedom, solid, |s| s.width_at(j, 3.0));
             check(&freedom.width(&shape, j, solid.top_mm), &freedom, solid, |s| s.width_at(j, s.top_mm));
         }
@@ -371,8 +372,8 @@ pub(crate) mod tests {
     fn lengths_change_as_their_derivatives_say() {
         let shape = Shape::of(skewed());
         let freedom = Freedom::of(&shape.solid, 40.0, None);
-        for j in 0..5 {
-            let chain = &shape.chains[j];
+        for j in shape.solid.chain_ids() {
+            let chain = &shape.chains[j.0];
             for i in 0..3 {
                 let lengths = [
                     ProfileLength::of_segment(chain, i),

@@ -3,6 +3,7 @@
 use super::angles::{MAX_SLOPE_RAD, MIN_BEND_RAD, MIN_TURN_RAD, turn};
 use super::even;
 use super::fit::Fitted;
+use super::panel::ChainId;
 use super::solid::{Chain, SideFacet, Solid};
 use super::start::{fold_spots, tangents, thin_out};
 use super::symmetry::{Symmetry, directions, orbit, settled};
@@ -39,8 +40,8 @@ pub(super) fn grown(fitted: &Fitted, target: &Target, rank: usize) -> Option<(So
         }
     } else {
         add_facet(&mut solid.chains[nearest], out, target)?;
-        for &image in &orbit(&solid, target.symmetry, nearest)[1..] {
-            solid.chains[image].facets = solid.chains[nearest].facets.clone();
+        for &image in &orbit(&solid, target.symmetry, ChainId(nearest))[1..] {
+            solid.chains[image.0].facets = solid.chains[nearest].facets.clone();
         }
     }
     let spots = fold_spots(&mut solid, target);
@@ -55,7 +56,7 @@ fn add_chain(solid: &mut Solid, angle_rad: f64, facets: Vec<SideFacet>, target: 
         (0..solid.chains.len()).min_by(|&a, &b| past(&solid.chains[a]).total_cmp(&past(&solid.chains[b])));
     let place = before.map_or(0, |before| before + 1);
     solid.chains.insert(place, Chain { angle_rad, is_locked: false, facets });
-    thin_out(solid, place, target);
+    thin_out(solid, ChainId(place), target);
     solid.chains[place].facets.clone()
 }
 

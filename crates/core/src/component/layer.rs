@@ -7,6 +7,7 @@
 //! from the corner between their edges. What lies between the two is free to lie in any order
 //! against other chains, unless it is of boards, which have a layer each.
 
+use super::panel::ChainId;
 use super::symmetry::Symmetry;
 use super::walls::Walls;
 use crate::geom::polygon;
@@ -43,7 +44,7 @@ impl Layer {
 #[derive(Debug, Clone)]
 pub(super) struct Side {
     /// Chain.
-    pub(super) chain: usize,
+    pub(super) chain: ChainId,
     /// Outline in the panel's plane: x along the edge, y up the slope from the lower hinge.
     pub(super) outline: Vec<DVec2>,
     /// Placement in its layer, seen from above.
@@ -103,11 +104,11 @@ pub(super) fn trim(walls: &Walls, sides: &mut [Side], are_boards: bool) -> f64 {
             if clashes.is_empty() {
                 break;
             }
-            let clash = |j: usize| {
+            let clash = |j: ChainId| {
                 let k = walls.next(j);
                 clashes.contains(&(j.min(k), j.max(k)))
             };
-            for j in 0..walls.count() {
+            for j in walls.ids() {
                 if walls.corner_images(j).any(|image| image.0 < j) {
                     continue;
                 }
@@ -121,8 +122,8 @@ pub(super) fn trim(walls: &Walls, sides: &mut [Side], are_boards: bool) -> f64 {
 }
 
 /// Pairs of chains that overlap in a layer, the smaller index first.
-pub(super) fn overlaps(sides: &[Side], layer: Layer) -> Vec<(usize, usize)> {
-    let placed: Vec<(usize, Vec<DVec2>)> =
+pub(super) fn overlaps(sides: &[Side], layer: Layer) -> Vec<(ChainId, ChainId)> {
+    let placed: Vec<(ChainId, Vec<DVec2>)> =
         sides.iter().filter(|s| s.layer == layer).map(|s| (s.chain, s.in_layer())).collect();
     let mut pairs = Vec::new();
     for (k, (a, p)) in placed.iter().enumerate() {
@@ -139,7 +140,7 @@ pub(super) fn overlaps(sides: &[Side], layer: Layer) -> Vec<(usize, usize)> {
 
 /// Cuts chains j and j + 1 back to the ray from their corner that costs the least area, and their
 /// images to its images.
-fn trim_corner(walls: &Walls, sides: &mut [Side], layer: Layer, j: usize) -> f64 {
+fn trim_corner(walls: &Walls, sides: &mut [Side], layer: Layer, j: ChainId) -> f64 {
     let costs: Vec<f64> = (0..RAYS).map(|ray| Cut { walls, layer, j, ray }.area(sides)).collect();
     let best = match walls.corner_images(j).any(|image| image.0 == j) {
         // Of the rays from a corner in the plane, one is its own image.
@@ -165,7 +166,7 @@ fn trim_corner(walls: &Walls, sides: &mut [Side], layer: Layer, j: usize) -> f64
 struct Cut<'a> {
     walls: &'a Walls,
     layer: Layer,
-    j: usize,
+    j: ChainId,
     ray: usize,
 }
 

@@ -367,9 +367,9 @@ fn mirrored_components_are_images() {
             assert!((twin.angle_rad(other.panel(wanted[0]), placements) - twin.deployed_rad).abs() < 1e-9);
         }
         let solid = mirrored.solid().unwrap();
-        for (j, profile) in mirrored.profiles().iter().enumerate() {
+        for (j, profile) in mirrored.chain_ids().zip(mirrored.profiles()) {
             let n = mirrored.normal(j);
-            assert!(n.distance(solid.chains[j].normal()) < 1e-12);
+            assert!(n.distance(solid.chains[j.0].normal()) < 1e-12);
             let (normal, _) = solid.plane(FaceId::Side(j, 0));
             let first =
                 other.panels().iter().find(|p| p.kind == PanelKind::Side { chain: j, index: 0 }).unwrap();

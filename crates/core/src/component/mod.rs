@@ -39,7 +39,7 @@ pub use convert::{Component, Finished, choose, convert, finished};
 pub use convert_error::ConvertError;
 pub use direction::PrincipalAxis;
 pub use filling::Filling;
-pub use panel::{Hinge, HingeId, HingeSide, Panel, PanelId, PanelKind, PanelSet};
+pub use panel::{ChainId, Hinge, HingeId, HingeSide, Panel, PanelId, PanelKind, PanelSet};
 pub use profile::{Fold, Profile, ProfileError};
 pub use solid::{Chain, Clearance, Corner, FaceId, SideFacet, Solid};
 pub use symmetry::Symmetry;

@@ -10,6 +10,17 @@ pub struct PanelId(pub usize);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct HingeId(pub usize);
 
+/// Index of a chain of side panels in its component: that of the top panel's edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ChainId(pub usize);
+
+impl ChainId {
+    /// Its number, as people count: 1 for the first.
+    pub fn number(self) -> usize {
+        self.0 + 1
+    }
+}
+
 /// What a panel is within its component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum PanelKind {
@@ -19,8 +30,8 @@ pub enum PanelKind {
     Bottom,
     /// Panel `index` of chain `chain`, counted from the top panel.
     Side {
-        /// Index of the top panel's edge.
-        chain: usize,
+        /// The chain.
+        chain: ChainId,
         /// 0 next to the top panel.
         index: usize,
     },
@@ -32,7 +43,7 @@ impl PanelKind {
         match self {
             PanelKind::Top => "top".to_owned(),
             PanelKind::Bottom => "bottom".to_owned(),
-            PanelKind::Side { chain, index } => format!("chain{}.{}", chain + 1, index + 1),
+            PanelKind::Side { chain, index } => format!("chain{}.{}", chain.number(), index + 1),
         }
     }
 }
@@ -42,7 +53,9 @@ impl std::fmt::Display for PanelKind {
         match self {
             PanelKind::Top => write!(f, "the top panel"),
             PanelKind::Bottom => write!(f, "the bottom panel"),
-            PanelKind::Side { chain, index } => write!(f, "side panel {} of chain {}", index + 1, chain + 1),
+            PanelKind::Side { chain, index } => {
+                write!(f, "side panel {} of chain {}", index + 1, chain.number())
+            }
         }
     }
 }
@@ -88,7 +101,7 @@ impl Panel {
     }
 
     /// Its image in the plane x = 0, its own x turned round so that outside stays +z.
-    fn mirrored(&self, image: impl Fn(usize) -> usize) -> Self {
+    fn mirrored(&self, image: impl Fn(ChainId) -> ChainId) -> Self {
         let corner = |k: usize| self.outline[self.image_of_corner(k)] * DVec2::new(-1.0, 1.0);
         let across = |p: DVec3| p * DVec3::new(-1.0, 1.0, 1.0);
         let placed = |placement: &DAffine3| {
@@ -179,10 +192,10 @@ impl PanelSet {
 
     /// Its image in the plane x = 0, with the chains renumbered by `image`, which is its own inverse,
     /// and the id in it of each panel's image.
-    pub(super) fn mirrored(&self, image: impl Fn(usize) -> usize) -> (Self, Vec<PanelId>) {
+    pub(super) fn mirrored(&self, image: impl Fn(ChainId) -> ChainId) -> (Self, Vec<PanelId>) {
         let key = |panel: &Panel| match panel.kind {
-            PanelKind::Top => (0, 0, 0),
-            PanelKind::Bottom => (1, 0, 0),
+            PanelKind::Top => (0, ChainId(0), 0),
+            PanelKind::Bottom => (1, ChainId(0), 0),
             PanelKind::Side { chain, index } => (2, image(chain), index),
         };
         let mut order: Vec<usize> = (0..self.panels.len()).collect();

@@ -222,7 +222,7 @@ impl Model<'_> {
         let shape = &at.shape;
         // A level profile is in balance in its middle, whatever changes.
         let is_level = self.task.target.symmetry.is_some_and(Symmetry::is_level);
-        for j in 0..shape.chains.len() {
+        for j in shape.solid.chain_ids() {
             for v in shape.heights_about(j) {
                 let width = shape.width_at(j, v);
                 if width < least + 12.0 * step_mm {
@@ -231,16 +231,16 @@ impl Model<'_> {
                 }
             }
             for room in rooms(shape, &at.spots, j) {
-                let now = room.value(&shape.chains[j].profile);
+                let now = room.value(&shape.chains[j.0].profile);
                 if now < least + 6.0 * step_mm {
                     let terms = self.freedom.length(shape, j, &room);
                     self.at_least(&terms, now, least);
                 }
             }
-            if let (FoldSpot::Bend(i), false) = (at.spots[j], is_level) {
-                let beyond = ProfileLength::beyond_balance(&shape.chains[j], i + 1);
+            if let (FoldSpot::Bend(i), false) = (at.spots[j.0], is_level) {
+                let beyond = ProfileLength::beyond_balance(&shape.chains[j.0], i + 1);
                 for length in [beyond.clone().reversed(), beyond] {
-                    let now = length.value(&shape.chains[j].profile);
+                    let now = length.value(&shape.chains[j.0].profile);
                     let terms = self.freedom.length(shape, j, &length);
                     self.at_least(&terms, now, 0.0);
                 }
@@ -281,7 +281,7 @@ impl Model<'_> {
             let terms = sum([(1.0, a.as_slice()), (-1.0, b.as_slice())]);
             programme.at_most(terms.iter().copied(), room.max(0.0) * r);
         };
-        for (j, chain) in solid.chains.iter().enumerate() {
+        for (j, chain) in solid.chain_ids().zip(&solid.chains) {
             for (i, w) in chain.facets.windows(2).enumerate() {
                 let bend = w[0].slope_rad - w[1].slope_rad - MIN_BEND_RAD;
                 difference(freedom.slope(j, i + 1), freedom.slope(j, i), bend);
@@ -291,7 +291,7 @@ impl Model<'_> {
                 difference(None, freedom.slope(j, i), MAX_SLOPE_RAD + facet.slope_rad);
             }
             let next = solid.next(j);
-            let gap = (solid.chains[next].angle_rad - chain.angle_rad).rem_euclid(TAU);
+            let gap = (solid.chains[next.0].angle_rad - chain.angle_rad).rem_euclid(TAU);
             difference(freedom.angle(j), freedom.angle(next), gap - MIN_TURN_RAD);
             difference(freedom.angle(next), freedom.angle(j), MAX_TURN_RAD - gap);
         }

@@ -589,13 +589,13 @@ fn assemble_unbroken(fitted: &Fitted, symmetry: Option<Symmetry>) -> Result<Asse
     if clearance.width_mm.min(clearance.length_mm) <= SLIVER_MM {
         return Err(AssembleError::NoRoom);
     }
-    let spots = fitted.spots.iter().enumerate().map(|(chain, &spot)| {
+    let spots = solid.chain_ids().zip(&fitted.spots).map(|(chain, &spot)| {
         let profile = solid.profile(chain);
         let at = balance(&profile);
         match spot {
             FoldSpot::Bend(i) if imbalance(&profile, i + 1).abs() <= EXACT * size => Ok(spot),
             FoldSpot::Bend(_) => Err(AssembleError::OutOfBalance(chain)),
-            _ if solid.chains[chain].facets[at.segment].is_joint => Err(AssembleError::CreasedJoint(chain)),
+            _ if solid.chains[chain.0].facets[at.segment].is_joint => Err(AssembleError::CreasedJoint(chain)),
             _ => Ok(FoldSpot::Inside(at.segment)),
         }
     });

@@ -1,6 +1,7 @@
 //! A solid with its corners, profiles and faces worked out: what the fit measures.
 
 use super::distance::Polytope;
+use super::panel::ChainId;
 use super::solid::{Chain, Corner, FaceId, SideFacet, Solid};
 use glam::{DVec2, DVec3};
 
@@ -78,7 +79,7 @@ impl Shape {
             .collect();
         let mut corners = Vec::with_capacity(2 * first_face);
         let mut starts = vec![0];
-        for j in 0..chains.len() {
+        for j in solid.chain_ids() {
             push_corners(&solid, &chains, j, &mut corners);
             starts.push(corners.len());
         }
@@ -98,29 +99,29 @@ impl Shape {
             1 => FaceId::Bottom,
             _ => {
                 let j = self.chains.partition_point(|c| c.first_face <= index) - 1;
-                FaceId::Side(j, index - self.chains[j].first_face)
+                FaceId::Side(ChainId(j), index - self.chains[j].first_face)
             }
         }
     }
 
     /// Heights at which the width of chain j may be least: its own bends, its neighbours', and
     /// both ends, in this order.
-    pub(super) fn heights_about(&self, j: usize) -> impl Iterator<Item = f64> + '_ {
+    pub(super) fn heights_about(&self, j: ChainId) -> impl Iterator<Item = f64> + '_ {
         let chains = [self.solid.previous(j), j, self.solid.next(j)];
         let (top, bottom) = (self.solid.top_mm, self.solid.bottom_mm);
         let inner = chains.into_iter().flat_map(|c| {
-            let profile = &self.chains[c].profile;
+            let profile = &self.chains[c.0].profile;
             profile[1..profile.len() - 1].iter().map(|p| p.y)
         });
         inner.chain([top, bottom])
     }
 
     /// Width of chain j at height v (as [`Solid::width_at`]).
-    pub(super) fn width_at(&self, j: usize, v: f64) -> f64 {
-        let here = &self.chains[j];
+    pub(super) fn width_at(&self, j: ChainId, v: f64) -> f64 {
+        let here = &self.chains[j.0];
         let u = here.u_at(v);
-        let side = |other: usize| {
-            let other = &self.chains[other];
+        let side = |other: ChainId| {
+            let other = &self.chains[other.0];
             let (sin, cos) = (here.normal.perp_dot(other.normal), here.normal.dot(other.normal));
             (other.u_at(v) - u * cos) / sin.abs()
         };
@@ -132,7 +133,7 @@ fn face_index(chains: &[ChainShape], face: FaceId) -> usize {
     match face {
         FaceId::Top => 0,
         FaceId::Bottom => 1,
-        FaceId::Side(j, i) => chains[j].first_face + i,
+        FaceId::Side(j, i) => chains[j.0].first_face + i,
     }
 }
 
@@ -163,9 +164,9 @@ pub(super) fn profile(lines: &[Line], top: f64, bottom: f64) -> Vec<DVec2> {
 }
 
 /// Corners between chain j and the next, from top to bottom.
-fn push_corners(solid: &Solid, chains: &[ChainShape], j: usize, out: &mut Vec<Corner>) {
+fn push_corners(solid: &Solid, chains: &[ChainShape], j: ChainId, out: &mut Vec<Corner>) {
     let k = solid.next(j);
-    let (here, there) = (&chains[j], &chains[k]);
+    let (here, there) = (&chains[j.0], &chains[k.0]);
     let turn = here.normal.perp_dot(there.normal);
     let bends = |c: &ChainShape| c.profile.len() - 2;
     let (mut a, mut b) = (0, 0);
@@ -195,11 +196,10 @@ fn push_corners(solid: &Solid, chains: &[ChainShape], j: usize, out: &mut Vec<Co
 }
 
 fn polytope(solid: &Solid, chains: &[ChainShape], corners: &[Corner], starts: &[usize]) -> Polytope {
-    let n = chains.len();
     let mut left: Vec<Vec<u32>> = vec![Vec::new(); 2 + chains.iter().map(|c| c.lines.len()).sum::<usize>()];
     let mut right = left.clone();
-    for j in 0..n {
-        for (c, corner) in corners.iter().enumerate().take(starts[j + 1]).skip(starts[j]) {
+    for j in solid.chain_ids() {
+        for (c, corner) in corners.iter().enumerate().take(starts[j.0 + 1]).skip(starts[j.0]) {
             for face in corner.faces {
                 let list = match face {
                     FaceId::Side(chain, _) if chain == j => &mut right,
@@ -230,14 +230,16 @@ mod tests {
     fn agrees_with_the_solid() {
         let solid = skewed();
         let shape = Shape::of(solid.clone());
-        let corners: Vec<Corner> = (0..5).flat_map(|j| solid.corners(j)).collect();
+        let corners: Vec<Corner> = solid.chain_ids().flat_map(|j| solid.corners(j)).collect();
         assert_eq!(shape.corners.len(), corners.len());
         for (a, b) in shape.corners.iter().zip(&corners) {
             assert_eq!(a.faces, b.faces);
             assert!(a.point.distance(b.point) < 1e-9);
         }
-        for j in 0..5 {
-            assert!(shape.chains[j].profile.iter().zip(solid.profile(j)).all(|(a, b)| a.distance(b) < 1e-9));
+        for j in solid.chain_ids() {
+            assert!(
+                shape.chains[j.0].profile.iter().zip(solid.profile(j)).all(|(a, b)| a.distance(b) < 1e-9)
+            );
             for v in shape.heights_about(j) {
                 assert!((shape.width_at(j, v) - solid.width_at(j, v)).abs() < 1e-9);
             }

@@ -5,6 +5,7 @@
 //! outward normal of its top edge: the slopes φ fall from top to bottom, so every profile is
 //! convex by construction (§3.3), and a joint panel is simply a half-space that is held fixed.
 
+use super::panel::ChainId;
 use glam::{DVec2, DVec3};
 
 /// One side panel's plane: `u cos(slope) + v sin(slope) = offset`.
@@ -77,7 +78,7 @@ pub enum FaceId {
     /// The bottom panel.
     Bottom,
     /// Facet `.1` of chain `.0`.
-    Side(usize, usize),
+    Side(ChainId, usize),
 }
 
 /// A corner of the solid: where three faces meet.
@@ -114,14 +115,19 @@ pub struct Clearance {
 }
 
 impl Solid {
+    /// The chains' ids, counter-clockwise.
+    pub fn chain_ids(&self) -> impl Iterator<Item = ChainId> + Clone + use<> {
+        (0..self.chains.len()).map(ChainId)
+    }
+
     /// Chain after chain `j`, counter-clockwise.
-    pub fn next(&self, j: usize) -> usize {
-        (j + 1) % self.chains.len()
+    pub fn next(&self, j: ChainId) -> ChainId {
+        ChainId((j.0 + 1) % self.chains.len())
     }
 
     /// Chain before chain `j`.
-    pub fn previous(&self, j: usize) -> usize {
-        (j + self.chains.len() - 1) % self.chains.len()
+    pub fn previous(&self, j: ChainId) -> ChainId {
+        ChainId((j.0 + self.chains.len() - 1) % self.chains.len())
     }
 
     /// Outward unit normal and offset of a face.
@@ -130,8 +136,8 @@ impl Solid {
             FaceId::Top => (DVec3::Z, self.top_mm),
             FaceId::Bottom => (-DVec3::Z, -self.bottom_mm),
             FaceId::Side(j, i) => {
-                let facet = self.chains[j].facets[i];
-                let normal = self.chains[j].normal() * libm::cos(facet.slope_rad);
+                let facet = self.chains[j.0].facets[i];
+                let normal = self.chains[j.0].normal() * libm::cos(facet.slope_rad);
                 (normal.extend(libm::sin(facet.slope_rad)), facet.offset_mm)
             }
         }
@@ -139,14 +145,14 @@ impl Solid {
 
     /// All faces: top, bottom, then the chains'.
     pub fn faces(&self) -> Vec<FaceId> {
-        let sides = self.chains.iter().enumerate();
+        let sides = self.chain_ids().zip(&self.chains);
         let sides = sides.flat_map(|(j, chain)| (0..chain.facets.len()).map(move |i| FaceId::Side(j, i)));
         [FaceId::Top, FaceId::Bottom].into_iter().chain(sides).collect()
     }
 
     /// Profile of chain j: its bends with both ends, (u, v) from top to bottom.
-    pub fn profile(&self, j: usize) -> Vec<DVec2> {
-        let chain = &self.chains[j];
+    pub fn profile(&self, j: ChainId) -> Vec<DVec2> {
+        let chain = &self.chains[j.0];
         let mut points = vec![DVec2::new(chain.facets[0].u_at(self.top_mm), self.top_mm)];
         for (facet, v) in chain.facets.iter().zip(chain.bends()) {
             points.push(DVec2::new(facet.u_at(v), v));
@@ -157,9 +163,9 @@ impl Solid {
     }
 
     /// Corners between chain j and the next, from top to bottom.
-    pub fn corners(&self, j: usize) -> Vec<Corner> {
+    pub fn corners(&self, j: ChainId) -> Vec<Corner> {
         let k = self.next(j);
-        let (here, there) = (&self.chains[j], &self.chains[k]);
+        let (here, there) = (&self.chains[j.0], &self.chains[k.0]);
         let mut out = Vec::with_capacity(here.facets.len() + there.facets.len());
         let (mut a, mut b) = (0, 0);
         let mut push = |v: f64, a: usize, b: usize, third: FaceId| {
@@ -187,7 +193,7 @@ impl Solid {
 
     /// Outline of each face of [`Solid::faces`], counter-clockwise seen from outside.
     pub fn outlines(&self) -> Vec<(FaceId, Vec<DVec3>)> {
-        let corners: Vec<Vec<Corner>> = (0..self.chains.len()).map(|j| self.corners(j)).collect();
+        let corners: Vec<Vec<Corner>> = self.chain_ids().map(|j| self.corners(j)).collect();
         let last = |list: &Vec<Corner>| list[list.len() - 1].point;
         self.faces()
             .into_iter()
@@ -197,8 +203,8 @@ impl Solid {
                     FaceId::Bottom => corners.iter().rev().map(last).collect(),
                     FaceId::Side(j, _) => {
                         let on_face = |c: &&Corner| c.faces.contains(&face);
-                        let left = corners[self.previous(j)].iter().filter(on_face).map(|c| c.point);
-                        let right = corners[j].iter().filter(on_face).map(|c| c.point);
+                        let left = corners[self.previous(j).0].iter().filter(on_face).map(|c| c.point);
+                        let right = corners[j.0].iter().filter(on_face).map(|c| c.point);
                         left.chain(right.rev()).collect()
                     }
                 };
@@ -208,15 +214,15 @@ impl Solid {
     }
 
     /// Where the edge of chain j meets that of the next chain in the section at height v.
-    pub fn corner_at(&self, j: usize, v_mm: f64) -> DVec2 {
-        let (here, there) = (&self.chains[j], &self.chains[self.next(j)]);
+    pub fn corner_at(&self, j: ChainId, v_mm: f64) -> DVec2 {
+        let (here, there) = (&self.chains[j.0], &self.chains[self.next(j).0]);
         meeting_point(here, here.u_at(v_mm), there, there.u_at(v_mm))
     }
 
     /// Width of chain j at height v: the length of its edge of the section there.
-    pub fn width_at(&self, j: usize, v_mm: f64) -> f64 {
+    pub fn width_at(&self, j: ChainId, v_mm: f64) -> f64 {
         let [before, here, after] =
-            [self.previous(j), j, self.next(j)].map(|c| (&self.chains[c], self.chains[c].u_at(v_mm)));
+            [self.previous(j), j, self.next(j)].map(|c| (&self.chains[c.0], self.chains[c.0].u_at(v_mm)));
         let side = |other: (&Chain, f64)| {
             let (sin, cos) = libm::sincos(other.0.angle_rad - here.0.angle_rad);
             (other.1 - here.1 * cos) / sin.abs()
@@ -248,7 +254,7 @@ impl Solid {
     /// widths are linear, so this is exact (the exact form of Eq. (14)).
     pub fn clearance(&self) -> Clearance {
         let heights = self.heights();
-        let chains = 0..self.chains.len();
+        let chains = self.chain_ids();
         let width_mm = chains
             .clone()
             .flat_map(|j| heights.iter().map(move |&v| (j, v)))
@@ -302,7 +308,7 @@ pub(crate) mod tests {
     #[test]
     fn corners_lie_on_their_three_faces() {
         let solid = barrel(5, 40.0);
-        for j in 0..5 {
+        for j in solid.chain_ids() {
             let corners = solid.corners(j);
             assert_eq!(corners.len(), 6);
             for corner in corners {
@@ -339,8 +345,11 @@ pub(crate) mod tests {
     fn width_is_the_distance_of_the_corners() {
         let solid = barrel(5, 40.0);
         let v = solid.chains[0].bends().next().unwrap();
-        let bend = |j: usize| solid.corners(j).iter().find(|c| (c.point.z - v).abs() < 1e-12).unwrap().point;
-        assert!((solid.width_at(1, v) - (bend(1) - bend(0)).length()).abs() < 1e-10);
+        let bend =
+            |j: ChainId| solid.corners(j).iter().find(|c| (c.point.z - v).abs() < 1e-12).unwrap().point;
+        assert!(
+            (solid.width_at(ChainId(1), v) - (bend(ChainId(1)) - bend(ChainId(0))).length()).abs() < 1e-10
+        );
         assert!(solid.clearance().width_mm > 0.0 && solid.clearance().length_mm > 0.0);
     }
 }

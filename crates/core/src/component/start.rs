@@ -3,6 +3,7 @@
 use super::angles::{MAX_SLOPE_RAD, MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD, STEP_RAD, turn};
 use super::even::{choose_fours, choose_pairs, drop_pair, levelled, middle, pair_bulge, thin_out_level};
 use super::fit::{Fitted, rooms};
+use super::panel::ChainId;
 use super::profile::{Balance, balance, imbalance};
 use super::shape::Shape;
 use super::solid::{Chain, SideFacet, Solid};
@@ -20,7 +21,7 @@ pub(super) fn circumscribe(target: &Target, edges: usize) -> Solid {
     let mut solid = evened(with_ends(target, chains), target.symmetry);
     lower_ends(&mut solid, target.min_panel_mm);
     solid = evened(solid, target.symmetry);
-    for j in 0..solid.chains.len() {
+    for j in solid.chain_ids() {
         thin_out(&mut solid, j, target);
     }
     solid
@@ -64,7 +65,7 @@ pub(super) fn lens(target: &Target, edges: usize) -> Option<Solid> {
     };
     let chains = chains(target, edges, facets);
     let mut solid = evened(with_ends(target, chains), target.symmetry);
-    for j in 0..solid.chains.len() {
+    for j in solid.chain_ids() {
         thin_out(&mut solid, j, target);
     }
     Some(solid)
@@ -206,7 +207,7 @@ fn lower_ends(solid: &mut Solid, min_panel_mm: f64) {
     let height = high - low;
     let widest = super::shape::Shape::of(solid.clone());
     let narrowest =
-        |v: f64| (0..widest.chains.len()).map(|j| widest.width_at(j, v)).fold(f64::INFINITY, f64::min);
+        |v: f64| widest.solid.chain_ids().map(|j| widest.width_at(j, v)).fold(f64::INFINITY, f64::min);
     let useful = narrowest((high + low) / 2.0).min(8.0 * min_panel_mm) * 0.4;
     for share in [0.0, 0.03, 0.06, 0.1, 0.15, 0.2, 0.25, 0.3] {
         if !solid.is_top_joint && narrowest(solid.top_mm) < useful {
@@ -221,14 +222,14 @@ fn lower_ends(solid: &mut Solid, min_panel_mm: f64) {
 /// Drops planes of chain j until its profile has no more vertices than `target` allows and all are
 /// worth having: first those outside the heights, then those whose loss adds the least area to the
 /// profile. Joint panels stay.
-pub(super) fn thin_out(solid: &mut Solid, j: usize, target: &Target) {
+pub(super) fn thin_out(solid: &mut Solid, j: ChainId, target: &Target) {
     if target.symmetry.is_some_and(Symmetry::is_level) {
         return thin_out_level(solid, j, target.profile_vertices);
     }
     let count = target.profile_vertices - 1;
     let ends = (solid.top_mm, solid.bottom_mm);
-    let mut lines = super::shape::lines(&solid.chains[j]);
-    let facets = &mut solid.chains[j].facets;
+    let mut lines = super::shape::lines(&solid.chains[j.0]);
+    let facets = &mut solid.chains[j.0].facets;
     let mut bulges: Vec<(f64, f64)> = (0..lines.len()).map(|k| bulge(&lines, k, ends)).collect();
     loop {
         let best = (0..facets.len())
@@ -258,11 +259,12 @@ pub(super) fn fold_spots(solid: &mut Solid, target: &Target) -> Vec<FoldSpot> {
         return solid.chains.iter().map(|chain| middle(chain.facets.len())).collect();
     }
     let vertices = target.profile_vertices;
-    (0..solid.chains.len())
+    solid
+        .chain_ids()
         .map(|j| {
             let profile = solid.profile(j);
             let at = balance(&profile);
-            let facets = &solid.chains[j].facets;
+            let facets = &solid.chains[j.0].facets;
             let is_full = facets.len() + 2 > vertices;
             if !is_full && !facets[at.segment].is_joint {
                 return FoldSpot::Inside(at.segment);
@@ -279,10 +281,10 @@ pub(super) fn fold_spots(solid: &mut Solid, target: &Target) -> Vec<FoldSpot> {
 /// Bend of a plane added beside a joint panel, on the side where the balance point is nearer.
 const ADDED_BEND_RAD: f64 = PI / 12.0;
 
-fn add_plane(solid: &mut Solid, j: usize, at: Balance) -> FoldSpot {
+fn add_plane(solid: &mut Solid, j: ChainId, at: Balance) -> FoldSpot {
     let share = if at.share < 0.5 { 0.3 } else { 0.7 };
     let v = solid.top_mm + (solid.bottom_mm - solid.top_mm) * share;
-    let facets = &mut solid.chains[j].facets;
+    let facets = &mut solid.chains[j.0].facets;
     let joint = facets[at.segment];
     let slope_rad = joint.slope_rad + if share < 0.5 { ADDED_BEND_RAD } else { -ADDED_BEND_RAD };
     let offset_mm = DVec2::from_angle(slope_rad).dot(DVec2::new(joint.u_at(v), v));
@@ -298,24 +300,25 @@ pub(super) fn simplify(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<F
     let solid = &shape.solid;
     let least = target.min_panel_mm;
     let tight = |lack: f64| lack > 0.0;
-    let narrow = |j: usize| shape.heights_about(j).map(|v| least - shape.width_at(j, v)).fold(0.0, f64::max);
-    let low = |j: usize| {
+    let narrow =
+        |j: ChainId| shape.heights_about(j).map(|v| least - shape.width_at(j, v)).fold(0.0, f64::max);
+    let low = |j: ChainId| {
         let rooms =
-            rooms(shape, &fitted.spots, j).map(|r| (least - r.value(&shape.chains[j].profile)).max(0.0));
-        let off = match fitted.spots[j] {
-            FoldSpot::Bend(i) => imbalance(&shape.chains[j].profile, i + 1).abs(),
+            rooms(shape, &fitted.spots, j).map(|r| (least - r.value(&shape.chains[j.0].profile)).max(0.0));
+        let off = match fitted.spots[j.0] {
+            FoldSpot::Bend(i) => imbalance(&shape.chains[j.0].profile, i + 1).abs(),
             FoldSpot::Inside(_) => 0.0,
         };
         rooms.sum::<f64>() + off
     };
-    let worst = |measure: &dyn Fn(usize) -> f64, may: &dyn Fn(usize) -> bool| {
-        let chains = (0..solid.chains.len()).filter(|&j| may(j)).map(|j| (measure(j), j));
+    let worst = |measure: &dyn Fn(ChainId) -> f64, may: &dyn Fn(ChainId) -> bool| {
+        let chains = solid.chain_ids().filter(|&j| may(j)).map(|j| (measure(j), j));
         chains.filter(|c| tight(c.0)).max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1))).map(|c| c.1)
     };
     let mut simpler = solid.clone();
     let symmetry = target.symmetry;
-    let spare = |j: usize| {
-        let facets = &solid.chains[j].facets;
+    let spare = |j: ChainId| {
+        let facets = &solid.chains[j.0].facets;
         // A joint panel needs a plane beside it, for the chain to fold at.
         let others = facets.iter().filter(|f| !f.is_joint).count();
         let is_level = symmetry.is_some_and(Symmetry::is_level);
@@ -325,14 +328,14 @@ pub(super) fn simplify(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<F
         let area = |k: usize| bulge_without(shape, symmetry, j, k);
         free.min_by(|&a, &b| area(a).total_cmp(&area(b)))
     };
-    let can_go = |j: usize| can_go(solid, &orbit(solid, symmetry, j));
+    let can_go = |j: ChainId| can_go(solid, &orbit(solid, symmetry, j));
     if let Some(j) = worst(&low, &|j| spare(j).is_some()) {
         drop_plane(&mut simpler, symmetry, j, spare(j)?);
     } else if let Some(j) = worst(&narrow, &can_go) {
         drop_chain(&mut simpler, symmetry, j);
-    } else if let Some(j) = (0..solid.chains.len()).find(|&j| fitted.lack_mm > 0.0 && spare(j).is_some()) {
+    } else if let Some(j) = solid.chain_ids().find(|&j| fitted.lack_mm > 0.0 && spare(j).is_some()) {
         drop_plane(&mut simpler, symmetry, j, spare(j)?);
-    } else if let Some(j) = (0..solid.chains.len()).find(|&j| fitted.lack_mm > 0.0 && can_go(j)) {
+    } else if let Some(j) = solid.chain_ids().find(|&j| fitted.lack_mm > 0.0 && can_go(j)) {
         drop_chain(&mut simpler, symmetry, j);
     } else {
         return None;
@@ -344,12 +347,12 @@ pub(super) fn simplify(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<F
 /// A shape without the plane that adds least to it; `None` where none can be spared.
 pub(super) fn without_plane(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<FoldSpot>)> {
     let (shape, symmetry) = (&fitted.shape, target.symmetry);
-    let mut least: Option<(f64, usize, usize)> = None;
-    for (j, chain) in shape.solid.chains.iter().enumerate() {
+    let mut least: Option<(f64, ChainId, usize)> = None;
+    for (j, chain) in shape.solid.chain_ids().zip(&shape.solid.chains) {
         let others = chain.facets.iter().filter(|f| !f.is_joint).count();
         let spare = spare_planes(&chain.facets, symmetry);
         for k in spare.filter(|&k| others > pair(&chain.facets, symmetry, k)) {
-            let profile = &shape.chains[j].profile;
+            let profile = &shape.chains[j.0].profile;
             let width_mm = shape.width_at(j, (profile[k].y + profile[k + 1].y) / 2.0);
             let volume_mm3 = width_mm * bulge_without(shape, symmetry, j, k);
             if least.is_none_or(|l| volume_mm3 < l.0) {
@@ -368,11 +371,12 @@ pub(super) fn without_plane(fitted: &Fitted, target: &Target) -> Option<(Solid, 
 pub(super) fn without_chain(fitted: &Fitted, target: &Target) -> Option<(Solid, Vec<FoldSpot>)> {
     let (shape, symmetry) = (&fitted.shape, target.symmetry);
     let mut solid = shape.solid.clone();
-    let area = |j: usize| -> f64 {
-        let parts = shape.chains[j].profile.windows(2);
+    let area = |j: ChainId| -> f64 {
+        let parts = shape.chains[j.0].profile.windows(2);
         parts.map(|w| w[0].distance(w[1]) * shape.width_at(j, (w[0].y + w[1].y) / 2.0)).sum()
     };
-    let least = (0..solid.chains.len())
+    let least = solid
+        .chain_ids()
         .filter(|&j| can_go(&solid, &orbit(&solid, symmetry, j)))
         .min_by(|&a, &b| area(a).total_cmp(&area(b)))?;
     drop_chain(&mut solid, symmetry, least);
@@ -394,8 +398,8 @@ fn pair(facets: &[SideFacet], symmetry: Option<Symmetry>, k: usize) -> usize {
 }
 
 /// Area by which the profile of chain j would grow without plane k and its image, mm².
-fn bulge_without(shape: &Shape, symmetry: Option<Symmetry>, j: usize, k: usize) -> f64 {
-    let (lines, ends) = (&shape.chains[j].lines, (shape.solid.top_mm, shape.solid.bottom_mm));
+fn bulge_without(shape: &Shape, symmetry: Option<Symmetry>, j: ChainId, k: usize) -> f64 {
+    let (lines, ends) = (&shape.chains[j.0].lines, (shape.solid.top_mm, shape.solid.bottom_mm));
     if symmetry.is_some_and(Symmetry::is_level) {
         pair_bulge(lines, k, ends).0
     } else {
@@ -404,37 +408,37 @@ fn bulge_without(shape: &Shape, symmetry: Option<Symmetry>, j: usize, k: usize) 
 }
 
 /// Drops a plane and its images.
-fn drop_plane(solid: &mut Solid, symmetry: Option<Symmetry>, j: usize, k: usize) {
+fn drop_plane(solid: &mut Solid, symmetry: Option<Symmetry>, j: ChainId, k: usize) {
     let all = orbit(solid, symmetry, j);
-    let facets = &mut solid.chains[j].facets;
+    let facets = &mut solid.chains[j.0].facets;
     if symmetry.is_some_and(Symmetry::is_level) {
         drop_pair(facets, k);
     } else {
         facets.remove(k);
     }
     for &other in &all[1..] {
-        solid.chains[other].facets = solid.chains[j].facets.clone();
+        solid.chains[other.0].facets = solid.chains[j.0].facets.clone();
     }
 }
 
 /// Drops a chain and its images.
-fn drop_chain(solid: &mut Solid, symmetry: Option<Symmetry>, j: usize) {
+fn drop_chain(solid: &mut Solid, symmetry: Option<Symmetry>, j: ChainId) {
     let mut all = orbit(solid, symmetry, j);
     all.sort_unstable_by(|a, b| b.cmp(a));
-    all.into_iter().for_each(|k| drop(solid.chains.remove(k)));
+    all.into_iter().for_each(|k| drop(solid.chains.remove(k.0)));
 }
 
 /// Whether a solid stays closed without these chains, which are images of one another.
-fn can_go(solid: &Solid, gone: &[usize]) -> bool {
-    if solid.chains.len() < gone.len() + 3 || solid.chains[gone[0]].is_locked {
+fn can_go(solid: &Solid, gone: &[ChainId]) -> bool {
+    if solid.chains.len() < gone.len() + 3 || solid.chains[gone[0].0].is_locked {
         return false;
     }
-    let gap_without = |k: usize| {
-        let beside = |mut next: usize, step: &dyn Fn(usize) -> usize| {
+    let gap_without = |k: ChainId| {
+        let beside = |mut next: ChainId, step: &dyn Fn(ChainId) -> ChainId| {
             while gone.contains(&next) {
                 next = step(next);
             }
-            solid.chains[next].angle_rad
+            solid.chains[next.0].angle_rad
         };
         let (before, after) = (beside(k, &|c| solid.previous(c)), beside(k, &|c| solid.next(c)));
         (after - before).rem_euclid(TAU)
@@ -461,7 +465,7 @@ mod tests {
         let hull = plate(2.0);
         let lens = lens(&target(&hull, vec![]), 4).unwrap();
         assert_eq!((lens.top_mm, lens.bottom_mm), (1.0, -1.0));
-        for j in 0..lens.chains.len() {
+        for j in lens.chain_ids() {
             let profile = lens.profile(j);
             assert_eq!(profile.len(), 3);
             assert!(profile.windows(2).all(|w| w[0].distance(w[1]) >= 3.0), "{profile:?}");

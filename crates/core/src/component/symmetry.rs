@@ -4,6 +4,7 @@
 //! chain or of a plane is a change of signs, which is exact.
 
 use super::angles::turn;
+use super::panel::ChainId;
 use super::solid::Solid;
 use glam::DVec2;
 use smallvec::{SmallVec, smallvec};
@@ -141,10 +142,10 @@ pub(super) fn directions(angle_rad: f64, symmetry: Option<Symmetry>) -> SmallVec
 const SAME_RAD: f64 = 1e-9;
 
 /// Chain j of a straight solid and its images, each once; the chain itself comes first.
-pub(super) fn orbit(solid: &Solid, symmetry: Option<Symmetry>, j: usize) -> SmallVec<[usize; 4]> {
-    let mut all: SmallVec<[usize; 4]> = smallvec![j];
+pub(super) fn orbit(solid: &Solid, symmetry: Option<Symmetry>, j: ChainId) -> SmallVec<[ChainId; 4]> {
+    let mut all: SmallVec<[ChainId; 4]> = smallvec![j];
     for image in images(symmetry) {
-        let other = chain_at(solid, image.angle(solid.chains[j].angle_rad));
+        let other = chain_at(solid, image.angle(solid.chains[j.0].angle_rad));
         if !all.contains(&other) {
             all.push(other);
         }
@@ -153,9 +154,9 @@ pub(super) fn orbit(solid: &Solid, symmetry: Option<Symmetry>, j: usize) -> Smal
 }
 
 /// The chain of a straight solid whose direction is nearest.
-pub(super) fn chain_at(solid: &Solid, angle_rad: f64) -> usize {
-    let from = |k: usize| away(solid.chains[k].angle_rad, angle_rad);
-    (0..solid.chains.len()).min_by(|&a, &b| from(a).total_cmp(&from(b))).unwrap_or(0)
+pub(super) fn chain_at(solid: &Solid, angle_rad: f64) -> ChainId {
+    let from = |k: ChainId| away(solid.chains[k.0].angle_rad, angle_rad);
+    solid.chain_ids().min_by(|&a, &b| from(a).total_cmp(&from(b))).unwrap_or(ChainId(0))
 }
 
 /// A straight solid whose chains are nearly images of one another, made exactly so: of those that are,
@@ -165,21 +166,21 @@ pub(super) fn evened(mut solid: Solid, symmetry: Option<Symmetry>) -> Solid {
         let half = (solid.top_mm - solid.bottom_mm) / 2.0;
         (solid.top_mm, solid.bottom_mm) = (half, -half);
     }
-    for j in 0..solid.chains.len() {
-        let own = solid.chains[j].angle_rad;
-        let others: SmallVec<[(Image, usize); 3]> =
+    for j in solid.chain_ids() {
+        let own = solid.chains[j.0].angle_rad;
+        let others: SmallVec<[(Image, ChainId); 3]> =
             images(symmetry).iter().map(|&image| (image, chain_at(&solid, image.angle(own)))).collect();
         if others.iter().any(|&(_, k)| k < j) {
             continue;
         }
         let in_plane = others.iter().filter(|&&(_, k)| k == j).find_map(|(image, _)| image.in_plane(own));
         if !others.is_empty() {
-            solid.chains[j].angle_rad = in_plane.unwrap_or_else(|| wrapped(own));
+            solid.chains[j.0].angle_rad = in_plane.unwrap_or_else(|| wrapped(own));
         }
-        let (own, facets) = (solid.chains[j].angle_rad, solid.chains[j].facets.clone());
+        let (own, facets) = (solid.chains[j.0].angle_rad, solid.chains[j.0].facets.clone());
         for (image, k) in others.into_iter().filter(|&(_, k)| k != j) {
-            solid.chains[k].angle_rad = image.angle(own);
-            solid.chains[k].facets = facets.clone();
+            solid.chains[k.0].angle_rad = image.angle(own);
+            solid.chains[k.0].facets = facets.clone();
         }
     }
     solid

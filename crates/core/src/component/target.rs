@@ -1,6 +1,7 @@
 //! What a component has to match: a hull, its joints, and the user's limits.
 
 use super::filling::Filling;
+use super::panel::ChainId;
 use super::solid::{FaceId, SideFacet, Solid};
 use super::symmetry::Symmetry;
 use crate::geom::Hull;
@@ -124,7 +125,7 @@ impl Target<'_> {
                     .facets
                     .iter()
                     .position(|f| f.is_joint && f.slope_rad == slope_rad && f.offset_mm == offset_mm)?;
-                Some(FaceId::Side(chain, facet))
+                Some(FaceId::Side(ChainId(chain), facet))
             }
         }
     }

@@ -1,6 +1,7 @@
 //! The walls of a component: chains of panels extruded from profiles along the edges of the top
 //! panel and trimmed with one another. At height v the component is { x : n_j·x <= u_j(v) }.
 
+use super::panel::ChainId;
 use super::profile::Profile;
 use super::symmetry::Symmetry;
 use glam::DVec2;
@@ -37,14 +38,14 @@ impl Walls {
 
     /// The images, in upright mirror planes, of the corner of chain j with the next: their chains, and
     /// whether they are reflected.
-    pub(super) fn corner_images(&self, j: usize) -> impl Iterator<Item = (usize, bool)> + '_ {
+    pub(super) fn corner_images(&self, j: ChainId) -> impl Iterator<Item = (ChainId, bool)> + '_ {
         let images = move |symmetry: Symmetry| {
-            let [own, next] = [j, self.next(j)].map(|k| symmetry.normals(self.normals[k]));
+            let [own, next] = [j, self.next(j)].map(|k| symmetry.normals(self.normals[k.0]));
             own.zip(next).map(|(own, next)| if next.1 { next } else { own })
         };
         let chain = move |n: DVec2| {
-            let along = |k: &usize| n.dot(self.normals[*k]);
-            (0..self.count()).max_by(|a, b| along(a).total_cmp(&along(b))).unwrap_or(j)
+            let along = |k: &ChainId| n.dot(self.normals[k.0]);
+            self.ids().max_by(|a, b| along(a).total_cmp(&along(b))).unwrap_or(j)
         };
         self.symmetry.into_iter().flat_map(images).map(move |(n, is_reflected)| (chain(n), is_reflected))
     }
@@ -54,31 +55,36 @@ impl Walls {
         self.normals.len()
     }
 
+    /// The chains' ids, counter-clockwise.
+    pub(super) fn ids(&self) -> impl Iterator<Item = ChainId> + use<> {
+        (0..self.count()).map(ChainId)
+    }
+
     /// Chain after chain `j`, counter-clockwise.
-    pub(super) fn next(&self, j: usize) -> usize {
-        (j + 1) % self.count()
+    pub(super) fn next(&self, j: ChainId) -> ChainId {
+        ChainId((j.0 + 1) % self.count())
     }
 
     /// Chain before chain `j`.
-    pub(super) fn previous(&self, j: usize) -> usize {
-        (j + self.count() - 1) % self.count()
+    pub(super) fn previous(&self, j: ChainId) -> ChainId {
+        ChainId((j.0 + self.count() - 1) % self.count())
     }
 
     pub(super) fn profiles(&self) -> &[Profile] {
         &self.profiles
     }
 
-    pub(super) fn profile(&self, j: usize) -> &Profile {
-        &self.profiles[j]
+    pub(super) fn profile(&self, j: ChainId) -> &Profile {
+        &self.profiles[j.0]
     }
 
-    pub(super) fn normal(&self, j: usize) -> DVec2 {
-        self.normals[j]
+    pub(super) fn normal(&self, j: ChainId) -> DVec2 {
+        self.normals[j.0]
     }
 
     /// Direction of the edge, counter-clockwise round the top panel.
-    pub(super) fn tangent(&self, j: usize) -> DVec2 {
-        self.normals[j].perp()
+    pub(super) fn tangent(&self, j: ChainId) -> DVec2 {
+        self.normals[j.0].perp()
     }
 
     pub(super) fn top_mm(&self) -> f64 {
@@ -91,26 +97,26 @@ impl Walls {
     }
 
     /// Where the edge of chain j meets that of the next chain in the section at height v.
-    pub(super) fn corner_at(&self, j: usize, v_mm: f64) -> DVec2 {
+    pub(super) fn corner_at(&self, j: ChainId, v_mm: f64) -> DVec2 {
         let k = self.next(j);
-        let (na, nb) = (self.normals[j], self.normals[k]);
-        let (ua, ub) = (self.profiles[j].u_at(v_mm), self.profiles[k].u_at(v_mm));
+        let (na, nb) = (self.normals[j.0], self.normals[k.0]);
+        let (ua, ub) = (self.profiles[j.0].u_at(v_mm), self.profiles[k.0].u_at(v_mm));
         DVec2::new(ua * nb.y - ub * na.y, na.x * ub - nb.x * ua) / na.perp_dot(nb)
     }
 
     /// Width of chain j at height v: the length of its edge of the section there, negative where
     /// there is none.
-    pub(super) fn width_at(&self, j: usize, v_mm: f64) -> f64 {
+    pub(super) fn width_at(&self, j: ChainId, v_mm: f64) -> f64 {
         self.tangent(j).dot(self.corner_at(j, v_mm) - self.corner_at(self.previous(j), v_mm))
     }
 
     /// The narrowest place: chain, height and width. Widths are linear between the heights of
     /// vertices, so this is exact (the exact form of Eq. (14)).
-    pub(super) fn narrowest(&self) -> (usize, f64, f64) {
+    pub(super) fn narrowest(&self) -> (ChainId, f64, f64) {
         let heights: Vec<f64> = self.profiles.iter().flat_map(|p| p.points()).map(|p| p.y).collect();
-        let places = (0..self.count()).flat_map(|j| heights.iter().map(move |&v| (j, v)));
+        let places = self.ids().flat_map(|j| heights.iter().map(move |&v| (j, v)));
         places
             .map(|(j, v)| (j, v, self.width_at(j, v)))
-            .fold((0, 0.0, f64::INFINITY), |least, next| if next.2 < least.2 { next } else { least })
+            .fold((ChainId(0), 0.0, f64::INFINITY), |least, next| if next.2 < least.2 { next } else { least })
     }
 }

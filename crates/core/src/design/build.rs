@@ -4,7 +4,7 @@ use super::ranking::{Ranked, Ranking, Refusal, judge, rank};
 use super::sketch::{Attachment, Sketch, SketchError};
 use super::warning::DesignWarning;
 use super::way::Way;
-use crate::component::{AssembleError, Component, PanelId, PanelKind, Profile};
+use crate::component::{AssembleError, ChainId, Component, PanelId, PanelKind, Profile};
 use crate::geom::polygon;
 use crate::model::{JoinedPart, Model, PartId, Seam};
 use crate::progress::{Cancelled, Progress};
@@ -243,12 +243,12 @@ impl Made {
             folded.push(ranked);
         }
         let top = sketch.top();
-        let edges = 0..top.len();
-        let normal = |k: usize| -(top[(k + 1) % top.len()] - top[k]).normalize_or_zero().perp();
+        let edges = (0..top.len()).map(ChainId);
+        let normal = |ChainId(k)| -(top[(k + 1) % top.len()] - top[k]).normalize_or_zero().perp();
         let normals: Vec<DVec2> = edges.clone().map(normal).collect();
         let profiles = edges.clone().map(|k| {
             let profile = &folded[sketch.profile_of(k)].profile;
-            shifted(profile, normals[k].dot(top[k]))
+            shifted(profile, normals[k.0].dot(top[k.0]))
         });
         let profiles = profiles.collect::<Result<Vec<Profile>, AssembleError>>();
         let component = profiles.and_then(|profiles| Component::of_profiles(normals, profiles));
@@ -261,7 +261,7 @@ impl Made {
     fn panel(&self, drawn: PanelKind) -> Option<PanelId> {
         let kind = match drawn {
             PanelKind::Side { chain, index } => {
-                let index = self.source[chain].iter().position(|&segment| segment == index)?;
+                let index = self.source[chain.0].iter().position(|&segment| segment == index)?;
                 PanelKind::Side { chain, index }
             }
             end => end,
@@ -274,7 +274,7 @@ impl Made {
 fn shifted(profile: &Profile, by_mm: f64) -> Result<Profile, AssembleError> {
     let points: Vec<DVec2> = profile.points().iter().map(|p| *p + DVec2::X * by_mm).collect();
     let faces_up = (0..points.len() - 1).map(|i| profile.faces_up(i)).collect();
-    Profile::folded(points, faces_up).map_err(|error| AssembleError::Profile { chain: 0, error })
+    Profile::folded(points, faces_up).map_err(|error| AssembleError::Profile { chain: ChainId(0), error })
 }
 
 /// The way to fold a profile: the user's, or the best.

@@ -150,7 +150,7 @@ fn joined_stand(convex: &Component, frame: &DAffine3, joints: &[PanelId]) -> Sta
             PanelKind::Top => kept.top_mm = Some(convex.top_mm()),
             PanelKind::Bottom => kept.bottom_mm = Some(convex.bottom_mm()),
             PanelKind::Side { chain, index } => {
-                let points = convex.profiles()[chain].points();
+                let points = convex.profiles()[chain.0].points();
                 let side = (chain, [points[index], points[index + 1]]);
                 if !kept.sides.contains(&side) {
                     kept.sides.push(side);
@@ -158,7 +158,7 @@ fn joined_stand(convex: &Component, frame: &DAffine3, joints: &[PanelId]) -> Sta
             }
         }
     }
-    let normals = (0..convex.profiles().len()).map(|j| convex.normal(j)).collect();
+    let normals = convex.chain_ids().map(|j| convex.normal(j)).collect();
     Stand { frame: *frame, normals, kept }
 }
 
@@ -166,8 +166,8 @@ fn joined_stand(convex: &Component, frame: &DAffine3, joints: &[PanelId]) -> Sta
 fn kept(convex: &Component, joint: PanelId, component: &Component) -> Option<PanelId> {
     let kind = match convex.panels().panel(joint).kind {
         PanelKind::Side { chain, index } => {
-            let wanted = &convex.profiles()[chain].points()[index..index + 2];
-            let found = component.profiles()[chain].points();
+            let wanted = &convex.profiles()[chain.0].points()[index..index + 2];
+            let found = component.profiles()[chain.0].points();
             let index = found.windows(2).position(|w| {
                 w[0].distance(wanted[0]) < ROUNDING_MM && w[1].distance(wanted[1]) < ROUNDING_MM
             })?;

@@ -1,6 +1,7 @@
 //! Profiles of a body that may have dents: how far it reaches in each edge's direction, height by
 //! height. Unlike the silhouette of its hull, this follows a neck or a waist.
 
+use crate::component::ChainId;
 use glam::{DVec2, DVec3};
 
 /// Heights at which a body is cut.
@@ -13,7 +14,7 @@ const SAME_MM: f64 = 1e-6;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Kept {
     /// Chains with the ends of the segments that are joint panels, (u, v), the upper one first.
-    pub(super) sides: Vec<(usize, [DVec2; 2])>,
+    pub(super) sides: Vec<(ChainId, [DVec2; 2])>,
     /// Height of the top panel where it is one.
     pub(super) top_mm: Option<f64>,
     /// Height of the bottom panel where it is one.
@@ -22,7 +23,7 @@ pub(super) struct Kept {
 
 impl Kept {
     /// Where chain `j` is at a height, if that is kept.
-    fn at(&self, j: usize, v_mm: f64) -> Option<DVec2> {
+    fn at(&self, j: ChainId, v_mm: f64) -> Option<DVec2> {
         let own = self.sides.iter().filter(|(chain, _)| *chain == j).map(|(_, ends)| *ends);
         let mut own = own.filter(|[upper, lower]| v_mm <= upper.y && v_mm >= lower.y);
         own.next().map(|[upper, lower]| match v_mm {
@@ -33,7 +34,7 @@ impl Kept {
     }
 
     /// Whether a height lies within a panel of chain `j` that stays whole.
-    fn is_within(&self, j: usize, v_mm: f64) -> bool {
+    fn is_within(&self, j: ChainId, v_mm: f64) -> bool {
         let own = self.sides.iter().filter(|(chain, _)| *chain == j);
         own.into_iter().any(|(_, [upper, lower])| v_mm < upper.y && v_mm > lower.y)
     }
@@ -106,7 +107,7 @@ impl Silhouette {
         }
         for (j, reach) in reaches.iter_mut().enumerate() {
             for (u, &v) in reach.iter_mut().zip(&heights) {
-                *u = kept.at(j, v).map_or(*u, |at| at.x);
+                *u = kept.at(ChainId(j), v).map_or(*u, |at| at.x);
             }
         }
         let seen = || triangles.iter().flatten().map(|p| p.truncate());
@@ -145,19 +146,19 @@ impl Silhouette {
     pub(super) fn profiles(&self, count: usize, scale: f64, least_mm: f64) -> Option<Vec<Drawn>> {
         let (first, last) = self.usable(least_mm)?;
         let levels = self.best_levels(first, last, count)?;
-        let point = |j: usize, k: usize| {
+        let point = |j: ChainId, k: usize| {
             let scale = if self.is_kept(k) { 1.0 } else { scale };
-            let middle = self.normals[j].dot(self.middle);
-            let scaled = DVec2::new(middle + scale * (self.reaches[j][k] - middle), self.heights[k]);
+            let middle = self.normals[j.0].dot(self.middle);
+            let scaled = DVec2::new(middle + scale * (self.reaches[j.0][k] - middle), self.heights[k]);
             self.kept.at(j, self.heights[k]).unwrap_or(scaled)
         };
-        let drawn = |j: usize| {
+        let drawn = |j: ChainId| {
             let own = levels.iter().filter(|&&k| !self.kept.is_within(j, self.heights[k]));
             let points: Vec<DVec2> = own.map(|&k| point(j, k)).collect();
             let is_kept = |w: &[DVec2]| self.kept.sides.contains(&(j, [w[0], w[1]]));
             Drawn { whole: points.windows(2).map(is_kept).collect(), points }
         };
-        Some((0..self.normals.len()).map(drawn).collect())
+        Some((0..self.normals.len()).map(ChainId).map(drawn).collect())
     }
 
     /// The best polyline with `count` vertices among the levels, by dynamic programming over its

@@ -1,7 +1,7 @@
 //! What the user drew, checked.
 
 use super::way::Way;
-use crate::component::PanelKind;
+use crate::component::{ChainId, PanelKind};
 use glam::DVec2;
 
 /// The most vertices of a drawn profile: there are 2^(M−1) ways to fold it.
@@ -218,8 +218,8 @@ impl Sketch {
     }
 
     /// The profile of an edge.
-    pub fn profile_of(&self, edge: usize) -> usize {
-        edge % self.profiles.len()
+    pub fn profile_of(&self, edge: ChainId) -> usize {
+        edge.0 % self.profiles.len()
     }
 
     /// Whether a panel exists, side panels by their drawn segments.
@@ -229,7 +229,7 @@ impl Sketch {
     pub fn check_panel(&self, panel: PanelKind) -> Result<(), SketchError> {
         match panel {
             PanelKind::Side { chain, index }
-                if chain >= self.top.len() || index + 1 >= self.profiles[self.profile_of(chain)].len() =>
+                if chain.0 >= self.top.len() || index + 1 >= self.profiles[self.profile_of(chain)].len() =>
             {
                 Err(SketchError::NoPanel(panel.short_name()))
             }
@@ -246,7 +246,7 @@ pub fn parse_panel(text: &str) -> Result<PanelKind, SketchError> {
     let side = || {
         let (chain, index) = text.strip_prefix("chain")?.split_once('.')?;
         let number = |text: &str| text.parse::<usize>().ok()?.checked_sub(1);
-        Some(PanelKind::Side { chain: number(chain)?, index: number(index)? })
+        Some(PanelKind::Side { chain: ChainId(number(chain)?), index: number(index)? })
     };
     match text {
         "top" => Ok(PanelKind::Top),
@@ -314,7 +314,7 @@ mod tests {
     #[test]
     fn a_box_is_a_square_with_one_wall() {
         let found = sketch(&SQUARE, &[&WALL]).unwrap();
-        assert_eq!((found.profile_of(3), found.profiles().len()), (0, 1));
+        assert_eq!((found.profile_of(ChainId(3)), found.profiles().len()), (0, 1));
         assert!(found.check_panel(parse_panel("chain4.1").unwrap()).is_ok());
         assert!(found.check_panel(parse_panel("chain4.2").unwrap()).is_err());
         assert!(parse_panel("chain0.1").is_err() && parse_panel("lid").is_err());

@@ -11,7 +11,7 @@ use super::build::MOVED_MM;
 use super::facet::{corners, facets};
 use super::hinged::{Chain, Hinged, Unhinged};
 use super::overlap::Solid;
-use crate::component::{AssembleError, Component, Panel, PanelId, PanelKind, Profile};
+use crate::component::{AssembleError, ChainId, Component, Panel, PanelId, PanelKind, Profile};
 use crate::model::Model;
 use crate::remedy::Remedy;
 use glam::DVec2;
@@ -22,24 +22,24 @@ use std::sync::Arc;
 pub enum ThickError {
     /// A fold against the bend.
     #[error(
-        "\"{name}\" folds flat against a bend in chain {}, which boards with square edges cannot", chain + 1
+        "\"{name}\" folds flat against a bend in chain {}, which boards with square edges cannot", chain.number()
     )]
     Against {
         /// The component.
         name: String,
         /// The chain.
-        chain: usize,
+        chain: ChainId,
     },
     /// Nothing is left inside.
     #[error(
         "\"{name}\" has no room for boards of {thickness_mm} mm in chain {}: boards suit drawn components and boxes, not \
-         the slanted panels of most meshes", chain + 1
+         the slanted panels of most meshes", chain.number()
     )]
     NoRoom {
         /// The component.
         name: String,
         /// The chain.
-        chain: usize,
+        chain: ChainId,
         /// The thickness.
         thickness_mm: f64,
     },
@@ -134,7 +134,7 @@ impl Boards<'_> {
     /// The inner faces, and how far a vertex was moved.
     fn inner(&self) -> Result<(Inner, f64), ThickError> {
         let chains = self.chains()?;
-        let normals: Vec<DVec2> = (0..chains.len()).map(|j| self.component.normal(j)).collect();
+        let normals: Vec<DVec2> = self.component.chain_ids().map(|j| self.component.normal(j)).collect();
         let profiles: Vec<Profile> = chains.iter().map(|c| c.profile.clone()).collect();
         let has_lifts = profiles.iter().any(|p| p.lifts_mm().iter().any(|lift| *lift > 0.0));
         let inner = match has_lifts {
@@ -148,8 +148,8 @@ impl Boards<'_> {
         self.check(&inner)?;
         let successor = |kind: PanelKind| match kind {
             PanelKind::Side { chain, index } => {
-                let facet = facets(&self.component.profiles()[chain])[index];
-                let index = chains[chain].source.iter().position(|&of| of == facet);
+                let facet = facets(&self.component.profiles()[chain.0])[index];
+                let index = chains[chain.0].source.iter().position(|&of| of == facet);
                 PanelKind::Side { chain, index: index.unwrap_or(0) }
             }
             end => end,
@@ -165,14 +165,14 @@ impl Boards<'_> {
     fn chains(&self) -> Result<Vec<Hinged>, ThickError> {
         let mut known: Vec<(Chain, Vec<Hinged>)> = Vec::new();
         let mut found = Vec::new();
-        for j in 0..self.component.profiles().len() {
+        for j in self.component.chain_ids() {
             let chain = self.chain(j);
             if let Some(k) = known.iter().position(|(other, _)| *other == chain) {
                 found.push(k);
                 continue;
             }
             let name = self.name.to_owned();
-            let hinged = chain.hinged(&self.component.profiles()[j]).map_err(|reason| match reason {
+            let hinged = chain.hinged(&self.component.profiles()[j.0]).map_err(|reason| match reason {
                 Unhinged::Against => ThickError::Against { name, chain: j },
                 Unhinged::NoRoom => ThickError::NoRoom { name, chain: j, thickness_mm: self.thickness_mm },
             })?;
@@ -190,8 +190,8 @@ impl Boards<'_> {
     }
 
     /// The outside of a chain.
-    fn chain(&self, j: usize) -> Chain {
-        let profile = &self.component.profiles()[j];
+    fn chain(&self, j: ChainId) -> Chain {
+        let profile = &self.component.profiles()[j.0];
         let (corners, facets) = (corners(profile), facets(profile));
         let mut whole = vec![false; corners.len() - 1];
         for panel in &self.joints {

@@ -3,7 +3,7 @@
 //! height alone decides the pose.
 
 use super::chain::{ChainMotion, HangsFrom, Shares, Sway};
-use crate::component::{Component, PanelId, PanelKind, Profile};
+use crate::component::{ChainId, Component, PanelId, PanelKind, Profile};
 use glam::{DAffine3, DMat3, DQuat, DVec2, DVec3};
 use std::f64::consts::FRAC_PI_2;
 
@@ -42,12 +42,12 @@ pub struct ComponentPose {
 impl ComponentMotion {
     /// The motion of a component.
     pub fn new(component: &Component) -> Self {
-        let chain = |(j, profile): (usize, &Profile)| Chain {
+        let chain = |(j, profile): (ChainId, &Profile)| Chain {
             motion: ChainMotion::new(profile),
             outward: component.normal(j),
         };
         let panel = |p: &crate::component::Panel| (p.kind, p.deployed);
-        let chains: Vec<Chain> = component.profiles().iter().enumerate().map(chain).collect();
+        let chains: Vec<Chain> = component.chain_ids().zip(component.profiles()).map(chain).collect();
         Self {
             rise_mm: chains.iter().map(|chain| chain.motion.rise_mm()).fold(0.0, f64::max),
             chains,
@@ -68,8 +68,8 @@ impl ComponentMotion {
     }
 
     /// The linkage of chain j.
-    pub fn chain(&self, j: usize) -> &ChainMotion {
-        &self.chains[j].motion
+    pub fn chain(&self, j: ChainId) -> &ChainMotion {
+        &self.chains[j.0].motion
     }
 
     /// Height of the top panel over the bottom panel at `folded`, from 0 (deployed) to 1 (flat). It
@@ -125,7 +125,7 @@ impl ComponentMotion {
         match self.panels[panel.0].0 {
             PanelKind::Top => DAffine3::from_translation(DVec3::Z * (height_mm - self.height_mm)),
             PanelKind::Bottom => DAffine3::IDENTITY,
-            PanelKind::Side { chain, index } => self.chains[chain].move_link(index, shares[chain]),
+            PanelKind::Side { chain, index } => self.chains[chain.0].move_link(index, shares[chain.0]),
         }
     }
 }
@@ -138,7 +138,7 @@ fn levels(component: &Component) -> Vec<usize> {
         PanelKind::Top => top,
         PanelKind::Bottom => 0,
         PanelKind::Side { chain, index } => {
-            let profile = &component.profiles()[chain];
+            let profile = &component.profiles()[chain.0];
             let layer = profile.layer(index);
             if layer == layers(profile) { 0 } else { top - layer }
         }
@@ -150,9 +150,9 @@ fn levels(component: &Component) -> Vec<usize> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum End {
     /// The top panel, by this chain; none for the top panel itself.
-    Top(Option<usize>),
+    Top(Option<ChainId>),
     /// The bottom panel.
-    Bottom(Option<usize>),
+    Bottom(Option<ChainId>),
 }
 
 impl ComponentMotion {
@@ -161,7 +161,7 @@ impl ComponentMotion {
         match self.panels[panel.0].0 {
             PanelKind::Top => End::Top(None),
             PanelKind::Bottom => End::Bottom(None),
-            PanelKind::Side { chain, index } => match self.chains[chain].motion.hangs_from(index) {
+            PanelKind::Side { chain, index } => match self.chains[chain.0].motion.hangs_from(index) {
                 HangsFrom::Top => End::Top(Some(chain)),
                 HangsFrom::Bottom => End::Bottom(Some(chain)),
             },
@@ -172,7 +172,7 @@ impl ComponentMotion {
     /// for changes of the chain's shares by 1. The points are given as they lie when deployed.
     pub(super) fn sway_mm(&self, panel: PanelId, points: &[DVec3]) -> Sway {
         let PanelKind::Side { chain, index } = self.panels[panel.0].0 else { return [0.0; 2] };
-        let chain = &self.chains[chain];
+        let chain = &self.chains[chain.0];
         let [ends, _] = chain.motion.link_ends(index, Shares::DEPLOYED);
         let pivot = ends[chain.pivot(index)];
         let in_plane = |p: &DVec3| DVec2::new(chain.outward.dot(p.truncate()), p.z);

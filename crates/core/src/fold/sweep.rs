@@ -96,7 +96,7 @@ impl Body {
     /// hangs from.
     fn way_mm(&self, ball: &Ball, from: &Moment<'_>, to: &Moment<'_>) -> f64 {
         let (End::Top(Some(chain)) | End::Bottom(Some(chain))) = self.end else { return 0.0 };
-        let (from, to) = (from.shares[chain], to.shares[chain]);
+        let (from, to) = (from.shares[chain.0], to.shares[chain.0]);
         ball.sway_mm[0] * (from.above - to.above).abs() + ball.sway_mm[1] * (from.below - to.below).abs()
     }
 

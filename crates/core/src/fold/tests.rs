@@ -1,7 +1,7 @@
 //! Properties of the motion over random components.
 
 use super::*;
-use crate::component::{Component, JointTarget, PanelKind, Seat, Target, convert};
+use crate::component::{ChainId, Component, JointTarget, PanelKind, Seat, Target, convert};
 use crate::geom::{Hull, Plane, directions};
 use glam::{DAffine3, DVec2, DVec3};
 use proptest::prelude::*;
@@ -126,7 +126,7 @@ proptest! {
         let motion = ComponentMotion::new(&component);
         let pose = motion.pose(folded);
         for (j, shares) in pose.shares.iter().enumerate() {
-            let chain = motion.chain(j);
+            let chain = motion.chain(ChainId(j));
             let ends: Vec<[[DVec2; 2]; 2]> = (0..chain.link_count()).map(|i| chain.link_ends(i, *shares)).collect();
             for pair in ends.windows(2) {
                 let [a, b] = [pair[0][1], pair[1][1]].map(|[upper, lower]| lower - upper);

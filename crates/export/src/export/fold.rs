@@ -354,7 +354,7 @@ impl Graph {
         let (name, chain, panel) = match panel_kind {
             Some(PanelKind::Top) => ("top", None, None),
             Some(PanelKind::Bottom) => ("bottom", None, None),
-            Some(PanelKind::Side { chain, index }) => ("side", Some(chain), Some(index)),
+            Some(PanelKind::Side { chain, index }) => ("side", Some(chain.0), Some(index)),
             None => ("tab", None, None),
         };
         self.faces.kind.push(name);

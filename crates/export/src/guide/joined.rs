@@ -1,7 +1,7 @@
 //! Which hinges of a net are joined at some time of the gluing, and what that leaves open.
 
 use glam::{DVec2, DVec3};
-use tatamu_core::component::{HingeId, PanelId, PanelKind, PanelSet};
+use tatamu_core::component::{ChainId, HingeId, PanelId, PanelKind, PanelSet};
 use tatamu_core::geom::polygon;
 use tatamu_net::net::Net;
 
@@ -83,13 +83,13 @@ impl<'a> Joined<'a> {
     }
 
     /// The chain that a hinge is part of; none for the seam of a split top or bottom panel.
-    pub fn chain_of(&self, hinge: HingeId) -> Option<usize> {
+    pub fn chain_of(&self, hinge: HingeId) -> Option<ChainId> {
         let sides = self.set.hinges()[hinge.0].sides;
         sides.into_iter().find_map(|side| chain_of_panel(self.set, side.panel))
     }
 
     /// Whether all hinges of a chain are joined: then it stands, and no longer swings aside.
-    pub fn is_shut(&self, chain: usize) -> bool {
+    pub fn is_shut(&self, chain: ChainId) -> bool {
         let hinges = (0..self.is_joined.len()).map(HingeId);
         hinges.filter(|&h| self.chain_of(h) == Some(chain)).all(|h| self.is_joined(h))
     }
@@ -123,7 +123,7 @@ impl<'a> Joined<'a> {
     }
 }
 
-fn chain_of_panel(set: &PanelSet, panel: PanelId) -> Option<usize> {
+fn chain_of_panel(set: &PanelSet, panel: PanelId) -> Option<ChainId> {
     match set.panel(panel).kind {
         PanelKind::Side { chain, .. } => Some(chain),
         PanelKind::Top | PanelKind::Bottom => None,
@@ -134,11 +134,11 @@ fn chain_of_panel(set: &PanelSet, panel: PanelId) -> Option<usize> {
 fn are_neighbours(set: &PanelSet, a: PanelId, b: PanelId) -> bool {
     let (Some(a), Some(b)) = (chain_of_panel(set, a), chain_of_panel(set, b)) else { return true };
     let count = set.panels().iter().filter_map(|p| match p.kind {
-        PanelKind::Side { chain, .. } => Some(chain + 1),
+        PanelKind::Side { chain, .. } => Some(chain.number()),
         PanelKind::Top | PanelKind::Bottom => None,
     });
     let count = count.max().unwrap_or(1);
-    a == b || (a + 1) % count == b || (b + 1) % count == a
+    a == b || (a.0 + 1) % count == b.0 || (b.0 + 1) % count == a.0
 }
 
 /// Diameter of the disc that fits through the deployed panels, looking along their mean normal, or

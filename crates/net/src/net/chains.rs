@@ -2,7 +2,7 @@
 
 use super::net_error::NetError;
 use std::collections::BTreeMap;
-use tatamu_core::component::{HingeId, PanelId, PanelKind, PanelSet};
+use tatamu_core::component::{ChainId, HingeId, PanelId, PanelKind, PanelSet};
 
 /// One chain from the top panel down to the bottom panel.
 ///
@@ -33,14 +33,14 @@ impl Chains {
         let find = |kind| set.panels().iter().position(|p| p.kind == kind).map(PanelId);
         let top = find(PanelKind::Top).ok_or_else(|| missing("a top panel"))?;
         let bottom = find(PanelKind::Bottom).ok_or_else(|| missing("a bottom panel"))?;
-        let mut sides: BTreeMap<usize, BTreeMap<usize, PanelId>> = BTreeMap::new();
+        let mut sides: BTreeMap<ChainId, BTreeMap<usize, PanelId>> = BTreeMap::new();
         for (id, panel) in set.panels().iter().enumerate() {
             if let PanelKind::Side { chain, index } = panel.kind {
                 sides.entry(chain).or_default().insert(index, PanelId(id));
             }
         }
         let mut chains = Vec::with_capacity(sides.len());
-        for (number, panels) in sides {
+        for (chain, panels) in sides {
             let panels: Vec<PanelId> = panels.into_values().collect();
             let stops: Vec<PanelId> =
                 [top].into_iter().chain(panels.iter().copied()).chain([bottom]).collect();
@@ -48,7 +48,7 @@ impl Chains {
                 .windows(2)
                 .map(|pair| hinge_between(set, pair[0], pair[1]))
                 .collect::<Option<Vec<HingeId>>>()
-                .ok_or_else(|| missing(&format!("a hinge of chain {number}")))?;
+                .ok_or_else(|| missing(&format!("a hinge of chain {}", chain.0)))?;
             chains.push(Chain { panels, hinges });
         }
         if chains.is_empty() {
@@ -57,9 +57,19 @@ impl Chains {
         Ok(Self { top, bottom, chains })
     }
 
+    /// The chains' ids, in order round the top.
+    pub(crate) fn ids(&self) -> impl Iterator<Item = ChainId> + use<> {
+        (0..self.chains.len()).map(ChainId)
+    }
+
+    /// A chain.
+    pub(crate) fn chain(&self, id: ChainId) -> &Chain {
+        &self.chains[id.0]
+    }
+
     /// The fold hinge's place in a chain, counted from the top.
-    pub(crate) fn fold_place(&self, set: &PanelSet, chain: usize) -> usize {
-        let hinges = &self.chains[chain].hinges;
+    pub(crate) fn fold_place(&self, set: &PanelSet, chain: ChainId) -> usize {
+        let hinges = &self.chain(chain).hinges;
         hinges.iter().position(|h| set.hinges()[h.0].is_fold).unwrap_or(hinges.len() / 2)
     }
 }

@@ -11,7 +11,7 @@ use super::extent::Extent;
 use super::layout::{across, best_turn, clash, placed_outline};
 use super::ruling::Ruling;
 use glam::{DAffine2, DVec2};
-use tatamu_core::component::{HingeId, PanelSet};
+use tatamu_core::component::{ChainId, HingeId, PanelSet};
 
 /// Nodes visited for one choice of the uncut chain.
 const NODE_BUDGET: usize = 20_000;
@@ -66,14 +66,14 @@ impl Problem<'_> {
     }
 
     fn with_one_uncut(&self, has_strips: bool) -> Vec<Candidate> {
-        let whole = (0..self.chains.chains.len()).filter(|&j| self.ruling.may_stay_whole(self.chain(j)));
+        let whole = self.chains.ids().filter(|&j| self.ruling.may_stay_whole(self.chains.chain(j)));
         let found = whole.flat_map(|uncut| self.searched(Some(uncut), has_strips));
         let mut all: Vec<Candidate> = found.collect();
         all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         all
     }
 
-    fn searched(&self, uncut: Option<usize>, has_strips: bool) -> Vec<Candidate> {
+    fn searched(&self, uncut: Option<ChainId>, has_strips: bool) -> Vec<Candidate> {
         let mut best = Vec::new();
         Mode::new(self, uncut, has_strips).search(&mut best);
         best
@@ -83,10 +83,6 @@ impl Problem<'_> {
     pub(crate) fn chains_apart(&self, a: &Candidate, b: &Candidate) -> usize {
         let differs = |chain: &&Chain| chain.hinges.iter().any(|h| a.is_cut[h.0] != b.is_cut[h.0]);
         self.chains.chains.iter().filter(differs).count()
-    }
-
-    fn chain(&self, j: usize) -> &Chain {
-        &self.chains.chains[j]
     }
 }
 
@@ -134,13 +130,13 @@ struct Walk<'b> {
 }
 
 impl<'a> Mode<'a> {
-    fn new(problem: &'a Problem<'a>, uncut: Option<usize>, has_strips: bool) -> Self {
+    fn new(problem: &'a Problem<'a>, uncut: Option<ChainId>, has_strips: bool) -> Self {
         let (set, chains) = (problem.set, problem.chains);
         let mut items = vec![Item { outline: set.panel(chains.top).outline.clone(), piece: 0 }];
         let bottom_place = match uncut {
             Some(r) => {
-                let places = hang(set, problem.chain(r), DAffine2::IDENTITY, true);
-                for (&panel, &place) in problem.chain(r).panels.iter().zip(&places) {
+                let places = hang(set, chains.chain(r), DAffine2::IDENTITY, true);
+                for (&panel, &place) in chains.chain(r).panels.iter().zip(&places) {
                     items.push(Item { outline: placed_outline(set, panel, place), piece: 0 });
                 }
                 places[places.len() - 1]
@@ -165,7 +161,7 @@ impl<'a> Mode<'a> {
             area_mm2: set.panels().iter().map(|p| tatamu_core::geom::polygon::area(&p.outline)).sum(),
             cheapest_from: Vec::new(),
         };
-        for j in (0..chains.chains.len()).filter(|&j| Some(j) != uncut) {
+        for j in chains.ids().filter(|&j| Some(j) != uncut) {
             let choices = mode.chain_choices(j, bottom_place, below, has_strips);
             mode.choices.push(choices);
         }
@@ -173,9 +169,9 @@ impl<'a> Mode<'a> {
         mode
     }
 
-    fn chain_choices(&mut self, j: usize, bottom: DAffine2, below: usize, has_strips: bool) -> Vec<Choice> {
+    fn chain_choices(&mut self, j: ChainId, bottom: DAffine2, below: usize, has_strips: bool) -> Vec<Choice> {
         let set = self.problem.set;
-        let chain = self.problem.chain(j);
+        let chain = self.problem.chains.chain(j);
         let upper = hang(set, chain, DAffine2::IDENTITY, true);
         let lower = hang(set, chain, bottom, false);
         let count = chain.panels.len();

@@ -225,8 +225,8 @@ fn last_resort(problem: &Problem<'_>, shapes: &[Shapes]) -> Draft {
     let start = unbounded.two_pieces().into_iter().next().map_or_else(
         || {
             let mut is_cut = vec![false; set.hinges().len()];
-            for (j, chain) in problem.chains.chains.iter().enumerate() {
-                is_cut[chain.hinges[problem.chains.fold_place(set, j)].0] = true;
+            for j in problem.chains.ids() {
+                is_cut[problem.chains.chain(j).hinges[problem.chains.fold_place(set, j)].0] = true;
             }
             is_cut
         },

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
-use tatamu_core::component::{HingeId, PanelKind, PanelSet};
+use tatamu_core::component::{ChainId, HingeId, PanelKind, PanelSet};
 
 /// Widths of tabs that may be chosen, mm: narrower ones cannot be glued, wider ones help nobody.
 pub const TAB_WIDTHS_MM: RangeInclusive<f64> = 2.0..=50.0;
@@ -16,8 +16,8 @@ pub(super) const MOST_CUTS: usize = 2;
 /// An edge between two panels, by its place: `2.3` is the third of chain 2, counted from the top panel.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct EdgeName {
-    /// Index of the chain.
-    pub(super) chain: usize,
+    /// The chain.
+    pub(super) chain: ChainId,
     /// Index of the hinge in it.
     pub(super) place: usize,
 }
@@ -37,7 +37,7 @@ impl EdgeName {
 
 impl fmt::Display for EdgeName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}.{}", self.chain + 1, self.place + 1)
+        write!(f, "{}.{}", self.chain.number(), self.place + 1)
     }
 }
 
@@ -47,7 +47,7 @@ impl FromStr for EdgeName {
     fn from_str(text: &str) -> Result<Self, String> {
         let number = |part: &str| part.parse::<usize>().ok()?.checked_sub(1);
         text.split_once('.')
-            .and_then(|(chain, place)| Some(Self { chain: number(chain)?, place: number(place)? }))
+            .and_then(|(chain, place)| Some(Self { chain: ChainId(number(chain)?), place: number(place)? }))
             .ok_or_else(|| {
                 format!("\"{text}\" is not an edge; write chain and edge, counted from 1, such as \"2.3\"")
             })
@@ -140,18 +140,20 @@ pub enum HandFault {
     },
     /// Two chains without a cut.
     #[error(
-        "chains {0} and {1} would both stay whole and close the paper to a ring; cut an edge of one of them"
+        "chains {} and {} would both stay whole and close the paper to a ring; cut an edge of one of them",
+        .0.number(),
+        .1.number()
     )]
-    Ring(usize, usize),
+    Ring(ChainId, ChainId),
     /// A chain that falls into too many parts.
-    #[error("chain {0} would be cut at {1} edges; {MOST_CUTS} are the most")]
-    Torn(usize, usize),
+    #[error("chain {} would be cut at {} edges; {MOST_CUTS} are the most", .0.number(), .1)]
+    Torn(ChainId, usize),
     /// All chains are cut.
     #[error("with a cut in every chain the net falls into two pieces; leave one chain whole")]
     NotOne,
     /// A chain must stay whole in a net whose chains are all cut.
-    #[error("chain {0} would stay whole, which joins the two pieces; cut an edge of it")]
-    NotTwo(usize),
+    #[error("chain {} would stay whole, which joins the two pieces; cut an edge of it", .0.number())]
+    NotTwo(ChainId),
     /// A tab has less room.
     #[error("the tab at edge {edge} has no room there; {}", widest(*.widest_mm))]
     Narrow {

@@ -3,7 +3,7 @@
 use super::chains::{Chain, Chains};
 use super::hand::{EdgeChoice, EdgeName, HandFault, MOST_CUTS, NetHand, TAB_WIDTHS_MM, TabSide};
 use super::tabs::{self, Shapes};
-use tatamu_core::component::{HingeId, PanelSet};
+use tatamu_core::component::{ChainId, HingeId, PanelSet};
 
 /// The choices about one component, by its hinges.
 pub(crate) struct Ruling {
@@ -18,28 +18,29 @@ impl Ruling {
         let mut is_cut = vec![None; set.hinges().len()];
         let mut tabs = Vec::new();
         for (edge, choice) in hand.edges() {
-            let hinge = hinge_of(edge, &chains.chains)?;
+            let hinge = hinge_of(edge, chains)?;
             is_cut[hinge.0] = choice.is_cut;
             if choice.tab.is_some() || choice.width_mm.is_some() {
                 tabs.push((hinge, edge, choice));
             }
         }
         let ruling = Self { is_cut, tabs, pieces: hand.pieces() };
-        ruling.check(&chains.chains)?;
+        ruling.check(chains)?;
         Ok(ruling)
     }
 
-    fn check(&self, chains: &[Chain]) -> Result<(), HandFault> {
-        let cuts = |chain: &Chain| chain.hinges.iter().filter(|h| self.of(**h) == Some(true)).count();
-        if let Some((k, count)) = chains.iter().map(cuts).enumerate().find(|(_, count)| *count > MOST_CUTS) {
-            return Err(HandFault::Torn(k + 1, count));
+    fn check(&self, chains: &Chains) -> Result<(), HandFault> {
+        let hinges = |chain: &ChainId| chains.chain(*chain).hinges.iter();
+        let cuts = |chain: &ChainId| hinges(chain).filter(|h| self.of(**h) == Some(true)).count();
+        if let Some(torn) = chains.ids().find(|chain| cuts(chain) > MOST_CUTS) {
+            return Err(HandFault::Torn(torn, cuts(&torn)));
         }
-        let is_whole = |chain: &Chain| chain.hinges.iter().all(|h| self.of(*h) == Some(false));
-        let whole: Vec<usize> = (0..chains.len()).filter(|&k| is_whole(&chains[k])).collect();
+        let is_whole = |chain: &ChainId| hinges(chain).all(|h| self.of(*h) == Some(false));
+        let whole: Vec<ChainId> = chains.ids().filter(is_whole).collect();
         match (whole.as_slice(), self.pieces) {
-            ([a, b, ..], _) => Err(HandFault::Ring(a + 1, b + 1)),
-            ([a], Some(2)) => Err(HandFault::NotTwo(a + 1)),
-            (_, Some(1)) if chains.iter().all(|chain| cuts(chain) > 0) => Err(HandFault::NotOne),
+            (&[a, b, ..], _) => Err(HandFault::Ring(a, b)),
+            (&[a], Some(2)) => Err(HandFault::NotTwo(a)),
+            (_, Some(1)) if chains.ids().all(|chain| cuts(&chain) > 0) => Err(HandFault::NotOne),
             _ => Ok(()),
         }
     }
@@ -109,12 +110,12 @@ impl Ruling {
     }
 }
 
-fn hinge_of(edge: EdgeName, chains: &[Chain]) -> Result<HingeId, HandFault> {
-    let known = match chains.get(edge.chain) {
-        None => format!("there are {} chains", chains.len()),
+fn hinge_of(edge: EdgeName, chains: &Chains) -> Result<HingeId, HandFault> {
+    let known = match chains.chains.get(edge.chain.0) {
+        None => format!("there are {} chains", chains.chains.len()),
         Some(chain) => match chain.hinges.get(edge.place) {
             Some(hinge) => return Ok(*hinge),
-            None => format!("chain {} has {} edges", edge.chain + 1, chain.hinges.len()),
+            None => format!("chain {} has {} edges", edge.chain.number(), chain.hinges.len()),
         },
     };
     Err(HandFault::NoEdge { edge, known })
