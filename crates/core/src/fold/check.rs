@@ -8,7 +8,7 @@ use super::memory::{Answer, Key, Meeting, SweepMemory};
 use super::overlap::Overlap;
 use super::pose::{ModelMotion, ancestors, root_of};
 use super::step::{FLAT, Level, Levels, Move, share};
-use super::sweep::{Body, Care, Contacts, SheetId, Sweep};
+use super::sweep::{Body, BodySheet, Care, Contacts, Sweep};
 use super::track::{Track, table};
 use super::way::{push_way, ways};
 use crate::component::{Panel, PanelId, PanelKind};
@@ -389,7 +389,7 @@ fn answer(contacts: &Contacts, owners: &[Owner]) -> Answer {
     if contacts.iter().all(Option::is_none) {
         return None;
     }
-    let panel = |(body, sheet): SheetId| PanelId(owners[body].first_panel + sheet);
+    let panel = |(body, sheet): BodySheet| PanelId(owners[body].first_panel + sheet);
     let meetings = contacts.map(|contact| {
         contact.map(|contact| Meeting {
             folded: contact.folded,

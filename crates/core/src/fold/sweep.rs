@@ -113,8 +113,8 @@ impl Body {
     }
 }
 
-/// One sheet of a body.
-pub(super) type SheetId = (usize, usize);
+/// One sheet of a body: the indices of both.
+pub(super) type BodySheet = (usize, usize);
 
 /// Contact in a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -122,7 +122,7 @@ pub(super) struct Contact {
     /// How far the component is folded at the first contact.
     pub(super) folded: f64,
     /// The two sheets that are deepest in each other.
-    pub(super) sheets: [SheetId; 2],
+    pub(super) sheets: [BodySheet; 2],
     /// How deep, mm.
     pub(super) depth_mm: f64,
 }
@@ -260,7 +260,7 @@ impl<'a> Sweep<'a> {
         contacts
     }
 
-    fn pose(&self, sheets: [SheetId; 2], at: &Moment<'_>, scratch: &mut [Sheet; 2]) {
+    fn pose(&self, sheets: [BodySheet; 2], at: &Moment<'_>, scratch: &mut [Sheet; 2]) {
         for (posed, (body, sheet)) in scratch.iter_mut().zip(sheets) {
             self.bodies[body].pose(sheet, at, posed);
         }
@@ -339,7 +339,7 @@ impl PosesAt<'_, '_> {
     }
 
     /// Places a sheet and gives its index.
-    fn pose(&mut self, (body, sheet): SheetId) -> usize {
+    fn pose(&mut self, (body, sheet): BodySheet) -> usize {
         let Poses { bodies, first_sheet, sheets, is_posed, .. } = &mut *self.poses;
         let index = first_sheet[body] + sheet;
         if !std::mem::replace(&mut is_posed[index], true) {
@@ -354,7 +354,7 @@ impl PosesAt<'_, '_> {
         list: &[[usize; 2]],
         least_mm: f64,
         axes: &mut Axes,
-    ) -> Option<([SheetId; 2], f64)> {
+    ) -> Option<([BodySheet; 2], f64)> {
         let mut deepest = None;
         let mut deepest_mm = least_mm;
         let are_far = |p: DVec3, q: DVec3, balls: [&Ball; 2]| !Ball::can_meet(balls, [p, q], 0.0);
@@ -400,7 +400,7 @@ fn are_far([a, b]: [(&Body, &Ball); 2], at: &Moment<'_>, way_mm: f64) -> bool {
 /// The first contact of a list in a cell.
 #[derive(Debug, Clone, Copy)]
 struct First {
-    sheets: [SheetId; 2],
+    sheets: [BodySheet; 2],
     folded: f64,
 }
 
@@ -410,7 +410,7 @@ struct Run<'a> {
     /// Of each list the first contact in this cell.
     found: Vec<Option<First>>,
     /// Side of each other that sheets were on when last seen facing each other closely, and their list.
-    sides: BTreeMap<[SheetId; 2], (usize, bool)>,
+    sides: BTreeMap<[BodySheet; 2], (usize, bool)>,
     scratch: [Sheet; 2],
 }
 
@@ -428,7 +428,7 @@ impl Run<'_> {
         from: &Moment<'_>,
         to: &Moment<'_>,
         bodies: &[Pair<usize>],
-        sheets: &[Pair<SheetId>],
+        sheets: &[Pair<BodySheet>],
         halvings: usize,
     ) {
         let middle = self.sweep.track.at(0.5 * (from.folded + to.folded));
@@ -468,10 +468,10 @@ impl Run<'_> {
     /// Two sheets, if the span must be halved to know about them.
     fn unsettled(
         &mut self,
-        mut pair: Pair<SheetId>,
+        mut pair: Pair<BodySheet>,
         span: [&Moment<'_>; 3],
         halvings: usize,
-    ) -> Option<Pair<SheetId>> {
+    ) -> Option<Pair<BodySheet>> {
         if self.found[pair.list].is_some() {
             return None;
         }
@@ -501,7 +501,7 @@ impl Run<'_> {
     }
 
     /// Whether the sheets in `scratch` have gone through each other since they were seen last.
-    fn has_changed_sides(&mut self, pair: &Pair<SheetId>, is_near: bool) -> bool {
+    fn has_changed_sides(&mut self, pair: &Pair<BodySheet>, is_near: bool) -> bool {
         if !is_near {
             self.sides.remove(&pair.members);
             return false;
