@@ -101,5 +101,5 @@ fn rectangle_sheets(nets: &[Net], room_mm: DVec2) -> Result<usize, Box<dyn Error
         }
     }
     let placed = nest(&rectangles, &NestOptions::new(room_mm.x, room_mm.y), &Silent)?;
-    Ok(placed.iter().map(|p| p.sheet + 1).max().unwrap_or(0))
+    Ok(placed.iter().map(|p| p.sheet.number()).max().unwrap_or(0))
 }

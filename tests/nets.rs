@@ -17,7 +17,7 @@ use tatamu::net::{
 };
 use tatamu::pipeline::{self, Options};
 use tatamu::progress::Silent;
-use tatamu::sheet::PiecePlace;
+use tatamu::sheet::{PiecePlace, SheetId};
 
 const A4: DVec2 = DVec2::new(190.0, 277.0);
 const SMALL: DVec2 = DVec2::new(85.0, 115.0);
@@ -42,8 +42,9 @@ fn alternatives_of(set: &PanelSet, sheet_mm: DVec2) -> Result<Vec<BlankNet>, Net
 
 /// The FOLD master of one component, its pieces side by side on one sheet each.
 fn master(set: &PanelSet, net: &Net) -> Vec<u8> {
-    let places: Vec<PiecePlace> =
-        (0..net.pieces().len()).map(|sheet| PiecePlace { sheet, place: DAffine2::from_angle(0.3) }).collect();
+    let places: Vec<PiecePlace> = (0..net.pieces().len())
+        .map(|k| PiecePlace { sheet: SheetId(k), place: DAffine2::from_angle(0.3) })
+        .collect();
     let offsets: Vec<DVec2> = (0..places.len()).map(|k| DVec2::X * (k as f64 * 2e4)).collect();
     let deployed = DAffine3::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7);
     let component = FoldComponent {

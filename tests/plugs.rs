@@ -280,8 +280,8 @@ fn all_files_have_the_cut_lines_of_plugs() {
     for (piece, at) in pieces(&output) {
         for line in piece.plugs().iter().flat_map(|plug| &plug.cuts) {
             cuts += 1;
-            let dxf = dxf_points(&dxf[at.sheet]);
-            let plt = plt_points(&plt[at.sheet]);
+            let dxf = dxf_points(&dxf[at.sheet.0]);
+            let plt = plt_points(&plt[at.sheet.0]);
             for corner in line {
                 let corner = at.place.transform_point2(*corner);
                 assert!(near(&dxf, corner, 0.01), "DXF: {corner}");

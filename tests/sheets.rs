@@ -14,7 +14,7 @@ use tatamu::net::{
 };
 use tatamu::progress::Silent;
 use tatamu::sheet::{
-    Calibration, Imprint, Layout, PiecePlace, Pin, Registration, Rotation, SheetOptions, Unheeded,
+    Calibration, Imprint, Layout, PiecePlace, Pin, Registration, Rotation, SheetId, SheetOptions, Unheeded,
 };
 use tatamu::units::parse_paper;
 
@@ -86,7 +86,7 @@ impl Made {
     }
 
     /// Every piece with its sheet and place.
-    fn placed(&self) -> impl Iterator<Item = (&tatamu::net::Piece, usize, DAffine2)> {
+    fn placed(&self) -> impl Iterator<Item = (&tatamu::net::Piece, SheetId, DAffine2)> {
         self.nets.iter().enumerate().flat_map(|(n, net)| {
             net.pieces()
                 .iter()
@@ -147,7 +147,7 @@ fn texts(page: &Drawing, layers: &[Layer]) -> Vec<Text> {
 fn no_panel_tab_or_label_lies_on_another() {
     let made = Made::new(&prisms(), &a4(), |options| options.choices.angles = true);
     let pages = made.pages();
-    for (sheet, page) in pages.iter().enumerate().take(made.layout.sheet_count()) {
+    for (sheet, page) in made.layout.sheet_ids().zip(&pages) {
         let mut faces = Vec::new();
         for (piece, _, place) in made.placed().filter(|p| p.1 == sheet) {
             let mesh = piece.mesh();
@@ -157,14 +157,14 @@ fn no_panel_tab_or_label_lies_on_another() {
             );
         }
         assert!(!faces.is_empty());
-        assert_eq!(overlaps(&faces), [], "faces on sheet {sheet}");
+        assert_eq!(overlaps(&faces), [], "faces on {sheet:?}");
         let texts = texts(page, &[Layer::Label, Layer::Glue]);
         assert!(texts.iter().all(|t| t.cap_height_mm >= 2.0));
         let inks: Vec<geo::Polygon> = texts.iter().map(ink).collect();
-        assert_eq!(overlaps(&inks), [], "texts on sheet {sheet}");
+        assert_eq!(overlaps(&inks), [], "texts on {sheet:?}");
         for (text, ink) in texts.iter().zip(&inks) {
             let on = faces.iter().filter(|face| face.contains(ink)).count();
-            assert_eq!(on, 1, "{:?} on sheet {sheet} is not within one panel or tab", text.content);
+            assert_eq!(on, 1, "{:?} on {sheet:?} is not within one panel or tab", text.content);
             assert!(DVec2::from_angle(text.angle_rad).x > -1e-6, "{:?} is upside down", text.content);
         }
     }
@@ -209,7 +209,7 @@ fn labels_are_on_tabs_or_on_paper_that_is_cut_off() {
     sheets.choices.spacing_mm = 6.0;
     let made = Made::new(&prisms(), &sheets, |_| ());
     let (mut beside, mut on_panels) = (Vec::new(), 0);
-    for (sheet, page) in made.pages().iter().enumerate() {
+    for (sheet, page) in (0..).map(SheetId).zip(&made.pages()) {
         let own = || made.placed().filter(|(_, at, _)| *at == sheet);
         let moved =
             |outline: &[DVec2], place: DAffine2| polygon(outline.iter().map(|&p| place.transform_point2(p)));
@@ -221,7 +221,7 @@ fn labels_are_on_tabs_or_on_paper_that_is_cut_off() {
         let tabs: Vec<geo::Polygon> = tabs.collect();
         let texts: Vec<&Text> = page.marks.iter().filter_map(text_of).collect();
         let inks: Vec<geo::Polygon> = texts.iter().map(|text| ink(text)).collect();
-        assert_eq!(overlaps(&inks), [], "texts on sheet {sheet}");
+        assert_eq!(overlaps(&inks), [], "texts on {sheet:?}");
         for (text, ink) in texts.iter().zip(&inks) {
             let is_off = outlines.iter().all(|outline| !outline.intersects(ink));
             let is_on_tab = tabs.iter().any(|tab| tab.contains(ink));
@@ -438,7 +438,8 @@ fn pinned_pieces_lie_where_they_are_pinned_and_the_others_round_them() {
     let pieces: Vec<_> = made.placed().map(|(piece, ..)| piece.clone()).collect();
     // A corner of the usable area at an angle of its own; another sheet; on the first one; no piece.
     let names = [0, 1, 2].map(|k| pieces[k].name().to_owned());
-    let pin = |sheet, x, y, turn_rad| Pin { sheet, at_mm: DVec2::new(x, y), turn_rad, net: 0 };
+    let pin =
+        |sheet, x, y, turn_rad| Pin { sheet: SheetId(sheet), at_mm: DVec2::new(x, y), turn_rad, net: 0 };
     let pins = BTreeMap::from([
         (names[0].clone(), pin(0, 60.0, 90.0, 0.3)),
         (names[1].clone(), pin(1, 50.0, 60.0, -1.2)),
@@ -459,7 +460,7 @@ fn pinned_pieces_lie_where_they_are_pinned_and_the_others_round_them() {
     }
     let expected = [Unheeded::NoPiece("gone".to_owned()), Unheeded::NoRoom(names[2].clone())];
     assert_eq!(pinned.layout.unheeded_pins(), expected);
-    let outlines: Vec<(usize, geo::Polygon)> = pinned
+    let outlines: Vec<(SheetId, geo::Polygon)> = pinned
         .placed()
         .map(|(piece, sheet, at)| (sheet, polygon(piece.outline().iter().map(|&p| at.transform_point2(p)))))
         .collect();
@@ -498,9 +499,9 @@ fn each_sheet_has_pieces_of_one_colour_of_card() {
         let text = |mark: &Mark| matches!(&mark.shape, Shape::Text(text) if text.content.contains(words));
         page.marks.iter().any(text)
     };
-    for (k, page) in pages[..made.layout.sheet_count()].iter().enumerate() {
+    for (sheet, page) in made.layout.sheet_ids().zip(&pages) {
         for colour in ["red", "blue"] {
-            assert_eq!(says(page, &format!("{colour} card")), made.layout.card(k) == Some(colour));
+            assert_eq!(says(page, &format!("{colour} card")), made.layout.card(sheet) == Some(colour));
         }
     }
     // A pin counts all sheets: one on a sheet of another colour is not heeded.
@@ -509,7 +510,7 @@ fn each_sheet_has_pieces_of_one_colour_of_card() {
     let pin = |sheet| Pin { sheet, at_mm: DVec2::new(40.0, 60.0), turn_rad: 0.0, net: 0 };
     let pinned = lay_out(&cards, &BTreeMap::from([(piece.clone(), pin(blue))]));
     assert!(pinned.layout.unheeded_pins().is_empty(), "{:?}", pinned.layout.unheeded_pins());
-    let pinned = lay_out(&cards, &BTreeMap::from([(piece.clone(), pin(0))]));
+    let pinned = lay_out(&cards, &BTreeMap::from([(piece.clone(), pin(SheetId(0)))]));
     assert_eq!(pinned.layout.unheeded_pins(), [Unheeded::NoRoom(piece)]);
     // One colour for all is no other layout.
     let one = lay_out(&vec![Some("red".to_owned()); 8], &BTreeMap::new());

@@ -10,6 +10,7 @@ use crate::app::output;
 use clap::Args;
 use std::path::PathBuf;
 use tatamu::product::Selection;
+use tatamu::sheet::SheetId;
 
 /// Makes a paper model from a mesh or a project file.
 ///
@@ -62,8 +63,8 @@ pub struct MakeArgs {
     /// Shows only this sheet, from 1; repeat it for more
     ///
     /// To print a sheet again, or to cut sheets one by one. Example: --sheet 3
-    #[arg(long, value_name = "N", help_heading = None::<&'static str>)]
-    sheet: Vec<usize>,
+    #[arg(long, value_name = "N", value_parser = sheet, help_heading = None::<&'static str>)]
+    sheet: Vec<SheetId>,
 
     /// Writes the component of each face to a text file, one number per line
     ///
@@ -128,6 +129,12 @@ impl MakeArgs {
             selection: Selection { parts: self.only.clone(), sheets: self.sheet.clone() },
         }
     }
+}
+
+/// A sheet by its number.
+fn sheet(text: &str) -> Result<SheetId, String> {
+    let number: usize = text.parse().map_err(|error: std::num::ParseIntError| error.to_string())?;
+    number.checked_sub(1).map(SheetId).ok_or_else(|| "sheets are counted from 1".to_owned())
 }
 
 const EXAMPLES: &str = "\

@@ -9,6 +9,7 @@ use tatamu::net::{EdgeChoice, EdgeName, Net, NetHand, TabSide};
 use tatamu::pipeline::Output;
 use tatamu::project::Project;
 use tatamu::project::change::Change;
+use tatamu::sheet::SheetId;
 
 /// An edge between two panels of a component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,7 +51,7 @@ pub struct PlacedEdge {
 const SIDES: [TabSide; 2] = [TabSide::Upper, TabSide::Lower];
 
 /// The edges of the pieces on a sheet.
-pub fn edges(output: &Output, sheet: usize) -> Vec<PlacedEdge> {
+pub fn edges(output: &Output, sheet: SheetId) -> Vec<PlacedEdge> {
     let on_page = on_page(output);
     let mut found = Vec::new();
     for (piece, own, at) in all(output).filter(|(_, _, at)| at.sheet == sheet) {

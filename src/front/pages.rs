@@ -9,7 +9,7 @@ use tatamu::model::PartId;
 use tatamu::net::{Piece, Side};
 use tatamu::pipeline::Output;
 use tatamu::project::Project;
-use tatamu::sheet::{PiecePlace, Pin};
+use tatamu::sheet::{PiecePlace, Pin, SheetId};
 
 /// Draws the sheets with the look and the colours that the project asks for.
 ///
@@ -32,7 +32,7 @@ pub struct PieceId {
 }
 
 /// The pieces of a sheet with their outlines on the page, as printed.
-pub fn outlines(output: &Output, sheet: usize) -> Vec<(PieceId, Vec<DVec2>)> {
+pub fn outlines(output: &Output, sheet: SheetId) -> Vec<(PieceId, Vec<DVec2>)> {
     let on_page = on_page(output);
     let own = all(output).filter(|(_, _, at)| at.sheet == sheet);
     own.map(|(id, piece, at)| (id, placed(piece, at).into_iter().map(&on_page).collect())).collect()
@@ -53,7 +53,7 @@ pub fn named(output: &Output, net: PartId, name: &str) -> Option<PieceId> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Move {
     /// The sheet; one that there is not yet is added.
-    pub sheet: usize,
+    pub sheet: SheetId,
     /// How far it is moved on the page, mm.
     pub by_mm: DVec2,
     /// Its turn, counter-clockwise on the page, radians.
@@ -106,11 +106,11 @@ pub fn rearranged(output: &Output, id: PieceId, to: &Move) -> Result<Vec<(String
         all(output).filter(|(other, ..)| *other != id).map(|(id, piece, place)| pin(id, piece, place)),
     );
     // A sheet that becomes empty goes.
-    let mut sheets: Vec<usize> = pins.iter().map(|(_, pin)| pin.sheet).collect();
+    let mut sheets: Vec<SheetId> = pins.iter().map(|(_, pin)| pin.sheet).collect();
     sheets.sort_unstable();
     sheets.dedup();
     for (_, pin) in &mut pins {
-        pin.sheet = sheets.iter().position(|sheet| *sheet == pin.sheet).unwrap_or(pin.sheet);
+        pin.sheet = sheets.iter().position(|sheet| *sheet == pin.sheet).map_or(pin.sheet, SheetId);
     }
     Ok(pins)
 }

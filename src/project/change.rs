@@ -246,7 +246,7 @@ fn remove(list: &mut ArrayOfTables, key: &str, name: &str) {
 
 fn pin_table(piece: &str, pin: &Pin) -> Table {
     let mut table = named("piece", piece);
-    table["sheet"] = toml_edit::value(pin.sheet as i64 + 1);
+    table["sheet"] = toml_edit::value(pin.sheet.number() as i64);
     // So fine that a piece which is pinned where it lies stays in its cells of the layout.
     table["x_mm"] = toml_edit::value(to_digits(pin.at_mm.x, 5));
     table["y_mm"] = toml_edit::value(to_digits(pin.at_mm.y, 5));

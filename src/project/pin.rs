@@ -1,7 +1,7 @@
 //! The tables `[[pin]]`.
 
 use super::fields;
-use crate::sheet::Pin;
+use crate::sheet::{Pin, SheetId};
 use glam::DVec2;
 use serde::Deserialize;
 
@@ -67,7 +67,7 @@ impl TryFrom<Table> for PinTable {
             return Err(format!("net must be from 1 to {MOST_NETS}"));
         }
         let turn_rad = super::options::check_degrees(turn)?.to_radians();
-        let pin = Pin { sheet: sheet - 1, at_mm: DVec2::new(x_mm, y_mm), turn_rad, net: net - 1 };
+        let pin = Pin { sheet: SheetId(sheet - 1), at_mm: DVec2::new(x_mm, y_mm), turn_rad, net: net - 1 };
         Ok(Self { piece, pin })
     }
 }
@@ -75,13 +75,14 @@ impl TryFrom<Table> for PinTable {
 #[cfg(test)]
 mod tests {
     use super::super::Project;
+    use super::SheetId;
 
     #[test]
     fn pins_are_read_and_checked() {
         let parse = |text: &str| Project::parse(&format!("mesh = 'a.obj'\n[[pin]]\n{text}"));
         let project = parse("piece = 'head'\nsheet = 2\nx_mm = 20\ny_mm = 30.5\nturn = 90\n").unwrap();
         let (piece, pin) = (project.pins[0].piece(), project.pins[0].pin());
-        assert_eq!((piece, pin.sheet, pin.at_mm.y), ("head", 1, 30.5));
+        assert_eq!((piece, pin.sheet, pin.at_mm.y), ("head", SheetId(1), 30.5));
         assert!((pin.turn_rad - std::f64::consts::FRAC_PI_2).abs() < 1e-12);
         for (text, word) in [
             ("piece = 'a'\nsheet = 0\nx_mm = 1\ny_mm = 1\n", "from 1"),

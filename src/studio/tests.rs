@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use tatamu::model::PartId;
 use tatamu::project::Project;
 use tatamu::project::options::{CARD, DIRECTION, PAPER, TOP_EDGES};
-use tatamu::sheet::Pin;
+use tatamu::sheet::{Pin, SheetId};
 
 /// A studio with a small model, quick to make, in a folder of its own.
 pub struct Desk {
@@ -260,7 +260,7 @@ fn stays_where_it_is_pinned(name: &str) {
     studio.open(&mesh);
     wait(&mut studio, "a model", |s| s.finished().is_some());
     let before = studio.finished().unwrap().clone();
-    let to = Move { sheet: before.layout().sheet_count(), by_mm: glam::DVec2::ZERO, turn_rad: 0.0 };
+    let to = Move { sheet: SheetId(before.layout().sheet_count()), by_mm: glam::DVec2::ZERO, turn_rad: 0.0 };
     let id = PieceId { net: PartId(1), piece: 0 };
     let pins = pages::rearranged(&before, id, &to).unwrap();
     studio.change(&Change::Pins { pins }, None);
@@ -302,7 +302,7 @@ fn card_in_the_colours_of_the_mesh_is_one_step() {
     studio.take_cards();
     assert_eq!(card(&studio).as_deref(), Some("brown"));
     wait(&mut studio, "brown sheets", |s| s.finished().is_some());
-    assert_eq!(studio.finished().unwrap().layout().card(0), Some("brown"));
+    assert_eq!(studio.finished().unwrap().layout().card(SheetId(0)), Some("brown"));
     studio.undo();
     assert_eq!(card(&studio), None);
     let value = Some("blue".into());

@@ -8,7 +8,7 @@ use tatamu_core::fold::Motion;
 use tatamu_core::model::{ModelPart, PartId};
 use tatamu_draw::drawing::{Chapter, Drawing, LineStyles, Mark, Pages, PagesError};
 use tatamu_net::net::{Net, Piece, label_letters};
-use tatamu_net::sheet::Imprint;
+use tatamu_net::sheet::{Imprint, SheetId};
 use tatamu_pipeline::Output;
 use tatamu_plot::toolpath::Operation;
 use tatamu_read::painting::Painting;
@@ -32,8 +32,8 @@ pub enum Content {
 pub struct Selection {
     /// Names of components.
     pub parts: Vec<String>,
-    /// Numbers of sheets, from 1.
-    pub sheets: Vec<usize>,
+    /// Sheets.
+    pub sheets: Vec<SheetId>,
 }
 
 impl Selection {
@@ -47,28 +47,29 @@ impl Selection {
             return Err(format!("there is no component \"{part}\"; there are: {}", names.join(", ")));
         }
         let count = output.layout().sheet_count();
-        if let Some(sheet) = self.sheets.iter().find(|sheet| !(1..=count).contains(*sheet)) {
-            return Err(format!("there is no sheet {sheet}; the model has sheets 1 to {count}"));
+        if let Some(sheet) = self.sheets.iter().find(|sheet| sheet.0 >= count) {
+            let number = sheet.number();
+            return Err(format!("there is no sheet {number}; the model has sheets 1 to {count}"));
         }
         Ok(self.clone())
     }
 
-    /// The sheets that are shown, from 0; none where all pages are.
-    fn shown(&self, output: &Output) -> Option<BTreeSet<usize>> {
-        let is_asked_for = |sheet: usize| self.sheets.is_empty() || self.sheets.contains(&(sheet + 1));
+    /// The sheets that are shown; none where all pages are.
+    fn shown(&self, output: &Output) -> Option<BTreeSet<SheetId>> {
+        let is_asked_for = |sheet: &SheetId| self.sheets.is_empty() || self.sheets.contains(sheet);
         if self.parts.is_empty() {
-            let all = 0..output.layout().sheet_count();
-            return (!self.sheets.is_empty()).then(|| all.filter(|&sheet| is_asked_for(sheet)).collect());
+            let all = output.layout().sheet_ids();
+            return (!self.sheets.is_empty()).then(|| all.filter(is_asked_for).collect());
         }
         let own = output.model().ids().filter(|&part| self.parts.contains(&output.model().part(part).name));
         let sheets = own.flat_map(|part| output.layout().places(part)).map(|at| at.sheet);
-        Some(sheets.filter(|&sheet| is_asked_for(sheet)).collect())
+        Some(sheets.filter(is_asked_for).collect())
     }
 
     /// Takes away the pages and the pieces that are not shown.
     fn apply(&self, output: &Output, pages: &mut Vec<Drawing>) {
         if let Some(shown) = self.shown(output) {
-            let mut sheet = 0..;
+            let mut sheet = (0..).map(SheetId);
             pages.retain(|_| sheet.next().is_some_and(|sheet| shown.contains(&sheet)));
         }
         if self.parts.is_empty() {

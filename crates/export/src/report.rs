@@ -8,6 +8,7 @@ use tatamu_core::geom::polygon;
 use tatamu_core::mesh::{MirrorPlane, Repairs};
 use tatamu_core::model::{ModelPart, PartId, Plug};
 use tatamu_net::net::{Net, Piece};
+use tatamu_net::sheet::SheetId;
 use tatamu_pipeline::{Output, Warning, openings_mm2};
 
 /// Version of the report's structure.
@@ -229,7 +230,7 @@ pub fn to_json(output: &Output, run: &Run<'_>) -> Result<Vec<u8>, serde_json::Er
             count: output.layout().sheet_count(),
             paper: output.options().paper.name(),
             utilisation: output.layout().utilisation(),
-            pages: (0..output.layout().sheet_count()).map(|sheet| page(output, sheet)).collect(),
+            pages: output.layout().sheet_ids().map(|sheet| page(output, sheet)).collect(),
         },
         warnings: run
             .warnings
@@ -346,7 +347,7 @@ fn plug(plug: &Plug) -> PlugNumbers {
     }
 }
 
-fn page(output: &Output, sheet: usize) -> Page<'_> {
+fn page(output: &Output, sheet: SheetId) -> Page<'_> {
     let layout = output.layout();
     let nets = output.model().ids().zip(output.nets());
     let pieces: Vec<(&Piece, DAffine2)> = nets

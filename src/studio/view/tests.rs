@@ -14,6 +14,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use tatamu::model::PartId;
+use tatamu::sheet::SheetId;
 use tempfile::TempDir;
 
 mod defects;
@@ -208,7 +209,7 @@ fn sheets_and_space_select_the_same() {
     assert!(desk.state().mode == Mode::Sheets);
     let output = desk.state().studio().finished().unwrap().clone();
     let page = desk.get_by_label("Sheet 1").rect();
-    let outlines = super::super::pages::outlines(&output, 0);
+    let outlines = super::super::pages::outlines(&output, SheetId(0));
     let (id, outline) = &outlines[0];
     let size = output.layout().options().size_mm();
     let scale = page.width() / size.x as f32;
@@ -295,7 +296,7 @@ fn a_piece_that_is_dragged_is_pinned() {
     let page = desk.get_by_label("Sheet 1").rect();
     let size = output.layout().options().size_mm();
     let scale = page.width() / size.x as f32;
-    let outlines = super::super::pages::outlines(&output, 0);
+    let outlines = super::super::pages::outlines(&output, SheetId(0));
     let (id, outline) = &outlines[0];
     let edges = outline.windows(2).map(|w| w[0].midpoint(w[1]) + (w[1] - w[0]).perp().normalize() * 1.5);
     let inside =

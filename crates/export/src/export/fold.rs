@@ -74,7 +74,7 @@ fn files(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFil
         .collect();
     let step_mm = layout.options().paper.width_mm() + SHEET_GAP_MM;
     let sheet_offsets: Vec<DVec2> =
-        (0..layout.sheet_count()).map(|k| DVec2::X * (step_mm * k as f64)).collect();
+        layout.sheet_ids().map(|sheet| DVec2::X * (step_mm * sheet.0 as f64)).collect();
     let title = product.title();
     let model = FoldModel { title, components: &components, sheet_offsets: &sheet_offsets };
     let failed = |error| ExportError::writer(&FORMAT, error);
@@ -271,7 +271,7 @@ impl Graph {
     ) {
         let first_face = self.faces.faces_vertices.len();
         let offsets = model.sheet_offsets;
-        let offset = offsets.get(at.sheet).or(offsets.last()).copied().unwrap_or_default();
+        let offset = offsets.get(at.sheet.0).or(offsets.last()).copied().unwrap_or_default();
         let kept = without_short_edges(piece.mesh());
         let mut number = vec![0; kept.len()];
         for (v, vertex) in piece.mesh().vertices().iter().enumerate() {
@@ -301,7 +301,7 @@ impl Graph {
             self.faces.faces_vertices.push(corners);
             self.add_face_kind(component, face.kind);
             self.faces.component.push(component.name.to_owned());
-            self.faces.sheet.push(at.sheet);
+            self.faces.sheet.push(at.sheet.0);
         }
     }
 

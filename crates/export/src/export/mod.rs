@@ -77,12 +77,12 @@ pub enum ExportError {
         message: String,
     },
     /// A sheet cannot be worked on by the machine.
-    #[error("the {format} file could not be written: sheet {sheet}: {error}")]
+    #[error("the {format} file could not be written: sheet {page}: {error}")]
     Plan {
         /// Name of the format.
         format: &'static str,
-        /// The sheet, from 1.
-        sheet: usize,
+        /// Its page, from 1.
+        page: usize,
         /// Why.
         error: PlanError,
     },

@@ -51,7 +51,7 @@ fn write(format: &Format, pages: &Pages, options: &FormatOptions) -> Result<Vec<
     let file = |(index, drawing)| match Plan::new(drawing, cutter, media) {
         Ok(plan) => Ok(plan.bytes().to_vec()),
         Err(PlanError::Nothing) => Ok(Vec::new()),
-        Err(error) => Err(ExportError::Plan { format: format.name, sheet: index + 1, error }),
+        Err(error) => Err(ExportError::Plan { format: format.name, page: index + 1, error }),
     };
     let files: Result<Vec<Vec<u8>>, ExportError> = pages.drawings().iter().enumerate().map(file).collect();
     let mut files = ExportFile::of_pages(files?);

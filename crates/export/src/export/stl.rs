@@ -43,7 +43,7 @@ fn triangles(output: &Output) -> Vec<[DVec3; 3]> {
     let mut triangles = Vec::new();
     for (part, net) in output.model().ids().zip(output.nets()) {
         for (piece, at) in net.pieces().iter().zip(layout.places(part)) {
-            let offset = DVec2::X * (step_mm * at.sheet as f64);
+            let offset = DVec2::X * (step_mm * at.sheet.0 as f64);
             for placed in piece.panels() {
                 let outline = &net.panels().panel(placed.panel).outline;
                 let place = at.place * placed.place;

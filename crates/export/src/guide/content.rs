@@ -499,8 +499,8 @@ impl Writer<'_> {
     fn part_row(&self, part: PartId) -> PartRow {
         let net = &self.output.nets()[part.0];
         let colour = palette::colour(part.0);
-        let indices = picture::sheets_of(self.output, part);
-        let numbers: Vec<String> = indices.iter().map(|sheet| (sheet + 1).to_string()).collect();
+        let own = picture::sheets_of(self.output, part);
+        let numbers: Vec<String> = own.iter().map(|sheet| sheet.number().to_string()).collect();
         let words = &self.words.page;
         let sheets = if numbers.len() == 1 { &words.sheet } else { &words.sheets };
         let sheets = fill(sheets, &[("sheets", &numbers.join(", "))]);
@@ -509,7 +509,7 @@ impl Writer<'_> {
             picture: picture::net(net, colour, self.side(), self.styles, THUMBNAIL_MM),
             pieces: net.pieces().len(),
             map_text: fill(&words.map, &[("part", self.name(part)), ("sheets", &sheets)]),
-            maps: indices.iter().map(|&sheet| picture::sheet_map(self.output, sheet, part, MAP_MM)).collect(),
+            maps: own.iter().map(|&sheet| picture::sheet_map(self.output, sheet, part, MAP_MM)).collect(),
             sheets,
         }
     }

@@ -143,7 +143,7 @@ impl Page {
             let square = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y].map(|c| low + c * SWATCH_MM);
             self.drawing.marks.push(Mark::filled(Layer::Furniture, square.to_vec(), palette::colour(k.0)));
             let sheets: Vec<String> =
-                picture::sheets_of(output, k).iter().map(|sheet| (sheet + 1).to_string()).collect();
+                picture::sheets_of(output, k).iter().map(|sheet| sheet.number().to_string()).collect();
             let tabs: usize = net.pieces().iter().map(|piece| piece.tabs().len()).sum();
             let wide = |words: &str, column: usize| {
                 let width_mm = (COLUMNS[column + 1] - COLUMNS[column]) * self.width_mm - 2.0 * SWATCH_MM;

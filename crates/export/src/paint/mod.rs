@@ -23,7 +23,7 @@ const CURVE_STEPS: usize = 4;
 pub fn colour(output: &Output, painting: &Painting, pages: &mut [Drawing]) {
     let mut under: Vec<Vec<Mark>> = vec![Vec::new(); pages.len()];
     for (sheet, picture) in pictures(output, painting) {
-        under[sheet].push(picture);
+        under[sheet.0].push(picture);
     }
     for (page, pictures) in pages.iter_mut().zip(under) {
         let halos: Vec<Mark> = page.marks.iter().filter_map(halo).collect();

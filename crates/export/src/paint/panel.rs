@@ -9,6 +9,7 @@ use tatamu_core::geom::polygon;
 use tatamu_core::model::ModelPart;
 use tatamu_draw::drawing::{Image, Layer, Mark, Polyline, Raster, Rgb};
 use tatamu_net::net::{Piece, PlacedPanel, Tab};
+use tatamu_net::sheet::SheetId;
 use tatamu_pipeline::Output;
 use tatamu_read::painting::Painting;
 
@@ -26,12 +27,12 @@ struct Place<'a> {
     set: &'a PanelSet,
     piece: &'a Piece,
     panel: &'a PlacedPanel,
-    sheet: usize,
+    sheet: SheetId,
     on_sheet: DAffine2,
 }
 
-/// A picture for each panel, with the index of its sheet, in the order of the nets.
-pub fn pictures(output: &Output, painting: &Painting) -> Vec<(usize, Mark)> {
+/// A picture for each panel, with its sheet, in the order of the nets.
+pub fn pictures(output: &Output, painting: &Painting) -> Vec<(SheetId, Mark)> {
     let tree = Tree::new(painting.corners(&output.to_model()));
     let parts = output.model().ids().zip(output.model().parts()).zip(output.nets());
     let places: Vec<Place> = parts

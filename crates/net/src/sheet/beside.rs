@@ -31,12 +31,12 @@ const REACH_MM: f64 = 45.0;
 
 /// The marks of each sheet.
 pub(super) fn texts(layout: &Layout, nets: &[Net], styles: &LineStyles) -> Vec<Vec<Mark>> {
-    let mut sheets: Vec<Sheet> = (0..layout.sheet_count()).map(|_| Sheet::new(layout)).collect();
+    let mut sheets: Vec<Sheet> = layout.sheet_ids().map(|_| Sheet::new(layout)).collect();
     for (piece, sheet, place) in layout.placed(nets) {
-        sheets[sheet].add(piece, place);
+        sheets[sheet.0].add(piece, place);
     }
     for (piece, sheet, place) in layout.placed(nets) {
-        sheets[sheet].put(piece, place, styles);
+        sheets[sheet.0].put(piece, place, styles);
     }
     sheets.into_iter().map(|sheet| sheet.marks).collect()
 }

@@ -3,7 +3,7 @@
 use super::SheetOptions;
 use super::nest::{NestError, Placement, Shape, nest, nest_alternatives};
 use super::pin::{Pin, Unheeded, unheeded};
-use super::place::PiecePlace;
+use super::place::{PiecePlace, SheetId};
 use crate::net::{Blank, BlankNet, Net, Piece, Tab};
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
@@ -132,7 +132,9 @@ impl Layout {
             let shape = Shape::new(blank.outline().to_vec(), group)?;
             let pin = pins.get(blank.name()).map(|pin| pin.placement(blank.outline(), options.origin_mm()));
             Some(match pin {
-                Some(at) => shape.pinned(Placement { sheet: at.sheet.saturating_sub(first), ..at }),
+                Some(at) => {
+                    shape.pinned(Placement { sheet: SheetId(at.sheet.0.saturating_sub(first)), ..at })
+                }
                 None => shape,
             })
         };
@@ -142,7 +144,7 @@ impl Layout {
             shapes
         };
         let place = |first: usize, p: &Placement| PiecePlace {
-            sheet: first + p.sheet,
+            sheet: SheetId(first + p.sheet.0),
             place: DAffine2::from_translation(options.origin_mm()) * p.motion(),
         };
         let card_of = |n: usize| cards.get(n).and_then(Option::as_deref);
@@ -163,7 +165,7 @@ impl Layout {
                 .map(|(group, &n)| groups[n].iter().map(|blanks| shapes(group, first, blanks)).collect())
                 .collect();
             let placed = nest_alternatives(&shapes, &options.nesting(), progress)?;
-            let count = placed.iter().flat_map(|(_, on)| on).map(|p| p.sheet + 1).max().unwrap_or(0);
+            let count = placed.iter().flat_map(|(_, on)| on).map(|p| p.sheet.number()).max().unwrap_or(0);
             of_sheets.resize(first + count, colour.map(str::to_owned));
             for (&n, (chosen, placements)) in own.iter().zip(&placed) {
                 taken[n] = *chosen;
@@ -205,7 +207,7 @@ impl Layout {
         }
         let sheets_of = |shapes: &Vec<Shape>| {
             let placed = nest(shapes, &self.options.nesting(), progress)?;
-            Ok(placed.iter().map(|at| at.sheet + 1).max().unwrap_or(0))
+            Ok(placed.iter().map(|at| at.sheet.number()).max().unwrap_or(0))
         };
         colours.values().map(sheets_of).sum()
     }
@@ -221,8 +223,8 @@ impl Layout {
     }
 
     /// The colour of card of a sheet, where one is chosen.
-    pub fn card(&self, sheet: usize) -> Option<&str> {
-        self.cards.get(sheet).and_then(Option::as_deref)
+    pub fn card(&self, sheet: SheetId) -> Option<&str> {
+        self.cards.get(sheet.0).and_then(Option::as_deref)
     }
 
     /// The colours that are chosen, in the order of their sheets, and how many sheets each has; nothing where
@@ -242,6 +244,11 @@ impl Layout {
     /// Number of sheets.
     pub fn sheet_count(&self) -> usize {
         self.sheets
+    }
+
+    /// The sheets' ids, in their order.
+    pub fn sheet_ids(&self) -> impl Iterator<Item = SheetId> + use<> {
+        (0..self.sheets).map(SheetId)
     }
 
     /// What the sheets are like.

@@ -16,5 +16,5 @@ pub use layout::{Layout, LayoutError};
 pub use options::{SheetChoices, SheetOptions};
 pub use pages::Imprint;
 pub use pin::{Pin, Unheeded};
-pub use place::PiecePlace;
+pub use place::{PiecePlace, SheetId};
 pub use tatamu_draw::drawing::Registration;

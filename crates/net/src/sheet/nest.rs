@@ -24,6 +24,7 @@ mod tests;
 
 pub use check::{NestFault, check};
 
+use super::place::SheetId;
 use crate::fit::{self, Rotation};
 use glam::{DAffine2, DVec2};
 use item::Item;
@@ -122,8 +123,8 @@ impl NestOptions {
 /// Where a piece goes: turned about its own origin, then moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
-    /// Index of the sheet, from 0.
-    pub sheet: usize,
+    /// The sheet.
+    pub sheet: SheetId,
     /// Angle, counter-clockwise.
     pub rotation_rad: f64,
     /// Place of the piece's origin from the lower left corner of the usable area, mm.
@@ -242,7 +243,7 @@ fn nest_items(
     for (index, pin) in pins.iter().enumerate().filter(|(index, _)| !start.is_free(*index)) {
         placements[index] = pin.as_ref().map(|pin| frame.placement(pin.sheet, &pin.pose, &pin.spot));
     }
-    for (sheet, placed) in found.sheets.iter().enumerate() {
+    for (sheet, placed) in (0..).map(SheetId).zip(&found.sheets) {
         for p in placed {
             let item = &items[p.item];
             let pose = item.alternative(found.chosen[item.group()]).pose(p.pose);
@@ -251,8 +252,8 @@ fn nest_items(
     }
     let mut placements: Vec<Placement> = placements.into_iter().flatten().collect();
     // Pins may have left sheets before theirs empty.
-    let used: BTreeSet<usize> = placements.iter().map(|p| p.sheet).collect();
-    placements.iter_mut().for_each(|p| p.sheet = used.range(..p.sheet).count());
+    let used: BTreeSet<SheetId> = placements.iter().map(|p| p.sheet).collect();
+    placements.iter_mut().for_each(|p| p.sheet = SheetId(used.range(..p.sheet).count()));
     Ok((found.chosen, placements))
 }
 
@@ -304,7 +305,7 @@ impl Frame {
         Some(Pinned { sheet: pin.sheet, pose, spot })
     }
 
-    fn placement(&self, sheet: usize, pose: &Pose, spot: &Spot) -> Placement {
+    fn placement(&self, sheet: SheetId, pose: &Pose, spot: &Spot) -> Placement {
         let at = pose.origin + DVec2::new(spot.column as f64, spot.row as f64) * self.grid.cell_mm;
         let angle_rad = pose.angle_rad;
         match self.turned_mm {

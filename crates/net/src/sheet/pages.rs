@@ -1,7 +1,7 @@
 //! Sheets as drawings.
 
 use super::furniture::Furniture;
-use super::{Layout, SheetOptions, beside};
+use super::{Layout, SheetId, SheetOptions, beside};
 use crate::net::{LabelPlace, Net, Piece, Side};
 use glam::{DAffine2, DVec2};
 use tatamu_core::model::PartId;
@@ -35,7 +35,7 @@ impl Layout {
         let options = self.options();
         let title = imprint.title;
         let mut pages: Vec<Drawing> =
-            (0..self.sheet_count()).map(|_| Drawing::new(title, options.size_mm())).collect();
+            self.sheet_ids().map(|_| Drawing::new(title, options.size_mm())).collect();
         let mut lost: Vec<Vec<String>> = vec![Vec::new(); pages.len()];
         for (piece, sheet, place) in self.placed(nets) {
             let marks = match options.labels() {
@@ -46,9 +46,9 @@ impl Layout {
                 }
             };
             let placed = marks.into_iter().map(|mark| mark.placed(place));
-            pages[sheet].marks.extend(placed.map(|mark| on_side(mark, options).righted()));
+            pages[sheet.0].marks.extend(placed.map(|mark| on_side(mark, options).righted()));
             let texts = piece.unplaced_labels().iter();
-            lost[sheet].extend(texts.map(|text| format!("{}: {text}", piece.name())));
+            lost[sheet.0].extend(texts.map(|text| format!("{}: {text}", piece.name())));
         }
         if options.labels() == LabelPlace::Tabs {
             for (page, marks) in pages.iter_mut().zip(beside::texts(self, nets, styles)) {
@@ -80,7 +80,7 @@ impl Layout {
         pages.extend(list_pages(&rest, title, options, styles));
         let count = self.sheet_count();
         for (k, page) in pages.iter_mut().enumerate() {
-            page.card = self.card(k).map(str::to_owned);
+            page.card = self.card(SheetId(k)).map(str::to_owned);
             let number = if k < count {
                 let card = page.card.iter().map(|card| format!(" · {card} card"));
                 format!("sheet {} of {count}{}", k + 1, card.collect::<String>())
@@ -135,7 +135,7 @@ impl Layout {
             let mirrored = |mark: Mark| mark.mirrored(options.size_mm().x / 2.0);
             let is_outside = options.choices.is_duplex;
             let sided = placed.map(|mark| if is_outside { mark } else { mirrored(mark) });
-            pages[sheet].marks.extend(sided.map(Mark::righted));
+            pages[sheet.0].marks.extend(sided.map(Mark::righted));
         }
         pages
     }
@@ -144,7 +144,7 @@ impl Layout {
     pub(super) fn placed<'a>(
         &'a self,
         nets: &'a [Net],
-    ) -> impl Iterator<Item = (&'a Piece, usize, DAffine2)> + 'a {
+    ) -> impl Iterator<Item = (&'a Piece, SheetId, DAffine2)> + 'a {
         let of_net = |(part, net): (PartId, &'a Net)| net.pieces().iter().zip(self.places(part));
         (0..).map(PartId).zip(nets).flat_map(of_net).map(|(piece, at)| (piece, at.sheet, at.place))
     }

@@ -1,7 +1,7 @@
 //! Places of pieces that the user chose.
 
 use super::nest::Placement;
-use super::place::PiecePlace;
+use super::place::{PiecePlace, SheetId};
 use crate::net::Blank;
 use glam::DVec2;
 use std::collections::BTreeMap;
@@ -17,8 +17,8 @@ const NEAR_MM: f64 = 6.0;
 /// Where the user wants a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pin {
-    /// Index of the sheet.
-    pub sheet: usize,
+    /// The sheet.
+    pub sheet: SheetId,
     /// Lower left corner of the turned piece's bounding box on the sheet, seen from outside, mm.
     pub at_mm: DVec2,
     /// Its turn, counter-clockwise, radians.

@@ -179,9 +179,9 @@ impl SheetsPanel {
             let ctx = ctx.clone();
             std::thread::spawn(move || {
                 let drawn = pages::drawings(&opened, &project, &output).map(|drawings| {
-                    let sheets = 0..output.layout().sheet_count();
-                    let outlines = sheets.clone().map(|sheet| pages::outlines(&output, sheet)).collect();
-                    let edges = sheets.map(|sheet| tatamu::front::edges::edges(&output, sheet)).collect();
+                    let sheets = || output.layout().sheet_ids();
+                    let outlines = sheets().map(|sheet| pages::outlines(&output, sheet)).collect();
+                    let edges = sheets().map(|sheet| tatamu::front::edges::edges(&output, sheet)).collect();
                     Drawn { version, output, drawings, outlines, edges }
                 });
                 // Nobody waits for the pages of a model that is no more.

@@ -11,6 +11,7 @@ use super::{Drawn, SheetsPanel};
 use eframe::egui::{self, Pos2, Stroke, Ui};
 use glam::DVec2;
 use tatamu::pipeline::Output;
+use tatamu::sheet::SheetId;
 
 /// Turn of a piece for a press of a key, radians.
 const TURN_RAD: f64 = std::f64::consts::PI / 12.0;
@@ -38,17 +39,17 @@ impl SheetsPanel {
         let drag = *drag;
         let Some(at) = at else { return };
         let count = output.layout().sheet_count();
-        let sheet = seen.pages.iter().take(count).position(|page| page.contains(at));
+        let sheet = seen.pages.iter().take(count).position(|page| page.contains(at)).map(SheetId);
         let to = match sheet {
             Some(sheet) => {
-                let by_mm = to_mm(seen.pages[sheet], seen.scale, at) - drag.from_mm;
+                let by_mm = to_mm(seen.pages[sheet.0], seen.scale, at) - drag.from_mm;
                 Move { sheet, by_mm, turn_rad: drag.turn_rad }
             }
             // Beside the sheets: on one of its own.
-            None => Move { sheet: count, by_mm: DVec2::ZERO, turn_rad: drag.turn_rad },
+            None => Move { sheet: SheetId(count), by_mm: DVec2::ZERO, turn_rad: drag.turn_rad },
         };
         let over = pages::overlapped(output, drag.id, &to);
-        let page = sheet.map(|sheet| seen.pages[sheet]);
+        let page = sheet.map(|sheet| seen.pages[sheet.0]);
         let outline = pages::moved_outline(output, drag.id, &to);
         let stroke = Stroke::new(2.5, if over.is_empty() { ACCENT } else { OVERLAP });
         match page {
@@ -142,7 +143,7 @@ pub fn act(studio: &mut Studio, hand: Hand) {
         Hand::Unpin => return studio.change(&Change::Unpin { piece }, None),
         Hand::Left => Move { sheet, by_mm: DVec2::ZERO, turn_rad: TURN_RAD },
         Hand::Right => Move { sheet, by_mm: DVec2::ZERO, turn_rad: -TURN_RAD },
-        Hand::Aside => Move { sheet: layout.sheet_count(), by_mm: DVec2::ZERO, turn_rad: 0.0 },
+        Hand::Aside => Move { sheet: SheetId(layout.sheet_count()), by_mm: DVec2::ZERO, turn_rad: 0.0 },
     };
     arrange(studio, &output, id, &to);
 }

@@ -161,7 +161,7 @@ fn the_hint_for_the_wheel_stands_before_the_picture() {
 }
 
 /// Where the pieces lie, by name.
-pub(super) fn places(desk: &Desk) -> BTreeMap<String, (usize, glam::DVec2)> {
+pub(super) fn places(desk: &Desk) -> BTreeMap<String, (SheetId, glam::DVec2)> {
     let output = desk.state().studio().shown().output().unwrap();
     let all = output.model().ids().zip(output.nets());
     all.flat_map(|(net, own)| {
@@ -174,15 +174,15 @@ pub(super) fn places(desk: &Desk) -> BTreeMap<String, (usize, glam::DVec2)> {
 }
 
 /// A page of the sheets, and a way from a point of it to the screen.
-pub(super) fn on_page(desk: &Desk, sheet: usize, at: glam::DVec2) -> Pos2 {
-    let page = desk.get_by_label(&format!("Sheet {}", sheet + 1)).rect();
+pub(super) fn on_page(desk: &Desk, sheet: SheetId, at: glam::DVec2) -> Pos2 {
+    let page = desk.get_by_label(&format!("Sheet {}", sheet.number())).rect();
     let size = desk.state().studio().shown().output().unwrap().layout().options().size_mm();
     let scale = page.width() / size.x as f32;
     egui::pos2(page.left() + scale * at.x as f32, page.bottom() - scale * at.y as f32)
 }
 
 /// A point in the middle of each piece of a sheet that is in the piece, too.
-pub(super) fn grips(desk: &Desk, sheet: usize) -> Vec<(String, glam::DVec2)> {
+pub(super) fn grips(desk: &Desk, sheet: SheetId) -> Vec<(String, glam::DVec2)> {
     let output = desk.state().studio().shown().output().unwrap();
     let outlines = crate::studio::pages::outlines(output, sheet);
     let grip = |(id, outline): &(crate::studio::pages::PieceId, Vec<glam::DVec2>)| {
@@ -222,17 +222,17 @@ pub(super) fn drag(desk: &mut Desk, from: Pos2, to: Pos2) {
 fn a_piece_that_is_dragged_moves_alone() {
     let (mut desk, _folder) = open_sheets();
     let before = places(&desk);
-    let (name, grip) = grips(&desk, 0)[0].clone();
+    let (name, grip) = grips(&desk, SheetId(0))[0].clone();
     // To a sheet of its own, beside the pages.
     let beside = desk.get_by_label("Sheet 1").rect().left_top() - egui::vec2(6.0, -40.0);
-    let from = on_page(&desk, 0, grip);
+    let from = on_page(&desk, SheetId(0), grip);
     drag(&mut desk, from, beside);
     settle(&mut desk, "the layout", |s| s.finished().is_some());
     let after = places(&desk);
-    let sheets = before.values().map(|place| place.0).max().unwrap();
+    let last = before.values().map(|place| place.0).max().unwrap();
     assert_eq!(
         after[&name].0,
-        sheets + 1,
+        SheetId(last.0 + 1),
         "it has a sheet of its own: {:?}",
         desk.state().studio().problem()
     );
@@ -250,10 +250,10 @@ fn a_piece_that_is_dragged_moves_alone() {
 #[test]
 fn a_piece_is_not_laid_on_another() {
     let (mut desk, _folder) = open_sheets();
-    let all = grips(&desk, 0);
+    let all = grips(&desk, SheetId(0));
     assert!(all.len() > 1, "two pieces are on the first sheet");
     let before = places(&desk);
-    let (from, to) = (on_page(&desk, 0, all[0].1), on_page(&desk, 0, all[1].1));
+    let (from, to) = (on_page(&desk, SheetId(0), all[0].1), on_page(&desk, SheetId(0), all[1].1));
     drag(&mut desk, from, to);
     assert!(desk.state().studio().problem().is_some_and(|problem| problem.contains("overlap")));
     assert_eq!(places(&desk), before);
@@ -263,8 +263,8 @@ fn a_piece_is_not_laid_on_another() {
 #[test]
 fn all_pieces_are_laid_out_again_on_demand() {
     let (mut desk, _folder) = open_sheets();
-    let (_, grip) = grips(&desk, 0)[0].clone();
-    let at = on_page(&desk, 0, grip);
+    let (_, grip) = grips(&desk, SheetId(0))[0].clone();
+    let at = on_page(&desk, SheetId(0), grip);
     press(&mut desk, at, Modifiers::NONE);
     click(&mut desk, "Put aside");
     settle(&mut desk, "the layout", |s| s.finished().is_some());
@@ -278,12 +278,12 @@ fn all_pieces_are_laid_out_again_on_demand() {
 fn sheets_are_magnified_at_the_pointer_and_moved() {
     let (mut desk, _folder) = open_sheets();
     let mark = glam::DVec2::new(60.0, 200.0);
-    let at = on_page(&desk, 0, mark);
+    let at = on_page(&desk, SheetId(0), mark);
     let before = desk.get_by_label("Sheet 1").rect();
     wheel(&mut desk, at, 3.0);
     let after = desk.get_by_label("Sheet 1").rect();
     assert!(after.width() > 1.2 * before.width());
-    assert!(on_page(&desk, 0, mark).distance(at) < 0.5, "what is under the pointer stays there");
+    assert!(on_page(&desk, SheetId(0), mark).distance(at) < 0.5, "what is under the pointer stays there");
     let middle = |pressed| Event::PointerButton {
         pos: at,
         button: egui::PointerButton::Middle,

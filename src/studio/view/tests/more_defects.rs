@@ -90,8 +90,8 @@ fn is_red(desk: &Desk) -> bool {
 #[test]
 fn pieces_that_would_overlap_are_red_while_one_is_dragged() {
     let (mut desk, _folder) = open_sheets();
-    let all = grips(&desk, 0);
-    let (from, to) = (on_page(&desk, 0, all[0].1), on_page(&desk, 0, all[1].1));
+    let all = grips(&desk, SheetId(0));
+    let (from, to) = (on_page(&desk, SheetId(0), all[0].1), on_page(&desk, SheetId(0), all[1].1));
     let button = |pos, pressed| Event::PointerButton {
         pos,
         button: egui::PointerButton::Primary,
@@ -117,8 +117,8 @@ fn pieces_that_would_overlap_are_red_while_one_is_dragged() {
 fn a_piece_is_put_aside_and_rotated_there_alone() {
     let (mut desk, _folder) = open_sheets();
     let before = places(&desk);
-    let (name, grip) = grips(&desk, 0)[0].clone();
-    let at = on_page(&desk, 0, grip);
+    let (name, grip) = grips(&desk, SheetId(0))[0].clone();
+    let at = on_page(&desk, SheetId(0), grip);
     press(&mut desk, at, Modifiers::NONE);
     click(&mut desk, "Put aside");
     wait_for_pages(&mut desk);
@@ -135,7 +135,7 @@ fn a_piece_is_put_aside_and_rotated_there_alone() {
     }
     // Back onto a sheet with others, where there is room, or not at all.
     let from = on_page(&desk, turned[&name].0, grips(&desk, turned[&name].0)[0].1);
-    let to = on_page(&desk, 0, grips(&desk, 0)[0].1);
+    let to = on_page(&desk, SheetId(0), grips(&desk, SheetId(0))[0].1);
     drag(&mut desk, from, to);
     let problem = desk.state().studio().problem();
     assert!(problem.is_some_and(|problem| problem.contains("overlap")), "{problem:?}");
@@ -145,7 +145,7 @@ fn a_piece_is_put_aside_and_rotated_there_alone() {
 #[test]
 fn two_fingers_move_the_sheets() {
     let (mut desk, _folder) = open_sheets();
-    let at = on_page(&desk, 0, glam::DVec2::new(60.0, 200.0));
+    let at = on_page(&desk, SheetId(0), glam::DVec2::new(60.0, 200.0));
     wheel(&mut desk, at, 3.0);
     let before = desk.get_by_label("Sheet 1").rect();
     desk.run_steps(100);
@@ -216,10 +216,10 @@ fn right_click(desk: &mut Desk, at: Pos2) {
 #[test]
 fn a_right_click_opens_a_menu_for_what_is_under_the_mouse() {
     let (mut desk, _folder) = open_sheets();
-    let at = on_page(&desk, 0, grips(&desk, 0)[0].1);
+    let at = on_page(&desk, SheetId(0), grips(&desk, SheetId(0))[0].1);
     right_click(&mut desk, at);
     let piece = desk.state().studio().selection.piece().expect("it is selected").to_owned();
-    assert_eq!(piece, grips(&desk, 0)[0].0);
+    assert_eq!(piece, grips(&desk, SheetId(0))[0].0);
     let sheet = places(&desk)[&piece].0;
     desk.get_all_by_role_and_label(Role::Button, "Put aside").last().expect("in the menu").click();
     desk.run_ok();

@@ -13,7 +13,7 @@ fn open_edges() -> (Desk, TempDir) {
 
 /// The edges on the first sheet.
 fn on_first_sheet(desk: &Desk) -> Vec<PlacedEdge> {
-    edges::edges(desk.state().studio().finished().unwrap(), 0)
+    edges::edges(desk.state().studio().finished().unwrap(), SheetId(0))
 }
 
 /// Where the middle of an edge is on the screen.

@@ -162,7 +162,7 @@ fn what_the_mouse_is_over_is_marked_in_both_views() {
     desk.run_ok();
     // The same from a sheet.
     let output = desk.state().studio().finished().unwrap().clone();
-    let outlines = crate::studio::pages::outlines(&output, 0);
+    let outlines = crate::studio::pages::outlines(&output, SheetId(0));
     let (id, outline) = &outlines[0];
     let page = desk.get_by_label("Sheet 1").rect();
     let scale = page.width() / output.layout().options().size_mm().x as f32;

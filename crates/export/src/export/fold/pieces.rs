@@ -5,7 +5,7 @@ use super::{CREATOR, Edges, FoldComponent, FoldModel, Graph, SPEC};
 use glam::DAffine2;
 use serde::Serialize;
 use tatamu_net::net::Piece;
-use tatamu_net::sheet::PiecePlace;
+use tatamu_net::sheet::{PiecePlace, SheetId};
 
 #[derive(Serialize)]
 struct Single<'a> {
@@ -34,7 +34,7 @@ pub fn write_piece(
 ) -> Result<Vec<u8>, serde_json::Error> {
     let mut graph = Graph::with_poses(0);
     let model = FoldModel { title, components: &[], sheet_offsets: &[] };
-    graph.add_piece(&model, component, piece, PiecePlace { sheet: 0, place: DAffine2::IDENTITY });
+    graph.add_piece(&model, component, piece, PiecePlace { sheet: SheetId(0), place: DAffine2::IDENTITY });
     let mut edges = graph.edges;
     edges.fold_angle_deg = graph.states.pop().unwrap_or_default().angles_deg;
     for (assignment, &angle_deg) in edges.edges_assignment.iter_mut().zip(&edges.fold_angle_deg) {

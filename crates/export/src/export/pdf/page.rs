@@ -36,9 +36,9 @@ impl<'a> Builder<'a> {
         sized_page(drawing.size_mm, ops)
     }
 
-    /// A part of sheet number `sheet` within its window, and what is needed to put the tiles
+    /// A part of page number `page` within its window, and what is needed to put the tiles
     /// together.
-    pub(super) fn tile(&mut self, drawing: &Drawing, tile: &Tile, sheet: usize, pages: &Pages) -> PdfPage {
+    pub(super) fn tile(&mut self, drawing: &Drawing, tile: &Tile, page: usize, pages: &Pages) -> PdfPage {
         let mut ops = vec![
             Op::SetLineJoinStyle { join: LineJoinStyle::Round },
             Op::SaveGraphicsState,
@@ -51,7 +51,7 @@ impl<'a> Builder<'a> {
         let marks: Vec<Mark> = drawing.marks.iter().filter(|mark| tile.meets(mark)).cloned().collect();
         self.push_marks(&mut ops, &marks);
         ops.push(Op::RestoreGraphicsState);
-        self.push_marks(&mut ops, &tile.marks(sheet, pages));
+        self.push_marks(&mut ops, &tile.marks(page, pages));
         sized_page(tile.paper_mm, ops)
     }
 

@@ -139,7 +139,7 @@ impl Tile {
     }
 
     /// Frame, match marks and words, on the page.
-    pub(super) fn marks(&self, sheet: usize, pages: &Pages) -> Vec<Mark> {
+    pub(super) fn marks(&self, page: usize, pages: &Pages) -> Vec<Mark> {
         let styles = pages.styles();
         let stroke = styles.stroke(Layer::Furniture);
         let mut marks = vec![Mark::polygon(Layer::Furniture, self.window_corners(), stroke)];
@@ -149,7 +149,7 @@ impl Tile {
             let contours = vec![Polyline::closed(ends.to_vec()), arm(DVec2::X), arm(DVec2::Y)];
             marks.push(Mark::path(Layer::Furniture, contours, Some(stroke.clone()), None));
         }
-        marks.extend(self.words(sheet, pages, styles));
+        marks.extend(self.words(page, pages, styles));
         marks
     }
 
@@ -173,7 +173,7 @@ impl Tile {
     }
 
     /// A line below the frame: which page this is, what to do, and a scale bar.
-    fn words(&self, sheet: usize, pages: &Pages, styles: &LineStyles) -> Vec<Mark> {
+    fn words(&self, page: usize, pages: &Pages, styles: &LineStyles) -> Vec<Mark> {
         let base = DVec2::new(MARGIN_MM, MARGIN_MM - WORDS_MM);
         let width = self.window_mm().x;
         let text = |content: String, x: f64, align: Align| {
@@ -192,7 +192,7 @@ impl Tile {
             marks.push(text(length, width - BAR_MM - GAP_MM / 2.0, Align::End));
         }
         let place = format!(
-            "{} · sheet {sheet} of {} · tile {} of {} × {}",
+            "{} · sheet {page} of {} · tile {} of {} × {}",
             pages.title(),
             pages.drawings().len(),
             self.name(),

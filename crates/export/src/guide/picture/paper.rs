@@ -8,6 +8,7 @@ use tatamu_draw::drawing::{
 };
 use tatamu_draw::render::palette;
 use tatamu_net::net::{Net, Side};
+use tatamu_net::sheet::SheetId;
 use tatamu_pipeline::Output;
 
 /// Free border, mm.
@@ -62,7 +63,7 @@ fn fitted(mut marks: Vec<Mark>, size_mm: DVec2) -> Drawing {
 }
 
 /// A small picture of a sheet with all of its pieces; those of `part` are in its colour.
-pub fn sheet_map(output: &Output, sheet: usize, part: PartId, height_mm: f64) -> Drawing {
+pub fn sheet_map(output: &Output, sheet: SheetId, part: PartId, height_mm: f64) -> Drawing {
     let colour = palette::colour(part.0);
     let options = output.layout().options();
     let paper_mm = options.size_mm();
@@ -89,7 +90,7 @@ pub fn sheet_map(output: &Output, sheet: usize, part: PartId, height_mm: f64) ->
         }
     }
     // Pieces that lie in the corner leave the number room.
-    let number = (sheet + 1).to_string();
+    let number = sheet.number().to_string();
     let low = DVec2::new(size_mm.x - 1.6 - text::width_mm(&number, NUMBER_MM), 0.0);
     let high = DVec2::new(size_mm.x, NUMBER_MM + 1.6);
     drawing.marks.push(Mark::filled(Layer::Picture, rectangle(low, high).to_vec(), PAPER));
@@ -99,9 +100,9 @@ pub fn sheet_map(output: &Output, sheet: usize, part: PartId, height_mm: f64) ->
     drawing
 }
 
-/// The sheets on which pieces of a component lie, from 0.
-pub fn sheets_of(output: &Output, part: PartId) -> Vec<usize> {
-    let mut sheets: Vec<usize> = output.layout().places(part).iter().map(|at| at.sheet).collect();
+/// The sheets on which pieces of a component lie.
+pub fn sheets_of(output: &Output, part: PartId) -> Vec<SheetId> {
+    let mut sheets: Vec<SheetId> = output.layout().places(part).iter().map(|at| at.sheet).collect();
     sheets.sort_unstable();
     sheets.dedup();
     sheets

@@ -1,5 +1,6 @@
 //! Sheets with the pieces whose places the user chose, before any other is placed.
 
+use super::super::place::SheetId;
 use super::occupancy::{Occupancy, Pose, Spot};
 use super::raster::Grid;
 use geo::{Distance, Euclidean};
@@ -10,7 +11,7 @@ const SLIVER_MM: f64 = 1e-6;
 
 /// A piece at a place that the user chose.
 pub(super) struct Pinned {
-    pub sheet: usize,
+    pub sheet: SheetId,
     pub pose: Pose,
     pub spot: Spot,
 }
@@ -32,7 +33,7 @@ impl Start {
     ) -> Self {
         let mut start = Self { stock: Vec::new(), is_free: vec![true; pins.len()] };
         for (item, pin) in pins.iter().enumerate().filter_map(|(k, pin)| Some((k, pin.as_ref()?))) {
-            while start.stock.len() <= pin.sheet {
+            while start.stock.len() <= pin.sheet.0 {
                 start.stock.push(Occupancy::new(grid));
             }
             // Cells are coarse: pieces that were placed in another order need not fit in this one, though
@@ -43,9 +44,9 @@ impl Start {
                     taken.filter(|&k| pins[k].as_ref().is_some_and(|other| other.sheet == pin.sheet));
                 same.all(|other| are_apart([&outlines[other], &outlines[item]], spacing_mm))
             };
-            let may_stand = start.stock[pin.sheet].is_free(&pin.pose, &pin.spot) || is_apart();
+            let may_stand = start.stock[pin.sheet.0].is_free(&pin.pose, &pin.spot) || is_apart();
             if may_stand {
-                start.stock[pin.sheet].place(&pin.pose, &pin.spot);
+                start.stock[pin.sheet.0].place(&pin.pose, &pin.spot);
                 start.is_free[item] = false;
             }
         }

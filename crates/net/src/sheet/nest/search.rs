@@ -3,6 +3,7 @@
 //! sheet is cleared, others in part, and their pieces are placed anew ("ruin and recreate", Schrimpf
 //! et al. 2000).
 
+use super::super::place::SheetId;
 use super::item::{Alternative, Item};
 use super::occupancy::{Occupancy, Spot, least_cost};
 use super::pins::Start;
@@ -44,7 +45,7 @@ struct Plan {
     /// What stays where it is, on each sheet.
     kept: Vec<Vec<Placed>>,
     /// The sheets that may take more; new ones come after them.
-    open: Vec<usize>,
+    open: Vec<SheetId>,
     /// The pieces to be placed.
     order: Vec<usize>,
     way: Way,
@@ -56,7 +57,7 @@ impl Plan {
     /// All pieces, on sheets that are as they were at the start.
     fn anew(start: &Start, order: Vec<usize>, way: Way, chosen: Vec<usize>) -> Self {
         let pinned = start.stock().len();
-        Self { kept: vec![Vec::new(); pinned], open: (0..pinned).collect(), order, way, chosen }
+        Self { kept: vec![Vec::new(); pinned], open: (0..pinned).map(SheetId).collect(), order, way, chosen }
     }
 }
 
@@ -130,10 +131,11 @@ impl Layout {
     }
 
     /// The sheets that hold something, the emptiest first.
-    fn emptiest_first(&self, items: &[Item]) -> Vec<usize> {
-        let mut sheets: Vec<usize> = (0..self.sheets.len()).filter(|&k| !self.sheets[k].is_empty()).collect();
-        sheets
-            .sort_by(|&a, &b| area_mm2(&self.sheets[a], items).total_cmp(&area_mm2(&self.sheets[b], items)));
+    fn emptiest_first(&self, items: &[Item]) -> Vec<SheetId> {
+        let ids = (0..self.sheets.len()).map(SheetId);
+        let mut sheets: Vec<SheetId> = ids.filter(|id| !self.sheets[id.0].is_empty()).collect();
+        let used_mm2 = |id: &SheetId| area_mm2(&self.sheets[id.0], items);
+        sheets.sort_by(|a, b| used_mm2(a).total_cmp(&used_mm2(b)));
         sheets
     }
 }
@@ -262,8 +264,8 @@ fn varied(
 fn reordered(parent: &Layout, items: &[Item], start: &Start, rng: &mut fastrand::Rng) -> Plan {
     let sheets = parent.emptiest_first(items);
     let mut order: Vec<usize> =
-        sheets.iter().rev().flat_map(|&k| parent.sheets[k].iter().map(|p| p.item)).collect();
-    for placed in sheets.first().into_iter().flat_map(|&k| &parent.sheets[k]) {
+        sheets.iter().rev().flat_map(|&k| parent.sheets[k.0].iter().map(|p| p.item)).collect();
+    for placed in sheets.first().into_iter().flat_map(|&k| &parent.sheets[k.0]) {
         if rng.bool()
             && let Some(from) = order.iter().position(|&i| i == placed.item)
         {
@@ -289,7 +291,7 @@ fn ruined(parent: &Layout, items: &[Item], rng: &mut fastrand::Rng) -> Plan {
     let mut removed: Vec<(f64, usize)> = Vec::new();
     for sheet in [emptiest].into_iter().chain(others.iter().copied()) {
         let share = if sheet == emptiest { 1.0 } else { SHARES[index(rng, SHARES.len())] };
-        kept[sheet].retain(|placed| {
+        kept[sheet.0].retain(|placed| {
             let stays = rng.f64() >= share;
             if !stays {
                 removed.push((items[placed.item].area_mm2() * (0.5 + rng.f64()), placed.item));
@@ -334,11 +336,11 @@ fn chosen_poses(item: usize, count: usize, way: &Way) -> Vec<usize> {
 /// Carries out a plan; `None` where that takes more than `most` sheets.
 fn lay_out(items: &[Item], grid: &Grid, start: &Start, mut plan: Plan, most: usize) -> Option<Layout> {
     let mut sheets = std::mem::take(&mut plan.kept);
-    let mut stock: Vec<(usize, Occupancy)> = Vec::new();
+    let mut stock: Vec<(SheetId, Occupancy)> = Vec::new();
     let piece = |item: usize| items[item].alternative(plan.chosen[items[item].group()]);
     for &k in &plan.open {
-        let mut occupancy = start.stock().get(k).cloned().unwrap_or_else(|| Occupancy::new(grid));
-        sheets[k].iter().for_each(|p| occupancy.place(piece(p.item).pose(p.pose), &p.spot));
+        let mut occupancy = start.stock().get(k.0).cloned().unwrap_or_else(|| Occupancy::new(grid));
+        sheets[k.0].iter().for_each(|p| occupancy.place(piece(p.item).pose(p.pose), &p.spot));
         stock.push((k, occupancy));
     }
     for &item in &plan.order {
@@ -352,14 +354,14 @@ fn lay_out(items: &[Item], grid: &Grid, start: &Start, mut plan: Plan, most: usi
             None => {
                 let empty = Occupancy::new(grid);
                 let first = place(&empty)?;
-                stock.push((sheets.len(), empty));
+                stock.push((SheetId(sheets.len()), empty));
                 sheets.push(Vec::new());
                 (stock.len() - 1, first)
             }
         };
         let (sheet, occupancy) = &mut stock[k];
         occupancy.place(piece.pose(pose), &spot);
-        sheets[*sheet].push(Placed { item, pose, spot });
+        sheets[sheet.0].push(Placed { item, pose, spot });
     }
     Some(Layout::new(plan, sheets, items, start.stock().len()))
 }

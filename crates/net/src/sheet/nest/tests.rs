@@ -13,15 +13,15 @@ fn rectangle(width: f64, height: f64, group: usize) -> Shape {
 }
 
 fn sheet_count(placements: &[Placement]) -> usize {
-    placements.iter().map(|p| p.sheet + 1).max().unwrap_or(0)
+    placements.iter().map(|p| p.sheet.number()).max().unwrap_or(0)
 }
 
 /// Nests, and checks what came out.
 fn sound_nest(pieces: &[Shape], options: &NestOptions) -> Vec<Placement> {
     let placements = nest(pieces, options, &Silent).unwrap();
     check(pieces, &placements, options, TOLERANCE_MM).unwrap();
-    let used: std::collections::BTreeSet<usize> = placements.iter().map(|p| p.sheet).collect();
-    assert!(used.iter().copied().eq(0..used.len()), "an empty sheet");
+    let used: std::collections::BTreeSet<SheetId> = placements.iter().map(|p| p.sheet).collect();
+    assert!(used.iter().copied().eq((0..used.len()).map(SheetId)), "an empty sheet");
     placements
 }
 
@@ -147,7 +147,7 @@ fn groups_share_a_sheet_and_come_in_order() {
     let pieces: Vec<Shape> = (0..12).map(|k| rectangle(90.0, 130.0, 2 - k % 3)).collect();
     let placements = sound_nest(&pieces, &NestOptions::new(190.0, 277.0));
     for (piece, placement) in pieces.iter().zip(&placements) {
-        assert_eq!(placement.sheet, piece.group());
+        assert_eq!(placement.sheet, SheetId(piece.group()));
     }
 }
 
@@ -218,7 +218,11 @@ fn another_way_of_cutting_is_taken_where_it_saves_a_sheet() {
 fn the_check_finds_what_is_wrong() {
     let pieces = [rectangle(10.0, 10.0, 0), rectangle(10.0, 10.0, 0)];
     let options = NestOptions::new(100.0, 100.0);
-    let at = |x: f64, sheet: usize| Placement { sheet, rotation_rad: 0.0, translation: DVec2::new(x, 0.0) };
+    let at = |x: f64, sheet| Placement {
+        sheet: SheetId(sheet),
+        rotation_rad: 0.0,
+        translation: DVec2::new(x, 0.0),
+    };
     let verdict = |a, b| check(&pieces, &[a, b], &options, TOLERANCE_MM);
     assert_eq!(verdict(at(0.0, 0), at(12.0, 0)), Ok(()));
     assert_eq!(verdict(at(0.0, 0), at(0.0, 1)), Ok(()));
