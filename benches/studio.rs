@@ -14,7 +14,7 @@ use tatamu::model::PartId;
 use tatamu::pipeline::{ComponentOptions, Engine, Options};
 use tatamu::progress::Silent;
 use tatamu::render::Orbit;
-use tatamu::render::zbuffer::{Frame, Solids};
+use tatamu::render::zbuffer::{RenderedFrame, Solids};
 use tatamu::show::upright;
 
 const NAMES: [&str; 4] = ["teddy", "bunny", "armadillo", "20000"];
@@ -83,7 +83,7 @@ fn orbit(bencher: Bencher, path: &str) {
     let Some(mut orbit) = solids.ball().map(Orbit::of_ball) else { return };
     bencher.bench_local(|| {
         orbit.turn(0.05, 0.0);
-        orbit.eye([1280, 720]).map(|eye| Frame::draw(&solids, &eye, Rgb::WHITE))
+        orbit.eye([1280, 720]).map(|eye| RenderedFrame::draw(&solids, &eye, Rgb::WHITE))
     });
 }
 
@@ -97,6 +97,7 @@ fn smooth(bencher: Bencher, path: &str) {
         solids.push_triangle(corners, Rgb(200, 190, 180), Some(Rgb::WHITE), face as u32, false);
     }
     let Some(orbit) = solids.ball().map(Orbit::of_ball) else { return };
-    bencher
-        .bench_local(|| orbit.eye([2560, 1440]).map(|eye| Frame::draw(&solids, &eye, Rgb::WHITE).halved()));
+    bencher.bench_local(|| {
+        orbit.eye([2560, 1440]).map(|eye| RenderedFrame::draw(&solids, &eye, Rgb::WHITE).halved())
+    });
 }

@@ -15,7 +15,7 @@ use tatamu::mesh::{self, Mesh};
 use tatamu::net::{KnownNets, Net, NetOptions, Piece, develop_model};
 use tatamu::pipeline::{self, Options};
 use tatamu::progress::Silent;
-use tatamu::sheet::nest::{NestOptions, Shape, nest};
+use tatamu::sheet::nest::{NestOptions, NestPiece, nest};
 use tatamu::sheet::{Layout, SheetOptions};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -97,7 +97,7 @@ fn rectangle_sheets(nets: &[Net], room_mm: DVec2) -> Result<usize, Box<dyn Error
             let fits = least.cmple(room_mm).all() || DVec2::new(least.y, least.x).cmple(room_mm).all();
             let size = if fits { least } else { piece.size_mm() };
             let corners = [DVec2::ZERO, DVec2::new(size.x, 0.0), size, DVec2::new(0.0, size.y)];
-            rectangles.extend(Shape::new(corners.to_vec(), group));
+            rectangles.extend(NestPiece::new(corners.to_vec(), group));
         }
     }
     let placed = nest(&rectangles, &NestOptions::new(room_mm.x, room_mm.y), &Silent)?;

@@ -1,7 +1,7 @@
 //! What is chosen for an input: flags first, then its project file, then the defaults.
 
 use super::error::AppError;
-use super::input::{Input, Shape};
+use super::input::{Input, InputShape};
 use super::{input, locale, profiles};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -37,8 +37,10 @@ impl Choice {
     /// The choice of an input.
     pub fn of_input(input: &Input, flags: &[Given]) -> Result<Self, AppError> {
         let base = match (&input.project, &input.shape) {
-            (None, Shape::Mesh(_)) if flags.iter().any(|flag| flag.option() == &SIZE) => locale::settings(),
-            (None, Shape::Mesh(mesh)) => fresh(mesh, locale::settings()),
+            (None, InputShape::Mesh(_)) if flags.iter().any(|flag| flag.option() == &SIZE) => {
+                locale::settings()
+            }
+            (None, InputShape::Mesh(mesh)) => fresh(mesh, locale::settings()),
             _ => Settings::standard().clone(),
         };
         Self::on(base, input.project.as_ref(), flags)

@@ -3,7 +3,7 @@
 
 use super::choice::Choice;
 use super::error::AppError;
-use super::input::{self, Input, Shape};
+use super::input::{self, Input, InputShape};
 use std::borrow::Cow;
 use tatamu::design::Sketch;
 use tatamu::mesh::painting::Painting;
@@ -63,7 +63,7 @@ fn searched_for(
     let painting = choice.settings().has_cards_of_mesh.then(|| colours_of(input)).transpose()?;
     let failed = |error| AppError::of_run(error, progress);
     match &input.shape {
-        Shape::Mesh(mesh) => {
+        InputShape::Mesh(mesh) => {
             let engine = Engine::new(Cow::Borrowed(mesh));
             let laid_out = laid_out(&engine, progress);
             let choice = match &painting {
@@ -77,7 +77,7 @@ fn searched_for(
             let output = engine.finish(shaped, progress).map_err(failed)?;
             Ok((choice, advise(&engine, output).map_err(failed)?))
         }
-        Shape::Drawn(sketches) => {
+        InputShape::Drawn(sketches) => {
             let (choice, (), output) = smaller(choice, most, progress, drawn(sketches, progress))?;
             Ok((choice, output))
         }
@@ -131,8 +131,10 @@ fn drawn<'a>(
 fn colours_of(input: &Input) -> Result<Painting, AppError> {
     let failed = |reason: String| AppError::NoCardColours { reason };
     match input.shape {
-        Shape::Mesh(_) => input::read_painting(&input.mesh_path).map_err(|error| failed(error.to_string())),
-        Shape::Drawn(_) => Err(failed("drawings have no colours".to_owned())),
+        InputShape::Mesh(_) => {
+            input::read_painting(&input.mesh_path).map_err(|error| failed(error.to_string()))
+        }
+        InputShape::Drawn(_) => Err(failed("drawings have no colours".to_owned())),
     }
 }
 

@@ -22,7 +22,7 @@ pub struct Input {
     /// The project, where the user gave one.
     pub project: Option<Project>,
     /// The shape.
-    pub shape: Shape,
+    pub shape: InputShape,
     /// What was done to make the mesh clean.
     pub repairs: Repairs,
     /// What the user should know about the project file.
@@ -30,7 +30,7 @@ pub struct Input {
 }
 
 /// A mesh, or drawings.
-pub enum Shape {
+pub enum InputShape {
     /// A clean mesh.
     Mesh(Mesh),
     /// Drawn components.
@@ -41,8 +41,8 @@ impl Input {
     /// The mesh, for commands that have no use for drawings.
     pub fn mesh(&self) -> Result<&Mesh, AppError> {
         match &self.shape {
-            Shape::Mesh(mesh) => Ok(mesh),
-            Shape::Drawn(_) => Err(AppError::Options(format!(
+            InputShape::Mesh(mesh) => Ok(mesh),
+            InputShape::Drawn(_) => Err(AppError::Options(format!(
                 "{} has drawn components and no mesh to divide; use \"tatamu make\"",
                 self.mesh_path.display()
             ))),
@@ -78,8 +78,8 @@ impl Input {
     ) -> Result<Output, AppError> {
         let options = choice.options();
         let result = match &self.shape {
-            Shape::Mesh(mesh) => run(mesh, options, progress),
-            Shape::Drawn(sketches) => pipeline::run_drawn(sketches, choice.size_mm(), options, progress),
+            InputShape::Mesh(mesh) => run(mesh, options, progress),
+            InputShape::Drawn(sketches) => pipeline::run_drawn(sketches, choice.size_mm(), options, progress),
         };
         result.map_err(|error| AppError::of_run(error, progress))
     }
@@ -128,7 +128,7 @@ pub fn read_by(fetch: Fetch<'_>, path: &Path) -> Result<Input, AppError> {
     let Some(mesh) = &project.mesh else {
         let sketches = project.sketches();
         let sketches = sketches.map_err(|error| AppError::Project { path: path.to_owned(), error })?;
-        let (shape, repairs) = (Shape::Drawn(sketches), Repairs::default());
+        let (shape, repairs) = (InputShape::Drawn(sketches), Repairs::default());
         return Ok(Input { mesh_path: path.to_owned(), project: Some(project), shape, repairs, notes });
     };
     let mesh_path = path.with_file_name(mesh);
@@ -152,7 +152,7 @@ fn read_mesh(
         .map_err(|error| AppError::Read { path: path.to_owned(), error })?;
     let (mesh, repairs) =
         Mesh::from_soup(&soup).map_err(|error| AppError::Mesh { path: path.to_owned(), error })?;
-    Ok(Input { mesh_path: path.to_owned(), project, shape: Shape::Mesh(mesh), repairs, notes })
+    Ok(Input { mesh_path: path.to_owned(), project, shape: InputShape::Mesh(mesh), repairs, notes })
 }
 
 /// A project file may come from anybody: a warning names a style file that it reads from elsewhere. (Its

@@ -4,7 +4,7 @@ use super::make::{self, MakeArgs};
 use super::terminal;
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
-use crate::app::input::{self, Shape};
+use crate::app::input::{self, InputShape};
 use crate::app::text::printable;
 use clap::Args;
 use std::collections::BTreeMap;
@@ -57,7 +57,7 @@ pub fn run(args: &DesignArgs) -> Result<(), AppError> {
 /// Lists the ways of all profiles of a project file.
 fn list_all(args: &DesignArgs, path: &Path) -> Result<(), AppError> {
     let input = input::read(path)?;
-    let Shape::Drawn(sketches) = &input.shape else {
+    let InputShape::Drawn(sketches) = &input.shape else {
         return Err(AppError::Options(format!(
             "{} has no drawn components; --list-configurations needs a project file with profiles",
             input.mesh_path.display()

@@ -3,7 +3,7 @@
 use super::words;
 use crate::app::choice::{self, Choice};
 use crate::app::error::AppError;
-use crate::app::input::Shape;
+use crate::app::input::InputShape;
 use crate::app::{input, locale, project};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -59,8 +59,8 @@ impl Opened {
     pub fn read_with(fetch: Fetch, source: &Path, fresh: &Settings) -> Result<Self, String> {
         let input = input::read_by(&*fetch, source).map_err(|error| words::error(&error))?;
         let (mesh, drawn) = match input.shape {
-            Shape::Mesh(mesh) => (mesh, None),
-            Shape::Drawn(sketches) => {
+            InputShape::Mesh(mesh) => (mesh, None),
+            InputShape::Drawn(sketches) => {
                 let options = Options::default();
                 let shaped = shape_drawn(&sketches, None, &options, &Silent)
                     .map_err(|error| words::failure(&error))?;

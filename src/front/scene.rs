@@ -12,7 +12,7 @@ use tatamu::mesh::Mesh;
 use tatamu::model::{ModelPart, PartId};
 use tatamu::pipeline::{Hulls, Options};
 use tatamu::render::light;
-use tatamu::render::zbuffer::{Frame, Line, Solids};
+use tatamu::render::zbuffer::{LineInSpace, RenderedFrame, Solids};
 use tatamu::show::upright;
 
 /// All that a scene is made of.
@@ -94,7 +94,7 @@ impl Tag {
     /// What a number of a picture stands for.
     pub fn of_number(number: u32) -> Option<Self> {
         let (part, panel) = (PartId((number / PANELS) as usize), number % PANELS);
-        (number < Frame::NOTHING - PANELS)
+        (number < RenderedFrame::NOTHING - PANELS)
             .then_some(Self { part, panel: (panel != PANELS - 1).then_some(PanelId(panel as usize)) })
     }
 }
@@ -123,7 +123,7 @@ pub fn scene(seen: &Seen<'_>, setting: &Setting) -> Solids {
         // Nothing is divided yet: the mesh as it was read.
         if let Some((mesh, options)) = seen.mesh {
             let (mesh, _) = mesh.scaled(options.size_mm, options.up);
-            push_mesh(&mut solids, &mesh, |_| Some((PLAIN, Frame::NOTHING)), false);
+            push_mesh(&mut solids, &mesh, |_| Some((PLAIN, RenderedFrame::NOTHING)), false);
         }
         return solids;
     };
@@ -133,7 +133,8 @@ pub fn scene(seen: &Seen<'_>, setting: &Setting) -> Solids {
     let is_hidden =
         |part: PartId| shown.names().get(part.0).is_some_and(|name| seen.visibility.is_hidden(name));
     let is_seen = |face: usize| !of_face(face).is_some_and(is_hidden);
-    let tag = |face: usize| of_face(face).map_or(Frame::NOTHING, |part| Tag { part, panel: None }.number());
+    let tag =
+        |face: usize| of_face(face).map_or(RenderedFrame::NOTHING, |part| Tag { part, panel: None }.number());
     if layers.distances
         && let Some(distances) = shown.distances()
     {
@@ -201,7 +202,7 @@ fn push_mesh(
 
 fn push_edges(solids: &mut Solids, outline: &[DVec3], colour: Rgb, width_px: f32) {
     let ends = outline.iter().zip(outline.iter().cycle().skip(1));
-    solids.lines.extend(ends.map(|(&a, &b)| Line { ends: [a, b], colour, width_px }));
+    solids.lines.extend(ends.map(|(&a, &b)| LineInSpace { ends: [a, b], colour, width_px }));
 }
 
 /// Where all components are: in the steps that were found, as long as they are known.
@@ -339,11 +340,11 @@ fn push_arrow(solids: &mut Solids, part: &ModelPart, frame: DAffine3) {
             ring(radius, neck, k + 1),
             ring(radius, neck, k),
         ];
-        solids.push_outline(&shaft, ACCENT, None, Frame::NOTHING);
+        solids.push_outline(&shaft, ACCENT, None, RenderedFrame::NOTHING);
         let cone = [ring(2.6 * radius, neck, k), ring(2.6 * radius, neck, k + 1), at(0.0, 0.0, tip)];
-        solids.push_outline(&cone, ACCENT, None, Frame::NOTHING);
+        solids.push_outline(&cone, ACCENT, None, RenderedFrame::NOTHING);
         let base = [at(0.0, 0.0, neck), ring(2.6 * radius, neck, k + 1), ring(2.6 * radius, neck, k)];
-        solids.push_outline(&base, ACCENT, None, Frame::NOTHING);
+        solids.push_outline(&base, ACCENT, None, RenderedFrame::NOTHING);
     }
 }
 
@@ -365,7 +366,7 @@ fn push_grid(solids: &mut Solids, mesh: &Mesh) {
     let colour = |k: i64| if k % 5 == 0 { GRID_BOLD } else { GRID };
     let xs = across.clone().map(|x| ([at(x, *along.start()), at(x, *along.end())], colour(x)));
     let ys = along.clone().map(|y| ([at(*across.start(), y), at(*across.end(), y)], colour(y)));
-    solids.lines.extend(xs.chain(ys).map(|(ends, colour)| Line { ends, colour, width_px: 1.0 }));
+    solids.lines.extend(xs.chain(ys).map(|(ends, colour)| LineInSpace { ends, colour, width_px: 1.0 }));
 }
 
 fn bounds(mesh: &Mesh) -> Option<(DVec3, DVec3)> {
@@ -383,7 +384,7 @@ fn push_plane(solids: &mut Solids, point: DVec3, normal: DVec3, half: f64) {
             [corners[a], corners[b], corners[c]],
             ACCENT,
             Some(ACCENT),
-            Frame::NOTHING,
+            RenderedFrame::NOTHING,
             true,
         );
     }
@@ -400,6 +401,6 @@ mod tests {
         {
             assert_eq!(Tag::of_number(tag.number()), Some(tag));
         }
-        assert_eq!(Tag::of_number(Frame::NOTHING), None);
+        assert_eq!(Tag::of_number(RenderedFrame::NOTHING), None);
     }
 }

@@ -62,7 +62,7 @@ pub struct Worker {
 
 /// What the threads share.
 #[derive(Clone)]
-struct Line {
+struct Outlet {
     current: Arc<AtomicU64>,
     news: Sender<(u64, News)>,
     wake: Wake,
@@ -75,7 +75,7 @@ impl Worker {
         let (pass_on, main) = channel::<(u64, Order)>();
         let (sender, news) = channel();
         let current = Arc::new(AtomicU64::new(0));
-        let line = Line { current: current.clone(), news: sender, wake };
+        let line = Outlet { current: current.clone(), news: sender, wake };
         let own = line.clone();
         std::thread::spawn(move || {
             // Without a pool of its own it works in that of all.
@@ -135,7 +135,7 @@ fn latest(orders: &Receiver<(u64, Order)>) -> Result<(u64, Order), std::sync::mp
     Ok(orders.try_iter().last().unwrap_or(first))
 }
 
-impl Line {
+impl Outlet {
     fn tell(&self, number: u64, news: News) {
         let _ = self.news.send((number, news));
         (self.wake)();
@@ -189,7 +189,7 @@ impl Line {
 
 /// Passes progress on, and stops what does not count any more.
 struct Watch<'a> {
-    line: &'a Line,
+    line: &'a Outlet,
     number: u64,
     is_silent: bool,
 }

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use tatamu::drawing::Rgb;
 use tatamu::render::Orbit;
-use tatamu::render::zbuffer::{Facet, Frame, Line, Solids};
+use tatamu::render::zbuffer::{Facet, LineInSpace, RenderedFrame, Solids};
 
 /// Numbers of a facet in a flat scene: corners, normal, colours, whether it is screened, tag.
 const FACET: usize = 16;
@@ -41,8 +41,11 @@ fn solid(numbers: &[f64]) -> Solids {
         is_screened: n[14] != 0.0,
         tag: n[15] as u32,
     };
-    let line =
-        |n: &[f64]| Line { ends: [point(n, 0), point(n, 1)], colour: colour(n[6]), width_px: n[7] as f32 };
+    let line = |n: &[f64]| LineInSpace {
+        ends: [point(n, 0), point(n, 1)],
+        colour: colour(n[6]),
+        width_px: n[7] as f32,
+    };
     Solids {
         facets: facets.chunks_exact(FACET).map(facet).collect(),
         lines: lines.chunks_exact(LINE).map(line).collect(),
@@ -63,7 +66,7 @@ fn colour(number: f64) -> Rgb {
 pub struct Picture {
     solids: Solids,
     orbit: Option<Orbit>,
-    frame: Option<Frame>,
+    frame: Option<RenderedFrame>,
 }
 
 impl Picture {
@@ -103,7 +106,7 @@ impl Picture {
     /// Draws it, as bytes of red, green, blue and opacity; none where there is nothing to be seen.
     pub fn draw(&mut self, size_px: [usize; 2], is_smooth: bool, ground: Rgb) -> Option<Vec<u8>> {
         let drawn_px = if is_smooth { size_px.map(|n| 2 * n) } else { size_px };
-        let frame = Frame::draw(&self.solids, &self.orbit?.eye(drawn_px).ok()?, ground);
+        let frame = RenderedFrame::draw(&self.solids, &self.orbit?.eye(drawn_px).ok()?, ground);
         let frame = if is_smooth { frame.halved() } else { frame };
         let bytes = frame.rgb().iter().flat_map(|&[r, g, b]| [r, g, b, u8::MAX]).collect();
         self.frame = Some(frame);
@@ -124,9 +127,9 @@ mod tests {
     fn a_scene_outlives_its_way_as_numbers() {
         let mut solids = Solids::default();
         let corners = [DVec3::ZERO, DVec3::X, DVec3::new(0.1, 1.0, 1e-9)];
-        solids.push_triangle(corners, Rgb(1, 2, 3), None, Frame::NOTHING, true);
+        solids.push_triangle(corners, Rgb(1, 2, 3), None, RenderedFrame::NOTHING, true);
         solids.push_triangle(corners, Rgb(255, 0, 9), Some(Rgb(0, 0, 0)), 77, false);
-        solids.lines.push(Line { ends: [DVec3::Y, DVec3::Z], colour: Rgb(9, 8, 7), width_px: 2.4 });
+        solids.lines.push(LineInSpace { ends: [DVec3::Y, DVec3::Z], colour: Rgb(9, 8, 7), width_px: 2.4 });
         assert_eq!(solid(&flat(&solids)), solids);
         assert_eq!(solid(&[]), Solids::default());
     }

@@ -50,11 +50,11 @@ pub(super) struct Master {
     pub(super) edge_label: Vec<Option<String>>,
     #[serde(rename = "edges_tatamu:lift_mm", default)]
     pub(super) edge_lift_mm: Vec<f64>,
-    pub(super) file_frames: Vec<Frame>,
+    pub(super) file_frames: Vec<FoldFrame>,
 }
 
 #[derive(Deserialize)]
-pub(super) struct Frame {
+pub(super) struct FoldFrame {
     #[serde(default)]
     pub(super) frame_title: String,
     pub(super) vertices_coords: Vec<Vec<f64>>,

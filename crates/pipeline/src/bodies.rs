@@ -14,7 +14,7 @@ use tatamu_core::segment::{self, Interior, Parts, SegmentId, Segmentation};
 /// Hulls of the parts of a mesh with the joints between them, as the shape alone decides them.
 #[derive(Debug, Clone)]
 pub struct Hulls {
-    solid: Solid,
+    solid: SegmentHulls,
     /// Of each hull the planes beyond which others are.
     borders: Vec<Vec<Plane>>,
     names: Vec<String>,
@@ -73,7 +73,7 @@ impl Hulls {
             mirror_plane: divided.segmentation().mirror().filter(|_| has_images).copied(),
             views: Arc::new(views),
             interior: Arc::new(interior),
-            solid: Solid { hulls: Vec::new(), ..touching.solid.clone() },
+            solid: SegmentHulls { hulls: Vec::new(), ..touching.solid.clone() },
             touching: Arc::new(touching),
             borders: Vec::new(),
             fillings: Vec::new(),
@@ -90,7 +90,7 @@ impl Hulls {
             _ => Filling::new(hull, |point| self.interior.contains(point)).map(Arc::new),
         };
         let fillings = hulls.par_iter().enumerate().map(filling).collect();
-        Self { solid: Solid { hulls, ..self.solid.clone() }, borders, fillings, ..self.clone() }
+        Self { solid: SegmentHulls { hulls, ..self.solid.clone() }, borders, fillings, ..self.clone() }
     }
 
     /// The same with thicker hulls where parts hang on their parents.
@@ -199,7 +199,7 @@ pub(super) fn without_needless_joints(mut divided: Parts) -> (Parts, Touching) {
 /// Hulls of all parts, before they leave each other room, and where they touch.
 #[derive(Debug, Clone)]
 pub(super) struct Touching {
-    solid: Solid,
+    solid: SegmentHulls,
     symmetry: Option<Symmetry>,
     contacts: Vec<Contact>,
     links: Vec<Link>,
@@ -290,14 +290,14 @@ impl Bodies {
 
 /// Hulls of the segments that have one.
 #[derive(Debug, Clone)]
-struct Solid {
+struct SegmentHulls {
     hulls: Vec<Hull>,
     part_of_segment: Vec<Option<PartId>>,
     /// Number of faces of each segment that is flat.
     flat: Vec<usize>,
 }
 
-impl Solid {
+impl SegmentHulls {
     /// The names of the segments that have a hull.
     fn names(&self, of_segment: &[String]) -> Vec<String> {
         let has_hull = self.part_of_segment.iter().zip(of_segment);
@@ -333,8 +333,8 @@ impl Solid {
     }
 }
 
-fn hulls(parts: &Parts) -> Solid {
-    let mut solid = Solid { hulls: Vec::new(), part_of_segment: Vec::new(), flat: Vec::new() };
+fn hulls(parts: &Parts) -> SegmentHulls {
+    let mut solid = SegmentHulls { hulls: Vec::new(), part_of_segment: Vec::new(), flat: Vec::new() };
     for (hull, faces) in parts.hulls().into_iter().zip(parts.face_counts()) {
         match hull {
             Ok(hull) => {

@@ -35,8 +35,8 @@ const FEW: usize = 4;
 #[derive(Debug)]
 pub struct Engine<'m> {
     mesh: Cow<'m, Mesh>,
-    segmented: Memory<Found, Arc<Segmented>>,
-    divided: Memory<(Found, Vec<Edit>, Option<String>), Arc<Divided>>,
+    segmented: Memory<PartsKey, Arc<Segmented>>,
+    divided: Memory<(PartsKey, Vec<Edit>, Option<String>), Arc<Divided>>,
     components: Known,
     sweeps: SweepMemory,
     /// What the parts of the models of last time are known by in `sweeps`.
@@ -54,7 +54,7 @@ type LayoutKey = (SheetOptions, BTreeMap<String, Pin>, Vec<Option<String>>, Arc<
 type PlanKey = (Arc<Model>, f64, f64, Vec<bool>);
 
 /// What decides the parts before they are changed by hand: size, axis and segmentation.
-type Found = (f64, Up, SegmentOptions);
+type PartsKey = (f64, Up, SegmentOptions);
 
 /// The parts before they are changed by hand.
 #[derive(Debug, Clone)]

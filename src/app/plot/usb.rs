@@ -33,7 +33,8 @@ impl Ports for SystemPorts {
 fn open(name: &str) -> std::result::Result<Box<dyn Port>, AppError> {
     #[cfg(target_os = "linux")]
     {
-        let cutter = linux::printers().into_iter().find(linux::Found::is_cutter).map(|printer| printer.path);
+        let cutter =
+            linux::printers().into_iter().find(linux::UsbPrinter::is_cutter).map(|printer| printer.path);
         let path = if name == ANY { cutter } else { Some(name.to_owned()) };
         if let Some(path) = path {
             return linux::open(&path);
@@ -69,13 +70,13 @@ mod linux {
     use std::path::Path;
 
     /// A printer on USB.
-    pub struct Found {
+    pub struct UsbPrinter {
         /// Its device file.
         pub path: String,
         vendor: String,
     }
 
-    impl Found {
+    impl UsbPrinter {
         /// Whether its maker makes cutters.
         pub fn is_cutter(&self) -> bool {
             u16::from_str_radix(&self.vendor, 16).is_ok_and(|vendor| bus::MAKERS.contains(&vendor))
@@ -83,13 +84,13 @@ mod linux {
     }
 
     /// The printers on USB.
-    pub fn printers() -> Vec<Found> {
+    pub fn printers() -> Vec<UsbPrinter> {
         let read = |path: &Path| std::fs::read_to_string(path).unwrap_or_default().trim().to_owned();
         let found = |k: usize| {
             let path = format!("{FOLDER}lp{k}");
             // The interface, whose parent is the device.
             let device = Path::new("/sys/class/usbmisc").join(format!("lp{k}")).join("device/..");
-            Path::new(&path).exists().then(|| Found { vendor: read(&device.join("idVendor")), path })
+            Path::new(&path).exists().then(|| UsbPrinter { vendor: read(&device.join("idVendor")), path })
         };
         (0..16).filter_map(found).collect()
     }

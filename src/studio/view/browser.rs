@@ -47,13 +47,13 @@ pub struct Browser {
     folder: PathBuf,
     name: String,
     shows_all: bool,
-    entries: Result<Vec<Entry>, String>,
+    entries: Result<Vec<FolderEntry>, String>,
     /// The user was asked whether this file may be replaced.
     replaces: Option<PathBuf>,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-struct Entry {
+struct FolderEntry {
     is_file: bool,
     name: String,
 }
@@ -148,7 +148,7 @@ impl Browser {
             }
         };
         let mut chosen = None;
-        let listed: Vec<Entry> = entries.into_iter().filter(|entry| self.is_listed(entry)).collect();
+        let listed: Vec<FolderEntry> = entries.into_iter().filter(|entry| self.is_listed(entry)).collect();
         for entry in &listed {
             let text = if entry.is_file { entry.name.clone() } else { format!("{}/", entry.name) };
             let response = ui.selectable_label(entry.is_file && self.name == entry.name, text);
@@ -166,7 +166,7 @@ impl Browser {
         chosen
     }
 
-    fn is_listed(&self, entry: &Entry) -> bool {
+    fn is_listed(&self, entry: &FolderEntry) -> bool {
         let extension = Path::new(&entry.name).extension().map(|e| e.to_ascii_lowercase());
         let among = match self.purpose {
             Purpose::Open => &KNOWN[..],
@@ -202,13 +202,13 @@ impl Browser {
 }
 
 /// Folders first, then files, by name.
-fn entries(folder: &Path) -> Result<Vec<Entry>, String> {
+fn entries(folder: &Path) -> Result<Vec<FolderEntry>, String> {
     let list = std::fs::read_dir(folder).map_err(|error| format!("cannot read this folder: {error}"))?;
     let entry = |entry: std::io::Result<std::fs::DirEntry>| {
         let entry = entry.ok()?;
-        Some(Entry { is_file: !entry.path().is_dir(), name: entry.file_name().into_string().ok()? })
+        Some(FolderEntry { is_file: !entry.path().is_dir(), name: entry.file_name().into_string().ok()? })
     };
-    let mut entries: Vec<Entry> = list.filter_map(entry).collect();
+    let mut entries: Vec<FolderEntry> = list.filter_map(entry).collect();
     entries.sort();
     Ok(entries)
 }

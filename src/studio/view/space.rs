@@ -18,7 +18,7 @@ use tatamu::drawing::Rgb;
 use tatamu::fold::Clash;
 use tatamu::model::PartId;
 use tatamu::render::Orbit;
-use tatamu::render::zbuffer::{Frame, Solids};
+use tatamu::render::zbuffer::{RenderedFrame, Solids};
 
 /// Turn of the view for a drag over the window's shorter side, radians.
 const DRAG_RAD: f64 = 4.0;
@@ -43,7 +43,7 @@ pub struct Space {
     setting: Setting,
     is_playing: bool,
     texture: Option<TextureHandle>,
-    frame: Option<Frame>,
+    frame: Option<RenderedFrame>,
     /// What the picture shows: if it is this, it need not be drawn again.
     drawn: Option<Drawn>,
     solids: Option<(Version, String, Setting, Solids)>,
@@ -240,7 +240,7 @@ impl Space {
     /// Width and height of the picture that is shown.
     #[cfg(test)]
     pub fn size_px(&self) -> Option<[usize; 2]> {
-        self.frame.as_ref().map(Frame::size_px)
+        self.frame.as_ref().map(RenderedFrame::size_px)
     }
 
     /// Draws the view, and heeds the mouse.
@@ -389,7 +389,7 @@ impl Space {
         let drawn_px = if is_smooth { size_px.map(|n| 2 * n) } else { size_px };
         let Ok(eye) = orbit.eye(drawn_px) else { return };
         let draw = || {
-            let frame = Frame::draw(solids, &eye, ground);
+            let frame = RenderedFrame::draw(solids, &eye, ground);
             if is_smooth { frame.halved() } else { frame }
         };
         let frame = match &*DRAWERS {

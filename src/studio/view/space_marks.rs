@@ -13,7 +13,7 @@ use std::sync::Arc;
 use tatamu::fold::Sequence;
 use tatamu::model::PartId;
 use tatamu::render::Orbit;
-use tatamu::render::zbuffer::Frame;
+use tatamu::render::zbuffer::RenderedFrame;
 
 /// Each so many pixels are looked at for the middles of components.
 const SAMPLE: usize = 4;
@@ -21,7 +21,7 @@ const SAMPLE: usize = 4;
 const LEAST_SEEN: usize = 40;
 
 /// The middle of what is seen of each component, as a share of the picture; of which most is seen first.
-pub fn middles(frame: &Frame) -> Vec<(PartId, Vec2)> {
+pub fn middles(frame: &RenderedFrame) -> Vec<(PartId, Vec2)> {
     let [width, height] = frame.size_px();
     let mut sums: BTreeMap<PartId, (usize, usize, usize)> = BTreeMap::new();
     for y in (0..height).step_by(SAMPLE) {

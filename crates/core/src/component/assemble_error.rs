@@ -7,7 +7,7 @@ use super::profile::ProfileError;
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum AssembleError {
     /// A profile is not valid.
-    #[error("chain {}: {error}", chain.0)]
+    #[error("chain {}: {error}", chain.number())]
     Profile {
         /// The chain.
         chain: ChainId,
@@ -15,10 +15,10 @@ pub enum AssembleError {
         error: ProfileError,
     },
     /// The fold hinge would cut through a joint panel.
-    #[error("the fold hinge of chain {} lies in a joint panel", .0.0)]
+    #[error("the fold hinge of chain {} lies in a joint panel", .0.number())]
     CreasedJoint(ChainId),
     /// A chain does not close when folded.
-    #[error("chain {} cannot be made to fold flat at one of its bends", .0.0)]
+    #[error("chain {} cannot be made to fold flat at one of its bends", .0.number())]
     OutOfBalance(ChainId),
     /// Some panel has no width or height at some place.
     #[error("not all of its panels have room")]
@@ -37,6 +37,6 @@ pub enum AssembleError {
         width_mm: f64,
     },
     /// Nothing of a panel is left.
-    #[error("a panel of chain {} vanished", .0.0)]
+    #[error("a panel of chain {} vanished", .0.number())]
     Vanished(ChainId),
 }

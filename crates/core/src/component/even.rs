@@ -245,7 +245,7 @@ pub(super) fn drop_pair(facets: &mut Vec<SideFacet>, k: usize) {
 
 /// Area by which a level profile would grow without plane k, of the upper half, and its image, mm²,
 /// and its mean width, mm.
-pub(super) fn pair_bulge(lines: &[shape::Line], k: usize, ends: (f64, f64)) -> (f64, f64) {
+pub(super) fn pair_bulge(lines: &[shape::ProfileLine], k: usize, ends: (f64, f64)) -> (f64, f64) {
     let count = lines.len();
     let (area, mean_mm) = match 2 * k + 2 {
         // The two meet: what bounds the one is not the other.

@@ -15,7 +15,7 @@ use super::likeness::{cones_mm3, faces, shared_mm3};
 use super::panel::ChainId;
 use super::profile::imbalance;
 use super::seated::miss_mm;
-use super::shape::{Shape, profile};
+use super::shape::{SolidShape, profile};
 use super::solid::{Chain, Solid};
 use super::target::{FoldSpot, Target};
 use glam::DVec3;
@@ -84,7 +84,7 @@ pub(super) const MARGIN: f64 = 1.02;
 /// A solid with its measures.
 #[derive(Debug, Clone)]
 pub(super) struct Fitted {
-    pub(super) shape: Shape,
+    pub(super) shape: SolidShape,
     pub(super) spots: Vec<FoldSpot>,
     /// Hausdorff distance to the hull (to its simplification during the fit), mm.
     pub(super) error_mm: f64,
@@ -189,7 +189,7 @@ impl Task<'_> {
     }
 
     fn measure(&self, solid: Solid, spots: Vec<FoldSpot>) -> Fitted {
-        let shape = Shape::of(solid);
+        let shape = SolidShape::of(solid);
         let own: Vec<Position> = shape.corners.iter().map(|c| self.hull.position(c.point)).collect();
         let hulls: Vec<Position> = self.hull.corners().iter().map(|p| shape.polytope.position(*p)).collect();
         let away = |p: &Position, at: DVec3| p.nearest.map_or(0.0, |n| n.0.distance(at));
@@ -213,7 +213,7 @@ impl Task<'_> {
     }
 
     /// How far the solid reaches beyond its borders, at most.
-    fn beyond_mm(&self, shape: &Shape) -> f64 {
+    fn beyond_mm(&self, shape: &SolidShape) -> f64 {
         let reach = |n: DVec3| shape.corners.iter().map(|c| n.dot(c.point)).fold(f64::NEG_INFINITY, f64::max);
         self.target.borders.iter().map(|&(n, c)| reach(n) - c).fold(0.0, f64::max)
     }
@@ -232,7 +232,7 @@ impl Task<'_> {
         (self.aim.out * out_mm3 + self.aim.short * short_mm3) / self.hull_mm2
     }
 
-    fn lack_mm(&self, shape: &Shape, spots: &[FoldSpot]) -> f64 {
+    fn lack_mm(&self, shape: &SolidShape, spots: &[FoldSpot]) -> f64 {
         let least = self.target.min_panel_mm;
         let lack_of = |j: ChainId| {
             let widths = shape.heights_about(j).map(|v| least - shape.width_at(j, v));
@@ -250,7 +250,7 @@ impl Task<'_> {
 
 /// Lengths of chain j that must not be too small: of its panels, and about its fold vertex.
 pub(super) fn rooms<'s>(
-    shape: &'s Shape,
+    shape: &'s SolidShape,
     spots: &[FoldSpot],
     j: ChainId,
 ) -> impl Iterator<Item = ProfileLength> + use<'s> {

@@ -1,7 +1,7 @@
 //! First-order change of a solid's measures with its free parameters.
 
 use super::panel::ChainId;
-use super::shape::{ChainShape, Line, Shape};
+use super::shape::{ChainShape, ProfileLine, SolidShape};
 use super::solid::{Corner, FaceId, Solid};
 use super::symmetry::{Image, Symmetry, chain_at, images};
 use glam::{DMat3, DVec2, DVec3};
@@ -129,13 +129,13 @@ impl Freedom {
     }
 
     /// Change of `offset − normal · point` of a face, for a fixed point on it.
-    pub(super) fn plane(&self, shape: &Shape, face: FaceId, point: DVec3) -> PlaneTerms {
+    pub(super) fn plane(&self, shape: &SolidShape, face: FaceId, point: DVec3) -> PlaneTerms {
         match face {
             FaceId::Top => self.top.into_iter().collect(),
             FaceId::Bottom => self.bottom.map(|(k, sign)| (k, -sign)).into_iter().collect(),
             FaceId::Side(j, i) => {
                 let chain = &shape.chains[j.0];
-                let Line { sin, cos, .. } = chain.lines[i];
+                let ProfileLine { sin, cos, .. } = chain.lines[i];
                 let (u, t) = (chain.normal.dot(point.truncate()), chain.tangent().dot(point.truncate()));
                 let mut terms = PlaneTerms::new();
                 let [slope, offset] = self.facets[j.0][i];
@@ -153,7 +153,7 @@ impl Freedom {
 
     /// Change of `direction · corner`: the direction is written in the normals of the corner's
     /// three faces, each of which moves it by its own plane's change.
-    pub(super) fn corner(&self, shape: &Shape, corner: &Corner, direction: DVec3) -> Terms {
+    pub(super) fn corner(&self, shape: &SolidShape, corner: &Corner, direction: DVec3) -> Terms {
         let normals = corner.faces.map(|f| shape.polytope.normal(shape.index(f)));
         let weights = DMat3::from_cols(normals[0], normals[1], normals[2]).inverse() * direction;
         let planes = corner.faces.map(|f| self.plane(shape, f, corner.point));
@@ -162,7 +162,7 @@ impl Freedom {
 
     /// Change of the distance from a fixed point outside to the edge that two faces share at `at`,
     /// in the direction from there to the point, sign reversed: the edge's reach in it.
-    pub(super) fn edge(&self, shape: &Shape, faces: [FaceId; 2], at: DVec3, direction: DVec3) -> Terms {
+    pub(super) fn edge(&self, shape: &SolidShape, faces: [FaceId; 2], at: DVec3, direction: DVec3) -> Terms {
         let [a, b] = faces.map(|f| shape.polytope.normal(shape.index(f)));
         let (ab, da, db) = (a.dot(b), direction.dot(a), direction.dot(b));
         let det = (1.0 - ab * ab).max(1e-12);
@@ -171,7 +171,7 @@ impl Freedom {
     }
 
     /// Change of the width of chain j at height v (see [`Solid::width_at`]), for fixed v.
-    pub(super) fn width(&self, shape: &Shape, j: ChainId, v_mm: f64) -> Terms {
+    pub(super) fn width(&self, shape: &SolidShape, j: ChainId, v_mm: f64) -> Terms {
         let here = &shape.chains[j.0];
         let u_here = here.u_at(v_mm);
         let mut parts: SmallVec<[(f64, PlaneTerms); 8]> = SmallVec::new();
@@ -189,10 +189,10 @@ impl Freedom {
     }
 
     /// Change of chain j's u at height v; where v is an end of the solid, its change too.
-    fn reach(&self, shape: &Shape, j: ChainId, v_mm: f64) -> PlaneTerms {
+    fn reach(&self, shape: &SolidShape, j: ChainId, v_mm: f64) -> PlaneTerms {
         let chain = &shape.chains[j.0];
         let i = chain.facet_at(v_mm);
-        let Line { sin, cos, offset } = chain.lines[i];
+        let ProfileLine { sin, cos, offset } = chain.lines[i];
         let mut terms = PlaneTerms::new();
         let [slope, shift] = self.facets[j.0][i];
         if let Some((k, sign)) = slope {
@@ -208,7 +208,7 @@ impl Freedom {
     }
 
     /// Change of a length of chain j's profile.
-    pub(super) fn length(&self, shape: &Shape, j: ChainId, length: &ProfileLength) -> Terms {
+    pub(super) fn length(&self, shape: &SolidShape, j: ChainId, length: &ProfileLength) -> Terms {
         let chain = &shape.chains[j.0];
         let pull = length.pull(&chain.profile);
         let mut terms = Terms::new();
@@ -227,7 +227,7 @@ impl Freedom {
                 (Some(a), Some(b)) => (a, Some(b)),
                 (a, b) => (a.or(b).unwrap_or(0), None),
             };
-            let Line { sin, cos, .. } = chain.lines[first];
+            let ProfileLine { sin, cos, .. } = chain.lines[first];
             let (second_normal, det) = second.map_or((DVec2::Y, cos), |b| {
                 let line = chain.lines[b];
                 (DVec2::new(line.cos, line.sin), cos * line.sin - sin * line.cos)
@@ -235,7 +235,7 @@ impl Freedom {
             let first_share = pull.perp_dot(second_normal) / det;
             let second_share = DVec2::new(cos, sin).perp_dot(pull) / det;
             let mut of_line = |i: usize, share: f64| {
-                let Line { sin, cos, .. } = chain.lines[i];
+                let ProfileLine { sin, cos, .. } = chain.lines[i];
                 let [slope, offset] = self.facets[j.0][i];
                 push(slope, -share * (cos * at.y - sin * at.x) / self.radius_mm);
                 push(offset, share);
@@ -346,7 +346,7 @@ pub(crate) mod tests {
 
     #[test]
     fn corners_move_as_their_derivatives_say() {
-        let shape = Shape::of(skewed());
+        let shape = SolidShape::of(skewed());
         let freedom = Freedom::of(&shape.solid, 40.0, None);
         let direction = DVec3::new(0.3, -0.5, 0.8);
         for j in shape.solid.chain_ids() {
@@ -359,7 +359,7 @@ pub(crate) mod tests {
 
     #[test]
     fn widths_change_as_their_derivatives_say() {
-        let shape = Shape::of(skewed());
+        let shape = SolidShape::of(skewed());
         let solid = &shape.solid;
         let freedom = Freedom::of(solid, 40.0, None);
         for j in shape.solid.chain_ids() {
@@ -370,7 +370,7 @@ pub(crate) mod tests {
 
     #[test]
     fn lengths_change_as_their_derivatives_say() {
-        let shape = Shape::of(skewed());
+        let shape = SolidShape::of(skewed());
         let freedom = Freedom::of(&shape.solid, 40.0, None);
         for j in shape.solid.chain_ids() {
             let chain = &shape.chains[j.0];
@@ -389,7 +389,7 @@ pub(crate) mod tests {
 
     #[test]
     fn distances_to_edges_change_as_their_derivatives_say() {
-        let shape = Shape::of(skewed());
+        let shape = SolidShape::of(skewed());
         let freedom = Freedom::of(&shape.solid, 40.0, None);
         let mut edges = 0;
         for d in crate::geom::directions(200) {
@@ -400,7 +400,7 @@ pub(crate) mod tests {
             let shared: Vec<FaceId> = a.into_iter().filter(|f| b.contains(f)).collect();
             let terms = freedom.edge(&shape, [shared[0], shared[1]], at, (point - at).normalize());
             let terms: Terms = terms.into_iter().map(|(k, a)| (k, -a)).collect();
-            check(&terms, &freedom, &shape.solid, |s| Shape::of(s.clone()).polytope.distance(point));
+            check(&terms, &freedom, &shape.solid, |s| SolidShape::of(s.clone()).polytope.distance(point));
             edges += 1;
         }
         assert!(edges > 20, "{edges}");

@@ -131,7 +131,7 @@ pub(super) fn shared_mm3(a: &Polytope, b: &Polytope) -> f64 {
 mod tests {
     use super::*;
     use crate::component::gradient::{Freedom, tests::skewed};
-    use crate::component::shape::Shape;
+    use crate::component::shape::SolidShape;
     use crate::geom::{self, Hull};
 
     fn difference_mm3(a: &Polytope, b: &Polytope) -> f64 {
@@ -166,7 +166,7 @@ mod tests {
 
     #[test]
     fn equal_solids_do_not_differ_and_order_does_not_matter() {
-        let solid = Shape::of(skewed()).polytope;
+        let solid = SolidShape::of(skewed()).polytope;
         assert!(difference_mm3(&solid, &solid) < 1e-3);
         for (radius_mm, count) in [(20.0, 40), (30.0, 100), (45.0, 300)] {
             let ball = ball(radius_mm, count);
@@ -180,7 +180,7 @@ mod tests {
     /// The rate with every parameter, against central differences.
     #[test]
     fn rates_are_those_of_finite_differences() {
-        let shape = Shape::of(skewed());
+        let shape = SolidShape::of(skewed());
         let ball = ball(32.0, 200);
         let freedom = Freedom::of(&shape.solid, 40.0, None);
         let whole = faces(&shape.polytope);
@@ -199,7 +199,7 @@ mod tests {
             let at = |step: f64| {
                 let mut change = vec![0.0; freedom.count()];
                 change[variable] = step;
-                difference_mm3(&Shape::of(freedom.apply(&shape.solid, &change)).polytope, &ball)
+                difference_mm3(&SolidShape::of(freedom.apply(&shape.solid, &change)).polytope, &ball)
             };
             let step = 1e-4;
             let numeric = (at(step) - at(-step)) / (2.0 * step);

@@ -8,7 +8,7 @@ use super::gradient::{Freedom, Parameter, ProfileLength, Terms, sum};
 use super::likeness::{Figure, faces, faces_inside};
 use super::qp::Programme;
 use super::seated;
-use super::shape::Shape;
+use super::shape::SolidShape;
 use super::solid::Solid;
 use super::symmetry::Symmetry;
 use super::target::FoldSpot;
@@ -80,7 +80,7 @@ impl Task<'_> {
 }
 
 impl Model<'_> {
-    fn shape(&self) -> &Shape {
+    fn shape(&self) -> &SolidShape {
         &self.at.shape
     }
 

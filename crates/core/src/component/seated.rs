@@ -2,7 +2,7 @@
 
 use super::gradient::Freedom;
 use super::qp::Programme;
-use super::shape::Shape;
+use super::shape::SolidShape;
 use super::target::{JointTarget, Target};
 use crate::geom::polygon;
 use glam::{DVec2, DVec3};
@@ -13,12 +13,12 @@ fn in_plane_scale(normal: DVec3, other: DVec3) -> f64 {
 }
 
 /// Index of the panel of a joint among the faces of a shape.
-fn face_of(shape: &Shape, target: &Target, joint: &JointTarget) -> Option<usize> {
+fn face_of(shape: &SolidShape, target: &Target, joint: &JointTarget) -> Option<usize> {
     target.joint_face(&shape.solid, joint).map(|face| shape.index(face))
 }
 
 /// The other faces: index, outward normal, offset, and the scale of distances in the plane.
-fn others(shape: &Shape, face: usize) -> impl Iterator<Item = (usize, DVec3, f64, f64)> + '_ {
+fn others(shape: &SolidShape, face: usize) -> impl Iterator<Item = (usize, DVec3, f64, f64)> + '_ {
     let normal = shape.polytope.normal(face);
     (0..shape.polytope.face_count()).filter(move |f| *f != face).map(move |f| {
         let (n, c) = shape.polytope.plane(f);
@@ -28,7 +28,7 @@ fn others(shape: &Shape, face: usize) -> impl Iterator<Item = (usize, DVec3, f64
 
 /// How far a joint panel fails to cover its partner's points, or reaches out of its partner's
 /// panel, at most, in the joint's plane.
-pub(super) fn miss_mm(shape: &Shape, target: &Target, joint: &JointTarget) -> f64 {
+pub(super) fn miss_mm(shape: &SolidShape, target: &Target, joint: &JointTarget) -> f64 {
     let Some(face) = face_of(shape, target, joint) else { return 0.0 };
     let mut miss = 0.0f64;
     if !joint.cover.is_empty() {
@@ -47,7 +47,7 @@ pub(super) fn miss_mm(shape: &Shape, target: &Target, joint: &JointTarget) -> f6
 /// Rows that keep `miss` above what [`miss_mm`] will be, for what is nearer than `near_mm`.
 #[inline(never)]
 pub(super) fn rows(
-    (shape, freedom): (&Shape, &Freedom),
+    (shape, freedom): (&SolidShape, &Freedom),
     (target, joint): (&Target, &JointTarget),
     near_mm: f64,
     miss: usize,
@@ -77,7 +77,7 @@ pub(super) fn rows(
 
 /// Share of the joint panel that lies within its partner's panel, and share of the partner's
 /// section that it covers: the smaller one.
-pub(super) fn support(shape: &Shape, target: &Target, joint: &JointTarget) -> f64 {
+pub(super) fn support(shape: &SolidShape, target: &Target, joint: &JointTarget) -> f64 {
     let Some(face) = face_of(shape, target, joint) else { return 1.0 };
     let (normal, offset) = shape.polytope.plane(face);
     let (x, y) = normal.any_orthonormal_pair();

@@ -7,27 +7,27 @@ use glam::{DVec2, DVec3};
 
 /// One side plane with the sine and cosine of its slope.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Line {
+pub(super) struct ProfileLine {
     pub(super) cos: f64,
     pub(super) sin: f64,
     pub(super) offset: f64,
 }
 
-impl Line {
+impl ProfileLine {
     pub(super) fn u_at(&self, v: f64) -> f64 {
         (self.offset - v * self.sin) / self.cos
     }
 
-    pub(super) fn meets(&self, below: &Line) -> f64 {
+    pub(super) fn meets(&self, below: &ProfileLine) -> f64 {
         (self.offset * below.cos - below.offset * self.cos) / (self.sin * below.cos - self.cos * below.sin)
     }
 }
 
-/// A chain of a [`Shape`].
+/// A chain of a [`SolidShape`].
 #[derive(Debug, Clone)]
 pub(super) struct ChainShape {
     pub(super) normal: DVec2,
-    pub(super) lines: Vec<Line>,
+    pub(super) lines: Vec<ProfileLine>,
     /// Ends and bends, from top to bottom, (u, v).
     pub(super) profile: Vec<DVec2>,
     /// Index of its first plane among all faces.
@@ -51,7 +51,7 @@ impl ChainShape {
 
 /// A solid and what follows from it.
 #[derive(Debug, Clone)]
-pub(super) struct Shape {
+pub(super) struct SolidShape {
     pub(super) solid: Solid,
     pub(super) chains: Vec<ChainShape>,
     /// Corners of each chain with the next, from top to bottom, one after another.
@@ -60,7 +60,7 @@ pub(super) struct Shape {
     pub(super) polytope: Polytope,
 }
 
-impl Shape {
+impl SolidShape {
     pub(super) fn of(solid: Solid) -> Self {
         let mut first_face = 2;
         let chains: Vec<ChainShape> = solid
@@ -138,21 +138,21 @@ fn face_index(chains: &[ChainShape], face: FaceId) -> usize {
 }
 
 /// The planes of a chain.
-pub(super) fn lines(chain: &Chain) -> Vec<Line> {
+pub(super) fn lines(chain: &Chain) -> Vec<ProfileLine> {
     lines_of(&chain.facets)
 }
 
 /// Side planes with their sines and cosines.
-pub(super) fn lines_of(facets: &[SideFacet]) -> Vec<Line> {
+pub(super) fn lines_of(facets: &[SideFacet]) -> Vec<ProfileLine> {
     let line = |f: &SideFacet| {
         let (sin, cos) = libm::sincos(f.slope_rad);
-        Line { cos, sin, offset: f.offset_mm }
+        ProfileLine { cos, sin, offset: f.offset_mm }
     };
     facets.iter().map(line).collect()
 }
 
 /// Ends and bends of a chain with these planes, (u, v) from top to bottom.
-pub(super) fn profile(lines: &[Line], top: f64, bottom: f64) -> Vec<DVec2> {
+pub(super) fn profile(lines: &[ProfileLine], top: f64, bottom: f64) -> Vec<DVec2> {
     let mut points = Vec::with_capacity(lines.len() + 1);
     points.push(DVec2::new(lines[0].u_at(top), top));
     for w in lines.windows(2) {
@@ -229,7 +229,7 @@ mod tests {
     #[test]
     fn agrees_with_the_solid() {
         let solid = skewed();
-        let shape = Shape::of(solid.clone());
+        let shape = SolidShape::of(solid.clone());
         let corners: Vec<Corner> = solid.chain_ids().flat_map(|j| solid.corners(j)).collect();
         assert_eq!(shape.corners.len(), corners.len());
         for (a, b) in shape.corners.iter().zip(&corners) {
@@ -255,7 +255,7 @@ mod tests {
     #[test]
     fn nearest_points_are_in_the_solid() {
         let solid = skewed();
-        let shape = Shape::of(solid.clone());
+        let shape = SolidShape::of(solid.clone());
         for d in crate::geom::directions(500) {
             let point = d * 80.0;
             let (nearest, _) = shape.polytope.position(point).nearest.unwrap();

@@ -5,7 +5,7 @@ use super::even::{choose_fours, choose_pairs, drop_pair, levelled, middle, pair_
 use super::fit::{Fitted, rooms};
 use super::panel::ChainId;
 use super::profile::{Balance, balance, imbalance};
-use super::shape::Shape;
+use super::shape::SolidShape;
 use super::solid::{Chain, SideFacet, Solid};
 use super::symmetry::{Symmetry, evened, orbit};
 use super::target::{FoldSpot, Seat, Target};
@@ -205,7 +205,7 @@ pub(super) fn tangents(target: &Target, angle_rad: f64) -> Vec<SideFacet> {
 fn lower_ends(solid: &mut Solid, min_panel_mm: f64) {
     let (high, low) = (solid.top_mm, solid.bottom_mm);
     let height = high - low;
-    let widest = super::shape::Shape::of(solid.clone());
+    let widest = super::shape::SolidShape::of(solid.clone());
     let narrowest =
         |v: f64| widest.solid.chain_ids().map(|j| widest.width_at(j, v)).fold(f64::INFINITY, f64::min);
     let useful = narrowest((high + low) / 2.0).min(8.0 * min_panel_mm) * 0.4;
@@ -398,7 +398,7 @@ fn pair(facets: &[SideFacet], symmetry: Option<Symmetry>, k: usize) -> usize {
 }
 
 /// Area by which the profile of chain j would grow without plane k and its image, mm².
-fn bulge_without(shape: &Shape, symmetry: Option<Symmetry>, j: ChainId, k: usize) -> f64 {
+fn bulge_without(shape: &SolidShape, symmetry: Option<Symmetry>, j: ChainId, k: usize) -> f64 {
     let (lines, ends) = (&shape.chains[j.0].lines, (shape.solid.top_mm, shape.solid.bottom_mm));
     if symmetry.is_some_and(Symmetry::is_level) {
         pair_bulge(lines, k, ends).0

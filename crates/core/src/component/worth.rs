@@ -1,6 +1,6 @@
 //! Candidates for edges and planes, and what one is worth.
 
-use super::shape::Line;
+use super::shape::ProfileLine;
 use glam::DVec2;
 
 /// A top edge whose loss adds less than this share of the area is not worth a chain: a box has four.
@@ -23,7 +23,7 @@ pub(super) fn meet(a: &Edge, b: &Edge) -> DVec2 {
 }
 
 /// Area by which the profile would grow without plane k, mm², and its mean width, mm.
-pub(super) fn bulge(lines: &[Line], k: usize, (top, bottom): (f64, f64)) -> (f64, f64) {
+pub(super) fn bulge(lines: &[ProfileLine], k: usize, (top, bottom): (f64, f64)) -> (f64, f64) {
     let bend = |k: usize| lines[k].meets(&lines[k + 1]);
     let upper = if k == 0 { top } else { bend(k - 1).min(top) };
     let lower = if k + 1 == lines.len() { bottom } else { bend(k).max(bottom) };

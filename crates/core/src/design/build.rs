@@ -148,7 +148,7 @@ pub fn design(
     let mut made = Vec::new();
     for s in 0..sketches.len() {
         progress.check()?;
-        made.push(Made::new(sketches, s, min_panel_mm, &mut warnings)?);
+        made.push(SketchedPart::new(sketches, s, min_panel_mm, &mut warnings)?);
     }
     let parts = sketches.iter().enumerate().map(|(s, sketch)| {
         let seam = sketch
@@ -220,14 +220,14 @@ fn whole(sketches: &[Sketch], s: usize, profile: usize) -> Vec<bool> {
 }
 
 /// A drawing as a component.
-struct Made {
+struct SketchedPart {
     name: String,
     component: Component,
     /// The drawn segment of each panel of a chain, by chain.
     source: Vec<Vec<usize>>,
 }
 
-impl Made {
+impl SketchedPart {
     fn new(
         sketches: &[Sketch],
         s: usize,
@@ -341,14 +341,20 @@ fn warnings_of(sketch: &Sketch, p: usize, ranked: &Ranked) -> Vec<DesignWarning>
 }
 
 /// Where a component lies on its carrier.
-fn seam(attachment: &Attachment, parent: PartId, carrier: &Made, own: &Made) -> Result<Seam, DesignError> {
-    let find = |made: &Made, panel: PanelKind| {
+fn seam(
+    attachment: &Attachment,
+    parent: PartId,
+    carrier: &SketchedPart,
+    own: &SketchedPart,
+) -> Result<Seam, DesignError> {
+    let find = |made: &SketchedPart, panel: PanelKind| {
         let error = SketchError::NoPanel(panel.short_name());
         made.panel(panel).ok_or(DesignError::Sketch { name: made.name.clone(), error })
     };
     let (parent_panel, child_panel) = (find(carrier, attachment.panel)?, find(own, attachment.own)?);
-    let middle =
-        |made: &Made, panel: PanelId| polygon::centroid(&made.component.panels().panel(panel).outline);
+    let middle = |made: &SketchedPart, panel: PanelId| {
+        polygon::centroid(&made.component.panels().panel(panel).outline)
+    };
     let place = middle(carrier, parent_panel) + attachment.at_mm;
     // Face to face: the child's panel is turned over.
     let relation = DAffine3::from_translation(place.extend(0.0))

@@ -20,7 +20,7 @@ use glam::DVec2;
 
 /// What a chain of boards has to keep.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Chain {
+pub(super) struct BoardChain {
     /// Corners of the outside, from top to bottom.
     pub(super) corners: Vec<DVec2>,
     /// Which walls are joint panels and must stay whole, where they are.
@@ -58,7 +58,7 @@ pub(super) enum Unhinged {
     NoRoom,
 }
 
-impl Chain {
+impl BoardChain {
     /// The ways to fold it, best first: that of the chain of paper, if it moves nothing, then as they
     /// are ranked for paper, those that move nothing first.
     pub(super) fn hinged(&self, paper: &Profile) -> Result<Vec<Hinged>, Unhinged> {
@@ -212,7 +212,7 @@ mod tests {
     /// A waist that stands bent inwards and folds outwards would need its hinge on both sides.
     #[test]
     fn boards_do_not_fold_against_their_bend() {
-        let chain = |waist: f64| Chain {
+        let chain = |waist: f64| BoardChain {
             corners: vec![DVec2::new(0.0, 60.0), DVec2::new(waist, 30.0), DVec2::ZERO],
             whole: vec![false; 2],
             thickness_mm: 1.0,

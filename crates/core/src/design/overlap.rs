@@ -5,7 +5,7 @@ use glam::{DAffine3, DVec2, DVec3};
 
 /// A convex prism in space.
 #[derive(Debug, Clone)]
-pub(super) struct Solid {
+pub(super) struct Prism {
     corners: Vec<DVec3>,
     /// Normals of its faces.
     normals: Vec<DVec3>,
@@ -13,9 +13,9 @@ pub(super) struct Solid {
     edges: Vec<DVec3>,
 }
 
-impl Solid {
+impl Prism {
     /// A board with its inner face in a plane and its outside along the plane's z.
-    pub(super) fn prism(outline: &[DVec2], place: DAffine3, thickness_mm: f64) -> Self {
+    pub(super) fn new(outline: &[DVec2], place: DAffine3, thickness_mm: f64) -> Self {
         let outward = place.matrix3.z_axis;
         let inner: Vec<DVec3> = outline.iter().map(|p| place.transform_point3(p.extend(0.0))).collect();
         let next = inner.iter().cycle().skip(1);
@@ -54,7 +54,7 @@ mod tests {
     #[test]
     fn boards_meet_where_they_are_pushed_into_each_other() {
         let square = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(DVec2::from);
-        let at = |place| Solid::prism(&square, place, 2.0);
+        let at = |place| Prism::new(&square, place, 2.0);
         let lying = at(DAffine3::IDENTITY);
         let upright = |by: DVec3| at(DAffine3::from_translation(by) * DAffine3::from_rotation_x(1.2));
         assert!(!lying.overlaps(&at(DAffine3::from_translation(DVec3::Z * 2.0)), 1e-9), "one on the other");

@@ -9,8 +9,8 @@
 use super::DesignWarning;
 use super::build::MOVED_MM;
 use super::facet::{corners, facets};
-use super::hinged::{Chain, Hinged, Unhinged};
-use super::overlap::Solid;
+use super::hinged::{BoardChain, Hinged, Unhinged};
+use super::overlap::Prism;
 use crate::component::{AssembleError, ChainId, Component, Panel, PanelId, PanelKind, Profile};
 use crate::model::Model;
 use crate::remedy::Remedy;
@@ -163,7 +163,7 @@ impl Boards<'_> {
 
     /// The chains, each in its best way of those with as many layers as all others.
     fn chains(&self) -> Result<Vec<Hinged>, ThickError> {
-        let mut known: Vec<(Chain, Vec<Hinged>)> = Vec::new();
+        let mut known: Vec<(BoardChain, Vec<Hinged>)> = Vec::new();
         let mut found = Vec::new();
         for j in self.component.chain_ids() {
             let chain = self.chain(j);
@@ -190,7 +190,7 @@ impl Boards<'_> {
     }
 
     /// The outside of a chain.
-    fn chain(&self, j: ChainId) -> Chain {
+    fn chain(&self, j: ChainId) -> BoardChain {
         let profile = &self.component.profiles()[j.0];
         let (corners, facets) = (corners(profile), facets(profile));
         let mut whole = vec![false; corners.len() - 1];
@@ -202,7 +202,7 @@ impl Boards<'_> {
             }
         }
         let (thickness_mm, min_panel_mm) = (self.thickness_mm, self.min_panel_mm);
-        Chain { corners, whole, thickness_mm, min_panel_mm }
+        BoardChain { corners, whole, thickness_mm, min_panel_mm }
     }
 
     /// No two boards are in one place, standing or flat.
@@ -210,8 +210,8 @@ impl Boards<'_> {
         let panels = inner.panels().panels();
         for (state, is_flat) in [("unfolded", false), ("folded flat", true)] {
             let place = |p: &Panel| if is_flat { p.flat } else { p.deployed };
-            let solid = |p: &Panel| Solid::prism(&p.outline, place(p), self.thickness_mm);
-            let solids: Vec<Solid> = panels.iter().map(solid).collect();
+            let solid = |p: &Panel| Prism::new(&p.outline, place(p), self.thickness_mm);
+            let solids: Vec<Prism> = panels.iter().map(solid).collect();
             for (a, b) in (0..solids.len()).flat_map(|b| (0..b).map(move |a| (a, b))) {
                 if solids[a].overlaps(&solids[b], TOUCH_MM) {
                     let (first, second, thickness_mm) = (panels[a].kind, panels[b].kind, self.thickness_mm);

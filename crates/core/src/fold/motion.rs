@@ -14,7 +14,7 @@ use std::f64::consts::FRAC_PI_2;
 /// component's size) and the profiles' gaps.
 #[derive(Debug, Clone)]
 pub struct ComponentMotion {
-    chains: Vec<Chain>,
+    chains: Vec<MovingChain>,
     panels: Vec<(PanelKind, DAffine3)>,
     levels: Vec<usize>,
     height_mm: f64,
@@ -23,7 +23,7 @@ pub struct ComponentMotion {
 }
 
 #[derive(Debug, Clone)]
-struct Chain {
+struct MovingChain {
     motion: ChainMotion,
     outward: DVec2,
 }
@@ -42,12 +42,12 @@ pub struct ComponentPose {
 impl ComponentMotion {
     /// The motion of a component.
     pub fn new(component: &Component) -> Self {
-        let chain = |(j, profile): (ChainId, &Profile)| Chain {
+        let chain = |(j, profile): (ChainId, &Profile)| MovingChain {
             motion: ChainMotion::new(profile),
             outward: component.normal(j),
         };
         let panel = |p: &crate::component::Panel| (p.kind, p.deployed);
-        let chains: Vec<Chain> = component.chain_ids().zip(component.profiles()).map(chain).collect();
+        let chains: Vec<MovingChain> = component.chain_ids().zip(component.profiles()).map(chain).collect();
         Self {
             rise_mm: chains.iter().map(|chain| chain.motion.rise_mm()).fold(0.0, f64::max),
             chains,
@@ -181,7 +181,7 @@ impl ComponentMotion {
     }
 }
 
-impl Chain {
+impl MovingChain {
     fn in_space(&self, point: DVec2) -> DVec3 {
         (self.outward * point.x).extend(point.y)
     }

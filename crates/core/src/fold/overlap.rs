@@ -24,13 +24,13 @@ pub struct Overlap {
 }
 
 /// A component's panels in the model, each with a ball round it.
-struct Solid {
+struct PosedComponent {
     sheets: Vec<(Sheet, DVec3, f64)>,
     low: DVec3,
     high: DVec3,
 }
 
-impl Solid {
+impl PosedComponent {
     fn corners(&self) -> impl Iterator<Item = DVec3> {
         self.sheets.iter().flat_map(|s| s.0.corners.iter().copied())
     }
@@ -50,7 +50,7 @@ pub(super) fn overlaps(
 ) -> Vec<Overlap> {
     let model = motion.model();
     let parts = model.parts();
-    let solids: Vec<Solid> =
+    let solids: Vec<PosedComponent> =
         parts.iter().map(|part| solid(part.component.panels().panels(), part.deployed())).collect();
     let above: Vec<Vec<PartId>> = model.ids().map(|p| ancestors(model, p)).collect();
     let (ways, deployed) = (ways(&above), vec![0; parts.len()]);
@@ -74,7 +74,7 @@ pub(super) fn overlaps(
     found.map(|(parts, depth_mm)| Overlap { parts, depth_mm }).collect()
 }
 
-fn solid(panels: &[Panel], deployed: DAffine3) -> Solid {
+fn solid(panels: &[Panel], deployed: DAffine3) -> PosedComponent {
     let sheet = |panel: &Panel| {
         let placement = deployed * panel.deployed;
         let corner = |p: &glam::DVec2| placement.transform_point3(p.extend(0.0));
@@ -85,11 +85,11 @@ fn solid(panels: &[Panel], deployed: DAffine3) -> Solid {
     };
     let sheets: Vec<(Sheet, DVec3, f64)> = panels.iter().map(sheet).collect();
     let (low, high) = bounds(sheets.iter().flat_map(|s| &s.0.corners).copied());
-    Solid { sheets, low, high }
+    PosedComponent { sheets, low, high }
 }
 
 /// How deep two components are in each other, as far as above the tolerance.
-fn depth_mm(a: &Solid, b: &Solid, tolerance_mm: f64) -> f64 {
+fn depth_mm(a: &PosedComponent, b: &PosedComponent, tolerance_mm: f64) -> f64 {
     let panels_mm = panels_depth_mm(a, b, tolerance_mm);
     if panels_mm > tolerance_mm || !a.is_convex() || !b.is_convex() {
         return panels_mm;
@@ -127,7 +127,7 @@ fn edges(hull: &Hull) -> Vec<DVec3> {
 }
 
 /// How deep two panels of two components are in each other at most, as far as above the tolerance.
-fn panels_depth_mm(a: &Solid, b: &Solid, tolerance_mm: f64) -> f64 {
+fn panels_depth_mm(a: &PosedComponent, b: &PosedComponent, tolerance_mm: f64) -> f64 {
     let mut deepest_mm = 0.0_f64;
     for (p, p_centre, p_radius) in &a.sheets {
         for (q, q_centre, q_radius) in &b.sheets {

@@ -1,7 +1,7 @@
 //! Parts into a model: candidates for each, one combination of them, and everything in its place.
 
 use super::bond::{Bond, crossing, lone_image, with_images};
-use super::candidate::{Builder, Made, Search};
+use super::candidate::{Builder, Candidate, Search};
 use super::choice::{Best, Choice, Combination, Effort, Trouble};
 use super::harms::{Bump, Enough};
 use super::known::Known;
@@ -142,7 +142,7 @@ impl Assembly<'_> {
         (part, bond): (PartId, Bond),
         search: Search,
         known: &Known,
-    ) -> Result<Arc<Vec<Made>>, ModelError> {
+    ) -> Result<Arc<Vec<Candidate>>, ModelError> {
         let Self { parts, symmetry, min_panel_mm, .. } = *self;
         let crossing = symmetry.and_then(|symmetry| crossing(parts, links, symmetry, part));
         let symmetry = symmetry.filter(|_| bond == Bond::Across);
@@ -241,9 +241,10 @@ impl Run<'_> {
             Some(seen) => seen.unlike(all).into_iter().map(|unlike| price_mm * unlike).collect(),
             None => vec![0.0; all.len()],
         };
-        let made_of =
-            |of: &[usize]| -> Vec<&Made> { of.iter().zip(&candidates).map(|(&k, made)| &made[k]).collect() };
-        let ids = |made: &[&Made]| made.iter().map(|m| m.id).collect::<Vec<u64>>();
+        let made_of = |of: &[usize]| -> Vec<&Candidate> {
+            of.iter().zip(&candidates).map(|(&k, made)| &made[k]).collect()
+        };
+        let ids = |made: &[&Candidate]| made.iter().map(|m| m.id).collect::<Vec<u64>>();
         let bumps = |of: &[usize], is_enough: &Enough<'_>| {
             progress.check()?;
             let made = made_of(of);
@@ -251,7 +252,7 @@ impl Run<'_> {
             place(parts, (&links, &pairs), of, &made)
                 .map_or(Ok(Vec::new()), |model| judge.bumps(&model, &ids(&made), is_enough))
         };
-        let place_of = |(id, made): (&u64, &Vec<Made>)| made.iter().position(|m| m.id == *id);
+        let place_of = |(id, made): (&u64, &Vec<Candidate>)| made.iter().position(|m| m.id == *id);
         let start = before.iter().zip(&candidates).map(place_of).collect::<Option<Combination>>();
         let effort = if *trouble == Trouble::default() { Effort::Short } else { Effort::Long };
         let Best { of, cost_mm, trouble: left, bumps } =
@@ -321,7 +322,7 @@ fn size_mm(part: &Part) -> f64 {
 
 /// The candidates of all parts, and the joints that they have room for.
 struct Candidates {
-    of: Vec<Vec<Made>>,
+    of: Vec<Vec<Candidate>>,
     links: Vec<Link>,
     bonds: Vec<Bond>,
 }
@@ -361,7 +362,8 @@ impl Candidates {
             let Some((part, error)) =
                 made.iter().enumerate().find_map(|(p, made)| Some((PartId(p), made.as_ref().err()?.clone())))
             else {
-                let mut of: Vec<Vec<Made>> = made.into_iter().flatten().map(|made| made.to_vec()).collect();
+                let mut of: Vec<Vec<Candidate>> =
+                    made.into_iter().flatten().map(|made| made.to_vec()).collect();
                 for (part, bond) in bonds.iter().enumerate() {
                     if let (Bond::ImageOf(first), Some(symmetry)) = (bond, symmetry) {
                         of[part] =
@@ -386,7 +388,7 @@ fn place(
     parts: &[Part],
     (links, pairs): (&[Link], &Pairs),
     of: &[usize],
-    made: &[&Made],
+    made: &[&Candidate],
 ) -> Result<Model, ModelError> {
     let lost = |p: PartId| ModelError::NoJointPanel(parts[p.0].options.name.clone());
     let mut placed: Vec<ModelPart> = parts.iter().zip(made).map(|(part, m)| m.unplaced(part)).collect();

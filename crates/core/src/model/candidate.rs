@@ -49,7 +49,7 @@ pub(super) const IN_PLANE: f64 = 1e-6;
 
 /// A part's component in one fold direction, before it is placed.
 #[derive(Debug, Clone)]
-pub(super) struct Made {
+pub(super) struct Candidate {
     /// Unlike that of every other candidate that one [`super::Known`] has made.
     pub(super) id: u64,
     pub(super) component: Arc<Component>,
@@ -62,7 +62,7 @@ pub(super) struct Made {
     joints: Vec<(PartId, Plane, PanelId)>,
 }
 
-impl Made {
+impl Candidate {
     /// The mirror image, for the twin of its part.
     pub(super) fn mirrored(&self, symmetry: &Symmetry, twin: &Part) -> Self {
         let mirror = symmetry.mirror();
@@ -176,7 +176,7 @@ impl<'a> Builder<'a> {
 
     /// The candidates, the cheapest first, but those in directions that `before` has; their ids are for the
     /// caller to give.
-    pub(super) fn make(&self, before: &[Made]) -> Result<Vec<Made>, ModelError> {
+    pub(super) fn make(&self, before: &[Candidate]) -> Result<Vec<Candidate>, ModelError> {
         let part = &self.parts[self.part.0];
         let principal = PrincipalAxis::of_hull(&part.hull);
         let prices: Vec<f64> = self.own_links().map(|link| self.joint_price(link)).collect();
@@ -227,7 +227,7 @@ impl<'a> Builder<'a> {
             let joints = direction.joints.iter().map(seated).collect::<Option<Vec<_>>>()?;
             let axis = direction.frame.transform_vector3(DVec3::Z);
             let direction_rad = part.options.direction_rad.unwrap_or_else(|| principal.angle_rad(axis));
-            Some(Made {
+            Some(Candidate {
                 id: 0,
                 component: Arc::new(finished.component),
                 frame: direction.frame,
@@ -236,7 +236,7 @@ impl<'a> Builder<'a> {
                 joints,
             })
         };
-        let candidates: Vec<Made> = found.into_iter().filter_map(made).collect();
+        let candidates: Vec<Candidate> = found.into_iter().filter_map(made).collect();
         if candidates.is_empty() && before.is_empty() { Err(lost()) } else { Ok(candidates) }
     }
 

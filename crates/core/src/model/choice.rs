@@ -14,7 +14,7 @@
 
 use super::PartId;
 use super::bond::Bond;
-use super::candidate::Made;
+use super::candidate::Candidate;
 use super::harms::{Bump, Enough, Harms, harm_mm, way};
 use super::link::Link;
 use super::pair::{Pairs, WEAK_PRICE_MM};
@@ -110,7 +110,7 @@ impl Effort {
 impl Choice {
     /// `weights` say how much each part counts; `links` have a parent's own link before its children's.
     pub(super) fn new(
-        candidates: &[Vec<Made>],
+        candidates: &[Vec<Candidate>],
         weights: &[f64],
         (links, pairs): (&[Link], &Pairs),
         bonds: &[Bond],

@@ -1,6 +1,6 @@
 //! Candidates that were made before, so that a change to one part leaves the others as they are.
 
-use super::candidate::{Builder, Made, Search};
+use super::candidate::{Builder, Candidate, Search};
 use super::link::Link;
 use super::{ModelError, Part, PartId, Symmetry};
 use crate::geom::{Hull, Mirror};
@@ -49,7 +49,7 @@ impl Wish {
 /// Candidates that were made before.
 #[derive(Debug)]
 pub struct Known {
-    made: Memory<Wish, Arc<Vec<Made>>>,
+    made: Memory<Wish, Arc<Vec<Candidate>>>,
     next_id: AtomicU64,
 }
 
@@ -61,7 +61,7 @@ impl Default for Known {
 
 impl Known {
     /// Makes candidates, or takes those that were made of the same.
-    pub(super) fn make(&self, builder: &Builder<'_>) -> Result<Arc<Vec<Made>>, ModelError> {
+    pub(super) fn make(&self, builder: &Builder<'_>) -> Result<Arc<Vec<Candidate>>, ModelError> {
         let before = match builder.search.before() {
             Some(search) => self.make(&Builder { search, ..*builder })?,
             None => Arc::default(),

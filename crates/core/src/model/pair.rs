@@ -1,7 +1,7 @@
 //! What two candidates do to each other along the joint between them: how the child is turned to sit
 //! flush, and how much glue the joint gets.
 
-use super::candidate::Made;
+use super::candidate::Candidate;
 use super::link::Link;
 use super::plane;
 use crate::component::PanelId;
@@ -58,7 +58,7 @@ impl Seated {
     }
 
     /// Seats `child` on `parent`; `None` where one has no panel for the joint.
-    fn new(link: &Link, parent: &Made, child: &Made, firmness: f64) -> Option<Self> {
+    fn new(link: &Link, parent: &Candidate, child: &Candidate, firmness: f64) -> Option<Self> {
         let (up_plane, parent_panel) = parent.joint(link.child)?;
         let (own_plane, child_panel) = child.joint(link.parent)?;
         let outline = child.panel_outline(child_panel);
@@ -87,10 +87,10 @@ pub(super) struct Pairs {
 
 impl Pairs {
     /// A lack of glue costs `firmness` times as much as it does in the comparison of whole models.
-    pub(super) fn new(links: &[Link], candidates: &[Vec<Made>], firmness: f64) -> Self {
+    pub(super) fn new(links: &[Link], candidates: &[Vec<Candidate>], firmness: f64) -> Self {
         let of_link = |link: &Link| -> Vec<Vec<Option<Seated>>> {
             let [parents, children] = [&candidates[link.parent.0], &candidates[link.child.0]];
-            let on = |parent: &Made| {
+            let on = |parent: &Candidate| {
                 children.iter().map(|child| Seated::new(link, parent, child, firmness)).collect()
             };
             parents.iter().map(on).collect()
@@ -148,7 +148,7 @@ pub(super) fn needed_glue_mm2(one_mm2: f64, other_mm2: f64) -> f64 {
 }
 
 /// How far a part's corners move, at most.
-fn moved_mm(made: &Made, motion: &DAffine3) -> f64 {
+fn moved_mm(made: &Candidate, motion: &DAffine3) -> f64 {
     let panels = made.component.panels().panels().iter();
     let corners = panels.flat_map(|p| p.deployed_outline()).map(|p| made.frame.transform_point3(p));
     corners.map(|p| motion.transform_point3(p).distance(p)).fold(0.0, f64::max)

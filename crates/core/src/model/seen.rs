@@ -1,7 +1,7 @@
 //! How a combination of candidates looks: its outlines against those of the mesh.
 
 use super::PartId;
-use super::candidate::Made;
+use super::candidate::Candidate;
 use super::choice::Combination;
 use super::link::Link;
 use super::pair::Pairs;
@@ -21,7 +21,7 @@ pub(super) struct Seen<'a> {
 impl<'a> Seen<'a> {
     pub(super) fn new(
         views: &'a Views,
-        candidates: &[Vec<Made>],
+        candidates: &[Vec<Candidate>],
         (links, pairs): (&'a [Link], &'a Pairs),
     ) -> Self {
         let edges = candidates.par_iter().map(|made| made.iter().map(edges).collect()).collect();
@@ -67,7 +67,7 @@ impl<'a> Seen<'a> {
 }
 
 /// The edges of a candidate, each once for every panel that it bounds.
-fn edges(made: &Made) -> Vec<[DVec3; 2]> {
+fn edges(made: &Candidate) -> Vec<[DVec3; 2]> {
     let panels = made.component.panels().panels().iter();
     let outlines = panels.map(|panel| -> Vec<DVec3> {
         panel.deployed_outline().into_iter().map(|p| made.frame.transform_point3(p)).collect()

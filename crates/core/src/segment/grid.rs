@@ -28,14 +28,14 @@ pub(super) type Run = (u32, u16, u16);
 /// Which cells are inside of the mesh.
 #[derive(Debug, Clone)]
 pub struct Interior {
-    frame: Frame,
+    frame: GridFrame,
     /// For each column and height, the number of inside cells below.
     below: Vec<u16>,
     inside: usize,
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Frame {
+struct GridFrame {
     lo: DVec3,
     cell: f64,
     count: [usize; 3],
@@ -54,7 +54,7 @@ impl Interior {
 
     /// The same, and which cells the surface passes through.
     fn with_surface(positions: &[DVec3], faces: &[[u32; 3]], cells: f64) -> (Self, Vec<bool>) {
-        let frame = Frame::of_points(positions, cells);
+        let frame = GridFrame::of_points(positions, cells);
         let [nx, ny, nz] = frame.count;
         let mut votes = vec![0i32; nx * ny * nz];
         let mut is_surface = vec![false; nx * ny * nz];
@@ -169,7 +169,7 @@ impl Interior {
     }
 }
 
-impl Frame {
+impl GridFrame {
     fn of_points(positions: &[DVec3], cells: f64) -> Self {
         let (lo, hi) = bounds(positions.iter().copied());
         let side = (hi - lo).max(DVec3::splat((hi - lo).max_element() * LEAST_SIDE));

@@ -45,7 +45,7 @@ const LEAST_SOLID: f64 = 0.01;
 /// A set of patches that is one part for now.
 struct Part {
     extremes: Extremes,
-    shape: Shape,
+    shape: MergedHull,
     /// Neighbours and what it costs to cut along the common border.
     around: BTreeMap<u32, f64>,
     body: u32,
@@ -56,7 +56,7 @@ struct Part {
 
 /// A hull as the merging sees it.
 #[derive(Default)]
-struct Shape {
+struct MergedHull {
     runs: Vec<Run>,
     volume: f64,
     outside: f64,
@@ -79,7 +79,7 @@ type Group = SmallVec<[u32; 3]>;
 /// What a group becomes.
 struct Grown {
     extremes: Extremes,
-    shape: Shape,
+    shape: MergedHull,
     border: f64,
     over_gap: bool,
 }
@@ -116,15 +116,15 @@ impl Scene<'_> {
         (self.solid.inside() as f64).max(LEAST_SOLID * self.solid.len() as f64)
     }
 
-    fn shape(&self, extremes: &Extremes) -> Shape {
+    fn shape(&self, extremes: &Extremes) -> MergedHull {
         let Some(hull) = extremes.hull(self.positions) else {
-            return Shape::default();
+            return MergedHull::default();
         };
         let runs = self.solid.runs(hull.triangles());
         let cells = self.solid_cells();
         let outside = self.solid.outside(&runs) as f64 / cells;
         let volume = hull.volume() / (self.solid.cell_volume() * cells);
-        Shape { runs, volume, outside }
+        MergedHull { runs, volume, outside }
     }
 
     /// The merge of neighbours; `None` where one of them is no more.

@@ -27,13 +27,13 @@ pub struct Facet {
     pub back: Option<Rgb>,
     /// Whether every other pixel is left out, so that what is behind shows through.
     pub is_screened: bool,
-    /// What it belongs to, for [`Frame::tag_at`].
+    /// What it belongs to, for [`RenderedFrame::tag_at`].
     pub tag: u32,
 }
 
 /// A line in space, hidden where a facet is before it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Line {
+pub struct LineInSpace {
     /// Its ends.
     pub ends: [DVec3; 2],
     /// Colour.
@@ -48,7 +48,7 @@ pub struct Solids {
     /// Triangles.
     pub facets: Vec<Facet>,
     /// Lines.
-    pub lines: Vec<Line>,
+    pub lines: Vec<LineInSpace>,
 }
 
 impl Solids {
@@ -84,13 +84,13 @@ impl Solids {
 
 /// A finished picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Frame {
+pub struct RenderedFrame {
     size_px: [usize; 2],
     rgb: Vec<[u8; 3]>,
     tags: Vec<u32>,
 }
 
-impl Frame {
+impl RenderedFrame {
     /// The tag where no facet is seen.
     pub const NOTHING: u32 = u32::MAX;
 
@@ -198,7 +198,7 @@ mod tests {
         for order in [[&near, &far], [&far, &near]] {
             let mut both = Solids::default();
             order.iter().for_each(|s| both.facets.extend(&s.facets));
-            let frame = Frame::draw(&both, &front([100, 80]), Rgb::WHITE);
+            let frame = RenderedFrame::draw(&both, &front([100, 80]), Rgb::WHITE);
             assert_eq!(frame.tag_at(50, 40), Some(1));
             assert_eq!(frame.tag_at(65, 40), Some(2));
             assert_eq!(frame.tag_at(1, 1), None);
@@ -209,7 +209,7 @@ mod tests {
     #[test]
     fn a_square_covers_its_projection_to_within_a_pixel_of_its_border() {
         let eye = front([300, 300]);
-        let frame = Frame::draw(&square(2.0, 4.0, RED, 7), &eye, Rgb::WHITE);
+        let frame = RenderedFrame::draw(&square(2.0, 4.0, RED, 7), &eye, Rgb::WHITE);
         let (low, _) = eye.project(DVec3::new(-4.0, 4.0, 2.0)).unwrap();
         let (high, _) = eye.project(DVec3::new(4.0, -4.0, 2.0)).unwrap();
         for y in 0..300 {
@@ -232,7 +232,7 @@ mod tests {
             solids.push_triangle([DVec3::ZERO, rim(k), rim((k + 1) % 40)], RED, None, k, false);
         }
         let eye = front([200, 200]);
-        let frame = Frame::draw(&solids, &eye, Rgb::WHITE);
+        let frame = RenderedFrame::draw(&solids, &eye, Rgb::WHITE);
         let (edge, _) = eye.project(DVec3::X * 8.9).unwrap();
         for y in 0..200 {
             for x in 0..200 {
@@ -250,16 +250,16 @@ mod tests {
             f.normal = -f.normal;
         });
         let eye = front([50, 50]);
-        assert_eq!(Frame::draw(&back, &eye, Rgb::WHITE).tag_at(25, 25), None);
+        assert_eq!(RenderedFrame::draw(&back, &eye, Rgb::WHITE).tag_at(25, 25), None);
         let behind = square(1e6, 4.0, RED, 0);
-        assert_eq!(Frame::draw(&behind, &eye, Rgb::WHITE).tag_at(25, 25), None);
+        assert_eq!(RenderedFrame::draw(&behind, &eye, Rgb::WHITE).tag_at(25, 25), None);
         let huge = square(0.0, 1e9, RED, 5);
-        assert_eq!(Frame::draw(&huge, &eye, Rgb::WHITE).tag_at(0, 49), Some(5));
+        assert_eq!(RenderedFrame::draw(&huge, &eye, Rgb::WHITE).tag_at(0, 49), Some(5));
     }
 
     #[test]
     fn lines_lie_on_their_faces_and_are_hidden_by_others() {
-        let line = Line {
+        let line = LineInSpace {
             ends: [DVec3::new(-9.0, 0.0, 0.0), DVec3::new(9.0, 0.0, 0.0)],
             colour: BLUE,
             width_px: 3.0,
@@ -268,8 +268,8 @@ mod tests {
         solids.lines.push(line);
         let eye = front([100, 100]);
         let middle = 50 * 100 + 50;
-        assert_eq!(Frame::draw(&solids, &eye, Rgb::WHITE).rgb()[middle], [0, 0, 200]);
+        assert_eq!(RenderedFrame::draw(&solids, &eye, Rgb::WHITE).rgb()[middle], [0, 0, 200]);
         solids.facets.extend(square(4.0, 5.0, RED, 0).facets);
-        assert_ne!(Frame::draw(&solids, &eye, Rgb::WHITE).rgb()[middle], [0, 0, 200]);
+        assert_ne!(RenderedFrame::draw(&solids, &eye, Rgb::WHITE).rgb()[middle], [0, 0, 200]);
     }
 }

@@ -137,7 +137,7 @@ pub fn write(model: &FoldModel<'_>) -> Result<Vec<u8>, serde_json::Error> {
         k if k == between + 1 => "flat".to_owned(),
         k => format!("pose {k} of {between}"),
     };
-    let frame = |(k, state): (usize, State)| Frame::folded(title(k), state.coords, state.angles_deg);
+    let frame = |(k, state): (usize, State)| FoldFrame::folded(title(k), state.coords, state.angles_deg);
     let master = Master {
         file_spec: SPEC,
         file_creator: CREATOR,
@@ -170,7 +170,7 @@ struct Master<'a> {
     edges: Edges,
     #[serde(flatten)]
     faces: Faces,
-    file_frames: Vec<Frame>,
+    file_frames: Vec<FoldFrame>,
 }
 
 #[derive(Default, Serialize)]
@@ -210,7 +210,7 @@ struct Faces {
 }
 
 #[derive(Serialize)]
-struct Frame {
+struct FoldFrame {
     frame_title: String,
     frame_classes: [&'static str; 1],
     frame_attributes: [&'static str; 1],
@@ -222,7 +222,7 @@ struct Frame {
     fold_angle_deg: Vec<f64>,
 }
 
-impl Frame {
+impl FoldFrame {
     fn folded(title: String, coords: Vec<[f64; 3]>, angles_deg: Vec<f64>) -> Self {
         Self {
             frame_title: title,

@@ -43,7 +43,7 @@ pub enum GuideError {
 
 /// A step as it is shown.
 #[derive(Debug, Clone)]
-pub struct Entry {
+pub struct ShownStep {
     /// What is done.
     pub step: Step,
     /// A few words.
@@ -82,7 +82,7 @@ pub struct PartRow {
 
 /// A kind of line with its meaning.
 #[derive(Debug, Clone)]
-pub struct Line {
+pub struct LineMeaning {
     /// A piece of it.
     pub sample: Drawing,
     /// What it means.
@@ -101,13 +101,13 @@ pub struct Guide {
     /// Where parts are in each other: what to do, and a picture.
     pub clashes: Vec<(String, Drawing)>,
     /// Kinds of lines.
-    pub lines: Vec<Line>,
+    pub lines: Vec<LineMeaning>,
     /// Components.
     pub parts: Vec<PartRow>,
     /// Chapters.
     pub chapters: Vec<Chapter>,
     /// Steps.
-    pub entries: Vec<Entry>,
+    pub entries: Vec<ShownStep>,
     /// The folding, from deployed to flat, all in one view.
     pub frames: Vec<Drawing>,
 }
@@ -127,7 +127,7 @@ impl Guide {
         let encounters = output.fold_plan().encounters(&ModelMotion::new(output.model()));
         let writer = Writer { output, words: &words, styles, encounters };
         let steps = steps(output);
-        let entries: Vec<Result<Entry, PictureError>> =
+        let entries: Vec<Result<ShownStep, PictureError>> =
             (0..steps.len()).into_par_iter().map(|k| writer.entry(&steps, k)).collect();
         let entries = entries.into_iter().collect::<Result<Vec<_>, _>>()?;
         Ok(Self {
@@ -167,12 +167,12 @@ impl Writer<'_> {
         self.output.layout().options().choices.side
     }
 
-    fn entry(&self, steps: &[Step], k: usize) -> Result<Entry, PictureError> {
+    fn entry(&self, steps: &[Step], k: usize) -> Result<ShownStep, PictureError> {
         let step = steps[k].clone();
         let (title, mut sentences) = self.text(steps, k);
         sentences.extend(self.cautions(steps, k));
         let pictures = self.pictures(steps, k)?;
-        Ok(Entry { step, title, sentences, pictures })
+        Ok(ShownStep { step, title, sentences, pictures })
     }
 
     fn pictures(&self, steps: &[Step], k: usize) -> Result<Vec<Drawing>, PictureError> {
@@ -515,7 +515,7 @@ impl Writer<'_> {
     }
 
     /// Kinds of lines with their meanings.
-    fn lines(&self) -> Vec<Line> {
+    fn lines(&self) -> Vec<LineMeaning> {
         let words = &self.words.lines;
         let mut folds = vec![(Layer::Mountain, &words.mountain), (Layer::Valley, &words.valley)];
         if self.side() == Side::Inside {
@@ -559,7 +559,7 @@ impl Writer<'_> {
             .map(|(marks, meaning)| {
                 let mut sample = Drawing::new("", SAMPLE_MM);
                 sample.marks = marks;
-                Line { sample, meaning: meaning.clone() }
+                LineMeaning { sample, meaning: meaning.clone() }
             })
             .collect()
     }

@@ -1,6 +1,6 @@
 //! The guide as one web page that needs nothing else: no network, no other file.
 
-use super::content::{Entry, Guide, PartRow};
+use super::content::{Guide, PartRow, ShownStep};
 use super::language::fill;
 use super::steps::Action;
 use super::vector::{escaped, reference, svg, symbol};
@@ -179,7 +179,7 @@ fn maps(PartId(p): PartId, part: &PartRow) -> String {
 }
 
 fn push_step(out: &mut String, guide: &Guide, chapter: &str, k: usize) {
-    let entry: &Entry = &guide.entries[k];
+    let entry: &ShownStep = &guide.entries[k];
     let words = &guide.words.page;
     let number = k + 1;
     let of = [("number", number.to_string()), ("count", guide.entries.len().to_string())];

@@ -1,6 +1,6 @@
 //! The guide as printed pages.
 
-use super::content::{Entry, Guide, GuideError};
+use super::content::{Guide, GuideError, ShownStep};
 use super::language::fill;
 use glam::{DAffine2, DVec2};
 use tatamu_core::units::Paper;
@@ -267,7 +267,7 @@ impl<'a> Book<'a> {
 
     /// Number and title, pictures with maps beside them, texts.
     fn step(&self, k: usize, width_mm: f64) -> Block {
-        let entry: &Entry = &self.guide.entries[k];
+        let entry: &ShownStep = &self.guide.entries[k];
         let mut block = Block::new();
         block.write(&format!("{}  {}", k + 1, entry.title), STEP_MM, width_mm, 0.0, Rgb::BLACK);
         let top = DVec2::Y * -block.height_mm;

@@ -17,7 +17,7 @@ mod picture;
 mod steps;
 mod vector;
 
-pub use content::{Chapter, Entry, Guide, GuideError, Line, PartRow};
+pub use content::{Chapter, Guide, GuideError, LineMeaning, PartRow, ShownStep};
 pub use estimate::{Difficulty, Estimate};
 pub use html::html;
 pub use joined::{Joined, Opening};

@@ -47,7 +47,7 @@ impl Blank {
 
 /// What texts are made from.
 #[derive(Debug, PartialEq)]
-pub(super) struct Made {
+pub(super) struct MadeNet {
     pub(super) name: String,
     pub(super) split: Split,
     pub(super) tabs: Vec<Placed>,
@@ -57,7 +57,7 @@ pub(super) struct Made {
     pub(super) options: NetOptions,
 }
 
-impl Made {
+impl MadeNet {
     pub(super) fn new(
         split: Split,
         mut draft: Draft,

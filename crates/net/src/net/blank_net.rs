@@ -1,6 +1,6 @@
 //! A net before its texts.
 
-use super::blank::{Blank, Made};
+use super::blank::{Blank, MadeNet};
 use super::draft::Draft;
 use super::options::{Naming, NetOptions};
 use super::split::Split;
@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 /// A net whose pieces have no texts yet: those of nets that are not taken are never made.
 #[derive(Debug)]
 pub struct BlankNet {
-    made: Made,
+    made: MadeNet,
     finished: OnceLock<Net>,
 }
 
@@ -29,7 +29,7 @@ impl BlankNet {
         joints: &[JointMark],
         options: &NetOptions,
     ) -> Self {
-        Self { made: Made::new(split, draft, naming, joints, options), finished: OnceLock::new() }
+        Self { made: MadeNet::new(split, draft, naming, joints, options), finished: OnceLock::new() }
     }
 
     /// The pieces, most panels first.

@@ -10,7 +10,7 @@ use tatamu_core::component::{ChainId, HingeId, PanelId, PanelKind, PanelSet};
 /// `hinges[i]` joins what is above panel i to panel i; the last hinge joins the bottom panel, so
 /// there is one hinge more than panels, and at least one panel.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Chain {
+pub(crate) struct PanelChain {
     pub(crate) panels: Vec<PanelId>,
     pub(crate) hinges: Vec<HingeId>,
 }
@@ -20,7 +20,7 @@ pub(crate) struct Chain {
 pub(crate) struct Chains {
     pub(crate) top: PanelId,
     pub(crate) bottom: PanelId,
-    pub(crate) chains: Vec<Chain>,
+    pub(crate) chains: Vec<PanelChain>,
 }
 
 impl Chains {
@@ -48,8 +48,8 @@ impl Chains {
                 .windows(2)
                 .map(|pair| hinge_between(set, pair[0], pair[1]))
                 .collect::<Option<Vec<HingeId>>>()
-                .ok_or_else(|| missing(&format!("a hinge of chain {}", chain.0)))?;
-            chains.push(Chain { panels, hinges });
+                .ok_or_else(|| missing(&format!("a hinge of chain {}", chain.number())))?;
+            chains.push(PanelChain { panels, hinges });
         }
         if chains.is_empty() {
             return Err(missing("a chain"));
@@ -63,7 +63,7 @@ impl Chains {
     }
 
     /// A chain.
-    pub(crate) fn chain(&self, id: ChainId) -> &Chain {
+    pub(crate) fn chain(&self, id: ChainId) -> &PanelChain {
         &self.chains[id.0]
     }
 

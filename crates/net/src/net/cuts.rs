@@ -6,7 +6,7 @@
 //! the table. It is exact up to [`NODE_BUDGET`] nodes and [`KEEP`] results. Where one piece will
 //! not do, all chains are cut (two pieces), or some at two hinges (a strip apart).
 
-use super::chains::{Chain, Chains};
+use super::chains::{Chains, PanelChain};
 use super::extent::Extent;
 use super::layout::{across, best_turn, clash, placed_outline};
 use super::ruling::Ruling;
@@ -81,7 +81,7 @@ impl Problem<'_> {
 
     /// Number of chains that two candidates cut in different places.
     pub(crate) fn chains_apart(&self, a: &Candidate, b: &Candidate) -> usize {
-        let differs = |chain: &&Chain| chain.hinges.iter().any(|h| a.is_cut[h.0] != b.is_cut[h.0]);
+        let differs = |chain: &&PanelChain| chain.hinges.iter().any(|h| a.is_cut[h.0] != b.is_cut[h.0]);
         self.chains.chains.iter().filter(differs).count()
     }
 }
@@ -203,7 +203,7 @@ impl<'a> Mode<'a> {
 
     /// Whether a chain may be cut at two hinges (or one, twice): folds spared, the strip between
     /// fits the sheet.
-    fn may_cut(&self, chain: &Chain, from: usize, to: usize, places: &[DAffine2]) -> bool {
+    fn may_cut(&self, chain: &PanelChain, from: usize, to: usize, places: &[DAffine2]) -> bool {
         let Problem { set, sheet_mm, may_cut_folds, ruling, .. } = *self.problem;
         let is_allowed = |k: usize| {
             let hinge = chain.hinges[k];
@@ -318,7 +318,7 @@ impl<'a> Mode<'a> {
 
 /// Places of a chain's panels when it hangs from the top panel (and, last, of the bottom panel
 /// then), or from the bottom panel.
-fn hang(set: &PanelSet, chain: &Chain, from: DAffine2, is_from_top: bool) -> Vec<DAffine2> {
+fn hang(set: &PanelSet, chain: &PanelChain, from: DAffine2, is_from_top: bool) -> Vec<DAffine2> {
     let mut at = from;
     let mut step = |hinge: HingeId, side: usize| {
         at *= across(set, hinge, side);

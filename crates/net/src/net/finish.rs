@@ -1,6 +1,6 @@
 //! The texts of pieces, and what is to be told of a net.
 
-use super::blank::{Blank, Made};
+use super::blank::{Blank, MadeNet};
 use super::hand::EdgeName;
 use super::labels::{Placer, Texts};
 use super::mesh::EdgeKind;
@@ -15,14 +15,14 @@ use tatamu_core::geom::polygon::{self, intersect_convex};
 const LEAST_MARK_MM2: f64 = 4.0;
 
 /// A net with its texts.
-pub(super) fn net(made: &Made) -> Net {
+pub(super) fn net(made: &MadeNet) -> Net {
     let joints = joints_of_parts(&made.split, &made.joints);
     let pieces: Vec<Piece> = made.blanks.iter().map(|blank| piece(made, blank, &joints)).collect();
     let Split { set, source } = made.split.clone();
     Net { warnings: warnings(made, &pieces), pieces, labels: made.labels.clone(), set, source }
 }
 
-fn piece(made: &Made, blank: &Blank, joints: &[JointMark]) -> Piece {
+fn piece(made: &MadeNet, blank: &Blank, joints: &[JointMark]) -> Piece {
     let mut placer = Placer::new(&blank.mesh);
     placer.avoid(blank.glue_areas.iter().flat_map(|a| polygon::edges(&a.outline).map(|(p, q)| [p, q])));
     placer.avoid(blank.plugs.iter().flat_map(PlugLines::segments));
@@ -47,7 +47,7 @@ fn piece(made: &Made, blank: &Blank, joints: &[JointMark]) -> Piece {
 
 /// What is written beside a crease: its name or its angle when unfolded, if that was asked for, else 180° at
 /// those that fold flat, so that one finds them. Names are at glued edges, too.
-fn angle(made: &Made, kind: &EdgeKind) -> Option<String> {
+fn angle(made: &MadeNet, kind: &EdgeKind) -> Option<String> {
     let name = |h: HingeId| EdgeName::of(&made.split.set, h).map(|name| name.to_string());
     let h = match kind {
         EdgeKind::Hinge(h) | EdgeKind::Tab(h) | EdgeKind::Mate(h) if made.options.choices.edge_names => {
@@ -80,8 +80,8 @@ fn joints_of_parts(split: &Split, joints: &[JointMark]) -> Vec<JointMark> {
     out
 }
 
-fn warnings(made: &Made, pieces: &[Piece]) -> Vec<NetWarning> {
-    let Made { name, split, tabs, labels, .. } = made;
+fn warnings(made: &MadeNet, pieces: &[Piece]) -> Vec<NetWarning> {
+    let MadeNet { name, split, tabs, labels, .. } = made;
     let mut out = Vec::new();
     for whole in (0..split.source.len()).map(PanelId) {
         let parts = split.source.iter().filter(|s| **s == whole).count();

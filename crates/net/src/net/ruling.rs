@@ -1,6 +1,6 @@
 //! What was chosen about a net, by the hinges of its component.
 
-use super::chains::{Chain, Chains};
+use super::chains::{Chains, PanelChain};
 use super::hand::{EdgeChoice, EdgeName, HandFault, MOST_CUTS, NetHand, TAB_WIDTHS_MM, TabSide};
 use super::tabs::{self, Shapes};
 use tatamu_core::component::{ChainId, HingeId, PanelSet};
@@ -51,14 +51,14 @@ impl Ruling {
     }
 
     /// Whether the hinges of a chain may be cut at these places, and at no others.
-    pub(super) fn may_cut(&self, chain: &Chain, from: usize, to: usize) -> bool {
+    pub(super) fn may_cut(&self, chain: &PanelChain, from: usize, to: usize) -> bool {
         let is_right =
             |(k, h): (usize, &HingeId)| self.of(*h).is_none_or(|cut| cut == (k == from || k == to));
         chain.hinges.iter().enumerate().all(is_right)
     }
 
     /// Whether a chain may stay whole.
-    pub(super) fn may_stay_whole(&self, chain: &Chain) -> bool {
+    pub(super) fn may_stay_whole(&self, chain: &PanelChain) -> bool {
         chain.hinges.iter().all(|h| self.of(*h) != Some(true))
     }
 

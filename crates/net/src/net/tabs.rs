@@ -24,12 +24,12 @@ const EASY_BONUS: f64 = 1.6;
 
 /// Width and both base angles of a tab.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Shape {
+pub(crate) struct TabShape {
     width_mm: f64,
     leans_rad: [f64; 2],
 }
 
-impl Shape {
+impl TabShape {
     /// The trapezoid on the outside of a panel's edge, counter-clockwise; the first edge is the
     /// hinge, run against the panel's direction.
     pub(crate) fn outline(&self, edge: [DVec2; 2]) -> [DVec2; 4] {
@@ -57,7 +57,7 @@ impl Shape {
 pub(crate) struct Placed {
     pub(crate) hinge: HingeId,
     pub(crate) side: usize,
-    pub(crate) shape: Shape,
+    pub(crate) shape: TabShape,
 }
 
 impl Placed {
@@ -68,7 +68,7 @@ impl Placed {
 }
 
 /// Shapes that a tab may have on one side of one hinge, largest first.
-pub(crate) type Shapes = [Vec<Shape>; 2];
+pub(crate) type Shapes = [Vec<TabShape>; 2];
 
 /// For every hinge and side, the shapes that lie inside the mate.
 pub(crate) fn shapes(set: &PanelSet, tab_width_mm: f64) -> Vec<Shapes> {
@@ -77,7 +77,7 @@ pub(crate) fn shapes(set: &PanelSet, tab_width_mm: f64) -> Vec<Shapes> {
         .collect()
 }
 
-pub(super) fn side_shapes(set: &PanelSet, hinge: HingeId, side: usize, tab_width_mm: f64) -> Vec<Shape> {
+pub(super) fn side_shapes(set: &PanelSet, hinge: HingeId, side: usize, tab_width_mm: f64) -> Vec<TabShape> {
     let sides = set.hinges()[hinge.0].sides;
     let length = hinge_length(set, hinge);
     let base = edge(set, sides[side]);
@@ -88,7 +88,7 @@ pub(super) fn side_shapes(set: &PanelSet, hinge: HingeId, side: usize, tab_width
     for width_mm in (0..steps).map(|k| widest - LEAST_WIDTH_MM * k as f64) {
         for a in LEANS_DEG {
             for b in LEANS_DEG {
-                let shape = Shape { width_mm, leans_rad: [a.to_radians(), b.to_radians()] };
+                let shape = TabShape { width_mm, leans_rad: [a.to_radians(), b.to_radians()] };
                 let [_, _, far, near] = shape.outline(base);
                 let top = far.distance(near);
                 let runs_on = (far - near).dot(base[0] - base[1]) > 0.0;
@@ -99,7 +99,7 @@ pub(super) fn side_shapes(set: &PanelSet, hinge: HingeId, side: usize, tab_width
             }
         }
     }
-    out.sort_by(|x: &(f64, Shape), y| y.0.total_cmp(&x.0));
+    out.sort_by(|x: &(f64, TabShape), y| y.0.total_cmp(&x.0));
     out.into_iter().map(|(_, shape)| shape).collect()
 }
 
@@ -182,13 +182,19 @@ impl<'a> Board<'a> {
         })
     }
 
-    fn best_shape(&self, hinge: HingeId, side: usize, shapes: &[Shape], least_mm: f64) -> Option<Shape> {
+    fn best_shape(
+        &self,
+        hinge: HingeId,
+        side: usize,
+        shapes: &[TabShape],
+        least_mm: f64,
+    ) -> Option<TabShape> {
         let (piece, own, place) = self.carrier(hinge, side)?;
         let sides = self.set.hinges()[hinge.0].sides;
         let (base, mate) = (edge(self.set, sides[side]), sides[1 - side].panel);
         let to_mate = across(self.set, hinge, side).inverse();
-        let is_free = |shape: &Shape| {
-            let moved = |s: &Shape, by: DAffine2| s.outline(base).map(|p| by.transform_point2(p));
+        let is_free = |shape: &TabShape| {
+            let moved = |s: &TabShape, by: DAffine2| s.outline(base).map(|p| by.transform_point2(p));
             let (tab, wide) = (moved(shape, place), moved(&shape.with_room(), place));
             let behind = (moved(shape, to_mate), moved(&shape.with_room(), to_mate));
             let panels = self.outlines[piece].iter().enumerate().filter(|(k, _)| *k != own);
@@ -209,7 +215,7 @@ impl<'a> Board<'a> {
         best_turn(&points, self.sheet_mm).fits()
     }
 
-    fn put(&mut self, hinge: HingeId, side: usize, shape: Shape) {
+    fn put(&mut self, hinge: HingeId, side: usize, shape: TabShape) {
         let Some((piece, _, place)) = self.carrier(hinge, side) else {
             return;
         };

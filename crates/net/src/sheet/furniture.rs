@@ -103,30 +103,30 @@ fn words(layer: Layer) -> Option<[&'static str; 3]> {
 }
 
 /// One line of the legend with its word.
-struct Entry {
+struct LegendEntry {
     layer: Layer,
     word: &'static str,
     sample_mm: f64,
 }
 
-impl Entry {
+impl LegendEntry {
     fn width_mm(&self) -> f64 {
         self.sample_mm + WORD_GAP_MM + width_mm(self.word, CAP_MM)
     }
 }
 
 /// All entries of a form of the legend.
-fn entries(legend: &[Layer], (sample_mm, form): (f64, usize)) -> Vec<Entry> {
+fn entries(legend: &[Layer], (sample_mm, form): (f64, usize)) -> Vec<LegendEntry> {
     let entry = |&layer: &Layer| {
         let word = words(layer)?[form];
-        Some(Entry { layer, word, sample_mm })
+        Some(LegendEntry { layer, word, sample_mm })
     };
     legend.iter().filter_map(entry).collect()
 }
 
 /// Width of a legend without its gaps, and the number of gaps.
-fn legend_mm(entries: &[Entry]) -> (f64, usize) {
-    (entries.iter().map(Entry::width_mm).sum(), entries.len().saturating_sub(1))
+fn legend_mm(entries: &[LegendEntry]) -> (f64, usize) {
+    (entries.iter().map(LegendEntry::width_mm).sum(), entries.len().saturating_sub(1))
 }
 
 /// The strip's arrangement on one size of sheet. From the bottom: the legend; the scale bar with
@@ -138,13 +138,13 @@ struct Strip {
     /// None where not even the shortest bar fits.
     bar_mm: Option<f64>,
     /// Empty where it does not fit.
-    legend: Vec<Entry>,
+    legend: Vec<LegendEntry>,
 }
 
 impl Strip {
     fn new(size_mm: DVec2, margin_mm: f64, legend: &[Layer]) -> Self {
         let width_mm = size_mm.x - 2.0 * margin_mm;
-        let fits = |entries: &Vec<Entry>| {
+        let fits = |entries: &Vec<LegendEntry>| {
             let (entries_mm, gaps) = legend_mm(entries);
             entries_mm + GAP_MM * gaps as f64 <= width_mm
         };
@@ -191,7 +191,7 @@ impl Strip {
     }
 
     /// A piece of a line, of a tab, or of a place where a component is glued.
-    fn sample(&self, entry: &Entry, [x, y]: [f64; 2], styles: &LineStyles) -> Vec<Mark> {
+    fn sample(&self, entry: &LegendEntry, [x, y]: [f64; 2], styles: &LineStyles) -> Vec<Mark> {
         let (end, half) = (x + entry.sample_mm, TAB_SAMPLE_MM / 2.0);
         let area = |slope_mm: f64| {
             let corners =
@@ -214,7 +214,7 @@ impl Strip {
     }
 
     /// The triangle that shows which way round a component is glued on, above the line of the sample.
-    fn key_sample(&self, entry: &Entry, [x, y]: [f64; 2], styles: &LineStyles) -> Mark {
+    fn key_sample(&self, entry: &LegendEntry, [x, y]: [f64; 2], styles: &LineStyles) -> Mark {
         let half = TAB_SAMPLE_MM / 2.0;
         let middle = x + entry.sample_mm / 2.0;
         let corners = [[middle - half, y - half], [middle + half, y - half], [middle, y + half]];
@@ -282,7 +282,8 @@ impl Strip {
             return Vec::new();
         }
         // A tab without a fill has no look of its own.
-        let is_seen = |entry: &Entry| entry.layer != Layer::Tab || styles.fill(Layer::Tab) != Fill::Plain;
+        let is_seen =
+            |entry: &LegendEntry| entry.layer != Layer::Tab || styles.fill(Layer::Tab) != Fill::Plain;
         let (entries_mm, gaps) = legend_mm(&self.legend);
         let gap_mm = ((self.width_mm - entries_mm) / gaps.max(1) as f64).min(MAX_GAP_MM);
         let mut x = 0.0;

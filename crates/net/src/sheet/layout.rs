@@ -1,7 +1,7 @@
 //! Pieces on their sheets.
 
 use super::SheetOptions;
-use super::nest::{NestError, Placement, Shape, nest, nest_alternatives};
+use super::nest::{NestError, NestPiece, Placement, nest, nest_alternatives};
 use super::pin::{Pin, Unheeded, unheeded};
 use super::place::{PiecePlace, SheetId};
 use crate::net::{Blank, BlankNet, Net, Piece, Tab};
@@ -129,7 +129,7 @@ impl Layout {
         }
         // Pieces of one colour after the other; `first` is the first sheet of a colour.
         let shape = |group: usize, first: usize, blank: &Blank| {
-            let shape = Shape::new(blank.outline().to_vec(), group)?;
+            let shape = NestPiece::new(blank.outline().to_vec(), group)?;
             let pin = pins.get(blank.name()).map(|pin| pin.placement(blank.outline(), options.origin_mm()));
             Some(match pin {
                 Some(at) => {
@@ -138,8 +138,9 @@ impl Layout {
                 None => shape,
             })
         };
-        let shapes = |group: usize, first: usize, blanks: &[&Blank]| -> Vec<Shape> {
-            let shapes: Vec<Shape> = blanks.iter().filter_map(|blank| shape(group, first, blank)).collect();
+        let shapes = |group: usize, first: usize, blanks: &[&Blank]| -> Vec<NestPiece> {
+            let shapes: Vec<NestPiece> =
+                blanks.iter().filter_map(|blank| shape(group, first, blank)).collect();
             debug_assert_eq!(shapes.len(), blanks.len(), "every piece has an area");
             shapes
         };
@@ -159,7 +160,7 @@ impl Layout {
         for colour in colours {
             let own: Vec<usize> = (0..groups.len()).filter(|&n| card_of(n) == colour).collect();
             let first = of_sheets.len();
-            let shapes: Vec<Vec<Vec<Shape>>> = own
+            let shapes: Vec<Vec<Vec<NestPiece>>> = own
                 .iter()
                 .enumerate()
                 .map(|(group, &n)| groups[n].iter().map(|blanks| shapes(group, first, blanks)).collect())
@@ -198,14 +199,14 @@ impl Layout {
         factor: f64,
         progress: &dyn Progress,
     ) -> Result<usize, LayoutError> {
-        let mut colours: BTreeMap<Option<&str>, Vec<Shape>> = BTreeMap::new();
+        let mut colours: BTreeMap<Option<&str>, Vec<NestPiece>> = BTreeMap::new();
         for (n, net) in nets.iter().enumerate() {
             for (piece, at) in net.pieces().iter().zip(self.places(PartId(n))) {
                 let outline = piece.outline().iter().map(|&p| widened(p, piece, 1.0 / factor) * factor);
-                colours.entry(self.card(at.sheet)).or_default().extend(Shape::new(outline.collect(), n));
+                colours.entry(self.card(at.sheet)).or_default().extend(NestPiece::new(outline.collect(), n));
             }
         }
-        let sheets_of = |shapes: &Vec<Shape>| {
+        let sheets_of = |shapes: &Vec<NestPiece>| {
             let placed = nest(shapes, &self.options.nesting(), progress)?;
             Ok(placed.iter().map(|at| at.sheet.number()).max().unwrap_or(0))
         };

@@ -42,13 +42,13 @@ use tatamu_core::progress::{Cancelled, Progress};
 /// # Guarantees
 /// At least three corners, all finite; counter-clockwise with a positive area.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shape {
+pub struct NestPiece {
     outline: Vec<DVec2>,
     group: usize,
     pin: Option<Placement>,
 }
 
-impl Shape {
+impl NestPiece {
     /// A simple polygon, counter-clockwise, in mm; it may be concave, and touch itself at corners.
     /// Pieces with the same `group` (their component) are kept together where that costs nothing.
     /// `None` where a guarantee would be broken.
@@ -179,7 +179,7 @@ pub enum NestError {
 /// # Errors
 /// [`NestError::TooLarge`] names the first piece that fits no empty sheet.
 pub fn nest(
-    pieces: &[Shape],
+    pieces: &[NestPiece],
     options: &NestOptions,
     progress: &dyn Progress,
 ) -> Result<Vec<Placement>, NestError> {
@@ -194,17 +194,18 @@ pub fn nest(
 /// # Errors
 /// As [`nest`]; of first alternatives. Others that fit no sheet are not used.
 pub fn nest_alternatives(
-    groups: &[Vec<Vec<Shape>>],
+    groups: &[Vec<Vec<NestPiece>>],
     options: &NestOptions,
     progress: &dyn Progress,
 ) -> Result<Vec<(usize, Vec<Placement>)>, NestError> {
-    let count = |group: &[Vec<Shape>]| group.first().map_or(0, Vec::len);
+    let count = |group: &[Vec<NestPiece>]| group.first().map_or(0, Vec::len);
     let items = groups.iter().flat_map(|group| {
         (0..count(group)).map(|piece| group.iter().filter_map(|shapes| shapes.get(piece)).collect())
     });
     let (chosen, placements) = nest_items(items.collect(), options, progress)?;
     let mut rest = placements.into_iter();
-    let of_group = |group: &Vec<Vec<Shape>>| -> Vec<Placement> { rest.by_ref().take(count(group)).collect() };
+    let of_group =
+        |group: &Vec<Vec<NestPiece>>| -> Vec<Placement> { rest.by_ref().take(count(group)).collect() };
     let placements: Vec<Vec<Placement>> = groups.iter().map(of_group).collect();
     // A group without pieces, at the end, is not among the chosen.
     Ok(chosen.into_iter().chain(std::iter::repeat(0)).zip(placements).collect())
@@ -213,12 +214,12 @@ pub fn nest_alternatives(
 /// Alternative of each group by its number, and a placement for each item, which is given as one
 /// shape for each alternative of its group.
 fn nest_items(
-    items: Vec<Vec<&Shape>>,
+    items: Vec<Vec<&NestPiece>>,
     options: &NestOptions,
     progress: &dyn Progress,
 ) -> Result<(Vec<usize>, Vec<Placement>), NestError> {
     options.check()?;
-    let frame = Frame::new(options);
+    let frame = PortraitArea::new(options);
     // Collected before the first error is taken, so that which piece is named depends on no thread.
     let pins: Vec<Option<Pinned>> =
         items.iter().map(|shapes| frame.pinned(shapes.first()?, options)).collect();
@@ -258,13 +259,13 @@ fn nest_items(
 }
 
 /// The usable area in portrait format, which the search works in.
-struct Frame {
+struct PortraitArea {
     grid: Grid,
     /// Height of the portrait sheet where the user's is landscape.
     turned_mm: Option<f64>,
 }
 
-impl Frame {
+impl PortraitArea {
     fn new(options: &NestOptions) -> Self {
         let (width, height) = (options.width_mm, options.height_mm);
         Self {
@@ -276,7 +277,7 @@ impl Frame {
     fn item<'a>(
         &'a self,
         index: usize,
-        shapes: &[&'a Shape],
+        shapes: &[&'a NestPiece],
         options: &NestOptions,
     ) -> Result<Item<'a>, NestError> {
         let item = Item::new(shapes, options.rotation, options.spacing_mm, &self.grid);
@@ -290,7 +291,7 @@ impl Frame {
     }
 
     /// A piece at the place of its pin, if it has one and fits the sheet at that angle.
-    fn pinned(&self, shape: &Shape, options: &NestOptions) -> Option<Pinned> {
+    fn pinned(&self, shape: &NestPiece, options: &NestOptions) -> Option<Pinned> {
         let pin = shape.pin?;
         let (angle_rad, at) = match self.turned_mm {
             None => (pin.rotation_rad, pin.translation),

@@ -7,14 +7,14 @@ use glam::DVec2;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Visit {
     pub(super) task: usize,
-    entry: Entry,
+    entry: Begin,
     pub(super) start: DVec2,
     pub(super) end: DVec2,
 }
 
 /// How a task is begun.
 #[derive(Debug, Clone, Copy)]
-enum Entry {
+enum Begin {
     /// As it is.
     Forwards,
     /// At its end.
@@ -30,8 +30,8 @@ impl Visit {
         let line = &tasks[task];
         let (first, last) = (line.start(), line.end());
         if !line.is_closed() {
-            let forwards = Self { task, entry: Entry::Forwards, start: first, end: last };
-            let backwards = Self { task, entry: Entry::Backwards, start: last, end: first };
+            let forwards = Self { task, entry: Begin::Forwards, start: first, end: last };
+            let backwards = Self { task, entry: Begin::Backwards, start: last, end: first };
             let way = |v: &Self| at.distance(v.start) + next.map_or(0.0, |p| p.distance(v.end));
             return if way(&backwards) < way(&forwards) { backwards } else { forwards };
         }
@@ -39,15 +39,15 @@ impl Visit {
         let corners = line.points().iter().copied().enumerate();
         let nearest = corners.min_by(|a, b| way(a.1).total_cmp(&way(b.1)));
         let (corner, p) = nearest.unwrap_or((0, first));
-        Self { task, entry: Entry::Corner(corner), start: p, end: p }
+        Self { task, entry: Begin::Corner(corner), start: p, end: p }
     }
 
     /// The same task backwards.
     pub(super) fn turned(self) -> Self {
         let entry = match self.entry {
-            Entry::Forwards => Entry::Backwards,
-            Entry::Backwards => Entry::Forwards,
-            corner @ Entry::Corner(_) => corner,
+            Begin::Forwards => Begin::Backwards,
+            Begin::Backwards => Begin::Forwards,
+            corner @ Begin::Corner(_) => corner,
         };
         Self { entry, start: self.end, end: self.start, ..self }
     }
@@ -55,9 +55,9 @@ impl Visit {
     /// The task as it is done.
     pub(super) fn applied(self, task: &Task) -> Task {
         match self.entry {
-            Entry::Forwards => task.clone(),
-            Entry::Backwards => task.clone().reversed(),
-            Entry::Corner(corner) => task.clone().started_at(corner),
+            Begin::Forwards => task.clone(),
+            Begin::Backwards => task.clone().reversed(),
+            Begin::Corner(corner) => task.clone().started_at(corner),
         }
     }
 }

@@ -150,7 +150,7 @@ fn the_stack_of_dents_closes() {
         }
         assert!((levels[levels.len() - 1] - levels[0] - layers as f64 * t).abs() < 1e-9 * t);
         for place in [|p: &Panel| p.deployed, |p: &Panel| p.flat] {
-            let solids: Vec<Solid> = panels.iter().map(|p| Solid::prism(&p.outline, place(p), t)).collect();
+            let solids: Vec<Prism> = panels.iter().map(|p| Prism::new(&p.outline, place(p), t)).collect();
             let pairs = (0..solids.len()).flat_map(|b| (0..b).map(move |a| (a, b)));
             assert!(pairs.into_iter().all(|(a, b)| !solids[a].overlaps(&solids[b], 5e-6)));
         }

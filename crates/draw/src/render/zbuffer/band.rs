@@ -1,6 +1,6 @@
 //! A few rows of a picture, and what is drawn in them.
 
-use super::{Facet, Frame, Line};
+use super::{Facet, LineInSpace, RenderedFrame};
 use crate::drawing::Rgb;
 use crate::render::light;
 use crate::render::orbit::Eye;
@@ -50,7 +50,7 @@ pub(super) struct Stroke {
 }
 
 impl Stroke {
-    pub(super) fn new(line: &Line, eye: &Eye) -> Option<Self> {
+    pub(super) fn new(line: &LineInSpace, eye: &Eye) -> Option<Self> {
         let mut ends = [[0.0; 3]; 2];
         for (out, end) in ends.iter_mut().zip(line.ends) {
             let (at, nearness) = eye.project(end)?;
@@ -77,7 +77,7 @@ pub(super) struct Band {
 impl Band {
     pub(super) fn new(width: usize, top: usize, height: usize, Rgb(red, green, blue): Rgb) -> Self {
         let count = width * height;
-        let (rgb, tags) = (vec![[red, green, blue]; count], vec![Frame::NOTHING; count]);
+        let (rgb, tags) = (vec![[red, green, blue]; count], vec![RenderedFrame::NOTHING; count]);
         Self { width, top, height, rgb, tags, nearness: vec![0.0; count] }
     }
 

@@ -12,10 +12,10 @@ use tatamu_draw::drawing::{Mark, Pages};
 const AROUND_MM: f64 = 5.0;
 
 /// An entry that leads to a page.
-struct Entry {
+struct Bookmark {
     title: String,
     destination: Vec<Object>,
-    below: Vec<Entry>,
+    below: Vec<Bookmark>,
 }
 
 /// Adds the bookmarks of all components that have pieces on pages. `ids` are the pages' objects.
@@ -27,16 +27,16 @@ pub(super) fn add(
 ) -> Result<(), lopdf::Error> {
     let entry = |title: &str, piece: &str| {
         let destination = destination(piece, pages, leaves, ids)?;
-        Some(Entry { title: title.to_owned(), destination, below: Vec::new() })
+        Some(Bookmark { title: title.to_owned(), destination, below: Vec::new() })
     };
     let chapter = |name: &str, pieces: &[String]| {
-        let below: Vec<Entry> = pieces.iter().filter_map(|piece| entry(piece, piece)).collect();
+        let below: Vec<Bookmark> = pieces.iter().filter_map(|piece| entry(piece, piece)).collect();
         let destination = below.first()?.destination.clone();
         let below = if below.len() > 1 { below } else { Vec::new() };
-        Some(Entry { title: name.to_owned(), destination, below })
+        Some(Bookmark { title: name.to_owned(), destination, below })
     };
     let chapters = pages.chapters().iter();
-    let entries: Vec<Entry> = chapters.filter_map(|c| chapter(&c.name, &c.pieces)).collect();
+    let entries: Vec<Bookmark> = chapters.filter_map(|c| chapter(&c.name, &c.pieces)).collect();
     if entries.is_empty() {
         return Ok(());
     }
@@ -51,7 +51,7 @@ pub(super) fn add(
 }
 
 /// Adds entries as objects below `parent`, whose dictionary gets its first and last one.
-fn push(document: &mut Document, parent: &mut Dictionary, parent_id: ObjectId, entries: &[Entry]) {
+fn push(document: &mut Document, parent: &mut Dictionary, parent_id: ObjectId, entries: &[Bookmark]) {
     let ids: Vec<ObjectId> = entries.iter().map(|_| document.new_object_id()).collect();
     for (k, entry) in entries.iter().enumerate() {
         let mut item = Dictionary::from_iter([

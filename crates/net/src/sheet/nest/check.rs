@@ -1,7 +1,7 @@
 //! Whether a layout keeps its promises, recomputed from the outlines alone: nothing here is shared
 //! with the search.
 
-use super::{NestOptions, Placement, Shape};
+use super::{NestOptions, NestPiece, Placement};
 use geo::{Area, BooleanOps, Distance, Euclidean};
 use glam::DVec2;
 
@@ -39,7 +39,7 @@ pub enum NestFault {
 /// Recomputes from the outlines that every piece is inside its sheet and that any two on one
 /// sheet are apart by the spacing, both within `tolerance_mm`.
 pub fn check(
-    pieces: &[Shape],
+    pieces: &[NestPiece],
     placements: &[Placement],
     options: &NestOptions,
     tolerance_mm: f64,
@@ -74,7 +74,7 @@ pub fn check(
     Ok(())
 }
 
-fn placed_polygon(piece: &Shape, placement: &Placement) -> geo::Polygon {
+fn placed_polygon(piece: &NestPiece, placement: &Placement) -> geo::Polygon {
     let motion = placement.motion();
     let corners = piece.outline().iter().map(|&p| motion.transform_point2(p));
     let ring = corners.map(|p| geo::Coord { x: p.x, y: p.y }).collect();

@@ -2,7 +2,7 @@
 
 use super::occupancy::Pose;
 use super::raster::Grid;
-use super::{Rotation, Shape};
+use super::{NestPiece, Rotation};
 use crate::fit;
 use glam::DVec2;
 use std::f64::consts::FRAC_PI_2;
@@ -18,7 +18,7 @@ pub(super) struct Item<'a> {
 
 impl<'a> Item<'a> {
     /// A piece from its shape in each alternative.
-    pub fn new(shapes: &[&'a Shape], rotation: Rotation, spacing_mm: f64, grid: &'a Grid) -> Self {
+    pub fn new(shapes: &[&'a NestPiece], rotation: Rotation, spacing_mm: f64, grid: &'a Grid) -> Self {
         let alternative = |&shape| Alternative { shape, rotation, spacing_mm, grid, angles: OnceLock::new() };
         Self {
             area_mm2: polygon::area(shapes[0].outline()),
@@ -56,7 +56,7 @@ impl<'a> Item<'a> {
 /// One shape at all angles at which it fits an empty sheet. Angles and poses are worked out when
 /// they are needed first: most never are.
 pub(super) struct Alternative<'a> {
-    shape: &'a Shape,
+    shape: &'a NestPiece,
     rotation: Rotation,
     spacing_mm: f64,
     grid: &'a Grid,

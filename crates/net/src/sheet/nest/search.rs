@@ -148,7 +148,7 @@ fn area_mm2(sheet: &[Placed], items: &[Item]) -> f64 {
 const DENSEST: f64 = 0.8;
 
 /// The best layout that was found.
-pub(super) struct Found {
+pub(super) struct Nesting {
     /// Alternative of each group.
     pub chosen: Vec<usize>,
     pub sheets: Vec<Vec<Placed>>,
@@ -162,7 +162,7 @@ pub(super) fn search(
     start: &Start,
     effort: usize,
     progress: &dyn Progress,
-) -> Result<Found, Cancelled> {
+) -> Result<Nesting, Cancelled> {
     let mut rng = fastrand::Rng::with_seed(SEED);
     let area: f64 = items.iter().map(Item::area_mm2).sum();
     let fewest = (area / (DENSEST * grid.sheet_mm.element_product())).ceil() as usize;
@@ -181,12 +181,12 @@ pub(super) fn search(
         // Of equal ones the new one, so that changes add up.
         nearest = found.into_iter().flatten().chain(nearest).min_by(Layout::promise);
         let (Some(best), Some(nearest)) = (&best, &nearest) else {
-            return Ok(Found { chosen: Vec::new(), sheets: Vec::new() });
+            return Ok(Nesting { chosen: Vec::new(), sheets: Vec::new() });
         };
         let is_least = best.sheets.len() <= fewest;
         let is_all_pinned = start.free().next().is_none();
         if left == 0 || is_least || is_all_pinned {
-            return Ok(Found { chosen: best.chosen.clone(), sheets: best.sheets.clone() });
+            return Ok(Nesting { chosen: best.chosen.clone(), sheets: best.sheets.clone() });
         }
         batch = (0..BATCH).map(|_| varied(nearest, items, start, &alternatives, &mut rng)).collect();
         let placed: usize = batch.iter().map(|plan| plan.order.len()).sum();

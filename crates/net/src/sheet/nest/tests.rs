@@ -4,11 +4,11 @@ use tatamu_core::progress::Silent;
 
 const TOLERANCE_MM: f64 = 1e-6;
 
-fn piece(corners: &[(f64, f64)], group: usize) -> Shape {
-    Shape::new(corners.iter().copied().map(DVec2::from).collect(), group).unwrap()
+fn piece(corners: &[(f64, f64)], group: usize) -> NestPiece {
+    NestPiece::new(corners.iter().copied().map(DVec2::from).collect(), group).unwrap()
 }
 
-fn rectangle(width: f64, height: f64, group: usize) -> Shape {
+fn rectangle(width: f64, height: f64, group: usize) -> NestPiece {
     piece(&[(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)], group)
 }
 
@@ -17,7 +17,7 @@ fn sheet_count(placements: &[Placement]) -> usize {
 }
 
 /// Nests, and checks what came out.
-fn sound_nest(pieces: &[Shape], options: &NestOptions) -> Vec<Placement> {
+fn sound_nest(pieces: &[NestPiece], options: &NestOptions) -> Vec<Placement> {
     let placements = nest(pieces, options, &Silent).unwrap();
     check(pieces, &placements, options, TOLERANCE_MM).unwrap();
     let used: std::collections::BTreeSet<SheetId> = placements.iter().map(|p| p.sheet).collect();
@@ -26,7 +26,7 @@ fn sound_nest(pieces: &[Shape], options: &NestOptions) -> Vec<Placement> {
 }
 
 /// A star-shaped, mostly concave polygon round a point that is not the origin.
-fn star() -> impl Strategy<Value = Shape> {
+fn star() -> impl Strategy<Value = NestPiece> {
     let corner = (0.1..0.9_f64, 0.15..1.0_f64);
     let centre = (-40.0..40.0_f64, -40.0..40.0_f64);
     let parts = (prop::collection::vec(corner, 5..16), 8.0..60.0_f64, centre, 0..3_usize);
@@ -35,7 +35,7 @@ fn star() -> impl Strategy<Value = Shape> {
         let outline = corners.iter().enumerate().map(|(k, (turn, reach))| {
             DVec2::from(centre) + DVec2::from_angle(step * (k as f64 + turn)) * (radius * reach)
         });
-        Shape::new(outline.collect(), group).unwrap()
+        NestPiece::new(outline.collect(), group).unwrap()
     })
 }
 
@@ -64,10 +64,10 @@ proptest! {
 #[test]
 fn threads_do_not_change_the_result() {
     let mut rng = fastrand::Rng::with_seed(3);
-    let pieces: Vec<Shape> = (0..14)
+    let pieces: Vec<NestPiece> = (0..14)
         .map(|k| {
             let outline = (0..9).map(|i| DVec2::from_angle(f64::from(i) * 0.69) * (12.0 + 35.0 * rng.f64()));
-            Shape::new(outline.collect(), k / 4).unwrap()
+            NestPiece::new(outline.collect(), k / 4).unwrap()
         })
         .collect();
     let options = NestOptions { effort: 300, ..NestOptions::new(150.0, 130.0) };
@@ -113,7 +113,7 @@ fn a_piece_of_exactly_the_sheets_size_fits_at_any_angle() {
         for angle in [0.0, 0.3, 1.9] {
             let turn = DVec2::from_angle(angle);
             let corners = rectangle(190.0, 277.0, 0).outline().iter().map(|&p| turn.rotate(p)).collect();
-            let pieces = [Shape::new(corners, 0).unwrap()];
+            let pieces = [NestPiece::new(corners, 0).unwrap()];
             sound_nest(&pieces, &NestOptions::new(width, height));
         }
     }
@@ -144,7 +144,7 @@ fn sheets_that_cannot_be_are_refused() {
 
 #[test]
 fn groups_share_a_sheet_and_come_in_order() {
-    let pieces: Vec<Shape> = (0..12).map(|k| rectangle(90.0, 130.0, 2 - k % 3)).collect();
+    let pieces: Vec<NestPiece> = (0..12).map(|k| rectangle(90.0, 130.0, 2 - k % 3)).collect();
     let placements = sound_nest(&pieces, &NestOptions::new(190.0, 277.0));
     for (piece, placement) in pieces.iter().zip(&placements) {
         assert_eq!(placement.sheet, SheetId(piece.group()));
@@ -156,7 +156,7 @@ fn true_shapes_need_at_most_four_fifths_of_the_sheets_of_their_rectangles() {
     let mut rng = fastrand::Rng::with_seed(11);
     let mut arm = || 22.0 + 30.0 * rng.f64();
     // Crosses with arms of unequal length: much like the net of a box.
-    let pieces: Vec<Shape> = (0..24)
+    let pieces: Vec<NestPiece> = (0..24)
         .map(|k| {
             let (right, up, left, down) = (arm() + 12.0, arm() + 12.0, -arm() - 12.0, -arm() - 12.0);
             let cross = [
@@ -176,7 +176,7 @@ fn true_shapes_need_at_most_four_fifths_of_the_sheets_of_their_rectangles() {
             piece(&cross, k / 4)
         })
         .collect();
-    let rectangles: Vec<Shape> = pieces
+    let rectangles: Vec<NestPiece> = pieces
         .iter()
         .map(|p| {
             let (_, size) = polygon::least_rectangle(p.outline());
@@ -184,7 +184,7 @@ fn true_shapes_need_at_most_four_fifths_of_the_sheets_of_their_rectangles() {
         })
         .collect();
     let options = NestOptions::new(190.0, 277.0);
-    let count = |shapes: &[Shape]| sheet_count(&sound_nest(shapes, &options));
+    let count = |shapes: &[NestPiece]| sheet_count(&sound_nest(shapes, &options));
     let (shapes, boxes) = (count(&pieces), count(&rectangles));
     assert!(shapes as f64 <= 0.8 * boxes as f64, "{shapes} sheets against {boxes}");
 }
@@ -197,9 +197,9 @@ fn another_way_of_cutting_is_taken_where_it_saves_a_sheet() {
     };
     let block = |group| rectangle(98.0, 63.0, group);
     let options = NestOptions { effort: 2000, ..NestOptions::new(130.0, 130.0) };
-    let sheets = |groups: &[Vec<Vec<Shape>>]| {
+    let sheets = |groups: &[Vec<Vec<NestPiece>>]| {
         let placed = nest_alternatives(groups, &options, &Silent).unwrap();
-        let taken: Vec<Shape> =
+        let taken: Vec<NestPiece> =
             placed.iter().zip(groups).flat_map(|((a, _), group)| group[*a].clone()).collect();
         let flat: Vec<Placement> = placed.iter().flat_map(|p| p.1.clone()).collect();
         check(&taken, &flat, &options, TOLERANCE_MM).unwrap();

@@ -9,7 +9,7 @@ pub const SLOWNESS: f64 = 1.3;
 
 /// One command that was sent.
 #[derive(Debug, Clone, Copy)]
-struct Entry {
+struct SentCommand {
     /// Bytes of the job up to its end.
     end: u64,
     bytes: usize,
@@ -27,7 +27,7 @@ pub(super) struct Ledger {
     strokes_done: usize,
     seconds_done: f64,
     done_at: Duration,
-    open: VecDeque<Entry>,
+    open: VecDeque<SentCommand>,
 }
 
 impl Ledger {
@@ -37,7 +37,7 @@ impl Ledger {
         let duration = Duration::from_secs_f64(seconds * SLOWNESS);
         self.done_at = self.done_at.max(arrival) + duration;
         let done_at = self.done_at;
-        self.open.push_back(Entry { end: self.sent, bytes, strokes_done, seconds, done_at });
+        self.open.push_back(SentCommand { end: self.sent, bytes, strokes_done, seconds, done_at });
     }
 
     /// Bytes that were sent for the machine's buffer.

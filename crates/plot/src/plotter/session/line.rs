@@ -4,13 +4,13 @@ use std::time::Duration;
 
 /// A model of the line. It never thinks that more has arrived than can have.
 #[derive(Debug, Clone)]
-pub(super) struct Line {
+pub(super) struct SerialLine {
     byte_s: f64,
     busy_until: Duration,
     queued: usize,
 }
 
-impl Line {
+impl SerialLine {
     pub(super) fn new(byte_s: f64) -> Self {
         Self { byte_s, busy_until: Duration::ZERO, queued: 0 }
     }

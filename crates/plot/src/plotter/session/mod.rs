@@ -26,7 +26,7 @@ use ask::{Ask, Question};
 use ebb::Board;
 use grbl::Counter;
 use ledger::Ledger;
-use line::Line;
+use line::SerialLine;
 use replies::{Replies, Reply};
 use search::Search;
 use std::collections::VecDeque;
@@ -157,7 +157,7 @@ pub struct Session {
     serial: Serial,
     stop: String,
     handshake: Handshake,
-    line: Line,
+    line: SerialLine,
     ledger: Ledger,
     replies: Replies,
     ask: Ask,
@@ -197,7 +197,7 @@ impl Session {
             serial,
             stop: cutter.stop().to_owned(),
             handshake,
-            line: Line::new(serial.byte_s()),
+            line: SerialLine::new(serial.byte_s()),
             ledger: Ledger::default(),
             replies: Replies::default(),
             ask: Ask::new(serial.buffer_bytes),
@@ -264,7 +264,7 @@ impl Session {
     /// The port has another speed than the machine's profile.
     pub fn set_baud(&mut self, baud: u32) {
         self.serial.baud = baud.max(1);
-        self.line = Line::new(self.serial.byte_s());
+        self.line = SerialLine::new(self.serial.byte_s());
     }
 
     /// The port is gone.
