@@ -76,7 +76,7 @@ pub fn check_inputs(inputs: &[PathBuf]) -> Result<(), AppError> {
     }
     if let Some(length) = missing().find(|text| is_length(text)) {
         return Err(AppError::Options(format!(
-            "\"{length}\" was read as another input, as the option before it takes no length; write --size {length} for \
+            "\"{length}\" was read as another input, as what stands before it takes no length; write --size {length} for \
              the model, or --thickness {length} for the paper"
         )));
     }

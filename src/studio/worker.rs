@@ -75,8 +75,8 @@ impl Worker {
         let (pass_on, main) = channel::<(u64, Order)>();
         let (sender, news) = channel();
         let current = Arc::new(AtomicU64::new(0));
-        let line = Outlet { current: current.clone(), news: sender, wake };
-        let own = line.clone();
+        let outlet = Outlet { current: current.clone(), news: sender, wake };
+        let own = outlet.clone();
         std::thread::spawn(move || {
             // Without a pool of its own it works in that of all.
             let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build().ok();
@@ -98,7 +98,7 @@ impl Worker {
         });
         std::thread::spawn(move || {
             while let Ok(order) = latest(&main) {
-                line.work(order);
+                outlet.work(order);
             }
         });
         Self { orders, news, current }
@@ -143,7 +143,7 @@ impl Outlet {
 
     /// Makes the component that is wanted first; true where there is one to be shown.
     fn look_ahead(&self, (number, order): &(u64, Order)) -> bool {
-        let watch = Watch { line: self, number: *number, is_silent: true };
+        let watch = Watch { outlet: self, number: *number, is_silent: true };
         let Some(part) = order.first.filter(|_| order.drawn.is_none()) else { return false };
         // What fails here fails in the other thread, too, which says so.
         let component = order.engine.component(&order.options, part, &watch).ok();
@@ -155,7 +155,7 @@ impl Outlet {
     }
 
     fn work(&self, (number, order): (u64, Order)) {
-        let watch = Watch { line: self, number, is_silent: false };
+        let watch = Watch { outlet: self, number, is_silent: false };
         if watch.is_cancelled() {
             return;
         }
@@ -189,7 +189,7 @@ impl Outlet {
 
 /// Passes progress on, and stops what does not count any more.
 struct Watch<'a> {
-    line: &'a Outlet,
+    outlet: &'a Outlet,
     number: u64,
     is_silent: bool,
 }
@@ -197,17 +197,17 @@ struct Watch<'a> {
 impl Progress for Watch<'_> {
     fn stage(&self, name: &'static str) {
         if !self.is_silent {
-            self.line.tell(self.number, News::Stage(name));
+            self.outlet.tell(self.number, News::Stage(name));
         }
     }
 
     fn fraction(&self, done: f64) {
         if !self.is_silent {
-            self.line.tell(self.number, News::Fraction(done));
+            self.outlet.tell(self.number, News::Fraction(done));
         }
     }
 
     fn is_cancelled(&self) -> bool {
-        self.line.current.load(Ordering::Relaxed) != self.number
+        self.outlet.current.load(Ordering::Relaxed) != self.number
     }
 }

@@ -38,6 +38,14 @@ pub enum PanelKind {
 }
 
 impl PanelKind {
+    /// The chain of a side panel.
+    pub fn chain(self) -> Option<ChainId> {
+        match self {
+            PanelKind::Side { chain, .. } => Some(chain),
+            PanelKind::Top | PanelKind::Bottom => None,
+        }
+    }
+
     /// The panel's name within its component, for names in files: `top`, `chain2.1`.
     pub fn short_name(self) -> String {
         match self {

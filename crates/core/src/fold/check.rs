@@ -11,7 +11,7 @@ use super::step::{FLAT, Level, Levels, Move, share};
 use super::sweep::{Body, BodySheet, Care, Contacts, Sweep};
 use super::track::{Track, table};
 use super::way::{push_way, ways};
-use crate::component::{Panel, PanelId, PanelKind};
+use crate::component::{Panel, PanelId};
 use crate::model::PartId;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
@@ -357,11 +357,7 @@ impl<'a> Checker<'a> {
             (0..panels.len()).map(|first_panel| Owner { part: mover, first_panel }).collect();
         // Chains go down all the way in every pose and lie between top and bottom, so that only
         // different chains can meet.
-        let chain = |k: usize| match panels[k].kind {
-            PanelKind::Side { chain, .. } => Some(chain),
-            PanelKind::Top | PanelKind::Bottom => None,
-        };
-        let sides = (0..panels.len()).filter_map(|k| Some((k, chain(k)?)));
+        let sides = (0..panels.len()).filter_map(|k| Some((k, panels[k].kind.chain()?)));
         let list = sides
             .clone()
             .flat_map(|(a, i)| sides.clone().filter(move |&(_, j)| i < j).map(move |(b, _)| [a, b]))

@@ -1,7 +1,7 @@
 //! Which hinges of a net are joined at some time of the gluing, and what that leaves open.
 
 use glam::{DVec2, DVec3};
-use tatamu_core::component::{ChainId, HingeId, PanelId, PanelKind, PanelSet};
+use tatamu_core::component::{ChainId, HingeId, PanelId, PanelSet};
 use tatamu_core::geom::polygon;
 use tatamu_net::net::Net;
 
@@ -124,20 +124,13 @@ impl<'a> Joined<'a> {
 }
 
 fn chain_of_panel(set: &PanelSet, panel: PanelId) -> Option<ChainId> {
-    match set.panel(panel).kind {
-        PanelKind::Side { chain, .. } => Some(chain),
-        PanelKind::Top | PanelKind::Bottom => None,
-    }
+    set.panel(panel).kind.chain()
 }
 
 /// Panels of one chain or of neighbouring chains; top and bottom panels are neighbours of all.
 fn are_neighbours(set: &PanelSet, a: PanelId, b: PanelId) -> bool {
     let (Some(a), Some(b)) = (chain_of_panel(set, a), chain_of_panel(set, b)) else { return true };
-    let count = set.panels().iter().filter_map(|p| match p.kind {
-        PanelKind::Side { chain, .. } => Some(chain.number()),
-        PanelKind::Top | PanelKind::Bottom => None,
-    });
-    let count = count.max().unwrap_or(1);
+    let count = set.panels().iter().filter_map(|p| p.kind.chain()).max().map_or(1, ChainId::number);
     a == b || (a.0 + 1) % count == b.0 || (b.0 + 1) % count == a.0
 }
 

@@ -7,7 +7,7 @@ use glam::DVec2;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Visit {
     pub(super) task: usize,
-    entry: Begin,
+    begin: Begin,
     pub(super) start: DVec2,
     pub(super) end: DVec2,
 }
@@ -30,8 +30,8 @@ impl Visit {
         let line = &tasks[task];
         let (first, last) = (line.start(), line.end());
         if !line.is_closed() {
-            let forwards = Self { task, entry: Begin::Forwards, start: first, end: last };
-            let backwards = Self { task, entry: Begin::Backwards, start: last, end: first };
+            let forwards = Self { task, begin: Begin::Forwards, start: first, end: last };
+            let backwards = Self { task, begin: Begin::Backwards, start: last, end: first };
             let way = |v: &Self| at.distance(v.start) + next.map_or(0.0, |p| p.distance(v.end));
             return if way(&backwards) < way(&forwards) { backwards } else { forwards };
         }
@@ -39,22 +39,22 @@ impl Visit {
         let corners = line.points().iter().copied().enumerate();
         let nearest = corners.min_by(|a, b| way(a.1).total_cmp(&way(b.1)));
         let (corner, p) = nearest.unwrap_or((0, first));
-        Self { task, entry: Begin::Corner(corner), start: p, end: p }
+        Self { task, begin: Begin::Corner(corner), start: p, end: p }
     }
 
     /// The same task backwards.
     pub(super) fn turned(self) -> Self {
-        let entry = match self.entry {
+        let begin = match self.begin {
             Begin::Forwards => Begin::Backwards,
             Begin::Backwards => Begin::Forwards,
             corner @ Begin::Corner(_) => corner,
         };
-        Self { entry, start: self.end, end: self.start, ..self }
+        Self { begin, start: self.end, end: self.start, ..self }
     }
 
     /// The task as it is done.
     pub(super) fn applied(self, task: &Task) -> Task {
-        match self.entry {
+        match self.begin {
             Begin::Forwards => task.clone(),
             Begin::Backwards => task.clone().reversed(),
             Begin::Corner(corner) => task.clone().started_at(corner),
