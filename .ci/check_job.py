@@ -1,9 +1,9 @@
-"""Compares a job, read by a program that is not ours, with the DXF file of the same sheet.
+"""Compares jobs, each read by a program that is not ours, with the DXF files of the same sheets.
 
-    check_job.py LANGUAGE JOB SHEET.dxf [BLADE_OFFSET_MM]
+    check_job.py LANGUAGE[:BLADE_OFFSET_MM] JOB SHEET.dxf [JOB SHEET.dxf ...]
 
-LANGUAGE is that of the job: the name of a function of job_readers.py. Fails where the reader does not know a
-command, and where a line of the one is farther than the tolerance from the lines of the other. The job has to be
+LANGUAGE is that of the jobs: the name of a function of job_readers.py. Fails where the reader does not know a
+command, and where a line of the one is farther than the tolerance from the lines of the other. A job has to be
 that of a pen or a laser without overcut, so that both are the same geometry. With a blade's offset it is that of a
 drag knife, whose tip is simulated.
 """
@@ -94,22 +94,30 @@ def cut_by_knife(shaft, offset):
     return lines
 
 
-def main(language, job, sheet, offset=None):
+def compare(language, offset, job, sheet):
     drawn = getattr(job_readers, language)(job, dxf_lines.height(sheet))
     tolerance = COARSE_TOLERANCE_MM if language in COARSE else TOLERANCE_MM
     if offset:
-        drawn = cut_by_knife(drawn, float(offset))
+        drawn = cut_by_knife(drawn, offset)
         tolerance = KNIFE_TOLERANCE_MM
     skipped = SKIPPED_LAYERS | (DRAWN_LAYERS if offset or language in WITHOUT_PEN else set())
     meant = [line for line in dxf_lines.segments(sheet) if line[2] not in skipped]
     if not drawn or not meant:
-        sys.exit(f"{len(drawn)} lines drawn, {len(meant)} meant")
+        sys.exit(f"{job}: {len(drawn)} lines drawn, {len(meant)} meant")
     for name, ours, others in [("drawn, not meant", drawn, meant), ("meant, not drawn", meant, drawn)]:
         grid = Grid(others)
         worst, place = max((grid.distance(p), p) for p in samples(ours))
-        print(f"{name}: {worst:.4f} mm at most, at {place[0]:.2f}, {place[1]:.2f}")
+        print(f"{job}: {name}: {worst:.4f} mm at most, at {place[0]:.2f}, {place[1]:.2f}")
         if worst > tolerance:
             sys.exit(f"more than {tolerance} mm")
+
+
+def main(language, *files):
+    language, _, offset = language.partition(":")
+    if not files or len(files) % 2:
+        sys.exit(f"{len(files)} files are not pairs of a job and a sheet")
+    for job, sheet in zip(files[::2], files[1::2]):
+        compare(language, float(offset or 0), job, sheet)
 
 
 main(*sys.argv[1:])

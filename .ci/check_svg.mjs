@@ -1,6 +1,6 @@
-// An SVG rendered by resvg against our own PNG of the same sheet.
+// SVGs rendered by resvg against our own PNGs of the same sheets, which stand beside them.
 //
-// Usage: node check_svg.mjs FILE.svg FILE.png
+// Usage: node check_svg.mjs FILE.svg...
 import { createRequire } from "node:module";
 import { readFileSync } from "node:fs";
 
@@ -12,30 +12,33 @@ const { PNG } = require("pngjs");
 const MOST_MEAN = 1.0;
 const MOST_SHARE = 0.002;
 
-const [svgPath, pngPath] = process.argv.slice(2);
-const ours = PNG.sync.read(readFileSync(pngPath));
-const options = { background: "white", fitTo: { mode: "width", value: ours.width }, font: { loadSystemFonts: false } };
-const theirs = new Resvg(readFileSync(svgPath, "utf8"), options).render();
-// Each use of this property copies all pixels.
-const { pixels } = theirs;
-if (Math.abs(theirs.height - ours.height) > 1) {
-  throw new Error(`${theirs.width} x ${theirs.height} pixels, our PNG has ${ours.width} x ${ours.height}`);
-}
-let sum = 0;
-let far = 0;
-let ink = 0;
-const count = ours.width * Math.min(ours.height, theirs.height);
-for (let at = 0; at < 4 * count; at += 4) {
-  const alpha = ours.data[at + 3] / 255;
-  let difference = 0;
-  for (let c = 0; c < 3; c++) {
-    const own = ours.data[at + c] * alpha + 255 * (1 - alpha);
-    difference = Math.max(difference, Math.abs(own - pixels[at + c]));
-    ink += c === 0 && own < 200;
+const svgPaths = process.argv.slice(2);
+if (svgPaths.length === 0) throw new Error("no files");
+for (const svgPath of svgPaths) {
+  const ours = PNG.sync.read(readFileSync(svgPath.replace(/svg$/, "png")));
+  const options = { background: "white", fitTo: { mode: "width", value: ours.width }, font: { loadSystemFonts: false } };
+  const theirs = new Resvg(readFileSync(svgPath, "utf8"), options).render();
+  // Each use of this property copies all pixels.
+  const { pixels } = theirs;
+  if (Math.abs(theirs.height - ours.height) > 1) {
+    throw new Error(`${svgPath}: ${theirs.width} x ${theirs.height} pixels, our PNG has ${ours.width} x ${ours.height}`);
   }
-  sum += difference;
-  far += difference > 64;
+  let sum = 0;
+  let far = 0;
+  let ink = 0;
+  const count = ours.width * Math.min(ours.height, theirs.height);
+  for (let at = 0; at < 4 * count; at += 4) {
+    const alpha = ours.data[at + 3] / 255;
+    let difference = 0;
+    for (let c = 0; c < 3; c++) {
+      const own = ours.data[at + c] * alpha + 255 * (1 - alpha);
+      difference = Math.max(difference, Math.abs(own - pixels[at + c]));
+      ink += c === 0 && own < 200;
+    }
+    sum += difference;
+    far += difference > 64;
+  }
+  const [mean, share] = [sum / count, far / count];
+  console.log(`${svgPath}: mean difference ${mean.toFixed(3)} of 255, ${(100 * share).toFixed(3)}% far, ${ink} dark pixels`);
+  if (ink < 100 || mean > MOST_MEAN || share > MOST_SHARE) throw new Error(`${svgPath}: the pictures differ`);
 }
-const [mean, share] = [sum / count, far / count];
-console.log(`mean difference ${mean.toFixed(3)} of 255, ${(100 * share).toFixed(3)}% far, ${ink} dark pixels`);
-if (ink < 100 || mean > MOST_MEAN || share > MOST_SHARE) throw new Error("the pictures differ");

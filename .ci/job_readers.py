@@ -150,7 +150,7 @@ def lbrn2(job, _height):
 
 def fcm(job, height):
     """y is down from the upper edge."""
-    reader = os.path.join(os.environ.get("CARGO_TARGET_DIR", "target"), "release/examples/fcm_lines")
+    reader = os.path.join(os.environ.get("CARGO_TARGET_DIR", "target"), "debug/examples/fcm_lines")
     run = subprocess.run([reader, job], capture_output=True, text=True)
     if run.returncode:
         sys.exit(f"fcmlib did not read it:\n{run.stderr}")

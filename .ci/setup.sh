@@ -7,6 +7,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/tatamu-ci
 mkdir -p "$cache"
 export PATH=$PATH:$cache/bin
+# What is built here is built once, and debugged elsewhere.
+export CARGO_INCREMENTAL=0 CARGO_PROFILE_DEV_DEBUG=none
 
 # install_debian PACKAGE...
 install_debian() {
