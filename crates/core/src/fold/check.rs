@@ -98,7 +98,8 @@ impl<'a> Checker<'a> {
         let parts = model.ids();
         let track = |p: usize| {
             let motion = motion.component(PartId(p));
-            Track::new(motion, memory.tables().get_or(ids[p], || Arc::new(table(motion))))
+            let table = || Arc::new(table(motion, care.spans()));
+            Track::new(motion, memory.tables().get_or((ids[p], care.spans()), table))
         };
         let above: Vec<Vec<PartId>> = parts.clone().map(|p| ancestors(model, p)).collect();
         let ways = ways(&above);

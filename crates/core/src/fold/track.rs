@@ -7,19 +7,14 @@ use glam::DAffine3;
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-/// Spans of the table. Between their ends shares are interpolated; for links of 100 mm they are
-/// off by less than 1e-3 mm but for chains that are almost straight, which bend by up to 0.02 mm
-/// beside their course in the first span.
-const SPANS: usize = 512;
-
 /// How far each chain is at each moment of the table.
 pub(super) type Table = Vec<Vec<Shares>>;
 
-/// Tables a component's motion.
-pub(super) fn table(motion: &ComponentMotion) -> Table {
+/// Tables a component's motion at the ends of so many spans. Between them shares are interpolated.
+pub(super) fn table(motion: &ComponentMotion, spans: usize) -> Table {
     let mut shares = vec![motion.shares(0.0)];
-    for k in 1..=SPANS {
-        let next = motion.shares_near(k as f64 / SPANS as f64, &shares[k - 1]);
+    for k in 1..=spans {
+        let next = motion.shares_near(k as f64 / spans as f64, &shares[k - 1]);
         shares.push(next);
     }
     shares
@@ -44,8 +39,9 @@ impl<'a> Track<'a> {
 
     /// The component when it is folded by a share.
     pub(super) fn at(&self, folded: f64) -> Moment<'a> {
-        let place = folded.clamp(0.0, 1.0) * SPANS as f64;
-        let k = (place as usize).min(SPANS - 1);
+        let spans = self.shares.len() - 1;
+        let place = folded.clamp(0.0, 1.0) * spans as f64;
+        let k = (place as usize).min(spans - 1);
         let rest = place - k as f64;
         let between = |(a, b): (&Shares, &Shares)| Shares {
             above: a.above + rest * (b.above - a.above),
