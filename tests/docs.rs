@@ -300,7 +300,11 @@ fn follow(steps: &[Step]) {
                 assert!(steps[k..].iter().any(is_use), "no command uses {name}");
                 std::fs::write(folder.path().join(name), content).unwrap();
             }
-            Step::Command(line) => run(folder.path(), line),
+            Step::Command(line) => {
+                let begun = std::time::Instant::now();
+                run(folder.path(), line);
+                println!("{:.1} s: {line}", begun.elapsed().as_secs_f64());
+            }
         }
     }
 }

@@ -142,6 +142,11 @@ impl Options {
         if is_chosen { self.level.panel_worth() } else { 0.0 }
     }
 
+    /// Whether panels come out too small for fingers.
+    fn is_tiny(&self) -> bool {
+        self.size_mm < TINY_MM
+    }
+
     /// Whether the user chose the parts, or names this one.
     fn speaks_of(&self, part: &str) -> bool {
         let is_edited = |edit: &Edit| match edit {
@@ -173,6 +178,9 @@ impl Options {
         self.component(name).and_then(|(_, own)| own.joint)
     }
 }
+
+/// Models that are smaller have panels that no finger holds: at 50 mm those of the samples are 3 to 15 mm wide.
+const TINY_MM: f64 = 50.0;
 
 /// Most top edges and profile vertices with a tolerance.
 const MOST_COUNTS: (usize, usize) = (12, 10);

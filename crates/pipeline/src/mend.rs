@@ -112,6 +112,11 @@ pub(super) trait Maker {
     fn finish(&self, divided: &Divided, sketch: &Sketch) -> Result<(Built, f64), Error>;
 }
 
+/// The parts with the joints that the shape suggests.
+pub(super) fn unmended(maker: &impl Maker) -> Result<Mended, Error> {
+    finished(maker, drafted(maker, maker.divided(&[])?)?)
+}
+
 /// The parts with the joints that serve the model best, where those that the shape suggests do it harm; and one part
 /// instead of two where no joint serves.
 pub(super) fn mended(maker: &impl Maker) -> Result<Mended, Error> {

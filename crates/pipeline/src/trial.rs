@@ -1,7 +1,6 @@
 //! Where parts of a model clash, overlap or hardly hold, other options are tried, so that only what
 //! helps is advised.
 
-use super::warning::TINY_MM;
 use super::{Change, Engine, Error, Level, Options, Output, TrialWarning};
 use tatamu_core::fold::FoldPlan;
 use tatamu_core::model::Model;
@@ -30,9 +29,7 @@ impl Engine<'_> {
     /// [`Error::Cancelled`].
     pub fn advise(&self, output: Output, progress: &dyn Progress) -> Result<Output, Error> {
         let before = problems(output.model(), output.fold_plan());
-        // Whatever is wrong with a tiny model comes from its size.
-        let is_tiny = output.options().size_mm < TINY_MM;
-        if before == 0 || is_tiny || output.model().parts().len() > MOST_PARTS {
+        if before == 0 || output.options().is_tiny() || output.model().parts().len() > MOST_PARTS {
             return Ok(output);
         }
         progress.stage("remedies");

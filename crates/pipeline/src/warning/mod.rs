@@ -8,7 +8,7 @@ pub use model::{ModelWarning, PanelSide};
 pub use project::ProjectWarning;
 pub use trial::{Change, TrialWarning};
 
-pub(super) use model::{TINY_MM, many_sheets, not_joined, warnings};
+pub(super) use model::{many_sheets, not_joined, warnings};
 
 use std::fmt;
 use tatamu_core::design::DesignWarning;

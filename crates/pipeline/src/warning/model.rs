@@ -197,8 +197,6 @@ impl fmt::Display for ModelWarning {
     }
 }
 
-/// Models that are smaller have panels that no finger holds: at 50 mm those of the samples are 3 to 15 mm wide.
-pub(crate) const TINY_MM: f64 = 50.0;
 /// More sheets than anybody cuts unless it is meant: a model of a metre, with eight components, takes about 90 of A4.
 const MANY_SHEETS: usize = 60;
 
@@ -220,7 +218,7 @@ const THIN_PANELS: f64 = 4.0;
 /// What is to be known about a model and its nets.
 pub(crate) fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Options) -> Vec<Warning> {
     let mut out: Vec<Warning> = Vec::new();
-    if options.size_mm < TINY_MM {
+    if options.is_tiny() {
         out.push(ModelWarning::TinyModel { size_mm: options.size_mm }.into());
     }
     if !flat.is_empty() {
