@@ -277,7 +277,8 @@ fn every_command_in_the_book_and_the_readme_runs() {
     let count = jobs.iter().flat_map(|(steps, _)| steps).filter(|s| matches!(s, Step::Command(_))).count();
     assert!(count > 80, "only {count} commands were found");
     let jobs = Mutex::new(jobs);
-    let workers = std::thread::available_parallelism().map_or(2, |n| n.get());
+    // Jobs that are plotted wait for a machine that takes its time.
+    let workers = 2 * std::thread::available_parallelism().map_or(2, |n| n.get());
     let next = || jobs.lock().unwrap().pop();
     std::thread::scope(|scope| {
         for _ in 0..workers {
