@@ -196,7 +196,7 @@ fn a_shown_model_takes_no_more_sheets_than_it_may() {
     assert_refused(&files, &show, &["1 sheet", "allow more with --sheets-max"]);
 }
 
-/// A tiny model took half a minute of advice that no one could follow.
+/// A tiny model took half a minute of advice that no one could follow, and a minute and a half to lose its parts one by one.
 #[test]
 fn a_tiny_model_is_told_its_size_and_no_other_remedy() {
     let folder = folder_with(&[("a.obj", include_bytes!("../../samples/snowman.obj"))]);
@@ -205,6 +205,7 @@ fn a_tiny_model_is_told_its_size_and_no_other_remedy() {
     assert!(result.err.contains("too small to fold"), "{}", result.err);
     let text = std::fs::read_to_string(folder.path().join("a.json")).unwrap();
     assert!(text.contains("clash") && !text.contains("was tried"), "{}", result.err);
+    assert!(!result.out.contains("are one part"), "{}", result.out);
 }
 
 /// `-o -.pdf` was no file name.
