@@ -155,7 +155,6 @@ impl<'m> Engine<'m> {
     /// [`Error::NoPlug`].
     pub fn shape(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
         let maker = Making { engine: self, options, sketches: Memory::new(SKETCHES), progress };
-        // What is wrong with a tiny model comes from its size: a snowman of 20 mm was mended for 86 s.
         let Mended { divided, built, merges, .. } =
             if options.is_tiny() { unmended(&maker)? } else { mended(&maker)? };
         self.know(&built);

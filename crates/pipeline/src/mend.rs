@@ -114,13 +114,13 @@ pub(super) trait Maker {
 
 /// The parts with the joints that the shape suggests.
 pub(super) fn unmended(maker: &impl Maker) -> Result<Mended, Error> {
-    finished(maker, drafted(maker, maker.divided(&[])?)?)
+    finished(maker, first_draft(maker)?)
 }
 
 /// The parts with the joints that serve the model best, where those that the shape suggests do it harm; and one part
 /// instead of two where no joint serves.
 pub(super) fn mended(maker: &impl Maker) -> Result<Mended, Error> {
-    let mut best = joined(maker, drafted(maker, maker.divided(&[])?)?)?;
+    let mut best = joined(maker, first_draft(maker)?)?;
     while best.harm_mm > 0.0 {
         let mut least = best.price();
         let mut next: Option<(Draft, Vec<Merge>)> = None;
@@ -216,6 +216,10 @@ fn thicker(maker: &impl Maker, draft: &Draft) -> Result<Option<Draft>, Error> {
         }
     }
     Ok(thicker)
+}
+
+fn first_draft(maker: &impl Maker) -> Result<Draft, Error> {
+    drafted(maker, maker.divided(&[])?)
 }
 
 fn drafted(maker: &impl Maker, divided: Arc<Divided>) -> Result<Draft, Error> {
