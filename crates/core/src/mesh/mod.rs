@@ -17,7 +17,7 @@ pub use placement::Up;
 pub use repair::{MeshError, MeshWarning, Repairs};
 pub use soup::{Soup, SoupError};
 pub use symmetry::MirrorPlane;
-pub use views::{Cover, Views};
+pub use views::{Cover, Outlines, Views};
 
 use crate::geom::bounds;
 use glam::DVec3;

@@ -3,6 +3,7 @@
 use super::Mesh;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Pixels along the longest side of the mesh: of a model of 200 mm one is 2 mm, and errors of single pixels
 /// cancel along an outline.
@@ -25,17 +26,38 @@ pub struct Views {
 /// What a solid covers in each view.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cover {
-    masks: Vec<Mask>,
+    bands: Vec<Band>,
 }
 
-impl Cover {
-    /// What at least one of some solids covers.
-    #[must_use]
-    pub fn or(mut self, other: &Self) -> Self {
-        let rows = self.masks.iter_mut().flatten().zip(other.masks.iter().flatten());
-        rows.for_each(|(row, other)| *row |= other);
-        self
+/// What a solid covers in one view: nothing above and below some rows.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Band {
+    first: usize,
+    rows: Vec<Row>,
+}
+
+impl Band {
+    fn range(&self) -> Range<usize> {
+        self.first..self.first + self.rows.len()
     }
+
+    fn row(&self, row: usize) -> Row {
+        row.checked_sub(self.first).and_then(|k| self.rows.get(k)).copied().unwrap_or(0)
+    }
+}
+
+/// What some solids cover together, as a ground on which others are seen.
+#[derive(Debug, Clone)]
+pub struct Outlines {
+    of_views: Vec<Outline>,
+}
+
+#[derive(Debug, Clone)]
+struct Outline {
+    mask: Mask,
+    /// Pixels that it shares with the mesh, and pixels of either.
+    both: u32,
+    either: u32,
 }
 
 impl Views {
@@ -54,33 +76,51 @@ impl Views {
         self.views.iter().map(of_view).sum::<f64>() / self.views.len() as f64
     }
 
-    /// What nothing covers.
-    pub fn nothing(&self) -> Cover {
-        Cover { masks: vec![[0; PIXELS]; self.views.len()] }
-    }
-
     /// What a convex solid covers, by its edges.
     pub fn cover(&self, edges: &[[DVec3; 2]]) -> Cover {
-        let mask = |view: &View| {
+        let band = |view: &View| {
             let mut mask = [0; PIXELS];
-            add_convex(edges.iter().map(|edge| edge.map(|p| view.pixel(p))), &mut mask);
-            mask
+            let rows = add_convex(edges.iter().map(|edge| edge.map(|p| view.pixel(p))), &mut mask);
+            Band { first: rows.start, rows: mask[rows].to_vec() }
         };
-        Cover { masks: self.views.iter().map(mask).collect() }
+        Cover { bands: self.views.iter().map(band).collect() }
     }
 
-    /// One minus the intersection over union of the outlines of the mesh and those of `cover`, the mean of
-    /// all views: 0 where they are alike, 1 where they share nothing.
-    pub fn unlike(&self, cover: &Cover) -> f64 {
-        let of_view = |(view, mask): (&View, &Mask)| {
-            let (mut both, mut either) = (0, 0);
-            for (seen, row) in view.mask.iter().zip(mask) {
-                both += (row & seen).count_ones();
-                either += (row | seen).count_ones();
+    /// What some solids cover together.
+    pub fn outlines(&self, covers: &[&Cover]) -> Outlines {
+        let of_view = |(k, view): (usize, &View)| {
+            let mut mask = [0; PIXELS];
+            for band in covers.iter().map(|cover| &cover.bands[k]) {
+                mask[band.range()].iter_mut().zip(&band.rows).for_each(|(row, own)| *row |= own);
+            }
+            let ones = |of: &dyn Fn(Row, Row) -> Row| -> u32 {
+                mask.iter().zip(&view.mask).map(|(&row, &seen)| of(row, seen).count_ones()).sum()
+            };
+            Outline { mask, both: ones(&|row, seen| row & seen), either: ones(&|row, seen| row | seen) }
+        };
+        Outlines { of_views: self.views.iter().enumerate().map(of_view).collect() }
+    }
+
+    /// One minus the intersection over union of the outlines of the mesh and those of `ground` and of
+    /// `more` solids together, the mean of all views: 0 where they are alike, 1 where they share nothing.
+    pub fn unlike(&self, ground: &Outlines, more: &[Cover]) -> f64 {
+        let of_view = |(k, (view, ground)): (usize, (&View, &Outline))| {
+            let bands = || more.iter().map(|cover| &cover.bands[k]).filter(|band| !band.rows.is_empty());
+            let least = bands().map(|band| band.first).min().unwrap_or(0);
+            let most = bands().map(|band| band.range().end).max().unwrap_or(0);
+            let (mut both, mut either) = (ground.both, ground.either);
+            for (row, (seen, known)) in view.mask.iter().zip(&ground.mask).enumerate().take(most).skip(least)
+            {
+                let added = bands().fold(0, |added, band| added | band.row(row)) & !known;
+                if added != 0 {
+                    both += (added & seen).count_ones();
+                    either += (added & !seen).count_ones();
+                }
             }
             1.0 - f64::from(both) / f64::from(either.max(1))
         };
-        self.views.iter().zip(&cover.masks).map(of_view).sum::<f64>() / self.views.len() as f64
+        self.views.iter().zip(&ground.of_views).enumerate().map(of_view).sum::<f64>()
+            / self.views.len() as f64
     }
 }
 
@@ -124,14 +164,14 @@ impl View {
     }
 }
 
-/// Adds the pixels whose middle is within the convex outline of some edges.
-fn add_convex(edges: impl Iterator<Item = [DVec2; 2]> + Clone, mask: &mut Mask) {
+/// Adds the pixels whose middle is within the convex outline of some edges; and in which rows they are.
+fn add_convex(edges: impl Iterator<Item = [DVec2; 2]> + Clone, mask: &mut Mask) -> Range<usize> {
     let heights = edges.clone().flatten().map(|p| p.y);
     let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
     let (least, most) = middles(low, high);
     if least >= most {
         // Most triangles of a scan are smaller than a pixel.
-        return;
+        return 0..0;
     }
     let mut spans = [(f64::INFINITY, f64::NEG_INFINITY); PIXELS];
     for [a, b] in edges {
@@ -152,6 +192,7 @@ fn add_convex(edges: impl Iterator<Item = [DVec2; 2]> + Clone, mask: &mut Mask) 
             mask[row] |= Row::MAX >> (PIXELS - (end - first)) << first;
         }
     }
+    least..most
 }
 
 /// The pixels whose middle is between two coordinates: the first, and the one behind the last.
@@ -205,11 +246,12 @@ mod tests {
         let (low, side) = (DVec3::new(-3.0, 8.0, 1.0), DVec3::new(30.0, 50.0, 20.0));
         let views = views_of_cuboid(low, side);
         // Triangles that share an edge leave no pixel between them.
-        assert!(views.unlike(&views.cover(&cuboid(low, side))) < 1e-3);
-        assert_eq!(views.unlike(&views.nothing()), 1.0);
+        let nothing = views.outlines(&[]);
+        assert!(views.unlike(&nothing, &[views.cover(&cuboid(low, side))]) < 1e-3);
+        assert_eq!(views.unlike(&nothing, &[]), 1.0);
         // Along none of the sides.
         let beside = views.cover(&cuboid(low + DVec3::new(1e3, 3e3, 7e3), side));
-        assert_eq!(beside, views.nothing());
+        assert_eq!(views.unlike(&nothing, &[beside]), 1.0);
     }
 
     /// Half of a box has half of its outline from the sides that see the cut edge on.
@@ -219,7 +261,7 @@ mod tests {
         let half = |k: f64| views.cover(&cuboid(DVec3::X * k, DVec3::new(5.0, 10.0, 10.0)));
         let of_side = |k: usize, cover: &Cover| {
             let one = Views { views: vec![views.views[k].clone()] };
-            one.unlike(&Cover { masks: vec![cover.masks[k]] })
+            one.unlike(&one.outlines(&[]), &[Cover { bands: vec![cover.bands[k].clone()] }])
         };
         for (k, side) in sides().enumerate() {
             let unlike = of_side(k, &half(0.0));
@@ -230,15 +272,20 @@ mod tests {
             };
             assert!((unlike - exact).abs() < 0.02, "{side}: {unlike} {exact}");
         }
-        let both = half(0.0).or(&half(5.0));
-        assert!(views.unlike(&both) < 1e-2, "{}", views.unlike(&both));
+        let [left, right] = [0.0, 5.0].map(half);
+        let one_by_one = views.unlike(&views.outlines(&[&left]), std::slice::from_ref(&right));
+        assert!(one_by_one < 1e-2, "{one_by_one}");
+        assert_eq!(one_by_one, views.unlike(&views.outlines(&[&left, &right]), &[]));
+        assert_eq!(one_by_one, views.unlike(&views.outlines(&[]), &[left, right]));
     }
 
     #[test]
     fn what_reaches_beyond_the_mesh_counts() {
         let views = views_of_cuboid(DVec3::ZERO, DVec3::splat(10.0));
-        let grown =
-            |mm: f64| views.unlike(&views.cover(&cuboid(DVec3::splat(-mm), DVec3::splat(10.0 + 2.0 * mm))));
+        let grown = |mm: f64| {
+            let cover = views.cover(&cuboid(DVec3::splat(-mm), DVec3::splat(10.0 + 2.0 * mm)));
+            views.unlike(&views.outlines(&[]), &[cover])
+        };
         // From the front a square grows from 100 to 121 mm².
         assert!((grown(0.5) - (1.0 - 1.0 / 1.21)).abs() < 0.02, "{}", grown(0.5));
         assert!(grown(0.2) < grown(0.4) && grown(0.4) < grown(0.8));

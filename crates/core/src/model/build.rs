@@ -418,6 +418,7 @@ pub(super) mod tests {
     use super::*;
     use crate::component::PanelId;
     use crate::geom::{Hull, Mirror};
+    use crate::mesh::{Mesh, Soup};
     use crate::model::{Known, PartOptions, Unjudged};
     use crate::progress::Silent;
     use glam::{DQuat, DVec3};
@@ -475,6 +476,47 @@ pub(super) mod tests {
         for part in model.parts() {
             let foot = DVec3::new(0.0, 0.0, -75.0);
             assert!(part.placement.transform_point3(foot).distance(foot) < SETTLED_MM, "{}", part.name);
+        }
+    }
+
+    /// What has not moved since the first combination is not drawn again.
+    #[test]
+    fn looks_of_many_combinations_are_those_of_each_by_itself() {
+        let parts = [
+            part("body", DVec3::new(-40.0, -20.0, 0.0), DVec3::new(80.0, 40.0, 90.0), DQuat::IDENTITY),
+            part("leg", DVec3::new(-9.0, -9.0, -75.0), DVec3::new(18.0, 18.0, 80.0), DQuat::IDENTITY),
+            part("foot", DVec3::new(-9.0, -9.0, -90.0), DVec3::new(18.0, 50.0, 20.0), DQuat::IDENTITY),
+        ];
+        let link = |parent: usize, child: usize, z_mm: f64| Link {
+            parent: PartId(parent),
+            child: PartId(child),
+            plane: Plane::horizontal(z_mm),
+        };
+        let links = [link(0, 1, 2.0), link(1, 2, -72.0)];
+        let assembly =
+            Assembly { parts: &parts, links: &links, symmetry: None, min_panel_mm: 3.0, views: None };
+        let Candidates { of, links, .. } =
+            Candidates::new(&assembly, &Trouble::default(), &Known::default(), &Silent).unwrap();
+        let pairs = Pairs::new(&links, &of, 1.0);
+        let corners: Vec<DVec3> = parts.iter().flat_map(|part| part.hull.vertices()).copied().collect();
+        let triangles: Vec<[u32; 3]> = (0..corners.len() as u32 - 2).map(|k| [k, k + 1, k + 2]).collect();
+        let mesh = Mesh::from_soup(&Soup::new(corners, triangles).unwrap()).unwrap().0;
+        let views = Views::of_mesh(&mesh);
+        let seen = Seen::new(&views, &of, (&links, &pairs));
+        let other = |part: usize, k: usize| {
+            let mut other = vec![0; of.len()];
+            other[part] = k;
+            other
+        };
+        let others = (0..of.len()).flat_map(|part| (1..of[part].len()).map(move |k| other(part, k)));
+        let all: Vec<Combination> = std::iter::once(vec![0; of.len()]).chain(others).collect();
+        let together = seen.unlike(&all);
+        let mut different = together.clone();
+        different.sort_by(f64::total_cmp);
+        different.dedup();
+        assert!(different.len() > 5, "{different:?}");
+        for (combination, unlike) in all.iter().zip(together) {
+            assert_eq!(seen.unlike(std::slice::from_ref(combination)), [unlike]);
         }
     }
 

@@ -284,7 +284,7 @@ impl Choice {
             starts.truncate(STARTS);
             starts.extend([&best.of, &unhindered].map(|of| (0.0, None, of)));
             let descended = |&(_, held, of): &(f64, Option<usize>, &Combination)| {
-                let of = self.descended(of.clone(), held, &expected_mm);
+                let of = near.descended(of.clone(), held, &harms);
                 (expected_mm(&of), of)
             };
             let known: Vec<(f64, Combination)> = starts.par_iter().map(descended).collect();
@@ -319,14 +319,10 @@ impl Choice {
     }
 
     /// The combination with the candidates exchanged, variable by variable but for the one that is held, as long as that
-    /// makes it cheaper.
-    fn descended(
-        &self,
-        mut of: Combination,
-        held: Option<usize>,
-        cost_mm: &(dyn Fn(&[usize]) -> f64 + Sync),
-    ) -> Combination {
-        let mut least_mm = cost_mm(&of);
+    /// makes it cheaper as far as harms are known.
+    fn descended(&self, mut of: Combination, held: Option<usize>, harms: &Harms) -> Combination {
+        let mut harms_mm = harms.of_pairs(&of);
+        let mut least_mm = self.cost_mm(&of) + harms.expected_mm(&of);
         for _ in 0..ROUNDS {
             let before_mm = least_mm;
             for &v in self.downwards.iter().filter(|v| held != Some(**v)) {
@@ -334,9 +330,11 @@ impl Choice {
                     let mut other = of.clone();
                     other[v] = k;
                     let other = self.spread(other);
-                    let other_mm = cost_mm(&other);
+                    let is_other = |part: PartId| self.variable[part.0] == v;
+                    let other_mm = self.cost_mm(&other) + harms.changed_mm(&harms_mm, &other, is_other);
                     if other_mm < least_mm {
                         (of, least_mm) = (other, other_mm);
+                        harms_mm = harms.of_pairs(&of);
                     }
                 }
             }

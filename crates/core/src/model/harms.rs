@@ -1,7 +1,8 @@
 //! Parts that bump into each other: what that costs, and what a search has learned of it.
 
 use super::PartId;
-use std::collections::BTreeMap;
+use smallvec::SmallVec;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A pair that bumps costs this much, mm of error: with 25 a hand and a plane of 7 and 10 parts bump, with 50 the right
 /// arm of a bear bumps by 0.3 mm for outlines that are 0.007 more alike. Not bounded from above by a case yet.
@@ -39,8 +40,8 @@ pub(super) struct Harms {
     ways: Vec<([PartId; 2], Vec<PartId>)>,
     /// For each the candidates on its way that were seen, and the harm, mm of error.
     least_mm: Vec<BTreeMap<Vec<usize>, f64>>,
-    /// Those with harm: the number of the pair and the candidates.
-    harmful: BTreeMap<(usize, Vec<usize>), f64>,
+    /// The numbers of those with harm.
+    harmful: BTreeSet<usize>,
 }
 
 impl Harms {
@@ -48,7 +49,7 @@ impl Harms {
     pub(super) fn new(parents: &[Option<PartId>]) -> Self {
         let pairs = (0..parents.len()).flat_map(|b| (0..=b).map(move |a| [PartId(a), PartId(b)]));
         let ways: Vec<_> = pairs.map(|pair| (pair, way(parents, pair))).collect();
-        Self { least_mm: vec![BTreeMap::new(); ways.len()], ways, harmful: BTreeMap::new() }
+        Self { least_mm: vec![BTreeMap::new(); ways.len()], ways, harmful: BTreeSet::new() }
     }
 
     /// Takes in what the parts of a combination do to each other; `is_whole` where these are all of its bumps.
@@ -58,31 +59,54 @@ impl Harms {
             if bumps.is_empty() && !is_whole {
                 continue;
             }
-            let on_way: Vec<usize> = way.iter().map(|part| of[part.0]).collect();
             let mm = harm_mm(&bumps);
-            let least_mm = self.least_mm[k].entry(on_way.clone()).or_insert(mm);
+            let least_mm = self.least_mm[k].entry(on_way(of, way).collect()).or_insert(mm);
             *least_mm = least_mm.min(mm);
-            if *least_mm > 0.0 {
-                self.harmful.insert((k, on_way), *least_mm);
-            } else {
-                self.harmful.remove(&(k, on_way));
+            if mm > 0.0 {
+                self.harmful.insert(k);
             }
         }
     }
 
     /// What a combination is expected to cost by its bumps: those that are known.
     pub(super) fn expected_mm(&self, of: &[usize]) -> f64 {
-        let is_here = |(k, on_way): &(usize, Vec<usize>)| {
-            self.ways[*k].1.iter().zip(on_way).all(|(part, &candidate)| of[part.0] == candidate)
-        };
-        self.harmful.iter().filter(|(key, _)| is_here(key)).map(|(_, mm)| mm).sum()
+        self.of_pairs(of).iter().sum()
     }
+
+    /// The share of each pair with harm in that.
+    pub(super) fn of_pairs(&self, of: &[usize]) -> Vec<f64> {
+        self.harmful.iter().map(|&k| self.of_pair(k, of)).collect()
+    }
+
+    /// What a combination is expected to cost that has other candidates than one before for some parts; `before_mm` are
+    /// the shares of that one.
+    pub(super) fn changed_mm(
+        &self,
+        before_mm: &[f64],
+        of: &[usize],
+        is_other: impl Fn(PartId) -> bool,
+    ) -> f64 {
+        let pairs = self.harmful.iter().zip(before_mm);
+        let share_mm = |(&k, &before_mm): (&usize, &f64)| {
+            if self.ways[k].1.iter().any(|part| is_other(*part)) { self.of_pair(k, of) } else { before_mm }
+        };
+        pairs.map(share_mm).sum()
+    }
+
+    fn of_pair(&self, k: usize, of: &[usize]) -> f64 {
+        let key: SmallVec<[usize; 16]> = on_way(of, &self.ways[k].1).collect();
+        self.least_mm[k].get(&key[..]).copied().unwrap_or(0.0)
+    }
+}
+
+/// The candidates of the parts on a way.
+fn on_way<'a>(of: &'a [usize], way: &'a [PartId]) -> impl Iterator<Item = usize> + 'a {
+    way.iter().map(|part| of[part.0])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeSet;
 
     #[test]
     fn a_way_has_the_parts_between() {
@@ -111,5 +135,9 @@ mod tests {
         assert_eq!(harms.expected_mm(&[0, 0, 1]), near_mm);
         harms.learn(&[0, 0, 1], &[], true);
         assert_eq!(harms.expected_mm(&[0, 0, 1]), 0.0);
+        let before_mm = harms.of_pairs(&[0, 0, 0]);
+        for (part, of) in [[1, 0, 0], [0, 1, 0], [0, 0, 1]].into_iter().enumerate() {
+            assert_eq!(harms.changed_mm(&before_mm, &of, |p| p.0 == part), harms.expected_mm(&of));
+        }
     }
 }

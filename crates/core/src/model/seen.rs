@@ -5,9 +5,11 @@ use super::candidate::Candidate;
 use super::choice::Combination;
 use super::link::Link;
 use super::pair::Pairs;
-use crate::mesh::{Cover, Views};
+use crate::mesh::{Cover, Outlines, Views};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 /// Candidates of all parts with the views of the mesh that they are to look like.
 pub(super) struct Seen<'a> {
@@ -16,6 +18,12 @@ pub(super) struct Seen<'a> {
     pairs: &'a Pairs,
     /// Edges of each candidate of each part in the mesh's axes, before the part is seated on its parent.
     edges: Vec<Vec<Vec<[DVec3; 2]>>>,
+}
+
+/// Where the parts of a combination are, and which of them are not as in the first one.
+struct Moved {
+    placements: Vec<DAffine3>,
+    parts: Vec<usize>,
 }
 
 impl<'a> Seen<'a> {
@@ -37,17 +45,31 @@ impl<'a> Seen<'a> {
             let covers: Vec<Cover> = (0..first.len()).into_par_iter().map(draw).collect();
             (placements, covers)
         });
-        let unlike = |of: &Combination| {
-            let Some(placements) = self.placements(of) else { return 1.0 };
-            let add = |sum: Cover, part: usize| match &known {
-                Some(known) if of[part] == first[part] && placements[part] == known.0[part] => {
-                    sum.or(&known.1[part])
-                }
-                _ => sum.or(&self.cover(PartId(part), of[part], &placements[part])),
+        let moved = |of: &Combination| {
+            let placements = self.placements(of)?;
+            let is_moved = |part: &usize| match &known {
+                Some((as_first, _)) => of[*part] != first[*part] || placements[*part] != as_first[*part],
+                None => true,
             };
-            self.views.unlike(&(0..of.len()).fold(self.views.nothing(), add))
+            let parts = (0..of.len()).filter(is_moved).collect();
+            Some(Moved { placements, parts })
         };
-        all.par_iter().map(unlike).collect()
+        let moved: Vec<Option<Moved>> = all.par_iter().map(moved).collect();
+        // Many have the same others of the first one around them.
+        let grounds: BTreeMap<&[usize], OnceLock<Outlines>> =
+            moved.iter().flatten().map(|moved| (&moved.parts[..], OnceLock::new())).collect();
+        let ground = |moved: &[usize]| {
+            let covers = known.iter().flat_map(|(_, covers)| covers.iter().enumerate());
+            let still = covers.filter(|(part, _)| !moved.contains(part)).map(|(_, cover)| cover);
+            self.views.outlines(&still.collect::<Vec<_>>())
+        };
+        let unlike = |(of, moved): (&Combination, &Option<Moved>)| {
+            let Some(Moved { placements, parts }) = moved else { return 1.0 };
+            let covers = parts.iter().map(|&part| self.cover(PartId(part), of[part], &placements[part]));
+            let ground = grounds[&parts[..]].get_or_init(|| ground(parts));
+            self.views.unlike(ground, &covers.collect::<Vec<_>>())
+        };
+        all.par_iter().zip(&moved).map(unlike).collect()
     }
 
     fn cover(&self, part: PartId, candidate: usize, placement: &DAffine3) -> Cover {

@@ -109,17 +109,16 @@ impl Cleaner<'_> {
             points[parts.of_cell[cell as usize] as usize].extend(self.mesh.corners(face));
         }
         let hulls: Vec<Hull> = points.par_iter().filter_map(|points| Hull::of_points(points).ok()).collect();
-        let (mut cover, mut outlines) = (Cover::new(solid), views.nothing());
-        for hull in &hulls {
-            let edges: Vec<[DVec3; 2]> =
-                hull.corners().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
-            cover.add(&solid.runs(hull.corners()));
-            outlines = outlines.or(&views.cover(&edges));
-        }
+        let mut cover = Cover::new(solid);
+        hulls.iter().for_each(|hull| cover.add(&solid.runs(hull.corners())));
+        let edges = |hull: &Hull| -> Vec<[DVec3; 2]> {
+            hull.corners().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).collect()
+        };
+        let seen: Vec<_> = hulls.iter().map(|hull| views.cover(&edges(hull))).collect();
         let borders = parts.border_costs(&self.fine.surface).values().sum();
         let iou = cover.iou();
         let worth = iou - price(part_cost, parts.count, borders);
-        Weighed { parts, iou, worth, unlike: views.unlike(&outlines) }
+        Weighed { parts, iou, worth, unlike: views.unlike(&views.outlines(&[]), &seen) }
     }
 }
 
