@@ -30,7 +30,7 @@ pub struct Cover {
 }
 
 /// What a solid covers in one view: nothing above and below some rows.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 struct Band {
     first: usize,
     rows: Vec<Row>,
@@ -251,6 +251,7 @@ mod tests {
         assert_eq!(views.unlike(&nothing, &[]), 1.0);
         // Along none of the sides.
         let beside = views.cover(&cuboid(low + DVec3::new(1e3, 3e3, 7e3), side));
+        assert!(beside.bands.iter().flat_map(|band| &band.rows).all(|row| *row == 0), "{beside:?}");
         assert_eq!(views.unlike(&nothing, &[beside]), 1.0);
     }
 

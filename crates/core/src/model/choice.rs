@@ -322,7 +322,7 @@ impl Choice {
     /// makes it cheaper as far as harms are known.
     fn descended(&self, mut of: Combination, held: Option<usize>, harms: &Harms) -> Combination {
         let mut harms_mm = harms.of_pairs(&of);
-        let mut least_mm = self.cost_mm(&of) + harms.expected_mm(&of);
+        let mut least_mm = self.cost_mm(&of) + harms_mm.iter().sum::<f64>();
         for _ in 0..ROUNDS {
             let before_mm = least_mm;
             for &v in self.downwards.iter().filter(|v| held != Some(**v)) {
