@@ -4,7 +4,7 @@ use super::check::Clash;
 use super::contact::{Sheet, gap};
 use super::overlap::Overlap;
 use super::plan::FoldPlan;
-use super::pose::ModelMotion;
+use super::pose::{ModelMotion, ModelPose};
 use super::step::Step;
 use crate::component::PanelId;
 use crate::model::PartId;
@@ -69,7 +69,8 @@ fn unfolded(motion: &ModelMotion<'_>, overlap: &Overlap) -> Encounter {
         (0..panels.len()).map(PanelId).collect::<Vec<_>>()
     });
     let pairs = a.iter().flat_map(|&p| b.iter().map(move |&q| [p, q]));
-    let sheets = |panels| sheets(motion, &folded, overlap.parts, panels);
+    let pose = motion.pose(&folded);
+    let sheets = |panels| sheets(motion, &pose, overlap.parts, panels);
     let depth_mm = |panels| depth_mm(&sheets(panels));
     let panels = pairs.max_by(|&p, &q| depth_mm(p).total_cmp(&depth_mm(q))).unwrap_or([PanelId(0); 2]);
     let line = common_line(&sheets(panels));
@@ -87,7 +88,8 @@ fn folding(motion: &ModelMotion<'_>, steps: &[Step], clash: &Clash) -> Encounter
         folded[clash.mover.0] = share;
         folded
     };
-    let depth_mm = |share: f64| depth_mm(&sheets(motion, &at(share), clash.parts, clash.panels));
+    let sheets = |folded: &[f64]| sheets(motion, &motion.pose(folded), clash.parts, clash.panels);
+    let depth_mm = |share: f64| depth_mm(&sheets(&at(share)));
     let shares =
         (0..=MOMENTS).map(|k| clash.folded + (clash.to - clash.folded) * f64::from(k) / f64::from(MOMENTS));
     let deepest = shares.fold((clash.folded, depth_mm(clash.folded)), |best, share| {
@@ -95,7 +97,7 @@ fn folding(motion: &ModelMotion<'_>, steps: &[Step], clash: &Clash) -> Encounter
         if depth_mm > best.1 { (share, depth_mm) } else { best }
     });
     let folded = at(deepest.0);
-    let line = common_line(&sheets(motion, &folded, clash.parts, clash.panels));
+    let line = common_line(&sheets(&folded));
     let (parts, panels, depth_mm) = (clash.parts, clash.panels, clash.depth_mm);
     Encounter { parts, panels, mover: Some(clash.mover), folded, line, depth_mm }
 }
@@ -105,8 +107,12 @@ fn depth_mm([a, b]: &[Sheet; 2]) -> f64 {
 }
 
 /// One panel of each of two parts in a pose.
-fn sheets(motion: &ModelMotion<'_>, folded: &[f64], parts: [PartId; 2], panels: [PanelId; 2]) -> [Sheet; 2] {
-    let pose = motion.pose(folded);
+fn sheets(
+    motion: &ModelMotion<'_>,
+    pose: &ModelPose,
+    parts: [PartId; 2],
+    panels: [PanelId; 2],
+) -> [Sheet; 2] {
     [0, 1].map(|k| {
         let place = pose.parts[parts[k].0].panel(panels[k]);
         Sheet::of_panel(motion.model().part(parts[k]).component.panels().panel(panels[k]), place)

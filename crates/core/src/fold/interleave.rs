@@ -24,6 +24,8 @@ const WORTH_TURNS: f64 = 2.0;
 const MOST_PLACES: usize = 4_500;
 /// A lattice is given up if it takes more sweeps than this.
 const MOST_SWEEPS: usize = 120;
+/// Bumps that are looked at. A model of usual size has fewer; a bear in 100 parts has 300, and nobody folds it anyway.
+const MOST_BUMPS: usize = 16;
 /// A plan is changed for another one that does less harm by more than this for each step that it has
 /// more, or for one without bumps: ten steps that still bump by 4 instead of 6 mm help nobody.
 const GAIN_FOR_STEP_MM: f64 = 0.3;
@@ -39,7 +41,7 @@ pub(super) fn interleaved(
     progress: &dyn Progress,
 ) -> Result<Vec<Move>, Cancelled> {
     let mut looked_at = BTreeSet::new();
-    loop {
+    while looked_at.len() < MOST_BUMPS {
         let clashes = replay(checker, &moves, parts);
         let Some(worst) = worst_bump(&clashes, thickness_mm, &looked_at) else { return Ok(moves) };
         looked_at.insert(worst.parts);
@@ -63,6 +65,7 @@ pub(super) fn interleaved(
             }
         }
     }
+    Ok(moves)
 }
 
 fn worst_bump(clashes: &[Clash], thickness_mm: f64, looked_at: &BTreeSet<[PartId; 2]>) -> Option<Clash> {

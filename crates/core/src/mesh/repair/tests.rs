@@ -160,6 +160,24 @@ fn triangles_without_area_leave_no_slit() {
     }
 }
 
+/// The corners of a disc are so near the line between their neighbours that the triangles there have no area.
+#[test]
+fn a_disc_of_many_corners_stays_closed() {
+    for sides in [10_000, 100_000_u32] {
+        let corner = |k: u32| {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(k % sides) / f64::from(sides)).sin_cos();
+            DVec3::new(cos, sin, f64::from(k / sides))
+        };
+        let walls = (0..sides).map(|k| [k, (k + 1) % sides]).map(|[a, b]| vec![a, b, sides + b, sides + a]);
+        let ends = [(0..sides).rev().collect(), (sides..2 * sides).collect()];
+        let (mesh, repairs) = mesh_of((0..2 * sides).map(corner).collect(), walls.chain(ends).collect());
+        assert_clean(&mesh);
+        assert_eq!((repairs.boundary_edges, repairs.non_manifold_edges), (0, 0), "{sides}: {repairs:?}");
+        assert_eq!(mesh.positions().len() as u32, 2 * sides);
+        assert!((mesh.volume() - std::f64::consts::PI).abs() < 1e-6);
+    }
+}
+
 #[test]
 fn what_is_no_solid_is_refused() {
     let one = error_of(cube_corners(), vec![[0, 1, 2]]);

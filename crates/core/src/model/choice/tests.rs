@@ -232,3 +232,14 @@ fn the_search_can_be_stopped() {
     let tree = Tree::random(&mut Rng::with_seed(3));
     assert!(tree.choice().best(None, Effort::Long, &|_, _| Err(Cancelled), &no_looks).is_err());
 }
+
+/// Looks at a bear in 30 parts, of which each took the cube of that, went on for minutes.
+#[test]
+fn more_parts_than_many_make_no_more_work() {
+    for effort in [Effort::Short, Effort::Long] {
+        let work = |parts: usize| effort.looks(parts) * parts.pow(3);
+        assert!((1..MANY).all(|parts| work(parts) < work(parts + 1)));
+        assert!((MANY..=200).all(|parts| work(parts) <= work(MANY)));
+        assert!((MANY..200).all(|parts| effort.looks(parts) >= effort.looks(parts + 1)));
+    }
+}
