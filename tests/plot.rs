@@ -93,6 +93,23 @@ fn a_job_arrives_whole_by_every_handshake() {
     }
 }
 
+/// A `p` in the list of a script, `while read file; do tatamu plot $file --yes; done < list`, paused the job for ever,
+/// and what followed in the list was never plotted.
+#[test]
+fn a_list_on_the_standard_input_pauses_nothing_and_stays_unread() {
+    let folder = folder(10);
+    let machine = Machine::start(folder.path(), &["--cutter", "generic-hpgl", "--speedup", "50"]);
+    std::fs::write(folder.path().join("list"), "plan.plt\n").unwrap();
+    let mut shell = Command::new("sh");
+    shell.args(["-c", "\"$0\" plot a.plt --cutter generic-hpgl --yes --port \"$1\" > told && cat"]);
+    shell.args([env!("CARGO_BIN_EXE_tatamu"), &machine.port]).current_dir(folder.path());
+    let list = std::fs::File::open(folder.path().join("list")).unwrap();
+    let output = shell.stdin(list).output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    assert_eq!(output.stdout, b"plan.plt\n", "the list is left for the shell");
+    assert!(machine.report().contains("lines drawn 400, pen up"));
+}
+
 #[test]
 fn ctrl_c_lifts_the_pen_and_the_job_goes_on_later() {
     stop_and_go_on(1);

@@ -2,6 +2,7 @@
 
 use super::error::{AppError, reason};
 use std::collections::BTreeSet;
+use std::fs::File;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use tatamu::export::{FORMATS, Format, format_among};
@@ -73,7 +74,9 @@ pub fn check_places(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), AppError>
         if !seen.insert(place(path)) {
             return Err(refuse(TWICE));
         }
-        temporary(path)?;
+        if !is_stream(path) {
+            temporary(path)?;
+        }
     }
     Ok(())
 }
@@ -97,10 +100,21 @@ fn is_same_file(a: &Path, b: &Path) -> bool {
 pub const ONE_FILE: &str = "the standard output takes one file; write others under names of their own";
 const TWICE: &str = "two options write it; choose another name";
 
-/// Writes all files to temporary files beside their places, then puts them into place, the one of the standard
-/// output last. An error up to the last step leaves everything as it was.
+/// Whether there is a device or a pipe of this name, such as `/dev/null`. It is written to, not replaced.
+fn is_stream(path: &Path) -> bool {
+    path.metadata().is_ok_and(|found| !found.is_file() && !found.is_dir())
+}
+
+/// The file that a link leads to; other names as they are.
+fn behind_links(path: &Path) -> PathBuf {
+    let target = if path.is_symlink() { path.canonicalize().ok() } else { None };
+    target.unwrap_or_else(|| path.to_owned())
+}
+
+/// Writes all files to temporary files beside their places, then puts them into place, what goes to devices, pipes
+/// and the standard output last. An error up to the last step leaves everything as it was.
 pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), AppError> {
-    let mut ready = Vec::with_capacity(files.len());
+    let (mut ready, mut streams) = (Vec::with_capacity(files.len()), Vec::new());
     let mut seen: BTreeSet<&Path> = BTreeSet::new();
     let (printed, named): (Vec<_>, Vec<_>) = files.iter().partition(|(path, _)| is_standard_output(path));
     for (path, bytes) in named {
@@ -108,13 +122,21 @@ pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), AppError> {
         if !seen.insert(path) {
             return Err(AppError::Output { path: path.clone(), reason: TWICE.to_owned() });
         }
+        if is_stream(path) {
+            let stream = File::options().write(true).open(path).map_err(|error| failed(path, &error))?;
+            streams.push((path, stream, bytes));
+            continue;
+        }
         let mut file = temporary(path)?;
         let written = file.write_all(bytes).and_then(|()| file.flush());
         written.map_err(|error| failed(path, &error))?;
         ready.push((path, file));
     }
     for (path, file) in ready {
-        file.persist(path).map_err(|error| failed(path, &error.error))?;
+        file.persist(behind_links(path)).map_err(|error| failed(path, &error.error))?;
+    }
+    for (path, mut stream, bytes) in streams {
+        stream.write_all(bytes).map_err(|error| failed(path, &error))?;
     }
     for (path, bytes) in printed {
         let mut out = std::io::stdout().lock();
@@ -131,7 +153,7 @@ fn folder(path: &Path) -> &Path {
     }
 }
 
-/// A temporary file in the folder of `path`; it vanishes unless it is put into place.
+/// A temporary file in the folder of `path`, or of the file that it links to; it vanishes unless it is put into place.
 fn temporary(path: &Path) -> Result<NamedTempFile, AppError> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".tatamu-");
@@ -141,7 +163,7 @@ fn temporary(path: &Path) -> Result<NamedTempFile, AppError> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
-    builder.tempfile_in(folder(path)).map_err(|error| failed(path, &error))
+    builder.tempfile_in(folder(&behind_links(path))).map_err(|error| failed(path, &error))
 }
 
 fn failed(path: &Path, error: &std::io::Error) -> AppError {
@@ -178,5 +200,38 @@ mod tests {
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
         write(&files[..1]).unwrap();
         assert_eq!(std::fs::read(&good).unwrap(), b"new");
+    }
+
+    /// `--report /dev/null`, by root, put a file in the place of the device, and all other programs wrote to it.
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_is_written_to_and_stays_a_pipe() {
+        use std::os::unix::fs::FileTypeExt;
+        let folder = tempfile::tempdir().unwrap();
+        let (pipe, beside) = (folder.path().join("pipe.txt"), folder.path().join("a.txt"));
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+        check_places(std::slice::from_ref(&pipe), &[]).unwrap();
+        let reader = std::thread::spawn({
+            let pipe = pipe.clone();
+            move || std::fs::read(pipe).unwrap()
+        });
+        write(&[(pipe.clone(), b"through".to_vec()), (beside.clone(), b"beside".to_vec())]).unwrap();
+        assert_eq!(reader.join().unwrap(), b"through");
+        assert!(pipe.metadata().unwrap().file_type().is_fifo());
+        assert_eq!(std::fs::read(&beside).unwrap(), b"beside");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_a_link() {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::create_dir(folder.path().join("sub")).unwrap();
+        let (file, link) = (folder.path().join("sub").join("file.txt"), folder.path().join("link.txt"));
+        std::fs::write(&file, "old").unwrap();
+        std::os::unix::fs::symlink(&file, &link).unwrap();
+        check_places(std::slice::from_ref(&link), &[]).unwrap();
+        write(&[(link.clone(), b"new".to_vec())]).unwrap();
+        assert!(link.is_symlink());
+        assert_eq!(std::fs::read(&file).unwrap(), b"new");
     }
 }

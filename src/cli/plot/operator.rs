@@ -18,6 +18,8 @@ const LOOK: Duration = Duration::from_millis(4);
 /// The user at the terminal.
 pub struct Terminal {
     keys: Option<Keys>,
+    /// Whether keys are pressed by a person: what a script writes is no wish to pause.
+    has_keyboard: bool,
     asks_nothing: bool,
     is_quiet: bool,
     bar: Option<ProgressBar>,
@@ -26,7 +28,8 @@ pub struct Terminal {
 impl Terminal {
     /// A user who is asked for each sheet or not, with all messages or few.
     pub fn new(asks_nothing: bool, is_quiet: bool) -> Self {
-        Self { keys: None, asks_nothing, is_quiet, bar: None }
+        let has_keyboard = std::io::stdin().is_terminal();
+        Self { keys: None, has_keyboard, asks_nothing, is_quiet, bar: None }
     }
 
     fn bar(&self) -> ProgressBar {
@@ -44,7 +47,10 @@ impl Terminal {
 impl Operator for Terminal {
     fn begin(&mut self) {
         progress::count_stops();
-        self.keys = Some(Keys::listen());
+        // A script that plots one file of a list after another keeps the rest of its list.
+        if self.has_keyboard || !self.asks_nothing {
+            self.keys = Some(Keys::listen());
+        }
     }
 
     fn load(&mut self, sheet: &str, (copy, copies): (u16, u16)) -> Result<(), AppError> {
@@ -72,7 +78,8 @@ impl Operator for Terminal {
     }
 
     fn pauses(&mut self, now: bool) -> bool {
-        let keys = std::iter::from_fn(|| self.keys.as_ref().and_then(Keys::pressed));
+        let keys = self.keys.as_ref().filter(|_| self.has_keyboard);
+        let keys = std::iter::from_fn(|| keys.and_then(Keys::pressed));
         now ^ (keys.filter(|key| matches!(key, b'p' | b' ')).count() % 2 == 1)
     }
 
