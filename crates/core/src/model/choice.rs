@@ -24,10 +24,11 @@ use std::collections::BTreeSet;
 
 /// Models that are looked at, besides those for each part.
 const LOOKS: usize = 24;
-/// Models of more parts are looked at less often, by this power of their number: of 400 meshes that nobody prepared the
-/// one with the most parts has 24, and a bear in 30 took five minutes. One look at 100 parts takes a second, and with the
-/// third power all of them take two minutes.
+/// Models of more parts are looked at less often: of 400 meshes that nobody prepared the one with the most parts has 24,
+/// and a bear in 30 took five minutes.
 const MANY: usize = 24;
+/// By this power of their number. One look at 100 parts takes a second, and with the third power all of them take two
+/// minutes.
 const MANY_POWER: usize = 6;
 /// A search is given up after so many models in a row that are no better, and this share of all that it may look at. Most
 /// end sooner, as nothing better is expected.
