@@ -83,6 +83,7 @@ pub fn check_places(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), AppError>
 
 /// One name for each place, however the user wrote it.
 pub fn place(path: &Path) -> PathBuf {
+    let path = &behind_links(path);
     match (folder(path).canonicalize(), path.file_name()) {
         (Ok(folder), Some(name)) => folder.join(name),
         _ => path.to_owned(),
@@ -232,6 +233,7 @@ mod tests {
         check_places(std::slice::from_ref(&link), &[]).unwrap();
         write(&[(link.clone(), b"new".to_vec())]).unwrap();
         assert!(link.is_symlink());
+        assert!(check_places(&[link, file.clone()], &[]).is_err(), "both are one file");
         assert_eq!(std::fs::read(&file).unwrap(), b"new");
     }
 }

@@ -32,9 +32,6 @@ const THICKER: usize = 3;
 const OTHERS: usize = 3;
 /// One of these is finished at most so often.
 const ROUNDS: usize = 2;
-/// Models of more parts keep their joints and parts. A bear in 30 parts took more than five minutes; of 400 meshes that
-/// nobody prepared the one with the most parts has 24.
-const MANY_PARTS: usize = 24;
 /// Models with fewer parts that are looked at once nothing else helps; those first whose hulls grow the least.
 const MERGERS: usize = 3;
 
@@ -52,9 +49,9 @@ impl Mended {
         price(&self.divided, &self.built, self.harm_mm)
     }
 
-    /// Whether nothing but thicker joints is tried, as each try takes too long.
-    fn has_many_parts(&self) -> bool {
-        self.built.model.parts().len() > MANY_PARTS
+    /// Whether nothing else is tried: nothing is wrong, or there are so many parts that each try takes too long.
+    fn is_settled(&self) -> bool {
+        self.harm_mm == 0.0 || self.built.model.parts().len() > model::MANY_PARTS
     }
 
     /// The cheaper one of two; of equal ones the first.
@@ -129,7 +126,7 @@ pub(super) fn unmended(maker: &impl Maker) -> Result<Mended, Error> {
 /// instead of two where no joint serves.
 pub(super) fn mended(maker: &impl Maker) -> Result<Mended, Error> {
     let mut best = joined(maker, first_draft(maker)?)?;
-    while best.harm_mm > 0.0 && !best.has_many_parts() {
+    while !best.is_settled() {
         let mut least = best.price();
         let mut next: Option<(Draft, Vec<Merge>)> = None;
         let may_vanish = |part: &str| maker.may_vanish(part);
@@ -175,7 +172,7 @@ fn joined(maker: &impl Maker, draft: Draft) -> Result<Mended, Error> {
         }
     };
     for _ in 0..ROUNDS {
-        if best.harm_mm == 0.0 || best.has_many_parts() {
+        if best.is_settled() {
             break;
         }
         let mut next: Option<Draft> = None;
@@ -197,7 +194,7 @@ fn joined(maker: &impl Maker, draft: Draft) -> Result<Mended, Error> {
         }
         best = other;
     }
-    if best.harm_mm == 0.0 || best.built.verdict.weak.is_empty() || best.has_many_parts() {
+    if best.is_settled() || best.built.verdict.weak.is_empty() {
         return Ok(best);
     }
     // Last, as thicker joints cost the outlines less.

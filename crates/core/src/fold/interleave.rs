@@ -43,7 +43,7 @@ pub(super) fn interleaved(
     let mut looked_at = BTreeSet::new();
     while looked_at.len() < MOST_BUMPS {
         let clashes = replay(checker, &moves, parts);
-        let Some(worst) = worst_bump(&clashes, thickness_mm, &looked_at) else { return Ok(moves) };
+        let Some(worst) = worst_bump(&clashes, thickness_mm, &looked_at) else { break };
         looked_at.insert(worst.parts);
         let involved = checker.involved(&worst);
         for (most, levels) in LATTICES {

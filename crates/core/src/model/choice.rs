@@ -24,10 +24,10 @@ use std::collections::BTreeSet;
 
 /// Models that are looked at, besides those for each part.
 const LOOKS: usize = 24;
-/// Models of more parts are looked at less often: of 400 meshes that nobody prepared the one with the most parts has 24,
-/// and a bear in 30 took five minutes.
-const MANY: usize = 24;
-/// By this power of their number. One look at 100 parts takes a second, and with the third power all of them take two
+/// Models of more parts are looked for less thoroughly. Of 400 meshes that nobody prepared the one with the most parts
+/// has 24; a bear in 30 took five minutes.
+pub const MANY_PARTS: usize = 24;
+/// They are looked at less often by this power of their number. One look at 100 parts takes a second, and with the third power all of them take two
 /// minutes.
 const MANY_POWER: usize = 6;
 /// A search is given up after so many models in a row that are no better, and this share of all that it may look at. Most
@@ -110,7 +110,7 @@ impl Effort {
     /// three, for half as much time again.
     fn looks(self, parts: usize) -> usize {
         let looks = LOOKS + parts * if self == Self::Short { 8 } else { 32 };
-        (0..MANY_POWER).fold(looks, |looks, _| looks * MANY / MANY.max(parts))
+        (0..MANY_POWER).fold(looks, |looks, _| looks * MANY_PARTS / MANY_PARTS.max(parts))
     }
 }
 

@@ -45,6 +45,9 @@ pub(super) fn drop_flat(
     tolerance: f64,
     repairs: &mut Repairs,
 ) {
+    if triangles.par_iter().all(|t| height(positions, t.corners) > tolerance) {
+        return;
+    }
     let none = NO_HEIGHT * tolerance;
     let before = polygon_count(triangles);
     for (most, rounds) in [(tolerance, ROUNDS_OF_LOW), (none, ROUNDS)] {

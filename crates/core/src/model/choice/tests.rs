@@ -238,8 +238,8 @@ fn the_search_can_be_stopped() {
 fn more_parts_than_many_make_no_more_work() {
     for effort in [Effort::Short, Effort::Long] {
         let work = |parts: usize| effort.looks(parts) * parts.pow(3);
-        assert!((1..MANY).all(|parts| work(parts) < work(parts + 1)));
-        assert!((MANY..=200).all(|parts| work(parts) <= work(MANY)));
-        assert!((MANY..200).all(|parts| effort.looks(parts) >= effort.looks(parts + 1)));
+        assert!((1..MANY_PARTS).all(|parts| work(parts) < work(parts + 1)));
+        assert!((MANY_PARTS..=200).all(|parts| work(parts) <= work(MANY_PARTS)));
+        assert!((MANY_PARTS..200).all(|parts| effort.looks(parts) >= effort.looks(parts + 1)));
     }
 }
