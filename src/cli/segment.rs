@@ -83,7 +83,7 @@ pub fn run(args: &SegmentCommand) -> Result<(), AppError> {
     let (parts, _) = pipeline::find_parts(input.mesh()?, choice.options(), &progress)
         .map_err(|error| AppError::of_run(error, &progress))?;
     progress.stage("hulls");
-    let hulls: Vec<Option<Hull>> = parts.hulls().into_iter().map(Result::ok).collect();
+    let hulls: Vec<Option<Hull>> = parts.solids().hulls.into_iter().map(Result::ok).collect();
     progress.stage("overlap");
     let overlap = overlap(parts.mesh(), hulls.iter().flatten());
     let mut files = Vec::new();

@@ -69,33 +69,43 @@ fn init_writes_a_project_that_make_honours() {
     }
 }
 
-/// A box with two rods on it that stand 0.3 mm apart: panels of the one leave those of the other no room, and it is glued
-/// over 39 mm².
+/// A drum with two rods on it that stand 0.3 mm apart: panels of the one leave those of the other no room, and they overlap.
 fn rods() -> String {
-    let boxes = [
-        [[0.0, 0.0, 0.0], [120.0, 60.0, 80.0]],
-        [[50.0, 60.0, 40.0], [53.0, 140.0, 43.0]],
-        [[53.3, 60.0, 40.0], [56.3, 140.0, 43.0]],
-    ];
+    const SIDES: usize = 24;
     let mut text = String::new();
-    for [low, high] in boxes {
+    for y in [0.0, 60.0] {
+        for k in 0..SIDES {
+            let (sin, cos) = (k as f64 / SIDES as f64 * std::f64::consts::TAU).sin_cos();
+            text += &format!("v {:.4} {y} {:.4}\n", 53.15 + 50.0 * cos, 41.5 + 50.0 * sin);
+        }
+    }
+    let ring = |at: usize| (0..SIDES).map(move |k| at + k + 1);
+    let face = |corners: Vec<usize>| {
+        let corners: Vec<String> = corners.iter().map(usize::to_string).collect();
+        format!("f {}\n", corners.join(" "))
+    };
+    text += &face(ring(0).collect());
+    text += &face(ring(SIDES).rev().collect());
+    for k in 0..SIDES {
+        let next = (k + 1) % SIDES;
+        text += &face(vec![k + 1, SIDES + k + 1, SIDES + next + 1, next + 1]);
+    }
+    for (rod, x) in [50.0, 53.3].into_iter().enumerate() {
+        let [low, high] = [[x, 60.0, 40.0], [x + 3.0, 140.0, 43.0]];
         for k in 0..8 {
             let at = |axis: usize| if k >> axis & 1 == 0 { low[axis] } else { high[axis] };
             text += &format!("v {} {} {}\n", at(0), at(1), at(2));
         }
-    }
-    for k in 0..boxes.len() {
-        for face in [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]] {
-            let [a, b, c, d] = face.map(|corner| corner + 8 * k);
-            text += &format!("f {a} {b} {c} {d}\n");
+        for side in [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]] {
+            text += &face(side.map(|corner| corner + 2 * SIDES + 8 * rod).to_vec());
         }
     }
     text
 }
 
 #[test]
-fn parts_that_hardly_hold_apart_are_one_and_init_writes_so() {
-    let kept = "mesh = 'rods.obj'\n[[component]]\nname = 'top-2'\n";
+fn parts_that_have_no_room_apart_are_one_and_init_writes_so() {
+    let kept = "mesh = 'rods.obj'\n[[component]]\nname = 'right-1'\n";
     let folder = folder_with(&[("rods.obj", rods().as_bytes()), ("kept.toml", kept.as_bytes())]);
     let quick = ["--size", "20cm", "--top-edges", "4", "--profile-vertices", "4"];
     let make = |input: &str, output: &str| {
@@ -107,28 +117,25 @@ fn parts_that_hardly_hold_apart_are_one_and_init_writes_so() {
         let all = report["components"].as_array().unwrap();
         all.iter().map(|component| component["name"].as_str().unwrap().to_owned()).collect()
     };
-    let weak = |report: &serde_json::Value| {
-        report["warnings"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .filter(|warning| warning["code"] == "weak_joint")
-            .count()
+    let faults = |report: &serde_json::Value, code: &str| {
+        report["warnings"].as_array().unwrap().iter().filter(|warning| warning["code"] == code).count()
     };
     let (told, one) = make("rods.obj", "one.json");
-    assert_eq!((names(&one), weak(&one)), (vec!["body".to_owned(), "top".to_owned()], 0));
-    assert!(told.out.contains("top and top-2 are one part"), "{}", told.out);
+    assert_eq!(names(&one), ["body", "left-1"]);
+    assert_eq!(["weak_joint", "deployed_overlap"].map(|code| faults(&one, code)), [0, 0]);
+    assert!(told.out.contains("left-1 and right-1 are one part"), "{}", told.out);
 
     let result = run(folder.path(), &[&["init", "rods.obj"][..], &quick].concat());
     assert_eq!(result.code, Some(0), "{}", result.err);
     let project = std::fs::read_to_string(folder.path().join("rods.toml")).unwrap();
-    assert!(project.contains("\nmerge = [\"top\", \"top-2\"]\n"), "{project}");
+    assert!(project.contains("\nmerge = [\"left-1\", \"right-1\"]\n"), "{project}");
     let (told, same) = make("rods.toml", "same.json");
     assert!(!told.out.contains("are one part"), "nothing is left to be merged: {}", told.out);
     assert_eq!(same["components"], one["components"]);
 
     let (_, apart) = make("kept.toml", "apart.json");
-    assert_eq!((names(&apart).len(), weak(&apart)), (3, 1), "the user speaks of top-2");
+    assert_eq!(names(&apart).len(), 3, "the user speaks of right-1");
+    assert_eq!(faults(&apart, "deployed_overlap"), 1);
 }
 
 #[test]

@@ -3,13 +3,15 @@
 use super::{Error, Options};
 use glam::DVec3;
 use rayon::prelude::*;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use tatamu_core::component::Filling;
-use tatamu_core::geom::{Hull, Plane};
-use tatamu_core::mesh::{Mesh, MirrorPlane, Views};
-use tatamu_core::model::{self, Assembly, Bump, Contact, Link, Part, PartId, PartOptions, Parted, Symmetry};
-use tatamu_core::segment::{self, Interior, Parts, SegmentId, Segmentation};
+use tatamu_core::geom::{Hull, HullError, Plane};
+use tatamu_core::mesh::{MirrorPlane, Views};
+use tatamu_core::model::{
+    self, Assembly, Bump, Contact, Interface, Link, Part, PartId, PartOptions, Parted, Symmetry,
+};
+use tatamu_core::segment::{Details, Interior, Parts, SegmentId, Solids};
 
 /// Hulls of the parts of a mesh with the joints between them, as the shape alone decides them.
 #[derive(Debug, Clone)]
@@ -174,6 +176,11 @@ impl Hulls {
         self.solid.part_of_segment[segment.0 as usize]
     }
 
+    /// What sticks out of the parts and was left out.
+    pub fn details(&self) -> Details {
+        self.solid.details
+    }
+
     /// Number of faces of each segment that is flat.
     pub fn flat_faces(&self) -> &[usize] {
         &self.solid.flat
@@ -207,10 +214,11 @@ pub(super) struct Touching {
 
 impl Touching {
     fn of(divided: &Parts) -> Self {
-        let mut solid = hulls(divided);
+        let Solids { hulls, near, details } = divided.solids();
+        let mut solid = SegmentHulls { details, ..segment_hulls(divided, hulls) };
         let segmentation = divided.segmentation();
         let symmetry = segmentation.mirror().and_then(|plane| solid.mirrored(divided, plane));
-        let contacts = contacts(divided.mesh(), segmentation, &solid.part_of_segment);
+        let contacts = contacts(divided, &solid.part_of_segment, near);
         let links = model::link_tree(&solid.hulls.iter().collect::<Vec<_>>(), &contacts, symmetry.as_ref());
         Self { solid, symmetry, contacts, links }
     }
@@ -295,6 +303,8 @@ struct SegmentHulls {
     part_of_segment: Vec<Option<PartId>>,
     /// Number of faces of each segment that is flat.
     flat: Vec<usize>,
+    /// What the hulls do without.
+    details: Details,
 }
 
 impl SegmentHulls {
@@ -333,9 +343,14 @@ impl SegmentHulls {
     }
 }
 
-fn hulls(parts: &Parts) -> SegmentHulls {
-    let mut solid = SegmentHulls { hulls: Vec::new(), part_of_segment: Vec::new(), flat: Vec::new() };
-    for (hull, faces) in parts.hulls().into_iter().zip(parts.face_counts()) {
+fn segment_hulls(parts: &Parts, hulls: Vec<Result<Hull, HullError>>) -> SegmentHulls {
+    let mut solid = SegmentHulls {
+        hulls: Vec::new(),
+        part_of_segment: Vec::new(),
+        flat: Vec::new(),
+        details: Details::default(),
+    };
+    for (hull, faces) in hulls.into_iter().zip(parts.face_counts()) {
         match hull {
             Ok(hull) => {
                 solid.part_of_segment.push(Some(PartId(solid.hulls.len())));
@@ -389,22 +404,26 @@ fn parts(hulls: &Hulls, options: &Options) -> Result<Vec<Part>, Error> {
     }
 }
 
-fn contacts(mesh: &Mesh, segmentation: &Segmentation, part_of_segment: &[Option<PartId>]) -> Vec<Contact> {
+fn contacts(
+    divided: &Parts,
+    part_of_segment: &[Option<PartId>],
+    near: BTreeMap<(SegmentId, SegmentId), Vec<DVec3>>,
+) -> Vec<Contact> {
+    let mesh = divided.mesh();
     let part = |s: SegmentId| part_of_segment[s.0 as usize];
-    let borders = segmentation.borders(mesh);
-    let near = segment::near_contacts(mesh, segmentation);
+    let borders = divided.segmentation().borders(mesh);
     let touching = near.into_iter().filter(|(pair, _)| !borders.contains_key(pair)).map(|(pair, points)| {
         let length_mm = rim_mm(&points);
-        (pair, points, length_mm)
+        (pair, points, Interface::Bodies, length_mm)
     });
     let bordering = borders.iter().map(|(&pair, interface)| {
         let points = interface.vertices().iter().map(|&v| mesh.positions()[v as usize]).collect();
-        (pair, points, interface.length())
+        (pair, points, Interface::Border, interface.length())
     });
     bordering
         .chain(touching)
-        .filter_map(|((a, b), points, length_mm)| {
-            Some(Contact { parts: (part(a)?, part(b)?), points, length_mm })
+        .filter_map(|((a, b), points, interface, length_mm)| {
+            Some(Contact { parts: (part(a)?, part(b)?), points, interface, length_mm })
         })
         .collect()
 }
@@ -421,9 +440,10 @@ fn rim_mm(points: &[DVec3]) -> f64 {
 mod tests {
     use super::super::merge::needless;
     use super::*;
+    use tatamu_core::mesh::Mesh;
     use tatamu_core::mesh::Soup;
     use tatamu_core::progress::Silent;
-    use tatamu_core::segment::{Edit, SegmentOptions};
+    use tatamu_core::segment::{self, Edit, SegmentOptions};
 
     /// Boxes, from their least and largest corners, as parts that touch.
     fn parts_of(boxes: &[[DVec3; 2]]) -> Parts {

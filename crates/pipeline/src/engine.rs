@@ -8,7 +8,7 @@ use super::mend::{Maker, Mended, mended, unmended};
 use super::merge::{self, Merge};
 use super::plugs::{self, Planned};
 use super::warning::{self, not_joined};
-use super::{Bodies, Divided, Error, Hulls, Options, Output, Shaped, Source, Warning};
+use super::{Bodies, Divided, Error, Options, Output, Shaped, Source, Warning};
 use glam::DAffine3;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -355,8 +355,7 @@ impl<'m> Engine<'m> {
             Ok::<_, Error>((Arc::new(laid.0), Arc::new(laid.1)))
         })?;
         let mut warnings = shaped.notes.clone();
-        let flat_faces = shaped.source.hulls().map_or(&[][..], Hulls::flat_faces);
-        warnings.extend(warning::warnings(model, &nets, flat_faces, options));
+        warnings.extend(warning::warnings(model, &nets, shaped.source.hulls(), options));
         warnings.extend(warning::many_sheets(&layout).map(Warning::from));
         warnings.extend(layout.unheeded_pins().iter().cloned().map(Warning::from));
         let fold_plan = Arc::new(FoldPlan::unchecked(model, options.thickness_mm));

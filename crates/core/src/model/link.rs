@@ -1,21 +1,11 @@
 //! Contact planes between neighbouring segments, and the tree of joints (§4.2.1).
 
+use super::contact::{Contact, Interface};
 use super::{PartId, Symmetry, plane};
 use crate::geom::{Hull, Mirror, Plane, polygon};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-
-/// A place where two parts touch: candidate for a joint.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Contact {
-    /// The two parts, smaller id first.
-    pub parts: (PartId, PartId),
-    /// Positions of the vertices on the border.
-    pub points: Vec<DVec3>,
-    /// Length of the border, mm: larger interfaces make better joints.
-    pub length_mm: f64,
-}
 
 /// A joint of the tree: `child` sits on `parent`.
 #[derive(Debug, Clone, PartialEq)]
@@ -151,9 +141,13 @@ pub(super) fn mirrored_contacts(contacts: &[Contact], symmetry: &Symmetry) -> Ve
     let mirror = symmetry.mirror();
     // Of a pair and its image, the smaller: its points, the sum of lengths and their number.
     let mut orbits: BTreeMap<(PartId, PartId), (Vec<DVec3>, f64, usize)> = BTreeMap::new();
+    let mut interfaces: BTreeMap<(PartId, PartId), Interface> = BTreeMap::new();
     for contact in contacts {
         let image = image_of(contact.parts, Some(symmetry));
-        let (points, length_mm, count) = orbits.entry(contact.parts.min(image)).or_default();
+        let orbit = contact.parts.min(image);
+        let most = interfaces.entry(orbit).or_insert(contact.interface);
+        *most = contact.interface.max(*most);
+        let (points, length_mm, count) = orbits.entry(orbit).or_default();
         *length_mm += contact.length_mm;
         *count += 1;
         if contact.parts <= image {
@@ -165,11 +159,12 @@ pub(super) fn mirrored_contacts(contacts: &[Contact], symmetry: &Symmetry) -> Ve
     }
     let both = orbits.into_iter().flat_map(|(parts, (points, sum_mm, count))| {
         let (image, length_mm) = (image_of(parts, Some(symmetry)), sum_mm / count as f64);
+        let interface = interfaces[&parts];
         let other = (image != parts).then(|| {
             let points = points.iter().map(|&p| mirror.point(p)).collect();
-            Contact { parts: image, points, length_mm }
+            Contact { parts: image, points, interface, length_mm }
         });
-        [Some(Contact { parts, points, length_mm }), other].into_iter().flatten()
+        [Some(Contact { parts, points, interface, length_mm }), other].into_iter().flatten()
     });
     both.collect()
 }
@@ -209,7 +204,7 @@ impl<'a> Between<'a> {
         let kept = [self.kept(from, to), self.kept(to, from)];
         let ground = || plane::Ground::new(first, second, [&kept[0], &kept[1]]);
         let Some(symmetry) = self.symmetry else {
-            return Some(plane::between(&contact.points, &ground(), &[]));
+            return Some(plane::between(contact, &ground(), &[]));
         };
         let image = (symmetry.twin(from), symmetry.twin(to));
         if image == (to, from) {
@@ -222,7 +217,7 @@ impl<'a> Between<'a> {
         }
         let across = symmetry.mirrors_across(&[from, to]);
         let ground = ground();
-        let fitted = |across: &[Mirror]| plane::between(&contact.points, &ground, across);
+        let fitted = |across: &[Mirror]| plane::between(contact, &ground, across);
         let own = fitted(&across);
         let crossing = symmetry.crossing(from).or(symmetry.crossing(to)).filter(|m| !across.contains(m));
         let upright = crossing.map(|mirror| fitted(&[&across[..], &[*mirror]].concat()));
@@ -257,9 +252,24 @@ pub(super) mod tests {
             [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(y, z)| DVec3::new(x, y, z)).to_vec()
         };
         let contacts = [
-            Contact { parts: (PartId(1), PartId(2)), points: face(20.0), length_mm: 40.0 },
-            Contact { parts: (PartId(0), PartId(1)), points: face(10.0), length_mm: 40.0 },
-            Contact { parts: (PartId(0), PartId(2)), points: face(15.0), length_mm: 1.0 },
+            Contact {
+                parts: (PartId(1), PartId(2)),
+                points: face(20.0),
+                interface: Interface::Border,
+                length_mm: 40.0,
+            },
+            Contact {
+                parts: (PartId(0), PartId(1)),
+                points: face(10.0),
+                interface: Interface::Border,
+                length_mm: 40.0,
+            },
+            Contact {
+                parts: (PartId(0), PartId(2)),
+                points: face(15.0),
+                interface: Interface::Border,
+                length_mm: 1.0,
+            },
         ];
         let links = link_tree(&hulls.iter().collect::<Vec<_>>(), &contacts, None);
         assert_eq!(links.iter().map(|l| (l.parent.0, l.child.0)).collect::<Vec<_>>(), [(0, 1), (1, 2)]);
@@ -282,9 +292,24 @@ pub(super) mod tests {
         let edge =
             vec![DVec3::new(10.0, 10.0, 40.0), DVec3::new(10.0, 10.0, 50.0), DVec3::new(9.9, 10.1, 45.0)];
         let contacts = [
-            Contact { parts: (PartId(0), PartId(1)), points: square(0.0), length_mm: 40.0 },
-            Contact { parts: (PartId(0), PartId(2)), points: square(10.0), length_mm: 40.0 },
-            Contact { parts: (PartId(1), PartId(2)), points: edge, length_mm: 45.0 },
+            Contact {
+                parts: (PartId(0), PartId(1)),
+                points: square(0.0),
+                interface: Interface::Border,
+                length_mm: 40.0,
+            },
+            Contact {
+                parts: (PartId(0), PartId(2)),
+                points: square(10.0),
+                interface: Interface::Border,
+                length_mm: 40.0,
+            },
+            Contact {
+                parts: (PartId(1), PartId(2)),
+                points: edge,
+                interface: Interface::Border,
+                length_mm: 45.0,
+            },
         ];
         let links = link_tree(&[&palm, &finger, &thumb], &contacts, None);
         assert_eq!(links.iter().map(|l| (l.parent.0, l.child.0)).collect::<Vec<_>>(), [(0, 1), (0, 2)]);
@@ -301,8 +326,12 @@ pub(super) mod tests {
         let head = cube(DVec3::new(-5.0, -5.0, 10.0), 10.0);
         let hulls = [body, arm.clone(), arm.reflected(&mirror), foot.clone(), foot.reflected(&mirror), head];
         let square = |at: DVec3, u: DVec3, v: DVec3| vec![at + u + v, at + u - v, at - u - v, at - u + v];
-        let contact =
-            |(a, b), points, length_mm| Contact { parts: (PartId(a), PartId(b)), points, length_mm };
+        let contact = |(a, b), points, length_mm| Contact {
+            parts: (PartId(a), PartId(b)),
+            points,
+            interface: Interface::Border,
+            length_mm,
+        };
         let contacts = [
             contact((0, 1), square(DVec3::new(5.0, 0.0, 6.0), DVec3::new(0.2, 3.0, 0.0), DVec3::Z), 30.0),
             contact((0, 2), square(DVec3::new(-5.1, 0.0, 6.0), DVec3::Y * 3.0, DVec3::Z), 20.0),

@@ -1,6 +1,7 @@
 //! Hulls of parts that are not joined, apart from each other.
 
-use super::link::{Between, Contact, Link, image_of, mirror_plane_between, mirrored_contacts};
+use super::contact::Contact;
+use super::link::{Between, Link, image_of, mirror_plane_between, mirrored_contacts};
 use super::{Bump, PartId, Symmetry, plane};
 use crate::geom::{Hull, Plane, polygon};
 use std::collections::BTreeMap;
@@ -171,6 +172,7 @@ const SMALLER_JOINT: f64 = 0.4;
 
 #[cfg(test)]
 mod tests {
+    use super::super::contact::Interface;
     use super::super::link::{link_tree, tests::cube};
     use super::*;
     use glam::DVec3;
@@ -180,7 +182,12 @@ mod tests {
         let hulls = [cube(DVec3::ZERO, 10.0), cube(DVec3::X * 9.0, 10.0), cube(DVec3::X * 30.0, 10.0)];
         let hulls: Vec<&Hull> = hulls.iter().collect();
         let face = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(y, z)| DVec3::new(9.5, y, z));
-        let contact = Contact { parts: (PartId(0), PartId(1)), points: face.to_vec(), length_mm: 40.0 };
+        let contact = Contact {
+            parts: (PartId(0), PartId(1)),
+            points: face.to_vec(),
+            interface: Interface::Border,
+            length_mm: 40.0,
+        };
         let ends = |hulls: &[Hull]| (hulls[0].support(DVec3::X), -hulls[1].support(-DVec3::X));
         let apart = parted(&hulls, std::slice::from_ref(&contact), &[], None).hulls;
         let gap = 10.0 * GAP;
@@ -221,7 +228,12 @@ mod tests {
         assert!(farther(parted(), &[], &[([0, 1].map(PartId), 15.0)], None).is_none());
         let hulls = parted().hulls;
         let face = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)].map(|(y, z)| DVec3::new(20.2, y, z));
-        let contact = Contact { parts: (PartId(0), PartId(1)), points: face.to_vec(), length_mm: 80.0 };
+        let contact = Contact {
+            parts: (PartId(0), PartId(1)),
+            points: face.to_vec(),
+            interface: Interface::Border,
+            length_mm: 80.0,
+        };
         let links = link_tree(&hulls.iter().collect::<Vec<_>>(), &[contact], None);
         assert_eq!(links.len(), 1);
         assert!(farther(parted(), &links, &[([0, 1].map(PartId), 1.5)], None).is_none());

@@ -1,14 +1,22 @@
-//! Which separate bodies are next to each other: the shortest tree of links between them.
+//! Which separate bodies are next to each other: those that touch, and the shortest links between the rest.
 
+use super::contact::touches;
 use super::patches::Partition;
 use super::surface::Surface;
-use crate::geom::bounds;
+use crate::geom::{Hull, bounds};
+use crate::mesh::Mesh;
 use glam::DVec3;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
 
-/// Bodies smaller than this share of the area join the nearest body.
-const CRUMB: f64 = 0.02;
+/// Bodies smaller than this share of the area join another body.
+pub(super) const CRUMB: f64 = 0.02;
 /// Where so many parts are asked for that this share of a mean part is less, bodies smaller than that.
 const CRUMB_OF_PART: f64 = 0.5;
+
+/// A body makes the hull of another too large by more than this many times its volume: the two then share less with the
+/// solid than without it.
+pub(super) const WORTH: f64 = 2.0;
 
 const LEAF: usize = 8;
 const MIXED: u32 = u32::MAX;
@@ -91,13 +99,165 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// Pairs of cells that connect all bodies by the shortest gaps between cell centres (Borůvka).
-pub(super) fn nearest_links(surface: &Surface) -> Vec<[u32; 2]> {
-    let (mut body, mut count) = surface.components(|_| 0);
-    let mut links = Vec::new();
-    if count < 2 {
-        return links;
+/// A link between two bodies.
+#[derive(Debug, Clone, Copy)]
+struct Gap {
+    /// A cell of either, the smaller number first.
+    cells: [u32; 2],
+    /// How far the two are from each other.
+    width: f64,
+}
+
+/// The connected bodies of a surface, and which are next to each other.
+pub(super) struct Bodies {
+    of_cell: Vec<u32>,
+    count: usize,
+    /// Cells of bodies that touch, and of the others those that connect them by the shortest gaps.
+    links: Vec<[u32; 2]>,
+    /// Of bodies that are too small for a segment a cell of the one that each joins.
+    host_cell: Vec<Option<u32>>,
+}
+
+impl Bodies {
+    /// Those of a mesh whose faces are in the cells of `surface`, for so many parts, if a number is asked for.
+    pub fn new(mesh: &Mesh, surface: &Surface, cell_of_face: &[u32], parts: Option<usize>) -> Self {
+        let (of_cell, count) = surface.components(|_| 0);
+        let of_face: Vec<u32> = cell_of_face.iter().map(|&cell| of_cell[cell as usize]).collect();
+        let gaps = match count {
+            0 | 1 => Vec::new(),
+            _ => gaps(surface, (&of_cell, count), touching(mesh, cell_of_face, &of_face)),
+        };
+        let links = gaps.iter().map(|gap| gap.cells).collect();
+        let share = parts.map_or(CRUMB, |parts| CRUMB.min(CRUMB_OF_PART / parts as f64));
+        let least = share * surface.total_area();
+        let areas = Partition { of_cell: of_cell.clone(), count }.areas(surface);
+        let corners = corners(mesh, &of_face, count);
+        let price = |gap: &Gap| {
+            let [a, b] = gap.cells.map(|c| of_cell[c as usize] as usize);
+            let (small, host) = if areas[a] > areas[b] { (b, a) } else { (a, b) };
+            let growth = if areas[small] < least { growth(&corners[host], &corners[small]) } else { 0.0 };
+            (gap.width + libm::cbrt(growth), gap.cells)
+        };
+        let mut priced: Vec<(f64, [u32; 2])> = gaps.par_iter().map(price).collect();
+        priced.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let host_cell = host_cells(&of_cell, areas, priced.into_iter().map(|link| link.1), least);
+        Self { of_cell, count, links, host_cell }
     }
+
+    /// Cells of bodies that touch, and of the others those that connect them by the shortest gaps.
+    pub fn links(&self) -> &[[u32; 2]] {
+        &self.links
+    }
+
+    /// The cell at which the body of a cell joins another; the cell itself where it does not.
+    fn host(&self, cell: usize) -> usize {
+        let mut at = cell;
+        while let Some(into) = self.host_cell[self.of_cell[at] as usize] {
+            at = into as usize;
+        }
+        at
+    }
+
+    /// Joins each body that is too small for a segment, whole, to the set at the other end of a link: that to the body
+    /// whose hull grows the least. A drainpipe from a roof to the ground joins the wall.
+    pub fn join_crumbs(&self, mut partition: Partition) -> Partition {
+        for cell in 0..partition.of_cell.len() {
+            partition.of_cell[cell] = partition.of_cell[self.host(cell)];
+        }
+        partition.compacted()
+    }
+
+    /// The body of each set; bodies that share a set count as one.
+    pub fn of_sets(&self, partition: &Partition) -> Vec<u32> {
+        let mut root: Vec<u32> = (0..self.count as u32).collect();
+        let mut of_set: Vec<Option<u32>> = vec![None; partition.count];
+        for (&set, &body) in partition.of_cell.iter().zip(&self.of_cell) {
+            let first = *of_set[set as usize].get_or_insert(body);
+            let (a, b) = (find(&mut root, first), find(&mut root, body));
+            root[a.max(b) as usize] = a.min(b);
+        }
+        of_set.into_iter().map(|b| find(&mut root, b.unwrap_or(0))).collect()
+    }
+}
+
+/// For each body that is smaller than `least` the cell at the other end of the first link by which it joins a larger one, or
+/// more of them together.
+fn host_cells(
+    body: &[u32],
+    mut areas: Vec<f64>,
+    links: impl Iterator<Item = [u32; 2]>,
+    least: f64,
+) -> Vec<Option<u32>> {
+    let mut root: Vec<u32> = (0..areas.len() as u32).collect();
+    let mut host_cell: Vec<Option<u32>> = vec![None; areas.len()];
+    for [a, b] in links {
+        let [ra, rb] = [a, b].map(|c| find(&mut root, body[c as usize]));
+        let (small, host, into) =
+            if areas[ra as usize] > areas[rb as usize] { (rb, ra, a) } else { (ra, rb, b) };
+        if small != host && areas[small as usize] < least {
+            areas[host as usize] += areas[small as usize];
+            root[small as usize] = host;
+            host_cell[small as usize] = Some(into);
+        }
+    }
+    host_cell
+}
+
+/// Corners of the hull of each body; all where it has none.
+fn corners(mesh: &Mesh, body_of_face: &[u32], bodies: usize) -> Vec<Vec<DVec3>> {
+    if bodies < 2 {
+        return Vec::new();
+    }
+    let mut vertices: Vec<Vec<u32>> = vec![Vec::new(); bodies];
+    for (face, &body) in mesh.faces().iter().zip(body_of_face) {
+        vertices[body as usize].extend(face);
+    }
+    let corners = |mut vertices: Vec<u32>| {
+        vertices.sort_unstable();
+        vertices.dedup();
+        let points: Vec<DVec3> = vertices.into_iter().map(|v| mesh.positions()[v as usize]).collect();
+        Hull::of_points(&points).map_or(points, |hull| hull.vertices().to_vec())
+    };
+    vertices.into_par_iter().map(corners).collect()
+}
+
+/// How much larger one hull is with the corners of another.
+fn growth(host: &[DVec3], small: &[DVec3]) -> f64 {
+    (volume(&[host, small].concat()) - volume(host)).max(0.0)
+}
+
+/// The volume of the hull of points.
+fn volume(points: &[DVec3]) -> f64 {
+    Hull::of_points(points).map_or(0.0, |hull| hull.volume())
+}
+
+/// Of bodies that touch, by their numbers, where they are nearest.
+fn touching(mesh: &Mesh, cell_of_face: &[u32], body_of_face: &[u32]) -> BTreeMap<[u32; 2], Gap> {
+    let mut touching: BTreeMap<[u32; 2], Gap> = BTreeMap::new();
+    for touch in touches(mesh, body_of_face) {
+        let mut cells = touch.faces.map(|face| cell_of_face[face]);
+        let mut bodies = touch.faces.map(|face| body_of_face[face]);
+        cells.sort_unstable();
+        bodies.sort_unstable();
+        let gap = Gap { cells, width: touch.gap };
+        let nearest = touching.entry(bodies).or_insert(gap);
+        if gap.width < nearest.width {
+            *nearest = gap;
+        }
+    }
+    touching
+}
+
+/// Links between bodies that touch, and the shortest between cell centres that connect the rest (Borůvka).
+fn gaps(surface: &Surface, (body, bodies): (&[u32], usize), touching: BTreeMap<[u32; 2], Gap>) -> Vec<Gap> {
+    let mut gaps: Vec<Gap> = touching.values().copied().collect();
+    let mut root: Vec<u32> = (0..bodies as u32).collect();
+    for [a, b] in touching.into_keys() {
+        let [a, b] = [a, b].map(|body| find(&mut root, body));
+        root[a.max(b) as usize] = a.min(b);
+    }
+    let mut body = body.to_vec();
+    let mut count = renumber(&mut body, &mut root);
     let mut tree = Tree::new(surface.centres());
     while count > 1 {
         tree.mark(&body);
@@ -110,85 +270,80 @@ pub(super) fn nearest_links(surface: &Surface) -> Vec<[u32; 2]> {
         }
         best.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let mut root: Vec<u32> = (0..count as u32).collect();
-        let before = links.len();
-        for (_, pair) in best.into_iter().filter(|b| b.0.is_finite()) {
-            let [a, b] = pair.map(|c| find(&mut root, body[c as usize]));
+        let before = gaps.len();
+        for (squared, cells) in best.into_iter().filter(|b| b.0.is_finite()) {
+            let [a, b] = cells.map(|c| find(&mut root, body[c as usize]));
             if a != b {
                 root[a.max(b) as usize] = a.min(b);
-                links.push(pair);
+                gaps.push(Gap { cells, width: squared.sqrt() });
             }
         }
-        if links.len() == before {
+        if gaps.len() == before {
             break;
         }
-        let roots: Vec<u32> = (0..count as u32).filter(|&b| root[b as usize] == b).collect();
-        for b in &mut body {
-            *b = roots.binary_search(&find(&mut root, *b)).unwrap_or(0) as u32;
-        }
-        count = roots.len();
+        count = renumber(&mut body, &mut root);
     }
-    links
+    gaps
 }
 
-/// Joins each body that is too small for a segment, whole, to the set at the other end of its
-/// shortest link. `links` are those of [`nearest_links`]; `parts` is the number that is asked for.
-pub(super) fn join_crumbs(
-    surface: &Surface,
-    mut partition: Partition,
-    links: &[[u32; 2]],
-    parts: Option<usize>,
-) -> Partition {
-    let (body, count) = surface.components(|_| 0);
-    let share = parts.map_or(CRUMB, |parts| CRUMB.min(CRUMB_OF_PART / parts as f64));
-    let least = share * surface.total_area();
-    let mut areas = Partition { of_cell: body.clone(), count }.areas(surface);
-    let mut root: Vec<u32> = (0..count as u32).collect();
-    // The cell whose set a body joins.
-    let mut host_cell: Vec<Option<u32>> = vec![None; count];
-    let distance =
-        |[a, b]: [u32; 2]| surface.centres()[a as usize].distance_squared(surface.centres()[b as usize]);
-    let mut links = links.to_vec();
-    links.sort_by(|a, b| distance(*a).total_cmp(&distance(*b)).then(a.cmp(b)));
-    for [a, b] in links {
-        let [ra, rb] = [a, b].map(|c| find(&mut root, body[c as usize]));
-        let (small, host, into) =
-            if areas[ra as usize] > areas[rb as usize] { (rb, ra, a) } else { (ra, rb, b) };
-        if small != host && areas[small as usize] < least {
-            areas[host as usize] += areas[small as usize];
-            root[small as usize] = host;
-            host_cell[small as usize] = Some(into);
-        }
+/// Numbers bodies that have become one alike, from 0; their number.
+fn renumber(body: &mut [u32], root: &mut [u32]) -> usize {
+    let roots: Vec<u32> = (0..root.len() as u32).filter(|&b| root[b as usize] == b).collect();
+    for b in body {
+        *b = roots.binary_search(&find(root, *b)).unwrap_or(0) as u32;
     }
-    for cell in 0..surface.len() {
-        let mut at = cell;
-        while let Some(into) = host_cell[body[at] as usize] {
-            at = into as usize;
-        }
-        if at != cell {
-            partition.of_cell[cell] = partition.of_cell[at];
-        }
-    }
-    partition.compacted()
-}
-
-/// The body of each set; bodies that share a set count as one.
-pub(super) fn body_of_sets(surface: &Surface, partition: &Partition) -> Vec<u32> {
-    let (body, count) = surface.components(|_| 0);
-    let mut root: Vec<u32> = (0..count as u32).collect();
-    let mut of_set: Vec<Option<u32>> = vec![None; partition.count];
-    for (cell, &set) in partition.of_cell.iter().enumerate() {
-        let first = *of_set[set as usize].get_or_insert(body[cell]);
-        let (a, b) = (find(&mut root, first), find(&mut root, body[cell]));
-        root[a.max(b) as usize] = a.min(b);
-    }
-    of_set.into_iter().map(|b| find(&mut root, b.unwrap_or(0))).collect()
+    roots.len()
 }
 
 /// The root of a body in a forest, with the way to it shortened.
-fn find(root: &mut [u32], mut body: u32) -> u32 {
+pub(super) fn find(root: &mut [u32], mut body: u32) -> u32 {
     while root[body as usize] != body {
         root[body as usize] = root[root[body as usize] as usize];
         body = root[body as usize];
     }
     body
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::shapes::{cuboid, mesh, together};
+    use super::*;
+
+    /// A wall with a roof and a floor, and a pipe beside it from one to the other, which all touch it: few large triangles,
+    /// whose centres say nothing of what is near.
+    #[test]
+    fn a_small_body_joins_the_one_whose_hull_grows_least() {
+        let wall = cuboid(DVec3::new(0.0, 0.0, 4.0), DVec3::new(80.0, 80.0, 90.0));
+        let roof = cuboid(DVec3::new(-6.0, -6.0, 90.0), DVec3::new(86.0, 86.0, 100.0));
+        let floor = cuboid(DVec3::new(-10.0, -10.0, 0.0), DVec3::new(90.0, 90.0, 4.0));
+        let pipe = cuboid(DVec3::new(-3.0, 60.0, 4.0), DVec3::new(0.0, 63.0, 90.0));
+        let mesh = mesh(&together(&[wall, roof, floor, pipe]));
+        let surface = Surface::of_faces(mesh.positions(), mesh.faces());
+        let cell_of_face: Vec<u32> = (0..mesh.faces().len() as u32).collect();
+        let bodies = Bodies::new(&mesh, &surface, &cell_of_face, None);
+        let (of_cell, count) = surface.components(|_| 0);
+        assert_eq!(count, 4);
+        let pairs: Vec<[u32; 2]> =
+            bodies.links().iter().map(|cells| cells.map(|c| of_cell[c as usize])).collect();
+        assert!(pairs.contains(&[0, 3]) && pairs.contains(&[1, 3]) && pairs.contains(&[2, 3]), "{pairs:?}");
+        let joined = bodies.join_crumbs(Partition { of_cell: of_cell.clone(), count });
+        assert_eq!(joined.count, 3);
+        let own = |body: u32| of_cell.iter().position(|&b| b == body).unwrap();
+        assert_eq!(joined.of_cell[own(3)], joined.of_cell[own(0)], "the pipe is on the wall");
+    }
+
+    #[test]
+    fn small_bodies_in_a_row_join_each_other() {
+        let bead = |k: u32| {
+            let low = DVec3::X * 10.0 * f64::from(k);
+            cuboid(low, low + DVec3::new(10.0, 8.0, 8.0))
+        };
+        let mesh = mesh(&together(&(0..70).map(bead).collect::<Vec<_>>()));
+        let surface = Surface::of_faces(mesh.positions(), mesh.faces());
+        let cell_of_face: Vec<u32> = (0..mesh.faces().len() as u32).collect();
+        let bodies = Bodies::new(&mesh, &surface, &cell_of_face, None);
+        let (of_cell, count) = surface.components(|_| 0);
+        let joined = bodies.join_crumbs(Partition { of_cell, count });
+        assert!(joined.count < 60, "{}", joined.count);
+    }
 }

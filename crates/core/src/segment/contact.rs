@@ -9,90 +9,122 @@ use std::collections::{BTreeMap, HashMap};
 
 /// Bodies nearer to each other than this share of the diagonal touch. Models made for screens push
 /// parts into each other or leave such gaps; in paper it is a millimetre or two.
-const GAP: f64 = 0.01;
+pub(super) const GAP: f64 = 0.01;
 
-/// Faces are sampled at this share of the gap, but no finer than so many points along an edge.
+/// Faces are sampled at this share of the gap, but in no more than so many pieces along a side.
 const SPACING: f64 = 0.7;
 const FINEST: f64 = 250.0;
+
+/// Places where bodies touch.
+pub(super) struct Touch {
+    /// Midway between the two surfaces.
+    pub at: DVec3,
+    /// A face of either body.
+    pub faces: [usize; 2],
+    /// How far the two are from each other, at most.
+    pub gap: f64,
+}
 
 /// A point of the surface.
 struct Sample {
     at: DVec3,
-    body: u32,
-    segment: SegmentId,
+    face: usize,
 }
 
 /// For each pair of segments of different bodies that touch, nearly touch or run into each other,
 /// points midway between the two surfaces; the smaller id first, in ascending order.
-pub fn near_contacts(
+pub(super) fn near_contacts(
     mesh: &Mesh,
     segmentation: &Segmentation,
 ) -> BTreeMap<(SegmentId, SegmentId), Vec<DVec3>> {
     let (body, bodies) = Surface::of_faces(mesh.positions(), mesh.faces()).components(|_| 0);
-    let mut contacts: BTreeMap<(SegmentId, SegmentId), Vec<DVec3>> = BTreeMap::new();
-    if bodies < 2 {
-        return contacts;
+    let touches = if bodies < 2 { Vec::new() } else { touches(mesh, &body) };
+    near(&touches, segmentation.face_segments(), |_| false)
+}
+
+/// Points where segments touch, for each pair, the smaller id first. Faces that are left out touch only where no others
+/// of the two do.
+pub(super) fn near(
+    touches: &[Touch],
+    segments: &[SegmentId],
+    is_left_out: impl Fn(usize) -> bool,
+) -> BTreeMap<(SegmentId, SegmentId), Vec<DVec3>> {
+    let mut near: BTreeMap<(SegmentId, SegmentId), [Vec<DVec3>; 2]> = BTreeMap::new();
+    for touch in touches {
+        let [own, other] = touch.faces.map(|face| segments[face]);
+        if own != other {
+            let points = near.entry((own.min(other), own.max(other))).or_default();
+            points[usize::from(touch.faces.iter().any(|&face| is_left_out(face)))].push(touch.at);
+        }
     }
+    let of_pair = |(pair, [points, of_left_out]): (_, [Vec<DVec3>; 2])| {
+        (pair, if points.is_empty() { of_left_out } else { points })
+    };
+    near.into_iter().map(of_pair).collect()
+}
+
+/// Where each body has others near it, and which is the nearest there; `body` says which faces are on one.
+pub(super) fn touches(mesh: &Mesh, body: &[u32]) -> Vec<Touch> {
     let gap = GAP * mesh.diagonal_mm();
-    let samples = sample(mesh, segmentation, &body, SPACING * gap);
+    let spacing = SPACING * gap;
+    let faces = (0..mesh.faces().len()).into_par_iter();
+    let samples: Vec<Sample> = faces
+        .flat_map_iter(|face| spread(mesh.corners(face), spacing).map(move |at| Sample { at, face }))
+        .collect();
     // Two surfaces at a gap have samples up to a spacing farther apart.
     let reach = gap * (1.0 + SPACING);
     let cell = |p: DVec3| (p / reach).floor().as_i64vec3().to_array();
-    let mut grid: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
+    let mut grid: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
     for (i, s) in samples.iter().enumerate() {
-        grid.entry(cell(s.at)).or_default().push(i as u32);
+        grid.entry(cell(s.at)).or_default().push(i);
     }
+    let body_of = |sample: usize| body[samples[sample].face];
     // All samples of a cell have the same cells around them.
-    let nearest_of = |(&[x, y, z], own): (&[i64; 3], &Vec<u32>)| {
+    let nearest_of = |(&[x, y, z], own): (&[i64; 3], &Vec<usize>)| {
         let cells = (0..27).filter_map(|k| grid.get(&[x + k / 9 - 1, y + k / 3 % 3 - 1, z + k % 3 - 1]));
-        let around: Vec<u32> = cells.flatten().copied().collect();
-        let nearest = |&i: &u32| {
-            let s = &samples[i as usize];
-            let others = around.iter().filter(|&&o| samples[o as usize].body != s.body);
-            let apart = others.map(|&o| (samples[o as usize].at.distance_squared(s.at), o));
+        let around: Vec<usize> = cells.flatten().copied().collect();
+        let first = body_of(own[0]);
+        let own = if around.iter().all(|&other| body_of(other) == first) { &[][..] } else { own };
+        let nearest = |&i: &usize| {
+            let (at, body) = (samples[i].at, body_of(i));
+            let others = around.iter().filter(|&&o| body_of(o) != body);
+            let apart = others.map(|&o| (samples[o].at.distance_squared(at), o));
             let nearest = apart.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
             nearest.filter(|n| n.0 <= reach * reach).map(|n| (i, n.1))
         };
         own.iter().filter_map(nearest).collect::<Vec<_>>()
     };
-    let mut near: Vec<(u32, u32)> = grid.par_iter().flat_map_iter(nearest_of).collect();
+    let mut near: Vec<(usize, usize)> = grid.par_iter().flat_map_iter(nearest_of).collect();
     near.sort_unstable();
-    for [s, other] in near.into_iter().map(|(i, o)| [i, o].map(|k| &samples[k as usize])) {
-        if other.segment != s.segment {
-            let pair = (s.segment.min(other.segment), s.segment.max(other.segment));
-            contacts.entry(pair).or_default().push(s.at.midpoint(other.at));
-        }
-    }
-    contacts
+    let touch = |(i, o): (usize, usize)| {
+        let [own, other] = [&samples[i], &samples[o]];
+        Touch { at: own.at.midpoint(other.at), faces: [own.face, other.face], gap: own.at.distance(other.at) }
+    };
+    near.into_iter().map(touch).collect()
 }
 
-/// Points of all faces, `spacing` apart or less: centres of equal parts of each.
-fn sample(mesh: &Mesh, segmentation: &Segmentation, body: &[u32], spacing: f64) -> Vec<Sample> {
-    let mut samples = Vec::new();
-    for (f, &segment) in segmentation.face_segments().iter().enumerate() {
-        let [a, b, c] = mesh.corners(f);
-        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-        let n = (longest / spacing).ceil().clamp(1.0, FINEST);
-        for i in 0..n as u32 {
-            for j in 0..n as u32 - i {
-                let mut push = |u: f64, v: f64| {
-                    let at = a + (b - a) * (u / n) + (c - a) * (v / n);
-                    samples.push(Sample { at, body: body[f], segment });
-                };
-                let (i, j) = (f64::from(i), f64::from(j));
-                push(i + 1.0 / 3.0, j + 1.0 / 3.0);
-                if i + j + 2.0 <= n {
-                    push(i + 2.0 / 3.0, j + 2.0 / 3.0);
-                }
-            }
-        }
-    }
-    samples
+/// Points of a triangle in rows along its longest side, at most `spacing` apart: middles of pieces of nearly the same area.
+fn spread(corners: [DVec3; 3], spacing: f64) -> impl Iterator<Item = DVec3> {
+    let side = |k: usize| corners[k].distance(corners[(k + 1) % 3]);
+    let longest = (1..3).fold(0, |best, k| if side(k) > side(best) { k } else { best });
+    let [a, b, c] = [0, 1, 2].map(|k| corners[(longest + k) % 3]);
+    let height = (b - a).cross(c - a).length() / side(longest).max(f64::MIN_POSITIVE);
+    let pieces = move |length: f64| (length / spacing).ceil().clamp(1.0, FINEST);
+    let rows = pieces(height);
+    (0..rows as u32).flat_map(move |row| {
+        // A row is a trapezium as wide as this at either edge.
+        let [below, above] = [0.0, 1.0].map(|edge| 1.0 - (f64::from(row) + edge) / rows);
+        let middle = (below + 2.0 * above) / (3.0 * (below + above));
+        let up = (f64::from(row) + middle) / rows;
+        let [left, right] = [a, b].map(|end| end.lerp(c, up));
+        let count = pieces(left.distance(right));
+        (0..count as u32).map(move |k| left.lerp(right, (f64::from(k) + 0.5) / count))
+    })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::shapes::{Shape, balls_in_a_row, mesh, moved, together};
+    use super::super::shapes::{Shape, balls_in_a_row, cuboid, mesh, moved, together};
     use super::*;
     use crate::geom::Plane;
 
@@ -103,11 +135,7 @@ mod tests {
     }
 
     fn cube(low: DVec3, side: f64) -> Shape {
-        let corner =
-            |k: u32| low + DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)) * side;
-        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        let faces = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
-        ((0..8).map(corner).collect(), faces)
+        cuboid(low, low + side)
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! The part in the middle, which the others hang on.
 
-use super::{Segmentation, near_contacts};
+use super::Segmentation;
+use super::contact::near_contacts;
 use crate::mesh::Mesh;
 use std::collections::{BTreeSet, VecDeque};
 

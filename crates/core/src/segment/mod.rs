@@ -30,18 +30,19 @@ mod sdf;
 #[cfg(test)]
 mod shapes;
 mod smooth;
+mod solids;
 mod stage;
 mod surface;
 mod symmetry;
 #[cfg(test)]
 mod tests;
 
-pub use contact::near_contacts;
 pub use edit::{Edit, EditError};
 pub use grid::Interior;
 pub use interface::Interface;
 pub use overlap::{Overlap, overlap};
 pub use parts::Parts;
+pub use solids::{Details, Solids};
 pub use stage::segment;
 pub use symmetry::{Axis, SymmetryChoice};
 

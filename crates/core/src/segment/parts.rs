@@ -1,17 +1,11 @@
 //! A mesh divided into named parts.
 
 use super::middle::middle;
+use super::solids::Solids;
 use super::surface::Surface;
 use super::{SegmentId, Segmentation, naming};
-use crate::geom::{Hull, HullError};
 use crate::mesh::{Mesh, MirrorPlane};
-use glam::DVec3;
-use rayon::prelude::*;
 use std::sync::Arc;
-
-/// Vertices of a hull at most. Hulls of scans have hundreds; those of a ball and a cone with 100,000 in all get coarser
-/// by 0.07 mm in a model of 200 mm.
-const MOST_VERTICES: usize = 4000;
 
 /// A mesh divided into parts with names.
 ///
@@ -109,19 +103,9 @@ impl Parts {
         &self.names
     }
 
-    /// The convex hull of each part; an error where it has no volume.
-    pub fn hulls(&self) -> Vec<Result<Hull, HullError>> {
-        let mut corners: Vec<Vec<u32>> = vec![Vec::new(); self.names.len()];
-        for (face, id) in self.mesh.faces().iter().zip(self.segmentation.face_segments()) {
-            corners[id.0 as usize].extend(face);
-        }
-        let hull = |mut corners: Vec<u32>| {
-            corners.sort_unstable();
-            corners.dedup();
-            let points: Vec<DVec3> = corners.iter().map(|&v| self.mesh.positions()[v as usize]).collect();
-            Hull::of_points(&points).map(|hull| hull.of_at_most(MOST_VERTICES))
-        };
-        corners.into_par_iter().map(hull).collect()
+    /// The convex hull of each part, and where parts touch.
+    pub fn solids(&self) -> Solids {
+        Solids::new(&self.mesh, &self.segmentation)
     }
 
     /// Number of faces of each part.

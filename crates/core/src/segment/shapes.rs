@@ -45,6 +45,15 @@ pub(super) fn turned((lo, hi): (f64, f64), rings: &[(f64, f64)], around: usize) 
     (positions, faces)
 }
 
+/// A box from its least corner to its largest.
+pub(super) fn cuboid(low: DVec3, high: DVec3) -> Shape {
+    let corner =
+        |k: usize| DVec3::new([low.x, high.x][k & 1], [low.y, high.y][k >> 1 & 1], [low.z, high.z][k >> 2]);
+    let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let faces = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    ((0..8).map(corner).collect(), faces)
+}
+
 /// Several bodies in one mesh.
 pub(super) fn together(shapes: &[Shape]) -> Shape {
     let (mut positions, mut faces) = (Vec::new(), Vec::new());

@@ -1,5 +1,6 @@
 //! The stage as a whole.
 
+use super::bodies::Bodies;
 use super::choose::{Chosen, Tree};
 use super::clean::Cleaner;
 use super::coarsen::{Coarse, coarsen};
@@ -12,7 +13,7 @@ use super::patches::{Partition, absorb_small, connected, split_large};
 use super::sdf::{Probe, Target};
 use super::surface::{Surface, outward_faces};
 use super::{Method, SegmentError, SegmentOptions, Segmentation, SymmetryChoice};
-use super::{bodies, grid, halves, smooth};
+use super::{grid, halves, smooth};
 use crate::geom::Mirror;
 use crate::mesh::{Mesh, MirrorPlane};
 use crate::progress::{Cancelled, Progress};
@@ -72,17 +73,18 @@ pub fn segment(
         Method::Merge => {
             progress.stage("patches");
             let patches = over_segment(&coarse, diameters.as_deref(), options.parts);
-            let gaps = bodies::nearest_links(&coarse);
-            let patches = bodies::join_crumbs(&coarse, patches, &gaps, options.parts);
+            let bodies = Bodies::new(mesh, &coarse, &cell_of_face, options.parts);
+            let patches = bodies.join_crumbs(patches);
             progress.stage("parts");
-            let ground = Ground { faces: &faces, surface: &coarse, cell_of_face: &cell_of_face };
+            let ground =
+                Ground { faces: &faces, surface: &coarse, cell_of_face: &cell_of_face, bodies: &bodies };
             let solid = Interior::filled(positions, &faces, grid::CELLS);
             let choose = |tree: Tree| match options.parts {
                 Some(count) => tree.parts(&solid, count, progress),
                 None => tree.best_parts(&solid, part_cost, progress),
             };
             let merged = |halves: Option<&Halves>, sides| {
-                let patches = ground.patches(patches.clone(), &gaps, halves);
+                let patches = ground.patches(patches.clone(), halves);
                 let scene = Scene { positions, solid: &solid, sides };
                 choose(merge_all(&scene, patches, progress)?)
             };
@@ -179,11 +181,12 @@ struct Ground<'a> {
     faces: &'a [[u32; 3]],
     surface: &'a Surface,
     cell_of_face: &'a [u32],
+    bodies: &'a Bodies,
 }
 
 impl Ground<'_> {
     /// What merging has to know; with halves the patches of one are the images of the other's.
-    fn patches(&self, patches: Partition, gaps: &[[u32; 2]], halves: Option<&Halves>) -> Patches {
+    fn patches(&self, patches: Partition, halves: Option<&Halves>) -> Patches {
         let (patches, twin) = match halves {
             Some(halves) => halves.patches(self.surface, &patches),
             None => {
@@ -191,12 +194,12 @@ impl Ground<'_> {
                 (patches, itself)
             }
         };
-        let body = bodies::body_of_sets(self.surface, &patches);
+        let body = self.bodies.of_sets(&patches);
         let vertices = self.vertices(&patches);
         let borders = patches.border_costs(self.surface);
         let mut neighbours: Vec<([u32; 2], f64)> =
             borders.into_iter().map(|((a, b), cost)| ([a, b], cost)).collect();
-        for cells in gaps {
+        for cells in self.bodies.links().iter().copied() {
             let [a, b] = cells.map(|c| patches.of_cell[c as usize]);
             if a != b {
                 neighbours.push(([a.min(b), a.max(b)], 0.0));

@@ -1,6 +1,7 @@
 //! What the user should know about the components and their joints.
 
 use super::Warning;
+use crate::bodies::Hulls;
 use crate::{Options, openings_mm2};
 use glam::DVec3;
 use std::fmt;
@@ -9,6 +10,7 @@ use tatamu_core::component::{Component, Panel, PanelKind};
 use tatamu_core::design::RefitError;
 use tatamu_core::model::{Model, ModelPart, PartId};
 use tatamu_core::remedy::Remedy;
+use tatamu_core::segment::Details;
 use tatamu_net::net::Net;
 use tatamu_net::sheet::Layout;
 
@@ -33,6 +35,13 @@ pub enum ModelWarning {
         parts: usize,
         /// Their faces.
         faces: usize,
+    },
+    /// What sticks out of parts was left out.
+    LeftOut {
+        /// Number of bodies.
+        bodies: usize,
+        /// Number of parts that were cut.
+        cuts: usize,
     },
     /// The parts of the mesh are not one model.
     NotJoined {
@@ -112,6 +121,7 @@ codes!(ModelWarning {
     TinyModel => "tiny_model",
     ManySheets => "many_sheets",
     FlatParts => "flat_segment",
+    LeftOut => "details_left_out",
     NotJoined => "not_joined",
     NarrowPanel => "narrow_panel",
     ToleranceMissed => "tolerance_missed",
@@ -127,7 +137,10 @@ impl ModelWarning {
         match self {
             Self::TinyModel { .. } => vec![Remedy::LargerSize],
             Self::ManySheets { .. } => vec![Remedy::SmallerSize, Remedy::LargerPaper],
-            Self::FlatParts { .. } | Self::NotJoined { .. } | Self::StaysConvex { .. } => Vec::new(),
+            Self::FlatParts { .. }
+            | Self::LeftOut { .. }
+            | Self::NotJoined { .. }
+            | Self::StaysConvex { .. } => Vec::new(),
             Self::NarrowPanel { .. } => vec![Remedy::FewerPanels, Remedy::LargerSize],
             Self::ToleranceMissed { .. } => vec![Remedy::MorePanels],
             Self::ThinPart { least_mm, .. } => vec![Remedy::LargerSize, Remedy::NarrowerPanels(*least_mm)],
@@ -152,6 +165,11 @@ impl fmt::Display for ModelWarning {
                     if *parts == 1 { ("part has", "was") } else { ("parts have", "were") };
                 write!(f, "{parts} flat {parts_have} no volume and {were} left out (faces: {faces})")
             }
+            Self::LeftOut { bodies, cuts } => write!(
+                f,
+                "details that stick out were left out, because parts with them are much larger (bodies: {bodies}, \
+                 parts that were cut: {cuts})"
+            ),
             Self::NotJoined { roots } => write!(
                 f,
                 "the model is in {} groups that are not joined to one another, because they do not touch or no joint \
@@ -215,15 +233,27 @@ const SWOLLEN: f64 = 0.3;
 /// and comes from the least size of panels where it is thinner than so many of them.
 const THIN_PANELS: f64 = 4.0;
 
+/// What of a mesh is not in its model.
+fn left_out(hulls: &Hulls) -> Vec<Warning> {
+    let (flat, Details { bodies, cuts }) = (hulls.flat_faces(), hulls.details());
+    let flat_parts = ModelWarning::FlatParts { parts: flat.len(), faces: flat.iter().sum() };
+    let details = ModelWarning::LeftOut { bodies, cuts };
+    let both = [(!flat.is_empty(), flat_parts), (bodies + cuts > 0, details)];
+    both.into_iter().filter(|(is_so, _)| *is_so).map(|(_, warning)| warning.into()).collect()
+}
+
 /// What is to be known about a model and its nets.
-pub(crate) fn warnings(model: &Model, nets: &[Net], flat: &[usize], options: &Options) -> Vec<Warning> {
+pub(crate) fn warnings(
+    model: &Model,
+    nets: &[Net],
+    hulls: Option<&Hulls>,
+    options: &Options,
+) -> Vec<Warning> {
     let mut out: Vec<Warning> = Vec::new();
     if options.is_tiny() {
         out.push(ModelWarning::TinyModel { size_mm: options.size_mm }.into());
     }
-    if !flat.is_empty() {
-        out.push(ModelWarning::FlatParts { parts: flat.len(), faces: flat.iter().sum() }.into());
-    }
+    out.extend(hulls.into_iter().flat_map(left_out));
     out.extend(model.parts().iter().flat_map(|part| part_warnings(part, options)).map(Warning::from));
     out.extend(model.ids().filter_map(|part| weak_joint(model, part)).map(Warning::from));
     // Board is taped at all hinges.
