@@ -104,7 +104,8 @@ pub(super) fn between(contact: &Contact, ground: &Ground<'_>, across: &[Mirror])
     };
     let on_plate = ground.sides(FlatSide::of_hull).filter_map(along_plate);
     // A box stays one: its sides are exact where samples of them are not.
-    let on_facet = ground.sides(facets).filter_map(|side| {
+    let sides = (contact.interface == Interface::Bodies).then(|| ground.sides(facets)).into_iter().flatten();
+    let on_facet = sides.filter_map(|side| {
         let turn_rad = |other: &Plane| libm::acos(side.plane.normal().dot(other.normal()).clamp(-1.0, 1.0));
         let turn_rad = straight.iter().map(turn_rad).fold(turn_rad(&first), f64::min);
         let price = MOVE_PRICE * turn_rad / std::f64::consts::FRAC_PI_2;
@@ -113,8 +114,7 @@ pub(super) fn between(contact: &Contact, ground: &Ground<'_>, across: &[Mirror])
     });
     let best =
         on_plate.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|on_plate| on_plate.0 < best.0).unwrap_or(best);
-    let on_facet =
-        on_facet.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|_| contact.interface == Interface::Bodies);
+    let on_facet = on_facet.min_by(|a, b| a.0.total_cmp(&b.0));
     let best = on_facet.filter(|on_facet| on_facet.0 < best.0 + AS_GOOD).unwrap_or(best).1;
     let lost = ground.lost(&best);
     (best, lost[0].max(lost[1]))
