@@ -1,7 +1,7 @@
 //! Flat sides of surfaces.
 
-use super::{Hull, Plane, bounds, polygon};
-use glam::DVec3;
+use super::{Facet, Hull, Plane, bounds, polygon};
+use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 
 /// A side is flat where this share of a surface lies in one plane: the tops of tables have 0.42, the seats of chairs 0.36
@@ -11,6 +11,11 @@ const LEAST_SHARE: f64 = 0.35;
 const ROUGH_RAD: f64 = 20.0_f64.to_radians();
 /// And its points from the plane by at most this share of the surface's extent.
 const ROUGH: f64 = 0.01;
+/// A facet of a box has at least this share of it: a wall of a house has a sixth.
+const LEAST_FACET: f64 = 0.08;
+/// And these have at least this share together: the eyes of a fish are no plates on its cheeks, and were lost with any share.
+/// Not bounded from above by a case.
+const LEAST_FACETS: f64 = 0.75;
 /// Directions that are looked at, those that most of a surface has first. Not bounded by a case.
 const LOOKS: usize = 6;
 /// Times that the mean of normals is taken again around the last one. Not bounded by a case.
@@ -65,13 +70,29 @@ impl FlatSide {
     pub fn of_hull(hull: &Hull) -> Vec<Self> {
         let patch = |facet| {
             let outline: Vec<DVec3> = hull.facet_points(facet).collect();
-            let normal = facet.plane().normal();
-            let area =
-                polygon::area(&outline.iter().map(|p| facet.plane().flat(*p)).collect::<Vec<_>>()).abs();
-            Patch { centre: outline.iter().sum::<DVec3>() / outline.len() as f64, normal, area }
+            let centre = outline.iter().sum::<DVec3>() / outline.len() as f64;
+            Patch { centre, normal: facet.plane().normal(), area: facet_area(hull, facet) }
         };
         Self::of_patches(&hull.facets().iter().map(patch).collect::<Vec<_>>())
     }
+
+    /// The large facets of a hull that consists of them, as a box does; none of others.
+    pub fn of_box(hull: &Hull) -> Vec<Self> {
+        let (low, high) = bounds(hull.vertices().iter().copied());
+        let roughness = ROUGH * low.distance(high);
+        let areas = hull.facets().iter().map(|facet| (facet, facet_area(hull, facet)));
+        let large: Vec<(&Facet, f64)> =
+            areas.filter(|(_, area)| *area >= LEAST_FACET * hull.area()).collect();
+        if large.iter().map(|(_, area)| area).sum::<f64>() < LEAST_FACETS * hull.area() {
+            return Vec::new();
+        }
+        large.into_iter().map(|(facet, _)| Self { plane: *facet.plane(), roughness }).collect()
+    }
+}
+
+fn facet_area(hull: &Hull, facet: &Facet) -> f64 {
+    let outline: Vec<DVec2> = hull.facet_points(facet).map(|p| facet.plane().flat(p)).collect();
+    polygon::area(&outline).abs()
 }
 
 fn area(patches: &[Patch]) -> f64 {

@@ -110,6 +110,15 @@ impl Hull {
         self.corners().map(|[a, b, c]| (b - a).cross(c - a).length() / 2.0).sum()
     }
 
+    /// The normal of a facet of either hull along which they overlap least, or lie farthest apart, from this one to the other;
+    /// with where the other begins along it and where this one ends.
+    pub(crate) fn widest_gap(&self, other: &Self) -> Option<(DVec3, [f64; 2])> {
+        let [own, others] = [self, other].map(|hull| hull.facets().iter().map(|f| f.plane().normal()));
+        let along = |normal: DVec3| (normal, [-other.support(-normal), self.support(normal)]);
+        let all = own.chain(others.map(|n| -n)).map(along);
+        all.min_by(|(_, a), (_, b)| (a[1] - a[0]).total_cmp(&(b[1] - b[0])))
+    }
+
     /// Enclosed volume.
     pub fn volume(&self) -> f64 {
         let o = self.vertices[0];

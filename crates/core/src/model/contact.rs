@@ -4,9 +4,10 @@ use super::PartId;
 use glam::DVec3;
 
 /// How two parts touch.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub enum Interface {
     /// Along a border on one surface.
+    #[default]
     Border,
     /// As two bodies that are near each other: the points are samples.
     Bodies,
@@ -23,4 +24,12 @@ pub struct Contact {
     pub interface: Interface,
     /// Length of the border, mm: larger interfaces make better joints.
     pub length_mm: f64,
+}
+
+#[cfg(test)]
+impl Contact {
+    /// One along a border.
+    pub(super) fn border([a, b]: [usize; 2], points: Vec<DVec3>, length_mm: f64) -> Self {
+        Self { parts: (PartId(a), PartId(b)), points, interface: Interface::Border, length_mm }
+    }
 }

@@ -138,16 +138,15 @@ pub(super) fn image_of((a, b): (PartId, PartId), symmetry: Option<&Symmetry>) ->
 /// The contacts so that each one's image is one too, of the same length and with the images of its
 /// points.
 pub(super) fn mirrored_contacts(contacts: &[Contact], symmetry: &Symmetry) -> Vec<Contact> {
+    /// Points, the sum of lengths and their number, and how they touch.
+    type Orbit = (Vec<DVec3>, f64, usize, Interface);
     let mirror = symmetry.mirror();
-    // Of a pair and its image, the smaller: its points, the sum of lengths and their number.
-    let mut orbits: BTreeMap<(PartId, PartId), (Vec<DVec3>, f64, usize)> = BTreeMap::new();
-    let mut interfaces: BTreeMap<(PartId, PartId), Interface> = BTreeMap::new();
+    // Of a pair and its image, the smaller.
+    let mut orbits: BTreeMap<(PartId, PartId), Orbit> = BTreeMap::new();
     for contact in contacts {
         let image = image_of(contact.parts, Some(symmetry));
-        let orbit = contact.parts.min(image);
-        let most = interfaces.entry(orbit).or_insert(contact.interface);
-        *most = contact.interface.max(*most);
-        let (points, length_mm, count) = orbits.entry(orbit).or_default();
+        let (points, length_mm, count, interface) = orbits.entry(contact.parts.min(image)).or_default();
+        *interface = contact.interface.max(*interface);
         *length_mm += contact.length_mm;
         *count += 1;
         if contact.parts <= image {
@@ -157,9 +156,8 @@ pub(super) fn mirrored_contacts(contacts: &[Contact], symmetry: &Symmetry) -> Ve
             points.extend(contact.points.iter().map(|&p| mirror.point(p)));
         }
     }
-    let both = orbits.into_iter().flat_map(|(parts, (points, sum_mm, count))| {
+    let both = orbits.into_iter().flat_map(|(parts, (points, sum_mm, count, interface))| {
         let (image, length_mm) = (image_of(parts, Some(symmetry)), sum_mm / count as f64);
-        let interface = interfaces[&parts];
         let other = (image != parts).then(|| {
             let points = points.iter().map(|&p| mirror.point(p)).collect();
             Contact { parts: image, points, interface, length_mm }
@@ -252,24 +250,9 @@ pub(super) mod tests {
             [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(y, z)| DVec3::new(x, y, z)).to_vec()
         };
         let contacts = [
-            Contact {
-                parts: (PartId(1), PartId(2)),
-                points: face(20.0),
-                interface: Interface::Border,
-                length_mm: 40.0,
-            },
-            Contact {
-                parts: (PartId(0), PartId(1)),
-                points: face(10.0),
-                interface: Interface::Border,
-                length_mm: 40.0,
-            },
-            Contact {
-                parts: (PartId(0), PartId(2)),
-                points: face(15.0),
-                interface: Interface::Border,
-                length_mm: 1.0,
-            },
+            Contact::border([1, 2], face(20.0), 40.0),
+            Contact::border([0, 1], face(10.0), 40.0),
+            Contact::border([0, 2], face(15.0), 1.0),
         ];
         let links = link_tree(&hulls.iter().collect::<Vec<_>>(), &contacts, None);
         assert_eq!(links.iter().map(|l| (l.parent.0, l.child.0)).collect::<Vec<_>>(), [(0, 1), (1, 2)]);
@@ -292,24 +275,9 @@ pub(super) mod tests {
         let edge =
             vec![DVec3::new(10.0, 10.0, 40.0), DVec3::new(10.0, 10.0, 50.0), DVec3::new(9.9, 10.1, 45.0)];
         let contacts = [
-            Contact {
-                parts: (PartId(0), PartId(1)),
-                points: square(0.0),
-                interface: Interface::Border,
-                length_mm: 40.0,
-            },
-            Contact {
-                parts: (PartId(0), PartId(2)),
-                points: square(10.0),
-                interface: Interface::Border,
-                length_mm: 40.0,
-            },
-            Contact {
-                parts: (PartId(1), PartId(2)),
-                points: edge,
-                interface: Interface::Border,
-                length_mm: 45.0,
-            },
+            Contact::border([0, 1], square(0.0), 40.0),
+            Contact::border([0, 2], square(10.0), 40.0),
+            Contact::border([1, 2], edge, 45.0),
         ];
         let links = link_tree(&[&palm, &finger, &thumb], &contacts, None);
         assert_eq!(links.iter().map(|l| (l.parent.0, l.child.0)).collect::<Vec<_>>(), [(0, 1), (0, 2)]);
@@ -326,12 +294,7 @@ pub(super) mod tests {
         let head = cube(DVec3::new(-5.0, -5.0, 10.0), 10.0);
         let hulls = [body, arm.clone(), arm.reflected(&mirror), foot.clone(), foot.reflected(&mirror), head];
         let square = |at: DVec3, u: DVec3, v: DVec3| vec![at + u + v, at + u - v, at - u - v, at - u + v];
-        let contact = |(a, b), points, length_mm| Contact {
-            parts: (PartId(a), PartId(b)),
-            points,
-            interface: Interface::Border,
-            length_mm,
-        };
+        let contact = |(a, b), points, length_mm| Contact::border([a, b], points, length_mm);
         let contacts = [
             contact((0, 1), square(DVec3::new(5.0, 0.0, 6.0), DVec3::new(0.2, 3.0, 0.0), DVec3::Z), 30.0),
             contact((0, 2), square(DVec3::new(-5.1, 0.0, 6.0), DVec3::Y * 3.0, DVec3::Z), 20.0),

@@ -17,7 +17,7 @@ pub fn needless(part_hulls: &[&Hull], links: &[Link]) -> Vec<(PartId, PartId)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::contact::{Contact, Interface};
+    use super::super::contact::Contact;
     use super::super::link::link_tree;
     use super::*;
     use glam::DVec3;
@@ -36,12 +36,7 @@ mod tests {
             let sides = [-1.0, 1.0].map(|y| [DVec3::new(-1.0, y, 1.0), DVec3::new(1.0, y, 1.0)]);
             let points =
                 sides.concat().into_iter().map(|p| 30.0 * p * DVec3::new(width, 0.8, width)).collect();
-            let contact = Contact {
-                parts: (PartId(0), PartId(1)),
-                points,
-                interface: Interface::Border,
-                length_mm: 90.0,
-            };
+            let contact = Contact::border([0, 1], points, 90.0);
             let hulls = [&bars[0], &bars[1]];
             let found = needless(&hulls, &link_tree(&hulls, std::slice::from_ref(&contact), None));
             assert_eq!(found, if expected { vec![(PartId(0), PartId(1))] } else { vec![] }, "{width}");

@@ -172,7 +172,6 @@ const SMALLER_JOINT: f64 = 0.4;
 
 #[cfg(test)]
 mod tests {
-    use super::super::contact::Interface;
     use super::super::link::{link_tree, tests::cube};
     use super::*;
     use glam::DVec3;
@@ -182,12 +181,7 @@ mod tests {
         let hulls = [cube(DVec3::ZERO, 10.0), cube(DVec3::X * 9.0, 10.0), cube(DVec3::X * 30.0, 10.0)];
         let hulls: Vec<&Hull> = hulls.iter().collect();
         let face = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)].map(|(y, z)| DVec3::new(9.5, y, z));
-        let contact = Contact {
-            parts: (PartId(0), PartId(1)),
-            points: face.to_vec(),
-            interface: Interface::Border,
-            length_mm: 40.0,
-        };
+        let contact = Contact::border([0, 1], face.to_vec(), 40.0);
         let ends = |hulls: &[Hull]| (hulls[0].support(DVec3::X), -hulls[1].support(-DVec3::X));
         let apart = parted(&hulls, std::slice::from_ref(&contact), &[], None).hulls;
         let gap = 10.0 * GAP;
@@ -228,12 +222,7 @@ mod tests {
         assert!(farther(parted(), &[], &[([0, 1].map(PartId), 15.0)], None).is_none());
         let hulls = parted().hulls;
         let face = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)].map(|(y, z)| DVec3::new(20.2, y, z));
-        let contact = Contact {
-            parts: (PartId(0), PartId(1)),
-            points: face.to_vec(),
-            interface: Interface::Border,
-            length_mm: 80.0,
-        };
+        let contact = Contact::border([0, 1], face.to_vec(), 80.0);
         let links = link_tree(&hulls.iter().collect::<Vec<_>>(), &[contact], None);
         assert_eq!(links.len(), 1);
         assert!(farther(parted(), &links, &[([0, 1].map(PartId), 1.5)], None).is_none());

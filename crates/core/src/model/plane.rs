@@ -34,15 +34,8 @@ const TURNED: usize = 8;
 const AS_GOOD: f64 = 0.05;
 /// Planes along a flat side are tried within this angle of the fitted plane.
 const LEANING_RAD: f64 = 60.0_f64.to_radians();
-/// Between bodies the planes of facets that have at least this share of a hull are tried, too, within this angle: a wall of
-/// a house has a sixth.
-const LEAST_FACET: f64 = 0.08;
-/// Where these have at least this share of it together: the eyes of a fish are no plates on its cheeks, and were lost with any share.
-/// Not bounded from above by a case.
-const LEAST_FACETS: f64 = 0.75;
+/// Between bodies the planes of the facets of boxes are tried, too, within this angle.
 const MOST_TURN_RAD: f64 = 30.0_f64.to_radians();
-/// Sections with them are taken this share of the hull's extent to either side.
-const ROUGH: f64 = 0.01;
 /// Price of a joint whose two sections have nothing in common,
 const GLUE_PRICE: f64 = 1.0;
 /// which has enough with this share of the smaller section that the joint can have.
@@ -104,7 +97,10 @@ pub(super) fn between(contact: &Contact, ground: &Ground<'_>, across: &[Mirror])
     };
     let on_plate = ground.sides(FlatSide::of_hull).filter_map(along_plate);
     // A box stays one: its sides are exact where samples of them are not.
-    let sides = (contact.interface == Interface::Bodies).then(|| ground.sides(facets)).into_iter().flatten();
+    let sides = (contact.interface == Interface::Bodies)
+        .then(|| ground.sides(FlatSide::of_box))
+        .into_iter()
+        .flatten();
     let on_facet = sides.filter_map(|side| {
         let turn_rad = |other: &Plane| libm::acos(side.plane.normal().dot(other.normal()).clamp(-1.0, 1.0));
         let turn_rad = straight.iter().map(turn_rad).fold(turn_rad(&first), f64::min);
@@ -179,10 +175,7 @@ pub(super) fn apart(first: &Hull, second: &Hull) -> Option<(Plane, f64)> {
 /// The same for hulls that need not overlap: then the depth is less than 0, and the plane in the widest gap between
 /// their faces.
 pub(super) fn between_faces(first: &Hull, second: &Hull) -> Option<(Plane, f64)> {
-    let [own, other] = [first, second].map(|hull| hull.facets().iter().map(|f| f.plane().normal()));
-    let depth = |normal: DVec3| (normal, first.support(normal), -second.support(-normal));
-    let all = own.chain(other.map(|n| -n)).map(depth);
-    let (normal, end, start) = all.min_by(|a, b| (a.1 - a.2).total_cmp(&(b.1 - b.2)))?;
+    let (normal, [start, end]) = first.widest_gap(second)?;
     Some((Plane::through(normal * ((start + end) / 2.0), normal)?, end - start))
 }
 
@@ -203,21 +196,6 @@ impl<'a> Kept<'a> {
         let off = self.points.iter().filter(|p| side.distance(**p) > spared_mm).count();
         off as f64 / self.points.len().max(1) as f64
     }
-}
-
-/// The large facets of a hull that consists of them.
-fn facets(hull: &Hull) -> Vec<FlatSide> {
-    let least_mm2 = LEAST_FACET * hull.area();
-    let (low, high) = bounds(hull.vertices().iter().copied());
-    let roughness = ROUGH * low.distance(high);
-    let area_mm2 = |facet: &Facet| {
-        let outline: Vec<DVec2> = hull.facet_points(facet).map(|p| facet.plane().flat(p)).collect();
-        polygon::area(&outline).abs()
-    };
-    let large: Vec<&Facet> = hull.facets().iter().filter(|facet| area_mm2(facet) >= least_mm2).collect();
-    let is_box = large.iter().map(|facet| area_mm2(facet)).sum::<f64>() >= LEAST_FACETS * hull.area();
-    let sides = large.iter().map(|facet| FlatSide { plane: *facet.plane(), roughness });
-    sides.filter(|_| is_box).collect()
 }
 
 /// Samples of two hulls, for the price of many planes between them.

@@ -131,11 +131,11 @@ impl Bodies {
         let share = parts.map_or(CRUMB, |parts| CRUMB.min(CRUMB_OF_PART / parts as f64));
         let least = share * surface.total_area();
         let areas = Partition { of_cell: of_cell.clone(), count }.areas(surface);
-        let corners = corners(mesh, &of_face, count);
+        let hulls = if count > 1 { hulls(mesh, &of_face, count) } else { Vec::new() };
         let price = |gap: &Gap| {
             let [a, b] = gap.cells.map(|c| of_cell[c as usize] as usize);
             let (small, host) = if areas[a] > areas[b] { (b, a) } else { (a, b) };
-            let growth = if areas[small] < least { growth(&corners[host], &corners[small]) } else { 0.0 };
+            let growth = if areas[small] < least { growth(&hulls[host], &hulls[small].0) } else { 0.0 };
             (gap.width + libm::cbrt(growth), gap.cells)
         };
         let mut priced: Vec<(f64, [u32; 2])> = gaps.par_iter().map(price).collect();
@@ -203,31 +203,35 @@ fn host_cells(
     host_cell
 }
 
-/// Corners of the hull of each body; all where it has none.
-fn corners(mesh: &Mesh, body_of_face: &[u32], bodies: usize) -> Vec<Vec<DVec3>> {
-    if bodies < 2 {
-        return Vec::new();
-    }
+/// Corners of the hull of each body, all where it has none, and its volume.
+fn hulls(mesh: &Mesh, body_of_face: &[u32], bodies: usize) -> Vec<(Vec<DVec3>, f64)> {
     let mut vertices: Vec<Vec<u32>> = vec![Vec::new(); bodies];
     for (face, &body) in mesh.faces().iter().zip(body_of_face) {
         vertices[body as usize].extend(face);
     }
-    let corners = |mut vertices: Vec<u32>| {
-        vertices.sort_unstable();
-        vertices.dedup();
-        let points: Vec<DVec3> = vertices.into_iter().map(|v| mesh.positions()[v as usize]).collect();
-        Hull::of_points(&points).map_or(points, |hull| hull.vertices().to_vec())
+    let hull = |vertices: Vec<u32>| {
+        let points = points_at(mesh, vertices);
+        let corners = Hull::of_points(&points).map_or(points, |hull| hull.vertices().to_vec());
+        let volume = volume(&corners);
+        (corners, volume)
     };
-    vertices.into_par_iter().map(corners).collect()
+    vertices.into_par_iter().map(hull).collect()
 }
 
-/// How much larger one hull is with the corners of another.
-fn growth(host: &[DVec3], small: &[DVec3]) -> f64 {
-    (volume(&[host, small].concat()) - volume(host)).max(0.0)
+/// The positions of vertices, each once.
+pub(super) fn points_at(mesh: &Mesh, mut vertices: Vec<u32>) -> Vec<DVec3> {
+    vertices.sort_unstable();
+    vertices.dedup();
+    vertices.into_iter().map(|v| mesh.positions()[v as usize]).collect()
 }
 
-/// The volume of the hull of points.
-fn volume(points: &[DVec3]) -> f64 {
+/// How much larger a hull is with the corners of another.
+fn growth((host, host_volume): &(Vec<DVec3>, f64), small: &[DVec3]) -> f64 {
+    (volume(&[host, small].concat()) - host_volume).max(0.0)
+}
+
+/// The volume of the hull of points; 0 where it has none.
+pub(super) fn volume(points: &[DVec3]) -> f64 {
     Hull::of_points(points).map_or(0.0, |hull| hull.volume())
 }
 

@@ -2,7 +2,7 @@
 //!
 //! The hull of a house with its drainpipe and its cornice leans on all sides. Paper leaves these out.
 
-use super::bodies::{CRUMB, WORTH, find};
+use super::bodies::{CRUMB, WORTH, find, points_at, volume};
 use super::contact::{GAP, Touch, near, touches};
 use super::surface::Surface;
 use super::{SegmentId, Segmentation};
@@ -143,9 +143,8 @@ impl Solid {
             for piece in small {
                 let own = points(mesh, std::slice::from_ref(&piece));
                 let all: Vec<DVec3> = hull.vertices().iter().chain(&own).copied().collect();
-                let volume = Hull::of_points(&own).map_or(0.0, |own| own.volume());
                 match Hull::of_points(&all) {
-                    Ok(grown) if grown.volume() - hull.volume() <= WORTH * volume => {
+                    Ok(grown) if grown.volume() - hull.volume() <= WORTH * volume(&own) => {
                         hull = grown;
                         pieces.push(piece);
                     }
@@ -191,7 +190,9 @@ fn restore_bridges(mesh: &Mesh, solids: &mut [Solid], touches: &[Touch], segment
     for ([a, b], faces) in bridges {
         let (Some(faces), true) = (faces, a != b) else { continue };
         let are_apart = match [&solids[a].hull, &solids[b].hull] {
-            [Ok(first), Ok(second)] => separation(first, second) > spare,
+            [Ok(first), Ok(second)] => {
+                first.widest_gap(second).is_some_and(|(_, [start, end])| start - end > spare)
+            }
             _ => false,
         };
         if are_apart {
@@ -200,22 +201,10 @@ fn restore_bridges(mesh: &Mesh, solids: &mut [Solid], touches: &[Touch], segment
     }
 }
 
-/// How far two hulls are from each other, at least: along the normals of their facets.
-fn separation(first: &Hull, second: &Hull) -> f64 {
-    let along = |own: &Hull, other: &Hull| {
-        let normals = own.facets().iter().map(|facet| facet.plane().normal());
-        normals.map(|normal| -other.support(-normal) - own.support(normal)).fold(f64::NEG_INFINITY, f64::max)
-    };
-    along(first, second).max(along(second, first))
-}
-
 /// The corners of faces.
 fn points(mesh: &Mesh, pieces: &[Piece]) -> Vec<DVec3> {
     let faces = pieces.iter().flat_map(|piece| &piece.faces);
-    let mut corners: Vec<u32> = faces.flat_map(|&face| mesh.faces()[face]).collect();
-    corners.sort_unstable();
-    corners.dedup();
-    corners.into_iter().map(|v| mesh.positions()[v as usize]).collect()
+    points_at(mesh, faces.flat_map(|&face| mesh.faces()[face]).collect())
 }
 
 /// The planes of the large flat sides of what consists of them, as a box does, in a mesh of few faces.
@@ -233,10 +222,12 @@ fn sides(mesh: &Mesh, surface: &Surface, pieces: &[Piece]) -> Vec<Plane> {
     };
     for face in large {
         let Some(plane) = Plane::through(surface.centres()[face], surface.normals()[face]) else { continue };
-        let is_known = sides.iter().any(|side| is_in(side, face));
+        if sides.iter().any(|side| is_in(side, face)) {
+            continue;
+        }
         let of_plane: f64 =
             faces().filter(|&other| is_in(&plane, other)).map(|other| surface.areas()[other]).sum();
-        if !is_known && of_plane >= LEAST_SIDE * area {
+        if of_plane >= LEAST_SIDE * area {
             sides.push(plane);
             covered += of_plane;
         }
@@ -314,8 +305,7 @@ fn volume_beyond(mesh: &Mesh, piece: &Piece, plane: &Plane) -> f64 {
         }
     }
     // What stands on the plane is open there.
-    let volume = |points: Vec<DVec3>| Hull::of_points(&points).map_or(0.0, |hull| hull.volume());
-    points.into_values().map(volume).sum()
+    points.values().map(|points| volume(points)).sum()
 }
 
 #[cfg(test)]
@@ -334,7 +324,7 @@ mod tests {
         cuboid(DVec3::ZERO, DVec3::new(80.0, 80.0, 90.0))
     }
 
-    fn volume(solids: &Solids, segment: usize) -> f64 {
+    fn volume_of(solids: &Solids, segment: usize) -> f64 {
         solids.hulls[segment].as_ref().unwrap().volume()
     }
 
@@ -343,9 +333,9 @@ mod tests {
         let pipe = cuboid(DVec3::new(-2.0, 60.0, 0.0), DVec3::new(0.0, 62.0, 90.0));
         let found = solids(&[house(), pipe.clone()], |_| 0);
         assert_eq!(found.details, Details { bodies: 1, cuts: 0 });
-        assert!((volume(&found, 0) - 80.0 * 80.0 * 90.0).abs() < 1.0);
+        assert!((volume_of(&found, 0) - 80.0 * 80.0 * 90.0).abs() < 1.0);
         // By itself it is all that there is.
-        assert!((volume(&solids(&[house(), pipe], |k| k as u32), 1) - 2.0 * 2.0 * 90.0).abs() < 1e-6);
+        assert!((volume_of(&solids(&[house(), pipe], |k| k as u32), 1) - 2.0 * 2.0 * 90.0).abs() < 1e-6);
     }
 
     /// A storey that is wider than the house, and a plate that is narrower: neither makes the hull much larger.

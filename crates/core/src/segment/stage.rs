@@ -199,7 +199,7 @@ impl Ground<'_> {
         let borders = patches.border_costs(self.surface);
         let mut neighbours: Vec<([u32; 2], f64)> =
             borders.into_iter().map(|((a, b), cost)| ([a, b], cost)).collect();
-        for cells in self.bodies.links().iter().copied() {
+        for cells in self.bodies.links() {
             let [a, b] = cells.map(|c| patches.of_cell[c as usize]);
             if a != b {
                 neighbours.push(([a.min(b), a.max(b)], 0.0));
