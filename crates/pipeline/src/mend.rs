@@ -110,8 +110,9 @@ pub(super) trait Maker {
     /// Whether the part of this name may become a piece of another.
     fn may_vanish(&self, part: &str) -> bool;
 
-    /// A first look at a model, or the one that was taken before at the same parts and joints.
-    fn sketch(&self, divided: &Divided) -> Result<Arc<Sketch>, Error>;
+    /// A first look at a model, or the one that was taken before at the same parts and joints. The search starts from what is
+    /// most like a model of other parts or joints, if there is one.
+    fn sketch(&self, divided: &Divided, like: Option<&Model>) -> Result<Arc<Sketch>, Error>;
 
     /// The model of a sketch, and what is wrong with it once its folding is planned, mm.
     fn finish(&self, divided: &Divided, sketch: &Sketch) -> Result<(Built, f64), Error>;
@@ -132,7 +133,7 @@ pub(super) fn mended(maker: &impl Maker) -> Result<Mended, Error> {
         let may_vanish = |part: &str| maker.may_vanish(part);
         for more in mergers(best.divided.hulls(), &best.built.verdict, &may_vanish).take(MERGERS) {
             let (divided, merges) = merged(maker, [&best.merges[..], &more].concat())?;
-            let Some(draft) = possible(drafted(maker, divided))? else { continue };
+            let Some(draft) = possible(drafted(maker, divided, Some(&best.built.model)))? else { continue };
             let price = draft.price_once_mended();
             if price < least {
                 (least, next) = (price, Some((draft, merges)));
@@ -178,7 +179,7 @@ fn joined(maker: &impl Maker, draft: Draft) -> Result<Mended, Error> {
         let mut next: Option<Draft> = None;
         for hulls in others(best.divided.hulls(), &best.built.verdict).take(OTHERS) {
             let divided = Arc::new(best.divided.with_hulls(hulls));
-            let Some(draft) = possible(drafted(maker, divided))? else { continue };
+            let Some(draft) = possible(drafted(maker, divided, Some(&best.built.model)))? else { continue };
             if next.as_ref().is_none_or(|next| draft.price() < next.price()) {
                 next = Some(draft);
             }
@@ -199,7 +200,7 @@ fn joined(maker: &impl Maker, draft: Draft) -> Result<Mended, Error> {
     }
     // Last, as thicker joints cost the outlines less.
     let firmer = Arc::new(best.divided.with_hulls(best.divided.hulls().firmer()));
-    Ok(match possible(drafted(maker, firmer))? {
+    Ok(match possible(drafted(maker, firmer, Some(&best.built.model)))? {
         Some(firmer) if firmer.may_beat(&best) => best.or(finished(maker, firmer)?),
         _ => best,
     })
@@ -215,7 +216,7 @@ fn thicker(maker: &impl Maker, draft: &Draft) -> Result<Option<Draft>, Error> {
             break;
         }
         let divided = Arc::new(best.divided.with_hulls(best.divided.hulls().sturdier(weak)));
-        match possible(drafted(maker, divided))? {
+        match possible(drafted(maker, divided, Some(&best.sketch.built().model)))? {
             Some(other) if other.price() < best.price() => thicker = Some(other),
             _ => break,
         }
@@ -224,11 +225,11 @@ fn thicker(maker: &impl Maker, draft: &Draft) -> Result<Option<Draft>, Error> {
 }
 
 fn first_draft(maker: &impl Maker) -> Result<Draft, Error> {
-    drafted(maker, maker.divided(&[])?)
+    drafted(maker, maker.divided(&[])?, None)
 }
 
-fn drafted(maker: &impl Maker, divided: Arc<Divided>) -> Result<Draft, Error> {
-    let sketch = maker.sketch(&divided)?;
+fn drafted(maker: &impl Maker, divided: Arc<Divided>, like: Option<&Model>) -> Result<Draft, Error> {
+    let sketch = maker.sketch(&divided, like)?;
     Ok(Draft { divided, sketch })
 }
 

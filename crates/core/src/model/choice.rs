@@ -213,7 +213,7 @@ impl Choice {
     }
 
     /// The combination that costs least by its parts and joints, with some candidates given.
-    fn cheapest(&self, given: &[(usize, usize)]) -> Combination {
+    pub(super) fn cheapest(&self, given: &[(usize, usize)]) -> Combination {
         let mut below = self.own.clone();
         for &(part, only) in given {
             let others = below[self.variable[part]].iter_mut().enumerate().filter(|(k, _)| *k != only);
