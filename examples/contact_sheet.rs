@@ -22,7 +22,10 @@ const ROW: usize = 2;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let Some((output, inputs)) = arguments.split_last().filter(|(_, inputs)| !inputs.is_empty()) else {
+    // A list without a picture at its end must not cost its last mesh.
+    let is_complete =
+        |(output, inputs): &(&String, &[String])| output.ends_with(".png") && !inputs.is_empty();
+    let Some((output, inputs)) = arguments.split_last().filter(is_complete) else {
         return Err("give meshes, and the name of the PNG file to write".into());
     };
     let cells = DVec2::new(4.0 * inputs.len().min(ROW) as f64, inputs.len().div_ceil(ROW) as f64);
