@@ -68,29 +68,33 @@ fn said(output: &Output) -> String {
 
 #[test]
 fn a_job_arrives_whole_by_every_handshake() {
-    // Time alone takes the time that the profile says.
-    for (handshake, strokes, arguments) in [
-        ("auto", 30, &["--cutter", "generic-hpgl"][..]),
-        ("escb", 30, &["--cutter", "generic-hpgl"]),
-        ("xonxoff", 10, &["--cutter", "generic-hpgl"]),
-        ("paced", 4, &["--cutter", "generic-hpgl", "--mute"]),
-    ] {
-        let folder = folder(strokes);
-        // XOFF comes late where both sides wait for a processor: a line that is little faster than the pen
-        // gives it 130 ms.
-        let (baud, speedup) = if handshake == "xonxoff" { ("9600", "2") } else { ("115200", "8") };
-        let speeds = ["--baud", baud, "--speedup", speedup];
-        let machine = Machine::start(folder.path(), &[arguments, &speeds, &["-o", "drawn.svg"]].concat());
-        let options = ["--cutter", "generic-hpgl", "--baud", baud, "--yes", "--handshake", handshake];
-        let mut plot = tatamu(folder.path());
-        let output = plot.args(["plot", "a.plt", "--port", &machine.port]).args(options).output().unwrap();
-        assert!(output.status.success(), "{handshake}: {}", said(&output));
-        let report = machine.report();
-        let expected = format!("lost 0, broken commands 0, lines drawn {}, pen up", 40 * strokes);
-        assert!(report.contains(&expected), "{handshake}: {report}");
-        assert!(!folder.path().join("a.tatamu-job").exists(), "{handshake}");
-        assert!(std::fs::read_to_string(folder.path().join("drawn.svg")).unwrap().contains("<path"));
-    }
+    // These wait most of the time.
+    std::thread::scope(|scope| {
+        scope.spawn(|| arrives_whole("auto", 30, &[]));
+        scope.spawn(|| arrives_whole("escb", 30, &[]));
+        // Time alone takes the time that the profile says.
+        scope.spawn(|| arrives_whole("paced", 4, &["--mute"]));
+    });
+    arrives_whole("xonxoff", 10, &[]);
+}
+
+/// Plots strokes on a machine with more arguments, and looks at what it has drawn.
+fn arrives_whole(handshake: &str, strokes: usize, arguments: &[&str]) {
+    let folder = folder(strokes);
+    // XOFF comes late where both sides wait for a processor: a line that is little faster than the pen
+    // gives it 130 ms.
+    let (baud, speedup) = if handshake == "xonxoff" { ("9600", "2") } else { ("115200", "8") };
+    let speeds = ["--cutter", "generic-hpgl", "--baud", baud, "--speedup", speedup, "-o", "drawn.svg"];
+    let machine = Machine::start(folder.path(), &[arguments, &speeds].concat());
+    let options = ["--cutter", "generic-hpgl", "--baud", baud, "--yes", "--handshake", handshake];
+    let mut plot = tatamu(folder.path());
+    let output = plot.args(["plot", "a.plt", "--port", &machine.port]).args(options).output().unwrap();
+    assert!(output.status.success(), "{handshake}: {}", said(&output));
+    let report = machine.report();
+    let expected = format!("lost 0, broken commands 0, lines drawn {}, pen up", 40 * strokes);
+    assert!(report.contains(&expected), "{handshake}: {report}");
+    assert!(!folder.path().join("a.tatamu-job").exists(), "{handshake}");
+    assert!(std::fs::read_to_string(folder.path().join("drawn.svg")).unwrap().contains("<path"));
 }
 
 /// A `p` in the list of a script, `while read file; do tatamu plot $file --yes; done < list`, paused the job for ever,
