@@ -2,7 +2,11 @@
 //! front, then both from a corner, a row for each mesh.
 //! `cargo run --release --example contact_sheet -- samples/*.obj sheet.png`.
 
+#[path = "input/pictures.rs"]
+mod pictures;
+
 use glam::{DAffine2, DVec2, DVec3};
+use pictures::inputs_and_picture;
 use std::borrow::Cow;
 use std::error::Error;
 use tatamu::drawing::{Drawing, Rgb};
@@ -22,10 +26,7 @@ const ROW: usize = 2;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    // A list without a picture at its end must not cost its last mesh.
-    let is_complete =
-        |(output, inputs): &(&String, &[String])| output.ends_with(".png") && !inputs.is_empty();
-    let Some((output, inputs)) = arguments.split_last().filter(is_complete) else {
+    let Some((inputs, output)) = inputs_and_picture(&arguments) else {
         return Err("give meshes, and the name of the PNG file to write".into());
     };
     let cells = DVec2::new(4.0 * inputs.len().min(ROW) as f64, inputs.len().div_ceil(ROW) as f64);

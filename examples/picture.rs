@@ -2,7 +2,11 @@
 //! folded flat; a project file of drawn components standing, half folded and flat.
 //! `cargo run --release --example picture -- samples/teddy.obj teddy.png`.
 
+#[path = "input/pictures.rs"]
+mod pictures;
+
 use glam::{DAffine2, DVec2, DVec3};
+use pictures::inputs_and_picture;
 use std::error::Error;
 use tatamu::drawing::{Drawing, Rgb};
 use tatamu::export::png;
@@ -22,10 +26,7 @@ const ROW: usize = 2;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    // A list without a picture at its end must not cost its last mesh.
-    let is_complete =
-        |(output, inputs): &(&String, &[String])| output.ends_with(".png") && !inputs.is_empty();
-    let Some((output, inputs)) = arguments.split_last().filter(is_complete) else {
+    let Some((inputs, output)) = inputs_and_picture(&arguments) else {
         return Err("give meshes or project files, and the name of the PNG file to write".into());
     };
     let cells = DVec2::new(3.0 * inputs.len().min(ROW) as f64, inputs.len().div_ceil(ROW) as f64);

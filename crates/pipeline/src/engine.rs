@@ -184,7 +184,7 @@ impl<'m> Engine<'m> {
         &self,
         divided: &Divided,
         options: &Options,
-        (detection, like, progress): (Detection, Option<&Model>, &dyn Progress),
+        (detection, progress): (Detection, &dyn Progress),
         build: impl FnOnce(Run<'_>) -> Result<T, ModelError>,
     ) -> Result<T, Error> {
         let bodies = Bodies::new(divided.hulls(), options)?;
@@ -192,7 +192,7 @@ impl<'m> Engine<'m> {
         let judge =
             FoldJudge { thickness_mm: options.thickness_mm, detection, memory: &self.sweeps, progress };
         let (known, firmness) = (&self.components, divided.hulls().firmness());
-        Ok(build(Run { assembly: &assembly, known, firmness, like, judge: &judge, progress })?)
+        Ok(build(Run { assembly: &assembly, known, firmness, judge: &judge, progress })?)
     }
 
     /// Remembers what the parts of a model are known by, for its folding.
@@ -214,8 +214,8 @@ impl<'m> Engine<'m> {
             if let Some(own) = options.components.get_mut(name) {
                 own.direction_rad = Some(direction_rad);
             }
-            let how = (Detection::Discrete, None, progress);
-            let built = self.building(divided, &options, how, |run| run.finished(&run.sketch()?));
+            let how = (Detection::Discrete, progress);
+            let built = self.building(divided, &options, how, |run| run.finished(&run.sketch(None)?));
             if let Ok(built) = &built {
                 self.know(built);
             }
@@ -434,21 +434,19 @@ impl Maker for Making<'_> {
     fn sketch(&self, divided: &Divided, like: Option<&Model>) -> Result<Arc<Sketch>, Error> {
         let Self { engine, options, ref sketches, progress } = *self;
         sketches.get_or(divided.hulls().decisive(), || {
-            engine.building(divided, options, (Detection::Discrete, like, progress), |run| {
-                run.sketch().map(Arc::new)
-            })
+            let how = (Detection::Discrete, progress);
+            engine.building(divided, options, how, |run| run.sketch(like).map(Arc::new))
         })
     }
 
     fn finish(&self, divided: &Divided, sketch: &Sketch) -> Result<(Built, f64), Error> {
-        let (built, harm_mm) =
-            self.planned(divided, (Detection::Discrete, None), |run| run.finished(sketch))?;
+        let (built, harm_mm) = self.planned(divided, Detection::Discrete, |run| run.finished(sketch))?;
         if harm_mm == 0.0 || !built.verdict.is_clean() {
             return Ok((built, harm_mm));
         }
         // Discrete detection missed a bump: the nose of a snowman of 80 mm passes its hat between two samples.
-        let how = (Detection::Continuous, Some(&built.model));
-        let closer = self.planned(divided, how, |run| run.finished(&run.sketch()?))?;
+        let like = Some(&built.model);
+        let closer = self.planned(divided, Detection::Continuous, |run| run.finished(&run.sketch(like)?))?;
         Ok(if closer.1 < harm_mm { closer } else { (built, harm_mm) })
     }
 }
@@ -458,11 +456,11 @@ impl Making<'_> {
     fn planned(
         &self,
         divided: &Divided,
-        (detection, like): (Detection, Option<&Model>),
+        detection: Detection,
         build: impl FnOnce(Run<'_>) -> Result<Built, ModelError>,
     ) -> Result<(Built, f64), Error> {
         let Self { engine, options, progress, .. } = *self;
-        let built = engine.building(divided, options, (detection, like, progress), build)?;
+        let built = engine.building(divided, options, (detection, progress), build)?;
         engine.know(&built);
         // Some that bump at first sight have a way past each other, or a plug.
         let planned = engine.plan(&Arc::new(built.model.clone()), options, progress)?;

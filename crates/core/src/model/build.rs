@@ -97,8 +97,8 @@ pub fn build(
     judge: &dyn Judge,
     progress: &dyn Progress,
 ) -> Result<Built, ModelError> {
-    let run = Run { assembly, known, firmness: 1.0, like: None, judge, progress };
-    run.finished(&run.sketch()?)
+    let run = Run { assembly, known, firmness: 1.0, judge, progress };
+    run.finished(&run.sketch(None)?)
 }
 
 /// A model from few candidates for each part. Most models need no more.
@@ -164,9 +164,6 @@ pub struct Run<'a> {
     pub known: &'a Known,
     /// How many times as much a lack of glue costs as it does in the comparison of whole models; 1 or more.
     pub firmness: f64,
-    /// A model of the same parts with other joints, or of most of them, if there is one: the search for the best
-    /// combination starts from what is most like it.
-    pub like: Option<&'a Model>,
     /// Tells where parts bump.
     pub judge: &'a dyn Judge,
     /// Told how far it is.
@@ -186,15 +183,15 @@ fn most_alike(
         let [count, known] = [&m.component, &known.component].map(|c| c.panels().panels().len());
         (is_other, turned, count.abs_diff(known))
     };
-    let nearest = |(part, made): (usize, &Vec<Candidate>)| {
-        let mut known = model.parts().iter().filter(|_| !matches!(bonds[part], Bond::ImageOf(_)));
-        let known = known.find(|known| known.name == parts[part].options.name)?;
-        let all = made.iter().map(|m| unlike(known, m)).enumerate();
+    let is_own = |part: &usize| !matches!(bonds[*part], Bond::ImageOf(_));
+    let nearest = |part: usize| {
+        let known = model.parts().iter().find(|known| known.name == parts[part].options.name)?;
+        let all = candidates[part].iter().map(|m| unlike(known, m)).enumerate();
         let least =
             all.min_by(|(_, a), (_, b)| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)))?;
         Some((part, least.0))
     };
-    candidates.iter().enumerate().filter_map(nearest).collect()
+    (0..parts.len()).filter(is_own).filter_map(nearest).collect()
 }
 
 /// The best model of some candidates.
@@ -213,12 +210,13 @@ struct Attempt {
 }
 
 impl Run<'_> {
-    /// The first look at a model.
+    /// The first look at a model. The search starts from what is most like another one of the same parts, or of most of
+    /// them, with other joints, if there is one.
     ///
     /// # Errors
     /// [`ModelError`].
-    pub fn sketch(&self) -> Result<Sketch, ModelError> {
-        let first = self.attempt(self.assembly.links, &Trouble::default(), self.like)?;
+    pub fn sketch(&self, like: Option<&Model>) -> Result<Sketch, ModelError> {
+        let first = self.attempt(self.assembly.links, &Trouble::default(), like)?;
         // Where joints as they were leave parts weak, but free, they may have a way out that settled ones have not: the
         // wings of a plane. Where parts bump, one more search of that kind takes long and seldom helps.
         let is_way = first.trouble.bumping.is_empty();
@@ -471,7 +469,7 @@ pub(super) mod tests {
     }
 
     fn of_assembly<'a>(assembly: &'a Assembly<'a>, known: &'a Known, judge: &'a dyn Judge) -> Run<'a> {
-        Run { assembly, known, firmness: 1.0, like: None, judge, progress: &Silent }
+        Run { assembly, known, firmness: 1.0, judge, progress: &Silent }
     }
 
     /// Notes the direction of the last part of each model that it is asked for.
@@ -509,7 +507,7 @@ pub(super) mod tests {
             of[1].options.direction_rad = Some(angle);
             let like = build(&Assembly { parts: &of, ..level }, &known, &Unjudged, &Silent).unwrap().model;
             let notes = Notes(Mutex::default());
-            Run { like: Some(&like), ..of_assembly(&tilted, &known, &notes) }.sketch().unwrap();
+            of_assembly(&tilted, &known, &notes).sketch(Some(&like)).unwrap();
             let looked_at = notes.0.into_inner().unwrap();
             let wanted = like.parts()[1].frame.matrix3.z_axis;
             let is_alike = |axis: &DVec3| axis.dot(wanted).abs() > libm::cos(5.0_f64.to_radians());

@@ -1,6 +1,7 @@
 //! Which separate bodies are next to each other: those that touch, and the shortest links between the rest.
 
 use super::contact::touches;
+use super::forest::Forest;
 use super::patches::Partition;
 use super::surface::Surface;
 use crate::geom::{Hull, bounds};
@@ -169,14 +170,13 @@ impl Bodies {
 
     /// The body of each set; bodies that share a set count as one.
     pub fn of_sets(&self, partition: &Partition) -> Vec<u32> {
-        let mut root: Vec<u32> = (0..self.count as u32).collect();
+        let mut forest = Forest::new(self.count);
         let mut of_set: Vec<Option<u32>> = vec![None; partition.count];
         for (&set, &body) in partition.of_cell.iter().zip(&self.of_cell) {
             let first = *of_set[set as usize].get_or_insert(body);
-            let (a, b) = (find(&mut root, first), find(&mut root, body));
-            root[a.max(b) as usize] = a.min(b);
+            forest.join([first, body]);
         }
-        of_set.into_iter().map(|b| find(&mut root, b.unwrap_or(0))).collect()
+        of_set.into_iter().map(|b| forest.find(b.unwrap_or(0))).collect()
     }
 }
 
@@ -188,15 +188,15 @@ fn host_cells(
     links: impl Iterator<Item = [u32; 2]>,
     least: f64,
 ) -> Vec<Option<u32>> {
-    let mut root: Vec<u32> = (0..areas.len() as u32).collect();
+    let mut forest = Forest::new(areas.len());
     let mut host_cell: Vec<Option<u32>> = vec![None; areas.len()];
     for [a, b] in links {
-        let [ra, rb] = [a, b].map(|c| find(&mut root, body[c as usize]));
+        let [ra, rb] = [a, b].map(|c| forest.find(body[c as usize]));
         let (small, host, into) =
             if areas[ra as usize] > areas[rb as usize] { (rb, ra, a) } else { (ra, rb, b) };
         if small != host && areas[small as usize] < least {
             areas[host as usize] += areas[small as usize];
-            root[small as usize] = host;
+            forest.hang(small, host);
             host_cell[small as usize] = Some(into);
         }
     }
@@ -255,13 +255,12 @@ fn touching(mesh: &Mesh, cell_of_face: &[u32], body_of_face: &[u32]) -> BTreeMap
 /// Links between bodies that touch, and the shortest between cell centres that connect the rest (Borůvka).
 fn gaps(surface: &Surface, (body, bodies): (&[u32], usize), touching: BTreeMap<[u32; 2], Gap>) -> Vec<Gap> {
     let mut gaps: Vec<Gap> = touching.values().copied().collect();
-    let mut root: Vec<u32> = (0..bodies as u32).collect();
-    for [a, b] in touching.into_keys() {
-        let [a, b] = [a, b].map(|body| find(&mut root, body));
-        root[a.max(b) as usize] = a.min(b);
+    let mut forest = Forest::new(bodies);
+    for pair in touching.into_keys() {
+        forest.join(pair);
     }
     let mut body = body.to_vec();
-    let mut count = renumber(&mut body, &mut root);
+    let mut count = renumber(&mut body, forest);
     let mut tree = Tree::new(surface.centres());
     while count > 1 {
         tree.mark(&body);
@@ -273,39 +272,28 @@ fn gaps(surface: &Surface, (body, bodies): (&[u32], usize), touching: BTreeMap<[
             }
         }
         best.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let mut root: Vec<u32> = (0..count as u32).collect();
+        let mut forest = Forest::new(count);
         let before = gaps.len();
         for (squared, cells) in best.into_iter().filter(|b| b.0.is_finite()) {
-            let [a, b] = cells.map(|c| find(&mut root, body[c as usize]));
-            if a != b {
-                root[a.max(b) as usize] = a.min(b);
+            if forest.join(cells.map(|c| body[c as usize])) {
                 gaps.push(Gap { cells, width: squared.sqrt() });
             }
         }
         if gaps.len() == before {
             break;
         }
-        count = renumber(&mut body, &mut root);
+        count = renumber(&mut body, forest);
     }
     gaps
 }
 
 /// Numbers bodies that have become one alike, from 0; their number.
-fn renumber(body: &mut [u32], root: &mut [u32]) -> usize {
-    let roots: Vec<u32> = (0..root.len() as u32).filter(|&b| root[b as usize] == b).collect();
+fn renumber(body: &mut [u32], mut forest: Forest) -> usize {
+    let roots = forest.roots();
     for b in body {
-        *b = roots.binary_search(&find(root, *b)).unwrap_or(0) as u32;
+        *b = roots.binary_search(&forest.find(*b)).unwrap_or(0) as u32;
     }
     roots.len()
-}
-
-/// The root of a body in a forest, with the way to it shortened.
-pub(super) fn find(root: &mut [u32], mut body: u32) -> u32 {
-    while root[body as usize] != body {
-        root[body as usize] = root[root[body as usize] as usize];
-        body = root[body as usize];
-    }
-    body
 }
 
 #[cfg(test)]

@@ -37,9 +37,8 @@ pub(super) fn near_contacts(
     mesh: &Mesh,
     segmentation: &Segmentation,
 ) -> BTreeMap<(SegmentId, SegmentId), Vec<DVec3>> {
-    let (body, bodies) = Surface::of_faces(mesh.positions(), mesh.faces()).components(|_| 0);
-    let touches = if bodies < 2 { Vec::new() } else { touches(mesh, &body) };
-    near(&touches, segmentation.face_segments(), |_| false)
+    let (body, _) = Surface::of_faces(mesh.positions(), mesh.faces()).components(|_| 0);
+    near(&touches(mesh, &body), segmentation.face_segments(), |_| false)
 }
 
 /// Points where segments touch, for each pair, the smaller id first. Faces that are left out touch only where no others
@@ -65,6 +64,9 @@ pub(super) fn near(
 
 /// Where each body has others near it, and which is the nearest there; `body` says which faces are on one.
 pub(super) fn touches(mesh: &Mesh, body: &[u32]) -> Vec<Touch> {
+    if body.iter().all(|other| *other == body[0]) {
+        return Vec::new();
+    }
     let gap = GAP * mesh.diagonal_mm();
     let spacing = SPACING * gap;
     let faces = (0..mesh.faces().len()).into_par_iter();

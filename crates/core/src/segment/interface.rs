@@ -1,5 +1,6 @@
 //! Where two segments meet (§4.2.1).
 
+use super::forest::Forest;
 use super::{SegmentId, Segmentation};
 use crate::geom::{Plane, eigen};
 use crate::mesh::Mesh;
@@ -69,24 +70,11 @@ impl Interface {
 }
 
 fn count_pieces(vertices: &[u32], edges: &[[u32; 2]]) -> usize {
-    let mut root: Vec<usize> = (0..vertices.len()).collect();
-    let mut pieces = vertices.len();
-    let find = |root: &mut [usize], mut i: usize| {
-        while root[i] != i {
-            root[i] = root[root[i]];
-            i = root[i];
-        }
-        i
-    };
+    let mut forest = Forest::new(vertices.len());
     for edge in edges {
-        let [a, b] = edge.map(|v| vertices.binary_search(&v).unwrap_or(0));
-        let (a, b) = (find(&mut root, a), find(&mut root, b));
-        if a != b {
-            root[a.max(b)] = a.min(b);
-            pieces -= 1;
-        }
+        forest.join(edge.map(|v| vertices.binary_search(&v).unwrap_or(0) as u32));
     }
-    pieces
+    forest.roots().len()
 }
 
 /// Least-squares plane and the root mean square of the distances from it; `None` for points on

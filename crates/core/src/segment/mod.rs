@@ -11,6 +11,7 @@ mod coarsen;
 mod contact;
 mod cut;
 mod edit;
+mod forest;
 mod gmm;
 mod grid;
 mod halves;

@@ -2,8 +2,9 @@
 //!
 //! The hull of a house with its drainpipe and its cornice leans on all sides. Paper leaves these out.
 
-use super::bodies::{CRUMB, WORTH, find, points_at, volume};
+use super::bodies::{CRUMB, WORTH, points_at, volume};
 use super::contact::{GAP, Touch, near, touches};
+use super::forest::Forest;
 use super::surface::Surface;
 use super::{SegmentId, Segmentation};
 use crate::geom::{Hull, HullError, Plane};
@@ -75,7 +76,7 @@ impl Solids {
     /// The hulls of the segments of a mesh.
     pub(super) fn new(mesh: &Mesh, segmentation: &Segmentation) -> Self {
         let surface = Surface::of_faces(mesh.positions(), mesh.faces());
-        let (body, bodies) = surface.components(|_| 0);
+        let (body, _) = surface.components(|_| 0);
         let segments = segmentation.face_segments();
         let mut pieces: Vec<BTreeMap<u32, Piece>> = Vec::new();
         pieces.resize_with(segmentation.count(), BTreeMap::new);
@@ -89,7 +90,7 @@ impl Solids {
             .into_par_iter()
             .map(|pieces| Solid::new(mesh, &surface, pieces.into_values().collect(), least))
             .collect();
-        let touches = if bodies < 2 { Vec::new() } else { touches(mesh, &body) };
+        let touches = touches(mesh, &body);
         restore_bridges(mesh, &mut solids, &touches, segments);
         let mut is_left_out = vec![false; mesh.faces().len()];
         let left_out = solids.iter().flat_map(|solid| &solid.left_out);
@@ -281,20 +282,19 @@ fn volume_beyond(mesh: &Mesh, piece: &Piece, plane: &Plane) -> f64 {
     let near = IN_PLANE * mesh.diagonal_mm();
     let front = |face: &&usize| mesh.corners(**face).iter().any(|&corner| plane.distance(corner) > near);
     let faces: Vec<usize> = piece.faces.iter().filter(front).copied().collect();
-    let mut root: Vec<u32> = (0..faces.len() as u32).collect();
+    let mut forest = Forest::new(faces.len());
     let mut first_at: BTreeMap<u32, u32> = BTreeMap::new();
     for (own, &face) in faces.iter().enumerate() {
         for vertex in mesh.faces()[face] {
             let other = *first_at.entry(vertex).or_insert(own as u32);
-            let [a, b] = [own as u32, other].map(|face| find(&mut root, face));
-            root[a.max(b) as usize] = a.min(b);
+            forest.join([own as u32, other]);
         }
     }
     let mut points: BTreeMap<u32, Vec<DVec3>> = BTreeMap::new();
     for (own, &face) in faces.iter().enumerate() {
         let corners = mesh.corners(face);
         let heights = corners.map(|corner| plane.distance(corner));
-        let points = points.entry(find(&mut root, own as u32)).or_default();
+        let points = points.entry(forest.find(own as u32)).or_default();
         for (a, b) in [(0, 1), (1, 2), (2, 0)] {
             if heights[a] >= 0.0 {
                 points.push(corners[a]);
