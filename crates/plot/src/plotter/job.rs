@@ -142,8 +142,10 @@ impl Job {
     /// kind, then what lifts the tool if the job says that by itself, the last of the strokes `turns`
     /// before it, which turn a drag knife, and everything from the travel to that stroke on. Where a language
     /// has nothing but distances, that travel begins at the origin. The whole job of another language where
-    /// positions are distances, since those need what came before.
+    /// positions are distances, since those need what came before. Where all strokes are done, the last one
+    /// begins it, since nothing but what ends the job would be left.
     pub fn from_stroke(&self, stroke: usize, turns: &[usize], dialect: &dyn Dialect) -> Vec<u8> {
+        let stroke = stroke.min(self.strokes.saturating_sub(1));
         let is_possible = !self.is_relative || dialect.counts_distances();
         let Some(start) = self.start_of(stroke).filter(|_| is_possible && stroke > 0) else {
             return self.bytes();
@@ -361,6 +363,16 @@ mod tests {
         assert_eq!(String::from_utf8_lossy(&rest), expected);
         let job = Job::parse(three, &generic()).unwrap();
         assert_eq!(job.from_stroke(0, &[], generic().dialect().as_ref()), three);
+    }
+
+    /// A job that was stopped on the way home, all strokes done, was drawn once more from the first stroke on.
+    #[test]
+    fn a_job_whose_strokes_are_all_done_goes_on_with_the_last_one() {
+        let job = Job::parse(FILE, &generic()).unwrap();
+        for done in [2, 3, 99] {
+            let rest = job.from_stroke(done, &[], generic().dialect().as_ref());
+            assert_eq!(rest, job.from_stroke(1, &[], generic().dialect().as_ref()), "{done}");
+        }
     }
 
     #[test]
