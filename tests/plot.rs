@@ -166,6 +166,39 @@ fn lines_drawn(report: &str) -> usize {
     rest.split_once(',').unwrap().0.parse().unwrap()
 }
 
+/// The program ended at once when its journal could not be written, and the tool stayed down.
+#[test]
+fn a_full_disk_lifts_the_pen_and_the_job_goes_on_later() {
+    let folder = folder(150);
+    let speeds = ["--baud", "38400", "--speedup", "8"];
+    let machine = Machine::start(folder.path(), &speeds);
+    // The limit leaves room for the job and for some strokes; the journal says 34 bytes of each.
+    let room = job(150).len() * 4 / 3 + 2500;
+    let script = format!("ulimit -f {}; trap '' XFSZ; exec \"$0\" \"$@\"", room.div_ceil(512));
+    let output = Command::new("sh")
+        .args(["-c", &script, env!("CARGO_BIN_EXE_tatamu"), "plot", "a.plt", "--yes"])
+        .args(["--cutter", "generic-hpgl", "--baud", "38400", "--port", &machine.port])
+        .current_dir(folder.path())
+        .stdin(Stdio::null())
+        .env("LC_ALL", "C")
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1), "{}", said(&output));
+    assert!(said(&output).contains("error: cannot write a.tatamu-job"), "{}", said(&output));
+    assert!(said(&output).contains("--resume a.tatamu-job"), "{}", said(&output));
+    let report = machine.report();
+    assert!(report.contains("lost 0, broken commands 0") && report.contains("pen up"), "{report}");
+    let first = lines_drawn(&report);
+    assert!((1..6000).contains(&first), "{report}");
+    let machine = Machine::start(folder.path(), &speeds);
+    let mut plot = tatamu(folder.path());
+    let resume = ["plot", "--resume", "a.tatamu-job", "--yes", "--port", &machine.port];
+    let output = plot.args(resume).output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    let both = first + lines_drawn(&machine.report());
+    assert!((6000..6000 + 10 * 40).contains(&both), "{both}");
+}
+
 /// A laser that is stopped in the middle has its beam off, and the rest of the job draws what is missing.
 #[test]
 fn a_laser_that_is_stopped_goes_on_later() {

@@ -126,6 +126,7 @@ pub fn reason(error: &std::io::Error) -> String {
         K::PermissionDenied => "permission denied".to_owned(),
         K::IsADirectory => "it is a folder, not a file".to_owned(),
         K::StorageFull => "the disk is full".to_owned(),
+        K::ReadOnlyFilesystem => "the disk is read-only".to_owned(),
         K::FileTooLarge => {
             "the file is larger than this system allows; raise its limit (ulimit -f)".to_owned()
         }

@@ -2,7 +2,7 @@
 
 use crate::app::error::{AppError, reason};
 use crate::app::{input, output};
-use std::fs::File;
+use std::fs::{File, TryLockError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use tatamu::plotter::journal::{self, Header, Position};
@@ -16,15 +16,18 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Begins a journal, in the place of another only when it is complete.
+    /// Begins a journal, in the place of another only when it is complete, and when no job keeps that one.
     pub fn create(path: &Path, header: &Header, at: Position) -> Result<Self, AppError> {
+        check_unused(path)?;
         let failed =
             |error: std::io::Error| AppError::Output { path: path.to_owned(), reason: reason(&error) };
         let header = serde_json::to_string(header).map_err(|error| failed(error.into()))?;
         let position = serde_json::to_string(&at).map_err(|error| failed(error.into()))?;
         let whole = format!("{header}\n{position}\n");
         output::write(&[(path.to_owned(), whole.into_bytes())])?;
-        let file = File::options().append(true).open(path).map_err(failed)?;
+        let file = File::options().read(true).append(true).open(path).map_err(failed)?;
+        // Some network drives have no locks; two jobs are not told apart there.
+        let _ = file.try_lock();
         file.sync_all().map_err(failed)?;
         Ok(Self { path: path.to_owned(), file, last: at, is_synced: true })
     }
@@ -67,6 +70,19 @@ impl Journal {
     }
 }
 
+/// Refuses a journal that a running job keeps: at its end, that job would remove the one that took its place.
+pub fn check_unused(path: &Path) -> Result<(), AppError> {
+    let journal = Some(path).filter(|path| path.is_file()).and_then(|path| File::open(path).ok());
+    match journal.map(|file| file.try_lock()) {
+        Some(Err(TryLockError::WouldBlock)) => Err(AppError::Output {
+            path: path.to_owned(),
+            reason: "a running job keeps its journal there; wait for its end, or plot in another folder"
+                .to_owned(),
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// Reads a journal.
 pub fn read(path: &Path) -> Result<(Header, Position), AppError> {
     let bytes = input::read_file(path)?;
@@ -81,18 +97,36 @@ mod tests {
     use super::*;
     use tatamu::plotter::journal::SheetEntry;
 
-    #[test]
-    fn what_was_noted_last_is_where_it_goes_on() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("a.tatamu-job");
-        let header = Header {
+    fn header() -> Header {
+        Header {
             cutter: "x = 1\n".to_owned(),
             port: "COM3".to_owned(),
             baud: None,
             handshake: Some("paced".to_owned()),
             copies: 2,
             sheets: vec![SheetEntry::new("one", b"M0,0\x03", &[0, 9])],
-        };
+        }
+    }
+
+    /// The job that ended first removed the journal of the other one.
+    #[test]
+    fn the_journal_of_a_running_job_is_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.tatamu-job");
+        let running = Journal::create(&path, &header(), Position::default()).unwrap();
+        let second = Journal::create(&path, &header(), Position::default()).err().unwrap();
+        assert!(second.to_string().contains("running"), "{second}");
+        // A job that was stopped leaves its journal to whoever goes on with it.
+        drop(running);
+        Journal::create(&path, &header(), Position::default()).unwrap().remove();
+        assert!(!path.exists());
+    }
+
+    #[test]
+    fn what_was_noted_last_is_where_it_goes_on() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.tatamu-job");
+        let header = header();
         let mut journal = Journal::create(&path, &header, Position::default()).unwrap();
         let at = Position { copy: 1, sheet: 0, strokes: 17 };
         journal.note(at).unwrap();

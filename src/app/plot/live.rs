@@ -65,12 +65,15 @@ pub fn send_all(
                 operator.stopped(journal.path(), (journal.position().strokes, whole.strokes()));
                 return Err(error);
             }
-            let mut live = Live { operator, first, name };
-            let outcome = live.send(job, &cutter, chosen, port.as_mut(), &mut journal, at)?;
+            let mut live = Live { operator, first, name, unwritten: None };
+            let outcome = live.send(job, &cutter, chosen, port.as_mut(), &mut journal, at);
+            let unwritten = live.unwritten.take();
             if outcome.end != End::Finished {
-                journal.note(Position { strokes: at.strokes.max(first + outcome.strokes_done), ..at })?;
+                let noted =
+                    journal.note(Position { strokes: at.strokes.max(first + outcome.strokes_done), ..at });
                 operator.stopped(journal.path(), (journal.position().strokes, whole.strokes()));
-                return Err(failure(outcome));
+                let unwritten = unwritten.or(noted.err()).filter(|_| outcome.end == End::Stopped);
+                return Err(unwritten.unwrap_or_else(|| failure(outcome)));
             }
             at = Position { sheet: at.sheet + 1, strokes: 0, ..at };
             journal.note(at)?;
@@ -153,6 +156,8 @@ struct Live<'a> {
     /// Strokes of the sheet that were done before.
     first: usize,
     name: &'a str,
+    /// Why the journal could not be written.
+    unwritten: Option<AppError>,
 }
 
 impl Live<'_> {
@@ -164,7 +169,7 @@ impl Live<'_> {
         port: &mut dyn Port,
         journal: &mut Journal,
         at: Position,
-    ) -> Result<Outcome, AppError> {
+    ) -> Outcome {
         let handshake = chosen.unwrap_or(cutter.serial().handshake);
         let baud = port.baud();
         let clear_to_send = port.is_clear_to_send();
@@ -200,15 +205,21 @@ impl Live<'_> {
                 Step::Wait(wait) => std::thread::sleep(wait.min(LOOK)),
                 Step::Done(outcome) => {
                     self.operator.sheet_over();
-                    return Ok(outcome);
+                    return outcome;
                 }
             }
             // A program that is killed leaves what was noted: each stroke, when it is done.
-            journal.note(Position { strokes: at.strokes.max(self.first + status.strokes_done), ..at })?;
+            let mut noted =
+                journal.note(Position { strokes: at.strokes.max(self.first + status.strokes_done), ..at });
             if synced.elapsed() >= SYNC_EVERY {
                 synced = Instant::now();
-                journal.sync()?;
+                noted = noted.and_then(|()| journal.sync());
                 self.operator.show(self.name, self.first, &status);
+            }
+            // Without a journal the job could not go on later: the tool is lifted first.
+            if let Some(error) = noted.err().filter(|_| self.unwritten.is_none()) {
+                self.unwritten = Some(error);
+                session.stop();
             }
         }
     }

@@ -169,6 +169,7 @@ fn start(args: &PlotArgs, cutter: &Cutter, sheets: &[Sheet]) -> Result<(), AppEr
     let mut name = name.to_owned();
     name.push(".tatamu-job");
     let path = PathBuf::from(name);
+    journal::check_unused(&path)?;
     if path.exists() {
         terminal::complain(
             "note",
