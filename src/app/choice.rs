@@ -145,10 +145,7 @@ fn styles(name: &str, path: &Path) -> Result<LineStyles, AppError> {
             style_names()
         )));
     }
-    let text = String::from_utf8(input::read_file(path)?).map_err(|_| AppError::Input {
-        path: path.to_owned(),
-        reason: "a style file must be UTF-8 text".to_owned(),
-    })?;
+    let text = input::read_text(path, "style file")?;
     LineStyles::parse(&text).map_err(|error| AppError::Style { path: path.to_owned(), error })
 }
 

@@ -200,6 +200,14 @@ pub fn read_file(path: &Path) -> Result<Vec<u8>, AppError> {
     whole(&fetch, path)
 }
 
+/// The content of a text file; `kind` is what messages call it.
+pub fn read_text(path: &Path, kind: &str) -> Result<String, AppError> {
+    String::from_utf8(read_file(path)?).map_err(|_| AppError::Input {
+        path: path.to_owned(),
+        reason: format!("a {kind} must be UTF-8 text"),
+    })
+}
+
 fn whole(fetch: Fetch<'_>, path: &Path) -> Result<Vec<u8>, AppError> {
     fetch(path).map_err(|error| AppError::Input { path: path.to_owned(), reason: reason(&error) })
 }

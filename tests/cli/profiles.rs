@@ -83,6 +83,17 @@ fn a_profile_that_does_not_exist_is_answered_with_those_that_do() {
     assert_refused(&files, &["plot", "a.plt", "--dry-run", "--cutter", "gone.toml"], &["gone.toml"]);
 }
 
+/// A profile that is a device was read until the memory was full.
+#[cfg(unix)]
+#[test]
+fn a_profile_that_is_a_device_is_refused() {
+    let files: [(&str, &[u8]); 1] = [("a.plt", b"PU0,0;PD40,40;PU;")];
+    for option in ["--cutter", "--media"] {
+        let plot = ["plot", "a.plt", "--dry-run", option, "/dev/zero"];
+        assert_refused(&files, &plot, &["/dev/zero", "it is a pipe or a device"]);
+    }
+}
+
 #[test]
 fn a_file_that_is_too_large_for_the_bed_is_refused() {
     let files: [(&str, &[u8]); 1] = [("a.plt", b"IN;PU0,0;PD26000,400;PU;")];
