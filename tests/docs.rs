@@ -35,6 +35,8 @@ const QUICK: [(&str, &[&str]); 3] = [
     ("show", &["--effort", "0", "--size-px", "200"]),
     ("plot", &["--effort", "0", "--handshake", "xonxoff", "--baud", "1000000", "--size", "40mm"]),
 ];
+/// Those of them that jobs, which are made already, have no use for.
+const OF_MODEL: [&str; 2] = ["--effort", "--size"];
 
 enum Step {
     /// A file that the text shows: name and content.
@@ -228,7 +230,11 @@ fn run(folder: &Path, line: &str) {
         words.push("--yes");
     }
     let quick = QUICK.iter().find(|(name, _)| *name == words[0]).map_or(&[][..], |(_, extra)| *extra);
-    let missing = quick.chunks(2).filter(|pair| !words.contains(&pair[0])).flatten().copied();
+    let is_job = |word: &&str| *word == "--test-cut" || word.ends_with(".plt") || word.ends_with(".gcode");
+    let takes_model = words[0] != "plot" || !words.iter().any(is_job);
+    let is_wanted =
+        |pair: &&[&str]| !words.contains(&pair[0]) && (takes_model || !OF_MODEL.contains(&pair[0]));
+    let missing = quick.chunks(2).filter(is_wanted).flatten().copied();
     words.extend(missing.collect::<Vec<&str>>());
     let output = tatamu(folder).args(&words).output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr);

@@ -97,6 +97,20 @@ fn arrives_whole(handshake: &str, strokes: usize, arguments: &[&str]) {
     assert!(std::fs::read_to_string(folder.path().join("drawn.svg")).unwrap().contains("<path"));
 }
 
+/// Below 1000 bits per second the virtual plotter read nothing, and said nothing about it.
+#[test]
+fn a_line_of_300_bits_per_second_carries_a_job() {
+    let folder = folder(1);
+    std::fs::write(folder.path().join("a.plt"), "IN;PU0,0;PD40,0;PU;").unwrap();
+    let slow = ["--cutter", "generic-hpgl", "--baud", "300"];
+    let machine = Machine::start(folder.path(), &[&slow[..], &["--mute", "--speedup", "10"]].concat());
+    let mut plot = tatamu(folder.path());
+    let options = ["plot", "a.plt", "--yes", "--handshake", "paced", "--port", &machine.port];
+    let output = plot.args(options).args(slow).output().unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    assert!(machine.report().contains("lost 0, broken commands 0, lines drawn 1, pen up"));
+}
+
 /// A `p` in the list of a script, `while read file; do tatamu plot $file --yes; done < list`, paused the job for ever,
 /// and what followed in the list was never plotted.
 #[test]
@@ -343,6 +357,11 @@ fn what_cannot_be_plotted_is_refused_before_anything_is_sent() {
         (&["plot", "a.plt", "--dry-run", "--only", "2"], "there is no sheet 2"),
         (&["plot", "--resume", "a.plt"], "not a journal"),
         (&["plot", "a.plt", "--preview", "a.fold"], ".png"),
+        // Once, these were passed over without a word.
+        (&["plot", "a.plt", "--dry-run", "--size", "3cm"], "--size has no effect on files"),
+        (&["plot", "a.plt", "--dry-run", "--media", "cardstock-300"], "--media has no effect on files"),
+        (&["plot", "--test-cut", "--dry-run", "--margin", "5mm"], "--margin has no effect on the test"),
+        (&["plot", "--resume", "a", "--cutter", "vinyl-cutter"], "--cutter has no effect on a job"),
     ] {
         let output = tatamu(folder.path()).args(arguments).output().unwrap();
         assert_eq!(output.status.code(), Some(1), "{arguments:?}");

@@ -5,7 +5,10 @@ use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
-use tatamu::export::{FORMATS, Format, format_among};
+use tatamu::drawing::Pages;
+use tatamu::export::{
+    ExportError, ExportFile, FORMATS, Format, FormatOptions, Source, format_among, format_of,
+};
 use tempfile::NamedTempFile;
 
 /// The name before the extension that stands for the standard output, as in `-.pdf`.
@@ -50,6 +53,21 @@ pub fn targets_among(paths: &[PathBuf], lists: &[&'static [Format]]) -> Result<V
         Ok(Target { path: path.clone(), format })
     };
     paths.iter().map(target).collect()
+}
+
+/// How pages become the files of a format.
+pub type WritePages = fn(&Pages, &FormatOptions) -> Result<Vec<ExportFile>, ExportError>;
+
+/// The format of a picture, by the extension of its file, and its writer.
+pub fn picture(path: &Path) -> Result<(&'static Format, WritePages), AppError> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    let format = format_of(&extension).filter(|format| format.is_picture());
+    if let Some((format, Source::Pages(write))) = format.map(|format| (format, format.source)) {
+        return Ok((format, write));
+    }
+    let pictures = FORMATS.iter().filter(|format| format.is_picture());
+    let known: Vec<String> = pictures.map(|format| format!(".{}", format.extensions[0])).collect();
+    Err(AppError::Extension { path: path.to_owned(), known: known.join(", ") })
 }
 
 /// Checks that files can be written under these names, that no name comes twice, and that none

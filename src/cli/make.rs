@@ -2,6 +2,7 @@
 
 use super::flags::{Flags, OfFiles, OfFilm, OfMachine, OfModel};
 use super::guide::GuideArgs;
+use super::numbers::whole;
 use super::progress::TerminalProgress;
 use super::{batch, formats, mistakes, terminal, words};
 use crate::app::error::AppError;
@@ -133,8 +134,7 @@ impl MakeArgs {
 
 /// A sheet by its number.
 fn sheet(text: &str) -> Result<SheetId, String> {
-    let number: usize = text.parse().map_err(|error: std::num::ParseIntError| error.to_string())?;
-    number.checked_sub(1).map(SheetId).ok_or_else(|| "sheets are counted from 1".to_owned())
+    whole::<usize>(1..=u64::MAX)(text).map(|number| SheetId(number - 1))
 }
 
 const EXAMPLES: &str = "\

@@ -11,6 +11,7 @@ mod init;
 mod machines;
 mod make;
 mod mistakes;
+mod numbers;
 mod plot;
 mod ports;
 mod progress;

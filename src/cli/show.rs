@@ -12,7 +12,7 @@ use crate::app::{input, names, output};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use tatamu::drawing::{Drawing, LineStyles, Pages, Rgb};
-use tatamu::export::{ExportError, ExportFile, FORMATS, FormatOptions, Source, png};
+use tatamu::export::{ExportError, ExportFile, FormatOptions, png};
 use tatamu::fold::ModelMotion;
 use tatamu::pipeline::Output;
 use tatamu::render::Scene;
@@ -186,20 +186,10 @@ fn scene(args: &ShowArgs, result: &Output) -> Result<Scene, ShowError> {
 /// Turns pictures into files.
 type Writer = Box<dyn Fn(String, Vec<Drawing>) -> Result<Vec<ExportFile>, AppError>>;
 
-/// The writer for a file name: the formats that are made of pages can hold a picture.
+/// The writer for a file name.
 fn format_of(path: &std::path::Path, input: &std::path::Path) -> Result<Writer, AppError> {
-    let unknown = || {
-        let pages = FORMATS.iter().filter(|f| matches!(f.source, Source::Pages(_)));
-        let known: Vec<String> = pages.flat_map(|f| f.extensions).map(|e| format!(".{e}")).collect();
-        AppError::Extension { path: path.to_owned(), known: known.join(", ") }
-    };
-    let paths = [path.to_owned()];
-    let target = output::targets(&paths, &[input]).map_err(|error| match error {
-        AppError::Extension { .. } => unknown(),
-        other => other,
-    })?;
-    let format = target.first().ok_or_else(unknown)?.format;
-    let Source::Pages(write) = format.source else { return Err(unknown()) };
+    let (format, write) = output::picture(path)?;
+    output::check_places(&[path.to_owned()], &[input])?;
     let is_png = format.name == png::FORMAT.name;
     Ok(Box::new(move |title, drawings| {
         if is_png {

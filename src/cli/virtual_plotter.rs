@@ -1,6 +1,7 @@
 //! `tatamu virtual-plotter`
 
 use super::flags::{Flags, OfMachine};
+use super::numbers::whole;
 use super::{progress, terminal};
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
@@ -15,7 +16,7 @@ use std::io::{Read, Write};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use tatamu::drawing::{Drawing, Layer, LineStyles, Mark, Pages};
-use tatamu::export::{FormatOptions, Source};
+use tatamu::export::FormatOptions;
 use tatamu::plotter::{Cutter, Faults, VirtualMachine, VirtualOptions, virtual_machine};
 
 /// Simulates a plotter on a virtual serial port, to try jobs without a machine.
@@ -29,11 +30,11 @@ pub struct VirtualPlotterArgs {
     machine: Flags<OfMachine>,
 
     /// Size of the buffer in bytes [default: from the profile]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(80..))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(80..=u64::MAX))]
     buffer: Option<u32>,
 
     /// Speed of the line in bits per second [default: from the profile]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(300..))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(300..=u64::MAX))]
     baud: Option<u32>,
 
     /// Speed of the tool, relative to the profile; 0.2 is slower, 10 faster
@@ -45,23 +46,23 @@ pub struct VirtualPlotterArgs {
     mute: bool,
 
     /// Sends XOFF when fewer than N bytes are free, and XON later
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(1..=u64::MAX))]
     xoff_below: Option<u32>,
 
     /// Replaces every Nth answer with noise
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u32>(0..=u64::MAX))]
     garbage_every: u32,
 
     /// Leaves out every Nth answer
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u32>(0..=u64::MAX))]
     silence_every: u32,
 
     /// Reports a framing error (ESC.E) after N bytes
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(0..=u64::MAX))]
     error_at: Option<u64>,
 
     /// Closes the port after N bytes, as if unplugged
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>(0..=u64::MAX))]
     unplug_at: Option<u64>,
 
     /// Where the corner of printed registration marks is along its axes, mm [default: it finds none]
@@ -98,7 +99,8 @@ const LOOK: Duration = Duration::from_millis(1);
 pub fn run(args: &VirtualPlotterArgs) -> Result<(), AppError> {
     let cutter = Choice::new(None, args.machine.given())?.machine()?.cutter;
     if let Some(path) = &args.output {
-        output::targets(std::slice::from_ref(path), &[])?;
+        output::picture(path)?;
+        output::check_places(std::slice::from_ref(path), &[])?;
     }
     let (mut host, name) = open().map_err(|error| AppError::Port {
         port: "of the virtual plotter".to_owned(),
@@ -150,13 +152,15 @@ pub fn serve(args: &VirtualPlotterArgs, cutter: &Cutter, host: &mut File) -> Box
     let serial = cutter.serial();
     let byte_s = serial.byte_s() * f64::from(serial.baud) / f64::from(args.baud.unwrap_or(serial.baud));
     let start = Instant::now();
+    // What the line could have carried while nobody looked: two bytes even of a slow one.
+    let backlog = (10 * LOOK).max(Duration::from_secs_f64(2.0 * byte_s));
     let mut line_free = Duration::ZERO;
     let mut is_gone = false;
     let is_unplugged =
         |plotter: &dyn VirtualMachine| args.unplug_at.is_some_and(|bytes| plotter.received() >= bytes);
     while progress::stops() == 0 && !is_unplugged(plotter.as_ref()) && !(is_gone && plotter.is_idle()) {
         let now = start.elapsed();
-        line_free = line_free.max(now.saturating_sub(10 * LOOK));
+        line_free = line_free.max(now.saturating_sub(backlog));
         let due = ((now.saturating_sub(line_free)).as_secs_f64() / byte_s) as usize;
         let mut bytes = [0; 4096];
         match host.read(&mut bytes[..due.min(4096)]) {
@@ -194,16 +198,11 @@ fn report(args: &VirtualPlotterArgs, cutter: &Cutter, plotter: &dyn VirtualMachi
     let Some(path) = &args.output else {
         return Ok(());
     };
-    let mut files = Vec::new();
-    for target in output::targets(std::slice::from_ref(path), &[])? {
-        let Source::Pages(write) = target.format.source else {
-            return Err(AppError::Options(format!("{} is not a picture; use .png or .svg", path.display())));
-        };
-        let pages = Pages::new("drawn", vec![drawing(cutter, plotter)], LineStyles::standard());
-        let pages = pages.map_err(|error| AppError::Options(error.to_string()))?;
-        let written = write(&pages, &FormatOptions::default())?;
-        files.extend(written.into_iter().map(|file| (names::with_suffix(path, &file.suffix), file.bytes)));
-    }
+    let (_, write) = output::picture(path)?;
+    let pages = Pages::new("drawn", vec![drawing(cutter, plotter)], LineStyles::standard());
+    let pages = pages.map_err(|error| AppError::Options(error.to_string()))?;
+    let files = write(&pages, &FormatOptions::default())?.into_iter();
+    let files: Vec<_> = files.map(|file| (names::with_suffix(path, &file.suffix), file.bytes)).collect();
     output::write(&files)
 }
 

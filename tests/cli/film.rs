@@ -112,4 +112,10 @@ fn animations_that_cannot_be_shown_are_refused() {
     }
     let files = [("a.obj", TETRAHEDRON.as_bytes())];
     assert_refused(&files, &["show", "a.obj", "-o", "a.gif"], &["a.gif", ".png", ".svg"]);
+    // Once, it said that it had written, and there was no file.
+    assert_refused(
+        &files,
+        &["show", "a.obj", "-o", "a.lbrn2"],
+        &["a.lbrn2", "one of: .pdf, .svg, .dxf, .png"],
+    );
 }

@@ -151,7 +151,7 @@ fn length(mm: f64) -> String {
 const OF_OTHERS: [&str; 5] = ["hpg", "gpgl", "dmpl", "gc", "ngc"];
 
 /// Whether a file is in the language of a machine, by its extension.
-fn is_job(path: &Path) -> bool {
+pub fn is_job(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
     format_of(&extension).is_some_and(Format::is_job) || OF_OTHERS.contains(&extension.as_str())
 }

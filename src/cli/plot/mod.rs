@@ -4,6 +4,7 @@ mod keys;
 mod operator;
 
 use super::flags::{Flags, OfMachine, OfModel};
+use super::numbers::whole;
 use super::progress::TerminalProgress;
 use super::{terminal, words};
 use crate::app::choice::Choice;
@@ -14,10 +15,11 @@ use clap::Args;
 use operator::Terminal;
 use std::path::{Path, PathBuf};
 use tatamu::drawing::{LineStyles, Pages};
-use tatamu::export::{FORMATS, FormatOptions, PltOptions, Source, format_of};
+use tatamu::export::{FormatOptions, PltOptions};
 use tatamu::plotter::journal::{Header, Position};
 use tatamu::plotter::profile::Handshake;
 use tatamu::plotter::{Cutter, preview};
+use tatamu::project::options::MEDIA;
 
 /// Sends a model to a cutter or plotter, sheet by sheet.
 ///
@@ -43,7 +45,7 @@ pub struct PlotArgs {
     port: Option<String>,
 
     /// Speed of the port in bits per second [default: from the profile]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(300..=4_000_000))]
+    #[arg(long, value_name = "N", value_parser = whole::<u32>(300..=4_000_000))]
     baud: Option<u32>,
 
     /// Flow control: auto, escb, rtscts, xonxoff, paced, count, ok or usb [default: from the profile]
@@ -57,11 +59,11 @@ pub struct PlotArgs {
     /// Number of a sheet to send, from 1; repeat it for more [default: all]
     ///
     /// Example: --only 3, --only 1,4
-    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = whole::<u16>(1..=65_535))]
     only: Vec<u16>,
 
     /// Number of copies
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = whole::<u16>(1..=1000))]
     copies: u16,
 
     /// Cuts a test figure instead of INPUT: a 10 mm square with a triangle in it and two creases
@@ -103,11 +105,13 @@ Examples:
 /// Runs the command.
 pub fn run(args: &PlotArgs) -> Result<(), AppError> {
     if let Some(path) = &args.resume {
+        check_use(args)?;
         let journal = journal::read(path)?;
         return resume(args, path, journal);
     }
     let chosen = Choice::new(None, args.machine.given())?;
     let machine = chosen.machine()?;
+    check_use(args)?;
     let is_live = args.is_live();
     if is_live && args.port.is_none() {
         let message = "add --port (\"tatamu ports\" lists the ports), --dry-run or --preview";
@@ -132,6 +136,25 @@ pub fn run(args: &PlotArgs) -> Result<(), AppError> {
     sheets.iter().flat_map(Sheet::notes).for_each(|note| terminal::complain("note", note));
     show(args, &sheets, &machine.cutter)?;
     if is_live { start(args, &machine.cutter, &sheets) } else { Ok(()) }
+}
+
+/// Refuses options that what is sent has no use for.
+fn check_use(args: &PlotArgs) -> Result<(), AppError> {
+    let (model, machine) = (args.model.given(), args.machine.given());
+    let medium: Vec<_> = machine.iter().filter(|given| *given.option() == MEDIA).cloned().collect();
+    let (unused, what) = if args.resume.is_some() {
+        ([model, machine].concat(), "a job that continues")
+    } else if args.test_cut {
+        (model.to_vec(), "the test figure")
+    } else if args.input.iter().all(|path| sheets::is_job(path)) {
+        ([model, &medium].concat(), "files in the machine's language")
+    } else {
+        return Ok(());
+    };
+    let flag = unused.iter().find_map(|given| given.option().flag);
+    flag.map_or(Ok(()), |flag| {
+        Err(AppError::Options(format!("--{} has no effect on {what}; remove it", flag.name)))
+    })
 }
 
 impl PlotArgs {
@@ -200,13 +223,7 @@ fn send(args: &PlotArgs, path: &Path, header: &Header, at: Position) -> Result<(
 
 /// Writes the pictures of all sheets.
 fn draw(path: &Path, sheets: &[Sheet], cutter: &Cutter) -> Result<(), AppError> {
-    let extension = path.extension().unwrap_or_default().to_string_lossy();
-    let format = format_of(&extension).filter(|format| format.is_picture());
-    let Some(Source::Pages(write)) = format.map(|format| format.source) else {
-        let pictures = FORMATS.iter().filter(|format| format.is_picture());
-        let known: Vec<String> = pictures.map(|f| format!(".{}", f.extensions[0])).collect();
-        return Err(AppError::Extension { path: path.to_owned(), known: known.join(", ") });
-    };
+    let (_, write) = output::picture(path)?;
     output::check_places(&[path.to_owned()], &[])?;
     let pictures = sheets.iter().map(|sheet| preview(sheet.job(), cutter, sheet.placement()));
     let pages = Pages::new("preview", pictures.collect(), LineStyles::standard());
