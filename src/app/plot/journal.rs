@@ -85,11 +85,15 @@ pub fn check_unused(path: &Path) -> Result<(), AppError> {
 
 /// Reads a journal.
 pub fn read(path: &Path) -> Result<(Header, Position), AppError> {
-    let bytes = input::read_file(path)?;
-    journal::parse(&bytes).ok_or_else(|| AppError::Input {
-        path: path.to_owned(),
-        reason: "it is not a journal of a job (.tatamu-job)".to_owned(),
-    })
+    let wrong = |reason: &str| AppError::Input { path: path.to_owned(), reason: reason.to_owned() };
+    let (header, at) = journal::parse(&input::read_file(path)?)
+        .ok_or_else(|| wrong("it is not a journal of a job (.tatamu-job)"))?;
+    // After the last sheet and the last copy a job is done; beyond them it never was.
+    let is_beyond = at.sheet > header.sheets.len() || at.copy > header.copies;
+    if header.sheets.is_empty() || header.copies == 0 || is_beyond {
+        return Err(wrong("the journal is damaged; start the job again"));
+    }
+    Ok((header, at))
 }
 
 #[cfg(test)]
@@ -120,6 +124,29 @@ mod tests {
         drop(running);
         Journal::create(&path, &header(), Position::default()).unwrap().remove();
         assert!(!path.exists());
+    }
+
+    /// Such a journal was removed as done, and nothing was sent.
+    #[test]
+    fn a_journal_that_is_beyond_its_job_is_damaged() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.tatamu-job");
+        let written = |header: &Header, at| {
+            drop(Journal::create(&path, header, at).unwrap());
+            read(&path).err().map(|error| error.to_string())
+        };
+        let done = Position { copy: 2, ..Position::default() };
+        assert_eq!(written(&header(), done), None);
+        let sheet = Position { sheet: 2, ..Position::default() };
+        let copy = Position { copy: 3, ..Position::default() };
+        for (header, at) in [
+            (header(), sheet),
+            (header(), copy),
+            (Header { copies: 0, ..header() }, Position::default()),
+            (Header { sheets: Vec::new(), ..header() }, Position::default()),
+        ] {
+            assert!(written(&header, at).is_some_and(|said| said.contains("damaged")), "{at:?}");
+        }
     }
 
     #[test]

@@ -113,7 +113,7 @@ impl Operator for Terminal {
             "tatamu",
             &format!(
                 "at least {done} of {strokes} strokes of this sheet are done; continue with: tatamu plot --resume {}",
-                journal.display()
+                as_word(journal)
             ),
         );
     }
@@ -122,5 +122,23 @@ impl Operator for Terminal {
         if !self.is_quiet {
             terminal::say("done");
         }
+    }
+}
+
+/// A name as one word of a command.
+fn as_word(path: &Path) -> String {
+    let name = path.display().to_string();
+    if name.contains(char::is_whitespace) { format!("\"{name}\"") } else { name }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The command that a stopped job names could not be copied.
+    #[test]
+    fn a_name_with_a_blank_is_one_word() {
+        assert_eq!(as_word(Path::new("my bear.tatamu-job")), "\"my bear.tatamu-job\"");
+        assert_eq!(as_word(Path::new("bear.tatamu-job")), "bear.tatamu-job");
     }
 }
