@@ -106,6 +106,18 @@ fn a_killed_studio_loses_nothing() {
     assert_eq!(again.recent().len(), 1);
 }
 
+/// What another session had left unsaved came back over what was saved later.
+#[test]
+fn a_file_that_is_saved_over_has_nothing_to_recover() {
+    let Desk { mut studio, folder } = desk();
+    let store = Store::at(&folder.path().join("state"));
+    let other = folder.path().join("other.toml");
+    std::fs::copy(folder.path().join("snowman.toml"), &other).unwrap();
+    store.keep(&other, "mesh = \"snowman.obj\"\nsize = 70\n");
+    studio.save_as(&other);
+    assert_eq!((store.recovered(&other), studio.problem()), (None, None));
+}
+
 #[test]
 fn parts_are_merged_and_split() {
     let Desk { mut studio, folder: _folder } = desk();

@@ -27,8 +27,15 @@ impl Studio {
 
     /// Begins to read a file.
     pub fn open(&mut self, path: &Path) {
+        self.drops_changes = false;
         self.messages.clear(Cause::Opening);
         self.tasks.open(path);
+    }
+
+    /// The same; once it is read, what was not saved before is dropped for good.
+    pub fn open_and_discard(&mut self, path: &Path) {
+        self.open(path);
+        self.drops_changes = true;
     }
 
     /// Shows a file, with what was not saved the last time.
@@ -39,6 +46,9 @@ impl Studio {
             Err(problem) => return self.messages.warn(Cause::Opening, problem),
         };
         self.messages.clear_all();
+        if std::mem::take(&mut self.drops_changes) {
+            self.discard();
+        }
         let recovered = self.store.recovered(&opened.source).filter(|text| *text != opened.text);
         if recovered.is_some_and(|text| document.replace(text, "recovered changes").is_ok()) {
             let text = "recovered unsaved changes; Undo drops them".to_owned();
@@ -125,7 +135,8 @@ impl Studio {
         });
         match written {
             Ok(text) => {
-                self.store.forget(&opened.source);
+                // What another session left unsaved in the file is replaced, too.
+                [&opened.source, path].into_iter().for_each(|file| self.store.forget(file));
                 self.store.add_recent(path);
                 document.saved_as(path.to_owned(), text);
                 // From now on this file is what is open.

@@ -47,6 +47,8 @@ pub struct Studio {
     is_attempt: bool,
     /// When a component was turned last.
     last_turn_s: f64,
+    /// Whether unsaved changes are dropped once another file is read.
+    drops_changes: bool,
     /// Tells files that were opened apart.
     session: u64,
     wake: Wake,
@@ -77,6 +79,7 @@ impl Studio {
             measures: false,
             is_attempt: false,
             last_turn_s: f64::NEG_INFINITY,
+            drops_changes: false,
             session: 0,
             wake,
             watch: None,

@@ -58,6 +58,11 @@ impl ExportPanel {
         self.written_to.as_deref()
     }
 
+    /// Whether it asks something.
+    pub fn asks(&self) -> bool {
+        !self.replaces.is_empty()
+    }
+
     /// Whether a format with pages is ticked.
     pub fn has_pages(&self) -> bool {
         self.wanted().any(|format| PAGES.contains(&format.name))

@@ -184,8 +184,7 @@ impl Window {
             // The viewer's own dialog prints it.
             ctx.open_url(egui::OpenUrl::new_tab(format!("file://{}", path.display())));
         }
-        let is_asking = self.dialogs.is_open() || self.mode == Mode::Plot && self.plot.asks();
-        if !is_asking {
+        if !self.is_asking() {
             commands::heed(self, &ctx);
         }
         let hover = self.studio.hover.take();
@@ -213,6 +212,13 @@ impl Window {
         self.show_dialogs(&ctx);
         self.focus.show(&ctx);
         self.memory.keep(&self.studio, &ctx, &self.plot, self.has_sheets_beside, self.tour.is_none());
+    }
+
+    /// Whether something is asked over the window, so that keys are no commands.
+    fn is_asking(&self) -> bool {
+        self.dialogs.is_open()
+            || self.mode == Mode::Plot && self.plot.asks()
+            || self.mode == Mode::Export && self.export.asks()
     }
 
     /// Panels begin anew with another file.
@@ -362,9 +368,12 @@ impl Window {
                     self.leave(ctx, leave);
                 }
             }
-            Some(Outcome::Parted(leave, Parting::Discard)) => {
+            Some(Outcome::Parted(Leave::Open(path), Parting::Discard)) => {
+                self.studio.open_and_discard(&path);
+            }
+            Some(Outcome::Parted(Leave::Close, Parting::Discard)) => {
                 self.studio.discard();
-                self.leave(ctx, leave);
+                self.leave(ctx, Leave::Close);
             }
             Some(Outcome::Parted(_, Parting::Stay)) => {}
             Some(Outcome::Run(command)) => command.run(self, ctx),

@@ -84,7 +84,7 @@ impl PlotPanel {
         self.running.as_ref().is_some_and(Plotting::is_running)
     }
 
-    /// Whether it asks something, so that keys are no commands.
+    /// Whether it asks something.
     pub fn asks(&self) -> bool {
         self.questions.is_some()
     }

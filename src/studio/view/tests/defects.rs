@@ -112,6 +112,24 @@ fn what_is_typed_into_a_dialog_is_no_command() {
 }
 
 /// It did nothing: the field had the focus again before anyone saw that the key had taken it.
+/// Keys were commands behind this question: Escape selected nothing, and M merged parts.
+#[test]
+fn keys_are_no_commands_while_files_are_about_to_be_replaced() {
+    let (mut desk, folder) = open();
+    std::fs::write(folder.path().join("snowman.pdf"), "mine").unwrap();
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    desk.run_ok();
+    click(&mut desk, "Export");
+    click(&mut desk, "Write files");
+    desk.key_press(Key::M);
+    desk.run_ok();
+    assert!(!desk.state().studio().document().unwrap().is_changed());
+    desk.key_press(Key::Escape);
+    desk.run_ok();
+    assert!(desk.query_by_label("Replace files?").is_none(), "it is answered");
+    assert_eq!(desk.state().studio().selection.names().len(), 3);
+}
+
 #[test]
 fn the_enter_key_ends_the_dialog_for_files() {
     let (mut desk, folder) = open();

@@ -57,6 +57,28 @@ fn what_a_killed_window_had_is_back_and_the_message_goes_with_the_next_change() 
     assert!(again.query_by_label("mine.toml").is_some());
 }
 
+/// Changes were dropped before the other file was read: when it could not be read, they stayed on the screen, but a
+/// killed window lost them.
+#[test]
+fn changes_are_dropped_only_once_another_file_is_read() {
+    let (mut desk, folder) = open();
+    turn_by_wheel(&mut desk);
+    let [project, nonsense] = ["snowman.toml", "nonsense.obj"].map(|name| folder.path().join(name));
+    std::fs::write(&nonsense, "hello").unwrap();
+    let store = Store::at(&folder.path().join("state"));
+    desk.state_mut().open(&nonsense);
+    desk.run_ok();
+    click(&mut desk, "Open without saving");
+    settle(&mut desk, "a problem", |s| s.problem().is_some());
+    assert!(desk.query_by_label("snowman.toml *").is_some());
+    assert!(store.recovered(&project).is_some(), "they are still kept");
+    desk.state_mut().open(&folder.path().join("snowman.obj"));
+    desk.run_ok();
+    click(&mut desk, "Open without saving");
+    settle(&mut desk, "the mesh", |s| s.opened().is_some_and(|opened| !opened.is_project));
+    assert_eq!(store.recovered(&project), None);
+}
+
 /// The text named another part, in words of the command line.
 #[test]
 fn a_clash_is_told_of_the_components_that_it_shows() {
