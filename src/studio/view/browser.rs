@@ -1,6 +1,6 @@
 //! A dialog for files, where the system has none.
 
-use super::modal;
+use super::{focus, modal};
 use eframe::egui::{self, Context, Key, Ui};
 use std::path::{Path, PathBuf};
 
@@ -102,6 +102,7 @@ impl Browser {
             if let Some(chosen) = self.list(ui) {
                 answer = self.choose(chosen);
             }
+            focus::follow(ui);
         });
         ui.separator();
         let mut is_done = false;

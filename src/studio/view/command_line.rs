@@ -1,5 +1,6 @@
 //! What the command line does and the window does not, each with the command to copy.
 
+use super::focus;
 use super::modal::{self, focus_once};
 use eframe::egui::{self, Context, RichText, Ui};
 
@@ -66,6 +67,7 @@ pub fn show(ctx: &Context, named: &Named<'_>) -> bool {
         ui.add_space(6.0);
         egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
             COMMANDS.iter().for_each(|(what, command)| line(ui, what, &named.filled(command)));
+            focus::follow(ui);
         });
     });
     is_closed || shown.should_close()

@@ -4,7 +4,7 @@ use super::super::messages::Cause;
 use super::super::state::Studio;
 use super::profile_choice::ProfileChoice;
 use super::values::Dialled;
-use super::{commands, look, modal};
+use super::{commands, focus, look, modal};
 use crate::app::output::{Target, place};
 use eframe::egui::{self, Ui};
 use lucide_icons::Icon;
@@ -136,6 +136,7 @@ impl ExportPanel {
                     ui.end_row();
                 }
             });
+            focus::follow(ui);
         });
     }
 

@@ -1,9 +1,23 @@
 //! A ring around the control that has the keyboard, as long as the keyboard is used.
 
-use eframe::egui::{Context, Event, Id, LayerId, Order, Rect, Stroke, StrokeKind};
+use eframe::egui::{Context, Event, Id, LayerId, Order, Rect, Stroke, StrokeKind, Ui};
 
 /// Room between the control and its ring, points.
 const GAP: f32 = 2.0;
+
+/// Brings the control that gets the keyboard into view, at the end of what scrolls.
+pub fn follow(ui: &Ui) {
+    let key = ui.scope_id().with("followed");
+    let focused = ui.memory(|memory| memory.focused());
+    let is_new = ui.data(|data| data.get_temp::<Option<Id>>(key)).flatten() != focused;
+    ui.data_mut(|data| data.insert_temp(key, focused));
+    let Some(control) = focused.filter(|_| is_new).and_then(|id| ui.ctx().read_response(id)) else { return };
+    // Only what scrolls is cut off.
+    let is_cut_off = control.interact_rect != control.rect;
+    if is_cut_off && control.layer_id == ui.layer_id() && ui.min_rect().contains(control.rect.center()) {
+        ui.scroll_to_rect(control.rect.expand(GAP), None);
+    }
+}
 
 /// The ring.
 #[derive(Debug, Default)]

@@ -51,6 +51,11 @@ use space::Space;
 use std::path::Path;
 use tour::{Spot, Tour};
 
+/// Points that the model and the files keep beside the sheets, however narrow the window is.
+const LEAST_BESIDE: [f32; 2] = [280.0, 540.0];
+/// Points that sheets need.
+const LEAST_SHEETS: [f32; 2] = [220.0, 160.0];
+
 /// What the middle of the window shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
@@ -199,6 +204,7 @@ impl Window {
             let panel = egui::Panel::left("parts").resizable(true).default_size(290.0).show(ui, |ui| {
                 egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     parts::show(&mut self.parts, &mut self.studio, &mut self.space, ui);
+                    focus::follow(ui);
                 });
             });
             self.places.settings = Some(panel.response.rect);
@@ -256,9 +262,10 @@ impl Window {
                 context::of_pieces(self, ui, &panel.response);
             }
             Mode::Export => {
-                if self.export.has_pages() {
-                    let panel =
-                        egui::Panel::right("preview").resizable(true).default_size(300.0).min_size(160.0);
+                let room = ui.available_width() - LEAST_BESIDE[1];
+                if self.export.has_pages() && room >= LEAST_SHEETS[1] {
+                    let panel = egui::Panel::right("preview").resizable(true).default_size(300.0);
+                    let panel = panel.size_range(LEAST_SHEETS[1]..=room);
                     panel.show(ui, |ui| self.sheets.preview(&self.studio, ui));
                 }
                 let panel = egui::CentralPanel::default()
@@ -282,7 +289,9 @@ impl Window {
         self.places.sheets = None;
         if self.has_sheets_beside {
             let width = 0.42 * ui.available_width();
-            let panel = egui::Panel::right("sheets").resizable(true).default_size(width).min_size(220.0);
+            let most = (ui.available_width() - LEAST_BESIDE[0]).max(LEAST_SHEETS[0]);
+            let panel = egui::Panel::right("sheets").resizable(true).default_size(width);
+            let panel = panel.size_range(LEAST_SHEETS[0]..=most);
             let panel = panel.show(ui, |ui| self.sheets.show(&mut self.studio, ui));
             self.places.sheets = Some(panel.response.rect);
             context::of_pieces(self, ui, &panel.response);

@@ -39,7 +39,8 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
     CollapsingHeader::new(heading("Whole model")).default_open(true).show(ui, |ui| {
         Grid::new("model").num_columns(2).show(ui, |ui| dials::model(studio, ui));
     });
-    CollapsingHeader::new(heading("Components")).default_open(true).show(ui, |ui| components(studio, ui));
+    let list = CollapsingHeader::new(heading("Components")).default_open(true);
+    let is_from_list = list.show(ui, |ui| components(studio, ui)).body_returned.unwrap_or_default();
     if let Some(index) = studio.selected_index() {
         let title = studio.shown().part(index).map_or(String::new(), |part| part.name.clone());
         let header = CollapsingHeader::new(heading(title)).id_salt("own").default_open(true);
@@ -53,8 +54,10 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
         let name = studio.shown().names().get(index.0).cloned();
         if panel.seen != name {
             panel.seen = name;
-            let body = shown.body_response.map_or(shown.header_response.rect, |body| body.rect);
-            ui.scroll_to_rect(shown.header_response.rect.union(body), None);
+            let title = shown.header_response.rect;
+            let body = shown.body_response.map_or(title, |body| body.rect);
+            // The list stays under the mouse, for the next click, as far as the title below it is seen.
+            ui.scroll_to_rect(if is_from_list { title } else { title.union(body) }, None);
         }
     } else {
         (panel.split, panel.seen) = (None, None);
@@ -85,8 +88,8 @@ fn heading(text: impl Into<String>) -> RichText {
     RichText::new(text).strong().size(15.0)
 }
 
-/// The list of components.
-fn components(studio: &mut Studio, ui: &mut Ui) {
+/// The list of components; whether one was clicked.
+fn components(studio: &mut Studio, ui: &mut Ui) -> bool {
     let names = studio.shown().names().to_vec();
     if names.is_empty() {
         ui.weak("no components yet");
@@ -116,10 +119,10 @@ fn components(studio: &mut Studio, ui: &mut Ui) {
             });
         });
     }
-    if let Some(name) = clicked {
-        let adds = ui.input(|i| i.modifiers.shift || i.modifiers.command);
-        studio.selection.select(&name, None, adds);
-    }
+    let Some(name) = clicked else { return false };
+    let adds = ui.input(|i| i.modifiers.shift || i.modifiers.command);
+    studio.selection.select(&name, None, adds);
+    true
 }
 
 /// Hides a component in the view, or shows it again.

@@ -6,11 +6,11 @@ use super::super::preferences::Preferences;
 use super::super::state::Studio;
 use super::super::words;
 use super::super::worker::Wake;
-use super::look;
 use super::machine::{Answer, Questions};
 use super::picture::Picture;
 use super::profile_choice::ProfileChoice;
 use super::strokes;
+use super::{focus, look};
 use crate::app::plot::sheets::of_test_cut;
 use crate::app::plot::{ANY, hint, usb_cutters};
 use eframe::egui::{self, Rect, Sense, Ui};
@@ -120,7 +120,10 @@ impl PlotPanel {
     /// Draws the panel.
     pub fn show(&mut self, studio: &mut Studio, ui: &mut Ui) {
         egui::Panel::right("plot").resizable(true).default_size(300.0).show(ui, |ui| {
-            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.dials(studio, ui));
+            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                self.dials(studio, ui);
+                focus::follow(ui);
+            });
         });
         egui::CentralPanel::default().show(ui, |ui| self.preview(ui));
     }

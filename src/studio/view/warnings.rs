@@ -1,7 +1,7 @@
 //! The list of warnings; each leads to what it is about, and to what can be done about it.
 
 use super::super::words;
-use super::{Mode, Window, look};
+use super::{Mode, Window, focus, look};
 use eframe::egui::{self, Ui};
 use lucide_icons::Icon;
 use tatamu::front::remedies;
@@ -42,4 +42,5 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
             }
         });
     }
+    focus::follow(ui);
 }

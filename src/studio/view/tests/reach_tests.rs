@@ -132,3 +132,24 @@ fn keys_are_heeded_while_a_button_has_the_focus() {
     desk.run_ok();
     assert_ne!(desk.state().space().shows_names(), before);
 }
+
+/// Controls below the edge of a panel that scrolls got the keyboard and were not seen.
+#[test]
+fn the_control_that_has_the_keyboard_is_scrolled_into_view() {
+    let (mut desk, _folder) = open();
+    let at = on_component(&desk, PartId(1));
+    press(&mut desk, at, Modifiers::NONE);
+    let most = desk.get_by_label("ready").rect().top();
+    let is_last = |desk: &Desk| desk.get_by_label("More settings").is_focused();
+    for _ in 0..120 {
+        desk.key_press(Key::Tab);
+        desk.run_ok();
+        if is_last(&desk) {
+            break;
+        }
+    }
+    assert!(is_last(&desk));
+    desk.run_steps(30);
+    let last = desk.get_by_label("More settings").rect();
+    assert!(last.bottom() <= most, "{last} is below {most}");
+}

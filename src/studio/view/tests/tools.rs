@@ -447,3 +447,34 @@ fn pages_of_the_book_are_found_among_the_commands() {
     assert!(folder.path().join("state/book/how-to/cutter.html").is_file());
     assert_eq!(desk.state().studio().problem(), None);
 }
+
+/// In a window made narrow the model was 40 points wide, and the formats had one letter a line.
+#[test]
+fn a_narrow_window_has_room_for_the_model_and_for_the_files() {
+    let (mut desk, _folder) = open();
+    wait_for_pages(&mut desk);
+    desk.set_size(egui::vec2(800.0, 500.0));
+    desk.run_ok();
+    let model = desk.get_by_label("Model in space").rect();
+    assert!(model.width() > 250.0 && model.right() < desk.get_by_label("Sheet 1").rect().left(), "{model}");
+    click(&mut desk, "Export");
+    let told = desk.get_by_label("PDF at exactly 1:1, one page per sheet, for printing").rect();
+    assert!(told.width() > 100.0, "{told}");
+    assert!(desk.query_by_label("Page as it is written").is_none(), "there is no room for it");
+}
+
+/// The list moved under the mouse, so that the next click took another component.
+#[test]
+fn the_list_stays_where_it_is_when_a_component_in_it_is_clicked() {
+    let (mut desk, _folder) = open();
+    let names = desk.state().studio().shown().names().to_vec();
+    let place = |desk: &Desk| desk.get_by_role_and_label(Role::Button, &format!("Hide {}", names[0])).rect();
+    desk.set_size(egui::vec2(1280.0, 640.0));
+    desk.run_ok();
+    let before = place(&desk);
+    let row = before.center() + egui::vec2(50.0, 0.0);
+    press(&mut desk, row, Modifiers::NONE);
+    desk.run_steps(30);
+    assert_eq!(desk.state().studio().selection.names(), [names[0].clone()]);
+    assert_eq!(place(&desk), before);
+}
