@@ -90,6 +90,11 @@ impl Studio {
         self.start(None);
     }
 
+    /// Whether a file has changes that were not saved.
+    pub fn has_unsaved(&self, path: &Path) -> bool {
+        self.store.recovered(path).is_some()
+    }
+
     /// A folder for files that come with the program.
     pub fn samples(&self) -> Option<PathBuf> {
         self.store.samples()

@@ -263,6 +263,11 @@ impl Studio {
         self.worker.start(Order { engine, drawn, options, first, measures: self.measures });
     }
 
+    /// Begins the work again that was stopped.
+    pub fn resume(&mut self) {
+        self.start(None);
+    }
+
     /// Stops the work; what is shown stays.
     pub fn cancel(&mut self) {
         if self.stop_sizing() {

@@ -146,7 +146,7 @@ fn state(window: &mut Window, ui: &mut Ui) {
         }
     } else if window.studio.tasks.is_busy() {
         ui.spinner();
-        ui.label("files");
+        ui.label("reading or writing files …");
     } else if window.studio.document().is_some() {
         ui.weak("ready");
     }

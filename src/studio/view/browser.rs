@@ -13,6 +13,8 @@ pub enum Purpose {
     Save,
     /// To take the profile of a cutter or a medium from it.
     Profile,
+    /// To write files in it: it is a folder.
+    Folder,
 }
 
 impl Purpose {
@@ -22,6 +24,7 @@ impl Purpose {
             Purpose::Open => "Open a mesh or a project",
             Purpose::Save => "Save the project",
             Purpose::Profile => "Open the profile of a cutter or a medium",
+            Purpose::Folder => "Choose a folder",
         }
     }
 }
@@ -105,6 +108,9 @@ impl Browser {
             focus::follow(ui);
         });
         ui.separator();
+        if self.purpose == Purpose::Folder {
+            return self.choose_folder(ui);
+        }
         let mut is_done = false;
         ui.horizontal(|ui| {
             let label = ui.label("File");
@@ -117,7 +123,7 @@ impl Browser {
                 self.replaces = None;
             }
             let word = match (self.purpose, &self.replaces) {
-                (Purpose::Open | Purpose::Profile, _) => "Open",
+                (Purpose::Open | Purpose::Profile | Purpose::Folder, _) => "Open",
                 (Purpose::Save, None) => "Save",
                 (Purpose::Save, Some(_)) => "Replace",
             };
@@ -137,6 +143,20 @@ impl Browser {
             answer = self.choose(self.folder.join(self.name.trim()));
         }
         answer
+    }
+
+    /// Takes the folder whose content is listed.
+    fn choose_folder(&self, ui: &mut Ui) -> Answer {
+        ui.horizontal(|ui| {
+            let choose = ui.button("Choose this folder");
+            modal::focus_once(ui, &choose);
+            match (choose.clicked(), ui.button("Cancel").clicked()) {
+                (true, _) => Answer::Chosen(self.folder.clone()),
+                (_, true) => Answer::Cancelled,
+                _ => Answer::Open,
+            }
+        })
+        .inner
     }
 
     /// The folder's content; what was clicked.
@@ -172,6 +192,7 @@ impl Browser {
         let among = match self.purpose {
             Purpose::Open => &KNOWN[..],
             Purpose::Save | Purpose::Profile => &KNOWN[..1],
+            Purpose::Folder => &[],
         };
         let is_known = extension.is_some_and(|e| among.iter().any(|known| e == *known));
         !entry.name.starts_with('.') && (!entry.is_file || self.shows_all || is_known)

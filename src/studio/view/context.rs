@@ -7,7 +7,7 @@ use tatamu::model::PartId;
 
 /// What can be done with components, in groups.
 const OF_COMPONENTS: [&[&Command]; 3] = [
-    &[&commands::TURN_LEFT, &commands::TURN_RIGHT, &commands::MERGE],
+    &[&commands::TURN_LEFT, &commands::TURN_RIGHT, &commands::RENAME, &commands::MERGE],
     &[&commands::HIDE, &commands::ISOLATE, &commands::SHOW_ALL],
     &[&commands::SELECT_ALL, &commands::SELECT_NONE, &commands::FIT],
 ];

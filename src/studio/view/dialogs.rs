@@ -71,6 +71,8 @@ pub enum Outcome {
     Save(PathBuf),
     /// The machine or the medium is to be taken from this profile.
     Profile(PathBuf),
+    /// Files are to be written in this folder.
+    Folder(PathBuf),
     /// An answer to the question before something is left.
     Parted(Leave, Parting),
     /// A command was found.
@@ -149,11 +151,12 @@ impl Dialogs {
         self.begin(Dialog::About);
     }
 
-    /// Draws the dialog that is open, with the commands that can be done, what would be lost, and the file.
+    /// Draws the dialog that is open, with the commands and whether they can be done, what would be lost, and the
+    /// file.
     pub fn show(
         &mut self,
         ctx: &Context,
-        commands: &[&'static Command],
+        commands: &[(&'static Command, bool)],
         work: Work,
         named: &Named<'_>,
     ) -> Option<Outcome> {
@@ -227,6 +230,7 @@ impl Purpose {
             Purpose::Open => Outcome::Open(path),
             Purpose::Save => Outcome::Save(path),
             Purpose::Profile => Outcome::Profile(path),
+            Purpose::Folder => Outcome::Folder(path),
         }
     }
 }
@@ -241,6 +245,7 @@ impl SystemDialog {
             Purpose::Open => dialog.add_filter("Meshes and projects", &super::browser::KNOWN),
             Purpose::Save => dialog.add_filter("Project", &super::browser::KNOWN[..1]).set_file_name(name),
             Purpose::Profile => dialog.add_filter("Profiles", &super::browser::KNOWN[..1]),
+            Purpose::Folder => dialog,
         };
         let (sender, answer) = channel();
         let wake = ctx.clone();
@@ -248,6 +253,7 @@ impl SystemDialog {
             let chosen = match purpose {
                 Purpose::Open | Purpose::Profile => dialog.pick_file(),
                 Purpose::Save => dialog.save_file(),
+                Purpose::Folder => dialog.pick_folder(),
             };
             let _ = sender.send(chosen);
             wake.request_repaint();
@@ -325,6 +331,7 @@ fn shortcuts(ctx: &Context) -> bool {
             });
         });
         egui::ScrollArea::vertical().max_height(height).show(ui, |ui| {
+            modal::scroll_by_keys(ui);
             egui::Grid::new("shortcuts").num_columns(2).striped(true).show(ui, |ui| {
                 for (what, effect) in commands::MOUSE {
                     ui.label(what);

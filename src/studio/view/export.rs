@@ -1,6 +1,7 @@
 //! The files to write: any format that there is, with its own options.
 
 use super::super::messages::Cause;
+use super::super::opened::Opened;
 use super::super::state::Studio;
 use super::profile_choice::ProfileChoice;
 use super::values::Dialled;
@@ -41,6 +42,8 @@ pub struct ExportPanel {
     /// Files that are there already, while the user is asked whether they may be replaced.
     replaces: Vec<PathBuf>,
     written_to: Option<PathBuf>,
+    /// Whether the folder is to be chosen in a dialog.
+    wants_folder: bool,
 }
 
 impl Default for ExportPanel {
@@ -48,7 +51,13 @@ impl Default for ExportPanel {
         let names: Vec<&str> = FORMATS.iter().map(|f| f.name).collect();
         let guides = GUIDES.iter().filter(|guide| !names.contains(&guide.name));
         let rows = FORMATS.iter().chain(guides).enumerate().map(|(k, format)| (format, k == 0));
-        Self { rows: rows.collect(), place: None, replaces: Vec::new(), written_to: None }
+        Self {
+            rows: rows.collect(),
+            place: None,
+            replaces: Vec::new(),
+            written_to: None,
+            wants_folder: false,
+        }
     }
 }
 
@@ -56,6 +65,23 @@ impl ExportPanel {
     /// The folder that files were written to last.
     pub fn written_to(&self) -> Option<&Path> {
         self.written_to.as_deref()
+    }
+
+    /// The folder from which another one is to be chosen in a dialog; once.
+    pub fn wants_folder(&mut self, opened: &Opened) -> Option<PathBuf> {
+        std::mem::take(&mut self.wants_folder).then(|| PathBuf::from(self.place_of(opened).0))
+    }
+
+    /// Writes into this folder.
+    pub fn set_folder(&mut self, folder: &Path, opened: &Opened) {
+        self.place = Some((folder.display().to_string(), self.place_of(opened).1));
+    }
+
+    /// Folder and stem.
+    fn place_of(&self, opened: &Opened) -> (String, String) {
+        self.place
+            .clone()
+            .unwrap_or_else(|| (folder_of(&opened.source).display().to_string(), opened.title()))
     }
 
     /// Whether it asks something.
@@ -72,17 +98,21 @@ impl ExportPanel {
     pub fn show(&mut self, studio: &mut Studio, profiles: &mut ProfileChoice, ui: &mut Ui) -> bool {
         let mut is_more_wanted = false;
         let Some(opened) = studio.opened().cloned() else { return false };
-        let (mut folder, mut stem) = self.place.clone().unwrap_or_else(|| {
-            let folder = folder_of(&opened.source);
-            (folder.display().to_string(), opened.title())
-        });
+        let (mut folder, mut stem) = self.place_of(&opened);
         ui.heading("Export");
         egui::Grid::new("place").num_columns(2).show(ui, |ui| {
             let label = ui.label("Folder");
-            let is_folder_changed = text(ui, &mut folder, label.id);
+            let is_folder_changed = ui
+                .horizontal(|ui| {
+                    let button = ui.spacing().interact_size.x + 60.0;
+                    let is_changed = text(ui, &mut folder, label.id, ui.available_width() - button);
+                    self.wants_folder |= ui.button("Choose …").on_hover_text("chooses a folder").clicked();
+                    is_changed
+                })
+                .inner;
             ui.end_row();
             let label = ui.label("Name");
-            let is_stem_changed = text(ui, &mut stem, label.id);
+            let is_stem_changed = text(ui, &mut stem, label.id, f32::INFINITY);
             ui.end_row();
             if is_folder_changed || is_stem_changed {
                 self.place = Some((folder.clone(), stem.clone()));
@@ -249,8 +279,8 @@ fn file_name(stem: &str, format: &Format) -> String {
     format!("{stem}{suffix}.{}", format.extensions[0])
 }
 
-fn text(ui: &mut Ui, text: &mut String, label: egui::Id) -> bool {
-    ui.add(egui::TextEdit::singleline(text).desired_width(420.0)).labelled_by(label).changed()
+fn text(ui: &mut Ui, text: &mut String, label: egui::Id, most: f32) -> bool {
+    ui.add(egui::TextEdit::singleline(text).desired_width(most.min(420.0))).labelled_by(label).changed()
 }
 
 #[cfg(test)]

@@ -21,8 +21,8 @@ pub enum Answer {
 }
 
 impl Finder {
-    /// Draws the list of the commands that can be done.
-    pub fn show(&mut self, ctx: &Context, commands: &[&'static Command]) -> Answer {
+    /// Draws the list of commands, each with whether it can be done.
+    pub fn show(&mut self, ctx: &Context, commands: &[(&'static Command, bool)]) -> Answer {
         let step = |key| ctx.input_mut(|i| i.consume_key(Modifiers::NONE, key));
         let (up, down, enter) = (step(Key::ArrowUp), step(Key::ArrowDown), step(Key::Enter));
         let mut answer = Answer::Open;
@@ -38,11 +38,11 @@ impl Finder {
             if field.changed() {
                 self.chosen = 0;
             }
-            let found: Vec<&'static Command> =
-                commands.iter().copied().filter(|command| is_like(command, &self.text)).collect();
+            let found: Vec<(&'static Command, bool)> =
+                commands.iter().copied().filter(|(command, _)| is_like(command, &self.text)).collect();
             let last = found.len().saturating_sub(1);
             self.chosen = (self.chosen + usize::from(down)).saturating_sub(usize::from(up)).min(last);
-            if enter && let Some(&command) = found.get(self.chosen) {
+            if enter && let Some(&(command, true)) = found.get(self.chosen) {
                 answer = Answer::Run(command);
             }
             ui.separator();
@@ -50,17 +50,21 @@ impl Finder {
                 ui.weak("no command of this name");
             }
             egui::ScrollArea::vertical().max_height(340.0).auto_shrink([false, true]).show(ui, |ui| {
-                for (k, command) in found.into_iter().enumerate() {
+                for (k, (command, can)) in found.into_iter().enumerate() {
                     let text = format!("{}  {}", command.picture(), command.name);
                     let item = egui::Button::selectable(k == self.chosen, text)
                         .shortcut_text(command.key_text(ctx))
                         .min_size(egui::vec2(ui.available_width(), 0.0));
-                    let item = ui.add(item);
-                    item.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, command.name));
+                    let item = ui.add_enabled(can, item);
+                    item.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, can, command.name));
                     if k == self.chosen && (up || down) {
                         item.scroll_to_me(None);
                     }
-                    let item = if command.tip.is_empty() { item } else { item.on_hover_text(command.tip) };
+                    let item = match (command.tip, can) {
+                        ("", _) => item,
+                        (tip, true) => item.on_hover_text(tip),
+                        (tip, false) => item.on_disabled_hover_text(format!("not now: {tip}")),
+                    };
                     if item.clicked() {
                         answer = Answer::Run(command);
                     }

@@ -190,6 +190,9 @@ impl Window {
             ctx.open_url(egui::OpenUrl::new_tab(format!("file://{}", path.display())));
         }
         if !self.is_asking() {
+            if self.is_touring() && self.tour.as_mut().is_some_and(|tour| !tour.heed(&ctx)) {
+                self.tour = None;
+            }
             commands::heed(self, &ctx);
         }
         let hover = self.studio.hover.take();
@@ -273,6 +276,10 @@ impl Window {
                 if panel.inner {
                     self.dialogs.list_command_line();
                 }
+                let folder = self.studio.opened().and_then(|opened| self.export.wants_folder(opened));
+                if let Some(folder) = folder {
+                    self.dialogs.ask_file(ui.ctx(), Purpose::Folder, Some(folder), "");
+                }
             }
             Mode::Plot => {
                 egui::CentralPanel::default().show(ui, |ui| self.plot.show(&mut self.studio, ui));
@@ -314,8 +321,13 @@ impl Window {
         self.sheets.fit();
     }
 
+    /// Whether the tour is to be seen.
+    fn is_touring(&self) -> bool {
+        self.tour.is_some() && self.studio.shown().output().is_some() && !self.dialogs.is_open()
+    }
+
     fn show_tour(&mut self, ctx: &egui::Context) {
-        if self.studio.shown().output().is_none() || self.dialogs.is_open() {
+        if !self.is_touring() {
             return;
         }
         let Some(tour) = &mut self.tour else { return };
@@ -345,10 +357,11 @@ impl Window {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
             self.dialogs.ask_leave(Leave::Close);
         }
-        let commands: Vec<_> = match self.dialogs.is_finding() {
-            true => commands::all().filter(|command| command.can(self)).collect(),
+        let mut commands: Vec<_> = match self.dialogs.is_finding() {
+            true => commands::all().map(|command| (command, command.can(self))).collect(),
             false => Vec::new(),
         };
+        commands.sort_by_key(|(_, can)| !can);
         let path = self.studio.document().and_then(|document| document.path());
         let path = path.or(self.studio.opened().map(|opened| opened.source.as_path()));
         let file = path.and_then(Path::file_name).unwrap_or_default().to_string_lossy().into_owned();
@@ -357,6 +370,9 @@ impl Window {
         match outcome {
             None => {}
             Some(Outcome::Open(path)) => self.open(&path),
+            Some(Outcome::Folder(path)) => {
+                self.studio.opened().iter().for_each(|opened| self.export.set_folder(&path, opened));
+            }
             Some(Outcome::Profile(path)) => {
                 self.studio.messages_mut().clear(Cause::Opening);
                 if let Err(problem) = self.plot.profiles_mut().take(&path) {

@@ -1,7 +1,7 @@
 //! What the user is told, above the bar of the state: each message whole, with a button of its own to close it.
 
 use super::super::change::Change;
-use super::super::messages::Cause;
+use super::super::messages::{Cause, Message};
 use super::{Window, look};
 use eframe::egui::{self, RichText, Ui};
 use lucide_icons::Icon;
@@ -28,7 +28,7 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
                 if close.on_hover_text("dismisses this message").clicked() {
                     window.studio.messages_mut().clear(message.cause);
                 }
-                actions(window, ui, message.cause);
+                actions(window, ui, message);
                 ui.with_layout(egui::Layout::left_to_right(egui::Align::Min), |ui| {
                     ui.label(RichText::new(picture).color(colour).size(16.0));
                     ui.add(egui::Label::new(RichText::new(&message.text).color(colour)).wrap());
@@ -39,7 +39,10 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
 }
 
 /// What can be done about it.
-fn actions(window: &mut Window, ui: &mut Ui, cause: Cause) {
+fn actions(window: &mut Window, ui: &mut Ui, &Message { cause, is_problem, .. }: &Message) {
+    if cause == Cause::Model && !is_problem && ui.small_button("Start again").clicked() {
+        window.studio.resume();
+    }
     if cause == Cause::Model
         && let Some(name) = window.studio.missing().map(str::to_owned)
         && ui
@@ -50,6 +53,7 @@ fn actions(window: &mut Window, ui: &mut Ui, cause: Cause) {
         window.studio.change(&Change::Forget { name }, None);
     }
     if cause == Cause::Export
+        && !is_problem
         && let Some(folder) = window.export.written_to().map(std::path::Path::to_owned)
         && ui.small_button("Open folder").on_hover_text(folder.display().to_string()).clicked()
     {

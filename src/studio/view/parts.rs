@@ -22,6 +22,15 @@ pub struct PartsPanel {
     split: Option<Split>,
     /// The component whose settings were in view.
     seen: Option<String>,
+    /// Whether the name of the selected one is about to be written.
+    is_renaming: bool,
+}
+
+impl PartsPanel {
+    /// Lets the user write the name of the selected component.
+    pub fn rename(&mut self) {
+        self.is_renaming = true;
+    }
 }
 
 /// A plane that the user moves about before a part is split.
@@ -44,6 +53,7 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
     if let Some(index) = studio.selected_index() {
         let title = studio.shown().part(index).map_or(String::new(), |part| part.name.clone());
         let header = CollapsingHeader::new(heading(title)).id_salt("own").default_open(true);
+        let header = header.open(panel.is_renaming.then_some(true));
         let shown = header.show(ui, |ui| match studio.is_drawn() {
             true => drop(ui.weak("drawn in the project file")),
             false => {
@@ -144,7 +154,11 @@ fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: PartId) 
     let own = options.components.get(&name).cloned().unwrap_or_default();
     Grid::new("component").num_columns(2).show(ui, |ui| {
         let renamed = own.rename.clone().unwrap_or_else(|| name.clone());
-        text_row(panel, studio, ui, &name, &RENAME, ("Name", "printed on the pieces"), (&renamed, &name));
+        let field =
+            text_row(panel, studio, ui, &name, &RENAME, ("Name", "printed on the pieces"), (&renamed, &name));
+        if std::mem::take(&mut panel.is_renaming) {
+            field.request_focus();
+        }
         let now = studio.direction_deg(index).unwrap_or_default();
         Dialled::new(&DIRECTION).component_row(studio, ui, &name, (now, own.direction_rad.is_some()));
         let [edges, vertices] = studio.shown().part(index).map(hand::edges_and_vertices).unwrap_or_default();
@@ -214,7 +228,7 @@ fn text_row(
     option: &'static Entry,
     (label, tip): (&str, &str),
     (now, otherwise): (&str, &str),
-) {
+) -> egui::Response {
     let label = ui.label(label).on_hover_text(tip);
     let mut text = match &panel.writing {
         Some((key, of, text)) if *key == option.name() && of == name => text.clone(),
@@ -233,6 +247,7 @@ fn text_row(
         }
     }
     ui.end_row();
+    field
 }
 
 /// What the component is worth.

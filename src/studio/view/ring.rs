@@ -76,7 +76,8 @@ impl Ring {
     /// Draws the ring about the selected component, and turns it by its handle.
     pub fn show(&mut self, studio: &mut Studio, ui: &mut Ui, rect: Rect, orbit: &Orbit) {
         let one = studio.selected_index().filter(|_| studio.selection.names().len() == 1);
-        let Some(part) = one.filter(|_| self.is_shown && !studio.is_drawn()) else {
+        let is_seen = studio.selection.last().is_some_and(|name| !studio.visibility.is_hidden(name));
+        let Some(part) = one.filter(|_| is_seen && self.is_shown && !studio.is_drawn()) else {
             self.survey = None;
             return;
         };

@@ -1,6 +1,6 @@
 //! The tour: five steps, each beside what it is about.
 
-use eframe::egui::{self, Context, Rect, Stroke};
+use eframe::egui::{self, Context, Key, Modifiers, Rect, Stroke};
 
 /// What a step is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,6 +44,10 @@ const STEPS: [(&str, &str, Spot); 5] = [
     ),
 ];
 
+/// Width of a step, and its distance from what it is about, points.
+const WIDTH: f32 = 360.0;
+const GAP: f32 = 14.0;
+
 /// Where the tour is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Tour {
@@ -51,6 +55,16 @@ pub struct Tour {
 }
 
 impl Tour {
+    /// Heeds the keys: Enter goes on, unless a control has the keyboard, and Escape ends it. False when the user is
+    /// through.
+    pub fn heed(&mut self, ctx: &Context) -> bool {
+        let is_free = ctx.memory(|memory| memory.focused().is_none());
+        let [ends, goes_on] = [Key::Escape, Key::Enter]
+            .map(|key| is_free && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, key)));
+        self.step += usize::from(goes_on);
+        !ends && self.step < STEPS.len()
+    }
+
     /// Draws the step; false when the user is through. `place` tells where things are.
     pub fn show(&mut self, ctx: &Context, place: impl Fn(Spot) -> Option<Rect>) -> bool {
         let (title, text, spot) = STEPS[self.step.min(STEPS.len() - 1)];
@@ -65,10 +79,13 @@ impl Tour {
         );
         let mut goes_on = true;
         // Beside narrow things, inside wide ones.
-        let at = if around.width() < 0.4 * screen.width() {
-            around.right_top() + egui::vec2(14.0, 40.0)
+        let is_at_right = around.right() + 2.0 * GAP + WIDTH > screen.right();
+        let at = if around.width() < 0.4 * screen.width() && is_at_right {
+            around.left_top() + egui::vec2(-2.0 * GAP - WIDTH, 40.0)
+        } else if around.width() < 0.4 * screen.width() {
+            around.right_top() + egui::vec2(GAP, 40.0)
         } else if around.height() < 120.0 && around.top() > screen.center().y {
-            around.center_top() - egui::vec2(180.0, 190.0)
+            around.center_top() - egui::vec2(0.5 * WIDTH, 190.0)
         } else {
             around.left_top() + egui::vec2(30.0, 60.0)
         };
@@ -76,7 +93,7 @@ impl Tour {
             .title_bar(false)
             .resizable(false)
             .fixed_pos(at)
-            .fixed_size([360.0, 150.0])
+            .fixed_size([WIDTH, 150.0])
             .show(ctx, |ui| {
                 ui.horizontal(|ui| {
                     ui.heading(title);
@@ -88,14 +105,15 @@ impl Tour {
                 ui.add_space(8.0);
                 ui.horizontal(|ui| {
                     let is_last = self.step + 1 == STEPS.len();
-                    if ui.button(if is_last { "Done" } else { "Next" }).clicked() {
+                    let next = ui.button(if is_last { "Done" } else { "Next" });
+                    if next.on_hover_text("or press Enter").clicked() {
                         goes_on = !is_last;
                         self.step += 1;
                     }
                     if self.step > 0 && !is_last && ui.button("Back").clicked() {
                         self.step -= 1;
                     }
-                    if !is_last && ui.button("Skip the tour").clicked() {
+                    if !is_last && ui.button("Skip the tour").on_hover_text("or press Esc").clicked() {
                         goes_on = false;
                     }
                 });

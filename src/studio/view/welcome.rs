@@ -111,8 +111,9 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
             ui.add_space(22.0);
             ui.strong("Open recent");
             for path in files {
-                let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-                if ui.link(name).on_hover_text(path.display().to_string()).clicked() {
+                let name = path.file_name().unwrap_or_default().to_string_lossy();
+                let unsaved = if window.studio.has_unsaved(&path) { " (unsaved changes)" } else { "" };
+                if ui.link(format!("{name}{unsaved}")).on_hover_text(path.display().to_string()).clicked() {
                     window.open(&path);
                 }
             }

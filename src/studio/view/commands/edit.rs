@@ -11,6 +11,7 @@ pub(super) static ALL: &[&Command] = &[
     &UNDO,
     &REDO,
     &MERGE,
+    &RENAME,
     &TURN_LEFT,
     &TURN_RIGHT,
     &LAY_OUT,
@@ -52,6 +53,16 @@ pub static MERGE: Command = Command {
     place: Place::Edit(1),
     can: |w| w.studio.selection.names().len() > 1 && !w.studio.is_drawn(),
     act: |w, _| w.studio.merge_selected(),
+};
+
+pub static RENAME: Command = Command {
+    name: "Rename the selected component",
+    icon: Some(Icon::TextCursorInput),
+    tip: "its name is printed on the pieces",
+    keys: &[key(Key::F2)],
+    place: Place::Edit(1),
+    can: has_one,
+    act: |w, _| w.parts.rename(),
 };
 
 pub static TURN_LEFT: Command = Command {

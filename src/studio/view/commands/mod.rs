@@ -10,7 +10,7 @@ mod view;
 use super::super::state::Studio;
 use super::Window;
 pub use edit::{
-    EDGES, FIT_SHEETS, LAY_OUT, MERGE, REDO, SELECT_ALL, SELECT_NONE, TURN_LEFT, TURN_RIGHT, UNDO,
+    EDGES, FIT_SHEETS, LAY_OUT, MERGE, REDO, RENAME, SELECT_ALL, SELECT_NONE, TURN_LEFT, TURN_RIGHT, UNDO,
 };
 use eframe::egui::{self, Context, KeyboardShortcut, Response, Ui};
 pub use file::{OPEN, SAVE};

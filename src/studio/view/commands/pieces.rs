@@ -1,13 +1,32 @@
-//! What can be done with the piece that is selected.
+//! What can be done with the piece that is selected, and the choice of it.
 
 use super::super::sheets::pieces::{self, Hand};
+use super::keys::{key, shift};
 use super::{BLANK, Command, Place};
+use eframe::egui::Key;
 use lucide_icons::Icon;
 
 /// All of them.
-pub(super) static ALL: &[&Command] = &[&PIECE_LEFT, &PIECE_RIGHT, &PUT_ASIDE, &UNPIN];
+pub(super) static ALL: &[&Command] = &[&NEXT, &PREVIOUS, &PIECE_LEFT, &PIECE_RIGHT, &PUT_ASIDE, &UNPIN];
 
 const TIP: &str = "rotates the piece by 15°; while you drag it, press , or .";
+
+static NEXT: Command = Command {
+    name: "Select the next piece",
+    tip: "goes through the pieces sheet by sheet",
+    keys: &[key(Key::P)],
+    can: |w| w.shows_sheets() && w.studio.laid().is_some(),
+    act: |w, _| pieces::step(&mut w.studio, true),
+    ..BLANK
+};
+
+static PREVIOUS: Command = Command {
+    name: "Select the previous piece",
+    keys: &[shift(Key::P)],
+    can: |w| w.shows_sheets() && w.studio.laid().is_some(),
+    act: |w, _| pieces::step(&mut w.studio, false),
+    ..BLANK
+};
 
 pub static PIECE_LEFT: Command = Command {
     name: "Rotate piece left",

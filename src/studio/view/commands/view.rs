@@ -2,14 +2,15 @@
 
 use super::super::{Mode, Window};
 use super::keys::{ctrl, key, shift};
-use super::{BLANK, Command, Place, has_file, has_selection};
-use eframe::egui::{Context, Key, KeyboardShortcut};
+use super::{BLANK, Command, Place, always, has_file, has_selection};
+use eframe::egui::{Context, Key, KeyboardShortcut, Theme, ThemePreference};
 use lucide_icons::Icon;
 
 /// All of them.
 pub(super) static ALL: &[&Command] = &[
     &MODEL, &SHEETS, &EXPORT, &PLOT, &BESIDE, &PLAY, &GHOST, &NAMES, &GRID, &MEASURE, &HIDE, &ISOLATE,
-    &SHOW_ALL, &FIT, &FRONT, &SIDE, &TOP, &LEFT, &RIGHT, &UP, &DOWN, &ZOOM_IN, &ZOOM_OUT,
+    &SHOW_ALL, &FIT, &FRONT, &SIDE, &TOP, &LEFT, &RIGHT, &UP, &DOWN, &ZOOM_IN, &ZOOM_OUT, &LIGHT, &DARK,
+    &SYSTEM,
 ];
 
 /// Turn of the view for a press of an arrow key, radians.
@@ -145,6 +146,16 @@ pub static MEASURE: Command = Command {
     act: |w, _| w.space.measure_mut().toggle(),
     ..BLANK
 };
+
+static LIGHT: Command = theme("Light theme", Icon::Sun, |_, ctx| ctx.set_theme(Theme::Light));
+static DARK: Command = theme("Dark theme", Icon::Moon, |_, ctx| ctx.set_theme(Theme::Dark));
+static SYSTEM: Command =
+    theme("Theme of the system", Icon::SunMoon, |_, ctx| ctx.set_theme(ThemePreference::System));
+
+/// The menu of the view has a list of its own for them.
+const fn theme(name: &'static str, icon: Icon, act: fn(&mut Window, &Context)) -> Command {
+    Command { name, icon: Some(icon), can: always, act, ..BLANK }
+}
 
 static FRONT: Command = view("View from the front", &[key(Key::Num1)], |w, _| w.space.look_from(0.0, 0.0));
 static SIDE: Command =

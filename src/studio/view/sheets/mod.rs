@@ -99,8 +99,7 @@ impl SheetsPanel {
         // A panel that has nothing to show yet does not shrink.
         ui.set_min_size(ui.available_size());
         let Some(output) = studio.shown().output().cloned() else {
-            ui.weak("arranging the pieces …");
-            return;
+            return nothing_yet(studio, ui);
         };
         self.refresh(studio, &output, ui.ctx());
         self.bar(studio, &output, ui);
@@ -340,6 +339,11 @@ impl SheetsPanel {
             self.seen = name;
         }
     }
+}
+
+/// Why there are no sheets.
+fn nothing_yet(studio: &Studio, ui: &mut Ui) {
+    ui.weak(if studio.busy().is_some() { "arranging the pieces …" } else { "no sheets yet" });
 }
 
 /// The panels of a piece.

@@ -116,6 +116,27 @@ pub enum Hand {
     Unpin,
 }
 
+/// Selects the piece that follows the selected one on the sheets, or the one before it.
+pub fn step(studio: &mut Studio, is_forward: bool) {
+    let Some(output) = studio.shown().output().cloned() else { return };
+    let sheets = output.layout().sheet_ids();
+    let ids: Vec<PieceId> =
+        sheets.flat_map(|sheet| pages::outlines(&output, sheet)).map(|(id, _)| id).collect();
+    let now = selected(studio).and_then(|(_, id)| ids.iter().position(|other| *other == id));
+    let to = match (now, is_forward) {
+        (None, true) => 0,
+        (None, false) => ids.len().saturating_sub(1),
+        (Some(k), true) => (k + 1) % ids.len(),
+        (Some(k), false) => (k + ids.len() - 1) % ids.len(),
+    };
+    let Some((&id, piece)) = ids.get(to).and_then(|id| Some((id, pages::piece(&output, *id)?))) else {
+        return;
+    };
+    if let Some(name) = studio.shown().names().get(id.net.0).cloned() {
+        studio.selection.select_piece(&name, piece.name());
+    }
+}
+
 /// The piece that is selected, by its name and in the layout.
 fn selected(studio: &Studio) -> Option<(String, PieceId)> {
     let piece = studio.selection.piece()?.to_owned();

@@ -2,7 +2,7 @@
 
 use super::super::super::state::Studio;
 use super::super::look;
-use super::{SheetsPanel, paint};
+use super::{SheetsPanel, nothing_yet, paint};
 use eframe::egui::{self, Sense, Ui};
 use lucide_icons::Icon;
 
@@ -13,8 +13,7 @@ impl SheetsPanel {
         ui.set_min_size(ui.available_size());
         ui.add_space(4.0);
         let Some(output) = studio.shown().output().cloned() else {
-            ui.weak("arranging the pieces …");
-            return;
+            return nothing_yet(studio, ui);
         };
         self.refresh(studio, &output, ui.ctx());
         let drawn = match &self.drawn {

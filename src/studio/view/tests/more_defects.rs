@@ -79,6 +79,34 @@ fn changes_are_dropped_only_once_another_file_is_read() {
     assert_eq!(store.recovered(&project), None);
 }
 
+/// After a crash nothing said which file had changes to recover.
+#[test]
+fn the_start_page_names_files_with_unsaved_changes() {
+    let (mut desk, folder) = open();
+    turn_by_wheel(&mut desk);
+    drop(desk);
+    let mut again = window(folder.path());
+    again.run_ok();
+    click(&mut again, "snowman.toml (unsaved changes)");
+    settle(&mut again, "the project", |s| s.document().is_some_and(|d| d.is_changed()));
+}
+
+/// The window said that pieces are arranged though the work was stopped, and only a change began it again.
+#[test]
+fn work_that_was_stopped_is_begun_again_by_a_button() {
+    let folder = tempfile::tempdir().unwrap();
+    let project = snowman(folder.path());
+    let mut desk = window(folder.path());
+    desk.state_mut().open(&project);
+    wait(desk.state_mut().studio_mut(), "the project", |s| s.document().is_some());
+    desk.state_mut().studio_mut().cancel();
+    desk.run_ok();
+    assert!(desk.query_by_label("no sheets yet").is_some());
+    click(&mut desk, "Start again");
+    settle(&mut desk, "the model", |s| s.finished().is_some());
+    assert!(desk.query_by_label("Start again").is_none());
+}
+
 /// The text named another part, in words of the command line.
 #[test]
 fn a_clash_is_told_of_the_components_that_it_shows() {

@@ -153,3 +153,60 @@ fn the_control_that_has_the_keyboard_is_scrolled_into_view() {
     let last = desk.get_by_label("More settings").rect();
     assert!(last.bottom() <= most, "{last} is below {most}");
 }
+
+/// Pieces were selected by the mouse alone.
+#[test]
+fn pieces_are_selected_one_after_the_other_by_keys() {
+    let (mut desk, _folder) = open_sheets();
+    let count: usize =
+        desk.state().studio().finished().unwrap().nets().iter().map(|net| net.pieces().len()).sum();
+    let piece = |desk: &Desk| desk.state().studio().selection.piece().unwrap().to_owned();
+    let mut seen = BTreeSet::new();
+    for _ in 0..count {
+        desk.key_press(Key::P);
+        desk.run_ok();
+        seen.insert(piece(&desk));
+    }
+    assert_eq!(seen.len(), count);
+    let last = piece(&desk);
+    desk.key_press(Key::P);
+    desk.run_ok();
+    assert_ne!(piece(&desk), last);
+    desk.key_press_modifiers(Modifiers::SHIFT, Key::P);
+    desk.run_ok();
+    assert_eq!(piece(&desk), last);
+    assert!(desk.query_by_role_and_label(Role::Button, "Put aside").is_some());
+}
+
+#[test]
+fn the_selected_component_is_renamed_by_a_key() {
+    let (mut desk, _folder) = open();
+    let at = on_component(&desk, PartId(1));
+    press(&mut desk, at, Modifiers::NONE);
+    desk.key_press(Key::F2);
+    desk.run_ok();
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    desk.event(Event::Text("hat".to_owned()));
+    desk.run_ok();
+    desk.key_press(Key::Enter);
+    desk.run_ok();
+    settle(&mut desk, "the name", |s| s.shown().part(PartId(1)).is_some_and(|part| part.name == "hat"));
+}
+
+/// The list of keys was 400 points high in any window, and no key scrolled it.
+#[test]
+fn a_long_list_of_keys_has_all_of_the_window() {
+    let (mut desk, _folder) = open();
+    desk.set_size(egui::vec2(1280.0, 1400.0));
+    desk.key_press(Key::F1);
+    desk.run_steps(5);
+    let close = desk.get_by_role_and_label(Role::Button, "Close").rect();
+    assert!(close.top() < 250.0, "{close}");
+    desk.set_size(egui::vec2(1280.0, 500.0));
+    desk.run_ok();
+    let before = desk.get_by_label("wheel").rect().top();
+    desk.key_press(Key::PageDown);
+    desk.run_steps(30);
+    let after = desk.get_by_label("wheel").rect().top();
+    assert!(after < before - 100.0, "{before} {after}");
+}

@@ -96,6 +96,35 @@ fn a_command_is_found_by_its_name_and_run() {
     assert!(!desk.state().dialogs.is_open());
 }
 
+/// A search for "merge" found nothing while less than two components were selected.
+#[test]
+fn commands_that_cannot_be_done_now_are_found_too() {
+    let (mut desk, _folder) = open();
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    desk.run_ok();
+    desk.event(Event::Text("merge selected".to_owned()));
+    desk.run_ok();
+    let item = desk.get_by_role_and_label(Role::Button, "Merge selected components");
+    assert!(item.accesskit_node().is_disabled());
+    desk.key_press(Key::Enter);
+    desk.run_ok();
+    assert!(desk.state().dialogs.is_open(), "Enter does nothing with it");
+}
+
+#[test]
+fn the_theme_is_a_command() {
+    let (mut desk, _folder) = open();
+    for (name, theme) in [("dark", egui::Theme::Dark), ("light theme", egui::Theme::Light)] {
+        desk.key_press_modifiers(Modifiers::COMMAND, Key::K);
+        desk.run_ok();
+        desk.event(Event::Text(name.to_owned()));
+        desk.run_ok();
+        desk.key_press(Key::Enter);
+        desk.run_ok();
+        assert_eq!(desk.ctx.theme(), theme);
+    }
+}
+
 #[test]
 fn the_title_has_the_file_and_a_star() {
     let (mut desk, _folder) = open();
@@ -103,6 +132,19 @@ fn the_title_has_the_file_and_a_star() {
     desk.state_mut().studio_mut().turn(PartId(0), 5.0, 0.0);
     desk.run_ok();
     assert_eq!(desk.state().title(), "snowman.toml * – tatamu");
+}
+
+/// The ring of a component that is hidden was drawn about nothing.
+#[test]
+fn a_hidden_component_has_no_ring() {
+    let (mut desk, _folder) = open();
+    let at = on_component(&desk, PartId(1));
+    press(&mut desk, at, Modifiers::NONE);
+    let has_ring = |desk: &Desk| desk.query_by_label_contains("Fold direction of").is_some();
+    assert!(has_ring(&desk));
+    desk.key_press(Key::H);
+    desk.run_ok();
+    assert!(!has_ring(&desk));
 }
 
 #[test]
@@ -209,6 +251,27 @@ fn files_are_replaced_only_after_a_question() {
     assert!(desk.query_by_label("Open folder").is_some());
 }
 
+/// The folder had to be typed, and "Open folder" stood beside the message that there is none.
+#[test]
+fn the_folder_for_files_is_chosen_in_a_dialog() {
+    let (mut desk, folder) = open();
+    let sub = folder.path().join("sub");
+    std::fs::create_dir(&sub).unwrap();
+    click(&mut desk, "Export");
+    click(&mut desk, "Choose …");
+    assert!(desk.query_by_label("snowman.toml").is_some(), "in the title; the dialog lists folders alone");
+    click(&mut desk, "sub/");
+    click(&mut desk, "Choose this folder");
+    std::fs::remove_dir(&sub).unwrap();
+    click(&mut desk, "Write files");
+    settle(&mut desk, "a problem", |s| s.problem().is_some());
+    assert!(desk.query_by_label("Open folder").is_none());
+    std::fs::create_dir(&sub).unwrap();
+    click(&mut desk, "Write files");
+    settle(&mut desk, "the file", |s| s.notice().is_some() || s.problem().is_some());
+    assert!(sub.join("snowman.pdf").is_file() && desk.query_by_label("Open folder").is_some());
+}
+
 #[test]
 fn options_are_those_of_the_formats_that_are_ticked() {
     let (mut desk, _folder) = open();
@@ -247,6 +310,27 @@ fn the_tour_is_shown_once() {
     assert!(desk.state().tour.is_none());
     desk.run_ok();
     assert!(store.preferences().has_seen_tour);
+}
+
+/// The last step was half outside of the window, and no key led through the tour.
+#[test]
+fn keys_lead_through_the_tour() {
+    let folder = tempfile::tempdir().unwrap();
+    let project = snowman(folder.path());
+    let mut desk = desk_with(Store::at(&folder.path().join("state")));
+    desk.state_mut().open(&project);
+    settle(&mut desk, "a model", |s| s.finished().is_some());
+    wait_for_pages(&mut desk);
+    for _ in 1..5 {
+        desk.key_press(Key::Enter);
+        desk.run_ok();
+    }
+    desk.run_steps(3);
+    let step = desk.get_by_label("5 of 5").rect();
+    assert!(step.right() < desk.get_by_label("Sheet 1").rect().left(), "beside the sheets: {step}");
+    desk.key_press(Key::Escape);
+    desk.run_ok();
+    assert!(desk.state().tour.is_none());
 }
 
 #[test]
