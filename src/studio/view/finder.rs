@@ -46,8 +46,12 @@ impl Finder {
                 answer = Answer::Run(command);
             }
             ui.separator();
-            if found.is_empty() {
-                ui.weak("no command of this name");
+            match found.get(self.chosen) {
+                None => drop(ui.weak("no command of this name")),
+                Some((command, false)) => {
+                    ui.weak(["not now", command.tip].join(if command.tip.is_empty() { "" } else { ": " }));
+                }
+                Some(_) => {}
             }
             egui::ScrollArea::vertical().max_height(340.0).auto_shrink([false, true]).show(ui, |ui| {
                 for (k, (command, can)) in found.into_iter().enumerate() {
@@ -60,11 +64,7 @@ impl Finder {
                     if k == self.chosen && (up || down) {
                         item.scroll_to_me(None);
                     }
-                    let item = match (command.tip, can) {
-                        ("", _) => item,
-                        (tip, true) => item.on_hover_text(tip),
-                        (tip, false) => item.on_disabled_hover_text(format!("not now: {tip}")),
-                    };
+                    let item = if command.tip.is_empty() { item } else { item.on_hover_text(command.tip) };
                     if item.clicked() {
                         answer = Answer::Run(command);
                     }

@@ -50,6 +50,7 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
     });
     let list = CollapsingHeader::new(heading("Components")).default_open(true);
     let is_from_list = list.show(ui, |ui| components(studio, ui)).body_returned.unwrap_or_default();
+    merging(studio, ui);
     if let Some(index) = studio.selected_index() {
         let title = studio.shown().part(index).map_or(String::new(), |part| part.name.clone());
         let header = CollapsingHeader::new(heading(title)).id_salt("own").default_open(true);
@@ -73,12 +74,6 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
         (panel.split, panel.seen) = (None, None);
         space.show_split(None);
     }
-    if studio.selection.names().len() > 1 && !studio.is_drawn() {
-        let names = studio.selection.names().join(" and ");
-        if ui.button("Merge").on_hover_text(format!("makes one part of {names} (M)")).clicked() {
-            studio.merge_selected();
-        }
-    }
     CollapsingHeader::new(heading("Paper and pieces")).default_open(false).show(ui, |ui| {
         Grid::new("paper").num_columns(2).show(ui, |ui| dials::paper(studio, ui));
         let tip = "gives each component the card that is most like the mesh's colours on it";
@@ -91,6 +86,16 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
     CollapsingHeader::new(heading("More settings")).default_open(false).show(ui, |ui| {
         Grid::new("rare").num_columns(2).show(ui, |ui| dials::rare(studio, ui));
     });
+}
+
+/// Merging, where several components are selected.
+fn merging(studio: &mut Studio, ui: &mut Ui) {
+    if studio.selection.names().len() > 1 && !studio.is_drawn() {
+        let names = studio.selection.names().join(" and ");
+        if ui.button("Merge").on_hover_text(format!("makes one part of {names} (M)")).clicked() {
+            studio.merge_selected();
+        }
+    }
 }
 
 /// The title of a section.

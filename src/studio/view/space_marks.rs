@@ -185,9 +185,16 @@ pub fn axes(orbit: &mut Orbit, ui: &mut Ui, rect: Rect) {
     }
 }
 
+/// In a bar of fewer points the slider has a line of its own.
+const LEAST_BAR: f32 = 430.0;
+
 /// The slider of the folding with its marks, and what is shown.
 pub fn folding_bar(window: &mut Window, ui: &mut Ui) {
     ui.add_space(4.0);
+    let is_narrow = ui.available_width() < LEAST_BAR;
+    if is_narrow {
+        ui.horizontal(|ui| slider(window, ui));
+    }
     ui.horizontal(|ui| {
         let is_playing = window.space.is_playing();
         let (picture, word) =
@@ -208,8 +215,10 @@ pub fn folding_bar(window: &mut Window, ui: &mut Ui) {
                 command.button(window, ui, is_on);
             }
             layers(window, ui);
-            ui.separator();
-            ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| slider(window, ui));
+            if !is_narrow {
+                ui.separator();
+                ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| slider(window, ui));
+            }
         });
     });
     ui.add_space(2.0);

@@ -198,42 +198,12 @@ impl SheetsPanel {
     fn bar(&mut self, studio: &mut Studio, output: &Output, ui: &mut Ui) {
         ui.add_space(4.0);
         ui.horizontal(|ui| {
-            let layout = output.layout();
-            let sheets = layout.sheet_count();
-            let name = layout.options().paper.name();
-            let (sheets, name) = (counted(sheets, "sheet"), look::capital(&name));
-            // Those of the model before stay until the new ones are laid out.
-            if studio.laid().is_none() {
-                ui.label(format!("{sheets} of {name}"));
-                ui.spinner();
-                ui.weak("laying out …");
-            } else {
-                ui.label(format!("{sheets} of {name}, {:.0} % used", 100.0 * layout.utilisation()));
-            }
-            if let Some(most) = studio.exceeded_sheets() {
-                let text = format!("{}  Fit to {most}", look::icon(Icon::Shrink));
-                let can = studio.busy().is_none();
-                let button = ui.add_enabled(can, egui::Button::new(text));
-                let label = commands::FIT_SHEETS.name;
-                button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, can, label));
-                if button.on_hover_text(commands::FIT_SHEETS.tip).clicked() {
-                    studio.fit_sheets();
-                }
-            }
+            // The buttons have their room before the text has the rest.
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                let tip = commands::FIT.hover_text(ui.ctx());
-                let fit =
-                    ui.add_enabled(!self.canvas.is_fitted(), egui::Button::new(look::icon(Icon::Maximize)));
-                fit.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Fit sheets"));
-                if fit.on_hover_text(tip).clicked() {
-                    self.canvas.fit();
-                }
-                edges::button(&mut self.edges, ui);
-                let is_pinned = studio.document().is_some_and(|d| !d.project().pins.is_empty());
-                let name = commands::LAY_OUT.name;
-                if is_pinned && ui.button(name).on_hover_text(commands::LAY_OUT.tip).clicked() {
-                    studio.lay_out_again();
-                }
+                self.buttons(studio, ui);
+                ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                    summary(studio, output, ui);
+                });
             });
         });
         match self.edges.is_on() {
@@ -241,6 +211,31 @@ impl SheetsPanel {
             false => self.piece_bar(studio, ui),
         }
         ui.separator();
+    }
+
+    fn buttons(&mut self, studio: &mut Studio, ui: &mut Ui) {
+        let tip = commands::FIT.hover_text(ui.ctx());
+        let fit = ui.add_enabled(!self.canvas.is_fitted(), egui::Button::new(look::icon(Icon::Maximize)));
+        fit.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Fit sheets"));
+        if fit.on_hover_text(tip).clicked() {
+            self.canvas.fit();
+        }
+        edges::button(&mut self.edges, ui);
+        let is_pinned = studio.document().is_some_and(|d| !d.project().pins.is_empty());
+        let name = commands::LAY_OUT.name;
+        if is_pinned && ui.button(name).on_hover_text(commands::LAY_OUT.tip).clicked() {
+            studio.lay_out_again();
+        }
+        if let Some(most) = studio.exceeded_sheets() {
+            let text = format!("{}  Fit to {most}", look::icon(Icon::Shrink));
+            let can = studio.busy().is_none();
+            let button = ui.add_enabled(can, egui::Button::new(text));
+            let label = commands::FIT_SHEETS.name;
+            button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, can, label));
+            if button.on_hover_text(commands::FIT_SHEETS.tip).clicked() {
+                studio.fit_sheets();
+            }
+        }
     }
 
     fn page(
@@ -339,6 +334,23 @@ impl SheetsPanel {
             self.seen = name;
         }
     }
+}
+
+/// How many sheets there are, and how full they are.
+fn summary(studio: &Studio, output: &Output, ui: &mut Ui) {
+    let layout = output.layout();
+    let sheets = counted(layout.sheet_count(), "sheet");
+    let name = look::capital(&layout.options().paper.name());
+    // Those of the model before stay until the new ones are laid out.
+    let is_current = studio.laid().is_some();
+    let text = match is_current {
+        true => format!("{sheets} of {name}, {:.0} % used", 100.0 * layout.utilisation()),
+        false => format!("{sheets} of {name}, laying out …"),
+    };
+    if !is_current {
+        ui.spinner();
+    }
+    ui.add(egui::Label::new(text).truncate());
 }
 
 /// Why there are no sheets.

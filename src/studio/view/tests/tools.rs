@@ -541,6 +541,12 @@ fn a_narrow_window_has_room_for_the_model_and_for_the_files() {
     desk.run_ok();
     let model = desk.get_by_label("Model in space").rect();
     assert!(model.width() > 250.0 && model.right() < desk.get_by_label("Sheet 1").rect().left(), "{model}");
+    let told = desk.get_by_label_contains("sheets of A4").rect();
+    let edges = desk.get_by_role_and_label(Role::Button, "Cut and glue edges").rect();
+    assert!(told.right() <= edges.left(), "{told} is under {edges}");
+    let [slider, measure] = [(Role::Slider, "folded"), (Role::Button, "Measure")]
+        .map(|(role, name)| desk.get_by_role_and_label(role, name).rect());
+    assert!(!slider.intersects(measure), "{slider} is under {measure}");
     click(&mut desk, "Export");
     let told = desk.get_by_label("PDF at exactly 1:1, one page per sheet, for printing").rect();
     assert!(told.width() > 100.0, "{told}");
