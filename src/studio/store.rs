@@ -64,6 +64,11 @@ impl Store {
         std::fs::create_dir_all(&folder).ok().map(|()| folder)
     }
 
+    /// Whether a file is one that came with the program.
+    pub fn is_sample(&self, file: &Path) -> bool {
+        self.folder.as_ref().is_some_and(|folder| file.starts_with(folder.join("samples")))
+    }
+
     /// The folder of the book, which [`super::book::write`] makes.
     pub fn book(&self) -> Option<PathBuf> {
         Some(self.folder.as_ref()?.join("book"))

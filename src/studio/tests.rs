@@ -106,6 +106,18 @@ fn a_killed_studio_loses_nothing() {
     assert_eq!(again.recent().len(), 1);
 }
 
+/// The field was empty after `tatamu studio teddy.obj`, and what is made of a sample went where nobody finds it.
+#[test]
+fn files_are_written_beside_what_is_open_and_those_of_samples_at_home() {
+    let folder = tempfile::tempdir().unwrap();
+    let studio = Studio::new(Store::at(folder.path()), Arc::new(|| {}));
+    let here = std::env::current_dir().unwrap();
+    assert_eq!(studio.folder_beside(Path::new("teddy.obj")), here);
+    assert_eq!(studio.folder_beside(&here.join("a/b.obj")), here.join("a"));
+    let sample = studio.samples().unwrap().join("teddy.obj");
+    assert_eq!(Some(studio.folder_beside(&sample)), std::env::home_dir());
+}
+
 /// What another session had left unsaved came back over what was saved later.
 #[test]
 fn a_file_that_is_saved_over_has_nothing_to_recover() {

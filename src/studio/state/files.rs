@@ -95,6 +95,17 @@ impl Studio {
         self.store.recovered(path).is_some()
     }
 
+    /// The whole path of the folder in which one writes what is made of a file: beside it, or at home where it is
+    /// a sample, because nobody looks into the folder of those.
+    pub fn folder_beside(&self, source: &Path) -> PathBuf {
+        let home = std::env::home_dir().filter(|_| self.store.is_sample(source));
+        let beside = || {
+            let whole = std::path::absolute(source).unwrap_or_else(|_| source.to_owned());
+            whole.parent().map(Path::to_owned).unwrap_or_default()
+        };
+        home.unwrap_or_else(beside)
+    }
+
     /// A folder for files that come with the program.
     pub fn samples(&self) -> Option<PathBuf> {
         self.store.samples()

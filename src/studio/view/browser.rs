@@ -170,6 +170,13 @@ impl Browser {
         };
         let mut chosen = None;
         let listed: Vec<FolderEntry> = entries.into_iter().filter(|entry| self.is_listed(entry)).collect();
+        if listed.is_empty() {
+            ui.weak(if self.purpose == Purpose::Folder {
+                "no folders in it"
+            } else {
+                "nothing to choose in it"
+            });
+        }
         for entry in &listed {
             let text = if entry.is_file { entry.name.clone() } else { format!("{}/", entry.name) };
             let response = ui.selectable_label(entry.is_file && self.name == entry.name, text);

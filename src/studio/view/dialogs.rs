@@ -6,7 +6,7 @@ use super::commands::{self, Command};
 use super::finder::Finder;
 use super::modal::{self, focus_once};
 use eframe::egui::{self, Context};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
@@ -386,9 +386,4 @@ impl Purpose {
             _ => path,
         }
     }
-}
-
-/// The folder of a file, for a dialog to begin in.
-pub fn folder(path: &Path) -> Option<PathBuf> {
-    path.parent().map(Path::to_owned)
 }

@@ -10,6 +10,7 @@ use crate::app::output::{Target, place};
 use eframe::egui::{self, Ui};
 use lucide_icons::Icon;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use tatamu::export::{FORMATS, Format, GUIDES};
 use tatamu::project::options::{self, Entry};
 
@@ -68,20 +69,21 @@ impl ExportPanel {
     }
 
     /// The folder from which another one is to be chosen in a dialog; once.
-    pub fn wants_folder(&mut self, opened: &Opened) -> Option<PathBuf> {
-        std::mem::take(&mut self.wants_folder).then(|| PathBuf::from(self.place_of(opened).0))
+    pub fn wants_folder(&mut self, studio: &Studio) -> Option<PathBuf> {
+        std::mem::take(&mut self.wants_folder).then(|| PathBuf::from(self.place_of(studio).0))
     }
 
     /// Writes into this folder.
-    pub fn set_folder(&mut self, folder: &Path, opened: &Opened) {
-        self.place = Some((folder.display().to_string(), self.place_of(opened).1));
+    pub fn set_folder(&mut self, folder: &Path, studio: &Studio) {
+        self.place = Some((folder.display().to_string(), self.place_of(studio).1));
     }
 
     /// Folder and stem.
-    fn place_of(&self, opened: &Opened) -> (String, String) {
-        self.place
-            .clone()
-            .unwrap_or_else(|| (folder_of(&opened.source).display().to_string(), opened.title()))
+    fn place_of(&self, studio: &Studio) -> (String, String) {
+        let of_file = |opened: &Arc<Opened>| {
+            (studio.folder_beside(&opened.source).display().to_string(), opened.title())
+        };
+        self.place.clone().or_else(|| studio.opened().map(of_file)).unwrap_or_default()
     }
 
     /// Whether it asks something.
@@ -97,8 +99,10 @@ impl ExportPanel {
     /// Draws the panel; whether what is on the command line alone is to be listed.
     pub fn show(&mut self, studio: &mut Studio, profiles: &mut ProfileChoice, ui: &mut Ui) -> bool {
         let mut is_more_wanted = false;
-        let Some(opened) = studio.opened().cloned() else { return false };
-        let (mut folder, mut stem) = self.place_of(&opened);
+        if studio.opened().is_none() {
+            return false;
+        }
+        let (mut folder, mut stem) = self.place_of(studio);
         ui.heading("Export");
         egui::Grid::new("place").num_columns(2).show(ui, |ui| {
             let label = ui.label("Folder");
@@ -266,12 +270,6 @@ impl ExportPanel {
     }
 }
 
-/// The whole path of the folder that a file is in.
-fn folder_of(source: &Path) -> PathBuf {
-    let whole = std::path::absolute(source).unwrap_or_else(|_| source.to_owned());
-    whole.parent().map(Path::to_owned).unwrap_or_default()
-}
-
 /// The printed guide shares its extension with the sheets.
 fn file_name(stem: &str, format: &Format) -> String {
     let is_other = FORMATS.iter().any(|f| f.name != format.name && f.extensions[0] == format.extensions[0]);
@@ -286,14 +284,6 @@ fn text(ui: &mut Ui, text: &mut String, label: egui::Id, most: f32) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// The field was empty after `tatamu studio teddy.obj`.
-    #[test]
-    fn a_file_with_a_bare_name_is_in_the_current_folder() {
-        let here = std::env::current_dir().unwrap();
-        assert_eq!(folder_of(Path::new("teddy.obj")), here);
-        assert_eq!(folder_of(&here.join("a/b.obj")), here.join("a"));
-    }
 
     #[test]
     fn every_option_of_files_is_read_by_a_format_that_there_is() {

@@ -86,6 +86,9 @@ pub struct Window {
     space: Space,
     sheets: SheetsPanel,
     has_sheets_beside: bool,
+    /// The share of the room that the sheets have beside the model, and the points of that room.
+    sheets_share: f32,
+    room_beside: f32,
     export: ExportPanel,
     plot: PlotPanel,
     parts: parts::PartsPanel,
@@ -112,6 +115,8 @@ impl Window {
             space: Space::default(),
             sheets: SheetsPanel::default(),
             has_sheets_beside: preferences.has_sheets_beside.unwrap_or(true),
+            sheets_share: 0.42,
+            room_beside: 0.0,
             export: ExportPanel::default(),
             plot: PlotPanel::new(&preferences),
             parts: parts::PartsPanel::default(),
@@ -276,8 +281,7 @@ impl Window {
                 if panel.inner {
                     self.dialogs.list_command_line();
                 }
-                let folder = self.studio.opened().and_then(|opened| self.export.wants_folder(opened));
-                if let Some(folder) = folder {
+                if let Some(folder) = self.export.wants_folder(&self.studio) {
                     self.dialogs.ask_file(ui.ctx(), Purpose::Folder, Some(folder), "");
                 }
             }
@@ -295,11 +299,18 @@ impl Window {
     fn model(&mut self, ui: &mut egui::Ui) {
         self.places.sheets = None;
         if self.has_sheets_beside {
-            let width = 0.42 * ui.available_width();
-            let most = (ui.available_width() - LEAST_BESIDE[0]).max(LEAST_SHEETS[0]);
-            let panel = egui::Panel::right("sheets").resizable(true).default_size(width);
-            let panel = panel.size_range(LEAST_SHEETS[0]..=most);
+            let room = ui.available_width();
+            let most = (room - LEAST_BESIDE[0]).max(LEAST_SHEETS[0]);
+            // In a window of another size the sheets keep their share of it.
+            let is_new = std::mem::replace(&mut self.room_beside, room) != room;
+            let width = (self.sheets_share * room).clamp(LEAST_SHEETS[0], most);
+            let sizes = if is_new { width..=width } else { LEAST_SHEETS[0]..=most };
+            let panel = egui::Panel::right("sheets").resizable(true).default_size(width).size_range(sizes);
             let panel = panel.show(ui, |ui| self.sheets.show(&mut self.studio, ui));
+            let dragged_to = panel.response.rect.width();
+            if !is_new && (dragged_to - width).abs() > 1.0 {
+                self.sheets_share = dragged_to / room;
+            }
             self.places.sheets = Some(panel.response.rect);
             context::of_pieces(self, ui, &panel.response);
         }
@@ -371,7 +382,7 @@ impl Window {
             None => {}
             Some(Outcome::Open(path)) => self.open(&path),
             Some(Outcome::Folder(path)) => {
-                self.studio.opened().iter().for_each(|opened| self.export.set_folder(&path, opened));
+                self.export.set_folder(&path, &self.studio);
             }
             Some(Outcome::Profile(path)) => {
                 self.studio.messages_mut().clear(Cause::Opening);
@@ -428,15 +439,15 @@ impl Window {
 
     /// Asks for a file to open.
     fn ask_open(&mut self, ctx: &egui::Context) {
-        let folder = self.studio.opened().and_then(|opened| dialogs::folder(&opened.source));
+        let folder = self.studio.opened().map(|opened| self.studio.folder_beside(&opened.source));
         self.dialogs.ask_file(ctx, Purpose::Open, folder, "");
     }
 
     /// Asks for the name of the project file.
     fn ask_save(&mut self, ctx: &egui::Context) {
         let Some(opened) = self.studio.opened() else { return };
-        let (name, folder) = (format!("{}.toml", opened.title()), dialogs::folder(&opened.source));
-        self.dialogs.ask_file(ctx, Purpose::Save, folder, &name);
+        let (name, folder) = (format!("{}.toml", opened.title()), self.studio.folder_beside(&opened.source));
+        self.dialogs.ask_file(ctx, Purpose::Save, Some(folder), &name);
     }
 
     /// Saves, and asks for a name where there is none.

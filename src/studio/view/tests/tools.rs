@@ -568,3 +568,22 @@ fn the_list_stays_where_it_is_when_a_component_in_it_is_clicked() {
     assert_eq!(desk.state().studio().selection.names(), [names[0].clone()]);
     assert_eq!(place(&desk), before);
 }
+
+/// The sheets kept their points, so that they were tiny in a window that became large.
+#[test]
+fn the_sheets_keep_their_share_of_the_window() {
+    let (mut desk, _folder) = open();
+    let share = |desk: &Desk| {
+        let [sheets, model] =
+            [desk.state().places.sheets, desk.state().places.model].map(|rect| rect.unwrap());
+        sheets.width() / (sheets.width() + model.width())
+    };
+    let before = share(&desk);
+    for size in [[1000.0, 600.0], [800.0, 500.0], [1900.0, 1000.0]] {
+        desk.set_size(size.into());
+        desk.run_ok();
+        // They do not become narrower than their buttons.
+        assert!((share(&desk) - before).abs() < 0.03, "{size:?}: {before} {}", share(&desk));
+    }
+    assert!((share(&desk) - before).abs() < 0.01, "{before} {}", share(&desk));
+}
