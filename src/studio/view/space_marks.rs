@@ -190,38 +190,51 @@ const LEAST_BAR: f32 = 430.0;
 
 /// The slider of the folding with its marks, and what is shown.
 pub fn folding_bar(window: &mut Window, ui: &mut Ui) {
+    let from_right = egui::Layout::right_to_left(egui::Align::Center);
     ui.add_space(4.0);
-    let is_narrow = ui.available_width() < LEAST_BAR;
-    if is_narrow {
-        ui.horizontal(|ui| slider(window, ui));
-    }
-    ui.horizontal(|ui| {
-        let is_playing = window.space.is_playing();
-        let (picture, word) =
-            if is_playing { (look::icon(Icon::Pause), "Pause") } else { (look::icon(Icon::Play), "Fold") };
-        let button = ui.button(format!("{picture}  {word}"));
-        button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, word));
-        if button.on_hover_text(commands::PLAY.hover_text(ui.ctx())).clicked() {
-            commands::PLAY.run(window, ui.ctx());
-        }
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            for (command, is_on) in [
-                (&commands::FIT, false),
-                (&commands::BESIDE, window.has_sheets_beside),
-                (&commands::NAMES, window.space.shows_names()),
-                (&commands::GHOST, window.space.layers().input),
-                (&commands::MEASURE, window.space.measure().is_on()),
-            ] {
-                command.button(window, ui, is_on);
-            }
-            layers(window, ui);
-            if !is_narrow {
+    if ui.available_width() < LEAST_BAR {
+        ui.horizontal(|ui| {
+            play(window, ui);
+            slider(window, ui);
+        });
+        ui.horizontal(|ui| ui.with_layout(from_right, |ui| tools(window, ui)));
+    } else {
+        ui.horizontal(|ui| {
+            play(window, ui);
+            ui.with_layout(from_right, |ui| {
+                tools(window, ui);
                 ui.separator();
                 ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| slider(window, ui));
-            }
+            });
         });
-    });
+    }
     ui.add_space(2.0);
+}
+
+/// Starts and stops the folding.
+fn play(window: &mut Window, ui: &mut Ui) {
+    let is_playing = window.space.is_playing();
+    let (picture, word) =
+        if is_playing { (look::icon(Icon::Pause), "Pause") } else { (look::icon(Icon::Play), "Fold") };
+    let button = ui.button(format!("{picture}  {word}"));
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, word));
+    if button.on_hover_text(commands::PLAY.hover_text(ui.ctx())).clicked() {
+        commands::PLAY.run(window, ui.ctx());
+    }
+}
+
+/// What is shown, and how.
+fn tools(window: &mut Window, ui: &mut Ui) {
+    for (command, is_on) in [
+        (&commands::FIT, false),
+        (&commands::BESIDE, window.has_sheets_beside),
+        (&commands::NAMES, window.space.shows_names()),
+        (&commands::GHOST, window.space.layers().input),
+        (&commands::MEASURE, window.space.measure().is_on()),
+    ] {
+        command.button(window, ui, is_on);
+    }
+    layers(window, ui);
 }
 
 /// How far the model is folded.

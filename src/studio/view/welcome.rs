@@ -1,6 +1,6 @@
 //! What is shown before a file is open: samples and recent files.
 
-use super::{Window, commands, look};
+use super::{Window, commands, focus, look};
 use eframe::egui::{self, Align2, FontId, RichText, TextureHandle, Ui};
 use lucide_icons::Icon;
 use std::path::PathBuf;
@@ -74,8 +74,16 @@ fn texture(ctx: &egui::Context, sample: &Sample) -> TextureHandle {
 
 /// Draws it.
 pub fn show(window: &mut Window, ui: &mut Ui) {
+    let above = 0.10 * ui.available_height();
+    egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        page(window, ui, above);
+        focus::follow(ui);
+    });
+}
+
+fn page(window: &mut Window, ui: &mut Ui, above: f32) {
     ui.vertical_centered(|ui| {
-        ui.add_space(0.10 * ui.available_height());
+        ui.add_space(above);
         ui.heading(RichText::new("tatamu").size(36.0).strong());
         ui.label(RichText::new("turns a mesh into a paper model that folds flat").size(16.0));
         ui.add_space(22.0);

@@ -210,3 +210,23 @@ fn a_long_list_of_keys_has_all_of_the_window() {
     let after = desk.get_by_label("wheel").rect().top();
     assert!(after < before - 100.0, "{before} {after}");
 }
+
+/// In a small window the files that were open before were below its edge.
+#[test]
+fn recent_files_are_reached_in_a_small_window() {
+    let (desk, folder) = open();
+    drop(desk);
+    let mut desk = window(folder.path());
+    desk.set_size(egui::vec2(800.0, 450.0));
+    desk.run_ok();
+    for _ in 0..40 {
+        desk.key_press(Key::Tab);
+        desk.run_ok();
+        if desk.get_by_label("snowman.toml").is_focused() {
+            break;
+        }
+    }
+    desk.run_steps(30);
+    let link = desk.get_by_label("snowman.toml");
+    assert!(link.is_focused() && link.rect().bottom() < 450.0, "{}", link.rect());
+}

@@ -544,9 +544,12 @@ fn a_narrow_window_has_room_for_the_model_and_for_the_files() {
     let told = desk.get_by_label_contains("sheets of A4").rect();
     let edges = desk.get_by_role_and_label(Role::Button, "Cut and glue edges").rect();
     assert!(told.right() <= edges.left(), "{told} is under {edges}");
-    let [slider, measure] = [(Role::Slider, "folded"), (Role::Button, "Measure")]
-        .map(|(role, name)| desk.get_by_role_and_label(role, name).rect());
-    assert!(!slider.intersects(measure), "{slider} is under {measure}");
+    let [fold, slider, show, measure] =
+        [(Role::Button, "Fold"), (Role::Slider, "folded"), (Role::Button, "Show"), (Role::Button, "Measure")]
+            .map(|(role, name)| desk.get_by_role_and_label(role, name).rect());
+    for (one, other) in [(fold, show), (fold, slider), (slider, measure), (show, measure)] {
+        assert!(!one.intersects(other), "{one} is under {other}");
+    }
     click(&mut desk, "Export");
     let told = desk.get_by_label("PDF at exactly 1:1, one page per sheet, for printing").rect();
     assert!(told.width() > 100.0, "{told}");
