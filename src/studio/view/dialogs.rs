@@ -84,8 +84,8 @@ struct SystemDialog {
     purpose: Purpose,
     folder: Option<PathBuf>,
     name: String,
-    answer: Receiver<Option<PathBuf>>,
-    begun: Instant,
+    /// What was chosen, and how long that took.
+    answer: Receiver<(Option<PathBuf>, Duration)>,
 }
 
 impl Dialogs {
@@ -250,15 +250,17 @@ impl SystemDialog {
         let (sender, answer) = channel();
         let wake = ctx.clone();
         std::thread::spawn(move || {
+            // A picture of a busy window may come later than the answer.
+            let begun = Instant::now();
             let chosen = match purpose {
                 Purpose::Open | Purpose::Profile => dialog.pick_file(),
                 Purpose::Save => dialog.save_file(),
                 Purpose::Folder => dialog.pick_folder(),
             };
-            let _ = sender.send(chosen);
+            let _ = sender.send((chosen, begun.elapsed()));
             wake.request_repaint();
         });
-        Self { purpose, folder, name: name.to_owned(), answer, begun: Instant::now() }
+        Self { purpose, folder, name: name.to_owned(), answer }
     }
 
     /// Waits for it; the own dialog is to be opened where the system has none.
@@ -266,11 +268,15 @@ impl SystemDialog {
         modal::new(ctx, "system dialog").show(ctx, |ui| {
             ui.label("Choose a file in the dialog of your desktop.");
         });
+        self.heard()
+    }
+
+    fn heard(&self) -> Option<Answer> {
         match self.answer.try_recv() {
             Err(TryRecvError::Empty) => None,
-            Ok(Some(path)) => Some(Answer::Chosen(self.purpose.with_extension(path))),
-            _ if self.begun.elapsed() < NEVER_SEEN => Some(Answer::Open),
-            _ => Some(Answer::Cancelled),
+            Ok((Some(path), _)) => Some(Answer::Chosen(self.purpose.with_extension(path))),
+            Ok((None, took)) if took >= NEVER_SEEN => Some(Answer::Cancelled),
+            Ok((None, _)) | Err(TryRecvError::Disconnected) => Some(Answer::Open),
         }
     }
 
@@ -385,5 +391,25 @@ impl Purpose {
             Purpose::Save if path.extension().is_none() => path.with_extension("toml"),
             _ => path,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// In a busy window the next picture came after [`NEVER_SEEN`], and no dialog opened at all.
+    #[test]
+    fn the_own_dialog_opens_where_the_system_has_none_however_busy_the_window_is() {
+        let heard = |chosen: Option<&str>, took| {
+            let (sender, answer) = channel();
+            sender.send((chosen.map(PathBuf::from), took)).unwrap();
+            let dialog = SystemDialog { purpose: Purpose::Save, folder: None, name: String::new(), answer };
+            std::thread::sleep(2 * NEVER_SEEN);
+            dialog.heard()
+        };
+        assert_eq!(heard(None, NEVER_SEEN / 10), Some(Answer::Open));
+        assert_eq!(heard(None, NEVER_SEEN), Some(Answer::Cancelled));
+        assert_eq!(heard(Some("a"), NEVER_SEEN), Some(Answer::Chosen(PathBuf::from("a.toml"))));
     }
 }
