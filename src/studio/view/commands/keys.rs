@@ -2,7 +2,7 @@
 
 use super::super::Window;
 use super::all;
-use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers};
+use eframe::egui::{Context, Key, KeyboardShortcut, Modifiers, Popup};
 
 pub(super) const fn key(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::NONE, key)
@@ -48,12 +48,15 @@ pub fn heed(window: &mut Window, ctx: &Context) {
         let is_plain = !keys.modifiers.command;
         // A text that is being written has its own undo.
         let is_of_text = matches!(keys.logical_key, Key::Z | Key::Y | Key::A);
+        // It closes a menu first.
+        let is_of_menu = keys.logical_key == Key::Escape && Popup::is_any_open(ctx);
         let is_of_widgets = is_plain
             && matches!(
                 keys.logical_key,
                 Key::Space | Key::ArrowLeft | Key::ArrowRight | Key::ArrowUp | Key::ArrowDown
             );
-        if (writes && (is_plain || is_of_text)) || (is_focused && is_of_widgets) || !command.can(window) {
+        let is_taken = (writes && (is_plain || is_of_text)) || (is_focused && is_of_widgets) || is_of_menu;
+        if is_taken || !command.can(window) {
             continue;
         }
         if ctx.input_mut(|i| i.consume_shortcut(keys)) {

@@ -112,6 +112,20 @@ fn what_is_typed_into_a_dialog_is_no_command() {
 }
 
 /// It did nothing: the field had the focus again before anyone saw that the key had taken it.
+/// It selected nothing, and the menu stayed open.
+#[test]
+fn escape_closes_a_menu_before_it_is_a_command() {
+    let (mut desk, _folder) = open();
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    desk.run_ok();
+    click(&mut desk, "Edit");
+    assert!(desk.query_by_label("Lay out again").is_some());
+    desk.key_press(Key::Escape);
+    desk.run_ok();
+    assert!(desk.query_by_label("Lay out again").is_none(), "it is closed");
+    assert_eq!(desk.state().studio().selection.names().len(), 3);
+}
+
 /// Keys were commands behind this question: Escape selected nothing, and M merged parts.
 #[test]
 fn keys_are_no_commands_while_files_are_about_to_be_replaced() {
