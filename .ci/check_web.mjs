@@ -104,7 +104,9 @@ const browser = await puppeteer.launch({
 });
 const page = await browser.newPage();
 page.on("console", (message) => faults.push(`console: ${message.text()}`));
-page.on("dialog", (dialog) => dialog.accept());
+const questions = [];
+let answer = true;
+page.on("dialog", (dialog) => { questions.push(dialog.message()); return answer ? dialog.accept() : dialog.dismiss(); });
 page.on("pageerror", (error) => faults.push(`error: ${error.message}`));
 page.on("request", (request) => {
   if (!/^(http:\/\/127\.0\.0\.1|blob:|data:)/.test(request.url())) faults.push(`request: ${request.url().slice(0, 200)}`);
@@ -115,7 +117,8 @@ rmSync(downloads, { recursive: true, force: true });
 mkdirSync(downloads, { recursive: true });
 await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: downloads });
 
-// A plotter with a buffer of 1024 bytes that answers as HP-GL says. What it gets is kept.
+// A plotter with a buffer of 1024 bytes that answers as HP-GL says. What it gets is kept. It can have a line with noise,
+// take nothing more, and be unplugged.
 await page.evaluateOnNewDocument(() => {
   const got = (globalThis.got = { text: "", opened: 0 });
   const answers = { B: "1024", L: "1024", E: "0", O: "0" };
@@ -123,10 +126,18 @@ await page.evaluateOnNewDocument(() => {
     async open(options) {
       got.options = options;
       got.opened += 1;
-      let give;
-      this.readable = new ReadableStream({ start(controller) { give = (text) => controller.enqueue(new TextEncoder().encode(`${text}\r`)); } });
+      let reading;
+      const give = (text) => reading.enqueue(new TextEncoder().encode(`${text}\r`));
+      const listen = () => { this.readable = new ReadableStream({ start(controller) { reading = controller; } }); };
+      listen();
+      got.fault = (name) => {
+        const last = reading;
+        if (name === "FramingError") listen(); else this.readable = null;
+        last.error(new DOMException(name, name));
+      };
       this.writable = new WritableStream({
-        write(bytes) {
+        async write(bytes, controller) {
+          if (got.isStuck) return new Promise((_, failed) => controller.signal.addEventListener("abort", failed));
           const text = new TextDecoder().decode(bytes);
           got.text += text;
           for (const [, letter] of text.matchAll(/\x1b\.([A-Z])/g)) if (answers[letter]) give(answers[letter]);
@@ -163,12 +174,13 @@ const download = async (label) => {
   await page.click("#downloads > summary");
   await page.evaluate((label) => [...document.querySelectorAll("#formats button")].find((button) => button.querySelector("b").textContent === label).click(), label);
 };
-const drop = (name) => page.evaluate(async (name) => {
-  const bytes = await (await fetch(`samples/${name}`)).arrayBuffer();
+const dropBytes = (name, bytes) => page.evaluate((name, text) => {
   const given = new DataTransfer();
-  given.items.add(new File([bytes], name));
+  given.items.add(new File([Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0))], name));
   dispatchEvent(new DragEvent("drop", { dataTransfer: given, bubbles: true, cancelable: true }));
-}, name);
+}, name, Buffer.from(bytes).toString("base64"));
+const drop = (name) => dropBytes(name, readFileSync(join("samples", name)));
+const problem = () => page.$eval("#problem", (p) => (p.hidden ? "" : p.textContent));
 
 // As a browser of this language.
 const tab = await page.createCDPSession();
@@ -274,6 +286,46 @@ if (project) {
   expect(await page.$eval("#parts [role=option]", (option) => option.textContent.includes("tummy")), "the project comes back");
 }
 
+// What is open stays, where another file is none, and where the user wants to keep changes.
+const title = () => page.$eval("#title", (h2) => h2.textContent);
+const setSize = (mm) => page.$eval('[id="model-rows-.size"]', (input, mm) => { input.value = mm; input.dispatchEvent(new Event("change")); }, mm);
+await setSize(150);
+await pause(300);
+await until("the smaller model is finished", isDone);
+answer = false;
+await drop("box.obj");
+await pause(300);
+expect(questions.splice(0).length === 1 && (await title()) === "teddy", `changes are kept: ${await title()}`);
+answer = true;
+await drop("teddy.png");
+await until("a picture is no mesh", () => document.getElementById("problem").textContent.includes("teddy.png"));
+expect((await title()) === "teddy", `still open: ${await title()}`);
+await page.click("#undo");
+await pause(300);
+await until("a step is undone after a file that is none", isDone);
+expect((await problem()) === "", `after a file that is none: ${await problem()}`);
+questions.length = 0;
+
+// A value that is refused gives way to the one that holds; what is in a project file is not asked about.
+await setSize(-5);
+await until("a size below zero is refused", () => !document.getElementById("problem").hidden);
+expect(Number(await page.$eval('[id="model-rows-.size"]', (input) => input.value)) > 0, "a refused size is not left in its field");
+await page.click("#redo");
+await pause(300);
+await until("the smaller model is finished again", isDone);
+const firstProject = readFileSync(project);
+rmSync(project);
+await download("toml");
+await downloaded("teddy.toml");
+await drop("teddy.obj");
+await pause(300);
+await until("teddy is opened anew", isDone);
+expect(questions.length === 0, `asked about saved changes: ${questions}`);
+writeFileSync(project, firstProject);
+await (await page.$("#file")).uploadFile(project, join(downloads, "teddy.obj"));
+await pause(500);
+await until("the project is open once more", isDone);
+
 // Cancel, which keeps what can be undone.
 const size = () => page.$eval('[id="model-rows-.size"]', (input) => Number(input.value));
 const sized = await size();
@@ -364,6 +416,9 @@ await page.select("#medium", "pen");
 await until("the job is ready", () => !document.getElementById("job-start").disabled && document.getElementById("job-note").textContent.includes("stroke"));
 expect((await page.$$("#job option")).length > 1, "each sheet is a job");
 await picture("plot");
+await page.click("#job-save");
+const saved = await downloaded("box-1.plt");
+expect(saved && readFileSync(saved, "latin1").includes("PD"), "a job is saved as a file of its machine");
 const status = () => page.$eval("#job-status", (p) => p.textContent);
 await page.click("#job-start");
 await until("strokes are drawn", () => /: [1-9]\d* of/.test(document.getElementById("job-status").textContent), 30);
@@ -384,6 +439,29 @@ await page.click("#job-start");
 await until("the job is finished", () => document.getElementById("job-status").textContent === "finished", 120);
 expect(await page.evaluate(() => got.opened === 2 && got.options.baudRate === 9600), "the port is opened as the machine needs");
 figure("stopped job", stopped);
+
+// Two clicks are one job. Noise on the line does not end it; a page that is left asks first. After a port was unplugged
+// the job goes on, in a dialog that was closed as well. A port that takes nothing more is given up.
+const draws = () => /: [1-9]\d* of/.test(document.getElementById("job-status").textContent);
+await page.evaluate(() => { for (let k = 0; k < 2; k += 1) document.getElementById("job-start").click(); });
+await until("strokes are drawn again", draws, 30);
+await page.evaluate(() => got.fault("FramingError"));
+await pause(300);
+expect(await page.evaluate(() => got.opened === 3), `two clicks open one port: ${await page.evaluate(() => got.opened - 2)}`);
+expect((await status()).startsWith("sending"), `after noise on the line: ${await status()}`);
+expect(await page.evaluate(() => !dispatchEvent(new Event("beforeunload", { cancelable: true }))), "a page that plots is not left without a question");
+await page.evaluate(() => got.fault("NetworkError"));
+await until("a job ends with its port", () => document.getElementById("job-start").textContent === "Continue", 20);
+const unplugged = await status();
+await page.click("#plotting-close");
+await page.click("#plot");
+await until("the job can go on", () => !document.getElementById("job-start").disabled && document.getElementById("job-start").textContent === "Continue", 20);
+figure("unplugged", `${unplugged}; then: ${await status()}`);
+await page.click("#job-start");
+await until("the job goes on after it was unplugged", draws, 30);
+await page.evaluate(() => { got.isStuck = true; });
+await page.evaluate(() => { for (let k = 0; k < 3; k += 1) document.getElementById("job-stop").click(); });
+await until("a port that takes nothing is given up", () => document.getElementById("job-stop").disabled, 20);
 await page.click("#plotting-close");
 
 // Without a network.
@@ -401,9 +479,16 @@ await page.waitForSelector("#samples button");
 await page.evaluate(() => [...document.querySelectorAll("#samples button")].find((button) => button.textContent === "snowman").click());
 await until("a sample is made on a phone", isDone);
 await pause(700);
-const overflow = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+// The window of a phone grows with what is too wide for it.
+const overflow = () => page.evaluate(() => Math.max(document.documentElement.scrollWidth, innerWidth) - 390);
 expect((await overflow()) <= 0, `the work is ${await overflow()} px too wide for a phone`);
 await picture("phone");
+await page.click("#downloads > summary");
+const list = await page.$eval("#formats", (list) => { const { left, right } = list.getBoundingClientRect(); return [left, right]; });
+expect(list[0] >= 0 && list[1] <= 390, `the list of downloads is on a phone's screen: ${list}`);
+await picture("phone-downloads");
+await page.keyboard.press("Escape");
+expect(await page.$eval("#downloads", (menu) => !menu.open), "Escape closes the list of downloads");
 await page.evaluate(() => scrollTo(0, 900));
 await picture("phone-below");
 await page.click("#sheet-rows input[type=checkbox]");

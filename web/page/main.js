@@ -23,9 +23,11 @@ const say = text => { by('said').textContent = text; };
 
 // ---- The two workers.
 
-const files = new Map();
+let files = new Map();
 let opened = null, told = null, kept = null, choices = null, module = null;
 let work = null, number = 0;
+// What the worker does beside the model, in words.
+let aside = null;
 const answers = new Map();
 
 async function compiled() {
@@ -55,9 +57,9 @@ function ask(call, ...args) {
   return new Promise((done, failed) => answers.set(number, { done, failed }));
 }
 
-// Does something that may be refused.
+// Does something that may be refused; whether it was done.
 function act(call, ...args) {
-  ask(call, ...args).catch(problem);
+  return ask(call, ...args).then(() => true, error => { problem(error); return false; });
 }
 
 const heard = ({ data }) => {
@@ -68,6 +70,7 @@ const heard = ({ data }) => {
     const { done, failed } = answers.get(data.answer);
     answers.delete(data.answer);
     if (data.error) failed(data.error); else done(data.result);
+    if (data.isDead) revive();
   } else if (data.stage) {
     by('stage').textContent = data.stage;
     by('progress').removeAttribute('value');
@@ -75,6 +78,7 @@ const heard = ({ data }) => {
     by('progress').value = data.fraction;
   } else if (data.problem) {
     problem(data.problem);
+    if (data.isDead) revive();
   } else if (data.told) {
     if (data.history) kept = data.history;
     show(data.told);
@@ -86,6 +90,32 @@ function problem(text) {
   const place = by('work').hidden ? by('welcome-problem') : by('problem');
   place.textContent = text;
   place.hidden = false;
+}
+
+// Another worker in the place of one that cannot go on; it has the same history.
+async function replace(isWanted) {
+  work.terminate();
+  for (const { failed } of answers.values()) failed('stopped');
+  answers.clear();
+  await hire();
+  if (!opened) return;
+  const selected = (told?.parts ?? []).filter(part => part.is_selected).map(part => part.key);
+  await ask('open', [...files], opened, navigator.language, kept, selected, isWanted).catch(problem);
+}
+async function revive() {
+  await replace(false);
+  if (told) show({ ...told, is_busy: false });
+  problem('There is not enough memory for this, or tatamu has a fault. Your changes are kept; the next one starts the work again.');
+}
+
+// What goes on is seen where it was asked for.
+function showBusy(text = aside) {
+  if (text !== aside) by('stage').textContent = text;
+  aside = text;
+  const place = by('work').hidden ? by('drop') : by('frame');
+  // What is moved loses the keyboard.
+  if (by('busy').parentElement !== place) place.append(by('busy'));
+  by('busy').hidden = !aside && !told?.is_busy;
 }
 
 const compiling = compiled().catch(error => problem(`tatamu could not be loaded: ${error.message}`));
@@ -100,7 +130,10 @@ const hired = compiling.then(async made => {
   }
   const project = element('button', {}, element('b', { textContent: 'toml' }), element('small', { textContent: 'the project file, to go on later here or with the program' }));
   project.onclick = saveProject;
+  const job = element('button', {}, element('b', { textContent: 'plt gcode' }), element('small', { textContent: 'a sheet as a job for your machine' }));
+  job.onclick = () => { by('downloads').open = false; by('plot').click(); };
   by('formats').prepend(project);
+  by('formats').append(job);
   choices.axes.forEach((name, k) => by('axis').append(element('option', { value: k, textContent: name })));
   choices.machines.forEach(({ profile, name }) => by('machine').append(element('option', { value: profile, textContent: name })));
   choices.media.forEach(name => by('medium').append(element('option', { value: name, textContent: name })));
@@ -111,28 +144,47 @@ const hired = compiling.then(async made => {
 const isProject = name => /\.toml$/i.test(name);
 const isMesh = name => /\.(obj|stl|ply|off|gltf|glb|3mf)$/i.test(name);
 
-async function take(list) {
-  const given = [...list];
-  for (const file of given) files.set(file.name, new Uint8Array(await file.arrayBuffer()));
-  const main = given.find(file => isProject(file.name)) ?? given.find(file => isMesh(file.name)) ?? given[0];
-  // A mesh that a project waits for is not opened by itself.
-  const name = waiting && isMesh(main?.name ?? '') ? waiting : main?.name;
-  if (name) await open(name);
-}
+// A project that waits for its mesh, and the files that came with it.
 let waiting = null;
 
-async function open(name) {
+async function take(list) {
+  const given = new Map();
+  try {
+    for (const file of list) given.set(file.name, new Uint8Array(await file.arrayBuffer()));
+  } catch {
+    problem('A folder or a file cannot be read; choose the files in it.');
+    return;
+  }
+  const names = [...given.keys()];
+  const name = names.find(isProject) ?? names.find(isMesh) ?? names[0];
+  if (!name) return;
+  if (told?.is_changed && !confirm(`Open ${name}? Unsaved changes of ${told.title} are lost.`)) return;
+  // A mesh that a project waits for is not opened by itself, unless the project waits for another one.
+  const { project, beside } = waiting ?? {};
+  if (project && isMesh(name) && await open(project, new Map([...beside, ...given]))) return;
+  await open(name, given);
+}
+
+async function open(name, given) {
+  showBusy(`reading ${name}`);
+  const isOpen = await read(name, given);
+  showBusy(null);
+  return isOpen;
+}
+
+async function read(name, given) {
   for (const place of [by('welcome-problem'), by('problem')]) place.textContent = '';
   by('problem').hidden = true;
   await hired;
+  const all = new Map([...files, ...given]);
   try {
-    await ask('open', [...files], name, navigator.language);
+    await ask('open', [...all], name, navigator.language);
   } catch (error) {
-    waiting = isProject(name) ? name : null;
+    waiting = isProject(name) ? { project: name, beside: given } : null;
     problem(waiting ? `${error} Choose that file as well.` : error);
     return false;
   }
-  [opened, waiting, told, seenSize] = [name, null, null, undefined];
+  [files, opened, waiting, told, seenSize] = [all, name, null, null, undefined];
   by('welcome').hidden = true;
   by('work').hidden = by('bar').hidden = false;
   by('sheets').replaceChildren();
@@ -141,8 +193,8 @@ async function open(name) {
   by('mesh').checked = false;
   view.postMessage({ what: 'reset' });
   measure();
-  await ask('run');
-  return true;
+  showBusy();
+  return act('run');
 }
 
 by('choose').onclick = by('new').onclick = () => by('file').click();
@@ -155,8 +207,8 @@ for (const name of SAMPLES) {
   const picture = element('img', { src: `samples/cards/${stem}.png`, alt: '', width: 90, height: 90 });
   const button = element('button', {}, picture, stem.replace('-', ' '));
   button.onclick = async () => {
-    files.set(name, new Uint8Array(await (await fetch(`samples/${name}`)).arrayBuffer()));
-    open(name);
+    const bytes = new Uint8Array(await (await fetch(`samples/${name}`)).arrayBuffer());
+    open(name, new Map([[name, bytes]]));
   };
   by('samples').append(button);
 }
@@ -167,7 +219,8 @@ addEventListener('drop', event => {
   document.body.classList.remove('over');
   take(event.dataTransfer.files);
 });
-addEventListener('beforeunload', event => { if (told?.is_changed) event.preventDefault(); });
+// A page that goes away leaves a machine with its tool down.
+addEventListener('beforeunload', event => { if (told?.is_changed || live) event.preventDefault(); });
 
 // ---- What is told.
 
@@ -181,7 +234,7 @@ function show(now) {
   if (now.is_busy) sight.clash = undefined;
   by('title').textContent = now.title;
   document.title = `${now.title} – tatamu`;
-  by('busy').hidden = !now.is_busy;
+  showBusy();
   if (now.is_busy && !wasBusy) by('problem').hidden = true;
   if (wasBusy && !now.is_busy && now.facts) say(`${now.title} is ready: ${counted(now.facts.components, 'component')} on ${counted(now.facts.sheets, 'sheet')}`);
   for (const [id, label] of [['undo', now.undo], ['redo', now.redo]]) {
@@ -189,10 +242,11 @@ function show(now) {
     by(id).title = label ? `${id} ${label}` : '';
   }
   const f = now.facts;
+  if (wasBusy && !now.is_busy && by('plotting').open && !live) prepare();
   by('facts').textContent = f ? `${f.size} · ${counted(f.components, 'component')}, ${counted(f.pieces, 'piece')}, ${counted(f.sheets, 'sheet')} of ${f.paper} · work ${f.work}${f.order?.length > 1 ? ` · folds in the order ${f.order.join(', ')}` : ''}` : '';
   const set = component => (row, value, isGesture) => {
     stopPlaying(0);
-    act('set', row.option, JSON.stringify(value), component, isGesture);
+    return act('set', row.option, JSON.stringify(value), component, isGesture);
   };
   const end = () => act('end_gesture');
   rows(by('model-rows'), now.model, set(), end);
@@ -211,8 +265,8 @@ function show(now) {
   if (one && !now.is_drawn) {
     const name = { option: 'name', label: 'Name', tip: 'printed on the pieces', kind: 'name', value: one.name };
     rows(by('own-rows'), [name, ...one.rows], (row, value, isGesture) => {
-      if (row.option === 'name') act('rename', one.key, value);
-      else set(one.key)(row, value, isGesture);
+      if (row.option === 'name') return act('rename', one.key, value);
+      return set(one.key)(row, value, isGesture);
     }, end);
   } else if (sight.axis !== undefined) {
     endSplit();
@@ -390,9 +444,15 @@ canvas.onkeydown = event => {
   event.preventDefault();
 };
 addEventListener('keydown', event => {
-  const isText = /^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName) && event.target.type !== 'range';
-  if (isText || !(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== 'z') return;
-  act(event.shiftKey ? 'redo' : 'undo');
+  // What is written has steps of its own.
+  const isText = event.target.matches('input[type=number], input[type=text]');
+  const key = event.key.toLowerCase();
+  if (key === 'escape' && by('downloads').open) {
+    by('downloads').open = false;
+    by('downloads').firstElementChild.focus();
+  }
+  if (isText || !opened || by('plotting').open || !(event.ctrlKey || event.metaKey) || !['z', 'y'].includes(key)) return;
+  act(key === 'y' || event.shiftKey ? 'redo' : 'undo');
   event.preventDefault();
 });
 
@@ -465,23 +525,19 @@ by('split-here').onclick = () => { act('split', sight.axis, sight.share); endSpl
 // worker goes on with the same history.
 by('cancel').onclick = async () => {
   // A model that was whole while a size was searched for stays.
-  const isWhole = Boolean(told.facts?.order);
+  const isWhole = Boolean(told?.facts?.order);
   const isHeard = ask('stop').then(() => true, () => true);
   if (!await Promise.race([isHeard, new Promise(done => setTimeout(() => done(false), PATIENCE))])) {
-    work.terminate();
-    for (const { failed } of answers.values()) failed('stopped');
-    answers.clear();
-    await hire();
-    const selected = told.parts.filter(part => part.is_selected).map(part => part.key);
-    await ask('open', [...files], opened, navigator.language, kept, selected, isWhole).catch(problem);
+    await replace(isWhole);
     if (isWhole) {
-      say('stopped; the size stays');
+      say('stopped; the model stays');
       act('run');
       return;
     }
   }
-  show({ ...told, is_busy: false });
   say('stopped');
+  if (!told) return;
+  show({ ...told, is_busy: false });
   problem('Stopped; the next change starts it again.');
 };
 
@@ -496,35 +552,44 @@ async function download(format) {
   by('downloads').open = false;
   by('problem').hidden = true;
   say('writing');
+  showBusy(`writing ${format}`);
   try {
     for (const file of await ask('export', format)) save(file.name, [file.bytes]);
     say('written');
   } catch (error) {
     problem(error);
+  } finally {
+    showBusy(null);
   }
 }
 async function saveProject() {
   by('downloads').open = false;
-  save(`${told.title}.toml`, [await ask('project')], 'application/toml');
+  const name = `${told.title}.toml`;
+  save(name, [await ask('save', name)], 'application/toml');
 }
 addEventListener('click', event => { if (!by('downloads').contains(event.target)) by('downloads').open = false; });
 
 // ---- Machines.
 
-let jobs = [], live = null, done = 0, preparing = 0;
+let jobs = [], live = null, preparing = 0;
+// The job that was stopped, and its strokes that are done.
+let stopped = { bytes: '', done: 0 };
+const strokesDone = () => (stopped.bytes === chosen()?.bytes ? stopped.done : 0);
 const chosen = () => jobs[Number(by('job').value)];
 
 // What is chosen last counts.
 async function prepare() {
   number += 1;
   const own = (preparing = number);
-  by('job-start').disabled = true;
+  by('job-start').disabled = by('job-save').disabled = true;
   by('job-status').textContent = 'preparing the job';
   try {
     const made = await ask('jobs', by('machine').value, by('medium').value);
     if (own !== preparing) return;
+    const last = by('job').value;
     jobs = made;
     by('job').replaceChildren(...jobs.map((job, k) => element('option', { value: k, textContent: job.name })));
+    if (last < jobs.length) by('job').value = last;
     ready();
   } catch (error) {
     if (own !== preparing) return;
@@ -533,14 +598,16 @@ async function prepare() {
     by('job-note').textContent = '';
     by('job-status').textContent = error;
   }
+  by('job-save').disabled = !jobs.length;
   by('job-start').disabled = !jobs.length || !navigator.serial;
 }
 function ready() {
-  done = 0;
-  by('job-progress').value = 0;
-  by('job-start').textContent = 'Start';
+  const done = strokesDone();
+  by('job-progress').value = done ? done / chosen().strokes : 0;
+  by('job-start').textContent = done ? 'Continue' : 'Start';
   by('job-note').textContent = [chosen()?.summary, ...(chosen()?.notes ?? [])].join('. ');
-  by('job-status').textContent = 'Load the sheet, then start.';
+  by('job-status').textContent = done ? `${done} of ${chosen().strokes} strokes are done. Leave the sheet, then continue.` : 'Load the sheet, then start.';
+  by('job-told').textContent = '';
 }
 by('plot').onclick = () => {
   by('no-serial').hidden = Boolean(navigator.serial);
@@ -549,6 +616,7 @@ by('plot').onclick = () => {
 };
 by('machine').onchange = by('medium').onchange = prepare;
 by('job').onchange = ready;
+by('job-save').onclick = () => save(`${told.title}-${Number(by('job').value) + 1}.${chosen().extension}`, [chosen().bytes]);
 by('plotting-close').onclick = () => by('plotting').close();
 
 function follow(step) {
@@ -557,21 +625,26 @@ function follow(step) {
   const time = left < 60 ? `${left} s` : `${Math.floor(left / 60)} min`;
   const text = `${step.doing}: ${step.strokes_done} of ${step.strokes} strokes, ${time} left`;
   if (by('job-status').textContent !== text) by('job-status').textContent = text;
+  if (step.notes.length) by('job-told').textContent = step.notes.at(-1);
 }
 function during(isLive) {
   for (const id of ['machine', 'medium', 'job', 'job-start', 'plotting-close']) by(id).disabled = isLive;
-  for (const id of ['job-pause', 'job-stop']) by(id).disabled = !isLive;
+  for (const id of ['job-pause', 'job-stop']) by(id).disabled = true;
   by('job-pause').textContent = 'Pause';
+  by('job-stop').textContent = 'Stop';
 }
 by('job-start').onclick = async () => {
+  const job = chosen();
+  // A second click, or another job, must not reach the port while it opens.
+  during(true);
   try {
     const port = await navigator.serial.requestPort();
-    live = await plot(module, by('machine').value, chosen(), done, port, follow);
-    during(true);
+    live = await plot(module, by('machine').value, job, strokesDone(), port, follow);
+    for (const id of ['job-pause', 'job-stop']) by(id).disabled = false;
     const last = await live.end;
-    done = last.is_finished ? 0 : last.strokes_done;
-    by('job-status').textContent = last.is_finished ? 'finished' : `${last.problem}; ${done} of ${last.strokes} strokes are done`;
-    by('job-start').textContent = last.is_finished ? 'Start' : 'Continue';
+    stopped = { bytes: job.bytes, done: last.is_finished ? 0 : last.strokes_done };
+    by('job-status').textContent = last.is_finished ? 'finished' : `${last.problem}; ${last.strokes_done} of ${last.strokes} strokes are done`;
+    by('job-start').textContent = stopped.done ? 'Continue' : 'Start';
   } catch (error) {
     by('job-status').textContent = `The port cannot be used: ${error.message ?? error}`;
   }
@@ -583,8 +656,12 @@ by('job-pause').onclick = () => {
   if (isPaused) live?.goOn(); else live?.pause();
   by('job-pause').textContent = isPaused ? 'Pause' : 'Go on';
 };
-by('job-stop').onclick = () => live?.stop();
-by('plotting').addEventListener('cancel', event => { if (live) event.preventDefault(); });
+by('job-stop').onclick = () => {
+  live?.stop();
+  by('job-stop').textContent = 'Stop without waiting';
+};
+// Escape ends a dialog in spite of all, but not the job in it.
+by('plotting').addEventListener('close', () => { if (by('plotting-close').disabled) by('plotting').showModal(); });
 
 // ---- Without a network.
 

@@ -10,20 +10,23 @@ export async function plot(module, profile, job, done, port, tell) {
   const plotter = new Plotter(profile, job.bytes, new Uint32Array(job.turns), done);
   await port.open(JSON.parse(plotter.serial()));
   const writer = port.writable.getWriter();
-  const reader = port.readable.getReader();
-  let queued = 0, isOver = false;
+  let reader, queued = 0, isOver = false;
+  // Noise on the line ends a stream of the port, which then has another one; a port that is gone has none.
   const listen = async () => {
-    try {
-      for (;;) {
-        const { value, done } = await reader.read();
-        if (done || isOver) break;
-        plotter.received(value);
-      }
-    } catch {
-      if (!isOver) plotter.port_lost();
+    for (let isOpen = true; isOpen && port.readable && !isOver;) {
+      reader = port.readable.getReader();
+      try {
+        for (let got = await reader.read(); (isOpen = !got.done) && !isOver; got = await reader.read()) plotter.received(got.value);
+      } catch {}
+      reader.releaseLock();
     }
+    if (!isOver) plotter.port_lost();
   };
   const listening = listen();
+  // A computer that falls asleep leaves the tool on the paper.
+  const awake = await navigator.wakeLock?.request('screen').catch(() => null);
+  const clock = new Worker('clock.js', { type: 'module' });
+  const wait = ms => new Promise(next => { clock.onmessage = next; clock.postMessage(ms); });
   const start = performance.now();
   const run = async () => {
     for (;;) {
@@ -35,17 +38,19 @@ export async function plot(module, profile, job, done, port, tell) {
         queued += bytes.length;
         writer.write(bytes).then(() => { queued -= bytes.length; }, () => plotter.port_lost());
       } else {
-        await new Promise(next => setTimeout(next, Math.min(step.wait_ms, LOOK)));
+        await wait(Math.min(step.wait_ms, LOOK));
       }
     }
   };
   const finish = async () => {
     const last = await run();
     isOver = true;
-    await writer.ready.catch(() => {});
+    clock.terminate();
+    awake?.release().catch(() => {});
+    // What the port does not take is not waited for.
+    if (queued) writer.abort().catch(() => {});
     await reader.cancel().catch(() => {});
     await listening;
-    reader.releaseLock();
     writer.releaseLock();
     await port.close().catch(() => {});
     return last;

@@ -1,15 +1,17 @@
 // Settings as rows: a label and its control. What is being edited keeps its control.
 
-function control(row, set, end) {
+function control(row, give, end) {
+  // What is refused gives way to what holds.
+  const set = async (input, value, isGesture) => { if (!await give(input.row, value, isGesture)) fill(input, input.row, null); };
   if (row.kind === 'switch') {
     const box = Object.assign(document.createElement('input'), { type: 'checkbox' });
-    box.onchange = () => set(box.row, box.checked, false);
+    box.onchange = () => set(box, box.checked, false);
     return box;
   }
   if (row.kind === 'text' && !row.takes_other) {
     const list = document.createElement('select');
     list.append(...row.names.map(name => Object.assign(document.createElement('option'), { value: name, textContent: name })));
-    list.onchange = () => set(list.row, list.value, false);
+    list.onchange = () => set(list, list.value, false);
     return list;
   }
   const field = document.createElement('input');
@@ -17,19 +19,19 @@ function control(row, set, end) {
   if (row.kind === 'number') {
     field.step = row.digits > 0 ? 'any' : 1;
     // Each key that is pressed, or each click of the arrows, is part of one gesture.
-    field.onchange = () => { if (field.value !== '') set(field.row, Number(field.value), true); };
+    field.onchange = () => (field.value === '' ? fill(field, field.row, null) : set(field, Number(field.value), true));
     field.onblur = end;
   } else {
-    field.onchange = () => set(field.row, field.value, false);
+    field.onchange = () => set(field, field.value, false);
   }
   return field;
 }
 
-function fill(input, row) {
+function fill(input, row, edited = document.activeElement) {
   input.row = row;
   if (row.kind === 'switch') {
     input.checked = row.value;
-  } else if (document.activeElement !== input) {
+  } else if (edited !== input) {
     const value = row.value ?? row.such_as ?? '';
     input.value = row.kind === 'number' ? Number(Number(value).toFixed(row.digits + 1)) : value;
   }
@@ -40,7 +42,8 @@ function fill(input, row) {
   }
 }
 
-/// Shows the rows; `set` takes the row, a value or null, and whether it is part of a gesture that `end` ends.
+/// Shows the rows; `set` takes the row, a value or null, and whether it is part of a gesture that `end` ends; it
+/// tells whether the value was accepted.
 export function rows(place, list, set, end) {
   const wanted = list.map(row => row.option).join();
   place.set = set;

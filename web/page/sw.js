@@ -1,9 +1,12 @@
-// Keeps the page usable without a network: all of its files, and nothing else. web/build fills these in.
+// Keeps the page usable without a network: all of its files, and nothing else. web/build fills these in. A new version
+// waits until no page of the old one is open, because their workers load files later.
 const CACHE = 'tatamu-__VERSION__';
 const FILES = ['./', __FILES__];
 
 addEventListener('install', event => {
-  event.waitUntil(caches.open(CACHE).then(cache => cache.addAll(FILES)).then(() => skipWaiting()));
+  // Asked for again, because a copy that the browser still has may be of another version.
+  const fresh = FILES.map(file => new Request(file, { cache: 'no-cache' }));
+  event.waitUntil(caches.open(CACHE).then(cache => cache.addAll(fresh)));
 });
 
 addEventListener('activate', event => {
@@ -15,5 +18,5 @@ addEventListener('activate', event => {
 addEventListener('fetch', event => {
   const url = new URL(event.request.url);
   if (event.request.method !== 'GET' || url.origin !== location.origin) return;
-  event.respondWith(caches.match(event.request, { ignoreSearch: true }).then(kept => kept ?? fetch(event.request)));
+  event.respondWith(caches.match(event.request, { cacheName: CACHE, ignoreSearch: true }).then(kept => kept ?? fetch(event.request)));
 });

@@ -16,6 +16,8 @@ globalThis.tatamu = {
   is_cancelled: () => false,
 };
 
+// After a trap, such as for want of memory, an instance of the program cannot go on.
+const isDead = error => error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
 const text = error => (typeof error === 'string' ? error : String(error?.message ?? error));
 
 function show() {
@@ -27,7 +29,7 @@ function tell() {
   const now = JSON.parse(desk.told());
   const message = { told: now };
   // Stages do not change it.
-  const project = desk.project() + now.undo + now.redo;
+  const project = desk.project() + now.undo + now.redo + now.is_changed;
   if (project !== kept) {
     kept = project;
     message.history = desk.history();
@@ -52,8 +54,8 @@ async function run() {
       tell();
     }
   } catch (error) {
-    postMessage({ problem: text(error) });
-    tell();
+    postMessage({ problem: text(error), isDead: isDead(error) });
+    if (!isDead(error)) tell();
   }
   isRunning = false;
   postMessage({ isIdle: true });
@@ -63,15 +65,20 @@ async function run() {
 const changes = ['set', 'rename', 'reset', 'heed', 'undo', 'redo', 'turn', 'cards', 'merge', 'split', 'fit_sheets'];
 const calls = {
   open(files, name, locale, history, selected, isWanted) {
-    desk?.free();
-    desk = new Desk();
-    laid = kept = '';
-    for (const [name, bytes] of files) desk.add(name, bytes);
-    desk.open(name, locale);
-    if (history) {
-      desk.go_on(history, selected);
-      if (!isWanted) desk.stop();
+    const next = new Desk();
+    for (const [name, bytes] of files) next.add(name, bytes);
+    try {
+      next.open(name, locale);
+      if (history) next.go_on(history, selected);
+    } catch (error) {
+      // What was open before stays.
+      next.free();
+      throw error;
     }
+    if (history && !isWanted) next.stop();
+    desk?.free();
+    desk = next;
+    laid = kept = '';
     sight = { folded: 0, isMesh: false };
   },
   run() { show(); run(); },
@@ -79,7 +86,11 @@ const calls = {
   select(key, adds) { desk.select(key, adds); show(); tell(); },
   sight(now) { sight = now; show(); },
   export: format => desk.export(format).map(file => ({ name: file.name, bytes: file.bytes })),
-  project: () => desk.project(),
+  save(name) {
+    const project = desk.save(name);
+    tell();
+    return project;
+  },
   jobs: (machine, medium) => JSON.parse(desk.jobs(machine, medium)),
   moment: clash => desk.moment(clash),
   end_gesture() { desk.end_gesture(); },
@@ -102,6 +113,6 @@ onmessage = async ({ data }) => {
     }
     postMessage({ answer: data.id, result });
   } catch (error) {
-    postMessage({ answer: data.id, error: text(error) });
+    postMessage({ answer: data.id, error: text(error), isDead: isDead(error) });
   }
 };

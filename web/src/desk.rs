@@ -182,7 +182,7 @@ impl Desk {
         if self.opened.drawn.is_some() && change.is_of_parts() {
             return Err(hand::DRAWN.to_owned());
         }
-        self.document.change(change, gesture)?;
+        self.document.change(change, gesture).map_err(|message| without_line(&message))?;
         let turned = match change {
             Change::Component { name, .. } | Change::Reset { name } => self.shown.index_of(name),
             _ => None,
@@ -199,6 +199,13 @@ impl Desk {
     /// The next change is a step of its own.
     pub fn end_gesture(&mut self) {
         self.document.end_gesture();
+    }
+
+    /// The text of the project, which is in a file of this name from now on.
+    pub fn save(&mut self, name: &str) -> String {
+        let text = self.document.text().to_owned();
+        self.document.saved_as(PathBuf::from(name), text.clone());
+        text
     }
 
     /// Goes a step back.
@@ -297,6 +304,12 @@ impl Desk {
     }
 }
 
+/// A message about a project file without the line of it, which the page does not show.
+fn without_line(message: &str) -> String {
+    let is_of_line = message.starts_with("TOML parse error");
+    message.lines().last().filter(|_| is_of_line).unwrap_or(message).to_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -336,6 +349,26 @@ mod tests {
     fn a_project_has_the_same_paper_in_every_language() {
         let desk = opened("a.toml", b"mesh = \"box.obj\"\n", "en-US");
         assert_eq!(desk.document.options().paper.name(), "a4");
+    }
+
+    #[test]
+    fn a_value_that_is_refused_is_told_without_the_line_of_a_file() {
+        let mut desk = a_box("de");
+        let refused = Change::Set { option: &SHEETS_MAX, value: Some(0.into()) };
+        let told = desk.change(&refused, None).unwrap_err();
+        assert!(!told.is_empty() && !told.contains('\n') && !told.contains("TOML"), "{told}");
+    }
+
+    #[test]
+    fn what_is_in_a_project_file_is_not_unsaved() {
+        let mut desk = a_box("de");
+        assert!(!desk.document.is_changed());
+        set(&mut desk, &SIZE, 150.0);
+        assert!(desk.document.is_changed());
+        assert_eq!(desk.save("cube.toml"), desk.document.text());
+        assert!(!desk.document.is_changed());
+        desk.undo();
+        assert!(desk.document.is_changed());
     }
 
     #[test]

@@ -278,6 +278,11 @@ impl Desk {
         Ok(self.own()?.document.text().to_owned())
     }
 
+    /// The project file, which the user takes home by a name: nothing in it is unsaved any longer.
+    pub fn save(&mut self, name: &str) -> Told<String> {
+        Ok(self.own()?.save(name))
+    }
+
     /// The sheets as SVG, as soon as they are laid out.
     pub fn sheets(&mut self) -> Told<Vec<String>> {
         product::sheets(self.own()?).map_err(thrown)

@@ -6,6 +6,7 @@ use std::time::Duration;
 use tatamu::app::catalogue::{MACHINES, Takes};
 use tatamu::app::plot::{doing, failure, sheets};
 use tatamu::app::profiles;
+use tatamu::export::format_of;
 use tatamu::plotter::profile::{CUTTERS, Parity};
 use tatamu::plotter::session::{End, Session, Step};
 use tatamu::plotter::{Cutter, Job};
@@ -38,6 +39,8 @@ pub struct SheetTold {
     seconds: f64,
     turns: Vec<usize>,
     bytes: String,
+    /// Of its file, without the dot.
+    extension: &'static str,
 }
 
 /// The sheets of the model as jobs of a machine.
@@ -52,6 +55,8 @@ pub fn jobs(desk: &Desk, cutter: &str, media: &str) -> Result<Vec<SheetTold>, St
         product.pages().map(|pages| pages.drawings().to_vec()).map_err(|error| error.to_string())
     });
     let pages = pages.map_err(|error| message(&error))??;
+    let language = machine.cutter.dialect().name();
+    let extension = format_of(language).map_or("plt", |format| format.extensions[0]);
     let sheets = sheets::of_drawings(&desk.opened.title(), &pages, &machine);
     let told = |sheet: &sheets::Sheet| SheetTold {
         name: sheet.name().to_owned(),
@@ -62,6 +67,7 @@ pub fn jobs(desk: &Desk, cutter: &str, media: &str) -> Result<Vec<SheetTold>, St
         turns: sheet.turns().to_vec(),
         // Languages of plotters are ASCII.
         bytes: String::from_utf8_lossy(sheet.bytes()).into_owned(),
+        extension,
     };
     Ok(sheets.map_err(|error| message(&error))?.iter().map(told).collect())
 }

@@ -21,7 +21,9 @@ pub fn formats() -> Vec<FormatTold> {
         description: format.description,
     };
     let guides = GUIDES.iter().map(|format| told(GUIDE, format));
-    guides.chain(FORMATS.iter().map(|format| told("", format))).collect()
+    // Jobs are for a machine, which is chosen where they are plotted.
+    let files = FORMATS.iter().filter(|format| !format.is_job());
+    guides.chain(files.map(|format| told("", format))).collect()
 }
 
 /// Before the extension of a guide.
