@@ -415,6 +415,7 @@ await page.select("#machine", "hp-7475a");
 await page.select("#medium", "pen");
 await until("the job is ready", () => !document.getElementById("job-start").disabled && document.getElementById("job-note").textContent.includes("stroke"));
 expect((await page.$$("#job option")).length > 1, "each sheet is a job");
+expect(await page.$eval("#job", (list) => list.value === "0"), "the first sheet is chosen");
 await picture("plot");
 await page.click("#job-save");
 const saved = await downloaded("box-1.plt");

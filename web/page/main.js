@@ -589,7 +589,7 @@ async function prepare() {
     const last = by('job').value;
     jobs = made;
     by('job').replaceChildren(...jobs.map((job, k) => element('option', { value: k, textContent: job.name })));
-    if (last < jobs.length) by('job').value = last;
+    if (last && last < jobs.length) by('job').value = last;
     ready();
   } catch (error) {
     if (own !== preparing) return;
