@@ -131,7 +131,7 @@ impl<'m> Engine<'m> {
             if wanted.parts.is_some() {
                 return Ok::<_, Error>(Arc::new(Segmented { parts, to_model, touching: None }));
             }
-            let (parts, touching) = without_needless_joints(parts);
+            let (parts, touching) = without_needless_joints(parts.cut_where_they_pass_through());
             Ok(Arc::new(Segmented { parts, to_model, touching: Some(touching) }))
         })?;
         let Segmented { mut parts, to_model, touching } = Arc::unwrap_or_clone(segmented);

@@ -2,7 +2,7 @@
 
 use super::bond::{Bond, crossing, lone_image, with_images};
 use super::candidate::{Builder, Candidate, Search};
-use super::choice::{Best, Choice, Combination, Effort, Trouble};
+use super::choice::{Best, Choice, Combination, Effort, MOST_ATTEMPTED, Trouble};
 use super::harms::{Bump, Enough};
 use super::known::Known;
 use super::link::Link;
@@ -217,6 +217,9 @@ impl Run<'_> {
     /// [`ModelError`].
     pub fn sketch(&self, like: Option<&Model>) -> Result<Sketch, ModelError> {
         let first = self.attempt(self.assembly.links, &Trouble::default(), like)?;
+        if self.is_attempted_once() {
+            return Ok(Sketch { ways: vec![first] });
+        }
         // Where joints as they were leave parts weak, but free, they may have a way out that settled ones have not: the
         // wings of a plane. Where parts bump, one more search of that kind takes long and seldom helps.
         let is_way = first.trouble.bumping.is_empty();
@@ -232,7 +235,7 @@ impl Run<'_> {
     /// # Errors
     /// [`ModelError`].
     pub fn finished(&self, Sketch { ways }: &Sketch) -> Result<Built, ModelError> {
-        if ways[0].trouble == Trouble::default() {
+        if ways[0].trouble == Trouble::default() || self.is_attempted_once() {
             return Ok(ways[0].built.clone());
         }
         let mut best: Option<Attempt> = None;
@@ -248,6 +251,10 @@ impl Run<'_> {
             }
         }
         Ok(best.map_or_else(|| ways[0].built.clone(), |best| best.built))
+    }
+
+    fn is_attempted_once(&self) -> bool {
+        self.assembly.parts.len() > MOST_ATTEMPTED
     }
 
     /// A model from more candidates for the parts in `trouble` than for the others. The search also starts

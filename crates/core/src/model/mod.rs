@@ -23,7 +23,7 @@ mod symmetry;
 #[cfg(test)]
 pub(crate) use build::tests::part;
 pub use build::{Assembly, Built, Judge, Run, Sketch, Unjudged, Verdict, alone, build};
-pub use choice::MANY_PARTS;
+pub use choice::{MANY_PARTS, MOST_ATTEMPTED};
 pub use contact::{Contact, Interface};
 pub use harms::{Bump, Enough, harm_mm};
 pub use joined::{JoinedPart, Seam};

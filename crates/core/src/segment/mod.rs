@@ -37,6 +37,7 @@ mod surface;
 mod symmetry;
 #[cfg(test)]
 mod tests;
+mod through;
 
 pub use edit::{Edit, EditError};
 pub use grid::Interior;
