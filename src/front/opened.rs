@@ -37,7 +37,7 @@ pub struct Opened {
     pub repairs: Repairs,
     /// The mesh, with all that is made of it.
     pub engine: Arc<Engine<'static>>,
-    /// Text of the project file; a fresh one for a mesh.
+    /// Text of the project file as it was read or written last; a fresh one for a mesh.
     pub text: String,
     /// Whether the source is a project file.
     pub is_project: bool,
@@ -93,10 +93,10 @@ impl Opened {
         Self { repairs: fresh.repairs.clone(), engine: fresh.engine.clone(), ..self.clone() }
     }
 
-    /// The same after the project was saved in a file, which is its source from now on.
-    pub fn saved_as(&self, path: &Path) -> Self {
+    /// The same after the project was saved with a text in a file, which is its source from now on.
+    pub fn saved_as(&self, path: &Path, text: String) -> Self {
         let mesh_path = if self.drawn.is_some() { path.to_owned() } else { self.mesh_path.clone() };
-        Self { source: path.to_owned(), mesh_path, is_project: true, ..self.clone() }
+        Self { source: path.to_owned(), mesh_path, text, is_project: true, ..self.clone() }
     }
 
     /// Gives what was made, with the look and the colours that the project asks for, and its options of

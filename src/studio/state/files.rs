@@ -121,6 +121,14 @@ impl Studio {
         Ok(book::file(&folder, page))
     }
 
+    /// Whether another program has changed the project file since it was read or written here.
+    pub fn is_changed_on_disk(&self) -> bool {
+        let project = self.opened.as_ref().filter(|opened| opened.is_project);
+        project.is_some_and(|opened| {
+            std::fs::read(&opened.source).is_ok_and(|bytes| bytes != opened.text.as_bytes())
+        })
+    }
+
     /// Writes the project file. False where it has no name yet: ask for one, then
     /// [`Studio::save_as`].
     pub fn save(&mut self) -> bool {
@@ -154,12 +162,16 @@ impl Studio {
                 // What another session left unsaved in the file is replaced, too.
                 [&opened.source, path].into_iter().for_each(|file| self.store.forget(file));
                 self.store.add_recent(path);
-                document.saved_as(path.to_owned(), text);
+                document.saved_as(path.to_owned(), text.clone());
                 // From now on this file is what is open.
-                self.opened = Some(Arc::new(opened.saved_as(path)));
+                self.opened = Some(Arc::new(opened.saved_as(path, text)));
                 let mesh_path = self.opened.as_ref().map(|opened| opened.mesh_path.clone());
                 self.watch = mesh_path.map(|path| Watch::new(&path, self.wake.clone()));
                 self.messages.clear(Cause::Recovery);
+                if self.is_drawn() {
+                    // What another program wrote into the file is replaced.
+                    self.messages.clear(Cause::Mesh);
+                }
                 self.messages.tell(Cause::Saving, format!("saved as {}", path.display()));
             }
             Err(problem) => self.messages.warn(Cause::Saving, problem),

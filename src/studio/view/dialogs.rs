@@ -57,6 +57,7 @@ enum Dialog {
     System(SystemDialog),
     Files(Browser),
     Parting(Leave),
+    Overwrite,
     Find(Finder),
     Shortcuts,
     CommandLine,
@@ -75,6 +76,10 @@ pub enum Outcome {
     Folder(PathBuf),
     /// An answer to the question before something is left.
     Parted(Leave, Parting),
+    /// The project file is to be written, though another program has changed it.
+    Overwrite,
+    /// The project file is to be read again, and changes that are not saved are to be dropped.
+    Reload,
     /// A command was found.
     Run(&'static Command),
 }
@@ -119,6 +124,11 @@ impl Dialogs {
     /// Asks before something is left.
     pub fn ask_leave(&mut self, leave: Leave) {
         self.begin(Dialog::Parting(leave));
+    }
+
+    /// Asks before a project file is written that another program has changed.
+    pub fn ask_overwrite(&mut self) {
+        self.begin(Dialog::Overwrite);
     }
 
     /// Leaves once the project is saved under the name that is asked for.
@@ -190,6 +200,13 @@ impl Dialogs {
                 None => false,
                 Some(answer) => {
                     outcome = Some(Outcome::Parted(leave.clone(), answer));
+                    true
+                }
+            },
+            Dialog::Overwrite => match overwrite(ctx, named.file) {
+                None => false,
+                Some(answer) => {
+                    outcome = answer;
                     true
                 }
             },
@@ -320,6 +337,14 @@ fn parting(ctx: &Context, leave: &Leave, work: Work) -> Option<Parting> {
         });
     });
     answer.or(shown.should_close().then_some(Parting::Stay))
+}
+
+/// Asks before changes of another program are lost; nothing comes of it where the user cancels.
+fn overwrite(ctx: &Context, file: &str) -> Option<Option<Outcome>> {
+    let heading = format!("{file} changed on disk since you opened it");
+    let text = "Overwrite replaces what another program wrote. Reload drops your unsaved changes.";
+    let answer = modal::ask(ctx, "overwrite", [&heading, text], &["Overwrite", "Reload", "Cancel"])?;
+    Some([Outcome::Overwrite, Outcome::Reload].into_iter().nth(answer))
 }
 
 /// The list of keys and what the mouse does; whether it is to be closed.

@@ -392,16 +392,21 @@ impl Window {
             }
             Some(Outcome::Save(path)) => {
                 self.studio.save_as(&path);
-                if let Some(leave) = self.dialogs.take_leave().filter(|_| !self.work().is_changed) {
-                    self.leave(ctx, leave);
-                }
+                self.leave_if_saved(ctx);
+            }
+            Some(Outcome::Overwrite) => {
+                self.studio.save();
+                self.leave_if_saved(ctx);
+            }
+            Some(Outcome::Reload) => {
+                self.dialogs.take_leave();
+                self.reload();
             }
             Some(Outcome::Parted(leave, Parting::Save)) => {
-                if !self.studio.save() {
-                    self.ask_save(ctx);
-                    self.dialogs.leave_after_saving(leave);
-                } else if !self.work().is_changed {
-                    self.leave(ctx, leave);
+                self.dialogs.leave_after_saving(leave);
+                self.save(ctx);
+                if !self.dialogs.is_open() {
+                    self.leave_if_saved(ctx);
                 }
             }
             Some(Outcome::Parted(Leave::Open(path), Parting::Discard)) => {
@@ -413,6 +418,20 @@ impl Window {
             }
             Some(Outcome::Parted(_, Parting::Stay)) => {}
             Some(Outcome::Run(command)) => command.run(self, ctx),
+        }
+    }
+
+    /// Leaves as was asked for before the project was saved; stays where that failed.
+    fn leave_if_saved(&mut self, ctx: &egui::Context) {
+        if let Some(leave) = self.dialogs.take_leave().filter(|_| !self.work().is_changed) {
+            self.leave(ctx, leave);
+        }
+    }
+
+    /// Reads the file that is open again, and drops what is not saved.
+    fn reload(&mut self) {
+        if let Some(source) = self.studio.opened().map(|opened| opened.source.clone()) {
+            self.studio.open_and_discard(&source);
         }
     }
 
@@ -450,9 +469,11 @@ impl Window {
         self.dialogs.ask_file(ctx, Purpose::Save, Some(folder), &name);
     }
 
-    /// Saves, and asks for a name where there is none.
+    /// Saves; asks for a name where there is none, and before changes of another program are lost.
     fn save(&mut self, ctx: &egui::Context) {
-        if !self.studio.save() {
+        if self.studio.is_changed_on_disk() {
+            self.dialogs.ask_overwrite();
+        } else if !self.studio.save() {
             self.ask_save(ctx);
         }
     }

@@ -13,6 +13,32 @@ pub fn new(ctx: &Context, name: &str) -> Modal {
     Modal::new(id).area(area).frame(Frame::popup(&ctx.global_style()).inner_margin(MARGIN))
 }
 
+/// Points that a question is wide.
+const WIDTH: f32 = 420.0;
+
+/// Asks a question: the number of the answer, which is the last one where the dialog is closed.
+pub fn ask(ctx: &Context, name: &str, [heading, text]: [&str; 2], answers: &[&str]) -> Option<usize> {
+    let mut chosen = None;
+    let shown = new(ctx, name).show(ctx, |ui| {
+        ui.set_width(WIDTH);
+        ui.heading(heading);
+        ui.label(text);
+        ui.add_space(8.0);
+        ui.horizontal(|ui| {
+            for (k, answer) in answers.iter().enumerate() {
+                let button = ui.button(*answer);
+                if k == 0 {
+                    focus_once(ui, &button);
+                }
+                if button.clicked() {
+                    chosen = Some(k);
+                }
+            }
+        });
+    });
+    chosen.or(shown.should_close().then(|| answers.len() - 1))
+}
+
 /// Points that an arrow key scrolls.
 const STEP: f32 = 48.0;
 

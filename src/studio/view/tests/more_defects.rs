@@ -294,3 +294,49 @@ fn a_right_click_opens_a_menu_for_what_is_under_the_mouse() {
     click(&mut desk, "Show all components");
     assert!(!desk.state().studio().visibility.is_hidden(&name));
 }
+
+/// Ctrl+S replaced what another program had written into the project file without a word.
+#[test]
+fn a_project_that_another_program_changed_is_overwritten_only_after_a_question() {
+    let (mut desk, folder) = open();
+    let project = folder.path().join("snowman.toml");
+    let read = || std::fs::read_to_string(&project).unwrap();
+    let asks =
+        |desk: &Desk| desk.query_by_label("snowman.toml changed on disk since you opened it").is_some();
+    let save = |desk: &mut Desk| {
+        desk.key_press_modifiers(Modifiers::COMMAND, Key::S);
+        desk.run_ok();
+    };
+    turn_by_wheel(&mut desk);
+    save(&mut desk);
+    turn_by_wheel(&mut desk);
+    save(&mut desk);
+    assert!(!asks(&desk), "what the window wrote itself is known");
+    let change = |text: &str| std::fs::write(&project, format!("{}# {text}\n", read())).unwrap();
+    change("first");
+    turn_by_wheel(&mut desk);
+    save(&mut desk);
+    assert!(asks(&desk));
+    click(&mut desk, "Cancel");
+    assert!(read().ends_with("# first\n") && desk.query_by_label("snowman.toml *").is_some());
+    save(&mut desk);
+    click(&mut desk, "Overwrite");
+    assert!(!read().contains("# first") && desk.query_by_label("snowman.toml").is_some());
+    change("second");
+    turn_by_wheel(&mut desk);
+    save(&mut desk);
+    click(&mut desk, "Reload");
+    settle(&mut desk, "what is on disk", |s| s.document().is_some_and(|d| d.text().ends_with("# second\n")));
+    assert!(desk.query_by_label("snowman.toml").is_some());
+    // It asks before it leaves, too, and leaves then.
+    change("third");
+    settle(&mut desk, "the model", |s| s.finished().is_some());
+    turn_by_wheel(&mut desk);
+    desk.state_mut().open(&folder.path().join("snowman.obj"));
+    desk.run_ok();
+    click(&mut desk, "Save and open");
+    assert!(asks(&desk));
+    click(&mut desk, "Overwrite");
+    settle(&mut desk, "the mesh", |s| s.opened().is_some_and(|opened| !opened.is_project));
+    assert!(!read().contains("# third"));
+}
