@@ -38,6 +38,26 @@ pub struct Stroke {
     pub points: Vec<DVec2>,
 }
 
+impl Plan {
+    /// The plan of a small figure.
+    ///
+    /// # Errors
+    /// A message where the machine cannot cut it.
+    pub fn of_test_cut(machine: &PltOptions) -> Result<Self, String> {
+        let sheets = sheets::of_test_cut(machine).map_err(|error| words::error(&error))?;
+        let (previews, strokes) = sheets.iter().map(|sheet| pictured(sheet, machine)).unzip();
+        Ok(Self { machine: machine.clone(), sheets, previews, strokes })
+    }
+}
+
+/// The picture of a sheet, and its strokes.
+fn pictured(sheet: &Sheet, machine: &PltOptions) -> (Drawing, Vec<Stroke>) {
+    let lines = strokes(sheet.job(), &machine.cutter, sheet.placement());
+    let strokes = sheet.operations().iter().zip(lines);
+    let strokes = strokes.map(|(&operation, points)| Stroke { operation, points }).collect();
+    (ground(sheet.job(), &machine.cutter, sheet.placement()), strokes)
+}
+
 /// What a plan is made of.
 pub struct Wish {
     /// The file.
@@ -125,12 +145,9 @@ impl Hand {
         let Some(sheets) = sheets.map_err(|e| words::error(&e))? else { return Ok(None) };
         let (mut previews, mut drawn) = (Vec::new(), Vec::new());
         for sheet in &sheets {
-            previews.push(ground(sheet.job(), &machine.cutter, sheet.placement()));
-            let lines = strokes(sheet.job(), &machine.cutter, sheet.placement());
-            let operations = sheet.operations().iter().copied();
-            drawn.push(
-                operations.zip(lines).map(|(operation, points)| Stroke { operation, points }).collect(),
-            );
+            let (preview, strokes) = pictured(sheet, &machine);
+            previews.push(preview);
+            drawn.push(strokes);
             if !step() {
                 return Ok(None);
             }

@@ -27,7 +27,7 @@ pub struct State {
     pub share: f32,
     /// The sheet that the machine works on, and how many of its strokes are done.
     pub at: Option<(String, usize)>,
-    /// The sheet that is to be loaded.
+    /// What the user is to do with a sheet before the machine works on it.
     pub wants_sheet: Option<String>,
     /// What the machine and the session had to say.
     pub notes: Vec<String>,
@@ -70,7 +70,7 @@ impl Plotting {
 
     fn begin(header: Header, at: Position, journal: PathBuf, wake: Wake) -> Self {
         let state = Arc::new(Mutex::new(State { text: "opening the port".to_owned(), ..State::default() }));
-        let mut hand = Hand { state: state.clone(), wake };
+        let mut hand = Hand { state: state.clone(), wake, is_begun: at.strokes > 0 };
         std::thread::spawn(move || {
             let sent = output::check_places(std::slice::from_ref(&journal), &[])
                 .and_then(|()| live::send_all(&SystemPorts, &mut hand, &journal, &header, at));
@@ -116,12 +116,18 @@ fn locked(state: &Mutex<State>) -> MutexGuard<'_, State> {
 struct Hand {
     state: Arc<Mutex<State>>,
     wake: Wake,
+    /// Whether strokes of the next sheet are done, so that it is in the machine.
+    is_begun: bool,
 }
 
 impl Operator for Hand {
     fn load(&mut self, sheet: &str, (copy, copies): (u16, u16)) -> Result<(), AppError> {
         let copy = if copies > 1 { format!(" (copy {copy} of {copies})") } else { String::new() };
-        locked(&self.state).wants_sheet = Some(format!("{sheet}{copy}"));
+        let wish = match std::mem::take(&mut self.is_begun) {
+            true => format!("Leave the sheet for {sheet}{copy} where it is; the job continues on it."),
+            false => format!("Load a sheet for {sheet}{copy}."),
+        };
+        locked(&self.state).wants_sheet = Some(wish);
         (self.wake)();
         while locked(&self.state).wants_sheet.is_some() {
             if self.stops() > 0 {

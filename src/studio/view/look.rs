@@ -156,16 +156,24 @@ pub fn icon(icon: Icon) -> String {
     char::from(icon).to_string()
 }
 
+/// Points that buttons about a job are high.
+const TALL: egui::Vec2 = egui::vec2(0.0, 28.0);
+
+/// A button beside the one of what one is here for, as high.
+pub fn tall(text: &str) -> Button<'_> {
+    Button::new(text).min_size(TALL)
+}
+
 /// The button of what one is here for.
 pub fn primary(visuals: &Visuals, text: &str) -> Button<'static> {
     let (fill, colour) = (visuals.selection.bg_fill, visuals.selection.stroke.color);
-    Button::new(RichText::new(text).strong().color(colour)).fill(fill).min_size(egui::vec2(0.0, 28.0))
+    Button::new(RichText::new(text).strong().color(colour)).fill(fill).min_size(TALL)
 }
 
 /// The button that stops a machine.
 pub fn stop(text: &str) -> Button<'static> {
     let [fill, colour] = STOP;
-    Button::new(RichText::new(text).strong().color(colour)).fill(fill).min_size(egui::vec2(0.0, 28.0))
+    Button::new(RichText::new(text).strong().color(colour)).fill(fill).min_size(TALL)
 }
 
 /// A name with a capital letter: A4, Letter.

@@ -4,14 +4,12 @@ use super::super::planning::{Plan, Planning, Wish};
 use super::super::plotting::Plotting;
 use super::super::preferences::Preferences;
 use super::super::state::Studio;
-use super::super::words;
 use super::super::worker::Wake;
 use super::machine::{Answer, Questions};
 use super::picture::Picture;
 use super::profile_choice::ProfileChoice;
 use super::strokes;
-use super::{focus, look};
-use crate::app::plot::sheets::of_test_cut;
+use super::{focus, look, modal};
 use crate::app::plot::{ANY, hint, usb_cutters};
 use eframe::egui::{self, Rect, Sense, Ui};
 use std::path::{Path, PathBuf};
@@ -32,6 +30,10 @@ pub struct PlotPanel {
     planning: Option<(Key, Planning)>,
     picture: Picture,
     running: Option<Plotting>,
+    /// The plan of the test cut that is on its way.
+    test: Option<Plan>,
+    /// Whether it is asked what becomes of a stopped job.
+    is_replacing: bool,
     /// The questions for a machine, while they are asked.
     questions: Option<Questions>,
     /// Whether a profile of the user's own is to be chosen.
@@ -68,6 +70,8 @@ impl PlotPanel {
             planning: None,
             picture: Picture::default(),
             running: None,
+            test: None,
+            is_replacing: false,
             questions: None,
             wants_profile: false,
             unreadable: None,
@@ -86,7 +90,7 @@ impl PlotPanel {
 
     /// Whether it asks something.
     pub fn asks(&self) -> bool {
-        self.questions.is_some()
+        self.questions.is_some() || self.is_replacing
     }
 
     /// Lifts the tool and stops.
@@ -130,9 +134,13 @@ impl PlotPanel {
 
     fn dials(&mut self, studio: &mut Studio, ui: &mut Ui) {
         let is_running = self.is_running();
+        if !is_running {
+            self.test = None;
+        }
         ui.heading("Plot");
         ui.add_enabled_ui(!is_running, |ui| self.choices(ui));
         self.ask(studio, ui.ctx());
+        self.ask_replace(studio, ui.ctx());
         self.refresh(studio, ui.ctx());
         ui.separator();
         if let Some((_, planning)) = &self.planning {
@@ -147,23 +155,7 @@ impl PlotPanel {
             None if self.planning.is_some() => {}
             None => drop(ui.weak("available when the model is finished")),
             Some((_, Err(problem))) => drop(ui.colored_label(ui.visuals().error_fg_color, problem)),
-            Some((_, Ok(plan))) => {
-                for (k, sheet) in plan.sheets.iter().enumerate() {
-                    if ui.selectable_label(self.shown == k, sheet.name()).clicked() {
-                        self.shown = k;
-                    }
-                }
-                if let Some(sheet) = plan.sheets.get(self.shown) {
-                    ui.add_space(4.0);
-                    ui.label(sheet.summary(&plan.machine.cutter));
-                    ui.add_space(4.0);
-                    strokes::key(ui, &plan.strokes[self.shown]);
-                    if is_running {
-                        strokes::key_of_done(ui);
-                    }
-                    sheet.notes().iter().for_each(|note| drop(ui.label(note)));
-                }
-            }
+            Some((_, Ok(_))) => self.sheets(ui),
         }
         ui.separator();
         if is_running {
@@ -179,6 +171,28 @@ impl PlotPanel {
             None => {}
         }
         state.notes.iter().for_each(|note| drop(ui.label(note)));
+    }
+
+    /// Lists the sheets, with what there is to know about the one that is seen.
+    fn sheets(&mut self, ui: &mut Ui) {
+        let Some(Seen { plan, sheet: shown, .. }) = seen(&self.plan, &self.test, self.shown) else { return };
+        let mut clicked = None;
+        for (k, sheet) in plan.sheets.iter().enumerate() {
+            if ui.selectable_label(shown == k, sheet.name()).clicked() {
+                clicked = Some(k);
+            }
+        }
+        if let Some(sheet) = plan.sheets.get(shown) {
+            ui.add_space(4.0);
+            ui.label(sheet.summary(&plan.machine.cutter));
+            ui.add_space(4.0);
+            strokes::key(ui, &plan.strokes[shown]);
+            if self.is_running() {
+                strokes::key_of_done(ui);
+            }
+            sheet.notes().iter().for_each(|note| drop(ui.label(note)));
+        }
+        self.shown = clicked.unwrap_or(self.shown);
     }
 
     /// Asks for the machine.
@@ -274,14 +288,14 @@ impl PlotPanel {
     }
 
     fn start(&mut self, studio: &Studio, ui: &mut Ui) {
-        self.resume(studio, ui);
+        self.offer_rest(studio, ui);
         let Some((_, Ok(plan))) = &self.plan else { return };
         let has_port = !self.port.trim().is_empty();
         let is_ready = has_port && studio.finished().is_some();
         let (starts, tests) = ui
             .horizontal(|ui| {
                 let start = ui.add_enabled(is_ready, look::primary(ui.visuals(), "Start")).clicked();
-                let button = egui::Button::new("Test cut").min_size(egui::vec2(0.0, 28.0));
+                let button = look::tall("Test cut");
                 let tip = "a square of 10 mm with a triangle in it and two creases, to find the right force";
                 (start, ui.add_enabled(has_port, button).on_hover_text(tip).clicked())
             })
@@ -294,37 +308,68 @@ impl PlotPanel {
             return self.test_cut(&machine, &opened.source, wake(ui.ctx()));
         }
         let Some(opened) = studio.opened().filter(|_| starts) else { return };
+        let journal = journal(&opened.source);
+        if journal.is_file() {
+            self.is_replacing = true;
+        } else {
+            self.send(journal, wake(ui.ctx()));
+        }
+    }
+
+    /// Asks before a new job drops the rest of a stopped one.
+    fn ask_replace(&mut self, studio: &Studio, ctx: &egui::Context) {
+        let Some(opened) = studio.opened().filter(|_| self.is_replacing) else { return };
+        let text = ["A job was stopped", "Resume cuts the rest of it. A new job drops the rest."];
+        let answers = ["Resume", "New job", "Cancel"];
+        let Some(answer) = modal::ask(ctx, "stopped job", text, &answers) else { return };
+        self.is_replacing = false;
+        let (journal, wake) = (journal(&opened.source), wake(ctx));
+        match answer {
+            0 => self.resume(journal, wake),
+            1 => self.send(journal, wake),
+            _ => {}
+        }
+    }
+
+    /// Begins to send the sheets.
+    fn send(&mut self, journal: PathBuf, wake: Wake) {
+        let Some((_, Ok(plan))) = &self.plan else { return };
         let sheets = match self.only {
             Some(k) => &plan.sheets[k..=k],
             None => &plan.sheets,
         };
-        let journal = journal(&opened.source);
-        let (port, wake) = (self.port.trim(), wake(ui.ctx()));
-        self.running = Some(Plotting::start(&plan.machine.cutter, port, self.copies, sheets, journal, wake));
+        let (cutter, port) = (&plan.machine.cutter, self.port.trim());
+        self.running = Some(Plotting::start(cutter, port, self.copies, sheets, journal, wake));
+        self.test = None;
     }
 
     /// Cuts a small figure.
     fn test_cut(&mut self, machine: &PltOptions, source: &Path, wake: Wake) {
-        match of_test_cut(machine) {
-            Ok(sheets) => {
+        match Plan::of_test_cut(machine) {
+            Ok(test) => {
                 let journal = journal(&source.with_file_name("test-cut"));
                 let port = self.port.trim();
-                self.running = Some(Plotting::start(&machine.cutter, port, 1, &sheets, journal, wake));
-                self.unreadable = None;
+                self.running = Some(Plotting::start(&machine.cutter, port, 1, &test.sheets, journal, wake));
+                (self.test, self.unreadable) = (Some(test), None);
             }
-            Err(error) => self.unreadable = Some(words::error(&error)),
+            Err(problem) => self.unreadable = Some(problem),
+        }
+    }
+
+    /// Goes on with a job that was stopped.
+    fn resume(&mut self, journal: PathBuf, wake: Wake) {
+        match Plotting::resume(journal, self.port.trim(), wake) {
+            Ok(running) => (self.running, self.test, self.unreadable) = (Some(running), None, None),
+            Err(problem) => self.unreadable = Some(problem),
         }
     }
 
     /// Offers to go on with a job that was stopped.
-    fn resume(&mut self, studio: &Studio, ui: &mut Ui) {
+    fn offer_rest(&mut self, studio: &Studio, ui: &mut Ui) {
         let Some(journal) = studio.opened().map(|opened| journal(&opened.source)) else { return };
         let tip = format!("sends the rest of the job in {}", journal.display());
         if journal.is_file() && ui.button("Continue the stopped job").on_hover_text(tip).clicked() {
-            match Plotting::resume(journal, self.port.trim(), wake(ui.ctx())) {
-                Ok(running) => (self.running, self.unreadable) = (Some(running), None),
-                Err(problem) => self.unreadable = Some(problem),
-            }
+            self.resume(journal, wake(ui.ctx()));
         }
         if let Some(problem) = &self.unreadable {
             ui.colored_label(ui.visuals().error_fg_color, problem);
@@ -334,8 +379,8 @@ impl PlotPanel {
     fn progress(&mut self, ui: &mut Ui) {
         let Some(running) = &self.running else { return };
         let state = running.state();
-        if let Some(sheet) = &state.wants_sheet {
-            ui.strong(format!("Load a sheet for {sheet}."));
+        if let Some(wish) = &state.wants_sheet {
+            ui.strong(wish);
             if ui.button("Sheet loaded").clicked() {
                 running.loaded();
             }
@@ -345,7 +390,7 @@ impl PlotPanel {
         }
         ui.horizontal(|ui| {
             let word = if state.is_paused { "Continue" } else { "Pause" };
-            if ui.button(word).on_hover_text("lifts the tool").clicked() {
+            if ui.add(look::tall(word)).on_hover_text("lifts the tool").clicked() {
                 running.pause();
             }
             if ui.add(look::stop("Stop")).on_hover_text("lifts the tool and ends the job").clicked() {
@@ -356,29 +401,57 @@ impl PlotPanel {
 
     /// Draws the sheet as the machine works on it.
     fn preview(&mut self, ui: &mut Ui) {
-        let Some((key, Ok(plan))) = &self.plan else { return };
         let at = self.running.as_ref().and_then(|running| running.state().at);
-        let worked_on =
-            |(name, _): &(String, usize)| plan.sheets.iter().position(|sheet| sheet.name() == name);
-        if let Some(sheet) = at.as_ref().and_then(worked_on).filter(|_| self.is_running()) {
-            self.shown = sheet;
+        if let Some((name, _)) = at.as_ref().filter(|_| self.is_running()) {
+            self.follow(name);
         }
-        let Some(drawing) = plan.previews.get(self.shown) else { return };
+        let Some(Seen { plan, sheet: shown, version }) = seen(&self.plan, &self.test, self.shown) else {
+            return;
+        };
+        let Some(drawing) = plan.previews.get(shown) else { return };
         let room = ui.available_size();
         let page = egui::vec2(drawing.size_mm.x as f32, drawing.size_mm.y as f32);
         let scale = (room.x / page.x).min(room.y / page.y).max(0.1);
         let rect = Rect::from_center_size(ui.available_rect_before_wrap().center(), scale * page);
         let response = ui.allocate_rect(rect, Sense::hover());
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Preview of the job"));
-        let version = key.version * 1000 + self.shown as u64;
         let pixels_per_mm = f64::from(scale * ui.ctx().pixels_per_point());
         if let Some(texture) = self.picture.texture(ui.ctx(), drawing, version, pixels_per_mm) {
             look::paint(ui.painter(), texture, rect);
         }
         // What the machine has done stands out.
-        let done = at.filter(|(name, _)| plan.sheets[self.shown].name() == name).map_or(0, |(_, done)| done);
-        strokes::draw(ui.painter(), (rect, scale), &plan.strokes[self.shown], done);
+        let done = at.filter(|(name, _)| plan.sheets[shown].name() == name).map_or(0, |(_, done)| done);
+        strokes::draw(ui.painter(), (rect, scale), &plan.strokes[shown], done);
     }
+
+    /// Shows the sheet of this name.
+    fn follow(&mut self, name: &str) {
+        let Some((_, Ok(plan))) = &self.plan else { return };
+        let sheet = plan.sheets.iter().position(|sheet| sheet.name() == name);
+        self.shown = sheet.unwrap_or(self.shown);
+    }
+}
+
+/// The plan that is seen.
+struct Seen<'a> {
+    plan: &'a Plan,
+    /// Number of its sheet.
+    sheet: usize,
+    /// Differs for each picture.
+    version: u64,
+}
+
+/// The plan of the test cut while it is on its way, else that of the model.
+fn seen<'a>(
+    plan: &'a Option<(Key, Result<Plan, String>)>,
+    test: &'a Option<Plan>,
+    shown: usize,
+) -> Option<Seen<'a>> {
+    if let Some(plan) = test {
+        return Some(Seen { plan, sheet: 0, version: u64::MAX });
+    }
+    let (key, plan) = plan.as_ref()?;
+    Some(Seen { plan: plan.as_ref().ok()?, sheet: shown, version: key.version * 1000 + shown as u64 })
 }
 
 /// Where the journal of a file's jobs is.

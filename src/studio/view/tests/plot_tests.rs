@@ -148,9 +148,15 @@ fn a_test_cut_is_one_click() {
     let (port, machine) = plug_in("generic-hpgl", &[]);
     write_port(&mut desk, &port);
     click(&mut desk, "Test cut");
+    wait_for(&mut desk, "Load a sheet for test cut.");
+    // The preview had sheet 1 of the model.
+    assert!(desk.query_by_label("test cut").is_some());
+    assert!(desk.query_by_label("snowman, sheet 1 of 3").is_none());
+    assert!(desk.query_by_label_contains(": 5 strokes").is_some());
     let state = run(&mut desk, false);
     let machine = machine.join().unwrap();
     assert_eq!((state.end.clone(), machine.lost()), (Some(Ok(())), 0), "{state:?}");
+    assert!(desk.query_by_label("snowman, sheet 1 of 3").is_some(), "the plan of the model is back");
     assert!(state.at.is_some_and(|(sheet, _)| sheet == "test cut"));
     assert!(machine.motions().iter().filter(|motion| motion.is_down).count() >= 5, "five strokes");
     assert!(!folder.path().join("test-cut.tatamu-job").exists());
@@ -248,4 +254,59 @@ fn strokes_have_the_colour_of_what_is_done_along_them() {
         let summary = format!(": {all} strokes");
         assert!(desk.query_by_label_contains(&summary).is_some(), "{cutter}: every stroke has a kind");
     }
+}
+
+/// The job of an only sheet, stopped where a part of it is cut.
+fn stopped_job() -> (Desk, TempDir) {
+    let (mut desk, folder) = open();
+    let (port, machine) = plug_in("generic-hpgl", &[]);
+    click(&mut desk, "Plot");
+    desk.state_mut().plot_mut().choose("generic-hpgl", &port);
+    desk.run_ok();
+    click(&mut desk, "all sheets");
+    click_when_there(&mut desk, "Start");
+    let state = run(&mut desk, true);
+    assert!(state.end.is_some_and(|end| end.is_err()), "it is stopped");
+    drop(machine.join());
+    (desk, folder)
+}
+
+/// Start dropped the rest of a stopped job without a word, and the rest asked for a fresh sheet.
+#[test]
+fn a_stopped_job_is_replaced_only_after_a_question_and_its_sheet_stays_in_the_machine() {
+    let (mut desk, folder) = stopped_job();
+    let journal = folder.path().join("snowman.tatamu-job");
+    let rest = std::fs::read(&journal).unwrap();
+    let (port, machine) = plug_in("generic-hpgl", &[]);
+    desk.state_mut().plot_mut().choose("generic-hpgl", &port);
+    desk.run_ok();
+    click(&mut desk, "Start");
+    assert!(desk.query_by_label("A job was stopped").is_some());
+    click(&mut desk, "Cancel");
+    assert!(!desk.state_mut().plot_mut().is_running());
+    assert_eq!(std::fs::read(&journal).unwrap(), rest);
+    click(&mut desk, "Start");
+    click(&mut desk, "Resume");
+    wait_for(&mut desk, "Sheet loaded");
+    assert!(desk.query_by_label_contains("where it is; the job continues on it.").is_some());
+    assert!(desk.query_by_label_contains("Load a sheet").is_none());
+    assert_eq!(run(&mut desk, false).end, Some(Ok(())));
+    drop(machine.join());
+    assert!(!journal.exists());
+}
+
+#[test]
+fn a_new_job_replaces_a_stopped_one_and_begins_with_a_fresh_sheet() {
+    let (mut desk, _folder) = stopped_job();
+    let (port, machine) = plug_in("generic-hpgl", &[]);
+    desk.state_mut().plot_mut().choose("generic-hpgl", &port);
+    desk.run_ok();
+    click(&mut desk, "Start");
+    click(&mut desk, "New job");
+    wait_for(&mut desk, "Sheet loaded");
+    assert!(desk.query_by_label_contains("Load a sheet").is_some());
+    let height = |label| desk.get_by_role_and_label(Role::Button, label).rect().height();
+    assert_eq!(height("Pause"), height("Stop"));
+    assert_eq!(run(&mut desk, false).end, Some(Ok(())));
+    drop(machine.join());
 }
