@@ -94,7 +94,7 @@ pub fn rearranged(output: &Output, id: PieceId, to: &Move) -> Result<Vec<(String
         first.get_or_insert(others);
     }
     let Some(place) = found else {
-        let others = first.unwrap_or_default().join(" and ");
+        let others = words::listed(&first.unwrap_or_default());
         return Err(format!("{} would overlap {others}; it stays where it was", own.name()));
     };
     let pin = |id: PieceId, piece: &Piece, place: &PiecePlace| {

@@ -27,7 +27,7 @@ pub fn top(window: &mut Window, ui: &mut Ui) {
             });
             ui.separator();
             for command in [&commands::OPEN, &commands::SAVE, &commands::UNDO, &commands::REDO] {
-                command.button(window, ui, false);
+                command.button(window, ui);
             }
             if window.studio.document().is_some() {
                 ui.separator();
@@ -36,7 +36,7 @@ pub fn top(window: &mut Window, ui: &mut Ui) {
                 }
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                commands::FIND.button(window, ui, false);
+                commands::FIND.button(window, ui);
                 if let (Some(name), Some(document)) = (window.file_name(), window.studio.document()) {
                     let path =
                         document.path().or(window.studio.opened().map(|opened| opened.source.as_path()));

@@ -3,6 +3,7 @@
 use super::super::change::Change;
 use super::super::selection::Hover;
 use super::super::state::Studio;
+use super::super::words;
 use super::space::Space;
 use super::values::Dialled;
 use super::{dials, look};
@@ -91,7 +92,7 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
 /// Merging, where several components are selected.
 fn merging(studio: &mut Studio, ui: &mut Ui) {
     if studio.selection.names().len() > 1 && !studio.is_drawn() {
-        let names = studio.selection.names().join(" and ");
+        let names = words::listed(studio.selection.names());
         if ui.button("Merge").on_hover_text(format!("makes one part of {names} (M)")).clicked() {
             studio.merge_selected();
         }

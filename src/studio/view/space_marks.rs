@@ -225,14 +225,9 @@ fn play(window: &mut Window, ui: &mut Ui) {
 
 /// What is shown, and how.
 fn tools(window: &mut Window, ui: &mut Ui) {
-    for (command, is_on) in [
-        (&commands::FIT, false),
-        (&commands::BESIDE, window.has_sheets_beside),
-        (&commands::NAMES, window.space.shows_names()),
-        (&commands::GHOST, window.space.layers().input),
-        (&commands::MEASURE, window.space.measure().is_on()),
-    ] {
-        command.button(window, ui, is_on);
+    for command in [&commands::FIT, &commands::BESIDE, &commands::NAMES, &commands::GHOST, &commands::MEASURE]
+    {
+        command.button(window, ui);
     }
     layers(window, ui);
 }

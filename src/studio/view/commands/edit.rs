@@ -53,6 +53,7 @@ pub static MERGE: Command = Command {
     place: Place::Edit(1),
     can: |w| w.studio.selection.names().len() > 1 && !w.studio.is_drawn(),
     act: |w, _| w.studio.merge_selected(),
+    ..BLANK
 };
 
 pub static RENAME: Command = Command {
@@ -63,6 +64,7 @@ pub static RENAME: Command = Command {
     place: Place::Edit(1),
     can: has_one,
     act: |w, _| w.parts.rename(),
+    ..BLANK
 };
 
 pub static TURN_LEFT: Command = Command {
@@ -111,8 +113,10 @@ pub static EDGES: Command = Command {
     tip: "a click on the sheets cuts a crease, or makes a crease of a cut edge; tabs are dragged to the other side",
     keys: &[key(Key::E)],
     place: Place::Edit(2),
+    is_on: Some(|w| w.sheets.edges().is_on()),
     can: |w| has_file(w) && w.shows_sheets(),
     act: |w, _| w.sheets.edges_mut().toggle(),
+    ..BLANK
 };
 
 static STOP: Command = Command {

@@ -16,6 +16,7 @@ pub static OPEN: Command = Command {
     place: Place::File(0),
     can: always,
     act: |w, ctx| w.ask_open(ctx),
+    ..BLANK
 };
 
 pub static SAVE: Command = Command {
@@ -44,6 +45,7 @@ pub static PRINT: Command = Command {
     place: Place::File(3),
     can: |w| w.studio.finished().is_some(),
     act: |w, _| w.studio.print(),
+    ..BLANK
 };
 
 pub static QUIT: Command = Command {

@@ -18,6 +18,7 @@ pub static FIND: Command = Command {
     place: Place::Help(0),
     can: always,
     act: |w, _| w.dialogs.find(),
+    ..BLANK
 };
 
 pub static SHORTCUTS: Command = Command {
@@ -28,6 +29,7 @@ pub static SHORTCUTS: Command = Command {
     place: Place::Help(0),
     can: always,
     act: |w, _| w.dialogs.list_shortcuts(),
+    ..BLANK
 };
 
 pub static COMMAND_LINE: Command = Command {

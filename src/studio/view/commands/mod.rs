@@ -49,13 +49,23 @@ pub struct Command {
     pub keys: &'static [KeyboardShortcut],
     /// Its menu.
     pub place: Place,
+    /// Whether what it turns on and off is on.
+    is_on: Option<fn(&Window) -> bool>,
     can: fn(&Window) -> bool,
     act: fn(&mut Window, &Context),
 }
 
 /// A command without anything special, to say only what is.
-const BLANK: Command =
-    Command { name: "", icon: None, tip: "", keys: &[], place: Place::None, can: has_file, act: |_, _| {} };
+const BLANK: Command = Command {
+    name: "",
+    icon: None,
+    tip: "",
+    keys: &[],
+    place: Place::None,
+    is_on: None,
+    can: has_file,
+    act: |_, _| {},
+};
 
 fn always(_: &Window) -> bool {
     true
@@ -78,6 +88,20 @@ impl Command {
     /// Its picture, as a letter of the font of icons; as wide a gap where it has none.
     pub fn picture(&self) -> char {
         self.icon.map_or('\u{2003}', char::from)
+    }
+
+    /// Whether what it turns on and off is on; nothing where it turns nothing on.
+    fn is_on(&self, window: &Window) -> Option<bool> {
+        self.is_on.map(|is_on| is_on(window))
+    }
+
+    /// What screen readers say of it.
+    fn info(&self, window: &Window, name: &str) -> egui::WidgetInfo {
+        let can = self.can(window);
+        match self.is_on(window) {
+            Some(is_on) => egui::WidgetInfo::selected(egui::Role::Button, can, is_on, name),
+            None => egui::WidgetInfo::labeled(egui::Role::Button, can, name),
+        }
     }
 
     /// Whether it can be done now.
@@ -116,12 +140,13 @@ impl Command {
     }
 
     /// A button with its picture alone; its name is for those who do not see it.
-    pub fn button(&self, window: &mut Window, ui: &mut Ui, is_on: bool) -> Response {
+    pub fn button(&self, window: &mut Window, ui: &mut Ui) -> Response {
         let text = egui::RichText::new(self.picture()).size(16.0);
         let is_enabled = self.can(window);
+        let is_on = self.is_on(window) == Some(true);
         let button = egui::Button::selectable(is_on, text).min_size(egui::vec2(28.0, 26.0));
         let response = ui.add_enabled(is_enabled, button);
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, is_enabled, self.name));
+        response.widget_info(|| self.info(window, self.name));
         let tip = self.hover_text(ui.ctx());
         let response = response.on_hover_text(tip.clone()).on_disabled_hover_text(tip);
         if response.clicked() {
@@ -130,14 +155,16 @@ impl Command {
         response
     }
 
-    /// A line of a menu.
+    /// A line of a menu, with a tick in place of the picture where it is on.
     pub fn menu_item(&self, window: &mut Window, ui: &mut Ui) {
-        let text = format!("{}  {}", self.picture(), self.label(&window.studio));
+        let is_on = self.is_on(window) == Some(true);
+        let picture = if is_on { char::from(Icon::Check) } else { self.picture() };
+        let text = format!("{picture}  {}", self.label(&window.studio));
         let button = egui::Button::new(text).shortcut_text(self.key_text(ui.ctx()));
         let is_enabled = self.can(window);
         let response = ui.add_enabled(is_enabled, button);
         let name = self.label(&window.studio);
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, is_enabled, &name));
+        response.widget_info(|| self.info(window, &name));
         let response = if self.tip.is_empty() { response } else { response.on_hover_text(self.tip) };
         if response.clicked() {
             self.run(window, ui.ctx());

@@ -16,31 +16,48 @@ pub(super) static ALL: &[&Command] = &[
 /// Turn of the view for a press of an arrow key, radians.
 const STEP_RAD: f64 = 0.12;
 
-pub static MODEL: Command =
-    mode("Model", Icon::Box, "the model, its folding and its sheets", &[ctrl(Key::Num1)], |w, _| {
-        w.mode = Mode::Model
-    });
-pub static SHEETS: Command =
-    mode("Sheets", Icon::Files, "the sheets alone", &[ctrl(Key::Num2)], |w, _| w.mode = Mode::Sheets);
-pub static EXPORT: Command = mode(
-    "Export",
-    Icon::FileOutput,
-    "writes files to print, cut or show",
-    &[ctrl(Key::Num3), ctrl(Key::E)],
-    |w, _| w.mode = Mode::Export,
-);
-pub static PLOT: Command =
-    mode("Plot", Icon::Scissors, "sends sheets to a cutter", &[ctrl(Key::Num4)], |w, _| w.mode = Mode::Plot);
+pub static MODEL: Command = Command {
+    name: "Model",
+    icon: Some(Icon::Box),
+    tip: "the model, its folding and its sheets",
+    keys: &[ctrl(Key::Num1)],
+    is_on: Some(|w| w.mode == Mode::Model),
+    act: |w, _| w.mode = Mode::Model,
+    ..MODE
+};
 
-const fn mode(
-    name: &'static str,
-    icon: Icon,
-    tip: &'static str,
-    keys: &'static [KeyboardShortcut],
-    act: fn(&mut Window, &Context),
-) -> Command {
-    Command { name, icon: Some(icon), tip, keys, place: Place::View(0), act, ..BLANK }
-}
+pub static SHEETS: Command = Command {
+    name: "Sheets",
+    icon: Some(Icon::Files),
+    tip: "the sheets alone",
+    keys: &[ctrl(Key::Num2)],
+    is_on: Some(|w| w.mode == Mode::Sheets),
+    act: |w, _| w.mode = Mode::Sheets,
+    ..MODE
+};
+
+pub static EXPORT: Command = Command {
+    name: "Export",
+    icon: Some(Icon::FileOutput),
+    tip: "writes files to print, cut or show",
+    keys: &[ctrl(Key::Num3), ctrl(Key::E)],
+    is_on: Some(|w| w.mode == Mode::Export),
+    act: |w, _| w.mode = Mode::Export,
+    ..MODE
+};
+
+pub static PLOT: Command = Command {
+    name: "Plot",
+    icon: Some(Icon::Scissors),
+    tip: "sends sheets to a cutter",
+    keys: &[ctrl(Key::Num4)],
+    is_on: Some(|w| w.mode == Mode::Plot),
+    act: |w, _| w.mode = Mode::Plot,
+    ..MODE
+};
+
+/// What the middle of the window shows.
+const MODE: Command = Command { place: Place::View(0), ..BLANK };
 
 pub static BESIDE: Command = Command {
     name: "Sheets beside the model",
@@ -48,6 +65,7 @@ pub static BESIDE: Command = Command {
     tip: "shows or hides the sheets at the right of the model",
     keys: &[key(Key::B)],
     place: Place::View(1),
+    is_on: Some(|w| w.has_sheets_beside),
     can: |w| has_file(w) && w.mode == Mode::Model,
     act: |w, _| w.has_sheets_beside = !w.has_sheets_beside,
 };
@@ -68,6 +86,7 @@ pub static GHOST: Command = Command {
     tip: "shows the mesh half see-through over the components",
     keys: &[key(Key::G)],
     place: Place::View(2),
+    is_on: Some(|w| w.space.layers().input),
     act: |w, _| w.space.toggle_ghost(),
     ..BLANK
 };
@@ -78,6 +97,7 @@ pub static NAMES: Command = Command {
     tip: "shows or hides names in the view",
     keys: &[key(Key::N)],
     place: Place::View(2),
+    is_on: Some(|w| w.space.shows_names()),
     act: |w, _| w.space.toggle_names(),
     ..BLANK
 };
@@ -87,6 +107,7 @@ pub static GRID: Command = Command {
     icon: Some(Icon::Grid3x3),
     tip: "shows or hides lines on the ground, 10 mm apart or as the size needs",
     place: Place::View(2),
+    is_on: Some(|w| w.space.layers().grid),
     act: |w, _| w.space.toggle_grid(),
     ..BLANK
 };
@@ -115,6 +136,7 @@ pub static ISOLATE: Command = Command {
         let (names, all) = (w.studio.selection.names().to_vec(), w.studio.shown().names().to_vec());
         w.studio.visibility.isolate(&names, &all);
     },
+    ..BLANK
 };
 
 pub static SHOW_ALL: Command = Command {
@@ -143,6 +165,7 @@ pub static MEASURE: Command = Command {
     tip: "measures between two corners that you click on",
     keys: &[key(Key::D)],
     place: Place::View(2),
+    is_on: Some(|w| w.space.measure().is_on()),
     act: |w, _| w.space.measure_mut().toggle(),
     ..BLANK
 };

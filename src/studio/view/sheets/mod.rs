@@ -72,6 +72,11 @@ impl SheetsPanel {
     }
 
     /// The tool that cuts and glues edges.
+    pub fn edges(&self) -> &EdgeTool {
+        &self.edges
+    }
+
+    /// The tool that cuts and glues edges, to be turned on and off.
     pub fn edges_mut(&mut self) -> &mut EdgeTool {
         &mut self.edges
     }

@@ -2,6 +2,7 @@
 
 use super::defects::{drag, grips, on_page, places};
 use super::*;
+use egui_kittest::kittest::NodeT;
 
 /// A drawn head with two ears so near to each other that they clash in any order.
 const EARS: &str = "[[component]]\nname = \"head\"\ntop = [[-80, -35], [80, -35], [80, 35], [-80, 35]]\n\
@@ -339,4 +340,52 @@ fn a_project_that_another_program_changed_is_overwritten_only_after_a_question()
     click(&mut desk, "Overwrite");
     settle(&mut desk, "the mesh", |s| s.opened().is_some_and(|opened| !opened.is_project));
     assert!(!read().contains("# third"));
+}
+
+/// "a and b and c" was said.
+#[test]
+fn the_tip_of_merge_lists_many_components_with_one_and() {
+    let (mut desk, _folder) = open();
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    desk.run_ok();
+    let names = desk.state().studio().shown().names().to_vec();
+    desk.get_by_role_and_label(Role::Button, "Merge").hover();
+    desk.run_steps(100);
+    let tip = format!("makes one part of {}, {} and {} (M)", names[0], names[1], names[2]);
+    assert!(desk.query_by_label(&tip).is_some(), "{tip}");
+}
+
+/// Whether a line of the menu "View" has a tick, which is told to screen readers, too.
+fn is_ticked(desk: &mut Desk, label: &str) -> bool {
+    click(desk, "View");
+    let tick = format!("{}  {label}", char::from(lucide_icons::Icon::Check));
+    let has_tick = desk.output().shapes.iter().any(|shape| match &shape.shape {
+        egui::Shape::Text(text) => text.galley.text() == tick,
+        _ => false,
+    });
+    for line in desk.get_all_by_role_and_label(Role::Button, label) {
+        let is_on = line.accesskit_node().toggled() == Some(egui::accesskit::Toggled::True);
+        assert_eq!(is_on, has_tick, "{label}");
+    }
+    desk.key_press(Key::Escape);
+    desk.run_ok();
+    has_tick
+}
+
+/// Nothing in the menu said what is on.
+#[test]
+fn the_menu_of_the_view_ticks_what_is_on() {
+    let (mut desk, _folder) = open();
+    for (label, key) in [
+        ("Ghost of the mesh", Key::G),
+        ("Names of the components", Key::N),
+        ("Sheets beside the model", Key::B),
+        ("Measure", Key::D),
+    ] {
+        let before = is_ticked(&mut desk, label);
+        desk.key_press(key);
+        desk.run_ok();
+        assert_eq!(is_ticked(&mut desk, label), !before, "{label}");
+    }
+    assert!(is_ticked(&mut desk, "Model") && !is_ticked(&mut desk, "Plot") && !is_ticked(&mut desk, "Fit"));
 }
