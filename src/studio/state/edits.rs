@@ -8,8 +8,8 @@ use glam::DVec3;
 use tatamu::front::hand;
 use tatamu::model::PartId;
 
-/// Turns of a component that follow each other within this time are undone together, seconds.
-const TURN_PAUSE_S: f64 = 1.0;
+/// Turns and moves that follow each other within this time are undone together, seconds.
+const PAUSE_S: f64 = 1.0;
 
 impl Studio {
     /// Changes the project. Changes of one gesture are undone together.
@@ -57,6 +57,14 @@ impl Studio {
         self.document.iter_mut().for_each(Document::end_gesture);
     }
 
+    /// A step of a turn or a move, at a time of the window's clock; after a pause it is undone alone.
+    pub fn begin_step(&mut self, now_s: f64) {
+        if now_s - self.last_step_s > PAUSE_S {
+            self.end_gesture();
+        }
+        self.last_step_s = now_s;
+    }
+
     /// Goes a step back.
     pub fn undo(&mut self) {
         if self.document.as_mut().is_some_and(Document::undo) {
@@ -76,10 +84,7 @@ impl Studio {
     /// Turns the fold direction of a component, as the wheel does, at a time of the window's clock. Turns
     /// that follow each other quickly are one step.
     pub fn turn(&mut self, part: PartId, degrees: f64, now_s: f64) {
-        if now_s - self.last_turn_s > TURN_PAUSE_S {
-            self.end_gesture();
-        }
-        self.last_turn_s = now_s;
+        self.begin_step(now_s);
         let Some(document) = &self.document else { return };
         if let Some((change, gesture)) = hand::turned(&self.shown, document.project(), part, degrees) {
             self.change(&change, Some(&gesture));

@@ -45,8 +45,8 @@ pub struct Studio {
     measures: bool,
     /// Whether the last change was a choice about a net, which is taken back if it cannot be followed.
     is_attempt: bool,
-    /// When a component was turned last.
-    last_turn_s: f64,
+    /// When something was turned or moved last by a step.
+    last_step_s: f64,
     /// Whether unsaved changes are dropped once another file is read.
     drops_changes: bool,
     /// Tells files that were opened apart.
@@ -78,7 +78,7 @@ impl Studio {
             visibility: Visibility::default(),
             measures: false,
             is_attempt: false,
-            last_turn_s: f64::NEG_INFINITY,
+            last_step_s: f64::NEG_INFINITY,
             drops_changes: false,
             session: 0,
             wake,

@@ -116,7 +116,6 @@ pub static EDGES: Command = Command {
     is_on: Some(|w| w.sheets.edges().is_on()),
     can: |w| has_file(w) && w.shows_sheets(),
     act: |w, _| w.sheets.edges_mut().toggle(),
-    ..BLANK
 };
 
 static STOP: Command = Command {

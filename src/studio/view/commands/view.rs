@@ -2,8 +2,9 @@
 
 use super::super::{Mode, Window};
 use super::keys::{ctrl, key, shift};
-use super::{BLANK, Command, Place, always, has_file, has_selection};
+use super::{BLANK, Command, Place, always, has_file, has_selection, pieces};
 use eframe::egui::{Context, Key, KeyboardShortcut, Theme, ThemePreference};
+use glam::DVec2;
 use lucide_icons::Icon;
 
 /// All of them.
@@ -15,6 +16,8 @@ pub(super) static ALL: &[&Command] = &[
 
 /// Turn of the view for a press of an arrow key, radians.
 const STEP_RAD: f64 = 0.12;
+/// Move of a piece for one, mm.
+const STEP_MM: f64 = 1.0;
 
 pub static MODEL: Command = Command {
     name: "Model",
@@ -185,14 +188,21 @@ static SIDE: Command =
     view("View from the side", &[key(Key::Num2)], |w, _| w.space.look_from(std::f64::consts::FRAC_PI_2, 0.0));
 static TOP: Command = view("View from above", &[key(Key::Num3)], |w, _| w.space.look_from(0.0, 1.5));
 static LEFT: Command =
-    hidden("Rotate the view to the left", &[key(Key::ArrowLeft)], |w, _| w.space.nudge(STEP_RAD, 0.0, 1.0));
-static RIGHT: Command = hidden("Rotate the view to the right", &[key(Key::ArrowRight)], |w, _| {
-    w.space.nudge(-STEP_RAD, 0.0, 1.0)
-});
+    hidden("Rotate the view to the left, or move the piece by 1 mm", &[key(Key::ArrowLeft)], |w, ctx| {
+        step(w, ctx, DVec2::NEG_X)
+    });
+static RIGHT: Command =
+    hidden("Rotate the view to the right, or move the piece by 1 mm", &[key(Key::ArrowRight)], |w, ctx| {
+        step(w, ctx, DVec2::X)
+    });
 static UP: Command =
-    hidden("Rotate the view up", &[key(Key::ArrowUp)], |w, _| w.space.nudge(0.0, STEP_RAD, 1.0));
+    hidden("Rotate the view up, or move the piece by 1 mm", &[key(Key::ArrowUp)], |w, ctx| {
+        step(w, ctx, DVec2::Y)
+    });
 static DOWN: Command =
-    hidden("Rotate the view down", &[key(Key::ArrowDown)], |w, _| w.space.nudge(0.0, -STEP_RAD, 1.0));
+    hidden("Rotate the view down, or move the piece by 1 mm", &[key(Key::ArrowDown)], |w, ctx| {
+        step(w, ctx, DVec2::NEG_Y)
+    });
 static ZOOM_IN: Command =
     hidden("Zoom in", &[key(Key::Plus), key(Key::Equals)], |w, _| w.space.nudge(0.0, 0.0, 1.2));
 static ZOOM_OUT: Command = hidden("Zoom out", &[key(Key::Minus)], |w, _| w.space.nudge(0.0, 0.0, 1.0 / 1.2));
@@ -211,4 +221,13 @@ const fn hidden(
     act: fn(&mut Window, &Context),
 ) -> Command {
     Command { name, keys, act, ..BLANK }
+}
+
+/// Moves the selected piece; without one, rotates the view.
+fn step(window: &mut Window, ctx: &Context, way: DVec2) {
+    if pieces::can_push(window) {
+        pieces::push(window, ctx, STEP_MM * way);
+    } else {
+        window.space.nudge(-STEP_RAD * way.x, STEP_RAD * way.y, 1.0);
+    }
 }

@@ -17,7 +17,7 @@ use crate::app::text::counted;
 use eframe::egui::{self, Color32, PointerButton, Pos2, Rect, Sense, Stroke, Ui, Vec2};
 use glam::DVec2;
 use lucide_icons::Icon;
-use pieces::Drag;
+use pieces::{Drag, Push};
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, channel};
 use tatamu::component::PanelId;
@@ -40,6 +40,7 @@ pub struct SheetsPanel {
     seen: Option<String>,
     hover: Option<Hover>,
     drag: Option<Drag>,
+    push: Option<Push>,
     edges: EdgeTool,
     /// The page that is seen before files are written.
     previewed: usize,

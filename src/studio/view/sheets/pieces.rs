@@ -1,4 +1,4 @@
-//! Pieces that are dragged, rotated and put aside: each moves alone.
+//! Pieces that are dragged, pushed, rotated and put aside: each moves alone.
 
 use super::super::super::change::Change;
 use super::super::super::messages::Cause;
@@ -72,7 +72,7 @@ impl SheetsPanel {
         ui.ctx().set_cursor_icon(egui::CursorIcon::Grabbing);
         if !is_down {
             self.drag = None;
-            arrange(studio, output, drag.id, &to);
+            arrange(studio, output, drag.id, &to, None);
         }
     }
 
@@ -100,6 +100,37 @@ impl SheetsPanel {
                 }
             }
         });
+    }
+}
+
+/// A piece that was pushed by keys.
+pub struct Push {
+    piece: String,
+    /// The sheets before, and how far the piece is pushed from there.
+    output: Output,
+    by_mm: DVec2,
+    /// The project since.
+    text: String,
+}
+
+impl SheetsPanel {
+    /// Pushes the selected piece on its page, at a time of the window's clock.
+    pub fn push(&mut self, studio: &mut Studio, by_mm: DVec2, now_s: f64) {
+        let Some(((piece, id), document)) = selected(studio).zip(studio.document()) else { return };
+        let last = self.push.take().filter(|last| last.piece == piece && last.text == document.text());
+        // The layout moves pieces to cells of its lattice; presses add up from where the first one began.
+        let (output, pushed_mm) = match (last, studio.laid()) {
+            (Some(last), _) => (last.output, last.by_mm),
+            (None, Some(output)) => (output.clone(), DVec2::ZERO),
+            (None, None) => return,
+        };
+        studio.begin_step(now_s);
+        let sheet = output.layout().places(id.net)[id.piece].sheet;
+        let to = Move { sheet, by_mm: pushed_mm + by_mm, turn_rad: 0.0 };
+        let is_moved = arrange(studio, &output, id, &to, Some(&format!("push {piece}")));
+        let by_mm = if is_moved { to.by_mm } else { pushed_mm };
+        let text = studio.document().map_or(String::new(), |document| document.text().to_owned());
+        self.push = Some(Push { piece, output, by_mm, text });
     }
 }
 
@@ -144,6 +175,11 @@ fn selected(studio: &Studio) -> Option<(String, PieceId)> {
     Some((piece, id))
 }
 
+/// Whether a piece is selected.
+pub fn is_selected(studio: &Studio) -> bool {
+    selected(studio).is_some()
+}
+
 /// Whether it can be done with the piece that is selected.
 pub fn can(studio: &Studio, hand: Hand) -> bool {
     let Some((piece, _)) = selected(studio) else { return false };
@@ -166,13 +202,16 @@ pub fn act(studio: &mut Studio, hand: Hand) {
         Hand::Right => Move { sheet, by_mm: DVec2::ZERO, turn_rad: -TURN_RAD },
         Hand::Aside => Move { sheet: SheetId(layout.sheet_count()), by_mm: DVec2::ZERO, turn_rad: 0.0 },
     };
-    arrange(studio, &output, id, &to);
+    arrange(studio, &output, id, &to, None);
 }
 
-/// Moves a piece; all others stay where they lie.
-fn arrange(studio: &mut Studio, output: &Output, id: PieceId, to: &Move) {
-    match pages::rearranged(output, id, to) {
-        Ok(pins) => studio.change(&Change::Pins { pins }, None),
+/// Moves a piece; all others stay where they lie. Whether there is room.
+fn arrange(studio: &mut Studio, output: &Output, id: PieceId, to: &Move, gesture: Option<&str>) -> bool {
+    let pins = pages::rearranged(output, id, to);
+    let has_room = pins.is_ok();
+    match pins {
+        Ok(pins) => studio.change(&Change::Pins { pins }, gesture),
         Err(problem) => studio.messages_mut().warn(Cause::Change, problem),
     }
+    has_room
 }

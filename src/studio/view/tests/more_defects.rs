@@ -389,3 +389,54 @@ fn the_menu_of_the_view_ticks_what_is_on() {
     }
     assert!(is_ticked(&mut desk, "Model") && !is_ticked(&mut desk, "Plot") && !is_ticked(&mut desk, "Fit"));
 }
+
+/// The middle of a piece on its page, mm.
+fn middle(desk: &Desk, name: &str) -> glam::DVec2 {
+    let output = desk.state().studio().shown().output().unwrap();
+    let outlines =
+        output.layout().sheet_ids().flat_map(|sheet| crate::studio::pages::outlines(output, sheet));
+    let is_own = |id| crate::studio::pages::piece(output, id).unwrap().name() == name;
+    let (_, outline) = outlines.into_iter().find(|(id, _)| is_own(*id)).expect("it is on a sheet");
+    let (low, high) = tatamu::geom::polygon::bounds(outline).unwrap();
+    low.midpoint(high)
+}
+
+/// Pieces were rotated and put aside by keys, but moved by the mouse alone.
+#[test]
+fn arrow_keys_move_the_selected_piece_in_one_step_of_undo() {
+    let (mut desk, _folder) = open_sheets();
+    desk.key_press(Key::P);
+    desk.run_ok();
+    let name = desk.state().studio().selection.piece().unwrap().to_owned();
+    // Alone on its sheet nothing is in its way.
+    click(&mut desk, "Put aside");
+    wait_for_pages(&mut desk);
+    let (text, before) = (desk.state().studio().document().unwrap().text().to_owned(), middle(&desk, &name));
+    let corner = places(&desk)[&name].1;
+    let height = desk.state().studio().shown().output().unwrap().layout().options().size_mm().y;
+    let (key, up_mm) = if before.y < height / 2.0 { (Key::ArrowUp, 10.0) } else { (Key::ArrowDown, -10.0) };
+    for _ in 0..3 {
+        desk.key_press(Key::ArrowRight);
+        desk.run_steps(2);
+    }
+    desk.key_press_modifiers(Modifiers::SHIFT, key);
+    desk.run_steps(2);
+    wait_for_pages(&mut desk);
+    let moved = middle(&desk, &name) - before;
+    assert!(
+        moved.distance(glam::DVec2::new(3.0, up_mm)) < 0.6,
+        "cells of the layout are 0.8 mm wide: {moved}"
+    );
+    let pin = desk.state().studio().document().unwrap().project().pins[0].clone();
+    assert_eq!(pin.piece(), name);
+    let by = (pin.pin().at_mm - corner).abs();
+    assert!(by.distance(glam::DVec2::new(3.0, 10.0)) < 1e-3, "{by}");
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::Z);
+    desk.run_ok();
+    assert_eq!(desk.state().studio().document().unwrap().text(), text, "one step");
+    // Without a piece they rotate the view.
+    desk.state_mut().studio_mut().selection.clear();
+    desk.key_press(Key::ArrowRight);
+    desk.run_ok();
+    assert_eq!(desk.state().studio().document().unwrap().text(), text);
+}
