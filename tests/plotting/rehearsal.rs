@@ -22,6 +22,8 @@ pub struct Rehearsal {
     pub stop_wishes: u32,
     /// After this byte the port is gone.
     pub unplug_at: Option<u64>,
+    /// How late an answer is that the plotter gives at this time.
+    pub lateness: fn(Duration) -> Duration,
     /// Shortest time between two looks at the port.
     pub least_look: Duration,
     /// The job takes no longer.
@@ -34,6 +36,8 @@ pub struct Rehearsal {
     pub now: Duration,
     /// What the port holds.
     pub port: VecDeque<u8>,
+    /// Answers on their way, and when they arrive.
+    answers: VecDeque<(Duration, Vec<u8>)>,
     line_free: Duration,
     /// Time in which the plotter had room: all of it, and that in which the line carried the job.
     room: Duration,
@@ -50,6 +54,7 @@ impl Rehearsal {
             stop_at: None,
             stop_wishes: 1,
             unplug_at: None,
+            lateness: |_| Duration::ZERO,
             least_look: Duration::from_micros(100),
             too_long: TOO_LONG,
             most_queued: 0,
@@ -57,6 +62,7 @@ impl Rehearsal {
             byte: Duration::from_secs_f64(cutter.serial().byte_s()),
             now: Duration::ZERO,
             port: VecDeque::new(),
+            answers: VecDeque::new(),
             line_free: Duration::ZERO,
             room: Duration::ZERO,
             busy: Duration::ZERO,
@@ -115,7 +121,6 @@ impl Rehearsal {
     /// Time passes: bytes go over the line, answers come back.
     pub fn pass(&mut self, wait: Duration, is_sending: bool) {
         let end = self.now + wait;
-        self.line_free = self.line_free.max(self.now);
         while self.line_free + self.byte <= end {
             let is_held = self.handshake == Handshake::RtsCts && !self.plotter.is_clear_to_send();
             let has_room = self.plotter.free() >= ROOM && !self.plotter.holds_host() && !is_held;
@@ -139,9 +144,17 @@ impl Rehearsal {
             self.plotter.receive(byte, self.line_free);
             self.happen(self.plotter.received());
         }
+        // A byte of a slow line takes longer than a look.
+        if self.port.is_empty() {
+            self.line_free = self.line_free.max(end);
+        }
         self.now = end;
         let answers = self.plotter.take_answers(end);
-        self.session.received(&answers);
+        let last = self.answers.back().map_or(Duration::ZERO, |(due, _)| *due);
+        self.answers.push_back((last.max(end + (self.lateness)(end)), answers));
+        while let Some((_, answers)) = self.answers.pop_front_if(|(due, _)| *due <= end) {
+            self.session.received(&answers);
+        }
     }
 
     /// What was to happen after so many bytes.

@@ -294,6 +294,45 @@ fn random_faults_lose_nothing_and_leave_no_tool_down() {
     }
 }
 
+/// Once, a late answer counted for the next question, and what was sent in between overflowed the buffer.
+#[test]
+fn late_and_lost_answers_overflow_no_buffer_however_small() {
+    const LATE: [fn(Duration) -> Duration; 5] = [
+        |_| Duration::ZERO,
+        |_| Duration::from_millis(1500),
+        // A machine that is late from the first question on is given up before anything is sent.
+        |now| Duration::from_millis(3300) * u32::from(now.as_secs() > 9),
+        |now| Duration::from_millis(1700) * u32::from(now.as_secs() % 7 < 3),
+        |now| Duration::from_millis(if now.as_secs() > 9 { now.as_millis() as u64 * 7919 % 3500 } else { 0 }),
+    ];
+    let job = &long_job(2500);
+    // Now the line is the limit, now the machine.
+    let speeds = [(1200, 1.0), (1200, 20.0), (9600, 1.0), (9600, 20.0)];
+    std::thread::scope(|scope| {
+        for ((baud, slowness), late) in
+            speeds.into_iter().flat_map(|speed| (0..LATE.len()).map(move |late| (speed, late)))
+        {
+            scope.spawn(move || {
+                for buffer_bytes in [60, 100, 128, 256, 1024] {
+                    for silence_every in [0, 3, 40] {
+                        let cutter = cutter("generic-hpgl", baud, true);
+                        let faults = Faults { slowness, silence_every, ..Faults::default() };
+                        let options = VirtualOptions { buffer_bytes, faults, ..VirtualOptions::default() };
+                        let mut rehearsal = rehearse(job, &cutter, Handshake::EscB, options);
+                        (rehearsal.lateness, rehearsal.too_long) = (LATE[late], Duration::from_secs(5000));
+                        let outcome = rehearsal.run();
+                        let what = format!("{baud} baud, {late}: {options:?} {outcome:?}");
+                        assert_eq!((rehearsal.plotter.lost(), rehearsal.plotter.broken()), (0, 0), "{what}");
+                        assert!(!rehearsal.plotter.is_pen_down(), "{what}");
+                        assert_eq!(outcome.end, End::Finished, "{what}");
+                        assert_eq!(rehearsal.plotter.motions(), meant(job, &cutter), "{what}");
+                    }
+                }
+            });
+        }
+    });
+}
+
 #[test]
 fn gpgl_and_dmpl_are_paced_and_stopped_too() {
     for (name, job) in [

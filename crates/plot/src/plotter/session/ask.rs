@@ -1,13 +1,16 @@
-//! Questions to the machine and their answers: one at a time.
+//! Questions to the machine and their answers: one at a time, unless an answer is late.
 
 use super::{End, Handshake, Phase, Session, Step};
 use crate::plotter::profile::LEAST_BUFFER;
+use std::collections::VecDeque;
 use std::time::Duration;
 
 /// A machine that is to answer at once has so much time.
 const PATIENCE: Duration = Duration::from_millis(1000);
 /// Unanswered questions in a row after which the machine is given up.
 const MOST_SILENCES: u32 = 5;
+/// An answer that does not come for so long is lost: a machine that says nothing for as long is given up.
+const LOST: Duration = PATIENCE.saturating_mul(MOST_SILENCES);
 /// A full buffer is asked about again after so long, and one with some room after so long: often
 /// enough for a fast line, and not so often that the machine has nothing else to do.
 const INTERVAL: Duration = Duration::from_millis(40);
@@ -30,8 +33,8 @@ pub(super) enum Question {
 /// The state of questions and answers.
 #[derive(Debug, Clone)]
 pub(super) struct Ask {
-    /// The open question: when it was asked, and what had been sent by then.
-    pub(super) open: Option<(Question, Duration, u64)>,
+    /// The open questions, the oldest first: when each arrives, and what had been sent before it.
+    pub(super) open: VecDeque<(Question, Duration, u64)>,
     /// The last answer to [`Question::Free`]: free bytes, and what had been sent when it was asked.
     pub(super) free: Option<(usize, u64)>,
     pub(super) size: usize,
@@ -44,12 +47,15 @@ pub(super) struct Ask {
     silences: u32,
     count: u32,
     last: Duration,
+    /// Whether an answer came since the last question, and when that was noticed.
+    has_heard: bool,
+    heard: Option<Duration>,
 }
 
 impl Ask {
     pub(super) fn new(size: usize) -> Self {
         Self {
-            open: None,
+            open: VecDeque::new(),
             free: None,
             size,
             error: 0,
@@ -59,17 +65,39 @@ impl Ask {
             silences: 0,
             count: 0,
             last: Duration::ZERO,
+            has_heard: false,
+            heard: None,
         }
     }
 
-    /// Whether the open question was left unanswered; it is closed then.
+    /// Whether the last question was left unanswered; it is closed then.
     pub(super) fn is_unanswered(&mut self, now: Duration, patience: Duration) -> bool {
-        let is_late = self.open.is_some_and(|(_, asked, _)| now >= asked + patience);
+        let is_late = self.open.back().is_some_and(|&(_, asked, _)| now >= asked + patience);
         if is_late {
-            self.open = None;
+            self.open.clear();
             self.silences += 1;
         }
         is_late
+    }
+
+    /// When an answer came after the last question, as noticed now.
+    fn heard(&mut self, now: Duration) -> Option<Duration> {
+        if std::mem::take(&mut self.has_heard) {
+            self.heard = Some(now);
+        }
+        self.heard
+    }
+
+    /// Whether the line may answer the question.
+    fn is_answer(&self, question: Question, line: &str, number: Option<usize>) -> bool {
+        match (question, number) {
+            (Question::Free, Some(free)) => free <= self.size,
+            (Question::Size, Some(size)) => (LEAST_BUFFER..1 << 30).contains(&size),
+            (Question::Error, Some(code)) => code < 100,
+            (Question::Model, None) => true,
+            (Question::Position, None) => line.split(',').count() >= 2,
+            _ => false,
+        }
     }
 }
 
@@ -79,7 +107,9 @@ impl Session {
         let Some(controls) = self.dialect.controls() else {
             return Step::Wait(INTERVAL);
         };
-        self.replies.clear();
+        if self.ask.open.is_empty() {
+            self.replies.clear();
+        }
         let bytes = match question {
             Question::Free => controls.free,
             Question::Size => controls.size,
@@ -91,35 +121,47 @@ impl Session {
             let arrival = self.line.busy_until().max(now) + self.line.time(bytes.len());
             self.ledger.sent(bytes.len(), self.ledger.strokes_done(), 0.0, arrival);
         }
-        self.ask.open = Some((question, now, self.ledger.total()));
+        let sent = self.ledger.total();
+        let step = self.send_control(bytes, now);
+        // A slow line needs longer than the machine.
+        let arrival = now + self.line.time(self.line.in_flight(now));
+        self.ask.open.push_back((question, arrival, sent));
         self.ask.last = now;
-        self.send_control(bytes, now)
+        (self.ask.has_heard, self.ask.heard) = (false, None);
+        step
     }
 
-    /// A line came. What does not answer the open question is noise.
+    /// A line came. It counts for the oldest question that it may answer, so that a late answer never gives credit for
+    /// what was sent after its question; what answers none is noise.
     pub(super) fn answered(&mut self, line: &str) {
-        let Some((question, _, sent)) = self.ask.open else {
+        let number = line.trim().parse::<usize>().ok();
+        let is_answer = |&(question, _, _): &(Question, _, _)| self.ask.is_answer(question, line, number);
+        let Some(place) = self.ask.open.iter().position(is_answer) else {
             return;
         };
-        let number = line.trim().parse::<usize>().ok();
+        let Some((question, _, sent)) = self.ask.open.drain(..=place).next_back() else {
+            return;
+        };
         match (question, number) {
-            (Question::Free, Some(free)) if free <= self.ask.size => {
+            (Question::Free, Some(free)) => {
                 self.ask.free = Some((free, sent));
                 let held = (self.ask.size - free) as u64;
                 self.ledger.taken(sent.saturating_sub(held));
             }
-            (Question::Size, Some(size)) if (LEAST_BUFFER..1 << 30).contains(&size) => self.ask.size = size,
-            (Question::Error, Some(code)) if code < 100 => self.ask.error = code as u32,
-            (Question::Model, None) => {
+            (Question::Size, Some(size)) => self.ask.size = size,
+            (Question::Error, Some(code)) => self.ask.error = code as u32,
+            (Question::Model, _) => {
                 let name: String = line.chars().filter(|c| !c.is_control()).take(40).collect();
                 self.notes.push(format!("the machine identifies itself as {name}"));
             }
-            (Question::Position, None) if line.split(',').count() >= 2 => self.ask.has_position = true,
-            _ => return,
+            _ => self.ask.has_position = true,
         }
-        self.ask.open = None;
-        self.ask.silences = 0;
+        self.ask.has_heard = true;
         self.ask.has_answered = true;
+        // What was silent in the probe is remembered to its end.
+        if self.phase != Phase::Probe {
+            self.ask.silences = 0;
+        }
     }
 
     /// Finds out what the machine answers, and chooses the handshake.
@@ -136,13 +178,23 @@ impl Session {
                 self.end(End::NoAnswer, false)
             };
         }
-        if self.ask.open.is_some() && !self.ask.is_unanswered(now, PATIENCE) {
+        let is_silent = self.ask.is_unanswered(now, PATIENCE);
+        if !self.ask.open.is_empty() {
             return Step::Wait(INTERVAL);
+        }
+        // Without its size, a buffer smaller than the profile's would never have room.
+        if is_silent && self.ask.stage == 1 && self.ask.silences == 1 {
+            return self.ask(Question::Size, now);
         }
         let questions = [Question::Size, Question::Free, Question::Error, Question::Model];
         if self.ask.stage == 2 && self.ask.free.is_none() {
             let is_auto = self.handshake == Handshake::Auto;
             return if is_auto { self.begin(Handshake::Auto, now) } else { self.end(End::NoAnswer, false) };
+        }
+        // A late answer would count for a question of the job.
+        let is_late = self.ask.stage == 3 && self.ask.silences > 0;
+        if is_late && now < self.ask.heard(now).unwrap_or(self.ask.last) + LOST {
+            return Step::Wait(INTERVAL);
         }
         match questions.get(self.ask.stage) {
             Some(&question) => {
@@ -186,7 +238,7 @@ impl Session {
         self.notes.push(format!("{asked}handshake: {} ({why})", self.handshake.name()));
         self.phase = Phase::Stream;
         self.ask.stage = 0;
-        self.ask.open = None;
+        self.ask.open.clear();
         let switch = self.dialect.switch_xon_xoff_on(XOFF_BELOW.min(self.ask.size / 2));
         let is_switched = self.handshake == Handshake::XonXoff && self.may_ask();
         let switch = if is_switched { switch } else { Vec::new() };
@@ -199,13 +251,27 @@ impl Session {
         if self.handshake != Handshake::EscB {
             return None;
         }
-        if self.ask.is_unanswered(now, PATIENCE) && self.ask.silences >= MOST_SILENCES {
-            return Some(self.begin_stop(End::NoAnswer, now));
+        if let (Some(&(question, ..)), Some(&(_, asked, _))) = (self.ask.open.front(), self.ask.open.back()) {
+            match self.ask.heard(now) {
+                // The machine answers again: what is still open is late or lost.
+                Some(heard) if now >= heard + LOST => self.ask.open.clear(),
+                None if now >= asked + PATIENCE => {
+                    self.ask.silences += 1;
+                    let is_given_up = self.ask.silences >= MOST_SILENCES;
+                    // The same question again, so that either answer fits either.
+                    return Some(if is_given_up {
+                        self.begin_stop(End::NoAnswer, now)
+                    } else {
+                        self.ask(question, now)
+                    });
+                }
+                _ => {}
+            }
         }
         let is_low = self.credit() < (self.ask.size - self.reserve()) / 2;
         let interval = if self.credit() > 0 { SHORT_INTERVAL } else { INTERVAL };
         let is_time = now >= self.ask.last + interval;
-        if self.ask.open.is_some() || !is_low || !is_time {
+        if !self.ask.open.is_empty() || !is_low || !is_time {
             return None;
         }
         self.ask.count += 1;

@@ -165,7 +165,7 @@ impl Session {
         bytes.extend(self.stop.as_bytes());
         self.is_down = false;
         self.search = Search::Over;
-        self.ask.open = None;
+        self.ask.open.clear();
         self.ask.stage = 0;
         self.poll.forget();
         self.phase = Phase::Finish(end);
@@ -222,10 +222,10 @@ impl Session {
             self.ask.stage = 2;
             return self.ask(Question::Error, now);
         }
-        if stage == 2 && self.ask.open.is_none() {
+        if stage == 2 && self.ask.open.is_empty() {
             return self.end(self.with_error(end), true);
         }
-        let asked = self.ask.open.map_or(now, |(_, asked, _)| asked);
+        let asked = self.ask.open.back().map_or(now, |&(_, asked, _)| asked);
         let works_on = self.ledger.done_at().saturating_sub(asked);
         let patience = match (stage, self.ask.has_answered) {
             (1, true) => works_on * TOLERANCE + GRACE,
