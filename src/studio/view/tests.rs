@@ -18,11 +18,13 @@ use tatamu::sheet::SheetId;
 use tempfile::TempDir;
 
 mod defects;
+mod export_tests;
 mod more_defects;
 mod nets;
 #[cfg(unix)]
 mod plot_tests;
 mod reach_tests;
+mod room_tests;
 mod tools;
 
 type Desk = Harness<'static, Window>;

@@ -27,12 +27,12 @@ const LOOKS: usize = 24;
 /// Models of more parts are looked for less thoroughly. Of 400 meshes that nobody prepared the one with the most parts
 /// has 24; a bear in 30 took five minutes.
 pub const MANY_PARTS: usize = 24;
-/// Of more parts than this the first model has to do. A bear of 48 has 46 pairs that clash after four attempts, and 109 after
-/// one; an armadillo of 100 has 380 after eight, and 377 after two, which take a third of the time.
-pub const MOST_ATTEMPTED: usize = 64;
 /// They are looked at less often by this power of their number. One look at 100 parts takes a second, and with the third power all of them take two
 /// minutes.
 const MANY_POWER: usize = 6;
+/// Of more parts than this the first model has to do. A bear of 48 has 46 pairs that clash after four attempts, and 109 after
+/// one; an armadillo of 100 has 380 after eight, and 377 after two, which take a third of the time.
+pub const MOST_ATTEMPTED: usize = 64;
 /// A search is given up after so many models in a row that are no better, and this share of all that it may look at. Most
 /// end sooner, as nothing better is expected.
 const PATIENCE: usize = 64;

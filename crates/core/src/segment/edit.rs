@@ -3,6 +3,7 @@
 use super::parts::Parts;
 use super::surface::Surface;
 use crate::geom::Plane;
+use crate::mesh::Mesh;
 use glam::DAffine3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -117,14 +118,9 @@ impl Parts {
 
     fn split(self, name: &str, plane: &Plane, front: Option<&str>) -> Result<Self, EditError> {
         let part = self.find(name, "to split")? as u32;
-        let old = self.labels();
-        let (mesh, origin) = self.mesh().cut(|face| old[face] == part, plane);
-        let mut labels: Vec<u32> = origin.iter().map(|&f| old[f as usize]).collect();
+        let Cut { mesh, mut labels, is_in_front } = Cut::new(self.mesh(), &self.labels(), part, plane);
         // Faces of other parts are on side 2.
-        let side = |f: usize| match labels[f] {
-            label if label != part => 2,
-            _ => u32::from(mesh.corners(f).iter().map(|&c| plane.distance(c)).sum::<f64>() > 0.0),
-        };
+        let side = |f: usize| is_in_front[f].map_or(2, u32::from);
         let surface = Surface::of_faces(mesh.positions(), mesh.faces());
         let pieces = Pieces::new(&surface, &side);
         if pieces.of_side[0].is_empty() || pieces.of_side[1].is_empty() {
@@ -161,6 +157,29 @@ impl Parts {
         }
         let mirror = self.segmentation().mirror().copied();
         Ok(Self::of_labels(Arc::new(mesh), &labels, &names, mirror))
+    }
+}
+
+/// A mesh of which one part is cut by a plane.
+pub(super) struct Cut {
+    pub mesh: Mesh,
+    /// The label of each face: that of the face which it was cut from.
+    pub labels: Vec<u32>,
+    /// For each face of the part, whether it is on the side that the plane's normal points to.
+    pub is_in_front: Vec<Option<bool>>,
+}
+
+impl Cut {
+    /// Cuts the faces with one label.
+    pub(super) fn new(mesh: &Mesh, labels: &[u32], part: u32, plane: &Plane) -> Self {
+        let (mesh, origin) = mesh.cut(|face| labels[face] == part, plane);
+        let labels: Vec<u32> = origin.iter().map(|&face| labels[face as usize]).collect();
+        let is_in_front =
+            |face: usize| mesh.corners(face).iter().map(|&c| plane.distance(c)).sum::<f64>() > 0.0;
+        let of_part =
+            labels.iter().enumerate().map(|(face, &label)| (label == part).then(|| is_in_front(face)));
+        let is_in_front = of_part.collect();
+        Self { mesh, labels, is_in_front }
     }
 }
 

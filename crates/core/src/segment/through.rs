@@ -1,5 +1,6 @@
 //! Parts that pass through others, as the one wing of a plane does through its fuselage.
 
+use super::edit::Cut;
 use super::surface::Surface;
 use super::{Parts, SegmentId, Segmentation};
 use crate::geom::{Hull, Mirror, Plane, bounds, eigen};
@@ -25,20 +26,16 @@ impl Parts {
         let mirror = self.segmentation().mirror().copied();
         let mut mesh = self.mesh().clone();
         let mut labels: Vec<u32> = self.segmentation().face_segments().iter().map(|id| id.0).collect();
-        let mut count = self.names().len();
+        let mut count = self.names().len() as u32;
         for (part, plane) in cuts {
-            let (cut, origin) = mesh.cut(|face| labels[face] as usize == part, &plane);
-            labels = origin.iter().map(|&face| labels[face as usize]).collect();
-            for (face, label) in labels.iter_mut().enumerate().filter(|(_, label)| **label as usize == part) {
-                if cut.corners(face).iter().map(|&corner| plane.distance(corner)).sum::<f64>() > 0.0 {
-                    *label = count as u32;
-                }
-            }
+            let cut = Cut::new(&mesh, &labels, part as u32, &plane);
+            let front = |(label, side)| if side == Some(true) { count } else { label };
+            labels = cut.labels.into_iter().zip(cut.is_in_front).map(front).collect();
             count += 1;
-            mesh = Arc::new(cut);
+            mesh = Arc::new(cut.mesh);
         }
         let areas = Surface::face_areas(mesh.positions(), mesh.faces());
-        let segmentation = Segmentation::numbered(&labels, count, &areas).mirrored_in(mirror);
+        let segmentation = Segmentation::numbered(&labels, count as usize, &areas).mirrored_in(mirror);
         Self::new(mesh, segmentation)
     }
 }

@@ -50,6 +50,26 @@ fn run(desk: &mut Desk, stops: bool) -> State {
     }
 }
 
+/// A job for one sheet that the user stops soon, unless the machine is faster.
+struct Stopped {
+    desk: Desk,
+    folder: TempDir,
+    machine: JoinHandle<Box<dyn VirtualMachine>>,
+    state: State,
+}
+
+fn stopped() -> Stopped {
+    let (mut desk, folder) = open();
+    let (port, machine) = plug_in("generic-hpgl", &[]);
+    click(&mut desk, "Plot");
+    desk.state_mut().plot_mut().choose("generic-hpgl", &port);
+    desk.run_ok();
+    click(&mut desk, "all sheets");
+    click_when_there(&mut desk, "Start");
+    let state = run(&mut desk, true);
+    Stopped { desk, folder, machine, state }
+}
+
 /// Writes the machine's port into its field.
 fn write_port(desk: &mut Desk, port: &str) {
     desk.get_by_role_and_label(Role::TextInput, "Port").focus();
@@ -62,14 +82,7 @@ fn write_port(desk: &mut Desk, port: &str) {
 
 #[test]
 fn a_job_goes_to_the_virtual_plotter() {
-    let (mut desk, folder) = open();
-    let (port, machine) = plug_in("generic-hpgl", &[]);
-    click(&mut desk, "Plot");
-    desk.state_mut().plot_mut().choose("generic-hpgl", &port);
-    desk.run_ok();
-    click(&mut desk, "all sheets");
-    click_when_there(&mut desk, "Start");
-    let state = run(&mut desk, true);
+    let Stopped { mut desk, folder, machine, state } = stopped();
     let plotter = machine.join().unwrap();
     assert!(plotter.received() > 100, "{state:?}");
     assert_eq!(plotter.lost(), 0);
@@ -258,14 +271,7 @@ fn strokes_have_the_colour_of_what_is_done_along_them() {
 
 /// The job of an only sheet, stopped where a part of it is cut.
 fn stopped_job() -> (Desk, TempDir) {
-    let (mut desk, folder) = open();
-    let (port, machine) = plug_in("generic-hpgl", &[]);
-    click(&mut desk, "Plot");
-    desk.state_mut().plot_mut().choose("generic-hpgl", &port);
-    desk.run_ok();
-    click(&mut desk, "all sheets");
-    click_when_there(&mut desk, "Start");
-    let state = run(&mut desk, true);
+    let Stopped { desk, folder, machine, state } = stopped();
     assert!(state.end.is_some_and(|end| end.is_err()), "it is stopped");
     drop(machine.join());
     (desk, folder)

@@ -235,56 +235,6 @@ fn lines_on_the_ground_are_round_numbers_apart() {
 }
 
 #[test]
-fn files_are_replaced_only_after_a_question() {
-    let (mut desk, folder) = open();
-    let pdf = folder.path().join("snowman.pdf");
-    std::fs::write(&pdf, "mine").unwrap();
-    click(&mut desk, "Export");
-    click(&mut desk, "Write files");
-    assert!(desk.query_by_label("Replace files?").is_some());
-    click(&mut desk, "Cancel");
-    assert_eq!(std::fs::read(&pdf).unwrap(), b"mine");
-    click(&mut desk, "Write files");
-    click(&mut desk, "Replace");
-    settle(&mut desk, "the file", |s| s.notice().is_some() || s.problem().is_some());
-    assert!(std::fs::read(&pdf).unwrap().starts_with(b"%PDF"));
-    assert!(desk.query_by_label("Open folder").is_some());
-}
-
-/// The folder had to be typed, and "Open folder" stood beside the message that there is none.
-#[test]
-fn the_folder_for_files_is_chosen_in_a_dialog() {
-    let (mut desk, folder) = open();
-    let sub = folder.path().join("sub");
-    std::fs::create_dir(&sub).unwrap();
-    click(&mut desk, "Export");
-    click(&mut desk, "Choose …");
-    assert!(desk.query_by_label("snowman.toml").is_some(), "in the title; the dialog lists folders alone");
-    click(&mut desk, "sub/");
-    click(&mut desk, "Choose this folder");
-    std::fs::remove_dir(&sub).unwrap();
-    click(&mut desk, "Write files");
-    settle(&mut desk, "a problem", |s| s.problem().is_some());
-    assert!(desk.query_by_label("Open folder").is_none());
-    std::fs::create_dir(&sub).unwrap();
-    click(&mut desk, "Write files");
-    settle(&mut desk, "the file", |s| s.notice().is_some() || s.problem().is_some());
-    assert!(sub.join("snowman.pdf").is_file() && desk.query_by_label("Open folder").is_some());
-}
-
-#[test]
-fn options_are_those_of_the_formats_that_are_ticked() {
-    let (mut desk, _folder) = open();
-    click(&mut desk, "Export");
-    assert!(desk.query_by_role_and_label(Role::ComboBox, "Tile").is_some());
-    assert!(desk.query_by_role_and_label(Role::SpinButton, "Dpi").is_none());
-    click(&mut desk, "snowman.pdf");
-    click(&mut desk, "snowman.png");
-    assert!(desk.query_by_role_and_label(Role::ComboBox, "Tile").is_none());
-    assert!(desk.query_by_role_and_label(Role::SpinButton, "Dpi").is_some());
-}
-
-#[test]
 fn a_sample_opens_from_the_start_page() {
     let folder = tempfile::tempdir().unwrap();
     let mut desk = window(folder.path());
@@ -414,28 +364,6 @@ fn two_corners_that_are_clicked_are_measured() {
     assert!(desk.state().space().measure().length_mm().is_none());
 }
 
-#[test]
-fn the_sheets_are_given_to_a_viewer_that_prints_them() {
-    let (mut desk, _folder) = open();
-    desk.key_press_modifiers(Modifiers::COMMAND, Key::P);
-    let start = Instant::now();
-    let opened = |desk: &Desk| {
-        desk.output().platform_output.commands.iter().find_map(|command| match command {
-            egui::OutputCommand::OpenUrl(open) => Some(open.url.clone()),
-            _ => None,
-        })
-    };
-    while opened(&desk).is_none() {
-        assert!(start.elapsed() < Duration::from_secs(60), "nothing is printed");
-        std::thread::sleep(Duration::from_millis(5));
-        desk.step();
-    }
-    let url = opened(&desk).unwrap();
-    let path = Path::new(url.strip_prefix("file://").unwrap());
-    assert!(std::fs::read(path).unwrap().starts_with(b"%PDF"), "{url}");
-    std::fs::remove_dir_all(path.parent().unwrap()).unwrap();
-}
-
 /// Remedies were words in the window, and buttons on the page alone.
 #[test]
 fn what_a_warning_advises_is_one_click() {
@@ -477,20 +405,6 @@ fn three_questions_lead_to_a_machine() {
     assert_eq!(desk.state_mut().plot_mut().choice()[0], "hp-7475a");
 }
 
-/// Before files are written their pages are seen, in the style that they are written in.
-#[test]
-fn pages_are_seen_before_they_are_written() {
-    let (mut desk, _folder) = open();
-    click(&mut desk, "Export");
-    wait_for(&mut desk, "Page as it is written");
-    let count = desk.state().studio().finished().unwrap().layout().sheet_count();
-    assert!(count > 1 && desk.query_by_label(&format!("Page 1 of {count}")).is_some());
-    click(&mut desk, "Next page");
-    assert!(desk.query_by_label(&format!("Page 2 of {count}")).is_some());
-    click(&mut desk, "snowman.pdf");
-    assert!(desk.query_by_label("Page as it is written").is_none(), "nothing with pages is ticked");
-}
-
 #[test]
 fn a_profile_of_the_users_own_is_taken_from_a_file() {
     let (mut desk, folder) = open();
@@ -530,63 +444,4 @@ fn pages_of_the_book_are_found_among_the_commands() {
     desk.run_ok();
     assert!(folder.path().join("state/book/how-to/cutter.html").is_file());
     assert_eq!(desk.state().studio().problem(), None);
-}
-
-/// In a window made narrow the model was 40 points wide, and the formats had one letter a line.
-#[test]
-fn a_narrow_window_has_room_for_the_model_and_for_the_files() {
-    let (mut desk, _folder) = open();
-    wait_for_pages(&mut desk);
-    desk.set_size(egui::vec2(800.0, 500.0));
-    desk.run_ok();
-    let model = desk.get_by_label("Model in space").rect();
-    assert!(model.width() > 250.0 && model.right() < desk.get_by_label("Sheet 1").rect().left(), "{model}");
-    let told = desk.get_by_label_contains("sheets of A4").rect();
-    let edges = desk.get_by_role_and_label(Role::Button, "Cut and glue edges").rect();
-    assert!(told.right() <= edges.left(), "{told} is under {edges}");
-    let [fold, slider, show, measure] =
-        [(Role::Button, "Fold"), (Role::Slider, "folded"), (Role::Button, "Show"), (Role::Button, "Measure")]
-            .map(|(role, name)| desk.get_by_role_and_label(role, name).rect());
-    for (one, other) in [(fold, show), (fold, slider), (slider, measure), (show, measure)] {
-        assert!(!one.intersects(other), "{one} is under {other}");
-    }
-    click(&mut desk, "Export");
-    let told = desk.get_by_label("PDF at exactly 1:1, one page per sheet, for printing").rect();
-    assert!(told.width() > 100.0, "{told}");
-    assert!(desk.query_by_label("Page as it is written").is_none(), "there is no room for it");
-}
-
-/// The list moved under the mouse, so that the next click took another component.
-#[test]
-fn the_list_stays_where_it_is_when_a_component_in_it_is_clicked() {
-    let (mut desk, _folder) = open();
-    let names = desk.state().studio().shown().names().to_vec();
-    let place = |desk: &Desk| desk.get_by_role_and_label(Role::Button, &format!("Hide {}", names[0])).rect();
-    desk.set_size(egui::vec2(1280.0, 640.0));
-    desk.run_ok();
-    let before = place(&desk);
-    let row = before.center() + egui::vec2(50.0, 0.0);
-    press(&mut desk, row, Modifiers::NONE);
-    desk.run_steps(30);
-    assert_eq!(desk.state().studio().selection.names(), [names[0].clone()]);
-    assert_eq!(place(&desk), before);
-}
-
-/// The sheets kept their points, so that they were tiny in a window that became large.
-#[test]
-fn the_sheets_keep_their_share_of_the_window() {
-    let (mut desk, _folder) = open();
-    let share = |desk: &Desk| {
-        let [sheets, model] =
-            [desk.state().places.sheets, desk.state().places.model].map(|rect| rect.unwrap());
-        sheets.width() / (sheets.width() + model.width())
-    };
-    let before = share(&desk);
-    for size in [[1000.0, 600.0], [800.0, 500.0], [1900.0, 1000.0]] {
-        desk.set_size(size.into());
-        desk.run_ok();
-        // They do not become narrower than their buttons.
-        assert!((share(&desk) - before).abs() < 0.03, "{size:?}: {before} {}", share(&desk));
-    }
-    assert!((share(&desk) - before).abs() < 0.01, "{before} {}", share(&desk));
 }
