@@ -80,10 +80,10 @@ impl FlatSide {
     pub fn of_box(hull: &Hull) -> Vec<Self> {
         let (low, high) = bounds(hull.vertices().iter().copied());
         let roughness = ROUGH * low.distance(high);
+        let whole = hull.area();
         let areas = hull.facets().iter().map(|facet| (facet, facet_area(hull, facet)));
-        let large: Vec<(&Facet, f64)> =
-            areas.filter(|(_, area)| *area >= LEAST_FACET * hull.area()).collect();
-        if large.iter().map(|(_, area)| area).sum::<f64>() < LEAST_FACETS * hull.area() {
+        let large: Vec<(&Facet, f64)> = areas.filter(|(_, area)| *area >= LEAST_FACET * whole).collect();
+        if large.iter().map(|(_, area)| area).sum::<f64>() < LEAST_FACETS * whole {
             return Vec::new();
         }
         large.into_iter().map(|(facet, _)| Self { plane: *facet.plane(), roughness }).collect()

@@ -1,10 +1,11 @@
 //! Which separate bodies are next to each other: those that touch, and the shortest links between the rest.
 
+use super::apart::Apart;
 use super::contact::touches;
 use super::forest::Forest;
 use super::patches::Partition;
 use super::surface::Surface;
-use crate::geom::{Hull, bounds};
+use crate::geom::Hull;
 use crate::mesh::Mesh;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -18,87 +19,6 @@ const CRUMB_OF_PART: f64 = 0.5;
 /// A body makes the hull of another too large by more than this many times its volume: the two then share less with the
 /// solid than without it.
 pub(super) const WORTH: f64 = 2.0;
-
-const LEAF: usize = 8;
-const MIXED: u32 = u32::MAX;
-
-struct Node {
-    lo: DVec3,
-    hi: DVec3,
-    first: usize,
-    end: usize,
-    /// Second child; the first follows its parent. 0 for leaves.
-    second: usize,
-    /// The body of all cells below, or `MIXED`.
-    body: u32,
-}
-
-/// Cells by place.
-struct Tree<'a> {
-    centres: &'a [DVec3],
-    order: Vec<u32>,
-    nodes: Vec<Node>,
-}
-
-impl<'a> Tree<'a> {
-    fn new(centres: &'a [DVec3]) -> Self {
-        let mut tree = Self { centres, order: (0..centres.len() as u32).collect(), nodes: Vec::new() };
-        // (range, the node whose second child this is)
-        let mut todo = vec![(0, centres.len(), None)];
-        while let Some((first, end, parent)) = todo.pop() {
-            let index = tree.nodes.len();
-            if let Some(parent) = parent {
-                let parent: &mut Node = &mut tree.nodes[parent];
-                parent.second = index;
-            }
-            let (lo, hi) = bounds(tree.order[first..end].iter().map(|&c| centres[c as usize]));
-            tree.nodes.push(Node { lo, hi, first, end, second: 0, body: MIXED });
-            if end - first > LEAF {
-                let axis = (hi - lo).max_position();
-                let middle = (end - first) / 2;
-                tree.order[first..end].select_nth_unstable_by(middle, |&a, &b| {
-                    centres[a as usize][axis].total_cmp(&centres[b as usize][axis]).then(a.cmp(&b))
-                });
-                todo.push((first + middle, end, Some(index)));
-                todo.push((first, first + middle, None));
-            }
-        }
-        tree
-    }
-
-    fn mark(&mut self, body: &[u32]) {
-        for node in self.nodes.iter_mut().rev() {
-            let mut bodies = self.order[node.first..node.end].iter().map(|&c| body[c as usize]);
-            let first = bodies.next().unwrap_or(MIXED);
-            node.body = if bodies.all(|b| b == first) { first } else { MIXED };
-        }
-    }
-
-    /// The nearest cell of another body that is nearer than `limit` (squared).
-    fn nearest_other(&self, cell: usize, body: &[u32], limit: f64) -> Option<(f64, u32)> {
-        let p = self.centres[cell];
-        let (mut least, mut found) = (limit, None);
-        let mut stack = vec![0];
-        while let Some(index) = stack.pop() {
-            let node = &self.nodes[index];
-            let gap = (p.clamp(node.lo, node.hi) - p).length_squared();
-            if node.body == body[cell] || gap >= least {
-                continue;
-            }
-            if node.second != 0 {
-                stack.extend([node.second, index + 1]);
-                continue;
-            }
-            for &c in &self.order[node.first..node.end] {
-                let d = self.centres[c as usize].distance_squared(p);
-                if body[c as usize] != body[cell] && d < least {
-                    (least, found) = (d, Some((d, c)));
-                }
-            }
-        }
-        found
-    }
-}
 
 /// A link between two bodies.
 #[derive(Debug, Clone, Copy)]
@@ -261,13 +181,14 @@ fn gaps(surface: &Surface, (body, bodies): (&[u32], usize), touching: BTreeMap<[
     }
     let mut body = body.to_vec();
     let mut count = renumber(&mut body, forest);
-    let mut tree = Tree::new(surface.centres());
+    let mut centres = Apart::new(surface.centres());
     while count > 1 {
-        tree.mark(&body);
+        centres.mark(&body);
         let mut best: Vec<(f64, [u32; 2])> = vec![(f64::INFINITY, [0; 2]); count];
         for cell in 0..surface.len() {
             let own = &mut best[body[cell] as usize];
-            if let Some((d, other)) = tree.nearest_other(cell, &body, own.0) {
+            let nearest = centres.nearest_other(cell, &body, own.0);
+            if let Some((d, other)) = nearest.filter(|&(d, _)| d < own.0) {
                 *own = (d, [(cell as u32).min(other), (cell as u32).max(other)]);
             }
         }

@@ -1,11 +1,12 @@
 //! Where separate bodies touch, or nearly do.
 
+use super::apart::Apart;
 use super::surface::Surface;
 use super::{SegmentId, Segmentation};
 use crate::mesh::Mesh;
 use glam::DVec3;
 use rayon::prelude::*;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
 /// Bodies nearer to each other than this share of the diagonal touch. Models made for screens push
 /// parts into each other or leave such gaps; in paper it is a millimetre or two.
@@ -75,29 +76,11 @@ pub(super) fn touches(mesh: &Mesh, body: &[u32]) -> Vec<Touch> {
         .collect();
     // Two surfaces at a gap have samples up to a spacing farther apart.
     let reach = gap * (1.0 + SPACING);
-    let cell = |p: DVec3| (p / reach).floor().as_i64vec3().to_array();
-    let mut grid: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
-    for (i, s) in samples.iter().enumerate() {
-        grid.entry(cell(s.at)).or_default().push(i);
-    }
-    let body_of = |sample: usize| body[samples[sample].face];
-    // All samples of a cell have the same cells around them.
-    let nearest_of = |(&[x, y, z], own): (&[i64; 3], &Vec<usize>)| {
-        let cells = (0..27).filter_map(|k| grid.get(&[x + k / 9 - 1, y + k / 3 % 3 - 1, z + k % 3 - 1]));
-        let around: Vec<usize> = cells.flatten().copied().collect();
-        let first = body_of(own[0]);
-        let own = if around.iter().all(|&other| body_of(other) == first) { &[][..] } else { own };
-        let nearest = |&i: &usize| {
-            let (at, body) = (samples[i].at, body_of(i));
-            let others = around.iter().filter(|&&o| body_of(o) != body);
-            let apart = others.map(|&o| (samples[o].at.distance_squared(at), o));
-            let nearest = apart.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-            nearest.filter(|n| n.0 <= reach * reach).map(|n| (i, n.1))
-        };
-        own.iter().filter_map(nearest).collect::<Vec<_>>()
-    };
-    let mut near: Vec<(usize, usize)> = grid.par_iter().flat_map_iter(nearest_of).collect();
-    near.sort_unstable();
+    let (points, bodies): (Vec<DVec3>, Vec<u32>) = samples.iter().map(|s| (s.at, body[s.face])).unzip();
+    let mut tree = Apart::new(&points);
+    tree.mark(&bodies);
+    let nearest_of = |i: usize| Some((i, tree.nearest_other(i, &bodies, reach * reach)?.1 as usize));
+    let near: Vec<(usize, usize)> = (0..samples.len()).into_par_iter().filter_map(nearest_of).collect();
     let touch = |(i, o): (usize, usize)| {
         let [own, other] = [&samples[i], &samples[o]];
         Touch { at: own.at.midpoint(other.at), faces: [own.face, other.face], gap: own.at.distance(other.at) }

@@ -4,6 +4,7 @@
 //! many patches, which are merged as long as their common convex hull leaves the solid least: each
 //! segment becomes a hull of paper.
 
+mod apart;
 mod bodies;
 mod choose;
 mod clean;
