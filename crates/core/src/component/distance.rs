@@ -5,6 +5,10 @@
 use crate::geom::Hull;
 use glam::DVec3;
 
+/// Shorter edges have no direction but that of rounding: where two chains with the same bends meet, each corner is there
+/// twice. A point beside the middle of a face was 30 mm from it, as far as from such a corner.
+const SHORTEST_MM: f64 = 1e-6;
+
 /// A convex polyhedron: corners, and faces as outward planes with outlines.
 #[derive(Debug, Clone)]
 pub struct Polytope {
@@ -182,6 +186,9 @@ impl Polytope {
         for &to in outline {
             let (a, b) = (self.corners[from], self.corners[to as usize]);
             let edge = b - a;
+            if edge.length_squared() < SHORTEST_MM * SHORTEST_MM {
+                continue;
+            }
             if edge.cross(foot - a).dot(face.normal) < 0.0 {
                 is_inside = false;
                 let t = edge.dot(foot - a) / edge.length_squared();
@@ -244,6 +251,19 @@ mod tests {
         ] {
             assert!((c.distance(DVec3::new(p.0, p.1, p.2)) - d).abs() < 1e-8);
         }
+    }
+
+    /// Where two chains of a solid bend at one height, they have a corner there each, a rounding apart.
+    #[test]
+    fn corners_that_are_there_twice_do_not_matter() {
+        let by_rounding = 1.0 + f64::EPSILON;
+        let mut corners: Vec<DVec3> = cube(1.0);
+        corners.push(DVec3::new(by_rounding, 1.0, 1.0));
+        let top = [4, 5, 7, 8, 6];
+        let faces = [(DVec3::Z, 1.0, top.to_vec()), (-DVec3::Z, 0.0, vec![0, 2, 3, 1])];
+        let above = DVec3::new(0.5, 0.4, 3.0);
+        let nearest = Polytope::new(corners, faces).position(above).nearest;
+        assert_eq!(nearest, Some((DVec3::new(0.5, 0.4, 1.0), Feature::Face(0))));
     }
 
     /// The formula against support functions sampled in many directions, from below, and against

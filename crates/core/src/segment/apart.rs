@@ -95,8 +95,9 @@ mod tests {
     #[test]
     fn the_nearest_of_another_body_is_the_one_found_by_looking_at_all() {
         let mut random = fastrand::Rng::with_seed(7);
-        let points: Vec<DVec3> =
-            (0..400).map(|_| DVec3::from_array(std::array::from_fn(|_| f64::from(random.u8(0..12))))).collect();
+        let points: Vec<DVec3> = (0..400)
+            .map(|_| DVec3::from_array(std::array::from_fn(|_| f64::from(random.u8(0..12)))))
+            .collect();
         let body: Vec<u32> = points.iter().map(|p| (p.x / 5.0) as u32).collect();
         let mut tree = Apart::new(&points);
         tree.mark(&body);
