@@ -168,6 +168,12 @@ pub(super) fn choose_fours(outline: &[DVec2], locked: &[f64], edges: usize) -> V
     all
 }
 
+/// Directions of the edges of a regular polygon, of which one faces along x.
+pub(super) fn regular(edges: usize) -> Vec<f64> {
+    let first = 1 - edges as i32 / 2;
+    (0..edges as i32).map(|k| 2.0 * PI * f64::from(first + k) / edges as f64).collect()
+}
+
 /// Directions in the planes and others in fours, with their images, in order.
 fn all_around(own: &[f64], fours: &[f64]) -> Vec<f64> {
     let fours = fours.iter().flat_map(|&a| [-a, a, PI - a, a - PI]);

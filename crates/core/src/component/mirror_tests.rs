@@ -3,7 +3,7 @@
 use super::convert::tests::{blob, check, target};
 use super::panel::{Panel, PanelKind};
 use super::solid::FaceId;
-use super::{Component, JointTarget, Seat, Symmetry, Target, choose, convert, finished};
+use super::{Component, Crossing, JointTarget, Seat, Symmetry, Target, Turning, choose, convert, finished};
 use crate::geom::{Hull, Plane};
 use glam::{DMat3, DVec2, DVec3};
 use proptest::prelude::*;
@@ -75,8 +75,12 @@ fn symmetric_hull(symmetry: Symmetry, axes: DVec3, count: usize, seed: u64) -> H
     Hull::of_points(&points).unwrap()
 }
 
+fn half_turn(offset_mm: f64) -> Option<Crossing> {
+    Some(Crossing { offset_mm, turning: Turning::Half })
+}
+
 fn upright(angle_rad: f64, offset_mm: f64) -> Symmetry {
-    Symmetry::Upright { angle_rad, offset_mm, crossing_mm: None }
+    Symmetry::Upright { angle_rad, offset_mm, crossing: None }
 }
 
 fn symmetry_of(is_level: bool, angle_rad: f64, offset_mm: f64) -> Symmetry {
@@ -178,7 +182,7 @@ proptest! {
         joined in prop::sample::select(vec![Joined::Nowhere, Joined::AtTheTop, Joined::InThePlane, Joined::Around]),
     ) {
         let planes = [upright(angle_rad, offset_mm), upright(angle_rad + FRAC_PI_2, crossing_mm)];
-        let both = Symmetry::Upright { angle_rad, offset_mm, crossing_mm: Some(crossing_mm) };
+        let both = Symmetry::Upright { angle_rad, offset_mm, crossing: half_turn(crossing_mm) };
         let half = symmetric_hull(planes[0], DVec3::new(axes.0, axes.1, axes.2), count, seed);
         let images = half.vertices().iter().map(|&p| image(planes[1], p));
         let points: Vec<DVec3> = half.vertices().iter().copied().chain(images).collect();
@@ -219,7 +223,7 @@ proptest! {
 /// A vase folds along its axis, and its top panel is a regular polygon, nearly.
 #[test]
 fn turned_hulls_get_even_tops() {
-    let both = Symmetry::Upright { angle_rad: 0.3, offset_mm: 0.0, crossing_mm: Some(0.0) };
+    let both = Symmetry::Upright { angle_rad: 0.3, offset_mm: 0.0, crossing: half_turn(0.0) };
     let ring = |z: f64, r: f64| {
         let at = move |k: usize| (DVec2::from_angle(0.3 + PI / 24.0 * k as f64) * r).extend(z);
         (0..48).map(at)
@@ -237,10 +241,45 @@ fn turned_hulls_get_even_tops() {
     }
 }
 
+/// A tumbler, a bowl and a mug, given by radii and heights.
+#[test]
+fn turned_hulls_become_regular() {
+    let profiles: [&[[f64; 2]]; 3] = [
+        &[[30.0, 0.0], [32.0, 10.0], [33.0, 30.0], [36.0, 60.0], [38.0, 75.0], [38.0, 100.0]],
+        &[[22.0, 0.0], [30.0, 6.0], [38.0, 16.0], [44.0, 30.0], [48.0, 45.0], [50.0, 62.0]],
+        &[[34.0, 0.0], [38.0, 6.0], [42.0, 25.0], [42.0, 45.0], [38.0, 75.0], [36.0, 82.0]],
+    ];
+    for profile in profiles {
+        let around = |k: usize| DVec2::from_angle(PI / 32.0 * k as f64);
+        let ring = |&[r, z]: &[f64; 2]| (0..64).map(move |k| (around(k) * r).extend(z));
+        let hull = Hull::of_points(&profile.iter().flat_map(ring).collect::<Vec<_>>()).unwrap();
+        for edges in [6, 8, 10, 12] {
+            let turning = Turning::of_regular(edges).unwrap();
+            assert_eq!(turning.sectors(), edges);
+            let crossing = Some(Crossing { offset_mm: 0.0, turning });
+            let symmetry = Symmetry::Upright { angle_rad: 0.7, offset_mm: 0.0, crossing };
+            let target = Target { symmetry: Some(symmetry), top_edges: edges, ..target(&hull, vec![]) };
+            let component = convert(&target).unwrap();
+            let first = component.profiles()[0].points();
+            for profile in component.profiles() {
+                assert!(first.iter().zip(profile.points()).all(|(a, b)| a.distance(*b) < SAME_MM));
+            }
+            let top = &component.panels().panels()[0].outline;
+            assert_eq!((top.len(), component.profiles().len()), (edges, edges));
+            let length = |k: usize| top[k].distance(top[(k + 1) % edges]);
+            assert!((0..edges).all(|k| (length(k) - length(0)).abs() < SAME_MM));
+            // An edge faces along the mirror plane: a regular polygon with n edges round a circle of 40 mm is 40 (1 / cos
+            // (pi / n) - 1) mm off; the rest is for the profile.
+            let polygon_mm = 40.0 * (1.0 / libm::cos(PI / edges as f64) - 1.0);
+            assert!(component.hausdorff_mm() < polygon_mm + 3.0, "{edges}: {}", component.hausdorff_mm());
+        }
+    }
+}
+
 /// A cylinder between two others has joints at both ends.
 #[test]
 fn cylinders_joined_at_both_ends_become_prisms() {
-    let both = Symmetry::Upright { angle_rad: 0.0, offset_mm: 0.0, crossing_mm: Some(0.0) };
+    let both = Symmetry::Upright { angle_rad: 0.0, offset_mm: 0.0, crossing: half_turn(0.0) };
     let ring = |z: f64| (0..24).map(move |k| (DVec2::from_angle(PI / 12.0 * f64::from(k)) * 30.0).extend(z));
     let hull = Hull::of_points(&ring(-38.0).chain(ring(38.0)).collect::<Vec<_>>()).unwrap();
     let joint = |seat| JointTarget { seat, cover: vec![], within: vec![], price: 0.3 };

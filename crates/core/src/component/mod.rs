@@ -42,6 +42,6 @@ pub use filling::Filling;
 pub use panel::{ChainId, Hinge, HingeId, HingeSide, Panel, PanelId, PanelKind, PanelSet};
 pub use profile::{Fold, Profile, ProfileError};
 pub use solid::{Chain, Clearance, Corner, FaceId, SideFacet, Solid};
-pub use symmetry::Symmetry;
+pub use symmetry::{Crossing, Symmetry, Turning};
 pub use target::{JointTarget, Seat, Target};
 pub use tolerance::{Counts, fewest};

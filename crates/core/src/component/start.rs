@@ -1,13 +1,15 @@
 //! First guess of a component's half-spaces: tangent planes of the hull in well-chosen directions.
 
 use super::angles::{MAX_SLOPE_RAD, MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD, STEP_RAD, turn};
-use super::even::{choose_fours, choose_pairs, drop_pair, levelled, middle, pair_bulge, thin_out_level};
+use super::even::{
+    choose_fours, choose_pairs, drop_pair, levelled, middle, pair_bulge, regular, thin_out_level,
+};
 use super::fit::{Fitted, rooms};
 use super::panel::ChainId;
 use super::profile::{Balance, balance, imbalance};
 use super::shape::SolidShape;
 use super::solid::{Chain, SideFacet, Solid};
-use super::symmetry::{Symmetry, evened, orbit};
+use super::symmetry::{Symmetry, Turning, evened, orbit};
 use super::target::{FoldSpot, Seat, Target};
 use super::worth::{Edge, WORTH_MM, WORTH_SHARE, bulge, meet};
 use crate::geom::polygon;
@@ -77,8 +79,11 @@ fn chains(target: &Target, edges: usize, facets: impl Fn(f64) -> Vec<SideFacet>)
     let locked: Vec<f64> = target.locked_angles();
     let outline = polygon::convex_hull(&flat);
     let angles = match target.symmetry {
-        Some(Symmetry::Upright { crossing_mm: None, .. }) => choose_pairs(&outline, &locked, edges),
-        Some(Symmetry::Upright { .. }) => choose_fours(&outline, &locked, edges),
+        Some(Symmetry::Upright { crossing: None, .. }) => choose_pairs(&outline, &locked, edges),
+        Some(Symmetry::Upright { crossing: Some(crossing), .. }) => match crossing.turning {
+            Turning::Half => choose_fours(&outline, &locked, edges),
+            turning => regular(turning.sectors()),
+        },
         _ => choose_angles(&outline, &locked, edges),
     };
     let chain = |&angle_rad: &f64| Chain {

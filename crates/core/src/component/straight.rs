@@ -2,7 +2,7 @@
 
 use super::angles::turn;
 use super::solid::Solid;
-use super::symmetry::{Image, Symmetry, images, settled, wrapped};
+use super::symmetry::{Crossing, Image, Symmetry, images, settled, wrapped};
 use super::target::{JointTarget, Seat, Target};
 use crate::geom::Hull;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
@@ -15,10 +15,10 @@ impl Symmetry {
     /// The same plane through the origin: y = 0, with one across it as x = 0, or z = 0.
     fn straight(self) -> Self {
         match self {
-            Symmetry::Upright { crossing_mm, .. } => Symmetry::Upright {
+            Symmetry::Upright { crossing, .. } => Symmetry::Upright {
                 angle_rad: FRAC_PI_2,
                 offset_mm: 0.0,
-                crossing_mm: crossing_mm.map(|_| 0.0),
+                crossing: crossing.map(|crossing| Crossing { offset_mm: 0.0, ..crossing }),
             },
             Symmetry::Level { .. } => Symmetry::Level { height_mm: 0.0 },
         }
@@ -27,8 +27,9 @@ impl Symmetry {
     /// The turn about z, and the shift after it, that make the plane straight.
     fn motion(self) -> (f64, DVec3) {
         match self {
-            Symmetry::Upright { angle_rad, offset_mm, crossing_mm } => {
-                (FRAC_PI_2 - angle_rad, DVec3::new(crossing_mm.unwrap_or(0.0), -offset_mm, 0.0))
+            Symmetry::Upright { angle_rad, offset_mm, crossing } => {
+                let across_mm = crossing.map_or(0.0, |crossing| crossing.offset_mm);
+                (FRAC_PI_2 - angle_rad, DVec3::new(across_mm, -offset_mm, 0.0))
             }
             Symmetry::Level { height_mm } => (0.0, -DVec3::Z * height_mm),
         }

@@ -19,15 +19,66 @@ pub enum Symmetry {
         angle_rad: f64,
         /// Its distance from the origin, along n.
         offset_mm: f64,
-        /// Where another upright mirror plane crosses it at a right angle: that one's distance from the
-        /// origin along n turned by 90° counter-clockwise.
-        crossing_mm: Option<f64>,
+        /// Another upright mirror plane at a right angle to it.
+        crossing: Option<Crossing>,
     },
     /// A horizontal plane: the bottom is the image of the top, and all chains fold in it.
     Level {
         /// Its height.
         height_mm: f64,
     },
+}
+
+/// An upright mirror plane that crosses another one at a right angle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Crossing {
+    /// Its distance from the origin, along the other one's normal turned by 90° counter-clockwise.
+    pub offset_mm: f64,
+    /// What about the line in which the two meet.
+    pub turning: Turning,
+}
+
+/// Into how many equal sectors an upright axis divides a component.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Turning {
+    /// A half turn takes it to itself.
+    Half,
+    /// A sixth of a turn: its top is a regular hexagon.
+    Sixth,
+    /// An eighth: a regular octagon.
+    Eighth,
+    /// A tenth: a regular decagon.
+    Tenth,
+    /// A twelfth: a regular dodecagon.
+    Twelfth,
+}
+
+impl Turning {
+    /// That of a regular polygon with this many edges at most.
+    pub fn of_regular(edges: usize) -> Option<Self> {
+        [Self::Twelfth, Self::Tenth, Self::Eighth, Self::Sixth].into_iter().find(|t| t.sectors() <= edges)
+    }
+
+    /// The sectors.
+    pub fn sectors(self) -> usize {
+        match self {
+            Self::Half => 2,
+            Self::Sixth => 6,
+            Self::Eighth => 8,
+            Self::Tenth => 10,
+            Self::Twelfth => 12,
+        }
+    }
+
+    fn images(self) -> &'static [Image] {
+        match self {
+            Self::Half => &[Image::ACROSS_Y, Image::ACROSS_X, Image::HALF_TURN],
+            Self::Sixth => const { &Image::turned::<11>() },
+            Self::Eighth => const { &Image::turned::<15>() },
+            Self::Tenth => const { &Image::turned::<19>() },
+            Self::Twelfth => const { &Image::turned::<23>() },
+        }
+    }
 }
 
 impl Symmetry {
@@ -42,7 +93,9 @@ impl Symmetry {
     /// The least number of top edges that a solid has.
     pub(super) fn least_edges(self) -> usize {
         match self {
-            Symmetry::Upright { crossing_mm: Some(_), .. } => Self::LEAST_CROSSED_EDGES,
+            Symmetry::Upright { crossing: Some(crossing), .. } => {
+                Self::LEAST_CROSSED_EDGES.max(crossing.turning.sectors())
+            }
             _ => 3,
         }
     }
@@ -50,10 +103,8 @@ impl Symmetry {
     /// The motions, but rest, that take a straight solid to itself and move its chains.
     pub(super) fn images(self) -> &'static [Image] {
         match self {
-            Symmetry::Upright { crossing_mm: None, .. } => &[Image::ACROSS_Y],
-            Symmetry::Upright { crossing_mm: Some(_), .. } => {
-                &[Image::ACROSS_Y, Image::ACROSS_X, Image::HALF_TURN]
-            }
+            Symmetry::Upright { crossing: None, .. } => &[Image::ACROSS_Y],
+            Symmetry::Upright { crossing: Some(crossing), .. } => crossing.turning.images(),
             Symmetry::Level { .. } => &[],
         }
     }
@@ -68,7 +119,11 @@ impl Symmetry {
         self.images().iter().map(move |image| match *image {
             Image::ACROSS_Y => (along - along_n, true),
             Image::ACROSS_X => (along_n - along, true),
-            _ => (-normal, false),
+            Image::HALF_TURN => (-normal, false),
+            Image { sign, turn_rad } => {
+                let reflected = if sign < 0.0 { along - along_n } else { normal };
+                (DVec2::from_angle(turn_rad).rotate(reflected), sign < 0.0)
+            }
         })
     }
 }
@@ -84,6 +139,21 @@ impl Image {
     const ACROSS_Y: Self = Self { sign: -1.0, turn_rad: 0.0 };
     const ACROSS_X: Self = Self { sign: -1.0, turn_rad: PI };
     const HALF_TURN: Self = Self { sign: 1.0, turn_rad: PI };
+
+    /// All but rest of a regular polygon with a corner or the middle of an edge at 0: of n corners n - 1 turns and n
+    /// reflections.
+    const fn turned<const IMAGES: usize>() -> [Self; IMAGES] {
+        let sectors = IMAGES.div_ceil(2);
+        let mut all = [Self::ACROSS_Y; IMAGES];
+        let mut k = 1;
+        while k < sectors {
+            let turn_rad = 2.0 * PI * k as f64 / sectors as f64;
+            all[2 * k - 1] = Self { sign: 1.0, turn_rad };
+            all[2 * k] = Self { sign: -1.0, turn_rad };
+            k += 1;
+        }
+        all
+    }
 
     /// The image of a direction; that of the image is the direction itself.
     pub(super) fn angle(self, angle_rad: f64) -> f64 {

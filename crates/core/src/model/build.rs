@@ -524,6 +524,33 @@ pub(super) mod tests {
         assert!(turned > 3, "most are not what the search begins with anyway: {turned}");
     }
 
+    /// A bottle had panels of all sizes, and its shoulders were not alike.
+    #[test]
+    fn a_bottle_becomes_a_prism_whose_sides_are_alike() {
+        let rings = [(20.0, 0.0), (24.0, 15.0), (24.0, 70.0), (12.0, 95.0)];
+        let around = |k: u32| DQuat::from_rotation_z(std::f64::consts::TAU * f64::from(k) / 40.0) * DVec3::X;
+        let ring = |(r, z): (f64, f64)| (0..40).map(move |k| around(k) * r + DVec3::Z * z);
+        let points: Vec<DVec3> = rings.into_iter().flat_map(ring).collect();
+        let mut bottle = part("bottle", DVec3::ZERO, DVec3::ONE, DQuat::IDENTITY);
+        bottle.hull = Hull::of_points(&points).unwrap();
+        (bottle.options.top_edges, bottle.options.profile_vertices) = (9, 6);
+        let mirror = Mirror::new(Plane::through(DVec3::ZERO, DVec3::X).unwrap());
+        let symmetry = Symmetry::new(mirror, vec![PartId(0)]).unwrap();
+        let parts = [bottle];
+        let assembly =
+            Assembly { parts: &parts, links: &[], symmetry: Some(&symmetry), min_panel_mm: 3.0, views: None };
+        let model = build(&assembly, &Known::default(), &Unjudged, &Silent).unwrap().model;
+        let body = model.part(PartId(0));
+        assert!(body.frame.matrix3.z_axis.z.abs() > 0.999, "it folds along its axis");
+        let profiles = body.component.profiles();
+        assert_eq!(profiles.len(), 8, "the most that are even, of nine");
+        let first = profiles[0].points();
+        let is_like_first = |profile: &crate::component::Profile| {
+            first.iter().zip(profile.points()).all(|(a, b)| a.distance(*b) < 1e-9)
+        };
+        assert!(profiles.iter().all(is_like_first));
+    }
+
     /// A body on two legs that are spread a little, so that no bottom of the body is level for both.
     #[test]
     fn legs_stay_where_they_are_on_a_level_body() {

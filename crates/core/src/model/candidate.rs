@@ -5,9 +5,11 @@
 
 use super::link::Link;
 use super::seat::{Seating, Snap, level_axis, seat_plane, seats};
+use super::turned::TurningAxis;
 use super::{ModelError, ModelPart, Part, PartId, Symmetry, plane};
 use crate::component::{
-    self, Component, Finished, JointTarget, PanelId, PrincipalAxis, Target, choose, fewest, finished,
+    self, Component, Crossing, Finished, JointTarget, PanelId, PrincipalAxis, Target, Turning, choose,
+    fewest, finished,
 };
 use crate::geom::{Hull, Mirror, Plane, polygon};
 use glam::{DAffine3, DMat3, DVec2, DVec3};
@@ -36,6 +38,8 @@ const LOPSIDED_PRICE: f64 = 0.05;
 /// a teapot that leans to one side looks wrong, though its outlines are no worse. With 0.1 it still leans; not bounded from
 /// above by a case yet.
 const LEANING_PRICE: f64 = 0.2;
+/// Joint planes whose normals are within this of the axis of a turned part are at its ends.
+const END_RAD: f64 = 0.2;
 /// In a search for firm joints it is this many times as high: with 1 nine joints of a scorpion are weak, with 6
 /// four. Not bounded from above by a case yet.
 const FIRMNESS: f64 = 6.0;
@@ -163,8 +167,17 @@ struct Direction {
     hull: Hull,
     joints: Vec<(PartId, JointTarget)>,
     plane_shift_mm: f64,
-    /// Whether the component is to be its own image in two planes.
-    is_crossed: bool,
+    /// How the component is to be even about its fold axis, if it is.
+    even: Option<Even>,
+}
+
+/// A fold axis about which a component is even.
+#[derive(Clone, Copy)]
+struct Even {
+    axis: DVec3,
+    /// A mirror plane through it, across the other one.
+    across: Plane,
+    turning: Turning,
 }
 
 impl<'a> Builder<'a> {
@@ -181,16 +194,18 @@ impl<'a> Builder<'a> {
         let principal = PrincipalAxis::of_hull(&part.hull);
         let prices: Vec<f64> = self.own_links().map(|link| self.joint_price(link)).collect();
         let axes = self.axes(&principal);
-        let crossed = self.common_axis().map(|axis| (axis, true));
-        let tried: Vec<(DVec3, bool)> =
-            crossed.into_iter().chain(axes.into_iter().map(|a| (a, false))).collect();
-        let direction = |&(axis, is_crossed): &(DVec3, bool)| Direction {
-            is_crossed,
+        let even: Vec<Even> = self.crossed().into_iter().chain(self.turned()).collect();
+        let most = even.iter().map(|even| even.turning).max();
+        let even = even.into_iter().map(|even| (even.axis, Some(even)));
+        let tried: Vec<(DVec3, Option<Even>)> =
+            even.chain(axes.into_iter().map(|axis| (axis, None))).collect();
+        let direction = |&(axis, even): &(DVec3, Option<Even>)| Direction {
+            even,
             ..self.direction(principal.frame(axis), &prices)
         };
         let directions: Vec<Direction> = tried.par_iter().map(direction).collect();
         let mut targets: Vec<(Target, f64)> =
-            directions.iter().map(|d| (self.target(d), self.own_mm(d, crossed.is_some()))).collect();
+            directions.iter().map(|d| (self.target(d), self.own_mm(d, most))).collect();
         let lost = || ModelError::NoJointPanel(part.options.name.clone());
         let fail = |error| ModelError::Component { name: part.options.name.clone(), error };
         if let Some(tolerance_mm) = part.options.tolerance_mm {
@@ -264,7 +279,7 @@ impl<'a> Builder<'a> {
             }
         };
         let mut axes: Vec<DVec3> = Vec::with_capacity(tried.len() + 1);
-        axes.extend(self.common_axis());
+        axes.extend(self.crossed().map(|crossed| crossed.axis));
         for axis in tried {
             let axis = self.settled(axis);
             if axes.iter().all(|a| a.dot(axis).abs() < libm::cos(SAME_RAD)) {
@@ -280,13 +295,33 @@ impl<'a> Builder<'a> {
     }
 
     /// The line that lies in both mirror planes, where there are two and edges enough for both.
-    fn common_axis(&self) -> Option<DVec3> {
+    fn crossed(&self) -> Option<Even> {
         let own = &self.parts[self.part.0].options;
         if own.top_edges < component::Symmetry::LEAST_CROSSED_EDGES || own.direction_rad.is_some() {
             return None;
         }
         let planes = [self.symmetry?.mirror().plane(), self.crossing?.plane()];
-        planes[0].normal().cross(planes[1].normal()).try_normalize()
+        let axis = planes[0].normal().cross(planes[1].normal()).try_normalize()?;
+        Some(Even { axis, across: *planes[1], turning: Turning::Half })
+    }
+
+    /// The axis about which the part is turned, where its joints are at the ends of it.
+    fn turned(&self) -> Option<Even> {
+        let own = &self.parts[self.part.0];
+        if own.options.direction_rad.is_some() {
+            return None;
+        }
+        let mirror = self.mirror()?;
+        let turning = Turning::of_regular(own.options.top_edges)?;
+        let along = |axis: DVec3| mirror.along(axis).try_normalize();
+        let ends = self.own_links().map(|link| link.plane.normal());
+        let crossed = self.crossed().map(|crossed| crossed.axis);
+        let principal = PrincipalAxis::of_hull(&own.hull).axis();
+        let axes = crossed.into_iter().chain(ends.chain([DVec3::Z, principal]).filter_map(along));
+        let TurningAxis { centre, axis } = TurningAxis::of_hull(&own.hull, mirror, axes)?;
+        let is_end = |link: &Link| link.plane.normal().dot(axis).abs() > libm::cos(END_RAD);
+        let across = Plane::through(centre, axis.cross(mirror.plane().normal()))?;
+        self.own_links().all(is_end).then_some(Even { axis, across, turning })
     }
 
     /// An axis turned onto the normal of the nearest joint plane, where that is almost level for it.
@@ -302,10 +337,10 @@ impl<'a> Builder<'a> {
         nearest.map_or(axis, |normal| level_axis(axis, normal))
     }
 
-    /// What a direction costs by itself, mm of error, where the component could have two mirror planes or not.
-    fn own_mm(&self, direction: &Direction, can_be_crossed: bool) -> f64 {
+    /// What a direction costs by itself, mm of error, where the most even component could be `most`.
+    fn own_mm(&self, direction: &Direction, most: Option<Turning>) -> f64 {
         let size_mm = libm::cbrt(self.parts[self.part.0].hull.volume());
-        let is_lopsided = can_be_crossed && !direction.is_crossed;
+        let is_lopsided = direction.even.map(|even| even.turning) < most;
         let of_lopsided = if is_lopsided { LOPSIDED_PRICE } else { 0.0 };
         let up = direction.frame.matrix3.z_axis.z.abs().min(1.0);
         let of_leaning =
@@ -348,10 +383,12 @@ impl<'a> Builder<'a> {
             return Some(component::Symmetry::Level { height_mm: offset_mm * normal.z.signum() });
         }
         let across = normal.truncate().perp();
-        let other =
-            self.crossing.filter(|_| direction.is_crossed).map(|mirror| mirror.plane().moved(&to_local));
-        let crossing_mm = other.map(|other| other.offset() * across.dot(other.normal().truncate()).signum());
-        Some(component::Symmetry::Upright { angle_rad: normal.truncate().to_angle(), offset_mm, crossing_mm })
+        let crossing = direction.even.map(|Even { across: plane, turning, .. }| {
+            let other = plane.moved(&to_local);
+            let offset_mm = other.offset() * across.dot(other.normal().truncate()).signum();
+            Crossing { offset_mm, turning }
+        });
+        Some(component::Symmetry::Upright { angle_rad: normal.truncate().to_angle(), offset_mm, crossing })
     }
 
     /// Seats of all joints in the axes of `frame`, and the hull clipped by them. `prices` are those of the
@@ -400,7 +437,7 @@ impl<'a> Builder<'a> {
             };
             joints.push((other, JointTarget { seat, cover, within, price }));
         }
-        Direction { frame, hull, joints, plane_shift_mm, is_crossed: false }
+        Direction { frame, hull, joints, plane_shift_mm, even: None }
     }
 
     /// Price of a mm by which a joint panel misses its partner.

@@ -19,6 +19,7 @@ mod seat;
 mod seen;
 mod sturdy;
 mod symmetry;
+mod turned;
 
 #[cfg(test)]
 pub(crate) use build::tests::part;

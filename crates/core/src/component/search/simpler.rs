@@ -1,6 +1,6 @@
 //! Hulls with fewer corners, which take less time to fit.
 
-use super::super::symmetry::Symmetry;
+use super::super::symmetry::{Crossing, Symmetry, Turning};
 use super::super::target::Target;
 use crate::geom::{self, Hull};
 use glam::DVec3;
@@ -38,8 +38,12 @@ fn simplified(hull: &Hull, symmetry: Option<Symmetry>, directions: usize) -> Hul
     let across: &[DVec3] = match symmetry {
         None => &[],
         Some(Symmetry::Level { .. }) => &[DVec3::Z],
-        Some(Symmetry::Upright { crossing_mm: None, .. }) => &[DVec3::Y],
-        Some(Symmetry::Upright { .. }) => &[DVec3::Y, DVec3::X],
+        Some(Symmetry::Upright { crossing: None, .. }) => &[DVec3::Y],
+        Some(Symmetry::Upright { crossing: Some(Crossing { turning: Turning::Half, .. }), .. }) => {
+            &[DVec3::Y, DVec3::X]
+        }
+        // The hull is round more or less, not its own image.
+        Some(Symmetry::Upright { .. }) => &[],
     };
     let one_side = geom::directions(directions).filter(|d| across.iter().all(|n| n.dot(*d) >= 0.0));
     let mut points: Vec<DVec3> = one_side.map(|d| hull.farthest(d)).collect();
