@@ -4,10 +4,11 @@ use super::text::counted;
 use std::path::{Path, PathBuf};
 use tatamu::fold::{Motion, Stack};
 use tatamu::guide::Estimate;
+use tatamu::listing;
 use tatamu::pipeline::Output;
 use tatamu::product;
 
-/// The files of a model, not yet written, and what is told of it.
+/// The files of a model, not yet written, with its summary.
 pub struct Made {
     /// Names and contents.
     pub files: Vec<(PathBuf, Vec<u8>)>,
@@ -74,5 +75,5 @@ fn folding(result: &Output) -> String {
     let flat =
         |s: &Stack| format!("{:.0} × {:.0} mm, {}", s.size_mm.x, s.size_mm.y, counted(s.layers, "layer"));
     let sizes: Vec<String> = plan.stacks().iter().map(flat).collect();
-    format!("to {}, in the order {}", sizes.join(" and "), order.join(", "))
+    format!("to {}, in the order {}", listing::with_and(&sizes), order.join(", "))
 }

@@ -1,6 +1,7 @@
 //! Sentences for warnings, and for what can be done about them, with the names that a front has for its
 //! settings.
 
+use tatamu::listing;
 use tatamu::pipeline::{Change, Warning};
 use tatamu::plotter::profile::Handshake;
 use tatamu::project::options::{
@@ -39,7 +40,7 @@ pub trait Names {
 /// What was found, and what can be done about it.
 pub fn warning(warning: &Warning, names: &dyn Names) -> String {
     let found = match warning {
-        Warning::Trial(trial) => trial.told(&|change| changed(change, names)),
+        Warning::Trial(trial) => trial.sentence(&|change| changed(change, names)),
         _ => warning.to_string(),
     };
     with_remedies(found, &warning.remedies(), names)
@@ -92,7 +93,7 @@ fn phrase(remedy: &Remedy, names: &dyn Names) -> String {
         Remedy::BothSides => return format!("use {} both", name(&SIDE)),
         Remedy::PacedHandshake => return format!("try {}", names.handshake(Handshake::Paced.name())),
         Remedy::OtherHandshake => {
-            let two = [Handshake::Paced, Handshake::RtsCts].map(Handshake::name).join(" or ");
+            let two = listing::with_or(&[Handshake::Paced, Handshake::RtsCts].map(Handshake::name));
             return format!("try {}", names.handshake(&two));
         }
         Remedy::CheckSpeed => return format!("check {}, the port, its parity and the cable", names.speed()),

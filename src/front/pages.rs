@@ -5,6 +5,7 @@ use super::words;
 use glam::{DAffine2, DVec2};
 use tatamu::drawing::Drawing;
 use tatamu::geom::polygon;
+use tatamu::listing;
 use tatamu::model::PartId;
 use tatamu::net::{Piece, Side};
 use tatamu::pipeline::Output;
@@ -62,7 +63,7 @@ pub struct Move {
 
 /// A piece that is dragged stays within the margins and may come as near to free places as this, mm.
 const REACH_MM: f64 = 8.0;
-/// The layout works on a lattice; the longer side of a sheet has so many cells at least.
+/// The layout works on a lattice; this is the least number of cells along the longer side of a sheet.
 const CELLS: f64 = 250.0;
 
 /// All pieces pinned where they lie, but for one that is moved, to the free place that is nearest to where
@@ -94,7 +95,7 @@ pub fn rearranged(output: &Output, id: PieceId, to: &Move) -> Result<Vec<(String
         first.get_or_insert(others);
     }
     let Some(place) = found else {
-        let others = words::listed(&first.unwrap_or_default());
+        let others = listing::with_and(&first.unwrap_or_default());
         return Err(format!("{} would overlap {others}; it stays where it was", own.name()));
     };
     let pin = |id: PieceId, piece: &Piece, place: &PiecePlace| {

@@ -24,14 +24,6 @@ pub fn failure(error: &pipeline::Error) -> String {
     words::with_remedies(error.to_string(), &error.remedies(), &Settings)
 }
 
-/// Names in a sentence: "a", "a and b", "a, b and c".
-pub fn listed(names: &[String]) -> String {
-    match names {
-        [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
-        _ => names.concat(),
-    }
-}
-
 /// The components that a warning is about, as the user calls them.
 pub fn about(warning: &Warning) -> Vec<&str> {
     match warning {
@@ -170,14 +162,6 @@ mod tests {
     fn a_model_of_too_many_sheets_names_the_setting() {
         let told = error(&AppError::ManySheets { most: 2 });
         assert!(told.ends_with("; allow more with \u{201c}Sheets max\u{201d}"), "{told}");
-    }
-
-    /// "right-1 and left-1 and right-3" was said.
-    #[test]
-    fn many_names_are_listed_with_one_and() {
-        let all = ["right-1", "left-1", "right-3"].map(str::to_owned);
-        let said = [0, 1, 2, 3].map(|count| listed(&all[..count]));
-        assert_eq!(said, ["", "right-1", "right-1 and left-1", "right-1, left-1 and right-3"]);
     }
 
     #[test]

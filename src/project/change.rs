@@ -1,7 +1,8 @@
-//! What can be changed in a project, as changes to the text of its file: comments stay, and the
-//! result is read by the same parser as any project file.
+//! Changes to a project, made in the text of its file: comments stay, and the parser of project
+//! files reads the result.
 
 use super::options::{CARD, DIRECTION, Entry, PROFILE_VERTICES, RENAME, Scope, TOP_EDGES};
+use crate::listing;
 use crate::net::{EdgeChoice, EdgeName};
 use crate::sheet::Pin;
 use glam::DVec3;
@@ -46,7 +47,7 @@ pub enum Change {
         /// The component's name, before it was renamed.
         name: String,
     },
-    /// Makes one part of several; what was set for those that lose their name goes with it.
+    /// Merges several parts; the settings of those that lose their name are removed.
     Merge {
         /// Their names.
         names: Vec<String>,
@@ -107,7 +108,7 @@ impl Change {
             Self::Cards { .. } => "colours of card".to_owned(),
             Self::Reset { name } => format!("reset {name}"),
             Self::Forget { name } => format!("settings of {name}"),
-            Self::Merge { names } => format!("merge {}", names.join(" and ")),
+            Self::Merge { names } => format!("merge {}", listing::with_and(names)),
             Self::Split { name, .. } => format!("split {name}"),
             Self::Edge { component, at, .. } => format!("edge {at} of {component}"),
             Self::Pieces { component, .. } => format!("pieces of {component}"),
@@ -289,7 +290,7 @@ fn find(list: &ArrayOfTables, key: &str, name: &str) -> Option<usize> {
     list.iter().position(|table| table.get(key).and_then(Item::as_str) == Some(name))
 }
 
-/// A number with so many digits after the point.
+/// A number rounded to `digits` digits after the point.
 pub fn to_digits(x: f64, digits: i32) -> f64 {
     let power = 10f64.powi(digits);
     (x * power).round() / power
@@ -404,7 +405,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_table_is_told() {
+    fn a_value_in_place_of_a_table_is_an_error() {
         let change = component("body", &DIRECTION, Some(3.0.into()));
         assert!(change.apply("mesh = 'a'\ncomponent = []\n").unwrap_err().contains("[[component]]"));
         let set = Change::Set { option: &PAPER, value: Some("a3".into()) };

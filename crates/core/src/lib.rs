@@ -33,6 +33,7 @@ pub mod component;
 pub mod design;
 pub mod fold;
 pub mod geom;
+pub mod listing;
 pub mod memory;
 pub mod mesh;
 pub mod model;

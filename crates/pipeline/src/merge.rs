@@ -1,25 +1,26 @@
-//! Parts that are better one: where they bump or hardly hold whatever their joints are.
+//! Parts that should be merged: they clash or lack glue, whatever their joints are.
 
 use super::Hulls;
 use std::collections::BTreeSet;
 use tatamu_core::geom::Hull;
+use tatamu_core::listing;
 use tatamu_core::model::{Bump, PartId, Verdict};
 
-/// Names of parts that are made one; it keeps the first.
+/// Names of parts that are merged; the merged part keeps the first.
 pub(super) type Merge = Vec<String>;
 
-/// Parts are kept apart where they bump by no more than this beyond the thickness of the paper, mm: paper gives. Without it
-/// outlines of a human lose 0.014 for two bumps of 0.3 mm, and the wings of a bird become its body.
+/// Parts are not merged where they clash by no more than this beyond the thickness of the paper, mm: paper gives. Without
+/// this, the outlines of a human lose 0.014 for two clashes of 0.3 mm, and a bird's wings are merged into its body.
 const SLIGHT_MM: f64 = 0.25;
-/// No one part less helps where more pairs bump: each look at a knot, with 20 of them, takes 10 s. A chair and a bird are freed
-/// of two.
+/// With more pairs that clash, one merge does not help: each try for a knot, which has 20, takes 10 s. A chair and a bird
+/// lose two.
 const MANY_BUMPS: usize = 6;
-/// Nor where more parts hardly hold, which are too thin for paper at this size: an octopus with twelve weak joints takes minutes
-/// to lose most of its arms, and its outlines are 0.37 instead of 0.44. An ant needs two mended.
+/// With more weak joints, limbs are too thin for paper at this size: merging the parts of an octopus with twelve takes minutes
+/// and most of its arms, and its outlines agree by 0.37 instead of 0.44. An ant needs two.
 const MANY_WEAK: usize = 6;
 
-/// What makes one part of two that bump, of one of them and its parent, or, where none bump, of one that hardly holds and
-/// any other; and likewise of their images. Those whose hulls grow the least come first.
+/// Merges of two parts that clash, or of one of them and its parent; where none clash, of a part with a weak joint and
+/// any other part. Their images are merged as well. Merges whose hulls grow least come first.
 ///
 /// `may_vanish` tells whether the part of a name may become a piece of another.
 pub(super) fn mergers(
@@ -41,7 +42,7 @@ pub(super) fn mergers(
     mergers.into_iter().map(|(_, sets)| named(hulls, sets))
 }
 
-/// What makes one part, and likewise of their images, of two whose joint takes more off them than one hull adds.
+/// The merge, with that of the images, of two parts whose joint cuts more off them than one hull adds.
 pub(super) fn needless(hulls: &Hulls, may_vanish: &dyn Fn(&str) -> bool) -> Option<Vec<Merge>> {
     let mut sets = hulls.needless().into_iter().map(|(a, b)| with_image(hulls, [a, b]));
     sets.find(|sets| are_possible(hulls, sets, may_vanish)).map(|sets| named(hulls, sets))
@@ -62,12 +63,12 @@ fn with_image(hulls: &Hulls, pair: [PartId; 2]) -> Vec<Vec<PartId>> {
     merged_sets(pair, pair.map(image))
 }
 
-/// The bumps that are worth a part.
+/// The clashes that justify a merge.
 pub(super) fn serious(verdict: &Verdict) -> Vec<Bump> {
     verdict.bumps.iter().filter(|bump| bump.1 > SLIGHT_MM).copied().collect()
 }
 
-/// Parts that may be better one.
+/// Pairs of parts whose merge may help.
 fn pairs(hulls: &Hulls, verdict: &Verdict) -> Vec<[PartId; 2]> {
     let bumps = serious(verdict);
     if bumps.len() > MANY_BUMPS || verdict.weak.len() > MANY_WEAK {
@@ -83,8 +84,8 @@ fn pairs(hulls: &Hulls, verdict: &Verdict) -> Vec<[PartId; 2]> {
     joints.filter(|[child, _]| bumping().any(|pair| pair.contains(child))).chain(bumping()).collect()
 }
 
-/// The parts that become one with a pair, the largest of each set first: those of the pair, and those of its image; all
-/// of them where the two share a part.
+/// The sets of parts that are merged for a pair, the largest part of each set first: the pair and its image, or one set of
+/// all of them where the two share a part.
 fn merged_sets(pair: [PartId; 2], image: [PartId; 2]) -> Vec<Vec<PartId>> {
     let set = |parts: &[PartId]| parts.iter().copied().collect::<BTreeSet<PartId>>().into_iter().collect();
     let is_shared = pair.iter().any(|part| image.contains(part));
@@ -96,11 +97,11 @@ fn merged_sets(pair: [PartId; 2], image: [PartId; 2]) -> Vec<Vec<PartId>> {
 
 /// What the user should know of a merge.
 pub(super) fn remark(merge: &Merge) -> String {
-    let gone = merge[1..].join(" and ");
+    let (all, gone) = (listing::with_and(merge), listing::with_and(&merge[1..]));
+    let each = if merge.len() == 2 { "it" } else { "each" };
     format!(
-        "{} are one part, since apart they bump, cut each other off or have too little glue; to keep {gone}, give it a \
-         table in the project file",
-        merge.join(" and ")
+        "{all} are one part, because as separate parts they would clash, cut each other off or have too little glue; \
+         to keep {gone}, give {each} a table in the project file"
     )
 }
 

@@ -1,6 +1,7 @@
 //! Texts about options.
 
 use super::{Entry, Kind, Number, Range, Settings, Unit};
+use crate::listing;
 
 /// For whom names of values are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -16,15 +17,6 @@ pub(super) fn with_range(sentence: &str, [least, most]: [String; 2]) -> String {
     sentence.replace("{least}", &least).replace("{most}", &most)
 }
 
-/// "a, b or c".
-pub(super) fn either(names: &[String]) -> String {
-    match names {
-        [] => String::new(),
-        [one] => one.clone(),
-        [most @ .., last] => format!("{} or {last}", most.join(", ")),
-    }
-}
-
 impl Entry {
     /// A text about it, with its names and its range.
     pub(super) fn filled(&self, text: &str, reader: Reader) -> String {
@@ -37,10 +29,10 @@ impl Entry {
             Kind::Count(count) => count.bounds(),
             Kind::Switch(_) | Kind::Text(_) => [String::new(), String::new()],
         };
-        with_range(&text.replace("{names}", &either(&names.collect::<Vec<_>>())), bounds)
+        with_range(&text.replace("{names}", &listing::with_or(&names.collect::<Vec<_>>())), bounds)
     }
 
-    /// What holds where nothing is chosen; a switch that is off needs no word.
+    /// The default; a switch that is off needs no note.
     fn default_note(&self) -> Option<String> {
         let value = match self.kind {
             Kind::Switch(_) => None,
@@ -115,7 +107,7 @@ impl Kind {
             Self::Count(_) => "a whole number".to_owned(),
             Self::Switch(_) => "a boolean".to_owned(),
             Self::Text(text) if text.other.is_empty() => {
-                either(&(text.names)().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>())
+                listing::with_or(&(text.names)().iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>())
             }
             Self::Text(text) => format!("a text such as \"{}\"", text.such_as),
         }

@@ -1,15 +1,15 @@
-//! The panel at the left: the dials of the whole model, the components, and the one that is selected.
+//! The panel at the left: the settings of the whole model, the components, and the selected one.
 
 use super::super::change::Change;
 use super::super::selection::Hover;
 use super::super::state::Studio;
-use super::super::words;
 use super::space::Space;
 use super::values::Dialled;
 use super::{dials, look};
 use eframe::egui::{self, CollapsingHeader, Grid, RichText, Ui};
 use lucide_icons::Icon;
 use tatamu::front::hand::{self, AXES};
+use tatamu::listing;
 use tatamu::model::{JointChoice, PartId};
 use tatamu::project::options::{
     CARD, CONCAVE, DIRECTION, Entry, JOINT, PROFILE_VERTICES, RENAME, ROOT, TOP_EDGES,
@@ -92,7 +92,7 @@ pub fn show(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui: 
 /// Merging, where several components are selected.
 fn merging(studio: &mut Studio, ui: &mut Ui) {
     if studio.selection.names().len() > 1 && !studio.is_drawn() {
-        let names = words::listed(studio.selection.names());
+        let names = listing::with_and(studio.selection.names());
         if ui.button("Merge").on_hover_text(format!("makes one part of {names} (M)")).clicked() {
             studio.merge_selected();
         }

@@ -3,6 +3,7 @@
 use crate::Level;
 use std::fmt;
 use tatamu_core::codes;
+use tatamu_core::listing;
 use tatamu_core::remedy::Remedy;
 
 /// Another choice for the whole model.
@@ -10,11 +11,11 @@ use tatamu_core::remedy::Remedy;
 pub enum Change {
     /// Another level.
     Level(Level),
-    /// So many top edges.
+    /// This number of top edges.
     TopEdges(usize),
-    /// So many profile vertices.
+    /// This number of profile vertices.
     ProfileVertices(usize),
-    /// So many parts.
+    /// This number of parts.
     Parts(usize),
     /// This size, mm.
     Size(f64),
@@ -53,14 +54,14 @@ impl TrialWarning {
     }
 
     /// A sentence, with words for changes.
-    pub fn told(&self, change: &dyn Fn(Change) -> String) -> String {
+    pub fn sentence(&self, change: &dyn Fn(Change) -> String) -> String {
         let these = |before: usize| match before {
             1 => "this problem".to_owned(),
             _ => format!("these {before} problems"),
         };
         match self {
             Self::Helps { change: helps, before, left: 0 } => {
-                format!("{} was tried, and makes the model without {}", change(*helps), these(*before))
+                format!("{} was tried, and solves {}", change(*helps), these(*before))
             }
             Self::Helps { change: helps, before, left } => {
                 let helps = change(*helps);
@@ -69,10 +70,13 @@ impl TrialWarning {
             }
             Self::NoneHelps { tried, before } => {
                 let tried: Vec<String> = tried.iter().map(|tried| change(*tried)).collect();
+                let fails = match before {
+                    1 => "solves this problem".to_owned(),
+                    _ => format!("leaves fewer than {}", these(*before)),
+                };
                 format!(
-                    "none of {} leaves fewer than {}; all were tried. What can be done by hand stands with each",
-                    tried.join(", "),
-                    these(*before)
+                    "none of the options that were tried {fails}: {}; the other warnings say what to do by hand",
+                    listing::with_and(&tried)
                 )
             }
         }
@@ -81,7 +85,7 @@ impl TrialWarning {
 
 impl fmt::Display for TrialWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.told(&|change| change.to_string()))
+        f.write_str(&self.sentence(&|change| change.to_string()))
     }
 }
 
