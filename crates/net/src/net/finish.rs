@@ -1,4 +1,4 @@
-//! The texts of pieces, and what is to be told of a net.
+//! The texts of pieces, and the warnings about a net.
 
 use super::blank::{Blank, MadeNet};
 use super::hand::EdgeName;
@@ -86,7 +86,8 @@ fn warnings(made: &MadeNet, pieces: &[Piece]) -> Vec<NetWarning> {
     for whole in (0..split.source.len()).map(PanelId) {
         let parts = split.source.iter().filter(|s| **s == whole).count();
         if parts > 1 {
-            out.push(NetWarning::SplitPanel { name: name.clone(), parts });
+            let panel = split.set.panel(whole).kind;
+            out.push(NetWarning::SplitPanel { name: name.clone(), panel, parts });
         }
     }
     let set = &split.set;

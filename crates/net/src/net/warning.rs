@@ -2,6 +2,7 @@
 
 use std::fmt;
 use tatamu_core::codes;
+use tatamu_core::component::PanelKind;
 use tatamu_core::remedy::Remedy;
 
 /// Something about a net that its maker should know.
@@ -29,6 +30,8 @@ pub enum NetWarning {
     SplitPanel {
         /// The component.
         name: String,
+        /// The panel.
+        panel: PanelKind,
         /// Number of its parts.
         parts: usize,
     },
@@ -67,8 +70,8 @@ impl fmt::Display for NetWarning {
             Self::NarrowTab { label, width_mm } => write!(f, "tab {label} is only {width_mm:.1} mm wide"),
             Self::NoTab { label } => write!(f, "there is no room for a tab at {label}"),
             Self::CutFoldHinge { label } => write!(f, "the hinge at {label} folds flat and is cut"),
-            Self::SplitPanel { name, parts } => {
-                write!(f, "a panel of {name} is larger than the sheet and is glued from {parts} parts")
+            Self::SplitPanel { name, panel, parts } => {
+                write!(f, "{name}: {panel} is larger than the sheet and is glued from {parts} parts")
             }
             Self::UnplacedLabel { piece, text } => {
                 write!(f, "the label {text} has no room on {piece}; it is listed on its sheet")
