@@ -82,8 +82,8 @@ Examples:
 
 \"tatamu make --help\" explains every option.";
 
-/// Makes a write beyond a limit of the file size (`ulimit -f`) fail like any other, so that no part of a file is
-/// left: its signal would end the program first.
+/// Makes a write beyond a limit of the file size (`ulimit -f`) fail like any other, so that no partial file is
+/// left: by default its signal ends the program.
 #[cfg(unix)]
 fn survive_file_limits() {
     let was_raised = std::sync::Arc::default();
@@ -108,7 +108,11 @@ pub fn run() -> ExitCode {
                 terminal::complain("error", &advice);
                 return ExitCode::from(MISREAD);
             }
-            None => error.exit(),
+            None if !error.use_stderr() || terminal::is_typed_plainly() => error.exit(),
+            None => {
+                terminal::complain_misread(&error.to_string());
+                return ExitCode::from(MISREAD);
+            }
         },
     };
     let result = match &cli.command {

@@ -26,6 +26,19 @@ pub fn complain(kind: &str, text: &str) {
     let _ = writeln!(std::io::stderr(), "{kind}: {}", printable(text));
 }
 
+/// Whether what was typed can be shown as it is: clap prints it with all its characters where the output is a terminal.
+pub fn is_typed_plainly() -> bool {
+    std::env::args_os().all(|argument| {
+        let argument = argument.to_string_lossy();
+        printable(&argument) == argument
+    })
+}
+
+/// Prints what clap says of a command line, without colours.
+pub fn complain_misread(text: &str) {
+    let _ = write!(std::io::stderr(), "{}", printable(text));
+}
+
 /// Shows a warning.
 pub fn warn(warning: &Warning) {
     complain("warning", &super::words::warning(warning));

@@ -156,6 +156,27 @@ fn names_that_steer_are_refused_wherever_they_are_given() {
     }
 }
 
+/// What clap refuses was repeated as it was typed.
+#[test]
+fn a_command_line_that_cannot_be_read_does_not_steer_the_terminal() {
+    let folder = folder_with(&[CUBE]);
+    for c in ['\u{1b}', '\u{85}', '\u{202e}', '\u{2066}'] {
+        let word = format!("x{c}y");
+        for arguments in [
+            vec![word.as_str()],
+            vec!["make", "cube.off", "--parts", &word],
+            vec!["make", "cube.off", "--card", &word],
+            vec!["make", "cube.off", &format!("--{word}")],
+            vec!["show", "cube.off", "-o", "a.png", "--stage", &word],
+        ] {
+            let result = run(folder.path(), &arguments);
+            assert_eq!(result.code, Some(2), "{arguments:?}: {}", result.err);
+            let is_said = result.err.starts_with("error: ") && result.err.contains('x');
+            assert!(is_said && !result.err.contains(c), "{arguments:?}: {:?}", result.err);
+        }
+    }
+}
+
 /// "missing field `panel`" was said of whatever was wrong.
 #[test]
 fn a_joint_without_a_panel_says_what_it_needs() {
@@ -223,7 +244,7 @@ fn two_runs_at_once_to_one_output() {
     }
 }
 
-/// A file of so many blocks of 512 bytes at most: the signal of the limit ended the program, and its temporary file
+/// `ulimit -f` limits files to a number of blocks of 512 bytes: its signal ended the program, and the temporary file
 /// stayed.
 #[test]
 #[cfg(unix)]
