@@ -1,8 +1,8 @@
 //! The project that is open, with what it was before.
 
-use super::Project;
 use super::change::Change;
 use super::options::{Settings, choose};
+use super::{Project, ProjectError};
 use crate::pipeline::Options;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -26,7 +26,7 @@ pub struct Document {
     gesture: Option<String>,
 }
 
-/// All that a document was, is, and can be again: to go on with it elsewhere.
+/// The text of a document with its steps of undo and redo, to continue elsewhere.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct History {
     text: String,
@@ -53,7 +53,7 @@ impl Document {
         Ok(Self { text, project, settings, path, saved, undo: Vec::new(), redo: Vec::new(), gesture: None })
     }
 
-    /// A document that goes on where another one was.
+    /// A document that continues with the history of another one.
     ///
     /// # Errors
     /// A message where a text is no project file.
@@ -102,10 +102,11 @@ impl Document {
     /// Makes a change. Changes of one gesture, which have the same name, become one step.
     ///
     /// # Errors
-    /// A message where the project would be none; it stays as it is.
+    /// A message where the project would not be valid; it stays as it is. The message quotes no line, because who
+    /// clicks or drags does not see the file.
     pub fn change(&mut self, change: &Change, gesture: Option<&str>) -> Result<(), String> {
         let text = change.apply(&self.text)?;
-        let (project, settings) = read(&text)?;
+        let (project, settings) = parse(&text, ProjectError::without_line)?;
         if text == self.text {
             return Ok(());
         }
@@ -125,7 +126,7 @@ impl Document {
         self.gesture = None;
     }
 
-    /// Puts another text into the place of this one, as one step.
+    /// Replaces the text by another one, as one step.
     ///
     /// # Errors
     /// A message where it is no project file.
@@ -195,8 +196,13 @@ impl Document {
     }
 }
 
+/// Reads the text of a file, of which a message quotes the line that is wrong.
 fn read(text: &str) -> Result<(Project, Settings), String> {
-    let project = Project::parse(text).map_err(|error| error.to_string())?;
+    parse(text, |error| error.to_string())
+}
+
+fn parse(text: &str, say: fn(ProjectError) -> String) -> Result<(Project, Settings), String> {
+    let project = Project::parse(text).map_err(say)?;
     let settings = choose(Some(&project), &[]).map_err(|error| error.to_string())?;
     Ok((project, settings))
 }
@@ -204,7 +210,7 @@ fn read(text: &str) -> Result<(Project, Settings), String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::project::options::{DIRECTION, MARGIN, SIZE};
+    use crate::project::options::{DIRECTION, MARGIN, SHEETS_MAX, SIZE};
 
     fn turn(degrees: f64) -> Change {
         Change::Component { name: "head".to_owned(), option: &DIRECTION, value: Some(degrees.into()) }
@@ -270,6 +276,9 @@ mod tests {
         assert!(document.change(&wrong, None).unwrap_err().contains("margin"));
         let wrong = Change::Set { option: &SIZE, value: Some((-1.0).into()) };
         assert!(document.change(&wrong, None).is_err());
+        let wrong = Change::Set { option: &SHEETS_MAX, value: Some(0.into()) };
+        let told = document.change(&wrong, None).unwrap_err();
+        assert!(told.contains("from 1") && !told.contains('\n') && !told.contains("TOML"), "{told}");
         assert!(!document.is_changed() && document.undo_label().is_none());
     }
 }

@@ -27,9 +27,14 @@ use std::collections::BTreeSet;
 /// Why a project file cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ProjectError {
-    /// Not TOML, an unknown key, or a value that is not accepted. The message quotes the line.
-    #[error("{0}")]
-    Toml(String),
+    /// Not TOML, an unknown key, or a value that is not accepted.
+    #[error("{quoted}")]
+    Toml {
+        /// The line, and below it what is wrong with it.
+        quoted: String,
+        /// What is wrong.
+        found: String,
+    },
     /// Two components of one name.
     #[error("two components have the name \"{name}\"; rename one")]
     SameName {
@@ -65,6 +70,22 @@ pub enum ProjectError {
         /// What is wrong.
         reason: String,
     },
+}
+
+impl ProjectError {
+    /// The message without the line of the file, for those who do not see the file.
+    pub fn without_line(self) -> String {
+        match self {
+            Self::Toml { found, .. } => found,
+            other => other.to_string(),
+        }
+    }
+}
+
+impl From<toml::de::Error> for ProjectError {
+    fn from(error: toml::de::Error) -> Self {
+        Self::Toml { quoted: error.to_string().trim_end().to_owned(), found: error.message().to_owned() }
+    }
 }
 
 /// A project file.
@@ -146,8 +167,7 @@ impl Project {
     /// # Errors
     /// See [`ProjectError`].
     pub fn parse(text: &str) -> Result<Self, ProjectError> {
-        let project: Self = toml::from_str(text)
-            .map_err(|error| ProjectError::Toml(error.to_string().trim_end().to_owned()))?;
+        let project: Self = toml::from_str(text)?;
         let (mut tables, mut names) = (BTreeSet::new(), BTreeSet::new());
         for component in &project.components {
             let name = component.rename.as_ref().unwrap_or(&component.name);

@@ -1,4 +1,5 @@
-//! What is open and what was made of it. One stage is made at a time, so that between two the page is heard.
+//! What is open and what was made of it. One stage is made at a time, so that the page can answer between
+//! two.
 
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -182,7 +183,7 @@ impl Desk {
         if self.opened.drawn.is_some() && change.is_of_parts() {
             return Err(hand::DRAWN.to_owned());
         }
-        self.document.change(change, gesture).map_err(|message| without_line(&message))?;
+        self.document.change(change, gesture)?;
         let turned = match change {
             Change::Component { name, .. } | Change::Reset { name } => self.shown.index_of(name),
             _ => None,
@@ -304,12 +305,6 @@ impl Desk {
     }
 }
 
-/// A message about a project file without the line of it, which the page does not show.
-fn without_line(message: &str) -> String {
-    let is_of_line = message.starts_with("TOML parse error");
-    message.lines().last().filter(|_| is_of_line).unwrap_or(message).to_owned()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -349,14 +344,6 @@ mod tests {
     fn a_project_has_the_same_paper_in_every_language() {
         let desk = opened("a.toml", b"mesh = \"box.obj\"\n", "en-US");
         assert_eq!(desk.document.options().paper.name(), "a4");
-    }
-
-    #[test]
-    fn a_value_that_is_refused_is_told_without_the_line_of_a_file() {
-        let mut desk = a_box("de");
-        let refused = Change::Set { option: &SHEETS_MAX, value: Some(0.into()) };
-        let told = desk.change(&refused, None).unwrap_err();
-        assert!(!told.is_empty() && !told.contains('\n') && !told.contains("TOML"), "{told}");
     }
 
     #[test]
