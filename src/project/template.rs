@@ -98,7 +98,10 @@ pub fn to_toml(template: &Template) -> String {
 /// The table of parts that are made one.
 fn merge(parts: &[String]) -> String {
     let names: Vec<String> = parts.iter().cloned().map(quoted).collect();
-    format!("\n# Parts of their own would bump or hardly hold.\n[[edit]]\nmerge = [{}]\n", names.join(", "))
+    format!(
+        "\n# As separate parts, they would clash or have too little glue.\n[[edit]]\nmerge = [{}]\n",
+        names.join(", ")
+    )
 }
 
 /// A table of options. Without `shows_defaults` those that nobody chose stand in comments.

@@ -81,7 +81,7 @@ fn clashes_get_a_picture_each_and_a_model_without_any_is_shown() {
     assert!(free.code == Some(0) && free.out.contains("clashes     none"), "{}{}", free.out, free.err);
     let made = run(folder.path(), &["make", "b.toml", "-o", "b.json"]);
     assert_eq!(made.code, Some(0), "{}", made.err);
-    let is_clash = |line: &&str| line.contains(" bump by ") || line.contains(" overlap by ");
+    let is_clash = |line: &&str| line.contains(" clash by ") || line.contains(" overlap by ");
     let warned = made.err.lines().filter(is_clash).count();
     assert!(warned > 0, "{}", made.err);
     let shown = run(folder.path(), &["show", "b.toml", "--clashes", "-o", "clash.svg"]);
@@ -89,7 +89,7 @@ fn clashes_get_a_picture_each_and_a_model_without_any_is_shown() {
     let files = shown.out.lines().find_map(|line| line.strip_prefix("written     ")).expect("files");
     for name in files.split(", ") {
         let svg = std::fs::read_to_string(folder.path().join(name)).unwrap();
-        assert!(svg.contains("bump by") || svg.contains("overlap by"), "{name} says what it shows");
+        assert!(svg.contains("clash by") || svg.contains("overlap by"), "{name} says what it shows");
     }
     assert!(files.split(", ").count() <= warned, "no more pictures than warnings");
 }

@@ -172,7 +172,7 @@ impl fmt::Display for FoldWarning {
             }
             Self::Clash { panels: [p, q], depth_mm, when, .. }
             | Self::OwnClash { panels: [p, q], depth_mm, when } => {
-                write!(f, "{p} and {q} bump by {depth_mm:.1} mm when {when}")
+                write!(f, "{p} and {q} clash by {depth_mm:.1} mm when {when}")
             }
             Self::Rub { parts: [a, b], depth_mm, when } if a == b => {
                 write!(f, "two panels of {a} rub against each other ({depth_mm:.2} mm) when {when}")

@@ -110,7 +110,7 @@ fn work_that_was_stopped_is_begun_again_by_a_button() {
 
 /// The text named another part, in words of the command line.
 #[test]
-fn a_clash_is_told_of_the_components_that_it_shows() {
+fn a_clash_names_the_components_that_it_shows() {
     let (mut desk, folder) = open();
     let project = folder.path().join("ears.toml");
     std::fs::write(&project, [EARS, &ear("left", -14.0), &ear("right", 14.0)].concat()).unwrap();
@@ -118,7 +118,7 @@ fn a_clash_is_told_of_the_components_that_it_shows() {
     settle(&mut desk, "the ears", |s| s.finished().is_some() && s.shown().names()[0] == "head");
     desk.get_by_label_contains("1 warning").click();
     desk.run_ok();
-    let told = "left's right panel and right's left panel bump by 6.0 mm when left is three quarters folded; \
+    let told = "left's right panel and right's left panel clash by 6.0 mm when left is three quarters folded; \
                 bend one of them aside by hand there, or leave out the part right";
     assert!(desk.query_by_label(told).is_some());
     desk.get_by_role_and_label(Role::Button, "Show clash").click();
@@ -355,7 +355,7 @@ fn the_tip_of_merge_lists_many_components_with_one_and() {
     assert!(desk.query_by_label(&tip).is_some(), "{tip}");
 }
 
-/// Whether a line of the menu "View" has a tick, which is told to screen readers, too.
+/// Whether a line of the menu "View" has a tick, for screen readers too.
 fn is_ticked(desk: &mut Desk, label: &str) -> bool {
     click(desk, "View");
     let tick = format!("{}  {label}", char::from(lucide_icons::Icon::Check));
