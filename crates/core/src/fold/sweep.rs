@@ -3,24 +3,26 @@
 //! All sheets ride rigidly on a panel of the component that moves. The time from deployed to flat
 //! is halved again and again. A pair of sheets is let go for a span of time where its gap in the
 //! middle of the span, less what both can move in half of it, is above minus half the paper's
-//! thickness: panels move at known rates (see [`ComponentMotion`]), so that no contact deeper than
+//! thickness: panels move at known rates (see [`super::motion::ComponentMotion`]), so that no contact deeper than
 //! that slips through. A deeper gap is a clash. Sheets that change sides of each other from one
 //! span to the next have gone through each other, however parallel they were.
 //!
-//! The motion is divided at the levels at which components may rest, and contacts are told for each
+//! The motion is divided at the levels at which components may rest, and contacts are reported for each
 //! cell between two levels, so that one sweep answers for all steps between levels.
 //!
 //! The broad phase is a tree of balls of two levels, over the sheets of a component and over each
 //! sheet.
 
-use super::chain::{Shares, Sway};
+mod body;
+mod poses;
+
+pub(super) use body::{Body, BodySheet};
+
 use super::contact::{Sheet, facing_mm, gap};
-use super::motion::{ComponentMotion, End};
 use super::step::{FLAT, share};
 use super::track::{Moment, Track};
-use crate::component::PanelId;
-use crate::geom::bounds;
-use glam::DVec3;
+use body::{Ball, are_far};
+use poses::Poses;
 use std::collections::BTreeMap;
 
 /// Spans that each cell between two levels is divided into at first: in spans of more than a 16th of the
@@ -41,89 +43,6 @@ const SAME_PLANE_MM: f64 = 1e-6;
 /// ones they are hardly ever wide enough.
 const SHORT: f64 = 0.3;
 
-/// A ball with what is needed to bound its motion.
-#[derive(Debug, Clone, Copy)]
-struct Ball {
-    centre: DVec3,
-    radius_mm: f64,
-    sway_mm: Sway,
-}
-
-impl Ball {
-    fn round<'a>(corners: impl Iterator<Item = &'a DVec3> + Clone, sway_mm: Sway) -> Self {
-        let (low, high) = bounds(corners.clone().copied());
-        let centre = 0.5 * (low + high);
-        let radius_mm = corners.map(|c| c.distance(centre)).fold(0.0, f64::max);
-        Self { centre, radius_mm, sway_mm }
-    }
-
-    /// Whether two balls with their middles at these points can meet once they have moved by `way_mm`.
-    fn can_meet([a, b]: [&Self; 2], [p, q]: [DVec3; 2], way_mm: f64) -> bool {
-        let reach_mm = a.radius_mm + b.radius_mm + way_mm;
-        p.distance_squared(q) <= reach_mm * reach_mm
-    }
-
-    /// How far apart they are, mm.
-    fn gap_mm([a, b]: [&Self; 2], [p, q]: [DVec3; 2]) -> f64 {
-        p.distance(q) - a.radius_mm - b.radius_mm
-    }
-}
-
-/// Sheets that ride on one panel.
-#[derive(Debug, Clone)]
-pub(super) struct Body {
-    carrier: PanelId,
-    end: End,
-    ball: Ball,
-    sheets: Vec<(Sheet, Ball)>,
-}
-
-impl Body {
-    /// Sheets, as they lie in the axes of the component that moves when that is deployed, and the
-    /// panel that carries them.
-    pub(super) fn new(sheets: Vec<Sheet>, carrier: PanelId, motion: &ComponentMotion) -> Self {
-        let sheets: Vec<(Sheet, Ball)> = sheets
-            .into_iter()
-            .map(|sheet| {
-                let ball = Ball::round(sheet.corners.iter(), motion.sway_mm(carrier, &sheet.corners));
-                (sheet, ball)
-            })
-            .collect();
-        let larger = |a: Sway, b: Sway| [a[0].max(b[0]), a[1].max(b[1])];
-        let sway = sheets.iter().map(|s| s.1.sway_mm).fold([0.0; 2], larger);
-        let ball = Ball::round(sheets.iter().flat_map(|s| &s.0.corners), sway);
-        Self { carrier, end: motion.end_of(carrier), ball, sheets }
-    }
-
-    /// The panel that carries it.
-    pub(super) fn carrier(&self) -> PanelId {
-        self.carrier
-    }
-
-    /// How far any point of a ball moves between two moments, whose shares these are, against the end that the
-    /// carrier hangs from.
-    fn way_mm(&self, ball: &Ball, from: &[Shares], to: &[Shares]) -> f64 {
-        let (End::Top(Some(chain)) | End::Bottom(Some(chain))) = self.end else { return 0.0 };
-        let (from, to) = (from[chain.0], to[chain.0]);
-        ball.sway_mm[0] * (from.above - to.above).abs() + ball.sway_mm[1] * (from.below - to.below).abs()
-    }
-
-    /// Writes one of its sheets at a moment.
-    fn pose(&self, sheet: usize, at: &Moment<'_>, posed: &mut Sheet) {
-        let (motion, sheet) = (at.moved(self.carrier), &self.sheets[sheet].0);
-        posed.corners.clear();
-        posed.corners.extend(sheet.corners.iter().map(|&c| motion.transform_point3(c)));
-        posed.normal = motion.transform_vector3(sheet.normal);
-    }
-
-    fn hangs_from_top(&self) -> bool {
-        matches!(self.end, End::Top(_))
-    }
-}
-
-/// One sheet of a body: the indices of both.
-pub(super) type BodySheet = (usize, usize);
-
 /// Contact in a cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Contact {
@@ -138,7 +57,7 @@ pub(super) struct Contact {
 /// Contacts in each cell.
 pub(super) type Contacts = [Option<Contact>; FLAT as usize];
 
-/// How closely motions are looked at.
+/// How closely motions are checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Care {
     /// Contacts up to this depth are none, mm.
@@ -152,13 +71,13 @@ impl Care {
         Self { allowed_mm: thickness_mm / 2.0, is_exact: true }
     }
 
-    /// Samples, for the comparison of many models: what two panels do to each other for a moment may
-    /// be missed, and what paper gives way to is none.
+    /// Samples, for the comparison of many models: short contacts may be missed, and contacts to
+    /// which paper gives way do not count.
     pub(super) fn rough(thickness_mm: f64) -> Self {
         Self { allowed_mm: thickness_mm, is_exact: false }
     }
 
-    /// Spans of the tables of motions that are looked at so: samples are ends of them.
+    /// Spans of the tables for such motions: samples are at their ends.
     pub(super) fn spans(self) -> usize {
         if self.is_exact { EXACT_SPANS } else { FLAT as usize * ROUGH_SAMPLES }
     }
@@ -290,197 +209,6 @@ impl<'a> Sweep<'a> {
     }
 }
 
-/// What was seen of two bodies when they were looked at last.
-///
-/// Each "until" says how far the two may have moved in all, mm, before they can touch: ways are counted from the first moment
-/// on, so that a pair is let go by one comparison as long as it has not come that far.
-#[derive(Debug, Clone)]
-struct Watch {
-    /// Of the two bodies,
-    until_mm: f64,
-    /// of each sheet of the first and the second body,
-    rows_until_mm: Vec<f64>,
-    /// and of each two sheets. Both are empty until the bodies come near each other.
-    sheets: Vec<SheetWatch>,
-}
-
-#[derive(Debug, Clone, Copy)]
-struct SheetWatch {
-    until_mm: f64,
-    /// The direction in which they were apart: most often they still are.
-    axis: usize,
-}
-
-impl Watch {
-    /// Of two bodies that have not been looked at.
-    const NEW: Self = Self { until_mm: f64::NEG_INFINITY, rows_until_mm: Vec::new(), sheets: Vec::new() };
-
-    /// Makes room for the sheets of the two.
-    fn make_room(&mut self, rows: usize, columns: usize) {
-        self.rows_until_mm.resize(rows, f64::NEG_INFINITY);
-        self.sheets.resize(rows * columns, SheetWatch { until_mm: f64::NEG_INFINITY, axis: 0 });
-    }
-}
-
-/// Room for bodies and their sheets at a moment, kept for the next one.
-struct Poses<'a> {
-    bodies: &'a [Body],
-    /// Of each body the index of its first sheet in the lists of sheets.
-    first_sheet: Vec<usize>,
-    /// The middle of each body's ball, and of that of each sheet; the latter hold where the former do.
-    body_centres: Vec<Option<DVec3>>,
-    sheet_centres: Vec<DVec3>,
-    sheets: Vec<Sheet>,
-    is_posed: Vec<bool>,
-    /// How far bodies, sheets and the top have moved at most since the first moment, mm.
-    body_ways_mm: Vec<f64>,
-    sheet_ways_mm: Vec<f64>,
-    top_way_mm: f64,
-    /// The shares and the height at the last moment.
-    last: Option<(Vec<Shares>, f64)>,
-}
-
-/// Bodies at a moment; their sheets are placed when they are asked for.
-struct PosesAt<'p, 'a> {
-    poses: &'p mut Poses<'a>,
-    moment: &'p Moment<'p>,
-}
-
-impl<'a> Poses<'a> {
-    fn new(bodies: &'a [Body]) -> Self {
-        let mut count = 0;
-        let mut first_sheet = Vec::with_capacity(bodies.len());
-        for body in bodies {
-            first_sheet.push(count);
-            count += body.sheets.len();
-        }
-        Self {
-            bodies,
-            first_sheet,
-            body_centres: vec![None; bodies.len()],
-            sheet_centres: vec![DVec3::ZERO; count],
-            sheets: vec![Sheet::default(); count],
-            is_posed: vec![false; count],
-            body_ways_mm: vec![0.0; bodies.len()],
-            sheet_ways_mm: vec![0.0; count],
-            top_way_mm: 0.0,
-            last: None,
-        }
-    }
-
-    fn at<'p>(&'p mut self, moment: &'p Moment<'p>) -> PosesAt<'p, 'a> {
-        self.body_centres.fill(None);
-        self.is_posed.fill(false);
-        if let Some((shares, height_mm)) = self.last.replace((moment.shares.clone(), moment.height_mm)) {
-            self.top_way_mm += (height_mm - moment.height_mm).abs();
-            for ((body, way_mm), first) in
-                self.bodies.iter().zip(&mut self.body_ways_mm).zip(&self.first_sheet)
-            {
-                *way_mm += body.way_mm(&body.ball, &shares, &moment.shares);
-                for ((_, ball), way_mm) in body.sheets.iter().zip(&mut self.sheet_ways_mm[*first..]) {
-                    *way_mm += body.way_mm(ball, &shares, &moment.shares);
-                }
-            }
-        }
-        PosesAt { poses: self, moment }
-    }
-}
-
-impl PosesAt<'_, '_> {
-    /// The middle of a body's ball; those of its sheets' are known from then on.
-    fn centre(&mut self, index: usize) -> DVec3 {
-        let Poses { bodies, first_sheet, body_centres, sheet_centres, .. } = &mut *self.poses;
-        *body_centres[index].get_or_insert_with(|| {
-            let Body { carrier, ball, sheets, .. } = &bodies[index];
-            let motion = self.moment.moved(*carrier);
-            for ((_, ball), centre) in sheets.iter().zip(&mut sheet_centres[first_sheet[index]..]) {
-                *centre = motion.transform_point3(ball.centre);
-            }
-            motion.transform_point3(ball.centre)
-        })
-    }
-
-    /// Places a sheet and gives its index.
-    fn pose(&mut self, (body, sheet): BodySheet) -> usize {
-        let Poses { bodies, first_sheet, sheets, is_posed, .. } = &mut *self.poses;
-        let index = first_sheet[body] + sheet;
-        if !std::mem::replace(&mut is_posed[index], true) {
-            bodies[body].pose(sheet, self.moment, &mut sheets[index]);
-        }
-        index
-    }
-
-    /// The sheets of a list that are deepest in each other, and how deep, where that is more than `least_mm`.
-    fn deepest(
-        &mut self,
-        list: &[[usize; 2]],
-        least_mm: f64,
-        watches: &mut Vec<Watch>,
-    ) -> Option<([BodySheet; 2], f64)> {
-        let mut deepest = None;
-        let mut deepest_mm = least_mm;
-        let bodies = self.poses.bodies;
-        watches.resize(list.len(), Watch::NEW);
-        for (&[a, b], watch) in list.iter().zip(watches) {
-            let (first, second) = (&bodies[a], &bodies[b]);
-            let is_one_end = first.hangs_from_top() == second.hangs_from_top();
-            let top_mm = if is_one_end { 0.0 } else { self.poses.top_way_mm };
-            let second_mm = top_mm + self.poses.body_ways_mm[b];
-            let way_mm = second_mm + self.poses.body_ways_mm[a];
-            if way_mm < watch.until_mm {
-                continue;
-            }
-            let (p_centre, q_centre) = (self.centre(a), self.centre(b));
-            let gap_mm = Ball::gap_mm([&first.ball, &second.ball], [p_centre, q_centre]);
-            if gap_mm > 0.0 {
-                watch.until_mm = way_mm + gap_mm;
-                continue;
-            }
-            watch.make_room(first.sheets.len(), second.sheets.len());
-            let [p_first, q_first] = [a, b].map(|body| self.poses.first_sheet[body]);
-            for (i, (_, p_ball)) in first.sheets.iter().enumerate() {
-                let own_mm = self.poses.sheet_ways_mm[p_first + i];
-                if own_mm + second_mm < watch.rows_until_mm[i] {
-                    continue;
-                }
-                let p_centre = self.poses.sheet_centres[p_first + i];
-                let gap_mm = Ball::gap_mm([p_ball, &second.ball], [p_centre, q_centre]);
-                if gap_mm > 0.0 {
-                    watch.rows_until_mm[i] = own_mm + second_mm + gap_mm;
-                    continue;
-                }
-                let row = &mut watch.sheets[i * second.sheets.len()..];
-                for (j, ((_, q_ball), watch)) in second.sheets.iter().zip(row).enumerate() {
-                    let way_mm = top_mm + own_mm + self.poses.sheet_ways_mm[q_first + j];
-                    if way_mm < watch.until_mm + deepest_mm {
-                        continue;
-                    }
-                    let q_centre = self.poses.sheet_centres[q_first + j];
-                    let gap_mm = Ball::gap_mm([p_ball, q_ball], [p_centre, q_centre]);
-                    if gap_mm > 0.0 {
-                        watch.until_mm = way_mm + gap_mm;
-                        continue;
-                    }
-                    let sheets = [(a, i), (b, j)];
-                    let [p, q] = sheets.map(|sheet| self.pose(sheet));
-                    let gap = gap(&self.poses.sheets[p], &self.poses.sheets[q], -deepest_mm, watch.axis);
-                    *watch = SheetWatch { until_mm: way_mm + gap.mm, axis: gap.axis };
-                    if -gap.mm > deepest_mm {
-                        (deepest, deepest_mm) = (Some(sheets), -gap.mm);
-                    }
-                }
-            }
-        }
-        deepest.map(|sheets| (sheets, deepest_mm))
-    }
-}
-
-/// Whether two balls are farther apart than `way_mm`.
-fn are_far([a, b]: [(&Body, &Ball); 2], at: &Moment<'_>, way_mm: f64) -> bool {
-    let centres = [a, b].map(|(body, ball)| at.moved(body.carrier).transform_point3(ball.centre));
-    !Ball::can_meet([a.1, b.1], centres, way_mm)
-}
-
 /// The first contact of a list in a cell.
 #[derive(Debug, Clone, Copy)]
 struct First {
@@ -610,7 +338,9 @@ mod tests {
     use super::super::tests::components;
     use super::super::track::table;
     use super::*;
-    use crate::component::Component;
+    use crate::component::{Component, PanelId};
+    use crate::fold::motion::ComponentMotion;
+    use glam::DVec3;
     use proptest::prelude::*;
     use std::sync::Arc;
 

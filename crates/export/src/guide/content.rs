@@ -1,9 +1,10 @@
 //! What the guide says and shows, for all formats alike.
 
+mod sentences;
+
 use super::estimate::Estimate;
 use super::joined::Joined;
 use super::language::{Language, Words, fill};
-use super::order::Access;
 use super::picture::{self, PictureError};
 use super::steps::{Action, Step, steps};
 use crate::product;
@@ -233,105 +234,6 @@ impl Writer<'_> {
         moment
     }
 
-    /// Title and sentences of a step.
-    fn text(&self, steps: &[Step], k: usize) -> (String, Vec<String>) {
-        let (words, step) = (self.words, &steps[k]);
-        let part = self.name(step.part);
-        let is_complete = !matches!(steps.get(k + 1), Some(Step { action: Action::Glue { .. }, .. }));
-        match &step.action {
-            Action::Fold => {
-                let pieces = self.output.nets()[step.part.0].pieces().len();
-                let first = if pieces == 1 { &words.fold.one } else { &words.fold.many };
-                let mut sentences = vec![
-                    fill(first, &[("part", part), ("pieces", &pieces.to_string())]),
-                    words.fold.fold.clone(),
-                ];
-                sentences.extend(is_complete.then(|| words.fold.none.clone()));
-                (fill(&words.fold.title, &[("part", part)]), sentences)
-            }
-            Action::Glue { hinge, label, has_tab, access } => {
-                let is_outside = self.output.nets()[step.part.0].panels().hinges()[hinge.0].lift_mm > 0.0;
-                let mut glued = match has_tab {
-                    true => self.glued(label, *access),
-                    false => self.taped(label, is_outside),
-                };
-                if is_complete {
-                    glued.1.push(fill(&words.glue.slits, &[("part", part)]));
-                }
-                glued
-            }
-            Action::Join { parent } => {
-                let values = [("part", part), ("parent", self.name(*parent))];
-                let (title, texts) = match self.output.model().part(step.part).is_plugged() {
-                    false => (&words.join.title, [&words.join.find, &words.join.glue, &words.join.place]),
-                    true => (&words.plug.title, [&words.plug.tab, &words.plug.push, &words.plug.place]),
-                };
-                let is_glued = !self.output.model().part(step.part).is_plugged();
-                let press = is_glued.then(|| words.join.press.clone());
-                let sentences = texts.into_iter().map(|text| fill(text, &values)).chain(press);
-                (fill(title, &values), sentences.collect())
-            }
-            Action::Unplug { parent } => {
-                let values = [("part", part), ("parent", self.name(*parent))];
-                let mut sentences = vec![fill(&words.plug.pull, &values), words.plug.aside.clone()];
-                if k == 0 || !steps[k - 1].action.folds_model() {
-                    sentences.insert(0, words.flatten.wait.clone());
-                }
-                (fill(&words.plug.pull_title, &values), sentences)
-            }
-            Action::PlugIn { parent } => {
-                let values = [("part", part), ("parent", self.name(*parent))];
-                let mut sentences = vec![fill(&words.plug.back, &values)];
-                let is_last = steps.get(k + 1).is_none_or(|next| !next.action.folds_model());
-                sentences.extend(is_last.then(|| words.flatten.last.clone()));
-                (fill(&words.plug.back_title, &values), sentences)
-            }
-            Action::Bend { percent } => {
-                let (words, share) = (&words.flatten, self.share(*percent));
-                let values = [("part", part), ("share", share.as_str())];
-                let mut sentences = vec![fill(&words.bend, &values), words.rest.clone()];
-                if k == 0 || !steps[k - 1].action.folds_model() {
-                    sentences.insert(0, words.wait.clone());
-                }
-                (fill(&words.bend_title, &values), sentences)
-            }
-            Action::Flatten => {
-                let is_first = k == 0 || !steps[k - 1].action.folds_model();
-                let text = if is_first { &words.flatten.first } else { &words.flatten.next };
-                let mut sentences = vec![fill(text, &[("part", part)])];
-                if is_first {
-                    sentences.insert(0, words.flatten.wait.clone());
-                    sentences.extend(self.order());
-                }
-                let is_last = steps.get(k + 1).is_none_or(|next| !next.action.folds_model());
-                sentences.extend(is_last.then(|| words.flatten.last.clone()));
-                (fill(&words.flatten.title, &[("part", part)]), sentences)
-            }
-            Action::Deploy => {
-                let pulled = |step: &tatamu_core::fold::Step| match (100.0 * step.from).round() as u8 {
-                    0 => self.name(step.part).to_owned(),
-                    percent => {
-                        let share = self.share(percent);
-                        fill(&words.deploy.until, &[("part", self.name(step.part)), ("share", &share)])
-                    }
-                };
-                let parts: Vec<String> = self.output.fold_plan().steps().iter().rev().map(pulled).collect();
-                let order = fill(&words.deploy.order, &[("parts", &parts.join(", "))]);
-                let pulls = self.output.fold_plan().pulls();
-                let plugged: Vec<&str> = pulls.iter().map(|pull| self.name(pull.part)).collect();
-                let plugged = fill(&words.plug.deploy, &[("parts", &plugged.join(", "))]);
-                let first = (!pulls.is_empty()).then_some(plugged);
-                (words.deploy.title.clone(), first.into_iter().chain([order]).collect())
-            }
-        }
-    }
-
-    /// In which order components are folded flat, where there are several.
-    fn order(&self) -> Option<String> {
-        let parts = product::folding_order(self.output);
-        (parts.len() > 1).then(|| fill(&self.words.flatten.order, &[("parts", &parts.join(", "))]))
-    }
-
     /// What to take care of in a step.
     fn cautions(&self, steps: &[Step], k: usize) -> Vec<String> {
         let step = &steps[k];
@@ -376,36 +278,6 @@ impl Writer<'_> {
             }
             _ => None,
         }
-    }
-
-    /// A share of the way to flat in words.
-    fn share(&self, percent: u8) -> String {
-        let words = &self.words.flatten;
-        match percent {
-            25 => words.quarter.clone(),
-            50 => words.half.clone(),
-            75 => words.three_quarters.clone(),
-            _ => fill(&words.percent, &[("percent", &percent.to_string())]),
-        }
-    }
-
-    fn taped(&self, label: &str, is_outside: bool) -> (String, Vec<String>) {
-        let words = &self.words.glue;
-        let say = |text: &str| fill(text, &[("label", label)]);
-        let side = if is_outside { &words.tape_outside } else { &words.tape_behind };
-        (say(&words.tape_title), vec![say(&words.tape), say(side)])
-    }
-
-    fn glued(&self, label: &str, access: Access) -> (String, Vec<String>) {
-        let words = &self.words.glue;
-        let say = |text: &str| fill(text, &[("label", label)]);
-        let press = match access {
-            Access::Free => &words.free,
-            Access::Finger => &words.finger,
-            Access::Stick => &words.stick,
-            Access::FoldFlat => &words.fold_flat,
-        };
-        (say(&words.title), [&words.tab, &words.behind, press].map(|text| say(text)).to_vec())
     }
 
     fn chapters(&self, steps: &[Step]) -> Vec<Chapter> {
