@@ -178,7 +178,7 @@ impl<'a> Product<'a> {
     ///
     /// # Errors
     /// As [`Product::pages`].
-    pub fn printed_pages(&self) -> Result<Pages, PagesError> {
+    pub(crate) fn printed_pages(&self) -> Result<Pages, PagesError> {
         let pages = self.pages()?;
         let layout = self.output.layout();
         if !layout.options().has_two_sides() || self.is_cut() {

@@ -105,16 +105,4 @@ impl Port for Bus {
         let _ = self.settle();
         self.flying
     }
-
-    fn baud(&self) -> Option<u32> {
-        None
-    }
-
-    fn is_clear_to_send(&mut self) -> Option<bool> {
-        None
-    }
-
-    fn let_hardware_steer(&mut self) -> Result<()> {
-        Err(Error::from(std::io::ErrorKind::Unsupported))
-    }
 }

@@ -41,19 +41,27 @@ pub trait Port {
     fn waiting(&mut self) -> Result<usize>;
 
     /// How many bytes were taken that are not on the line yet.
-    fn queued(&mut self) -> usize;
+    fn queued(&mut self) -> usize {
+        0
+    }
 
-    /// Its speed, bits a second, if it is known.
-    fn baud(&self) -> Option<u32>;
+    /// Its speed, bits per second, if it is known.
+    fn baud(&self) -> Option<u32> {
+        None
+    }
 
-    /// Whether the machine says by a wire of its own that it is ready.
-    fn is_clear_to_send(&mut self) -> Option<bool>;
+    /// Whether the machine shows on a separate wire that it is ready; `None` for a port without such a wire.
+    fn is_clear_to_send(&mut self) -> Option<bool> {
+        None
+    }
 
-    /// Leaves the flow to the wires from now on.
+    /// Leaves the flow control to the wires from now on.
     ///
     /// # Errors
     /// The port has none.
-    fn let_hardware_steer(&mut self) -> Result<()>;
+    fn let_hardware_steer(&mut self) -> Result<()> {
+        Err(ErrorKind::Unsupported.into())
+    }
 }
 
 /// Writes what is pending, as far as the port takes it, and reads what came.

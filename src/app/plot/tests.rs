@@ -72,25 +72,9 @@ impl Port for Line {
         machine.answers.extend(machine.plotter.take_answers(now));
         Ok(machine.answers.len())
     }
-
-    fn queued(&mut self) -> usize {
-        0
-    }
-
-    fn baud(&self) -> Option<u32> {
-        None
-    }
-
-    fn is_clear_to_send(&mut self) -> Option<bool> {
-        None
-    }
-
-    fn let_hardware_steer(&mut self) -> Result<()> {
-        Err(Error::from(ErrorKind::Unsupported))
-    }
 }
 
-/// One who loads every sheet and remembers what happened.
+/// An operator who loads every sheet and remembers what happened.
 #[derive(Default)]
 struct Watcher {
     loaded: Vec<String>,

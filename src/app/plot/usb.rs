@@ -140,21 +140,5 @@ mod linux {
             }
             Ok(self.answers.len())
         }
-
-        fn queued(&mut self) -> usize {
-            0
-        }
-
-        fn baud(&self) -> Option<u32> {
-            None
-        }
-
-        fn is_clear_to_send(&mut self) -> Option<bool> {
-            None
-        }
-
-        fn let_hardware_steer(&mut self) -> Result<()> {
-            Err(Error::from(ErrorKind::Unsupported))
-        }
     }
 }

@@ -108,7 +108,7 @@ impl Component {
 
     /// The same, with its Hausdorff distance to what it stands for.
     #[must_use]
-    pub fn with_hausdorff_mm(self, error_mm: f64) -> Self {
+    pub(crate) fn with_hausdorff_mm(self, error_mm: f64) -> Self {
         Self { error_mm, ..self }
     }
 
@@ -194,14 +194,6 @@ impl Component {
                 self.panels.panels().iter().position(|p| p.kind == wanted).map(PanelId)
             }
         }
-    }
-
-    /// Largest distance of the flat panels from the fold axis: how far it spreads, mm.
-    pub fn flat_radius_mm(&self) -> f64 {
-        let corners = self.panels.panels().iter().flat_map(|p| {
-            p.outline.iter().map(|&q| p.flat.transform_point3(q.extend(0.0)).truncate().length())
-        });
-        corners.fold(0.0, f64::max)
     }
 }
 
@@ -440,8 +432,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// A bowl whose chains overlap when flat, with the numbers that the program takes by itself: what
-    /// is trimmed must not be seen as a hole.
+    /// A bowl whose chains overlap when flat, with the default numbers: what is trimmed must not look
+    /// like a hole.
     #[test]
     fn a_flaring_bowl_has_no_holes() {
         let hull = flaring_bowl(80.0);

@@ -5,6 +5,7 @@ use super::angles::{MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD, STEP_RAD, turn};
 use super::panel::ChainId;
 use super::shape;
 use super::solid::{SideFacet, Solid};
+use super::symmetry::SAME_RAD;
 use super::target::FoldSpot;
 use super::worth::{Edge, WORTH_MM, WORTH_SHARE, bulge, meet};
 use crate::geom::polygon;
@@ -101,8 +102,6 @@ fn thinned(mut set: Vec<Edge>, edges: usize, worth_mm2: f64) -> Vec<Edge> {
 
 /// Rounds in which each direction of [`choose_fours`] is exchanged for a better one; two are enough for most.
 const EXCHANGES: usize = 4;
-/// Directions that are nearer than this are one, which was mirrored on different ways.
-const SAME_RAD: f64 = 1e-9;
 
 /// Directions of the top edges about y = 0 and x = 0: directions in neither plane, in one or both, and others in
 /// fours, spread evenly and exchanged for candidates as long as the circumscribed polygon becomes smaller.

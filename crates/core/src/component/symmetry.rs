@@ -208,8 +208,8 @@ pub(super) fn directions(angle_rad: f64, symmetry: Option<Symmetry>) -> SmallVec
     all
 }
 
-/// Directions nearer to each other than this are one.
-const SAME_RAD: f64 = 1e-9;
+/// Directions nearer to each other than this are one: rounding differs where one is mirrored in several ways.
+pub(super) const SAME_RAD: f64 = 1e-9;
 
 /// Chain j of a straight solid and its images, each once; the chain itself comes first.
 pub(super) fn orbit(solid: &Solid, symmetry: Option<Symmetry>, j: ChainId) -> SmallVec<[ChainId; 4]> {

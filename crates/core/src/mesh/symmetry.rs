@@ -58,7 +58,7 @@ const RANKED_BY: usize = 150;
 const IMPROVED_BY: usize = 250;
 const JUDGED_BY: usize = 1200;
 
-/// So many of the best planes are improved, in so many rounds.
+/// Number of the best planes that are improved, and of the rounds for each.
 const IMPROVED: usize = 2;
 const ROUNDS: usize = 5;
 
@@ -108,7 +108,7 @@ impl Mesh {
 
     /// The plane through the middle of the mesh with a normal along a coordinate axis, whether or
     /// not the mesh is symmetric.
-    pub fn mirror_plane_across(&self, axis: usize) -> Option<MirrorPlane> {
+    pub(crate) fn mirror_plane_across(&self, axis: usize) -> Option<MirrorPlane> {
         let probe = Probe::new(self)?;
         let planes = [probe.middle, probe.centre].map(|p| Plane::through(p, DVec3::AXES[axis]));
         let judged = planes.into_iter().flatten().map(|plane| (probe.error(&plane, JUDGED_BY), plane));

@@ -3,7 +3,7 @@
 //! Furniture and pictures are left out: a cutter would cut them. The crate's output is mended
 //! afterwards, see [`mended`].
 
-use super::{ExportError, ExportFile, Format, FormatOptions, Source, TextMode};
+use super::{ExportError, ExportFile, Format, FormatOptions, SHEET_GAP_MM, Source, TextMode};
 use dxf::entities::{Entity, EntityType, Line, LwPolyline, Polyline as OldPolyline, Vertex};
 use dxf::enums::{AcadVersion, Units};
 use dxf::tables::{Layer as DxfLayer, LineType};
@@ -35,9 +35,6 @@ const VARYING: [(&str, &str); 6] = [
     ("$FINGERPRINTGUID", "{00000000-0000-0000-0000-000000000000}"),
     ("$VERSIONGUID", "{00000000-0000-0000-0000-000000000000}"),
 ];
-
-/// Distance between sheets side by side, mm.
-const SHEET_GAP_MM: f64 = 20.0;
 
 /// Version of DXF files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -12,7 +12,7 @@ mod pieces;
 pub use options::{FoldOptions, PoseCount};
 pub use pieces::write_piece;
 
-use super::{ExportError, ExportFile, Format, FormatOptions, Source};
+use super::{ExportError, ExportFile, Format, FormatOptions, SHEET_GAP_MM, Source};
 use crate::product::Product;
 use glam::{DAffine3, DVec2, DVec3};
 use serde::Serialize;
@@ -36,8 +36,6 @@ const CREATOR: &str = concat!("tatamu ", env!("CARGO_PKG_VERSION"));
 /// Shorter edges are points. A face may be stretched by twice this, which is far below what its readers allow
 /// (1e-6 mm).
 const SHORTEST_MM: f64 = 1e-7;
-/// Distance between sheets in the crease pattern, mm.
-const SHEET_GAP_MM: f64 = 20.0;
 
 /// The panels of all components in evenly spread poses between deployed and flat.
 fn poses_between(output: &Output, PoseCount(count): PoseCount) -> Vec<Vec<Vec<DAffine3>>> {
@@ -255,7 +253,7 @@ struct Graph {
 }
 
 impl Graph {
-    /// An empty master with so many poses between deployed and flat.
+    /// An empty master with `between` poses between unfolded and flat.
     fn with_poses(between: usize) -> Self {
         let mut graph = Self::default();
         graph.states.resize_with(between + 2, State::default);

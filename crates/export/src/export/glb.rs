@@ -8,7 +8,7 @@
 use super::gltf::{self, Material, Mesh, Node, Scene, Track};
 use super::{ExportError, ExportFile, Format, FormatOptions, Source};
 use crate::product::Product;
-use crate::show::upright;
+use crate::show::{LIFT_MM, upright};
 use glam::{DAffine3, DQuat, DVec2, DVec3};
 use tatamu_core::component::{PanelId, PanelSet};
 use tatamu_core::fold::{FoldPlan, ModelMotion, ModelPose, Sequence};
@@ -28,8 +28,6 @@ const KEYS: usize = 12;
 /// Time that a component takes to fold, and rest when deployed and when flat, seconds.
 const FOLD_S: f64 = 1.0;
 const REST_S: f64 = 1.0;
-/// Flat components lie so far off their parents that viewers tell them apart.
-const LIFT_MM: f64 = 0.3;
 
 /// Choices for GLB files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

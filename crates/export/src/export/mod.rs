@@ -42,6 +42,9 @@ use tatamu_core::remedy::Remedy;
 use tatamu_draw::drawing::{Pages, PagesError};
 use tatamu_plot::plotter::PlanError;
 
+/// Distance between sheets side by side in one drawing, mm.
+const SHEET_GAP_MM: f64 = 20.0;
+
 /// All formats, in the order of help texts.
 pub const FORMATS: &[Format] = &[
     pdf::FORMAT,

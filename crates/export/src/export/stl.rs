@@ -3,7 +3,7 @@
 //! Panels lie as on the sheets, outside up, the sheets side by side, in millimetres; they are as
 //! thick as the paper. Every panel is a closed body of its own.
 
-use super::{ExportError, ExportFile, Format, FormatOptions, Source, prism};
+use super::{ExportError, ExportFile, Format, FormatOptions, SHEET_GAP_MM, Source, prism};
 use crate::product::Product;
 use glam::{DVec2, DVec3};
 use tatamu_pipeline::Output;
@@ -16,8 +16,6 @@ pub const FORMAT: Format = Format {
     source: Source::Model(write),
 };
 
-/// Distance between sheets, mm.
-const SHEET_GAP_MM: f64 = 20.0;
 const HEADER_BYTES: usize = 80;
 
 fn write(product: &Product<'_>, _: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {

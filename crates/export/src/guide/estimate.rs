@@ -24,7 +24,7 @@ const EASY: (f64, f64) = (90.0, 3.0);
 const MEDIUM: (f64, f64) = (240.0, 2.0);
 /// Weight of card for its thickness: 0.8 g/cm³.
 const CARD_G_PER_M2_MM: f64 = 800.0;
-/// Weights are told in such steps.
+/// Weights are rounded to such steps.
 const WEIGHT_STEP: f64 = 10.0;
 
 /// Lengths and counts.
@@ -131,7 +131,7 @@ impl Estimate {
     }
 
     /// The minutes as far as the estimate can tell.
-    pub fn whole_minutes(&self) -> u64 {
+    pub(crate) fn whole_minutes(&self) -> u64 {
         ((self.minutes() / STEP_MIN).ceil() * STEP_MIN) as u64
     }
 

@@ -1,5 +1,6 @@
 //! The film of a model that folds, one step after another, rests flat, and is deployed again.
 
+use super::LIFT_MM;
 use super::angle::ViewAngle;
 use super::scenes::pose_scene;
 use super::still::{ShowError, Still, framed};
@@ -24,8 +25,6 @@ const REST_S: f64 = 1.2;
 /// Height of capitals of captions, as a share of the picture's width.
 const CAPTION: f64 = 0.024;
 const CAPTION_INK: Rgb = Rgb(70, 70, 76);
-/// Flat components lie so far off their parents: enough to see what lies on what.
-const LIFT_MM: f64 = 0.3;
 
 /// Choices for films.
 ///
@@ -118,7 +117,7 @@ impl Film {
     ///
     /// # Errors
     /// See [`ShowError`]; no model is known that brings one about.
-    pub fn shoot(model: &Model, plan: &FoldPlan, options: &FilmOptions) -> Result<Self, ShowError> {
+    pub(crate) fn shoot(model: &Model, plan: &FoldPlan, options: &FilmOptions) -> Result<Self, ShowError> {
         let motion = ModelMotion::new(model);
         let sequence = Sequence::of_plan(plan);
         let last = options.frames / 2;
@@ -143,7 +142,7 @@ impl Film {
         &self.pictures
     }
 
-    /// The frames in their order; the film begins anew after the last.
+    /// The frames in their order; after the last one the film starts again.
     pub fn shots(&self) -> &[Shot] {
         &self.shots
     }

@@ -6,7 +6,7 @@ use tatamu_core::units::MM_PER_INCH;
 use tatamu_draw::drawing::{Drawing, Rgb};
 use tatamu_draw::render::{Look, Scene, View, ViewError, contact_shadow, picture};
 
-/// Pictures measured in pixels have so many to the inch.
+/// Pixels per inch of pictures whose size is in pixels.
 const DOTS_PER_INCH: f64 = 96.0;
 /// Free border, as a share of the longer side.
 const MARGIN: f64 = 0.06;

@@ -38,7 +38,7 @@ mod warning;
 pub use blank::Blank;
 pub use blank_net::BlankNet;
 pub use develop::{alternatives, develop};
-pub(crate) use labels::{line_to, upright};
+pub(crate) use labels::{CLEARLY_MM, line_to, upright};
 
 pub use hand::{EdgeChoice, EdgeName, HandFault, NetHand, PIECES, TAB_WIDTHS_MM, TabSide};
 pub use marks::{LabelPlace, Side};

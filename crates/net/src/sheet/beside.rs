@@ -4,7 +4,7 @@
 //! where it is not beside it. What has no room stays on its panel.
 
 use super::Layout;
-use crate::net::{EdgeKind, Label, LabelKind, Leader, Net, Piece, line_to, upright};
+use crate::net::{CLEARLY_MM, EdgeKind, Label, LabelKind, Leader, Net, Piece, line_to, upright};
 use glam::{DAffine2, DVec2};
 use tatamu_core::geom::polygon::{self, convex_overlap, depth_outside};
 use tatamu_draw::drawing::{Align, Layer, LineStyles, Mark, Text, text};
@@ -24,8 +24,6 @@ const TEXT_GAP_MM: f64 = 1.0;
 /// Distances of a line from the edge, and of its side from pieces, mm.
 const END_GAP_MM: f64 = 0.3;
 const LINE_GAP_MM: f64 = 0.25;
-/// A text without a line is nearer to its own edge than to the others that have labels by this, mm.
-const CLEARLY_MM: f64 = 0.75;
 /// What is farther from an edge than this is not in the way of its text, mm.
 const REACH_MM: f64 = 45.0;
 

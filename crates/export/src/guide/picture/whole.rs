@@ -1,7 +1,7 @@
 //! Pictures of the whole model while it is folded flat and deployed again.
 
 use super::{MARGIN_MM, PictureError, SIZE_MM, THERE, overlay, taken};
-use crate::show::{Paint, ViewAngle, push_panels, staged_scene, upright};
+use crate::show::{LIFT_MM, Paint, ViewAngle, push_panels, staged_scene, upright};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use tatamu_core::component::{PanelId, PanelKind};
@@ -17,8 +17,6 @@ const NOW: f64 = 0.4;
 const SOON: f64 = 0.85;
 /// Length of the arrow, as a share of the model's size.
 const SHAFT: f64 = 0.2;
-/// Flat components lie so far off their parents: enough to see what lies on what.
-const LIFT_MM: f64 = 0.3;
 
 /// A component folds up to a share of the way: `before` tells where all were before.
 pub fn flattening(output: &Output, part: PartId, before: &Moment, to: f64) -> Result<Drawing, PictureError> {

@@ -15,7 +15,7 @@ const OFF_MM: [f64; 4] = [0.9, 2.0, 4.0, 7.0];
 const ANGLE_OFF_MM: [f64; 3] = [1.0, 1.4, 0.6];
 /// A label is nearer to its own edge than to the other labelled edges of its panel by this, mm: half of
 /// the height of the smallest, which the eye sees.
-const CLEARLY_MM: f64 = 0.75;
+pub(crate) const CLEARLY_MM: f64 = 0.75;
 /// A leader line ends this far within the edge that it points to.
 const TARGET_MM: f64 = 0.6;
 

@@ -7,7 +7,7 @@ use glam::{DAffine2, DVec2};
 use tatamu_core::component::PanelId;
 use tatamu_core::geom::polygon::{self, depth_outside, intersect_convex};
 
-/// A leader line ends so far within an outline, mm, at one of the first so many places in it.
+/// A leader line ends this far inside an outline, mm, at one of the first places in it.
 const TARGET_MM: f64 = 0.3;
 const TARGETS: usize = 40;
 /// Size of the triangle that shows which way round a joint goes, mm.

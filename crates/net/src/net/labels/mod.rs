@@ -10,6 +10,8 @@ mod leader;
 use super::mesh::{FaceKind, PieceMesh};
 use super::{Label, LabelKind, Leader};
 use glam::DVec2;
+
+pub(crate) use edges::CLEARLY_MM;
 use leader::Waiting;
 pub(crate) use leader::line_to;
 use tatamu_core::component::PanelId;

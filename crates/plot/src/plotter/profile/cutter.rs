@@ -295,7 +295,7 @@ impl Cutter {
     }
 
     /// Whether it answers questions about its buffer.
-    pub fn can_be_asked(&self) -> bool {
+    pub(crate) fn can_be_asked(&self) -> bool {
         self.serial.answers && self.dialect.controls().is_some()
     }
 

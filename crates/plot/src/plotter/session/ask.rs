@@ -5,7 +5,7 @@ use crate::plotter::profile::LEAST_BUFFER;
 use std::collections::VecDeque;
 use std::time::Duration;
 
-/// A machine that is to answer at once has so much time.
+/// Time for an answer that the machine gives at once.
 const PATIENCE: Duration = Duration::from_millis(1000);
 /// Unanswered questions in a row after which the machine is given up.
 const MOST_SILENCES: u32 = 5;
@@ -15,7 +15,7 @@ const LOST: Duration = PATIENCE.saturating_mul(MOST_SILENCES);
 /// enough for a fast line, and not so often that the machine has nothing else to do.
 const INTERVAL: Duration = Duration::from_millis(40);
 const SHORT_INTERVAL: Duration = Duration::from_millis(10);
-/// Every so many questions the machine is asked for errors.
+/// One question in this many asks the machine for errors.
 const ERROR_EVERY: u32 = 32;
 /// Least number of free bytes at which XOFF is asked for: twice what may be on its way.
 pub(super) const XOFF_BELOW: usize = 256;

@@ -158,7 +158,7 @@ impl Session {
         if self.board.open.is_some() {
             return self.ebb_await(now);
         }
-        self.heed_pause();
+        self.follow_pause();
         let is_move = self.inserted.is_empty() && self.moves_next();
         let bytes = self.commands_that_fit(now);
         if !bytes.is_empty() {
@@ -166,8 +166,7 @@ impl Session {
             self.board.sent(&bytes, is_move, due);
             return Step::Send(bytes);
         }
-        let is_all_sent = self.next == self.job.commands().len() && self.inserted.is_empty();
-        if is_all_sent && self.paused.is_none() {
+        if self.is_all_sent() && self.paused.is_none() {
             self.phase = Phase::Finish(End::Finished);
             self.board.forget();
         }

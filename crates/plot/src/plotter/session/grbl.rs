@@ -1,5 +1,5 @@
 //! Sessions with GRBL. It says `ok` or `error:N` to each line, so that what it has not answered yet is what its
-//! buffer may hold. Some single characters it heeds at receipt, whatever is buffered: `?` asks for its state, `!`
+//! buffer may hold. It reacts to some single characters at receipt, whatever is buffered: `?` asks for its state, `!`
 //! holds, `~` goes on, and Ctrl-X resets: that switches the beam or the spindle off before anything else.
 //!
 //! Source: GRBL 1.1, doc/markdown/interface.md, and the functions that are named below (github.com/gnea/grbl).
@@ -19,7 +19,7 @@ const GREETING: Duration = Duration::from_millis(1500);
 /// Time for an answer to a reset, and how often it is tried.
 const AFTER_RESET: Duration = Duration::from_millis(2000);
 const MOST_RESETS: u32 = 3;
-/// How often the tool is told to lift; once more does no harm.
+/// How often the command to lift the tool is sent; once more does no harm.
 const MOST_LIFTS: u32 = 4;
 /// Time to come to rest in a hold.
 const TO_REST: Duration = Duration::from_millis(1500);
@@ -29,7 +29,7 @@ const TO_LIFT: Duration = Duration::from_secs(15);
 /// Time between two questions for the state: in a job, and when it matters.
 const INTERVAL: Duration = Duration::from_millis(250);
 const SHORT_INTERVAL: Duration = Duration::from_millis(50);
-/// A question is answered at once; so many in a row may be lost.
+/// Time for the answer to a question, which the board gives at once, and the number of answers in a row that may be lost.
 const PATIENCE: Duration = Duration::from_millis(1000);
 const MOST_SILENCES: u32 = 5;
 /// A machine that says so often in a row that it is idle has nothing left in its buffer: an answer was lost.
@@ -53,7 +53,7 @@ enum Stage {
     Settings,
     /// Coming to rest before a reset.
     Hold,
-    /// The tool was told to lift so often.
+    /// The command to lift the tool was sent this often.
     Lift(u32),
     /// Is it done with that?
     Rest,
@@ -278,15 +278,14 @@ impl Session {
 
     /// Sends what fits, and looks at the state now and then.
     fn count(&mut self, now: Duration) -> Step {
-        if let Some(step) = self.watch(now).or_else(|| self.heed_hold(now)) {
+        if let Some(step) = self.watch(now).or_else(|| self.follow_hold(now)) {
             return step;
         }
         let bytes = self.commands_that_fit(now);
         if !bytes.is_empty() {
             return Step::Send(bytes);
         }
-        let is_all_sent = self.next == self.job.commands().len() && self.inserted.is_empty();
-        if is_all_sent && self.paused.is_none() {
+        if self.is_all_sent() && self.paused.is_none() {
             self.phase = Phase::Finish(End::Finished);
             self.counter.enter(Stage::Rest, now);
         }
@@ -294,9 +293,9 @@ impl Session {
     }
 
     /// Pauses at once, or with the tool lifted.
-    fn heed_hold(&mut self, now: Duration) -> Option<Step> {
+    fn follow_hold(&mut self, now: Duration) -> Option<Step> {
         if !self.holds() {
-            self.heed_pause();
+            self.follow_pause();
             return None;
         }
         if self.wants_pause == self.counter.is_holding {
@@ -309,7 +308,8 @@ impl Session {
 
     /// All is sent: the machine is done when it is idle.
     fn come_to_rest(&mut self, now: Duration) -> Step {
-        if let Some(step) = self.watch(now).or_else(|| if self.holds() { self.heed_hold(now) } else { None })
+        if let Some(step) =
+            self.watch(now).or_else(|| if self.holds() { self.follow_hold(now) } else { None })
         {
             return step;
         }

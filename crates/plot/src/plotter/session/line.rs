@@ -43,7 +43,7 @@ impl SerialLine {
         self.busy_until
     }
 
-    /// Time that so many bytes take.
+    /// Time that this number of bytes takes.
     pub(super) fn time(&self, bytes: usize) -> Duration {
         Duration::from_secs_f64(bytes as f64 * self.byte_s)
     }

@@ -119,7 +119,7 @@ pub enum State {
     Paused,
     /// Everything is sent; the machine works on.
     Finishing,
-    /// The tool was told to lift; nothing more is sent.
+    /// The command to lift the tool was sent; nothing more is sent.
     Stopping,
     /// It is over.
     Ended,

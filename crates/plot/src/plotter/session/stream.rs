@@ -4,15 +4,15 @@ use super::search::Search;
 use super::{End, Handshake, MOST_IN_FLIGHT, Phase, Question, RESERVE, Session, Step};
 use std::time::Duration;
 
-/// A machine that has answered before may take so much longer than its profile says before it is given up.
+/// The session waits this many times as long as the profile says for a machine that has answered before,
 const TOLERANCE: u32 = 3;
-/// And so much in any case.
+/// and this much longer.
 const GRACE: Duration = Duration::from_secs(20);
-/// One that never answered is not waited for beyond the estimate and its margin, but for this.
+/// For a machine that never answered, it waits this much longer than the profile says.
 const LAST_CHANCE: Duration = Duration::from_secs(3);
-/// Shorter waits are not told of.
+/// Shorter waits are not reported.
 const LONG: Duration = Duration::from_secs(5);
-/// After the second wish to stop the port has so long to send what lifts the tool.
+/// After the second request to stop, the port has this time to send the commands that lift the tool.
 const HURRY: Duration = Duration::from_secs(10);
 /// What a machine on USB may hold is not known, so that more is counted than is likely, bytes.
 const USB_BUFFER: usize = 8192;
@@ -31,18 +31,22 @@ impl Session {
         if let Some(step) = self.keep_asking(now).or_else(|| self.await_marks(now)) {
             return step;
         }
-        self.heed_pause();
+        self.follow_pause();
         let bytes = self.commands_that_fit(now);
         if !bytes.is_empty() {
             return Step::Send(bytes);
         }
-        let is_all_sent = self.next == self.job.commands().len() && self.inserted.is_empty();
-        if is_all_sent && self.paused.is_none() {
+        if self.is_all_sent() && self.paused.is_none() {
             self.phase = Phase::Finish(End::Finished);
             return Step::Wait(Duration::ZERO);
         }
         let excess = self.line.in_flight(now).saturating_sub(self.most_in_flight() / 2);
         Step::Wait(self.line.time(excess.max(1)).min(TICK))
+    }
+
+    /// Whether nothing of the job is left to send.
+    pub(super) fn is_all_sent(&self) -> bool {
+        self.next == self.job.commands().len() && self.inserted.is_empty()
     }
 
     /// Counts what the machine has certainly done, where it does not say so itself.
@@ -59,7 +63,7 @@ impl Session {
     }
 
     /// Lifts the pen for a pause, and sets it down again after it.
-    pub(super) fn heed_pause(&mut self) {
+    pub(super) fn follow_pause(&mut self) {
         let pen = match (self.wants_pause, self.paused) {
             (true, None) => {
                 self.paused = Some(self.is_down);
