@@ -53,7 +53,7 @@ for (const sample of readdirSync("samples").filter((name) => /\.obj$|^(gift-box|
 }
 for (const sample of ["teddy.obj", "snowman.obj", "lamp.toml"]) {
   const desk = made(sample);
-  const told = JSON.parse(desk.told());
+  const state = JSON.parse(desk.state());
   const [file] = desk.export("fold");
   const path = join(folder, file.name);
   writeFileSync(path, file.bytes);
@@ -61,7 +61,7 @@ for (const sample of ["teddy.obj", "snowman.obj", "lamp.toml"]) {
   const report = join(native, "report.json");
   run("de_DE.UTF-8", "make", join("samples", sample), "--quiet", "-o", report);
   const names = JSON.parse(readFileSync(report)).components.map((part) => part.name);
-  expect(told.parts.map((part) => part.name).join() === names.join(), `${sample}: the components of the native program`);
+  expect(state.parts.map((part) => part.name).join() === names.join(), `${sample}: the components of the native program`);
   desk.free();
 }
 // On the paper of another country, and in the size that takes no more sheets.

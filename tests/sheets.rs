@@ -14,7 +14,7 @@ use tatamu::net::{
 };
 use tatamu::progress::Silent;
 use tatamu::sheet::{
-    Calibration, Imprint, Layout, PiecePlace, Pin, Registration, Rotation, SheetId, SheetOptions, Unheeded,
+    Calibration, Imprint, Layout, PiecePlace, Pin, PinWarning, Registration, Rotation, SheetId, SheetOptions,
 };
 use tatamu::units::parse_paper;
 
@@ -458,8 +458,8 @@ fn pinned_pieces_lie_where_they_are_pinned_and_the_others_round_them() {
         assert!((found.turn_rad - wanted.turn_rad).abs() < 1e-9);
         assert!(found.at_mm.distance(wanted.at_mm) < 0.6, "{name}: {} {}", found.at_mm, wanted.at_mm);
     }
-    let expected = [Unheeded::NoPiece("gone".to_owned()), Unheeded::NoRoom(names[2].clone())];
-    assert_eq!(pinned.layout.unheeded_pins(), expected);
+    let expected = [PinWarning::NoPiece("gone".to_owned()), PinWarning::NoRoom(names[2].clone())];
+    assert_eq!(pinned.layout.pin_warnings(), expected);
     let outlines: Vec<(SheetId, geo::Polygon)> = pinned
         .placed()
         .map(|(piece, sheet, at)| (sheet, polygon(piece.outline().iter().map(|&p| at.transform_point2(p)))))
@@ -504,14 +504,14 @@ fn each_sheet_has_pieces_of_one_colour_of_card() {
             assert_eq!(says(page, &format!("{colour} card")), made.layout.card(sheet) == Some(colour));
         }
     }
-    // A pin counts all sheets: one on a sheet of another colour is not heeded.
+    // A pin counts all sheets: one on a sheet of another colour is ignored.
     let blue = made.layout.places(PartId(2))[0].sheet;
     let piece = made.nets[2].pieces()[0].name().to_owned();
     let pin = |sheet| Pin { sheet, at_mm: DVec2::new(40.0, 60.0), turn_rad: 0.0, net: 0 };
     let pinned = lay_out(&cards, &BTreeMap::from([(piece.clone(), pin(blue))]));
-    assert!(pinned.layout.unheeded_pins().is_empty(), "{:?}", pinned.layout.unheeded_pins());
+    assert!(pinned.layout.pin_warnings().is_empty(), "{:?}", pinned.layout.pin_warnings());
     let pinned = lay_out(&cards, &BTreeMap::from([(piece.clone(), pin(SheetId(0)))]));
-    assert_eq!(pinned.layout.unheeded_pins(), [Unheeded::NoRoom(piece)]);
+    assert_eq!(pinned.layout.pin_warnings(), [PinWarning::NoRoom(piece)]);
     // One colour for all is no other layout.
     let one = lay_out(&vec![Some("red".to_owned()); 8], &BTreeMap::new());
     let none = lay_out(&[], &BTreeMap::new());

@@ -106,7 +106,7 @@ fn a_killed_studio_loses_nothing() {
     assert_eq!(again.recent().len(), 1);
 }
 
-/// The field was empty after `tatamu studio teddy.obj`, and what is made of a sample went where nobody finds it.
+/// The field was empty after `tatamu studio teddy.obj`, and files made from a sample went into a hidden folder.
 #[test]
 fn files_are_written_beside_what_is_open_and_those_of_samples_at_home() {
     let folder = tempfile::tempdir().unwrap();
@@ -147,7 +147,7 @@ fn parts_are_merged_and_split() {
 }
 
 #[test]
-fn what_goes_wrong_is_told_and_the_last_result_stays() {
+fn errors_are_shown_and_the_last_result_stays() {
     let Desk { mut studio, folder } = desk();
     let none = Change::Component { name: "tail".to_owned(), option: &DIRECTION, value: Some(3.0.into()) };
     studio.change(&none, None);
@@ -169,7 +169,7 @@ fn what_goes_wrong_is_told_and_the_last_result_stays() {
 
 /// The message was lost when the model that was being made meanwhile was done.
 #[test]
-fn that_a_file_cannot_be_read_is_told_though_other_work_ends_well() {
+fn an_unreadable_file_is_reported_though_other_work_ends_well() {
     let Desk { mut studio, folder } = desk();
     studio.change(&Change::Set { option: &TOP_EDGES, value: Some(5.into()) }, None);
     studio.open(&folder.path().join("missing.obj"));
@@ -240,7 +240,8 @@ fn a_drawn_model_opens_and_keeps_its_shape() {
     );
 }
 
-/// What was changed after a mesh was saved as a project was kept for the mesh, and not found again.
+/// Changes made after a mesh was saved as a project were kept under the name of the mesh, and not
+/// found again.
 #[test]
 fn a_killed_studio_loses_nothing_of_a_mesh_that_was_saved_as_a_project() {
     let folder = tempfile::tempdir().unwrap();
@@ -290,7 +291,7 @@ fn stays_where_it_is_pinned(name: &str) {
     studio.change(&Change::Pins { pins }, None);
     wait(&mut studio, "the layout", |s| s.finished().is_some());
     let after = studio.finished().unwrap();
-    assert!(after.layout().unheeded_pins().is_empty(), "{:?}", after.layout().unheeded_pins());
+    assert!(after.layout().pin_warnings().is_empty(), "{:?}", after.layout().pin_warnings());
     for (net, own) in before.model().ids().zip(before.nets()) {
         for (piece, shape) in own.pieces().iter().enumerate() {
             assert_eq!(after.nets()[net.0].pieces()[piece].outline(), shape.outline(), "{}", shape.name());

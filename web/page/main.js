@@ -24,7 +24,7 @@ const say = text => { by('said').textContent = text; };
 // ---- The two workers.
 
 let files = new Map();
-let opened = null, told = null, kept = null, choices = null, module = null;
+let opened = null, state = null, kept = null, choices = null, module = null;
 let work = null, number = 0;
 // What the worker does beside the model, in words.
 let aside = null;
@@ -79,9 +79,9 @@ const heard = ({ data }) => {
   } else if (data.problem) {
     problem(data.problem);
     if (data.isDead) revive();
-  } else if (data.told) {
+  } else if (data.state) {
     if (data.history) kept = data.history;
-    show(data.told);
+    show(data.state);
     if (data.sheets) showSheets(data.sheets);
   }
 };
@@ -99,12 +99,12 @@ async function replace(isWanted) {
   answers.clear();
   await hire();
   if (!opened) return;
-  const selected = (told?.parts ?? []).filter(part => part.is_selected).map(part => part.key);
+  const selected = (state?.parts ?? []).filter(part => part.is_selected).map(part => part.key);
   await ask('open', [...files], opened, navigator.language, kept, selected, isWanted).catch(problem);
 }
 async function revive() {
   await replace(false);
-  if (told) show({ ...told, is_busy: false });
+  if (state) show({ ...state, is_busy: false });
   problem('There is not enough memory for this, or tatamu has a fault. Your changes are kept; the next one starts the work again.');
 }
 
@@ -115,7 +115,7 @@ function showBusy(text = aside) {
   const place = by('work').hidden ? by('drop') : by('frame');
   // What is moved loses the keyboard.
   if (by('busy').parentElement !== place) place.append(by('busy'));
-  by('busy').hidden = !aside && !told?.is_busy;
+  by('busy').hidden = !aside && !state?.is_busy;
 }
 
 const compiling = compiled().catch(error => problem(`tatamu could not be loaded: ${error.message}`));
@@ -158,7 +158,7 @@ async function take(list) {
   const names = [...given.keys()];
   const name = names.find(isProject) ?? names.find(isMesh) ?? names[0];
   if (!name) return;
-  if (told?.is_changed && !confirm(`Open ${name}? Unsaved changes of ${told.title} are lost.`)) return;
+  if (state?.is_changed && !confirm(`Open ${name}? Unsaved changes of ${state.title} are lost.`)) return;
   // A mesh that a project waits for is not opened by itself, unless the project waits for another one.
   const { project, beside } = waiting ?? {};
   if (project && isMesh(name) && await open(project, new Map([...beside, ...given]))) return;
@@ -184,7 +184,7 @@ async function read(name, given) {
     problem(waiting ? `${error} Choose that file as well.` : error);
     return false;
   }
-  [files, opened, waiting, told, seenSize] = [all, name, null, null, undefined];
+  [files, opened, waiting, state, seenSize] = [all, name, null, null, undefined];
   by('welcome').hidden = true;
   by('work').hidden = by('bar').hidden = false;
   by('sheets').replaceChildren();
@@ -220,15 +220,15 @@ addEventListener('drop', event => {
   take(event.dataTransfer.files);
 });
 // A page that goes away leaves a machine with its tool down.
-addEventListener('beforeunload', event => { if (told?.is_changed || live) event.preventDefault(); });
+addEventListener('beforeunload', event => { if (state?.is_changed || live) event.preventDefault(); });
 
-// ---- What is told.
+// ---- The state of the desk.
 
 function show(now) {
-  const wasBusy = told?.is_busy;
+  const wasBusy = state?.is_busy;
   // The model may be smaller than the mesh that was seen before.
-  if (now.parts.length && !told?.parts.length) view.postMessage({ what: 'fit' });
-  told = now;
+  if (now.parts.length && !state?.parts.length) view.postMessage({ what: 'fit' });
+  state = now;
   followSize();
   // A clash is of the model that it was found in.
   if (now.is_busy) sight.clash = undefined;
@@ -277,8 +277,8 @@ function show(now) {
 // The view follows a change of size, once the model has it.
 let seenSize;
 function followSize() {
-  if (!told.facts) return;
-  const size = told.model.find(row => row.option === '.size').value;
+  if (!state.facts) return;
+  const size = state.model.find(row => row.option === '.size').value;
   if (seenSize !== undefined && seenSize !== size) view.postMessage({ what: 'fit' });
   seenSize = size;
 }
@@ -289,7 +289,7 @@ function showParts(parts) {
   list.replaceChildren(...parts.map((part, k) => {
     const swatch = element('span', { className: 'swatch' });
     swatch.style.background = part.colour;
-    const error = element('span', { className: 'right-text', textContent: told.is_drawn ? '' : `${part.error_mm.toFixed(1)} mm`, title: 'largest distance between the component and the hull of its part' });
+    const error = element('span', { className: 'right-text', textContent: state.is_drawn ? '' : `${part.error_mm.toFixed(1)} mm`, title: 'largest distance between the component and the hull of its part' });
     const option = element('div', { role: 'option', tabIndex: k === Math.max(focused, 0) ? 0 : -1 }, swatch, element('span', { textContent: part.name }), error);
     option.setAttribute('aria-selected', part.is_selected);
     option.dataset.key = part.key;
@@ -324,7 +324,7 @@ function showNotes(now) {
   };
   by('notes').replaceChildren(...now.warnings.map((warning, k) => element('div', { className: 'note' }, element('p', { textContent: warning.text }), ...buttons(
     ...lead(warning),
-    ...warning.remedies.map((label, r) => button(label, () => act('heed', k, r))),
+    ...warning.remedies.map((label, r) => button(label, () => act('apply_remedy', k, r))),
   ))));
 }
 
@@ -402,7 +402,7 @@ canvas.onpointerup = async event => {
   fingers.delete(event.pointerId);
   if (moved > 5) return;
   const { part } = await pick(event);
-  select(told?.parts[part]?.key, event.shiftKey || event.ctrlKey || event.metaKey);
+  select(state?.parts[part]?.key, event.shiftKey || event.ctrlKey || event.metaKey);
 };
 canvas.onpointercancel = event => fingers.delete(event.pointerId);
 canvas.oncontextmenu = event => event.preventDefault();
@@ -422,7 +422,7 @@ canvas.addEventListener('wheel', async event => {
   const at = [(event.clientX - box.left - box.width / 2) / side, -(event.clientY - box.top - box.height / 2) / side];
   const steps = -(event.deltaY + event.deltaX) / (event.deltaMode === 0 ? 100 : 3);
   const { part } = await pick(event);
-  if (!event.ctrlKey && told?.parts[part]?.is_selected && !told.is_drawn) {
+  if (!event.ctrlKey && state?.parts[part]?.is_selected && !state.is_drawn) {
     rest += steps;
     const whole = Math.trunc(rest);
     rest -= whole;
@@ -432,7 +432,7 @@ canvas.addEventListener('wheel', async event => {
   }
 }, { passive: false });
 canvas.onkeydown = event => {
-  const selected = told?.parts.findLastIndex(part => part.is_selected) ?? -1;
+  const selected = state?.parts.findLastIndex(part => part.is_selected) ?? -1;
   const keys = {
     ArrowLeft: () => steer(0.15, 0), ArrowRight: () => steer(-0.15, 0), ArrowUp: () => steer(0, 0.15), ArrowDown: () => steer(0, -0.15),
     '+': () => steer(0, 0, 1.12), '-': () => steer(0, 0, 1 / 1.12), f: () => view.postMessage({ what: 'fit' }),
@@ -473,7 +473,7 @@ function stopPlaying(folded) {
 function play() {
   if (playing) return stopPlaying();
   const [from, to] = sight.folded >= 1 ? [1, 0] : [sight.folded, 1];
-  const whole = FOLD * 1000 * Math.max(told?.parts.length ?? 1, 1) * Math.abs(to - from);
+  const whole = FOLD * 1000 * Math.max(state?.parts.length ?? 1, 1) * Math.abs(to - from);
   const start = performance.now();
   let isBusy = false;
   by('play').setAttribute('aria-pressed', true);
@@ -504,7 +504,7 @@ by('cards').onclick = () => act('cards');
 by('fit-sheets').onclick = () => { stopPlaying(0); act('fit_sheets'); };
 by('merge').onclick = () => { by('more').setAttribute('aria-pressed', false); act('merge'); };
 by('more').onclick = () => by('more').setAttribute('aria-pressed', by('more').getAttribute('aria-pressed') !== 'true');
-by('reset').onclick = () => { const part = told.parts.findLast(own => own.is_selected); if (part) act('reset', part.key); };
+by('reset').onclick = () => { const part = state.parts.findLast(own => own.is_selected); if (part) act('reset', part.key); };
 function endSplit() {
   by('splitting').hidden = true;
   sight.axis = undefined;
@@ -525,7 +525,7 @@ by('split-here').onclick = () => { act('split', sight.axis, sight.share); endSpl
 // worker goes on with the same history.
 by('cancel').onclick = async () => {
   // A model that was whole while a size was searched for stays.
-  const isWhole = Boolean(told?.facts?.order);
+  const isWhole = Boolean(state?.facts?.order);
   const isHeard = ask('stop').then(() => true, () => true);
   if (!await Promise.race([isHeard, new Promise(done => setTimeout(() => done(false), PATIENCE))])) {
     await replace(isWhole);
@@ -536,8 +536,8 @@ by('cancel').onclick = async () => {
     }
   }
   say('stopped');
-  if (!told) return;
-  show({ ...told, is_busy: false });
+  if (!state) return;
+  show({ ...state, is_busy: false });
   problem('Stopped; the next change starts it again.');
 };
 
@@ -564,7 +564,7 @@ async function download(format) {
 }
 async function saveProject() {
   by('downloads').open = false;
-  const name = `${told.title}.toml`;
+  const name = `${state.title}.toml`;
   save(name, [await ask('save', name)], 'application/toml');
 }
 addEventListener('click', event => { if (!by('downloads').contains(event.target)) by('downloads').open = false; });
@@ -607,7 +607,7 @@ function ready() {
   by('job-start').textContent = done ? 'Continue' : 'Start';
   by('job-note').textContent = [chosen()?.summary, ...(chosen()?.notes ?? [])].join('. ');
   by('job-status').textContent = done ? `${done} of ${chosen().strokes} strokes are done. Leave the sheet, then continue.` : 'Load the sheet, then start.';
-  by('job-told').textContent = '';
+  by('job-message').textContent = '';
 }
 by('plot').onclick = () => {
   by('no-serial').hidden = Boolean(navigator.serial);
@@ -616,7 +616,7 @@ by('plot').onclick = () => {
 };
 by('machine').onchange = by('medium').onchange = prepare;
 by('job').onchange = ready;
-by('job-save').onclick = () => save(`${told.title}-${Number(by('job').value) + 1}.${chosen().extension}`, [chosen().bytes]);
+by('job-save').onclick = () => save(`${state.title}-${Number(by('job').value) + 1}.${chosen().extension}`, [chosen().bytes]);
 by('plotting-close').onclick = () => by('plotting').close();
 
 function follow(step) {
@@ -625,7 +625,7 @@ function follow(step) {
   const time = left < 60 ? `${left} s` : `${Math.floor(left / 60)} min`;
   const text = `${step.doing}: ${step.strokes_done} of ${step.strokes} strokes, ${time} left`;
   if (by('job-status').textContent !== text) by('job-status').textContent = text;
-  if (step.notes.length) by('job-told').textContent = step.notes.at(-1);
+  if (step.notes.length) by('job-message').textContent = step.notes.at(-1);
 }
 function during(isLive) {
   for (const id of ['machine', 'medium', 'job', 'job-start', 'plotting-close']) by(id).disabled = isLive;

@@ -26,7 +26,7 @@ function ask() {
   });
 }
 
-const heed = {
+const handlers = {
   scene({ numbers }) { view.show(numbers); },
   size({ width, height }) { [canvas.width, canvas.height] = [width, height]; },
   steer({ by }) { view.steer(...by); },
@@ -51,7 +51,7 @@ onmessage = async ({ data }) => {
     const tag = view.tag_at(...data.at);
     postMessage({ asked: data.asked, tag, part: tag === undefined ? undefined : part_of(tag) });
   } else {
-    heed[data.what](data);
+    handlers[data.what](data);
     ask();
   }
 };

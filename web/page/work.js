@@ -3,14 +3,14 @@ import init, { Desk, choices } from './tatamu.js';
 
 let desk, scenes;
 let sight = { folded: 0, isMesh: false };
-let isRunning = false, laid = '', kept = '', told = 0;
+let isRunning = false, laid = '', kept = '', reported = 0;
 
 globalThis.tatamu = {
   stage: name => postMessage({ stage: name }),
   fraction(done) {
     // Not more often than it can be seen.
-    if (performance.now() - told < 50) return;
-    told = performance.now();
+    if (performance.now() - reported < 50) return;
+    reported = performance.now();
     postMessage({ fraction: done });
   },
   is_cancelled: () => false,
@@ -26,8 +26,8 @@ function show() {
 }
 
 function tell() {
-  const now = JSON.parse(desk.told());
-  const message = { told: now };
+  const now = JSON.parse(desk.state());
+  const message = { state: now };
   // Stages do not change it.
   const project = desk.project() + now.undo + now.redo + now.is_changed;
   if (project !== kept) {
@@ -62,7 +62,7 @@ async function run() {
 }
 
 // What the page may ask for; those of the first list change the model.
-const changes = ['set', 'rename', 'reset', 'heed', 'undo', 'redo', 'turn', 'cards', 'merge', 'split', 'fit_sheets'];
+const changes = ['set', 'rename', 'reset', 'apply_remedy', 'undo', 'redo', 'turn', 'cards', 'merge', 'split', 'fit_sheets'];
 const calls = {
   open(files, name, locale, history, selected, isWanted) {
     const next = new Desk();

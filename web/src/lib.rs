@@ -8,9 +8,9 @@
 //! What goes through the door is bytes, texts and JSON. It has no geometry of its own.
 
 mod desk;
+mod json;
 mod plotting;
 mod product;
-mod told;
 mod view;
 
 use desk::Sight;
@@ -31,7 +31,7 @@ use wasm_bindgen::prelude::*;
 extern "C" {
     /// A stage begins.
     fn stage(name: &str);
-    /// So much of it is done.
+    /// The share of it that is done, 0 to 1.
     fn fraction(done: f64);
     /// Whether the user wants something else.
     fn is_cancelled() -> bool;
@@ -55,13 +55,13 @@ impl Progress for Browser {
 }
 
 /// Messages become exceptions.
-type Told<T> = Result<T, JsValue>;
+type JsResult<T> = Result<T, JsValue>;
 
 fn thrown(message: impl ToString) -> JsValue {
     JsValue::from_str(&message.to_string())
 }
 
-fn json(value: &impl Serialize) -> String {
+fn to_json(value: &impl Serialize) -> String {
     serde_json::to_string(value).unwrap_or_default()
 }
 
@@ -70,7 +70,7 @@ fn json(value: &impl Serialize) -> String {
 pub fn choices() -> String {
     let media: Vec<&str> = tatamu::plotter::profile::MEDIA.iter().map(|profile| profile.name).collect();
     let axes = AXES.map(|(name, _)| name);
-    json(&serde_json::json!({
+    to_json(&serde_json::json!({
         "formats": product::formats(), "machines": plotting::machines(), "media": media, "axes": axes
     }))
 }
@@ -113,7 +113,7 @@ impl Desk {
         Self::default()
     }
 
-    fn own(&mut self) -> Told<&mut desk::Desk> {
+    fn own(&mut self) -> JsResult<&mut desk::Desk> {
         self.own.as_mut().ok_or_else(|| thrown("nothing is open"))
     }
 
@@ -123,43 +123,49 @@ impl Desk {
     }
 
     /// Opens one of the files. A mesh begins on the usual paper of the locale, such as `en-US`.
-    pub fn open(&mut self, name: &str, locale: &str) -> Told<()> {
+    pub fn open(&mut self, name: &str, locale: &str) -> JsResult<()> {
         self.own = Some(desk::Desk::open(self.files.clone(), name, locale).map_err(thrown)?);
         Ok(())
     }
 
     /// Goes on where another desk was, by its history and the keys that were selected there.
-    pub fn go_on(&mut self, history: &str, selected: Vec<String>) -> Told<()> {
+    pub fn go_on(&mut self, history: &str, selected: Vec<String>) -> JsResult<()> {
         let history = serde_json::from_str(history).map_err(thrown)?;
         self.own()?.go_on(history, &selected).map_err(thrown)
     }
 
     /// Makes no more until the next change.
-    pub fn stop(&mut self) -> Told<()> {
+    pub fn stop(&mut self) -> JsResult<()> {
         self.own()?.stop();
         Ok(())
     }
 
     /// What the project was, is, and can be again, for [`Desk::go_on`].
-    pub fn history(&mut self) -> Told<String> {
-        Ok(json(&self.own()?.document.history()))
+    pub fn history(&mut self) -> JsResult<String> {
+        Ok(to_json(&self.own()?.document.history()))
     }
 
     /// Makes the next stage; whether there is more to make.
-    pub fn work(&mut self) -> Told<bool> {
+    pub fn work(&mut self) -> JsResult<bool> {
         let own = self.own()?;
         own.work(&Browser).map_err(thrown)?;
         Ok(own.is_busy())
     }
 
     /// All that the page shows beside pictures, as JSON.
-    pub fn told(&mut self) -> Told<String> {
-        Ok(json(&self.own()?.told()))
+    pub fn state(&mut self) -> JsResult<String> {
+        Ok(to_json(&self.own()?.state()))
     }
 
     /// Sets an option, named by table and key, to a value as JSON; null makes it automatic. With the key of a
     /// component it is set for that alone.
-    pub fn set(&mut self, option: &str, value: &str, component: Option<String>, gesture: bool) -> Told<()> {
+    pub fn set(
+        &mut self,
+        option: &str,
+        value: &str,
+        component: Option<String>,
+        gesture: bool,
+    ) -> JsResult<()> {
         let option = find(option)?;
         let value = value_of(option, value)?;
         let name = format!("{} {}", option.name(), component.as_deref().unwrap_or_default());
@@ -171,7 +177,7 @@ impl Desk {
     }
 
     /// Renames a component; its own name takes the new one away.
-    pub fn rename(&mut self, key: &str, name: &str) -> Told<()> {
+    pub fn rename(&mut self, key: &str, name: &str) -> JsResult<()> {
         let name = name.trim();
         let value = (name != key && !name.is_empty()).then(|| name.into());
         let change = Change::Component { name: key.to_owned(), option: &RENAME, value };
@@ -179,12 +185,12 @@ impl Desk {
     }
 
     /// Makes all settings of a component automatic.
-    pub fn reset(&mut self, key: &str) -> Told<()> {
+    pub fn reset(&mut self, key: &str) -> JsResult<()> {
         self.own()?.change(&Change::Reset { name: key.to_owned() }, None).map_err(thrown)
     }
 
     /// Does what a warning advises.
-    pub fn heed(&mut self, warning: usize, remedy: usize) -> Told<()> {
+    pub fn apply_remedy(&mut self, warning: usize, remedy: usize) -> JsResult<()> {
         let own = self.own()?;
         let notes = own.notes();
         let changes =
@@ -194,25 +200,25 @@ impl Desk {
     }
 
     /// The next change is a step of its own.
-    pub fn end_gesture(&mut self) -> Told<()> {
+    pub fn end_gesture(&mut self) -> JsResult<()> {
         self.own()?.end_gesture();
         Ok(())
     }
 
     /// Goes a step back.
-    pub fn undo(&mut self) -> Told<()> {
+    pub fn undo(&mut self) -> JsResult<()> {
         self.own()?.undo();
         Ok(())
     }
 
     /// Goes a step forth.
-    pub fn redo(&mut self) -> Told<()> {
+    pub fn redo(&mut self) -> JsResult<()> {
         self.own()?.redo();
         Ok(())
     }
 
     /// Selects a component; with `adds`, besides the others, or no longer. Without a key nothing is selected.
-    pub fn select(&mut self, key: Option<String>, adds: bool) -> Told<()> {
+    pub fn select(&mut self, key: Option<String>, adds: bool) -> JsResult<()> {
         let selection = &mut self.own()?.selection;
         match key {
             Some(key) => selection.select(&key, None, adds),
@@ -222,28 +228,28 @@ impl Desk {
     }
 
     /// Turns the fold direction of a component by some degrees.
-    pub fn turn(&mut self, part: usize, degrees: f64) -> Told<()> {
+    pub fn turn(&mut self, part: usize, degrees: f64) -> JsResult<()> {
         self.own()?.turn(PartId(part), degrees).map_err(thrown)
     }
 
     /// Gives each component the card that is most like the mesh's colours on it.
-    pub fn cards(&mut self) -> Told<()> {
+    pub fn cards(&mut self) -> JsResult<()> {
         self.own()?.take_cards().map_err(thrown)
     }
 
     /// Makes the model smaller until it takes no more sheets than its project allows.
-    pub fn fit_sheets(&mut self) -> Told<()> {
+    pub fn fit_sheets(&mut self) -> JsResult<()> {
         self.own()?.fit_sheets();
         Ok(())
     }
 
     /// Makes one part of those that are selected.
-    pub fn merge(&mut self) -> Told<()> {
+    pub fn merge(&mut self) -> JsResult<()> {
         self.own()?.merge().map_err(thrown)
     }
 
     /// Divides the selected part by a plane.
-    pub fn split(&mut self, axis: usize, share: f64) -> Told<()> {
+    pub fn split(&mut self, axis: usize, share: f64) -> JsResult<()> {
         self.own()?.split(axis, share).map_err(thrown)
     }
 
@@ -256,52 +262,52 @@ impl Desk {
         clash: Option<usize>,
         split_axis: Option<usize>,
         split_share: f64,
-    ) -> Told<Vec<f64>> {
+    ) -> JsResult<Vec<f64>> {
         let split = split_axis.map(|axis| (axis, split_share));
         let sight = Sight { folded, hover, is_mesh, clash, split };
         Ok(view::flat(&self.own()?.scene(&sight)))
     }
 
     /// How far the model is folded when a clash happens.
-    pub fn moment(&mut self, clash: usize) -> Told<Option<f64>> {
+    pub fn moment(&mut self, clash: usize) -> JsResult<Option<f64>> {
         Ok(self.own()?.moment(clash))
     }
 
     /// The files of a format.
-    pub fn export(&mut self, format: &str) -> Told<Vec<Saved>> {
+    pub fn export(&mut self, format: &str) -> JsResult<Vec<Saved>> {
         let files = product::files(self.own()?, format).map_err(thrown)?;
         Ok(files.into_iter().map(|(name, bytes)| Saved { name, bytes }).collect())
     }
 
     /// The project file.
-    pub fn project(&mut self) -> Told<String> {
+    pub fn project(&mut self) -> JsResult<String> {
         Ok(self.own()?.document.text().to_owned())
     }
 
     /// The project file, which the user takes home by a name: nothing in it is unsaved any longer.
-    pub fn save(&mut self, name: &str) -> Told<String> {
+    pub fn save(&mut self, name: &str) -> JsResult<String> {
         Ok(self.own()?.save(name))
     }
 
     /// The sheets as SVG, as soon as they are laid out.
-    pub fn sheets(&mut self) -> Told<Vec<String>> {
+    pub fn sheets(&mut self) -> JsResult<Vec<String>> {
         product::sheets(self.own()?).map_err(thrown)
     }
 
     /// The sheets as jobs of a machine, as JSON.
-    pub fn jobs(&mut self, cutter: &str, media: &str) -> Told<String> {
-        plotting::jobs(self.own()?, cutter, media).map(|jobs| json(&jobs)).map_err(thrown)
+    pub fn jobs(&mut self, cutter: &str, media: &str) -> JsResult<String> {
+        plotting::jobs(self.own()?, cutter, media).map(|jobs| to_json(&jobs)).map_err(thrown)
     }
 }
 
 /// The option of a table and a key.
-fn find(id: &str) -> Told<&'static Entry> {
-    let found = options::all().find(|option| told::id(option) == id);
+fn find(id: &str) -> JsResult<&'static Entry> {
+    let found = options::all().find(|option| json::id(option) == id);
     found.ok_or_else(|| thrown(format!("there is no option {id}")))
 }
 
 /// A value of JSON as a project file has it: whole numbers where the option counts.
-fn value_of(option: &Entry, text: &str) -> Told<Option<Value>> {
+fn value_of(option: &Entry, text: &str) -> JsResult<Option<Value>> {
     let value: serde_json::Value = serde_json::from_str(text).map_err(thrown)?;
     let is_count = matches!(option.kind, options::Kind::Count(_));
     Ok(match value {
@@ -380,14 +386,14 @@ pub struct Plotter {
 impl Plotter {
     /// What is left of a job after some strokes.
     #[wasm_bindgen(constructor)]
-    pub fn new(profile: &str, bytes: &str, turns: Vec<usize>, done: usize) -> Told<Self> {
+    pub fn new(profile: &str, bytes: &str, turns: Vec<usize>, done: usize) -> JsResult<Self> {
         let own = plotting::Live::new(profile, bytes, &turns, done).map_err(thrown)?;
         Ok(Self { own })
     }
 
     /// How to open the port, as JSON.
     pub fn serial(&self) -> String {
-        json(&self.own.serial())
+        to_json(&self.own.serial())
     }
 
     /// The machine sent something.
@@ -417,6 +423,6 @@ impl Plotter {
 
     /// What to do now, as JSON.
     pub fn step(&mut self, now_ms: f64, queued: usize) -> String {
-        json(&self.own.step(now_ms, queued))
+        to_json(&self.own.step(now_ms, queued))
     }
 }

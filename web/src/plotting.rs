@@ -13,25 +13,25 @@ use tatamu::plotter::{Cutter, Job};
 
 /// A machine that can be on a serial port.
 #[derive(Serialize)]
-pub struct MachineTold {
+pub struct MachineRow {
     profile: &'static str,
     name: String,
 }
 
 /// The machines that can be on a serial port.
-pub fn machines() -> Vec<MachineTold> {
-    let told = |machine: &tatamu::app::catalogue::Machine| match machine.takes {
+pub fn machines() -> Vec<MachineRow> {
+    let row = |machine: &tatamu::app::catalogue::Machine| match machine.takes {
         Takes::Serial(profile) => {
-            Some(MachineTold { profile, name: format!("{}: {}", machine.maker, machine.models) })
+            Some(MachineRow { profile, name: format!("{}: {}", machine.maker, machine.models) })
         }
         Takes::Usb(_) | Takes::Program(_) => None,
     };
-    MACHINES.iter().filter_map(told).collect()
+    MACHINES.iter().filter_map(row).collect()
 }
 
 /// A sheet as a job.
 #[derive(Serialize)]
-pub struct SheetTold {
+pub struct SheetJob {
     name: String,
     summary: String,
     notes: Vec<String>,
@@ -47,7 +47,7 @@ pub struct SheetTold {
 ///
 /// # Errors
 /// A message where the machine cannot work on a sheet.
-pub fn jobs(desk: &Desk, cutter: &str, media: &str) -> Result<Vec<SheetTold>, String> {
+pub fn jobs(desk: &Desk, cutter: &str, media: &str) -> Result<Vec<SheetJob>, String> {
     let message = |error: &tatamu::app::error::AppError| tatamu::front::words::error(error);
     let machine = profiles::machine(Some(cutter), Some(media)).map_err(|error| message(&error))?;
     let output = desk.finished().ok_or("the model is not finished yet")?;
@@ -58,7 +58,7 @@ pub fn jobs(desk: &Desk, cutter: &str, media: &str) -> Result<Vec<SheetTold>, St
     let language = machine.cutter.dialect().name();
     let extension = format_of(language).map_or("plt", |format| format.extensions[0]);
     let sheets = sheets::of_drawings(&desk.opened.title(), &pages, &machine);
-    let told = |sheet: &sheets::Sheet| SheetTold {
+    let job = |sheet: &sheets::Sheet| SheetJob {
         name: sheet.name().to_owned(),
         summary: sheet.summary(&machine.cutter),
         notes: sheet.notes().to_vec(),
@@ -69,13 +69,13 @@ pub fn jobs(desk: &Desk, cutter: &str, media: &str) -> Result<Vec<SheetTold>, St
         bytes: String::from_utf8_lossy(sheet.bytes()).into_owned(),
         extension,
     };
-    Ok(sheets.map_err(|error| message(&error))?.iter().map(told).collect())
+    Ok(sheets.map_err(|error| message(&error))?.iter().map(job).collect())
 }
 
 /// How to open the port of a machine, with the names of the browser.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-pub struct SerialTold {
+pub struct SerialSettings {
     baud_rate: u32,
     data_bits: u8,
     stop_bits: u8,
@@ -93,7 +93,7 @@ pub struct Live {
 
 /// What the page does next, and how far the job is.
 #[derive(Serialize)]
-pub struct StepTold {
+pub struct StepReport {
     send: Option<String>,
     wait_ms: Option<f64>,
     /// What is done now.
@@ -126,9 +126,9 @@ impl Live {
     }
 
     /// How to open the port.
-    pub fn serial(&self) -> SerialTold {
+    pub fn serial(&self) -> SerialSettings {
         let serial = self.cutter.serial();
-        SerialTold {
+        SerialSettings {
             baud_rate: serial.baud,
             data_bits: serial.data_bits,
             stop_bits: serial.stop_bits,
@@ -148,7 +148,7 @@ impl Live {
     }
 
     /// What to do now.
-    pub fn step(&mut self, now_ms: f64, queued: usize) -> StepTold {
+    pub fn step(&mut self, now_ms: f64, queued: usize) -> StepReport {
         let step = self.session.step(Duration::from_secs_f64(now_ms.max(0.0) / 1000.0), queued);
         let status = self.session.status();
         let (send, wait_ms, outcome) = match step {
@@ -158,7 +158,7 @@ impl Live {
         };
         let strokes_done = outcome.map_or(status.strokes_done, |outcome| outcome.strokes_done);
         let is_finished = outcome.is_some_and(|outcome| outcome.end == End::Finished);
-        StepTold {
+        StepReport {
             send,
             wait_ms,
             doing: doing(status.state).to_owned(),

@@ -8,22 +8,22 @@ use tatamu::product::Product;
 
 /// A format that can be downloaded.
 #[derive(Serialize)]
-pub struct FormatTold {
+pub struct FormatRow {
     /// Its extension, after `guide.` for a guide.
     id: String,
     description: &'static str,
 }
 
 /// The formats that can be downloaded.
-pub fn formats() -> Vec<FormatTold> {
-    let told = |prefix: &str, format: &Format| FormatTold {
+pub fn formats() -> Vec<FormatRow> {
+    let row = |prefix: &str, format: &Format| FormatRow {
         id: format!("{prefix}{}", format.extensions[0]),
         description: format.description,
     };
-    let guides = GUIDES.iter().map(|format| told(GUIDE, format));
+    let guides = GUIDES.iter().map(|format| row(GUIDE, format));
     // Jobs are for a machine, which is chosen where they are plotted.
     let files = FORMATS.iter().filter(|format| !format.is_job());
-    guides.chain(files.map(|format| told("", format))).collect()
+    guides.chain(files.map(|format| row("", format))).collect()
 }
 
 /// Before the extension of a guide.

@@ -25,7 +25,7 @@ use tatamu_core::segment::{self, Edit, Parts, SegmentOptions};
 use tatamu_net::net::{BlankNet, KnownNets, Net, NetChoices, NetHand, NetOptions, develop_model};
 use tatamu_net::sheet::{Layout, Pin, SheetOptions};
 
-/// So many results of whole stages are kept, for going back and forth between a few choices.
+/// Number of results that each whole stage keeps, for going back and forth between a few choices.
 const FEW: usize = 4;
 
 /// All stages for one mesh.
@@ -233,7 +233,7 @@ impl<'m> Engine<'m> {
     /// moved onto its parent: sooner than the model that looks and folds best.
     ///
     /// # Errors
-    /// As [`Engine::shape`]; [`Error::NoComponent`] where there are not so many.
+    /// As [`Engine::shape`]; [`Error::NoComponent`] where there is no component with this id.
     pub fn component(
         &self,
         options: &Options,
@@ -357,7 +357,7 @@ impl<'m> Engine<'m> {
         let mut warnings = shaped.notes.clone();
         warnings.extend(warning::warnings(model, &nets, shaped.source.hulls(), options));
         warnings.extend(warning::many_sheets(&layout).map(Warning::from));
-        warnings.extend(layout.unheeded_pins().iter().cloned().map(Warning::from));
+        warnings.extend(layout.pin_warnings().iter().cloned().map(Warning::from));
         let fold_plan = Arc::new(FoldPlan::unchecked(model, options.thickness_mm));
         Ok(Output { shaped, fold_plan, nets, layout, warnings: Arc::new(warnings) })
     }
@@ -407,7 +407,7 @@ fn of_boards(shaped: Shaped) -> Result<Shaped, Error> {
     Ok(Shaped { model: Arc::new(boards), notes, ..shaped })
 }
 
-/// So many sketches are kept, for joints that are tried again when others have been. A chair asks for 23.
+/// Number of sketches that are kept, for joints that are tried again after others. A chair asks for 23.
 const SKETCHES: usize = 100;
 
 /// Models with one set of options.

@@ -12,9 +12,9 @@ use tatamu::net::{PIECES, TAB_WIDTHS_MM, TabSide};
 use tatamu::pipeline::Output;
 use tatamu::project::change::Change;
 
-/// Edges are found within so many points of the pointer.
+/// Edges are found within this distance of the pointer, in points.
 const REACH: f32 = 7.0;
-/// A tab that is dropped within so many points of the other side goes there.
+/// A tab that is dropped within this distance of the other side goes there, in points.
 const DROP: f32 = 30.0;
 /// Radius of the dot on an edge that was chosen by hand, points.
 const DOT: f32 = 4.0;
@@ -79,7 +79,7 @@ impl EdgeTool {
         self.chosen = self.chosen.filter(is_there);
     }
 
-    /// Follows the mouse over a page; true where it is over an edge.
+    /// Follows the mouse over a page; true if it is over an edge.
     pub fn follow(
         &mut self,
         studio: &mut Studio,
@@ -97,7 +97,7 @@ impl EdgeTool {
         self.over = Some(edge.id);
         response.ctx.set_cursor_icon(CursorIcon::PointingHand);
         if self.dragged.is_none() {
-            response.clone().on_hover_text_at_pointer(told(edge));
+            response.clone().on_hover_text_at_pointer(described(edge));
         }
         if response.clicked() && is_current {
             if let Some(name) = studio.shown().names().get(edge.id.net.0).cloned() {
@@ -280,7 +280,7 @@ fn word(joined: Joined) -> &'static str {
 }
 
 /// What an edge is, and what a click does with it.
-fn told(edge: &PlacedEdge) -> String {
+fn described(edge: &PlacedEdge) -> String {
     let name = edge.id.name;
     match edge.joined {
         Joined::Crease => format!("edge {name}, a crease\nclick to cut and glue it"),

@@ -179,7 +179,7 @@ impl Window {
         }
     }
 
-    /// Draws everything, and heeds what the user did.
+    /// Draws everything, and handles what the user did.
     pub fn show(&mut self, ui: &mut egui::Ui) {
         self.studio.poll();
         self.follow_file();
@@ -195,10 +195,10 @@ impl Window {
             ctx.open_url(egui::OpenUrl::new_tab(format!("file://{}", path.display())));
         }
         if !self.is_asking() {
-            if self.is_touring() && self.tour.as_mut().is_some_and(|tour| !tour.heed(&ctx)) {
+            if self.is_touring() && self.tour.as_mut().is_some_and(|tour| !tour.handle_keys(&ctx)) {
                 self.tour = None;
             }
-            commands::heed(self, &ctx);
+            commands::handle_keys(self, &ctx);
         }
         let hover = self.studio.hover.take();
         self.space.set_hover(hover.clone());
@@ -235,7 +235,7 @@ impl Window {
             || self.mode == Mode::Export && self.export.asks()
     }
 
-    /// Panels begin anew with another file.
+    /// Resets the panels when another file is open.
     fn follow_file(&mut self) {
         if self.studio.session() != self.session {
             self.session = self.studio.session();

@@ -28,13 +28,13 @@ const STEP_DEG: [f64; 2] = [5.0, 1.0];
 const FOLD_S: f64 = 1.4;
 /// Pictures of more pixels are not drawn at twice the size.
 const MOST_SMOOTH: usize = 2_500_000;
-/// The wheel goes on turning a component that folded away under the pointer, as long as the pointer stays
-/// within so many points,
+/// The wheel keeps turning a component that has folded away under the pointer, as long as the pointer
+/// moves less than this, points,
 const STILL: f32 = 6.0;
-/// for so many seconds.
+/// and for at most this time, seconds.
 const STILL_S: f64 = 2.0;
 
-/// Threads that draw, so that pictures do not wait for the work that goes on in those of all.
+/// Threads that draw, so that pictures do not wait for work in the common threads.
 static DRAWERS: LazyLock<Option<ThreadPool>> = LazyLock::new(|| ThreadPoolBuilder::new().build().ok());
 
 /// The view in space.
@@ -190,7 +190,7 @@ impl Space {
         self.setting.clash
     }
 
-    /// Shows where a part would be split, on the standing model.
+    /// Shows where a part would be split, on the unfolded model.
     pub fn show_split(&mut self, plane: Option<(DVec3, DVec3)>) {
         if plane.is_some() && self.setting.split.is_none() {
             (self.setting.folded, self.is_playing) = (0.0, false);
@@ -243,7 +243,7 @@ impl Space {
         self.frame.as_ref().map(RenderedFrame::size_px)
     }
 
-    /// Draws the view, and heeds the mouse.
+    /// Draws the view, and handles the mouse.
     pub fn show(&mut self, studio: &mut Studio, ui: &mut egui::Ui) {
         self.animate(studio, ui);
         let response = ui.allocate_response(ui.available_size(), Sense::click_and_drag());
@@ -254,7 +254,7 @@ impl Space {
         if self.orbit.is_none() {
             self.orbit = self.solids.as_ref().and_then(|s| s.3.ball()).map(Orbit::of_ball);
         }
-        let is_moving = self.heed(studio, ui, &response);
+        let is_moving = self.handle_mouse(studio, ui, &response);
         self.refresh_scene(studio);
         let ground = look::ground(ui.visuals());
         // What is new is shown at once, and smoothly in the next picture.
@@ -268,7 +268,7 @@ impl Space {
             None => drop(painter.rect_filled(rect, 0.0, look::of_rgb(ground))),
         }
         if is_coarse {
-            // Once nothing moves the picture is drawn anew, smoothly.
+            // Once nothing moves, the picture is drawn again with smooth edges.
             ui.ctx().request_repaint();
         }
         // What is written stands before the picture.
@@ -319,7 +319,7 @@ impl Space {
             .as_ref()
             .is_none_or(|(v, s, setting, _)| *v != version || *s != selection || *setting != self.setting);
         if is_old {
-            // What is measured is where it was, unless it was made anew or folds.
+            // Measured points stay where they are, unless the model was made again or folds.
             if self.solids.as_ref().is_some_and(|s| s.0.0 != version.0 || s.2.folded != self.setting.folded) {
                 self.measure.clear();
             }
@@ -342,7 +342,7 @@ impl Space {
         }
     }
 
-    /// Follows a new model: the view keeps it as large as it was, and a clash that is no more is not shown.
+    /// Follows a new model: it appears in the old size, and a clash that no longer exists is not shown.
     fn follow(&mut self, studio: &Studio) {
         let diagonal_mm = studio.shown().shaped().map(|shaped| shaped.source().mesh().diagonal_mm());
         if let (Some(before), Some(now), Some(orbit)) = (self.diagonal_mm, diagonal_mm, &mut self.orbit)
@@ -406,8 +406,8 @@ impl Space {
         (self.frame, self.drawn) = (Some(frame), Some(wanted));
     }
 
-    /// Heeds the mouse; true while the view moves.
-    fn heed(&mut self, studio: &mut Studio, ui: &egui::Ui, response: &egui::Response) -> bool {
+    /// Handles the mouse; true while the view moves.
+    fn handle_mouse(&mut self, studio: &mut Studio, ui: &egui::Ui, response: &egui::Response) -> bool {
         let rect = response.rect;
         let side = f64::from(rect.width().min(rect.height()).max(1.0));
         let before = self.orbit;
@@ -466,12 +466,12 @@ impl Space {
         self.frame.as_ref()?.tag_at(x, y)
     }
 
-    /// Over a selected component the wheel turns its fold direction; elsewhere it magnifies. Two
+    /// Over a selected component the wheel turns its fold direction; elsewhere it zooms. Two
     /// fingers on a trackpad move the view.
     fn wheel(&mut self, studio: &mut Studio, ui: &egui::Ui, over: Option<Tag>, at: Pos2, rect: Rect) {
         let side = f64::from(rect.width().min(rect.height()).max(1.0));
         let now_s = ui.input(|i| i.time);
-        // The component that is turned moves, so it may be no more under the pointer.
+        // The component that is turned moves, so the pointer may no longer be over it.
         let turning = self.turning.filter(|(_, from, s)| from.distance(at) < STILL && now_s - s < STILL_S);
         let part = turning.map(|(part, ..)| part);
         let part = part.or(over.filter(|tag| studio.is_selected(tag.part)).map(|tag| tag.part));

@@ -55,9 +55,9 @@ pub struct Tour {
 }
 
 impl Tour {
-    /// Heeds the keys: Enter goes on, unless a control has the keyboard, and Escape ends it. False when the user is
-    /// through.
-    pub fn heed(&mut self, ctx: &Context) -> bool {
+    /// Handles the keys: Enter goes on, unless a control has the keyboard; Escape ends the tour. False when the tour
+    /// is over.
+    pub fn handle_keys(&mut self, ctx: &Context) -> bool {
         let is_free = ctx.memory(|memory| memory.focused().is_none());
         let [ends, goes_on] = [Key::Escape, Key::Enter]
             .map(|key| is_free && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, key)));
@@ -65,7 +65,7 @@ impl Tour {
         !ends && self.step < STEPS.len()
     }
 
-    /// Draws the step; false when the user is through. `place` tells where things are.
+    /// Draws the step; false when the tour is over. `place` tells where things are.
     pub fn show(&mut self, ctx: &Context, place: impl Fn(Spot) -> Option<Rect>) -> bool {
         let (title, text, spot) = STEPS[self.step.min(STEPS.len() - 1)];
         let screen = ctx.content_rect();

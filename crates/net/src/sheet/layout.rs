@@ -2,7 +2,7 @@
 
 use super::SheetOptions;
 use super::nest::{NestError, NestPiece, Placement, nest, nest_alternatives};
-use super::pin::{Pin, Unheeded, unheeded};
+use super::pin::{Pin, PinWarning, pin_warnings};
 use super::place::{PiecePlace, SheetId};
 use crate::net::{Blank, BlankNet, Net, Piece, Tab};
 use glam::{DAffine2, DVec2};
@@ -54,7 +54,7 @@ pub struct Layout {
     places: Vec<Vec<PiecePlace>>,
     sheets: usize,
     utilisation: f64,
-    unheeded: Vec<Unheeded>,
+    pin_warnings: Vec<PinWarning>,
     /// Which of its alternatives each net is.
     taken: Vec<usize>,
     /// The colour of each sheet, where one is chosen.
@@ -177,15 +177,15 @@ impl Layout {
         let blanks = || groups.iter().zip(&taken).flat_map(|(group, &taken)| group[taken].iter().copied());
         let area: f64 = blanks().map(|blank| polygon::area(blank.outline())).sum();
         let utilisation = area / (room.x * room.y * sheets.max(1) as f64);
-        let unheeded = unheeded(pins, blanks().zip(places.iter().flatten()));
+        let pin_warnings = pin_warnings(pins, blanks().zip(places.iter().flatten()));
         let (options, cards) = (*options, of_sheets);
-        let layout = Self { options, places, sheets, utilisation, unheeded, taken: taken.clone(), cards };
+        let layout = Self { options, places, sheets, utilisation, pin_warnings, taken: taken.clone(), cards };
         Ok((layout, taken))
     }
 
-    /// Pins that could not be heeded.
-    pub fn unheeded_pins(&self) -> &[Unheeded] {
-        &self.unheeded
+    /// Pins that could not be followed.
+    pub fn pin_warnings(&self) -> &[PinWarning] {
+        &self.pin_warnings
     }
 
     /// About how many sheets the pieces of these nets, which it was made for, would take at `factor` of their

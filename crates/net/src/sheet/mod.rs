@@ -15,6 +15,6 @@ pub use calibration::{Calibration, CalibrationError};
 pub use layout::{Layout, LayoutError};
 pub use options::{SheetChoices, SheetOptions};
 pub use pages::Imprint;
-pub use pin::{Pin, Unheeded};
+pub use pin::{Pin, PinWarning};
 pub use place::{PiecePlace, SheetId};
 pub use tatamu_draw::drawing::Registration;

@@ -27,21 +27,21 @@ pub struct Pin {
     pub net: usize,
 }
 
-/// A pin that could not be heeded, by the name of its piece.
+/// A pin that could not be followed, by the name of its piece.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Unheeded {
+pub enum PinWarning {
     /// No piece has this name.
     NoPiece(String),
     /// Another pinned piece is there, or the piece does not fit the sheet at that angle.
     NoRoom(String),
 }
 
-codes!(Unheeded {
+codes!(PinWarning {
     NoPiece => "pin_without_piece",
     NoRoom => "pin_without_room",
 });
 
-impl Unheeded {
+impl PinWarning {
     /// What can be done.
     pub fn remedies(&self) -> Vec<Remedy> {
         match self {
@@ -51,7 +51,7 @@ impl Unheeded {
     }
 }
 
-impl fmt::Display for Unheeded {
+impl fmt::Display for PinWarning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoPiece(name) => write!(f, "{name}: there is no piece of this name any more"),
@@ -80,17 +80,17 @@ impl Pin {
 }
 
 /// The pins that no piece, or none at its place, has.
-pub(super) fn unheeded<'a>(
+pub(super) fn pin_warnings<'a>(
     pins: &BTreeMap<String, Pin>,
     places: impl Iterator<Item = (&'a Blank, &'a PiecePlace)>,
-) -> Vec<Unheeded> {
+) -> Vec<PinWarning> {
     let places: BTreeMap<&str, Pin> =
         places.map(|(blank, place)| (blank.name(), Pin::of_place(blank.outline(), place))).collect();
     let fault = |(name, pin): (&String, &Pin)| match places.get(name.as_str()) {
-        None => Some(Unheeded::NoPiece(name.clone())),
+        None => Some(PinWarning::NoPiece(name.clone())),
         // A sheet with a lower number may have become empty.
         Some(found) if found.sheet > pin.sheet || found.at_mm.distance(pin.at_mm) > NEAR_MM => {
-            Some(Unheeded::NoRoom(name.clone()))
+            Some(PinWarning::NoRoom(name.clone()))
         }
         Some(_) => None,
     };

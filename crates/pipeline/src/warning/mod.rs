@@ -16,7 +16,7 @@ use tatamu_core::fold::FoldWarning;
 use tatamu_core::mesh::MeshWarning;
 use tatamu_core::remedy::Remedy;
 use tatamu_net::net::NetWarning;
-use tatamu_net::sheet::Unheeded;
+use tatamu_net::sheet::PinWarning;
 
 /// The enum of all sources of warnings, with what all of them have.
 macro_rules! sources {
@@ -71,7 +71,7 @@ sources! {
     /// About the nets.
     Net(NetWarning),
     /// About pins.
-    Pin(Unheeded),
+    Pin(PinWarning),
     /// About other options that were tried.
     Trial(TrialWarning),
 }

@@ -252,7 +252,7 @@ impl<'a> Reader<'a> {
         let is_mode = |m: &Meaning| matches!(m, Meaning::Move { pen: Pen::Keep, to, .. } if to.is_empty());
         let is_setup = meaning == Meaning::Setup || is_mode(&meaning);
         if is_setup {
-            self.pace.heed(bytes);
+            self.pace.apply_setting(bytes);
         }
         let motions: Vec<Motion> = match meaning {
             Meaning::Move { pen, to, is_relative } => {

@@ -37,8 +37,8 @@ impl Pace {
         }
     }
 
-    /// A setting of the job: it counts where it is that of the speed.
-    pub(super) fn heed(&mut self, command: &[u8]) {
+    /// Applies a setting of the job, if it is that of the speed.
+    pub(super) fn apply_setting(&mut self, command: &[u8]) {
         if let Some(speed) = &self.speed
             && let Some(value) = speed.read(command)
         {
@@ -93,8 +93,8 @@ mod tests {
         let cutter = Cutter::parse(text).unwrap();
         let (a, v) = (cutter.acceleration_mm_s2(), 50.0);
         let mut pace = Pace::new(&cutter);
-        pace.heed(b"\nFS80;");
-        pace.heed(b"\nVS5;");
+        pace.apply_setting(b"\nFS80;");
+        pace.apply_setting(b"\nVS5;");
         let mut at = Point::default();
         let mut go = |x_mm: i32, y_mm: i32| {
             let from = std::mem::replace(&mut at, Point::new(x_mm * 40, y_mm * 40));

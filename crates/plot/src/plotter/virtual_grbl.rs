@@ -1,7 +1,7 @@
-//! A machine with GRBL 1.1 that is not there: a small buffer, a planner of a few moves, characters that it heeds
-//! at receipt, and states.
+//! A simulated machine with GRBL 1.1: a small buffer, a planner of a few moves, characters that take effect at
+//! receipt, and states.
 //!
-//! Source: GRBL 1.1 (github.com/gnea/grbl): `serial.c` (what is heeded at receipt), `mc_reset`,
+//! Source: GRBL 1.1 (github.com/gnea/grbl): `serial.c` (what takes effect at receipt), `mc_reset`,
 //! `protocol_main_loop`, `spindle_sync`, `report_realtime_status`.
 
 use super::dialect::{Dialect, Meaning, Pen};
@@ -18,7 +18,7 @@ const PLANNER: usize = 15;
 const BRAKING: Duration = Duration::from_millis(60);
 /// Machine coordinates of the work zero, mm.
 const WORK_OFFSET_MM: [f64; 3] = [12.5, -7.25, 3.0];
-/// Every so many reports have the work zero.
+/// One report in this many contains the work zero.
 const OFFSET_EVERY: u32 = 10;
 
 /// A move that is planned.
@@ -46,7 +46,7 @@ enum Hold {
     Held,
 }
 
-/// A machine with GRBL that is not there.
+/// A simulated machine with GRBL.
 #[derive(Debug, Clone)]
 pub struct VirtualGrbl {
     options: VirtualOptions,

@@ -1,4 +1,4 @@
-//! A plotter that is not there: it takes bytes at the speed of the line into a small buffer, works
+//! A simulated plotter: it takes bytes at the speed of the line into a small buffer, works
 //! them off in modelled time, answers as plotters do, and remembers what it drew and what it lost.
 //!
 //! It reads bytes whether or not it asked for silence, as a real one does: a host that sends too
@@ -52,13 +52,13 @@ impl Default for VirtualOptions {
 /// What is wrong with a virtual plotter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Faults {
-    /// Motion takes so many times the time of the profile.
+    /// Factor by which motion takes longer than the profile says.
     pub slowness: f64,
-    /// One answer of so many is noise; 0 for none.
+    /// One answer in this many is noise; 0 for none.
     pub garbage_every: u32,
-    /// One answer of so many does not come; 0 for none.
+    /// One answer in this many is missing; 0 for none.
     pub silence_every: u32,
-    /// It reports a framing error after so many bytes.
+    /// Number of bytes after which it reports a framing error.
     pub error_at: Option<u64>,
 }
 
@@ -68,7 +68,7 @@ impl Default for Faults {
     }
 }
 
-/// A plotter that is not there.
+/// A simulated plotter.
 #[derive(Debug, Clone)]
 pub struct VirtualPlotter {
     options: VirtualOptions,
@@ -107,7 +107,7 @@ impl VirtualMachine for VirtualPlotter {
                 self.control.clear();
             }
             self.control.push(byte);
-            self.heed_control();
+            self.handle_control();
         } else if self.buffer.len() < self.options.buffer_bytes {
             self.buffer.push_back(byte);
         } else {
@@ -214,7 +214,7 @@ impl VirtualPlotter {
     }
 
     /// Acts on device control when it is complete.
-    fn heed_control(&mut self) {
+    fn handle_control(&mut self) {
         let Some(length) = self.dialect.first(&self.control).filter(|&n| n == self.control.len()) else {
             return;
         };
@@ -317,7 +317,7 @@ impl VirtualPlotter {
                 }
             }
             Meaning::Broken | Meaning::Control => self.record.broken += 1,
-            Meaning::Setup => self.pace.heed(command),
+            Meaning::Setup => self.pace.apply_setting(command),
         }
     }
 

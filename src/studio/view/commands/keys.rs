@@ -35,11 +35,11 @@ pub fn key_text(ctx: &Context, keys: &KeyboardShortcut) -> String {
     key.to_owned()
 }
 
-/// Heeds the keys, unless a text is being written. Keys that widgets know are theirs while one has the focus.
-pub fn heed(window: &mut Window, ctx: &Context) {
+/// Handles the keys, unless the user is typing text. While a widget has the focus, the keys that it uses are its own.
+pub fn handle_keys(window: &mut Window, ctx: &Context) {
     let writes = ctx.text_edit_focused();
     let is_focused = ctx.memory(|memory| memory.focused().is_some());
-    // Shift and H is no H: those with Shift come first.
+    // Shift+H is not H: keys with Shift come first.
     let keys = |has_shift: bool| {
         let all = all().flat_map(|command| command.keys.iter().map(move |keys| (command, keys)));
         all.filter(move |(_, keys)| keys.modifiers.shift == has_shift)

@@ -15,7 +15,7 @@ pub use edit::{
 use eframe::egui::{self, Context, KeyboardShortcut, Response, Ui};
 pub use file::{OPEN, SAVE};
 pub use help::{BOOK_TIP, COMMAND_LINE, FIND, SHORTCUTS, libraries};
-pub use keys::{MOUSE, heed, key_text};
+pub use keys::{MOUSE, handle_keys, key_text};
 use lucide_icons::Icon;
 pub use pieces::{PIECE_LEFT, PIECE_RIGHT, PUT_ASIDE, UNPIN};
 pub use view::{
@@ -79,7 +79,7 @@ fn has_selection(window: &Window) -> bool {
     !window.studio.selection.names().is_empty()
 }
 
-/// All commands. Of two with one key the first that can be done is.
+/// All commands. If two share a key, it runs the first one that can be done.
 pub fn all() -> impl Iterator<Item = &'static Command> {
     [file::ALL, edit::ALL, pieces::ALL, view::ALL, help::ALL].concat().into_iter().chain(&help::BOOK)
 }
@@ -90,7 +90,7 @@ impl Command {
         self.icon.map_or('\u{2003}', char::from)
     }
 
-    /// Whether what it turns on and off is on; nothing where it turns nothing on.
+    /// Whether what it switches is on; `None` if it is not a switch.
     fn is_on(&self, window: &Window) -> Option<bool> {
         self.is_on.map(|is_on| is_on(window))
     }

@@ -126,7 +126,7 @@ impl SheetsPanel {
         let table = ui.allocate_response(ui.available_size(), Sense::click_and_drag());
         let window = table.rect;
         let mut seen = self.canvas.seen(drawings.len(), size_mm, window);
-        self.heed(ui, &table, &mut seen, (drawings.len(), size_mm));
+        self.pan_and_zoom(ui, &table, &mut seen, (drawings.len(), size_mm));
         ui.set_clip_rect(window.intersect(ui.clip_rect()));
         self.edges.begin(studio, &drawn.output);
         for (k, drawing) in drawings.iter().enumerate() {
@@ -145,8 +145,14 @@ impl SheetsPanel {
         }
     }
 
-    /// Moves and magnifies the table.
-    fn heed(&mut self, ui: &Ui, table: &egui::Response, seen: &mut Seen, (count, size_mm): (usize, Vec2)) {
+    /// Pans and zooms the table.
+    fn pan_and_zoom(
+        &mut self,
+        ui: &Ui,
+        table: &egui::Response,
+        seen: &mut Seen,
+        (count, size_mm): (usize, Vec2),
+    ) {
         let window = table.rect;
         let Some(at) = ui.input(|i| i.pointer.latest_pos()).filter(|_| ui.rect_contains_pointer(window))
         else {
@@ -189,7 +195,7 @@ impl SheetsPanel {
                     let edges = sheets().map(|sheet| tatamu::front::edges::edges(&output, sheet)).collect();
                     Drawn { version, output, drawings, outlines, edges }
                 });
-                // Nobody waits for the pages of a model that is no more.
+                // Nobody waits for the pages of an old model.
                 let _ = sender.send(drawn);
                 ctx.request_repaint();
             });

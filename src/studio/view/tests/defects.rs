@@ -272,7 +272,7 @@ fn a_piece_that_is_dragged_moves_alone() {
         assert_eq!(after[other].0, place.0, "{other}");
         assert!(after[other].1.distance(place.1) < 0.01, "{other}: {place:?} {:?}", after[other]);
     }
-    assert!(desk.state().studio().finished().unwrap().layout().unheeded_pins().is_empty());
+    assert!(desk.state().studio().finished().unwrap().layout().pin_warnings().is_empty());
     desk.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     desk.run_ok();
     settle(&mut desk, "the layout of before", |s| s.finished().is_some());

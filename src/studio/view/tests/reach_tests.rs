@@ -83,7 +83,7 @@ fn what_the_window_has_not_is_listed_with_a_command_to_copy() {
 }
 
 #[test]
-fn the_size_is_fitted_to_so_many_sheets() {
+fn the_size_is_fitted_to_a_number_of_sheets() {
     let (mut desk, _folder) = open();
     wait_for(&mut desk, "Sheet 1");
     let sheets = |s: &Studio| s.finished().map(|output| output.layout().sheet_count());
@@ -123,7 +123,7 @@ fn the_control_that_has_the_keyboard_has_a_ring() {
 
 /// A button that had the focus took all keys, so that N and H did nothing after a press of Tab.
 #[test]
-fn keys_are_heeded_while_a_button_has_the_focus() {
+fn keys_work_while_a_button_has_the_focus() {
     let (mut desk, _folder) = open();
     let before = desk.state().space().shows_names();
     desk.key_press(Key::Tab);

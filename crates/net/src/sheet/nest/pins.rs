@@ -24,7 +24,7 @@ pub(super) struct Start {
 
 impl Start {
     /// Takes the places of pins, of which there may be one for each piece; `outlines` are those of the
-    /// pinned pieces there. One whose place is taken by another before it is not heeded.
+    /// pinned pieces there. One whose place is taken by another before it is ignored.
     pub fn new(
         pins: &[Option<Pinned>],
         outlines: &[Option<Vec<DVec2>>],

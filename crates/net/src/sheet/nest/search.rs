@@ -1,6 +1,6 @@
 //! The order in which pieces are put on sheets: the first sheet with room takes a piece; several
 //! orders are tried. Then the layout nearest to fewer sheets is changed again and again: its emptiest
-//! sheet is cleared, others in part, and their pieces are placed anew ("ruin and recreate", Schrimpf
+//! sheet is cleared, others in part, and their pieces are placed again ("ruin and recreate", Schrimpf
 //! et al. 2000).
 
 use super::super::place::SheetId;
@@ -22,10 +22,10 @@ const BATCH: usize = 8;
 const POSES: usize = 28;
 const COMMON_POSES: usize = 8;
 
-/// One in so many changes places all pieces anew.
+/// One change in this many places all pieces again.
 const FRESH: u8 = 8;
 
-/// Shares of the pieces of a sheet that are placed anew.
+/// Shares of the pieces of a sheet that are placed again.
 const SHARES: [f64; 3] = [0.3, 0.6, 1.0];
 
 /// Any number does, as long as it stays.
@@ -55,7 +55,7 @@ struct Plan {
 
 impl Plan {
     /// All pieces, on sheets that are as they were at the start.
-    fn anew(start: &Start, order: Vec<usize>, way: Way, chosen: Vec<usize>) -> Self {
+    fn fresh(start: &Start, order: Vec<usize>, way: Way, chosen: Vec<usize>) -> Self {
         let pinned = start.stock().len();
         Self { kept: vec![Vec::new(); pinned], open: (0..pinned).map(SheetId).collect(), order, way, chosen }
     }
@@ -221,7 +221,7 @@ fn standard_plans(items: &[Item], start: &Start, groups: usize) -> Vec<Plan> {
     let pulls = [(0.1, 1.0), (1.0, 0.1), (1.0, 1.0)].map(DVec2::from);
     let chosen = vec![0; groups];
     let plan = |pull, order: &Vec<usize>| {
-        Plan::anew(start, order.clone(), Way { pull, lean: 0.5, poses: 0 }, chosen.clone())
+        Plan::fresh(start, order.clone(), Way { pull, lean: 0.5, poses: 0 }, chosen.clone())
     };
     pulls.iter().flat_map(|&pull| orders.iter().map(move |order| plan(pull, order))).collect()
 }
@@ -259,7 +259,7 @@ fn varied(
     plan
 }
 
-/// All pieces anew, in an order in which some pieces of the emptiest sheet come earlier and some
+/// All pieces again, in an order in which some pieces of the emptiest sheet come earlier and some
 /// change places.
 fn reordered(parent: &Layout, items: &[Item], start: &Start, rng: &mut fastrand::Rng) -> Plan {
     let sheets = parent.emptiest_first(items);
@@ -277,10 +277,10 @@ fn reordered(parent: &Layout, items: &[Item], start: &Start, rng: &mut fastrand:
         let (a, b) = (index(rng, order.len()), index(rng, order.len()));
         order.swap(a, b);
     }
-    Plan::anew(start, order, parent.way, parent.chosen.clone())
+    Plan::fresh(start, order, parent.way, parent.chosen.clone())
 }
 
-/// The emptiest sheet is cleared, one or two others in part, and their pieces are placed anew: the
+/// The emptiest sheet is cleared, one or two others in part, and their pieces are placed again: the
 /// large ones first, more or less.
 fn ruined(parent: &Layout, items: &[Item], rng: &mut fastrand::Rng) -> Plan {
     let mut others = parent.emptiest_first(items);

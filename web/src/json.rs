@@ -1,4 +1,4 @@
-//! What the page is told, as JSON.
+//! What the page shows, as JSON.
 
 use crate::desk::Desk;
 use serde::Serialize;
@@ -15,7 +15,7 @@ use tatamu::project::options::{
 
 /// All that the page shows beside pictures.
 #[derive(Serialize)]
-pub struct Told {
+pub struct DeskState {
     title: String,
     is_project: bool,
     is_drawn: bool,
@@ -30,7 +30,7 @@ pub struct Told {
     /// The sheets that the model may take, where it takes more.
     exceeded_sheets: Option<usize>,
     facts: Option<Facts>,
-    warnings: Vec<WarningTold>,
+    warnings: Vec<WarningRow>,
 }
 
 /// A component.
@@ -60,7 +60,7 @@ struct Row {
     /// Where it begins once it is no longer automatic.
     such_as: Option<f64>,
     is_optional: bool,
-    /// What holds where it is automatic.
+    /// What automatic means, in words.
     automatic: &'static str,
     least: Option<f64>,
     most: Option<f64>,
@@ -85,7 +85,7 @@ struct Facts {
 }
 
 #[derive(Serialize)]
-struct WarningTold {
+struct WarningRow {
     text: String,
     /// Keys of the components that it is about.
     about: Vec<String>,
@@ -96,7 +96,7 @@ struct WarningTold {
 
 impl Desk {
     /// All that the page shows beside pictures.
-    pub fn told(&self) -> Told {
+    pub fn state(&self) -> DeskState {
         let settings = self.document.settings();
         let row = |option: &&'static Entry| Row::new(option, settings);
         let model = dials::model(settings, self.opened.drawn.is_some());
@@ -111,7 +111,7 @@ impl Desk {
         if let Some(output) = output {
             most_sheets.such_as = Some(output.layout().sheet_count().saturating_sub(1).max(1) as f64);
         }
-        Told {
+        DeskState {
             title: self.opened.title(),
             is_project: self.opened.is_project,
             is_drawn: self.opened.drawn.is_some(),
@@ -143,7 +143,7 @@ impl Desk {
         })
     }
 
-    /// The settings of a component, with what was found where nothing is chosen.
+    /// The settings of a component; those that are automatic have the value that was found.
     fn rows(&self, index: PartId, key: &str, part: &ModelPart) -> Vec<Row> {
         let options = self.document.options();
         let own = options.components.get(key).cloned().unwrap_or_default();
@@ -173,9 +173,9 @@ impl Desk {
         notes::notes(&self.opened.repairs, self.laid())
     }
 
-    fn warning(&self, note: Note) -> WarningTold {
+    fn warning(&self, note: Note) -> WarningRow {
         let changes = remedies::changes(&note.warning, self.document.settings());
-        WarningTold {
+        WarningRow {
             text: words::warning(&note.warning),
             about: note.about,
             clash: note.clash,
