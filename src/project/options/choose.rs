@@ -1,4 +1,4 @@
-//! What holds in the end: flags first, then the project file, then the defaults.
+//! The settings that take effect: flags first, then the project file, then the defaults.
 
 use super::{
     CLUSTERS, DETAIL, Entry, Given, Kind, MIN_PANEL_WIDTH, PARTS, PROFILE_VERTICES, SMOOTHING, SPACING,
@@ -58,7 +58,7 @@ pub fn choose(project: Option<&Project>, flags: &[Given]) -> Result<Settings, Re
     choose_on(Settings::standard().clone(), project, flags)
 }
 
-/// The same on a base that holds where neither of them says anything.
+/// The same, with a base for what neither of them sets.
 ///
 /// # Errors
 /// See [`Refusal`].

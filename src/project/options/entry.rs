@@ -20,7 +20,7 @@ pub struct Entry {
     pub long: &'static str,
     /// How its flag may be used.
     pub example: &'static str,
-    /// What is done where nothing is chosen, if that is no value.
+    /// What the default is, in words, if it is not a value.
     pub automatic: &'static str,
     /// What the reference says of it, as Markdown.
     pub meaning: &'static str,

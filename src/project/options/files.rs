@@ -242,7 +242,7 @@ pub static COLOR: Entry = Entry {
         set: |s, is_on| put(&mut s.files.is_coloured, is_on),
     }),
     short: "Prints the mesh's colours on the panels, in PDF, SVG and PNG",
-    long: "Colours come from materials and textures (OBJ, glTF) and from vertex and face colours (OBJ, PLY, OFF, glTF). \
+    long: "Colours come from materials and textures (OBJ, glTF, 3MF) and from vertex and face colours (OBJ, PLY, OFF, glTF, 3MF). \
            Leave it out for files that go to a cutter only.",
     example: "--color -o bear.pdf",
     meaning: "prints the mesh's colours on the panels, in PDF, SVG and PNG",

@@ -14,7 +14,7 @@ const AXES: [(&str, Up); 6] =
 
 /// The least size of a model, mm: a hand cannot fold a smaller one.
 const LEAST_SIZE_MM: f64 = 10.0;
-/// The largest, mm: more is a slip of the keyboard.
+/// The largest size of a model, mm: more is a typing error.
 const MOST_SIZE_MM: f64 = 10_000.0;
 
 /// The most sheets that may be asked for.
@@ -84,7 +84,7 @@ pub static SHEETS_MAX: Entry = Entry {
         get: |s| s.most_sheets,
         set: |s, n| put(&mut s.most_sheets, Some(n)),
     }),
-    short: "Makes the model smaller until it takes at most so many sheets",
+    short: "Makes the model smaller until it takes at most this many sheets",
     long: "tatamu tries smaller sizes, in steps of 5 mm, and says which one it took. It makes no model larger than --size.",
     example: "--size 40cm --sheets-max 4",
     automatic: "no limit",
@@ -105,7 +105,7 @@ pub static LEVEL: Entry = Entry {
         set: |s, text| put(&mut s.model.level, text.parse()?),
     }),
     short: "Difficulty of the model: {names}",
-    long: "Compared with normal, \"easy\" has about two thirds of the panels, \"fine\" about twice as many. Big parts get \
+    long: "Compared with normal, \"easy\" has about half of the panels, \"fine\" up to two thirds more. Big parts get \
            most of them.",
     example: "--level easy",
     meaning: "difficulty of the model. Big parts get most of the panels; panels that add little are left out",

@@ -116,7 +116,7 @@ fn component_row(option: &'static Entry) -> String {
     }
 }
 
-/// What is done where nothing is chosen: words, or a name.
+/// The default: words, or a name.
 fn automatic(option: &Entry, quote: &str) -> String {
     match option.automatic {
         "" if *option == CONCAVE => "false".to_owned(),

@@ -41,7 +41,7 @@ pub struct Files {
 }
 
 impl Settings {
-    /// What holds where nothing is chosen.
+    /// The default settings.
     pub fn standard() -> &'static Self {
         static STANDARD: LazyLock<Settings> = LazyLock::new(Settings::default);
         &STANDARD
