@@ -21,7 +21,7 @@ use tatamu::show::{components_scene, framed, mesh_scene};
 const SIZE_MM: DVec2 = DVec2::splat(80.0);
 const MARGIN_MM: f64 = 3.0;
 const DOTS_PER_INCH: f64 = 88.0;
-/// So many meshes stand in a row, with four pictures each.
+/// Meshes in a row, with four pictures each.
 const ROW: usize = 2;
 
 fn main() -> Result<(), Box<dyn Error>> {

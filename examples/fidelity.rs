@@ -23,7 +23,7 @@ const SETTINGS: [(usize, usize, &str); 6] = [
     (4, 6, ""),
     (6, 6, "defaults"),
 ];
-/// Each time is the best of so many runs.
+/// Runs of which the best time counts.
 const RUNS: usize = 3;
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -21,7 +21,7 @@ use tatamu::show::{components_scene, framed, segments_scene, staged_scene};
 const SIZE_MM: DVec2 = DVec2::splat(110.0);
 const MARGIN_MM: f64 = 5.0;
 const DOTS_PER_INCH: f64 = 88.0;
-/// So many models stand in a row.
+/// Models in a row.
 const ROW: usize = 2;
 
 fn main() -> Result<(), Box<dyn Error>> {

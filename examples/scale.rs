@@ -66,7 +66,7 @@ fn compare(picture: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The sample teddy with about so many faces, whose number grows as the square of the edges shrinks.
+/// The sample teddy with about `faces` faces: their number grows with the square of the inverse edge length.
 fn teddy(faces: f64) -> generator::mesh::Mesh {
     let usual = generator::figures::teddy(generator::TEDDY_CELL_MM).faces.len() as f64;
     generator::figures::teddy(generator::TEDDY_CELL_MM * (usual / faces).sqrt())

@@ -169,7 +169,7 @@ fn box_error_mm(hull: &Hull) -> f64 {
     hausdorff(&Polytope::of_hull(&around), &Polytope::of_hull(hull))
 }
 
-/// Converts all bodies; at most `refused` may have no component, for a reason that is told.
+/// Converts all bodies; at most `refused` may have no component, with a reason.
 fn convert_all(bodies: &[Body], refused: usize) {
     let results: Vec<Result<(), String>> = bodies
         .par_iter()

@@ -23,7 +23,7 @@ fn options_of(format: &Format) -> FormatOptions {
     options
 }
 
-/// Every file of every format, made on so many threads.
+/// Every file of every format, made on this number of threads.
 fn files(threads: usize) -> Vec<(&'static str, Vec<u8>)> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
     pool.install(|| {

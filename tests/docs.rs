@@ -367,6 +367,18 @@ fn documents_are_in_plain_english() {
     }
 }
 
+#[test]
+fn comments_are_in_plain_english() {
+    for path in ["src", "crates", "web/src"].iter().flat_map(|folder| files_under(folder, "rs")) {
+        let text = read(&path);
+        let comments = text.lines().filter_map(|line| line.trim_start().strip_prefix("//"));
+        let words = comments.flat_map(|line| line.trim_start_matches(['/', '!']).split_whitespace());
+        let comments = words.collect::<Vec<_>>().join(" ");
+        let found: Vec<_> = STILTED.iter().filter(|words| comments.contains(**words)).collect();
+        assert!(found.is_empty(), "{}: {found:?}; see CONTRIBUTING.md", path.display());
+    }
+}
+
 /// The names of the commands, by `tatamu --help`.
 fn commands() -> Vec<String> {
     let output = tatamu(root()).arg("--help").output().unwrap();

@@ -1,4 +1,4 @@
-//! The engine remembers, and what it remembers is what would be made anew.
+//! The engine remembers results, and they equal what a new run makes.
 
 use std::borrow::Cow;
 use std::sync::Mutex;
@@ -77,7 +77,7 @@ fn only_what_changed_is_made_again() {
         engine.run(options, &stages).expect("a model");
         stages.0.into_inner().expect("no panic")
     };
-    assert_eq!(stages(&options()), ["components", "nets"], "nothing is new: a look at what is known");
+    assert_eq!(stages(&options()), ["components", "nets"], "nothing is new: both come from memory");
     let leaf = first
         .model()
         .ids()

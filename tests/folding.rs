@@ -248,7 +248,7 @@ fn bulges() -> Vec<Model> {
         .into()
 }
 
-/// Every component goes from deployed to flat and never back, and no pose has a cut that is not told of.
+/// Every component goes from deployed to flat and never back, and each pose with a cut is in a warning.
 fn assert_sound(model: &Model, plan: &FoldPlan) {
     let motion = ModelMotion::new(model);
     let mut folded = vec![0.0; model.parts().len()];
@@ -281,7 +281,7 @@ fn cap_on_post() -> Model {
     built(&parts, &links)
 }
 
-/// All orders of so many components.
+/// All orders of `count` components.
 fn orders(count: usize) -> Vec<Vec<PartId>> {
     let Some(last) = count.checked_sub(1) else { return vec![Vec::new()] };
     let shorter = orders(last);
@@ -353,7 +353,7 @@ fn what_is_shut_in_is_not_unplugged() {
 }
 
 #[test]
-fn steps_in_turn_are_told_as_they_are() {
+fn steps_in_turn_are_reported_as_they_are() {
     for model in bulges() {
         let motion = ModelMotion::new(&model);
         let (memory, ids) = (SweepMemory::default(), [0, 1, 2]);
@@ -362,7 +362,7 @@ fn steps_in_turn_are_told_as_they_are() {
                 .unwrap();
         let plan = plan(&motion);
         assert!(quick.is_order() && quick.harm_mm() > 0.0, "no order is free");
-        // The quick plan is told by samples, so that only the whole one is sound.
+        // The quick plan comes from samples, so only the complete one is reliable.
         assert_sound(&model, &plan);
         let order: BTreeSet<PartId> = plan.order().iter().copied().collect();
         assert_eq!(order.len(), 3, "each becomes flat once");
@@ -385,7 +385,7 @@ fn a_memory_changes_nothing_but_the_time() {
     }
 }
 
-/// Random bodies of one component: whether its own chains clash is told, and seldom so.
+/// Random bodies of one component: clashes of its own chains are reported, and are rare.
 #[test]
 fn chains_of_one_component_agree_with_brute_force() {
     let mut rng = fastrand::Rng::with_seed(5);

@@ -1,5 +1,5 @@
 //! The fuzz targets on their stored inputs, and on damaged ones, with the stable compiler. The variable
-//! `TATAMU_FUZZ_SECONDS` gives each target so much time for damaged ones, instead of a number of them:
+//! `TATAMU_FUZZ_SECONDS` gives each target a time for damaged inputs instead of a number of them:
 //!
 //! ```sh
 //! TATAMU_FUZZ_SECONDS=60 cargo test --release --test fuzz_corpus -- --nocapture model
@@ -34,7 +34,7 @@ fn damaged(bytes: &[u8], random: &mut fastrand::Rng) -> Vec<u8> {
     damaged
 }
 
-/// Runs a target on each stored input, and on so many damaged copies of each, or on as many as there is time for.
+/// Runs a target on each stored input, and on `copies` damaged copies of each, or on as many as there is time for.
 fn run(name: &str, target: fn(&[u8]), copies: usize) {
     let begun = Instant::now();
     let folder = format!("{}/fuzz/seeds/{name}", env!("CARGO_MANIFEST_DIR"));

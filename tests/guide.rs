@@ -28,7 +28,7 @@ fn make(name: &str, options: &Options) -> Output {
     pipeline::run(&mesh, options, &Silent).unwrap()
 }
 
-/// All labels of a model, told by what is printed: on tabs, and where there are none, by the net.
+/// All labels of a model, as printed: on tabs, and where there are none, by the net.
 fn labels(output: &Output) -> Vec<String> {
     let hinges = |net: &Net| (0..net.panels().hinges().len()).map(HingeId).collect::<Vec<_>>();
     let of_net = |net: &Net| -> Vec<String> {

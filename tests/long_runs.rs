@@ -27,7 +27,7 @@ fn in_use() -> usize {
     stats.bytes_allocated - stats.bytes_deallocated
 }
 
-/// A prism with so many sides, a little different from all others.
+/// A prism that differs a little from those of all other `k`.
 fn prism(k: usize) -> String {
     let sides = 3 + k % 4;
     let mut text = String::new();

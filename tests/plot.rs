@@ -43,7 +43,7 @@ impl Machine {
     }
 }
 
-/// A job of so many strokes, each of 40 short lines.
+/// A job of `strokes` strokes, each of 40 short lines.
 fn job(strokes: usize) -> String {
     let mut job = "IN;PA;SP1;VS5;".to_owned();
     for k in 0..strokes {
@@ -259,7 +259,7 @@ fn a_laser_that_is_stopped_goes_on_later() {
 }
 
 #[test]
-fn a_machine_that_vanishes_is_told_with_a_warning_about_the_tool() {
+fn a_machine_that_vanishes_is_reported_with_a_warning_about_the_tool() {
     let folder = folder(400);
     let mut machine = Machine::start(folder.path(), &["--baud", "9600"]);
     let child = tatamu(folder.path())
@@ -278,7 +278,7 @@ fn a_machine_that_vanishes_is_told_with_a_warning_about_the_tool() {
 }
 
 #[test]
-fn a_machine_that_is_unplugged_or_reports_an_error_is_told_as_such() {
+fn an_unplugged_machine_and_an_error_of_a_machine_are_reported_as_such() {
     for (fault, words) in [("--unplug-at", "the tool may be down"), ("--error-at", "misread bytes")] {
         let folder = folder(100);
         let machine = Machine::start(folder.path(), &["--baud", "38400", "--speedup", "8", fault, "4000"]);

@@ -186,7 +186,7 @@ fn profiles_are_within_their_limits_and_have_no_gap() {
 }
 
 #[test]
-fn narrow_panels_are_told() {
+fn narrow_panels_are_reported() {
     let least_mm = Options::default().min_panel_width_mm;
     for Made { name, output, master, .. } in samples() {
         for face in (0..master.kind.len()).filter(|&f| master.kind[f] == "side") {

@@ -41,7 +41,7 @@ pub fn run(bytes: &[u8]) {
     }
 }
 
-/// A closed drum of so many sides and rings, each point moved outwards or inwards by a byte.
+/// A closed drum of `sides` sides and `rings` rings, each point moved outwards or inwards by a byte.
 fn drum(sides: usize, rings: usize, moves: &[u8]) -> String {
     use std::fmt::Write;
     let mut text = String::new();

@@ -14,7 +14,7 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Mutex, PoisonError};
 use tatamu::progress::Cancelled;
 
-/// Who is told of the work, and may stop it.
+/// Receives reports of the work, and can stop it.
 pub trait Watch: Sync {
     /// Sentences for warnings.
     fn say(&self) -> Say;
@@ -28,20 +28,20 @@ pub trait Watch: Sync {
     /// One more input is over.
     fn advance(&self);
 
-    /// News of an input, in the order of inputs.
+    /// Reports the events of an input, in the order of inputs.
     fn tell(&self, input: &Path, news: Vec<News>);
 }
 
 /// Stack of the threads, as large as that of a program's first thread is on most systems.
 const STACK_BYTES: usize = 8 << 20;
 
-/// What is told of the input of some number.
+/// An event with the number of its input.
 struct Message {
     input: usize,
     news: News,
 }
 
-/// What is told of an input.
+/// An event of an input.
 pub enum News {
     /// Something to know.
     Warning(String),
@@ -102,7 +102,8 @@ fn work(input: usize, task: Task<'_>, claims: &Claims, watch: &dyn Watch, sender
     let _ = sender.send(Message { input, news: News::End(write()) });
 }
 
-/// Tells what comes in the order of the inputs, and says of each whether it was made.
+/// Reports events in the order of the inputs; for each input, the result is whether its model was
+/// made.
 fn listen(messages: &Receiver<Message>, inputs: &[&Path], watch: &dyn Watch) -> Vec<bool> {
     let mut waiting: Vec<Vec<News>> = inputs.iter().map(|_| Vec::new()).collect();
     let mut ends = Vec::with_capacity(inputs.len());

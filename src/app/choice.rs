@@ -94,7 +94,7 @@ impl Choice {
         &self.settings.model
     }
 
-    /// The size that was asked for, mm: drawings have one of their own.
+    /// The size that the user chose, mm; drawings have their own.
     pub fn size_mm(&self) -> Option<f64> {
         self.is_sized.then_some(self.settings.model.size_mm)
     }
@@ -126,8 +126,8 @@ impl Choice {
     }
 }
 
-/// What holds for a mesh without a project: these settings, at the size that suits its shape. A project is the same
-/// everywhere; a mesh goes to the printer that is here.
+/// The settings of a mesh without a project: these, with the size that suits its shape. A project gives the same
+/// result everywhere; a mesh is for the user's own printer.
 pub fn fresh(mesh: &Mesh, mut settings: Settings) -> Settings {
     settings.model.size_mm = usual_size_mm(mesh);
     settings

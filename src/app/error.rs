@@ -108,8 +108,8 @@ impl AppError {
         }
     }
 
-    /// What became of a run that did not end well: stages wrap an interruption in errors of their
-    /// own, so the user's wish is asked for first.
+    /// The error of a run that failed. Stages wrap an interruption in their own errors, so the
+    /// user's request to stop is checked first.
     pub fn of_run(error: pipeline::Error, progress: &dyn Progress) -> Self {
         match progress.check() {
             Err(cancelled) => Self::Cancelled(cancelled),

@@ -1,5 +1,4 @@
-//! What is chosen by what was made: the size at which a model takes no more than so many sheets, and colours of
-//! card.
+//! Options chosen by results: the largest size within a number of sheets, and the colours of card.
 
 use super::choice::Choice;
 use super::error::AppError;
@@ -17,9 +16,9 @@ const STEP_MM: f64 = 5.0;
 const LEAST_MM: f64 = 10.0;
 /// A size after one that nearly fits, as a share of it: one step at the sizes that most models have.
 const NEXT: f64 = 0.97;
-/// So many sizes are estimated at most for each model that is made. Steps double, so that they reach far.
+/// Most sizes that are estimated for each model that is made. Steps double, so that they reach far.
 const TRIES: usize = 16;
-/// So many models are made at most after the first. Three were the most that a sample needed.
+/// Most models that are made after the first. No sample needed more than three.
 const MODELS: usize = 6;
 
 /// Makes the model; where it takes more sheets than are wanted, in the largest size that is found to take no
@@ -156,7 +155,8 @@ fn smaller<T>(
             let sheets = output.layout().sheets_at(output.nets(), mm / size_mm, progress);
             sheets.map_err(|error| AppError::of_run(error.into(), progress))
         };
-        // What misses by a sheet after a search is near: models of the next sizes say it better than an estimate.
+        // If a model takes one sheet too many after a search, models of the next sizes are more exact than an
+        // estimate.
         let next_mm = stepped((size_mm * NEXT).min(size_mm - 1.0));
         let is_near = is_searched && sheets == most + 1 && next_mm < size_mm;
         let found_mm = if is_near { Some(next_mm) } else { searched(size_mm, sheets, most, estimated)? };

@@ -85,10 +85,10 @@ impl Input {
     }
 }
 
-/// A project file shows within so many bytes that it is one.
+/// The bytes from the start of a file that tell whether it is a project file.
 const HEAD_BYTES: u64 = 1 << 16;
 
-/// The files that are read for an input, as far as they can be told without reading a mesh: itself,
+/// The files that are read for an input, as far as is known without reading a mesh: itself,
 /// and the mesh of a project.
 pub fn files(path: &Path) -> Vec<PathBuf> {
     let mut head = Vec::new();

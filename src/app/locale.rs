@@ -7,7 +7,7 @@ use tatamu::units::{Paper, parse_paper};
 const LETTER: [&str; 14] =
     ["BZ", "CA", "CL", "CO", "CR", "GT", "MX", "NI", "PA", "PH", "PR", "SV", "US", "VE"];
 
-/// What holds for a mesh where nothing is chosen: the defaults, on the usual paper of the user's country.
+/// The default settings of a mesh, on the usual paper of the user's country.
 pub fn settings() -> Settings {
     named().map_or_else(|| Settings::standard().clone(), |locale| settings_of(&locale))
 }

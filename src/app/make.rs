@@ -129,7 +129,7 @@ impl<'a> Task<'a> {
     }
 }
 
-/// Makes the model of one input, and the content of its files. Warnings are told as they come.
+/// Makes the model of one input, and the content of its files. Warnings are reported as they come.
 pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str)) -> Result<Made, AppError> {
     let places = task.places();
     output::check_places(&places, &[task.input])?;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use tatamu::drawing::text::steers;
 use tatamu::pipeline::{ModelWarning, Warning};
 
-/// So many warnings of one kind are shown; a small model with many labels has dozens.
+/// Warnings of one kind that are shown; a small model with many labels has dozens.
 const MOST_OF_A_KIND: usize = 4;
 
 /// A text without control characters other than line ends, and without those that change the
@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn a_tiny_model_is_told_before_what_comes_of_it() {
+    fn a_tiny_model_is_reported_before_its_consequences() {
         let narrow = |label: &str| NetWarning::NarrowTab { label: label.to_owned(), width_mm: 1.0 };
         let tiny = ModelWarning::TinyModel { size_mm: 20.0 };
         let warnings = [narrow("A1").into(), tiny.into(), narrow("A2").into()];

@@ -83,7 +83,7 @@ pub struct MakeArgs {
 
     /// Writes the model even if it takes more than 200 sheets
     ///
-    /// So many sheets are more often a slip of the keyboard in a size than a wish.
+    /// A model with more sheets usually comes from a mistyped size.
     #[arg(long, help_heading = None::<&'static str>)]
     yes: bool,
 

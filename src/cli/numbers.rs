@@ -19,7 +19,7 @@ mod tests {
 
     /// Once, "invalid digit found in string" and "0 is not in 1..=1000".
     #[test]
-    fn what_is_no_such_number_is_told_in_words() {
+    fn errors_about_numbers_are_sentences() {
         let copies = whole::<u16>(1..=1000);
         assert_eq!(copies(" 12 "), Ok(12));
         for text in ["", "0", "-1", "1001", "1e3", "x", "18446744073709551616"] {

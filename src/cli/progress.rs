@@ -157,7 +157,7 @@ fn style(bar: &ProgressBar, template: &str) {
 pub struct CountBar(ProgressBar);
 
 impl CountBar {
-    /// A bar of so many steps, none of them done.
+    /// A bar with this number of steps, none of them done.
     pub fn new(steps: usize, is_quiet: bool) -> Self {
         if is_quiet || !std::io::stderr().is_terminal() {
             return Self(ProgressBar::hidden());

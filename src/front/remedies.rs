@@ -7,7 +7,7 @@ use tatamu::project::options::{Entry, MARGIN, MIN_PANEL_WIDTH, PAPER, SIZE, SPLI
 use tatamu::remedy::Remedy;
 use toml_edit::Value;
 
-/// How much larger, or smaller, a size is that is only said to be so.
+/// Factor for advice that says only "larger" or "smaller".
 const STEP: f64 = 1.25;
 
 /// Papers from small to large, of each kind.

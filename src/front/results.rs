@@ -1,4 +1,4 @@
-//! What is shown of the work: the last good results.
+//! The last good results, which are shown while new ones are made.
 
 use super::colours::Colours;
 use super::surface::Distances;

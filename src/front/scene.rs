@@ -112,7 +112,7 @@ const INSIDE: f64 = 0.4;
 const HOVER: f64 = 0.35;
 /// Half the thickness of paper as it is drawn: what is flat would else lie in one plane.
 const HALF_MM: f64 = 0.12;
-/// Components lie on each other by so much when flat, so that one can tell them apart.
+/// Distance between flat components that lie on each other, so that they can be told apart.
 const LIFT_MM: f64 = 0.4;
 
 /// The scene, in the axes of pictures.

@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_edits_are_told_with_their_place() {
+    fn errors_about_edits_name_their_place() {
         for (edit, word) in [
             ("merge = ['body']", "two or more"),
             ("split = 'body'", "needs a plane"),

@@ -1,4 +1,4 @@
-//! What the user is told: at most one message for each cause, which goes when its cause does.
+//! Messages for the user: at most one for each cause; it disappears with its cause.
 
 /// What a message is about. A new one replaces the last of the same cause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

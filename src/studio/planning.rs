@@ -115,7 +115,7 @@ impl Planning {
         }
     }
 
-    /// So much of it is done, 0 to 1.
+    /// The share that is done, 0 to 1.
     pub fn share(&self) -> f32 {
         let all = self.hand.all.get().copied().unwrap_or(1).max(1);
         self.hand.done.load(Ordering::Relaxed) as f32 / all as f32
@@ -129,7 +129,7 @@ impl Drop for Planning {
 }
 
 impl Hand {
-    /// The plan; nothing where nobody wants it any more.
+    /// The plan; `None` if it is no longer wanted.
     fn plan(&self, wish: &Wish, wake: &Wake) -> Result<Option<Plan>, String> {
         let machine =
             profiles::machine(Some(&wish.cutter), Some(&wish.media)).map_err(|e| words::error(&e))?;

@@ -15,7 +15,7 @@ use tatamu::plotter::session::Status;
 use tatamu::plotter::{Cutter, in_minutes};
 use tatamu::progress::Cancelled;
 
-/// Time between two looks at what the user wants.
+/// Time between two polls of the user's requests.
 const LOOK: Duration = Duration::from_millis(10);
 
 /// How far a job is.
@@ -31,7 +31,7 @@ pub struct State {
     pub wants_sheet: Option<String>,
     /// What the machine and the session had to say.
     pub notes: Vec<String>,
-    /// Whether the tool is to be lifted until further notice.
+    /// Whether the job is paused, with the tool lifted.
     pub is_paused: bool,
     /// How often it was asked to stop.
     pub stops: u32,
@@ -58,7 +58,7 @@ impl Plotting {
         Self::begin(header, Position::default(), journal, wake)
     }
 
-    /// Goes on with a job that was stopped.
+    /// Continues a stopped job.
     ///
     /// # Errors
     /// A message where its journal cannot be read.
@@ -91,7 +91,7 @@ impl Plotting {
         locked(&self.state).end.is_none()
     }
 
-    /// Lifts the tool until further notice, or goes on.
+    /// Pauses the job with the tool lifted, or continues it.
     pub fn pause(&self) {
         let mut state = locked(&self.state);
         state.is_paused = !state.is_paused;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What the window remembers between runs. What cannot be read is as at the first run.
+/// What the window remembers between runs. Entries that cannot be read get their defaults.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, Default)]
 #[serde(default)]
 pub struct Preferences {

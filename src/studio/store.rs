@@ -4,7 +4,7 @@ use super::preferences::Preferences;
 use crate::app::output;
 use std::path::{Path, PathBuf};
 
-/// So many files are remembered.
+/// Number of recent files that are kept.
 const MOST_RECENT: usize = 10;
 
 /// The studio's folder.
@@ -14,7 +14,7 @@ pub struct Store {
 }
 
 impl Store {
-    /// The user's own; without a home nothing is remembered.
+    /// The store of the user; without a home folder nothing is remembered.
     pub fn of_user() -> Self {
         let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
         let home = || set("HOME").map(|home| home.join(".local/state"));
@@ -91,7 +91,7 @@ impl Store {
         }
     }
 
-    /// What cannot be remembered is no reason to stop working.
+    /// An entry that cannot be written does not stop the work.
     fn write(&self, name: &str, text: String) {
         if let Some(folder) = &self.folder {
             let path = folder.join(name);

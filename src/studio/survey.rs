@@ -1,5 +1,5 @@
-//! What the model would be like with a component in other fold directions: looked at one after the other, in a
-//! thread of its own, while nothing else is made.
+//! How the model would be with a component in other fold directions: tried one after the other, in a separate
+//! thread, while nothing else is made.
 
 use super::worker::Wake;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -7,7 +7,7 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use tatamu::pipeline::{Engine, Options};
 use tatamu::progress::Progress;
 
-/// Directions that are looked at, evenly about the circle.
+/// Number of directions that are tried, evenly around the circle.
 pub const COUNT: usize = 24;
 
 /// A direction that was looked at.

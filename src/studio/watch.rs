@@ -29,7 +29,7 @@ impl Watch {
             while !over.load(Ordering::Relaxed) {
                 std::thread::sleep(LOOK);
                 let now = mark(&path);
-                // Some programs take the file away before they write it anew.
+                // Some programs remove the file before they write it again.
                 if now.is_some() && now == last && now != known {
                     known = now;
                     changed.store(true, Ordering::Relaxed);

@@ -33,7 +33,7 @@ pub struct Order {
 pub enum News {
     /// A stage began.
     Stage(&'static str),
-    /// So much of the stage is done, 0 to 1.
+    /// The share of the stage that is done, 0 to 1.
     Fraction(f64),
     /// The component that was wanted first.
     Component(PartId, Box<ModelPart>),
@@ -49,7 +49,7 @@ pub enum News {
     Failed(String, Option<String>),
 }
 
-/// Told when there is news.
+/// Called when there is news.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 /// The threads. They end with the worker.

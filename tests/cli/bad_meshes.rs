@@ -55,7 +55,7 @@ impl Faces {
     }
 }
 
-/// A closed cylinder with so many sides.
+/// A closed cylinder with this number of sides.
 fn drum(sides: usize) -> Faces {
     let ring = |height: f64| {
         (0..sides).map(move |k| {

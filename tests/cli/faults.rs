@@ -40,7 +40,7 @@ fn a_killed_run_leaves_no_part_of_a_file_under_its_name() {
     }
 }
 
-/// The input is written anew, and replaced, again and again while runs read it: each gives a model or one message.
+/// The input is written and replaced again and again while runs read it: each run gives a model or one message.
 #[test]
 fn an_input_that_changes_while_it_is_read() {
     let folder = folder_with(&[("a.obj", TETRAHEDRON.as_bytes())]);

@@ -100,7 +100,7 @@ fn a_joint_is_weak_below_40_mm2_or_a_tenth_of_its_panel() {
     }
 }
 
-/// A wide and a narrow block that overlap by so much along x, less than in any other direction.
+/// A wide and a narrow block that overlap by `depth_mm` along x, less than in any other direction.
 fn overlapping(depth_mm: f64) -> serde_json::Value {
     let wide = Block::new("wide", [30.0, 40.0, 30.0], [-15.0, 0.0]);
     let narrow = Block::new("narrow", [30.0, 24.0, 50.0], [15.0 - depth_mm, 0.0]);

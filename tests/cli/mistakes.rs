@@ -11,7 +11,7 @@ fn made(arguments: &[&str]) -> (Run, TempDir) {
 }
 
 #[test]
-fn a_size_in_the_wrong_unit_is_told_before_anything_else() {
+fn a_size_in_the_wrong_unit_is_reported_before_anything_else() {
     let (result, _) = made(&["--size", "20"]);
     assert_eq!(result.code, Some(0), "{}", result.err);
     let first = result.err.lines().next().unwrap();
@@ -40,7 +40,7 @@ fn a_size_that_nobody_folds_is_refused() {
 }
 
 #[test]
-fn very_many_sheets_are_told() {
+fn very_many_sheets_are_reported() {
     let (result, _) = made(&["--size", "700"]);
     assert_eq!(result.code, Some(0), "{}", result.err);
     let told = result.err.lines().find(|line| line.contains("sheets of a4")).unwrap_or_default();
@@ -198,7 +198,7 @@ fn a_shown_model_takes_no_more_sheets_than_it_may() {
 
 /// A tiny model took half a minute of advice that no one could follow, and a minute and a half to lose its parts one by one.
 #[test]
-fn a_tiny_model_is_told_its_size_and_no_other_remedy() {
+fn a_tiny_model_gets_its_size_as_the_only_remedy() {
     let folder = folder_with(&[("a.obj", include_bytes!("../../samples/snowman.obj"))]);
     let result = run(folder.path(), &["make", "a.obj", "--size", "20", "--effort", "0", "-o", "a.json"]);
     assert_eq!(result.code, Some(0), "{}", result.err);

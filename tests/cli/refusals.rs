@@ -144,7 +144,7 @@ fn what_does_not_fit_the_paper_is_refused_with_a_size_that_fits() {
     assert!(std::fs::read(folder.path().join("cube.pdf")).unwrap().starts_with(b"%PDF"), "--size {size}");
 }
 
-/// The message spoke of an option that was not there.
+/// The message named an option that was not given.
 #[test]
 fn paper_too_small_for_parts_of_panels_is_refused_without_a_word_of_no_split() {
     let files: [(&str, &[u8]); 1] = [("cube.off", cube::OFF.as_bytes())];

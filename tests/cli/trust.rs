@@ -40,7 +40,7 @@ fn names_are_text_in_all_files_and_on_the_terminal() {
 }
 
 #[test]
-fn a_project_that_reaches_out_of_its_folder_is_told() {
+fn a_project_that_reaches_out_of_its_folder_gets_a_warning() {
     let style: (&str, &[u8]) = ("mine.toml", b"");
     let folder = folder_with(&[CUBE, style]);
     std::fs::create_dir(folder.path().join("work")).unwrap();

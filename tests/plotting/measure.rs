@@ -21,7 +21,7 @@ pub struct Figures {
     /// Way with the tool up, and the same in the order of the drawing, mm.
     pub travel_mm: f64,
     pub file_travel_mm: f64,
-    /// Largest distance between what was told and what the machine executed along an axis, in
+    /// Largest distance between what was sent and what the machine executed along an axis, in
     /// device units.
     pub unit_error: f64,
     /// Largest distance of the tip from the line that it is to follow, mm, and of that line's

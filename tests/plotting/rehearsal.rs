@@ -8,7 +8,7 @@ use tatamu::plotter::{Cutter, Job, VirtualMachine, VirtualOptions, VirtualPlotte
 
 /// Longest time between two looks at the port, unless a test says otherwise.
 const LOOK: Duration = Duration::from_millis(4);
-/// So many free bytes are room: the reserve, what may be on its way, and a chunk to send.
+/// Free bytes that count as room: the reserve, what may be on its way, and a chunk to send.
 const ROOM: usize = 384;
 /// Most jobs of these tests take no longer.
 const TOO_LONG: Duration = Duration::from_secs(20_000);
@@ -17,7 +17,7 @@ const TOO_LONG: Duration = Duration::from_secs(20_000);
 pub struct Rehearsal {
     pub session: Session,
     pub plotter: VirtualPlotter,
-    /// After this byte the user stops the job, so many times.
+    /// After this byte the user asks to stop the job, `stop_wishes` times.
     pub stop_at: Option<u64>,
     pub stop_wishes: u32,
     /// After this byte the port is gone.
@@ -144,7 +144,7 @@ impl Rehearsal {
             self.plotter.receive(byte, self.line_free);
             self.happen(self.plotter.received());
         }
-        // A byte of a slow line takes longer than a look.
+        // A byte of a slow line takes longer than one poll.
         if self.port.is_empty() {
             self.line_free = self.line_free.max(end);
         }
@@ -157,7 +157,7 @@ impl Rehearsal {
         }
     }
 
-    /// What was to happen after so many bytes.
+    /// Makes happen what is planned after this number of bytes.
     fn happen(&mut self, received: u64) {
         if self.stop_at == Some(received) {
             (0..self.stop_wishes).for_each(|_| self.session.stop());

@@ -12,7 +12,7 @@ const ENDS: usize = 1000;
 /// The machine stands still for so long before the job goes on.
 const PAUSE: Duration = Duration::from_secs(600);
 
-/// A cutter with a buffer of so many bytes.
+/// A cutter with a buffer of `buffer_bytes` bytes.
 fn cutter(buffer_bytes: usize, answers: bool) -> Cutter {
     let text = profile("generic-hpgl")
         .text()
@@ -53,7 +53,7 @@ fn strokes_of(lines: usize, job: &Job) -> usize {
     begun
 }
 
-/// Bytes of the lines and travels of so many strokes from one on.
+/// Bytes of the lines and travels of the strokes `from..to`.
 fn bytes_of(job: &Job, from: usize, to: usize) -> usize {
     let of_strokes = job.commands().iter().filter(|command| !command.motions().is_empty());
     let commands = of_strokes.filter(|command| (from..to).contains(&command.strokes_done()));
@@ -126,7 +126,7 @@ fn ends_and_goes_on(handshake: Handshake, random: &mut fastrand::Rng, bytes: &[u
 
     let rest = whole.from_stroke(done, &[], cutter.dialect().as_ref());
     if interruption == Interruption::Unplug && !answers {
-        // It cannot be told to forget the part of a command: the message says to switch it off and on.
+        // No command makes it forget the part of a command: the message says to switch it off and on.
         first.plotter.switch_off_and_on();
     }
     let mut second = again(first, &rest, &cutter, handshake);

@@ -1,6 +1,6 @@
 //! The layers of each flat component.
 //!
-//! A chain comes to lie in one layer more each time it turns back. Its panels in the first layer
+//! Each time a chain turns back, it is one layer further down. Its panels in the first layer
 //! lie beside the top panel, those in the last one beside the bottom panel, whichever chain they
 //! belong to; what lies between can take any order against other chains.
 

@@ -13,7 +13,7 @@ pub struct Memory<K, V> {
 }
 
 impl<K: PartialEq, V: Clone> Memory<K, V> {
-    /// Keeps at most so many results, and forgets the one that was not asked for the longest.
+    /// Keeps at most `most` results, and drops the one that was used least recently (LRU).
     pub fn new(most: usize) -> Self {
         Self { most, kept: Mutex::default() }
     }

@@ -63,7 +63,7 @@ pub enum Remedy {
     CutNotch,
     /// Cut the slit between two chains wider.
     WidenSlit,
-    /// Lift the top, and pull each of so many chains past the point where it is stuck.
+    /// Lift the top, and pull each chain past the point where it is stuck.
     LiftTop {
         /// Number of chains.
         chains: usize,

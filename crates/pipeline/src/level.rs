@@ -99,7 +99,7 @@ impl FromStr for Level {
     }
 }
 
-/// Panels of a component with so many top edges and profile vertices.
+/// Panels of a component, by its top edges and profile vertices.
 fn panels((top_edges, profile_vertices): (usize, usize)) -> f64 {
     (top_edges * (profile_vertices - 1) + 2) as f64
 }

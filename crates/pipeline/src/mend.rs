@@ -51,7 +51,7 @@ impl Mended {
         price(&self.divided, &self.built, self.harm_mm)
     }
 
-    /// Whether nothing else is tried: nothing is wrong, or there are so many parts that each try takes too long.
+    /// Whether nothing else is tried: nothing is wrong, or each try takes too long because there are many parts.
     fn is_settled(&self) -> bool {
         self.harm_mm == 0.0 || self.built.model.parts().len() > model::MANY_PARTS
     }

@@ -96,7 +96,7 @@ mod tests {
     use glam::{DAffine3, DMat3, DVec2};
     use tatamu_core::component::{ChainId, Panel, PanelKind};
 
-    /// A box of 20 × 30 × 40 mm, in which one side panel is cut back by so much at one corner.
+    /// A box of 20 × 30 × 40 mm, in which one side panel is cut back by `cut_mm` at one corner.
     fn cut_box(cut_mm: f64) -> PanelSet {
         let size = DVec3::new(20.0, 30.0, 40.0);
         let sides = [(DVec3::X, DVec3::Y), (DVec3::Y, DVec3::Z), (DVec3::Z, DVec3::X)];

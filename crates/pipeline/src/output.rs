@@ -16,9 +16,9 @@ pub struct Shaped {
     pub(super) options: Arc<Options>,
     pub(super) source: Source,
     pub(super) model: Arc<Model>,
-    /// What is to be told of the components.
+    /// Warnings about the components.
     pub(super) notes: Vec<Warning>,
-    /// What was done as it was asked for.
+    /// What was done without a warning, such as a merge, and how to undo it.
     pub(super) remarks: Vec<String>,
     /// Parts that were made one.
     pub(super) merges: Vec<Merge>,
@@ -107,12 +107,12 @@ impl Output {
         &self.layout
     }
 
-    /// What was done as the user asked for it, such as a component with dents.
+    /// What was done without a warning, such as a component with dents or a merge.
     pub fn remarks(&self) -> &[String] {
         &self.shaped.remarks
     }
 
-    /// Names of parts that were made one as they bump, or hardly hold, as two: with these merges among the
+    /// Names of parts that were merged because they clash or lack glue as two: with these merges among the
     /// edits of the options, the same model comes out.
     pub fn merges(&self) -> &[Vec<String>] {
         &self.shaped.merges

@@ -7,9 +7,9 @@ use tatamu_core::fold::{FoldPlan, ModelMotion, SweepMemory, ancestors};
 use tatamu_core::model::{JointChoice, Model, PartId, Plug};
 use tatamu_core::progress::{Cancelled, Progress};
 
-/// So many components are unplugged at most: with more the model is put together anew each time.
+/// Most components that are unplugged: with more the user would put the model together again each time.
 const MOST_PLUGS: usize = 2;
-/// So many plans are tried at most; each takes as long as the first.
+/// Most plans that are tried; each takes as long as the first.
 const MOST_TRIALS: usize = 8;
 
 /// A model with the plan that it folds by.
@@ -117,7 +117,7 @@ fn subsets(parts: &[PartId], most: usize) -> Vec<Vec<PartId>> {
     all
 }
 
-/// What is to be told of plugs that were not asked for.
+/// A remark about plugs that were not asked for.
 pub(super) fn remarks(before: &Model, after: &Model) -> Vec<String> {
     let parts = after.parts().iter().zip(before.parts());
     let new = parts.filter(|(new, old)| new.joint != old.joint);

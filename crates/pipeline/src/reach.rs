@@ -6,7 +6,7 @@ use tatamu_core::geom::nearest::Tree;
 use tatamu_core::mesh::Mesh;
 use tatamu_core::model::{Model, ModelPart};
 
-/// At most so many vertices of the mesh are looked at, evenly by their numbers.
+/// Most vertices of the mesh that are measured, evenly by their numbers.
 const POINTS: usize = 3000;
 
 /// How far a mesh reaches at least beyond the components of its model, as a share of its diagonal: by the length of a leg

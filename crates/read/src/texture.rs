@@ -13,7 +13,7 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 /// Most pixels of a texture, so that a small file cannot fill the memory.
 const MOST_PIXELS: usize = 1 << 27;
 
-/// Decodes a picture, told apart by its first bytes.
+/// Decodes a picture, whose format its first bytes show.
 pub(super) fn decode(name: &str, bytes: &[u8]) -> Result<Texture, ColourError> {
     let failed = |reason: String| ColourError::Texture { name: name.to_owned(), reason };
     let texture = if bytes.starts_with(b"\x89PNG") {

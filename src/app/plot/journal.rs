@@ -16,7 +16,8 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Begins a journal, in the place of another only when it is complete, and when no job keeps that one.
+    /// Begins a journal. It replaces another one only when it is complete, and when no running job has
+    /// that one.
     pub fn create(path: &Path, header: &Header, at: Position) -> Result<Self, AppError> {
         check_unused(path)?;
         let failed =
@@ -26,7 +27,7 @@ impl Journal {
         let whole = format!("{header}\n{position}\n");
         output::write(&[(path.to_owned(), whole.into_bytes())])?;
         let file = File::options().read(true).append(true).open(path).map_err(failed)?;
-        // Some network drives have no locks; two jobs are not told apart there.
+        // Some network drives have no locks; two jobs on one journal go unnoticed there.
         let _ = file.try_lock();
         file.sync_all().map_err(failed)?;
         Ok(Self { path: path.to_owned(), file, last: at, is_synced: true })

@@ -15,9 +15,10 @@ use tatamu::plotter::{Cutter, Job};
 use tatamu::progress::Cancelled;
 use tatamu::remedy::Remedy;
 
-/// Longest time between two looks at port and keyboard.
+/// Longest time between two polls of port and keyboard.
 const LOOK: Duration = Duration::from_millis(4);
-/// The journal is on the disk so often: what is noted between is lost by a power cut alone.
+/// Interval at which the journal is flushed to the disk: only a power cut loses what was written
+/// since.
 const SYNC_EVERY: Duration = Duration::from_millis(500);
 
 /// What a journal says of a job.

@@ -6,7 +6,7 @@ use tatamu::plotter::session::{State, Status};
 
 /// Who watches a job and steers it.
 pub trait Operator {
-    /// The port is open; from now on the wishes below count.
+    /// The port is open; from now on the session follows the requests below.
     fn begin(&mut self) {}
 
     /// Asks for a sheet, which may be that of a copy: its number and that of all.
@@ -18,7 +18,7 @@ pub trait Operator {
     /// How often it was asked to stop.
     fn stops(&mut self) -> u32;
 
-    /// Whether the tool is to be lifted until further notice; `now` is what was wanted before.
+    /// Whether the job should pause with its tool lifted; `now` is whether it does.
     fn pauses(&mut self, now: bool) -> bool;
 
     /// Something to know.
@@ -30,8 +30,8 @@ pub trait Operator {
     /// A sheet is over, finished or not.
     fn sheet_over(&mut self) {}
 
-    /// The job was stopped, with so many of so many strokes of its sheet certainly done; it can go
-    /// on from its journal.
+    /// The job was stopped; `strokes` are how many of its sheet's strokes are certainly done, and how many there are.
+    /// It can continue from its journal.
     fn stopped(&mut self, journal: &Path, strokes: (usize, usize));
 
     /// All is done.

@@ -8,7 +8,7 @@ use std::time::Duration;
 use tatamu::plotter::Cutter;
 use tatamu::plotter::profile::Parity;
 
-/// A port that is not ready for so long is asked again.
+/// Time after which a port that is not ready is tried again.
 const TIMEOUT: Duration = Duration::from_millis(100);
 
 /// The serial ports of the system.

@@ -32,13 +32,13 @@ impl Studio {
         self.tasks.open(path);
     }
 
-    /// The same; once it is read, what was not saved before is dropped for good.
+    /// The same; once the file is read, unsaved changes of the one before are dropped for good.
     pub fn open_and_discard(&mut self, path: &Path) {
         self.open(path);
         self.drops_changes = true;
     }
 
-    /// Shows a file, with what was not saved the last time.
+    /// Shows a file, with its unsaved changes of the last session.
     pub(super) fn show(&mut self, opened: Opened) {
         let path = opened.is_project.then(|| opened.source.clone());
         let mut document = match Document::new(opened.text.clone(), path) {
@@ -95,8 +95,8 @@ impl Studio {
         self.store.recovered(path).is_some()
     }
 
-    /// The whole path of the folder in which one writes what is made of a file: beside it, or at home where it is
-    /// a sample, because nobody looks into the folder of those.
+    /// The full path of the folder for output of a file: beside the file, or the home folder for a sample,
+    /// because users do not find the folder of samples.
     pub fn folder_beside(&self, source: &Path) -> PathBuf {
         let home = std::env::home_dir().filter(|_| self.store.is_sample(source));
         let beside = || {
@@ -159,7 +159,7 @@ impl Studio {
         });
         match written {
             Ok(text) => {
-                // What another session left unsaved in the file is replaced, too.
+                // Unsaved changes of another session in the file are replaced, too.
                 [&opened.source, path].into_iter().for_each(|file| self.store.forget(file));
                 self.store.add_recent(path);
                 document.saved_as(path.to_owned(), text.clone());

@@ -34,7 +34,7 @@ pub struct Studio {
     shown: Shown,
     busy: Option<Busy>,
     messages: Messages,
-    /// The component that the model failed for, as there is none of this name.
+    /// The name of a component that does not exist, for which the model failed.
     missing: Option<String>,
     /// What is selected.
     pub selection: Selection,
@@ -116,7 +116,7 @@ impl Studio {
         self.busy.or(sizing)
     }
 
-    /// What the user is told.
+    /// Messages for the user.
     pub fn messages(&self) -> &Messages {
         &self.messages
     }
@@ -138,7 +138,7 @@ impl Studio {
         self.messages.iter().find(|message| !message.is_problem).map(|message| message.text.as_str())
     }
 
-    /// The component that there is no more, though something is set for it.
+    /// The component that no longer exists, although the project has settings for it.
     pub fn missing(&self) -> Option<&str> {
         self.missing.as_deref()
     }
@@ -174,7 +174,7 @@ impl Studio {
         self.shown.laid(document.options(), opened.drawn.is_some())
     }
 
-    /// What there is to know about the mesh and the model that is shown.
+    /// The notes about the mesh and the model that is shown.
     pub fn notes(&self) -> Vec<Note> {
         let Some(opened) = &self.opened else { return Vec::new() };
         notes::notes(&opened.repairs, self.shown.output())

@@ -1,4 +1,4 @@
-//! What opens over the window: one at a time, and nothing behind it heeds keys or mouse.
+//! Dialogs over the window: one at a time; nothing behind it reacts to keys or mouse.
 
 use super::browser::{Answer, Browser, Purpose};
 use super::command_line::{self, Named};
@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::time::{Duration, Instant};
 
-/// Nobody closes a dialog of the system so fast: there was none.
+/// Nobody closes a dialog of the system faster than this: it did not open.
 const NEVER_SEEN: Duration = Duration::from_millis(400);
 
 /// What the user is about to leave, though it may be unsaved or at work.
@@ -172,7 +172,7 @@ impl Dialogs {
     ) -> Option<Outcome> {
         let mut outcome = None;
         if std::mem::take(&mut self.is_new) {
-            // A field behind it, in which something was being written, has the focus no more.
+            // A field behind it, in which the user was typing, loses the focus.
             ctx.memory_mut(|memory| memory.focused().into_iter().for_each(|id| memory.surrender_focus(id)));
         }
         let is_over = match self.open.as_mut()? {
@@ -339,7 +339,7 @@ fn parting(ctx: &Context, leave: &Leave, work: Work) -> Option<Parting> {
     answer.or(shown.should_close().then_some(Parting::Stay))
 }
 
-/// Asks before changes of another program are lost; nothing comes of it where the user cancels.
+/// Asks before changes of another program are lost; `None` while the question is open.
 fn overwrite(ctx: &Context, file: &str) -> Option<Option<Outcome>> {
     let heading = format!("{file} changed on disk since you opened it");
     let text = "Overwrite replaces what another program wrote. Reload drops your unsaved changes.";

@@ -84,7 +84,7 @@ pub fn paint(painter: &egui::Painter, picture: &egui::TextureHandle, rect: egui:
 
 /// Gives a window its look.
 pub fn set(ctx: &egui::Context) {
-    // A second pass over a frame would do what the user did a second time.
+    // A second pass over a frame would repeat the user's action.
     ctx.options_mut(|options| options.max_passes = std::num::NonZeroUsize::MIN);
     ctx.set_fonts(fonts());
     for (theme, tones) in [(Theme::Light, &LIGHT), (Theme::Dark, &DARK)] {
@@ -242,7 +242,7 @@ mod tests {
                     .map(|w| (w.text_color(), w.weak_bg_fill)),
             );
             pairs.push((visuals.selection.stroke.color, visuals.selection.bg_fill));
-            // WCAG 2.2, 1.4.11: what can be pressed is told from what is around it.
+            // WCAG 2.2, 1.4.11: controls differ from what is around them.
             for ground in [visuals.panel_fill, visuals.window_fill] {
                 let edge = contrast(visuals.widgets.inactive.bg_stroke.color, ground);
                 assert!(edge >= 3.0, "{theme:?}: edges on {ground:?}: {edge:.2}");

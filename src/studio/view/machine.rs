@@ -37,7 +37,7 @@ impl Questions {
             ui.add_space(8.0);
             ui.horizontal(|ui| {
                 if self.maker.is_some() && ui.button("Back").clicked() {
-                    // One question back, over that with one answer.
+                    // One question back, past a question with only one answer.
                     let is_only = self.maker.is_some_and(|maker| of(maker).count() == 1);
                     match self.machine.take() {
                         Some(_) if !is_only => {}

@@ -37,7 +37,7 @@ impl Measure {
         }
     }
 
-    /// Takes the corner that is nearest to a click, of what was clicked on; a third one begins anew.
+    /// Takes the corner of the clicked object that is nearest to the click; a third click starts a new measurement.
     pub fn click(&mut self, solids: &Solids, orbit: &Orbit, (tag, at, size): (u32, Vec2, Vec2)) {
         let Ok(eye) = orbit.eye([size.x, size.y].map(|n| n.round().max(1.0) as usize)) else { return };
         let distance = |corner: DVec3| {

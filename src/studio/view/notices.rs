@@ -1,4 +1,4 @@
-//! What the user is told, above the bar of the state: each message whole, with a button of its own to close it.
+//! Messages above the status bar, each in full and with its own button to close it.
 
 use super::super::change::Change;
 use super::super::messages::{Cause, Message};
@@ -6,7 +6,7 @@ use super::{Window, look};
 use eframe::egui::{self, RichText, Ui};
 use lucide_icons::Icon;
 
-/// So many are shown at once.
+/// Most notices that are shown at once.
 const MOST: usize = 3;
 
 /// Draws them, the newest first.

@@ -11,7 +11,7 @@ use tatamu::units::MM_PER_INCH;
 /// Finest and coarsest pictures, dots per inch.
 const FINEST: f64 = 400.0;
 const COARSEST: f64 = 20.0;
-/// A picture serves for sizes up to so much larger.
+/// A picture serves for sizes up to this factor larger.
 const STEP: f64 = 1.4;
 
 /// Makes pictures one after the other: all at once they take much memory, and the cores from the window.

@@ -257,7 +257,7 @@ impl PlotPanel {
         }
     }
 
-    /// Plans the job in the background where model or machine have changed.
+    /// Plans the job in the background when the model or the machine has changed.
     fn refresh(&mut self, studio: &Studio, ctx: &egui::Context) {
         if let Some(plan) = self.planning.as_ref().and_then(|(_, planning)| planning.made()) {
             let count = plan.as_ref().map_or(0, |plan| plan.sheets.len());

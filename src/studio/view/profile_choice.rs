@@ -11,7 +11,7 @@ use tatamu::project::options::{CUTTER, MEDIA};
 /// The format of machines with GRBL, which is the name of their language, too.
 const GCODE: &str = "gcode";
 
-/// All cutters that come with the program are seen at once, points.
+/// Height at which all cutters that come with the program are visible, points.
 const LIST_HEIGHT: f32 = 460.0;
 
 /// A profile that can be chosen.
@@ -118,7 +118,7 @@ fn medium_name(key: &str) -> Option<String> {
     Some(profiles::machine(None, Some(key)).ok()?.media.name().to_owned())
 }
 
-/// The profiles by their names; of several with one name the keys are told, too.
+/// The profiles by their names; those that share a name also show their keys.
 fn listed(keys: Vec<String>, name: fn(&str) -> Option<String>) -> Vec<Listed> {
     let mut list = Vec::new();
     keys.iter().for_each(|key| add(&mut list, key, name));

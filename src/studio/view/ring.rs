@@ -1,5 +1,6 @@
-//! The ring about a selected component, with a handle that turns its fold direction. Its colours tell in which
-//! directions the model folds without a clash; the line around it, how far the component is from its part.
+//! The ring around a selected component, with a handle that turns its fold direction. Its colours show in
+//! which directions the model folds without a clash; the line around it shows how far the component is from
+//! its part.
 
 use super::super::state::Studio;
 use super::super::survey::{COUNT, Survey};
@@ -20,7 +21,7 @@ const FAR: f64 = 1.5;
 const POINTS: usize = 2 * COUNT;
 /// Radius of the handle, points.
 const HANDLE: f32 = 8.0;
-/// The work rests so long before other directions are looked at, seconds.
+/// The studio is idle for this time before it tries other directions, seconds.
 const REST_S: f64 = 0.7;
 
 const FREE: Color32 = Color32::from_rgb(38, 140, 66);
@@ -113,7 +114,7 @@ impl Ring {
         }
     }
 
-    /// Looks at other directions once the work rests.
+    /// Tries other directions once the studio is idle.
     fn look_about(&mut self, studio: &Studio, ui: &Ui, part: PartId) {
         let now_s = ui.input(|i| i.time);
         let (Some(opened), Some(document)) = (studio.opened(), studio.document()) else { return };

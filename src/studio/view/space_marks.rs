@@ -15,7 +15,7 @@ use tatamu::model::PartId;
 use tatamu::render::Orbit;
 use tatamu::render::zbuffer::RenderedFrame;
 
-/// Each so many pixels are looked at for the middles of components.
+/// Pixels between two samples of the picture, from which the middles of components are computed.
 const SAMPLE: usize = 4;
 /// A component of fewer samples is too small to be named.
 const LEAST_SEEN: usize = 40;

@@ -29,7 +29,7 @@ fn name(operation: Operation) -> &'static str {
     }
 }
 
-/// Draws them; so many are done.
+/// Draws strokes, of which `done` are done.
 pub fn draw(painter: &Painter, (rect, scale): (Rect, f32), strokes: &[Stroke], done: usize) {
     let to_screen = |p: &DVec2| rect.left_bottom() + scale * egui::vec2(p.x as f32, -p.y as f32);
     for (k, stroke) in strokes.iter().enumerate() {

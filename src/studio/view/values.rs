@@ -107,7 +107,7 @@ impl Dialled {
     fn choice_row(&self, studio: &mut Studio, ui: &mut Ui, now: &str) {
         let label = ui.label(dials::label(self.option)).on_hover_text(self.option.tip());
         let mut chosen = now.to_owned();
-        // Where nothing is chosen, what holds then.
+        // What the option does by default.
         let automatic = Some(self.option.automatic).filter(|text| !text.is_empty()).unwrap_or("none");
         let text = if now.is_empty() { automatic } else { now };
         let is_optional = now.is_empty() || self.option.text(Settings::standard()).is_none();
@@ -156,7 +156,7 @@ impl Dialled {
         ui.end_row();
     }
 
-    /// What holds where nothing is chosen.
+    /// What the option does by default.
     fn automatic(&self) -> &'static str {
         Some(self.option.automatic).filter(|text| !text.is_empty()).unwrap_or("automatic")
     }

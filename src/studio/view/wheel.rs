@@ -8,7 +8,7 @@ use eframe::egui::{Event, MouseWheelSource, MouseWheelUnit, TouchPhase, Vec2};
 
 /// Points of a trackpad that are a step.
 const STEP_POINTS: f32 = 40.0;
-/// After so many seconds without an event a gesture has ended.
+/// A gesture has ended after this time without an event, seconds.
 const PAUSE_S: f64 = 0.25;
 /// winit 0.30 tells of a click twice on X11, as the wheel's button goes down and up, where the wheel
 /// has no axis: remote desktops, old mice. Nobody clicks twice in so short a time. A wheel that was found
@@ -24,7 +24,7 @@ pub struct Wheel {
     rest: f32,
     /// The last whole line, unless it was an echo.
     line: Option<(f64, Vec2)>,
-    /// Whether each click is told twice.
+    /// Whether each click is reported twice.
     has_echo: bool,
 }
 
@@ -48,7 +48,7 @@ impl Wheel {
             let is_momentum = source == MouseWheelSource::Momentum;
             let has_paused = self.last_s.is_none_or(|last_s| now_s - last_s > PAUSE_S);
             if has_paused || (phase == TouchPhase::Start && !is_momentum) {
-                // A click that was told once ended the gesture before.
+                // A click that was reported once ended the gesture before.
                 let has_echo = self.has_echo && self.line.is_none();
                 *self = Self { turns: is_over, has_echo, ..Self::default() };
             }
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn a_click_that_is_told_twice_is_one() {
+    fn a_click_that_is_reported_twice_is_one() {
         let mut wheel = Wheel::default();
         let told = [0.0, 0.001, 0.05, 0.06]
             .map(|now_s| read(&mut wheel, MouseWheelUnit::Line, 1.0, now_s, true).turn);

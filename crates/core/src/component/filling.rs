@@ -19,8 +19,8 @@ const ASIDE: DVec3 = DVec3::new(0.80, -0.10, 0.50);
 /// A slice of pizza made of sheets fills 0.37 of its hulls.
 const LEAST_SHARE: f64 = 0.5;
 
-/// Which of a hull is solid, along lines in three directions at right angles: each face of a solid is met well by one
-/// of them.
+/// Which part of a hull is solid, along lines in three directions at right angles: lines of one of them meet each
+/// face of a solid well.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Filling {
     grids: [Grid; 3],

@@ -26,15 +26,15 @@ const FIRST_STEP: f64 = 0.1;
 const LONGEST_STEP: f64 = 0.4;
 /// Length of steps at which the fit ends.
 const LAST_STEP: f64 = 0.002;
-/// Steps that gain less than this share of the merit are slow; the fit ends after a few in a row.
+/// Steps that gain less than this share of the merit are slow.
 const SLOW_GAIN: f64 = 0.01;
-/// So many slow steps.
+/// Slow steps in a row after which the fit ends.
 const SLOW_STEPS: usize = 3;
 /// Price of a millimetre by which a panel is too small, or the balance point out of its place,
 /// against a millimetre of error.
 pub(super) const SIZE_PRICE: f64 = 20.0;
-/// Price of a millimetre by which a solid stands in another part, against a millimetre of error. Without
-/// it the legs of a human stand 4.5 mm in each other.
+/// Price of a millimetre by which a solid overlaps another part, against a millimetre of error. Without
+/// it, the legs of a human overlap by 4.5 mm.
 pub(super) const BORDER_PRICE: f64 = 2.0;
 
 /// What a fit minimises: weights of lengths.

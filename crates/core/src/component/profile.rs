@@ -3,7 +3,7 @@
 //! Walking down a convex profile, (length above) − (length below) grows continuously from −L to
 //! +L, and |u_last − u_0| <= L: at the point where it equals u_last − u_0 a crease makes the chain
 //! flat-foldable with gap 0 (Eq. (2)) and no change of shape. Profiles that are not convex fold in
-//! other ways, too: each segment comes to lie facing up or down.
+//! other ways, too: each segment faces up or down when flat.
 
 use glam::DVec2;
 
@@ -27,7 +27,7 @@ pub struct Profile {
 pub enum Fold {
     /// The outside stays outside.
     Mountain,
-    /// The outside of both panels comes to lie face to face.
+    /// The outsides of both panels end face to face.
     Valley,
 }
 

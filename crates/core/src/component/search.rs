@@ -1,5 +1,5 @@
-//! The search for the best component: several starts, of which the promising ones are gone on with;
-//! simpler shapes where the limits leave no room.
+//! The search for the best component: several starts, of which the promising ones continue; simpler
+//! shapes where the limits leave no room.
 
 mod counts;
 mod finish;
@@ -189,7 +189,7 @@ fn most_promising(
     finished.collect()
 }
 
-/// Goes on with fits, each with the index of its target, and keeps the best.
+/// Continues fits, each with the index of its target, and keeps the best.
 fn ranked<'h>(
     runs: Vec<(usize, Fit<'h>)>,
     targets: &[(Target, f64)],

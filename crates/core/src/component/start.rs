@@ -36,7 +36,7 @@ const LENS_SHARE: f64 = 0.3;
 const FLAT: f64 = 2.0 / 3.0;
 
 /// A lens with the outline of a hull that is too flat for panels one above the other: two at each edge that meet in
-/// the middle, as wide as is comfortable. `None` for hulls that are not flat. Without it a blade of 2 mm is one of 6 mm.
+/// the middle, as wide as is comfortable. `None` for hulls that are not flat. Without it, a blade of 2 mm becomes 6 mm thick.
 pub(super) fn lens(target: &Target, edges: usize) -> Option<Solid> {
     let ends = with_ends(target, Vec::new());
     let half_mm = (ends.top_mm - ends.bottom_mm) / 2.0;

@@ -29,7 +29,7 @@ pub enum DesignError {
     /// Two components of one name.
     #[error("two components are named \"{0}\"; rename one")]
     SameName(String),
-    /// Glued to something that is not there.
+    /// Glued to something that does not exist.
     #[error("component \"{name}\" is joined to \"{to}\", which is not drawn")]
     NoParent {
         /// The component.
@@ -123,7 +123,7 @@ pub struct Design {
 /// The ways to fold each profile of each drawing, best first.
 ///
 /// # Errors
-/// Joints that name what is not there.
+/// Joints that name what does not exist.
 pub fn rankings(sketches: &[Sketch], min_panel_mm: f64) -> Result<Vec<Vec<Ranking>>, DesignError> {
     parents(sketches)?;
     let of_sketch = |s: usize| {

@@ -8,7 +8,7 @@
 //! straight wall has one of the two sides, too.
 //!
 //! The top and the bottom panel are shorter by their hinges' t·tan(θ/2) as well, so that the chain of
-//! boards leads outwards by an excess over that of the outside; creases are found anew for it.
+//! boards leads outwards by an excess over that of the outside; its creases are computed for that excess.
 
 use super::closing::{Closed, close};
 use super::facet::{STRAIGHT, facets, turn};
@@ -173,7 +173,7 @@ impl BoardChain {
     }
 }
 
-/// Corners are moved by at most so many thicknesses.
+/// Corners move by at most this many thicknesses.
 const MOST_MOVED: f64 = 2.0;
 /// A gap of a smaller share of the mean board is none.
 const EXACT: f64 = 1e-9;

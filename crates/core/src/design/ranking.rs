@@ -146,7 +146,7 @@ pub(super) fn best(
     best
 }
 
-/// Closes one way and measures what can be told without its motion.
+/// Closes one way, and measures what needs no motion.
 fn measured(points: &[DVec2], way: &Way, min_panel_mm: f64) -> Result<Ranked, Refusal> {
     if way.segments().len() + 1 != points.len() {
         return Err(Refusal::Count);

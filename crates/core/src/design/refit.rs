@@ -67,7 +67,7 @@ const SHRINKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// compared, and at the end.
 const COARSE: f64 = 1.0 / 25.0;
 const FINE: f64 = 1.0 / 100.0;
-/// So many points of the body are enough to compare candidates.
+/// Points of the body at which candidates are compared.
 const CLOUD: usize = 3000;
 
 /// Where a concave component may stand: its axes, the edges of its top, what it has to keep.

@@ -13,7 +13,7 @@ use super::weights::WEIGHTS;
 use glam::DVec2;
 use std::collections::BTreeSet;
 
-/// So many ways are kept, to be closed and ranked.
+/// Number of ways that are kept, to be closed and ranked.
 const KEPT: usize = 96;
 /// A gap larger than this share of the chain's length is not closed by moving vertices.
 const MOST_GAP: f64 = 0.2;

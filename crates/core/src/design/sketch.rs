@@ -102,7 +102,7 @@ pub enum SketchError {
          second edge"
     )]
     PanelName(String),
-    /// A panel that is not there.
+    /// A panel that does not exist.
     #[error("it has no panel {0}")]
     NoPanel(String),
 }

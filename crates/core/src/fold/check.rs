@@ -55,7 +55,7 @@ const SHARES_OF_SWEEP: usize = 4;
 /// Most parts of which all states are tried, to see whether a clash can be avoided.
 const MOST_BETWEEN: usize = 4;
 
-/// What is less deep by no more than this is no better, mm.
+/// A clash counts as better only if it is less deep by more than this, mm.
 pub(super) const LEAST_GAIN_MM: f64 = 0.01;
 
 /// Depths are rounded to this, so that a slightly rotated model gets the same.
@@ -149,8 +149,8 @@ impl<'a> Checker<'a> {
         pairs
     }
 
-    /// Clashes of a move that an order could avoid: without those as deep as accepted, and without pairs that stand
-    /// in each other when deployed.
+    /// Clashes of a move that an order could avoid: without those that are no deeper than accepted, and without pairs
+    /// that overlap when deployed.
     pub(super) fn clashes(&mut self, step: Move, levels: &[Level]) -> Vec<Clash> {
         let mut clashes = self.all_clashes(step, levels).to_vec();
         clashes.retain(|clash| {

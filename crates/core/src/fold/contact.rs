@@ -34,10 +34,10 @@ impl Sheet {
 /// A signed gap between two polygons, and the direction in which it was found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gap {
-    /// Where positive, the polygons are at least so far apart; where negative, they cut through
-    /// each other and a shift by so much parts them. Sheets that touch have 0.
+    /// Where positive, the least distance between the polygons; where negative, the polygons cut through
+    /// each other, and a shift by this length parts them. Sheets that touch have 0.
     pub mm: f64,
-    /// Which of the directions it was, to begin with when the two are looked at again.
+    /// Which of the directions it was: the next search for the same two starts with it.
     pub axis: usize,
 }
 

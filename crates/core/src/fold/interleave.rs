@@ -24,7 +24,7 @@ const WORTH_TURNS: f64 = 2.0;
 const MOST_PLACES: usize = 4_500;
 /// A lattice is given up if it takes more sweeps than this.
 const MOST_SWEEPS: usize = 120;
-/// Bumps that are looked at. A model of usual size has fewer; a bear in 100 parts has 300, and nobody folds it anyway.
+/// Most bumps that are tried. A model of usual size has fewer; a bear in 100 parts has 300, and nobody folds it anyway.
 const MOST_BUMPS: usize = 16;
 /// A plan is changed for another one that does less harm by more than this for each step that it has
 /// more, or for one without bumps: ten steps that still bump by 4 instead of 6 mm help nobody.

@@ -92,7 +92,7 @@ impl fmt::Debug for SweepMemory {
 pub(super) struct Store<K, V>(Cache<K, V>);
 
 impl<K: Hash + Eq, V: Clone> Store<K, V> {
-    /// Keeps at most so many.
+    /// Keeps at most `most` results.
     fn new(most: usize) -> Self {
         Self(Cache::new(most))
     }

@@ -39,7 +39,7 @@ pub(super) struct Search<'s, 'a> {
     motion: &'s ModelMotion<'a>,
     checker: &'s mut Checker<'a>,
     progress: &'s dyn Progress,
-    /// What gets less deep in each other only rubs, mm: the paper's thickness.
+    /// Panels that meet by less than this only rub, mm: the paper's thickness.
     thickness_mm: f64,
     /// Whether a long search for the least harm is worth its time.
     is_thorough: bool,
@@ -78,7 +78,7 @@ impl<'s, 'a> Search<'s, 'a> {
         self.fallback(&parts)
     }
 
-    /// An order in which nothing gets deeper than this into anything else.
+    /// An order in which nothing clashes by more than this.
     fn without_clashes(
         &mut self,
         parts: &[PartId],

@@ -18,7 +18,7 @@ use glam::DVec3;
 const CLEAR_MM: f64 = 20.0;
 /// Moments of the folding at which its reach is measured.
 const MOMENTS: usize = 128;
-/// Panels that touch are looked at again after so much of the way, mm.
+/// Panels that touch are checked again after at least this length of the way, mm.
 const LEAST_STEP_MM: f64 = 0.05;
 
 /// How far components are pulled off before some steps, in their order. Each way is found with

@@ -10,7 +10,7 @@ use std::sync::Arc;
 /// How far each chain is at each moment of the table.
 pub(super) type Table = Vec<Vec<Shares>>;
 
-/// Tables a component's motion at the ends of so many spans. Between them shares are interpolated.
+/// The table of a component's motion at the ends of `spans` equal spans. Between them, shares are interpolated.
 pub(super) fn table(motion: &ComponentMotion, spans: usize) -> Table {
     let mut shares = vec![motion.shares(0.0)];
     for k in 1..=spans {

@@ -66,7 +66,7 @@ impl Bond {
     }
 }
 
-/// The joints, and the images of those whose images are none: of parts that meet all round a ring only a tree is joined. With
+/// The joints, and their images where those are not joints themselves: of parts that meet all round a ring, only a tree is joined. With
 /// both, parts are their own images or each other's, and meet as well where they are not joined: the back of a chair,
 /// joined to one stile, was crooked and stood 2 mm in the other.
 pub(super) fn with_images(links: &[Link], symmetry: Option<&Symmetry>) -> Vec<Link> {

@@ -23,13 +23,13 @@ const DIRECTIONS: usize = 12;
 const SAME_RAD: f64 = std::f64::consts::PI / 180.0;
 /// Price of a mm by which joint planes are moved off their interfaces.
 const PLANE_PRICE: f64 = 0.3;
-/// Price of a mm by which a joint panel misses its partner. With 0.8 for all joints the silhouettes of bunny
-/// and penguin fall by 0.01;
+/// Price of a mm by which a joint panel misses its partner. With 0.8 for all joints, the silhouettes of
+/// bunny and penguin fall by 0.01.
 const JOINT_PRICE: f64 = 0.3;
-/// but it rises where two hulls meet in less than this area, mm²: else wrists and ankles of humans, of 70 to
-/// 110 mm², are glued over 33 mm²,
+/// The price rises where two hulls meet in less than this area, mm²: otherwise wrists and ankles of humans,
+/// of 70 to 110 mm², are glued over 33 mm²,
 const TIGHT_MM2: f64 = 200.0;
-/// up to this many times. With 0.3 times 7 the silhouette of a plane falls from 0.82 to 0.74.
+/// The price rises up to this many times. With 7, the silhouette of a plane falls from 0.82 to 0.74.
 const TIGHTEST: f64 = 3.0;
 /// Price of a component that is not its own image in a second plane in which its hull is, as a share of its size.
 /// With 0.03 a bottle leans by 0.28 % of its size, with 0.05 by 0.01. Not bounded from above by a case yet.

@@ -22,26 +22,26 @@ use crate::progress::Cancelled;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
-/// Models that are looked at, besides those for each part.
+/// Models that are tried, besides those for each part.
 const LOOKS: usize = 24;
-/// Models of more parts are looked for less thoroughly. Of 400 meshes that nobody prepared the one with the most parts
-/// has 24; a bear in 30 took five minutes.
+/// With more parts than this, fewer models are tried. Of 400 meshes that nobody prepared, the one with the most parts
+/// has 24; a bear in 30 parts took five minutes.
 pub const MANY_PARTS: usize = 24;
-/// They are looked at less often by this power of their number. One look at 100 parts takes a second, and with the third power all of them take two
-/// minutes.
+/// The number of tries falls with this power of the number of parts. One model of 100 parts takes a second; with the
+/// third power, a search takes two minutes.
 const MANY_POWER: usize = 6;
-/// Of more parts than this the first model has to do. A bear of 48 has 46 pairs that clash after four attempts, and 109 after
+/// With more parts than this, the first model is kept. A bear of 48 has 46 pairs that clash after four attempts, and 109 after
 /// one; an armadillo of 100 has 380 after eight, and 377 after two, which take a third of the time.
 pub const MOST_ATTEMPTED: usize = 64;
-/// A search is given up after so many models in a row that are no better, and this share of all that it may look at. Most
-/// end sooner, as nothing better is expected.
+/// A search ends after this many models in a row that are no better, plus one for each `PATIENCE_SHARE` models that it
+/// may still try. Most searches end sooner, because nothing better is expected.
 const PATIENCE: usize = 64;
 const PATIENCE_SHARE: usize = 16;
-/// Steps towards a better look at most; hardly any choice moves after the fifth.
+/// Most steps towards better looks; hardly any choice changes after the fifth.
 const ROUNDS: usize = 8;
-/// The most promising exchanges of one candidate for which those of others are sought that go with it.
+/// Number of the most promising exchanges of one candidate that are completed with exchanges of others.
 const STARTS: usize = 8;
-/// Models that are looked at together.
+/// Models that are computed together.
 const AT_ONCE: usize = 2;
 
 /// Tells what the parts of a combination do to each other: all, or enough to rule it out.
@@ -109,8 +109,8 @@ pub(super) enum Effort {
 }
 
 impl Effort {
-    /// For a combination of so many parts. With 8 for each an ant of 16 parts has nine bumps, with 32 five; with 128
-    /// three, for half as much time again.
+    /// Number of models to try for this number of parts. With 8 for each part, an ant of 16 parts has nine bumps; with
+    /// 32, five; with 128, three, in half as much time again.
     fn looks(self, parts: usize) -> usize {
         let looks = LOOKS + parts * if self == Self::Short { 8 } else { 32 };
         (0..MANY_POWER).fold(looks, |looks, _| looks * MANY_PARTS / MANY_PARTS.max(parts))

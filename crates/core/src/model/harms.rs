@@ -13,7 +13,7 @@ const DEPTH_PRICE: f64 = 12.0;
 /// What two parts do to each other: their ids, and how deep they bump, mm.
 pub type Bump = ([PartId; 2], f64);
 
-/// Tells whether so many bumps are enough to rule a model out.
+/// Whether these bumps are enough to rule a model out.
 pub type Enough<'a> = dyn Fn(&[Bump]) -> bool + Sync + 'a;
 
 /// What parts that bump cost, mm of error.
@@ -31,7 +31,7 @@ pub(super) fn way(parents: &[Option<PartId>], [a, b]: [PartId; 2]) -> Vec<PartId
     a[..a.len() - keep].iter().chain(&b[..b.len() - shared]).copied().collect()
 }
 
-/// What pairs of parts did to each other in the combinations that were looked at.
+/// How pairs of parts bumped in the combinations that were tried.
 ///
 /// It depends on the candidates of the two and of the parts between them, and on the order of folding, which depends
 /// on all. So the least harm seen with the same candidates there is a guess, and most often the truth.
@@ -52,7 +52,7 @@ impl Harms {
         Self { least_mm: vec![BTreeMap::new(); ways.len()], ways, harmful: BTreeSet::new() }
     }
 
-    /// Takes in what the parts of a combination do to each other; `is_whole` where these are all of its bumps.
+    /// Records how the parts of a combination bump; `is_whole` if these are all of its bumps.
     pub(super) fn learn(&mut self, of: &[usize], bumps: &[Bump], is_whole: bool) {
         for (k, (pair, way)) in self.ways.iter().enumerate() {
             let bumps: Vec<Bump> = bumps.iter().filter(|bump| bump.0 == *pair).copied().collect();

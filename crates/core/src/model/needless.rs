@@ -4,8 +4,8 @@ use super::link::Link;
 use super::{PartId, plane};
 use crate::geom::Hull;
 
-/// Pairs of parts that are better one: the plane of their joint takes more off the two than one hull round
-/// both adds to them. The fin of a fish that lies along its body costs it the belly.
+/// Pairs of parts that should be merged: the plane of their joint cuts more off the two than one hull
+/// round both adds to them. The fin of a fish that lies along its body costs it the belly.
 pub fn needless(part_hulls: &[&Hull], links: &[Link]) -> Vec<(PartId, PartId)> {
     let is_needless = |plane, [parent, child]: [PartId; 2]| {
         let volumes = plane::lost_and_added_mm3(plane, part_hulls[parent.0], part_hulls[child.0]);

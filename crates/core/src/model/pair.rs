@@ -9,17 +9,17 @@ use crate::geom::{Plane, polygon};
 use glam::{DAffine3, DVec2, DVec3};
 use rayon::prelude::*;
 
-/// A joint is glued over at least this area, mm²: the tip of a glue stick,
+/// A joint holds well from this area on, mm²: that of the tip of a glue stick,
 pub(super) const LEAST_GLUE_MM2: f64 = 40.0;
-/// and over this share of the smaller of its two panels.
+/// and from this share of the smaller of its two panels on.
 const LEAST_GLUE_SHARE: f64 = 0.1;
 /// Price of a joint without any glue, mm of error. Nothing that is seen is worth a part that falls off.
 const GLUE_PRICE_MM: f64 = 160.0;
 /// Price of a joint that lacks any. With 10, and 120 for one without any, two legs of a chair hang on 39 mm²; with 30 glasses
 /// that hold anyway lose 0.06 of their outlines.
 pub(super) const WEAK_PRICE_MM: f64 = 15.0;
-/// What a part costs that stands alone since another has no room for its joint, mm of error: as much as one without any glue.
-/// Without it an armadillo fell into five groups to spare a bump of 0.1 mm.
+/// Price of a part that stays separate because another one has no room for its joint, mm of error: as much as a joint
+/// without any glue. Without it an armadillo fell into five groups to spare a bump of 0.1 mm.
 pub const LOST_PRICE_MM: f64 = WEAK_PRICE_MM + GLUE_PRICE_MM;
 /// Joints with just enough would lack some after rounding and another choice of tabs. With 1.02 a human and
 /// a chair bump by 4.9 and 1.5 mm that fold freely with 1.1, though another chair's outlines are more alike.

@@ -63,7 +63,7 @@ pub fn parted(
     Parted { hulls, borders }
 }
 
-/// What is left of hulls by so much behind planes, by their parts; `None` where one is gone.
+/// What is left of hulls at least `gap_mm` behind the planes of their parts; `None` where nothing is left of one.
 fn clipped(hulls: &[Hull], clips: &[(PartId, Plane)], gap_mm: f64) -> Option<BTreeMap<PartId, Hull>> {
     let mut clipped: BTreeMap<PartId, Hull> = BTreeMap::new();
     for (part, plane) in clips {
@@ -84,8 +84,8 @@ fn keeps_joints(hulls: &[Hull], clipped: &BTreeMap<PartId, Hull>, links: &[Link]
     areas.all(|(before, after)| after >= share * before)
 }
 
-/// The same hulls, where components bump by so many mm nevertheless, farther apart by as much. `None` where that moves
-/// none, as for those that are joined.
+/// The same hulls, moved apart by the depth of the bumps that are left. `None` where that moves none, because the parts
+/// that bump are joined.
 pub fn farther(
     parted: Parted,
     links: &[Link],

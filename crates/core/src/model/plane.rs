@@ -26,7 +26,7 @@ const JOINT_PRICE: f64 = 2.0;
 const SHALLOW: f64 = 0.25;
 /// Where planes that are nearly fitted take more than this of another joint, planes are turned farther.
 const SPARED: f64 = 0.1;
-/// By these angles, each to so many sides.
+/// The angles by which planes are turned, each towards this number of sides.
 const TURNS_RAD: [f64; 3] = [20.0_f64.to_radians(), 40.0_f64.to_radians(), 60.0_f64.to_radians()];
 const TURNED: usize = 8;
 /// Between bodies a plane along such a facet may cost so much more than the best of the others: through samples of where
@@ -242,7 +242,7 @@ impl<'a> Ground<'a> {
         self.price_within(plane, 0.0)
     }
 
-    /// The price of a plane near which both hulls end, by so much before or behind it.
+    /// The price of a plane where both hulls end within `rough_mm` of it.
     fn price_within(&self, plane: &Plane, rough_mm: f64) -> f64 {
         let enough = ENOUGH_GLUE * self.most_glue;
         let lack = (1.0 - self.common(plane, rough_mm) / enough.max(f64::MIN_POSITIVE)).max(0.0);

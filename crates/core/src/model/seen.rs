@@ -1,4 +1,4 @@
-//! How a combination of candidates looks: its outlines against those of the mesh.
+//! How a combination of candidates looks: its outlines compared with those of the mesh.
 
 use super::PartId;
 use super::candidate::Candidate;

@@ -43,7 +43,7 @@ impl Symmetry {
     pub fn crossed(self, mirror: Mirror, hulls: &mut [Hull]) -> Self {
         let plane = *mirror.plane();
         let is_alike = |hull: &Hull| {
-            // The support function of the image is that of the hull in the image of the direction, and so much more.
+            // The support function of the image exceeds that of the hull, in the image of the direction, by this.
             let beyond = |d: DVec3| 2.0 * plane.offset() * plane.normal().dot(d);
             let off = |d: DVec3| hull.support(d) - hull.support(mirror.direction(d)) - beyond(d);
             let off_mm = directions(DIRECTIONS).map(|d| off(d).abs()).fold(0.0, f64::max);

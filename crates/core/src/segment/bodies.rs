@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 
 /// Bodies smaller than this share of the area join another body.
 pub(super) const CRUMB: f64 = 0.02;
-/// Where so many parts are asked for that this share of a mean part is less, bodies smaller than that.
+/// Where many parts are asked for, bodies smaller than this share of a mean part, if that is less.
 const CRUMB_OF_PART: f64 = 0.5;
 
 /// A body makes the hull of another too large by more than this many times its volume: the two then share less with the
@@ -40,7 +40,7 @@ pub(super) struct Bodies {
 }
 
 impl Bodies {
-    /// Those of a mesh whose faces are in the cells of `surface`, for so many parts, if a number is asked for.
+    /// Those of a mesh whose faces are in the cells of `surface`; `parts` is the number that is asked for, if any.
     pub fn new(mesh: &Mesh, surface: &Surface, cell_of_face: &[u32], parts: Option<usize>) -> Self {
         let (of_cell, count) = surface.components(|_| 0);
         let of_face: Vec<u32> = cell_of_face.iter().map(|&cell| of_cell[cell as usize]).collect();

@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 /// parts into each other or leave such gaps; in paper it is a millimetre or two.
 pub(super) const GAP: f64 = 0.01;
 
-/// Faces are sampled at this share of the gap, but in no more than so many pieces along a side.
+/// Faces are sampled at this share of the gap, but each side in at most `FINEST` pieces.
 const SPACING: f64 = 0.7;
 const FINEST: f64 = 250.0;
 

@@ -5,13 +5,13 @@ use super::gmm::Mixture;
 use super::maxflow::Network;
 use super::surface::Surface;
 
-/// Least probability that is told apart from 0.
+/// Smaller probabilities count as this one.
 const LEAST_PROBABILITY: f64 = 5e-6;
 
 /// Convex edges count as this share of their angle.
 const CONVEX: f64 = 0.08;
 
-/// At most as many passes over all labels.
+/// Most passes over all labels.
 const PASSES: usize = 4;
 
 /// What it costs to cut along an edge of mean length, by the angle between the normals (positive

@@ -6,9 +6,9 @@ use crate::mesh::Mesh;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-/// About as many cells fill the bounding box while parts are searched for.
+/// About how many cells fill the bounding box while parts are searched for.
 pub(super) const CELLS: f64 = 60_000.0;
-/// And so many where components are fitted: in a model of 200 mm one is of 2 to 3 mm.
+/// Number of cells where components are fitted: in a model of 200 mm a cell is 2 to 3 mm wide.
 const FINE_CELLS: f64 = 300_000.0;
 
 /// Cells from which this share of directions meets the surface count as hollow. On 15 cups of the

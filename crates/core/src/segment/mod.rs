@@ -81,13 +81,13 @@ impl Method {
 /// What the user can ask for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SegmentOptions {
-    /// Number of segments; `None` finds it. Only [`Method::Merge`] heeds it.
+    /// Number of segments; `None` finds it. Only [`Method::Merge`] uses it.
     pub parts: Option<usize>,
     /// Where the number is found: from 0, few parts, to 1, many.
     pub detail: f64,
     /// How segments are found.
     pub method: Method,
-    /// Whether the segments are mirror images of each other. Only [`Method::Merge`] heeds it.
+    /// Whether the segments are mirror images of each other. Only [`Method::Merge`] uses it.
     pub symmetry: SymmetryChoice,
 }
 

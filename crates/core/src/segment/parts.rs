@@ -63,7 +63,7 @@ impl Parts {
         self
     }
 
-    /// The same with parts made one, by their numbers; all get names anew.
+    /// The same with some parts merged, by their numbers; all parts get new names.
     #[must_use]
     pub fn fused(self, pairs: &[(usize, usize)]) -> Self {
         let mut label: Vec<u32> = (0..self.names.len() as u32).collect();

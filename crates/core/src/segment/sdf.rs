@@ -25,7 +25,7 @@ const OUTLIER_DEVIATIONS: f64 = 1.5;
 /// A box is cut while half its surface is more than this over the number of faces. In the unit cube that half is 3 at
 /// most, so that meshes of up to 333 faces stay as they are; with 100,000 the limit is 0.01.
 const LARGE_BOX: f32 = 1000.0;
-/// A cut makes the surface of boxes so many times smaller, or is not made.
+/// A cut is made only where it makes the surface of the boxes this many times smaller.
 const SPLIT_GAIN: f32 = 1.5;
 /// Cuts of one box within the other, and in how many equal pieces each is tried.
 const SPLIT_ROUNDS: u32 = 8;

@@ -69,7 +69,7 @@ impl SymmetryChoice {
     }
 }
 
-/// At most so many faces of each segment are compared.
+/// Most faces of each segment that are compared.
 const FACES: usize = 600;
 
 /// The twin of each segment, where all have one.
@@ -106,7 +106,7 @@ pub(super) struct Votes {
 }
 
 impl Votes {
-    /// None for any of so many sets.
+    /// Empty lists for `sets` sets.
     pub fn new(sets: usize) -> Self {
         Self { of_set: vec![BTreeMap::new(); sets] }
     }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 /// A part that passes through another one sticks out of it on both sides by this share of its length or more.
 const STICKS_OUT: f64 = 0.15;
-/// So much of it is in the other one between the two sides. What only leans on the other has half.
+/// Least share of it that is inside the other one, between the two sides. A part that only leans on the other has half.
 const INSIDE: f64 = 0.8;
 /// The mirror plane is where such a part is cut, if its direction is that of the plane's normal up to this.
 const ALONG: f64 = 1e-3;

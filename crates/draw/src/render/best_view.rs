@@ -56,7 +56,7 @@ pub fn best_view(
 pub fn clearness(scene: &Scene, view: &View, spot: &Spot) -> f64 {
     let to_eye = view.towards_eye(spot.at).normalize_or_zero();
     let facing = to_eye.dot(spot.normal.normalize_or_zero());
-    // Seen at a flat angle, it can hardly be told from its neighbours.
+    // Seen at a flat angle, it hardly differs from its neighbours.
     if facing < 0.1 || is_hidden(scene, spot, to_eye) { 0.0 } else { 0.6 + 0.4 * facing }
 }
 

@@ -16,7 +16,7 @@ impl Scene {
     /// [`SceneError::NotFinite`] where a vertex is not finite.
     ///
     /// # Panics
-    /// Where a triangle names a vertex that is not there.
+    /// If a triangle names a vertex that does not exist.
     pub fn push_mesh(
         &mut self,
         vertices: &[DVec3],

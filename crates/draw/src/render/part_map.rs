@@ -7,8 +7,8 @@ use tatamu_core::model::PartId;
 /// Pixels along the longer side of the map, and the fewest pixels of a part that is named.
 const PIXELS: f64 = 240.0;
 const LEAST_PIXELS: usize = 10;
-/// Places of a part: as far from its border as this share of the deepest one, so far apart, and so many.
-/// The number bounds the work; the fewest and the most that serve are not measured.
+/// Places of a part: their least depth within it, as a share of the greatest; their least distance; their number,
+/// which limits the work. No case bounds them yet.
 const DEEP: f64 = 0.4;
 const APART_PX: f64 = 6.0;
 const MOST_PLACES: usize = 9;

@@ -23,7 +23,7 @@ pub struct Proxy {
 }
 
 /// The mesh itself where it has at most `most` triangles, else one whose vertices are joined by
-/// the cells of a grid (Rossignac and Borrel 1993), as fine as gives about so many.
+/// the cells of a grid (Rossignac and Borrel 1993) that leaves about as many.
 pub fn proxy(vertices: &[DVec3], triangles: &[[u32; 3]], most: usize) -> Proxy {
     if triangles.len() <= most {
         let origin = (0..triangles.len() as u32).collect();

@@ -19,9 +19,9 @@ pub const FORMAT: Format = Format {
 
 /// The last colour of the palette stands for "as before".
 const TRANSPARENT: u8 = 255;
-/// So many of the most frequent colours are kept exactly: ground, and panels at rest.
+/// Number of the most frequent colours that are kept exactly: the ground, and panels at rest.
 const EXACT: usize = 96;
-/// About so many pixels are looked at for the palette.
+/// About how many pixels the palette is computed from.
 const SAMPLES: usize = 400_000;
 
 fn write(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFile>, ExportError> {

@@ -15,7 +15,7 @@ pub struct Joined<'a> {
 /// A side of a component through which one can reach into it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Opening {
-    /// The panels that can be swung aside there, or are not there yet.
+    /// The panels that can be swung aside there, or are not glued yet.
     pub panels: Vec<PanelId>,
     /// Diameter of the disc that fits through it, mm.
     pub width_mm: f64,

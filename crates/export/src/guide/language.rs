@@ -59,7 +59,7 @@ impl std::str::FromStr for Language {
 }
 
 impl Words {
-    /// A number with so many decimals, as it is written in the language.
+    /// A number with `decimals` digits after the point, as the language writes it.
     pub fn number(&self, x: f64, decimals: usize) -> String {
         format!("{x:.decimals$}").replace('.', &self.decimal)
     }

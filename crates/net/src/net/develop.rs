@@ -31,7 +31,7 @@ const NO_TAB_COST: f64 = 10.0;
 const ALTERNATIVES: usize = 5;
 /// What alternatives may cost more than the best net, where a cut costs 1.
 const ALLOWANCE: f64 = 6.0;
-/// They cut so many chains elsewhere, at least.
+/// Two choices of cuts count as different when they cut at least this many chains at other edges.
 const APART: usize = 2;
 
 /// Makes the net of a component: the best one-piece net that fits the sheet with all its tabs;

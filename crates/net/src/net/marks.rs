@@ -247,7 +247,7 @@ fn label_marks(label: &Label, styles: &LineStyles) -> Vec<Mark> {
     frame.into_iter().chain([Mark::text(layer, text).of_part(&*label.text)]).collect()
 }
 
-/// The box of a label with so much paper round it.
+/// The box of a label with a margin of `gap_mm`.
 fn rectangle(label: &Label, gap_mm: f64) -> [DVec2; 4] {
     let along = DVec2::from_angle(label.angle_rad);
     let (half, below) = (label.width_mm / 2.0 + gap_mm, gap_mm);

@@ -23,7 +23,7 @@ pub enum NetsError {
     Cancelled(#[from] Cancelled),
 }
 
-/// So many nets are kept: a few turns of a few dozen components.
+/// Number of nets that are kept: a few turns of a few dozen components.
 const MOST_KNOWN: usize = 200;
 
 /// Nets that were made before, so that a change to one component leaves those of others as they

@@ -228,9 +228,9 @@ pub(crate) fn many_sheets(layout: &Layout) -> Option<ModelWarning> {
 /// Larger openings look like holes: a child's finger is 5 mm wide.
 const MOST_OPEN_MM2: f64 = 20.0;
 
-/// An error of this share of its thickness changes a component's looks,
+/// An error above this share of a component's thickness changes how it looks.
 const SWOLLEN: f64 = 0.3;
-/// and comes from the least size of panels where it is thinner than so many of them.
+/// Such an error comes from the least size of panels where the component is thinner than this many of them.
 const THIN_PANELS: f64 = 4.0;
 
 /// What of a mesh is not in its model.
@@ -316,7 +316,7 @@ fn thickness_mm(component: &Component) -> f64 {
 }
 
 /// A warning where the parts of a mesh are not one model. (Of components that are drawn, those without
-/// a joint are meant to stand for themselves.)
+/// a joint are separate models on purpose.)
 pub(crate) fn not_joined(model: &Model) -> Option<ModelWarning> {
     let roots = model.parts().iter().filter(|p| p.joint.is_none()).map(|p| p.name.clone());
     let roots: Vec<String> = roots.collect();

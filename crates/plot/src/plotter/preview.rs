@@ -12,7 +12,7 @@ const STRIP_MM: f64 = 18.0;
 /// Height of letters of the legend and of the numbers of strokes, mm.
 const LEGEND_CAP_MM: f64 = 2.2;
 const NUMBER_CAP_MM: f64 = 1.2;
-/// At most so many strokes get a number; between them every so many.
+/// Most strokes that get a number; of longer jobs, every n-th stroke gets one.
 const NUMBERS: usize = 120;
 
 const TRAVEL: Rgb = Rgb(130, 150, 130);

@@ -1,4 +1,4 @@
-//! An EiBotBoard with two motors and a pen that is not there: it works off one command at a time, has a queue of one,
+//! A simulated EiBotBoard with two motors and a pen: it works off one command at a time, has a queue of one,
 //! and hears nothing while a further one waits for room there.
 //!
 //! Source: docs/ebb.html of github.com/evil-mad/EggBot.
@@ -22,7 +22,7 @@ struct Work {
     to: Point,
 }
 
-/// An EiBotBoard that is not there.
+/// A simulated EiBotBoard.
 #[derive(Debug, Clone)]
 pub struct VirtualEbb {
     options: VirtualOptions,

@@ -32,7 +32,7 @@ impl Record {
     }
 }
 
-/// A machine that is not there.
+/// A simulated machine.
 pub trait VirtualMachine: Send {
     /// A byte arrives.
     fn receive(&mut self, byte: u8, now: Duration);

@@ -21,8 +21,8 @@ const ROUNDS: usize = 24;
 const WINDOW: usize = 400;
 /// Longest run of tasks that is moved as a whole.
 const LONGEST_RUN: usize = 3;
-/// Random exchanges: so many at most, and fewer for long orders, whose improvement takes time with
-/// the square of their length.
+/// Most random exchanges. Long orders get fewer, because the time of each grows with the square of
+/// their length.
 const MOST_SHAKES: usize = 300;
 const SHAKEN_PAIRS: usize = 4_000_000;
 /// Gains below this are rounding, mm.

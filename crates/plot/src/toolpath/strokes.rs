@@ -34,7 +34,7 @@ impl Stroke {
         &self.line
     }
 
-    /// The way of the shaft, which is what the machine is told, mm.
+    /// The way of the shaft, which is what the machine gets, mm.
     pub fn shaft(&self) -> &[DVec2] {
         &self.shaft
     }

@@ -131,7 +131,7 @@ fn a_machine_that_is_locked_or_silent_is_sent_nothing() {
     let cutter = profile("grbl-knife");
     let mut rehearsal = Rehearsal::new(&figure(&cutter), &cutter, options(Faults::default()));
     rehearsal.machine.alarm(1);
-    // The board does not start anew with the port: it is reset.
+    // The board does not restart with the port: it is reset.
     rehearsal.greets = false;
     let started = rehearsal.now;
     assert_eq!(rehearsal.run().end, End::Alarm(1));

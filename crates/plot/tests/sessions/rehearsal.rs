@@ -92,7 +92,7 @@ impl Simulated for VirtualPlotter {
 pub struct Rehearsal<M> {
     pub session: Session,
     pub machine: M,
-    /// After this byte the user stops the job, so many times.
+    /// After this byte the user asks to stop the job, `stop_wishes` times.
     pub stop_at: Option<u64>,
     pub stop_wishes: u32,
     /// After this byte the port is gone, with what it holds.
@@ -232,7 +232,7 @@ impl<M: Simulated> Rehearsal<M> {
         }
     }
 
-    /// What was to happen after so many bytes.
+    /// Makes happen what is planned after this number of bytes.
     fn happen(&mut self, received: u64) {
         if self.stop_at == Some(received) {
             (0..self.stop_wishes).for_each(|_| self.session.stop());

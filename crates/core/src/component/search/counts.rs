@@ -60,8 +60,8 @@ pub(super) fn fewer(goal: &Target) -> Vec<(usize, usize)> {
     fewer_edges.map(|less| (edges - less, vertices)).chain(other).collect()
 }
 
-/// The targets with no more top edges and profile vertices than the search is sure among; `None` where
-/// it starts with no more than that anyway.
+/// The targets with at most [`SURE`] top edges and profile vertices; `None` where the search starts
+/// with no more than that anyway.
 pub(super) fn with_sure_counts<'h>(targets: &[(Target<'h>, f64)]) -> Option<Vec<(Target<'h>, f64)>> {
     let sure = |(target, cost_mm): &(Target<'h>, f64)| {
         let top_edges = target.top_edges.min(SURE);

@@ -12,7 +12,7 @@ use super::super::target::{FoldSpot, Target};
 use super::price::{cost, opening_cost};
 use crate::geom::Hull;
 
-/// A plane is added at one of so many corners that stand out most. With 1 the hull of a bunny has outlines alike by
+/// Number of corners, those that stand out most, at which a plane is tried. With 1 the hull of a bunny has outlines alike by
 /// 0.954, with 4 by 0.973; with 8 it takes half as long again for nothing.
 const CORNERS: usize = 4;
 /// Fit steps after each added plane.

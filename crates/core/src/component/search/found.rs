@@ -12,7 +12,7 @@ use super::simpler::Simpler;
 
 /// Steps after one was left out.
 const PRUNE_STEPS: usize = 8;
-/// A shape that is closed by leaving out panels may be so many times as unlike. Not bounded by a case yet.
+/// A shape that is closed by leaving out panels may have at most this many times the error. No case bounds it yet.
 const CLOSED_AT_MOST: f64 = 1.5;
 
 /// A finished component.
@@ -34,7 +34,7 @@ impl Found {
         self.cost_mm
     }
 
-    /// With a plane or a chain less, where that leaves a valid shape.
+    /// The same with one plane or one chain fewer, where that leaves a valid shape.
     fn simpler(&self, way: Spare, targets: &[(Target, f64)], hulls: &[Simpler]) -> Option<Self> {
         let (target, fine) = (&targets[self.target], hulls[self.target].fine());
         let goal = Target { hull: fine, ..goal(&target.0, fine) };
@@ -78,8 +78,8 @@ pub(super) fn pruned(mut found: Found, targets: &[(Target, f64)], hulls: &[Simpl
     found
 }
 
-/// The same without those planes and chains for which panels are trimmed so much that it looks like a hole; as it is
-/// where it would be far less alike.
+/// The same shape without the planes and chains that leave openings which look like holes; unchanged where its error
+/// would grow beyond [`CLOSED_AT_MOST`].
 pub(super) fn closed(found: Found, targets: &[(Target, f64)], hulls: &[Simpler]) -> Found {
     let most_mm = CLOSED_AT_MOST * found.fitted.unlike_mm;
     let mut closed: Option<Found> = None;

@@ -124,7 +124,7 @@ fn height(positions: &[DVec3], corners: [u32; 3]) -> f64 {
     (c - a).reject_from_normalized(along).length()
 }
 
-/// Drops vertices without a face and numbers the others anew, in their order.
+/// Drops vertices without a face, and numbers the others again in their order.
 pub(super) fn drop_unused(positions: &mut Vec<DVec3>, triangles: &mut [Triangle]) {
     let mut fresh = vec![u32::MAX; positions.len()];
     for v in triangles.iter().flat_map(|t| t.corners) {

@@ -11,7 +11,7 @@ type Cut = ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHi
 
 /// Of the order in which corners are taken.
 const SEED: u64 = 29;
-/// So many edges of triangles are crossed by an edge of the polygon, on average, before it becomes a fan. Ragged
+/// A polygon becomes a fan when its edges cross more edges of triangles than this, on average. Ragged
 /// polygons, stars and combs of 10^5 corners cross up to 11.
 const MOST_STEPS: usize = 64;
 /// Nor does a polygon come back to one point more often: each time takes a step for each edge there.

@@ -25,7 +25,7 @@ impl Timestamp {
     }
 }
 
-/// Year, month and day of the Gregorian calendar, so many days after 1970 began (Howard Hinnant,
+/// Year, month and day of the Gregorian calendar, `days` after 1 January 1970 (Howard Hinnant,
 /// `chrono`-Compatible Low-Level Date Algorithms, `civil_from_days`).
 fn civil(days: u64) -> (u64, u64, u64) {
     let days = days + 719_468;

@@ -10,7 +10,7 @@ use tatamu_draw::render::{Camera, Scene, Spot, View, clearness};
 
 /// What is seen of an area is magnified below this, mm². On a phone, whose screen is 65 mm wide, it is 5 by 4 mm.
 const LEAST_MM2: f64 = 32.0;
-/// Nothing is shown again of which not so much more would be seen.
+/// A lens is drawn only where it shows the area at least this many times as large.
 const LEAST_FACTOR: f64 = 3.0;
 /// Side of the part, its free border, and its distance from the picture's border and from what it may not cover, mm.
 const SIDE_MM: f64 = 25.0;
@@ -18,7 +18,8 @@ const MARGIN_MM: f64 = 4.0;
 const INSET_MM: f64 = 0.5;
 const GAP_MM: f64 = 2.0;
 const FRAME_MM: f64 = 0.4;
-/// It is seen from the side of the picture, or turned by so much, which costs a little, so that one knows it again.
+/// A lens looks from the side of the picture, or turned by one of these angles. A turn has a cost, so that readers
+/// recognise the place.
 const TURNS_DEG: [f64; 5] = [0.0, 30.0, -30.0, 60.0, -60.0];
 const TURN_COST: f64 = 0.06;
 /// Places along and across an area of four corners that are looked at.

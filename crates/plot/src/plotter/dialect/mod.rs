@@ -141,8 +141,8 @@ pub trait Dialect: Send + Sync + std::fmt::Debug {
         Vec::new()
     }
 
-    /// A move through many positions as several commands of at most so many bytes where a position takes no more;
-    /// nothing for other commands.
+    /// A move through many positions as several commands of at most `longest` bytes, unless one position takes more;
+    /// empty for other commands.
     fn in_parts(&self, command: &[u8], longest: usize) -> Vec<Vec<u8>> {
         match self.meaning(command) {
             Meaning::Move { to, .. } => chunked(self.mnemonic(command), self.tail(), &to, longest),

@@ -1,9 +1,9 @@
-//! Force and speed: what a machine is told for grams or millimetres a second.
+//! Force and speed: the settings of a machine for grams or millimetres per second.
 
 use super::fields::{Positive, Template};
 use serde::Deserialize;
 
-/// A setting of the machine, such as its force, and how it is told.
+/// A setting of the machine, such as its force, and the command for it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(try_from = "LevelTable")]
 pub struct Level {
