@@ -18,8 +18,8 @@ pub struct Font {
     pub file: &'static [u8],
 }
 
-/// The fonts; a character is of the first that has it.
-pub const FONTS: [Font; 2] = [
+/// The fonts; a character is of the first that has it. Static, because each use of a constant may have its own copy.
+pub static FONTS: [Font; 2] = [
     Font { name: "Inter-Regular", file: include_bytes!("font/inter-subset.ttf") },
     Font { name: "NotoSansJP-Regular", file: include_bytes!("font/noto-sans-jp-subset.ttf") },
 ];
