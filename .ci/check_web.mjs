@@ -3,6 +3,7 @@
 // check_web.mjs PAGE TATAMU FOLDER [FOLDER FOR PICTURES]; the files it downloads are left in FOLDER.
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { createHash } from "node:crypto";
 import { createServer } from "node:http";
 import { createRequire } from "node:module";
 import { extname, join, resolve } from "node:path";
@@ -84,11 +85,13 @@ for (const sample of ["teddy.obj", "snowman.obj", "lamp.toml"]) {
 // ---- The page.
 
 const types = { ".html": "text/html", ".js": "text/javascript", ".wasm": "application/wasm", ".css": "text/css", ".svg": "image/svg+xml", ".webmanifest": "application/manifest+json", ".gif": "image/gif", ".png": "image/png" };
+// What the server gives in place of a file, as in the middle of an update.
+const changed = new Map();
 const serve = () => new Promise((done) => {
   const server = createServer((request, response) => {
     const path = join(root, decodeURIComponent(new URL(request.url, "http://x").pathname).replace(/\/$/, "/index.html"));
     if (!path.startsWith(root) || !existsSync(path)) { response.writeHead(404).end(); return; }
-    response.writeHead(200, { "content-type": types[extname(path)] ?? "application/octet-stream" }).end(readFileSync(path));
+    response.writeHead(200, { "content-type": types[extname(path)] ?? "application/octet-stream" }).end(changed.get(path) ?? readFileSync(path));
   });
   server.listen(0, "127.0.0.1", () => done(server));
 });
@@ -465,8 +468,31 @@ await page.evaluate(() => { for (let k = 0; k < 3; k += 1) document.getElementBy
 await until("a port that takes nothing is given up", () => document.getElementById("job-stop").disabled, 20);
 await page.click("#plotting-close");
 
-// Without a network.
+// A version that is on its way to the server is not mixed with the one before; once it is whole, the next visit has it.
 await until("the service worker keeps the page", () => navigator.serviceWorker.ready.then(() => Boolean(navigator.serviceWorker.controller)));
+const [worker, script] = ["sw.js", "main.js"].map((name) => readFileSync(join(root, name), "utf8"));
+const next = `${script}\nglobalThis.isNext = true;\n`;
+const sum = `sha256-${createHash("sha256").update(next).digest("base64")}`;
+changed.set(join(root, "sw.js"), worker.replace("'tatamu-", "'tatamu-next-").replace(/"main.js":"[^"]*"/, `"main.js":"${sum}"`));
+const update = () => page.evaluate(async () => {
+  const worker = await navigator.serviceWorker.getRegistration();
+  await worker.update().catch(() => {});
+  for (let k = 0; k < 200 && worker.installing; k += 1) await new Promise((next) => setTimeout(next, 50));
+  return Boolean(worker.waiting);
+});
+expect(!(await update()), "half a version is not installed");
+changed.set(join(root, "main.js"), next);
+expect(await update(), "a whole version is installed");
+await page.reload();
+await page.waitForSelector("#samples button");
+expect(await page.evaluate(() => !globalThis.isNext), "a new version waits while the page of the old one is open");
+await page.goto("about:blank");
+await pause(1000);
+await page.goto(address);
+await page.waitForSelector("#samples button");
+expect(await page.evaluate(() => globalThis.isNext), "the next visit has the new version");
+
+// Without a network.
 await new Promise((done) => { server.close(done); server.closeAllConnections(); });
 await page.reload();
 await page.waitForSelector("#samples button");

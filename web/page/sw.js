@@ -1,11 +1,12 @@
 // Keeps the page usable without a network: all of its files, and nothing else. web/build fills these in. A new version
 // waits until no page of the old one is open, because their workers load files later.
 const CACHE = 'tatamu-__VERSION__';
-const FILES = ['./', __FILES__];
+const FILES = { __FILES__ };
 
 addEventListener('install', event => {
-  // Asked for again, because a copy that the browser still has may be of another version.
-  const fresh = FILES.map(file => new Request(file, { cache: 'no-cache' }));
+  // Asked for again, because a copy that the browser still has may be of another version; and by its sum, because the
+  // host may be in the middle of an update. Then this version is not installed, and the next visit tries again.
+  const fresh = Object.entries(FILES).map(([file, integrity]) => new Request(file, { cache: 'no-cache', integrity }));
   event.waitUntil(caches.open(CACHE).then(cache => cache.addAll(fresh)));
 });
 
