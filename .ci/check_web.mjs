@@ -383,6 +383,44 @@ await pause(300);
 await until("the size is undone", isDone);
 expect((await size()) === sized && (await sheets()) === many, `undone: ${await size()} mm on ${await sheets()} sheets`);
 
+// Files that belong together are taken together or one after the other; what is none says so.
+const gltf = (obj, uri) => {
+  const lines = obj.split("\n").map((line) => line.trim().split(/\s+/));
+  const points = lines.filter(([kind]) => kind === "v").map(([, ...point]) => point.slice(0, 3).map(Number));
+  const corners = lines.filter(([kind]) => kind === "f").flatMap(([, ...face]) => {
+    const at = face.map((corner) => parseInt(corner, 10) - 1);
+    return at.slice(2).flatMap((last, k) => [at[0], at[k + 1], last]);
+  });
+  const [a, b] = [new Float32Array(points.flat()), new Uint32Array(corners)].map((numbers) => Buffer.from(numbers.buffer));
+  const bound = (of) => [0, 1, 2].map((axis) => of(...points.map((point) => point[axis])));
+  const text = JSON.stringify({
+    asset: { version: "2.0" }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1 }] }], buffers: [{ uri, byteLength: a.length + b.length }],
+    bufferViews: [{ buffer: 0, byteOffset: 0, byteLength: a.length }, { buffer: 0, byteOffset: a.length, byteLength: b.length }],
+    accessors: [
+      { bufferView: 0, componentType: 5126, count: points.length, type: "VEC3", min: bound(Math.min), max: bound(Math.max) },
+      { bufferView: 1, componentType: 5125, count: corners.length, type: "SCALAR" },
+    ],
+  });
+  return [text, Buffer.concat([a, b])];
+};
+const isOpen = async (name, what) => {
+  await page.waitForFunction((name) => document.getElementById("title").textContent === name, { timeout: 20000 }, name).catch(() => {});
+  await until(what, isDone);
+  expect((await title()) === name, `${what}: ${await title()}, ${await problem()}`);
+};
+await dropBytes("meshes.zip", [80, 75, 3, 4]);
+await until("an archive is none", () => document.getElementById("problem").textContent.includes("meshes.zip is an archive"));
+const [text, data] = gltf(readFileSync("samples/box.obj", "utf8"), "its%20data.bin");
+await dropBytes("a box.gltf", text);
+await until("the data of a glTF file is asked for", () => document.getElementById("problem").textContent.includes("choose that file as well"));
+await dropBytes("its data.bin", data);
+await isOpen("a box", "a glTF file is opened with data that came later");
+await dropBytes("lonely.toml", 'mesh = "b\u00e4r \u5e3d.obj"\n');
+await until("the mesh of a project is asked for", () => document.getElementById("problem").textContent.endsWith("choose that file as well"));
+await dropBytes("b\u00e4r \u5e3d.obj", readFileSync("samples/box.obj"));
+await isOpen("lonely", "a project is opened with a mesh that came later");
+
 // Accessible, as far as a program can tell.
 const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 await page.evaluate(axe);

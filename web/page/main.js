@@ -146,6 +146,8 @@ const isMesh = name => /\.(obj|stl|ply|off|gltf|glb|3mf)$/i.test(name);
 
 // A project that waits for its mesh, and the files that came with it.
 let waiting = null;
+const canWait = name => isProject(name) || isMesh(name);
+const isArchive = name => /\.(zip|rar|7z|gz|tgz|tar)$/i.test(name);
 
 async function take(list) {
   const given = new Map();
@@ -158,10 +160,16 @@ async function take(list) {
   const names = [...given.keys()];
   const name = names.find(isProject) ?? names.find(isMesh) ?? names[0];
   if (!name) return;
+  if (isArchive(name)) {
+    problem(`${name} is an archive: unpack it, then choose the files that were in it.`);
+    return;
+  }
   if (state?.is_changed && !confirm(`Open ${name}? Unsaved changes of ${state.title} are lost.`)) return;
-  // A mesh that a project waits for is not opened by itself, unless the project waits for another one.
-  const { project, beside } = waiting ?? {};
-  if (project && isMesh(name) && await open(project, new Map([...beside, ...given]))) return;
+  // What is waited for is not opened by itself, unless it is a mesh and another one is waited for.
+  if (waiting && !isProject(name)) {
+    const isOpen = await open(waiting.name, new Map([...waiting.beside, ...given]));
+    if (isOpen || !isMesh(name)) return;
+  }
   await open(name, given);
 }
 
@@ -180,8 +188,8 @@ async function read(name, given) {
   try {
     await ask('open', [...all], name, navigator.language);
   } catch (error) {
-    waiting = isProject(name) ? { project: name, beside: given } : null;
-    problem(waiting ? `${error} Choose that file as well.` : error);
+    waiting = canWait(name) && error.includes('choose that file as well') ? { name, beside: given } : null;
+    problem(error);
     return false;
   }
   [files, opened, waiting, state, seenSize] = [all, name, null, null, undefined];

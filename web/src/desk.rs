@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 use std::collections::BTreeMap;
-use std::io::ErrorKind;
+use std::io::Error as IoError;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tatamu::app::choice::Choice;
@@ -69,8 +69,10 @@ impl Desk {
     /// A message that says what is wrong with which file.
     pub fn open(files: BTreeMap<String, Vec<u8>>, name: &str, locale: &str) -> Result<Self, String> {
         let fetch = move |path: &Path| {
-            let found = path.file_name().and_then(|name| files.get(name.to_str()?));
-            found.cloned().ok_or_else(|| ErrorKind::NotFound.into())
+            let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+            let found = files.get(name).or_else(|| files.get(&decoded(name)));
+            // There are no files here but those that were chosen.
+            found.cloned().ok_or_else(|| IoError::other("choose that file as well"))
         };
         let opened = Opened::read_with(Arc::new(fetch), Path::new(name), &locale::settings_of(locale))?;
         let path = opened.is_project.then(|| PathBuf::from(name));
@@ -305,6 +307,19 @@ impl Desk {
     }
 }
 
+/// A name that a glTF file has written as an address, with signs such as %20.
+fn decoded(address: &str) -> String {
+    let (mut name, mut rest) = (Vec::new(), address.as_bytes());
+    while let Some((first, tail)) = rest.split_first() {
+        let code = tail.get(..2).and_then(|code| u8::from_str_radix(str::from_utf8(code).ok()?, 16).ok());
+        match code.filter(|_| *first == b'%') {
+            Some(byte) => (name.push(byte), rest = &tail[2..]),
+            None => (name.push(*first), rest = tail),
+        };
+    }
+    String::from_utf8_lossy(&name).into_owned()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -344,6 +359,21 @@ mod tests {
     fn a_project_has_the_same_paper_in_every_language() {
         let desk = opened("a.toml", b"mesh = \"box.obj\"\n", "en-US");
         assert_eq!(desk.document.options().paper.name(), "a4");
+    }
+
+    #[test]
+    fn a_gltf_file_finds_its_data_by_a_name_with_spaces() {
+        assert_eq!(decoded("my%20b%C3%A4r.bin"), "my b\u{e4}r.bin");
+        assert_eq!(decoded("100%.bin"), "100%.bin");
+        assert_eq!(decoded("%"), "%");
+    }
+
+    #[test]
+    fn a_file_that_is_missing_is_asked_for() {
+        let told =
+            Desk::open([("a.toml".to_owned(), b"mesh = \"box.obj\"\n".to_vec())].into(), "a.toml", "de");
+        let told = told.err().unwrap();
+        assert!(told.contains("box.obj") && told.ends_with("choose that file as well"), "{told}");
     }
 
     #[test]
