@@ -421,6 +421,25 @@ await until("the mesh of a project is asked for", () => document.getElementById(
 await dropBytes("b\u00e4r \u5e3d.obj", readFileSync("samples/box.obj"));
 await isOpen("lonely", "a project is opened with a mesh that came later");
 
+// A length as it is written: with a unit, with a comma, with the arrows.
+const write = async (text) => {
+  await page.click('[id="model-rows-.size"]', { count: 3 });
+  await page.keyboard.type(text);
+  await page.keyboard.press("Enter");
+  await pause(300);
+  await until(`a size of ${text}`, isDone);
+};
+for (const [text, mm] of [["20cm", 200], ["8in", 203.2], ["150,5", 150.5], ["120", 120]]) {
+  await write(text);
+  expect((await size()) === mm, `${text} is ${await size()} mm`);
+}
+await write("tall");
+expect((await size()) === 120 && (await problem()).includes("tall"), `a size that is none: ${await size()} mm, ${await problem()}`);
+await page.keyboard.press("ArrowUp");
+await pause(300);
+await until("a step of the size", isDone);
+expect((await size()) === 121, `a step larger than 120 mm: ${await size()} mm`);
+
 // Accessible, as far as a program can tell.
 const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 await page.evaluate(axe);

@@ -1,8 +1,21 @@
 // Settings as rows: a label and its control. What is being edited keeps its control.
 
+// A length has a unit, which a browser's field of numbers would drop: there 30cm would be 30.
+const isLength = row => row.kind === 'number' && row.unit === 'mm';
+
+// What is written for a length: millimetres, or a text with a unit. A comma is the point of many countries.
+function length(text) {
+  const plain = text.trim().replace(',', '.');
+  return Number.isFinite(Number(plain)) ? Number(plain) : plain;
+}
+
 function control(row, give, end) {
-  // What is refused gives way to what holds.
-  const set = async (input, value, isGesture) => { if (!await give(input.row, value, isGesture)) fill(input, input.row, null); };
+  // What is refused gives way to what holds, and a length with a unit to its millimetres.
+  const set = async (input, value, isGesture) => {
+    const text = input.value;
+    const isAccepted = await give(input.row, value, isGesture);
+    if (!isAccepted || (isLength(row) && input.value === text)) fill(input, input.row, null);
+  };
   if (row.kind === 'switch') {
     const box = Object.assign(document.createElement('input'), { type: 'checkbox' });
     box.onchange = () => set(box, box.checked, false);
@@ -15,8 +28,22 @@ function control(row, give, end) {
     return list;
   }
   const field = document.createElement('input');
-  field.type = row.kind === 'number' ? 'number' : 'text';
-  if (row.kind === 'number') {
+  field.type = row.kind === 'number' && !isLength(row) ? 'number' : 'text';
+  if (isLength(row)) {
+    field.inputMode = 'decimal';
+    field.autocomplete = 'off';
+    field.onchange = () => (field.value.trim() === '' ? fill(field, field.row, null) : set(field, length(field.value), true));
+    field.onblur = end;
+    // As in a field of numbers.
+    field.onkeydown = event => {
+      const step = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+      const now = length(field.value);
+      if (!step || typeof now !== 'number') return;
+      event.preventDefault();
+      field.value = Math.max(now + step, field.row.least ?? 0);
+      set(field, Number(field.value), true);
+    };
+  } else if (row.kind === 'number') {
     field.step = row.digits > 0 ? 'any' : 1;
     // Each key that is pressed, or each click of the arrows, is part of one gesture.
     field.onchange = () => (field.value === '' ? fill(field, field.row, null) : set(field, Number(field.value), true));
