@@ -440,6 +440,28 @@ await pause(300);
 await until("a step of the size", isDone);
 expect((await size()) === 121, `a step larger than 120 mm: ${await size()} mm`);
 
+// What a warning advises is done by the keyboard, and taken back; the keyboard is never lost.
+const focused = () => page.evaluate(() => document.activeElement.id || document.activeElement.textContent);
+const warnings = () => page.$$eval("#notes .note p", (all) => all.map((p) => p.textContent));
+await write("40");
+const warned = await warnings();
+await page.evaluate(() => [...document.querySelectorAll("#notes button")].find((button) => button.textContent.startsWith("Size")).focus());
+await page.keyboard.press("Enter");
+await pause(300);
+await until("the advice is followed", isDone);
+expect(warned.length > 0 && !(await warnings()).includes(warned[0]) && (await size()) === 50, `after the advice: ${await size()} mm, ${await warnings()}`);
+expect((await focused()) === "undo", `after the advice the keyboard is at ${await focused()}`);
+await page.keyboard.press("Enter");
+await pause(300);
+await until("the advice is undone", isDone);
+expect((await warnings()).join() === warned.join() && (await size()) === 40, `after the advice was undone: ${await size()} mm, ${await warnings()}`);
+while (!(await page.$eval("#undo", (undo) => undo.disabled))) {
+  await page.keyboard.press("Enter");
+  await pause(300);
+  await until("a step is undone by the keyboard", isDone);
+}
+expect((await focused()) === "redo", `after the last step back the keyboard is at ${await focused()}`);
+
 // Accessible, as far as a program can tell.
 const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 await page.evaluate(axe);
@@ -549,12 +571,14 @@ await page.goto(address);
 await page.waitForSelector("#samples button");
 expect(await page.evaluate(() => globalThis.isNext), "the next visit has the new version");
 
-// Without a network.
+// Without a network; and the keyboard is not lost when the first page goes.
 await new Promise((done) => { server.close(done); server.closeAllConnections(); });
 await page.reload();
 await page.waitForSelector("#samples button");
-await page.evaluate(() => [...document.querySelectorAll("#samples button")].find((button) => button.textContent === "lamp").click());
+await page.evaluate(() => [...document.querySelectorAll("#samples button")].find((button) => button.textContent === "lamp").focus());
+await page.keyboard.press("Enter");
 await until("a sample is made without a network", isDone);
+expect((await focused()) === "new", `after the first page the keyboard is at ${await focused()}`);
 
 // A phone.
 await page.setViewport({ width: 390, height: 844, isMobile: true, hasTouch: true, deviceScaleFactor: 2 });

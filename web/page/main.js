@@ -193,8 +193,11 @@ async function read(name, given) {
     return false;
   }
   [files, opened, waiting, state, seenSize] = [all, name, null, null, undefined];
+  const isLost = by('welcome').contains(document.activeElement);
   by('welcome').hidden = true;
   by('work').hidden = by('bar').hidden = false;
+  // What disappears loses the keyboard.
+  if (isLost) by('new').focus();
   by('sheets').replaceChildren();
   Object.assign(sight, { folded: 0, isMesh: false, clash: undefined, axis: undefined });
   by('folded').value = 0;
@@ -243,12 +246,19 @@ function show(now) {
   by('title').textContent = now.title;
   document.title = `${now.title} – tatamu`;
   showBusy();
-  if (now.is_busy && !wasBusy) by('problem').hidden = true;
+  if (now.is_busy && !wasBusy) {
+    by('problem').hidden = true;
+    say('working');
+  }
   if (wasBusy && !now.is_busy && now.facts) say(`${now.title} is ready: ${counted(now.facts.components, 'component')} on ${counted(now.facts.sheets, 'sheet')}`);
+  const focused = document.activeElement;
   for (const [id, label] of [['undo', now.undo], ['redo', now.redo]]) {
     by(id).disabled = !label;
     by(id).title = label ? `${id} ${label}` : '';
   }
+  // The last step back leaves the keyboard with the way forth.
+  if (focused.disabled && focused === by('undo')) by('redo').focus();
+  if (focused.disabled && focused === by('redo')) by('undo').focus();
   const f = now.facts;
   if (wasBusy && !now.is_busy && by('plotting').open && !live) prepare();
   by('facts').textContent = f ? `${f.size} · ${counted(f.components, 'component')}, ${counted(f.pieces, 'piece')}, ${counted(f.sheets, 'sheet')} of ${f.paper} · work ${f.work}${f.order?.length > 1 ? ` · folds in the order ${f.order.join(', ')}` : ''}` : '';
@@ -316,7 +326,12 @@ function select(key, adds) {
   act('select', key, adds || by('more').getAttribute('aria-pressed') === 'true');
 }
 
+let seenNotes = '[]';
 function showNotes(now) {
+  const notes = JSON.stringify(now.warnings);
+  if (notes === seenNotes) return;
+  seenNotes = notes;
+  const isLost = by('notes').contains(document.activeElement);
   const buttons = (...list) => (list.length ? [element('div', { className: 'buttons' }, ...list)] : []);
   const button = (textContent, onclick) => element('button', { textContent, onclick });
   // Several are selected one after the other.
@@ -334,6 +349,8 @@ function showNotes(now) {
     ...lead(warning),
     ...warning.remedies.map((label, r) => button(label, () => act('apply_remedy', k, r))),
   ))));
+  // Whoever did what a warning advises can take it back.
+  if (isLost) by('undo').focus();
 }
 
 let urls = [];
@@ -455,10 +472,7 @@ addEventListener('keydown', event => {
   // What is written has steps of its own.
   const isText = event.target.matches('input[type=number], input[type=text]');
   const key = event.key.toLowerCase();
-  if (key === 'escape' && by('downloads').open) {
-    by('downloads').open = false;
-    by('downloads').firstElementChild.focus();
-  }
+  if (key === 'escape' && by('downloads').open) closeDownloads();
   if (isText || !opened || by('plotting').open || !(event.ctrlKey || event.metaKey) || !['z', 'y'].includes(key)) return;
   act(key === 'y' || event.shiftKey ? 'redo' : 'undo');
   event.preventDefault();
@@ -514,6 +528,7 @@ by('merge').onclick = () => { by('more').setAttribute('aria-pressed', false); ac
 by('more').onclick = () => by('more').setAttribute('aria-pressed', by('more').getAttribute('aria-pressed') !== 'true');
 by('reset').onclick = () => { const part = state.parts.findLast(own => own.is_selected); if (part) act('reset', part.key); };
 function endSplit() {
+  if (by('splitting').contains(document.activeElement)) by('split').focus();
   by('splitting').hidden = true;
   sight.axis = undefined;
   look();
@@ -556,8 +571,13 @@ function save(name, parts, type = 'application/octet-stream') {
   element('a', { href: url, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(url), 10000);
 }
-async function download(format) {
+function closeDownloads() {
+  const isLost = by('formats').contains(document.activeElement);
   by('downloads').open = false;
+  if (isLost) by('downloads').firstElementChild.focus();
+}
+async function download(format) {
+  closeDownloads();
   by('problem').hidden = true;
   say('writing');
   showBusy(`writing ${format}`);
@@ -571,7 +591,7 @@ async function download(format) {
   }
 }
 async function saveProject() {
-  by('downloads').open = false;
+  closeDownloads();
   const name = `${state.title}.toml`;
   save(name, [await ask('save', name)], 'application/toml');
 }
