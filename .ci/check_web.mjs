@@ -12,6 +12,7 @@ import { brotliCompressSync, constants, gzipSync } from "node:zlib";
 
 const require = createRequire(`${process.env.NODE_TOOLS}/`);
 const puppeteer = require("puppeteer-core");
+const { PNG } = require("pngjs");
 const [root, tatamu, folder, pictures] = process.argv.slice(2).map((path) => path && resolve(path));
 mkdirSync(folder, { recursive: true });
 let passed = 0;
@@ -461,6 +462,33 @@ while (!(await page.$eval("#undo", (undo) => undo.disabled))) {
   await until("a step is undone by the keyboard", isDone);
 }
 expect((await focused()) === "redo", `after the last step back the keyboard is at ${await focused()}`);
+
+// A plane and a fold that is played end with their file.
+await focus(0);
+await page.click("#split");
+await page.click("#play");
+await drop("bottle.obj");
+await isOpen("bottle", "another file is opened in the middle of a fold");
+await focus(0);
+await pause(1500);
+expect(await page.$eval("#folded", (folded) => folded.value === "0"), "another file is not folded");
+expect(await page.$eval("#splitting", (splitting) => splitting.hidden), "another file is not split");
+
+// Two fingers on a touchpad that come apart by a half: the model is so much larger.
+const covered = async () => {
+  const { width, height, data } = PNG.sync.read(Buffer.from(await (await page.$("#frame")).screenshot()));
+  let count = 0;
+  for (let at = 0; at < 4 * width * height; at += 4) count += Math.max(...data.subarray(at, at + 3)) - Math.min(...data.subarray(at, at + 3)) > 40;
+  return count;
+};
+await page.evaluate(() => document.getElementById("fit").click());
+await pause(500);
+const small = await covered();
+const [x, y] = await page.$eval("#frame", (frame) => { const { left, top, width, height } = frame.getBoundingClientRect(); return [left + width / 2, top + height / 2]; });
+for (let k = 0; k < 8; k += 1) await tab.send("Input.dispatchMouseEvent", { type: "mouseWheel", x, y, deltaX: 0, deltaY: -5, modifiers: 2 });
+await pause(500);
+const grown = (await covered()) / small;
+expect(grown > 1.7 && grown < 2.6, `a pinch on a touchpad: ${grown.toFixed(2)} times the area`);
 
 // Accessible, as far as a program can tell.
 const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");

@@ -144,7 +144,7 @@ const hired = compiling.then(async made => {
 const isProject = name => /\.toml$/i.test(name);
 const isMesh = name => /\.(obj|stl|ply|off|gltf|glb|3mf)$/i.test(name);
 
-// A project that waits for its mesh, and the files that came with it.
+// A file that waits for another one that it names, such as the mesh of a project, and the files that came with it.
 let waiting = null;
 const canWait = name => isProject(name) || isMesh(name);
 const isArchive = name => /\.(zip|rar|7z|gz|tgz|tar)$/i.test(name);
@@ -199,9 +199,12 @@ async function read(name, given) {
   // What disappears loses the keyboard.
   if (isLost) by('new').focus();
   by('sheets').replaceChildren();
+  stopPlaying();
   Object.assign(sight, { folded: 0, isMesh: false, clash: undefined, axis: undefined });
   by('folded').value = 0;
   by('mesh').checked = false;
+  by('splitting').hidden = true;
+  by('more').setAttribute('aria-pressed', false);
   view.postMessage({ what: 'reset' });
   measure();
   showBusy();
@@ -453,7 +456,9 @@ canvas.addEventListener('wheel', async event => {
     rest -= whole;
     if (whole) turn(part, whole * STEP[event.shiftKey ? 1 : 0]);
   } else {
-    steer(0, 0, 1.12 ** steps, ...at);
+    // Fingers on a touchpad come as a small wheel with Ctrl, 100 for a factor of e.
+    const isPinch = event.ctrlKey && event.deltaMode === 0 && Math.abs(event.deltaY) < 50;
+    steer(0, 0, (isPinch ? Math.E : 1.12) ** steps, ...at);
   }
 }, { passive: false });
 canvas.onkeydown = event => {
