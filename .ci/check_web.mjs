@@ -490,6 +490,12 @@ await pause(500);
 const grown = (await covered()) / small;
 expect(grown > 1.7 && grown < 2.6, `a pinch on a touchpad: ${grown.toFixed(2)} times the area`);
 
+// No words of the command line; each file is offered once.
+const words = await page.$$eval("[title]", (all) => all.map((one) => one.title));
+expect(words.every((tip) => !/--|LC_|Repeat it/.test(tip)), `tips: ${words.filter((tip) => /--|LC_|Repeat it/.test(tip))}`);
+const offered = await page.$$eval("#formats small", (all) => all.map((one) => one.textContent));
+expect(new Set(offered).size === offered.length, `offered twice: ${offered.filter((one, k) => offered.indexOf(one) !== k)}`);
+
 // Accessible, as far as a program can tell.
 const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
 await page.evaluate(axe);

@@ -94,6 +94,10 @@ struct WarningRow {
     remedies: Vec<String>,
 }
 
+/// What the number of sheets means on the page.
+const MOST_SHEETS: &str =
+    "Most sheets that the model may take. Where it takes more, a button makes it smaller until it fits.";
+
 impl Desk {
     /// All that the page shows beside pictures.
     pub fn state(&self) -> DeskState {
@@ -108,6 +112,8 @@ impl Desk {
         });
         let output = self.laid();
         let mut most_sheets = Row::new(&SHEETS_MAX, settings);
+        // Here the size stays until its button is pressed.
+        most_sheets.tip = MOST_SHEETS.to_owned();
         if let Some(output) = output {
             most_sheets.such_as = Some(output.layout().sheet_count().saturating_sub(1).max(1) as f64);
         }
@@ -226,7 +232,7 @@ impl Row {
         Self {
             option: id(option),
             label: dials::label(option),
-            tip: option.tip(),
+            tip: words::tip(option),
             kind,
             value,
             such_as,

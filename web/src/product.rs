@@ -21,8 +21,9 @@ pub fn formats() -> Vec<FormatRow> {
         description: format.description,
     };
     let guides = GUIDES.iter().map(|format| row(GUIDE, format));
-    // Jobs are for a machine, which is chosen where they are plotted.
-    let files = FORMATS.iter().filter(|format| !format.is_job());
+    // Jobs are for a machine, which is chosen where they are plotted; a guide is there once.
+    let is_guide = |format: &Format| GUIDES.iter().any(|guide| guide.description == format.description);
+    let files = FORMATS.iter().filter(|format| !format.is_job() && !is_guide(format));
     guides.chain(files.map(|format| row("", format))).collect()
 }
 
