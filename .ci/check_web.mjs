@@ -373,6 +373,7 @@ await until("the search is cancelled", isDone);
 expect((await size()) === sized && (await sheets()) === many, `after a cancel: ${await size()} mm on ${await sheets()} sheets`);
 const asked = Date.now();
 await fit();
+await until("the search is seen again", () => document.getElementById("fit-sheets").disabled && !document.getElementById("busy").hidden);
 await pause(300);
 await until("the size is found", isDone, 120);
 figure("two sheets of teddy", `${await size()} mm instead of ${sized} mm, found in ${((Date.now() - asked) / 1000).toFixed(1)} s`);
@@ -496,12 +497,28 @@ expect(words.every((tip) => !/--|LC_|Repeat it/.test(tip)), `tips: ${words.filte
 const offered = await page.$$eval("#formats small", (all) => all.map((one) => one.textContent));
 expect(new Set(offered).size === offered.length, `offered twice: ${offered.filter((one, k) => offered.indexOf(one) !== k)}`);
 
-// Accessible, as far as a program can tell.
+// Accessible in both themes, as far as a program can tell.
 const axe = readFileSync(require.resolve("axe-core/axe.min.js"), "utf8");
-await page.evaluate(axe);
-const found = await page.evaluate(() => axe.run({ resultTypes: ["violations"] }));
-const serious = found.violations.filter(({ impact }) => ["serious", "critical"].includes(impact));
-expect(serious.length === 0, `axe: ${JSON.stringify(serious.map(({ id, nodes }) => [id, nodes.slice(0, 3).map((node) => node.html.slice(0, 120))]))}`);
+const accessible = async (what) => {
+  await page.evaluate(axe);
+  for (const value of ["dark", "light"]) {
+    await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value }]);
+    await pause(400);
+    const found = await page.evaluate(() => axe.run({ resultTypes: ["violations"] }));
+    const serious = found.violations.filter(({ impact }) => ["serious", "critical"].includes(impact));
+    expect(serious.length === 0, `axe, ${what}, ${value}: ${JSON.stringify(serious.map(({ id, nodes }) => [id, nodes.slice(0, 3).map((node) => node.html.slice(0, 120))]))}`);
+    await picture(`${what}-${value}`);
+  }
+};
+await write("40");
+await write("none");
+await page.evaluate(() => document.querySelectorAll("details").forEach((details) => { details.open = true; }));
+await accessible("warnings");
+await page.keyboard.press("Escape");
+await page.evaluate(() => document.getElementById("plot").click());
+await until("the jobs are there", () => document.querySelectorAll("#job option").length > 0);
+await accessible("dialog");
+await page.click("#plotting-close");
 
 // The paper of the country; a project has its own everywhere.
 const paper = () => page.$eval('[id="paper-rows-paper.size"]', (input) => input.value);
