@@ -70,7 +70,7 @@ impl Desk {
     pub fn open(files: BTreeMap<String, Vec<u8>>, name: &str, locale: &str) -> Result<Self, String> {
         let fetch = move |path: &Path| {
             let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-            let found = files.get(name).or_else(|| files.get(&decoded(name)));
+            let found = files.get(name);
             // There are no files here but those that were chosen.
             found.cloned().ok_or_else(|| IoError::other("choose that file as well"))
         };
@@ -307,19 +307,6 @@ impl Desk {
     }
 }
 
-/// A name that a glTF file has written as an address, with signs such as %20.
-fn decoded(address: &str) -> String {
-    let (mut name, mut rest) = (Vec::new(), address.as_bytes());
-    while let Some((first, tail)) = rest.split_first() {
-        let code = tail.get(..2).and_then(|code| u8::from_str_radix(str::from_utf8(code).ok()?, 16).ok());
-        match code.filter(|_| *first == b'%') {
-            Some(byte) => (name.push(byte), rest = &tail[2..]),
-            None => (name.push(*first), rest = tail),
-        };
-    }
-    String::from_utf8_lossy(&name).into_owned()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -359,13 +346,6 @@ mod tests {
     fn a_project_has_the_same_paper_in_every_language() {
         let desk = opened("a.toml", b"mesh = \"box.obj\"\n", "en-US");
         assert_eq!(desk.document.options().paper.name(), "a4");
-    }
-
-    #[test]
-    fn a_gltf_file_finds_its_data_by_a_name_with_spaces() {
-        assert_eq!(decoded("my%20b%C3%A4r.bin"), "my b\u{e4}r.bin");
-        assert_eq!(decoded("100%.bin"), "100%.bin");
-        assert_eq!(decoded("%"), "%");
     }
 
     #[test]

@@ -13,6 +13,7 @@ use glam::{DMat4, DVec3};
 use gltf::accessor::{DataType, Dimensions};
 use gltf::mesh::Mode;
 use gltf::{Accessor, Gltf, Node, Primitive, Semantic};
+use percent_encoding::percent_decode_str;
 use std::borrow::Cow;
 use tatamu_core::mesh::Soup;
 
@@ -99,12 +100,17 @@ fn load_buffers<'a>(
         }
         gltf::buffer::Source::Uri(uri) => match uri.strip_prefix("data:") {
             Some(data) => decode(buffer.index(), data).map(Cow::Owned),
-            None => sibling(uri)
+            None => sibling(&name_of(uri))
                 .map(Cow::Owned)
                 .map_err(|reason| ReadError::Sibling { name: excerpt(uri.as_bytes()), reason }),
         },
     };
     file.buffers().map(load).collect()
+}
+
+/// The name of a file by its address, in which spaces are %20.
+fn name_of(uri: &str) -> Cow<'_, str> {
+    percent_decode_str(uri).decode_utf8_lossy()
 }
 
 fn decode(index: usize, data: &str) -> Result<Vec<u8>, ReadError> {
@@ -369,6 +375,16 @@ mod tests {
         assert_eq!(given.unwrap().polygon_count(), 2);
         let error = super::super::read(text.as_bytes()).unwrap_err().to_string();
         assert!(error.contains("\"data.bin\""), "{error}");
+    }
+
+    #[test]
+    fn data_in_a_file_with_spaces_in_its_name() {
+        let text = json(r#","uri":"my%20b%C3%A4r%2.bin""#, r#"{"mesh":0}"#, 5, 4);
+        let given = super::super::read_with_siblings(text.as_bytes(), &|name| {
+            assert_eq!(name, "my b\u{e4}r%2.bin");
+            Ok(data())
+        });
+        assert_eq!(given.unwrap().polygon_count(), 2);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //! They are factors of linear light (glTF 2.0, section 3.9.2).
 
 use super::super::{ColourError, texture};
-use super::{Cow, Scene, decode, open};
+use super::{Cow, Scene, decode, name_of, open};
 use crate::painting::{Paint, Painting, Texture};
 use glam::{DVec2, DVec3};
 use gltf::accessor::DataType;
@@ -119,7 +119,7 @@ impl Painter<'_> {
             }
             Source::Uri { uri, .. } => Cow::Owned(match uri.strip_prefix("data:") {
                 Some(data) => decode(image.index(), data)?,
-                None => (self.sibling)(uri).map_err(failed)?,
+                None => (self.sibling)(&name_of(uri)).map_err(failed)?,
             }),
         };
         self.textures.push(texture::decode(&name, &bytes)?);
