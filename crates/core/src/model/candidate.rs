@@ -194,7 +194,7 @@ impl<'a> Builder<'a> {
         let principal = PrincipalAxis::of_hull(&part.hull);
         let prices: Vec<f64> = self.own_links().map(|link| self.joint_price(link)).collect();
         let axes = self.axes(&principal);
-        let even: Vec<Even> = self.crossed().into_iter().chain(self.turned()).collect();
+        let even: Vec<Even> = self.crossed().into_iter().chain(self.turned(&principal)).collect();
         let most = even.iter().map(|even| even.turning).max();
         let even = even.into_iter().map(|even| (even.axis, Some(even)));
         let tried: Vec<(DVec3, Option<Even>)> =
@@ -306,7 +306,7 @@ impl<'a> Builder<'a> {
     }
 
     /// The axis about which the part is turned, where its joints are at the ends of it.
-    fn turned(&self) -> Option<Even> {
+    fn turned(&self, principal: &PrincipalAxis) -> Option<Even> {
         let own = &self.parts[self.part.0];
         if own.options.direction_rad.is_some() {
             return None;
@@ -316,12 +316,18 @@ impl<'a> Builder<'a> {
         let along = |axis: DVec3| mirror.along(axis).try_normalize();
         let ends = self.own_links().map(|link| link.plane.normal());
         let crossed = self.crossed().map(|crossed| crossed.axis);
-        let principal = PrincipalAxis::of_hull(&own.hull).axis();
-        let axes = crossed.into_iter().chain(ends.chain([DVec3::Z, principal]).filter_map(along));
-        let TurningAxis { centre, axis } = TurningAxis::of_hull(&own.hull, mirror, axes)?;
-        let is_end = |link: &Link| link.plane.normal().dot(axis).abs() > libm::cos(END_RAD);
+        let axes: Vec<DVec3> =
+            crossed.into_iter().chain(ends.chain([DVec3::Z, principal.axis()]).filter_map(along)).collect();
+        let joins_ends = |axis: DVec3| {
+            self.own_links().all(|link| link.plane.normal().dot(axis).abs() > libm::cos(END_RAD))
+        };
+        // Most parts have a joint at a side of every axis, which is found sooner than how round they are.
+        if !axes.iter().any(|axis| joins_ends(*axis)) {
+            return None;
+        }
+        let TurningAxis { centre, axis } = TurningAxis::of_hull(&own.hull, mirror, axes.into_iter())?;
         let across = Plane::through(centre, axis.cross(mirror.plane().normal()))?;
-        self.own_links().all(is_end).then_some(Even { axis, across, turning })
+        joins_ends(axis).then_some(Even { axis, across, turning })
     }
 
     /// An axis turned onto the normal of the nearest joint plane, where that is almost level for it.
