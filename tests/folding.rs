@@ -4,8 +4,11 @@ use glam::{DAffine3, DVec2, DVec3};
 use std::collections::BTreeSet;
 use tatamu::component::{Panel, PanelId, PanelKind};
 use tatamu::fold::{Detection, FoldPlan, FoldWarning, ModelMotion, ModelPose, Sequence, SweepMemory};
-use tatamu::geom::{self, Hull, Plane};
-use tatamu::model::{Assembly, Known, Link, Model, Part, PartId, PartOptions, Unjudged, build};
+use tatamu::geom::{self, Hull, Mirror, Plane};
+use tatamu::model::{
+    Alike, Assembly, Built, Bump, Enough, Known, Link, Model, Part, PartId, PartOptions, Symmetry, Unjudged,
+    build,
+};
 use tatamu::progress::Silent;
 
 const THICKNESS_MM: f64 = 0.25;
@@ -356,10 +359,16 @@ fn what_is_shut_in_is_not_unplugged() {
 fn steps_in_turn_are_reported_as_they_are() {
     for model in bulges() {
         let motion = ModelMotion::new(&model);
-        let (memory, ids) = (SweepMemory::default(), [0, 1, 2]);
-        let quick =
-            FoldPlan::quick(&motion, THICKNESS_MM, &ids, &memory, (Detection::Discrete, &|_| false), &Silent)
-                .unwrap();
+        let (memory, alike) = (SweepMemory::default(), Alike::unknown(3));
+        let quick = FoldPlan::quick(
+            &motion,
+            THICKNESS_MM,
+            &alike,
+            &memory,
+            (Detection::Discrete, &|_| false),
+            &Silent,
+        )
+        .unwrap();
         let plan = plan(&motion);
         assert!(quick.is_order() && quick.harm_mm() > 0.0, "no order is free");
         // The quick plan comes from samples, so only the complete one is reliable.
@@ -375,8 +384,9 @@ fn a_memory_changes_nothing_but_the_time() {
     for (k, model) in bulges().into_iter().enumerate() {
         let motion = ModelMotion::new(&model);
         // The head is the same for all, the bodies on it are not.
-        let ids = [0, 2 * k as u64 + 1, 2 * k as u64 + 2];
-        let with = || FoldPlan::with_memory(&motion, THICKNESS_MM, &ids, &memory, &Silent).unwrap();
+        let ids = vec![0, 2 * k as u64 + 1, 2 * k as u64 + 2];
+        let alike = Alike { ids, twins: None };
+        let with = || FoldPlan::with_memory(&motion, THICKNESS_MM, &alike, &memory, &Silent).unwrap();
         let (first, alone) = (with(), plan(&motion));
         assert_eq!(first, alone);
         let known = memory.len();
@@ -386,6 +396,58 @@ fn a_memory_changes_nothing_but_the_time() {
 }
 
 /// Random bodies of one component: clashes of its own chains are reported, and are rare.
+/// A head that is its own image, with an ear on either side and a tip on each ear, the ears `gap_mm` apart.
+fn mirrored_ears(gap_mm: f64) -> Built {
+    let side = |name: &str, x_mm: f64, z_mm: f64, width_mm: f64| {
+        let low = DVec3::new(if x_mm < 0.0 { x_mm - width_mm } else { x_mm }, -20.0, z_mm);
+        cuboid(name, low, DVec3::new(width_mm, 40.0, EAR_MM))
+    };
+    let half_mm = 0.5 * gap_mm;
+    let mut parts = [
+        cuboid("head", DVec3::new(-80.0, -35.0, -40.0), DVec3::new(160.0, 70.0, 40.0)),
+        side("left ear", -half_mm, 0.0, 20.0),
+        side("right ear", half_mm, 0.0, 20.0),
+        side("left tip", -half_mm, EAR_MM, 16.0),
+        side("right tip", half_mm, EAR_MM, 16.0),
+    ];
+    parts.iter_mut().for_each(|part| part.options.direction_rad = None);
+    let links = [(0, 1, 0.0), (0, 2, 0.0), (1, 3, EAR_MM), (2, 4, EAR_MM)];
+    let links =
+        links.map(|(a, b, z)| Link { parent: PartId(a), child: PartId(b), plane: Plane::horizontal(z) });
+    let mirror = Mirror::new(Plane::through(DVec3::ZERO, DVec3::X).unwrap());
+    let symmetry = Symmetry::new(mirror, [0, 2, 1, 4, 3].map(PartId).to_vec()).unwrap();
+    let symmetry = Some(&symmetry);
+    let assembly = Assembly { parts: &parts, links: &links, symmetry, min_panel_mm: 3.0, views: None };
+    build(&assembly, &Known::default(), &Unjudged, &Silent).unwrap()
+}
+
+#[test]
+fn one_half_of_a_model_stands_for_the_other() {
+    let mut clashes = 0;
+    for gap_mm in [1.0, 4.0, 15.0, 40.0] {
+        let Built { model, alike, .. } = mirrored_ears(gap_mm);
+        assert!(alike.twins.is_some());
+        let motion = ModelMotion::new(&model);
+        let how = (Detection::Discrete, &(|_: &[Bump]| false) as &Enough<'_>);
+        let quick = |alike: &Alike| {
+            let memory = SweepMemory::default();
+            let plan = FoldPlan::quick(&motion, THICKNESS_MM, alike, &memory, how, &Silent).unwrap();
+            (plan.harm_mm(), memory.len())
+        };
+        let (half, whole) = (quick(&alike), quick(&Alike { twins: None, ..alike.clone() }));
+        assert!((half.0 - whole.0).abs() < 1e-4, "{gap_mm}: {} mm instead of {} mm", half.0, whole.0);
+        assert!(half.1 * 4 < whole.1 * 3, "{} answers instead of {}", half.1, whole.1);
+        // A complete plan names the panels that meet, on either side.
+        let complete = |alike: &Alike| {
+            FoldPlan::with_memory(&motion, THICKNESS_MM, alike, &SweepMemory::default(), &Silent).unwrap()
+        };
+        let plan = complete(&alike);
+        assert_eq!(plan, complete(&Alike { twins: None, ..alike.clone() }), "{gap_mm} mm apart");
+        clashes += plan.clashes().len();
+    }
+    assert!(clashes > 0, "some of them clash");
+}
+
 #[test]
 fn chains_of_one_component_agree_with_brute_force() {
     let mut rng = fastrand::Rng::with_seed(5);

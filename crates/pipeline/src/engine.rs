@@ -18,7 +18,7 @@ use tatamu_core::fold::{Detection, FoldPlan, ModelMotion, SweepMemory};
 use tatamu_core::memory::Memory;
 use tatamu_core::mesh::{Mesh, Up};
 use tatamu_core::model::{
-    self, Built, JointChoice, Known, Model, ModelError, ModelPart, PartId, Run, Sketch,
+    self, Alike, Built, JointChoice, Known, Model, ModelError, ModelPart, PartId, Run, Sketch,
 };
 use tatamu_core::progress::{Beside, Cancelled, Progress};
 use tatamu_core::segment::{self, Edit, Parts, SegmentOptions};
@@ -40,7 +40,7 @@ pub struct Engine<'m> {
     components: Known,
     sweeps: SweepMemory,
     /// What the parts of the models of last time are known by in `sweeps`.
-    ids: Memory<Arc<Model>, Vec<u64>>,
+    alike: Memory<Arc<Model>, Alike>,
     plans: Memory<PlanKey, Planned>,
     nets: KnownNets,
     layouts: Memory<LayoutKey, (Arc<Layout>, Arc<Vec<Net>>)>,
@@ -74,7 +74,7 @@ impl<'m> Engine<'m> {
             divided: Memory::new(FEW),
             components: Known::default(),
             sweeps: SweepMemory::default(),
-            ids: Memory::new(FEW),
+            alike: Memory::new(FEW),
             plans: Memory::new(FEW),
             nets: KnownNets::default(),
             layouts: Memory::new(FEW),
@@ -170,9 +170,9 @@ impl<'m> Engine<'m> {
         notes.extend(not_joined(&model).map(Warning::from));
         let glued = Arc::new(model);
         let model = Arc::new(plugs::as_chosen(Model::clone(&glued), options)?);
-        if let Some(ids) = self.ids.get(&glued) {
+        if let Some(alike) = self.alike.get(&glued) {
             // How parts are held changes nothing about how they fold.
-            self.ids.keep(model.clone(), ids);
+            self.alike.keep(model.clone(), alike);
         }
         let source = Source::Mesh(divided);
         remarks.extend(merges.iter().map(merge::remark));
@@ -197,7 +197,7 @@ impl<'m> Engine<'m> {
 
     /// Remembers what the parts of a model are known by, for its folding.
     fn know(&self, built: &Built) {
-        self.ids.keep(Arc::new(built.model.clone()), built.ids.clone());
+        self.alike.keep(Arc::new(built.model.clone()), built.alike.clone());
     }
 
     /// The components in the first direction of one of them in which it has dents; none where it has them
@@ -269,14 +269,14 @@ impl<'m> Engine<'m> {
             progress.stage("folding");
             // Of models that were changed since they were built nothing is known.
             let own = SweepMemory::default();
-            let (ids, memory) = match self.ids.get(model) {
-                Some(ids) => (ids, &self.sweeps),
-                None => ((0..model.parts().len() as u64).collect(), &own),
+            let (alike, memory) = match self.alike.get(model) {
+                Some(alike) => (alike, &self.sweeps),
+                None => (Alike::unknown(model.parts().len()), &own),
             };
             let motion = ModelMotion::new(model);
-            let plan = FoldPlan::with_memory(&motion, options.thickness_mm, &ids, memory, progress)?;
+            let plan = FoldPlan::with_memory(&motion, options.thickness_mm, &alike, memory, progress)?;
             let planned = Planned { model: model.clone(), plan: Arc::new(plan) };
-            let known = plugs::Known { ids: &ids, memory };
+            let known = plugs::Known { ids: &alike.ids, memory };
             Ok(plugs::freed(&planned, &known, options, progress)?.unwrap_or(planned))
         })
     }

@@ -1,7 +1,7 @@
 //! What the parts of a model do to each other while they fold, for the choice between models.
 
 use tatamu_core::fold::{Detection, FoldPlan, ModelMotion, SweepMemory};
-use tatamu_core::model::{Bump, Enough, Judge, Model};
+use tatamu_core::model::{Alike, Bump, Enough, Judge, Model};
 use tatamu_core::progress::{Beside, Cancelled, Progress};
 
 /// Folds models, and tells where they bump.
@@ -13,9 +13,9 @@ pub(super) struct FoldJudge<'a> {
 }
 
 impl Judge for FoldJudge<'_> {
-    fn bumps(&self, model: &Model, ids: &[u64], is_enough: &Enough<'_>) -> Result<Vec<Bump>, Cancelled> {
+    fn bumps(&self, model: &Model, alike: &Alike, is_enough: &Enough<'_>) -> Result<Vec<Bump>, Cancelled> {
         let (motion, progress) = (ModelMotion::new(model), Beside::new(self.progress));
         let how = (self.detection, is_enough);
-        Ok(FoldPlan::quick(&motion, self.thickness_mm, ids, self.memory, how, &progress)?.bumps())
+        Ok(FoldPlan::quick(&motion, self.thickness_mm, alike, self.memory, how, &progress)?.bumps())
     }
 }

@@ -12,9 +12,9 @@ use super::sweep::{Body, BodySheet, Care, Contacts, Sweep};
 use super::track::{Track, table};
 use super::way::{push_way, ways};
 use crate::component::{Panel, PanelId};
-use crate::model::PartId;
+use crate::model::{Alike, PartId};
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
 
 /// Two components that bump into each other, or two chains of one component.
@@ -38,6 +38,13 @@ pub struct Clash {
 
 /// The component that moves, the pair by its index, and the levels of the pair's context.
 type Question = (PartId, usize, Levels);
+
+/// The component that moves, and the levels of all.
+#[derive(Debug)]
+struct State {
+    mover: PartId,
+    levels: Levels,
+}
 
 /// A pair that moves against each other while a component does.
 #[derive(Debug)]
@@ -65,7 +72,7 @@ const DEPTH_GRID_MM: f64 = 1e-6;
 #[derive(Debug)]
 pub(super) struct Checker<'a> {
     motion: &'a ModelMotion<'a>,
-    ids: &'a [u64],
+    alike: &'a Alike,
     memory: &'a SweepMemory,
     tracks: Vec<Track<'a>>,
     care: Care,
@@ -91,7 +98,7 @@ impl<'a> Checker<'a> {
         motion: &'a ModelMotion<'a>,
         care: Care,
         overlaps: &[Overlap],
-        ids: &'a [u64],
+        alike: &'a Alike,
         memory: &'a SweepMemory,
     ) -> Self {
         let model = motion.model();
@@ -99,13 +106,13 @@ impl<'a> Checker<'a> {
         let track = |p: usize| {
             let motion = motion.component(PartId(p));
             let table = || Arc::new(table(motion, care.spans()));
-            Track::new(motion, memory.tables().get_or((ids[p], care.spans()), table))
+            Track::new(motion, memory.tables().get_or((alike.ids[p], care.spans()), table))
         };
         let above: Vec<Vec<PartId>> = parts.clone().map(|p| ancestors(model, p)).collect();
         let ways = ways(&above);
         let mut checker = Self {
             motion,
-            ids,
+            alike,
             memory,
             tracks: (0..parts.len()).into_par_iter().map(track).collect(),
             care,
@@ -124,7 +131,7 @@ impl<'a> Checker<'a> {
         checker
     }
 
-    /// Pairs of the mover's tree that do not ride on the same panel of it.
+    /// Pairs of the mover's tree that do not ride on the same panel of it, in the order of their ids.
     fn watched_pairs(&self, mover: PartId, deployed_mm: &BTreeMap<[PartId; 2], f64>) -> Vec<Watched> {
         let is_near = |p: &PartId| self.roots[p.0] == self.roots[mover.0];
         let tree: Vec<PartId> = self.motion.model().ids().filter(is_near).collect();
@@ -249,19 +256,51 @@ impl<'a> Checker<'a> {
     }
 
     fn ask(&self, open: Vec<Question>, mover: PartId, levels: &[Level]) -> Vec<(Question, Answer)> {
-        let keys: Vec<Key> = open.iter().map(|question| self.key(question, levels)).collect();
-        let mut answers: Vec<Option<Answer>> =
-            keys.iter().map(|key| self.memory.answers().get(key)).collect();
-        let missing: Vec<usize> = (0..open.len()).filter(|&k| answers[k].is_none()).collect();
-        if !missing.is_empty() {
+        let states = [Some(State { mover, levels: levels.into() }), self.image(mover, levels)];
+        let of_state = |question| self.representative(question, states[1].as_ref());
+        let asked: Vec<(usize, usize)> = open.iter().map(of_state).collect();
+        let key = |&(state, pair): &(usize, usize)| Some(self.key(states[state].as_ref()?, pair));
+        let keys: Vec<Key> = asked.iter().filter_map(key).collect();
+        let mut answers: HashMap<&Key, Answer> =
+            keys.iter().filter_map(|key| Some((key, self.memory.answers().get(key)?))).collect();
+        let mut seen: HashSet<&Key> = answers.keys().copied().collect();
+        let missing: Vec<usize> = (0..keys.len()).filter(|&k| seen.insert(&keys[k])).collect();
+        for (number, state) in states.iter().enumerate() {
+            let of_state: Vec<usize> = missing.iter().copied().filter(|&k| asked[k].0 == number).collect();
+            let Some(State { mover, levels }) = state.as_ref().filter(|_| !of_state.is_empty()) else {
+                continue;
+            };
             let pairs: Vec<[PartId; 2]> =
-                missing.iter().map(|&k| self.watched[mover.0][open[k].1].parts).collect();
-            for (&k, answer) in missing.iter().zip(self.swept(mover, &pairs, levels)) {
+                of_state.iter().map(|&k| self.watched[mover.0][asked[k].1].parts).collect();
+            for (k, answer) in of_state.into_iter().zip(self.swept(*mover, &pairs, levels)) {
                 self.memory.answers().insert(keys[k].clone(), answer.clone());
-                answers[k] = Some(answer);
+                answers.insert(&keys[k], answer);
             }
         }
-        open.into_iter().zip(answers.into_iter().flatten()).collect()
+        let answered = keys.iter().map(|key| answers.get(key).cloned().flatten());
+        open.into_iter().zip(answered).collect()
+    }
+
+    /// The mirror image of a state, where the model is its own image.
+    fn image(&self, mover: PartId, levels: &[Level]) -> Option<State> {
+        let twins = self.alike.twins.as_ref()?;
+        Some(State { mover: twins[mover.0], levels: twins.iter().map(|twin| levels[twin.0]).collect() })
+    }
+
+    /// Of a question and its image that which is asked: the number of its state, 1 for the image, and the pair in it.
+    fn representative(&self, (mover, pair, own): &Question, image: Option<&State>) -> (usize, usize) {
+        let Watched { parts, context, .. } = &self.watched[mover.0][*pair];
+        let (Some(image), Some(twins)) = (image, &self.alike.twins) else { return (0, *pair) };
+        let mut twin = parts.map(|part| twins[part.0]);
+        twin.sort();
+        let there = || context.iter().map(|part| image.levels[part.0]);
+        let order =
+            image.mover.cmp(mover).then(twin.cmp(parts)).then_with(|| there().cmp(own.iter().copied()));
+        let of_image = &self.watched[image.mover.0];
+        match of_image.binary_search_by_key(&twin, |watched| watched.parts) {
+            Ok(twin) if order.is_lt() => (1, twin),
+            _ => (0, *pair),
+        }
     }
 
     /// Works out what pairs do while a component moves.
@@ -284,13 +323,13 @@ impl<'a> Checker<'a> {
         (0..self.watched[mover.0].len()).map(move |pair| self.question(mover, pair, levels))
     }
 
-    /// All that decides the answer to a question: paper, mover, and the components on both ways from it.
-    fn key(&self, (mover, pair, _): &Question, levels: &[Level]) -> Key {
-        let mut key = vec![self.care.key(), self.ids[mover.0]];
-        for part in self.watched[mover.0][*pair].parts {
+    /// All that decides what a pair does: paper, mover, and the components on both ways from it.
+    fn key(&self, State { mover, levels }: &State, pair: usize) -> Key {
+        let mut key = vec![self.care.key(), self.alike.ids[mover.0]];
+        for part in self.watched[mover.0][pair].parts {
             let way = &self.ways[mover.0][part.0];
             key.push(way.len() as u64);
-            push_way(&mut key, way, &self.above[mover.0], self.ids, levels);
+            push_way(&mut key, way, &self.above[mover.0], &self.alike.ids, levels);
         }
         key.into_boxed_slice()
     }
@@ -342,8 +381,9 @@ impl<'a> Checker<'a> {
 
     /// Clash of two chains of one component, whatever the others do.
     pub(super) fn own_clash(&self, mover: PartId) -> Option<Clash> {
-        let key = [self.care.key(), self.ids[mover.0]];
-        let answer = self.memory.own().get_or(key, || self.own_answer(mover));
+        let first = self.alike.twins.as_ref().map_or(mover, |twins| twins[mover.0].min(mover));
+        let key = [self.care.key(), self.alike.ids[first.0]];
+        let answer = self.memory.own().get_or(key, || self.own_answer(first));
         clash(Move::whole(mover), [mover; 2], &answer)
     }
 

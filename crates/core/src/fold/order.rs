@@ -241,7 +241,7 @@ mod tests {
     use super::super::sweep::Care;
     use super::*;
     use crate::geom::Plane;
-    use crate::model::{Assembly, Known, Link, Part, Unjudged, build, part};
+    use crate::model::{Alike, Assembly, Known, Link, Part, Unjudged, build, part};
     use crate::progress::Silent;
     use fastrand::Rng;
     use glam::{DQuat, DVec3};
@@ -299,9 +299,9 @@ mod tests {
         for _ in 0..60 {
             let model = towers(&mut rng);
             let motion = ModelMotion::new(&model);
-            let ids: Vec<u64> = (0..5).collect();
+            let alike = Alike::unknown(5);
             let memory = SweepMemory::default();
-            let mut checker = Checker::new(&motion, Care::exact(0.25), &[], &ids, &memory);
+            let mut checker = Checker::new(&motion, Care::exact(0.25), &[], &alike, &memory);
             let worst_mm = |clashes: Vec<Clash>| clashes.iter().map(|c| c.depth_mm).fold(0.0, f64::max);
             let best_mm = orders(&[0, 1, 2, 3, 4].map(PartId))
                 .iter()

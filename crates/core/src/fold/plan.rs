@@ -11,7 +11,7 @@ use super::sequence::{Motion, Sequence};
 use super::stack::{Stack, stacks};
 use super::step::{Move, Pull, Step};
 use super::sweep::Care;
-use crate::model::{Bump, Enough, Model, PartId};
+use crate::model::{Alike, Bump, Enough, Model, PartId};
 use crate::progress::{Cancelled, Progress};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -65,39 +65,39 @@ impl FoldPlan {
         thickness_mm: f64,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        let ids: Vec<u64> = (0..motion.model().parts().len() as u64).collect();
-        Self::with_memory(motion, thickness_mm, &ids, &SweepMemory::default(), progress)
+        let alike = Alike::unknown(motion.model().parts().len());
+        Self::with_memory(motion, thickness_mm, &alike, &SweepMemory::default(), progress)
     }
 
-    /// The same with a memory of what was found out about other models. `ids[p]` stands for component
-    /// p's shape and the way it sits on its parent: where those of two models are equal, so are these.
+    /// The same with a memory of what was found out about other models, and about twins.
     ///
     /// # Errors
     /// [`Cancelled`] at the user's wish.
     pub fn with_memory(
         motion: &ModelMotion<'_>,
         thickness_mm: f64,
-        ids: &[u64],
+        alike: &Alike,
         memory: &SweepMemory,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        Self::searched(motion, thickness_mm, ids, memory, progress, Effort::Whole)
+        Self::searched(motion, thickness_mm, alike, memory, progress, Effort::Whole)
     }
 
     /// A plan for the comparison of many models: a good order, without steps of several components in turn, and without
-    /// stacks. Where the bumps that no order avoids are enough, no order is looked for. Ids and memory as for [`FoldPlan::with_memory`].
+    /// stacks. Where the bumps that no order avoids are enough, no order is looked for. Memory as for [`FoldPlan::with_memory`].
+    /// The panels of a clash may be those of its mirror image.
     ///
     /// # Errors
     /// [`Cancelled`] at the user's wish.
     pub fn quick(
         motion: &ModelMotion<'_>,
         thickness_mm: f64,
-        ids: &[u64],
+        alike: &Alike,
         memory: &SweepMemory,
         (detection, is_enough): (Detection, &Enough<'_>),
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        Self::searched(motion, thickness_mm, ids, memory, progress, Effort::Order(detection, is_enough))
+        Self::searched(motion, thickness_mm, alike, memory, progress, Effort::Order(detection, is_enough))
     }
 
     /// A plan in which some components are unplugged, outer ones after those that carry them, fold
@@ -116,7 +116,8 @@ impl FoldPlan {
     ) -> Result<Option<Self>, Cancelled> {
         let apart = motion.model().clone().taken_apart(parts);
         let beside = ModelMotion::new(&apart);
-        let mut plan = Self::with_memory(&beside, thickness_mm, ids, memory, progress)?;
+        let alike = Alike { ids: ids.to_vec(), twins: None };
+        let mut plan = Self::with_memory(&beside, thickness_mm, &alike, memory, progress)?;
         // What was pulled off is folded first.
         let group = |part: PartId| parts.iter().position(|&p| p == root_of(&apart, part));
         let rank = |part: PartId| group(part).map_or(0, |at| at as isize - parts.len() as isize);
@@ -132,12 +133,12 @@ impl FoldPlan {
     fn searched(
         motion: &ModelMotion<'_>,
         thickness_mm: f64,
-        ids: &[u64],
+        alike: &Alike,
         memory: &SweepMemory,
         progress: &dyn Progress,
         effort: Effort<'_>,
     ) -> Result<Self, Cancelled> {
-        let overlaps = overlaps(motion, thickness_mm / 2.0, ids, memory);
+        let overlaps = overlaps(motion, thickness_mm / 2.0, &alike.ids, memory);
         let is_whole = matches!(effort, Effort::Whole);
         let is_enough = |bumps: &[Bump]| matches!(effort, Effort::Order(_, is_enough) if is_enough(bumps));
         if is_enough(&bumps(&[], &overlaps, thickness_mm)) {
@@ -148,11 +149,7 @@ impl FoldPlan {
             Effort::Order(Detection::Discrete, _) => Care::rough(thickness_mm),
             Effort::Order(Detection::Continuous, _) | Effort::Whole => Care::exact(thickness_mm),
         };
-        let mut checker = Checker::new(motion, care, &overlaps, ids, memory);
-        let own: Vec<Option<Clash>> =
-            (0..parts).into_par_iter().map(|p| checker.own_clash(PartId(p))).collect();
-        let mut clashes: Vec<Clash> = own.into_iter().flatten().collect();
-        progress.check()?;
+        let mut checker = Checker::new(motion, care, &overlaps, alike, memory);
         let mut moves = Vec::new();
         for root in motion.model().ids().filter(|&p| root_of(motion.model(), p) == p) {
             let order = Search::new(motion, &mut checker, thickness_mm, is_whole, progress).tree(root)?;
@@ -160,9 +157,18 @@ impl FoldPlan {
             if is_whole {
                 tree = interleaved(&mut checker, tree, parts, thickness_mm, progress)?;
             }
-            clashes.extend(replay(&mut checker, &tree, parts));
             moves.extend(tree);
         }
+        // What is reported names the panels that meet, not those of their images.
+        let alone = Alike { twins: None, ..alike.clone() };
+        if is_whole && alike.twins.is_some() {
+            checker = Checker::new(motion, care, &overlaps, &alone, memory);
+        }
+        let own: Vec<Option<Clash>> =
+            (0..parts).into_par_iter().map(|p| checker.own_clash(PartId(p))).collect();
+        progress.check()?;
+        let mut clashes: Vec<Clash> = own.into_iter().flatten().collect();
+        clashes.extend(replay(&mut checker, &moves, parts));
         let steps: Vec<Step> = moves.iter().map(Move::step).collect();
         let order = steps.iter().filter(|step| step.ends_flat()).map(|step| step.part).collect();
         let stacks = if is_whole { stacks(motion, thickness_mm) } else { Vec::new() };

@@ -1,5 +1,6 @@
 //! Parts into a model: candidates for each, one combination of them, and everything in its place.
 
+use super::alike::Alike;
 use super::bond::{Bond, crossing, lone_image, with_images};
 use super::candidate::{Builder, Candidate, Search};
 use super::choice::{Best, Choice, Combination, Effort, MOST_ATTEMPTED, Trouble};
@@ -39,12 +40,12 @@ pub struct Assembly<'a> {
 /// Tells what the parts of a model do to each other while they fold.
 pub trait Judge: Sync {
     /// Pairs of parts that bump into each other, deployed or on the way. Two models whose parts have
-    /// the same `ids` from one part to another are alike there. Once those found are enough to rule the model
+    /// the same ids from one part to another are alike there. Once those found are enough to rule the model
     /// out, the others are not looked for.
     ///
     /// # Errors
     /// [`Cancelled`] at the user's wish.
-    fn bumps(&self, model: &Model, ids: &[u64], is_enough: &Enough<'_>) -> Result<Vec<Bump>, Cancelled>;
+    fn bumps(&self, model: &Model, alike: &Alike, is_enough: &Enough<'_>) -> Result<Vec<Bump>, Cancelled>;
 }
 
 /// A judge that finds no bumps: parts and joints alone decide.
@@ -52,7 +53,7 @@ pub trait Judge: Sync {
 pub struct Unjudged;
 
 impl Judge for Unjudged {
-    fn bumps(&self, _: &Model, _: &[u64], _: &Enough<'_>) -> Result<Vec<Bump>, Cancelled> {
+    fn bumps(&self, _: &Model, _: &Alike, _: &Enough<'_>) -> Result<Vec<Bump>, Cancelled> {
         Ok(Vec::new())
     }
 }
@@ -62,8 +63,8 @@ impl Judge for Unjudged {
 pub struct Built {
     /// The model.
     pub model: Model,
-    /// For each part a number that is equal only where its shape and its joints are.
-    pub ids: Vec<u64>,
+    /// Which of its parts are alike.
+    pub alike: Alike,
     /// What is wrong with it, and how it looks.
     pub verdict: Verdict,
 }
@@ -216,14 +217,15 @@ impl Run<'_> {
     /// # Errors
     /// [`ModelError`].
     pub fn sketch(&self, like: Option<&Model>) -> Result<Sketch, ModelError> {
-        let first = self.attempt(self.assembly.links, &Trouble::default(), like)?;
+        let effort = if like.is_some() { Effort::Brief } else { Effort::Short };
+        let first = self.attempt(self.assembly.links, &Trouble::default(), like, effort)?;
         if self.is_attempted_once() {
             return Ok(Sketch { ways: vec![first] });
         }
         // Where joints as they were leave parts weak, but free, they may have a way out that settled ones have not: the
         // wings of a plane. Where parts bump, one more search of that kind takes long and seldom helps.
         let is_way = first.trouble.bumping.is_empty();
-        let ways = match self.settled(&first)? {
+        let ways = match self.settled(&first, effort)? {
             Some(settled) => std::iter::once(settled).chain(is_way.then_some(first)).collect(),
             None => vec![first],
         };
@@ -240,8 +242,8 @@ impl Run<'_> {
         }
         let mut best: Option<Attempt> = None;
         for way in ways {
-            let wider = self.attempt(&way.links, &way.trouble, Some(&way.built.model))?;
-            let wider = self.settled(&wider)?.unwrap_or(wider);
+            let wider = self.attempt(&way.links, &way.trouble, Some(&way.built.model), Effort::Long)?;
+            let wider = self.settled(&wider, Effort::Long)?.unwrap_or(wider);
             let is_last = wider.built.verdict.is_clean() || !wider.trouble.bumping.is_empty();
             if best.as_ref().is_none_or(|best| wider.cost_mm < best.cost_mm) {
                 best = Some(wider);
@@ -264,6 +266,7 @@ impl Run<'_> {
         links: &[Link],
         trouble: &Trouble,
         like: Option<&Model>,
+        effort: Effort,
     ) -> Result<Attempt, ModelError> {
         let Self { judge, progress, firmness, .. } = *self;
         let assembly = &Assembly { links, ..*self.assembly };
@@ -281,16 +284,18 @@ impl Run<'_> {
         let made_of = |of: &[usize]| -> Vec<&Candidate> {
             of.iter().zip(&candidates).map(|(&k, made)| &made[k]).collect()
         };
-        let ids = |made: &[&Candidate]| made.iter().map(|m| m.id).collect::<Vec<u64>>();
+        let alike = |made: &[&Candidate]| Alike {
+            ids: made.iter().map(|m| m.id).collect(),
+            twins: twins(assembly.symmetry, &links, made),
+        };
         let bumps = |of: &[usize], is_enough: &Enough<'_>| {
             progress.check()?;
             let made = made_of(of);
             // A combination that cannot be joined costs too much to be looked at.
             place(parts, (&links, &pairs), of, &made)
-                .map_or(Ok(Vec::new()), |model| judge.bumps(&model, &ids(&made), is_enough))
+                .map_or(Ok(Vec::new()), |model| judge.bumps(&model, &alike(&made), is_enough))
         };
         let start = like.map(|model| choice.cheapest(&most_alike(model, (parts, &bonds), &candidates)));
-        let effort = if *trouble == Trouble::default() { Effort::Short } else { Effort::Long };
         let Best { of, cost_mm, trouble: left, bumps } = choice.best(start, effort, &bumps, &looks_mm)?;
         let made = made_of(&of);
         let model = place(parts, (&links, &pairs), &of, &made)?;
@@ -303,7 +308,7 @@ impl Run<'_> {
             bumps,
             unlike: seen.map_or(0.0, |seen| seen.unlike(std::slice::from_ref(&of)).iter().sum()),
         };
-        let built = Built { model, ids: ids(&made), verdict };
+        let built = Built { model, alike: alike(&made), verdict };
         let seat = |(k, link): (usize, &Link)| {
             let seated = pairs.get(k, [of[link.parent.0], of[link.child.0]])?;
             let (plane, _) = made[link.parent.0].joint(link.child)?;
@@ -316,7 +321,7 @@ impl Run<'_> {
     /// An attempt with joint planes where the parents have their panels, so that children are made to sit there and are
     /// not moved; `None` where that is not better. The legs of a human were turned by 4° to sit on the
     /// level bottom of the body, and met at the feet.
-    fn settled(&self, from: &Attempt) -> Result<Option<Attempt>, ModelError> {
+    fn settled(&self, from: &Attempt, effort: Effort) -> Result<Option<Attempt>, ModelError> {
         let symmetry = self.assembly.symmetry;
         let is_settled = |k: usize| {
             let is_in_ring = lone_image(&from.links[k], &from.links, symmetry).is_some();
@@ -333,7 +338,7 @@ impl Run<'_> {
                 None => {}
             }
         }
-        let settled = self.attempt(&links, &from.widened, Some(&from.built.model))?;
+        let settled = self.attempt(&links, &from.widened, Some(&from.built.model), effort)?;
         Ok((settled.cost_mm < from.cost_mm).then_some(settled))
     }
 }
@@ -343,6 +348,21 @@ fn image_of(link: &Link, others: &[Link], symmetry: &Symmetry) -> Option<Plane> 
     let image = [link.parent, link.child].map(|part| symmetry.twin(part));
     let twin = others.iter().find(|other| [other.parent, other.child] == image)?;
     Some(symmetry.mirror().image(&twin.plane))
+}
+
+/// The image of each part, where a model of these candidates is its own image.
+fn twins(symmetry: Option<&Symmetry>, links: &[Link], made: &[&Candidate]) -> Option<Vec<PartId>> {
+    let symmetry = symmetry?;
+    let is_image = |(part, candidate): (usize, &&Candidate)| match symmetry.twin(PartId(part)) {
+        PartId(twin) if twin == part => candidate.is_own_image,
+        twin => candidate.is_image_of(made[twin.0]),
+    };
+    let has_image = |link: &Link| {
+        let [parent, child] = [link.parent, link.child].map(|part| symmetry.twin(part));
+        links.iter().any(|other| (other.parent, other.child) == (parent, child))
+    };
+    let is_whole = made.iter().enumerate().all(is_image) && links.iter().all(has_image);
+    is_whole.then(|| symmetry.twins().to_vec())
 }
 
 /// How much the cost of each part counts: by its size, about 1 on average.

@@ -60,6 +60,8 @@ pub(super) struct Candidate {
     /// From the component's axes to the mesh's.
     pub(super) frame: DAffine3,
     pub(super) direction_rad: f64,
+    /// Whether it is its own image in the mirror plane of the model.
+    pub(super) is_own_image: bool,
     /// What the shape costs by itself, mm of error.
     pub(super) cost_mm: f64,
     /// Joint planes in the mesh's axes, outwards, and the panels on them: by the other part.
@@ -85,9 +87,15 @@ impl Candidate {
             component: Arc::new(component),
             frame,
             direction_rad: principal.angle_rad(frame.transform_vector3(DVec3::Z)),
+            is_own_image: self.is_own_image,
             cost_mm: self.cost_mm,
             joints: self.joints.iter().map(joint).collect(),
         }
+    }
+
+    /// Whether one of the two was made as the image of the other.
+    pub(super) fn is_image_of(&self, other: &Self) -> bool {
+        self.id ^ other.id == IMAGE
     }
 
     pub(super) fn joint(&self, other: PartId) -> Option<(Plane, PanelId)> {
@@ -247,6 +255,7 @@ impl<'a> Builder<'a> {
                 component: Arc::new(finished.component),
                 frame: direction.frame,
                 direction_rad,
+                is_own_image: self.symmetry.is_some() && target.symmetry.is_some(),
                 cost_mm: finished.cost_mm,
                 joints,
             })

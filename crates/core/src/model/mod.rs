@@ -1,5 +1,6 @@
 //! Joints between components, their tree, and the model's two end states.
 
+mod alike;
 mod bond;
 mod build;
 mod candidate;
@@ -21,6 +22,7 @@ mod sturdy;
 mod symmetry;
 mod turned;
 
+pub use alike::Alike;
 #[cfg(test)]
 pub(crate) use build::tests::part;
 pub use build::{Assembly, Built, Judge, Run, Sketch, Unjudged, Verdict, alone, build};

@@ -30,7 +30,7 @@ fn of_assembly<'a>(assembly: &'a Assembly<'a>, known: &'a Known, judge: &'a dyn 
 struct Notes(Mutex<Vec<DVec3>>);
 
 impl Judge for Notes {
-    fn bumps(&self, model: &Model, _: &[u64], _: &Enough<'_>) -> Result<Vec<Bump>, Cancelled> {
+    fn bumps(&self, model: &Model, _: &Alike, _: &Enough<'_>) -> Result<Vec<Bump>, Cancelled> {
         let last = model.parts().last().expect("there are parts");
         self.0.lock().expect("no panic").push(last.frame.matrix3.z_axis);
         Ok(Vec::new())
