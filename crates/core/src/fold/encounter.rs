@@ -4,9 +4,9 @@ use super::check::Clash;
 use super::contact::{Sheet, gap};
 use super::overlap::Overlap;
 use super::plan::FoldPlan;
-use super::pose::{ModelMotion, ModelPose};
+use super::pose::{ModelMotion, PartPose};
 use super::step::Step;
-use crate::component::PanelId;
+use crate::component::{PanelId, PanelSet};
 use crate::model::PartId;
 use glam::DVec3;
 use std::collections::BTreeMap;
@@ -69,11 +69,10 @@ fn unfolded(motion: &ModelMotion<'_>, overlap: &Overlap) -> Encounter {
         (0..panels.len()).map(PanelId).collect::<Vec<_>>()
     });
     let pairs = a.iter().flat_map(|&p| b.iter().map(move |&q| [p, q]));
-    let pose = motion.pose(&folded);
-    let sheets = |panels| sheets(motion, &pose, overlap.parts, panels);
-    let depth_mm = |panels| depth_mm(&sheets(panels));
+    let both = Both::new(motion, overlap.parts, &folded);
+    let depth_mm = |panels| depth_mm(&both.sheets(panels));
     let panels = pairs.max_by(|&p, &q| depth_mm(p).total_cmp(&depth_mm(q))).unwrap_or([PanelId(0); 2]);
-    let line = common_line(&sheets(panels));
+    let line = common_line(&both.sheets(panels));
     Encounter { parts: overlap.parts, panels, mover: None, folded, line, depth_mm: overlap.depth_mm }
 }
 
@@ -88,7 +87,7 @@ fn folding(motion: &ModelMotion<'_>, steps: &[Step], clash: &Clash) -> Encounter
         folded[clash.mover.0] = share;
         folded
     };
-    let sheets = |folded: &[f64]| sheets(motion, &motion.pose(folded), clash.parts, clash.panels);
+    let sheets = |folded: &[f64]| Both::new(motion, clash.parts, folded).sheets(clash.panels);
     let depth_mm = |share: f64| depth_mm(&sheets(&at(share)));
     let shares =
         (0..=MOMENTS).map(|k| clash.folded + (clash.to - clash.folded) * f64::from(k) / f64::from(MOMENTS));
@@ -106,17 +105,21 @@ fn depth_mm([a, b]: &[Sheet; 2]) -> f64 {
     -gap(a, b, f64::INFINITY, 0).mm
 }
 
-/// One panel of each of two parts in a pose.
-fn sheets(
-    motion: &ModelMotion<'_>,
-    pose: &ModelPose,
-    parts: [PartId; 2],
-    panels: [PanelId; 2],
-) -> [Sheet; 2] {
-    [0, 1].map(|k| {
-        let place = pose.parts[parts[k].0].panel(panels[k]);
-        Sheet::of_panel(motion.model().part(parts[k]).component.panels().panel(panels[k]), place)
-    })
+/// Two parts in a pose.
+struct Both<'m>([(&'m PanelSet, PartPose); 2]);
+
+impl<'m> Both<'m> {
+    fn new(motion: &ModelMotion<'m>, parts: [PartId; 2], folded: &[f64]) -> Self {
+        Self(parts.map(|part| (motion.model().part(part).component.panels(), motion.pose_of(part, folded))))
+    }
+
+    /// One panel of each.
+    fn sheets(&self, panels: [PanelId; 2]) -> [Sheet; 2] {
+        [0, 1].map(|k| {
+            let (set, pose) = &self.0[k];
+            Sheet::of_panel(set.panel(panels[k]), pose.panel(panels[k]))
+        })
+    }
 }
 
 /// The ends of what two sheets have in common; the nearest two of their corners where they only touch.

@@ -80,6 +80,19 @@ impl<'a> ModelMotion<'a> {
         self.pose_at(&Moment::joined(folded.to_vec()))
     }
 
+    /// One component in the pose in which component p is folded by `folded[p]`.
+    pub(super) fn pose_of(&self, part: PartId, folded: &[f64]) -> PartPose {
+        let pose = self.motions[part.0].pose(folded[part.0]);
+        let frame = match &self.model.part(part).joint {
+            None => self.model.part(part).deployed(),
+            Some(joint) => {
+                let carrier = self.pose_of(joint.parent, folded).panel(joint.parent_panel);
+                carrier * self.relations[part.0] * pose.placements[joint.child_panel.0].inverse()
+            }
+        };
+        PartPose { frame, pose }
+    }
+
     /// The pose of a moment in which components may be pulled off their parents.
     pub fn pose_at(&self, moment: &Moment) -> ModelPose {
         self.pose_from(moment, 0.0, |part, _| self.model.part(part).deployed())
