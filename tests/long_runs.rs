@@ -3,11 +3,13 @@
 use stats_alloc::{INSTRUMENTED_SYSTEM, StatsAlloc};
 use std::alloc::System;
 use std::fmt::Write;
+use std::sync::{Mutex, PoisonError};
 use tatamu::export::{FormatOptions, format_of};
-use tatamu::mesh::{self, Mesh};
-use tatamu::pipeline::{self, Options};
+use tatamu::mesh::{self, Mesh, Repairs};
+use tatamu::pipeline::{self, Options, Output};
 use tatamu::product::Product;
 use tatamu::progress::Silent;
+use tatamu::project::Project;
 use tatamu::report::Run;
 
 /// Counts what the program has taken and not given back. The size of the process would say less: the
@@ -49,7 +51,7 @@ fn prism(k: usize) -> String {
     text
 }
 
-/// Reads a mesh, makes a model of it, and writes its pages and its report.
+/// Reads a mesh, makes a model of it, and writes it.
 fn make(k: usize) {
     let (mesh, repairs) = Mesh::from_soup(&mesh::read(prism(k).as_bytes()).unwrap()).unwrap();
     let mut options =
@@ -57,14 +59,36 @@ fn make(k: usize) {
     options.sheets.effort = 0;
     options.segmentation.parts = Some(1);
     let output = pipeline::run(&mesh, &options, &Silent).unwrap();
-    let run = Run { path: "a.obj", repairs: &repairs, stages: &[], warnings: &[], say: ToString::to_string };
-    for format in ["svg", "fold", "json"] {
-        let product = Product::new(&output, "a", run);
+    write(&output, &repairs, &["svg", "fold", "json"]);
+}
+
+/// Writes a model.
+fn write(output: &Output, repairs: &Repairs, formats: &[&str]) {
+    let run = Run { path: "a.obj", repairs, stages: &[], warnings: &[], say: ToString::to_string };
+    for format in formats {
+        let product = Product::new(output, "a", run);
         assert!(!format_of(format).unwrap().write(&product, &FormatOptions::default()).unwrap().is_empty());
     }
 }
 
-fn makes_without_growth(models: usize) {
+/// The same of a small prism that is drawn, which takes a few milliseconds.
+fn draw(k: usize) {
+    let (edges, radius, height) = (3 + k % 4, 12 + k * 31 % 17, 10 + k % 7);
+    let project = format!(
+        "[[component]]\nname = 'a'\ntop = {{ edges = {edges}, radius = {radius} }}\nprofiles = [[[0, {height}], [0, 0]]]\n"
+    );
+    let sketches = Project::parse(&project).unwrap().sketches().unwrap();
+    let mut options = Options::default();
+    options.sheets.effort = 0;
+    let output = pipeline::run_drawn(&sketches, None, &options, &Silent).unwrap();
+    write(&output, &Repairs::default(), &["fold"]);
+}
+
+/// The allocator counts what all tests take, so that they run one after the other.
+static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
+
+fn makes_without_growth(models: usize, make: fn(usize)) {
+    let _alone = ONE_AT_A_TIME.lock().unwrap_or_else(PoisonError::into_inner);
     let warm = models / 10;
     let make_all = |range: std::ops::Range<usize>| {
         std::thread::scope(|scope| {
@@ -84,11 +108,16 @@ fn makes_without_growth(models: usize) {
 
 #[test]
 fn three_hundred_models_in_one_process() {
-    makes_without_growth(300);
+    makes_without_growth(300, make);
+}
+
+#[test]
+fn ten_thousand_drawn_models_in_one_process() {
+    makes_without_growth(10_000, draw);
 }
 
 #[test]
 #[ignore = "ten minutes in a release build"]
 fn ten_thousand_models_in_one_process() {
-    makes_without_growth(10_000);
+    makes_without_growth(10_000, make);
 }
