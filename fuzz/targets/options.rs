@@ -10,7 +10,11 @@ pub fn run(bytes: &[u8]) {
     let options: Vec<&'static Entry> = all().collect();
     let option = options[usize::from(which.as_bytes()[0]) % options.len()];
     let project = option.key.map(|key| {
-        let table = if key.table.is_empty() { String::new() } else { format!("[{}]\n", key.table) };
+        let table = match key.table {
+            "" => String::new(),
+            "component" => "[[component]]\nname = 'body'\n".to_owned(),
+            table => format!("[{table}]\n"),
+        };
         Project::parse(&format!("mesh = 'a.obj'\n{table}{} = {value}\n", key.name))
     });
     if let Some(Ok(project)) = project
