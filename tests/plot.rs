@@ -130,16 +130,29 @@ fn a_list_on_the_standard_input_pauses_nothing_and_stays_unread() {
 
 #[test]
 fn ctrl_c_lifts_the_pen_and_the_job_goes_on_later() {
-    stop_and_go_on(1);
+    stop_and_go_on(&["-INT"]);
 }
 
 #[test]
 fn ctrl_c_twice_lifts_the_pen_too() {
-    stop_and_go_on(2);
+    stop_and_go_on(&["-INT", "-INT"]);
 }
 
-/// Stops a job of 150 strokes in the middle by pressing Ctrl-C, and goes on with it.
-fn stop_and_go_on(presses: usize) {
+#[test]
+fn the_end_of_a_session_lifts_the_pen_too() {
+    stop_and_go_on(&["-TERM"]);
+    stop_and_go_on(&["-HUP"]);
+}
+
+/// Nobody lifts the pen then, but the journal knows what was certainly done.
+#[test]
+fn a_job_whose_program_is_killed_goes_on_later() {
+    stop_and_go_on(&["-KILL"]);
+}
+
+/// Stops a job of 150 strokes in the middle by signals, and goes on with it.
+fn stop_and_go_on(signals: &[&str]) {
+    let is_killed = signals == ["-KILL"];
     let folder = folder(150);
     let machine = Machine::start(folder.path(), &["--baud", "38400", "--speedup", "8"]);
     let child = tatamu(folder.path())
@@ -150,15 +163,17 @@ fn stop_and_go_on(presses: usize) {
         .spawn()
         .unwrap();
     std::thread::sleep(std::time::Duration::from_secs(3));
-    for _ in 0..presses {
+    for signal in signals {
         let id = child.id().to_string();
-        assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
+        assert!(Command::new("kill").args([*signal, &id]).status().unwrap().success());
     }
     let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130), "{}", said(&output));
-    assert!(said(&output).contains("--resume a.tatamu-job"), "{}", said(&output));
     let report = machine.report();
-    assert!(report.contains("lost 0, broken commands 0") && report.contains("pen up"), "{report}");
+    if !is_killed {
+        assert_eq!(output.status.code(), Some(130), "{}", said(&output));
+        assert!(said(&output).contains("--resume a.tatamu-job"), "{}", said(&output));
+        assert!(report.contains("lost 0, broken commands 0") && report.contains("pen up"), "{report}");
+    }
     let first = lines_drawn(&report);
     assert!((1..6000).contains(&first), "{report}");
 
