@@ -20,6 +20,7 @@ mod shell;
 mod show;
 mod studio_args;
 mod terminal;
+mod threads;
 #[cfg(unix)]
 pub mod virtual_plotter;
 mod words;
@@ -115,6 +116,7 @@ pub fn run() -> ExitCode {
             }
         },
     };
+    threads::start();
     let result = match &cli.command {
         Command::Make(args) => make::run(args).map(|()| ExitCode::SUCCESS),
         Command::Design(args) => design::run(args).map(|()| ExitCode::SUCCESS),
