@@ -25,7 +25,8 @@ static FRAMES: Entry = Entry {
         },
     }),
     short: "Frames of an animation, folding and unfolding together",
-    long: "For .gif and .apng. More frames give smoother motion and larger files.",
+    long: "For .gif and .apng. More frames give smoother motion and larger files. All pictures together, half as many as \
+           frames, have at most 150 million pixels.",
     example: "-o teddy.gif --frames 120",
     meaning: "frames of an animation",
     ..Entry::BLANK

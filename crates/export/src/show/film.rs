@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use tatamu_core::fold::{FoldPlan, ModelMotion, Sequence};
 use tatamu_core::model::{Model, PartId};
+use tatamu_core::units::MM_PER_INCH;
 use tatamu_draw::drawing::{Layer, Mark, Rgb, Text};
 use tatamu_draw::pixels::rasterise;
 use tatamu_draw::render::{Scene, View};
@@ -24,6 +25,9 @@ const FRAME_S: [f64; 2] = [0.04, 0.25];
 const REST_S: f64 = 1.2;
 /// Height of capitals of captions, as a share of the picture's width.
 const CAPTION: f64 = 0.024;
+/// The most pixels of all pictures of a film together, each of which takes 4 bytes, and one more in a GIF: 60 frames
+/// of 2200 x 2200 pixels. 2000 frames of 4096 x 4096 would take 67 GB.
+const MOST_PIXELS: f64 = 150e6;
 const CAPTION_INK: Rgb = Rgb(70, 70, 76);
 
 /// Choices for films.
@@ -127,6 +131,15 @@ impl Film {
             .collect();
         let points: Vec<DVec3> = scenes.iter().flat_map(Scene::points).collect();
         let view = options.still().view(&points)?;
+        let pixels = view.size_mm() * (Still::dots_per_inch() / MM_PER_INCH);
+        if pixels.element_product() * scenes.len() as f64 > MOST_PIXELS {
+            return Err(ShowError::Film {
+                pictures: scenes.len(),
+                width: pixels.x.round(),
+                height: pixels.y.round(),
+                most_millions: MOST_PIXELS / 1e6,
+            });
+        }
         let captions = Captions::new(model, &sequence);
         let pictures: Vec<Result<Pixmap, ShowError>> = scenes
             .par_iter()

@@ -25,6 +25,21 @@ pub enum ShowError {
     /// The picture cannot be made of pixels.
     #[error(transparent)]
     Pixels(#[from] tatamu_draw::pixels::PngError),
+    /// The pictures of a film are too many for their size.
+    #[error(
+        "its {pictures} pictures of {width} x {height} pixels have more than {most_millions} million together; use \
+         fewer frames, or smaller pictures"
+    )]
+    Film {
+        /// Number of pictures.
+        pictures: usize,
+        /// Width of each, pixels.
+        width: f64,
+        /// Height of each, pixels.
+        height: f64,
+        /// The most that are taken together, million pixels.
+        most_millions: f64,
+    },
 }
 
 /// How a still is taken.
