@@ -77,10 +77,11 @@ fn files(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFil
     let model = FoldModel { title, components: &components, sheet_offsets: &sheet_offsets };
     let failed = |error| ExportError::writer(&FORMAT, error);
     let mut files = vec![ExportFile::single(write(&model).map_err(failed)?)];
-    let pieces = components.iter().flat_map(|c| c.net.pieces().iter().map(move |piece| (c, piece)));
-    for (component, piece) in pieces.filter(|_| options.fold.pieces) {
-        let bytes = write_piece(title, component, piece).map_err(failed)?;
-        files.push(ExportFile::named(piece.name(), bytes));
+    if options.fold.pieces {
+        let pieces = components.iter().flat_map(|c| c.net.pieces().iter().map(move |piece| (c, piece)));
+        let bytes = |(component, piece): (&FoldComponent<'_>, &Piece)| write_piece(title, component, piece);
+        let named = pieces.clone().map(bytes).collect::<Result<Vec<_>, _>>().map_err(failed)?;
+        files.extend(ExportFile::named(pieces.map(|(_, piece)| piece.name()).zip(named)));
     }
     Ok(files)
 }

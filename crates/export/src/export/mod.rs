@@ -38,6 +38,7 @@ pub use svg::{SvgOptions, SvgStroke};
 
 use crate::guide::overview;
 use crate::product::Product;
+use std::collections::BTreeSet;
 use tatamu_core::remedy::Remedy;
 use tatamu_draw::drawing::{Pages, PagesError};
 use tatamu_plot::plotter::PlanError;
@@ -136,9 +137,17 @@ impl ExportFile {
         Self { suffix: String::new(), bytes }
     }
 
-    /// The file of a part with a name, of which letters and digits stay.
-    pub fn named(name: &str, bytes: Vec<u8>) -> Self {
-        Self { suffix: slug(name), bytes }
+    /// The files of things with names, of which letters and digits stay. Numbers tell apart those that would be one
+    /// file, as on Windows those that differ in capitals alone.
+    pub fn named<'n>(things: impl IntoIterator<Item = (&'n str, Vec<u8>)>) -> Vec<Self> {
+        let mut taken = BTreeSet::new();
+        let file = |(name, bytes)| {
+            let slug = slug(name);
+            let numbered = (2..).map(|k| format!("{slug}-{k}"));
+            let free = std::iter::once(slug.clone()).chain(numbered).find(|s| taken.insert(s.to_lowercase()));
+            Self { suffix: free.unwrap_or(slug), bytes }
+        };
+        things.into_iter().map(file).collect()
     }
 
     /// The files of all pages, numbered where there are several.
@@ -220,9 +229,13 @@ fn with_cards(mut files: Vec<ExportFile>, pages: &Pages) -> Vec<ExportFile> {
     files
 }
 
+/// The most letters of a name in the name of a file, which has at most 255 bytes.
+const MOST_LETTERS: usize = 50;
+
 /// A dash, and the letters and digits of a name.
 fn slug(name: &str) -> String {
-    let letters: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+    let letter = |c: char| if c.is_alphanumeric() { c } else { '-' };
+    let letters: String = name.chars().map(letter).take(MOST_LETTERS).collect();
     format!("-{letters}")
 }
 
@@ -240,7 +253,21 @@ pub fn format_among<'a>(formats: &'a [Format], extension: &str) -> Option<&'a Fo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeSet;
+
+    #[test]
+    fn names_of_files_are_safe_on_windows() {
+        let long = "長".repeat(300);
+        let names =
+            ["Head", "head", "a/b", "a\\b", "a b", "con", "..", "x. ", "<b>:\"|?*", "\u{1}\u{202e}", &long];
+        let files = ExportFile::named(names.map(|name| (name, Vec::new())));
+        let suffixes: Vec<&str> = files.iter().map(|file| file.suffix.as_str()).collect();
+        assert_eq!(suffixes[..6], ["-Head", "-head-2", "-a-b", "-a-b-2", "-a-b-3", "-con"]);
+        assert_eq!(suffixes.iter().map(|s| s.to_lowercase()).collect::<BTreeSet<_>>().len(), names.len());
+        for suffix in suffixes {
+            let is_safe = suffix.chars().all(|c| c == '-' || c.is_alphanumeric());
+            assert!(suffix.starts_with('-') && is_safe && suffix.len() < 200, "{suffix}");
+        }
+    }
 
     #[test]
     fn extensions_lead_to_one_format_each() {
