@@ -57,8 +57,9 @@ pub enum MeshError {
     OnePoint,
     /// The size cannot be calculated with.
     #[error(
-        "the mesh measures {diagonal:e} units from corner to corner, too large to calculate with; \
-         scale it to a usual size first"
+        "the mesh measures {diagonal:e} units from corner to corner, too {} to calculate with; \
+         scale it to a usual size first",
+        if *diagonal < 1.0 { "small" } else { "large" }
     )]
     Extent {
         /// Diagonal of the bounding box.

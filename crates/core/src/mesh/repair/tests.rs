@@ -189,6 +189,8 @@ fn what_is_no_solid_is_refused() {
     assert!(matches!(error_of(huge, CUBE.to_vec()), MeshError::Extent { .. }));
     let huge = cube_corners().iter().map(|&p| (p - 0.5) * 1.7e308 * 2.0).collect();
     assert!(matches!(error_of(huge, CUBE.to_vec()), MeshError::Extent { .. }));
+    let tiny = error_of(cube_corners().iter().map(|&p| p * 1e-200).collect(), CUBE.to_vec());
+    assert!(tiny.to_string().contains("too small"), "{tiny}");
     let line = (0..9).map(|k| DVec3::splat(f64::from(k))).collect();
     let error = error_of(line, vec![[0, 1, 2], [1, 2, 3], [2, 3, 4], [3, 4, 5]]);
     assert_eq!(error, MeshError::TooFewFaces { faces: 0, input: 4 });
