@@ -3,7 +3,7 @@
 use super::choice::Choice;
 use super::error::{AppError, reason};
 use std::fs::File;
-use std::io::{Error, ErrorKind, Read};
+use std::io::{Error, ErrorKind, Read, Take};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use tatamu::design::Sketch;
@@ -218,7 +218,7 @@ pub fn fetch(path: &Path) -> std::io::Result<Vec<u8>> {
 }
 
 /// Opens a file, and nothing else: a pipe may wait for its writer for ever, and a device has no end.
-fn open(path: &Path) -> std::io::Result<File> {
+fn open(path: &Path) -> std::io::Result<Take<File>> {
     let metadata = std::fs::metadata(path)?;
     if metadata.is_dir() {
         return Err(ErrorKind::IsADirectory.into());
@@ -229,7 +229,9 @@ fn open(path: &Path) -> std::io::Result<File> {
     if metadata.len() > MOST_BYTES {
         return Err(too_large(MOST_BYTES));
     }
-    File::open(path)
+    // A file of /proc says that it has no bytes, and /proc/kmsg waits for the next message for ever.
+    let most = if metadata.len() == 0 { 0 } else { MOST_BYTES + 1 };
+    Ok(File::open(path)?.take(most))
 }
 
 /// All that a source has, unless it is more than this many bytes.
