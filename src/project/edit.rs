@@ -1,5 +1,6 @@
 //! The tables `[[edit]]`.
 
+use super::options::checked_name;
 use crate::geom::Plane;
 use crate::segment;
 use glam::DVec3;
@@ -46,9 +47,10 @@ impl TryFrom<Table> for Edit {
                 let plane = Plane::through(DVec3::from_array(point), DVec3::from_array(normal));
                 let plane =
                     plane.ok_or("the normal must not be [0, 0, 0], and all numbers must be finite")?;
-                if table.front.as_ref().is_some_and(|name| !is_name(name)) {
+                if table.front.as_ref().is_some_and(|name| checked_name(name).is_err()) {
                     return Err(
-                        "front, the name of the new part, needs at least one letter and no control characters",
+                        "front, the name of the new part, needs at least one letter and no control characters, \
+                                nor any that turn the direction of writing",
                     );
                 }
                 Ok(Self(segment::Edit::Split { part, plane, front: table.front }))
@@ -56,10 +58,6 @@ impl TryFrom<Table> for Edit {
             _ => Err("an edit needs either merge, or split with point and normal"),
         }
     }
-}
-
-fn is_name(name: &str) -> bool {
-    !name.trim().is_empty() && !name.contains(char::is_control)
 }
 
 #[cfg(test)]
@@ -93,6 +91,10 @@ mod tests {
             ("split = 'body'\npoint = [0, 0, 0]\nnormal = [0, 0, 0]", "must not be [0, 0, 0]"),
             ("split = 'body'\npoint = [0, nan, 0]\nnormal = [0, 0, 1]", "finite"),
             ("split = 'body'\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nfront = ' '", "front"),
+            (
+                "split = 'body'\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\nfront = \"a\\u202eb\"",
+                "direction of writing",
+            ),
             ("merge = ['a', 'b']\nsplit = 'c'", "either"),
             ("front = 'a'", "either"),
             ("cut = 'a'", "unknown field `cut`"),

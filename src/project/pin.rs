@@ -90,6 +90,7 @@ mod tests {
             ("piece = 'a'\nsheet = 1\nx_mm = 1\ny_mm = 1\nturn = inf\n", "degrees"),
             ("piece = 'a'\nsheet = 1\nx_mm = 1\n", "y_mm"),
             ("piece = 'a'\nsheet = 1\nx_mm = 1\ny_mm = 1\nnet = 0\n", "net must be"),
+            ("piece = 'a'\nsheet = 1\nx_mm = 1\ny_mm = 1\nturned = 90\n", "unknown field `turned`"),
             ("piece = ' '\nsheet = 1\nx_mm = 1\ny_mm = 1\n", "name"),
         ] {
             let message = parse(text).unwrap_err().to_string();

@@ -133,17 +133,18 @@ fn a_hundred_thousand_loose_bodies_are_dropped_with_their_count() {
 /// They reached HTML and SVG, where they turn the words of others round.
 #[test]
 fn names_that_steer_are_refused_wherever_they_are_given() {
-    let steering = ['\u{7}', '\u{1b}', '\u{85}', '\u{61c}', '\u{200e}', '\u{200f}', '\u{2028}', '\u{2029}']
-        .into_iter()
-        .chain('\u{202a}'..='\u{202e}')
-        .chain('\u{2066}'..='\u{2069}');
-    for c in steering {
+    let few = |c: &char| *c > '\u{a0}' || ['\u{7}', '\u{1b}', '\u{85}'].contains(c);
+    for c in steering().into_iter().filter(few) {
         let name = format!("bo{c}dy");
         let quoted = format!("\"bo\\u{:04x}dy\"", u32::from(c));
         for text in [
             format!("mesh = 'cube.off'\n[[component]]\nname = 'body'\nrename = {quoted}\n"),
             format!("mesh = 'cube.off'\n[[component]]\nname = {quoted}\n"),
             format!("mesh = 'cube.off'\n[[component]]\nname = 'body'\ncolor = {quoted}\n"),
+            format!(
+                "mesh = 'cube.off'\n[[edit]]\nsplit = 'body'\npoint = [0.5, 0.5, 0.5]\nnormal = [0, 1, 0]\n\
+                 front = {quoted}\n"
+            ),
         ] {
             let folder = folder_with(&[CUBE, ("a.toml", text.as_bytes())]);
             let result = run(folder.path(), &["make", "a.toml", "-o", "a.svg", "-o", "a.html"]);
@@ -318,5 +319,95 @@ fn openings_are_in_the_report_and_large_ones_have_a_warning() {
         );
         let mut warnings = report["warnings"].as_array().unwrap().iter();
         assert_eq!(warnings.any(|warning| warning["code"] == "opening"), is_told);
+    }
+}
+
+/// Characters that steer what shows a text: all control characters, and those that turn the direction of writing.
+fn steering() -> Vec<char> {
+    let controls = ('\u{1}'..='\u{1f}').chain('\u{7f}'..='\u{9f}');
+    let turning = ['\u{61c}', '\u{200e}', '\u{200f}'].into_iter().chain('\u{2028}'..='\u{202e}');
+    controls.chain(turning).chain('\u{2066}'..='\u{2069}').collect()
+}
+
+/// The report and the project file of `init` had them as they were.
+#[test]
+#[cfg(unix)]
+fn a_file_name_that_steers_does_so_in_no_text_format() {
+    let name = format!("bo{}dy", steering().into_iter().collect::<String>());
+    let mesh = format!("{name}.off");
+    let folder = folder_with(&[(&mesh, CUBE.1)]);
+    let options = ["--size", "60", "--effort", "0"];
+    let extensions =
+        ["svg", "dxf", "plt", "hpgl", "lbrn2", "fcm", "obj", "fold", "html", "json", "glb", "stl", "pdf"];
+    let outputs: Vec<String> = extensions.iter().flat_map(|e| ["-o".to_owned(), format!("a.{e}")]).collect();
+    let outputs: Vec<&str> = outputs.iter().map(String::as_str).collect();
+    for arguments in [
+        &[&["make", &mesh][..], &options, &outputs].concat()[..],
+        &[&["make", &mesh, "-o", "b.gcode", "--cutter", "grbl-laser", "--media", "laser-card"][..], &options]
+            .concat(),
+        &["segment", &mesh, "-o", "c.png", "--report", "c.json"],
+        &["show", &mesh, "-o", "c.svg"],
+        &["init", &mesh, "-o", "a.toml"],
+        &[&["make", "a.toml", "-o", "d.json", "-o", "d.html"][..], &options].concat(),
+    ] {
+        let result = run(folder.path(), arguments);
+        assert_eq!(result.code, Some(0), "{arguments:?}: {}", result.err);
+        let said = format!("{}{}", result.out, result.err);
+        assert!(!said.contains(|c| c != '\n' && steering().contains(&c)), "{arguments:?}: {said:?}");
+    }
+    for file in names(&folder).into_iter().filter(|name| *name != mesh) {
+        let bytes = std::fs::read(folder.path().join(&file)).unwrap();
+        let is_text = ["glb", "stl", "pdf", "fcm", "png"].iter().all(|extension| !file.ends_with(extension));
+        let text = String::from_utf8_lossy(&bytes);
+        assert!(!is_text || std::str::from_utf8(&bytes).is_ok(), "{file}");
+        // Of what is no text, only those of several bytes tell.
+        let steers =
+            |&c: &char| !['\t', '\n', '\r'].contains(&c) && (is_text || c > '\u{ff}') && text.contains(c);
+        let found: Vec<char> = steering().into_iter().filter(steers).collect();
+        assert!(found.is_empty(), "{file} has {found:?}");
+    }
+    assert_eq!(report(&folder, "d.json")["input"]["file"], report(&folder, "a.json")["input"]["file"]);
+}
+
+/// Thousands were a panic where the system does not start so many.
+#[test]
+#[cfg(unix)]
+fn a_number_of_threads_that_the_system_refuses_is_made_smaller() {
+    let program = assert_cmd::cargo::cargo_bin!("tatamu");
+    for threads in ["5000", "18446744073709551615", "18446744073709551616", "-1", "x", "0"] {
+        let folder = folder_with(&[CUBE]);
+        let make = "ulimit -v 1048576; exec \"$0\" make cube.off -q --effort 0 --size 60 -o a.fold";
+        let mut shell = std::process::Command::new("sh");
+        shell.args(["-c", make]).arg(program).current_dir(folder.path()).env("RAYON_NUM_THREADS", threads);
+        let output = shell.output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!((output.status.code(), said.as_ref()), (Some(0), ""), "{threads}");
+        assert_eq!(names(&folder), ["a.fold", "cube.off"]);
+    }
+}
+
+/// 2,000 frames of 640 pixels took 1.6 GB, of 4,096 pixels 67 GB.
+#[test]
+#[cfg(unix)]
+fn a_film_of_very_many_pixels_is_refused() {
+    let folder = folder_with(&[CUBE]);
+    for film in ["--frames 2000", "--frames 2000 --size-px 4096", "--size-px 4096"] {
+        let make = format!("make cube.off -q --effort 0 --size 60 {film} -o a.gif -o a.apng");
+        let result = run_within_a_gigabyte(folder.path(), &make);
+        assert_eq!(result.code, Some(1), "{film}: {}", result.err);
+        let is_said = result.err.contains("more than 150 million") && result.err.contains("fewer frames");
+        assert!(is_said && result.err.lines().count() == 1, "{film}: {}", result.err);
+    }
+    assert_eq!(names(&folder), ["cube.off"]);
+}
+
+/// Reading /proc/kmsg waits for ever.
+#[test]
+#[cfg(target_os = "linux")]
+fn files_of_the_kernel_are_not_read() {
+    for file in ["/proc/self/status", "/proc/kmsg"] {
+        let project = format!("mesh = '{file}'\n");
+        assert_refused(&[], &["make", file], &[file, "the file is empty"]);
+        assert_refused(&[("a.toml", project.as_bytes())], &["make", "a.toml"], &[file, "the file is empty"]);
     }
 }

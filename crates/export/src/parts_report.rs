@@ -3,6 +3,7 @@
 use serde::Serialize;
 use tatamu_core::geom::Hull;
 use tatamu_core::segment::{Overlap, Parts, SegmentId};
+use tatamu_draw::drawing::text::with_escapes;
 
 /// Version of the report's structure.
 const SCHEMA: u32 = 1;
@@ -110,7 +111,6 @@ pub fn to_json(parts: &Parts, run: &PartsRun<'_>) -> Result<Vec<u8>, serde_json:
             .collect(),
         borders: borders.collect(),
     };
-    let mut bytes = serde_json::to_vec_pretty(&report)?;
-    bytes.push(b'\n');
-    Ok(bytes)
+    let text = with_escapes(&serde_json::to_string_pretty(&report)?);
+    Ok(format!("{text}\n").into_bytes())
 }

@@ -1,6 +1,7 @@
 //! Values that users gave.
 
 use super::{Entry, Kind, Settings};
+use crate::drawing::text::{steers, with_escapes};
 
 /// A value as it was written.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,7 +87,11 @@ impl Entry {
     }
 }
 
-/// A text as TOML.
+/// A text as TOML, on one line.
 pub(crate) fn quoted(text: String) -> String {
+    if text.contains(steers) {
+        // TOML writes others than control characters as they are. Between double quotes it has all escapes of JSON.
+        return with_escapes(&serde_json::Value::from(text).to_string());
+    }
     toml::Value::from(text).to_string()
 }

@@ -184,6 +184,15 @@ pub fn steers(c: char) -> bool {
         || matches!(c, '\u{61c}' | '\u{200e}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
 
+/// JSON, or a quoted text of TOML, with an escape for each character that steers: both have `\u` and four digits.
+pub fn with_escapes(written: &str) -> String {
+    let escaped = |c: char| match c {
+        c if steers(c) && c != '\n' => format!("\\u{:04x}", u32::from(c)),
+        c => c.to_string(),
+    };
+    written.chars().map(escaped).collect()
+}
+
 /// The text as it will be seen: characters that the font lacks become `?`, any white space a
 /// space.
 pub fn printable(content: &str) -> String {
@@ -314,6 +323,11 @@ mod tests {
     fn bounds(text: &Text) -> (DVec2, DVec2) {
         let points = outlines(text).iter().flat_map(PathCommand::points).collect::<Vec<_>>();
         polygon::bounds(points).expect("letters have outlines")
+    }
+
+    #[test]
+    fn what_steers_becomes_an_escape() {
+        assert_eq!(with_escapes("{\n  \"a\u{202e}é\u{9b}\"\n}"), "{\n  \"a\\u202eé\\u009b\"\n}");
     }
 
     #[test]
