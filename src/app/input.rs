@@ -2,6 +2,7 @@
 
 use super::choice::Choice;
 use super::error::{AppError, reason};
+use std::cell::RefCell;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Take};
 use std::path::{Component, Path, PathBuf};
@@ -52,6 +53,31 @@ impl Input {
     /// The mesh that a project names.
     pub fn named_mesh(&self) -> Option<&Path> {
         self.project.as_ref().and_then(|project| project.mesh.as_ref()).map(|_| self.mesh_path.as_path())
+    }
+
+    /// Refuses to replace a texture of the mesh, which often has the mesh's name, as pictures of it have.
+    pub fn spare_textures(&self, files: &[(PathBuf, Vec<u8>)]) -> Result<(), AppError> {
+        let is_picture = |path: &Path| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
+        let there = |path: &&PathBuf| is_picture(path) && path.is_file();
+        let replaced: Vec<&PathBuf> = files.iter().map(|(path, _)| path).filter(there).collect();
+        if replaced.is_empty() {
+            return Ok(());
+        }
+        let read = RefCell::new(Vec::new());
+        let noting = |path: &Path| {
+            read.borrow_mut().extend(path.canonicalize());
+            fetch(path)
+        };
+        // A mesh without colours has no textures.
+        let _ = read_painting_by(&noting, &self.mesh_path);
+        let is_read = |path: &PathBuf| path.canonicalize().is_ok_and(|path| read.borrow().contains(&path));
+        match replaced.into_iter().find(|path| is_read(path)) {
+            None => Ok(()),
+            Some(path) => Err(AppError::Output {
+                path: path.clone(),
+                reason: "it is a texture of the mesh; choose another name".to_owned(),
+            }),
+        }
     }
 
     /// What the user should know about the files that were read.

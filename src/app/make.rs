@@ -186,6 +186,7 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
     if let Some(path) = task.segments {
         written.push((path, segments(result.mesh(), result.face_parts(), &input.repairs)));
     }
+    input.spare_textures(&written)?;
     let advice = choice.settings().files.program.map(|program| program.advice);
     let advice = advice.or(lacks_sheets.then_some(GUIDES_ALONE));
     Ok(Made::new(&result, input.named_mesh(), written).with_advice(advice))

@@ -104,6 +104,7 @@ pub fn run(args: &SegmentCommand) -> Result<(), AppError> {
             .map_err(|error| AppError::Output { path: path.clone(), reason: error.to_string() })?;
         files.push((path.clone(), bytes));
     }
+    input.spare_textures(&files)?;
     output::write(&files)?;
     if !args.quiet {
         summarise(&parts, overlap, &stages);

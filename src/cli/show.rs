@@ -144,6 +144,7 @@ pub fn run(args: &ShowArgs) -> Result<(), AppError> {
     let title = printable(&args.input.file_stem().unwrap_or_default().to_string_lossy());
     let files = write(title, drawings)?.into_iter();
     let files: Vec<_> = files.map(|file| (names::with_suffix(&path, &file.suffix), file.bytes)).collect();
+    input.spare_textures(&files)?;
     output::write(&files)?;
     if !args.quiet {
         let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();

@@ -411,3 +411,34 @@ fn files_of_the_kernel_are_not_read() {
         assert_refused(&[("a.toml", project.as_bytes())], &["make", "a.toml"], &[file, "the file is empty"]);
     }
 }
+
+/// `tatamu show model.obj` writes model.png, and replaced the texture of that name without a word.
+#[test]
+fn a_texture_of_the_mesh_is_not_replaced() {
+    let corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\n";
+    let faces = "f 1/1 3/2 2/3\nf 1/1 2/2 4/3\nf 2/1 3/2 4/3\nf 1/1 4/2 3/3\n";
+    let mesh = format!("mtllib a.mtl\n{corners}usemtl paint\n{faces}");
+    let folder = folder_with(&[CUBE, ("a.obj", mesh.as_bytes()), ("a.mtl", b"newmtl paint\nmap_Kd a.png\n")]);
+    let draw = ["show", "cube.off", "-q", "--stage", "mesh", "-o", "a.png"];
+    assert_eq!(run(folder.path(), &draw).code, Some(0));
+    let texture = std::fs::read(folder.path().join("a.png")).unwrap();
+    let small = ["--size", "60", "--effort", "0"];
+    for command in [
+        &["show", "a.obj", "--stage", "mesh"][..],
+        &["show", "a.obj", "--stage", "mesh", "-o", "./a.png"],
+        &["segment", "a.obj", "-o", "a.png"],
+        &[&["make", "a.obj", "-o", "a.png"][..], &small].concat(),
+        &[&["make", "a.obj", "--color", "-o", "a.pdf", "-o", "a.png"][..], &small].concat(),
+    ] {
+        let result = run(folder.path(), command);
+        assert_eq!(result.code, Some(1), "{command:?}: {}", result.err);
+        assert!(result.err.contains("a.png: it is a texture of the mesh"), "{command:?}: {}", result.err);
+        assert!(std::fs::read(folder.path().join("a.png")).unwrap() == texture, "{command:?}");
+        assert_eq!(names(&folder), ["a.mtl", "a.obj", "a.png", "cube.off"]);
+    }
+    // Its own pictures it replaces.
+    for _ in 0..2 {
+        let result = run(folder.path(), &["show", "a.obj", "-q", "--stage", "mesh", "-o", "b.png"]);
+        assert_eq!(result.code, Some(0), "{}", result.err);
+    }
+}
