@@ -442,3 +442,32 @@ fn a_texture_of_the_mesh_is_not_replaced() {
         assert_eq!(result.code, Some(0), "{}", result.err);
     }
 }
+
+/// The list of overlaps took all memory, and the distances of 300,000 corners from each other took hours.
+#[test]
+#[cfg(unix)]
+fn a_fold_file_of_equal_faces_or_of_one_huge_face_is_checked_soon() {
+    let master = |faces: &[Vec<usize>]| {
+        let corners = [[0, 0], [30, 0], [0, 30]];
+        let frame =
+            serde_json::json!({ "frame_title": "flat", "vertices_coords": corners, "edges_foldAngle": [] });
+        let all = |value: serde_json::Value| vec![value; faces.len()];
+        serde_json::json!({
+            "vertices_coords": corners,
+            "edges_vertices": [], "edges_tatamu:kind": [], "edges_tatamu:label": [],
+            "faces_vertices": faces, "faces_tatamu:component": all("a".into()), "faces_tatamu:kind": all("top".into()),
+            "faces_tatamu:chain": all(().into()), "faces_tatamu:panel": all(().into()),
+            "file_frames": [frame],
+        })
+    };
+    let equal = vec![vec![0, 1, 2]; 20_000];
+    let huge: Vec<usize> = (0..300_000).map(|k| k % 3).collect();
+    for (faces, word) in [(equal, "overlap"), (vec![huge], "a panel has at most 1000")] {
+        let folder = folder_with(&[("a.fold", master(&faces).to_string().as_bytes())]);
+        let begun = std::time::Instant::now();
+        let result = run_within_a_gigabyte(folder.path(), "check a.fold");
+        assert_eq!(result.code, Some(1), "{word}: {}", result.err);
+        assert!(format!("{}{}", result.out, result.err).contains(word), "{}{}", result.out, result.err);
+        assert!(begun.elapsed().as_secs() < 30, "{word}: {:?}", begun.elapsed());
+    }
+}

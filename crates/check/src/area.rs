@@ -5,7 +5,10 @@ use glam::{DVec2, DVec3};
 /// Polygons that share less than this area touch and do not overlap.
 const OVERLAP_MM2: f64 = 1e-5;
 
-/// Pairs of convex polygons that share more than a touch.
+/// The most pairs that are listed: a megabyte of equal faces has 200 million.
+const MOST_PAIRS: usize = 1000;
+
+/// Pairs of convex polygons that share more than a touch; the first of very many.
 pub(super) fn overlapping(polygons: &[Vec<DVec2>]) -> Vec<(usize, usize)> {
     let boxes: Vec<(DVec2, DVec2)> = polygons
         .iter()
@@ -17,6 +20,9 @@ pub(super) fn overlapping(polygons: &[Vec<DVec2>]) -> Vec<(usize, usize)> {
             let apart = boxes[a].0.cmpgt(boxes[b].1).any() || boxes[b].0.cmpgt(boxes[a].1).any();
             if !apart && area(&common(&polygons[a], &polygons[b])).abs() > OVERLAP_MM2 {
                 out.push((b, a));
+                if out.len() == MOST_PAIRS {
+                    return out;
+                }
             }
         }
     }

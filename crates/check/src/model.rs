@@ -29,7 +29,21 @@ pub enum FoldCheckError {
         /// How many vertices there are.
         count: usize,
     },
+    /// A face that no panel is.
+    #[error("face {face} has {count} corners; a panel has at most {most}")]
+    Corners {
+        /// Index of the face.
+        face: usize,
+        /// Its corners.
+        count: usize,
+        /// The most that are measured.
+        most: usize,
+    },
 }
+
+/// The most corners of a face, whose distances from each other are all measured. A top panel has at most 64 edges, each of
+/// which may be in a few parts.
+const MOST_CORNERS: usize = 1000;
 
 #[derive(Deserialize)]
 pub(super) struct Master {
@@ -100,6 +114,10 @@ impl Model {
         };
         index("edges_vertices", Box::new(master.edges_vertices.iter().flatten().copied()))?;
         index("faces_vertices", Box::new(master.faces_vertices.iter().flatten().copied()))?;
+        let mut corners = master.faces_vertices.iter().map(Vec::len).enumerate();
+        if let Some((face, count)) = corners.find(|&(_, count)| count > MOST_CORNERS) {
+            return Err(FoldCheckError::Corners { face, count, most: MOST_CORNERS });
+        }
         let pattern = points(&master.vertices_coords)?;
         let frames =
             master.file_frames.iter().map(|f| points(&f.vertices_coords)).collect::<Result<_, _>>()?;

@@ -16,7 +16,7 @@ pub struct FoldReport {
     pub unpaired_labels: Vec<String>,
     /// Faces that are not counter-clockwise in the crease pattern.
     pub clockwise_faces: Vec<usize>,
-    /// Pairs of faces that overlap in the crease pattern.
+    /// Pairs of faces that overlap in the crease pattern, at most 1000.
     pub overlaps: Vec<(usize, usize)>,
     /// Largest distance of a vertex from its component's plane in the last frame, mm.
     pub thickness_mm: f64,
