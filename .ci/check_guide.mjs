@@ -165,7 +165,7 @@ expect(hidden === 0, `${hidden} pages are not printed`);
 const steps = await page.$$eval(".step", (all) => all.length);
 const printed = Buffer.from(await page.pdf({ format: "A4" })).toString("latin1");
 const sheets = (printed.match(/\/Type\s*\/Page[^s]/g) || []).length;
-expect(sheets <= 4 + steps / 2.5, `${steps} steps take ${sheets} printed pages`);
+expect(sheets <= 4 + steps / 4, `${steps} steps take ${sheets} printed pages`);
 if (pictures) await page.pdf({ path: `${pictures}/printed.pdf`, format: "A4" });
 await browser.close();
 faults.forEach((fault) => console.log(fault));
