@@ -43,14 +43,6 @@ pub const PAPER_AND_PIECES: [&Entry; 12] = [
 /// The settings of the whole model that few need.
 pub const RARE: [&Entry; 7] = [&SHEETS_MAX, &THICK, &SPLIT, &HIDE_BELOW, &EDGE_NAMES, &EFFORT, &CALIBRATE];
 
-/// What a setting is called: a key of the project file in words.
-pub fn label(option: &Entry) -> String {
-    let words = option.dial.map_or(option.name(), |dial| dial.label).replace('_', " ");
-    let mut letters = words.chars();
-    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
-    first + letters.as_str()
-}
-
 /// Least and most of a number that can be dragged to.
 pub fn range(option: &Entry) -> RangeInclusive<f64> {
     match (&option.kind, option.dial.and_then(|dial| dial.span)) {

@@ -1,10 +1,12 @@
-//! What a warning advises, as a change that one click makes.
+//! What a warning or an error advises, as a change that one click makes.
 
-use super::dials::label;
 use tatamu::pipeline::Warning;
 use tatamu::project::change::{Change, to_digits};
-use tatamu::project::options::{Entry, MARGIN, MIN_PANEL_WIDTH, PAPER, SIZE, SPLIT, Settings, THICK};
+use tatamu::project::options::{
+    Entry, MARGIN, MIN_PANEL_WIDTH, PAPER, SHEETS_MAX, SIZE, SPLIT, Settings, THICK,
+};
 use tatamu::remedy::Remedy;
+use tatamu::sheet::PinWarning;
 use toml_edit::Value;
 
 /// Factor for advice that says only "larger" or "smaller".
@@ -15,13 +17,22 @@ const PAPERS: [&[&str]; 2] = [&["a5", "a4", "a3"], &["letter", "legal"]];
 
 /// What a warning advises, as far as it is not done by hand: what the user reads, and the change.
 pub fn changes(warning: &Warning, now: &Settings) -> Vec<(String, Change)> {
-    warning.remedies().iter().filter_map(|remedy| change(remedy, now)).collect()
+    // The remedy does not say which pin.
+    if let Warning::Pin(PinWarning::NoPiece(piece)) = warning {
+        return vec![("Remove the pin".to_owned(), Change::Unpin { piece: piece.clone() })];
+    }
+    of(&warning.remedies(), now)
+}
+
+/// The changes of some remedies.
+pub fn of(remedies: &[Remedy], now: &Settings) -> Vec<(String, Change)> {
+    remedies.iter().filter_map(|remedy| change(remedy, now)).collect()
 }
 
 fn change(remedy: &Remedy, now: &Settings) -> Option<(String, Change)> {
     let size_mm = now.model.size_mm;
     let length = |option: &'static Entry, mm: f64| {
-        (format!("{} {mm} mm", label(option)), Change::Set { option, value: Some(mm.into()) })
+        (format!("{} {mm} mm", option.label()), Change::Set { option, value: Some(mm.into()) })
     };
     let paper = |by: isize| {
         let now = now.model.paper.name();
@@ -29,7 +40,7 @@ fn change(remedy: &Remedy, now: &Settings) -> Option<(String, Change)> {
         let (papers, place) = PAPERS.iter().find_map(|papers| Some((papers, place(papers)?)))?;
         let name = *papers.get(place.checked_add_signed(by)?)?;
         let value: Value = name.into();
-        Some((format!("{} {name}", label(&PAPER)), Change::Set { option: &PAPER, value: Some(value) }))
+        Some((format!("{} {name}", PAPER.label()), Change::Set { option: &PAPER, value: Some(value) }))
     };
     let reset = |text: &str, option| Some((text.to_owned(), Change::Set { option, value: None }));
     match remedy {
@@ -41,6 +52,11 @@ fn change(remedy: &Remedy, now: &Settings) -> Option<(String, Change)> {
         Remedy::SmallerMargin => Some(length(&MARGIN, to_digits(now.model.margin_mm / 2.0, 1))),
         Remedy::NarrowerPanels(mm) => Some(length(&MIN_PANEL_WIDTH, to_digits(mm / STEP, 1))),
         Remedy::SplitPanels => reset("Split large panels", &SPLIT),
+        Remedy::MoreSheets => {
+            let more = now.most_sheets? + 1;
+            let value = Some((more as i64).into());
+            Some((format!("{} {more}", SHEETS_MAX.label()), Change::Set { option: &SHEETS_MAX, value }))
+        }
         Remedy::NoBoards => reset("Fold without boards", &THICK),
         _ => None,
     }

@@ -1,13 +1,12 @@
 //! Sentences that name settings.
 
-use super::dials;
 use crate::app::error::AppError;
 use crate::app::words::{self, Names};
 use tatamu::design::DesignWarning;
 use tatamu::fold::{FoldWarning, Place};
 use tatamu::net::NetWarning;
 use tatamu::pipeline::{self, ModelWarning, Warning};
-use tatamu::project::options::{self, Entry, SHEETS_MAX};
+use tatamu::project::options::Entry;
 
 /// The sentence for a warning.
 pub fn warning(warning: &Warning) -> String {
@@ -22,29 +21,6 @@ pub fn error(error: &AppError) -> String {
 /// The sentence for a run that failed.
 pub fn failure(error: &pipeline::Error) -> String {
     words::with_remedies(error.to_string(), &error.remedies(), &Settings)
-}
-
-/// What marks a sentence about options that is for the command line alone.
-const OF_THE_COMMAND_LINE: [&str; 3] = ["Repeat it for more", "Without this option", "LC_PAPER"];
-
-/// What an option means, where there are settings and no command line.
-pub fn tip(option: &Entry) -> String {
-    let tip = option.tip();
-    let own = tip
-        .split_inclusive(". ")
-        .filter(|sentence| !OF_THE_COMMAND_LINE.iter().any(|words| sentence.contains(words)));
-    let own: String = own.flat_map(|sentence| sentence.split_inclusive(' ')).map(named).collect();
-    own.trim_end().to_owned()
-}
-
-/// A word, or the setting of an option that the command line has by this word.
-fn named(word: &str) -> String {
-    let Some(flag) = word.strip_prefix("--") else { return word.to_owned() };
-    let end =
-        flag.find(|letter: char| !letter.is_ascii_alphanumeric() && letter != '-').unwrap_or(flag.len());
-    let (name, rest) = flag.split_at(end);
-    let option = options::all().find(|option| option.flag.is_some_and(|flag| flag.name == name));
-    option.map_or(word.to_owned(), |option| Settings.option(option) + rest)
 }
 
 /// The components that a warning is about, as the user calls them.
@@ -87,8 +63,8 @@ struct Settings;
 
 impl Names for Settings {
     fn option(&self, option: &Entry) -> String {
-        if option.dial.is_some() || *option == SHEETS_MAX {
-            format!("\u{201c}{}\u{201d}", dials::label(option))
+        if option.dial.is_some() {
+            format!("\u{201c}{}\u{201d}", option.label())
         } else {
             format!("{} in the project file", option.name())
         }
@@ -99,7 +75,7 @@ impl Names for Settings {
     }
 
     fn undo(&self, option: &Entry) -> String {
-        format!("leave out {}", self.option(option))
+        format!("choose {}", self.option(option))
     }
 
     fn list_of_ways(&self) -> &'static str {
@@ -169,17 +145,6 @@ mod tests {
             let told = words::with_remedies("found".to_owned(), std::slice::from_ref(&remedy), &Settings);
             assert!(!told.contains("--") && !told.contains("[["), "{told}");
         }
-    }
-
-    /// The page said "the colours of --color", and to repeat an option.
-    #[test]
-    fn no_tip_has_words_of_the_command_line() {
-        for option in options::all().filter(|option| option.dial.is_some() || **option == SHEETS_MAX) {
-            let told = tip(option);
-            let is_told = ["--", "Repeat it", "LC_"].iter().all(|words| !told.contains(words));
-            assert!(is_told && !told.is_empty() && told.trim() == told, "{}: {told}", option.name());
-        }
-        assert!(tip(&SHEETS_MAX).ends_with("larger than \u{201c}Size\u{201d}."), "{}", tip(&SHEETS_MAX));
     }
 
     /// The page said "try --handshake paced".

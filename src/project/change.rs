@@ -6,7 +6,7 @@ use crate::listing;
 use crate::net::{EdgeChoice, EdgeName};
 use crate::sheet::Pin;
 use glam::DVec3;
-use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value};
 
 /// One change.
 #[derive(Debug, Clone)]
@@ -131,7 +131,8 @@ impl Change {
                 "" => set(root, option.name(), value.as_ref()),
                 table => {
                     let item = root.entry(table).or_insert_with(toml_edit::table);
-                    let inner = item.as_table_mut().ok_or_else(|| format!("[{table}] is not a table"))?;
+                    let inner =
+                        item.as_table_like_mut().ok_or_else(|| format!("[{table}] is not a table"))?;
                     set(inner, option.name(), value.as_ref());
                 }
             },
@@ -213,12 +214,14 @@ fn set_of_component(list: &mut ArrayOfTables, name: &str, option: &Entry, value:
     }
 }
 
-/// The name of an option in words.
+/// What a setting is called, in a sentence.
 fn words(option: &Entry) -> String {
-    option.name().replace('_', " ")
+    let label = option.label();
+    let mut letters = label.chars();
+    letters.next().map_or(String::new(), |first| first.to_lowercase().chain(letters).collect())
 }
 
-fn set(table: &mut Table, key: &str, value: Option<&Value>) {
+fn set(table: &mut dyn TableLike, key: &str, value: Option<&Value>) {
     match value {
         // What stands beside the old value, such as a comment, stays there.
         Some(value) => match table.get_mut(key).and_then(Item::as_value_mut) {
@@ -340,6 +343,14 @@ mod tests {
         assert!(text.contains("# the bear") && text.contains("size = \"a3\" # in the tray"), "{text}");
         let model = choose(Some(&project), &[]).unwrap().model;
         assert_eq!((model.size_mm, model.paper.name().as_str()), (150.0, "a3"));
+    }
+
+    /// "[paper] is not a table" was said, and the setting stayed.
+    #[test]
+    fn a_table_in_braces_is_changed_too() {
+        let change = Change::Set { option: &PAPER, value: Some("a3".into()) };
+        let text = change.apply("mesh = 'a.obj'\npaper = { size = \"a4\", margin_mm = 8 } # tray\n").unwrap();
+        assert_eq!(text, "mesh = 'a.obj'\npaper = { size = \"a3\", margin_mm = 8 } # tray\n");
     }
 
     #[test]

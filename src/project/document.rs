@@ -1,7 +1,7 @@
 //! The project that is open, with what it was before.
 
 use super::change::Change;
-use super::options::{Settings, choose};
+use super::options::{Refusal, Settings, choose};
 use super::{Project, ProjectError};
 use crate::pipeline::Options;
 use serde::{Deserialize, Serialize};
@@ -106,7 +106,7 @@ impl Document {
     /// clicks or drags does not see the file.
     pub fn change(&mut self, change: &Change, gesture: Option<&str>) -> Result<(), String> {
         let text = change.apply(&self.text)?;
-        let (project, settings) = parse(&text, ProjectError::without_line)?;
+        let (project, settings) = parse(&text, ProjectError::without_line, |refusal| refusal.of_settings())?;
         if text == self.text {
             return Ok(());
         }
@@ -198,12 +198,16 @@ impl Document {
 
 /// Reads the text of a file, of which a message quotes the line that is wrong.
 fn read(text: &str) -> Result<(Project, Settings), String> {
-    parse(text, |error| error.to_string())
+    parse(text, |error| error.to_string(), |refusal| refusal.to_string())
 }
 
-fn parse(text: &str, say: fn(ProjectError) -> String) -> Result<(Project, Settings), String> {
+fn parse(
+    text: &str,
+    say: fn(ProjectError) -> String,
+    refuse: fn(Refusal) -> String,
+) -> Result<(Project, Settings), String> {
     let project = Project::parse(text).map_err(say)?;
-    let settings = choose(Some(&project), &[]).map_err(|error| error.to_string())?;
+    let settings = choose(Some(&project), &[]).map_err(refuse)?;
     Ok((project, settings))
 }
 

@@ -1,5 +1,10 @@
 //! Messages for the user: at most one for each cause; it disappears with its cause.
 
+use super::words;
+use crate::app::error::AppError;
+use tatamu::pipeline;
+use tatamu::remedy::Remedy;
+
 /// What a message is about. A new one replaces the last of the same cause.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cause {
@@ -19,8 +24,35 @@ pub enum Cause {
     Mesh,
 }
 
+/// What did not work, and what can be done about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// One sentence.
+    pub text: String,
+    /// What can be done.
+    pub remedies: Vec<Remedy>,
+}
+
+impl From<String> for Problem {
+    fn from(text: String) -> Self {
+        Self { text, remedies: Vec::new() }
+    }
+}
+
+impl From<AppError> for Problem {
+    fn from(error: AppError) -> Self {
+        Self { text: words::error(&error), remedies: error.remedies() }
+    }
+}
+
+impl From<pipeline::Error> for Problem {
+    fn from(error: pipeline::Error) -> Self {
+        Self { text: words::failure(&error), remedies: error.remedies() }
+    }
+}
+
 /// One message.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Message {
     /// What it is about.
     pub cause: Cause,
@@ -28,6 +60,8 @@ pub struct Message {
     pub text: String,
     /// Whether something did not work.
     pub is_problem: bool,
+    /// What can be done about it.
+    pub remedies: Vec<Remedy>,
 }
 
 /// All messages.
@@ -40,12 +74,13 @@ pub struct Messages {
 impl Messages {
     /// Tells what was done.
     pub fn tell(&mut self, cause: Cause, text: String) {
-        self.put(Message { cause, text, is_problem: false });
+        self.put(Message { cause, text, is_problem: false, remedies: Vec::new() });
     }
 
     /// Tells what did not work.
-    pub fn warn(&mut self, cause: Cause, text: String) {
-        self.put(Message { cause, text, is_problem: true });
+    pub fn warn(&mut self, cause: Cause, problem: impl Into<Problem>) {
+        let Problem { text, remedies } = problem.into();
+        self.put(Message { cause, text, is_problem: true, remedies });
     }
 
     fn put(&mut self, message: Message) {

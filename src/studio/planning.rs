@@ -1,8 +1,8 @@
 //! The plan of a job for the cutter, made in a thread of its own, sheet by sheet.
 
+use super::messages::Problem;
 use super::opened::Opened;
 use super::pages;
-use super::words;
 use super::worker::Wake;
 use crate::app::plot::sheets::{self, Sheet};
 use crate::app::profiles;
@@ -43,8 +43,8 @@ impl Plan {
     ///
     /// # Errors
     /// A message where the machine cannot cut it.
-    pub fn of_test_cut(machine: &PltOptions) -> Result<Self, String> {
-        let sheets = sheets::of_test_cut(machine).map_err(|error| words::error(&error))?;
+    pub fn of_test_cut(machine: &PltOptions) -> Result<Self, Problem> {
+        let sheets = sheets::of_test_cut(machine)?;
         let (previews, strokes) = sheets.iter().map(|sheet| pictured(sheet, machine)).unzip();
         Ok(Self { machine: machine.clone(), sheets, previews, strokes })
     }
@@ -74,7 +74,7 @@ pub struct Wish {
 
 /// A plan that is being made. It stops when this is dropped.
 pub struct Planning {
-    made: Receiver<Result<Plan, String>>,
+    made: Receiver<Result<Plan, Problem>>,
     hand: Hand,
 }
 
@@ -107,11 +107,11 @@ impl Planning {
     }
 
     /// The plan, once it is made.
-    pub fn made(&self) -> Option<Result<Plan, String>> {
+    pub fn made(&self) -> Option<Result<Plan, Problem>> {
         match self.made.try_recv() {
             Ok(plan) => Some(plan),
             Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err("planning was stopped".to_owned())),
+            Err(TryRecvError::Disconnected) => Some(Err("planning was stopped".to_owned().into())),
         }
     }
 
@@ -130,9 +130,8 @@ impl Drop for Planning {
 
 impl Hand {
     /// The plan; `None` if it is no longer wanted.
-    fn plan(&self, wish: &Wish, wake: &Wake) -> Result<Option<Plan>, String> {
-        let machine =
-            profiles::machine(Some(&wish.cutter), Some(&wish.media)).map_err(|e| words::error(&e))?;
+    fn plan(&self, wish: &Wish, wake: &Wake) -> Result<Option<Plan>, Problem> {
+        let machine = profiles::machine(Some(&wish.cutter), Some(&wish.media))?;
         let drawings = pages::drawings(&wish.opened, &wish.project, &wish.output)?;
         // Each sheet is planned, then drawn.
         let _ = self.all.set(2 * drawings.len());
@@ -142,7 +141,7 @@ impl Hand {
             !self.is_stopped.load(Ordering::Relaxed)
         };
         let sheets = sheets::of_drawings_while(&wish.opened.title(), &drawings, &machine, &step);
-        let Some(sheets) = sheets.map_err(|e| words::error(&e))? else { return Ok(None) };
+        let Some(sheets) = sheets? else { return Ok(None) };
         let (mut previews, mut drawn) = (Vec::new(), Vec::new());
         for sheet in &sheets {
             let (preview, strokes) = pictured(sheet, &machine);

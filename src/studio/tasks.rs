@@ -1,9 +1,10 @@
 //! Reading and writing files in the background.
 
+use super::messages::Problem;
 use super::opened::Opened;
-use super::words;
 use super::worker::Wake;
 use crate::app::choice::Choice;
+use crate::app::error::AppError;
 use crate::app::fit::fitting_size_mm;
 use crate::app::output::{self, Target};
 use crate::app::{input, make, profiles};
@@ -23,11 +24,11 @@ pub enum Finished {
     /// The mesh was read again.
     Reread(Result<Box<Opened>, String>),
     /// Files were written; their names.
-    Exported(Result<Vec<String>, String>),
+    Exported(Result<Vec<String>, Problem>),
     /// The sheets were written, to be printed; where.
-    Printable(Result<PathBuf, String>),
+    Printable(Result<PathBuf, Problem>),
     /// A size was found in which the model takes no more sheets than it may, mm.
-    Sized(Result<f64, String>),
+    Sized(Result<f64, Problem>),
 }
 
 /// The wish to stop a search.
@@ -116,7 +117,7 @@ impl Tasks {
         self.spawn(0, move || {
             let sketches = opened.drawn.as_deref().map(Vec::as_slice);
             let size = choice.and_then(|choice| fitting_size_mm(&opened.engine, sketches, choice, &stop));
-            Finished::Sized(size.map_err(|error| words::error(&error)))
+            Finished::Sized(size.map_err(Problem::from))
         });
     }
 
@@ -137,10 +138,10 @@ impl Tasks {
 }
 
 /// Writes the sheets into a folder that stays, since nobody says when the viewer is done with them.
-fn printable(opened: &Opened, project: &Project, output: &Output) -> Result<PathBuf, String> {
+fn printable(opened: &Opened, project: &Project, output: &Output) -> Result<PathBuf, Problem> {
     let folder = tempfile::Builder::new().prefix("tatamu-").tempdir().map_err(|error| error.to_string())?;
     let path = folder.path().join(format!("{}.pdf", opened.title()));
-    let format = format_of("pdf").ok_or("there is no format pdf")?;
+    let format = format_of("pdf").ok_or_else(|| "there is no format pdf".to_owned())?;
     export(opened, project, output, None, vec![Target { path: path.clone(), format }])?;
     let _ = folder.keep();
     Ok(path)
@@ -152,8 +153,8 @@ fn export(
     output: &Output,
     machine: Option<&[String; 2]>,
     targets: Vec<Target>,
-) -> Result<Vec<String>, String> {
-    let run = || {
+) -> Result<Vec<String>, Problem> {
+    let run = || -> Result<_, AppError> {
         let paths: Vec<PathBuf> = targets.iter().map(|target| target.path.clone()).collect();
         output::check_places(&paths, &[&opened.source, &opened.mesh_path])?;
         let has_job = targets.iter().any(|target| target.format.is_job());
@@ -167,5 +168,5 @@ fn export(
         output::write(&files)?;
         Ok(files.iter().map(|(path, _)| path.display().to_string()).collect())
     };
-    run().map_err(|error: crate::app::error::AppError| words::error(&error))
+    run().map_err(Problem::from)
 }

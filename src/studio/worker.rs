@@ -1,8 +1,8 @@
 //! Work in the background. One thread makes the component that the user turns, in threads of its
 //! own, so that it does not wait for what went before to end; another one makes all the rest.
 
+use super::messages::Problem;
 use super::surface::{self, Distances};
-use super::words;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -46,7 +46,7 @@ pub enum News {
     /// Everything.
     Done(Box<Output>),
     /// There is no result; perhaps because of what was set for a component that is no more.
-    Failed(String, Option<String>),
+    Failed(Problem, Option<String>),
 }
 
 /// Called when there is news.
@@ -181,7 +181,7 @@ impl Outlet {
                     Error::NoComponent { name, .. } => Some(name.clone()),
                     _ => None,
                 };
-                self.tell(number, News::Failed(words::failure(&error), missing));
+                self.tell(number, News::Failed(error.into(), missing));
             }
         }
     }

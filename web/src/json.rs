@@ -94,10 +94,6 @@ struct WarningRow {
     remedies: Vec<String>,
 }
 
-/// What the number of sheets means on the page.
-const MOST_SHEETS: &str =
-    "Most sheets that the model may take. Where it takes more, a button makes it smaller until it fits.";
-
 impl Desk {
     /// All that the page shows beside pictures.
     pub fn state(&self) -> DeskState {
@@ -112,8 +108,6 @@ impl Desk {
         });
         let output = self.laid();
         let mut most_sheets = Row::new(&SHEETS_MAX, settings);
-        // Here the size stays until its button is pressed.
-        most_sheets.tip = MOST_SHEETS.to_owned();
         if let Some(output) = output {
             most_sheets.such_as = Some(output.layout().sheet_count().saturating_sub(1).max(1) as f64);
         }
@@ -231,8 +225,8 @@ impl Row {
         let is_length = matches!(&option.kind, Kind::Number(number) if number.unit == Unit::Length);
         Self {
             option: id(option),
-            label: dials::label(option),
-            tip: words::tip(option),
+            label: option.label(),
+            tip: option.tip(),
             kind,
             value,
             such_as,

@@ -34,10 +34,10 @@ pub enum Refusal {
         most_mm: f64,
     },
     /// A length that is larger than what it is measured on.
-    #[error("{option} is {mm} mm; on {paper} it must be at most {most_mm} mm")]
+    #[error("{} is {mm} mm; on {paper} it must be at most {most_mm} mm", flag(.option))]
     Beyond {
-        /// Name of the option.
-        option: String,
+        /// The option.
+        option: &'static Entry,
         /// Its value, mm.
         mm: f64,
         /// The largest that is accepted, mm.
@@ -48,6 +48,26 @@ pub enum Refusal {
     /// A value that is not accepted.
     #[error("{0}")]
     Value(String),
+}
+
+impl Refusal {
+    /// The sentence where there are settings and no command line.
+    pub fn of_settings(&self) -> String {
+        match self {
+            Self::Beyond { option, mm, most_mm, paper } => {
+                format!(
+                    "\u{201c}{}\u{201d} is {mm} mm; on {paper} it must be at most {most_mm} mm",
+                    option.label()
+                )
+            }
+            _ => self.to_string(),
+        }
+    }
+}
+
+/// An option as the command line has it.
+fn flag(option: &Entry) -> String {
+    option.flag.map_or(option.name().to_owned(), |flag| format!("--{}", flag.name))
 }
 
 /// What is chosen by a project file, and by flags, which go first.
@@ -133,7 +153,6 @@ fn check_lengths(settings: &Settings) -> Result<(), Refusal> {
         let Kind::Number(number) = &option.kind else { continue };
         let (mm, most_mm) = ((number.get)(settings).unwrap_or_default(), share * side_mm);
         if mm > most_mm {
-            let option = option.flag.map_or(option.name().to_owned(), |flag| format!("--{}", flag.name));
             return Err(Refusal::Beyond { option, mm, most_mm, paper: paper.name() });
         }
     }

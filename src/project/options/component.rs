@@ -23,13 +23,18 @@ pub static RENAME: Entry = Entry {
     short: "Another name, printed on the pieces",
     automatic: "the name",
     meaning: "another name, for pieces, reports and messages",
+    dial: Dial::new("Name"),
     ..Entry::BLANK
 };
 
 /// Its fold axis.
 pub static DIRECTION: Entry = Entry {
     key: Key::new("component", "direction"),
-    flag: Some(Flag { is_repeated: true, ..Flag::named("direction", "NAME=DEGREES", None) }),
+    flag: Some(Flag {
+        more: "Repeat it for more components; the summary and the report list their names.",
+        is_repeated: true,
+        ..Flag::named("direction", "NAME=DEGREES", None)
+    }),
     scope: Scope::Mesh,
     kind: Kind::Text(Text {
         names: Vec::new,
@@ -42,8 +47,7 @@ pub static DIRECTION: Entry = Entry {
         },
     }),
     short: "Direction in which a component folds, in degrees",
-    long: "The angle of the fold axis about the component's longest axis. Repeat it for more components; the summary \
-           and the report list their names.",
+    long: "The angle of the fold axis about the component's longest axis.",
     example: "--direction head=90 --direction body=-15",
     automatic: "chosen by a search",
     meaning: "angle of the fold axis about the component's longest axis, degrees; once per component",
@@ -55,6 +59,7 @@ pub static CONCAVE: Entry = Entry {
     key: Key::new("component", "concave"),
     flag: Some(Flag {
         short: Some("Allows dents in a component, such as a bottle with --parts 1"),
+        more: "Repeat it for more components.",
         is_repeated: true,
         ..Flag::named("concave", "NAME", None)
     }),
@@ -68,16 +73,23 @@ pub static CONCAVE: Entry = Entry {
     }),
     short: "Allows dents in the component",
     long: "Its profiles follow the shape itself instead of its convex hull. If that is not closer, or breaks its joints, \
-           the component stays convex and tatamu warns. Repeat it for more components.",
+           the component stays convex and tatamu warns.",
     example: "--parts 1 --concave body",
     meaning: "allows dents, for a component of a mesh; once per component",
+    dial: Dial::new("Dents"),
     ..Entry::BLANK
 };
 
 /// The colour of its card.
 pub static CARD: Entry = Entry {
     key: Key::new("component", "color"),
-    flag: Some(Flag { is_repeated: true, ..Flag::named("card", "NAME=COLOR|auto", None) }),
+    flag: Some(Flag {
+        short: Some("Colour of the card of a component, in your words; auto takes the mesh's colours"),
+        more: "Repeat it for more components. With auto, each of the others gets the card that is most like the \
+               colour that covers most of it, out of 24 that shops have; colours that look alike are one card.",
+        is_repeated: true,
+        ..Flag::named("card", "NAME=COLOR|auto", None)
+    }),
     kind: Kind::Text(Text {
         names: Vec::new,
         other: "text",
@@ -93,10 +105,8 @@ pub static CARD: Entry = Entry {
             put(&mut component(s, name).card, Some(colour.to_owned()))
         },
     }),
-    short: "Colour of the card of a component, in your words; auto takes the mesh's colours",
-    long: "Each sheet has pieces of one colour. Sheets, files, the summary and the guide name it. Repeat it for more \
-           components. With auto, each of the others gets the card that is most like the colour that covers most of \
-           it, out of 24 that shops have; colours that look alike are one card.",
+    short: "Colour of the card of a component, in your words",
+    long: "Each sheet has pieces of one colour. Sheets, files, the summary and the guide name it.",
     example: "--card head=brown --card body=white",
     automatic: "the same card for all",
     meaning: "colour of its card, in your words; each sheet has pieces of one colour, and says it",
@@ -123,6 +133,7 @@ pub static JOINT: Entry = Entry {
     automatic: "glue; plug where only a plug folds without clashes",
     meaning: "how it is attached to its parent: glued, or with a tab in slits that \
               [can be unplugged](../how-to/folding.md#a-joint-that-can-be-unplugged)",
+    dial: Dial::new("Joint"),
     ..Entry::BLANK
 };
 

@@ -16,7 +16,7 @@ pub struct Entry {
     /// One line without a full stop: help, comment of a project file, and tip of the studio. `{names}`,
     /// `{least}` and `{most}` become those of the kind.
     pub short: &'static str,
-    /// More sentences, for help and comments.
+    /// More sentences, for help, comments and tips: they name no flags.
     pub long: &'static str,
     /// How its flag may be used.
     pub example: &'static str,
@@ -52,6 +52,8 @@ pub struct Flag {
     pub excludes: Option<&'static str>,
     /// The line of help, where that is not the comment of the key.
     pub short: Option<&'static str>,
+    /// More sentences of help, about the flag alone.
+    pub more: &'static str,
     /// Whether the flag means the contrary of the key.
     pub is_inverse: bool,
     /// Whether it may be given several times.
@@ -78,6 +80,10 @@ pub enum Scope {
 pub struct Dial {
     /// What it is called.
     pub label: &'static str,
+    /// Its tip, where the setting does less than the flag.
+    pub tip: Option<&'static str>,
+    /// What a choice that is left to tatamu is called.
+    pub off: &'static str,
     /// Least and most that can be dragged to, where that is less than what is accepted.
     pub span: Option<(f64, f64)>,
     /// Digits after the point of a number.
@@ -148,6 +154,7 @@ impl Flag {
             alias: None,
             excludes: None,
             short: None,
+            more: "",
             is_inverse: false,
             is_repeated: false,
             may_begin_with_dash: false,
@@ -157,10 +164,15 @@ impl Flag {
 
 impl Dial {
     pub(super) const fn new(label: &'static str) -> Option<Self> {
-        Some(Self { label, span: None, digits: 0 })
+        Some(Self::plain(label))
+    }
+
+    /// A setting with nothing but a name.
+    pub const fn plain(label: &'static str) -> Self {
+        Self { label, tip: None, off: "automatic", span: None, digits: 0 }
     }
 
     pub(super) const fn spanning(label: &'static str, least: f64, most: f64, digits: i32) -> Option<Self> {
-        Some(Self { label, span: Some((least, most)), digits })
+        Some(Self { span: Some((least, most)), digits, ..Self::plain(label) })
     }
 }

@@ -52,7 +52,11 @@ pub static UP: Entry = Entry {
 /// Longest side of the model.
 pub static SIZE: Entry = Entry {
     key: Key::new("", "size"),
-    flag: Flag::new("size", "LENGTH"),
+    flag: Some(Flag {
+        more: "Without this option a mesh gets a size from 100 to 300 mm at which most models take three to five \
+               sheets of A4; a project file that says nothing gets 200 mm.",
+        ..Flag::named("size", "LENGTH", None)
+    }),
     kind: Kind::Number(Number {
         unit: Unit::Length,
         range: Range::Within(LEAST_SIZE_MM, MOST_SIZE_MM),
@@ -62,8 +66,7 @@ pub static SIZE: Entry = Entry {
         set: |s, mm| put(&mut s.model.size_mm, mm),
     }),
     short: "Longest side of the model's bounding box",
-    long: "A number with mm, cm, m or in; without a unit, mm. Without this option a mesh gets a size from 100 to 300 mm \
-           at which most models take three to five sheets of A4; a project file that says nothing gets 200 mm.",
+    long: "A number with mm, cm, m or in; without a unit, mm.",
     example: "--size 30cm",
     automatic: "by the shape",
     meaning: "longest side of the finished model's bounding box. A mesh without a project file gets a size from 100 to \
@@ -85,10 +88,18 @@ pub static SHEETS_MAX: Entry = Entry {
         set: |s, n| put(&mut s.most_sheets, Some(n)),
     }),
     short: "Makes the model smaller until it takes at most this many sheets",
-    long: "tatamu tries smaller sizes, in steps of 5 mm, and says which one it took. It makes no model larger than --size.",
+    long: "tatamu tries smaller sizes, in steps of 5 mm, and says which one it took. It makes no model larger than the \
+           size that you set.",
     example: "--size 40cm --sheets-max 4",
     automatic: "no limit",
     meaning: "the most sheets: tatamu makes the model smaller than `size`, in steps of 5 mm, until it takes no more",
+    dial: Some(Dial {
+        tip: Some(
+            "Most sheets that the model may take. Where it takes more, a button makes it smaller until it fits.",
+        ),
+        off: "no limit",
+        ..Dial::plain("Sheets max")
+    }),
     ..Entry::BLANK
 };
 

@@ -67,6 +67,7 @@ pub static SPLIT: Entry = Entry {
     long: "tatamu divides such a panel into parts with tabs and labels; glue these first. Without splitting, such a \
            panel is an error, which names the largest size that fits.",
     meaning: "splits panels that are larger than the sheet; if false, such a panel is an error",
+    dial: Dial::new("Split large panels"),
     ..Entry::BLANK
 };
 

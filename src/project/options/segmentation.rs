@@ -175,5 +175,6 @@ pub static ROOT: Entry = Entry {
     short: "Component that carries all others",
     automatic: "the one in the middle",
     meaning: "name of the component that carries all others",
+    dial: Dial::new("Root"),
     ..Entry::BLANK
 };

@@ -24,7 +24,11 @@ pub(super) fn papers() -> Vec<&'static str> {
 /// Size of the sheets.
 pub static PAPER: Entry = Entry {
     key: Key::new("paper", "size"),
-    flag: Flag::new("paper", "SIZE"),
+    flag: Some(Flag {
+        more: "A mesh without a project file gets letter where your locale (LC_PAPER, LANG) is of a country that uses \
+               it.",
+        ..Flag::named("paper", "SIZE", None)
+    }),
     kind: Kind::Text(Text {
         names: papers,
         other: OR_SIZE,
@@ -33,8 +37,7 @@ pub static PAPER: Entry = Entry {
         set: |s, text| put(&mut s.model.paper, parse_paper(text).map_err(|error| error.to_string())?),
     }),
     short: "Size of the sheets: {names}, or width and height such as 210x297mm",
-    long: "Width and height are in mm unless they have a unit. A mesh without a project file gets letter where your \
-           locale (LC_PAPER, LANG) is of a country that uses it.",
+    long: "Width and height are in mm unless they have a unit.",
     example: "--paper 210x297mm, --paper 12x12in",
     meaning: "size of the sheets; another SIZE is width and height, such as `210x297mm`. A mesh without a project \
               file gets `letter` where your locale (`LC_PAPER`, `LANG`) is of a country that uses it",
@@ -80,7 +83,7 @@ pub static THICKNESS: Entry = Entry {
     example: "--thickness 0.4mm",
     meaning: "thickness of the paper. The check of the folding ignores contacts of up to half of it; up to all of it \
               panels rub, beyond it they clash",
-    dial: Some(Dial { label: "Thickness", span: None, digits: 2 }),
+    dial: Some(Dial { digits: 2, ..Dial::plain("Thickness") }),
     ..Entry::BLANK
 };
 
@@ -99,6 +102,7 @@ pub static THICK: Entry = Entry {
     example: "--thickness 1.5mm --thick -o box.pdf -o box.stl",
     meaning: "makes the panels of board of that thickness: each is cut on its own and hinged with tape. For drawn \
               components and meshes that are boxes",
+    dial: Dial::new("Panels of board"),
     ..Entry::BLANK
 };
 
@@ -128,7 +132,7 @@ pub static SIDE: Entry = Entry {
     short: "Printed side of the paper: {names}",
     long: "With inside, pieces are mirrored, the finished model shows no lines, and creases fold towards you. With both, \
            a PDF has two pages for each sheet, to print on both sides: lines and labels inside; outside the places where \
-           parts are glued on, and the colours of --color.",
+           parts are glued on, and the mesh's colours, if they are printed.",
     example: "--side both",
     meaning: "printed side; `inside` is mirrored. `both` makes two pages for each sheet of a PDF: lines and labels \
               inside, the places of joints and the colours of the mesh outside",
@@ -162,7 +166,7 @@ pub static LABELS: Entry = Entry {
     long: "For a model without letters on its faces. With tabs, a piece has letters on its tabs and where parts are \
            glued on; all others are beside it, on paper that you cut off: write them inside with a pencil before you \
            cut. With inside, a PDF has two pages for each sheet, to print on both sides: lines and the labels of tabs \
-           outside, all other labels inside. What is printed inside by --side is never seen, and stays on the panels.",
+           outside, all other labels inside. On paper that is printed inside, labels stay on the panels: nobody sees them there.",
     example: "--labels tabs",
     meaning: "place of names and labels: on the `panels`; on `tabs` and joints, all others beside the piece; or \
               `inside`, on a page of their own in a PDF, for printing on both sides",

@@ -128,6 +128,29 @@ fn every_entry_is_whole_and_has_names_of_its_own() {
     assert!(keys.len() > 35 && flags.len() > 40, "{} keys, {} flags", keys.len(), flags.len());
 }
 
+/// The studio and the page said "the colours of --color", and to repeat an option.
+#[test]
+fn no_tip_of_a_setting_has_words_of_the_command_line() {
+    for option in all().filter(|option| option.dial.is_some()) {
+        let tip = option.tip();
+        let is_free =
+            ["--", "Repeat it", "Without this option", "LC_"].iter().all(|words| !tip.contains(words));
+        assert!(is_free && !tip.is_empty() && tip.trim() == tip, "{}: {tip}", option.name());
+    }
+    assert!(SIZE.long_help().contains("Without this option"), "{}", SIZE.long_help());
+    assert!(DIRECTION.long_help().contains("Repeat it"), "{}", DIRECTION.long_help());
+}
+
+/// The studio refused a width with "--tab-width is 200 mm".
+#[test]
+fn a_length_beyond_the_sheet_is_refused_with_the_name_of_its_setting() {
+    let project = Project::parse("mesh = 'a.obj'\n[defaults]\ntab_width_mm = 200\n").unwrap();
+    let refusal = choose(Some(&project), &[]).unwrap_err();
+    let told = "\u{201c}Tab width\u{201d} is 200 mm; on a4 it must be at most 105 mm";
+    assert_eq!(refusal.of_settings(), told);
+    assert!(refusal.to_string().starts_with("--tab-width is"), "{refusal}");
+}
+
 #[test]
 fn flags_go_before_the_file_and_the_file_before_the_defaults() {
     let project =

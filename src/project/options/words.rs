@@ -53,13 +53,25 @@ impl Entry {
     pub fn long_help(&self) -> String {
         let example =
             if self.example.is_empty() { String::new() } else { format!("Example: {}", self.example) };
-        let more = [self.filled(self.long, Reader::Help), example];
+        let of_flag = self.flag.map_or("", |flag| flag.more).to_owned();
+        let more = [self.filled(self.long, Reader::Help), of_flag, example];
         let more = more.into_iter().filter(|text| !text.is_empty()).collect::<Vec<_>>().join(" ");
         if more.is_empty() { self.help() } else { format!("{}\n\n{more}", self.help()) }
     }
 
-    /// What it means, for a tip.
+    /// What its setting is called: its label, or the key of the project file in words.
+    pub fn label(&self) -> String {
+        let words = self.dial.map_or(self.name(), |dial| dial.label).replace('_', " ");
+        let mut letters = words.chars();
+        let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+        first + letters.as_str()
+    }
+
+    /// What it means, where there are settings and no command line.
     pub fn tip(&self) -> String {
+        if let Some(own) = self.dial.and_then(|dial| dial.tip) {
+            return own.to_owned();
+        }
         let [short, long] = [self.short, self.long].map(|text| self.filled(text, Reader::Help));
         if long.is_empty() { short } else { format!("{short}. {long}") }
     }

@@ -1,7 +1,7 @@
 //! The size in which the model takes no more sheets than its project allows.
 
 use super::super::change::Change;
-use super::super::messages::Cause;
+use super::super::messages::{Cause, Problem};
 use super::super::tasks::Stop;
 use super::Studio;
 use tatamu::front::results::exceeded_sheets;
@@ -23,7 +23,7 @@ impl Studio {
     }
 
     /// Takes the size that was found, unless something was changed meanwhile.
-    pub(super) fn take_size(&mut self, size: Result<f64, String>) {
+    pub(super) fn take_size(&mut self, size: Result<f64, Problem>) {
         if self.sizing.take().is_none() {
             return;
         }

@@ -241,7 +241,7 @@ impl Studio {
             }
             News::Failed(problem, _) if self.is_attempt => {
                 self.undo();
-                self.messages.warn(Cause::Change, format!("{problem}; the net stays as it was"));
+                self.messages.warn(Cause::Change, format!("{}; the net stays as it was", problem.text));
             }
             News::Failed(problem, missing) => {
                 (self.busy, self.missing) = (None, missing);

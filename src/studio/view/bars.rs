@@ -113,6 +113,10 @@ fn themes(ui: &mut Ui) {
     ui.ctx().set_theme(theme);
 }
 
+/// Warnings that are seen without scrolling, and the points that each takes.
+const MOST_LINES: usize = 5;
+const LINE: f32 = 27.0;
+
 /// Progress, and what the model comes to.
 pub fn bottom(window: &mut Window, ui: &mut Ui) {
     egui::Panel::bottom("state").show(ui, |ui| {
@@ -123,8 +127,12 @@ pub fn bottom(window: &mut Window, ui: &mut Ui) {
     });
     super::notices::show(window, ui);
     if window.shows_warnings && window.studio.shown().output().is_some() {
-        egui::Panel::bottom("warnings").resizable(true).default_size(130.0).show(ui, |ui| {
-            egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| super::warnings::show(window, ui));
+        // As high as a short list needs, of which one is in two lines.
+        let lines = window.studio.notes().len().min(MOST_LINES);
+        let panel = egui::Panel::bottom(egui::Id::unique("warnings").with(lines)).resizable(true);
+        panel.default_size(LINE * (lines + 1) as f32).show(ui, |ui| {
+            let list = egui::ScrollArea::vertical().auto_shrink(false).min_scrolled_height(0.0);
+            list.show(ui, |ui| super::warnings::show(window, ui));
         });
     }
 }

@@ -332,9 +332,10 @@ impl Window {
         self.sheets.fit();
     }
 
-    /// Whether the tour is to be seen.
+    /// Whether the tour is to be seen: what it is about is there.
     fn is_touring(&self) -> bool {
-        self.tour.is_some() && self.studio.shown().output().is_some() && !self.dialogs.is_open()
+        let is_made = self.studio.shown().output().is_some();
+        self.tour.is_some() && is_made && self.mode == Mode::Model && !self.dialogs.is_open()
     }
 
     fn show_tour(&mut self, ctx: &egui::Context) {

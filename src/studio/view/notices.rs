@@ -2,9 +2,10 @@
 
 use super::super::change::Change;
 use super::super::messages::{Cause, Message};
-use super::{Window, look};
+use super::{Window, look, warnings};
 use eframe::egui::{self, RichText, Ui};
 use lucide_icons::Icon;
+use tatamu::front::remedies;
 
 /// Most notices that are shown at once.
 const MOST: usize = 3;
@@ -39,7 +40,13 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
 }
 
 /// What can be done about it.
-fn actions(window: &mut Window, ui: &mut Ui, &Message { cause, is_problem, .. }: &Message) {
+fn actions(window: &mut Window, ui: &mut Ui, message: &Message) {
+    let &Message { cause, is_problem, .. } = message;
+    let settings = window.studio.document().map(|document| document.settings());
+    let changes = settings.map(|now| remedies::of(&message.remedies, now)).unwrap_or_default();
+    if warnings::advised(&mut window.studio, ui, changes.into_iter().rev().collect()) {
+        window.studio.messages_mut().clear(cause);
+    }
     if cause == Cause::Model && !is_problem && ui.small_button("Start again").clicked() {
         window.studio.resume();
     }

@@ -160,8 +160,7 @@ fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: PartId) 
     let own = options.components.get(&name).cloned().unwrap_or_default();
     Grid::new("component").num_columns(2).show(ui, |ui| {
         let renamed = own.rename.clone().unwrap_or_else(|| name.clone());
-        let field =
-            text_row(panel, studio, ui, &name, &RENAME, ("Name", "printed on the pieces"), (&renamed, &name));
+        let field = text_row(panel, studio, ui, &name, &RENAME, (&renamed, &name));
         if std::mem::take(&mut panel.is_renaming) {
             field.request_focus();
         }
@@ -175,7 +174,7 @@ fn own(panel: &mut PartsPanel, studio: &mut Studio, ui: &mut Ui, index: PartId) 
         let row = Dialled::new(&PROFILE_VERTICES);
         row.component_row(studio, ui, &name, (vertices, own.profile_vertices.is_some()));
         let card = own.card.clone().unwrap_or_default();
-        text_row(panel, studio, ui, &name, &CARD, ("Card", CARD.meaning), (&card, ""));
+        text_row(panel, studio, ui, &name, &CARD, (&card, ""));
         dents_and_joint(studio, ui, &name, (own.is_concave, own.joint));
         figures(studio, ui, index);
     });
@@ -201,11 +200,11 @@ fn dents_and_joint(
 ) {
     let set = |option: &'static Entry, value| Change::Component { name: name.to_owned(), option, value };
     ui.label("");
-    if ui.checkbox(&mut is_concave, "Dents").on_hover_text(CONCAVE.tip()).changed() {
+    if ui.checkbox(&mut is_concave, CONCAVE.label()).on_hover_text(CONCAVE.tip()).changed() {
         studio.change(&set(&CONCAVE, is_concave.then(|| true.into())), None);
     }
     ui.end_row();
-    let label = ui.label("Joint").on_hover_text(JOINT.tip());
+    let label = ui.label(JOINT.label()).on_hover_text(JOINT.tip());
     let now = match joint {
         None => "automatic",
         Some(JointChoice::Glue) => "glue",
@@ -232,10 +231,9 @@ fn text_row(
     ui: &mut Ui,
     name: &str,
     option: &'static Entry,
-    (label, tip): (&str, &str),
     (now, otherwise): (&str, &str),
 ) -> egui::Response {
-    let label = ui.label(label).on_hover_text(tip);
+    let label = ui.label(option.label()).on_hover_text(option.tip());
     let mut text = match &panel.writing {
         Some((key, of, text)) if *key == option.name() && of == name => text.clone(),
         _ => now.to_owned(),

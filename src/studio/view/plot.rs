@@ -1,5 +1,6 @@
 //! The cutter: machine, medium, port, a picture of the job, and its progress.
 
+use super::super::messages::Problem;
 use super::super::planning::{Plan, Planning, Wish};
 use super::super::plotting::Plotting;
 use super::super::preferences::Preferences;
@@ -9,12 +10,13 @@ use super::machine::{Answer, Questions};
 use super::picture::Picture;
 use super::profile_choice::ProfileChoice;
 use super::strokes;
-use super::{focus, look, modal};
+use super::{focus, look, modal, warnings};
 use crate::app::plot::{ANY, hint, usb_cutters};
 use eframe::egui::{self, Rect, Sense, Ui};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tatamu::export::PltOptions;
+use tatamu::front::remedies;
 
 /// The panel of the cutter.
 pub struct PlotPanel {
@@ -25,7 +27,7 @@ pub struct PlotPanel {
     /// Number of the sheet to send; none sends all.
     only: Option<usize>,
     shown: usize,
-    plan: Option<(Key, Result<Plan, String>)>,
+    plan: Option<(Key, Result<Plan, Problem>)>,
     /// The plan that is being made.
     planning: Option<(Key, Planning)>,
     picture: Picture,
@@ -48,6 +50,14 @@ struct Key {
     version: u64,
     cutter: String,
     media: String,
+}
+
+/// Says why there is no plan, with buttons for what can be done.
+fn advise(studio: &mut Studio, ui: &mut Ui, problem: &Problem) {
+    ui.colored_label(ui.visuals().error_fg_color, &problem.text);
+    let settings = studio.document().map(|document| document.settings());
+    let changes = settings.map(|now| remedies::of(&problem.remedies, now)).unwrap_or_default();
+    ui.horizontal_wrapped(|ui| warnings::advised(studio, ui, changes));
 }
 
 fn port_names() -> Vec<String> {
@@ -154,7 +164,7 @@ impl PlotPanel {
         match &self.plan {
             None if self.planning.is_some() => {}
             None => drop(ui.weak("available when the model is finished")),
-            Some((_, Err(problem))) => drop(ui.colored_label(ui.visuals().error_fg_color, problem)),
+            Some((_, Err(problem))) => advise(studio, ui, problem),
             Some((_, Ok(_))) => self.sheets(ui),
         }
         ui.separator();
@@ -284,7 +294,7 @@ impl PlotPanel {
     /// Stops the planning.
     fn cancel(&mut self) {
         let stopped = self.planning.take();
-        self.plan = stopped.map(|(key, _)| (key, Err("planning was cancelled".to_owned())));
+        self.plan = stopped.map(|(key, _)| (key, Err("planning was cancelled".to_owned().into())));
     }
 
     fn start(&mut self, studio: &Studio, ui: &mut Ui) {
@@ -352,7 +362,7 @@ impl PlotPanel {
                 self.running = Some(Plotting::start(&machine.cutter, port, 1, &test.sheets, journal, wake));
                 (self.test, self.unreadable) = (Some(test), None);
             }
-            Err(problem) => self.unreadable = Some(problem),
+            Err(problem) => self.unreadable = Some(problem.text),
         }
     }
 
@@ -443,7 +453,7 @@ struct Seen<'a> {
 
 /// The plan of the test cut while it is on its way, else that of the model.
 fn seen<'a>(
-    plan: &'a Option<(Key, Result<Plan, String>)>,
+    plan: &'a Option<(Key, Result<Plan, Problem>)>,
     test: &'a Option<Plan>,
     shown: usize,
 ) -> Option<Seen<'a>> {

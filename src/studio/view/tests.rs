@@ -17,6 +17,7 @@ use tatamu::model::PartId;
 use tatamu::sheet::SheetId;
 use tempfile::TempDir;
 
+mod advice_tests;
 mod defects;
 mod export_tests;
 mod more_defects;

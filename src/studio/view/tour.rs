@@ -1,6 +1,6 @@
 //! The tour: five steps, each beside what it is about.
 
-use eframe::egui::{self, Context, Key, Modifiers, Rect, Stroke};
+use eframe::egui::{self, Context, Key, Modifiers, Popup, Rect, Stroke};
 
 /// What a step is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,10 +55,10 @@ pub struct Tour {
 }
 
 impl Tour {
-    /// Handles the keys: Enter goes on, unless a control has the keyboard; Escape ends the tour. False when the tour
+    /// Handles the keys: Enter goes on, unless a control has the keyboard; Escape ends the tour, unless it closes a menu. False when the tour
     /// is over.
     pub fn handle_keys(&mut self, ctx: &Context) -> bool {
-        let is_free = ctx.memory(|memory| memory.focused().is_none());
+        let is_free = ctx.memory(|memory| memory.focused().is_none()) && !Popup::is_any_open(ctx);
         let [ends, goes_on] = [Key::Escape, Key::Enter]
             .map(|key| is_free && ctx.input_mut(|i| i.consume_key(Modifiers::NONE, key)));
         self.step += usize::from(goes_on);

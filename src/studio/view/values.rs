@@ -20,10 +20,9 @@ pub struct Dialled {
 }
 
 impl Dialled {
-    /// The row of an option; one without a setting of its own has its name.
+    /// The row of an option.
     pub fn new(option: &'static Entry) -> Self {
-        let plain = Dial { label: option.name(), span: None, digits: 0 };
-        Self { option, dial: option.dial.unwrap_or(plain) }
+        Self { option, dial: option.dial.unwrap_or(Dial::plain(option.name())) }
     }
 
     /// The row that fits its kind, with its value as it is now.
@@ -50,7 +49,7 @@ impl Dialled {
 
     /// A row with a number.
     pub fn number_row(&self, studio: &mut Studio, ui: &mut Ui, now: f64) {
-        let label = ui.label(dials::label(self.option)).on_hover_text(self.option.tip());
+        let label = ui.label(self.option.label()).on_hover_text(self.option.tip());
         if let Some(x) = self.field(ui, now, label.id, studio) {
             studio.change(&self.set(Some(self.value(x))), Some(self.option.name()));
         }
@@ -59,10 +58,10 @@ impl Dialled {
 
     /// A row with a box: without a tick there is no number, and the default holds.
     pub fn optional_row(&self, studio: &mut Studio, ui: &mut Ui, now: Option<f64>, otherwise: f64) {
-        let label = ui.label(dials::label(self.option)).on_hover_text(self.option.tip());
+        let label = ui.label(self.option.label()).on_hover_text(self.option.tip());
         ui.horizontal(|ui| {
             let mut is_set = now.is_some();
-            let name = format!("choose {}", dials::label(self.option));
+            let name = format!("choose {}", self.option.label());
             let tick = ui
                 .add(egui::Checkbox::without_text(&mut is_set))
                 .on_hover_text(format!("off: {}", self.automatic()));
@@ -76,8 +75,7 @@ impl Dialled {
                         studio.change(&self.set(Some(self.value(x))), Some(self.option.name()));
                     }
                 }
-                // Of an option that has a name of its own the default has one, too.
-                None => drop(ui.weak(self.option.dial.map_or(self.option.automatic, |_| "automatic"))),
+                None => drop(ui.weak(self.dial.off)),
             }
         });
         ui.end_row();
@@ -85,7 +83,7 @@ impl Dialled {
 
     /// The same for a component.
     pub fn component_row(&self, studio: &mut Studio, ui: &mut Ui, name: &str, (now, is_set): (f64, bool)) {
-        let label = ui.label(dials::label(self.option)).on_hover_text(self.option.tip());
+        let label = ui.label(self.option.label()).on_hover_text(self.option.tip());
         let set = |value| Change::Component { name: name.to_owned(), option: self.option, value };
         ui.horizontal(|ui| {
             if let Some(x) = self.field(ui, now, label.id, studio) {
@@ -105,7 +103,7 @@ impl Dialled {
 
     /// A row with a choice among names.
     fn choice_row(&self, studio: &mut Studio, ui: &mut Ui, now: &str) {
-        let label = ui.label(dials::label(self.option)).on_hover_text(self.option.tip());
+        let label = ui.label(self.option.label()).on_hover_text(self.option.tip());
         let mut chosen = now.to_owned();
         // What the option does by default.
         let automatic = Some(self.option.automatic).filter(|text| !text.is_empty()).unwrap_or("none");
@@ -129,7 +127,7 @@ impl Dialled {
 
     /// A row with a text, which counts once it is written.
     fn text_row(&self, studio: &mut Studio, ui: &mut Ui, now: &str) {
-        let label = ui.label(dials::label(self.option)).on_hover_text(self.option.tip());
+        let label = ui.label(self.option.label()).on_hover_text(self.option.tip());
         let id = ui.scope_id().with(self.option.name());
         let mut text = ui.data(|data| data.get_temp(id)).unwrap_or_else(|| now.to_owned());
         let field = egui::TextEdit::singleline(&mut text).desired_width(120.0);
@@ -150,7 +148,7 @@ impl Dialled {
     fn tick_row(&self, studio: &mut Studio, ui: &mut Ui, now: bool) {
         let mut is_set = now;
         ui.label("");
-        if ui.checkbox(&mut is_set, dials::label(self.option)).on_hover_text(self.option.tip()).changed() {
+        if ui.checkbox(&mut is_set, self.option.label()).on_hover_text(self.option.tip()).changed() {
             studio.change(&self.set(Some(is_set.into())), None);
         }
         ui.end_row();
@@ -211,7 +209,7 @@ impl Dialled {
         match typed.into_inner() {
             Some(Ok(typed)) => (typed != now).then_some(to_digits(typed, TYPED_DIGITS)),
             Some(Err(problem)) => {
-                let problem = format!("{}: {problem}", dials::label(self.option));
+                let problem = format!("{}: {problem}", self.option.label());
                 studio.messages_mut().warn(Cause::Change, problem);
                 None
             }

@@ -1,10 +1,24 @@
 //! The list of warnings; each leads to what it is about, and to what can be done about it.
 
+use super::super::change::Change;
+use super::super::state::Studio;
 use super::super::words;
 use super::{Mode, Window, focus, look};
 use eframe::egui::{self, Ui};
 use lucide_icons::Icon;
 use tatamu::front::remedies;
+
+/// Buttons that do what is advised; true where one was clicked.
+pub fn advised(studio: &mut Studio, ui: &mut Ui, changes: Vec<(String, Change)>) -> bool {
+    let mut is_done = false;
+    for (label, change) in changes {
+        if ui.small_button(label).on_hover_text("does what is advised; Undo takes it back").clicked() {
+            studio.change(&change, None);
+            is_done = true;
+        }
+    }
+    is_done
+}
 
 /// Draws the list.
 pub fn show(window: &mut Window, ui: &mut Ui) {
@@ -30,16 +44,9 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
                 }
             }
             ui.add(egui::Label::new(words::warning(&note.warning)).wrap());
-            let changes: Vec<_> = match window.studio.document() {
-                Some(document) => remedies::changes(&note.warning, document.settings()),
-                None => Vec::new(),
-            };
-            for (label, change) in changes {
-                if ui.small_button(label).on_hover_text("does what is advised; Undo takes it back").clicked()
-                {
-                    window.studio.change(&change, None);
-                }
-            }
+            let settings = window.studio.document().map(|document| document.settings());
+            let changes = settings.map(|now| remedies::changes(&note.warning, now)).unwrap_or_default();
+            advised(&mut window.studio, ui, changes);
         });
     }
     focus::follow(ui);

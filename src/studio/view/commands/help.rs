@@ -1,6 +1,7 @@
 //! What helps: the list of commands, keys, the tour, the book.
 
 use super::super::super::book::PAGES;
+use super::super::Mode;
 use super::super::tour::Tour;
 use super::keys::{ctrl, key};
 use super::{BLANK, Command, Place, always};
@@ -46,7 +47,7 @@ static TOUR: Command = Command {
     icon: Some(Icon::Signpost),
     tip: "shows the window in five steps",
     place: Place::Help(0),
-    act: |w, _| w.tour = Some(Tour::default()),
+    act: |w, _| (w.mode, w.tour) = (Mode::Model, Some(Tour::default())),
     ..BLANK
 };
 

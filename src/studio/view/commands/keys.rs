@@ -60,6 +60,8 @@ pub fn handle_keys(window: &mut Window, ctx: &Context) {
             continue;
         }
         if ctx.input_mut(|i| i.consume_shortcut(keys)) {
+            // A menu does not stay behind what the command opens.
+            Popup::close_all(ctx);
             command.run(window, ctx);
         }
     }

@@ -5,10 +5,10 @@ use super::*;
 use egui_kittest::kittest::NodeT;
 
 /// A drawn head with two ears so near to each other that they clash in any order.
-const EARS: &str = "[[component]]\nname = \"head\"\ntop = [[-80, -35], [80, -35], [80, 35], [-80, 35]]\n\
+pub const EARS: &str = "[[component]]\nname = \"head\"\ntop = [[-80, -35], [80, -35], [80, 35], [-80, 35]]\n\
                     profiles = [[[0, 40], [0, 0]]]\n";
 
-fn ear(name: &str, at_mm: f64) -> String {
+pub fn ear(name: &str, at_mm: f64) -> String {
     format!(
         "[[component]]\nname = \"{name}\"\ntop = [[-10, -22], [10, -22], [10, 22], [-10, 22]]\n\
          profiles = [[[0, 30], [0, 0]]]\n[component.joint]\nto = \"head\"\npanel = \"top\"\nat = [{at_mm}, 0]\n"
