@@ -2,7 +2,7 @@
 
 use super::settings::put;
 use super::sheets::{OR_SIZE, papers};
-use super::{Entry, Flag, Key, Kind, Number, Range, Scope, Settings, Switch, Text, Unit};
+use super::{Dial, Entry, Flag, Key, Kind, Number, Range, Scope, Settings, Switch, Text, Unit};
 use crate::drawing::LineStyles;
 use crate::export::PngOptions;
 use crate::guide::Language;
@@ -152,6 +152,7 @@ static DXF_VERSION: Entry = Entry {
     long: "Use r12 for old programs and machines.",
     example: "--dxf-version r12",
     meaning: "version of DXF files",
+    dial: Dial::new("DXF version"),
     ..Entry::BLANK
 };
 
@@ -172,6 +173,7 @@ static DXF_SHEETS: Entry = Entry {
     short: "Sheets in DXF: files (one file per sheet) or row (all in one file, side by side)",
     example: "--dxf-sheets row",
     meaning: "one DXF file per sheet, or all in one, side by side",
+    dial: Dial::new("DXF sheets"),
     ..Entry::BLANK
 };
 
@@ -191,6 +193,7 @@ static DPI: Entry = Entry {
     short: "Resolution of PNG sheets, in dots per inch, {least} to {most}",
     example: "--dpi 300",
     meaning: "resolution of PNG sheets, in dots per inch",
+    dial: Dial::new("Resolution (dpi)"),
     ..Entry::BLANK
 };
 
@@ -229,6 +232,7 @@ static OVERVIEW: Entry = Entry {
     long: "It has a picture with the names of the parts, a table of parts with their sheets, the order of folding, \
            and how long and how hard the work is.",
     meaning: "begins a PDF with a page about the whole model: picture, parts with their sheets, order of folding, time",
+    dial: Dial::new("Overview page"),
     ..Entry::BLANK
 };
 
@@ -262,6 +266,7 @@ static STATIC: Entry = Entry {
     long: "For programs that cannot read animations.",
     example: "--static -o bear.glb",
     meaning: "leaves the folding animation out of GLB files",
+    dial: Dial::new("Without animation"),
     ..Entry::BLANK
 };
 
@@ -278,6 +283,7 @@ static FOLD_PIECES: Entry = Entry {
     long: "With the fold angles of the flat state, for Flat-Folder and Origami Simulator.",
     example: "--fold-pieces -o teddy.fold",
     meaning: "writes a FOLD file for each piece, too",
+    dial: Dial::new("FOLD file of each piece"),
     ..Entry::BLANK
 };
 

@@ -1,7 +1,7 @@
 //! Options of animations and of poses.
 
 use super::settings::put;
-use super::{Count, Entry, Flag, Kind, Scope, Text};
+use super::{Count, Dial, Entry, Flag, Kind, Scope, Text};
 use crate::export::PoseCount;
 use crate::show::FilmOptions;
 
@@ -50,6 +50,7 @@ static SIZE_PX: Entry = Entry {
     short: "Longer side of an animation in pixels",
     example: "-o teddy.gif --size-px 320",
     meaning: "longer side of an animation in pixels",
+    dial: Dial::new("Size in pixels"),
     ..Entry::BLANK
 };
 
@@ -91,5 +92,6 @@ static FOLD_FRAMES: Entry = Entry {
     short: "Poses between unfolded and flat in a FOLD file",
     example: "-o teddy.fold --fold-frames 20",
     meaning: "poses between unfolded and flat in a FOLD file",
+    dial: Dial::new("FOLD poses"),
     ..Entry::BLANK
 };

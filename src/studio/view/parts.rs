@@ -293,10 +293,15 @@ fn splitting(panel: &mut PartsPanel, studio: &mut Studio, space: &mut Space, ui:
     space.show_split(plane);
     let is_new = std::mem::take(&mut split.is_new);
     let group = ui.group(|ui| {
-        egui::ComboBox::from_id_salt("axis").selected_text(AXES[split.axis].0).show_ui(ui, |ui| {
-            for (k, (name, _)) in AXES.iter().enumerate() {
-                ui.selectable_value(&mut split.axis, k, *name);
-            }
+        ui.horizontal(|ui| {
+            let label = ui.label("Plane");
+            let axis = egui::ComboBox::from_id_salt("axis").selected_text(AXES[split.axis].0);
+            let combo = axis.show_ui(ui, |ui| {
+                for (k, (name, _)) in AXES.iter().enumerate() {
+                    ui.selectable_value(&mut split.axis, k, *name);
+                }
+            });
+            combo.response.labelled_by(label.id);
         });
         ui.add(egui::Slider::new(&mut split.share, 0.02..=0.98).show_value(false).text("place"));
         panel.split = Some(split);

@@ -45,11 +45,11 @@ fn options_are_those_of_the_formats_that_are_ticked() {
     let (mut desk, _folder) = open();
     click(&mut desk, "Export");
     assert!(desk.query_by_role_and_label(Role::ComboBox, "Tile").is_some());
-    assert!(desk.query_by_role_and_label(Role::SpinButton, "Dpi").is_none());
+    assert!(desk.query_by_role_and_label(Role::SpinButton, "Resolution (dpi)").is_none());
     click(&mut desk, "snowman.pdf");
     click(&mut desk, "snowman.png");
     assert!(desk.query_by_role_and_label(Role::ComboBox, "Tile").is_none());
-    assert!(desk.query_by_role_and_label(Role::SpinButton, "Dpi").is_some());
+    assert!(desk.query_by_role_and_label(Role::SpinButton, "Resolution (dpi)").is_some());
 }
 
 /// Before files are written their pages are seen, in the style that they are written in.

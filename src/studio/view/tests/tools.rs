@@ -40,6 +40,54 @@ fn every_control_has_a_name_for_those_who_do_not_see_it() {
     }
 }
 
+/// Fields that have a value and no name, or a number and no value.
+fn unnamed(desk: &Desk, what: &str) -> Vec<String> {
+    let roles = [Role::ComboBox, Role::SpinButton, Role::Slider, Role::TextInput];
+    let fields =
+        roles.into_iter().flat_map(|role| desk.query_all_by_role(role).map(move |node| (role, node)));
+    let bad = fields.filter_map(|(role, node)| {
+        let tree = node.accesskit_node();
+        let is_named = tree.label().is_some_and(|name| name.chars().any(char::is_alphanumeric));
+        let is_number = matches!(role, Role::Slider | Role::SpinButton);
+        let has_value = !is_number || tree.numeric_value().is_some();
+        let words = format!("{what}: {role:?} {:?} {:?} at {:?}", tree.label(), tree.value(), node.rect());
+        (!is_named || !has_value).then_some(words)
+    });
+    bad.collect()
+}
+
+/// A list was read as what is chosen in it, and nobody heard what it is about.
+#[test]
+fn every_field_has_a_name_besides_its_value() {
+    let (mut desk, _folder) = open();
+    let at = on_component(&desk, PartId(1));
+    press(&mut desk, at, Modifiers::NONE);
+    let mut bad = Vec::new();
+    click(&mut desk, "Whole model");
+    click(&mut desk, "Split …");
+    desk.key_press(Key::E);
+    desk.run_ok();
+    bad.extend(unnamed(&desk, "Model"));
+    click(&mut desk, "Cancel");
+    for section in ["Paper and pieces", "More settings"] {
+        click(&mut desk, section);
+        bad.extend(unnamed(&desk, section));
+    }
+    for mode in ["Sheets", "Export", "Plot"] {
+        desk.get_by_role_and_label(Role::Tab, mode).click();
+        desk.run_steps(5);
+        bad.extend(unnamed(&desk, mode));
+    }
+    for (key, what) in [(Key::O, "open"), (Key::K, "commands")] {
+        desk.key_press_modifiers(Modifiers::COMMAND, key);
+        desk.run_ok();
+        bad.extend(unnamed(&desk, what));
+        desk.key_press(Key::Escape);
+        desk.run_ok();
+    }
+    assert!(bad.is_empty(), "{}", bad.join("\n"));
+}
+
 #[test]
 fn values_are_read_out() {
     let (desk, _folder) = open();
