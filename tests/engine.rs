@@ -67,6 +67,22 @@ fn going_to_and_fro_gives_what_a_fresh_run_gives() {
     }
 }
 
+/// The studio forgets what is known of motions, because that of a few turns takes 100 MB.
+#[test]
+fn a_model_is_the_same_when_motions_are_forgotten() {
+    let mesh = bottle();
+    let engine = Engine::new(Cow::Borrowed(&mesh));
+    let first = engine.run(&options(), &Silent).expect("a model");
+    let names = first.shaped().source().names().to_vec();
+    for most in [0, usize::MAX] {
+        engine.forget_motions(most);
+        let options = turned(&names[0], 40.0);
+        let kept = engine.run(&options, &Silent).expect("a model");
+        let fresh = Engine::new(Cow::Borrowed(&mesh)).run(&options, &Silent).expect("a model");
+        assert_same(&kept, &fresh);
+    }
+}
+
 #[test]
 fn only_what_changed_is_made_again() {
     let mesh = bottle();

@@ -1,7 +1,7 @@
 //! How the model would be with a component in other fold directions: tried one after the other, in a separate
 //! thread, while nothing else is made.
 
-use super::worker::Wake;
+use super::worker::{MOTIONS, Wake};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use tatamu::pipeline::{Engine, Options};
@@ -145,6 +145,7 @@ impl Scout {
 
     /// One direction; none where there is no such model.
     fn look(&self, k: usize) -> Option<Look> {
+        self.engine.forget_motions(MOTIONS);
         let mut options = self.options.clone();
         let own = options.components.entry(self.name.clone()).or_default();
         own.direction_rad = Some(std::f64::consts::TAU * k as f64 / COUNT as f64);

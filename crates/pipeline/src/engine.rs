@@ -12,7 +12,7 @@ use super::{Bodies, Divided, Error, Options, Output, Shaped, Source, Warning};
 use glam::DAffine3;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tatamu_core::design::{ThickError, thick};
 use tatamu_core::fold::{Detection, FoldPlan, ModelMotion, SweepMemory};
 use tatamu_core::memory::Memory;
@@ -38,7 +38,8 @@ pub struct Engine<'m> {
     segmented: Memory<PartsKey, Arc<Segmented>>,
     divided: Memory<(PartsKey, Vec<Edit>, Option<String>), Arc<Divided>>,
     components: Known,
-    sweeps: SweepMemory,
+    /// What is known of motions, until it is forgotten.
+    sweeps: Mutex<Arc<SweepMemory>>,
     /// What the parts of the models of last time are known by in `sweeps`.
     alike: Memory<Arc<Model>, Alike>,
     plans: Memory<PlanKey, Planned>,
@@ -73,7 +74,7 @@ impl<'m> Engine<'m> {
             segmented: Memory::new(FEW),
             divided: Memory::new(FEW),
             components: Known::default(),
-            sweeps: SweepMemory::default(),
+            sweeps: Mutex::default(),
             alike: Memory::new(FEW),
             plans: Memory::new(FEW),
             nets: KnownNets::default(),
@@ -84,6 +85,19 @@ impl<'m> Engine<'m> {
     /// The mesh as it was read.
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
+    }
+
+    /// Forgets what is known of motions where that is more than `most` answers. Results stay the same; the next one
+    /// takes longer.
+    pub fn forget_motions(&self, most: usize) {
+        let mut sweeps = self.sweeps();
+        if sweeps.len() > most {
+            *sweeps = Arc::default();
+        }
+    }
+
+    fn sweeps(&self) -> MutexGuard<'_, Arc<SweepMemory>> {
+        self.sweeps.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Runs all stages.
@@ -189,8 +203,8 @@ impl<'m> Engine<'m> {
     ) -> Result<T, Error> {
         let bodies = Bodies::new(divided.hulls(), options)?;
         let assembly = bodies.assembly(options.min_panel_width_mm);
-        let judge =
-            FoldJudge { thickness_mm: options.thickness_mm, detection, memory: &self.sweeps, progress };
+        let sweeps = self.sweeps().clone();
+        let judge = FoldJudge { thickness_mm: options.thickness_mm, detection, memory: &sweeps, progress };
         let (known, firmness) = (&self.components, divided.hulls().firmness());
         Ok(build(Run { assembly: &assembly, known, firmness, judge: &judge, progress })?)
     }
@@ -268,15 +282,14 @@ impl<'m> Engine<'m> {
         self.plans.get_or(plan_key(model, options), || {
             progress.stage("folding");
             // Of models that were changed since they were built nothing is known.
-            let own = SweepMemory::default();
             let (alike, memory) = match self.alike.get(model) {
-                Some(alike) => (alike, &self.sweeps),
-                None => (Alike::unknown(model.parts().len()), &own),
+                Some(alike) => (alike, self.sweeps().clone()),
+                None => (Alike::unknown(model.parts().len()), Arc::default()),
             };
             let motion = ModelMotion::new(model);
-            let plan = FoldPlan::with_memory(&motion, options.thickness_mm, &alike, memory, progress)?;
+            let plan = FoldPlan::with_memory(&motion, options.thickness_mm, &alike, &memory, progress)?;
             let planned = Planned { model: model.clone(), plan: Arc::new(plan) };
-            let known = plugs::Known { ids: &alike.ids, memory };
+            let known = plugs::Known { ids: &alike.ids, memory: &memory };
             Ok(plugs::freed(&planned, &known, options, progress)?.unwrap_or(planned))
         })
     }
