@@ -118,8 +118,8 @@ fn legs_stay_where_they_are_on_a_level_body() {
     let assembly = Assembly { parts: &parts, links: &links, symmetry: None, min_panel_mm: 3.0, views: None };
     let known = Known::default();
     let run = of_assembly(&assembly, &known, &Unjudged);
-    let first = run.attempt(&links, &Trouble::default(), None).unwrap();
-    let settled = run.settled(&first).unwrap().unwrap();
+    let first = run.attempt(&links, &Trouble::default(), None, Effort::Short).unwrap();
+    let settled = run.settled(&first, Effort::Short).unwrap().unwrap();
     let most_mm = |of: &Attempt| of.seats.iter().map(|seat| seat.1).fold(0.0, f64::max);
     assert!(most_mm(&first) > 5.0 && most_mm(&settled) < 0.5, "{} {}", most_mm(&first), most_mm(&settled));
     let model = build(&assembly, &known, &Unjudged, &Silent).unwrap().model;
