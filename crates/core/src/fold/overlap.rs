@@ -6,7 +6,7 @@ use super::pose::{ModelMotion, ancestors, root_of};
 use super::way::{push_way, ways};
 use crate::component::Panel;
 use crate::geom::{Hull, bounds};
-use crate::model::PartId;
+use crate::model::{Alike, PartId};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
@@ -45,7 +45,7 @@ impl PosedComponent {
 pub(super) fn overlaps(
     motion: &ModelMotion<'_>,
     tolerance_mm: f64,
-    ids: &[u64],
+    alike: &Alike,
     memory: &SweepMemory,
 ) -> Vec<Overlap> {
     let model = motion.model();
@@ -59,13 +59,19 @@ pub(super) fn overlaps(
         .flat_map(|a| model.ids().skip(a.0 + 1).map(move |b| [a, b]))
         .filter(|&[a, b]| root_of(model, a) == root_of(model, b))
         .collect();
-    let depth_mm = |&[a, b]: &[PartId; 2]| {
+    // Of twins one pair is looked at.
+    let representative = |&pair: &[PartId; 2]| {
+        let image = alike.twins.as_ref().map(|twins| pair.map(|part| twins[part.0]));
+        image.map_or(pair, |[a, b]| pair.min([a.min(b), a.max(b)]))
+    };
+    let depth_mm = |pair: &[PartId; 2]| {
+        let [a, b] = representative(pair);
         let (p, q) = (&solids[a.0], &solids[b.0]);
         if (p.low.cmpgt(q.high) | q.low.cmpgt(p.high)).any() {
             return 0.0;
         }
-        let mut key = vec![tolerance_mm.to_bits(), ids[a.0]];
-        push_way(&mut key, &ways[a.0][b.0], &above[a.0], ids, &deployed);
+        let mut key = vec![tolerance_mm.to_bits(), alike.ids[a.0]];
+        push_way(&mut key, &ways[a.0][b.0], &above[a.0], &alike.ids, &deployed);
         let key: Key = key.into_boxed_slice();
         memory.overlaps().get_or(key, || depth_mm(p, q, tolerance_mm))
     };

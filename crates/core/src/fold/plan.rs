@@ -124,7 +124,7 @@ impl FoldPlan {
         plan.steps.sort_by_key(|step| rank(step.part));
         plan.order.sort_by_key(|&part| rank(part));
         plan.pulls = pull::pulls(motion, parts, &plan.steps);
-        plan.overlaps = overlaps(motion, thickness_mm / 2.0, ids, memory);
+        plan.overlaps = overlaps(motion, thickness_mm / 2.0, &alike, memory);
         let is_free = pull::are_free(motion, &plan.pulls, thickness_mm, &plan.overlaps);
         plan.stacks = stacks(motion, thickness_mm);
         Ok(is_free.then_some(plan))
@@ -138,7 +138,7 @@ impl FoldPlan {
         progress: &dyn Progress,
         effort: Effort<'_>,
     ) -> Result<Self, Cancelled> {
-        let overlaps = overlaps(motion, thickness_mm / 2.0, &alike.ids, memory);
+        let overlaps = overlaps(motion, thickness_mm / 2.0, alike, memory);
         let is_whole = matches!(effort, Effort::Whole);
         let is_enough = |bumps: &[Bump]| matches!(effort, Effort::Order(_, is_enough) if is_enough(bumps));
         if is_enough(&bumps(&[], &overlaps, thickness_mm)) {

@@ -12,7 +12,7 @@ pub struct Alike {
 }
 
 impl Alike {
-    /// A model of so many parts of which nothing is known.
+    /// Nothing is known of a model with this number of parts.
     pub fn unknown(parts: usize) -> Self {
         Self { ids: (0..parts as u64).collect(), twins: None }
     }
