@@ -153,6 +153,34 @@ await page.evaluateOnNewDocument(() => {
     async close() {}
   }
   Object.defineProperty(navigator, "serial", { value: { requestPort: async () => new Port() } });
+  // A Silhouette, which is ready as soon as it has got something. It can be pulled out.
+  const usb = (globalThis.usb = { text: "", calls: [] });
+  const inputs = [];
+  let waiting = null;
+  const device = {
+    configuration: null,
+    async open() { usb.calls.push("open"); },
+    async selectConfiguration(number) { this.configuration = number; },
+    async claimInterface(number) { usb.calls.push(`claim ${number}`); },
+    async transferOut(endpoint, bytes) {
+      const text = new TextDecoder().decode(bytes);
+      usb.text += text;
+      if (endpoint !== 1) return { status: "stall" };
+      // A byte a millisecond.
+      await new Promise((next) => setTimeout(next, bytes.length));
+      for (const question of text.matchAll(/\x1b\x05/g)) inputs.push(question && "0\x03");
+      waiting?.();
+      return { status: "ok", bytesWritten: bytes.length };
+    },
+    async transferIn(endpoint, length) {
+      if (endpoint !== 2 || length % 64) return { status: "babble" };
+      while (!inputs.length) await new Promise((next, lost) => { waiting = next; usb.pull = () => lost(new DOMException("pulled out", "NetworkError")); });
+      return { status: "ok", data: new DataView(new TextEncoder().encode(inputs.shift()).buffer) };
+    },
+    async close() { usb.calls.push("close"); usb.pull?.(); },
+  };
+  const requestDevice = async ({ filters }) => { usb.filters = filters.map(({ vendorId }) => vendorId); return device; };
+  Object.defineProperty(navigator, "usb", { value: { requestDevice } });
 });
 
 const until = async (what, holds, seconds = 60) => {
@@ -596,6 +624,22 @@ await until("the job goes on after it was unplugged", draws, 30);
 await page.evaluate(() => { got.isStuck = true; });
 await page.evaluate(() => { for (let k = 0; k < 3; k += 1) document.getElementById("job-stop").click(); });
 await until("a port that takes nothing is given up", () => document.getElementById("job-stop").disabled, 20);
+
+// A job on a cutter on USB: all of it arrives; one that is pulled out ends, and goes on.
+await page.select("#machine", "silhouette");
+await page.select("#medium", "paper-120");
+const isReady = () => !document.getElementById("job-start").disabled && document.getElementById("job-note").textContent.includes("stroke");
+await until("the job for USB is ready", isReady);
+await page.click("#job-start");
+await until("strokes are cut", draws, 30);
+await page.evaluate(() => usb.pull());
+await until("a job ends with its cutter", () => document.getElementById("job-start").textContent === "Continue", 20);
+await page.click("#job-start");
+await until("the job on USB is finished", () => document.getElementById("job-status").textContent === "finished", 120);
+const sent = await page.evaluate(() => usb);
+expect(sent.calls.join() === "open,claim 0,close,open,claim 0,close", `the cutter is opened, claimed and closed: ${sent.calls}`);
+expect(sent.filters.join() === "2893,14404", `the makers of cutters: ${sent.filters}`);
+expect(/FN0\x03.*M[\d,.]+\x03D[\d,.]+\x03.*H\x03/s.test(sent.text), `the job arrives: ${sent.text.slice(0, 200)}`);
 await page.click("#plotting-close");
 
 // A version that is on its way to the server is not mixed with the one before; once it is whole, the next visit has it.

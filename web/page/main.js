@@ -1,6 +1,7 @@
 // The page: what the user sees and does. The model is made in work.js, its picture in view.js.
 import { rows } from './rows.js';
 import { plot } from './plot.js';
+import { requestUsb } from './usb.js';
 
 const SAMPLES = ['teddy.obj', 'rabbit.obj', 'snowman.obj', 'teapot.obj', 'bottle.obj', 'box.obj', 'gift-box.toml', 'lamp.toml', 'vase.toml'];
 // Turn of the view for a drag over the window's shorter side, radians.
@@ -135,7 +136,11 @@ const hired = compiling.then(async made => {
   by('formats').prepend(project);
   by('formats').append(job);
   choices.axes.forEach((name, k) => by('axis').append(element('option', { value: k, textContent: name })));
-  choices.machines.forEach(({ profile, name }) => by('machine').append(element('option', { value: profile, textContent: name })));
+  choices.machines.forEach(({ profile, name, port }) => {
+    const option = element('option', { value: profile, textContent: name });
+    option.dataset.port = port;
+    by('machine').append(option);
+  });
   choices.media.forEach(name => by('medium').append(element('option', { value: name, textContent: name })));
 });
 
@@ -609,12 +614,15 @@ let jobs = [], live = null, preparing = 0;
 let stopped = { bytes: '', done: 0 };
 const strokesDone = () => (stopped.bytes === chosen()?.bytes ? stopped.done : 0);
 const chosen = () => jobs[Number(by('job').value)];
+// What of the browser reaches the machine: serial or usb.
+const portOf = () => by('machine').selectedOptions[0].dataset.port;
 
 // What is chosen last counts.
 async function prepare() {
   number += 1;
   const own = (preparing = number);
   by('job-start').disabled = by('job-save').disabled = true;
+  by('no-port').hidden = Boolean(navigator[portOf()]);
   by('job-status').textContent = 'preparing the job';
   try {
     const made = await ask('jobs', by('machine').value, by('medium').value);
@@ -632,7 +640,7 @@ async function prepare() {
     by('job-status').textContent = error;
   }
   by('job-save').disabled = !jobs.length;
-  by('job-start').disabled = !jobs.length || !navigator.serial;
+  by('job-start').disabled = !jobs.length || !navigator[portOf()];
 }
 function ready() {
   const done = strokesDone();
@@ -643,7 +651,6 @@ function ready() {
   by('job-message').textContent = '';
 }
 by('plot').onclick = () => {
-  by('no-serial').hidden = Boolean(navigator.serial);
   by('plotting').showModal();
   if (!live) prepare();
 };
@@ -671,7 +678,7 @@ by('job-start').onclick = async () => {
   // A second click, or another job, must not reach the port while it opens.
   during(true);
   try {
-    const port = await navigator.serial.requestPort();
+    const port = portOf() === 'usb' ? await requestUsb() : await navigator.serial.requestPort();
     live = await plot(module, by('machine').value, job, strokesDone(), port, follow);
     for (const id of ['job-pause', 'job-stop']) by(id).disabled = false;
     const last = await live.end;

@@ -1,4 +1,4 @@
-//! Jobs for machines on a serial port. The page has the port and the clock.
+//! Jobs for machines on a serial port or on USB. The page has the port and the clock.
 
 use crate::desk::Desk;
 use serde::Serialize;
@@ -11,20 +11,24 @@ use tatamu::plotter::profile::{CUTTERS, Parity};
 use tatamu::plotter::session::{End, Session, Step};
 use tatamu::plotter::{Cutter, Job};
 
-/// A machine that can be on a serial port.
+/// A machine that a page can plot on.
 #[derive(Serialize)]
 pub struct MachineRow {
     profile: &'static str,
     name: String,
+    /// What of the browser reaches it: `serial` or `usb`.
+    port: &'static str,
 }
 
-/// The machines that can be on a serial port.
+/// The machines that a page can plot on.
 pub fn machines() -> Vec<MachineRow> {
-    let row = |machine: &tatamu::app::catalogue::Machine| match machine.takes {
-        Takes::Serial(profile) => {
-            Some(MachineRow { profile, name: format!("{}: {}", machine.maker, machine.models) })
-        }
-        Takes::Usb(_) | Takes::Program(_) => None,
+    let row = |machine: &tatamu::app::catalogue::Machine| {
+        let (profile, port) = match machine.takes {
+            Takes::Serial(profile) => (profile, "serial"),
+            Takes::Usb(profile) => (profile, "usb"),
+            Takes::Program(_) => return None,
+        };
+        Some(MachineRow { profile, name: format!("{}: {}", machine.maker, machine.models), port })
     };
     MACHINES.iter().filter_map(row).collect()
 }
