@@ -290,9 +290,8 @@ impl<'a> Checker<'a> {
     /// Of a question and its image that which is asked: the number of its state, 1 for the image, and the pair in it.
     fn representative(&self, (mover, pair, own): &Question, image: Option<&State>) -> (usize, usize) {
         let Watched { parts, context, .. } = &self.watched[mover.0][*pair];
-        let (Some(image), Some(twins)) = (image, &self.alike.twins) else { return (0, *pair) };
-        let mut twin = parts.map(|part| twins[part.0]);
-        twin.sort();
+        let Some(image) = image else { return (0, *pair) };
+        let twin = self.alike.image(*parts);
         let there = || context.iter().map(|part| image.levels[part.0]);
         let order =
             image.mover.cmp(mover).then(twin.cmp(parts)).then_with(|| there().cmp(own.iter().copied()));
@@ -381,7 +380,7 @@ impl<'a> Checker<'a> {
 
     /// Clash of two chains of one component, whatever the others do.
     pub(super) fn own_clash(&self, mover: PartId) -> Option<Clash> {
-        let first = self.alike.twins.as_ref().map_or(mover, |twins| twins[mover.0].min(mover));
+        let first = mover.min(self.alike.twin(mover));
         let key = [self.care.key(), self.alike.ids[first.0]];
         let answer = self.memory.own().get_or(key, || self.own_answer(first));
         clash(Move::whole(mover), [mover; 2], &answer)

@@ -59,13 +59,9 @@ pub(super) fn overlaps(
         .flat_map(|a| model.ids().skip(a.0 + 1).map(move |b| [a, b]))
         .filter(|&[a, b]| root_of(model, a) == root_of(model, b))
         .collect();
-    // Of twins one pair is looked at.
-    let representative = |&pair: &[PartId; 2]| {
-        let image = alike.twins.as_ref().map(|twins| pair.map(|part| twins[part.0]));
-        image.map_or(pair, |[a, b]| pair.min([a.min(b), a.max(b)]))
-    };
-    let depth_mm = |pair: &[PartId; 2]| {
-        let [a, b] = representative(pair);
+    let depth_mm = |&pair: &[PartId; 2]| {
+        // Of a pair and its image one is looked at.
+        let [a, b] = pair.min(alike.image(pair));
         let (p, q) = (&solids[a.0], &solids[b.0]);
         if (p.low.cmpgt(q.high) | q.low.cmpgt(p.high)).any() {
             return 0.0;

@@ -160,8 +160,9 @@ impl FoldPlan {
             moves.extend(tree);
         }
         // What is reported names the panels that meet, not those of their images.
-        let alone = Alike { twins: None, ..alike.clone() };
+        let alone;
         if is_whole && alike.twins.is_some() {
+            alone = Alike { twins: None, ..alike.clone() };
             checker = Checker::new(motion, care, &overlaps, &alone, memory);
         }
         let own: Vec<Option<Clash>> =

@@ -87,10 +87,15 @@ impl<'a> ModelMotion<'a> {
             None => self.model.part(part).deployed(),
             Some(joint) => {
                 let carrier = self.pose_of(joint.parent, folded).panel(joint.parent_panel);
-                carrier * self.relations[part.0] * pose.placements[joint.child_panel.0].inverse()
+                self.frame_on(carrier, part, &pose.placements[joint.child_panel.0])
             }
         };
         PartPose { frame, pose }
+    }
+
+    /// From a component's axes to the model's, where its joint panel lies on that of its parent.
+    fn frame_on(&self, carrier: DAffine3, part: PartId, joint_panel: &DAffine3) -> DAffine3 {
+        carrier * self.relations[part.0] * joint_panel.inverse()
     }
 
     /// The pose of a moment in which components may be pulled off their parents.
@@ -125,10 +130,7 @@ impl<'a> ModelMotion<'a> {
                     let carrier = parts[joint.parent.0].panel(joint.parent_panel);
                     let lift =
                         DAffine3::from_translation(DVec3::Z * (lift_mm * folded[p.0] + pulled_mm[p.0]));
-                    carrier
-                        * lift
-                        * self.relations[p.0]
-                        * parts[p.0].pose.placements[joint.child_panel.0].inverse()
+                    self.frame_on(carrier * lift, p, &parts[p.0].pose.placements[joint.child_panel.0])
                 }
             };
         }

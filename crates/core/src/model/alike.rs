@@ -16,4 +16,16 @@ impl Alike {
     pub fn unknown(parts: usize) -> Self {
         Self { ids: (0..parts as u64).collect(), twins: None }
     }
+
+    /// The mirror image of a part; the part itself where the model is not its own image.
+    pub fn twin(&self, part: PartId) -> PartId {
+        self.twins.as_ref().map_or(part, |twins| twins[part.0])
+    }
+
+    /// The images of two parts, the smaller id first, as in the pair itself.
+    pub fn image(&self, pair: [PartId; 2]) -> [PartId; 2] {
+        let mut image = pair.map(|part| self.twin(part));
+        image.sort();
+        image
+    }
 }

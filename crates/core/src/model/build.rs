@@ -284,9 +284,11 @@ impl Run<'_> {
         let made_of = |of: &[usize]| -> Vec<&Candidate> {
             of.iter().zip(&candidates).map(|(&k, made)| &made[k]).collect()
         };
+        let symmetry = assembly.symmetry;
+        let symmetry = symmetry.filter(|own| links.iter().all(|link| image_of(link, &links, own).is_some()));
         let alike = |made: &[&Candidate]| Alike {
             ids: made.iter().map(|m| m.id).collect(),
-            twins: twins(assembly.symmetry, &links, made),
+            twins: symmetry.filter(|own| are_images(own, made)).map(|own| own.twins().to_vec()),
         };
         let bumps = |of: &[usize], is_enough: &Enough<'_>| {
             progress.check()?;
@@ -350,19 +352,13 @@ fn image_of(link: &Link, others: &[Link], symmetry: &Symmetry) -> Option<Plane> 
     Some(symmetry.mirror().image(&twin.plane))
 }
 
-/// The image of each part, where a model of these candidates is its own image.
-fn twins(symmetry: Option<&Symmetry>, links: &[Link], made: &[&Candidate]) -> Option<Vec<PartId>> {
-    let symmetry = symmetry?;
+/// Whether each of these candidates is the image of its twin's, or its own.
+fn are_images(symmetry: &Symmetry, made: &[&Candidate]) -> bool {
     let is_image = |(part, candidate): (usize, &&Candidate)| match symmetry.twin(PartId(part)) {
         PartId(twin) if twin == part => candidate.is_own_image,
         twin => candidate.is_image_of(made[twin.0]),
     };
-    let has_image = |link: &Link| {
-        let [parent, child] = [link.parent, link.child].map(|part| symmetry.twin(part));
-        links.iter().any(|other| (other.parent, other.child) == (parent, child))
-    };
-    let is_whole = made.iter().enumerate().all(is_image) && links.iter().all(has_image);
-    is_whole.then(|| symmetry.twins().to_vec())
+    made.iter().enumerate().all(is_image)
 }
 
 /// How much the cost of each part counts: by its size, about 1 on average.
