@@ -36,7 +36,10 @@ pub(super) fn assemble(
         })
         .collect::<Result<Vec<_>, _>>()?;
     let normals = solid.chains.iter().map(|c| c.normal()).collect();
-    panels(&Walls::new(normals, profiles).mirrored_in(symmetry), None)
+    panels(
+        &Walls::new(normals, profiles).mirrored_in(symmetry.map(|symmetry| symmetry.of_panels(solid))),
+        None,
+    )
 }
 
 /// Panels of walls, trimmed where they would collide when flat, hinges. Boards keep within what is outside

@@ -167,10 +167,11 @@ pub(super) fn choose_fours(outline: &[DVec2], locked: &[f64], edges: usize) -> V
     all
 }
 
-/// Directions of the edges of a regular polygon, of which one faces along x.
+/// Directions of the edges of a regular polygon with an even number of them, of which one faces along x, and the last
+/// exactly against it.
 pub(super) fn regular(edges: usize) -> Vec<f64> {
-    let first = 1 - edges as i32 / 2;
-    (0..edges as i32).map(|k| 2.0 * PI * f64::from(first + k) / edges as f64).collect()
+    let half = edges as i32 / 2;
+    (1 - half..=half).map(|k| PI * (f64::from(k) / f64::from(half))).collect()
 }
 
 /// Directions in the planes and others in fours, with their images, in order.

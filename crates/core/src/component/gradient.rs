@@ -3,7 +3,7 @@
 use super::panel::ChainId;
 use super::shape::{ChainShape, ProfileLine, SolidShape};
 use super::solid::{Corner, FaceId, Solid};
-use super::symmetry::{Image, Symmetry, chain_at, images};
+use super::symmetry::{Symmetry, chain_images};
 use glam::{DMat3, DVec2, DVec3};
 use smallvec::SmallVec;
 
@@ -44,12 +44,8 @@ impl Freedom {
         let image = |parameter: Parameter| parameter.map(|(k, sign)| (k, -sign));
         // The images of each chain, with how changes of its direction become theirs.
         let others: Vec<SmallVec<[(ChainId, f64); 3]>> = solid
-            .chains
-            .iter()
-            .map(|chain| {
-                let at = |i: &Image| (chain_at(solid, i.angle(chain.angle_rad)), i.sign());
-                images(symmetry).iter().map(at).collect()
-            })
+            .chain_ids()
+            .map(|j| chain_images(solid, symmetry, j).map(|(image, k)| (k, image.sign())).collect())
             .collect();
         let first = |j: ChainId| others[j.0].iter().copied().filter(|o| o.0 < j).min_by_key(|o| o.0);
         let mut angles: Vec<Parameter> = Vec::with_capacity(others.len());

@@ -3,7 +3,9 @@
 use super::convert::tests::{blob, check, target};
 use super::panel::{Panel, PanelKind};
 use super::solid::FaceId;
-use super::{Component, Crossing, JointTarget, Seat, Symmetry, Target, Turning, choose, convert, finished};
+use super::{
+    ChainId, Component, Crossing, JointTarget, Seat, Symmetry, Target, Turning, choose, convert, finished,
+};
 use crate::geom::{Hull, Plane};
 use glam::{DMat3, DVec2, DVec3};
 use proptest::prelude::*;
@@ -241,18 +243,23 @@ fn turned_hulls_get_even_tops() {
     }
 }
 
-/// A tumbler, a bowl and a mug, given by radii and heights.
-#[test]
-fn turned_hulls_become_regular() {
+/// A tumbler, a bowl and a mug, by radii and heights.
+fn turned_hulls() -> [Hull; 3] {
     let profiles: [&[[f64; 2]]; 3] = [
         &[[30.0, 0.0], [32.0, 10.0], [33.0, 30.0], [36.0, 60.0], [38.0, 75.0], [38.0, 100.0]],
         &[[22.0, 0.0], [30.0, 6.0], [38.0, 16.0], [44.0, 30.0], [48.0, 45.0], [50.0, 62.0]],
         &[[34.0, 0.0], [38.0, 6.0], [42.0, 25.0], [42.0, 45.0], [38.0, 75.0], [36.0, 82.0]],
     ];
-    for profile in profiles {
+    profiles.map(|profile| {
         let around = |k: usize| DVec2::from_angle(PI / 32.0 * k as f64);
         let ring = |&[r, z]: &[f64; 2]| (0..64).map(move |k| (around(k) * r).extend(z));
-        let hull = Hull::of_points(&profile.iter().flat_map(ring).collect::<Vec<_>>()).unwrap();
+        Hull::of_points(&profile.iter().flat_map(ring).collect::<Vec<_>>()).unwrap()
+    })
+}
+
+#[test]
+fn turned_hulls_become_regular() {
+    for hull in turned_hulls() {
         for edges in [6, 8, 10, 12] {
             let turning = Turning::of_regular(edges).unwrap();
             assert_eq!(turning.sectors(), edges);
@@ -272,6 +279,45 @@ fn turned_hulls_become_regular() {
             // (pi / n) - 1) mm off; the rest is for the profile.
             let polygon_mm = 40.0 * (1.0 / libm::cos(PI / edges as f64) - 1.0);
             assert!(component.hausdorff_mm() < polygon_mm + 3.0, "{edges}: {}", component.hausdorff_mm());
+        }
+    }
+}
+
+/// A mug with a handle, and a sugar bowl with two that sit on unlike planes: the other sides are alike.
+#[test]
+fn turned_hulls_with_handles_are_regular_but_for_those() {
+    let angle_rad = 0.7;
+    let handles = [(angle_rad + PI / 2.0, -0.12, 0.96), (angle_rad - PI / 2.0, 0.05, 0.93)];
+    for whole in turned_hulls() {
+        for (edges, count) in [6, 8, 10, 12].into_iter().flat_map(|edges| [(edges, 1), (edges, 2)]) {
+            let mut hull = whole.clone();
+            let joints: Vec<JointTarget> = handles[..count]
+                .iter()
+                .flat_map(|&handle| with_side_joints(&mut hull, upright(angle_rad, 0.0), handle))
+                .collect();
+            let crossing = Some(Crossing { offset_mm: 0.0, turning: Turning::of_regular(edges).unwrap() });
+            let symmetry = Symmetry::Upright { angle_rad, offset_mm: 0.0, crossing };
+            let target = Target { symmetry: Some(symmetry), top_edges: edges, ..target(&hull, joints) };
+            let component = convert(&target).unwrap();
+            check(&component);
+            check_symmetric(&component, upright(angle_rad, 0.0));
+            assert_eq!(component.profiles().len(), edges);
+            let is_joined = |j: &ChainId| {
+                handles[..count].iter().any(|h| DVec2::from_angle(h.0).dot(component.normal(*j)) > 1.0 - 1e-9)
+            };
+            let (joined, alike): (Vec<ChainId>, Vec<ChainId>) = component.chain_ids().partition(is_joined);
+            assert_eq!(joined.len(), count);
+            let points = |j: ChainId| component.profiles()[j.0].points();
+            for j in &alike {
+                assert!(points(*j).iter().zip(points(alike[0])).all(|(a, b)| a.distance(*b) < SAME_MM));
+            }
+            for joint in &target.joints {
+                let Seat::Side { angle_rad, slope_rad, offset_mm } = joint.seat else { unreachable!() };
+                let normal =
+                    (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad));
+                let panel = component.panels().panel(component.joint_panel(&target, joint).unwrap());
+                assert!(panel.deployed_outline().iter().all(|p| (normal.dot(*p) - offset_mm).abs() < 1e-8));
+            }
         }
     }
 }

@@ -52,7 +52,7 @@ impl Symmetry {
     /// The motions of seats that take the straight solid to itself, but rest.
     fn seat_images(self) -> Vec<SeatImage> {
         match self {
-            Symmetry::Upright { .. } => self.images().iter().copied().map(SeatImage::About).collect(),
+            Symmetry::Upright { .. } => self.joint_images().iter().copied().map(SeatImage::About).collect(),
             Symmetry::Level { .. } => vec![SeatImage::Level],
         }
     }
@@ -184,12 +184,16 @@ impl Straight {
     }
 }
 
-/// The seat, made exactly the image of its partners among all seats: the first of them counts.
+/// The seat, made exactly the image of its partners among all seats: the first of them counts. A regular shape has no
+/// place for two that are images.
 fn paired(symmetry: Symmetry, all: &[Seat], seat: Seat) -> Option<Seat> {
     let place = |seat: Seat| all.iter().position(|s| is_same(*s, seat));
     let own = place(seat)?;
     let others = symmetry.seat_images().into_iter().map(|image| Some((place(image.of(seat))?, image)));
     let others = others.collect::<Option<Vec<_>>>()?;
+    if symmetry.is_regular() && others.iter().any(|other| other.0 != own) {
+        return None;
+    }
     let first = match others.iter().min_by_key(|other| other.0) {
         Some((other, image)) if *other < own => image.of(all[*other]),
         _ => all[own],

@@ -100,6 +100,29 @@ impl Symmetry {
         }
     }
 
+    /// Whether it makes a regular shape.
+    pub(super) fn is_regular(self) -> bool {
+        matches!(self, Symmetry::Upright { crossing: Some(crossing), .. } if crossing.turning > Turning::Half)
+    }
+
+    /// The motions, but rest, that take joints at the sides of a straight solid to such. A regular shape has them in its
+    /// mirror plane alone: a mug has one handle.
+    pub(super) fn joint_images(self) -> &'static [Image] {
+        if self.is_regular() { &[Image::ACROSS_Y] } else { self.images() }
+    }
+
+    /// What is left of it where joints at the sides make a regular shape uneven.
+    pub(super) fn of_panels(self, solid: &Solid) -> Self {
+        match self {
+            Symmetry::Upright { angle_rad, offset_mm, .. }
+                if self.is_regular() && solid.chains.iter().any(|chain| chain.is_locked) =>
+            {
+                Symmetry::Upright { angle_rad, offset_mm, crossing: None }
+            }
+            _ => self,
+        }
+    }
+
     /// The motions, but rest, that take a straight solid to itself and move its chains.
     pub(super) fn images(self) -> &'static [Image] {
         match self {
@@ -211,11 +234,24 @@ pub(super) fn directions(angle_rad: f64, symmetry: Option<Symmetry>) -> SmallVec
 /// Directions nearer to each other than this are one: rounding differs where one is mirrored in several ways.
 pub(super) const SAME_RAD: f64 = 1e-9;
 
+/// The images of chain j of a straight solid, with the motions that take it there. Chains with joints are like others of
+/// their kind only.
+pub(super) fn chain_images(
+    solid: &Solid,
+    symmetry: Option<Symmetry>,
+    j: ChainId,
+) -> impl Iterator<Item = (Image, ChainId)> + '_ {
+    let own = &solid.chains[j.0];
+    let all = if own.is_locked { symmetry.map_or(&[][..], Symmetry::joint_images) } else { images(symmetry) };
+    let to = all.iter().map(|&image| (image, chain_at(solid, image.angle(own.angle_rad))));
+    let is_regular = symmetry.is_some_and(Symmetry::is_regular);
+    to.filter(move |(_, k)| !is_regular || solid.chains[k.0].is_locked == own.is_locked)
+}
+
 /// Chain j of a straight solid and its images, each once; the chain itself comes first.
 pub(super) fn orbit(solid: &Solid, symmetry: Option<Symmetry>, j: ChainId) -> SmallVec<[ChainId; 4]> {
     let mut all: SmallVec<[ChainId; 4]> = smallvec![j];
-    for image in images(symmetry) {
-        let other = chain_at(solid, image.angle(solid.chains[j.0].angle_rad));
+    for (_, other) in chain_images(solid, symmetry, j) {
         if !all.contains(&other) {
             all.push(other);
         }
@@ -224,7 +260,7 @@ pub(super) fn orbit(solid: &Solid, symmetry: Option<Symmetry>, j: ChainId) -> Sm
 }
 
 /// The chain of a straight solid whose direction is nearest.
-pub(super) fn chain_at(solid: &Solid, angle_rad: f64) -> ChainId {
+fn chain_at(solid: &Solid, angle_rad: f64) -> ChainId {
     let from = |k: ChainId| away(solid.chains[k.0].angle_rad, angle_rad);
     solid.chain_ids().min_by(|&a, &b| from(a).total_cmp(&from(b))).unwrap_or(ChainId(0))
 }
@@ -238,8 +274,7 @@ pub(super) fn evened(mut solid: Solid, symmetry: Option<Symmetry>) -> Solid {
     }
     for j in solid.chain_ids() {
         let own = solid.chains[j.0].angle_rad;
-        let others: SmallVec<[(Image, ChainId); 3]> =
-            images(symmetry).iter().map(|&image| (image, chain_at(&solid, image.angle(own)))).collect();
+        let others: SmallVec<[(Image, ChainId); 3]> = chain_images(&solid, symmetry, j).collect();
         if others.iter().any(|&(_, k)| k < j) {
             continue;
         }
