@@ -35,6 +35,6 @@ pub use tatamu_plot::{plotter, toolpath};
 pub mod mesh {
     pub use tatamu_core::mesh::*;
     pub use tatamu_read::{
-        ColourError, Format, Place, ReadError, painting, read, read_painting, read_with_siblings,
+        ColourError, Format, Place, ReadError, painting, read, read_painting, read_with_siblings, siblings,
     };
 }

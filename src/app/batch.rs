@@ -6,8 +6,9 @@
 
 use super::error::AppError;
 use super::make::{self, Task, Timed, Wish};
+use super::sources::Sources;
 use super::words::Say;
-use super::{input, names, output};
+use super::{names, output};
 use std::collections::{BTreeMap, VecDeque};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver, Sender};
@@ -94,9 +95,9 @@ fn work(input: usize, task: Task<'_>, claims: &Claims, watch: &dyn Watch, sender
         let _ = sender.send(Message { input, news: News::Warning(warning.to_owned()) });
     };
     let write = || {
-        let made = make::make(task, watch.progress().as_ref(), watch.say(), &tell)?;
+        let made = make::make(task, &claims.sources, watch.progress().as_ref(), watch.say(), &tell)?;
         claims.take(input, made.paths())?;
-        output::write(&made.files)?;
+        output::write(&made.files, &claims.sources)?;
         Ok(made.line)
     };
     let _ = sender.send(Message { input, news: News::End(write()) });
@@ -131,21 +132,22 @@ fn listen(messages: &Receiver<Message>, inputs: &[&Path], watch: &dyn Watch) -> 
 struct Claims {
     owners: Mutex<BTreeMap<PathBuf, usize>>,
     inputs: Vec<PathBuf>,
+    /// What all inputs are read from.
+    sources: Sources,
 }
 
 impl Claims {
-    /// Gives each input the names that the user gave. No file may be written by two of them, or be an
-    /// input.
+    /// Gives each input the names that the user gave. No file may be written by two of them, or be a
+    /// source of one.
     fn new(tasks: &[Task<'_>]) -> Result<Self, AppError> {
         let inputs: Vec<PathBuf> = tasks.iter().map(|task| task.input.to_owned()).collect();
-        let claims = Self { owners: Mutex::default(), inputs };
+        let sources = Sources::of(tasks.iter().map(|task| task.input));
+        let claims = Self { owners: Mutex::default(), inputs, sources };
         for (k, task) in tasks.iter().enumerate() {
             claims.take(k, task.places().iter().map(PathBuf::as_path))?;
         }
-        let read: Vec<PathBuf> = tasks.iter().flat_map(|task| input::files(task.input)).collect();
-        let read: Vec<&Path> = read.iter().map(PathBuf::as_path).collect();
         let places: Vec<PathBuf> = tasks.iter().flat_map(Task::places).collect();
-        output::check_places(&places, &read)?;
+        output::check_places(&places, &claims.sources)?;
         Ok(claims)
     }
 

@@ -2,7 +2,6 @@
 
 use super::choice::Choice;
 use super::error::{AppError, reason};
-use std::cell::RefCell;
 use std::fs::File;
 use std::io::{Error, ErrorKind, Read, Take};
 use std::path::{Component, Path, PathBuf};
@@ -55,31 +54,6 @@ impl Input {
         self.project.as_ref().and_then(|project| project.mesh.as_ref()).map(|_| self.mesh_path.as_path())
     }
 
-    /// Refuses to replace a texture of the mesh, which often has the mesh's name, as pictures of it have.
-    pub fn spare_textures(&self, files: &[(PathBuf, Vec<u8>)]) -> Result<(), AppError> {
-        let is_picture = |path: &Path| path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
-        let there = |path: &&PathBuf| is_picture(path) && path.is_file();
-        let replaced: Vec<&PathBuf> = files.iter().map(|(path, _)| path).filter(there).collect();
-        if replaced.is_empty() {
-            return Ok(());
-        }
-        let read = RefCell::new(Vec::new());
-        let noting = |path: &Path| {
-            read.borrow_mut().extend(path.canonicalize());
-            fetch(path)
-        };
-        // A mesh without colours has no textures.
-        let _ = read_painting_by(&noting, &self.mesh_path);
-        let is_read = |path: &PathBuf| path.canonicalize().is_ok_and(|path| read.borrow().contains(&path));
-        match replaced.into_iter().find(|path| is_read(path)) {
-            None => Ok(()),
-            Some(path) => Err(AppError::Output {
-                path: path.clone(),
-                reason: "it is a texture of the mesh; choose another name".to_owned(),
-            }),
-        }
-    }
-
     /// What the user should know about the files that were read.
     pub fn warnings(&self) -> Vec<Warning> {
         let repairs = self.repairs.warnings().into_iter().map(Warning::from);
@@ -114,17 +88,23 @@ impl Input {
 /// The bytes from the start of a file that tell whether it is a project file.
 const HEAD_BYTES: u64 = 1 << 16;
 
-/// The files that are read for an input, as far as is known without reading a mesh: itself,
-/// and the mesh of a project.
+/// The files that are read for an input, as far as is known without reading a mesh: itself, and the mesh
+/// of a project.
 pub fn files(path: &Path) -> Vec<PathBuf> {
-    let mut head = Vec::new();
     // Of a mesh, which may be large, the beginning is enough.
-    let read = open(path).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head));
-    let whole = read.ok().filter(|_| is_project(path, &head)).and_then(|_| fetch(path).ok());
+    let head = if path == Path::new(STANDARD_INPUT) { standard_input() } else { beginning(path) };
+    let is_project = head.is_ok_and(|head| is_project(path, &head));
+    let whole = if is_project { fetch(path).ok() } else { None };
     let text = whole.map(String::from_utf8);
     let project = text.and_then(Result::ok).and_then(|text| Project::parse(&text).ok());
     let mesh = project.and_then(|project| project.mesh).map(|mesh| path.with_file_name(mesh));
     std::iter::once(path.to_owned()).chain(mesh).collect()
+}
+
+fn beginning(path: &Path) -> std::io::Result<Vec<u8>> {
+    let mut head = Vec::new();
+    open(path)?.take(HEAD_BYTES).read_to_end(&mut head)?;
+    Ok(head)
 }
 
 /// Largest input, bytes: a mesh of twenty million triangles in text has fewer.
@@ -294,7 +274,7 @@ fn is_project(path: &Path, bytes: &[u8]) -> bool {
 
 /// A file that the mesh file refers to: only beside or below it, so that a mesh from elsewhere
 /// cannot have any file read.
-fn read_sibling(fetch: Fetch<'_>, mesh_path: &Path, name: &str) -> Result<Vec<u8>, String> {
+pub(super) fn read_sibling(fetch: Fetch<'_>, mesh_path: &Path, name: &str) -> Result<Vec<u8>, String> {
     let name = Path::new(name);
     let is_below = name.components().all(|c| matches!(c, Component::Normal(_)));
     if !is_below {

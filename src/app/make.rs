@@ -5,6 +5,7 @@ use super::error::AppError;
 use super::fit::fitted_and_advised;
 use super::made::Made;
 use super::output::{self, Target};
+use super::sources::Sources;
 use super::words::Say;
 use super::{input, names, soundness, text};
 use std::path::{Path, PathBuf};
@@ -129,12 +130,17 @@ impl<'a> Task<'a> {
     }
 }
 
-/// Makes the model of one input, and the content of its files. Warnings are reported as they come.
-pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str)) -> Result<Made, AppError> {
-    let places = task.places();
-    output::check_places(&places, &[task.input])?;
+/// Makes the model of one input, and the content of its files, which take no place of a source. Warnings are reported
+/// as they come.
+pub fn make(
+    task: Task<'_>,
+    sources: &Sources,
+    progress: &dyn Timed,
+    say: Say,
+    tell: &dyn Fn(&str),
+) -> Result<Made, AppError> {
+    output::check_places(&task.places(), sources)?;
     let input = input::read(task.input)?;
-    output::check_places(&places, &[task.input, &input.mesh_path])?;
     let choice = Choice::of_input(&input, &task.wish.given)?;
     let files = choice.files(task.input)?;
     let sheets = choice.options().sheets;
@@ -186,7 +192,6 @@ pub fn make(task: Task<'_>, progress: &dyn Timed, say: Say, tell: &dyn Fn(&str))
     if let Some(path) = task.segments {
         written.push((path, segments(result.mesh(), result.face_parts(), &input.repairs)));
     }
-    input.spare_textures(&written)?;
     let advice = choice.settings().files.program.map(|program| program.advice);
     let advice = advice.or(lacks_sheets.then_some(GUIDES_ALONE));
     Ok(Made::new(&result, input.named_mesh(), written).with_advice(advice))

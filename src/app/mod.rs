@@ -17,5 +17,6 @@ pub mod plot;
 pub mod profiles;
 pub mod project;
 pub mod soundness;
+pub mod sources;
 pub mod text;
 pub mod words;

@@ -1,6 +1,7 @@
 //! Writing files: all of them, or none.
 
 use super::error::{AppError, reason};
+use super::sources::Sources;
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{ErrorKind, Write};
@@ -35,14 +36,6 @@ pub fn known_extensions(formats: &[Format]) -> String {
     dotted.join(", ")
 }
 
-/// Finds the format of each name, and checks before any work that a file can be written there and
-/// that none of `inputs` would be lost.
-pub fn targets(paths: &[PathBuf], inputs: &[&Path]) -> Result<Vec<Target>, AppError> {
-    let targets = targets_among(paths, &[FORMATS])?;
-    check_places(paths, inputs)?;
-    Ok(targets)
-}
-
 /// Finds the format of each name, in the first of some lists that has it.
 pub fn targets_among(paths: &[PathBuf], lists: &[&'static [Format]]) -> Result<Vec<Target>, AppError> {
     let target = |path: &PathBuf| -> Result<Target, AppError> {
@@ -71,8 +64,8 @@ pub fn picture(path: &Path) -> Result<(&'static Format, WritePages), AppError> {
 }
 
 /// Checks that files can be written under these names, that no name comes twice, and that none
-/// of `inputs` would be lost.
-pub fn check_places(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), AppError> {
+/// of the sources would be lost.
+pub fn check_places(paths: &[PathBuf], sources: &Sources) -> Result<(), AppError> {
     let mut seen: BTreeSet<PathBuf> = BTreeSet::new();
     if paths.iter().filter(|path| is_standard_output(path)).count() > 1 {
         return Err(AppError::Output { path: STANDARD_OUTPUT.into(), reason: ONE_FILE.to_owned() });
@@ -82,9 +75,7 @@ pub fn check_places(paths: &[PathBuf], inputs: &[&Path]) -> Result<(), AppError>
         if path.is_dir() {
             return Err(refuse("it is a folder; add a file name"));
         }
-        if inputs.iter().any(|input| is_same_file(input, path)) {
-            return Err(refuse("it is the input; choose another name"));
-        }
+        sources.spare(path)?;
         let folder = folder(path);
         if !folder.is_dir() {
             return Err(refuse(&format!("there is no folder {}; create it first", folder.display())));
@@ -108,13 +99,6 @@ pub fn place(path: &Path) -> PathBuf {
     }
 }
 
-fn is_same_file(a: &Path, b: &Path) -> bool {
-    match (a.canonicalize(), b.canonicalize()) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => false,
-    }
-}
-
 /// Why the standard output is no place for several files.
 pub const ONE_FILE: &str = "the standard output takes one file; write others under names of their own";
 const TWICE: &str = "two options write it; choose another name";
@@ -131,8 +115,9 @@ fn behind_links(path: &Path) -> PathBuf {
 }
 
 /// Writes all files to temporary files beside their places, then puts them into place, what goes to devices, pipes
-/// and the standard output last. An error up to the last step leaves everything as it was.
-pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), AppError> {
+/// and the standard output last. An error up to the last step leaves everything as it was. The sources are spared:
+/// the name of a sheet or a piece is known only now.
+pub fn write(files: &[(PathBuf, Vec<u8>)], sources: &Sources) -> Result<(), AppError> {
     let (mut ready, mut streams) = (Vec::with_capacity(files.len()), Vec::new());
     let mut seen: BTreeSet<&Path> = BTreeSet::new();
     let (printed, named): (Vec<_>, Vec<_>) = files.iter().partition(|(path, _)| is_standard_output(path));
@@ -141,6 +126,7 @@ pub fn write(files: &[(PathBuf, Vec<u8>)]) -> Result<(), AppError> {
         if !seen.insert(path) {
             return Err(AppError::Output { path: path.clone(), reason: TWICE.to_owned() });
         }
+        sources.spare(path)?;
         if is_stream(path) {
             let stream = File::options().write(true).open(path).map_err(|error| failed(path, &error))?;
             streams.push((path, stream, bytes));
@@ -214,10 +200,10 @@ mod tests {
         std::fs::write(&good, "old").unwrap();
         let bad = folder.path().join("missing").join("bad.txt");
         let files = [(good.clone(), b"new".to_vec()), (bad, Vec::new())];
-        assert!(write(&files).is_err());
+        assert!(write(&files, &Sources::none()).is_err());
         assert_eq!(std::fs::read(&good).unwrap(), b"old");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
-        write(&files[..1]).unwrap();
+        write(&files[..1], &Sources::none()).unwrap();
         assert_eq!(std::fs::read(&good).unwrap(), b"new");
     }
 
@@ -229,12 +215,13 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let (pipe, beside) = (folder.path().join("pipe.txt"), folder.path().join("a.txt"));
         assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-        check_places(std::slice::from_ref(&pipe), &[]).unwrap();
+        check_places(std::slice::from_ref(&pipe), &Sources::none()).unwrap();
         let reader = std::thread::spawn({
             let pipe = pipe.clone();
             move || std::fs::read(pipe).unwrap()
         });
-        write(&[(pipe.clone(), b"through".to_vec()), (beside.clone(), b"beside".to_vec())]).unwrap();
+        let files = [(pipe.clone(), b"through".to_vec()), (beside.clone(), b"beside".to_vec())];
+        write(&files, &Sources::none()).unwrap();
         assert_eq!(reader.join().unwrap(), b"through");
         assert!(pipe.metadata().unwrap().file_type().is_fifo());
         assert_eq!(std::fs::read(&beside).unwrap(), b"beside");
@@ -248,10 +235,10 @@ mod tests {
         let (file, link) = (folder.path().join("sub").join("file.txt"), folder.path().join("link.txt"));
         std::fs::write(&file, "old").unwrap();
         std::os::unix::fs::symlink(&file, &link).unwrap();
-        check_places(std::slice::from_ref(&link), &[]).unwrap();
-        write(&[(link.clone(), b"new".to_vec())]).unwrap();
+        check_places(std::slice::from_ref(&link), &Sources::none()).unwrap();
+        write(&[(link.clone(), b"new".to_vec())], &Sources::none()).unwrap();
         assert!(link.is_symlink());
-        assert!(check_places(&[link, file.clone()], &[]).is_err(), "both are one file");
+        assert!(check_places(&[link, file.clone()], &Sources::none()).is_err(), "both are one file");
         assert_eq!(std::fs::read(&file).unwrap(), b"new");
     }
 }

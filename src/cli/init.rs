@@ -8,6 +8,7 @@ use crate::app::error::AppError;
 use crate::app::fit::fitted;
 use crate::app::make::Timed;
 use crate::app::project::{components, mesh_from, project_text};
+use crate::app::sources::Sources;
 use crate::app::{input, names, output};
 use clap::Args;
 use std::path::PathBuf;
@@ -55,7 +56,8 @@ pub fn run(args: &InitArgs) -> Result<(), AppError> {
         Some(path) => path.clone(),
         None => names::default(&args.mesh, "toml"),
     };
-    output::check_places(std::slice::from_ref(&path), &[&args.mesh])?;
+    let sources = Sources::of([args.mesh.as_path()]);
+    output::check_places(std::slice::from_ref(&path), &sources)?;
     if path.is_file() && !args.force {
         return Err(AppError::Output { path, reason: "it exists; use --force to replace it".to_owned() });
     }
@@ -74,7 +76,7 @@ pub fn run(args: &InitArgs) -> Result<(), AppError> {
     let components = components(&result, carded.options());
     let mesh = mesh_from(&path, &input.mesh_path)?;
     let text = project_text(&mesh, choice.settings(), result.merges(), &components);
-    output::write(&[(path.clone(), text.into_bytes())])?;
+    output::write(&[(path.clone(), text.into_bytes())], &sources)?;
     if !args.quiet {
         let line = format!("wrote {}; edit it, then run: tatamu make {0}", path.display());
         terminal::say_of_files(std::iter::once(path.as_path()), &line);

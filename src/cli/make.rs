@@ -8,6 +8,7 @@ use super::{batch, formats, mistakes, terminal, words};
 use crate::app::error::AppError;
 use crate::app::make::{Task, Wish, make};
 use crate::app::output;
+use crate::app::sources::Sources;
 use clap::Args;
 use std::path::PathBuf;
 use tatamu::product::Selection;
@@ -158,8 +159,9 @@ pub fn run(args: &MakeArgs) -> Result<(), AppError> {
     let progress = TerminalProgress::new(args.quiet);
     let tell = |warning: &str| terminal::complain("warning", warning);
     let wish = args.wish();
-    let made = make(Task::new(&wish, input)?, &progress, words::warning, &tell)?;
-    output::write(&made.files)?;
+    let sources = Sources::of([input.as_path()]);
+    let made = make(Task::new(&wish, input)?, &sources, &progress, words::warning, &tell)?;
+    output::write(&made.files, &sources)?;
     if !args.quiet {
         made.summary.iter().for_each(|line| terminal::say_of_files(made.paths(), line));
     }

@@ -6,6 +6,7 @@ use super::terminal;
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
 use crate::app::make::Timed;
+use crate::app::sources::Sources;
 use crate::app::{input, make, output};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -73,9 +74,9 @@ pub fn run(args: &SegmentCommand) -> Result<(), AppError> {
     }
     let places: Vec<PathBuf> =
         [&args.output, &args.segments, &args.report].into_iter().flatten().cloned().collect();
-    output::check_places(&places, &[&args.input])?;
+    let sources = Sources::of([args.input.as_path()]);
+    output::check_places(&places, &sources)?;
     let input = input::read(&args.input)?;
-    output::check_places(&places, &[&args.input, &input.mesh_path])?;
     let choice = Choice::of_input(&input, args.division.given())?;
     input.warnings().iter().for_each(terminal::warn);
 
@@ -104,8 +105,7 @@ pub fn run(args: &SegmentCommand) -> Result<(), AppError> {
             .map_err(|error| AppError::Output { path: path.clone(), reason: error.to_string() })?;
         files.push((path.clone(), bytes));
     }
-    input.spare_textures(&files)?;
-    output::write(&files)?;
+    output::write(&files, &sources)?;
     if !args.quiet {
         summarise(&parts, overlap, &stages);
         let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();

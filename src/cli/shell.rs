@@ -2,6 +2,7 @@
 
 use crate::app::error::AppError;
 use crate::app::output;
+use crate::app::sources::Sources;
 use clap::{Args, Command};
 use clap_complete::Shell;
 use std::io::Write;
@@ -51,6 +52,6 @@ pub fn man(args: &ManArgs, mut command: Command) -> Result<(), AppError> {
     };
     let pages = commands.map(page).collect::<Result<Vec<_>, _>>()?;
     let paths: Vec<PathBuf> = pages.iter().map(|p| p.0.clone()).collect();
-    output::check_places(&paths, &[])?;
-    output::write(&pages)
+    output::check_places(&paths, &Sources::none())?;
+    output::write(&pages, &Sources::none())
 }

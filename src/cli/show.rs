@@ -7,6 +7,7 @@ use crate::app::choice::Choice;
 use crate::app::error::AppError;
 use crate::app::fit::fitted;
 use crate::app::make::Timed;
+use crate::app::sources::Sources;
 use crate::app::text::printable;
 use crate::app::{input, names, output};
 use clap::{Args, ValueEnum};
@@ -121,9 +122,10 @@ pub fn run(args: &ShowArgs) -> Result<(), AppError> {
         name.push(".png");
         PathBuf::from(name)
     });
-    let write = format_of(&path, &args.input)?;
+    let write = format_of(&path)?;
+    let sources = Sources::of([args.input.as_path()]);
+    output::check_places(std::slice::from_ref(&path), &sources)?;
     let input = input::read(&args.input)?;
-    output::check_places(std::slice::from_ref(&path), &[&args.input, &input.mesh_path])?;
     input.notes.iter().for_each(terminal::warn);
     let choice = Choice::of_input(&input, args.model.given())?;
     let options = choice.options();
@@ -144,8 +146,7 @@ pub fn run(args: &ShowArgs) -> Result<(), AppError> {
     let title = printable(&args.input.file_stem().unwrap_or_default().to_string_lossy());
     let files = write(title, drawings)?.into_iter();
     let files: Vec<_> = files.map(|file| (names::with_suffix(&path, &file.suffix), file.bytes)).collect();
-    input.spare_textures(&files)?;
-    output::write(&files)?;
+    output::write(&files, &sources)?;
     if !args.quiet {
         let written: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
         let line = format!("written     {}", written.join(", "));
@@ -188,9 +189,8 @@ fn scene(args: &ShowArgs, result: &Output) -> Result<Scene, ShowError> {
 type Writer = Box<dyn Fn(String, Vec<Drawing>) -> Result<Vec<ExportFile>, AppError>>;
 
 /// The writer for a file name.
-fn format_of(path: &std::path::Path, input: &std::path::Path) -> Result<Writer, AppError> {
+fn format_of(path: &std::path::Path) -> Result<Writer, AppError> {
     let (format, write) = output::picture(path)?;
-    output::check_places(&[path.to_owned()], &[input])?;
     let is_png = format.name == png::FORMAT.name;
     Ok(Box::new(move |title, drawings| {
         if is_png {

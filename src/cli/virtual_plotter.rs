@@ -5,6 +5,7 @@ use super::numbers::whole;
 use super::{progress, terminal};
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
+use crate::app::sources::Sources;
 use crate::app::{names, output};
 use clap::Args;
 use glam::DVec2;
@@ -100,7 +101,7 @@ pub fn run(args: &VirtualPlotterArgs) -> Result<(), AppError> {
     let cutter = Choice::new(None, args.machine.given())?.machine()?.cutter;
     if let Some(path) = &args.output {
         output::picture(path)?;
-        output::check_places(std::slice::from_ref(path), &[])?;
+        output::check_places(std::slice::from_ref(path), &Sources::none())?;
     }
     let (mut host, name) = open().map_err(|error| AppError::Port {
         port: "of the virtual plotter".to_owned(),
@@ -203,7 +204,7 @@ fn report(args: &VirtualPlotterArgs, cutter: &Cutter, plotter: &dyn VirtualMachi
     let pages = pages.map_err(|error| AppError::Options(error.to_string()))?;
     let files = write(&pages, &FormatOptions::default())?.into_iter();
     let files: Vec<_> = files.map(|file| (names::with_suffix(path, &file.suffix), file.bytes)).collect();
-    output::write(&files)
+    output::write(&files, &Sources::none())
 }
 
 /// What was drawn, in the machine's coordinates, mm.

@@ -1,6 +1,7 @@
 //! The book that comes with the program, as pages for the browser.
 
 use crate::app::output;
+use crate::app::sources::Sources;
 use pulldown_cmark::{CowStr, Event, Options, Parser, Tag, TagEnd, html};
 use std::path::{Component, Path, PathBuf};
 
@@ -68,7 +69,7 @@ pub fn write(folder: &Path) -> Result<(), String> {
         std::fs::create_dir_all(parent)
             .map_err(|error| format!("cannot write {}: {error}", parent.display()))?;
     }
-    output::write(&files).map_err(|error| error.to_string())
+    output::write(&files, &Sources::none()).map_err(|error| error.to_string())
 }
 
 /// The file of a page, once it is written.

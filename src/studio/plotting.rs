@@ -7,6 +7,7 @@ use crate::app::output;
 use crate::app::plot::Sheet;
 use crate::app::plot::{Operator, SystemPorts, doing};
 use crate::app::plot::{journal, live};
+use crate::app::sources::Sources;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -72,7 +73,7 @@ impl Plotting {
         let state = Arc::new(Mutex::new(State { text: "opening the port".to_owned(), ..State::default() }));
         let mut hand = Hand { state: state.clone(), wake, is_begun: at.strokes > 0 };
         std::thread::spawn(move || {
-            let sent = output::check_places(std::slice::from_ref(&journal), &[])
+            let sent = output::check_places(std::slice::from_ref(&journal), &Sources::none())
                 .and_then(|()| live::send_all(&SystemPorts, &mut hand, &journal, &header, at));
             let end = sent.map_err(|error| words::error(&error));
             locked(&hand.state).end = Some(end);

@@ -2,6 +2,7 @@
 
 use super::preferences::Preferences;
 use crate::app::output;
+use crate::app::sources::Sources;
 use std::path::{Path, PathBuf};
 
 /// Number of recent files that are kept.
@@ -97,7 +98,7 @@ impl Store {
             let path = folder.join(name);
             let made = path.parent().map(std::fs::create_dir_all);
             if matches!(made, Some(Ok(()))) {
-                let _ = output::write(&[(path, text.into_bytes())]);
+                let _ = output::write(&[(path, text.into_bytes())], &Sources::none());
             }
         }
     }

@@ -7,6 +7,7 @@ use crate::app::choice::Choice;
 use crate::app::error::AppError;
 use crate::app::fit::fitting_size_mm;
 use crate::app::output::{self, Target};
+use crate::app::sources::Sources;
 use crate::app::{input, make, profiles};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -156,7 +157,8 @@ fn export(
 ) -> Result<Vec<String>, Problem> {
     let run = || -> Result<_, AppError> {
         let paths: Vec<PathBuf> = targets.iter().map(|target| target.path.clone()).collect();
-        output::check_places(&paths, &[&opened.source, &opened.mesh_path])?;
+        let sources = Sources::of([opened.source.as_path(), &opened.mesh_path]);
+        output::check_places(&paths, &sources)?;
         let has_job = targets.iter().any(|target| target.format.is_job());
         let machine = machine.filter(|_| has_job);
         let machine =
@@ -165,7 +167,7 @@ fn export(
             formats.plt = machine.unwrap_or(formats.plt);
             make::written(targets, &[("", product)], &formats)
         })??;
-        output::write(&files)?;
+        output::write(&files, &sources)?;
         Ok(files.iter().map(|(path, _)| path.display().to_string()).collect())
     };
     run().map_err(Problem::from)

@@ -412,6 +412,46 @@ fn files_of_the_kernel_are_not_read() {
     }
 }
 
+const TETRAHEDRON: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+
+/// Materials, textures other than of colours, data of a glTF file, and names that sheets get in the end.
+#[test]
+fn no_file_that_a_mesh_refers_to_is_replaced() {
+    let gltf = br#"{"asset":{"version":"2.0"},"buffers":[{"uri":"my%20data.bin","byteLength":4}],"images":[{"uri":"b.png"}]}"#;
+    let mtl = b"newmtl a\nmap_Kd gone.png\nbump -bm 0.5 b-1.png\n";
+    let mesh = [b"mtllib a.mtl\n", TETRAHEDRON].concat();
+    let files = [
+        ("a.obj", &mesh[..]),
+        ("a.mtl", mtl),
+        ("b-1.png", b"x"),
+        ("a.gltf", gltf),
+        ("b.png", b"x"),
+        ("my data.bin", b"1234"),
+        CUBE,
+    ];
+    let folder = folder_with(&files);
+    for (command, file) in [
+        (&["segment", "a.obj", "--segments", "a.mtl"][..], "a.mtl"),
+        (&["segment", "a.obj", "--report", "a.mtl"], "a.mtl"),
+        (&["segment", "a.gltf", "--segments", "my data.bin"], "my data.bin"),
+        (&["show", "a.gltf", "-o", "b.png"], "b.png"),
+        (&["make", "a.obj", "--size", "600", "--effort", "0", "-o", "b.png"], "b-1.png"),
+        (&["make", "a.obj", "cube.off", "--segments", "{name}.mtl", "-o", "{name}.pdf"], "a.mtl"),
+    ] {
+        let result = run(folder.path(), command);
+        assert_eq!(result.code, Some(1), "{command:?}: {}", result.err);
+        assert!(
+            result.err.contains(&format!("{file}: it is a texture or another")),
+            "{command:?}: {}",
+            result.err
+        );
+        for (name, bytes) in &files {
+            assert!(std::fs::read(folder.path().join(name)).unwrap() == *bytes, "{command:?}: {name}");
+        }
+        assert_eq!(names(&folder).len(), files.len(), "{command:?}");
+    }
+}
+
 /// `tatamu show model.obj` writes model.png, and replaced the texture of that name without a word.
 #[test]
 fn a_texture_of_the_mesh_is_not_replaced() {
@@ -432,10 +472,18 @@ fn a_texture_of_the_mesh_is_not_replaced() {
     ] {
         let result = run(folder.path(), command);
         assert_eq!(result.code, Some(1), "{command:?}: {}", result.err);
-        assert!(result.err.contains("a.png: it is a texture of the mesh"), "{command:?}: {}", result.err);
+        assert!(
+            result.err.contains("a.png: it is a texture or another file of the mesh"),
+            "{command:?}: {}",
+            result.err
+        );
         assert!(std::fs::read(folder.path().join("a.png")).unwrap() == texture, "{command:?}");
         assert_eq!(names(&folder), ["a.mtl", "a.obj", "a.png", "cube.off"]);
     }
+    // A preview of a job did, too.
+    let preview = ["plot", "a.obj", "--dry-run", "--preview", "a.png", "--size", "60", "--effort", "0"];
+    assert_eq!(run(folder.path(), &preview).code, Some(1));
+    assert!(std::fs::read(folder.path().join("a.png")).unwrap() == texture);
     // Its own pictures it replaces.
     for _ in 0..2 {
         let result = run(folder.path(), &["show", "a.obj", "-q", "--stage", "mesh", "-o", "b.png"]);

@@ -30,6 +30,16 @@ pub(super) fn read(
     Soup::new(scene.positions, scene.triangles).map_err(|error| ReadError::from_soup(Format::Gltf, &error))
 }
 
+/// The names of the files of data and of pictures; none of a file that is damaged.
+pub(super) fn siblings(bytes: &[u8]) -> Vec<String> {
+    let Ok(file) = open(bytes) else { return Vec::new() };
+    let json = file.as_json();
+    let buffers = json.buffers.iter().filter_map(|buffer| buffer.uri.as_deref());
+    let images = json.images.iter().filter_map(|image| image.uri.as_deref());
+    let outside = buffers.chain(images).filter(|uri| !uri.starts_with("data:"));
+    outside.map(|uri| name_of(uri).into_owned()).collect()
+}
+
 fn open(bytes: &[u8]) -> Result<Gltf, ReadError> {
     if bytes.starts_with(b"glTF") {
         check_glb(bytes)?;

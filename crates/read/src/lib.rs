@@ -304,6 +304,17 @@ pub fn read_painting(
     painting.ok_or(ColourError::None { format })
 }
 
+/// Names of the other files that a mesh file refers to: data, materials and textures, those that tatamu has no use for
+/// among them; `sibling` as in [`read_with_siblings`].
+pub fn siblings(bytes: &[u8], sibling: &dyn Fn(&str) -> Result<Vec<u8>, String>) -> Vec<String> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    match recognise(bytes) {
+        Some(Format::Obj) => obj::siblings(bytes, sibling),
+        Some(Format::Gltf) => gltf::siblings(bytes),
+        _ => Vec::new(),
+    }
+}
+
 /// A polygon's corners as triangles about the first: good enough to show its colours.
 fn fan(corners: usize) -> impl Iterator<Item = [usize; 3]> {
     (2..corners).map(|k| [0, k - 1, k])

@@ -3,7 +3,7 @@
 
 mod colour;
 
-pub(super) use colour::read_painting;
+pub(super) use colour::{read_painting, siblings};
 
 use super::lines::{Feed, Line, Lines, number};
 use super::{Format, Place, ReadError};

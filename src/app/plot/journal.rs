@@ -1,6 +1,7 @@
 //! Journals as files.
 
 use crate::app::error::{AppError, reason};
+use crate::app::sources::Sources;
 use crate::app::{input, output};
 use std::fs::{File, TryLockError};
 use std::io::Write;
@@ -25,7 +26,7 @@ impl Journal {
         let header = serde_json::to_string(header).map_err(|error| failed(error.into()))?;
         let position = serde_json::to_string(&at).map_err(|error| failed(error.into()))?;
         let whole = format!("{header}\n{position}\n");
-        output::write(&[(path.to_owned(), whole.into_bytes())])?;
+        output::write(&[(path.to_owned(), whole.into_bytes())], &Sources::none())?;
         let file = File::options().read(true).append(true).open(path).map_err(failed)?;
         // Some network drives have no locks; two jobs on one journal go unnoticed there.
         let _ = file.try_lock();

@@ -10,6 +10,7 @@ use super::{terminal, words};
 use crate::app::choice::Choice;
 use crate::app::error::AppError;
 use crate::app::plot::{Sheet, SystemPorts, handshake, journal, live, rest, sheets};
+use crate::app::sources::Sources;
 use crate::app::{names, output};
 use clap::Args;
 use operator::Terminal;
@@ -121,6 +122,8 @@ pub fn run(args: &PlotArgs) -> Result<(), AppError> {
         let message = "add --cutter; \"tatamu profiles list\" lists the profiles";
         return Err(AppError::Options(message.to_owned()));
     }
+    let sources = Sources::of(args.input.iter().map(PathBuf::as_path));
+    check_preview(args, &sources)?;
     let mut sheets = wanted(args, &machine)?;
     if !args.only.is_empty() {
         let count = sheets.len();
@@ -134,8 +137,16 @@ pub fn run(args: &PlotArgs) -> Result<(), AppError> {
         });
     }
     sheets.iter().flat_map(Sheet::notes).for_each(|note| terminal::complain("note", note));
-    show(args, &sheets, &machine.cutter)?;
+    show(args, &sources, &sheets, &machine.cutter)?;
     if is_live { start(args, &machine.cutter, &sheets) } else { Ok(()) }
+}
+
+/// Refuses a name for the pictures before the work.
+fn check_preview(args: &PlotArgs, sources: &Sources) -> Result<(), AppError> {
+    args.preview.as_ref().map_or(Ok(()), |path| {
+        output::picture(path)?;
+        output::check_places(std::slice::from_ref(path), sources)
+    })
 }
 
 /// Refuses options that what is sent has no use for.
@@ -165,9 +176,9 @@ impl PlotArgs {
 }
 
 /// Shows what is to be sent.
-fn show(args: &PlotArgs, sheets: &[Sheet], cutter: &Cutter) -> Result<(), AppError> {
+fn show(args: &PlotArgs, sources: &Sources, sheets: &[Sheet], cutter: &Cutter) -> Result<(), AppError> {
     if let Some(path) = &args.preview {
-        draw(path, sheets, cutter)?;
+        draw(path, sources, sheets, cutter)?;
     }
     if args.dry_run || !args.quiet {
         sheets.iter().for_each(|sheet| terminal::say(&sheet.summary(cutter)));
@@ -202,18 +213,20 @@ fn start(args: &PlotArgs, cutter: &Cutter, sheets: &[Sheet]) -> Result<(), AppEr
     let header = live::header(sheets, cutter, port, args.copies);
     let handshake = args.handshake.map(|h| h.name().to_owned());
     let header = Header { baud: args.baud, handshake, ..header };
-    output::check_places(std::slice::from_ref(&path), &[])?;
+    output::check_places(std::slice::from_ref(&path), &Sources::none())?;
     send(args, &path, &header, Position::default())
 }
 
 /// Continues a job.
 fn resume(args: &PlotArgs, path: &Path, (header, at): (Header, Position)) -> Result<(), AppError> {
+    let sources = Sources::of([path]);
+    check_preview(args, &sources)?;
     let mut header = header;
     header.port = args.port.clone().unwrap_or(header.port);
     header.baud = args.baud.or(header.baud);
     header.handshake = args.handshake.map(|h| h.name().to_owned()).or(header.handshake);
     let cutter = rest::cutter(path, &header)?;
-    show(args, &rest::sheets(path, &header, at, &cutter)?, &cutter)?;
+    show(args, &sources, &rest::sheets(path, &header, at, &cutter)?, &cutter)?;
     if args.is_live() { send(args, path, &header, at) } else { Ok(()) }
 }
 
@@ -222,14 +235,13 @@ fn send(args: &PlotArgs, path: &Path, header: &Header, at: Position) -> Result<(
 }
 
 /// Writes the pictures of all sheets.
-fn draw(path: &Path, sheets: &[Sheet], cutter: &Cutter) -> Result<(), AppError> {
+fn draw(path: &Path, sources: &Sources, sheets: &[Sheet], cutter: &Cutter) -> Result<(), AppError> {
     let (_, write) = output::picture(path)?;
-    output::check_places(&[path.to_owned()], &[])?;
     let pictures = sheets.iter().map(|sheet| preview(sheet.job(), cutter, sheet.placement()));
     let pages = Pages::new("preview", pictures.collect(), LineStyles::standard());
     let pages = pages.map_err(|error| AppError::Options(error.to_string()))?;
     let files = write(&pages, &FormatOptions::default())?;
     let files: Vec<(PathBuf, Vec<u8>)> =
         files.into_iter().map(|file| (names::with_suffix(path, &file.suffix), file.bytes)).collect();
-    output::write(&files)
+    output::write(&files, sources)
 }

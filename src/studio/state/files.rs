@@ -6,7 +6,8 @@ use super::super::messages::Cause;
 use super::super::opened::Opened;
 use super::super::watch::Watch;
 use super::Studio;
-use crate::app::project;
+use crate::app::sources::Sources;
+use crate::app::{output, project};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -149,11 +150,12 @@ impl Studio {
                 .map_err(|error| error.to_string())
                 .and_then(|mesh| document.text_with_mesh(&mesh)),
         };
-        let mesh: &[&Path] = if opened.drawn.is_some() { &[] } else { &[&opened.mesh_path] };
+        let mesh = opened.drawn.is_none().then_some(opened.mesh_path.as_path());
+        let sources = Sources::of(mesh);
         let written = text.and_then(|text| {
             let files = [(path.to_owned(), text.clone().into_bytes())];
-            crate::app::output::check_places(&[path.to_owned()], mesh)
-                .and_then(|()| crate::app::output::write(&files))
+            output::check_places(&[path.to_owned()], &sources)
+                .and_then(|()| output::write(&files, &sources))
                 .map_err(|error| error.to_string())
                 .map(|()| text)
         });

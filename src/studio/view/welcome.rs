@@ -1,6 +1,8 @@
 //! What is shown before a file is open: samples and recent files.
 
 use super::{Window, commands, focus, look};
+use crate::app::output;
+use crate::app::sources::Sources;
 use eframe::egui::{self, Align2, FontId, RichText, TextureHandle, Ui};
 use lucide_icons::Icon;
 use std::path::PathBuf;
@@ -171,7 +173,7 @@ fn unpacked(window: &Window, sample: &Sample) -> Result<PathBuf, String> {
     let folder = window.studio.samples().ok_or("there is no folder for samples; set HOME")?;
     let path = folder.join(sample.file);
     if !path.exists() {
-        crate::app::output::write(&[(path.clone(), sample.bytes.to_vec())])
+        output::write(&[(path.clone(), sample.bytes.to_vec())], &Sources::none())
             .map_err(|error| error.to_string())?;
     }
     Ok(path)

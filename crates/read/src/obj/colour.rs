@@ -136,15 +136,15 @@ impl Reader {
         Ok(())
     }
 
-    /// Options, which begin with a minus and have numbers, stand before the name.
     fn texture(
         &mut self,
         words: &[&[u8]],
         sibling: &dyn Fn(&str) -> Result<Vec<u8>, String>,
     ) -> Result<Option<usize>, ColourError> {
+        // Options, which begin with a minus and have numbers, stand before the name.
         let is_option = |word: &&[u8]| word.starts_with(b"-") || number(word).is_some() || *word == b"on";
         let start = words.iter().position(|word| !is_option(word)).unwrap_or(words.len());
-        let name = String::from_utf8_lossy(&words[start..].join(&b' ')).replace('\\', "/");
+        let name = file_name(&words[start..]);
         if name.is_empty() {
             return Ok(None);
         }
@@ -153,6 +153,37 @@ impl Reader {
         self.textures.push(texture::decode(&shown, &bytes)?);
         Ok(Some(self.textures.len() - 1))
     }
+}
+
+/// The names that a file may mean by its libraries of materials, and these by their textures. Options stand before
+/// the name of a texture, and blanks in it: each rest of a line is one.
+pub(in super::super) fn siblings(
+    text: &[u8],
+    sibling: &dyn Fn(&str) -> Result<Vec<u8>, String>,
+) -> Vec<String> {
+    let libraries = Lines::new(text).filter_map(|line| {
+        let mut words = line.words();
+        (words.next() == Some(b"mtllib")).then(|| String::from_utf8_lossy(&rest(words)).into_owned())
+    });
+    let mut found: Vec<String> = libraries.collect();
+    for library in found.clone() {
+        for line in Lines::new(&sibling(&library).unwrap_or_default()) {
+            let words: Vec<&[u8]> = line.words().collect();
+            let is_texture = words.first().is_some_and(|word| {
+                let keyword = word.to_ascii_lowercase();
+                keyword.starts_with(b"map_") || OTHER_TEXTURES.contains(&&keyword[..])
+            });
+            found.extend((1..words.len()).filter(|_| is_texture).map(|start| file_name(&words[start..])));
+        }
+    }
+    found
+}
+
+/// Keywords of textures in MTL files that do not begin with `map_`.
+const OTHER_TEXTURES: [&[u8]; 5] = [b"bump", b"disp", b"decal", b"refl", b"norm"];
+
+fn file_name(words: &[&[u8]]) -> String {
+    String::from_utf8_lossy(&words.join(&b' ')).replace('\\', "/")
 }
 
 /// Names may have blanks.
@@ -194,6 +225,17 @@ mod tests {
         let painting = painting(&text, &[("m.mtl", mtl)]).unwrap().expect("colours");
         let colours: Vec<Rgb> = (0..4).map(|k| painting.colour(k, MIDDLE)).collect();
         assert_eq!(colours, [Rgb(255, 0, 0), Rgb(0, 0, 255), Rgb::WHITE, Rgb::WHITE]);
+    }
+
+    #[test]
+    fn all_files_that_materials_refer_to_are_known() {
+        let mtl = b"newmtl a\nmap_Kd -s 1 1 1 my skin.png\nbump -bm 0.2 -imfchan l b\\n.png\nKd 1 0 0\n";
+        let find = |name: &str| if name == "m.mtl" { Ok(mtl.to_vec()) } else { Err(String::new()) };
+        let found = siblings(b"mtllib gone.mtl\nmtllib m.mtl\nv 0 0 0\n", &find);
+        for name in ["gone.mtl", "m.mtl", "my skin.png", "b/n.png"] {
+            assert!(found.iter().any(|found| found == name), "{name}: {found:?}");
+        }
+        assert!(!found.iter().any(|found| found == "1 0 0"), "{found:?}");
     }
 
     #[test]
