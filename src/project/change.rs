@@ -127,15 +127,7 @@ impl Change {
         let mut document: DocumentMut = text.parse().map_err(|e: toml_edit::TomlError| e.to_string())?;
         let root = document.as_table_mut();
         match self {
-            Self::Set { option, value } => match option.key.map_or("", |key| key.table) {
-                "" => set(root, option.name(), value.as_ref()),
-                table => {
-                    let item = root.entry(table).or_insert_with(toml_edit::table);
-                    let inner =
-                        item.as_table_like_mut().ok_or_else(|| format!("[{table}] is not a table"))?;
-                    set(inner, option.name(), value.as_ref());
-                }
-            },
+            Self::Set { option, value } => set_option(root, option, value.as_ref())?,
             Self::Mesh { file } => set(root, "mesh", Some(&file.into())),
             Self::Component { name, option, value } => {
                 set_of_component(list(root, "component")?, name, option, value.as_ref());
@@ -171,21 +163,7 @@ impl Change {
                 table["normal"] = toml_edit::value(rounded(*normal));
                 list(root, "edit")?.push(table);
             }
-            Self::Edge { component, at, choice } => {
-                let net = net_table(root, component)?;
-                let item = net.entry("edges").or_insert_with(|| toml_edit::value(Array::new()));
-                let edges = item.as_array_mut().ok_or("write edges as a list: edges = [ ]")?;
-                let name = at.to_string();
-                let is_it = |value: &Value| {
-                    value.as_inline_table().and_then(|t| t.get("at")?.as_str()) == Some(name.as_str())
-                };
-                edges.retain(|value| !is_it(value));
-                edges.extend(choice.map(|choice| edge_table(&name, &choice)));
-                // One a line, as one reads them.
-                edges.iter_mut().for_each(|edge| edge.decor_mut().set_prefix("\n    "));
-                edges.set_trailing(if edges.is_empty() { "" } else { "\n" });
-                edges.set_trailing_comma(!edges.is_empty());
-            }
+            Self::Edge { component, at, choice } => set_edge(net_table(root, component)?, *at, *choice)?,
             Self::Pieces { component, pieces } => {
                 let count = pieces.map(|count| Value::from(count as i64));
                 set(net_table(root, component)?, "pieces", count.as_ref());
@@ -199,6 +177,35 @@ impl Change {
         }
         Ok(document.to_string())
     }
+}
+
+/// Sets an option at the top of the file, or in the table that its key is in.
+fn set_option(root: &mut Table, option: &Entry, value: Option<&Value>) -> Result<(), String> {
+    match option.key.map_or("", |key| key.table) {
+        "" => set(root, option.name(), value),
+        table => {
+            let item = root.entry(table).or_insert_with(toml_edit::table);
+            let inner = item.as_table_like_mut().ok_or_else(|| format!("[{table}] is not a table"))?;
+            set(inner, option.name(), value);
+        }
+    }
+    Ok(())
+}
+
+/// Sets what is chosen about an edge in the table of its net.
+fn set_edge(net: &mut Table, at: EdgeName, choice: Option<EdgeChoice>) -> Result<(), String> {
+    let item = net.entry("edges").or_insert_with(|| toml_edit::value(Array::new()));
+    let edges = item.as_array_mut().ok_or("write edges as a list: edges = [ ]")?;
+    let name = at.to_string();
+    let is_it =
+        |value: &Value| value.as_inline_table().and_then(|t| t.get("at")?.as_str()) == Some(name.as_str());
+    edges.retain(|value| !is_it(value));
+    edges.extend(choice.map(|choice| edge_table(&name, &choice)));
+    // One a line, as one reads them.
+    edges.iter_mut().for_each(|edge| edge.decor_mut().set_prefix("\n    "));
+    edges.set_trailing(if edges.is_empty() { "" } else { "\n" });
+    edges.set_trailing_comma(!edges.is_empty());
+    Ok(())
 }
 
 /// Sets an option in the table of a component, which is made where there is none.

@@ -42,9 +42,7 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
 /// What can be done about it.
 fn actions(window: &mut Window, ui: &mut Ui, message: &Message) {
     let &Message { cause, is_problem, .. } = message;
-    let settings = window.studio.document().map(|document| document.settings());
-    let changes = settings.map(|now| remedies::of(&message.remedies, now)).unwrap_or_default();
-    if warnings::advised(&mut window.studio, ui, changes.into_iter().rev().collect()) {
+    if warnings::advised(&mut window.studio, ui, |now| remedies::of(&message.remedies, now)) {
         window.studio.messages_mut().clear(cause);
     }
     if cause == Cause::Model && !is_problem && ui.small_button("Start again").clicked() {

@@ -55,9 +55,7 @@ struct Key {
 /// Says why there is no plan, with buttons for what can be done.
 fn advise(studio: &mut Studio, ui: &mut Ui, problem: &Problem) {
     ui.colored_label(ui.visuals().error_fg_color, &problem.text);
-    let settings = studio.document().map(|document| document.settings());
-    let changes = settings.map(|now| remedies::of(&problem.remedies, now)).unwrap_or_default();
-    ui.horizontal_wrapped(|ui| warnings::advised(studio, ui, changes));
+    ui.horizontal_wrapped(|ui| warnings::advised(studio, ui, |now| remedies::of(&problem.remedies, now)));
 }
 
 fn port_names() -> Vec<String> {

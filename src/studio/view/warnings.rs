@@ -7,9 +7,18 @@ use super::{Mode, Window, focus, look};
 use eframe::egui::{self, Ui};
 use lucide_icons::Icon;
 use tatamu::front::remedies;
+use tatamu::project::options::Settings;
 
-/// Buttons that do what is advised; true where one was clicked.
-pub fn advised(studio: &mut Studio, ui: &mut Ui, changes: Vec<(String, Change)>) -> bool {
+/// Buttons that do what is advised for the settings of the document; true where one was clicked.
+pub fn advised(
+    studio: &mut Studio,
+    ui: &mut Ui,
+    advice: impl Fn(&Settings) -> Vec<(String, Change)>,
+) -> bool {
+    let mut changes = studio.document().map(|document| advice(document.settings())).unwrap_or_default();
+    if ui.layout().prefer_right_to_left() {
+        changes.reverse();
+    }
     let mut is_done = false;
     for (label, change) in changes {
         if ui.small_button(label).on_hover_text("does what is advised; Undo takes it back").clicked() {
@@ -44,9 +53,7 @@ pub fn show(window: &mut Window, ui: &mut Ui) {
                 }
             }
             ui.add(egui::Label::new(words::warning(&note.warning)).wrap());
-            let settings = window.studio.document().map(|document| document.settings());
-            let changes = settings.map(|now| remedies::changes(&note.warning, now)).unwrap_or_default();
-            advised(&mut window.studio, ui, changes);
+            advised(&mut window.studio, ui, |now| remedies::changes(&note.warning, now));
         });
     }
     focus::follow(ui);
