@@ -8,4 +8,5 @@ pub fn run(bytes: &[u8]) {
         let _ = Mesh::from_soup(&soup);
     }
     let _ = mesh::read_painting(bytes, &|_| Err(String::new()));
+    let _ = mesh::siblings(bytes, &|_| Ok(bytes.to_vec()));
 }

@@ -412,6 +412,29 @@ fn files_of_the_kernel_are_not_read() {
     }
 }
 
+/// The library that reads glTF panics where an image has no type, or neither data nor an address.
+#[test]
+fn an_image_of_a_gltf_file_without_a_type_or_a_place_is_refused() {
+    // A tetrahedron: corners, faces, places on the texture.
+    let data = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAACAAEAAAABAAMAAQACAAMAAAADAAIAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/AACAPwAAgD8=";
+    for (image, words) in
+        [("{\"bufferView\":2}", "cannot use its texture"), ("{}", "neither data nor an address")]
+    {
+        let text = format!(
+            r#"{{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":104,"uri":"data:application/octet-stream;base64,{data}"}}],
+            "bufferViews":[{{"buffer":0,"byteLength":48}},{{"buffer":0,"byteOffset":48,"byteLength":24}},
+            {{"buffer":0,"byteOffset":72,"byteLength":32}}],"accessors":[
+            {{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,1]}},
+            {{"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"}},
+            {{"bufferView":2,"componentType":5126,"count":4,"type":"VEC2"}}],"images":[{image}],"textures":[{{"source":0}}],
+            "materials":[{{"pbrMetallicRoughness":{{"baseColorTexture":{{"index":0}}}}}}],"meshes":[{{"primitives":[
+            {{"attributes":{{"POSITION":0,"TEXCOORD_0":2}},"indices":1,"material":0}}]}}],"nodes":[{{"mesh":0}}],
+            "scenes":[{{"nodes":[0]}}],"scene":0}}"#
+        );
+        assert_refused(&[("a.gltf", text.as_bytes())], &["make", "a.gltf", "--color"], &["a.gltf", words]);
+    }
+}
+
 const TETRAHEDRON: &[u8] = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
 /// Materials, textures other than of colours, data of a glTF file, and names that sheets get in the end.

@@ -6,8 +6,7 @@ use super::{Cow, Scene, decode, name_of, open};
 use crate::painting::{Paint, Painting, Texture};
 use glam::{DVec2, DVec3};
 use gltf::accessor::DataType;
-use gltf::image::Source;
-use gltf::{Accessor, Primitive, Semantic};
+use gltf::{Accessor, Gltf, Primitive, Semantic};
 use std::collections::BTreeMap;
 
 /// The colours of a file; none where it has none.
@@ -17,7 +16,8 @@ pub(in super::super) fn read_painting(
 ) -> Result<Option<Painting>, ColourError> {
     let file = open(bytes)?;
     let scene = Scene::read(&file, sibling)?;
-    let mut painter = Painter { scene: &scene, sibling, textures: Vec::new(), numbers: BTreeMap::new() };
+    let (textures, numbers) = (Vec::new(), BTreeMap::new());
+    let mut painter = Painter { file: &file, scene: &scene, sibling, textures, numbers };
     let mut is_painted = false;
     let mut triangles = Vec::with_capacity(scene.triangles.len());
     for (k, of) in scene.uses.iter().enumerate() {
@@ -59,6 +59,7 @@ impl Coat {
 }
 
 struct Painter<'a> {
+    file: &'a Gltf,
     scene: &'a Scene<'a>,
     sibling: &'a dyn Fn(&str) -> Result<Vec<u8>, String>,
     textures: Vec<Texture>,
@@ -110,17 +111,22 @@ impl Painter<'_> {
         }
         let name = image.name().map_or_else(|| format!("image {}", image.index()), str::to_owned);
         let failed = |reason: String| ColourError::Texture { name: name.clone(), reason };
-        let bytes = match image.source() {
-            Source::View { view, .. } => {
+        // The library panics where an image has no type, or neither data nor an address.
+        let json = self.file.as_json().images.get(image.index());
+        let view = json.and_then(|json| self.file.views().nth(json.buffer_view?.value()));
+        let uri = json.and_then(|json| json.uri.as_deref());
+        let bytes = match (view, uri) {
+            (Some(view), _) => {
                 let buffer = self.scene.buffers.get(view.buffer().index());
                 let end = view.offset().checked_add(view.length());
                 let bytes = buffer.zip(end).and_then(|(buffer, end)| buffer.get(view.offset()..end));
                 Cow::Borrowed(bytes.ok_or_else(|| failed("its data is incomplete".to_owned()))?)
             }
-            Source::Uri { uri, .. } => Cow::Owned(match uri.strip_prefix("data:") {
+            (None, Some(uri)) => Cow::Owned(match uri.strip_prefix("data:") {
                 Some(data) => decode(image.index(), data)?,
                 None => (self.sibling)(&name_of(uri)).map_err(failed)?,
             }),
+            (None, None) => return Err(failed("it has neither data nor an address".to_owned())),
         };
         self.textures.push(texture::decode(&name, &bytes)?);
         self.numbers.insert(image.index(), self.textures.len() - 1);
