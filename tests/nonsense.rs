@@ -10,7 +10,8 @@ use tatamu::pipeline::{self, Options, Output};
 use tatamu::product::Product;
 use tatamu::progress::Silent;
 use tatamu::project::Project;
-use tatamu::project::options::{Entry, Given, Settings, all, choose};
+use tatamu::project::choose;
+use tatamu::project::options::{Entry, Given, Settings, all};
 use tatamu::report::Run;
 use toml::{Table, Value};
 

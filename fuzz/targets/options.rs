@@ -1,7 +1,8 @@
 //! Options as the command line and project files have them: each is accepted, or refused with a sentence.
 
 use tatamu::project::Project;
-use tatamu::project::options::{Entry, Given, all, choose};
+use tatamu::project::choose;
+use tatamu::project::options::{Entry, Given, all};
 
 /// Reads one input: its first byte chooses an option, the others are its value.
 pub fn run(bytes: &[u8]) {

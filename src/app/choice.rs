@@ -2,7 +2,7 @@
 
 use super::error::AppError;
 use super::input::{Input, InputShape};
-use super::{input, locale, profiles};
+use super::{files, locale, profiles};
 use std::collections::BTreeMap;
 use std::path::Path;
 use tatamu::drawing::{Layer, LineStyles};
@@ -10,8 +10,8 @@ use tatamu::export::{FormatOptions, PltOptions, Timestamp};
 use tatamu::mesh::Mesh;
 use tatamu::pipeline::{Options, usual_size_mm};
 use tatamu::product::Content;
-use tatamu::project::Project;
-use tatamu::project::options::{Entry, Given, SIZE, STYLE, Settings, choose_on};
+use tatamu::project::options::{Entry, Given, SIZE, STYLE, Settings};
+use tatamu::project::{Project, choose_on};
 
 /// What is chosen for an input.
 #[derive(Clone)]
@@ -145,7 +145,7 @@ fn styles(name: &str, path: &Path) -> Result<LineStyles, AppError> {
             style_names()
         )));
     }
-    let text = input::read_text(path, "style file")?;
+    let text = files::read_text(path, "style file")?;
     LineStyles::parse(&text).map_err(|error| AppError::Style { path: path.to_owned(), error })
 }
 

@@ -5,9 +5,10 @@ use super::error::AppError;
 use super::input::{self, Input, InputShape};
 use std::borrow::Cow;
 use tatamu::design::Sketch;
+use tatamu::mesh::Mesh;
 use tatamu::mesh::painting::Painting;
 use tatamu::paint;
-use tatamu::pipeline::{self, Engine, Output, Shaped};
+use tatamu::pipeline::{self, Engine, Options, Output, Shaped};
 use tatamu::progress::Progress;
 
 /// Sizes are multiples of this, mm.
@@ -28,7 +29,7 @@ const MODELS: usize = 6;
 /// Components have card of the mesh's colours, if that is asked for, where no other is chosen.
 pub fn fitted(input: &Input, choice: Choice, progress: &dyn Progress) -> Result<(Choice, Output), AppError> {
     if is_plain(&choice) {
-        let output = input.run(&choice, progress)?;
+        let output = run(input, &choice, progress, pipeline::run)?;
         return Ok((choice, output));
     }
     searched_for(input, choice, progress, |_, output| Ok(output))
@@ -41,10 +42,25 @@ pub fn fitted_and_advised(
     progress: &dyn Progress,
 ) -> Result<(Choice, Output), AppError> {
     if is_plain(&choice) {
-        let output = input.run_and_advise(&choice, progress)?;
+        let output = run(input, &choice, progress, pipeline::run_and_advise)?;
         return Ok((choice, output));
     }
     searched_for(input, choice, progress, |engine, output| engine.advise(output, progress))
+}
+
+/// Runs all stages. Drawings are made as they are drawn.
+fn run(
+    input: &Input,
+    choice: &Choice,
+    progress: &dyn Progress,
+    run_mesh: impl Fn(&Mesh, &Options, &dyn Progress) -> Result<Output, pipeline::Error>,
+) -> Result<Output, AppError> {
+    let options = choice.options();
+    let result = match &input.shape {
+        InputShape::Mesh(mesh) => run_mesh(mesh, options, progress),
+        InputShape::Drawn(sketches) => pipeline::run_drawn(sketches, choice.size_mm(), options, progress),
+    };
+    result.map_err(|error| AppError::of_run(error, progress))
 }
 
 /// Whether nothing depends on what is made.

@@ -1,17 +1,13 @@
 //! Reading the input: a mesh, or a project file that names one.
 
-use super::choice::Choice;
 use super::error::{AppError, reason};
-use std::fs::File;
-use std::io::{Error, ErrorKind, Read, Take};
+use super::files::{Fetch, STANDARD_INPUT, beginning, fetch, whole};
 use std::path::{Component, Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
 use tatamu::design::Sketch;
 use tatamu::drawing::LineStyles;
 use tatamu::mesh::painting::Painting;
 use tatamu::mesh::{self, Mesh, Repairs};
-use tatamu::pipeline::{self, Options, Output, ProjectWarning, Warning};
-use tatamu::progress::Progress;
+use tatamu::pipeline::{ProjectWarning, Warning};
 use tatamu::project::Project;
 use tatamu::project::options::STYLE;
 
@@ -59,30 +55,6 @@ impl Input {
         let repairs = self.repairs.warnings().into_iter().map(Warning::from);
         self.notes.iter().cloned().chain(repairs).collect()
     }
-
-    /// Runs all stages.
-    pub fn run(&self, choice: &Choice, progress: &dyn Progress) -> Result<Output, AppError> {
-        self.run_by(pipeline::run, choice, progress)
-    }
-
-    /// The same, and tries what helps where problems are left. Drawings are made as they are drawn.
-    pub fn run_and_advise(&self, choice: &Choice, progress: &dyn Progress) -> Result<Output, AppError> {
-        self.run_by(pipeline::run_and_advise, choice, progress)
-    }
-
-    fn run_by(
-        &self,
-        run: impl Fn(&Mesh, &Options, &dyn Progress) -> Result<Output, pipeline::Error>,
-        choice: &Choice,
-        progress: &dyn Progress,
-    ) -> Result<Output, AppError> {
-        let options = choice.options();
-        let result = match &self.shape {
-            InputShape::Mesh(mesh) => run(mesh, options, progress),
-            InputShape::Drawn(sketches) => pipeline::run_drawn(sketches, choice.size_mm(), options, progress),
-        };
-        result.map_err(|error| AppError::of_run(error, progress))
-    }
 }
 
 /// The bytes from the start of a file that tell whether it is a project file.
@@ -92,7 +64,7 @@ const HEAD_BYTES: u64 = 1 << 16;
 /// of a project.
 pub fn files(path: &Path) -> Vec<PathBuf> {
     // Of a mesh, which may be large, the beginning is enough.
-    let head = if path == Path::new(STANDARD_INPUT) { standard_input() } else { beginning(path) };
+    let head = if path == Path::new(STANDARD_INPUT) { fetch(path) } else { beginning(path, HEAD_BYTES) };
     let is_project = head.is_ok_and(|head| is_project(path, &head));
     let whole = if is_project { fetch(path).ok() } else { None };
     let text = whole.map(String::from_utf8);
@@ -100,18 +72,6 @@ pub fn files(path: &Path) -> Vec<PathBuf> {
     let mesh = project.and_then(|project| project.mesh).map(|mesh| path.with_file_name(mesh));
     std::iter::once(path.to_owned()).chain(mesh).collect()
 }
-
-fn beginning(path: &Path) -> std::io::Result<Vec<u8>> {
-    let mut head = Vec::new();
-    open(path)?.take(HEAD_BYTES).read_to_end(&mut head)?;
-    Ok(head)
-}
-
-/// Largest input, bytes: a mesh of twenty million triangles in text has fewer.
-const MOST_BYTES: u64 = 2 << 30;
-
-/// Gives the content of a file.
-pub type Fetch<'a> = &'a dyn Fn(&Path) -> std::io::Result<Vec<u8>>;
 
 /// Reads a mesh or a project file.
 pub fn read(path: &Path) -> Result<Input, AppError> {
@@ -198,70 +158,6 @@ pub fn read_painting_by(fetch: Fetch<'_>, path: &Path) -> Result<Painting, AppEr
         .map_err(|error| AppError::Colour { path: path.to_owned(), error })
 }
 
-/// Stands for the standard input.
-pub const STANDARD_INPUT: &str = "-";
-
-/// The content of a file, or of the standard input.
-pub fn read_file(path: &Path) -> Result<Vec<u8>, AppError> {
-    whole(&fetch, path)
-}
-
-/// The content of a text file; `kind` is what messages call it.
-pub fn read_text(path: &Path, kind: &str) -> Result<String, AppError> {
-    String::from_utf8(read_file(path)?).map_err(|_| AppError::Input {
-        path: path.to_owned(),
-        reason: format!("a {kind} must be UTF-8 text"),
-    })
-}
-
-fn whole(fetch: Fetch<'_>, path: &Path) -> Result<Vec<u8>, AppError> {
-    fetch(path).map_err(|error| AppError::Input { path: path.to_owned(), reason: reason(&error) })
-}
-
-/// From the disk, or from the standard input.
-pub fn fetch(path: &Path) -> std::io::Result<Vec<u8>> {
-    if path == Path::new(STANDARD_INPUT) { standard_input() } else { at_most(open(path)?, MOST_BYTES) }
-}
-
-/// Opens a file, and nothing else: a pipe may wait for its writer for ever, and a device has no end.
-fn open(path: &Path) -> std::io::Result<Take<File>> {
-    let metadata = std::fs::metadata(path)?;
-    if metadata.is_dir() {
-        return Err(ErrorKind::IsADirectory.into());
-    }
-    if !metadata.is_file() {
-        return Err(Error::other("it is a pipe or a device; use a file, or - for the standard input"));
-    }
-    if metadata.len() > MOST_BYTES {
-        return Err(too_large(MOST_BYTES));
-    }
-    // A file of /proc says that it has no bytes, and /proc/kmsg waits for the next message for ever.
-    let most = if metadata.len() == 0 { 0 } else { MOST_BYTES + 1 };
-    Ok(File::open(path)?.take(most))
-}
-
-/// All that a source has, unless it is more than this many bytes.
-fn at_most(source: impl Read, most: u64) -> std::io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    source.take(most + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > most { Err(too_large(most)) } else { Ok(bytes) }
-}
-
-fn too_large(most: u64) -> Error {
-    Error::other(format!("it has more than {} GB; reduce the mesh first", most >> 30))
-}
-
-/// The standard input, which is kept: a mesh is read once for its shape and once for its colours.
-fn standard_input() -> std::io::Result<Vec<u8>> {
-    static READ: Mutex<Option<Vec<u8>>> = Mutex::new(None);
-    let mut read = READ.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(bytes) = &*read {
-        return Ok(bytes.clone());
-    }
-    let bytes = at_most(std::io::stdin().lock(), MOST_BYTES)?;
-    Ok(read.insert(bytes).clone())
-}
-
 /// By its extension, or because a line of it gives a mesh.
 fn is_project(path: &Path, bytes: &[u8]) -> bool {
     let is_toml = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
@@ -293,13 +189,6 @@ mod tests {
         assert!(is_project(Path::new("a.txt"), b"# x\n mesh = 'a.obj'\n"));
         assert!(!is_project(Path::new("a.obj"), b"# mesh = 3\nv 0 0 0\n"));
         assert!(!is_project(Path::new("a"), b"meshes = 3"));
-    }
-
-    #[test]
-    fn a_source_without_end_is_left() {
-        assert_eq!(at_most(&b"12345"[..], 5).unwrap(), b"12345");
-        assert!(at_most(&b"123456"[..], 5).is_err());
-        assert!(at_most(std::io::repeat(0), 1 << 20).is_err());
     }
 
     #[test]

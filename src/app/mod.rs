@@ -6,6 +6,7 @@ pub mod batch;
 pub mod catalogue;
 pub mod choice;
 pub mod error;
+pub mod files;
 pub mod fit;
 pub mod input;
 pub mod locale;

@@ -1,6 +1,6 @@
 //! Names of output files, by default derived from the input's name.
 
-use super::input::STANDARD_INPUT;
+use super::files::STANDARD_INPUT;
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf, is_separator};
 

@@ -1,7 +1,7 @@
 //! Profiles of cutters and media: those of the user, and those that come with the program.
 
 use super::error::AppError;
-use super::input;
+use super::files;
 use std::path::PathBuf;
 use tatamu::export::PltOptions;
 use tatamu::plotter::profile::{CUTTERS, MEDIA, Profile};
@@ -32,7 +32,7 @@ pub fn find(name: &str, kind: &str, built_in: &[Profile]) -> Result<String, AppE
     let looks_like_file = name.ends_with(".toml") || name.contains(std::path::MAIN_SEPARATOR);
     let given = looks_like_file.then(|| PathBuf::from(name));
     if let Some(path) = given.or(own.filter(|path| path.is_file())) {
-        return input::read_text(&path, "profile");
+        return files::read_text(&path, "profile");
     }
     let found = built_in.iter().find(|profile| profile.name == name);
     found.map(|profile| profile.text.to_owned()).ok_or_else(|| {

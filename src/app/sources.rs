@@ -1,6 +1,7 @@
 //! The files that a model is read from. No output takes the place of one of them.
 
 use super::error::AppError;
+use super::files::fetch;
 use super::input::{self, read_sibling};
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -46,7 +47,7 @@ impl Sources {
 
 /// The files that a mesh file refers to.
 fn siblings(mesh: &Path) -> Vec<PathBuf> {
-    let Ok(bytes) = input::fetch(mesh) else { return Vec::new() };
-    let names = mesh::siblings(&bytes, &|name| read_sibling(&input::fetch, mesh, name));
+    let Ok(bytes) = fetch(mesh) else { return Vec::new() };
+    let names = mesh::siblings(&bytes, &|name| read_sibling(&fetch, mesh, name));
     names.into_iter().map(|name| mesh.with_file_name(name)).collect()
 }

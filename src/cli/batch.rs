@@ -1,23 +1,22 @@
 //! `make` with several inputs: its messages at the terminal.
 
-use super::make::MakeArgs;
 use super::progress::{self, CountBar, TerminalProgress};
 use super::{terminal, words};
 use crate::app::batch::{self, News, Watch};
 use crate::app::error::AppError;
-use crate::app::make::Timed;
+use crate::app::make::{Timed, Wish};
 use crate::app::text::counted;
 use crate::app::words::Say;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Runs `make` on all inputs.
-pub fn run(args: &MakeArgs) -> Result<(), AppError> {
-    let count = args.inputs().len();
-    let desk = Desk { bar: CountBar::new(count, args.is_quiet()), is_quiet: args.is_quiet() };
-    let made = batch::run(&args.wish(), args.inputs(), &desk);
+pub fn run(wish: &Wish, inputs: &[PathBuf], is_quiet: bool) -> Result<(), AppError> {
+    let count = inputs.len();
+    let desk = Desk { bar: CountBar::new(count, is_quiet), is_quiet };
+    let made = batch::run(wish, inputs, &desk);
     desk.bar.finish();
     made?;
-    if !args.is_quiet() {
+    if !is_quiet {
         terminal::say(&format!("{} made", counted(count, "model")));
     }
     Ok(())

@@ -2,7 +2,7 @@
 
 use super::terminal;
 use crate::app::error::AppError;
-use crate::app::input;
+use crate::app::files;
 use crate::app::text::printable;
 use clap::Args;
 use std::path::PathBuf;
@@ -35,7 +35,7 @@ pub struct CheckArgs {
 /// Runs the command.
 pub fn run(args: &CheckArgs) -> Result<ExitCode, AppError> {
     let path = args.file.clone();
-    let bytes = input::read_file(&args.file)?;
+    let bytes = files::read_file(&args.file)?;
     let report = check::fold(&bytes).map_err(|error| AppError::Check { path, error })?;
     let limits = Limits::default();
     let least = args.min_panel_width.unwrap_or(limits.min_panel_mm);

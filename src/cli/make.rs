@@ -106,11 +106,6 @@ impl MakeArgs {
         &self.inputs
     }
 
-    /// Whether only warnings and errors are printed.
-    pub fn is_quiet(&self) -> bool {
-        self.quiet
-    }
-
     /// What is asked for.
     pub fn wish(&self) -> Wish {
         let lists = [
@@ -155,10 +150,10 @@ fn after_help() -> String {
 /// Runs the command.
 pub fn run(args: &MakeArgs) -> Result<(), AppError> {
     mistakes::check_inputs(args.inputs())?;
-    let [input] = args.inputs() else { return batch::run(args) };
+    let wish = args.wish();
+    let [input] = args.inputs() else { return batch::run(&wish, args.inputs(), args.quiet) };
     let progress = TerminalProgress::new(args.quiet);
     let tell = |warning: &str| terminal::complain("warning", warning);
-    let wish = args.wish();
     let sources = Sources::of([input.as_path()]);
     let made = make(Task::new(&wish, input)?, &sources, &progress, words::warning, &tell)?;
     output::write(&made.files, &sources)?;

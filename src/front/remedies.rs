@@ -66,7 +66,7 @@ fn change(remedy: &Remedy, now: &Settings) -> Option<(String, Change)> {
 mod tests {
     use super::*;
     use tatamu::project::Project;
-    use tatamu::project::options::choose;
+    use tatamu::project::choose;
     use tatamu::units::parse_paper;
 
     #[test]

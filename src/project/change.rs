@@ -315,9 +315,10 @@ fn rounded(v: DVec3) -> Array {
 #[cfg(test)]
 mod tests {
     use super::super::Project;
-    use super::super::options::{LEVEL, MARGIN, PAPER, ROOT, SIZE, TOLERANCE, choose};
+    use super::super::options::{LEVEL, MARGIN, PAPER, ROOT, SIZE, TOLERANCE};
     use super::*;
     use crate::net::TabSide;
+    use crate::project::choose;
 
     const TEXT: &str = "mesh = 'a.obj' # the bear\n\n[paper]\nsize = \"a4\" # in the tray\n\n[[component]]\nname = \"body\"\n";
 

@@ -1,11 +1,11 @@
 //! The settings that take effect: flags first, then the project file, then the defaults.
 
-use super::{
-    CLUSTERS, DETAIL, Entry, Given, Kind, MIN_PANEL_WIDTH, PARTS, PROFILE_VERTICES, SMOOTHING, SPACING,
+use super::options::{
+    self, CLUSTERS, DETAIL, Entry, Given, Kind, MIN_PANEL_WIDTH, PARTS, PROFILE_VERTICES, SMOOTHING, SPACING,
     Scope, Settings, TAB_WIDTH, TOP_EDGES,
 };
+use super::{NetTable, Project};
 use crate::pipeline::{ComponentOptions, Options};
-use crate::project::{NetTable, Project};
 use crate::segment::Method;
 
 /// Options that do not go together.
@@ -92,7 +92,7 @@ pub fn choose_on(base: Settings, project: Option<&Project>, flags: &[Given]) -> 
         take_tables(project, &mut settings.model);
     }
     let is_flag = |option: &Entry| flags.iter().any(|flag| flag.option() == option);
-    for option in super::all() {
+    for option in options::all() {
         // A detail on the command line takes the place of a number of parts in the project.
         let is_void = *option == PARTS && is_flag(&DETAIL);
         let layer = if is_flag(option) { flags } else { of_file };
@@ -137,7 +137,7 @@ fn take_tables(project: &Project, options: &mut Options) {
 /// Refuses flags that have no meaning for components that are drawn.
 fn check_drawn(flags: &[Given]) -> Result<(), Refusal> {
     let is_given = |option: &&Entry| flags.iter().any(|flag| flag.option() == *option);
-    let given = super::all().filter(|option| option.scope == Scope::Mesh).filter(is_given);
+    let given = options::all().filter(|option| option.scope == Scope::Mesh).filter(is_given);
     let names: Vec<String> = given.filter_map(|option| Some(format!("--{}", option.flag?.name))).collect();
     if names.is_empty() { Ok(()) } else { Err(Refusal::Drawn(names)) }
 }

@@ -1,8 +1,8 @@
 //! The project that is open, with what it was before.
 
 use super::change::Change;
-use super::options::{Refusal, Settings, choose};
-use super::{Project, ProjectError};
+use super::options::Settings;
+use super::{Project, ProjectError, Refusal, choose};
 use crate::pipeline::Options;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};

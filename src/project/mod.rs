@@ -4,6 +4,7 @@
 //! the line and column of the value that is wrong.
 
 pub mod change;
+mod choose;
 pub mod document;
 mod drawn;
 mod edit;
@@ -14,6 +15,7 @@ mod pin;
 mod table;
 mod template;
 
+pub use choose::{Refusal, choose, choose_on};
 pub use drawn::{Joint, JointKey, Top};
 pub use edit::Edit;
 pub use net::NetTable;
@@ -196,7 +198,7 @@ impl Project {
 
 #[cfg(test)]
 mod tests {
-    use super::options::{SIZE, UP, choose};
+    use super::options::{SIZE, UP};
     use super::*;
     use crate::mesh::Up;
 

@@ -165,7 +165,8 @@ fn comment(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::options::{Given, choose};
+    use super::super::choose;
+    use super::super::options::Given;
     use super::*;
     use crate::project::Project;
     use crate::segment::Edit;

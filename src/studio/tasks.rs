@@ -8,7 +8,7 @@ use crate::app::error::AppError;
 use crate::app::fit::fitting_size_mm;
 use crate::app::output::{self, Target};
 use crate::app::sources::Sources;
-use crate::app::{input, make, profiles};
+use crate::app::{files, make, profiles};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -96,20 +96,20 @@ impl Tasks {
         self.last_open += 1;
         let path = path.to_owned();
         self.spawn(self.last_open, move || {
-            Finished::Opened(Opened::read(Arc::new(input::fetch), &path).map(Box::new))
+            Finished::Opened(Opened::read(Arc::new(files::fetch), &path).map(Box::new))
         });
     }
 
     /// Begins to read a mesh again.
     pub fn reread(&mut self, path: &Path) {
         let path = path.to_owned();
-        self.spawn(0, move || Finished::Reread(Opened::read(Arc::new(input::fetch), &path).map(Box::new)));
+        self.spawn(0, move || Finished::Reread(Opened::read(Arc::new(files::fetch), &path).map(Box::new)));
     }
 
     /// Begins to write the sheets for a viewer that prints them.
     pub fn print(&mut self, opened: Arc<Opened>, project: &Project, output: Output) {
         let project = project.clone();
-        self.spawn(0, move || Finished::Printable(printable(&opened, &project, &output)));
+        self.spawn(0, move || Finished::Printable(sheets_to_print(&opened, &project, &output)));
     }
 
     /// Begins to look for the largest size in which the model takes no more sheets than its project allows.
@@ -139,7 +139,7 @@ impl Tasks {
 }
 
 /// Writes the sheets into a folder that stays, since nobody says when the viewer is done with them.
-fn printable(opened: &Opened, project: &Project, output: &Output) -> Result<PathBuf, Problem> {
+fn sheets_to_print(opened: &Opened, project: &Project, output: &Output) -> Result<PathBuf, Problem> {
     let folder = tempfile::Builder::new().prefix("tatamu-").tempdir().map_err(|error| error.to_string())?;
     let path = folder.path().join(format!("{}.pdf", opened.title()));
     let format = format_of("pdf").ok_or_else(|| "there is no format pdf".to_owned())?;

@@ -2,7 +2,7 @@
 
 use crate::app::error::{AppError, reason};
 use crate::app::sources::Sources;
-use crate::app::{input, output};
+use crate::app::{files, output};
 use std::fs::{File, TryLockError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -88,7 +88,7 @@ pub fn check_unused(path: &Path) -> Result<(), AppError> {
 /// Reads a journal.
 pub fn read(path: &Path) -> Result<(Header, Position), AppError> {
     let wrong = |reason: &str| AppError::Input { path: path.to_owned(), reason: reason.to_owned() };
-    let (header, at) = journal::parse(&input::read_file(path)?)
+    let (header, at) = journal::parse(&files::read_file(path)?)
         .ok_or_else(|| wrong("it is not a journal of a job (.tatamu-job)"))?;
     // After the last sheet and the last copy a job is done; beyond them it never was.
     let is_beyond = at.sheet > header.sheets.len() || at.copy > header.copies;

@@ -5,7 +5,7 @@ use crate::app::error::AppError;
 use crate::app::fit::fitted;
 use crate::app::make::Timed;
 use crate::app::words::Say;
-use crate::app::{input, text};
+use crate::app::{files, input, text};
 use glam::DVec2;
 use std::path::{Path, PathBuf};
 use tatamu::drawing::Drawing;
@@ -167,7 +167,7 @@ pub fn of_inputs(
 ) -> Result<Vec<Sheet>, AppError> {
     if inputs.iter().all(|path| is_job(path)) {
         let sheet = |path: &PathBuf| {
-            let bytes = input::read_file(path)?;
+            let bytes = files::read_file(path)?;
             Sheet::of_file(path.display().to_string(), bytes, &machine.cutter)
         };
         return inputs.iter().map(sheet).collect();

@@ -4,7 +4,6 @@
 //! comments, the studio its settings, and the reference pages their tables. An option is checked and
 //! takes effect in one place: the function `set` of its [`Kind`].
 
-mod choose;
 mod component;
 mod entry;
 mod files;
@@ -25,7 +24,6 @@ mod sheets;
 mod tests;
 mod words;
 
-pub use choose::{Refusal, choose, choose_on};
 pub use component::{CARD, CONCAVE, DIRECTION, JOINT, RENAME};
 pub use entry::{Dial, Entry, Flag, Key, Scope};
 pub use files::{COLOR, GUIDE_LANGUAGE, STYLE};

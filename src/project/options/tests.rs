@@ -1,7 +1,7 @@
 //! The table is true: each entry reads what it writes, refuses what is out of its range, and says so.
 
 use super::*;
-use crate::project::Project;
+use crate::project::{Project, Refusal, choose};
 use std::collections::BTreeSet;
 
 /// A project file with one key.

@@ -150,8 +150,9 @@ impl Studio {
                 .map_err(|error| error.to_string())
                 .and_then(|mesh| document.text_with_mesh(&mesh)),
         };
-        let mesh = opened.drawn.is_none().then_some(opened.mesh_path.as_path());
-        let sources = Sources::of(mesh);
+        // Its own project file is no source, and a large mesh would be read for that while the window waits.
+        let is_source = opened.drawn.is_none() && document.path() != Some(path);
+        let sources = Sources::of(is_source.then_some(opened.mesh_path.as_path()));
         let written = text.and_then(|text| {
             let files = [(path.to_owned(), text.clone().into_bytes())];
             output::check_places(&[path.to_owned()], &sources)

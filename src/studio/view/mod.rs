@@ -23,6 +23,7 @@ mod picture;
 mod plot;
 mod profile_choice;
 mod ring;
+mod selected_piece;
 mod sheets;
 mod space;
 mod space_marks;

@@ -1,7 +1,7 @@
 //! What can be done with the piece that is selected, and the choice of it.
 
 use super::super::Window;
-use super::super::sheets::pieces::{self, Hand};
+use super::super::selected_piece::{self, Hand};
 use super::keys::{key, shift};
 use super::{BLANK, Command, Place};
 use eframe::egui::{Context, Key, KeyboardShortcut};
@@ -32,7 +32,7 @@ static NEXT: Command = Command {
     tip: "goes through the pieces sheet by sheet",
     keys: &[key(Key::P)],
     can: |w| w.shows_sheets() && w.studio.laid().is_some(),
-    act: |w, _| pieces::step(&mut w.studio, true),
+    act: |w, _| selected_piece::step(&mut w.studio, true),
     ..BLANK
 };
 
@@ -40,7 +40,7 @@ static PREVIOUS: Command = Command {
     name: "Select the previous piece",
     keys: &[shift(Key::P)],
     can: |w| w.shows_sheets() && w.studio.laid().is_some(),
-    act: |w, _| pieces::step(&mut w.studio, false),
+    act: |w, _| selected_piece::step(&mut w.studio, false),
     ..BLANK
 };
 
@@ -67,7 +67,7 @@ const fn far(
 
 /// Whether a piece is selected, and seen.
 pub(super) fn can_push(window: &Window) -> bool {
-    window.shows_sheets() && pieces::is_selected(&window.studio)
+    window.shows_sheets() && selected_piece::is_selected(&window.studio)
 }
 
 /// Moves it on its page.
@@ -81,8 +81,8 @@ pub static PIECE_LEFT: Command = Command {
     icon: Some(Icon::RotateCcw),
     tip: TIP,
     place: Place::Edit(2),
-    can: |w| w.shows_sheets() && pieces::can(&w.studio, Hand::Left),
-    act: |w, _| pieces::act(&mut w.studio, Hand::Left),
+    can: |w| w.shows_sheets() && selected_piece::can(&w.studio, Hand::Left),
+    act: |w, _| selected_piece::act(&mut w.studio, Hand::Left),
     ..BLANK
 };
 
@@ -91,8 +91,8 @@ pub static PIECE_RIGHT: Command = Command {
     icon: Some(Icon::RotateCw),
     tip: TIP,
     place: Place::Edit(2),
-    can: |w| w.shows_sheets() && pieces::can(&w.studio, Hand::Right),
-    act: |w, _| pieces::act(&mut w.studio, Hand::Right),
+    can: |w| w.shows_sheets() && selected_piece::can(&w.studio, Hand::Right),
+    act: |w, _| selected_piece::act(&mut w.studio, Hand::Right),
     ..BLANK
 };
 
@@ -101,8 +101,8 @@ pub static PUT_ASIDE: Command = Command {
     icon: Some(Icon::FilePlus),
     tip: "puts the piece on a sheet of its own",
     place: Place::Edit(2),
-    can: |w| w.shows_sheets() && pieces::can(&w.studio, Hand::Aside),
-    act: |w, _| pieces::act(&mut w.studio, Hand::Aside),
+    can: |w| w.shows_sheets() && selected_piece::can(&w.studio, Hand::Aside),
+    act: |w, _| selected_piece::act(&mut w.studio, Hand::Aside),
     ..BLANK
 };
 
@@ -111,7 +111,7 @@ pub static UNPIN: Command = Command {
     icon: Some(Icon::PinOff),
     tip: "lets the layout place the piece again",
     place: Place::Edit(2),
-    can: |w| w.shows_sheets() && pieces::can(&w.studio, Hand::Unpin),
-    act: |w, _| pieces::act(&mut w.studio, Hand::Unpin),
+    can: |w| w.shows_sheets() && selected_piece::can(&w.studio, Hand::Unpin),
+    act: |w, _| selected_piece::act(&mut w.studio, Hand::Unpin),
     ..BLANK
 };

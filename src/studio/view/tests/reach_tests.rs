@@ -27,7 +27,7 @@ fn commands_to_copy_are_those_of_the_command_line() {
 /// Whether an option has a control in the window.
 fn is_in_window(option: &Entry) -> bool {
     let method = options::Given::of_flag(&METHOD, "sdf").unwrap();
-    let sdf = options::choose(None, &[method]).unwrap();
+    let sdf = tatamu::project::choose(None, &[method]).unwrap();
     let of_model = [Settings::standard(), &sdf].into_iter().any(|s| dials::model(s, false).contains(&option));
     let of_parts = [&RENAME, &DIRECTION, &CONCAVE, &JOINT, &CARD, &ROOT].contains(&option);
     let of_machine = [&CUTTER, &MEDIA].contains(&option);
