@@ -176,13 +176,7 @@ pub fn make(
             .with_content(content)
             .with_selection(selection.clone())
     };
-    soundness::check(&product(files.content), &files.formats).or_else(|error| match error {
-        AppError::Unsound { .. } if task.wish.is_forced => {
-            tell(&error.to_string());
-            Ok(())
-        }
-        error => Err(error),
-    })?;
+    check_sound(&product(files.content), &files.formats, task.wish.is_forced, tell)?;
     let products = match task.wish.prints_and_cuts {
         false => vec![("", product(files.content))],
         true => vec![("-print", product(Content::Print)), ("-cut", product(Content::Cut))],
@@ -195,6 +189,22 @@ pub fn make(
     let advice = choice.settings().files.program.map(|program| program.advice);
     let advice = advice.or(lacks_sheets.then_some(GUIDES_ALONE));
     Ok(Made::new(&result, input.named_mesh(), written).with_advice(advice))
+}
+
+/// Refuses a model that does not pass its own check, or only tells it where it is to be written all the same.
+fn check_sound(
+    product: &Product<'_>,
+    formats: &FormatOptions,
+    is_forced: bool,
+    tell: &dyn Fn(&str),
+) -> Result<(), AppError> {
+    soundness::check(product, formats).or_else(|error| match error {
+        AppError::Unsound { .. } if is_forced => {
+            tell(&error.to_string());
+            Ok(())
+        }
+        error => Err(error),
+    })
 }
 
 /// The files of all targets; pages of each product, all else of the first.

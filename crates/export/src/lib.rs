@@ -22,6 +22,7 @@
 
 pub mod export;
 pub mod guide;
+mod json;
 pub mod paint;
 pub mod parts_report;
 pub mod product;

@@ -1,9 +1,9 @@
 //! The report on the parts of a mesh, as JSON.
 
+use crate::json;
 use serde::Serialize;
 use tatamu_core::geom::Hull;
 use tatamu_core::segment::{Overlap, Parts, SegmentId};
-use tatamu_draw::drawing::text::with_escapes;
 
 /// Version of the report's structure.
 const SCHEMA: u32 = 1;
@@ -111,6 +111,5 @@ pub fn to_json(parts: &Parts, run: &PartsRun<'_>) -> Result<Vec<u8>, serde_json:
             .collect(),
         borders: borders.collect(),
     };
-    let text = with_escapes(&serde_json::to_string_pretty(&report)?);
-    Ok(format!("{text}\n").into_bytes())
+    json::pretty(&report)
 }

@@ -1,5 +1,6 @@
 //! The report: what was made, in numbers, as JSON.
 
+use crate::json;
 use glam::DAffine2;
 use serde::Serialize;
 use tatamu_core::component::PanelId;
@@ -7,7 +8,6 @@ use tatamu_core::fold::{Clash, Overlap, Pull, Stack, Step};
 use tatamu_core::geom::polygon;
 use tatamu_core::mesh::{MirrorPlane, Repairs};
 use tatamu_core::model::{ModelPart, PartId, Plug};
-use tatamu_draw::drawing::text::with_escapes;
 use tatamu_net::net::{Net, Piece};
 use tatamu_net::sheet::SheetId;
 use tatamu_pipeline::{Output, Warning, openings_mm2};
@@ -240,8 +240,7 @@ pub fn to_json(output: &Output, run: &Run<'_>) -> Result<Vec<u8>, serde_json::Er
             .map(|w| WarningText { code: w.code(), message: (run.say)(w) })
             .collect(),
     };
-    let text = with_escapes(&serde_json::to_string_pretty(&report)?);
-    Ok(format!("{text}\n").into_bytes())
+    json::pretty(&report)
 }
 
 fn symmetry(found: &MirrorPlane) -> SymmetryNumbers {

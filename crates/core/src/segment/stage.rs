@@ -63,41 +63,16 @@ pub fn segment(
     let mirror = plane.map(|plane| plane.mirror);
     let diameters = target.and_then(|target| shape_diameters(&target, &fine, &coarse, &cell_of_face));
     progress.check()?;
-    let part_cost = PART_COST / libm::pow(DETAIL_RANGE, options.detail);
+    let diameters = diameters.as_deref();
+    let skin = Skin { mesh, faces: &faces, surface: &coarse, cell_of_face: &cell_of_face, diameters };
     let (cells, further) = match options.method {
         Method::Sdf { clusters, smoothing } => {
-            let label = labels(&coarse, diameters.as_deref(), clusters, smoothing);
+            let label = labels(&coarse, diameters, clusters, smoothing);
             let least = LEAST_SEGMENT * coarse.total_area();
             (absorb_small(&coarse, connected(&coarse, &label), least), None)
         }
         Method::Merge => {
-            progress.stage("patches");
-            let patches = over_segment(&coarse, diameters.as_deref(), options.parts);
-            let bodies = Bodies::new(mesh, &coarse, &cell_of_face, options.parts);
-            let patches = bodies.join_crumbs(patches);
-            progress.stage("parts");
-            let ground =
-                Ground { faces: &faces, surface: &coarse, cell_of_face: &cell_of_face, bodies: &bodies };
-            let solid = Interior::filled(positions, &faces, grid::CELLS);
-            let choose = |tree: Tree| match options.parts {
-                Some(count) => tree.parts(&solid, count, progress),
-                None => tree.best_parts(&solid, part_cost, progress),
-            };
-            let merged = |halves: Option<&Halves>, sides| {
-                let patches = ground.patches(patches.clone(), halves);
-                let scene = Scene { positions, solid: &solid, sides };
-                choose(merge_all(&scene, patches, progress)?)
-            };
-            // Either half could be the one that the other is made like.
-            let planes = mirror.map(|mirror| [*mirror.plane(), mirror.plane().flipped()]);
-            let halves: Vec<Halves> =
-                planes.iter().flatten().filter_map(|p| Halves::new(&coarse, &Mirror::new(*p))).collect();
-            let ways: Vec<_> = halves.iter().flat_map(|half| SIDES.map(|sides| (half, sides))).collect();
-            let chosen: Result<Vec<Chosen>, Cancelled> =
-                ways.into_par_iter().map(|(half, sides)| merged(Some(half), sides)).collect();
-            let best =
-                chosen?.into_iter().reduce(|best, next| if next.worth > best.worth { next } else { best });
-            let best = best.map_or_else(|| merged(None, SIDES[0]), Ok)?;
+            let (best, solid) = skin.merged(mirror, options, progress)?;
             (best.partition, Some((best.finer, solid)))
         }
     };
@@ -112,12 +87,17 @@ pub fn segment(
         halves: mirror.and_then(|mirror| Halves::new(&borders.surface, &mirror)),
     };
     let refined = match &further {
-        Some((finer, solid)) => cleaner.best((&cells, finer), solid, part_cost, progress)?,
+        Some((finer, solid)) => cleaner.best((&cells, finer), solid, part_cost(options), progress)?,
         None => cleaner.clean(&cells),
     };
     let refined = cleaner.without_stubs(refined);
     let of_face: Vec<u32> = borders.cell_of.iter().map(|&cell| refined.of_cell[cell as usize]).collect();
     Ok(Segmentation::numbered(&of_face, refined.count, fine.areas()).mirrored_in(plane))
+}
+
+/// What a part more has to add to the intersection over union.
+fn part_cost(options: &SegmentOptions) -> f64 {
+    PART_COST / libm::pow(DETAIL_RANGE, options.detail)
 }
 
 /// The plane that the parts are mirrored in.
@@ -176,11 +156,56 @@ fn over_segment(surface: &Surface, values: Option<&[f64]>, parts: Option<usize>)
     absorb_small(surface, split_large(surface, &whole, most), least)
 }
 
-/// What the patches are made of.
-struct Ground<'a> {
+/// A mesh with its cells, and their thickness where it is known.
+struct Skin<'a> {
+    mesh: &'a Mesh,
     faces: &'a [[u32; 3]],
     surface: &'a Surface,
     cell_of_face: &'a [u32],
+    diameters: Option<&'a [f64]>,
+}
+
+impl Skin<'_> {
+    /// The best parts that merging small patches gives, and the inside that they are compared with.
+    fn merged(
+        &self,
+        mirror: Option<Mirror>,
+        options: &SegmentOptions,
+        progress: &dyn Progress,
+    ) -> Result<(Chosen, Interior), Cancelled> {
+        progress.stage("patches");
+        let patches = over_segment(self.surface, self.diameters, options.parts);
+        let bodies = Bodies::new(self.mesh, self.surface, self.cell_of_face, options.parts);
+        let patches = bodies.join_crumbs(patches);
+        progress.stage("parts");
+        let ground = Ground { skin: self, bodies: &bodies };
+        let positions = self.mesh.positions();
+        let solid = Interior::filled(positions, self.faces, grid::CELLS);
+        let choose = |tree: Tree| match options.parts {
+            Some(count) => tree.parts(&solid, count, progress),
+            None => tree.best_parts(&solid, part_cost(options), progress),
+        };
+        let merged = |halves: Option<&Halves>, sides| {
+            let patches = ground.patches(patches.clone(), halves);
+            let scene = Scene { positions, solid: &solid, sides };
+            choose(merge_all(&scene, patches, progress)?)
+        };
+        // Either half could be the one that the other is made like.
+        let planes = mirror.map(|mirror| [*mirror.plane(), mirror.plane().flipped()]);
+        let halves: Vec<Halves> =
+            planes.iter().flatten().filter_map(|p| Halves::new(self.surface, &Mirror::new(*p))).collect();
+        let ways: Vec<_> = halves.iter().flat_map(|half| SIDES.map(|sides| (half, sides))).collect();
+        let chosen: Result<Vec<Chosen>, Cancelled> =
+            ways.into_par_iter().map(|(half, sides)| merged(Some(half), sides)).collect();
+        let best = chosen?.into_iter().reduce(|best, next| if next.worth > best.worth { next } else { best });
+        let best = best.map_or_else(|| merged(None, SIDES[0]), Ok)?;
+        Ok((best, solid))
+    }
+}
+
+/// What the patches are made of.
+struct Ground<'a> {
+    skin: &'a Skin<'a>,
     bodies: &'a Bodies,
 }
 
@@ -188,7 +213,7 @@ impl Ground<'_> {
     /// What merging has to know; with halves the patches of one are the images of the other's.
     fn patches(&self, patches: Partition, halves: Option<&Halves>) -> Patches {
         let (patches, twin) = match halves {
-            Some(halves) => halves.patches(self.surface, &patches),
+            Some(halves) => halves.patches(self.skin.surface, &patches),
             None => {
                 let itself = (0..patches.count as u32).collect();
                 (patches, itself)
@@ -196,7 +221,7 @@ impl Ground<'_> {
         };
         let body = self.bodies.of_sets(&patches);
         let vertices = self.vertices(&patches);
-        let borders = patches.border_costs(self.surface);
+        let borders = patches.border_costs(self.skin.surface);
         let mut neighbours: Vec<([u32; 2], f64)> =
             borders.into_iter().map(|((a, b), cost)| ([a, b], cost)).collect();
         for cells in self.bodies.links() {
@@ -214,7 +239,7 @@ impl Ground<'_> {
     /// The vertices of each patch.
     fn vertices(&self, patches: &Partition) -> Vec<Vec<u32>> {
         let mut vertices: Vec<Vec<u32>> = vec![Vec::new(); patches.count];
-        for (face, &cell) in self.faces.iter().zip(self.cell_of_face) {
+        for (face, &cell) in self.skin.faces.iter().zip(self.skin.cell_of_face) {
             vertices[patches.of_cell[cell as usize] as usize].extend(face);
         }
         for v in &mut vertices {

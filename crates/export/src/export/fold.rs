@@ -10,7 +10,8 @@ mod options;
 mod pieces;
 
 pub use options::{FoldOptions, PoseCount};
-pub use pieces::write_piece;
+
+use pieces::write_piece;
 
 use super::{ExportError, ExportFile, Format, FormatOptions, SHEET_GAP_MM, Source};
 use crate::product::Product;
@@ -138,14 +139,7 @@ pub fn write(model: &FoldModel<'_>) -> Result<Vec<u8>, serde_json::Error> {
     };
     let frame = |(k, state): (usize, State)| FoldFrame::folded(title(k), state.coords, state.angles_deg);
     let master = Master {
-        file_spec: SPEC,
-        file_creator: CREATOR,
-        file_title: model.title,
-        file_classes: ["singleModel"],
-        frame_title: "crease pattern",
-        frame_classes: ["creasePattern"],
-        frame_attributes: ["2D"],
-        frame_unit: "mm",
+        head: Head::of_pattern(model.title, "crease pattern"),
         vertices_coords: pattern,
         edges,
         faces,
@@ -154,16 +148,38 @@ pub fn write(model: &FoldModel<'_>) -> Result<Vec<u8>, serde_json::Error> {
     serde_json::to_vec(&master)
 }
 
+/// What a file begins with: the crease pattern is its first frame.
 #[derive(Serialize)]
-struct Master<'a> {
+struct Head<'a> {
     file_spec: f64,
     file_creator: &'static str,
     file_title: &'a str,
     file_classes: [&'static str; 1],
-    frame_title: &'static str,
+    frame_title: &'a str,
     frame_classes: [&'static str; 1],
     frame_attributes: [&'static str; 1],
     frame_unit: &'static str,
+}
+
+impl<'a> Head<'a> {
+    fn of_pattern(file_title: &'a str, frame_title: &'a str) -> Self {
+        Self {
+            file_spec: SPEC,
+            file_creator: CREATOR,
+            file_title,
+            file_classes: ["singleModel"],
+            frame_title,
+            frame_classes: ["creasePattern"],
+            frame_attributes: ["2D"],
+            frame_unit: "mm",
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Master<'a> {
+    #[serde(flatten)]
+    head: Head<'a>,
     vertices_coords: Vec<[f64; 3]>,
     #[serde(flatten)]
     edges: Edges,

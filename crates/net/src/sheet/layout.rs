@@ -118,32 +118,7 @@ impl Layout {
         pins: &BTreeMap<String, Pin>,
         progress: &dyn Progress,
     ) -> Result<(Self, Vec<usize>), LayoutError> {
-        let room = options.room_mm();
-        if room.min_element() <= 0.0 {
-            let size = options.size_mm();
-            return Err(LayoutError::NoRoom {
-                width_mm: size.x,
-                height_mm: size.y,
-                margin_mm: options.border_mm(),
-            });
-        }
-        // Pieces of one colour after the other; `first` is the first sheet of a colour.
-        let shape = |group: usize, first: usize, blank: &Blank| {
-            let shape = NestPiece::new(blank.outline().to_vec(), group)?;
-            let pin = pins.get(blank.name()).map(|pin| pin.placement(blank.outline(), options.origin_mm()));
-            Some(match pin {
-                Some(at) => {
-                    shape.pinned(Placement { sheet: SheetId(at.sheet.0.saturating_sub(first)), ..at })
-                }
-                None => shape,
-            })
-        };
-        let shapes = |group: usize, first: usize, blanks: &[&Blank]| -> Vec<NestPiece> {
-            let shapes: Vec<NestPiece> =
-                blanks.iter().filter_map(|blank| shape(group, first, blank)).collect();
-            debug_assert_eq!(shapes.len(), blanks.len(), "every piece has an area");
-            shapes
-        };
+        let room = room_mm(options)?;
         let place = |first: usize, p: &Placement| PiecePlace {
             sheet: SheetId(first + p.sheet.0),
             place: DAffine2::from_translation(options.origin_mm()) * p.motion(),
@@ -155,6 +130,13 @@ impl Layout {
                 colours.push(card_of(n));
             }
         }
+        // Pieces of one colour after the other; `first` is the first sheet of a colour.
+        let shapes = |group: usize, first: usize, blanks: &[&Blank]| -> Vec<NestPiece> {
+            let shapes = blanks.iter().filter_map(|blank| shape(blank, group, first, options, pins));
+            let shapes: Vec<NestPiece> = shapes.collect();
+            debug_assert_eq!(shapes.len(), blanks.len(), "every piece has an area");
+            shapes
+        };
         let (mut taken, mut places) = (vec![0; groups.len()], vec![Vec::new(); groups.len()]);
         let mut of_sheets: Vec<Option<String>> = Vec::new();
         for colour in colours {
@@ -270,5 +252,31 @@ fn widened(corner: DVec2, piece: &Piece, factor: f64) -> DVec2 {
     tab.map_or(corner, |tab| {
         let outward = -(tab.outline[1] - tab.outline[0]).perp().normalize_or_zero();
         corner - outward * (tab.width_mm() * (1.0 - factor))
+    })
+}
+
+/// The room for pieces on a sheet.
+fn room_mm(options: &SheetOptions) -> Result<DVec2, LayoutError> {
+    let room = options.room_mm();
+    if room.min_element() > 0.0 {
+        return Ok(room);
+    }
+    let size = options.size_mm();
+    Err(LayoutError::NoRoom { width_mm: size.x, height_mm: size.y, margin_mm: options.border_mm() })
+}
+
+/// A piece to be nested, where it is pinned if it is; its colour begins on the sheet `first`.
+fn shape(
+    blank: &Blank,
+    group: usize,
+    first: usize,
+    options: &SheetOptions,
+    pins: &BTreeMap<String, Pin>,
+) -> Option<NestPiece> {
+    let shape = NestPiece::new(blank.outline().to_vec(), group)?;
+    let pin = pins.get(blank.name()).map(|pin| pin.placement(blank.outline(), options.origin_mm()));
+    Some(match pin {
+        Some(at) => shape.pinned(Placement { sheet: SheetId(at.sheet.0.saturating_sub(first)), ..at }),
+        None => shape,
     })
 }

@@ -36,47 +36,13 @@ impl Layout {
         let title = imprint.title;
         let mut pages: Vec<Drawing> =
             self.sheet_ids().map(|_| Drawing::new(title, options.size_mm())).collect();
-        let mut lost: Vec<Vec<String>> = vec![Vec::new(); pages.len()];
-        for (piece, sheet, place) in self.placed(nets) {
-            let marks = match options.labels() {
-                LabelPlace::Panels => piece.marks(options.choices.side, styles),
-                LabelPlace::Tabs | LabelPlace::Inside => {
-                    let hidden = piece.text_marks(styles, |label| piece.hides(label));
-                    piece.line_marks(options.choices.side, styles).into_iter().chain(hidden).collect()
-                }
-            };
-            let placed = marks.into_iter().map(|mark| mark.placed(place));
-            pages[sheet.0].marks.extend(placed.map(|mark| on_side(mark, options).righted()));
-            let texts = piece.unplaced_labels().iter();
-            lost[sheet.0].extend(texts.map(|text| format!("{}: {text}", piece.name())));
-        }
+        let lost = self.add_pieces(&mut pages, nets, styles);
         if options.labels() == LabelPlace::Tabs {
             for (page, marks) in pages.iter_mut().zip(beside::texts(self, nets, styles)) {
                 page.marks.extend(marks);
             }
         }
-        let mut rest = Vec::new();
-        let fits = |words: &&String| text::width_mm(words, LOST_CAP_MM) <= text_width_mm(options);
-        let mut advice = imprint.advice.iter().find(fits);
-        for (k, page) in pages.iter_mut().enumerate() {
-            let mut lines = wrapped(&lost[k], text_width_mm(options));
-            let has_room = |lines: usize| lines as f64 * LOST_LINE_MM <= head_mm(options);
-            if has_room(lines.len()) {
-                if has_room(lines.len() + 1) {
-                    lines.splice(0..0, advice.take().cloned());
-                }
-                let top_mm = LOST_LINE_MM * (lines.len() as f64 + 0.4);
-                page.marks.extend(list(
-                    &lines,
-                    options,
-                    styles,
-                    options.size_mm().y - options.border_mm() + top_mm,
-                ));
-            } else {
-                rest.push(format!("sheet {}", k + 1));
-                rest.extend(lines);
-            }
-        }
+        let rest = self.add_lists(&mut pages, &lost, imprint.advice, styles);
         pages.extend(list_pages(&rest, title, options, styles));
         let count = self.sheet_count();
         for (k, page) in pages.iter_mut().enumerate() {
@@ -105,6 +71,57 @@ impl Layout {
                 .extend(options.choices.registration.iter().flat_map(|r| r.marks(page.size_mm, styles)));
         }
         pages
+    }
+
+    /// Puts the pieces on their sheets; the labels that have no place on them, for each sheet.
+    fn add_pieces(&self, pages: &mut [Drawing], nets: &[Net], styles: &LineStyles) -> Vec<Vec<String>> {
+        let options = self.options();
+        let mut lost: Vec<Vec<String>> = vec![Vec::new(); pages.len()];
+        for (piece, sheet, place) in self.placed(nets) {
+            let marks = match options.labels() {
+                LabelPlace::Panels => piece.marks(options.choices.side, styles),
+                LabelPlace::Tabs | LabelPlace::Inside => {
+                    let hidden = piece.text_marks(styles, |label| piece.hides(label));
+                    piece.line_marks(options.choices.side, styles).into_iter().chain(hidden).collect()
+                }
+            };
+            let placed = marks.into_iter().map(|mark| mark.placed(place));
+            pages[sheet.0].marks.extend(placed.map(|mark| on_side(mark, options).righted()));
+            let texts = piece.unplaced_labels().iter();
+            lost[sheet.0].extend(texts.map(|text| format!("{}: {text}", piece.name())));
+        }
+        lost
+    }
+
+    /// Lists labels above their sheets, and the advice where a line is left; the lines of lists that are too long for
+    /// that.
+    fn add_lists(
+        &self,
+        pages: &mut [Drawing],
+        lost: &[Vec<String>],
+        advice: &[String],
+        styles: &LineStyles,
+    ) -> Vec<String> {
+        let options = self.options();
+        let mut rest = Vec::new();
+        let fits = |words: &&String| text::width_mm(words, LOST_CAP_MM) <= text_width_mm(options);
+        let mut advice = advice.iter().find(fits);
+        for (k, (page, lost)) in pages.iter_mut().zip(lost).enumerate() {
+            let mut lines = wrapped(lost, text_width_mm(options));
+            let has_room = |lines: usize| lines as f64 * LOST_LINE_MM <= head_mm(options);
+            if has_room(lines.len()) {
+                if has_room(lines.len() + 1) {
+                    lines.splice(0..0, advice.take().cloned());
+                }
+                let top_mm = LOST_LINE_MM * (lines.len() as f64 + 0.4);
+                let at_mm = options.size_mm().y - options.border_mm() + top_mm;
+                page.marks.extend(list(&lines, options, styles, at_mm));
+            } else {
+                rest.push(format!("sheet {}", k + 1));
+                rest.extend(lines);
+            }
+        }
+        rest
     }
 }
 

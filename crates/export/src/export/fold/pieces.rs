@@ -1,7 +1,7 @@
 //! One file for each piece: a single frame with the fold angles of its flat state, for programs
 //! that read one connected sheet and the top frame alone (Flat-Folder, Origami Simulator).
 
-use super::{CREATOR, Edges, FoldComponent, FoldModel, Graph, SPEC};
+use super::{Edges, FoldComponent, FoldModel, Graph, Head};
 use glam::DAffine2;
 use serde::Serialize;
 use tatamu_net::net::Piece;
@@ -9,14 +9,8 @@ use tatamu_net::sheet::{PiecePlace, SheetId};
 
 #[derive(Serialize)]
 struct Single<'a> {
-    file_spec: f64,
-    file_creator: &'static str,
-    file_title: &'a str,
-    file_classes: [&'static str; 1],
-    frame_title: &'a str,
-    frame_classes: [&'static str; 1],
-    frame_attributes: [&'static str; 1],
-    frame_unit: &'static str,
+    #[serde(flatten)]
+    head: Head<'a>,
     vertices_coords: Vec<[f64; 3]>,
     #[serde(flatten)]
     edges: Edges,
@@ -27,7 +21,7 @@ struct Single<'a> {
 ///
 /// # Errors
 /// Only what `serde_json` reports; no input is known that brings it about.
-pub fn write_piece(
+pub(crate) fn write_piece(
     title: &str,
     component: &FoldComponent<'_>,
     piece: &Piece,
@@ -43,14 +37,7 @@ pub fn write_piece(
         }
     }
     serde_json::to_vec(&Single {
-        file_spec: SPEC,
-        file_creator: CREATOR,
-        file_title: title,
-        file_classes: ["singleModel"],
-        frame_title: piece.name(),
-        frame_classes: ["creasePattern"],
-        frame_attributes: ["2D"],
-        frame_unit: "mm",
+        head: Head::of_pattern(title, piece.name()),
         vertices_coords: graph.pattern,
         edges,
         faces_vertices: graph.faces.faces_vertices,
