@@ -31,7 +31,7 @@ pub struct JoinedPart {
     pub seam: Option<Seam>,
 }
 
-/// Roots stand so far from each other.
+/// Distance between roots.
 const APART_MM: f64 = 20.0;
 
 impl Model {

@@ -26,19 +26,20 @@ const JOINT_PRICE: f64 = 2.0;
 const SHALLOW: f64 = 0.25;
 /// Where planes that are nearly fitted take more than this of another joint, planes are turned farther.
 const SPARED: f64 = 0.1;
-/// The angles by which planes are turned, each towards this number of sides.
+/// The angles by which planes are turned, each towards [`TURNED`] sides.
 const TURNS_RAD: [f64; 3] = [20.0_f64.to_radians(), 40.0_f64.to_radians(), 60.0_f64.to_radians()];
+/// The number of sides.
 const TURNED: usize = 8;
-/// Between bodies a plane along such a facet may cost so much more than the best of the others: through samples of where
+/// Between bodies a plane along a facet may cost this much more than the best of the others: through samples of where
 /// they touch, the roof of a house leans by two degrees, and with 0.02 a cornice by sixteen. Not bounded from above by a case.
 const AS_GOOD: f64 = 0.05;
 /// Planes along a flat side are tried within this angle of the fitted plane.
 const LEANING_RAD: f64 = 60.0_f64.to_radians();
 /// Between bodies the planes of the facets of boxes are tried, too, within this angle.
 const MOST_TURN_RAD: f64 = 30.0_f64.to_radians();
-/// Price of a joint whose two sections have nothing in common,
+/// Price of a joint whose two sections have nothing in common; one with [`ENOUGH_GLUE`] costs nothing.
 const GLUE_PRICE: f64 = 1.0;
-/// which has enough with this share of the smaller section that the joint can have.
+/// A joint has enough glue with this share of the smaller section that it can have.
 const ENOUGH_GLUE: f64 = 0.5;
 /// Price of a move by the size of the interface, or of a turn by a right angle: among equals the
 /// fitted plane wins.
@@ -269,7 +270,7 @@ impl<'a> Ground<'a> {
         })
     }
 
-    /// Area that the sections of both hulls share, each so far within the hull.
+    /// Area that the sections of both hulls share, each `inset_mm` within its hull.
     fn common(&self, plane: &Plane, inset_mm: f64) -> f64 {
         let [parent, child] = self.hulls;
         let before = flat_section(&plane.shifted(-inset_mm), parent);
