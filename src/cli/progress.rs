@@ -25,7 +25,7 @@ static STOPS: AtomicU32 = AtomicU32::new(0);
 /// Whether pressing it is only counted, because someone has to put things in order first.
 static IS_COUNTED: AtomicBool = AtomicBool::new(false);
 
-/// What is not stopped so long after Ctrl-C is ended.
+/// What has not stopped this long after Ctrl-C is ended.
 const GRACE: Duration = Duration::from_secs(3);
 
 /// Listens for Ctrl-C, SIGTERM and SIGHUP: unless they are only counted, the second one ends the program at once, and

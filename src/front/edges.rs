@@ -145,7 +145,7 @@ pub fn with_tab(output: &Output, project: &Project, id: EdgeId, side: TabSide) -
     change(output, id, Some(EdgeChoice { is_cut: Some(true), tab: Some(side), width_mm }))
 }
 
-/// The change that makes a tab so wide, on the side where it is.
+/// The change that sets the width of a tab, on the side where it is.
 pub fn with_width(output: &Output, project: &Project, id: EdgeId, width_mm: f64) -> Option<Change> {
     let tab = choice(output, project, id).and_then(|now| now.tab).filter(|side| *side != TabSide::Tape);
     change(output, id, Some(EdgeChoice { is_cut: Some(true), tab, width_mm: Some(width_mm) }))

@@ -12,7 +12,7 @@ use tatamu::model::{ModelPart, PartId};
 use tatamu::pipeline::{Engine, Error, Options, Output, Shaped, shape_drawn};
 use tatamu::progress::Progress;
 
-/// All the rest waits so long after the component that is wanted first: it takes the window as long to show it.
+/// All the rest waits this long after the component that is wanted first: it takes the window as long to show it.
 const REST: Duration = Duration::from_millis(60);
 
 /// Answers about motions that are kept from one model to the next, of 0.6 kB each: a model of ten parts makes 10,000 of

@@ -193,7 +193,7 @@ impl<'m> Engine<'m> {
         Ok(Shaped { options: Arc::new(options.clone()), source, model, notes, remarks, merges })
     }
 
-    /// Components are built of parts, all of them convex. `detection` finds where they bump.
+    /// Components are built of parts, all of them convex. `detection` finds where they clash.
     fn building<T>(
         &self,
         divided: &Divided,
@@ -457,7 +457,7 @@ impl Maker for Making<'_> {
         if harm_mm == 0.0 || !built.verdict.is_clean() {
             return Ok((built, harm_mm));
         }
-        // Discrete detection missed a bump: the nose of a snowman of 80 mm passes its hat between two samples.
+        // Discrete detection missed a clash: the nose of a snowman of 80 mm passes its hat between two samples.
         let like = Some(&built.model);
         let closer = self.planned(divided, Detection::Continuous, |run| run.finished(&run.sketch(like)?))?;
         Ok(if closer.1 < harm_mm { closer } else { (built, harm_mm) })
@@ -475,7 +475,7 @@ impl Making<'_> {
         let Self { engine, options, progress, .. } = *self;
         let built = engine.building(divided, options, (detection, progress), build)?;
         engine.know(&built);
-        // Some that bump at first sight have a way past each other, or a plug.
+        // Some that clash at first sight have a way past each other, or a plug.
         let planned = engine.plan(&Arc::new(built.model.clone()), options, progress)?;
         let harm_mm = planned.model.harm_mm(&planned.plan.bumps());
         Ok((built, harm_mm))

@@ -4,7 +4,7 @@ use tatamu_core::fold::{Detection, FoldPlan, ModelMotion, SweepMemory};
 use tatamu_core::model::{Alike, Bump, Enough, Judge, Model};
 use tatamu_core::progress::{Beside, Cancelled, Progress};
 
-/// Folds models, and tells where they bump.
+/// Folds models, and tells where they clash.
 pub(super) struct FoldJudge<'a> {
     pub(super) thickness_mm: f64,
     pub(super) detection: Detection,

@@ -1,4 +1,4 @@
-//! Where parts of a model bump or hang on too little glue, the same parts with other joints: thicker there, or between
+//! Where parts of a model clash or hang on too little glue, the same parts with other joints: thicker there, or between
 //! others; and where that is not enough, one part instead of two. What serves the whole model best is kept.
 
 use super::merge::{Merge, mergers, needless, serious};
@@ -9,14 +9,16 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use tatamu_core::model::{self, Built, Model, ModelError, PartId, Sketch, Verdict};
 
-/// What a mm of harm costs, as a share of outlines: a pair that bumps by 2 mm is worth 0.026, a joint that lacks a tenth of
+/// What a mm of harm costs, as a share of outlines: a pair that clashes by 2 mm is worth 0.026, a joint that lacks a tenth of
 /// its glue 0.018. Joints that are thick enough for glue show.
 const HARM_PRICE: f64 = 8e-4;
-/// What a mm² of an opening costs, mm of error: one of 20 mm² as much as a pair that bumps.
+/// What a mm² of an opening costs, mm of error: one of 20 mm² as much as a pair that clashes.
 const OPENING_PRICE: f64 = 1.0;
-/// What a limb costs that the model does not reach, as a share of outlines, for each share of the diagonal
+/// What a limb costs that the model does not reach, as a share of outlines, for each share of the diagonal that it is
+/// missed by beyond [`REACHED`].
 const LIMB_PRICE: f64 = 1.0;
-/// beyond this one: rounded corners, noses and toes. Of 230 models nine of ten are within 0.03.
+/// A mesh reaches this far beyond any model, as a share of its diagonal: rounded corners, noses and toes. Of 230 models
+/// nine of ten are within it.
 const REACHED: f64 = 0.03;
 /// Thick joints are compared with those that the shape suggests where the model has no harm, but its outlines are worse
 /// by this than those of the first look. The wings of a plane lose 0.036 by them; octopus and ant, 0.004 and 0.007, would
@@ -26,13 +28,13 @@ const UGLY: f64 = 0.01;
 /// was seen, of a scorpion; with less than 0.24 a plane loses its wings of 0.115 to joints of 0.147. A draft of 0.81 beside
 /// a model of 0.25 took three fifths of the time in vain.
 const FINISHING: f64 = 0.4;
-/// Joints are made thicker at most so often, before parts are looked at longer.
+/// How often joints are made thicker at most, before parts are looked at longer.
 const THICKER: usize = 3;
-/// Of a hundred parts so often: with three drafts ten joints of an armadillo are weak, with one five.
+/// The same of a hundred parts: with three drafts ten joints of an armadillo are weak, with one five.
 const THICKER_OF_A_HUNDRED: usize = 1;
 /// Models with other joints that are looked at once one is finished.
 const OTHERS: usize = 3;
-/// One of these is finished at most so often.
+/// How often one of these is finished at most.
 const ROUNDS: usize = 2;
 /// Models with fewer parts that are looked at once nothing else helps; those first whose hulls grow the least.
 const MERGERS: usize = 3;
@@ -84,7 +86,7 @@ impl Draft {
         self.price() - FINISHING < other.price()
     }
 
-    /// The price without what joints lack and slight bumps: these may be mended.
+    /// The price without what joints lack and slight clashes: these may be mended.
     fn price_once_mended(&self) -> f64 {
         let built = self.sketch.built();
         let harm_mm = model::harm_mm(&serious(&built.verdict));
@@ -169,7 +171,7 @@ fn joined(maker: &impl Maker, draft: Draft) -> Result<Mended, Error> {
         None => finished(maker, draft)?,
         Some(thicker) => {
             let best = finished(maker, thicker)?;
-            // Thick joints may bump, as the nose of a small snowman does, or be ugly.
+            // Thick joints may clash, as the nose of a small snowman does, or be ugly.
             let is_good = best.price() < draft.verdict().unlike + UGLY;
             if is_good || !draft.may_beat(&best) { best } else { best.or(finished(maker, draft)?) }
         }

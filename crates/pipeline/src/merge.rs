@@ -14,7 +14,7 @@ pub(super) type Merge = Vec<String>;
 const SLIGHT_MM: f64 = 0.25;
 /// With more pairs that clash, one merge does not help: each try for a knot, which has 20, takes 10 s. A chair and a bird
 /// lose two.
-const MANY_BUMPS: usize = 6;
+const MANY_CLASHES: usize = 6;
 /// With more weak joints, limbs are too thin for paper at this size: merging the parts of an octopus with twelve takes minutes
 /// and most of its arms, and its outlines agree by 0.37 instead of 0.44. An ant needs two.
 const MANY_WEAK: usize = 6;
@@ -65,23 +65,23 @@ fn with_image(hulls: &Hulls, pair: [PartId; 2]) -> Vec<Vec<PartId>> {
 
 /// The clashes that justify a merge.
 pub(super) fn serious(verdict: &Verdict) -> Vec<Bump> {
-    verdict.bumps.iter().filter(|bump| bump.1 > SLIGHT_MM).copied().collect()
+    verdict.bumps.iter().filter(|clash| clash.1 > SLIGHT_MM).copied().collect()
 }
 
 /// Pairs of parts whose merge may help.
 fn pairs(hulls: &Hulls, verdict: &Verdict) -> Vec<[PartId; 2]> {
-    let bumps = serious(verdict);
-    if bumps.len() > MANY_BUMPS || verdict.weak.len() > MANY_WEAK {
+    let clashes = serious(verdict);
+    if clashes.len() > MANY_CLASHES || verdict.weak.len() > MANY_WEAK {
         return Vec::new();
     }
-    if bumps.is_empty() {
+    if clashes.is_empty() {
         // Any other part may be what leaves a joint no room.
         let others = |&part: &PartId| (0..hulls.hulls().len()).map(move |other| [part, PartId(other)]);
         return verdict.weak.iter().flat_map(others).collect();
     }
-    let bumping = || bumps.iter().map(|bump| bump.0);
+    let clashing = || clashes.iter().map(|clash| clash.0);
     let joints = hulls.links().iter().map(|link| [link.child, link.parent]);
-    joints.filter(|[child, _]| bumping().any(|pair| pair.contains(child))).chain(bumping()).collect()
+    joints.filter(|[child, _]| clashing().any(|pair| pair.contains(child))).chain(clashing()).collect()
 }
 
 /// The sets of parts that are merged for a pair, the largest part of each set first: the pair and its image, or one set of

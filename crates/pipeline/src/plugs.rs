@@ -87,18 +87,18 @@ fn plug_of(model: &Model, part: PartId, options: &Options) -> Option<Plug> {
     }
 }
 
-/// Sets of components, in the order in which they are unplugged, that part every two that bump; the
+/// Sets of components, in the order in which they are unplugged, that part every two that clash; the
 /// best first.
 fn candidates(model: &Model, plan: &FoldPlan, plugs: &[Option<Plug>]) -> Vec<Vec<PartId>> {
-    let bumps: Vec<[PartId; 2]> = plan.bumping_pairs().collect();
+    let clashing: Vec<[PartId; 2]> = plan.bumping_pairs().collect();
     let line = |p: PartId| -> Vec<PartId> { std::iter::once(p).chain(ancestors(model, p)).collect() };
     let parts = |p: PartId, [a, b]: [PartId; 2]| line(a).contains(&p) != line(b).contains(&p);
     let depth = |p: PartId| ancestors(model, p).len();
     let mut usable: Vec<PartId> = model.ids().filter(|p| plugs[p.0].is_some()).collect();
-    usable.retain(|&p| bumps.iter().any(|&bump| parts(p, bump)));
+    usable.retain(|&p| clashing.iter().any(|&pair| parts(p, pair)));
     usable.sort_by_key(|&p| depth(p));
     let mut sets = subsets(&usable, MOST_PLUGS);
-    sets.retain(|set| bumps.iter().all(|&bump| set.iter().any(|&p| parts(p, bump))));
+    sets.retain(|set| clashing.iter().all(|&pair| set.iter().any(|&p| parts(p, pair))));
     let is_new = |&&p: &&PartId| model.part(p).joint.as_ref().is_some_and(|joint| joint.plug().is_none());
     let size = |set: &[PartId]| model.ids().filter(|&q| line(q).iter().any(|p| set.contains(p))).count();
     sets.sort_by_key(|set| (set.iter().filter(is_new).count(), set.len(), size(set), set.clone()));

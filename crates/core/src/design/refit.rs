@@ -63,9 +63,9 @@ pub enum RefitError {
 
 /// Shares of the way from the circumscribed to the inscribed polygon of a round section.
 const SHRINKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
-/// Panels are measured at points so far apart, as shares of the body's size: while candidates are
-/// compared, and at the end.
+/// Distance of the points at which panels are measured, as a share of the body's size: while candidates are compared.
 const COARSE: f64 = 1.0 / 25.0;
+/// The same at the end.
 const FINE: f64 = 1.0 / 100.0;
 /// Points of the body at which candidates are compared.
 const CLOUD: usize = 3000;

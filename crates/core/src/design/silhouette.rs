@@ -128,7 +128,7 @@ impl Silhouette {
         (0..n).map(width).fold(f64::INFINITY, f64::min)
     }
 
-    /// The levels between which every section is at least so wide at every edge.
+    /// The levels between which every section is at least this wide at every edge.
     fn usable(&self, least_mm: f64) -> Option<(usize, usize)> {
         // Where joint panels end, it is as wide as it is.
         let is_wide = |k: &usize| self.width(*k) >= least_mm || (self.is_kept(*k) && self.width(*k) > 0.0);

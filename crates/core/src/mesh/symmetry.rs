@@ -182,7 +182,7 @@ impl Probe {
         let o = DMat3::from_cols(offset * offset.x, offset * offset.y, offset * offset.z);
         let (_, axes) = eigen::symmetric(square * (1.0 / area) - o);
         let sample = |k: usize| {
-            // Every so often one, in an order of which each beginning is spread over the surface.
+            // At even steps of the area, in an order of which each beginning is spread over the surface.
             let at = (k as f64 * GOLDEN).fract() * area;
             let [a, b, c] = triangles[until.partition_point(|&u| u < at).min(triangles.len() - 1)];
             let (u, v) = ((k as f64 * PLASTIC).fract(), (k as f64 * PLASTIC * PLASTIC).fract());

@@ -18,13 +18,13 @@ pub const LABEL_MIN: f64 = 1.5;
 pub const JOINT_MIN: f64 = 2.5;
 /// Estimates are no better than this, minutes.
 const STEP_MIN: f64 = 5.0;
-/// An easy model takes at most so long, minutes, with tabs at least so wide, mm; one that takes longer than
-/// the second, or has a tab narrower than the second, is hard. A tab below 2 mm cannot be held.
+/// The longest that an easy model takes, minutes, and its narrowest tab, mm; a model beyond [`MEDIUM`] is hard. A tab
+/// below 2 mm cannot be held.
 const EASY: (f64, f64) = (90.0, 3.0);
 const MEDIUM: (f64, f64) = (240.0, 2.0);
 /// Weight of card for its thickness: 0.8 g/cm³.
 const CARD_G_PER_M2_MM: f64 = 800.0;
-/// Weights are rounded to such steps.
+/// Weights are rounded to multiples of this, g.
 const WEIGHT_STEP: f64 = 10.0;
 
 /// Lengths and counts.

@@ -12,7 +12,7 @@ use tatamu_plot::plotter::{
 
 /// Ends of a job, for each machine.
 const ENDS: usize = 1000;
-/// The machine stands still for so long before the job goes on.
+/// The machine stands still for this time before the job goes on.
 const PAUSE: Duration = Duration::from_secs(600);
 
 /// Strokes of three or four lines; no two lines are the same.

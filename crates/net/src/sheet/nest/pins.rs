@@ -69,7 +69,7 @@ impl Start {
     }
 }
 
-/// Whether two outlines are at least so far apart.
+/// Whether two outlines are at least the spacing apart.
 fn are_apart(outlines: [&Option<Vec<DVec2>>; 2], spacing_mm: f64) -> bool {
     let [Some(a), Some(b)] = outlines else { return false };
     let [a, b] = [a, b].map(|outline| {

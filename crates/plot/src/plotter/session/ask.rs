@@ -9,10 +9,10 @@ use std::time::Duration;
 const PATIENCE: Duration = Duration::from_millis(1000);
 /// Unanswered questions in a row after which the machine is given up.
 const MOST_SILENCES: u32 = 5;
-/// An answer that does not come for so long is lost: a machine that says nothing for as long is given up.
+/// An answer that does not come in this time is lost: a machine that says nothing for as long is given up.
 const LOST: Duration = PATIENCE.saturating_mul(MOST_SILENCES);
-/// A full buffer is asked about again after so long, and one with some room after so long: often
-/// enough for a fast line, and not so often that the machine has nothing else to do.
+/// A full buffer is asked about again after this time, and one with some room after [`SHORT_INTERVAL`]: often
+/// enough for a fast line, and rarely enough that the machine does other things.
 const INTERVAL: Duration = Duration::from_millis(40);
 const SHORT_INTERVAL: Duration = Duration::from_millis(10);
 /// One question in this many asks the machine for errors.

@@ -32,7 +32,7 @@ const SHORT_INTERVAL: Duration = Duration::from_millis(50);
 /// Time for the answer to a question, which the board gives at once, and the number of answers in a row that may be lost.
 const PATIENCE: Duration = Duration::from_millis(1000);
 const MOST_SILENCES: u32 = 5;
-/// A machine that says so often in a row that it is idle has nothing left in its buffer: an answer was lost.
+/// A machine that says this many times in a row that it is idle has nothing left in its buffer: an answer was lost.
 const SURE_IDLE: u32 = 3;
 /// How far it may then be from where the job has it, mm: steps, and the places of the report.
 const SAME_PLACE_MM: f64 = 0.05;
@@ -45,7 +45,7 @@ enum Stage {
     /// The board may restart by itself.
     #[default]
     Wake,
-    /// It was reset so often.
+    /// It was reset this many times.
     Reset(u32),
     /// Is it idle?
     Look,

@@ -9,9 +9,9 @@ const INTERVAL: Duration = Duration::from_millis(400);
 const PATIENCE: Duration = Duration::from_millis(1500);
 /// Questions in a row without an answer after which the machine is one that does not answer.
 const MOST_SILENCES: u32 = 3;
-/// A machine is done when it says so often in a row that it is ready.
+/// A machine is done when it says this many times in a row that it is ready.
 const SURE: u32 = 2;
-/// The second wish to stop waits so long for the port.
+/// The second wish to stop waits this long for the port.
 const HURRY: Duration = Duration::from_secs(10);
 /// The next look where only time passes.
 const TICK: Duration = Duration::from_millis(10);
