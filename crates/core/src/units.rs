@@ -104,7 +104,7 @@ impl Default for Paper {
 pub fn parse_length_mm(text: &str) -> Result<f64, UnitsError> {
     let length_mm = parse_any_length_mm(text)?;
     let is_usable = length_mm > 0.0 && length_mm <= LONGEST_MM;
-    is_usable.then_some(length_mm).ok_or_else(|| UnitsError::OutOfRange { found: printable(text) })
+    is_usable.then_some(length_mm).ok_or_else(|| UnitsError::OutOfRange { found: excerpt(text) })
 }
 
 /// Like [`parse_length_mm`], but 0 is accepted too, as for a margin.
@@ -125,7 +125,7 @@ fn parse_any_length_mm(text: &str) -> Result<f64, UnitsError> {
         let number: f64 = number.parse().ok()?;
         Some(number * mm)
     });
-    with_unit.or_else(|| lower.parse().ok()).ok_or_else(|| UnitsError::NotALength { found: printable(text) })
+    with_unit.or_else(|| lower.parse().ok()).ok_or_else(|| UnitsError::NotALength { found: excerpt(text) })
 }
 
 /// Reads a paper size: a name (a4, a3, a5, letter, legal) or width and height such as
@@ -138,7 +138,7 @@ pub fn parse_paper(text: &str) -> Result<Paper, UnitsError> {
     if let Some(&(_, [width_mm, height_mm])) = PAPERS.iter().find(|(name, _)| *name == lower) {
         return Ok(Paper { width_mm, height_mm });
     }
-    let not_a_paper = |_| UnitsError::NotAPaper { found: printable(text) };
+    let not_a_paper = |_| UnitsError::NotAPaper { found: excerpt(text) };
     let (width, height) = lower.split_once(['x', '×']).ok_or(()).map_err(not_a_paper)?;
     let unit = height.trim_start_matches(|c: char| !c.is_alphabetic() && c != '"');
     let width = match width.trim().parse::<f64>() {
@@ -158,7 +158,7 @@ fn without_rounding_error(mm: f64) -> f64 {
 }
 
 /// A text for an error message, without control characters.
-fn printable(text: &str) -> String {
+fn excerpt(text: &str) -> String {
     text.chars().filter(|c| !c.is_control()).take(40).collect()
 }
 

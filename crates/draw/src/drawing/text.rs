@@ -195,7 +195,7 @@ pub fn with_escapes(written: &str) -> String {
 
 /// The text as it will be seen: characters that the font lacks become `?`, any white space a
 /// space.
-pub fn printable(content: &str) -> String {
+pub fn as_seen(content: &str) -> String {
     content.chars().map(|c| TYPEFACE.available(c)).collect()
 }
 
@@ -384,7 +384,7 @@ mod tests {
 
     #[test]
     fn missing_characters_are_seen_as_question_marks() {
-        assert_eq!(printable("畳 head\t1\u{7}"), "? head 1?");
+        assert_eq!(as_seen("畳 head\t1\u{7}"), "? head 1?");
         assert_eq!(width_mm("畳", 2.0), width_mm("?", 2.0));
     }
 

@@ -223,7 +223,7 @@ fn written(text: &Text) -> dxf::entities::Text {
     dxf::entities::Text {
         location: point(text.start()),
         text_height: text.cap_height_mm,
-        value: text::printable(&text.content),
+        value: text::as_seen(&text.content),
         rotation: text.angle_rad.to_degrees(),
         ..dxf::entities::Text::default()
     }

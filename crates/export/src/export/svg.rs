@@ -207,7 +207,7 @@ impl<'a> Page<'a> {
 
     /// A text; where it becomes a path, its words stay searchable as the path's label.
     fn text(&self, text: &Text, pen_mm: f64) -> Element {
-        let words = text::printable(&text.content);
+        let words = text::as_seen(&text.content);
         match self.options.text {
             TextMode::Outlines => {
                 let path = Path::new().set("d", self.letters(text)).set("fill", text.colour.hex());

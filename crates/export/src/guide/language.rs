@@ -345,7 +345,7 @@ mod tests {
                 assert_eq!(*key, other_key);
                 assert_eq!(places(text), places(&other), "{key}");
                 assert!(!other.trim().is_empty());
-                assert_eq!(tatamu_draw::drawing::text::printable(&other), other, "the font has all letters");
+                assert_eq!(tatamu_draw::drawing::text::as_seen(&other), other, "the font has all letters");
             }
         }
         assert!("xx".parse::<Language>().is_err());
