@@ -245,7 +245,7 @@ pub fn folding_order(output: &Output) -> Vec<&str> {
 
 /// How the model is folded flat, as a sentence with the names of the components, and as one with the letters of
 /// their labels, which is shorter; nothing where there is one component alone.
-pub fn order_notes(output: &Output) -> Vec<String> {
+pub(crate) fn order_notes(output: &Output) -> Vec<String> {
     let model = output.model();
     let sentence = |begin: &str, name: &dyn Fn(PartId) -> String| {
         let told = |motion: &Motion| motion_words(motion, &name(motion.part()));

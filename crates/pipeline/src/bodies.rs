@@ -126,7 +126,7 @@ impl Hulls {
         self.firmness
     }
 
-    /// The same with parts that bump farther from each other; `None` where that is not possible.
+    /// The same with parts that clash farther from each other; `None` where that is not possible.
     pub(super) fn farther(&self, bumps: &[Bump]) -> Option<Self> {
         let parted = Parted { hulls: self.solid.hulls.clone(), borders: self.borders.clone() };
         model::farther(parted, &self.links, bumps, self.symmetry.as_ref()).map(|parted| self.with(parted))
@@ -182,7 +182,7 @@ impl Hulls {
     }
 
     /// Number of faces of each segment that is flat.
-    pub fn flat_faces(&self) -> &[usize] {
+    pub(crate) fn flat_faces(&self) -> &[usize] {
         &self.solid.flat
     }
 }

@@ -111,7 +111,7 @@ pub fn light(Rgb(red, green, blue): Rgb) -> DVec3 {
 }
 
 /// The same from parts of 0 to 1.
-pub fn light_of(srgb: [f64; 3]) -> DVec3 {
+pub(crate) fn light_of(srgb: [f64; 3]) -> DVec3 {
     let linear =
         |part: f64| if part <= 0.04045 { part / 12.92 } else { libm::pow((part + 0.055) / 1.055, 2.4) };
     DVec3::from_array(srgb.map(|part| linear(part.clamp(0.0, 1.0))))

@@ -27,11 +27,10 @@ pub use board::board;
 pub use build::{Design, DesignError, design, rankings};
 pub use ranking::{Ranked, Ranking, Refusal, Score, rank};
 pub use refit::{Body, Concave, RefitError, refit};
-pub use sketch::{Attachment, MOST_VERTICES, Sketch, SketchError, parse_panel};
+pub use sketch::{Attachment, Sketch, SketchError, parse_panel};
 pub use thick::{ThickError, thick};
 pub use warning::DesignWarning;
 pub use way::{Segment, Way};
-pub use weights::{WEIGHTS, Weights};
 
 #[cfg(test)]
 mod tests;

@@ -5,7 +5,7 @@ use crate::component::{ChainId, PanelKind};
 use glam::DVec2;
 
 /// The most vertices of a drawn profile: there are 2^(M−1) ways to fold it.
-pub const MOST_VERTICES: usize = 20;
+const MOST_VERTICES: usize = 20;
 /// Heights and places that differ by less are meant to be equal.
 const SAME_MM: f64 = 1e-6;
 /// Corners of the top panel turn by at least this, as a sine: flatter ones are two edges in one
@@ -218,7 +218,7 @@ impl Sketch {
     }
 
     /// The profile of an edge.
-    pub fn profile_of(&self, edge: ChainId) -> usize {
+    pub(crate) fn profile_of(&self, edge: ChainId) -> usize {
         edge.0 % self.profiles.len()
     }
 
@@ -226,7 +226,7 @@ impl Sketch {
     ///
     /// # Errors
     /// [`SketchError::NoPanel`].
-    pub fn check_panel(&self, panel: PanelKind) -> Result<(), SketchError> {
+    pub(crate) fn check_panel(&self, panel: PanelKind) -> Result<(), SketchError> {
         match panel {
             PanelKind::Side { chain, index }
                 if chain.0 >= self.top.len() || index + 1 >= self.profiles[self.profile_of(chain)].len() =>

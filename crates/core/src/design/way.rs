@@ -21,17 +21,17 @@ impl Segment {
         [(Self::Up, 'u'), (Self::Down, 'd'), (Self::UpDown, '^'), (Self::DownUp, 'v')];
 
     /// Whether its upper end faces up.
-    pub fn begins_up(self) -> bool {
+    pub(crate) fn begins_up(self) -> bool {
         matches!(self, Self::Up | Self::UpDown)
     }
 
     /// Whether its lower end faces up.
-    pub fn ends_up(self) -> bool {
+    pub(crate) fn ends_up(self) -> bool {
         matches!(self, Self::Up | Self::DownUp)
     }
 
     /// Whether a crease is put into it.
-    pub fn is_creased(self) -> bool {
+    pub(crate) fn is_creased(self) -> bool {
         self.begins_up() != self.ends_up()
     }
 }
@@ -71,7 +71,7 @@ impl Way {
     }
 
     /// The segment that gets a crease.
-    pub fn creased(&self) -> Option<usize> {
+    pub(crate) fn creased(&self) -> Option<usize> {
         self.0.iter().position(|s| s.is_creased())
     }
 

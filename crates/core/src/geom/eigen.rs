@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3};
 
 /// Covariance matrix (mean of the outer products of centred points).
-pub fn covariance(points: &[DVec3]) -> DMat3 {
+pub(crate) fn covariance(points: &[DVec3]) -> DMat3 {
     let n = points.len().max(1) as f64;
     let centre = points.iter().sum::<DVec3>() / n;
     let mut sum = DMat3::ZERO;

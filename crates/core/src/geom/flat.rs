@@ -45,7 +45,7 @@ pub struct FlatSide {
 
 impl FlatSide {
     /// Those of a surface, which are two at most.
-    pub fn of_patches(patches: &[Patch]) -> Vec<Self> {
+    pub(crate) fn of_patches(patches: &[Patch]) -> Vec<Self> {
         let least_area = LEAST_SHARE * area(patches);
         let (low, high) = bounds(patches.iter().map(|patch| patch.centre));
         let roughness = ROUGH * low.distance(high);
@@ -77,7 +77,7 @@ impl FlatSide {
     }
 
     /// The large facets of a hull that consists of them, as a box does; none of others.
-    pub fn of_box(hull: &Hull) -> Vec<Self> {
+    pub(crate) fn of_box(hull: &Hull) -> Vec<Self> {
         let (low, high) = bounds(hull.vertices().iter().copied());
         let roughness = ROUGH * low.distance(high);
         let whole = hull.area();

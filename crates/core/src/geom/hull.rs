@@ -143,14 +143,14 @@ impl Hull {
     }
 
     /// The vertex farthest in a direction; of equal ones the last.
-    pub fn farthest(&self, direction: DVec3) -> DVec3 {
+    pub(crate) fn farthest(&self, direction: DVec3) -> DVec3 {
         self.vertices[farthest(&self.vertices, direction)]
     }
 
     /// The hull of the vertices farthest in `most` directions, where it has more vertices than that: of a ball's radius
     /// less than 3 / `most` is lost.
     #[must_use]
-    pub fn of_at_most(self, most: usize) -> Self {
+    pub(crate) fn of_at_most(self, most: usize) -> Self {
         if self.vertices.len() <= most {
             return self;
         }

@@ -77,7 +77,7 @@ impl Tree {
     }
 
     /// The point nearest to `p`, where one is nearer than `limit`.
-    pub fn nearest_within(&self, p: DVec3, limit: f64) -> Option<Nearest> {
+    pub(crate) fn nearest_within(&self, p: DVec3, limit: f64) -> Option<Nearest> {
         let none = Nearest { triangle: usize::MAX, weights: DVec3::ZERO, distance_squared: limit * limit };
         Some(self.nearer(p, none)).filter(|found| found.triangle != usize::MAX)
     }

@@ -64,7 +64,7 @@ impl Plane {
     }
 
     /// The same plane facing the other way.
-    pub fn flipped(&self) -> Self {
+    pub(crate) fn flipped(&self) -> Self {
         Self { normal: -self.normal, offset: -self.offset }
     }
 
@@ -79,12 +79,12 @@ impl Plane {
     }
 
     /// Two unit vectors `(a, b)` that span the plane with `a × b = normal`.
-    pub fn basis(&self) -> (DVec3, DVec3) {
+    pub(crate) fn basis(&self) -> (DVec3, DVec3) {
         let a = self.normal.any_orthonormal_vector();
         (a, self.normal.cross(a))
     }
 
-    /// Coordinates of a point's foot in the plane, along the two of [`Plane::basis`].
+    /// Coordinates of a point's foot in the plane, along the two axes of its basis.
     pub fn flat(&self, point: DVec3) -> DVec2 {
         let (x, y) = self.basis();
         DVec2::new(x.dot(point), y.dot(point))

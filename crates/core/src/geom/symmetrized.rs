@@ -24,7 +24,7 @@ impl Mirror {
     ///
     /// # Errors
     /// [`HullError`].
-    pub fn hull_with_images(&self, points: &[DVec3]) -> Result<Hull, HullError> {
+    pub(crate) fn hull_with_images(&self, points: &[DVec3]) -> Result<Hull, HullError> {
         let mut half: Vec<DVec3> = points.iter().map(|&p| self.folded(p)).collect();
         for _ in 0..ROUNDS {
             let hull = Hull::of_points(&self.unfolded(&half))?;

@@ -79,7 +79,7 @@ impl Edges {
     }
 
     /// The other side of side `k` of face `f`, as face and side, where exactly two sides meet.
-    pub fn opposite(&self, f: usize, k: usize) -> Option<(usize, usize)> {
+    pub(crate) fn opposite(&self, f: usize, k: usize) -> Option<(usize, usize)> {
         match *self.sides(self.of(f, k)) {
             [a, b] => {
                 let other = if a as usize == 3 * f + k { b } else { a } as usize;

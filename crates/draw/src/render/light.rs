@@ -28,7 +28,7 @@ pub fn shaded(colour: Rgb, normal: DVec3) -> Rgb {
 }
 
 /// The colour of a line on a face of that (shaded) colour.
-pub fn line_on(colour: Rgb) -> Rgb {
+pub(crate) fn line_on(colour: Rgb) -> Rgb {
     scaled(colour, LINE_SHARE)
 }
 

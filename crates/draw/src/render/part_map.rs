@@ -86,7 +86,7 @@ impl<'v> PartMap<'v> {
     }
 
     /// The part that is seen at a place.
-    pub fn part_at(&self, at_mm: DVec2) -> Option<PartId> {
+    pub(crate) fn part_at(&self, at_mm: DVec2) -> Option<PartId> {
         let pixel = (at_mm / self.pixel_mm).floor();
         let is_within =
             pixel.min_element() >= 0.0 && pixel.x < self.width as f64 && pixel.y < self.height as f64;

@@ -48,7 +48,7 @@ fn write(product: &Product<'_>, options: &FormatOptions) -> Result<Vec<ExportFil
 }
 
 /// A model that folds as planned, rests, and is deployed again.
-pub fn animated(model: &Model, plan: &FoldPlan, title: &str) -> Scene {
+pub(crate) fn animated(model: &Model, plan: &FoldPlan, title: &str) -> Scene {
     let motion = ModelMotion::new(model);
     let keys = Keys::new(&motion, &Sequence::of_plan(plan));
     let mut scene = Scene { title: title.to_owned(), materials: materials(model), ..Scene::default() };

@@ -23,7 +23,7 @@ pub struct Opening {
 
 impl<'a> Joined<'a> {
     /// The pieces of a net, cut out and not glued yet: only creases are joined.
-    pub fn cut_out(net: &'a Net) -> Self {
+    pub(crate) fn cut_out(net: &'a Net) -> Self {
         let set = net.panels();
         let mut is_joined = vec![false; set.hinges().len()];
         for crease in net.pieces().iter().flat_map(|piece| piece.creases()) {
@@ -75,7 +75,7 @@ impl<'a> Joined<'a> {
     }
 
     /// The body of the most panels; of several the first.
-    pub fn main_body(&self) -> PanelId {
+    pub(crate) fn main_body(&self) -> PanelId {
         let bodies = self.bodies();
         let size = |body: &PanelId| bodies.iter().filter(|b| *b == body).count();
         let best = bodies.iter().max_by(|a, b| size(a).cmp(&size(b)).then(b.cmp(a)));
@@ -83,13 +83,13 @@ impl<'a> Joined<'a> {
     }
 
     /// The chain that a hinge is part of; none for the seam of a split top or bottom panel.
-    pub fn chain_of(&self, hinge: HingeId) -> Option<ChainId> {
+    pub(crate) fn chain_of(&self, hinge: HingeId) -> Option<ChainId> {
         let sides = self.set.hinges()[hinge.0].sides;
         sides.into_iter().find_map(|side| chain_of_panel(self.set, side.panel))
     }
 
     /// Whether all hinges of a chain are joined: then it stands, and no longer swings aside.
-    pub fn is_shut(&self, chain: ChainId) -> bool {
+    pub(crate) fn is_shut(&self, chain: ChainId) -> bool {
         let hinges = (0..self.is_joined.len()).map(HingeId);
         hinges.filter(|&h| self.chain_of(h) == Some(chain)).all(|h| self.is_joined(h))
     }

@@ -23,7 +23,7 @@ pub use html::html;
 pub use joined::{Joined, Opening};
 pub use language::Language;
 pub use leaflet::leaflet;
-pub use order::{Access, FINGER_MM, FINGER_REACH_MM, Gluing, STICK_MM, STICK_REACH_MM, access, gluing_order};
+pub use order::{Access, Gluing, access, gluing_order};
 pub use overview::overview;
 pub use steps::{Action, Step, outwards, steps};
 

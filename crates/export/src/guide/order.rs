@@ -18,14 +18,14 @@ use tatamu_core::component::{HingeId, PanelId};
 use tatamu_core::geom::polygon;
 use tatamu_net::net::Net;
 
-/// A finger needs an opening this wide, and reaches so far.
-pub const FINGER_MM: f64 = 16.0;
+/// A finger needs an opening this wide, and reaches [`FINGER_REACH_MM`].
+const FINGER_MM: f64 = 16.0;
 /// See [`FINGER_MM`].
-pub const FINGER_REACH_MM: f64 = 80.0;
-/// The blunt end of a pencil needs an opening this wide, and reaches so far.
-pub const STICK_MM: f64 = 8.0;
+const FINGER_REACH_MM: f64 = 80.0;
+/// The blunt end of a pencil needs an opening this wide, and reaches [`STICK_REACH_MM`].
+const STICK_MM: f64 = 8.0;
 /// See [`STICK_MM`].
-pub const STICK_REACH_MM: f64 = 150.0;
+const STICK_REACH_MM: f64 = 150.0;
 
 /// How a glued hinge is pressed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

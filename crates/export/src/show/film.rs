@@ -156,7 +156,7 @@ impl Film {
     }
 
     /// The frames in their order; after the last one the film starts again.
-    pub fn shots(&self) -> &[Shot] {
+    pub(crate) fn shots(&self) -> &[Shot] {
         &self.shots
     }
 }

@@ -12,7 +12,7 @@ pub use angle::ViewAngle;
 pub use clash::{captioned, clash_picture};
 pub use film::{Film, FilmOptions, Shot, staged_scene};
 pub(crate) use scenes::{Paint, push_panels};
-pub use scenes::{components_scene, hulls_scene, mesh_scene, pose_scene, segments_scene, upright};
+pub use scenes::{components_scene, hulls_scene, mesh_scene, segments_scene, upright};
 pub use still::{ShowError, Still, framed};
 
 /// Flat components lie this far off their parents, mm, so that viewers see what lies on what.

@@ -77,7 +77,7 @@ pub fn components_scene(model: &Model) -> Scene {
 }
 
 /// The components in a pose.
-pub fn pose_scene(model: &Model, pose: &ModelPose) -> Scene {
+pub(crate) fn pose_scene(model: &Model, pose: &ModelPose) -> Scene {
     let mut scene = Scene::new();
     for (index, (part, posed)) in model.parts().iter().zip(&pose.parts).enumerate() {
         let place = |panel: PanelId| upright() * posed.panel(panel);

@@ -33,7 +33,7 @@ impl BlankNet {
     }
 
     /// The pieces, most panels first.
-    pub fn blanks(&self) -> &[Blank] {
+    pub(crate) fn blanks(&self) -> &[Blank] {
         &self.made.blanks
     }
 

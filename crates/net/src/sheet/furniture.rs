@@ -66,7 +66,7 @@ impl Furniture<'_> {
 
     /// An upright bar in the left margin, to measure the printer's scale along the page. Nothing
     /// where the margin is too narrow to be printed on, or the page too low.
-    pub fn side_bar(&self, styles: &LineStyles) -> Vec<Mark> {
+    pub(crate) fn side_bar(&self, styles: &LineStyles) -> Vec<Mark> {
         let room_mm = self.size_mm.y - 2.0 * self.margin_mm;
         let fitting = BARS_MM.into_iter().find(|&bar_mm| bar_mm <= room_mm);
         let Some(bar_mm) = fitting.filter(|_| self.margin_mm >= SIDE_BAR_MARGIN_MM) else {

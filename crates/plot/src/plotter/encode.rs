@@ -28,7 +28,7 @@ impl Placement {
     ///
     /// # Errors
     /// [`OffBed`] where it does not fit: a sheet with marks cannot be turned.
-    pub fn in_marks(
+    pub(crate) fn in_marks(
         strokes: &[Stroke],
         sheet_mm: DVec2,
         marks_mm: [DVec2; 2],
@@ -68,7 +68,7 @@ impl Placement {
     ///
     /// # Errors
     /// See [`OffBed`].
-    pub fn to_device(&self, frame: &Frame, at_mm: DVec2) -> Result<Point, OffBed> {
+    pub(crate) fn to_device(self, frame: &Frame, at_mm: DVec2) -> Result<Point, OffBed> {
         let [low, high] = self.area_mm;
         let (size_mm, at_mm) = (high - low, at_mm - low);
         if self.is_turned {

@@ -187,7 +187,7 @@ impl Frame {
     ///
     /// # Errors
     /// [`OffBed`]: nothing is ever moved to where the machine could reach it.
-    pub fn to_device(&self, sheet_mm: DVec2, at_mm: DVec2) -> Result<Point, OffBed> {
+    pub(crate) fn to_device(&self, sheet_mm: DVec2, at_mm: DVec2) -> Result<Point, OffBed> {
         let from_origin = at_mm - self.origin_on(sheet_mm);
         let mut units = [0; 2];
         for (k, unit) in units.iter_mut().enumerate() {
@@ -223,7 +223,7 @@ impl Frame {
     }
 
     /// Two corners of the bed: the least coordinates, and the greatest.
-    pub fn bed(&self) -> [Point; 2] {
+    pub(crate) fn bed(&self) -> [Point; 2] {
         let corner = |end: usize| {
             let [x, y] = self.bed_mm.map(|span| self.units_per_mm.times(span[end]).round() as i32);
             Point { x, y }

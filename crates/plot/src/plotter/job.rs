@@ -37,7 +37,7 @@ impl Command {
     }
 
     /// Whether it sets something for what follows, such as a tool.
-    pub fn is_setup(&self) -> bool {
+    pub(crate) fn is_setup(&self) -> bool {
         self.is_setup
     }
 

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 /// How far the chords of a swing may be from its arc, mm, for machines with fine units. On a grid of
 /// 0.05 mm shorter ones keep the tip nearer to its line, since errors of many ends cancel.
-pub const ARC_TOLERANCE_MM: f64 = 0.005;
+pub(crate) const ARC_TOLERANCE_MM: f64 = 0.005;
 
 /// A drag knife, with the direction in which its blade points from tip to shaft.
 #[derive(Debug, Clone, Copy)]

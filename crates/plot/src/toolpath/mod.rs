@@ -18,10 +18,10 @@ mod tooling;
 mod tooling_error;
 mod visit;
 
-pub use blade::ARC_TOLERANCE_MM;
+use blade::ARC_TOLERANCE_MM;
 pub use order::{in_order, travel_mm};
 pub use perforation::Perforation;
-pub use strokes::{Stroke, Toolpath, travel_between_mm};
+pub use strokes::{Stroke, Toolpath};
 pub use task::{Operation, Task, tasks};
 pub use tip::{Tip, deviation_mm};
 pub use tooling::{Tooling, Toolset};

@@ -54,7 +54,7 @@ pub struct Toolpath {
 
 impl Toolpath {
     /// The strokes for the lines of a sheet. `start` is where the tool is before.
-    pub fn of_drawing(drawing: &Drawing, tools: &Toolset, start: DVec2) -> Self {
+    pub(crate) fn of_drawing(drawing: &Drawing, tools: &Toolset, start: DVec2) -> Self {
         let work = tasks(drawing, &tools.operations());
         let file = strokes_of(&in_file_order(&work), tools, None);
         let area = drawing.registration.map(|marks| marks.frame_mm(drawing.size_mm));
@@ -69,7 +69,7 @@ impl Toolpath {
     }
 
     /// Leaves out the strokes for which `is_nothing`.
-    pub fn leave_out(&mut self, is_nothing: impl Fn(&Stroke) -> bool) {
+    pub(crate) fn leave_out(&mut self, is_nothing: impl Fn(&Stroke) -> bool) {
         self.strokes.retain(|stroke| !is_nothing(stroke));
     }
 
@@ -85,7 +85,7 @@ impl Toolpath {
 }
 
 /// Way with the tool up between strokes, mm.
-pub fn travel_between_mm(strokes: &[Stroke], start: DVec2) -> f64 {
+fn travel_between_mm(strokes: &[Stroke], start: DVec2) -> f64 {
     let ends = std::iter::once(start).chain(strokes.iter().map(|s| s.shaft[s.shaft.len() - 1]));
     ends.zip(strokes).map(|(end, stroke)| end.distance(stroke.shaft[0])).sum()
 }

@@ -41,7 +41,7 @@ impl Tooling {
 
     /// The same tool, which perforates instead of following the line.
     #[must_use]
-    pub fn perforating(mut self, perforation: Perforation) -> Self {
+    pub(crate) fn perforating(mut self, perforation: Perforation) -> Self {
         self.perforation = Some(perforation);
         self
     }
@@ -52,7 +52,7 @@ impl Tooling {
     }
 
     /// How far closed lines are followed past their start, mm.
-    pub fn overcut_mm(&self) -> f64 {
+    pub(crate) fn overcut_mm(&self) -> f64 {
         self.overcut_mm
     }
 
@@ -62,7 +62,7 @@ impl Tooling {
     }
 
     /// How the line is perforated, if it is.
-    pub fn perforation(&self) -> Option<Perforation> {
+    pub(crate) fn perforation(&self) -> Option<Perforation> {
         self.perforation
     }
 }
@@ -94,7 +94,7 @@ impl Toolset {
     /// The same set where an operation goes on with the very tool of the one done before it: a
     /// drag knife then points as that left it.
     #[must_use]
-    pub fn going_on(mut self, operation: Operation) -> Self {
+    pub(crate) fn going_on(mut self, operation: Operation) -> Self {
         self.goes_on[operation as usize] = true;
         self
     }
@@ -102,13 +102,13 @@ impl Toolset {
     /// The same set with other chords for the swings of drag knives: how far they may be from
     /// their arcs, mm.
     #[must_use]
-    pub fn with_arcs(mut self, tolerance_mm: f64) -> Self {
+    pub(crate) fn with_arcs(mut self, tolerance_mm: f64) -> Self {
         self.arc_tolerance_mm = tolerance_mm;
         self
     }
 
     /// How far the chords of a drag knife's swing may be from its arc, mm.
-    pub fn arc_tolerance_mm(&self) -> f64 {
+    pub(crate) fn arc_tolerance_mm(&self) -> f64 {
         self.arc_tolerance_mm
     }
 

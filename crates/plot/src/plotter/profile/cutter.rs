@@ -15,7 +15,7 @@ use std::sync::Arc;
 use tatamu_draw::drawing::Registration;
 
 /// The smallest buffer of a machine that is not counted by lines, bytes: that of the HP 7440A.
-pub const LEAST_BUFFER: usize = 60;
+pub(crate) const LEAST_BUFFER: usize = 60;
 
 /// How the program keeps from sending more than the machine has room for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -336,7 +336,7 @@ impl Cutter {
     }
 
     /// Speed with the tool up, mm/s.
-    pub fn travel_mm_s(&self) -> f64 {
+    pub(crate) fn travel_mm_s(&self) -> f64 {
         self.motion.travel_mm_s.0
     }
 
@@ -346,12 +346,12 @@ impl Cutter {
     }
 
     /// How fast it gains and loses speed, mm/s².
-    pub fn acceleration_mm_s2(&self) -> f64 {
+    pub(crate) fn acceleration_mm_s2(&self) -> f64 {
         self.motion.acceleration_mm_s2.0
     }
 
     /// Time to lift the tool or set it down, s.
-    pub fn pen_s(&self) -> f64 {
+    pub(crate) fn pen_s(&self) -> f64 {
         self.motion.pen_s.0
     }
 

@@ -38,7 +38,7 @@ impl TryFrom<GrblTable> for Grbl {
 
 impl Grbl {
     /// Whether the machine homes (`$H`) before each sheet.
-    pub fn homes(&self) -> bool {
+    pub(crate) fn homes(&self) -> bool {
         self.homes
     }
 

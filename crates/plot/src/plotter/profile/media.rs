@@ -17,7 +17,7 @@ pub struct Work {
 
 impl Work {
     /// Force on the tool, grams.
-    pub fn force_g(&self) -> Option<f64> {
+    pub(crate) fn force_g(&self) -> Option<f64> {
         self.force_g
     }
 

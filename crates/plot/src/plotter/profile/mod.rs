@@ -9,7 +9,8 @@ mod library;
 mod media;
 mod search;
 
-pub use cutter::{Cutter, Handshake, LEAST_BUFFER, MachineTool, Parity, Serial};
+pub(crate) use cutter::LEAST_BUFFER;
+pub use cutter::{Cutter, Handshake, MachineTool, Parity, Serial};
 pub use grbl::Grbl;
 pub use level::Level;
 pub use library::{CUTTERS, MEDIA, Profile};

@@ -45,7 +45,7 @@ pub const RESERVE: usize = 128;
 pub enum Step {
     /// Hand these bytes to the port, all of them.
     Send(Vec<u8>),
-    /// Nothing for so long, unless the machine says something.
+    /// Nothing for this time, unless the machine says something.
     Wait(Duration),
     /// Close the port.
     Done(Outcome),
