@@ -4,9 +4,11 @@ use super::change::Change;
 use super::pages::{self, Move, PieceId};
 use super::state::Studio;
 use super::store::Store;
+use crate::app::output::Target;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
+use tatamu::export::format_of;
 use tatamu::model::PartId;
 use tatamu::project::Project;
 use tatamu::project::options::{CARD, DIRECTION, PAPER, TOP_EDGES};
@@ -116,6 +118,31 @@ fn files_are_written_beside_what_is_open_and_those_of_samples_at_home() {
     assert_eq!(studio.folder_beside(&here.join("a/b.obj")), here.join("a"));
     let sample = studio.samples().unwrap().join("teddy.obj");
     assert_eq!(Some(studio.folder_beside(&sample)), std::env::home_dir());
+}
+
+/// The command line alone spared textures.
+#[test]
+fn an_export_does_not_replace_a_texture_of_the_mesh() {
+    let folder = tempfile::tempdir().unwrap();
+    let project = snowman(folder.path());
+    let [mesh, materials, texture] =
+        ["snowman.obj", "a.mtl", "snowman.png"].map(|name| folder.path().join(name));
+    let painted = [b"mtllib a.mtl\n", &std::fs::read(&mesh).unwrap()[..]].concat();
+    let files: [(&Path, &[u8]); 3] =
+        [(&mesh, &painted), (&materials, b"newmtl a\nmap_Kd snowman.png\n"), (&texture, b"x")];
+    files.iter().for_each(|(path, bytes)| std::fs::write(path, bytes).unwrap());
+    let mut studio = Studio::new(Store::at(&folder.path().join("state")), Arc::new(|| {}));
+    studio.open(&project);
+    wait(&mut studio, "a model", |s| s.finished().is_some());
+    let opened = studio.opened().unwrap().clone();
+    let project = studio.document().unwrap().project().clone();
+    let output = studio.finished().unwrap().clone();
+    let target = Target { path: texture.clone(), format: format_of("png").unwrap() };
+    studio.tasks.export(opened, &project, output, Default::default(), vec![target]);
+    wait(&mut studio, "a refusal", |s| s.problem().is_some());
+    assert!(studio.problem().unwrap().contains("it is a texture"), "{:?}", studio.problem());
+    assert_eq!(std::fs::read(&texture).unwrap(), b"x");
+    assert!(!folder.path().join("snowman-1.png").exists(), "the sheets of a refused export");
 }
 
 /// What another session had left unsaved came back over what was saved later.
