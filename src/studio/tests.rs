@@ -1,12 +1,14 @@
 //! The studio without its window.
 
 use super::change::Change;
+use super::opened::Opened;
 use super::pages::{self, Move, PieceId};
 use super::state::Studio;
 use super::store::Store;
+use crate::app::input;
 use crate::app::output::Target;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 use tatamu::export::format_of;
 use tatamu::model::PartId;
@@ -39,11 +41,22 @@ pub fn snowman(folder: &Path) -> PathBuf {
     project
 }
 
+/// The snowman as it was read first, with all that was made of it: most tests begin with the same model.
+pub type Known = OnceLock<Opened>;
+
+/// Opens the project of the snowman with what is known of its mesh.
+pub fn open_known(studio: &mut Studio, project: &Path, known: &Known) {
+    let opened = Opened::read(Arc::new(input::fetch), project).unwrap();
+    let known = known.get_or_init(|| opened.clone());
+    studio.show(opened.with_mesh(known));
+}
+
 pub fn desk() -> Desk {
+    static KNOWN: Known = Known::new();
     let folder = tempfile::tempdir().unwrap();
     let project = snowman(folder.path());
     let mut studio = Studio::new(Store::at(&folder.path().join("state")), Arc::new(|| {}));
-    studio.open(&project);
+    open_known(&mut studio, &project, &KNOWN);
     wait(&mut studio, "a model", |s| s.finished().is_some());
     Desk { studio, folder }
 }

@@ -40,7 +40,7 @@ impl Studio {
     }
 
     /// Shows a file, with its unsaved changes of the last session.
-    pub(super) fn show(&mut self, opened: Opened) {
+    pub(in super::super) fn show(&mut self, opened: Opened) {
         let path = opened.is_project.then(|| opened.source.clone());
         let mut document = match Document::new(opened.text.clone(), path) {
             Ok(document) => document,

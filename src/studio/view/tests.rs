@@ -3,7 +3,7 @@
 use super::super::preferences::Preferences;
 use super::super::state::Studio;
 use super::super::store::Store;
-use super::super::tests::{snowman, wait};
+use super::super::tests::{Known, open_known, snowman, wait};
 use super::{Chooser, Mode, Window};
 use eframe::egui::accesskit::Role;
 use eframe::egui::{self, Event, Key, Modifiers, MouseWheelUnit, Pos2, TouchPhase};
@@ -54,23 +54,25 @@ fn desk_with(store: Store) -> Desk {
 
 /// A window with a model of three components, finished.
 fn open() -> (Desk, TempDir) {
+    static KNOWN: Known = Known::new();
     let folder = tempfile::tempdir().unwrap();
     let project = snowman(folder.path());
     let mut desk = window(folder.path());
     desk.run_ok();
     assert!(desk.query_by_label("Open a mesh or a project …").is_some(), "nothing is open yet");
-    desk.state_mut().open(&project);
+    open_known(desk.state_mut().studio_mut(), &project, &KNOWN);
     settle(&mut desk, "a model", |s| s.finished().is_some());
     (desk, folder)
 }
 
 /// The same, so small that several pieces share a sheet, with the sheets alone.
 fn open_sheets() -> (Desk, TempDir) {
+    static KNOWN: Known = Known::new();
     let (mut desk, folder) = open();
     let project = folder.path().join("snowman.toml");
     let text = std::fs::read_to_string(&project).unwrap();
     std::fs::write(&project, format!("size = 110\n{text}")).unwrap();
-    desk.state_mut().open(&project);
+    open_known(desk.state_mut().studio_mut(), &project, &KNOWN);
     settle(&mut desk, "a small model", |s| s.finished().is_some_and(|o| o.options().size_mm == 110.0));
     click(&mut desk, "Sheets");
     wait_for_pages(&mut desk);
