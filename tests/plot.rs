@@ -5,6 +5,7 @@
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 /// A virtual plotter that works for one host.
@@ -140,14 +141,32 @@ fn ctrl_c_twice_lifts_the_pen_too() {
 
 #[test]
 fn the_end_of_a_session_lifts_the_pen_too() {
-    stop_and_go_on(&["-TERM"]);
-    stop_and_go_on(&["-HUP"]);
+    // Both wait most of the time.
+    std::thread::scope(|scope| {
+        scope.spawn(|| stop_and_go_on(&["-TERM"]));
+        stop_and_go_on(&["-HUP"]);
+    });
 }
 
 /// Nobody lifts the pen then, but the journal knows what was certainly done.
 #[test]
 fn a_job_whose_program_is_killed_goes_on_later() {
     stop_and_go_on(&["-KILL"]);
+}
+
+/// What a stopped job goes on with: how fast that is, is nothing that is looked at then.
+const FAST: [&str; 4] = ["--baud", "1000000", "--speedup", "1000"];
+
+/// Waits until strokes of the job `a` are certainly done: its journal has a line for itself, one for its begin, and one
+/// for each time that it was looked at with something new.
+fn wait_for_strokes(folder: &Path, count: usize) {
+    let start = Instant::now();
+    let lines =
+        || std::fs::read_to_string(folder.join("a.tatamu-job")).map_or(0, |text| text.lines().count());
+    while lines() < 2 + count {
+        assert!(start.elapsed() < Duration::from_secs(60), "the job does not begin");
+        std::thread::sleep(Duration::from_millis(10));
+    }
 }
 
 /// Stops a job of 150 strokes in the middle by signals, and goes on with it.
@@ -162,7 +181,7 @@ fn stop_and_go_on(signals: &[&str]) {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    std::thread::sleep(std::time::Duration::from_secs(3));
+    wait_for_strokes(folder.path(), 8);
     for signal in signals {
         let id = child.id().to_string();
         assert!(Command::new("kill").args([*signal, &id]).status().unwrap().success());
@@ -177,9 +196,9 @@ fn stop_and_go_on(signals: &[&str]) {
     let first = lines_drawn(&report);
     assert!((1..6000).contains(&first), "{report}");
 
-    let machine = Machine::start(folder.path(), &["--baud", "115200", "--speedup", "100"]);
+    let machine = Machine::start(folder.path(), &FAST);
     let mut plot = tatamu(folder.path());
-    let resume = ["plot", "--resume", "a.tatamu-job", "--yes", "--baud", "115200", "--port", &machine.port];
+    let resume = ["plot", "--resume", "a.tatamu-job", "--yes", "--baud", "1000000", "--port", &machine.port];
     let output = plot.args(resume).output().unwrap();
     assert!(output.status.success(), "{}", said(&output));
     let report = machine.report();
@@ -219,9 +238,9 @@ fn a_full_disk_lifts_the_pen_and_the_job_goes_on_later() {
     assert!(report.contains("lost 0, broken commands 0") && report.contains("pen up"), "{report}");
     let first = lines_drawn(&report);
     assert!((1..6000).contains(&first), "{report}");
-    let machine = Machine::start(folder.path(), &speeds);
+    let machine = Machine::start(folder.path(), &FAST);
     let mut plot = tatamu(folder.path());
-    let resume = ["plot", "--resume", "a.tatamu-job", "--yes", "--port", &machine.port];
+    let resume = ["plot", "--resume", "a.tatamu-job", "--yes", "--baud", "1000000", "--port", &machine.port];
     let output = plot.args(resume).output().unwrap();
     assert!(output.status.success(), "{}", said(&output));
     let both = first + lines_drawn(&machine.report());
@@ -250,7 +269,7 @@ fn a_laser_that_is_stopped_goes_on_later() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    std::thread::sleep(std::time::Duration::from_secs(6));
+    wait_for_strokes(folder.path(), 4);
     let id = child.id().to_string();
     assert!(Command::new("kill").args(["-INT", &id]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
@@ -283,7 +302,7 @@ fn a_machine_that_vanishes_is_reported_with_a_warning_about_the_tool() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    std::thread::sleep(std::time::Duration::from_millis(2000));
+    wait_for_strokes(folder.path(), 1);
     machine.child.kill().unwrap();
     machine.child.wait().unwrap();
     let output = child.wait_with_output().unwrap();

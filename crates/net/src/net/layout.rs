@@ -3,12 +3,16 @@
 use crate::fit::{self, Rotation};
 use glam::{DAffine2, DMat2, DVec2};
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 use tatamu_core::component::{HingeId, HingeSide, PanelId, PanelSet};
 use tatamu_core::geom::polygon;
 
 /// Turns tried between those of the hull's edges, for a smaller box among those that fit: half a step from the best
 /// at worst, which is 0.03% of the size.
 const TURN_STEP_RAD: f64 = PI / 120.0;
+/// The directions of these steps, over half a turn.
+static STEPS: LazyLock<[DVec2; 120]> =
+    LazyLock::new(|| std::array::from_fn(|k| DVec2::from_angle(k as f64 * TURN_STEP_RAD)));
 
 /// Excess that counts as fitting: below what any printer resolves, above the rounding.
 const FIT_TOLERANCE_MM: f64 = 1e-6;
@@ -130,14 +134,13 @@ impl BestTurn {
 /// hold the smallest box (Freeman and Shapira 1975), and even steps between them.
 pub(crate) fn best_turn(points: &[DVec2], sheet_mm: DVec2) -> BestTurn {
     let hull = polygon::convex_hull(points);
-    let steps = (0..120).map(|k| DVec2::from_angle(f64::from(k) * TURN_STEP_RAD));
     let edges: Vec<DVec2> = polygon::edges(&hull)
         .filter_map(|(a, b)| (b - a).try_normalize())
         .flat_map(|d| [d, d.perp()])
         .map(|d| DVec2::new(d.x, -d.y))
         .collect();
     let mut best = BestTurn { unit: DVec2::X, scale: 0.0, size_mm: DVec2::ZERO };
-    for unit in edges.into_iter().chain(steps) {
+    for unit in edges.into_iter().chain(STEPS.iter().copied()) {
         let turn = measured(&hull, unit, sheet_mm);
         if turn.beats(&best) {
             best = turn;
