@@ -5,7 +5,7 @@ use super::opened::Opened;
 use super::pages::{self, Move, PieceId};
 use super::state::Studio;
 use super::store::Store;
-use crate::app::input;
+use crate::app::files;
 use crate::app::output::Target;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -46,7 +46,7 @@ pub type Known = OnceLock<Opened>;
 
 /// Opens the project of the snowman with what is known of its mesh.
 pub fn open_known(studio: &mut Studio, project: &Path, known: &Known) {
-    let opened = Opened::read(Arc::new(input::fetch), project).unwrap();
+    let opened = Opened::read(Arc::new(files::fetch), project).unwrap();
     let known = known.get_or_init(|| opened.clone());
     studio.show(opened.with_mesh(known));
 }
