@@ -46,6 +46,8 @@ const END_RAD: f64 = 0.2;
 /// In a search for firm joints it is this many times as high: with 1 nine joints of a scorpion are weak, with 6
 /// four. Not bounded from above by a case yet.
 const FIRMNESS: f64 = 6.0;
+/// Directions whose part in the mirror plane is shorter are across it.
+const LEAST_ALONG: f64 = 1e-3;
 /// A joint plane that leaves less than this share of a hull is not used to clip it.
 const LEAST_SHARE: f64 = 0.15;
 
@@ -290,7 +292,8 @@ impl<'a> Builder<'a> {
             }
             Some(across) => {
                 let up = mirror.map_or(DVec3::Z, |mirror| mirror.along(DVec3::Z));
-                let up = if up.length() > 1e-3 { up.normalize() } else { across.any_orthonormal_vector() };
+                let up =
+                    if up.length() > LEAST_ALONG { up.normalize() } else { across.any_orthonormal_vector() };
                 let side = across.cross(up);
                 let in_plane = (0..DIRECTIONS).map(|k| up * libm::cos(angle(k)) + side * libm::sin(angle(k)));
                 std::iter::once(across).chain(in_plane).collect()
@@ -342,7 +345,9 @@ impl<'a> Builder<'a> {
         let crossed = self.crossed().map(|crossed| crossed.axis);
         let long = principal.axis();
         let others = normals.iter().copied().chain([DVec3::Z, long, long.cross(mirror.plane().normal())]);
-        let axes = crossed.into_iter().chain(others.filter_map(|axis| mirror.along(axis).try_normalize()));
+        // What is left of a direction across the plane is rounding.
+        let in_plane = others.map(|axis| mirror.along(axis)).filter(|axis| axis.length() > LEAST_ALONG);
+        let axes = crossed.into_iter().chain(in_plane.map(DVec3::normalize));
         let turned = TurningAxis::of_hull(&own.hull, mirror, axes.filter_map(with_sides))?;
         let across = Plane::through(turned.centre, turned.axis.cross(mirror.plane().normal()))?;
         Some(Even { axis: turned.axis, across, turning, hull: turned.round(&own.hull) })
