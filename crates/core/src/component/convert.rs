@@ -256,7 +256,7 @@ pub fn finished(targets: &[(Target, f64)]) -> Vec<Finished> {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::component::Seat;
+    use crate::component::{Seat, side_normal};
     use crate::geom::{self, Hull, Plane};
     use glam::DVec3;
     use proptest::prelude::*;
@@ -363,7 +363,7 @@ pub(crate) mod tests {
             let mut hull = Hull::of_points(&blob(axes, count)).unwrap();
             let mut joints = Vec::new();
             if let Some((angle_rad, slope_rad, share)) = joint {
-                let normal = (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad));
+                let normal = side_normal(angle_rad, slope_rad);
                 let offset_mm = hull.support(normal) * share;
                 let plane = crate::geom::Plane::through(normal * offset_mm, normal).unwrap();
                 hull = hull.clip(&plane).unwrap();
@@ -375,7 +375,7 @@ pub(crate) mod tests {
             for joint in &target.joints {
                 let panel = component.joint_panel(&target, joint).unwrap();
                 let Seat::Side { angle_rad, slope_rad, offset_mm } = joint.seat else { unreachable!() };
-                let normal = (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad));
+                let normal = side_normal(angle_rad, slope_rad);
                 for corner in component.panels().panel(panel).deployed_outline() {
                     prop_assert!((normal.dot(corner) - offset_mm).abs() < 1e-8);
                 }

@@ -5,6 +5,7 @@ use super::panel::{Panel, PanelKind};
 use super::solid::FaceId;
 use super::{
     ChainId, Component, Crossing, JointTarget, Seat, Symmetry, Target, Turning, choose, convert, finished,
+    side_normal,
 };
 use crate::geom::{Hull, Plane};
 use glam::{DMat3, DVec2, DVec3};
@@ -95,27 +96,27 @@ fn with_side_joints(
     symmetry: Symmetry,
     (angle_rad, slope_rad, share): (f64, f64, f64),
 ) -> Vec<JointTarget> {
-    let normal_of = |a: f64, s: f64| (DVec2::from_angle(a) * libm::cos(s)).extend(libm::sin(s));
     let image_of = |a: f64, s: f64, o: f64| match symmetry {
         Symmetry::Upright { angle_rad, offset_mm, .. } => {
             let a2 = 2.0 * angle_rad + PI - a;
             let across = DVec2::from_angle(angle_rad).extend(0.0);
-            (a2, s, o - 2.0 * offset_mm * across.dot(normal_of(a, s)))
+            (a2, s, o - 2.0 * offset_mm * across.dot(side_normal(a, s)))
         }
         Symmetry::Level { height_mm } => (a, -s, o - 2.0 * height_mm * libm::sin(s)),
     };
     let offset_mm = {
-        let n = normal_of(angle_rad, slope_rad);
+        let n = side_normal(angle_rad, slope_rad);
         let inside = hull.centroid().dot(n);
         inside + (hull.support(n) - inside) * share
     };
     let own = (angle_rad, slope_rad, offset_mm);
     let other = image_of(angle_rad, slope_rad, offset_mm);
-    let is_one = other.1 == own.1 && (normal_of(own.0, own.1) - normal_of(other.0, other.1)).length() < 1e-9;
+    let is_one =
+        other.1 == own.1 && (side_normal(own.0, own.1) - side_normal(other.0, other.1)).length() < 1e-9;
     let seats = if is_one { vec![own] } else { vec![own, other] };
     let mut joints = Vec::new();
     for (angle_rad, slope_rad, offset_mm) in seats {
-        let n = normal_of(angle_rad, slope_rad);
+        let n = side_normal(angle_rad, slope_rad);
         *hull = hull.clip(&Plane::through(n * offset_mm, n).unwrap()).unwrap();
         let seat = Seat::Side { angle_rad, slope_rad, offset_mm };
         joints.push(JointTarget { seat, cover: vec![], within: vec![], price: 0.3 });
@@ -196,7 +197,7 @@ proptest! {
         };
         let mut planes_of: Vec<(Seat, Plane)> = directions.into_iter().map(|turn| {
             let angle_rad = angle_rad + turn;
-            let n = (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad));
+            let n = side_normal(angle_rad, slope_rad);
             let inside = hull.centroid().dot(n);
             let offset_mm = inside + (hull.support(n) - inside) * share;
             (Seat::Side { angle_rad, slope_rad, offset_mm }, Plane::through(n * offset_mm, n).unwrap())
@@ -313,8 +314,7 @@ fn turned_hulls_with_handles_are_regular_but_for_those() {
             }
             for joint in &target.joints {
                 let Seat::Side { angle_rad, slope_rad, offset_mm } = joint.seat else { unreachable!() };
-                let normal =
-                    (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad));
+                let normal = side_normal(angle_rad, slope_rad);
                 let panel = component.panels().panel(component.joint_panel(&target, joint).unwrap());
                 assert!(panel.deployed_outline().iter().all(|p| (normal.dot(*p) - offset_mm).abs() < 1e-8));
             }

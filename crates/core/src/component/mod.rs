@@ -43,5 +43,6 @@ pub use panel::{ChainId, Hinge, HingeId, HingeSide, Panel, PanelId, PanelKind, P
 pub use profile::{Fold, Profile, ProfileError};
 pub use solid::{Chain, Clearance, Corner, FaceId, SideFacet, Solid};
 pub use symmetry::{Crossing, Symmetry, Turning};
+pub(crate) use target::side_normal;
 pub use target::{JointTarget, Seat, Target};
 pub use tolerance::{Counts, fewest};

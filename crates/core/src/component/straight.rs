@@ -3,9 +3,9 @@
 use super::angles::turn;
 use super::solid::Solid;
 use super::symmetry::{Crossing, Image, Symmetry, images, settled, wrapped};
-use super::target::{JointTarget, Seat, Target};
+use super::target::{JointTarget, Seat, Target, side_normal};
 use crate::geom::Hull;
-use glam::{DAffine3, DMat3, DVec2, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 use std::f64::consts::FRAC_PI_2;
 
 /// Joints nearer to one another than this, in mm and radians, are the same.
@@ -43,7 +43,7 @@ impl Symmetry {
             Seat::Bottom { height_mm } => Seat::Bottom { height_mm: height_mm + shift.z },
             Seat::Side { angle_rad, slope_rad, offset_mm } => {
                 let angle_rad = wrapped(angle_rad + turn_rad);
-                let offset_mm = offset_mm + normal(angle_rad, slope_rad).dot(shift);
+                let offset_mm = offset_mm + side_normal(angle_rad, slope_rad).dot(shift);
                 Seat::Side { angle_rad, slope_rad, offset_mm }
             }
         }
@@ -81,10 +81,6 @@ impl SeatImage {
             }
         }
     }
-}
-
-fn normal(angle_rad: f64, slope_rad: f64) -> DVec3 {
-    (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad))
 }
 
 fn is_same(a: Seat, b: Seat) -> bool {
@@ -165,7 +161,7 @@ impl Straight {
                 let place = (angle_rad, facet.slope_rad, facet.offset_mm);
                 match sides.iter().find(|s| facet.is_joint && s.0 == place) {
                     Some((_, own)) => (facet.slope_rad, facet.offset_mm) = (own.1, own.2),
-                    None => facet.offset_mm -= normal(angle_rad, facet.slope_rad).dot(shift),
+                    None => facet.offset_mm -= side_normal(angle_rad, facet.slope_rad).dot(shift),
                 }
             }
             let locked = sides.iter().find(|s| chain.is_locked && s.0.0 == angle_rad);

@@ -59,6 +59,11 @@ impl Turning {
         [Self::Twelfth, Self::Tenth, Self::Eighth, Self::Sixth].into_iter().find(|t| t.sectors() <= edges)
     }
 
+    /// Whether it makes a regular polygon.
+    pub fn is_regular(self) -> bool {
+        self > Self::Half
+    }
+
     /// The sectors.
     pub fn sectors(self) -> usize {
         match self {
@@ -102,7 +107,7 @@ impl Symmetry {
 
     /// Whether it makes a regular shape.
     pub(super) fn is_regular(self) -> bool {
-        matches!(self, Symmetry::Upright { crossing: Some(crossing), .. } if crossing.turning > Turning::Half)
+        matches!(self, Symmetry::Upright { crossing: Some(crossing), .. } if crossing.turning.is_regular())
     }
 
     /// The motions, but rest, that take joints at the sides of a straight solid to such. A regular shape has them in its

@@ -1,7 +1,7 @@
 //! Properties of the motion over random components.
 
 use super::*;
-use crate::component::{ChainId, Component, JointTarget, PanelKind, Seat, Target, convert};
+use crate::component::{ChainId, Component, JointTarget, PanelKind, Seat, Target, convert, side_normal};
 use crate::geom::{Hull, Plane, directions};
 use glam::{DAffine3, DVec2, DVec3};
 use proptest::prelude::*;
@@ -19,8 +19,7 @@ pub(super) fn components() -> impl Strategy<Value = Component> {
             let mut hull = Hull::of_points(&points).ok()?;
             let mut joints = Vec::new();
             if let Some((angle_rad, slope_rad, share)) = joint {
-                let normal =
-                    (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad));
+                let normal = side_normal(angle_rad, slope_rad);
                 let offset_mm = hull.support(normal) * share;
                 hull = hull.clip(&Plane::through(normal * offset_mm, normal)?)?;
                 let seat = Seat::Side { angle_rad, slope_rad, offset_mm };

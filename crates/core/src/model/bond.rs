@@ -90,7 +90,7 @@ pub(super) fn crossing<'a>(
     part: PartId,
 ) -> Option<&'a Mirror> {
     let is_free = parts[part.0].options.direction_rad.is_none();
-    let own = || links.iter().filter(|link| link.parent == part || link.child == part);
+    let own = || links.iter().filter(|link| link.joins(part));
     let lies_across = |mirror: &&Mirror| {
         own().all(|link| link.plane.normal().dot(mirror.plane().normal()).abs() < IN_PLANE)
     };

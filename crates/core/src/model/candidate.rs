@@ -175,17 +175,16 @@ pub(super) struct Builder<'a> {
 }
 
 /// A fold direction with what follows from it.
-struct Direction {
+struct Direction<'e> {
     frame: DAffine3,
     hull: Hull,
     joints: Vec<(PartId, JointTarget)>,
     plane_shift_mm: f64,
     /// How the component is to be even about its fold axis, if it is.
-    even: Option<Even>,
+    even: Option<&'e Even>,
 }
 
 /// A fold axis about which a component is even.
-#[derive(Clone)]
 struct Even {
     axis: DVec3,
     /// A mirror plane through it, across the other one.
@@ -199,12 +198,7 @@ impl<'a> Builder<'a> {
     /// The part's joints.
     pub(super) fn own_links(&self) -> impl Iterator<Item = &'a Link> + use<'a> {
         let part = self.part;
-        self.links.iter().filter(move |l| l.parent == part || l.child == part)
-    }
-
-    /// The plane of one of the part's joints, normal out of the part.
-    fn own_plane(&self, link: &Link) -> Plane {
-        if link.child == self.part { link.plane.flipped() } else { link.plane }
+        self.links.iter().filter(move |link| link.joins(part))
     }
 
     /// The candidates, the cheapest first, but those in directions that `before` has; their ids are for the
@@ -219,10 +213,10 @@ impl<'a> Builder<'a> {
         let even = even.into_iter().map(|even| (even.axis, Some(even)));
         let tried: Vec<(DVec3, Option<Even>)> =
             even.chain(axes.into_iter().map(|axis| (axis, None))).collect();
-        let direction = |(axis, even): &(DVec3, Option<Even>)| {
-            self.direction(principal.frame(*axis), even.as_ref(), &prices)
-        };
-        let directions: Vec<Direction> = tried.par_iter().map(direction).collect();
+        let directions = tried
+            .par_iter()
+            .map(|(axis, even)| self.direction(principal.frame(*axis), even.as_ref(), &prices));
+        let directions: Vec<Direction> = directions.collect();
         let mut targets: Vec<(Target, f64)> =
             directions.iter().map(|d| (self.target(d), self.own_mm(d, most))).collect();
         let lost = || ModelError::NoJointPanel(part.options.name.clone());
@@ -334,7 +328,8 @@ impl<'a> Builder<'a> {
         }
         let mirror = self.mirror()?;
         let turning = Turning::of_regular(own.options.top_edges)?;
-        let normals: Vec<DVec3> = self.own_links().map(|link| self.own_plane(link).normal()).collect();
+        let normals: Vec<DVec3> =
+            self.own_links().map(|link| link.plane_out_of(self.part).normal()).collect();
         let is_end = |normal: DVec3, axis: DVec3| normal.dot(axis).abs() > libm::cos(END_RAD);
         let is_side = |normal: DVec3| normal.dot(mirror.plane().normal()).abs() < IN_PLANE;
         // Most parts have a joint elsewhere for every axis, which is found sooner than how round they are.
@@ -367,13 +362,12 @@ impl<'a> Builder<'a> {
     }
 
     /// What a direction costs by itself, mm of error, where the most even component could be `most`.
-    fn own_mm(&self, direction: &Direction, most: Option<Turning>) -> f64 {
+    fn own_mm(&self, direction: &Direction<'_>, most: Option<Turning>) -> f64 {
         let size_mm = libm::cbrt(self.parts[self.part.0].hull.volume());
-        let is_lopsided = direction.even.as_ref().map(|even| even.turning) < most;
         let of_lopsided = match most {
-            Some(most) if is_lopsided && most > Turning::Half => DENTED_PRICE,
-            _ if is_lopsided => LOPSIDED_PRICE,
-            _ => 0.0,
+            _ if direction.even.map(|even| even.turning) >= most => 0.0,
+            Some(most) if most.is_regular() => DENTED_PRICE,
+            _ => LOPSIDED_PRICE,
         };
         let up = direction.frame.matrix3.z_axis.z.abs().min(1.0);
         let of_leaning =
@@ -381,7 +375,7 @@ impl<'a> Builder<'a> {
         PLANE_PRICE * direction.plane_shift_mm + (of_lopsided + of_leaning) * size_mm
     }
 
-    fn target<'h>(&self, direction: &'h Direction) -> Target<'h>
+    fn target<'h>(&self, direction: &'h Direction<'_>) -> Target<'h>
     where
         'a: 'h,
     {
@@ -408,7 +402,7 @@ impl<'a> Builder<'a> {
     }
 
     /// The mirror plane of a component in its own axes, with one across it where it is to have two.
-    fn mirror_plane(&self, direction: &Direction) -> Option<component::Symmetry> {
+    fn mirror_plane(&self, direction: &Direction<'_>) -> Option<component::Symmetry> {
         let to_local = direction.frame.inverse();
         let plane = self.mirror()?.plane().moved(&to_local);
         let (normal, offset_mm) = (plane.normal(), plane.offset());
@@ -416,7 +410,7 @@ impl<'a> Builder<'a> {
             return Some(component::Symmetry::Level { height_mm: offset_mm * normal.z.signum() });
         }
         let across = normal.truncate().perp();
-        let crossing = direction.even.as_ref().map(|&Even { across: ref plane, turning, .. }| {
+        let crossing = direction.even.map(|&Even { across: ref plane, turning, .. }| {
             let other = plane.moved(&to_local);
             let offset_mm = other.offset() * across.dot(other.normal().truncate()).signum();
             Crossing { offset_mm, turning }
@@ -426,13 +420,13 @@ impl<'a> Builder<'a> {
 
     /// Seats of all joints in the axes of `frame`, and the hull clipped by them. `prices` are those of the
     /// joints in their order.
-    fn direction(&self, frame: DAffine3, even: Option<&Even>, prices: &[f64]) -> Direction {
+    fn direction<'e>(&self, frame: DAffine3, even: Option<&'e Even>, prices: &[f64]) -> Direction<'e> {
         let to_local = frame.inverse();
         let mut others: Vec<PartId> = Vec::new();
         let mut seatings = Vec::new();
         for link in self.own_links() {
             let is_child = link.child == self.part;
-            let plane = self.own_plane(link);
+            let plane = link.plane_out_of(self.part);
             let centre = self.centre(link);
             others.push(if is_child { link.parent } else { link.child });
             seatings.push(Seating {
@@ -471,7 +465,7 @@ impl<'a> Builder<'a> {
             };
             joints.push((other, JointTarget { seat, cover, within, price }));
         }
-        Direction { frame, hull, joints, plane_shift_mm, even: even.cloned() }
+        Direction { frame, hull, joints, plane_shift_mm, even }
     }
 
     /// Price of a mm by which a joint panel misses its partner.

@@ -18,6 +18,18 @@ pub struct Link {
     pub plane: Plane,
 }
 
+impl Link {
+    /// Whether a part is one of the two.
+    pub(super) fn joins(&self, part: PartId) -> bool {
+        self.parent == part || self.child == part
+    }
+
+    /// The plane, normal out of one of the two parts.
+    pub(super) fn plane_out_of(&self, part: PartId) -> Plane {
+        if self.child == part { self.plane.flipped() } else { self.plane }
+    }
+}
+
 /// Spanning trees of the interface graph, largest interfaces first (Kruskal), each rooted at its
 /// smallest id. Links are ordered so that a parent's own link comes before its children's.
 ///

@@ -127,11 +127,7 @@ pub fn farther(
 
 /// What the joints of a part leave of its hull.
 fn without_neighbours(hulls: &[Hull], links: &[Link], part: PartId) -> Hull {
-    let own = links.iter().filter_map(|link| match part {
-        _ if link.parent == part => Some(link.plane),
-        _ if link.child == part => Some(link.plane.flipped()),
-        _ => None,
-    });
+    let own = links.iter().filter(|link| link.joins(part)).map(|link| link.plane_out_of(part));
     own.fold(hulls[part.0].clone(), |hull, plane| hull.clip(&plane).unwrap_or(hull))
 }
 

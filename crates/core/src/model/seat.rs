@@ -5,7 +5,7 @@
 //! be exactly horizontal (the paper does the same, §5.1); else it is a side panel, whose chain has
 //! the direction of the plane's normal. Planes in almost the same direction share a chain.
 
-use crate::component::Seat;
+use crate::component::{Seat, side_normal};
 use crate::geom::Plane;
 use glam::{DVec2, DVec3};
 
@@ -152,10 +152,6 @@ fn side_seat(joint: &Seating, others: &[Option<Seat>], snap: &Snap) -> Seat {
     }
     let normal = side_normal(angle_rad, own_slope);
     Seat::Side { angle_rad, slope_rad: own_slope, offset_mm: normal.dot(joint.centre) }
-}
-
-fn side_normal(angle_rad: f64, slope_rad: f64) -> DVec3 {
-    (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad))
 }
 
 /// The plane of a seat, normal out of the component, in the component's axes.
