@@ -23,7 +23,7 @@ pub mod project;
 
 pub use tatamu_check as check;
 pub use tatamu_core::{
-    colour, component, design, fold, geom, listing, memory, model, progress, remedy, segment, units,
+    cache, colour, component, design, fold, geom, listing, model, progress, remedy, segment, units,
 };
 pub use tatamu_draw::{drawing, pixels, render};
 pub use tatamu_export::{export, guide, paint, parts_report, product, report, show};

@@ -3,7 +3,7 @@
 use glam::{DAffine3, DVec2, DVec3};
 use std::collections::BTreeSet;
 use tatamu::component::{Panel, PanelId, PanelKind};
-use tatamu::fold::{Detection, FoldPlan, FoldWarning, ModelMotion, ModelPose, Sequence, SweepMemory};
+use tatamu::fold::{Detection, FoldPlan, FoldWarning, ModelMotion, ModelPose, Sequence, SweepCache};
 use tatamu::geom::{self, Hull, Mirror, Plane};
 use tatamu::model::{
     Alike, Assembly, Built, Bump, Enough, Known, Link, Model, Part, PartId, PartOptions, Symmetry, Unjudged,
@@ -316,7 +316,7 @@ fn a_model_that_no_order_folds_is_folded_in_turn() {
 /// A plan in which some components are unplugged.
 fn unplugged(motion: &ModelMotion<'_>, parts: &[PartId]) -> Option<FoldPlan> {
     let ids: Vec<u64> = (0..motion.model().parts().len() as u64).collect();
-    FoldPlan::unplugged(motion, parts, THICKNESS_MM, &ids, &SweepMemory::default(), &Silent).unwrap()
+    FoldPlan::unplugged(motion, parts, THICKNESS_MM, &ids, &SweepCache::default(), &Silent).unwrap()
 }
 
 #[test]
@@ -359,12 +359,12 @@ fn what_is_shut_in_is_not_unplugged() {
 fn steps_in_turn_are_reported_as_they_are() {
     for model in bulges() {
         let motion = ModelMotion::new(&model);
-        let (memory, alike) = (SweepMemory::default(), Alike::unknown(3));
+        let (cache, alike) = (SweepCache::default(), Alike::unknown(3));
         let quick = FoldPlan::quick(
             &motion,
             THICKNESS_MM,
             &alike,
-            &memory,
+            &cache,
             (Detection::Discrete, &|_| false),
             &Silent,
         )
@@ -380,18 +380,18 @@ fn steps_in_turn_are_reported_as_they_are() {
 
 #[test]
 fn a_memory_changes_nothing_but_the_time() {
-    let memory = SweepMemory::default();
+    let cache = SweepCache::default();
     for (k, model) in bulges().into_iter().enumerate() {
         let motion = ModelMotion::new(&model);
         // The head is the same for all, the bodies on it are not.
         let ids = vec![0, 2 * k as u64 + 1, 2 * k as u64 + 2];
         let alike = Alike { ids, twins: None };
-        let with = || FoldPlan::with_memory(&motion, THICKNESS_MM, &alike, &memory, &Silent).unwrap();
+        let with = || FoldPlan::with_cache(&motion, THICKNESS_MM, &alike, &cache, &Silent).unwrap();
         let (first, alone) = (with(), plan(&motion));
         assert_eq!(first, alone);
-        let known = memory.len();
+        let known = cache.len();
         assert_eq!(with(), alone);
-        assert_eq!(memory.len(), known, "nothing is worked out twice");
+        assert_eq!(cache.len(), known, "nothing is worked out twice");
     }
 }
 
@@ -430,16 +430,16 @@ fn one_half_of_a_model_stands_for_the_other() {
         let motion = ModelMotion::new(&model);
         let how = (Detection::Discrete, &(|_: &[Bump]| false) as &Enough<'_>);
         let quick = |alike: &Alike| {
-            let memory = SweepMemory::default();
-            let plan = FoldPlan::quick(&motion, THICKNESS_MM, alike, &memory, how, &Silent).unwrap();
-            (plan.harm_mm(), memory.len())
+            let cache = SweepCache::default();
+            let plan = FoldPlan::quick(&motion, THICKNESS_MM, alike, &cache, how, &Silent).unwrap();
+            (plan.harm_mm(), cache.len())
         };
         let (half, whole) = (quick(&alike), quick(&Alike { twins: None, ..alike.clone() }));
         assert!((half.0 - whole.0).abs() < 1e-4, "{gap_mm}: {} mm instead of {} mm", half.0, whole.0);
         assert!(half.1 * 4 < whole.1 * 3, "{} answers instead of {}", half.1, whole.1);
         // A complete plan names the panels that meet, on either side.
         let complete = |alike: &Alike| {
-            FoldPlan::with_memory(&motion, THICKNESS_MM, alike, &SweepMemory::default(), &Silent).unwrap()
+            FoldPlan::with_cache(&motion, THICKNESS_MM, alike, &SweepCache::default(), &Silent).unwrap()
         };
         let plan = complete(&alike);
         assert_eq!(plan, complete(&Alike { twins: None, ..alike.clone() }), "{gap_mm} mm apart");

@@ -48,7 +48,7 @@ pub fn distances(shaped: &Shaped) -> Distances {
             let (solid, to_local) = &solids[(*part)? as usize];
             let middle = to_local.transform_point3(source.mesh().corners(face).iter().sum::<DVec3>() / 3.0);
             let position = solid.as_ref()?.position(middle);
-            Some(position.nearest.map_or(position.depth_mm, |(point, _)| point.distance(middle)) as f32)
+            Some(position.nearest.map_or(position.signed_mm, |(point, _)| point.distance(middle)) as f32)
         })
         .collect();
     let most_mm = of_face_mm.iter().flatten().fold(0.0f32, |most, mm| most.max(mm.abs()));

@@ -2,7 +2,7 @@
 
 use super::options::{Entry, Scope, all};
 use super::{Component, Project, ProjectError};
-use crate::design::{Attachment, Sketch, Way, parse_panel};
+use crate::design::{Attachment, FoldAssignment, Sketch, parse_panel};
 use crate::model::JointChoice;
 use glam::DVec2;
 use serde::Deserialize;
@@ -146,9 +146,11 @@ impl Component {
         let name = self.rename.as_ref().unwrap_or(&self.name).clone();
         let profiles = self.profiles.iter().map(|profile| profile.iter().map(|&p| p.into()).collect());
         let sketch = Sketch::new(name, top.corners()?, profiles.collect()).map_err(|e| e.to_string())?;
-        let ways =
-            self.folds.iter().map(|text| text.parse::<Way>().map_err(|e| format!("folds \"{text}\": {e}")));
-        let sketch = sketch.with_ways(ways.collect::<Result<_, _>>()?).map_err(|e| e.to_string())?;
+        let ways = self
+            .folds
+            .iter()
+            .map(|text| text.parse::<FoldAssignment>().map_err(|e| format!("folds \"{text}\": {e}")));
+        let sketch = sketch.with_assignments(ways.collect::<Result<_, _>>()?).map_err(|e| e.to_string())?;
         match &self.joint {
             None => Ok(sketch),
             Some(JointKey::Hold(_)) => Err(

@@ -28,13 +28,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod cache;
 pub mod colour;
 pub mod component;
 pub mod design;
 pub mod fold;
 pub mod geom;
 pub mod listing;
-pub mod memory;
 pub mod mesh;
 pub mod model;
 pub mod progress;

@@ -1,4 +1,4 @@
-//! The stages, with a memory for what each of them made: what is asked for again is not made again.
+//! The stages, with a cache for what each of them made: what is asked for again is not made again.
 //! The command line runs an engine once; the studio keeps one and changes a little at a time.
 
 use super::bodies::{Decisive, Touching, without_needless_joints};
@@ -13,9 +13,9 @@ use glam::DAffine3;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use tatamu_core::cache::LruCache;
 use tatamu_core::design::{ThickError, thick};
-use tatamu_core::fold::{Detection, FoldPlan, ModelMotion, SweepMemory};
-use tatamu_core::memory::Memory;
+use tatamu_core::fold::{Detection, FoldPlan, ModelMotion, SweepCache};
 use tatamu_core::mesh::{Mesh, Up};
 use tatamu_core::model::{
     self, Alike, Built, JointChoice, Known, Model, ModelError, ModelPart, PartId, Run, Sketch,
@@ -35,16 +35,16 @@ const FEW: usize = 4;
 #[derive(Debug)]
 pub struct Engine<'m> {
     mesh: Cow<'m, Mesh>,
-    segmented: Memory<PartsKey, Arc<Segmented>>,
-    divided: Memory<(PartsKey, Vec<Edit>, Option<String>), Arc<Divided>>,
+    segmented: LruCache<PartsKey, Arc<Segmented>>,
+    divided: LruCache<(PartsKey, Vec<Edit>, Option<String>), Arc<Divided>>,
     components: Known,
     /// What is known of motions, until it is forgotten.
-    sweeps: Mutex<Arc<SweepMemory>>,
+    sweeps: Mutex<Arc<SweepCache>>,
     /// What the parts of the models of last time are known by in `sweeps`.
-    alike: Memory<Arc<Model>, Alike>,
-    plans: Memory<PlanKey, Planned>,
+    alike: LruCache<Arc<Model>, Alike>,
+    plans: LruCache<PlanKey, Planned>,
     nets: KnownNets,
-    layouts: Memory<LayoutKey, (Arc<Layout>, Arc<Vec<Net>>)>,
+    layouts: LruCache<LayoutKey, (Arc<Layout>, Arc<Vec<Net>>)>,
 }
 
 /// What decides a layout: sheets, pins, colours of card, and the nets with their alternatives.
@@ -71,14 +71,14 @@ impl<'m> Engine<'m> {
     pub fn new(mesh: Cow<'m, Mesh>) -> Self {
         Self {
             mesh,
-            segmented: Memory::new(FEW),
-            divided: Memory::new(FEW),
+            segmented: LruCache::new(FEW),
+            divided: LruCache::new(FEW),
             components: Known::default(),
             sweeps: Mutex::default(),
-            alike: Memory::new(FEW),
-            plans: Memory::new(FEW),
+            alike: LruCache::new(FEW),
+            plans: LruCache::new(FEW),
             nets: KnownNets::default(),
-            layouts: Memory::new(FEW),
+            layouts: LruCache::new(FEW),
         }
     }
 
@@ -96,7 +96,7 @@ impl<'m> Engine<'m> {
         }
     }
 
-    fn sweeps(&self) -> MutexGuard<'_, Arc<SweepMemory>> {
+    fn sweeps(&self) -> MutexGuard<'_, Arc<SweepCache>> {
         self.sweeps.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -168,7 +168,7 @@ impl<'m> Engine<'m> {
     /// As [`Engine::divide`], and [`Error::Model`], [`Error::NoComponent`], [`Error::SameName`],
     /// [`Error::NoPlug`].
     pub fn shape(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
-        let maker = Making { engine: self, options, sketches: Memory::new(SKETCHES), progress };
+        let maker = Making { engine: self, options, sketches: LruCache::new(SKETCHES), progress };
         let Mended { divided, built, merges, .. } =
             if options.is_tiny() { unmended(&maker)? } else { mended(&maker)? };
         self.know(&built);
@@ -204,7 +204,7 @@ impl<'m> Engine<'m> {
         let bodies = Bodies::new(divided.hulls(), options)?;
         let assembly = bodies.assembly(options.min_panel_width_mm);
         let sweeps = self.sweeps().clone();
-        let judge = FoldJudge { thickness_mm: options.thickness_mm, detection, memory: &sweeps, progress };
+        let judge = FoldJudge { thickness_mm: options.thickness_mm, detection, cache: &sweeps, progress };
         let (known, firmness) = (&self.components, divided.hulls().firmness());
         Ok(build(Run { assembly: &assembly, known, firmness, judge: &judge, progress })?)
     }
@@ -282,14 +282,14 @@ impl<'m> Engine<'m> {
         self.plans.get_or(plan_key(model, options), || {
             progress.stage("folding");
             // Of models that were changed since they were built nothing is known.
-            let (alike, memory) = match self.alike.get(model) {
+            let (alike, cache) = match self.alike.get(model) {
                 Some(alike) => (alike, self.sweeps().clone()),
                 None => (Alike::unknown(model.parts().len()), Arc::default()),
             };
             let motion = ModelMotion::new(model);
-            let plan = FoldPlan::with_memory(&motion, options.thickness_mm, &alike, &memory, progress)?;
+            let plan = FoldPlan::with_cache(&motion, options.thickness_mm, &alike, &cache, progress)?;
             let planned = Planned { model: model.clone(), plan: Arc::new(plan) };
-            let known = plugs::Known { ids: &alike.ids, memory: &memory };
+            let known = plugs::Known { ids: &alike.ids, cache: &cache };
             Ok(plugs::freed(&planned, &known, options, progress)?.unwrap_or(planned))
         })
     }
@@ -427,7 +427,7 @@ const SKETCHES: usize = 100;
 struct Making<'m> {
     engine: &'m Engine<'m>,
     options: &'m Options,
-    sketches: Memory<Decisive, Arc<Sketch>>,
+    sketches: LruCache<Decisive, Arc<Sketch>>,
     progress: &'m dyn Progress,
 }
 

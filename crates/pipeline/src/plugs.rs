@@ -3,7 +3,7 @@
 
 use super::{Error, Options};
 use std::sync::Arc;
-use tatamu_core::fold::{FoldPlan, ModelMotion, SweepMemory, ancestors};
+use tatamu_core::fold::{FoldPlan, ModelMotion, SweepCache, ancestors};
 use tatamu_core::model::{JointChoice, Model, PartId, Plug};
 use tatamu_core::progress::{Cancelled, Progress};
 
@@ -22,7 +22,7 @@ pub(super) struct Planned {
 /// What is known of a model, for its plans.
 pub(super) struct Known<'a> {
     pub(super) ids: &'a [u64],
-    pub(super) memory: &'a SweepMemory,
+    pub(super) cache: &'a SweepCache,
 }
 
 /// The model with the plugs that were asked for.
@@ -64,7 +64,7 @@ pub(super) fn freed(
     let plugs: Vec<Option<Plug>> = model.ids().map(|p| plug_of(model, p, options)).collect();
     let motion = ModelMotion::new(model);
     for parts in candidates(model, &planned.plan, &plugs).into_iter().take(MOST_TRIALS) {
-        let plan = FoldPlan::unplugged(&motion, &parts, thickness_mm, known.ids, known.memory, progress)?;
+        let plan = FoldPlan::unplugged(&motion, &parts, thickness_mm, known.ids, known.cache, progress)?;
         if let Some(plan) = plan.filter(FoldPlan::is_free) {
             let with = |model: Model, &part: &PartId| match &plugs[part.0] {
                 Some(plug) => model.with_plug(part, plug.clone()),

@@ -30,7 +30,7 @@ struct Face {
 
 impl Face {
     /// Signed distance of a point to its plane, positive outside.
-    fn depth_mm(&self, point: DVec3) -> f64 {
+    fn signed_mm(&self, point: DVec3) -> f64 {
         self.normal.dot(point) - self.offset
     }
 }
@@ -54,7 +54,7 @@ impl Four {
         four
     }
 
-    fn depths_mm(&self, point: DVec3) -> [f64; 4] {
+    fn signed_mm(&self, point: DVec3) -> [f64; 4] {
         let [x, y, z] = &self.normals;
         std::array::from_fn(|k| x[k] * point.x + y[k] * point.y + z[k] * point.z - self.offsets[k])
     }
@@ -74,9 +74,9 @@ pub enum Feature {
 /// Where a point stands to a polytope.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Position {
-    /// Signed distance to the face plane that is farthest below the point: inside, minus the
+    /// Signed distance to the face plane that is farthest below the point, positive outside: inside, minus the
     /// distance to the surface.
-    pub depth_mm: f64,
+    pub signed_mm: f64,
     /// That face.
     pub face: usize,
     /// For points outside, the nearest point and where it lies.
@@ -141,31 +141,31 @@ impl Polytope {
 
     /// Where a point stands.
     pub fn position(&self, point: DVec3) -> Position {
-        let (mut depth_mm, mut face) = (f64::NEG_INFINITY, 0);
+        let (mut signed_mm, mut face) = (f64::NEG_INFINITY, 0);
         for (chunk, four) in self.fours.iter().enumerate() {
-            let depths = four.depths_mm(point);
+            let distances = four.signed_mm(point);
             // There is no NaN, for which `f64::max` would look.
             let larger = |a: f64, b: f64| if a > b { a } else { b };
-            let deepest = larger(larger(depths[0], depths[1]), larger(depths[2], depths[3]));
-            if deepest > depth_mm {
-                let first = depths.iter().position(|d| *d == deepest).unwrap_or(0);
-                (depth_mm, face) = (deepest, 4 * chunk + first);
+            let largest = larger(larger(distances[0], distances[1]), larger(distances[2], distances[3]));
+            if largest > signed_mm {
+                let first = distances.iter().position(|d| *d == largest).unwrap_or(0);
+                (signed_mm, face) = (largest, 4 * chunk + first);
             }
         }
-        let nearest = (depth_mm > 0.0).then(|| self.nearest(point, face));
-        Position { depth_mm, face, nearest }
+        let nearest = (signed_mm > 0.0).then(|| self.nearest(point, face));
+        Position { signed_mm, face, nearest }
     }
 
-    /// The nearest point to one outside, which is at least as far as from its `deepest` face.
-    fn nearest(&self, point: DVec3, deepest: usize) -> (DVec3, Feature) {
-        let (foot, feature) = self.nearest_on(deepest, point);
-        if feature == Feature::Face(deepest) {
+    /// The nearest point to one outside, which is at least as far as from the plane of `farthest`.
+    fn nearest(&self, point: DVec3, farthest: usize) -> (DVec3, Feature) {
+        let (foot, feature) = self.nearest_on(farthest, point);
+        if feature == Feature::Face(farthest) {
             return (foot, feature);
         }
         let mut best = (foot.distance_squared(point), foot, feature);
         for (k, f) in self.faces.iter().enumerate() {
-            let d = f.depth_mm(point);
-            if d > 0.0 && d * d < best.0 && k != deepest {
+            let d = f.signed_mm(point);
+            if d > 0.0 && d * d < best.0 && k != farthest {
                 let (foot, feature) = self.nearest_on(k, point);
                 let distance = foot.distance_squared(point);
                 if distance < best.0 {
@@ -179,7 +179,7 @@ impl Polytope {
     fn nearest_on(&self, k: usize, point: DVec3) -> (DVec3, Feature) {
         let face = &self.faces[k];
         let outline = self.outline_corners(k);
-        let foot = point - face.normal * face.depth_mm(point);
+        let foot = point - face.normal * face.signed_mm(point);
         let mut best = (f64::INFINITY, foot, Feature::Face(k));
         let mut is_inside = true;
         let mut from = outline.last().map_or(0, |&v| v as usize);

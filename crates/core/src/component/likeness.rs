@@ -60,8 +60,8 @@ pub(super) fn faces_inside<const N: usize>(
     let mut beyond: Vec<(u32, f64)> = Vec::new();
     let mut starts = vec![0];
     for corner in of.corners() {
-        let depths = planes.iter().map(|(normal, offset)| normal.dot(*corner) - offset).enumerate();
-        beyond.extend(depths.filter(|d| d.1 > least_mm).map(|(k, depth_mm)| (k as u32, depth_mm)));
+        let distances = planes.iter().map(|(normal, offset)| normal.dot(*corner) - offset).enumerate();
+        beyond.extend(distances.filter(|d| d.1 > least_mm).map(|(k, signed_mm)| (k as u32, signed_mm)));
         starts.push(beyond.len());
     }
     let (mut part, mut next) = (Vec::new(), Vec::new());

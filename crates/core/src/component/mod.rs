@@ -15,12 +15,12 @@ mod gradient;
 mod grow;
 mod layer;
 mod likeness;
+mod linearize;
 #[cfg(test)]
 mod mirror_tests;
 mod panel;
 mod profile;
 mod qp;
-mod rows;
 mod search;
 mod seated;
 mod shape;

@@ -1,9 +1,9 @@
 //! From drawings to a model: a way to fold for each profile, components, joints.
 
+use super::assignment::FoldAssignment;
 use super::ranking::{Ranked, Ranking, Refusal, judge, rank};
 use super::sketch::{Attachment, Sketch, SketchError};
 use super::warning::DesignWarning;
-use super::way::Way;
 use crate::component::{AssembleError, ChainId, Component, PanelId, PanelKind, Profile};
 use crate::geom::polygon;
 use crate::model::{JoinedPart, Model, PartId, Seam};
@@ -63,7 +63,7 @@ pub enum DesignError {
         /// The profile, from 1.
         profile: usize,
         /// The way.
-        way: Way,
+        way: FoldAssignment,
         /// Why it fails.
         refusal: Refusal,
     },
@@ -76,7 +76,7 @@ pub enum DesignError {
         /// The component.
         name: String,
         /// The way.
-        way: Way,
+        way: FoldAssignment,
         /// The panel.
         panel: String,
     },
@@ -280,7 +280,7 @@ fn shifted(profile: &Profile, by_mm: f64) -> Result<Profile, AssembleError> {
 /// The way to fold a profile: the user's, or the best.
 fn choose(sketch: &Sketch, p: usize, whole: &[bool], min_panel_mm: f64) -> Result<Ranked, DesignError> {
     let (name, profile) = (sketch.name().to_owned(), p + 1);
-    if let Some(way) = &sketch.ways()[p] {
+    if let Some(way) = &sketch.assignments()[p] {
         let way = way.clone();
         return match judge(&sketch.profiles()[p], &way, min_panel_mm) {
             Err(refusal) => Err(DesignError::Refused { name, profile, way, refusal }),

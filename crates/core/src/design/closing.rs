@@ -12,7 +12,7 @@
 //! Boards are shorter at their hinges than the drawn segments; by how much more their chain then
 //! leads outwards is their *excess*, and the gap that is closed is that of the boards.
 
-use super::way::Way;
+use super::assignment::FoldAssignment;
 use crate::component::Profile;
 use glam::DVec2;
 
@@ -36,7 +36,7 @@ pub(super) struct Closed {
 }
 
 /// Closes a way to fold a drawn profile; nothing where it cannot be done.
-pub(super) fn close(points: &[DVec2], way: &Way, excess_mm: f64) -> Option<Closed> {
+pub(super) fn close(points: &[DVec2], way: &FoldAssignment, excess_mm: f64) -> Option<Closed> {
     let faces_up = way.faces_up();
     let Some(creased) = way.creased() else {
         let moved = least_movement(points, &faces_up, excess_mm)?;
@@ -56,7 +56,7 @@ pub(super) fn close(points: &[DVec2], way: &Way, excess_mm: f64) -> Option<Close
 
 /// Where the crease divides its segment, from 0, its upper end, to 1; outside of that range where
 /// the other segments leave too much for it.
-fn crease_share(points: &[DVec2], way: &Way, creased: usize, excess_mm: f64) -> f64 {
+fn crease_share(points: &[DVec2], way: &FoldAssignment, creased: usize, excess_mm: f64) -> f64 {
     let length = |i: usize| points[i].distance(points[i + 1]);
     let others = (0..points.len() - 1).filter(|&i| i != creased);
     let advance: f64 =

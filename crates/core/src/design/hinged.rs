@@ -10,10 +10,10 @@
 //! The top and the bottom panel are shorter by their hinges' t·tan(θ/2) as well, so that the chain of
 //! boards leads outwards by an excess over that of the outside; its creases are computed for that excess.
 
+use super::assignment::{FoldAssignment, Segment};
 use super::closing::{Closed, close};
 use super::facet::{STRAIGHT, facets, turn};
 use super::ranking::rank;
-use super::way::{Segment, Way};
 use crate::component::{Fold, Profile};
 use crate::fold::ChainMotion;
 use glam::DVec2;
@@ -65,7 +65,7 @@ impl BoardChain {
         let own = own_way(paper);
         let ranked = rank(&self.corners, &self.whole, self.min_panel_mm).ranked.into_iter();
         let others = ranked.map(|ranked| ranked.way).filter(|way| Some(way) != own.as_ref());
-        let ways: Vec<Way> = own.iter().cloned().chain(others).collect();
+        let ways: Vec<FoldAssignment> = own.iter().cloned().chain(others).collect();
         let tried: Vec<Result<Hinged, Unhinged>> = ways.iter().map(|way| self.folded(way)).collect();
         let is_against = tried.iter().any(|tried| tried.as_ref().err() == Some(&Unhinged::Against));
         let mut hinged: Vec<Hinged> = tried.into_iter().flatten().collect();
@@ -77,7 +77,7 @@ impl BoardChain {
         }
     }
 
-    fn folded(&self, way: &Way) -> Result<Hinged, Unhinged> {
+    fn folded(&self, way: &FoldAssignment) -> Result<Hinged, Unhinged> {
         let segments = way.segments();
         let is_against = |(w, s): (&[DVec2], &[Segment])| {
             let turn = turn(w[0], w[1], w[2]);
@@ -115,7 +115,7 @@ impl BoardChain {
     }
 
     /// The outside with its crease, for which the boards, not the outside, have gap 0.
-    fn closed(&self, way: &Way) -> Option<Closed> {
+    fn closed(&self, way: &FoldAssignment) -> Option<Closed> {
         let length: f64 = self.corners.windows(2).map(|w| w[0].distance(w[1])).sum();
         let mut excess_mm = self.excess_mm(&self.corners, way);
         for _ in 0..MOST_STEPS {
@@ -133,7 +133,7 @@ impl BoardChain {
     }
 
     /// By how much more the boards lead outwards than the outside, against where they end.
-    fn excess_mm(&self, corners: &[DVec2], way: &Way) -> f64 {
+    fn excess_mm(&self, corners: &[DVec2], way: &FoldAssignment) -> f64 {
         let sign = |is_up: bool| if is_up { 1.0 } else { -1.0 };
         let (segments, last) = (way.segments(), corners.len() - 1);
         let directions = directions(corners);
@@ -188,7 +188,7 @@ fn directions(points: &[DVec2]) -> Vec<DVec2> {
 }
 
 /// The way in which a profile of paper folds, by its walls.
-fn own_way(paper: &Profile) -> Option<Way> {
+fn own_way(paper: &Profile) -> Option<FoldAssignment> {
     let facets = facets(paper);
     let walls = facets.last().map_or(0, |last| last + 1);
     let of_wall = |wall: usize| {
@@ -202,7 +202,7 @@ fn own_way(paper: &Profile) -> Option<Way> {
             _ => None,
         }
     };
-    Way::new((0..walls).map(of_wall).collect::<Option<_>>()?).ok()
+    FoldAssignment::new((0..walls).map(of_wall).collect::<Option<_>>()?).ok()
 }
 
 #[cfg(test)]
@@ -218,7 +218,7 @@ mod tests {
             thickness_mm: 1.0,
             min_panel_mm: 3.0,
         };
-        let way: Way = "ud".parse().unwrap();
+        let way: FoldAssignment = "ud".parse().unwrap();
         assert_eq!(chain(-10.0).folded(&way).err(), Some(Unhinged::Against));
         assert!(chain(10.0).folded(&way).is_ok_and(|hinged| hinged.layers() == 1 && hinged.moved_mm == 0.0));
     }

@@ -6,6 +6,7 @@
 //! Sketch (checked) -> ways to fold each profile -> closed exactly -> ranked -> Component -> Model
 //! ```
 
+mod assignment;
 mod board;
 mod build;
 mod closing;
@@ -20,9 +21,9 @@ mod sketch;
 mod surface_distance;
 mod thick;
 mod warning;
-mod way;
 mod weights;
 
+pub use assignment::{FoldAssignment, Segment};
 pub use board::board;
 pub use build::{Design, DesignError, design, rankings};
 pub use ranking::{Ranked, Ranking, Refusal, Score, rank};
@@ -30,7 +31,6 @@ pub use refit::{Body, Concave, RefitError, refit};
 pub use sketch::{Attachment, Sketch, SketchError, parse_panel};
 pub use thick::{ThickError, thick};
 pub use warning::DesignWarning;
-pub use way::{Segment, Way};
 
 #[cfg(test)]
 mod tests;

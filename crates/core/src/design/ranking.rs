@@ -1,8 +1,8 @@
 //! The ways to fold a profile, best first.
 
+use super::assignment::FoldAssignment;
 use super::closing::close;
 use super::search::{Limits, ROUNDING_MM, promising};
-use super::way::Way;
 use super::weights::WEIGHTS;
 use crate::component::Profile;
 use crate::fold::ChainMotion;
@@ -48,7 +48,7 @@ impl Score {
 #[derive(Debug, Clone)]
 pub struct Ranked {
     /// The way.
-    pub way: Way,
+    pub way: FoldAssignment,
     /// What speaks against it.
     pub score: Score,
     /// The drawn profile, with a crease or moved to have gap 0.
@@ -93,7 +93,7 @@ pub struct Ranking {
     /// Those that work, best first.
     pub ranked: Vec<Ranked>,
     /// Those that looked promising and do not.
-    pub refused: Vec<(Way, Refusal)>,
+    pub refused: Vec<(FoldAssignment, Refusal)>,
 }
 
 /// Vertices are moved by at most this share of the chain's length.
@@ -116,7 +116,7 @@ pub fn rank(points: &[DVec2], whole: &[bool], min_panel_mm: f64) -> Ranking {
 ///
 /// # Errors
 /// [`Refusal`].
-pub(super) fn judge(points: &[DVec2], way: &Way, min_panel_mm: f64) -> Result<Ranked, Refusal> {
+pub(super) fn judge(points: &[DVec2], way: &FoldAssignment, min_panel_mm: f64) -> Result<Ranked, Refusal> {
     moving(measured(points, way, min_panel_mm)?)
 }
 
@@ -147,7 +147,7 @@ pub(super) fn best(
 }
 
 /// Closes one way, and measures what needs no motion.
-fn measured(points: &[DVec2], way: &Way, min_panel_mm: f64) -> Result<Ranked, Refusal> {
+fn measured(points: &[DVec2], way: &FoldAssignment, min_panel_mm: f64) -> Result<Ranked, Refusal> {
     if way.segments().len() + 1 != points.len() {
         return Err(Refusal::Count);
     }

@@ -8,7 +8,7 @@
 //! panel up, and every upper part is tried with every lower part. Only the ways with the least
 //! price so far are kept; a branch also ends where its folds alone cost more.
 
-use super::way::{Segment, Way};
+use super::assignment::{FoldAssignment, Segment};
 use super::weights::WEIGHTS;
 use glam::DVec2;
 use std::collections::BTreeSet;
@@ -28,7 +28,7 @@ pub(super) struct Limits<'a> {
 }
 
 /// The most promising ways, in the order of their letters.
-pub(super) fn promising(points: &[DVec2], limits: Limits<'_>) -> Vec<Way> {
+pub(super) fn promising(points: &[DVec2], limits: Limits<'_>) -> Vec<FoldAssignment> {
     let lengths: Vec<f64> = points.windows(2).map(|w| w[0].distance(w[1])).collect();
     let total_mm = lengths.iter().sum();
     let mut search = Search { points, lengths, total_mm, limits, kept: BTreeSet::new() };
@@ -38,7 +38,7 @@ pub(super) fn promising(points: &[DVec2], limits: Limits<'_>) -> Vec<Way> {
             search.creased_at(creased);
         }
     }
-    let mut ways: Vec<Way> = search.kept.into_iter().map(|kept| kept.way).collect();
+    let mut ways: Vec<FoldAssignment> = search.kept.into_iter().map(|kept| kept.way).collect();
     ways.sort();
     ways
 }
@@ -47,7 +47,7 @@ pub(super) fn promising(points: &[DVec2], limits: Limits<'_>) -> Vec<Way> {
 #[derive(Debug, Clone, PartialEq)]
 struct Kept {
     price: f64,
-    way: Way,
+    way: FoldAssignment,
 }
 
 impl Eq for Kept {}
@@ -88,7 +88,7 @@ impl Search<'_> {
     }
 
     fn keep(&mut self, segments: Vec<Segment>, moved_mm: f64, is_creased: bool) {
-        let Ok(way) = Way::new(segments) else { return };
+        let Ok(way) = FoldAssignment::new(segments) else { return };
         let price = self.price(&way, moved_mm, is_creased);
         self.kept.insert(Kept { price, way });
         if self.kept.len() > KEPT {
@@ -97,7 +97,7 @@ impl Search<'_> {
     }
 
     /// The part of the score that needs no closing, and a guess of the movement.
-    fn price(&self, way: &Way, moved_mm: f64, is_creased: bool) -> f64 {
+    fn price(&self, way: &FoldAssignment, moved_mm: f64, is_creased: bool) -> f64 {
         let turn = |(i, s): (usize, &Segment)| {
             let step = self.points[i + 1] - self.points[i];
             let alpha = libm::atan2(-step.y, step.x);

@@ -1,6 +1,6 @@
 //! What the user drew, checked.
 
-use super::way::Way;
+use super::assignment::FoldAssignment;
 use crate::component::{ChainId, PanelKind};
 use glam::DVec2;
 
@@ -90,7 +90,7 @@ pub enum SketchError {
     },
     /// As many ways to fold as profiles.
     #[error("it has {found} ways to fold for {profiles} profiles; give one for all, or one for each")]
-    WayCount {
+    AssignmentCount {
         /// Ways.
         found: usize,
         /// Profiles.
@@ -133,7 +133,7 @@ pub struct Sketch {
     name: String,
     top: Vec<DVec2>,
     profiles: Vec<Vec<DVec2>>,
-    ways: Vec<Option<Way>>,
+    assignments: Vec<Option<FoldAssignment>>,
     attachment: Option<Attachment>,
 }
 
@@ -152,23 +152,23 @@ impl Sketch {
         for (k, profile) in profiles.iter().enumerate() {
             check_profile(k + 1, profile, &profiles[0])?;
         }
-        let ways = vec![None; profiles.len()];
-        Ok(Self { name, top, profiles, ways, attachment: None })
+        let assignments = vec![None; profiles.len()];
+        Ok(Self { name, top, profiles, assignments, attachment: None })
     }
 
     /// The same with chosen ways to fold: one for all profiles, or one for each.
     ///
     /// # Errors
-    /// [`SketchError::WayCount`].
-    pub fn with_ways(self, ways: Vec<Way>) -> Result<Self, SketchError> {
-        let (found, profiles) = (ways.len(), self.profiles.len());
-        let ways = match ways.as_slice() {
+    /// [`SketchError::AssignmentCount`].
+    pub fn with_assignments(self, assignments: Vec<FoldAssignment>) -> Result<Self, SketchError> {
+        let (found, profiles) = (assignments.len(), self.profiles.len());
+        let assignments = match assignments.as_slice() {
             [] => vec![None; profiles],
             [one] => vec![Some(one.clone()); profiles],
-            _ if found == profiles => ways.into_iter().map(Some).collect(),
-            _ => return Err(SketchError::WayCount { found, profiles }),
+            _ if found == profiles => assignments.into_iter().map(Some).collect(),
+            _ => return Err(SketchError::AssignmentCount { found, profiles }),
         };
-        Ok(Self { ways, ..self })
+        Ok(Self { assignments, ..self })
     }
 
     /// The same, glued to another component.
@@ -208,8 +208,8 @@ impl Sketch {
     }
 
     /// The way to fold that was chosen for each profile.
-    pub fn ways(&self) -> &[Option<Way>] {
-        &self.ways
+    pub fn assignments(&self) -> &[Option<FoldAssignment>] {
+        &self.assignments
     }
 
     /// What it is glued to.

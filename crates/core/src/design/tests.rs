@@ -64,12 +64,12 @@ fn a_zigzag_of_four_vertices_has_these_ways() {
     let zigzag = [(0.0, 30.0), (10.0, 20.0), (0.0, 10.0), (10.0, 0.0)];
     let list = points(&zigzag);
     let limits = search::Limits { whole: &[false; 3], min_panel_mm: MIN_MM };
-    let found: Vec<String> = search::promising(&list, limits).iter().map(Way::to_string).collect();
+    let found: Vec<String> = search::promising(&list, limits).iter().map(FoldAssignment::to_string).collect();
     let mut expected = ["^ud", "u^d", "ud^", "uud", "uvd"];
-    expected.sort_by_key(|way| way.parse::<Way>().unwrap());
+    expected.sort_by_key(|way| way.parse::<FoldAssignment>().unwrap());
     assert_eq!(found, expected);
     for way in ["^ud", "ud^", "uvd"] {
-        let way: Way = way.parse().unwrap();
+        let way: FoldAssignment = way.parse().unwrap();
         assert_eq!(way.folds(), 3, "{way}");
         let closed = closing::close(&list, &way, 0.0).unwrap();
         let short = closed.profile.lengths().fold(f64::INFINITY, f64::min);
@@ -95,11 +95,11 @@ fn a_bellows_folds_at_every_bend() {
 #[test]
 fn an_hourglass_rises_before_it_folds_at_its_waist() {
     let waist = points(&[(0.0, 40.0), (-10.0, 20.0), (0.0, 0.0)]);
-    let way: Way = "ud".parse().unwrap();
+    let way: FoldAssignment = "ud".parse().unwrap();
     let found = judge(&waist, &way, MIN_MM).unwrap();
     let rise_mm = 2.0 * 500f64.sqrt() - 40.0;
     assert!((found.score.rise_mm - rise_mm).abs() < 1e-9, "{}", found.score.rise_mm);
-    let sketch = regular(4, 40.0, vec![waist.clone()]).unwrap().with_ways(vec![way.clone()]).unwrap();
+    let sketch = regular(4, 40.0, vec![waist.clone()]).unwrap().with_assignments(vec![way.clone()]).unwrap();
     let made = design(&[sketch], MIN_MM, &Silent).unwrap();
     assert!(made.warnings.iter().any(|w| w.code() == "rises_first" && w.to_string().contains("4.7 mm")));
     let component = &made.model.parts()[0].component;
@@ -117,7 +117,7 @@ fn an_hourglass_rises_before_it_folds_at_its_waist() {
     // A straight wall beside it holds the top.
     let wall = points(&[(0.0, 40.0), (0.0, 0.0)]);
     let ways = vec![way, "^".parse().unwrap()];
-    let mixed = regular(4, 40.0, vec![waist, wall]).unwrap().with_ways(ways).unwrap();
+    let mixed = regular(4, 40.0, vec![waist, wall]).unwrap().with_assignments(ways).unwrap();
     let refused = design(&[mixed], MIN_MM, &Silent).unwrap_err();
     assert!(matches!(refused, DesignError::Refused { refusal: Refusal::Held, .. }), "{refused}");
 }
@@ -218,7 +218,7 @@ proptest! {
     fn the_search_misses_no_way(points in profiles(6)) {
         let found = ways(&rank(&points, &vec![false; points.len() - 1], MIN_MM).ranked);
         let length: f64 = points.windows(2).map(|w| w[0].distance(w[1])).sum();
-        for way in words(points.len() - 1).iter().filter_map(|word| word.parse::<Way>().ok()) {
+        for way in words(points.len() - 1).iter().filter_map(|word| word.parse::<FoldAssignment>().ok()) {
             let Ok(judged) = judge(&points, &way, MIN_MM) else { continue };
             // Ways that move vertices far are left out at once.
             let short = judged.profile.lengths().fold(f64::INFINITY, f64::min);

@@ -1,6 +1,6 @@
 //! What the maker of a drawn model should know.
 
-use super::Way;
+use super::FoldAssignment;
 use crate::codes;
 use crate::remedy::Remedy;
 use std::fmt;
@@ -15,7 +15,7 @@ pub enum DesignWarning {
         /// The profile, from 1.
         profile: usize,
         /// The way in which it folds.
-        way: Way,
+        way: FoldAssignment,
         /// How far at most.
         by_mm: f64,
     },

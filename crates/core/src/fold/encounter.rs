@@ -1,6 +1,6 @@
 //! Where two components are deepest in each other, and when: what a warning says and a picture shows.
 
-use super::check::Clash;
+use super::clashes::Clash;
 use super::contact::{Sheet, gap};
 use super::overlap::Overlap;
 use super::plan::FoldPlan;

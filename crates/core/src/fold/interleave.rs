@@ -6,7 +6,7 @@
 //! it the cheapest path is found exactly (Dijkstra 1959). What does not help is not taken, so that a
 //! plan only gets better; bumps are looked at one after another, the deepest first.
 
-use super::check::{Checker, Clash, LEAST_GAIN_MM};
+use super::clashes::{Clash, ClashFinder, LEAST_GAIN_MM};
 use super::order::replay;
 use super::step::{FLAT, Level, Move};
 use crate::model::PartId;
@@ -34,7 +34,7 @@ const RUB_PRICE: f64 = 0.1;
 
 /// Makes moves of a tree better where they bump by more than the paper's thickness.
 pub(super) fn interleaved(
-    checker: &mut Checker<'_>,
+    finder: &mut ClashFinder<'_>,
     mut moves: Vec<Move>,
     parts: usize,
     thickness_mm: f64,
@@ -42,17 +42,17 @@ pub(super) fn interleaved(
 ) -> Result<Vec<Move>, Cancelled> {
     let mut looked_at = BTreeSet::new();
     while looked_at.len() < MOST_BUMPS {
-        let clashes = replay(checker, &moves, parts);
+        let clashes = replay(finder, &moves, parts);
         let Some(worst) = worst_bump(&clashes, thickness_mm, &looked_at) else { break };
         looked_at.insert(worst.parts);
-        let involved = checker.involved(&worst);
+        let involved = finder.involved(&worst);
         for (most, levels) in LATTICES {
             let turns = &involved[..involved.len().min(most)];
             let Some(lattice) = Lattice::new(&moves, turns, levels, parts) else { continue };
-            let Some(path) = lattice.cheapest(checker, thickness_mm, progress)? else { continue };
-            let left = replay(checker, &path, parts);
+            let Some(path) = lattice.cheapest(finder, thickness_mm, progress)? else { continue };
+            let left = replay(finder, &path, parts);
             let gain_mm =
-                harm_mm(&replay(checker, &moves, parts), thickness_mm) - harm_mm(&left, thickness_mm);
+                harm_mm(&replay(finder, &moves, parts), thickness_mm) - harm_mm(&left, thickness_mm);
             let more = path.len().saturating_sub(moves.len());
             let is_free = left.iter().all(|clash| clash.depth_mm <= thickness_mm);
             let price_mm = if is_free { 0.0 } else { GAIN_FOR_STEP_MM * more as f64 };
@@ -134,11 +134,11 @@ impl Lattice {
     /// many sweeps.
     fn cheapest(
         &self,
-        checker: &mut Checker<'_>,
+        finder: &mut ClashFinder<'_>,
         thickness_mm: f64,
         progress: &dyn Progress,
     ) -> Result<Option<Vec<Move>>, Cancelled> {
-        let most_sweeps = checker.sweeps() + MOST_SWEEPS;
+        let most_sweeps = finder.sweeps() + MOST_SWEEPS;
         let start = Place { done: 0, levels: Default::default(), last: self.turns.len() };
         let mut best: Vec<Option<(Cost, Option<usize>)>> = vec![None; self.place_count()];
         let mut settled = vec![false; best.len()];
@@ -155,10 +155,10 @@ impl Lattice {
             }
             progress.check()?;
             for (next, step) in self.next(&place) {
-                if checker.sweeps() > most_sweeps {
+                if finder.sweeps() > most_sweeps {
                     return Ok(None);
                 }
-                let clashes = checker.all_clashes(step, &self.levels(&place));
+                let clashes = finder.all_clashes(step, &self.levels(&place));
                 let harm_mm: f64 = clashes.iter().map(|clash| price_mm(clash, thickness_mm)).sum();
                 let is_new = next.last != place.last || next.last == self.turns.len();
                 let reached: Cost = (cost.0 + (harm_mm * 1e6).round() as u64, cost.1 + u32::from(is_new));

@@ -1,12 +1,12 @@
 //! Folding: how components move between unfolded and flat, whether they clash, and in which order they fold.
 
+mod cache;
 mod chain;
-mod check;
+mod clashes;
 pub mod contact;
 mod encounter;
 mod ground;
 mod interleave;
-mod memory;
 mod moment;
 mod motion;
 mod order;
@@ -22,10 +22,10 @@ mod track;
 mod warning;
 mod way;
 
+pub use cache::SweepCache;
 pub use chain::{ChainMotion, Course, Shares};
-pub use check::Clash;
+pub use clashes::Clash;
 pub use encounter::Encounter;
-pub use memory::SweepMemory;
 pub use moment::Moment;
 pub use motion::{ComponentMotion, ComponentPose};
 pub use overlap::Overlap;

@@ -1,7 +1,7 @@
 //! The order in which components fold, one at a time: outer ones first where that works, else any
 //! order in which nothing bumps into anything, found by a search that turns back at dead ends.
 
-use super::check::{Checker, Clash, LEAST_GAIN_MM};
+use super::clashes::{Clash, ClashFinder, LEAST_GAIN_MM};
 use super::pose::{ModelMotion, ancestors, root_of};
 use super::step::{FLAT, Level, Move};
 use crate::model::{Model, PartId};
@@ -24,11 +24,11 @@ pub(super) fn outermost_first(model: &Model, parts: &mut [PartId]) {
 }
 
 /// All clashes of moves, one after another, in a model of `parts` parts.
-pub(super) fn replay(checker: &mut Checker<'_>, moves: &[Move], parts: usize) -> Vec<Clash> {
+pub(super) fn replay(finder: &mut ClashFinder<'_>, moves: &[Move], parts: usize) -> Vec<Clash> {
     let mut levels = vec![0; parts];
     let mut clashes = Vec::new();
     for step in moves {
-        clashes.extend_from_slice(&checker.all_clashes(*step, &levels));
+        clashes.extend_from_slice(&finder.all_clashes(*step, &levels));
         levels[step.part.0] = step.to;
     }
     clashes
@@ -37,7 +37,7 @@ pub(super) fn replay(checker: &mut Checker<'_>, moves: &[Move], parts: usize) ->
 /// The search for an order of whole moves.
 pub(super) struct Search<'s, 'a> {
     motion: &'s ModelMotion<'a>,
-    checker: &'s mut Checker<'a>,
+    finder: &'s mut ClashFinder<'a>,
     progress: &'s dyn Progress,
     /// Panels that meet by less than this only rub, mm: the paper's thickness.
     thickness_mm: f64,
@@ -50,13 +50,13 @@ pub(super) struct Search<'s, 'a> {
 impl<'s, 'a> Search<'s, 'a> {
     pub(super) fn new(
         motion: &'s ModelMotion<'a>,
-        checker: &'s mut Checker<'a>,
+        finder: &'s mut ClashFinder<'a>,
         thickness_mm: f64,
         is_thorough: bool,
         progress: &'s dyn Progress,
     ) -> Self {
         let dead_ends = BTreeSet::new();
-        Self { motion, checker, progress, thickness_mm, is_thorough, dead_ends, most_sweeps: 0 }
+        Self { motion, finder, progress, thickness_mm, is_thorough, dead_ends, most_sweeps: 0 }
     }
 
     /// An order for the tree of a root.
@@ -70,7 +70,7 @@ impl<'s, 'a> Search<'s, 'a> {
         }
         // A chair: in the order of least harm, step by step, four pairs bumped by 3 to 4 mm; there is one in
         // which two rub by 0.22 mm.
-        if self.checker.allowed_mm() < self.thickness_mm
+        if self.finder.allowed_mm() < self.thickness_mm
             && let Some(order) = self.without_clashes(&parts, self.thickness_mm)?
         {
             return if self.is_thorough { self.improved(order) } else { Ok(order) };
@@ -99,7 +99,7 @@ impl<'s, 'a> Search<'s, 'a> {
     fn affordable_sweeps(&self, parts: &[PartId]) -> usize {
         let (each, least) =
             if self.is_thorough { (THOROUGH_FOR_EACH, THOROUGH) } else { (SWEEPS_FOR_EACH, 0) };
-        self.checker.sweeps() + least.max(each * parts.len())
+        self.finder.sweeps() + least.max(each * parts.len())
     }
 
     /// An order that does little harm where all do some.
@@ -112,7 +112,7 @@ impl<'s, 'a> Search<'s, 'a> {
 
     fn replay(&mut self, order: &[PartId]) -> Vec<Clash> {
         let moves: Vec<Move> = order.iter().map(|&part| Move::whole(part)).collect();
-        replay(self.checker, &moves, self.motion.model().parts().len())
+        replay(self.finder, &moves, self.motion.model().parts().len())
     }
 
     fn harm_mm(&mut self, order: &[PartId]) -> f64 {
@@ -121,14 +121,14 @@ impl<'s, 'a> Search<'s, 'a> {
 
     /// Moves single components of an order to other places while that does less harm.
     fn improved(&mut self, mut order: Vec<PartId>) -> Result<Vec<PartId>, Cancelled> {
-        let most_sweeps = self.checker.sweeps() + SWEEPS_FOR_EACH * order.len();
+        let most_sweeps = self.finder.sweeps() + SWEEPS_FOR_EACH * order.len();
         let mut harm_mm = self.harm_mm(&order);
         'better: loop {
             let movers: BTreeSet<PartId> = self.replay(&order).iter().map(|clash| clash.mover).collect();
             for mover in movers {
                 for place in 0..order.len() {
                     self.progress.check()?;
-                    if self.checker.sweeps() > most_sweeps {
+                    if self.finder.sweeps() > most_sweeps {
                         return Ok(order);
                     }
                     let mut other = order.clone();
@@ -147,7 +147,7 @@ impl<'s, 'a> Search<'s, 'a> {
 
     /// Answers, in parallel, what the order "as listed" asks, and accepts what no order avoids.
     fn look_ahead(&mut self, parts: &[PartId]) -> Result<(), Cancelled> {
-        let (checker, progress) = (&*self.checker, self.progress);
+        let (finder, progress) = (&*self.finder, self.progress);
         let count = self.motion.model().parts().len();
         let answers: Vec<_> = (0..parts.len())
             .into_par_iter()
@@ -155,15 +155,15 @@ impl<'s, 'a> Search<'s, 'a> {
                 progress.check()?;
                 let mut levels = vec![0; count];
                 parts[..k].iter().for_each(|p| levels[p.0] = FLAT);
-                Ok(checker.answers(parts[k], &levels))
+                Ok(finder.answers(parts[k], &levels))
             })
             .collect::<Result<_, Cancelled>>()?;
-        answers.into_iter().for_each(|a| self.checker.learn(a));
+        answers.into_iter().for_each(|a| self.finder.learn(a));
         let mut levels = vec![0; count];
         for &part in parts {
-            for clash in self.checker.all_clashes(Move::whole(part), &levels).iter() {
+            for clash in self.finder.all_clashes(Move::whole(part), &levels).iter() {
                 progress.check()?;
-                self.checker.accept_if_unavoidable(clash, &levels);
+                self.finder.accept_if_unavoidable(clash, &levels);
             }
             levels[part.0] = FLAT;
         }
@@ -185,11 +185,11 @@ impl<'s, 'a> Search<'s, 'a> {
             return Ok(false);
         }
         for &part in parts {
-            if levels[part.0] == FLAT || self.checker.sweeps() > self.most_sweeps {
+            if levels[part.0] == FLAT || self.finder.sweeps() > self.most_sweeps {
                 continue;
             }
             self.progress.check()?;
-            let clashes = self.checker.clashes(Move::whole(part), levels);
+            let clashes = self.finder.clashes(Move::whole(part), levels);
             if clashes.iter().any(|clash| clash.depth_mm > allowed_mm) {
                 continue;
             }
@@ -211,7 +211,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let mut order = Vec::new();
         let most_sweeps = self.affordable_sweeps(parts);
         while order.len() < parts.len() {
-            if self.checker.sweeps() > most_sweeps {
+            if self.finder.sweeps() > most_sweeps {
                 order.extend(parts.iter().filter(|p| levels[p.0] == 0));
                 break;
             }
@@ -219,7 +219,7 @@ impl<'s, 'a> Search<'s, 'a> {
             for &part in parts.iter().filter(|p| levels[p.0] == 0) {
                 self.progress.check()?;
                 let harm: f64 =
-                    self.checker.clashes(Move::whole(part), &levels).iter().map(|c| c.depth_mm).sum();
+                    self.finder.clashes(Move::whole(part), &levels).iter().map(|c| c.depth_mm).sum();
                 if best.is_none_or(|b| harm < b.0) {
                     best = Some((harm, part));
                 }
@@ -237,7 +237,7 @@ impl<'s, 'a> Search<'s, 'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::memory::SweepMemory;
+    use super::super::cache::SweepCache;
     use super::super::sweep::Care;
     use super::*;
     use crate::geom::Plane;
@@ -300,20 +300,20 @@ mod tests {
             let model = towers(&mut rng);
             let motion = ModelMotion::new(&model);
             let alike = Alike::unknown(5);
-            let memory = SweepMemory::default();
-            let mut checker = Checker::new(&motion, Care::exact(0.25), &[], &alike, &memory);
+            let cache = SweepCache::default();
+            let mut finder = ClashFinder::new(&motion, Care::exact(0.25), &[], &alike, &cache);
             let worst_mm = |clashes: Vec<Clash>| clashes.iter().map(|c| c.depth_mm).fold(0.0, f64::max);
             let best_mm = orders(&[0, 1, 2, 3, 4].map(PartId))
                 .iter()
                 .map(|order| {
                     let moves: Vec<Move> = order.iter().map(|&part| Move::whole(part)).collect();
-                    worst_mm(replay(&mut checker, &moves, 5))
+                    worst_mm(replay(&mut finder, &moves, 5))
                 })
                 .fold(f64::INFINITY, f64::min);
             let order =
-                Search::new(&motion, &mut checker, THICKNESS_MM, true, &Silent).tree(PartId(0)).unwrap();
+                Search::new(&motion, &mut finder, THICKNESS_MM, true, &Silent).tree(PartId(0)).unwrap();
             let moves: Vec<Move> = order.iter().map(|&part| Move::whole(part)).collect();
-            let found_mm = worst_mm(replay(&mut checker, &moves, 5));
+            let found_mm = worst_mm(replay(&mut finder, &moves, 5));
             assert!(best_mm > THICKNESS_MM || found_mm <= THICKNESS_MM, "{best_mm} {found_mm}");
             rubbing += usize::from(best_mm > 0.0 && best_mm <= THICKNESS_MM);
         }

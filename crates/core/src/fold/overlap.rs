@@ -1,7 +1,7 @@
 //! Components that overlap before anything folds.
 
+use super::cache::{Key, SweepCache};
 use super::contact::{Sheet, gap};
-use super::memory::{Key, SweepMemory};
 use super::pose::{ModelMotion, ancestors, root_of};
 use super::way::{push_way, ways};
 use crate::component::Panel;
@@ -46,7 +46,7 @@ pub(super) fn overlaps(
     motion: &ModelMotion<'_>,
     tolerance_mm: f64,
     alike: &Alike,
-    memory: &SweepMemory,
+    cache: &SweepCache,
 ) -> Vec<Overlap> {
     let model = motion.model();
     let parts = model.parts();
@@ -69,7 +69,7 @@ pub(super) fn overlaps(
         let mut key = vec![tolerance_mm.to_bits(), alike.ids[a.0]];
         push_way(&mut key, &ways[a.0][b.0], &above[a.0], &alike.ids, &deployed);
         let key: Key = key.into_boxed_slice();
-        memory.overlaps().get_or(key, || depth_mm(p, q, tolerance_mm))
+        cache.overlaps().get_or(key, || depth_mm(p, q, tolerance_mm))
     };
     let depths: Vec<f64> = pairs.par_iter().map(depth_mm).collect();
     let found = pairs.into_iter().zip(depths).filter(|(_, depth_mm)| *depth_mm > tolerance_mm);

@@ -1,8 +1,8 @@
 //! How a model folds.
 
-use super::check::{Checker, Clash};
+use super::cache::SweepCache;
+use super::clashes::{Clash, ClashFinder};
 use super::interleave::interleaved;
-use super::memory::SweepMemory;
 use super::order::{Search, outermost_first, replay};
 use super::overlap::{Overlap, overlaps};
 use super::pose::{ModelMotion, root_of};
@@ -66,25 +66,25 @@ impl FoldPlan {
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
         let alike = Alike::unknown(motion.model().parts().len());
-        Self::with_memory(motion, thickness_mm, &alike, &SweepMemory::default(), progress)
+        Self::with_cache(motion, thickness_mm, &alike, &SweepCache::default(), progress)
     }
 
-    /// The same with a memory of what was found out about other models, and about twins.
+    /// The same with a cache of what was found out about other models, and about twins.
     ///
     /// # Errors
     /// [`Cancelled`] at the user's wish.
-    pub fn with_memory(
+    pub fn with_cache(
         motion: &ModelMotion<'_>,
         thickness_mm: f64,
         alike: &Alike,
-        memory: &SweepMemory,
+        cache: &SweepCache,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        Self::searched(motion, thickness_mm, alike, memory, progress, Effort::Whole)
+        Self::searched(motion, thickness_mm, alike, cache, progress, Effort::Whole)
     }
 
     /// A plan for the comparison of many models: a good order, without steps of several components in turn, and without
-    /// stacks. Where the bumps that no order avoids are enough, no order is looked for. Memory as for [`FoldPlan::with_memory`].
+    /// stacks. Where the bumps that no order avoids are enough, no order is looked for. The cache as for [`FoldPlan::with_cache`].
     /// The panels of a clash may be those of its mirror image.
     ///
     /// # Errors
@@ -93,16 +93,16 @@ impl FoldPlan {
         motion: &ModelMotion<'_>,
         thickness_mm: f64,
         alike: &Alike,
-        memory: &SweepMemory,
+        cache: &SweepCache,
         (detection, is_enough): (Detection, &Enough<'_>),
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        Self::searched(motion, thickness_mm, alike, memory, progress, Effort::Order(detection, is_enough))
+        Self::searched(motion, thickness_mm, alike, cache, progress, Effort::Order(detection, is_enough))
     }
 
     /// A plan in which some components are unplugged, outer ones after those that carry them, fold
     /// beside the rest, and are plugged in again in the same order. None where something is in their
-    /// way out or back. Ids and memory as for [`FoldPlan::with_memory`].
+    /// way out or back. Ids and cache as for [`FoldPlan::with_cache`].
     ///
     /// # Errors
     /// [`Cancelled`] at the user's wish.
@@ -111,20 +111,20 @@ impl FoldPlan {
         parts: &[PartId],
         thickness_mm: f64,
         ids: &[u64],
-        memory: &SweepMemory,
+        cache: &SweepCache,
         progress: &dyn Progress,
     ) -> Result<Option<Self>, Cancelled> {
         let apart = motion.model().clone().taken_apart(parts);
         let beside = ModelMotion::new(&apart);
         let alike = Alike { ids: ids.to_vec(), twins: None };
-        let mut plan = Self::with_memory(&beside, thickness_mm, &alike, memory, progress)?;
+        let mut plan = Self::with_cache(&beside, thickness_mm, &alike, cache, progress)?;
         // What was pulled off is folded first.
         let group = |part: PartId| parts.iter().position(|&p| p == root_of(&apart, part));
         let rank = |part: PartId| group(part).map_or(0, |at| at as isize - parts.len() as isize);
         plan.steps.sort_by_key(|step| rank(step.part));
         plan.order.sort_by_key(|&part| rank(part));
         plan.pulls = pull::pulls(motion, parts, &plan.steps);
-        plan.overlaps = overlaps(motion, thickness_mm / 2.0, &alike, memory);
+        plan.overlaps = overlaps(motion, thickness_mm / 2.0, &alike, cache);
         let is_free = pull::are_free(motion, &plan.pulls, thickness_mm, &plan.overlaps);
         plan.stacks = stacks(motion, thickness_mm);
         Ok(is_free.then_some(plan))
@@ -134,11 +134,11 @@ impl FoldPlan {
         motion: &ModelMotion<'_>,
         thickness_mm: f64,
         alike: &Alike,
-        memory: &SweepMemory,
+        cache: &SweepCache,
         progress: &dyn Progress,
         effort: Effort<'_>,
     ) -> Result<Self, Cancelled> {
-        let overlaps = overlaps(motion, thickness_mm / 2.0, alike, memory);
+        let overlaps = overlaps(motion, thickness_mm / 2.0, alike, cache);
         let is_whole = matches!(effort, Effort::Whole);
         let is_enough = |bumps: &[Bump]| matches!(effort, Effort::Order(_, is_enough) if is_enough(bumps));
         if is_enough(&bumps(&[], &overlaps, thickness_mm)) {
@@ -149,13 +149,13 @@ impl FoldPlan {
             Effort::Order(Detection::Discrete, _) => Care::rough(thickness_mm),
             Effort::Order(Detection::Continuous, _) | Effort::Whole => Care::exact(thickness_mm),
         };
-        let mut checker = Checker::new(motion, care, &overlaps, alike, memory);
+        let mut finder = ClashFinder::new(motion, care, &overlaps, alike, cache);
         let mut moves = Vec::new();
         for root in motion.model().ids().filter(|&p| root_of(motion.model(), p) == p) {
-            let order = Search::new(motion, &mut checker, thickness_mm, is_whole, progress).tree(root)?;
+            let order = Search::new(motion, &mut finder, thickness_mm, is_whole, progress).tree(root)?;
             let mut tree: Vec<Move> = order.into_iter().map(Move::whole).collect();
             if is_whole {
-                tree = interleaved(&mut checker, tree, parts, thickness_mm, progress)?;
+                tree = interleaved(&mut finder, tree, parts, thickness_mm, progress)?;
             }
             moves.extend(tree);
         }
@@ -163,13 +163,13 @@ impl FoldPlan {
         let alone;
         if is_whole && alike.twins.is_some() {
             alone = Alike { twins: None, ..alike.clone() };
-            checker = Checker::new(motion, care, &overlaps, &alone, memory);
+            finder = ClashFinder::new(motion, care, &overlaps, &alone, cache);
         }
         let own: Vec<Option<Clash>> =
-            (0..parts).into_par_iter().map(|p| checker.own_clash(PartId(p))).collect();
+            (0..parts).into_par_iter().map(|p| finder.own_clash(PartId(p))).collect();
         progress.check()?;
         let mut clashes: Vec<Clash> = own.into_iter().flatten().collect();
-        clashes.extend(replay(&mut checker, &moves, parts));
+        clashes.extend(replay(&mut finder, &moves, parts));
         let steps: Vec<Step> = moves.iter().map(Move::step).collect();
         let order = steps.iter().filter(|step| step.ends_flat()).map(|step| step.part).collect();
         let stacks = if is_whole { stacks(motion, thickness_mm) } else { Vec::new() };

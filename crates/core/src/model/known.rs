@@ -3,8 +3,8 @@
 use super::candidate::{Builder, Candidate, Search};
 use super::link::Link;
 use super::{ModelError, Part, PartId, Symmetry};
+use crate::cache::LruCache;
 use crate::geom::{Hull, Mirror};
-use crate::memory::Memory;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -49,13 +49,13 @@ impl Wish {
 /// Candidates that were made before.
 #[derive(Debug)]
 pub struct Known {
-    made: Memory<Wish, Arc<Vec<Candidate>>>,
+    made: LruCache<Wish, Arc<Vec<Candidate>>>,
     next_id: AtomicU64,
 }
 
 impl Default for Known {
     fn default() -> Self {
-        Self { made: Memory::new(MOST), next_id: AtomicU64::new(0) }
+        Self { made: LruCache::new(MOST), next_id: AtomicU64::new(0) }
     }
 }
 

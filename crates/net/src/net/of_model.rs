@@ -6,9 +6,9 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use tatamu_core::cache::LruCache;
 use tatamu_core::component::{PanelId, PanelSet};
 use tatamu_core::geom::polygon;
-use tatamu_core::memory::Memory;
 use tatamu_core::model::{Model, PartId};
 use tatamu_core::progress::{Cancelled, Progress};
 
@@ -29,7 +29,7 @@ const MOST_KNOWN: usize = 200;
 /// Nets that were made before, so that a change to one component leaves those of others as they
 /// are.
 #[derive(Debug)]
-pub struct KnownNets(Memory<Wish, Vec<Arc<BlankNet>>>);
+pub struct KnownNets(LruCache<Wish, Vec<Arc<BlankNet>>>);
 
 /// Everything that a net depends on.
 #[derive(Debug, PartialEq)]
@@ -43,7 +43,7 @@ struct Wish {
 
 impl Default for KnownNets {
     fn default() -> Self {
-        Self(Memory::new(MOST_KNOWN))
+        Self(LruCache::new(MOST_KNOWN))
     }
 }
 

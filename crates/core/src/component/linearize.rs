@@ -1,4 +1,4 @@
-//! One step of the fit: the quadratic programme around the present solid.
+//! One step of the fit: the measures, linearized about the present solid, as a quadratic programme.
 
 use super::angles::{MAX_SLOPE_RAD, MAX_TURN_RAD, MIN_BEND_RAD, MIN_TURN_RAD};
 use super::distance::{Feature, Position};
@@ -29,7 +29,7 @@ const SPREAD: f64 = 0.6;
 const LONGEST: f64 = 3.0;
 
 /// A programme about to be filled, with the variables beside the solid's parameters.
-struct Model<'a> {
+struct Linearization<'a> {
     task: &'a Task<'a>,
     at: &'a Fitted,
     freedom: Freedom,
@@ -46,12 +46,12 @@ struct Model<'a> {
 }
 
 impl Task<'_> {
-    /// The best solid near the present one, by the linear model.
+    /// The best solid near the present one, by the linear linearized.
     pub(super) fn step(&self, at: &Fitted, step_mm: f64) -> Option<Solid> {
         let freedom = Freedom::of(&at.shape.solid, self.radius_mm, self.target.symmetry);
         let count = freedom.count();
         let beyond = count + 2 + self.target.joints.len();
-        let mut model = Model {
+        let mut linearized = Linearization {
             task: self,
             at,
             freedom,
@@ -61,25 +61,25 @@ impl Task<'_> {
             first_miss: count + 2,
             beyond,
         };
-        model.prices(step_mm);
-        model.error_rows(step_mm);
+        linearized.prices(step_mm);
+        linearized.error_rows(step_mm);
         if self.aim.has_volume() {
-            model.likeness(step_mm);
+            linearized.likeness(step_mm);
         }
-        model.size_rows(step_mm);
-        model.order_rows();
-        model.border_rows();
+        linearized.size_rows(step_mm);
+        linearized.order_rows();
+        linearized.border_rows();
         for (k, joint) in self.target.joints.iter().enumerate() {
-            let shape = (&at.shape, &model.freedom);
+            let shape = (&at.shape, &linearized.freedom);
             let near_mm = NEAR_JOINT * self.radius_mm;
-            seated::rows(shape, (&self.target, joint), near_mm, count + 2 + k, &mut model.programme);
+            seated::rows(shape, (&self.target, joint), near_mm, count + 2 + k, &mut linearized.programme);
         }
-        let change = model.programme.solve()?;
-        Some(model.freedom.apply(&at.shape.solid, &change[..count]))
+        let change = linearized.programme.solve()?;
+        Some(linearized.freedom.apply(&at.shape.solid, &change[..count]))
     }
 }
 
-impl Model<'_> {
+impl Linearization<'_> {
     fn shape(&self) -> &SolidShape {
         &self.at.shape
     }
@@ -116,7 +116,7 @@ impl Model<'_> {
         let count = (at.own.len() + at.hulls.len()) as f64;
         let weight = task.aim.mean / (count * task.mean_scale_mm());
         for (corner, position) in at.shape.corners.iter().zip(&at.own) {
-            if position.depth_mm > lowest {
+            if position.signed_mm > lowest {
                 let (distance, direction) =
                     self.distance(position, corner.point, |face| task.hull.normal(face));
                 let terms = self.freedom.corner(&at.shape, corner, direction);
@@ -124,7 +124,7 @@ impl Model<'_> {
             }
         }
         for (&corner, position) in corners.iter().zip(&at.hulls) {
-            if position.depth_mm > lowest {
+            if position.signed_mm > lowest {
                 let (distance, direction) =
                     self.distance(position, corner, |face| at.shape.polytope.normal(face));
                 let mut terms = self.reach(position, corner, direction);
@@ -183,7 +183,7 @@ impl Model<'_> {
             Some((nearest, _)) if nearest.distance(point) > 1e-6 * self.task.radius_mm => {
                 (nearest.distance(point), (point - nearest).normalize())
             }
-            _ => (position.depth_mm, normal(position.face)),
+            _ => (position.signed_mm, normal(position.face)),
         }
     }
 

@@ -33,8 +33,8 @@ pub(super) type Key = Box<[u64]>;
 /// it has no part in.
 ///
 /// # Guarantees
-/// A plan is the same with any memory; only the time that it takes differs.
-pub struct SweepMemory {
+/// A plan is the same with any cache; only the time that it takes differs.
+pub struct SweepCache {
     /// By the component and the number of spans.
     tables: Store<(u64, usize), Arc<Table>>,
     own: Store<[u64; 2], Answer>,
@@ -42,7 +42,7 @@ pub struct SweepMemory {
     overlaps: Store<Key, f64>,
 }
 
-impl Default for SweepMemory {
+impl Default for SweepCache {
     fn default() -> Self {
         Self {
             tables: Store::new(TABLES),
@@ -53,7 +53,7 @@ impl Default for SweepMemory {
     }
 }
 
-impl SweepMemory {
+impl SweepCache {
     /// How many answers are kept.
     pub fn len(&self) -> usize {
         self.answers.len()
@@ -81,9 +81,9 @@ impl SweepMemory {
     }
 }
 
-impl fmt::Debug for SweepMemory {
+impl fmt::Debug for SweepCache {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.debug_struct("SweepMemory").field("answers", &self.len()).finish_non_exhaustive()
+        f.debug_struct("SweepCache").field("answers", &self.len()).finish_non_exhaustive()
     }
 }
 

@@ -1,4 +1,4 @@
-//! Ways to fold a profile: what each of its segments does.
+//! Fold assignments of a profile: what each of its segments does. Users read "ways to fold".
 
 use std::fmt;
 use std::str::FromStr;
@@ -42,9 +42,9 @@ impl Segment {
 /// # Guarantees
 /// The first segment begins facing up and the last one ends facing down; at most one is creased.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Way(Vec<Segment>);
+pub struct FoldAssignment(Vec<Segment>);
 
-impl Way {
+impl FoldAssignment {
     /// Takes what the segments do.
     ///
     /// # Errors
@@ -90,14 +90,14 @@ impl Way {
     }
 }
 
-impl fmt::Display for Way {
+impl fmt::Display for FoldAssignment {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let letter = |s: &Segment| Segment::LETTERS.iter().find(|(of, _)| of == s).map_or('?', |l| l.1);
         f.write_str(&self.0.iter().map(letter).collect::<String>())
     }
 }
 
-impl FromStr for Way {
+impl FromStr for FoldAssignment {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -118,12 +118,12 @@ mod tests {
     #[test]
     fn ways_are_written_as_they_are_read() {
         for text in ["ud", "^", "u^d", "uvd", "udud"] {
-            assert_eq!(text.parse::<Way>().unwrap().to_string(), text);
+            assert_eq!(text.parse::<FoldAssignment>().unwrap().to_string(), text);
         }
-        assert_eq!("uvd".parse::<Way>().unwrap().faces_up(), [true, false, true, false]);
-        assert_eq!("uvd".parse::<Way>().unwrap().folds(), 3);
+        assert_eq!("uvd".parse::<FoldAssignment>().unwrap().faces_up(), [true, false, true, false]);
+        assert_eq!("uvd".parse::<FoldAssignment>().unwrap().folds(), 3);
         for wrong in ["", "du", "uu", "u", "v", "u^v^d", "uxd"] {
-            assert!(wrong.parse::<Way>().is_err(), "{wrong}");
+            assert!(wrong.parse::<FoldAssignment>().is_err(), "{wrong}");
         }
     }
 }

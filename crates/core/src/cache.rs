@@ -5,14 +5,14 @@ use std::fmt;
 use std::sync::{Mutex, PoisonError};
 
 /// The last results of a stage. A result is found again only by an input that is equal in every
-/// number, so that a run with a memory gives the same bytes as one without.
-pub struct Memory<K, V> {
+/// number, so that a run with a cache gives the same bytes as one without.
+pub struct LruCache<K, V> {
     most: usize,
     /// The one that was asked for last is the first.
     kept: Mutex<VecDeque<(K, V)>>,
 }
 
-impl<K: PartialEq, V: Clone> Memory<K, V> {
+impl<K: PartialEq, V: Clone> LruCache<K, V> {
     /// Keeps at most `most` results, and drops the one that was used least recently (LRU).
     pub fn new(most: usize) -> Self {
         Self { most, kept: Mutex::default() }
@@ -50,9 +50,9 @@ impl<K: PartialEq, V: Clone> Memory<K, V> {
     }
 }
 
-impl<K, V> fmt::Debug for Memory<K, V> {
+impl<K, V> fmt::Debug for LruCache<K, V> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.debug_struct("Memory").field("most", &self.most).finish_non_exhaustive()
+        f.debug_struct("LruCache").field("most", &self.most).finish_non_exhaustive()
     }
 }
 
@@ -62,20 +62,20 @@ mod tests {
 
     #[test]
     fn the_last_few_are_kept_and_errors_are_not() {
-        let memory = Memory::new(2);
+        let cache = LruCache::new(2);
         let mut made = Vec::new();
         for key in [1, 2, 1, 3, 1, 2] {
-            let value = memory.get_or(key, || {
+            let value = cache.get_or(key, || {
                 made.push(key);
                 Ok::<_, ()>(10 * key)
             });
             assert_eq!(value, Ok(10 * key));
         }
         assert_eq!(made, [1, 2, 3, 2]);
-        assert_eq!(memory.get_or(7, || Err("no")), Err("no"));
-        assert_eq!(memory.get(&7), None);
-        memory.keep(7, 71);
-        memory.keep(7, 72);
-        assert_eq!(memory.get(&7), Some(72), "the last one counts");
+        assert_eq!(cache.get_or(7, || Err("no")), Err("no"));
+        assert_eq!(cache.get(&7), None);
+        cache.keep(7, 71);
+        cache.keep(7, 72);
+        assert_eq!(cache.get(&7), Some(72), "the last one counts");
     }
 }

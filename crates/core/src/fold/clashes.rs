@@ -3,8 +3,8 @@
 //! Whether two components meet depends on the states of those between them and the one that moves,
 //! not on the rest. Answers are kept by these states, so that a search asks for each only once.
 
+use super::cache::{Answer, Key, Meeting, SweepCache};
 use super::contact::Sheet;
-use super::memory::{Answer, Key, Meeting, SweepMemory};
 use super::overlap::Overlap;
 use super::pose::{ModelMotion, ancestors, root_of};
 use super::step::{FLAT, Level, Levels, Move, share};
@@ -68,12 +68,12 @@ pub(super) const LEAST_GAIN_MM: f64 = 0.01;
 /// Depths are rounded to this, so that a slightly rotated model gets the same.
 const DEPTH_GRID_MM: f64 = 1e-6;
 
-/// Answers with a memory.
+/// Answers with a cache.
 #[derive(Debug)]
-pub(super) struct Checker<'a> {
+pub(super) struct ClashFinder<'a> {
     motion: &'a ModelMotion<'a>,
     alike: &'a Alike,
-    memory: &'a SweepMemory,
+    cache: &'a SweepCache,
     tracks: Vec<Track<'a>>,
     care: Care,
     /// Each component with those above it.
@@ -91,7 +91,7 @@ pub(super) struct Checker<'a> {
     sweeps: usize,
 }
 
-impl<'a> Checker<'a> {
+impl<'a> ClashFinder<'a> {
     /// Checks with some care. For pairs that overlap when unfolded, only clashes deeper than the overlap
     /// count.
     pub(super) fn new(
@@ -99,21 +99,21 @@ impl<'a> Checker<'a> {
         care: Care,
         overlaps: &[Overlap],
         alike: &'a Alike,
-        memory: &'a SweepMemory,
+        cache: &'a SweepCache,
     ) -> Self {
         let model = motion.model();
         let parts = model.ids();
         let track = |p: usize| {
             let motion = motion.component(PartId(p));
             let table = || Arc::new(table(motion, care.spans()));
-            Track::new(motion, memory.tables().get_or((alike.ids[p], care.spans()), table))
+            Track::new(motion, cache.tables().get_or((alike.ids[p], care.spans()), table))
         };
         let above: Vec<Vec<PartId>> = parts.clone().map(|p| ancestors(model, p)).collect();
         let ways = ways(&above);
-        let mut checker = Self {
+        let mut finder = Self {
             motion,
             alike,
-            memory,
+            cache,
             tracks: (0..parts.len()).into_par_iter().map(track).collect(),
             care,
             roots: parts.clone().map(|p| root_of(model, p)).collect(),
@@ -127,8 +127,8 @@ impl<'a> Checker<'a> {
         };
         let deployed_mm: BTreeMap<[PartId; 2], f64> =
             overlaps.iter().map(|o| (o.parts, o.depth_mm)).collect();
-        checker.watched = parts.map(|mover| checker.watched_pairs(mover, &deployed_mm)).collect();
-        checker
+        finder.watched = parts.map(|mover| finder.watched_pairs(mover, &deployed_mm)).collect();
+        finder
     }
 
     /// Pairs of the mover's tree that do not ride on the same panel of it, in the order of their ids.
@@ -243,7 +243,7 @@ impl<'a> Checker<'a> {
         self.care.allowed_mm()
     }
 
-    /// How often answers had to be found, whether the memory had them or not: what a search may cost
+    /// How often answers had to be found, whether the cache had them or not: what a search may cost
     /// must not depend on that.
     pub(super) fn sweeps(&self) -> usize {
         self.sweeps
@@ -262,7 +262,7 @@ impl<'a> Checker<'a> {
         let key = |&(state, pair): &(usize, usize)| Some(self.key(states[state].as_ref()?, pair));
         let keys: Vec<Key> = asked.iter().filter_map(key).collect();
         let mut answers: HashMap<&Key, Answer> =
-            keys.iter().filter_map(|key| Some((key, self.memory.answers().get(key)?))).collect();
+            keys.iter().filter_map(|key| Some((key, self.cache.answers().get(key)?))).collect();
         let mut seen: HashSet<&Key> = answers.keys().copied().collect();
         let missing: Vec<usize> = (0..keys.len()).filter(|&k| seen.insert(&keys[k])).collect();
         for (number, state) in states.iter().enumerate() {
@@ -273,7 +273,7 @@ impl<'a> Checker<'a> {
             let pairs: Vec<[PartId; 2]> =
                 of_state.iter().map(|&k| self.watched[mover.0][asked[k].1].parts).collect();
             for (k, answer) in of_state.into_iter().zip(self.swept(*mover, &pairs, levels)) {
-                self.memory.answers().insert(keys[k].clone(), answer.clone());
+                self.cache.answers().insert(keys[k].clone(), answer.clone());
                 answers.insert(&keys[k], answer);
             }
         }
@@ -382,7 +382,7 @@ impl<'a> Checker<'a> {
     pub(super) fn own_clash(&self, mover: PartId) -> Option<Clash> {
         let first = mover.min(self.alike.twin(mover));
         let key = [self.care.key(), self.alike.ids[first.0]];
-        let answer = self.memory.own().get_or(key, || self.own_answer(first));
+        let answer = self.cache.own().get_or(key, || self.own_answer(first));
         clash(Move::whole(mover), [mover; 2], &answer)
     }
 
