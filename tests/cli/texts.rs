@@ -22,6 +22,19 @@ fn the_summary() {
 }
 
 #[test]
+fn the_help() {
+    let folder = TempDir::new().unwrap();
+    let all = shown(&folder, &["--help"]);
+    let list = all.split_once("Commands:\n").unwrap().1.split_once("\n\n").unwrap().0;
+    // Lines that begin with a name; others go on with what the command does.
+    let names = list.lines().filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
+    let names: Vec<&str> = names.filter(|name| !["", "help"].contains(name)).collect();
+    assert!(names.contains(&"make"), "{names:?}");
+    let each: String = names.iter().map(|name| format!("\n{}", shown(&folder, &[name, "--help"]))).collect();
+    insta::assert_snapshot!(format!("{all}{each}"));
+}
+
+#[test]
 fn messages_about_wrong_commands() {
     let files: [(&str, &[u8]); 4] = [
         ("cube.off", cube::OFF.as_bytes()),
