@@ -100,13 +100,14 @@ fn deployed_panels_are_the_faces_of_the_components() {
                 }
             }
             assert_eq!(panels, part.component.panels().panels().len(), "{name}");
-            let corners: Vec<DVec3> = solid.outlines().into_iter().flat_map(|(_, outline)| outline).collect();
-            let hull = Hull::of_points(&corners).expect("a solid");
+            let polytope = solid.polytope();
+            let hull = Hull::of_points(polytope.corners()).expect("a solid");
             let facets = hull.facets().iter().map(|facet| hull.facet_points(facet).collect::<Vec<_>>());
             let surface_mm2: f64 = facets.map(|points| area_vector(&points).length()).sum();
             let missing = surface_mm2 - area_mm2;
             // A corner nearer to another one than this is left out, and with it a triangle of that height.
-            let edges = solid.outlines().into_iter().flat_map(|(_, outline)| {
+            let edges = (0..polytope.face_count()).flat_map(|k| {
+                let outline: Vec<DVec3> = polytope.outline(k).collect();
                 let n = outline.len();
                 (0..n).map(move |k| outline[k].distance(outline[(k + 1) % n])).collect::<Vec<f64>>()
             });

@@ -38,7 +38,7 @@ pub fn distances(shaped: &Shaped) -> Distances {
         .model()
         .parts()
         .iter()
-        .map(|p| (p.component.solid().map(polytope), p.frame.inverse()))
+        .map(|p| (p.component.solid().map(Solid::polytope), p.frame.inverse()))
         .collect();
     let of_face_mm: Vec<Option<f32>> = source
         .face_parts()
@@ -53,16 +53,4 @@ pub fn distances(shaped: &Shaped) -> Distances {
         .collect();
     let most_mm = of_face_mm.iter().flatten().fold(0.0f32, |most, mm| most.max(mm.abs()));
     Distances { of_face_mm, most_mm }
-}
-
-fn polytope(solid: &Solid) -> Polytope {
-    let mut corners: Vec<DVec3> = Vec::new();
-    let mut faces = Vec::new();
-    for (face, outline) in solid.outlines() {
-        let (normal, offset) = solid.plane(face);
-        let first = corners.len() as u32;
-        corners.extend(outline);
-        faces.push((normal, offset, first..corners.len() as u32));
-    }
-    Polytope::new(corners, faces)
 }

@@ -1,8 +1,8 @@
 //! First-order change of a solid's measures with its free parameters.
 
 use super::panel::ChainId;
-use super::shape::{ChainShape, ProfileLine, SolidShape};
-use super::solid::{Corner, FaceId, Solid};
+use super::shape::{ChainShape, Corner, ProfileLine, SolidShape};
+use super::solid::{FaceId, Solid};
 use super::symmetry::{Symmetry, chain_images};
 use glam::{DMat3, DVec2, DVec3};
 use smallvec::SmallVec;
@@ -345,11 +345,10 @@ pub(crate) mod tests {
         let shape = SolidShape::of(skewed());
         let freedom = Freedom::of(&shape.solid, 40.0, None);
         let direction = DVec3::new(0.3, -0.5, 0.8);
-        for j in shape.solid.chain_ids() {
-            for (k, corner) in shape.solid.corners(j).iter().enumerate() {
-                let terms = freedom.corner(&shape, corner, direction);
-                check(&terms, &freedom, &shape.solid, |s| direction.dot(s.corners(j)[k].point));
-            }
+        for (k, corner) in shape.corners.iter().enumerate() {
+            let terms = freedom.corner(&shape, corner, direction);
+            let place = |s: &Solid| SolidShape::of(s.clone()).corners[k].point;
+            check(&terms, &freedom, &shape.solid, |s| direction.dot(place(s)));
         }
     }
 
@@ -359,8 +358,9 @@ pub(crate) mod tests {
         let solid = &shape.solid;
         let freedom = Freedom::of(solid, 40.0, None);
         for j in shape.solid.chain_ids() {
-            check(&freedom.width(&shape, j, 3.0), &freedom, solid, |s| s.width_at(j, 3.0));
-            check(&freedom.width(&shape, j, solid.top_mm), &freedom, solid, |s| s.width_at(j, s.top_mm));
+            let width = |s: &Solid, v: f64| SolidShape::of(s.clone()).width_at(j, v);
+            check(&freedom.width(&shape, j, 3.0), &freedom, solid, |s| width(s, 3.0));
+            check(&freedom.width(&shape, j, solid.top_mm), &freedom, solid, |s| width(s, s.top_mm));
         }
     }
 

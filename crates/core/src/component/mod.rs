@@ -41,7 +41,7 @@ pub use direction::PrincipalAxis;
 pub use filling::Filling;
 pub use panel::{ChainId, Hinge, HingeId, HingeSide, Panel, PanelId, PanelKind, PanelSet};
 pub use profile::{Fold, Profile, ProfileError};
-pub use solid::{Chain, Clearance, Corner, FaceId, SideFacet, Solid};
+pub use solid::{Chain, FaceId, SideFacet, Solid};
 pub use symmetry::{Crossing, Symmetry, Turning};
 pub(crate) use target::side_normal;
 pub use target::{JointTarget, Seat, Target};

@@ -2,7 +2,7 @@
 
 use super::distance::Polytope;
 use super::panel::ChainId;
-use super::solid::{Chain, Corner, FaceId, SideFacet, Solid};
+use super::solid::{Chain, FaceId, SideFacet, Solid};
 use glam::{DVec2, DVec3};
 
 /// One side plane with the sine and cosine of its slope.
@@ -14,6 +14,11 @@ pub(super) struct ProfileLine {
 }
 
 impl ProfileLine {
+    pub(super) fn of(facet: &SideFacet) -> Self {
+        let (sin, cos) = libm::sincos(facet.slope_rad);
+        Self { cos, sin, offset: facet.offset_mm }
+    }
+
     pub(super) fn u_at(&self, v: f64) -> f64 {
         (self.offset - v * self.sin) / self.cos
     }
@@ -21,6 +26,18 @@ impl ProfileLine {
     pub(super) fn meets(&self, below: &ProfileLine) -> f64 {
         (self.offset * below.cos - below.offset * self.cos) / (self.sin * below.cos - self.cos * below.sin)
     }
+}
+
+/// Where the edges `n · x = u` of two neighbouring chains meet in a section.
+pub(super) fn section_corner((na, ua): (DVec2, f64), (nb, ub): (DVec2, f64)) -> DVec2 {
+    DVec2::new(ua * nb.y - ub * na.y, na.x * ub - nb.x * ua) / na.perp_dot(nb)
+}
+
+/// A corner of a solid: where three faces meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Corner {
+    pub(super) point: DVec3,
+    pub(super) faces: [FaceId; 3],
 }
 
 /// A chain of a [`SolidShape`].
@@ -116,7 +133,7 @@ impl SolidShape {
         inner.chain([top, bottom])
     }
 
-    /// Width of chain j at height v (as [`Solid::width_at`]).
+    /// Width of chain j at height v: the length of its edge of the section there.
     pub(super) fn width_at(&self, j: ChainId, v: f64) -> f64 {
         let here = &self.chains[j.0];
         let u = here.u_at(v);
@@ -126,6 +143,29 @@ impl SolidShape {
             (other.u_at(v) - u * cos) / sin.abs()
         };
         side(self.solid.previous(j)) + side(self.solid.next(j))
+    }
+
+    /// The narrowest and the shortest that any side panel is, mm; negative where one has vanished. Between two bends of
+    /// any profile widths are linear, so this is exact (the exact form of Eq. (14)).
+    pub(super) fn least_mm(&self) -> f64 {
+        let widths =
+            self.solid.chain_ids().flat_map(|j| self.heights_about(j).map(move |v| self.width_at(j, v)));
+        let lengths = self.chains.iter().flat_map(|chain| {
+            chain.profile.windows(2).map(|w| w[1].distance(w[0]).copysign(w[0].y - w[1].y))
+        });
+        widths.chain(lengths).fold(f64::INFINITY, f64::min)
+    }
+}
+
+impl Solid {
+    /// Profile of chain j: its bends with both ends, (u, v) from top to bottom.
+    pub fn profile(&self, j: ChainId) -> Vec<DVec2> {
+        profile(&lines(&self.chains[j.0]), self.top_mm, self.bottom_mm)
+    }
+
+    /// Its corners and faces, as [`Solid::faces`] orders them.
+    pub fn polytope(&self) -> Polytope {
+        SolidShape::of(self.clone()).polytope
     }
 }
 
@@ -144,11 +184,7 @@ pub(super) fn lines(chain: &Chain) -> Vec<ProfileLine> {
 
 /// Side planes with their sines and cosines.
 pub(super) fn lines_of(facets: &[SideFacet]) -> Vec<ProfileLine> {
-    let line = |f: &SideFacet| {
-        let (sin, cos) = libm::sincos(f.slope_rad);
-        ProfileLine { cos, sin, offset: f.offset_mm }
-    };
-    facets.iter().map(line).collect()
+    facets.iter().map(ProfileLine::of).collect()
 }
 
 /// Ends and bends of a chain with these planes, (u, v) from top to bottom.
@@ -167,13 +203,10 @@ pub(super) fn profile(lines: &[ProfileLine], top: f64, bottom: f64) -> Vec<DVec2
 fn push_corners(solid: &Solid, chains: &[ChainShape], j: ChainId, out: &mut Vec<Corner>) {
     let k = solid.next(j);
     let (here, there) = (&chains[j.0], &chains[k.0]);
-    let turn = here.normal.perp_dot(there.normal);
     let bends = |c: &ChainShape| c.profile.len() - 2;
     let (mut a, mut b) = (0, 0);
     let mut push = |v: f64, a: usize, b: usize, third: FaceId| {
-        let (ua, ub) = (here.lines[a].u_at(v), there.lines[b].u_at(v));
-        let (na, nb) = (here.normal, there.normal);
-        let xy = DVec2::new(ua * nb.y - ub * na.y, na.x * ub - nb.x * ua) / turn;
+        let xy = section_corner((here.normal, here.lines[a].u_at(v)), (there.normal, there.lines[b].u_at(v)));
         out.push(Corner { point: xy.extend(v), faces: [FaceId::Side(j, a), FaceId::Side(k, b), third] });
     };
     push(solid.top_mm, 0, 0, FaceId::Top);
@@ -224,29 +257,67 @@ fn polytope(solid: &Solid, chains: &[ChainShape], corners: &[Corner], starts: &[
 mod tests {
     use super::*;
     use crate::component::gradient::tests::skewed;
+    use crate::component::solid::tests::barrel;
+    use glam::DMat2;
 
-    /// Everything worked out at once against the solid's own, slower methods.
+    fn shapes() -> [SolidShape; 3] {
+        [skewed(), barrel(5, 40.0), barrel(6, 30.0)].map(SolidShape::of)
+    }
+
     #[test]
-    fn agrees_with_the_solid() {
-        let solid = skewed();
-        let shape = SolidShape::of(solid.clone());
-        let corners: Vec<Corner> = solid.chain_ids().flat_map(|j| solid.corners(j)).collect();
-        assert_eq!(shape.corners.len(), corners.len());
-        for (a, b) in shape.corners.iter().zip(&corners) {
-            assert_eq!(a.faces, b.faces);
-            assert!(a.point.distance(b.point) < 1e-9);
-        }
-        for j in solid.chain_ids() {
-            assert!(
-                shape.chains[j.0].profile.iter().zip(solid.profile(j)).all(|(a, b)| a.distance(b) < 1e-9)
-            );
-            for v in shape.heights_about(j) {
-                assert!((shape.width_at(j, v) - solid.width_at(j, v)).abs() < 1e-9);
+    fn corners_are_where_three_faces_meet_and_inside_all_others() {
+        for shape in shapes() {
+            let solid = &shape.solid;
+            let bends: usize = solid.chains.iter().map(|chain| chain.facets.len() - 1).sum();
+            assert_eq!(shape.corners.len(), 2 * (solid.chains.len() + bends));
+            for corner in &shape.corners {
+                let beyond = |face: FaceId| {
+                    let (n, c) = solid.plane(face);
+                    n.dot(corner.point) - c
+                };
+                assert!(corner.faces.into_iter().all(|face| beyond(face).abs() < 1e-10));
+                assert!(solid.faces().into_iter().all(|face| beyond(face) < 1e-10));
             }
         }
-        for (k, face) in solid.faces().into_iter().enumerate() {
-            assert_eq!((shape.index(face), shape.face(k)), (k, face));
-            assert!(shape.polytope.normal(k).distance(solid.plane(face).0) < 1e-12);
+    }
+
+    #[test]
+    fn faces_have_their_planes_and_enclose_a_volume() {
+        for shape in shapes() {
+            let mut volume = 0.0;
+            for (k, face) in shape.solid.faces().into_iter().enumerate() {
+                assert_eq!((shape.index(face), shape.face(k)), (k, face));
+                let (n, c) = shape.solid.plane(face);
+                assert!(shape.polytope.normal(k).distance(n) < 1e-12);
+                let outline: Vec<DVec3> = shape.polytope.outline(k).collect();
+                let twice: DVec3 =
+                    (0..outline.len()).map(|k| outline[k].cross(outline[(k + 1) % outline.len()])).sum();
+                assert!(twice.dot(n) > 0.0, "{face:?} faces outwards");
+                volume += twice.dot(n) / 2.0 * c / 3.0;
+            }
+            let points: Vec<DVec3> = shape.corners.iter().map(|c| c.point).collect();
+            let expected = crate::geom::Hull::of_points(&points).unwrap().volume();
+            assert!((volume - expected).abs() < 1e-8 * expected, "{volume} {expected}");
+        }
+    }
+
+    #[test]
+    fn width_is_the_distance_of_the_corners_of_a_section() {
+        for shape in shapes() {
+            let edge = |j: ChainId, v: f64| (shape.chains[j.0].normal, shape.chains[j.0].u_at(v));
+            let corner = |j: ChainId, v: f64| {
+                let ((na, ua), (nb, ub)) = (edge(j, v), edge(shape.solid.next(j), v));
+                DMat2::from_cols(na, nb).transpose().inverse() * DVec2::new(ua, ub)
+            };
+            let mut least = f64::INFINITY;
+            for j in shape.solid.chain_ids() {
+                for v in shape.heights_about(j) {
+                    let expected = corner(j, v).distance(corner(shape.solid.previous(j), v));
+                    assert!((shape.width_at(j, v) - expected).abs() < 1e-10);
+                    least = least.min(expected);
+                }
+            }
+            assert!(shape.least_mm() > 0.0 && shape.least_mm() <= least + 1e-10);
         }
     }
 

@@ -19,19 +19,6 @@ pub struct SideFacet {
     pub is_joint: bool,
 }
 
-impl SideFacet {
-    /// u of the plane at height v.
-    pub fn u_at(&self, v_mm: f64) -> f64 {
-        (self.offset_mm - v_mm * libm::sin(self.slope_rad)) / libm::cos(self.slope_rad)
-    }
-
-    /// Height at which this plane meets the next one below.
-    pub fn meets(&self, below: &SideFacet) -> f64 {
-        let (ca, cb) = (libm::cos(self.slope_rad), libm::cos(below.slope_rad));
-        (self.offset_mm * cb - below.offset_mm * ca) / libm::sin(self.slope_rad - below.slope_rad)
-    }
-}
-
 /// The side planes under one top edge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
@@ -53,21 +40,6 @@ impl Chain {
     pub fn tangent(&self) -> DVec2 {
         self.normal().perp()
     }
-
-    /// Index of the facet at height v.
-    fn facet_at(&self, v_mm: f64) -> usize {
-        self.facets.windows(2).take_while(|w| w[0].meets(&w[1]) > v_mm).count()
-    }
-
-    /// Profile's u at height v.
-    pub fn u_at(&self, v_mm: f64) -> f64 {
-        self.facets[self.facet_at(v_mm)].u_at(v_mm)
-    }
-
-    /// Heights at which the profile bends, from top to bottom.
-    pub fn bends(&self) -> impl Iterator<Item = f64> + '_ {
-        self.facets.windows(2).map(|w| w[0].meets(&w[1]))
-    }
 }
 
 /// One face of the solid.
@@ -81,16 +53,7 @@ pub enum FaceId {
     Side(ChainId, usize),
 }
 
-/// A corner of the solid: where three faces meet.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Corner {
-    /// Position.
-    pub point: DVec3,
-    /// The three faces.
-    pub faces: [FaceId; 3],
-}
-
-/// The half-spaces of one component. Validity is checked by [`Solid::clearance`].
+/// The half-spaces of one component.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solid {
     /// Chains, counter-clockwise.
@@ -103,15 +66,6 @@ pub struct Solid {
     pub is_top_joint: bool,
     /// Whether the bottom panel is a joint panel, held fixed.
     pub is_bottom_joint: bool,
-}
-
-/// Least sizes of a solid, mm; a negative one means that a panel has vanished.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Clearance {
-    /// Narrowest side panel, at any height.
-    pub width_mm: f64,
-    /// Shortest side panel between two bends, along its slope.
-    pub length_mm: f64,
 }
 
 impl Solid {
@@ -150,95 +104,6 @@ impl Solid {
         [FaceId::Top, FaceId::Bottom].into_iter().chain(sides).collect()
     }
 
-    /// Profile of chain j: its bends with both ends, (u, v) from top to bottom.
-    pub fn profile(&self, j: ChainId) -> Vec<DVec2> {
-        let chain = &self.chains[j.0];
-        let mut points = vec![DVec2::new(chain.facets[0].u_at(self.top_mm), self.top_mm)];
-        for (facet, v) in chain.facets.iter().zip(chain.bends()) {
-            points.push(DVec2::new(facet.u_at(v), v));
-        }
-        let last = chain.facets[chain.facets.len() - 1];
-        points.push(DVec2::new(last.u_at(self.bottom_mm), self.bottom_mm));
-        points
-    }
-
-    /// Corners between chain j and the next, from top to bottom.
-    pub fn corners(&self, j: ChainId) -> Vec<Corner> {
-        let k = self.next(j);
-        let (here, there) = (&self.chains[j.0], &self.chains[k.0]);
-        let mut out = Vec::with_capacity(here.facets.len() + there.facets.len());
-        let (mut a, mut b) = (0, 0);
-        let mut push = |v: f64, a: usize, b: usize, third: FaceId| {
-            let xy = meeting_point(here, here.facets[a].u_at(v), there, there.facets[b].u_at(v));
-            out.push(Corner { point: xy.extend(v), faces: [FaceId::Side(j, a), FaceId::Side(k, b), third] });
-        };
-        push(self.top_mm, 0, 0, FaceId::Top);
-        let bends: [Vec<f64>; 2] = [here.bends().collect(), there.bends().collect()];
-        loop {
-            match (bends[0].get(a), bends[1].get(b)) {
-                (Some(&va), other) if other.is_none_or(|&vb| va >= vb) => {
-                    push(va, a, b, FaceId::Side(j, a + 1));
-                    a += 1;
-                }
-                (_, Some(&vb)) => {
-                    push(vb, a, b, FaceId::Side(k, b + 1));
-                    b += 1;
-                }
-                _ => break,
-            }
-        }
-        push(self.bottom_mm, a, b, FaceId::Bottom);
-        out
-    }
-
-    /// Outline of each face of [`Solid::faces`], counter-clockwise seen from outside.
-    pub fn outlines(&self) -> Vec<(FaceId, Vec<DVec3>)> {
-        let corners: Vec<Vec<Corner>> = self.chain_ids().map(|j| self.corners(j)).collect();
-        let last = |list: &Vec<Corner>| list[list.len() - 1].point;
-        self.faces()
-            .into_iter()
-            .map(|face| {
-                let outline = match face {
-                    FaceId::Top => corners.iter().map(|c| c[0].point).collect(),
-                    FaceId::Bottom => corners.iter().rev().map(last).collect(),
-                    FaceId::Side(j, _) => {
-                        let on_face = |c: &&Corner| c.faces.contains(&face);
-                        let left = corners[self.previous(j).0].iter().filter(on_face).map(|c| c.point);
-                        let right = corners[j.0].iter().filter(on_face).map(|c| c.point);
-                        left.chain(right.rev()).collect()
-                    }
-                };
-                (face, outline)
-            })
-            .collect()
-    }
-
-    /// Where the edge of chain j meets that of the next chain in the section at height v.
-    pub fn corner_at(&self, j: ChainId, v_mm: f64) -> DVec2 {
-        let (here, there) = (&self.chains[j.0], &self.chains[self.next(j).0]);
-        meeting_point(here, here.u_at(v_mm), there, there.u_at(v_mm))
-    }
-
-    /// Width of chain j at height v: the length of its edge of the section there.
-    pub fn width_at(&self, j: ChainId, v_mm: f64) -> f64 {
-        let [before, here, after] =
-            [self.previous(j), j, self.next(j)].map(|c| (&self.chains[c.0], self.chains[c.0].u_at(v_mm)));
-        let side = |other: (&Chain, f64)| {
-            let (sin, cos) = libm::sincos(other.0.angle_rad - here.0.angle_rad);
-            (other.1 - here.1 * cos) / sin.abs()
-        };
-        side(before) + side(after)
-    }
-
-    /// All heights at which some profile has a vertex, from top to bottom.
-    pub fn heights(&self) -> Vec<f64> {
-        let mut heights = vec![self.top_mm, self.bottom_mm];
-        heights.extend(self.chains.iter().flat_map(|c| c.bends()));
-        heights.sort_by(|a, b| b.total_cmp(a));
-        heights.dedup();
-        heights
-    }
-
     /// Its image in the plane x = 0. Chain j of the image is that of chain N − j.
     #[must_use]
     pub fn mirrored(&self) -> Self {
@@ -249,34 +114,6 @@ impl Solid {
         });
         Self { chains: chains.collect(), ..*self }
     }
-
-    /// Least width and length over all side panels. Between two heights of [`Solid::heights`]
-    /// widths are linear, so this is exact (the exact form of Eq. (14)).
-    pub fn clearance(&self) -> Clearance {
-        let heights = self.heights();
-        let chains = self.chain_ids();
-        let width_mm = chains
-            .clone()
-            .flat_map(|j| heights.iter().map(move |&v| (j, v)))
-            .map(|(j, v)| self.width_at(j, v))
-            .fold(f64::INFINITY, f64::min);
-        let length_mm = chains
-            .flat_map(|j| {
-                let profile = self.profile(j);
-                profile
-                    .windows(2)
-                    .map(|w| (w[1] - w[0]).length().copysign(w[0].y - w[1].y))
-                    .collect::<Vec<_>>()
-            })
-            .fold(f64::INFINITY, f64::min);
-        Clearance { width_mm, length_mm }
-    }
-}
-
-/// Where two vertical-plane lines `n·x = u` of neighbouring chains meet.
-fn meeting_point(a: &Chain, ua: f64, b: &Chain, ub: f64) -> DVec2 {
-    let (na, nb) = (a.normal(), b.normal());
-    DVec2::new(ua * nb.y - ub * na.y, na.x * ub - nb.x * ua) / na.perp_dot(nb)
 }
 
 #[cfg(test)]
@@ -303,53 +140,5 @@ pub(crate) mod tests {
             is_top_joint: false,
             is_bottom_joint: false,
         }
-    }
-
-    #[test]
-    fn corners_lie_on_their_three_faces() {
-        let solid = barrel(5, 40.0);
-        for j in solid.chain_ids() {
-            let corners = solid.corners(j);
-            assert_eq!(corners.len(), 6);
-            for corner in corners {
-                for face in corner.faces {
-                    let (n, c) = solid.plane(face);
-                    assert!((n.dot(corner.point) - c).abs() < 1e-10);
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn outlines_enclose_a_volume() {
-        let solid = barrel(6, 30.0);
-        let mut volume = 0.0;
-        for (face, outline) in solid.outlines() {
-            let (n, c) = solid.plane(face);
-            let twice: DVec3 =
-                (0..outline.len()).map(|k| outline[k].cross(outline[(k + 1) % outline.len()])).sum();
-            assert!(twice.dot(n) > 0.0, "{face:?} faces outwards");
-            volume += twice.dot(n) / 2.0 * c / 3.0;
-        }
-        // Simpson's rule is exact for prismatoids: between bends the section area is quadratic in v.
-        let area = |v: f64| 6.0 * libm::tan(TAU / 12.0) * solid.chains[0].u_at(v).powi(2);
-        let heights = solid.heights();
-        let expected: f64 = heights
-            .windows(2)
-            .map(|w| (w[0] - w[1]) / 6.0 * (area(w[0]) + 4.0 * area((w[0] + w[1]) / 2.0) + area(w[1])))
-            .sum();
-        assert!((volume - expected).abs() < 1e-8 * expected, "{volume} {expected}");
-    }
-
-    #[test]
-    fn width_is_the_distance_of_the_corners() {
-        let solid = barrel(5, 40.0);
-        let v = solid.chains[0].bends().next().unwrap();
-        let bend =
-            |j: ChainId| solid.corners(j).iter().find(|c| (c.point.z - v).abs() < 1e-12).unwrap().point;
-        assert!(
-            (solid.width_at(ChainId(1), v) - (bend(ChainId(1)) - bend(ChainId(0))).length()).abs() < 1e-10
-        );
-        assert!(solid.clearance().width_mm > 0.0 && solid.clearance().length_mm > 0.0);
     }
 }

@@ -7,7 +7,7 @@ use super::even::{
 use super::fit::{Fitted, rooms};
 use super::panel::ChainId;
 use super::profile::{Balance, balance, imbalance};
-use super::shape::SolidShape;
+use super::shape::{ProfileLine, SolidShape};
 use super::solid::{Chain, SideFacet, Solid};
 use super::symmetry::{Symmetry, Turning, evened, orbit};
 use super::target::{FoldSpot, Seat, Target};
@@ -292,7 +292,7 @@ fn add_plane(solid: &mut Solid, j: ChainId, at: Balance) -> FoldSpot {
     let facets = &mut solid.chains[j.0].facets;
     let joint = facets[at.segment];
     let slope_rad = joint.slope_rad + if share < 0.5 { ADDED_BEND_RAD } else { -ADDED_BEND_RAD };
-    let offset_mm = DVec2::from_angle(slope_rad).dot(DVec2::new(joint.u_at(v), v));
+    let offset_mm = DVec2::from_angle(slope_rad).dot(DVec2::new(ProfileLine::of(&joint).u_at(v), v));
     let place = if share < 0.5 { at.segment } else { at.segment + 1 };
     facets.insert(place, SideFacet { slope_rad, offset_mm, is_joint: false });
     FoldSpot::Bend(at.segment)

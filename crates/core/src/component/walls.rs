@@ -3,6 +3,7 @@
 
 use super::panel::ChainId;
 use super::profile::Profile;
+use super::shape::section_corner;
 use super::symmetry::Symmetry;
 use glam::DVec2;
 
@@ -99,9 +100,8 @@ impl Walls {
     /// Where the edge of chain j meets that of the next chain in the section at height v.
     pub(super) fn corner_at(&self, j: ChainId, v_mm: f64) -> DVec2 {
         let k = self.next(j);
-        let (na, nb) = (self.normals[j.0], self.normals[k.0]);
-        let (ua, ub) = (self.profiles[j.0].u_at(v_mm), self.profiles[k.0].u_at(v_mm));
-        DVec2::new(ua * nb.y - ub * na.y, na.x * ub - nb.x * ua) / na.perp_dot(nb)
+        let edge = |j: ChainId| (self.normal(j), self.profile(j).u_at(v_mm));
+        section_corner(edge(j), edge(k))
     }
 
     /// Width of chain j at height v: the length of its edge of the section there, negative where

@@ -1,6 +1,6 @@
 //! Candidates for edges and planes, and what one is worth.
 
-use super::shape::ProfileLine;
+use super::shape::{ProfileLine, section_corner};
 use glam::DVec2;
 
 /// A top edge whose loss adds less than this share of the area is not worth a chain: a box has four.
@@ -18,8 +18,7 @@ pub(super) struct Edge {
 
 /// Where the lines of two edges meet.
 pub(super) fn meet(a: &Edge, b: &Edge) -> DVec2 {
-    let (na, nb) = (a.normal, b.normal);
-    DVec2::new(a.support * nb.y - b.support * na.y, na.x * b.support - nb.x * a.support) / na.perp_dot(nb)
+    section_corner((a.normal, a.support), (b.normal, b.support))
 }
 
 /// Area by which the profile would grow without plane k, mm², and its mean width, mm.

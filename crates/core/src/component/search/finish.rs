@@ -112,8 +112,7 @@ pub(super) fn assemble_unbroken(
 ) -> Result<Assembled, AssembleError> {
     let solid = &fitted.shape.solid;
     let size = solid.top_mm - solid.bottom_mm;
-    let clearance = solid.clearance();
-    if clearance.width_mm.min(clearance.length_mm) <= SLIVER_MM {
+    if fitted.shape.least_mm() <= SLIVER_MM {
         return Err(AssembleError::NoRoom);
     }
     let spots = solid.chain_ids().zip(&fitted.spots).map(|(chain, &spot)| {
