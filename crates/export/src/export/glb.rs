@@ -60,11 +60,11 @@ pub(crate) fn animated(model: &Model, plan: &FoldPlan, title: &str) -> Scene {
         count += part.component.panels().panels().len();
     }
     for (p, part) in model.ids().zip(model.parts()) {
-        for k in 0..part.component.panels().panels().len() {
-            let place = |pose: &ModelPose| limbs[p.0].place(part, p, PanelId(k), pose, &limbs);
+        for panel in (0..part.component.panels().panels().len()).map(PanelId) {
+            let place = |pose: &ModelPose| limbs[p.0].place(part, p, panel, pose, &limbs);
             let places: Vec<DAffine3> = keys.poses.iter().map(place).collect();
-            add_node(&mut scene, part, p, k, &limbs[p.0], &places, &keys);
-            scene.nodes[first_node[p.0] + k].children = limbs[p.0].children(PanelId(k), first_node[p.0]);
+            add_node(&mut scene, part, p, panel, &limbs[p.0], &places, &keys);
+            scene.nodes[first_node[p.0] + panel.0].children = limbs[p.0].children(panel, first_node[p.0]);
         }
     }
     for (p, part) in model.parts().iter().enumerate() {
@@ -189,14 +189,14 @@ fn add_node(
     scene: &mut Scene,
     part: &ModelPart,
     index: PartId,
-    panel: usize,
+    panel: PanelId,
     limbs: &Limbs,
     places: &[DAffine3],
     keys: &Keys,
 ) {
-    let shape = part.component.panels().panel(PanelId(panel));
+    let shape = part.component.panels().panel(panel);
     let name = format!("{}: {}", part.name, shape.kind);
-    let outline = shape.outline.iter().map(|p| (*p - limbs.origins[panel]).extend(0.0)).collect();
+    let outline = shape.outline.iter().map(|p| (*p - limbs.origins[panel.0]).extend(0.0)).collect();
     let turn = |place: &DAffine3| DQuat::from_mat3(&place.matrix3).normalize();
     let rotations = shortest(places.iter().map(turn));
     scene.nodes.push(Node {
@@ -211,7 +211,7 @@ fn add_node(
     if needed.len() <= 2 {
         return;
     }
-    let does_shift = limbs.parents[panel].is_none();
+    let does_shift = limbs.parents[panel.0].is_none();
     let shifts = |k: &usize| -> DVec3 { places[*k].translation };
     scene.tracks.push(Track {
         node: scene.nodes.len() - 1,

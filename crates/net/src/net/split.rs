@@ -44,13 +44,13 @@ pub(super) fn split(set: &PanelSet, sheet_mm: DVec2, tab_width_mm: f64) -> Optio
         hinges: set.hinges().to_vec(),
         source: (0..set.panels().len()).map(PanelId).collect(),
     };
-    for panel in 0..set.panels().len() {
-        if best_turn(&set.panels()[panel].outline, sheet_mm).fits() {
+    for (k, panel) in set.panels().iter().enumerate() {
+        if best_turn(&panel.outline, sheet_mm).fits() {
             continue;
         }
-        let mut open = vec![panel];
+        let mut open = vec![PanelId(k)];
         while let Some(next) = open.pop() {
-            if best_turn(&work.panels[next].outline, room_mm).fits() {
+            if best_turn(&work.panels[next.0].outline, room_mm).fits() {
                 continue;
             }
             if work.panels.len() > MOST_PARTS {
@@ -78,9 +78,9 @@ struct Crossing {
 }
 
 impl Work {
-    /// Cuts a panel across its length; the new panel's index.
-    fn halve(&mut self, panel: usize) -> Option<usize> {
-        let cut = best_cut(&self.panels[panel].outline)?;
+    /// Cuts a panel across its length; the new panel.
+    fn halve(&mut self, panel: PanelId) -> Option<PanelId> {
+        let cut = best_cut(&self.panels[panel.0].outline)?;
         // The later edge first, so that the earlier one keeps its index.
         let second = self.add_corner(panel, cut[1]);
         let first = self.add_corner(panel, cut[0]);
@@ -88,15 +88,15 @@ impl Work {
     }
 
     /// Puts a corner on an edge, and one on the other side of its hinge; the corner's index.
-    fn add_corner(&mut self, panel: usize, at: Crossing) -> usize {
-        let on_edge = |s: &HingeSide| s.panel == PanelId(panel) && s.edge == at.edge;
+    fn add_corner(&mut self, panel: PanelId, at: Crossing) -> usize {
+        let on_edge = |s: &HingeSide| s.panel == panel && s.edge == at.edge;
         let hinge = self.hinges.iter().position(|h| h.sides.iter().any(on_edge));
         self.insert(panel, at);
         if let Some(h) = hinge {
             let old = self.hinges[h];
             let own = usize::from(!on_edge(&old.sides[0]));
             let partner = old.sides[1 - own];
-            self.insert(partner.panel.0, Crossing { edge: partner.edge, share: 1.0 - at.share });
+            self.insert(partner.panel, Crossing { edge: partner.edge, share: 1.0 - at.share });
             // The edges run against each other: the first part here is the second there.
             let mut added = old;
             added.sides[own].edge += 1;
@@ -108,41 +108,38 @@ impl Work {
     }
 
     /// Puts a corner into an outline; hinges on later edges move up.
-    fn insert(&mut self, panel: usize, at: Crossing) {
-        let [from, to] = self.panels[panel].edge(at.edge);
-        self.panels[panel].outline.insert(at.edge + 1, from.lerp(to, at.share));
+    fn insert(&mut self, panel: PanelId, at: Crossing) {
+        let [from, to] = self.panels[panel.0].edge(at.edge);
+        self.panels[panel.0].outline.insert(at.edge + 1, from.lerp(to, at.share));
         for side in self.hinges.iter_mut().flat_map(|h| &mut h.sides) {
-            if side.panel == PanelId(panel) && side.edge > at.edge {
+            if side.panel == panel && side.edge > at.edge {
                 side.edge += 1;
             }
         }
     }
 
     /// Cuts a panel from one of its corners to another, `first < second`; the new panel, which has
-    /// the corners between them, gets the next index.
-    fn divide(&mut self, panel: usize, first: usize, second: usize) -> usize {
-        let other = self.panels.len();
-        let whole = self.panels[panel].outline.clone();
+    /// the corners between them, is the last one.
+    fn divide(&mut self, panel: PanelId, first: usize, second: usize) -> PanelId {
+        let other = PanelId(self.panels.len());
+        let whole = self.panels[panel.0].outline.clone();
         let outline: Vec<DVec2> = whole[..=first].iter().chain(&whole[second..]).copied().collect();
         let cut_off = whole[first..=second].to_vec();
         for side in self.hinges.iter_mut().flat_map(|h| &mut h.sides) {
-            if side.panel == PanelId(panel) && side.edge >= first {
+            if side.panel == panel && side.edge >= first {
                 if side.edge < second {
-                    *side = HingeSide { panel: PanelId(other), edge: side.edge - first };
+                    *side = HingeSide { panel: other, edge: side.edge - first };
                 } else {
                     side.edge -= second - first - 1;
                 }
             }
         }
         let last = cut_off.len() - 1;
-        self.panels.push(Panel { outline: cut_off, ..self.panels[panel].clone() });
-        self.panels[panel].outline = outline;
-        self.source.push(self.source[panel]);
+        self.panels.push(Panel { outline: cut_off, ..self.panels[panel.0].clone() });
+        self.panels[panel.0].outline = outline;
+        self.source.push(self.source[panel.0]);
         self.hinges.push(Hinge {
-            sides: [
-                HingeSide { panel: PanelId(panel), edge: first },
-                HingeSide { panel: PanelId(other), edge: last },
-            ],
+            sides: [HingeSide { panel, edge: first }, HingeSide { panel: other, edge: last }],
             is_fold: false,
             deployed_rad: 0.0,
             flat_rad: 0.0,
