@@ -98,6 +98,6 @@ fn smooth(bencher: Bencher, path: &str) {
     }
     let Some(orbit) = solids.ball().map(Orbit::of_ball) else { return };
     bencher.bench_local(|| {
-        orbit.eye([2560, 1440]).map(|eye| RenderedFrame::draw(&solids, &eye, Rgb::WHITE).halved())
+        orbit.eye([2560, 1440]).map(|eye| RenderedFrame::draw_smooth(&solids, &eye, Rgb::WHITE))
     });
 }

@@ -14,6 +14,9 @@ use rayon::prelude::*;
 /// Rows that are drawn together.
 const BAND: usize = 16;
 
+/// Writes a band into its place in the picture.
+type Take = fn(&Band, &mut [[u8; 3]], &mut [u32]);
+
 /// A triangle in space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Facet {
@@ -96,27 +99,41 @@ impl RenderedFrame {
 
     /// Draws a scene.
     pub fn draw(solids: &Solids, eye: &Eye, ground: Rgb) -> Self {
+        Self::drawn(solids, eye, ground, 1, Band::copy)
+    }
+
+    /// Draws a scene at half the size of the eye's picture, each pixel the mean of four: smooth edges.
+    pub fn draw_smooth(solids: &Solids, eye: &Eye, ground: Rgb) -> Self {
+        Self::drawn(solids, eye, ground, 2, Band::halve)
+    }
+
+    /// Draws bands, and takes a picture of them that is smaller by a factor.
+    fn drawn(solids: &Solids, eye: &Eye, ground: Rgb, factor: usize, take: Take) -> Self {
         let [width, height] = eye.size_px();
         let facets: Vec<Flat> = solids.facets.par_iter().filter_map(|facet| Flat::new(facet, eye)).collect();
         let lines: Vec<Stroke> = solids.lines.par_iter().filter_map(|line| Stroke::new(line, eye)).collect();
         let bands = height.div_ceil(BAND);
         let facets_of = sorted_into_bands(bands, facets.iter().map(|f| f.rows));
         let lines_of = sorted_into_bands(bands, lines.iter().map(|l| l.rows));
-        let drawn: Vec<Band> = (0..bands)
-            .into_par_iter()
-            .map(|b| {
-                let mut band = Band::new(width, b * BAND, BAND.min(height - b * BAND), ground);
+        let size_px = [width / factor, height / factor];
+        let Rgb(red, green, blue) = ground;
+        let count = size_px[0] * size_px[1];
+        let (mut rgb, mut tags) = (vec![[red, green, blue]; count], vec![Self::NOTHING; count]);
+        let room = (size_px[0] * BAND / factor).max(1);
+        // Each thread draws into one band again and again: new memory for each takes longer than the drawing.
+        rgb.par_chunks_mut(room).zip(tags.par_chunks_mut(room)).enumerate().for_each_init(
+            || Band::new(width, ground),
+            |band, (b, (rgb, tags))| {
+                if facets_of[b].is_empty() && lines_of[b].is_empty() {
+                    return;
+                }
+                band.clear(b * BAND, BAND.min(height - b * BAND));
                 facets_of[b].iter().for_each(|&f| band.fill(&facets[f as usize]));
                 lines_of[b].iter().for_each(|&l| band.stroke(&lines[l as usize]));
-                band
-            })
-            .collect();
-        let (mut rgb, mut tags) = (Vec::with_capacity(width * height), Vec::with_capacity(width * height));
-        for band in drawn {
-            rgb.extend(band.rgb);
-            tags.extend(band.tags);
-        }
-        Self { size_px: eye.size_px(), rgb, tags }
+                take(band, rgb, tags);
+            },
+        );
+        Self { size_px, rgb, tags }
     }
 
     /// Width and height.
@@ -134,24 +151,6 @@ impl RenderedFrame {
         let is_inside = x < self.size_px[0] && y < self.size_px[1];
         let tag = is_inside.then(|| self.tags[y * self.size_px[0] + x])?;
         (tag != Self::NOTHING).then_some(tag)
-    }
-
-    /// The picture at half its size, each pixel the mean of four: smooth edges.
-    #[must_use]
-    pub fn halved(&self) -> Self {
-        let [width, height] = self.size_px.map(|n| n / 2);
-        let full = self.size_px[0];
-        let rows = (0..height).into_par_iter().flat_map_iter(|y| {
-            (0..width).map(move |x| {
-                let corner = 2 * y * full + 2 * x;
-                let four = [corner, corner + 1, corner + full, corner + full + 1];
-                let mean = |c: usize| (four.iter().map(|&p| u32::from(self.rgb[p][c])).sum::<u32>() + 2) / 4;
-                [mean(0) as u8, mean(1) as u8, mean(2) as u8]
-            })
-        });
-        let rgb = rows.collect();
-        let tags = (0..height).flat_map(|y| (0..width).map(move |x| self.tags[2 * y * full + 2 * x]));
-        Self { size_px: [width, height], rgb, tags: tags.collect() }
     }
 }
 
@@ -255,6 +254,28 @@ mod tests {
         assert_eq!(RenderedFrame::draw(&behind, &eye, Rgb::WHITE).tag_at(25, 25), None);
         let huge = square(0.0, 1e9, RED, 5);
         assert_eq!(RenderedFrame::draw(&huge, &eye, Rgb::WHITE).tag_at(0, 49), Some(5));
+    }
+
+    #[test]
+    fn a_smooth_picture_is_the_mean_of_four_pixels_each() {
+        let mut solids = square(2.0, 4.0, RED, 7);
+        solids.facets.extend(square(-2.0, 7.0, BLUE, 8).facets);
+        for size_px in [[60, 44], [62, 34]] {
+            let eye = front(size_px);
+            let (whole, smooth) = (
+                RenderedFrame::draw(&solids, &eye, Rgb::WHITE),
+                RenderedFrame::draw_smooth(&solids, &eye, Rgb::WHITE),
+            );
+            let [width, height] = size_px.map(|n| n / 2);
+            assert_eq!(smooth.size_px(), [width, height]);
+            for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+                let four = [[0, 0], [1, 0], [0, 1], [1, 1]]
+                    .map(|[right, down]| whole.rgb()[(2 * y + down) * 2 * width + 2 * x + right]);
+                let mean = |c: usize| (four.iter().map(|p| u32::from(p[c])).sum::<u32>() + 2) / 4;
+                assert_eq!(smooth.rgb()[y * width + x].map(u32::from), [0, 1, 2].map(mean), "{x} {y}");
+                assert_eq!(smooth.tag_at(x, y), whole.tag_at(2 * x, 2 * y));
+            }
+        }
     }
 
     #[test]

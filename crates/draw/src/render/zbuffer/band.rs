@@ -69,16 +69,46 @@ pub(super) struct Band {
     width: usize,
     top: usize,
     height: usize,
-    pub(super) rgb: Vec<[u8; 3]>,
-    pub(super) tags: Vec<u32>,
+    ground: [u8; 3],
+    rgb: Vec<[u8; 3]>,
+    tags: Vec<u32>,
     nearness: Vec<f32>,
 }
 
 impl Band {
-    pub(super) fn new(width: usize, top: usize, height: usize, Rgb(red, green, blue): Rgb) -> Self {
-        let count = width * height;
-        let (rgb, tags) = (vec![[red, green, blue]; count], vec![RenderedFrame::NOTHING; count]);
-        Self { width, top, height, rgb, tags, nearness: vec![0.0; count] }
+    /// A band without rows.
+    pub(super) fn new(width: usize, Rgb(red, green, blue): Rgb) -> Self {
+        let (rgb, tags, nearness) = (Vec::new(), Vec::new(), Vec::new());
+        Self { width, top: 0, height: 0, ground: [red, green, blue], rgb, tags, nearness }
+    }
+
+    /// Begins with other rows, in which there is nothing yet.
+    pub(super) fn clear(&mut self, top: usize, height: usize) {
+        let count = self.width * height;
+        (self.top, self.height) = (top, height);
+        self.rgb.clear();
+        self.rgb.resize(count, self.ground);
+        self.tags.clear();
+        self.tags.resize(count, RenderedFrame::NOTHING);
+        self.nearness.clear();
+        self.nearness.resize(count, 0.0);
+    }
+
+    /// Writes colours and tags as they are.
+    pub(super) fn copy(&self, rgb: &mut [[u8; 3]], tags: &mut [u32]) {
+        rgb.copy_from_slice(&self.rgb);
+        tags.copy_from_slice(&self.tags);
+    }
+
+    /// Writes the means of four pixels each, and the tag of the first one.
+    pub(super) fn halve(&self, rgb: &mut [[u8; 3]], tags: &mut [u32]) {
+        let (full, half) = (self.width, self.width / 2);
+        for (k, (rgb, tag)) in rgb.iter_mut().zip(tags).enumerate() {
+            let corner = 2 * (k / half) * full + 2 * (k % half);
+            let four = [corner, corner + 1, corner + full, corner + full + 1].map(|p| self.rgb[p]);
+            *rgb = [0, 1, 2].map(|c| ((four.iter().map(|p| u32::from(p[c])).sum::<u32>() + 2) / 4) as u8);
+            *tag = self.tags[corner];
+        }
     }
 
     /// The rows of the band that reach over some rows of the picture.
