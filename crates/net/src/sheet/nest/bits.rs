@@ -18,13 +18,15 @@ const LEVELS: usize = COLUMNS.ilog2() as usize + 1;
 /// Rows that are this power of two apart come first among probes.
 const FAR_APART: u32 = 6;
 
-/// A run of a body, as two stretches of 2^level cells that overlap or meet.
+/// A run of a body, as two stretches of 2^level cells that overlap or meet. A layout has a million of them at a time.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Probe {
-    row: usize,
-    level: usize,
-    starts: [usize; 2],
+    row: u32,
+    level: u8,
+    starts: [u8; 2],
 }
+
+const _: () = assert!(COLUMNS <= 1 << u8::BITS, "a column is a byte");
 
 impl Probe {
     /// Probes for the cells of a body whose row and column are multiples of 2^layer, counted in
@@ -36,8 +38,9 @@ impl Probe {
         let mut probes: Vec<Self> = Vec::with_capacity(body.len());
         probes.extend(rows.filter(|r| block(r.start) < block(r.end)).map(|r| {
             let (start, end) = (block(r.start), block(r.end).min(COLUMNS));
-            let level = (end - start).ilog2() as usize;
-            Self { row: r.row as usize / size, level, starts: [start, end - (1 << level)] }
+            let level = (end - start).ilog2() as u8;
+            let starts = [start, end - (1 << level)].map(|cell| cell as u8);
+            Self { row: r.row as u32 / size as u32, level, starts }
         }));
         // Rows far apart first: they find a clash sooner than neighbours do.
         let mut sorted = Vec::with_capacity(probes.len());
@@ -72,8 +75,9 @@ impl Layer {
             if free == 0 {
                 break;
             }
-            let taken = &self.levels[probe.level * self.rows + row + probe.row];
-            free &= !(shifted(taken, probe.starts[0], word) | shifted(taken, probe.starts[1], word));
+            let taken = &self.levels[usize::from(probe.level) * self.rows + row + probe.row as usize];
+            let [first, second] = probe.starts.map(|start| shifted(taken, usize::from(start), word));
+            free &= !(first | second);
         }
         free
     }
