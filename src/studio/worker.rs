@@ -6,7 +6,7 @@ use super::surface::{self, Distances};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, Sender, channel};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tatamu::design::Sketch;
 use tatamu::model::{ModelPart, PartId};
 use tatamu::pipeline::{Engine, Error, Options, Output, Shaped, shape_drawn};
@@ -53,7 +53,7 @@ pub enum News {
     Failed(Problem, Option<String>),
 }
 
-/// Called when there is news.
+/// Called when there is news other than progress, at which the window looks now and then.
 pub type Wake = Arc<dyn Fn() + Send + Sync>;
 
 /// The threads. They end with the worker.
@@ -125,6 +125,18 @@ impl Worker {
         let current = self.current.load(Ordering::SeqCst);
         self.news.try_iter().find(|(number, _)| *number == current).map(|(_, news)| news)
     }
+
+    /// The same, and waits for it until then.
+    pub fn news_by(&self, then: Instant) -> Option<News> {
+        let current = self.current.load(Ordering::SeqCst);
+        loop {
+            let (number, news) =
+                self.news.recv_timeout(then.saturating_duration_since(Instant::now())).ok()?;
+            if number == current {
+                return Some(news);
+            }
+        }
+    }
 }
 
 impl Drop for Worker {
@@ -141,8 +153,11 @@ fn latest(orders: &Receiver<(u64, Order)>) -> Result<(u64, Order), std::sync::mp
 
 impl Outlet {
     fn tell(&self, number: u64, news: News) {
+        let is_progress = matches!(news, News::Stage(_) | News::Fraction(_));
         let _ = self.news.send((number, news));
-        (self.wake)();
+        if !is_progress {
+            (self.wake)();
+        }
     }
 
     /// Makes the component that is wanted first; true where there is one to be shown.

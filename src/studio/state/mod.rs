@@ -17,12 +17,17 @@ use super::watch::Watch;
 use super::worker::{News, Order, Wake, Worker};
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 use tatamu::front::hand;
 use tatamu::front::notes::{self, Note};
 use tatamu::front::scene::Seen;
 use tatamu::model::PartId;
 use tatamu::pipeline::Output;
 use tatamu::project::options::SIZE;
+
+/// A picture waits this long for the component that is turned, because one of the old component takes as long, and the
+/// cores. Tests wait on busy machines, too.
+const WAIT: Duration = if cfg!(test) { Duration::from_secs(60) } else { Duration::from_millis(80) };
 
 /// The studio without its window.
 pub struct Studio {
@@ -33,6 +38,8 @@ pub struct Studio {
     document: Option<Document>,
     shown: Shown,
     busy: Option<Busy>,
+    /// Until when a picture waits for the component that is made first.
+    first_by: Option<Instant>,
     messages: Messages,
     /// The name of a component that does not exist, for which the model failed.
     missing: Option<String>,
@@ -71,6 +78,7 @@ impl Studio {
             document: None,
             shown: Shown::default(),
             busy: None,
+            first_by: None,
             messages: Messages::default(),
             missing: None,
             selection: Selection::default(),
@@ -221,7 +229,15 @@ impl Studio {
         is_changed
     }
 
+    /// Waits a little for a component that was asked for, so that the next picture shows it.
+    pub fn await_first(&mut self) {
+        if let Some(news) = self.first_by.take().and_then(|then| self.worker.news_by(then)) {
+            self.take(news);
+        }
+    }
+
     fn take(&mut self, news: News) {
+        self.first_by = None;
         match news {
             News::Stage(stage) => self.busy = Some(Busy { stage, fraction: None }),
             News::Fraction(done) => {
@@ -260,6 +276,7 @@ impl Studio {
         let is_sized = document.project().has(&SIZE);
         let size_mm = is_sized.then_some(document.options().size_mm);
         let drawn = opened.drawn.clone().map(|sketches| (sketches, size_mm));
+        self.first_by = first.filter(|_| drawn.is_none()).map(|_| Instant::now() + WAIT);
         self.worker.start(Order { engine, drawn, options, first, measures: self.measures });
     }
 

@@ -146,14 +146,16 @@ fn state(window: &mut Window, ui: &mut Ui) {
                     egui::WidgetInfo::labeled(egui::Role::ProgressIndicator, true, busy.stage)
                 });
             }
-            None => drop(ui.spinner()),
+            None => look::spinner(ui),
         }
+        // Progress calls nobody.
+        ui.ctx().request_repaint_after(look::TICK);
         ui.label(busy.stage);
         if ui.small_button("Stop").on_hover_text("stops the calculation (Esc)").clicked() {
             window.studio.cancel();
         }
     } else if window.studio.tasks.is_busy() {
-        ui.spinner();
+        look::spinner(ui);
         ui.label("reading or writing files …");
     } else if window.studio.document().is_some() {
         ui.weak("ready");

@@ -149,7 +149,7 @@ impl ExportPanel {
             if studio.finished().is_none() {
                 ui.weak("available when the model is finished");
             } else if studio.tasks.is_busy() {
-                ui.spinner();
+                look::spinner(ui);
             }
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 let name = commands::COMMAND_LINE.name;

@@ -3,6 +3,9 @@
 use super::commands::Command;
 use eframe::egui::{self, Context, Id, Key, Modal, Modifiers};
 
+/// Points that the list of commands is high.
+const LIST: f32 = 340.0;
+
 /// The list.
 #[derive(Debug, Default)]
 pub struct Finder {
@@ -38,8 +41,9 @@ impl Finder {
             if field.changed() {
                 self.chosen = 0;
             }
-            let found: Vec<(&'static Command, bool)> =
+            let mut found: Vec<(&'static Command, bool)> =
                 commands.iter().copied().filter(|(command, _)| is_like(command, &self.text)).collect();
+            found.sort_by_key(|(command, can)| (!can, rank(command, &self.text)));
             let last = found.len().saturating_sub(1);
             self.chosen = (self.chosen + usize::from(down)).saturating_sub(usize::from(up)).min(last);
             if enter && let Some(&(command, true)) = found.get(self.chosen) {
@@ -53,7 +57,9 @@ impl Finder {
                 }
                 Some(_) => {}
             }
-            egui::ScrollArea::vertical().max_height(340.0).auto_shrink([false, true]).show(ui, |ui| {
+            // A list that was short before is as high as it needs to be.
+            let list = egui::ScrollArea::vertical().max_height(LIST).min_scrolled_height(LIST);
+            list.auto_shrink([false, true]).show(ui, |ui| {
                 for (k, (command, can)) in found.into_iter().enumerate() {
                     let text = format!("{}  {}", command.picture(), command.name);
                     let item = egui::Button::selectable(k == self.chosen, text)
@@ -78,6 +84,13 @@ impl Finder {
     }
 }
 
+/// The smaller, the more its name is like what was typed.
+fn rank(command: &Command, text: &str) -> usize {
+    let (name, text) = (command.name.to_lowercase(), text.trim().to_lowercase());
+    let is_whole = name.trim_end_matches(" …") == text;
+    [is_whole, name.starts_with(&text), name.contains(&text)].iter().position(|is_so| *is_so).unwrap_or(3)
+}
+
 /// Whether each word that was typed is in the name or the tip of a command.
 fn is_like(command: &Command, text: &str) -> bool {
     let all = format!("{} {}", command.name, command.tip).to_lowercase();
@@ -94,5 +107,13 @@ mod tests {
         assert!(is_like(&commands::LAY_OUT, "again lay"));
         assert!(is_like(&commands::OPEN, ""));
         assert!(!is_like(&commands::OPEN, "merge"));
+    }
+
+    #[test]
+    fn names_come_before_tips() {
+        let ranks = [&commands::SHEETS, &commands::BESIDE, &commands::FIT_SHEETS, &commands::OPEN]
+            .map(|command| rank(command, "sheets "));
+        assert_eq!(ranks, [0, 1, 2, 3]);
+        assert_eq!(rank(&commands::OPEN, "open"), 0);
     }
 }

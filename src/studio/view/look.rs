@@ -1,10 +1,12 @@
 //! How the window looks: colours of both themes, spacing, letters and icons.
 
 use eframe::egui::{
-    self, Button, Color32, CornerRadius, FontData, FontDefinitions, FontId, RichText, Stroke, TextStyle,
-    Theme, Visuals,
+    self, Button, Color32, CornerRadius, FontData, FontDefinitions, FontId, RichText, Role, Sense, Stroke,
+    TextStyle, Theme, Ui, Vec2, Visuals, WidgetInfo,
 };
 use lucide_icons::{Icon, LUCIDE_FONT_BYTES};
+use std::f32::consts::TAU;
+use std::time::Duration;
 use tatamu::drawing::Rgb;
 use tatamu::render::light::mixed;
 
@@ -82,6 +84,22 @@ pub fn paint(painter: &egui::Painter, picture: &egui::TextureHandle, rect: egui:
     painter.image(picture.id(), rect, whole, Color32::WHITE);
 }
 
+/// Time between two pictures of what goes on. More of them take the cores from the work itself.
+pub const TICK: Duration = Duration::from_millis(125);
+
+/// A circle that goes round while something is made.
+pub fn spinner(ui: &mut Ui) {
+    let size = ui.style().spacing.interact_size.y;
+    let (rect, response) = ui.allocate_exact_size(Vec2::splat(size), Sense::hover());
+    response.widget_info(|| WidgetInfo::labeled(Role::ProgressIndicator, true, "working"));
+    let turns = (ui.input(|i| i.time) / TICK.as_secs_f64()).floor() / 8.0;
+    let ray = |k: u8| Vec2::angled(TAU * (turns.fract() as f32 + f32::from(k) / 24.0));
+    let points = (0..=18).map(|k| rect.center() + (0.5 * size - 2.0) * ray(k)).collect();
+    let stroke = Stroke::new(3.0, ui.visuals().strong_text_color());
+    ui.painter().line(points, stroke);
+    ui.ctx().request_repaint_after(TICK);
+}
+
 /// Gives a window its look.
 pub fn set(ctx: &egui::Context) {
     // A second pass over a frame would repeat the user's action.
@@ -97,6 +115,8 @@ pub fn set(ctx: &egui::Context) {
             style.spacing.item_spacing = egui::vec2(8.0, 5.0);
             style.spacing.button_padding = egui::vec2(7.0, 3.0);
             style.spacing.interact_size.y = 24.0;
+            // What scrolls does not run under its bar.
+            style.spacing.scroll.floating_allocated_width = style.spacing.scroll.bar_width;
         });
     }
 }

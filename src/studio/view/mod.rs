@@ -185,6 +185,7 @@ impl Window {
         self.studio.poll();
         self.follow_file();
         let ctx = ui.ctx().clone();
+        wheel::let_scroll(&ctx);
         let dropped: Vec<_> =
             ctx.input(|i| i.raw.dropped_files.iter().map(|f| f.path().to_owned()).collect());
         if let Some(path) = dropped.first() {
@@ -370,11 +371,10 @@ impl Window {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
             self.dialogs.ask_leave(Leave::Close);
         }
-        let mut commands: Vec<_> = match self.dialogs.is_finding() {
+        let commands: Vec<_> = match self.dialogs.is_finding() {
             true => commands::all().map(|command| (command, command.can(self))).collect(),
             false => Vec::new(),
         };
-        commands.sort_by_key(|(_, can)| !can);
         let path = self.studio.document().and_then(|document| document.path());
         let path = path.or(self.studio.opened().map(|opened| opened.source.as_path()));
         let file = path.and_then(Path::file_name).unwrap_or_default().to_string_lossy().into_owned();

@@ -133,9 +133,14 @@ impl Ring {
                 ui.ctx().request_repaint_after_secs((REST_S - (now_s - since_s)) as f32);
             }
         }
-        if let Some(survey) = &mut self.survey {
+        self.make_way(studio);
+        self.survey.iter_mut().for_each(Survey::poll);
+    }
+
+    /// Tries no direction while the model is made.
+    pub fn make_way(&self, studio: &Studio) {
+        if let Some(survey) = &self.survey {
             survey.rest(studio.finished().is_none());
-            survey.poll();
         }
     }
 

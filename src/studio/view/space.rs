@@ -7,7 +7,7 @@ use super::look;
 use super::measure::Measure;
 use super::ring::Ring;
 use super::space_marks;
-use super::wheel::Wheel;
+use super::wheel::{self, Wheel};
 use eframe::egui::{
     self, Color32, CursorIcon, PointerButton, Pos2, Rect, Sense, TextureHandle, TextureOptions, Vec2,
 };
@@ -255,6 +255,8 @@ impl Space {
             self.orbit = self.solids.as_ref().and_then(|s| s.3.ball()).map(Orbit::of_ball);
         }
         let is_moving = self.handle_mouse(studio, ui, &response);
+        self.ring.make_way(studio);
+        studio.await_first();
         self.refresh_scene(studio);
         let ground = look::ground(ui.visuals());
         // What is new is shown at once, and smoothly in the next picture.
@@ -275,7 +277,8 @@ impl Space {
         if self.shows_names {
             space_marks::names(studio, ui, rect, &self.middles);
         }
-        space_marks::hint(studio, ui, rect, self.over(&response, ui).filter(|_| !response.dragged()));
+        let over = self.over(&response, ui).filter(|_| !response.dragged());
+        space_marks::hint(studio, ui, rect, over, self.measure.is_on());
         space_marks::legend(studio, ui, rect, self.setting.layers);
         if let Some(orbit) = &mut self.orbit {
             if self.setting.folded == 0.0 && self.setting.split.is_none() && self.setting.layers.components {
@@ -388,13 +391,10 @@ impl Space {
         }
         let drawn_px = if is_smooth { size_px.map(|n| 2 * n) } else { size_px };
         let Ok(eye) = orbit.eye(drawn_px) else { return };
-        let draw = || {
-            let frame = RenderedFrame::draw(solids, &eye, ground);
-            if is_smooth { frame.halved() } else { frame }
-        };
+        let draw = if is_smooth { RenderedFrame::draw_smooth } else { RenderedFrame::draw };
         let frame = match &*DRAWERS {
-            Some(pool) => pool.install(draw),
-            None => draw(),
+            Some(pool) => pool.install(|| draw(solids, &eye, ground)),
+            None => draw(solids, &eye, ground),
         };
         let pixels = frame.rgb().iter().map(|&[r, g, b]| Color32::from_rgb(r, g, b)).collect();
         let image = egui::ColorImage::new(frame.size_px(), pixels);
@@ -475,6 +475,9 @@ impl Space {
         let turning = self.turning.filter(|(_, from, s)| from.distance(at) < STILL && now_s - s < STILL_S);
         let part = turning.map(|(part, ..)| part);
         let part = part.or(over.filter(|tag| studio.is_selected(tag.part)).map(|tag| tag.part));
+        if part.is_some() && !ui.input(|i| i.modifiers.command) {
+            wheel::stop_scrolling(ui.ctx());
+        }
         let (motion, zoom, shift) = ui.input(|i| {
             let zoom = f64::from(i.zoom_delta());
             // A pinch, or the wheel with Ctrl, comes as wheel and as zoom.

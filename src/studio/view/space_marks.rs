@@ -81,12 +81,13 @@ impl Pill {
 }
 
 /// What the mouse does where it is, at the lower left.
-pub fn hint(studio: &Studio, ui: &mut Ui, rect: Rect, over: Option<Tag>) {
+pub fn hint(studio: &Studio, ui: &mut Ui, rect: Rect, over: Option<Tag>, measures: bool) {
     let text = match over.and_then(|tag| Some((tag, studio.shown().part(tag.part)?))) {
         Some((tag, part)) => {
             let panel = tag.panel.and_then(|id| part.component.panels().panels().get(id.0));
             let what = panel.map_or(String::new(), |panel| format!(" · {}", panel.kind));
             let hint = match studio.is_selected(tag.part) {
+                _ if measures => "click: measures to its nearest corner",
                 true if studio.is_drawn() => "drawn in the project file",
                 true => "wheel: rotates its fold direction by 5°, with Shift by 1°",
                 false => "click: selects it",

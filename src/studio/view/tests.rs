@@ -22,6 +22,7 @@ mod defects;
 mod export_tests;
 mod more_defects;
 mod nets;
+mod pace_tests;
 #[cfg(unix)]
 mod plot_tests;
 mod reach_tests;

@@ -90,7 +90,7 @@ fn page(window: &mut Window, ui: &mut Ui, above: f32) {
         ui.label(RichText::new("turns a mesh into a paper model that folds flat").size(16.0));
         ui.add_space(22.0);
         if window.studio.tasks.is_busy() {
-            ui.spinner();
+            look::spinner(ui);
             ui.label("reading …");
         } else {
             let text = format!("{}  Open a mesh or a project …", look::icon(Icon::FolderOpen));

@@ -4,7 +4,7 @@
 //! them. A gesture keeps to what it began with: fingers that come over a component on their way do
 //! not turn it.
 
-use eframe::egui::{Event, MouseWheelSource, MouseWheelUnit, TouchPhase, Vec2};
+use eframe::egui::{Context, Event, InputOptions, MouseWheelSource, MouseWheelUnit, TouchPhase, Vec2};
 
 /// Points of a trackpad that are a step.
 const STEP_POINTS: f32 = 40.0;
@@ -14,6 +14,17 @@ const PAUSE_S: f64 = 0.25;
 /// has no axis: remote desktops, old mice. Nobody clicks twice in so short a time. A wheel that was found
 /// to do so does it always, and where the machine is slow the echo comes later, within a pause.
 const ECHO_S: f64 = 0.02;
+
+/// Lets the wheel scroll, as it does everywhere but over a component that it turns.
+pub fn let_scroll(ctx: &Context) {
+    ctx.options_mut(|o| o.input_options.line_scroll_speed = InputOptions::default().line_scroll_speed);
+}
+
+/// Keeps a click of the wheel from scrolling: egui draws pictures for a tenth of a second to make that smooth, and they
+/// take the cores from the component that is made.
+pub fn stop_scrolling(ctx: &Context) {
+    ctx.options_mut(|o| o.input_options.line_scroll_speed = 0.0);
+}
 
 /// The gesture that goes on.
 #[derive(Debug, Clone, Copy, Default)]

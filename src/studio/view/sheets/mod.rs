@@ -111,7 +111,7 @@ impl SheetsPanel {
         self.bar(studio, &output, ui);
         let drawn = match &self.drawn {
             None => {
-                ui.spinner();
+                look::spinner(ui);
                 return;
             }
             Some(Ok(drawn)) => drawn.clone(),
@@ -360,7 +360,7 @@ fn summary(studio: &Studio, output: &Output, ui: &mut Ui) {
         false => format!("{sheets} of {name}, laying out …"),
     };
     if !is_current {
-        ui.spinner();
+        look::spinner(ui);
     }
     ui.add(egui::Label::new(text).truncate());
 }

@@ -17,7 +17,7 @@ impl SheetsPanel {
         };
         self.refresh(studio, &output, ui.ctx());
         let drawn = match &self.drawn {
-            None => return drop(ui.spinner()),
+            None => return look::spinner(ui),
             Some(Ok(drawn)) => drawn.clone(),
             Some(Err(problem)) => return drop(ui.colored_label(ui.visuals().error_fg_color, problem)),
         };
@@ -37,7 +37,7 @@ impl SheetsPanel {
                 self.previewed += 1;
             }
             if self.coming.is_some() || studio.laid().is_none() {
-                ui.spinner();
+                look::spinner(ui);
             }
         });
         ui.add_space(4.0);

@@ -144,6 +144,42 @@ fn a_command_is_found_by_its_name_and_run() {
     assert!(!desk.state().dialogs.is_open());
 }
 
+/// After a search that found little the list had room for two commands.
+#[test]
+fn the_list_of_commands_is_high_again_after_a_search_and_its_bar_has_room() {
+    let (mut desk, _folder) = open();
+    let height = |desk: &Desk| {
+        desk.ctx.memory(|m| m.area_rect(egui::Id::unique("finder"))).map_or(0.0, |rect| rect.height())
+    };
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    desk.run_ok();
+    desk.event(Event::Text("ghost".to_owned()));
+    desk.run_ok();
+    assert!(height(&desk) < 200.0);
+    desk.key_press(Key::Escape);
+    desk.run_ok();
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    desk.run_ok();
+    assert!(height(&desk) > 340.0, "{}", height(&desk));
+    let field = desk.get_by_label("Find a command").rect();
+    let entry = desk.get_by_label("Save project as …").rect();
+    let bar = desk.ctx.global_style().spacing.scroll.bar_width;
+    assert!(entry.right() <= field.right() - bar, "{entry:?} runs under the bar: {field:?}");
+}
+
+/// "sheets" printed them.
+#[test]
+fn the_command_with_the_name_that_is_typed_is_the_first() {
+    let (mut desk, _folder) = open();
+    desk.key_press_modifiers(Modifiers::COMMAND, Key::K);
+    desk.run_ok();
+    desk.event(Event::Text("sheets".to_owned()));
+    desk.run_ok();
+    desk.key_press(Key::Enter);
+    desk.run_ok();
+    assert_eq!(desk.state().mode, Mode::Sheets);
+}
+
 /// A search for "merge" found nothing while less than two components were selected.
 #[test]
 fn commands_that_cannot_be_done_now_are_found_too() {
@@ -402,6 +438,8 @@ fn two_corners_that_are_clicked_are_measured() {
         let at = on_component(&desk, part);
         press(&mut desk, at, Modifiers::NONE);
     }
+    let hint = desk.query_all_by_label_contains("click: measures to its nearest corner");
+    assert_eq!(hint.count(), 1, "the hint told of selecting");
     let mm = desk.state().space().measure().length_mm().unwrap();
     let whole_mm = desk.state().studio().shown().shaped().unwrap().source().mesh().diagonal_mm();
     assert!(mm > 1.0 && mm < whole_mm, "{mm} mm");
