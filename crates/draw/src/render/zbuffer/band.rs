@@ -6,7 +6,7 @@ use crate::render::light;
 use crate::render::orbit::Eye;
 
 /// Lines are drawn before faces that are nearer by less than this share of their distance.
-const LINE_BIAS: f64 = 0.0012;
+const LINE_BIAS: f64 = 0.0004;
 
 /// A facet as it appears.
 pub(super) struct Flat {
