@@ -17,7 +17,7 @@ const REST: Duration = Duration::from_millis(60);
 
 /// Answers about motions that are kept from one model to the next, of 0.6 kB each: a model of ten parts makes 10,000 of
 /// them, and without a bound those of a few turns take 100 MB.
-pub const MOTIONS: usize = 40_000;
+pub const MOTIONS: usize = 30_000;
 
 /// What is to be made.
 pub struct Order {

@@ -290,6 +290,10 @@ mod tests {
         let eye = front([100, 100]);
         let middle = 50 * 100 + 50;
         assert_eq!(RenderedFrame::draw(&solids, &eye, Rgb::WHITE).rgb()[middle], [0, 0, 200]);
+        // Creases of the layers below showed through a flat component.
+        let mut flat = solids.clone();
+        flat.facets.extend(square(0.03, 5.0, RED, 0).facets);
+        assert_ne!(RenderedFrame::draw(&flat, &eye, Rgb::WHITE).rgb()[middle], [0, 0, 200]);
         solids.facets.extend(square(4.0, 5.0, RED, 0).facets);
         assert_ne!(RenderedFrame::draw(&solids, &eye, Rgb::WHITE).rgb()[middle], [0, 0, 200]);
     }

@@ -121,7 +121,9 @@ impl PieceMesh {
             let vertices = vec![base[0], base[1], first, first + 1];
             faces.push(Face { kind: FaceKind::Tab(k), vertices });
         }
-        let edges = edges(set, layout, tabs, &faces);
+        let mut edges = edges(set, layout, tabs, &faces);
+        // Many nets are kept.
+        (vertices.shrink_to_fit(), faces.shrink_to_fit(), edges.shrink_to_fit());
         Self { vertices, faces, edges }
     }
 

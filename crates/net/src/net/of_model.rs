@@ -23,8 +23,8 @@ pub enum NetsError {
     Cancelled(#[from] Cancelled),
 }
 
-/// Number of nets that are kept: a few turns of a few dozen components.
-const MOST_KNOWN: usize = 200;
+/// Number of nets that are kept: a few turns of two dozen components.
+const MOST_KNOWN: usize = 100;
 
 /// Nets that were made before, so that a change to one component leaves those of others as they
 /// are.
