@@ -123,7 +123,9 @@ impl PieceMesh {
         }
         let mut edges = edges(set, layout, tabs, &faces);
         // Many nets are kept.
-        (vertices.shrink_to_fit(), faces.shrink_to_fit(), edges.shrink_to_fit());
+        vertices.shrink_to_fit();
+        faces.shrink_to_fit();
+        edges.shrink_to_fit();
         Self { vertices, faces, edges }
     }
 
