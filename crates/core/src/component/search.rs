@@ -5,6 +5,7 @@ mod counts;
 mod finish;
 mod found;
 mod price;
+mod schedule;
 mod simpler;
 mod straightened;
 
@@ -22,36 +23,12 @@ use finish::{as_box, finish};
 use found::{closed, pruned};
 use price::{cost, finished_cost, panel_worth_mm};
 use rayon::prelude::*;
+use schedule::{
+    CHEAP_PANELS, FEW_EDGES, FEW_VERTICES, FINISHED, FINISHED_OF_ONE, FIRST_STEPS, LAST_STEPS, LEFT,
+    LEFT_FEWER, LEFT_FULL, MORE_STEPS, PRUNED, RETRIED,
+};
 use simpler::Simpler;
 use straightened::Straightened;
-
-/// Fit steps of each direction before the first ranking, and directions kept.
-const FIRST_STEPS: usize = 4;
-const LEFT: usize = 6;
-/// Kept directions that also start with fewer panels: that may lead to a better place, and the rest is added where it is
-/// worth most.
-const RETRIED: usize = 1;
-/// Where a panel must add less than this to the likeness, every direction starts a second time with few panels, to which
-/// those are added that are worth most: models of the level `fine` have 20 panels less and outlines more alike by 0.002
-/// (16 meshes), in 1.5 to 1.9 times the time. With the worth of the level `normal` there are fewer panels as well, but outlines of
-/// 38 meshes are less alike by 0.001, in 1.7 times the time.
-const CHEAP_PANELS: f64 = 0.001;
-/// Shares of top edges and profile vertices that it starts with, and the least counts. With 0.7 and 0.6 outlines are less
-/// alike by 0.002, with 0.4 and 0.4 by 0.001.
-const FEW_EDGES: (f64, usize) = (0.6, 4);
-const FEW_VERTICES: (f64, usize) = (0.5, 3);
-/// Fit steps before the second ranking. Candidates kept with the full edge count, and with fewer edges.
-const MORE_STEPS: usize = 6;
-const LEFT_FULL: usize = 5;
-const LEFT_FEWER: usize = 2;
-/// Fit steps before the last ranking, and candidates finished.
-const LAST_STEPS: usize = 6;
-const FINISHED: usize = 3;
-/// Candidates finished for a direction that the user turns by hand: the answer must come at once.
-const FINISHED_OF_ONE: usize = 2;
-/// Finished shapes that are searched for needless panels. The others are hardly ever taken, and panels
-/// count in the comparison.
-const PRUNED: usize = 2;
 
 /// The best component.
 pub(super) fn best(targets: &[(Target, f64)]) -> Result<Found, ConvertError> {

@@ -10,21 +10,9 @@ use super::super::start::{boxed, fold_spots, simplify};
 use super::super::symmetry::Symmetry;
 use super::super::target::{FoldSpot, Target};
 use super::price::{cost, opening_cost};
+use super::schedule::{CORNERS, GROWN_STEPS, HOPELESS, REPAIR_STEPS, REPAIRS, STEPS};
 use crate::geom::Hull;
 
-/// Number of corners, those that stand out most, at which a plane is tried. With 1 the hull of a bunny has outlines alike by
-/// 0.954, with 4 by 0.973; with 8 it takes half as long again for nothing.
-const CORNERS: usize = 4;
-/// Fit steps after each added plane.
-const GROWN_STEPS: usize = 8;
-/// A plane is given up if the cost is then this many times the cost without it.
-const HOPELESS: f64 = 1.1;
-/// Most steps of a fit.
-const STEPS: usize = 24;
-/// Most panels that are dropped for want of room.
-const REPAIRS: usize = 40;
-/// Steps after a panel was dropped.
-const REPAIR_STEPS: usize = 8;
 /// A shape that misses a limit by less is as good as one that keeps it.
 pub(super) const NEAR_ENOUGH_MM: f64 = 1e-3;
 /// Imbalance up to which a fold vertex at a bend is exact, as a share of the height.

@@ -8,10 +8,9 @@ use super::super::target::{FoldSpot, Target};
 use super::counts::goal;
 use super::finish::{NEAR_ENOUGH_MM, as_box, assemble_unbroken};
 use super::price::{finished_cost, over_mm2, panel_worth_mm};
+use super::schedule::PRUNE_STEPS;
 use super::simpler::Simpler;
 
-/// Steps after one was left out.
-const PRUNE_STEPS: usize = 8;
 /// A shape that is closed by leaving out panels may have at most this many times the error. No case bounds it yet.
 const CLOSED_AT_MOST: f64 = 1.5;
 

@@ -2,14 +2,10 @@
 
 use super::super::symmetry::{Crossing, Symmetry, Turning};
 use super::super::target::Target;
+use super::schedule::{FIT_DIRECTIONS, ROUGH_DIRECTIONS};
 use crate::geom::{self, Hull};
 use glam::DVec3;
 use std::sync::OnceLock;
-
-/// Hulls with more corners are fitted through their extreme points in this many directions.
-const FIT_DIRECTIONS: usize = 320;
-/// The same while directions are compared.
-const ROUGH_DIRECTIONS: usize = 140;
 
 /// A hull with few corners, and one with more that is made when it is needed.
 pub(super) struct Simpler<'h> {
