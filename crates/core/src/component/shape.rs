@@ -159,8 +159,15 @@ impl SolidShape {
 
 impl Solid {
     /// Profile of chain j: its bends with both ends, (u, v) from top to bottom.
+    ///
+    /// Heights of bends are more exact here than in a fit, where there is no time for the sine of a difference.
     pub fn profile(&self, j: ChainId) -> Vec<DVec2> {
-        profile(&lines(&self.chains[j.0]), self.top_mm, self.bottom_mm)
+        let (chain, lines) = (&self.chains[j.0], lines(&self.chains[j.0]));
+        let bends = lines.windows(2).zip(chain.facets.windows(2)).map(|(line, facet)| {
+            (line[0].offset * line[1].cos - line[1].offset * line[0].cos)
+                / libm::sin(facet[0].slope_rad - facet[1].slope_rad)
+        });
+        bent(&lines, bends, self.top_mm, self.bottom_mm)
     }
 
     /// Its corners and faces, as [`Solid::faces`] orders them.
@@ -189,12 +196,14 @@ pub(super) fn lines_of(facets: &[SideFacet]) -> Vec<ProfileLine> {
 
 /// Ends and bends of a chain with these planes, (u, v) from top to bottom.
 pub(super) fn profile(lines: &[ProfileLine], top: f64, bottom: f64) -> Vec<DVec2> {
+    bent(lines, lines.windows(2).map(|w| w[0].meets(&w[1])), top, bottom)
+}
+
+/// The same with bends at these heights.
+fn bent(lines: &[ProfileLine], bends: impl Iterator<Item = f64>, top: f64, bottom: f64) -> Vec<DVec2> {
     let mut points = Vec::with_capacity(lines.len() + 1);
     points.push(DVec2::new(lines[0].u_at(top), top));
-    for w in lines.windows(2) {
-        let v = w[0].meets(&w[1]);
-        points.push(DVec2::new(w[0].u_at(v), v));
-    }
+    points.extend(lines.iter().zip(bends).map(|(line, v)| DVec2::new(line.u_at(v), v)));
     points.push(DVec2::new(lines[lines.len() - 1].u_at(bottom), bottom));
     points
 }
