@@ -291,6 +291,17 @@ mod tests {
     }
 
     #[test]
+    fn profiles_are_those_of_the_solid() {
+        for shape in shapes() {
+            for j in shape.solid.chain_ids() {
+                let (of_fit, exact) = (&shape.chains[j.0].profile, shape.solid.profile(j));
+                assert_eq!(of_fit.len(), exact.len());
+                assert!(of_fit.iter().zip(exact).all(|(a, b)| a.distance(b) < 1e-9));
+            }
+        }
+    }
+
+    #[test]
     fn faces_have_their_planes_and_enclose_a_volume() {
         for shape in shapes() {
             let mut volume = 0.0;
