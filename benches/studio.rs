@@ -83,7 +83,7 @@ fn orbit(bencher: Bencher, path: &str) {
     let Some(mut orbit) = solids.ball().map(Orbit::of_ball) else { return };
     bencher.bench_local(|| {
         orbit.turn(0.05, 0.0);
-        orbit.eye([1280, 720]).map(|eye| RenderedFrame::draw(&solids, &eye, Rgb::WHITE))
+        RenderedFrame::of_orbit(&solids, &orbit, [1280, 720], false, Rgb::WHITE)
     });
 }
 
@@ -97,7 +97,5 @@ fn smooth(bencher: Bencher, path: &str) {
         solids.push_triangle(corners, Rgb(200, 190, 180), Some(Rgb::WHITE), face as u32, false);
     }
     let Some(orbit) = solids.ball().map(Orbit::of_ball) else { return };
-    bencher.bench_local(|| {
-        orbit.eye([2560, 1440]).map(|eye| RenderedFrame::draw_smooth(&solids, &eye, Rgb::WHITE))
-    });
+    bencher.bench_local(|| RenderedFrame::of_orbit(&solids, &orbit, [1280, 720], true, Rgb::WHITE));
 }

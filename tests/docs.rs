@@ -7,6 +7,8 @@
 //! keeps it from being run.
 #![cfg(unix)]
 
+mod listed;
+
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::io::{BufRead, BufReader, Read};
@@ -383,11 +385,7 @@ fn comments_are_in_plain_english() {
 fn commands() -> Vec<String> {
     let output = tatamu(root()).arg("--help").output().unwrap();
     let help = String::from_utf8(output.stdout).unwrap();
-    let list = help.split_once("Commands:\n").unwrap().1.split_once("\n\n").unwrap().0;
-    let name = |line: &str| {
-        line.strip_prefix("  ").filter(|l| !l.starts_with(' '))?.split(' ').next().map(str::to_owned)
-    };
-    list.lines().filter_map(name).filter(|name| name != "help").collect()
+    listed::commands(&help)
 }
 
 #[test]

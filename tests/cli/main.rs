@@ -11,6 +11,8 @@ mod faults;
 mod film;
 mod guide;
 mod hostile;
+#[path = "../listed/mod.rs"]
+mod listed;
 mod make;
 mod measures;
 mod mistakes;

@@ -105,9 +105,8 @@ impl Picture {
 
     /// Draws it, as bytes of red, green, blue and opacity; none where there is nothing to be seen.
     pub fn draw(&mut self, size_px: [usize; 2], is_smooth: bool, ground: Rgb) -> Option<Vec<u8>> {
-        let drawn_px = if is_smooth { size_px.map(|n| 2 * n) } else { size_px };
-        let draw = if is_smooth { RenderedFrame::draw_smooth } else { RenderedFrame::draw };
-        let frame = draw(&self.solids, &self.orbit?.eye(drawn_px).ok()?, ground);
+        let frame =
+            RenderedFrame::of_orbit(&self.solids, self.orbit.as_ref()?, size_px, is_smooth, ground).ok()?;
         let bytes = frame.rgb().iter().flat_map(|&[r, g, b]| [r, g, b, u8::MAX]).collect();
         self.frame = Some(frame);
         Some(bytes)

@@ -389,13 +389,12 @@ impl Space {
         if self.drawn.as_ref().is_some_and(|drawn| same(drawn) && (drawn.is_smooth || !is_smooth)) {
             return;
         }
-        let drawn_px = if is_smooth { size_px.map(|n| 2 * n) } else { size_px };
-        let Ok(eye) = orbit.eye(drawn_px) else { return };
-        let draw = if is_smooth { RenderedFrame::draw_smooth } else { RenderedFrame::draw };
+        let draw = || RenderedFrame::of_orbit(solids, &orbit, size_px, is_smooth, ground);
         let frame = match &*DRAWERS {
-            Some(pool) => pool.install(|| draw(solids, &eye, ground)),
-            None => draw(solids, &eye, ground),
+            Some(pool) => pool.install(draw),
+            None => draw(),
         };
+        let Ok(frame) = frame else { return };
         let pixels = frame.rgb().iter().map(|&[r, g, b]| Color32::from_rgb(r, g, b)).collect();
         let image = egui::ColorImage::new(frame.size_px(), pixels);
         match &mut self.texture {

@@ -19,6 +19,11 @@ pub struct SideFacet {
     pub is_joint: bool,
 }
 
+/// The normal of a side panel in this direction about the fold axis, at this slope above the horizontal.
+pub(crate) fn side_normal(angle_rad: f64, slope_rad: f64) -> DVec3 {
+    (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad))
+}
+
 /// The side planes under one top edge.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
@@ -90,9 +95,9 @@ impl Solid {
             FaceId::Top => (DVec3::Z, self.top_mm),
             FaceId::Bottom => (-DVec3::Z, -self.bottom_mm),
             FaceId::Side(j, i) => {
-                let facet = self.chains[j.0].facets[i];
-                let normal = self.chains[j.0].normal() * libm::cos(facet.slope_rad);
-                (normal.extend(libm::sin(facet.slope_rad)), facet.offset_mm)
+                let chain = &self.chains[j.0];
+                let facet = chain.facets[i];
+                (side_normal(chain.angle_rad, facet.slope_rad), facet.offset_mm)
             }
         }
     }

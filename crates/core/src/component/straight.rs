@@ -1,9 +1,9 @@
 //! Targets moved so that their mirror plane is y = 0, and one across it x = 0, or z = 0; and solids moved back.
 
 use super::angles::turn;
-use super::solid::Solid;
+use super::solid::{Solid, side_normal};
 use super::symmetry::{Crossing, Image, Symmetry, images, settled, wrapped};
-use super::target::{JointTarget, Seat, Target, side_normal};
+use super::target::{JointTarget, Seat, Target};
 use crate::geom::Hull;
 use glam::{DAffine3, DMat3, DVec3};
 use std::f64::consts::FRAC_PI_2;

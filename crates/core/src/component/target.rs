@@ -5,7 +5,7 @@ use super::panel::ChainId;
 use super::solid::{FaceId, SideFacet, Solid};
 use super::symmetry::Symmetry;
 use crate::geom::Hull;
-use glam::{DAffine3, DVec2, DVec3};
+use glam::{DAffine3, DVec3};
 
 /// Where a joint panel sits on a component, in the component's axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,11 +29,6 @@ pub enum Seat {
         /// Distance of its plane from the origin.
         offset_mm: f64,
     },
-}
-
-/// The normal of a side panel in this direction about the fold axis, at this slope above the horizontal.
-pub(crate) fn side_normal(angle_rad: f64, slope_rad: f64) -> DVec3 {
-    (DVec2::from_angle(angle_rad) * libm::cos(slope_rad)).extend(libm::sin(slope_rad))
 }
 
 /// One joint as a component sees it.

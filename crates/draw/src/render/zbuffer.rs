@@ -5,7 +5,8 @@
 
 mod band;
 
-use super::orbit::Eye;
+use super::orbit::{Eye, Orbit};
+use super::view::ViewError;
 use crate::drawing::Rgb;
 use band::{Band, Flat, Stroke};
 use glam::DVec3;
@@ -102,8 +103,26 @@ impl RenderedFrame {
         Self::drawn(solids, eye, ground, 1, Band::copy)
     }
 
+    /// Draws a scene as it is seen from an orbit, with smooth edges or without.
+    ///
+    /// # Errors
+    /// Those of [`Orbit::eye`], for twice the size where edges are smooth.
+    pub fn of_orbit(
+        solids: &Solids,
+        orbit: &Orbit,
+        size_px: [usize; 2],
+        is_smooth: bool,
+        ground: Rgb,
+    ) -> Result<Self, ViewError> {
+        if is_smooth {
+            let eye = orbit.eye(size_px.map(|n| 2 * n))?;
+            return Ok(Self::draw_smooth(solids, &eye, ground));
+        }
+        Ok(Self::draw(solids, &orbit.eye(size_px)?, ground))
+    }
+
     /// Draws a scene at half the size of the eye's picture, each pixel the mean of four: smooth edges.
-    pub fn draw_smooth(solids: &Solids, eye: &Eye, ground: Rgb) -> Self {
+    fn draw_smooth(solids: &Solids, eye: &Eye, ground: Rgb) -> Self {
         Self::drawn(solids, eye, ground, 2, Band::halve)
     }
 
