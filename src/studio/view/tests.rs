@@ -17,7 +17,9 @@ use tatamu::model::PartId;
 use tatamu::sheet::SheetId;
 use tempfile::TempDir;
 
+mod access;
 mod advice_tests;
+mod commands;
 mod defects;
 mod export_tests;
 mod more_defects;
@@ -133,7 +135,7 @@ fn on_component(desk: &Desk, part: PartId) -> Pos2 {
         .collect();
     assert!(!own.is_empty(), "{part:?} is seen");
     let (x, y) = own[own.len() / 2];
-    rect.min + egui::vec2(x as f32 + 0.5, y as f32 + 0.5)
+    rect.min + egui::vec2(x as f32 + 0.5, y as f32 + 0.5) / desk.ctx.pixels_per_point()
 }
 
 fn press(desk: &mut Desk, at: Pos2, modifiers: Modifiers) {

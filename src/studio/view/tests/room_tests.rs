@@ -60,3 +60,23 @@ fn the_sheets_keep_their_share_of_the_window() {
     }
     assert!((share(&desk) - before).abs() < 0.01, "{before} {}", share(&desk));
 }
+
+/// Also where a window is moved from one screen to another.
+#[test]
+fn a_dense_screen_shows_the_model_in_all_its_pixels_and_clicks_hit() {
+    let (mut desk, _folder) = open();
+    let names = desk.state().studio().shown().names().to_vec();
+    for pixels_per_point in [1.0, 2.0, 1.25] {
+        desk.set_pixels_per_point(pixels_per_point);
+        desk.run_ok();
+        let room = desk.get_by_label("Model in space").rect().size() * pixels_per_point;
+        let size_px = desk.state().space().size_px().unwrap();
+        assert_eq!(size_px, [room.x, room.y].map(|n| n.round() as usize), "{pixels_per_point}");
+        for part in [PartId(1), PartId(0)] {
+            let at = on_component(&desk, part);
+            press(&mut desk, at, Modifiers::NONE);
+            let selected = desk.state().studio().selection.names().to_vec();
+            assert_eq!(selected, [names[part.0].clone()], "{pixels_per_point}");
+        }
+    }
+}
