@@ -3,10 +3,11 @@
 //! Joint planes are known in advance, from where the parts touch. So the candidates of one part do not
 //! depend on those of another part; [`super::pair`] gives a cost to each two of them.
 
+use super::demand::Demand;
 use super::link::Link;
 use super::seat::{Seating, Snap, level_axis, seat_plane, seats};
 use super::turned::TurningAxis;
-use super::{ModelError, ModelPart, Part, PartId, Symmetry, plane};
+use super::{ModelError, ModelPart, Part, PartId, Symmetry};
 use crate::component::{
     self, Component, Crossing, Finished, JointTarget, PanelId, PrincipalAxis, Target, Turning, choose,
     fewest, finished,
@@ -23,14 +24,6 @@ const DIRECTIONS: usize = 12;
 const SAME_RAD: f64 = std::f64::consts::PI / 180.0;
 /// Price of a mm by which joint planes are moved off their interfaces.
 const PLANE_PRICE: f64 = 0.3;
-/// Price of a mm by which a joint panel misses its partner. With 0.8 for all joints, the silhouettes of
-/// bunny and penguin fall by 0.01.
-const JOINT_PRICE: f64 = 0.3;
-/// The price rises where two hulls meet in less than this area, mm²: otherwise wrists and ankles of humans,
-/// of 70 to 110 mm², are glued over 33 mm²,
-const TIGHT_MM2: f64 = 200.0;
-/// The price rises up to this many times. With 7, the silhouette of a plane falls from 0.82 to 0.74.
-const TIGHTEST: f64 = 3.0;
 /// Price of a component that is not its own image in a second plane in which its hull is, as a share of its size.
 /// With 0.03 a bottle leans by 0.28 % of its size, with 0.05 by 0.01. Not bounded from above by a case yet.
 const LOPSIDED_PRICE: f64 = 0.05;
@@ -206,7 +199,9 @@ impl<'a> Builder<'a> {
     pub(super) fn make(&self, before: &[Candidate]) -> Result<Vec<Candidate>, ModelError> {
         let part = &self.parts[self.part.0];
         let principal = PrincipalAxis::of_hull(&part.hull);
-        let prices: Vec<f64> = self.own_links().map(|link| self.joint_price(link)).collect();
+        let firmness = self.search.firmness();
+        let demands: Vec<Demand> =
+            self.own_links().map(|link| Demand::new(self.parts, self.part, link, firmness)).collect();
         let axes = self.axes(&principal);
         let even: Vec<Even> = self.crossed().into_iter().chain(self.turned(&principal)).collect();
         let most = even.iter().map(|even| even.turning).max();
@@ -215,7 +210,7 @@ impl<'a> Builder<'a> {
             even.chain(axes.into_iter().map(|axis| (axis, None))).collect();
         let directions = tried
             .par_iter()
-            .map(|(axis, even)| self.direction(principal.frame(*axis), even.as_ref(), &prices));
+            .map(|(axis, even)| self.direction(principal.frame(*axis), even.as_ref(), &demands));
         let directions: Vec<Direction> = directions.collect();
         let mut targets: Vec<(Target, f64)> =
             directions.iter().map(|d| (self.target(d), self.own_mm(d, most))).collect();
@@ -418,20 +413,19 @@ impl<'a> Builder<'a> {
         Some(component::Symmetry::Upright { angle_rad: normal.truncate().to_angle(), offset_mm, crossing })
     }
 
-    /// Seats of all joints in the axes of `frame`, and the hull clipped by them. `prices` are those of the
+    /// Seats of all joints in the axes of `frame`, and the hull clipped by them. `demands` are those of the
     /// joints in their order.
-    fn direction<'e>(&self, frame: DAffine3, even: Option<&'e Even>, prices: &[f64]) -> Direction<'e> {
+    fn direction<'e>(&self, frame: DAffine3, even: Option<&'e Even>, demands: &[Demand]) -> Direction<'e> {
         let to_local = frame.inverse();
         let mut others: Vec<PartId> = Vec::new();
         let mut seatings = Vec::new();
-        for link in self.own_links() {
+        for (link, demand) in self.own_links().zip(demands) {
             let is_child = link.child == self.part;
             let plane = link.plane_out_of(self.part);
-            let centre = self.centre(link);
             others.push(if is_child { link.parent } else { link.child });
             seatings.push(Seating {
                 plane: plane.moved(&to_local),
-                centre: to_local.transform_point3(centre),
+                centre: to_local.transform_point3(demand.centre),
                 image: None,
                 comes_first: is_child,
             });
@@ -449,9 +443,7 @@ impl<'a> Builder<'a> {
         let whole = hull.volume();
         let mut plane_shift_mm = 0.0;
         let mut joints = Vec::new();
-        for (((&other, seating), &seat), price) in
-            others.iter().zip(&seatings).zip(&seats).zip(prices.iter().copied())
-        {
+        for (((&other, seating), &seat), demand) in others.iter().zip(&seatings).zip(&seats).zip(demands) {
             let plane = seat_plane(&seat);
             if let Some(clipped) = hull.clip(&plane).filter(|h| h.volume() > LEAST_SHARE * whole) {
                 hull = clipped;
@@ -459,22 +451,9 @@ impl<'a> Builder<'a> {
             let section = self.section(other, &plane.moved(&frame));
             let section: Vec<DVec3> = section.into_iter().map(|p| to_local.transform_point3(p)).collect();
             plane_shift_mm += shift_mm(&section, seating);
-            let (cover, within) = match seating.comes_first {
-                true => (Vec::new(), borders(&section, &plane)),
-                false => (section, Vec::new()),
-            };
-            joints.push((other, JointTarget { seat, cover, within, price }));
+            joints.push((other, demand.target(seat, section)));
         }
         Direction { frame, hull, joints, plane_shift_mm, even }
-    }
-
-    /// Price of a mm by which a joint panel misses its partner.
-    fn joint_price(&self, link: &Link) -> f64 {
-        let [parent, child] = [link.parent, link.child].map(|p| &self.parts[p.0].hull);
-        let area_mm2 = polygon::area(&plane::shared_section(&link.plane, parent, child));
-        // Hulls that only touch there have a face on the plane, of no known size.
-        let tightness = if area_mm2 > 0.0 { (TIGHT_MM2 / area_mm2).clamp(1.0, TIGHTEST) } else { 1.0 };
-        JOINT_PRICE * tightness * self.search.firmness()
     }
 
     /// Corners of the section of another part's hull by a joint plane. Those of images are images.
@@ -494,27 +473,6 @@ impl<'a> Builder<'a> {
         };
         self.crossing.into_iter().fold(own, with_image)
     }
-
-    /// Middle of the place where two parts meet: of the sections of their hulls by the plane.
-    fn centre(&self, link: &Link) -> DVec3 {
-        let sections = [link.parent, link.child].map(|p| self.parts[p.0].hull.section(&link.plane));
-        let smaller =
-            sections.into_iter().filter(|s| s.len() >= 3).min_by(|a, b| radius(a).total_cmp(&radius(b)));
-        let fallback = link.plane.normal() * link.plane.offset();
-        smaller.map_or(fallback, |s| s.iter().sum::<DVec3>() / s.len() as f64)
-    }
-}
-
-/// Half-spaces in whose intersection a convex polygon lies in its plane.
-fn borders(outline: &[DVec3], plane: &Plane) -> Vec<(DVec3, f64)> {
-    let centre = outline.iter().sum::<DVec3>() / outline.len().max(1) as f64;
-    let edges = (0..outline.len()).filter_map(|k| {
-        let (a, b) = (outline[k], outline[(k + 1) % outline.len()]);
-        let across = plane.normal().cross(b - a).try_normalize()?;
-        let outward = if across.dot(a - centre) < 0.0 { -across } else { across };
-        Some((outward, outward.dot(a)))
-    });
-    edges.collect()
 }
 
 /// Corners that stand for the section of a round hull.
@@ -532,11 +490,6 @@ fn few_corners(outline: Vec<DVec3>) -> Vec<DVec3> {
     let place = |length: f64| (length / along * SECTION_CORNERS as f64) as usize;
     let is_first = |k: &usize| *k == 0 || place(lengths[*k]) != place(lengths[*k - 1]);
     (0..count).filter(is_first).map(|k| outline[k]).collect()
-}
-
-fn radius(points: &[DVec3]) -> f64 {
-    let centre = points.iter().sum::<DVec3>() / points.len().max(1) as f64;
-    points.iter().map(|p| p.distance(centre)).fold(0.0, f64::max)
 }
 
 /// How far a joint's points are off its own plane, at most: turning the plane has moved them.

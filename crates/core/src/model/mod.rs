@@ -6,6 +6,7 @@ mod build;
 mod candidate;
 mod choice;
 mod contact;
+mod demand;
 mod harms;
 mod joined;
 mod known;

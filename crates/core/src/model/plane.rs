@@ -285,7 +285,7 @@ pub(super) fn shared_section(plane: &Plane, first: &Hull, second: &Hull) -> Vec<
 }
 
 /// What two convex polygons share; either may be nothing.
-fn common_outline(first: &[DVec2], second: &[DVec2]) -> Vec<DVec2> {
+pub(super) fn common_outline(first: &[DVec2], second: &[DVec2]) -> Vec<DVec2> {
     let is_nothing = first.is_empty() || second.is_empty();
     if is_nothing { Vec::new() } else { polygon::intersect_convex(first, second) }
 }
