@@ -35,18 +35,15 @@ impl Demand {
     /// What a joint of a part asks, where a mm by which its panel misses its partner costs `firmness` times as much as
     /// it does in other searches.
     pub(super) fn new(parts: &[Part], part: PartId, link: &Link, firmness: f64) -> Self {
-        let sections = [link.parent, link.child].map(|p| parts[p.0].hull.section(&link.plane));
-        let flat = sections.each_ref().map(|section| match section.len() {
-            ..3 => Vec::new(),
-            _ => plane::flattened(&link.plane, section.iter().copied()),
-        });
+        let sections = [link.parent, link.child].map(|p| plane::section(&link.plane, &parts[p.0].hull));
+        let flat = sections.each_ref().map(|s| plane::flattened(&link.plane, s.iter().copied()));
         let shared_mm2 = polygon::area(&plane::common_outline(&flat[0], &flat[1]));
         // Hulls that only touch there have a face on the plane, of no known size.
         let tightness = if shared_mm2 > 0.0 { (TIGHT_MM2 / shared_mm2).clamp(1.0, TIGHTEST) } else { 1.0 };
         let [parent_mm2, child_mm2] = flat.map(|section| polygon::area(&section));
         let is_child_larger = parent_mm2 > 0.0 && child_mm2 > MUCH_LARGER * parent_mm2;
         let smaller =
-            sections.into_iter().filter(|s| s.len() >= 3).min_by(|a, b| radius(a).total_cmp(&radius(b)));
+            sections.into_iter().filter(|s| !s.is_empty()).min_by(|a, b| radius(a).total_cmp(&radius(b)));
         let fallback = link.plane.normal() * link.plane.offset();
         Self {
             centre: smaller.map_or(fallback, |s| s.iter().sum::<DVec3>() / s.len() as f64),

@@ -290,10 +290,14 @@ pub(super) fn common_outline(first: &[DVec2], second: &[DVec2]) -> Vec<DVec2> {
     if is_nothing { Vec::new() } else { polygon::intersect_convex(first, second) }
 }
 
+/// The section of a hull; empty where it has no area.
+pub(super) fn section(plane: &Plane, hull: &Hull) -> Vec<DVec3> {
+    Some(hull.section(plane)).filter(|section| section.len() >= 3).unwrap_or_default()
+}
+
 /// The section of a hull, in the plane's [`Plane::basis`], counter-clockwise; empty where it has no area.
 pub(super) fn flat_section(plane: &Plane, hull: &Hull) -> Vec<DVec2> {
-    let section = hull.section(plane);
-    if section.len() < 3 { Vec::new() } else { flattened(plane, section) }
+    flattened(plane, section(plane, hull))
 }
 
 /// A convex polygon in the plane's [`Plane::basis`], counter-clockwise.

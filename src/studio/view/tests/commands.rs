@@ -3,11 +3,22 @@
 use super::*;
 use egui_kittest::kittest::NodeT;
 
-/// Opens the list and types some words.
-fn find(desk: &mut Desk, words: &str) {
+fn open_list(desk: &mut Desk) {
     desk.key_press_modifiers(Modifiers::COMMAND, Key::K);
     desk.run_ok();
+}
+
+/// Opens the list and types some words.
+fn find(desk: &mut Desk, words: &str) {
+    open_list(desk);
     desk.event(Event::Text(words.to_owned()));
+    desk.run_ok();
+}
+
+/// Runs the first command that is found by some words.
+fn run(desk: &mut Desk, words: &str) {
+    find(desk, words);
+    desk.key_press(Key::Enter);
     desk.run_ok();
 }
 
@@ -19,8 +30,7 @@ fn a_command_is_found_by_its_name_and_run() {
     desk.key_press(Key::Enter);
     desk.run_ok();
     assert!(desk.state().space().layers().input, "it is run");
-    desk.key_press_modifiers(Modifiers::COMMAND, Key::K);
-    desk.run_ok();
+    open_list(&mut desk);
     desk.key_press(Key::Escape);
     desk.run_ok();
     assert!(!desk.state().dialogs.is_open());
@@ -37,8 +47,7 @@ fn the_list_of_commands_is_high_again_after_a_search_and_its_bar_has_room() {
     assert!(height(&desk) < 200.0);
     desk.key_press(Key::Escape);
     desk.run_ok();
-    desk.key_press_modifiers(Modifiers::COMMAND, Key::K);
-    desk.run_ok();
+    open_list(&mut desk);
     assert!(height(&desk) > 340.0, "{}", height(&desk));
     let field = desk.get_by_label("Find a command").rect();
     let entry = desk.get_by_label("Save project as …").rect();
@@ -50,9 +59,7 @@ fn the_list_of_commands_is_high_again_after_a_search_and_its_bar_has_room() {
 #[test]
 fn the_command_with_the_name_that_is_typed_is_the_first() {
     let (mut desk, _folder) = open();
-    find(&mut desk, "sheets");
-    desk.key_press(Key::Enter);
-    desk.run_ok();
+    run(&mut desk, "sheets");
     assert_eq!(desk.state().mode, Mode::Sheets);
 }
 
@@ -72,9 +79,7 @@ fn commands_that_cannot_be_done_now_are_found_too() {
 fn the_theme_is_a_command() {
     let (mut desk, _folder) = open();
     for (name, theme) in [("dark", egui::Theme::Dark), ("light theme", egui::Theme::Light)] {
-        find(&mut desk, name);
-        desk.key_press(Key::Enter);
-        desk.run_ok();
+        run(&mut desk, name);
         assert_eq!(desk.ctx.theme(), theme);
     }
 }
@@ -82,9 +87,7 @@ fn the_theme_is_a_command() {
 #[test]
 fn pages_of_the_book_are_found_among_the_commands() {
     let (mut desk, folder) = open();
-    find(&mut desk, "book cutter");
-    desk.key_press(Key::Enter);
-    desk.run_ok();
+    run(&mut desk, "book cutter");
     assert!(folder.path().join("state/book/how-to/cutter.html").is_file());
     assert_eq!(desk.state().studio().problem(), None);
 }
