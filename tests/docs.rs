@@ -37,7 +37,9 @@ const QUICK: [(&str, &[&str]); 3] = [
     ("show", &["--effort", "0", "--size-px", "200"]),
     ("plot", &["--effort", "0", "--handshake", "xonxoff", "--baud", "1000000", "--size", "40mm"]),
 ];
-/// Those of them that jobs, which are made already, have no use for.
+/// What it gets if it is about meshes: models of few panels take half as long.
+const EASY: [&str; 2] = ["--level", "easy"];
+/// Those of [`QUICK`] that jobs, which are made already, have no use for.
 const OF_MODEL: [&str; 2] = ["--effort", "--size"];
 
 enum Step {
@@ -238,6 +240,10 @@ fn run(folder: &Path, line: &str) {
         |pair: &&[&str]| !words.contains(&pair[0]) && (takes_model || !OF_MODEL.contains(&pair[0]));
     let missing = quick.chunks(2).filter(is_wanted).flatten().copied();
     words.extend(missing.collect::<Vec<&str>>());
+    let is_there = |end: &str| words.iter().any(|word| word.ends_with(end));
+    if !quick.is_empty() && is_there(".obj") && !is_there(".toml") && !words.contains(&EASY[0]) {
+        words.extend(EASY);
+    }
     let output = tatamu(folder).args(&words).output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{line}\n{said}");

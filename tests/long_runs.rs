@@ -107,11 +107,13 @@ fn makes_without_growth(models: usize, make: fn(usize)) {
 }
 
 #[test]
+#[ignore = "a minute; .ci/test runs it"]
 fn three_hundred_models_in_one_process() {
     makes_without_growth(300, make);
 }
 
 #[test]
+#[ignore = "a minute; .ci/test runs it"]
 fn ten_thousand_drawn_models_in_one_process() {
     makes_without_growth(10_000, draw);
 }

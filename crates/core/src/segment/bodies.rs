@@ -65,6 +65,11 @@ impl Bodies {
         Self { of_cell, count, links, host_cell }
     }
 
+    /// How many bodies there are, crumbs and all.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
     /// Cells of bodies that touch, and of the others those that connect them by the shortest gaps.
     pub fn links(&self) -> &[[u32; 2]] {
         &self.links

@@ -152,20 +152,17 @@ impl Interior {
 
     /// The cells whose centre is in a convex polyhedron, given by its triangles.
     pub(super) fn runs(&self, triangles: impl Iterator<Item = [DVec3; 3]>) -> Vec<Run> {
-        let mut crossings: Vec<Crossing> = Vec::new();
+        let [nx, ny, nz] = self.frame.count;
+        let mut span_of = vec![(f64::INFINITY, f64::NEG_INFINITY); nx * ny];
         for t in triangles {
-            self.frame.cross(t, 2, &mut |c| crossings.push(c));
+            self.frame.cross(t, 2, &mut |(column, height, _)| {
+                let (lo, hi) = &mut span_of[column];
+                (*lo, *hi) = (lo.min(height), hi.max(height));
+            });
         }
-        crossings.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
-        let top = self.frame.count[2] as f64;
-        crossings
-            .chunk_by(|a, b| a.0 == b.0)
-            .filter_map(|c| {
-                let at = |h: f64| (h - 0.5).ceil().clamp(0.0, top) as u16;
-                let (first, end) = (at(c[0].1), at(c[c.len() - 1].1));
-                (end > first).then_some((c[0].0 as u32, first, end))
-            })
-            .collect()
+        let at = |h: f64| (h - 0.5).ceil().clamp(0.0, nz as f64) as u16;
+        let run = |(column, (lo, hi)): (usize, (f64, f64))| (column as u32, at(lo), at(hi));
+        span_of.into_iter().enumerate().map(run).filter(|&(_, first, end)| end > first).collect()
     }
 }
 

@@ -10,6 +10,7 @@ use super::grid::Interior;
 use super::halves::Halves;
 use super::merge::{Patches, SIDES, Scene, merge_all};
 use super::patches::{Partition, absorb_small, connected, split_large};
+use super::rough_hull::Extremes;
 use super::sdf::{Probe, Target};
 use super::surface::{Surface, outward_faces};
 use super::{Method, SegmentError, SegmentOptions, Segmentation, SymmetryChoice};
@@ -72,7 +73,7 @@ pub fn segment(
             (absorb_small(&coarse, connected(&coarse, &label), least), None)
         }
         Method::Merge => {
-            let (best, solid) = skin.merged(mirror, options, progress)?;
+            let (best, solid) = skin.parts(mirror, options, progress)?;
             (best.partition, Some((best.finer, solid)))
         }
     };
@@ -166,39 +167,20 @@ struct Skin<'a> {
 }
 
 impl Skin<'_> {
-    /// The best parts that merging small patches gives, and the inside that they are compared with.
-    fn merged(
+    /// The best parts, and the inside that they are compared with.
+    fn parts(
         &self,
         mirror: Option<Mirror>,
         options: &SegmentOptions,
         progress: &dyn Progress,
     ) -> Result<(Chosen, Interior), Cancelled> {
-        progress.stage("patches");
-        let patches = over_segment(self.surface, self.diameters, options.parts);
+        let solid = Interior::filled(self.mesh.positions(), self.faces, grid::CELLS);
         let bodies = Bodies::new(self.mesh, self.surface, self.cell_of_face, options.parts);
-        let patches = bodies.join_crumbs(patches);
-        progress.stage("parts");
         let ground = Ground { skin: self, bodies: &bodies };
-        let positions = self.mesh.positions();
-        let solid = Interior::filled(positions, self.faces, grid::CELLS);
-        let choose = |tree: Tree| match options.parts {
-            Some(count) => tree.parts(&solid, count, progress),
-            None => tree.best_parts(&solid, part_cost(options), progress),
+        let best = match ground.whole(&solid, options) {
+            Some(whole) => whole,
+            None => ground.merged(&solid, mirror, options, progress)?,
         };
-        let merged = |halves: Option<&Halves>, sides| {
-            let patches = ground.patches(patches.clone(), halves);
-            let scene = Scene { positions, solid: &solid, sides };
-            choose(merge_all(&scene, patches, progress)?)
-        };
-        // Either half could be the one that the other is made like.
-        let planes = mirror.map(|mirror| [*mirror.plane(), mirror.plane().flipped()]);
-        let halves: Vec<Halves> =
-            planes.iter().flatten().filter_map(|p| Halves::new(self.surface, &Mirror::new(*p))).collect();
-        let ways: Vec<_> = halves.iter().flat_map(|half| SIDES.map(|sides| (half, sides))).collect();
-        let chosen: Result<Vec<Chosen>, Cancelled> =
-            ways.into_par_iter().map(|(half, sides)| merged(Some(half), sides)).collect();
-        let best = chosen?.into_iter().reduce(|best, next| if next.worth > best.worth { next } else { best });
-        let best = best.map_or_else(|| merged(None, SIDES[0]), Ok)?;
         Ok((best, solid))
     }
 }
@@ -210,6 +192,51 @@ struct Ground<'a> {
 }
 
 impl Ground<'_> {
+    /// All of a single body as one part, where that is asked for or no division can be worth more.
+    fn whole(&self, solid: &Interior, options: &SegmentOptions) -> Option<Chosen> {
+        if self.bodies.count() > 1 || options.parts.is_some_and(|count| count > 1) {
+            return None;
+        }
+        let whole = Partition { of_cell: vec![0; self.skin.surface.len()], count: 1 };
+        let vertices = self.vertices(&whole).swap_remove(0);
+        let hull =
+            Extremes::of_vertices(self.skin.mesh.positions(), &vertices).hull(self.skin.mesh.positions())?;
+        let chosen = Chosen::whole(whole, solid, &solid.runs(hull.triangles()), part_cost(options));
+        (options.parts.is_some() || chosen.beats_any_division(part_cost(options))).then_some(chosen)
+    }
+
+    /// The best parts that merging small patches gives.
+    fn merged(
+        &self,
+        solid: &Interior,
+        mirror: Option<Mirror>,
+        options: &SegmentOptions,
+        progress: &dyn Progress,
+    ) -> Result<Chosen, Cancelled> {
+        let Skin { mesh, surface, diameters, .. } = *self.skin;
+        progress.stage("patches");
+        let patches = self.bodies.join_crumbs(over_segment(surface, diameters, options.parts));
+        progress.stage("parts");
+        let choose = |tree: Tree| match options.parts {
+            Some(count) => tree.parts(solid, count, progress),
+            None => tree.best_parts(solid, part_cost(options), progress),
+        };
+        let merged = |halves: Option<&Halves>, sides| {
+            let patches = self.patches(patches.clone(), halves);
+            let scene = Scene { positions: mesh.positions(), solid, sides };
+            choose(merge_all(&scene, patches, progress)?)
+        };
+        // Either half could be the one that the other is made like.
+        let planes = mirror.map(|mirror| [*mirror.plane(), mirror.plane().flipped()]);
+        let halves: Vec<Halves> =
+            planes.iter().flatten().filter_map(|p| Halves::new(surface, &Mirror::new(*p))).collect();
+        let ways: Vec<_> = halves.iter().flat_map(|half| SIDES.map(|sides| (half, sides))).collect();
+        let chosen: Result<Vec<Chosen>, Cancelled> =
+            ways.into_par_iter().map(|(half, sides)| merged(Some(half), sides)).collect();
+        let best = chosen?.into_iter().reduce(|best, next| if next.worth > best.worth { next } else { best });
+        best.map_or_else(|| merged(None, SIDES[0]), Ok)
+    }
+
     /// What merging has to know; with halves the patches of one are the images of the other's.
     fn patches(&self, patches: Partition, halves: Option<&Halves>) -> Patches {
         let (patches, twin) = match halves {
@@ -247,5 +274,43 @@ impl Ground<'_> {
             v.dedup();
         }
         vertices
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::shapes::{balls_in_a_row, mesh};
+    use super::*;
+    use crate::progress::Silent;
+
+    #[test]
+    fn a_body_is_whole_without_a_search_only_where_searching_leaves_it_whole() {
+        let mut is_whole = Vec::new();
+        for apart in 0..8 {
+            let mesh = mesh(&balls_in_a_row(&[(0.0, 1.0), (0.2 * f64::from(apart), 0.9)], 24, 20));
+            let (faces, fine) = outward_faces(mesh.positions(), mesh.faces());
+            let [_, Coarse { surface, cell_of }] = coarsen(&fine);
+            let skin = Skin {
+                mesh: &mesh,
+                faces: &faces,
+                surface: &surface,
+                cell_of_face: &cell_of,
+                diameters: None,
+            };
+            let bodies = Bodies::new(&mesh, &surface, &cell_of, None);
+            let ground = Ground { skin: &skin, bodies: &bodies };
+            let solid = Interior::filled(mesh.positions(), &faces, grid::CELLS);
+            for detail in [0.0, 0.5, 1.0] {
+                let options = SegmentOptions { detail, ..SegmentOptions::default() };
+                let whole = ground.whole(&solid, &options);
+                is_whole.push(whole.is_some());
+                if let Some(whole) = whole {
+                    let searched = ground.merged(&solid, None, &options, &Silent).unwrap();
+                    assert_eq!(searched.partition.of_cell, whole.partition.of_cell, "{apart} {detail}");
+                    assert_eq!(searched.worth, whole.worth, "{apart} {detail}");
+                }
+            }
+        }
+        assert!(is_whole.contains(&true) && is_whole.contains(&false), "{is_whole:?}");
     }
 }
