@@ -64,10 +64,10 @@ impl Hulls {
         if touching.solid.hulls.is_empty() {
             return Err(Error::NothingSolid { parts: divided.segmentation().count() });
         }
-        let (hulls, borders) = touching.parted();
         let has_images = touching.symmetry.is_some();
         let mesh = divided.mesh();
-        let (views, interior) = rayon::join(|| Views::of_mesh(mesh), || Interior::of(mesh));
+        let ((hulls, borders), (views, interior)) =
+            rayon::join(|| touching.parted(), || rayon::join(|| Views::of_mesh(mesh), || Interior::of(mesh)));
         let unfilled = Self {
             names: touching.solid.names(divided.names()),
             links: touching.links.clone(),
@@ -323,19 +323,18 @@ impl SegmentHulls {
         let of_segment = self.part_of_segment.iter().zip(twins);
         let twin = of_segment.filter_map(|(part, twin)| part.map(|_| self.part_of_segment[twin.0 as usize]));
         let symmetry = Symmetry::new(*mirror, twin.collect::<Option<Vec<PartId>>>()?)?;
-        let mut hulls = self.hulls.clone();
-        for (part, hull) in (0..).map(PartId).zip(&self.hulls) {
-            let twin = symmetry.twin(part);
+        let alike = |part: PartId| {
+            let (hull, twin) = (&self.hulls[part.0], symmetry.twin(part));
             if twin == part {
-                hulls[part.0] = mirror.symmetrized(hull).ok()?;
-            } else if part < twin {
-                let images = self.hulls[twin.0].vertices().iter().map(|&p| mirror.point(p));
-                let points: Vec<DVec3> = hull.vertices().iter().copied().chain(images).collect();
-                hulls[part.0] = Hull::of_points(&points).ok()?;
-                hulls[twin.0] = hulls[part.0].reflected(mirror);
+                return Some((part, mirror.symmetrized(hull).ok()?));
             }
-        }
-        self.hulls = hulls;
+            let images = self.hulls[twin.0].vertices().iter().map(|&p| mirror.point(p));
+            let points: Vec<DVec3> = hull.vertices().iter().copied().chain(images).collect();
+            Some((part, Hull::of_points(&points).ok()?))
+        };
+        let alike: Vec<(PartId, Hull)> =
+            symmetry.halves().into_par_iter().map(alike).collect::<Option<_>>()?;
+        alike.into_iter().for_each(|(part, hull)| symmetry.set(&mut self.hulls, part, hull));
         Some(match plane.crossing {
             Some(crossing) => symmetry.crossed(crossing, &mut self.hulls),
             None => symmetry,

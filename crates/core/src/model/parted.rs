@@ -4,7 +4,7 @@ use super::contact::Contact;
 use super::link::{Between, Link, image_of, mirror_plane_between, mirrored_contacts};
 use super::{Bump, PartId, Symmetry, plane};
 use crate::geom::{Hull, Plane, polygon};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Hulls that leave each other room.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,7 +58,8 @@ pub fn parted(
         }
     }
     if let Some(symmetry) = symmetry {
-        symmetry.make_alike(&mut hulls);
+        let changed = (0..hulls.len()).map(PartId).filter(|part| !borders[part.0].is_empty()).collect();
+        symmetry.make_alike(&mut hulls, &changed);
     }
     Parted { hulls, borders }
 }
@@ -93,7 +94,7 @@ pub fn farther(
     symmetry: Option<&Symmetry>,
 ) -> Option<Parted> {
     let Parted { mut hulls, mut borders } = parted;
-    let mut is_moved = false;
+    let mut changed = BTreeSet::new();
     let is_joint =
         |[a, b]: [PartId; 2]| links.iter().any(|l| [[a, b], [b, a]].contains(&[l.parent, l.child]));
     for &([a, b], depth_mm) in bumps.iter().filter(|bump| bump.0[0] != bump.0[1] && !is_joint(bump.0)) {
@@ -114,15 +115,15 @@ pub fn farther(
         }
         let clipped = clipped(&hulls, &clips, 0.0);
         if let Some(clipped) = clipped.filter(|clipped| keeps_joints(&hulls, clipped, links, SMALLER_JOINT)) {
+            changed.extend(clipped.keys().copied());
             clipped.into_iter().for_each(|(part, hull)| hulls[part.0] = hull);
             clips.into_iter().for_each(|(part, plane)| borders[part.0].push(plane));
-            is_moved = true;
         }
     }
     if let Some(symmetry) = symmetry {
-        symmetry.make_alike(&mut hulls);
+        symmetry.make_alike(&mut hulls, &changed);
     }
-    is_moved.then_some(Parted { hulls, borders })
+    (!changed.is_empty()).then_some(Parted { hulls, borders })
 }
 
 /// What the joints of a part leave of its hull.

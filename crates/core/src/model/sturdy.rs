@@ -4,6 +4,7 @@ use super::pair::LEAST_GLUE_MM2;
 use super::{Link, Symmetry, plane};
 use crate::geom::{Hull, polygon};
 use glam::{DMat2, DVec2, DVec3};
+use std::collections::BTreeSet;
 
 /// The sections of two hulls have this many times the area that is glued in the end: components have few
 /// corners, and turn. With 1.5 the wrists and ankles of two humans are glued over 33 and 28 mm².
@@ -33,6 +34,7 @@ fn padded(
     symmetry: Option<&Symmetry>,
     wanted_mm2: impl Fn(f64) -> f64,
 ) -> Vec<Hull> {
+    let mut changed = BTreeSet::new();
     for link in links {
         let pair = [link.parent, link.child];
         let sections = pair.map(|part| plane::flat_section(&link.plane, &hulls[part.0]));
@@ -48,11 +50,12 @@ fn padded(
             let points: Vec<DVec3> = hulls[part.0].vertices().iter().chain(&corners).copied().collect();
             if let Ok(hull) = Hull::of_points(&points) {
                 hulls[part.0] = hull;
+                changed.insert(part);
             }
         }
     }
     if let Some(symmetry) = symmetry {
-        symmetry.make_alike(&mut hulls);
+        symmetry.make_alike(&mut hulls, &changed);
     }
     hulls
 }

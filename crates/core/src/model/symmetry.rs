@@ -3,6 +3,8 @@
 use super::PartId;
 use crate::geom::{Hull, Mirror, directions};
 use glam::DVec3;
+use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// The mirror plane of a model, and what becomes of each part in it.
 ///
@@ -54,7 +56,7 @@ impl Symmetry {
             is_across[part] &= is_across[self.twin[part].0];
         }
         let crossed = Self { crossing: Some(Crossing { mirror, is_across }), ..self };
-        crossed.make_alike(hulls);
+        crossed.make_alike(hulls, &(0..hulls.len()).map(PartId).collect());
         crossed
     }
 
@@ -90,22 +92,31 @@ impl Symmetry {
         own.into_iter().chain(crossing.copied()).collect()
     }
 
-    /// Makes hulls that are almost mirror images of each other, or of themselves, exactly so.
-    pub(super) fn make_alike(&self, hulls: &mut [Hull]) {
-        for part in (0..hulls.len()).map(PartId) {
-            let twin = self.twin(part);
-            if twin < part {
-                continue;
-            }
-            for mirror in self.mirrors_across(&[part]) {
-                if let Ok(hull) = mirror.symmetrized(&hulls[part.0]) {
-                    hulls[part.0] = hull;
-                }
-            }
-            if twin > part {
-                hulls[twin.0] = hulls[part.0].reflected(&self.mirror);
-            }
+    /// Of each two twins the first, and all parts across the mirror plane.
+    pub fn halves(&self) -> Vec<PartId> {
+        (0..self.twin.len()).map(PartId).filter(|part| *part <= self.twin(*part)).collect()
+    }
+
+    /// Gives a part another hull, and its twin the image.
+    pub fn set(&self, hulls: &mut [Hull], part: PartId, hull: Hull) {
+        let twin = self.twin(part);
+        if twin != part {
+            hulls[twin.0] = hull.reflected(&self.mirror);
         }
+        hulls[part.0] = hull;
+    }
+
+    /// Makes hulls that are almost mirror images of each other, or of themselves, exactly so. Those that are so but for
+    /// what is `changed` keep their corners to the last bit.
+    pub(super) fn make_alike(&self, hulls: &mut [Hull], changed: &BTreeSet<PartId>) {
+        let is_changed = |part: &PartId| changed.contains(part) || changed.contains(&self.twin(*part));
+        let alike = |part: PartId| {
+            let symmetrized = |hull: Hull, mirror: Mirror| mirror.symmetrized(&hull).unwrap_or(hull);
+            (part, self.mirrors_across(&[part]).into_iter().fold(hulls[part.0].clone(), symmetrized))
+        };
+        let alike: Vec<(PartId, Hull)> =
+            self.halves().into_par_iter().filter(is_changed).map(alike).collect();
+        alike.into_iter().for_each(|(part, hull)| self.set(hulls, part, hull));
     }
 }
 
