@@ -149,6 +149,28 @@ mod tests {
     }
 
     #[test]
+    fn only_what_changed_and_its_twin_is_made_alike() {
+        let ball = |x: f64, radius: f64| {
+            let points: Vec<DVec3> = directions(60).map(|d| radius * d + DVec3::X * x).collect();
+            Hull::of_points(&points).unwrap()
+        };
+        let mirror = Mirror::new(Plane::through(DVec3::ZERO, DVec3::X).unwrap());
+        let symmetry = Symmetry::new(mirror, vec![PartId(0), PartId(2), PartId(1)]).unwrap();
+        // No direction of a ball has an exact image, nor is either twin the other's.
+        let before = [ball(0.0, 5.0), ball(-20.0, 5.0), ball(20.0, 4.0)];
+        let mut hulls = before.clone();
+        symmetry.make_alike(&mut hulls, &BTreeSet::from([PartId(2)]));
+        assert_eq!([&hulls[0], &hulls[1]], [&before[0], &before[1]]);
+        assert_eq!(hulls[2], before[1].reflected(&mirror));
+        symmetry.make_alike(&mut hulls, &BTreeSet::from([PartId(0)]));
+        assert_ne!(hulls[0], before[0]);
+        assert!(
+            directions(50)
+                .all(|d| (hulls[0].support(d) - hulls[0].support(mirror.direction(d))).abs() < 1e-9)
+        );
+    }
+
+    #[test]
     fn twins_are_mutual() {
         let mirror = Mirror::new(Plane::horizontal(1.0));
         let symmetry = |twin: &[usize]| Symmetry::new(mirror, twin.iter().copied().map(PartId).collect());
