@@ -31,16 +31,16 @@ const README_WORDS: usize = 1000;
 const PORT: &str = "/dev/ttyUSB0";
 
 /// What a command gets where it does not say otherwise, so that all of them take seconds: the
-/// search for fewer sheets, frames, and the pace of a machine are tested elsewhere.
+/// search for fewer sheets, many panels, frames, and the pace of a machine are tested elsewhere.
 const QUICK: [(&str, &[&str]); 3] = [
-    ("make", &["--effort", "0", "--frames", "4", "--size-px", "160"]),
-    ("show", &["--effort", "0", "--size-px", "200"]),
+    ("make", &["--level", "easy", "--effort", "0", "--frames", "4", "--size-px", "160"]),
+    ("show", &["--level", "easy", "--effort", "0", "--size-px", "200"]),
     ("plot", &["--effort", "0", "--handshake", "xonxoff", "--baud", "1000000", "--size", "40mm"]),
 ];
-/// What it gets if it is about meshes: models of few panels take half as long.
-const EASY: [&str; 2] = ["--level", "easy"];
-/// Those of [`QUICK`] that jobs, which are made already, have no use for.
+/// Those of them that jobs, which are made already, have no use for.
 const OF_MODEL: [&str; 2] = ["--effort", "--size"];
+/// The one that drawings have no use for, and that would undo what a project file does to parts.
+const OF_MESH: &str = "--level";
 
 enum Step {
     /// A file that the text shows: name and content.
@@ -236,14 +236,15 @@ fn run(folder: &Path, line: &str) {
     let quick = QUICK.iter().find(|(name, _)| *name == words[0]).map_or(&[][..], |(_, extra)| *extra);
     let is_job = |word: &&str| *word == "--test-cut" || word.ends_with(".plt") || word.ends_with(".gcode");
     let takes_model = words[0] != "plot" || !words.iter().any(is_job);
-    let is_wanted =
-        |pair: &&[&str]| !words.contains(&pair[0]) && (takes_model || !OF_MODEL.contains(&pair[0]));
+    let is_there = |end: &str| words.iter().any(|word| word.ends_with(end));
+    let takes_mesh = is_there(".obj") && !is_there(".toml");
+    let is_wanted = |pair: &&[&str]| {
+        !words.contains(&pair[0])
+            && (takes_model || !OF_MODEL.contains(&pair[0]))
+            && (takes_mesh || pair[0] != OF_MESH)
+    };
     let missing = quick.chunks(2).filter(is_wanted).flatten().copied();
     words.extend(missing.collect::<Vec<&str>>());
-    let is_there = |end: &str| words.iter().any(|word| word.ends_with(end));
-    if !quick.is_empty() && is_there(".obj") && !is_there(".toml") && !words.contains(&EASY[0]) {
-        words.extend(EASY);
-    }
     let output = tatamu(folder).args(&words).output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{line}\n{said}");

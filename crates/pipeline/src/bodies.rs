@@ -333,7 +333,7 @@ impl SegmentHulls {
             Some((part, Hull::of_points(&points).ok()?))
         };
         let alike: Vec<(PartId, Hull)> =
-            symmetry.halves().into_par_iter().map(alike).collect::<Option<_>>()?;
+            symmetry.representatives().into_par_iter().map(alike).collect::<Option<_>>()?;
         alike.into_iter().for_each(|(part, hull)| symmetry.set(&mut self.hulls, part, hull));
         Some(match plane.crossing {
             Some(crossing) => symmetry.crossed(crossing, &mut self.hulls),

@@ -28,8 +28,9 @@ const UGLY: f64 = 0.01;
 /// was seen, of a scorpion; with less than 0.24 a plane loses its wings of 0.115 to joints of 0.147. A draft of 0.81 beside
 /// a model of 0.25 took three fifths of the time in vain.
 const FINISHING: f64 = 0.4;
-/// What mergers may cost the outlines of a draft at most, all together: a chair whose seat and four legs were one block lost 0.25 for
-/// four pairs that overlap or clash by 1.4 mm or less. A part that is glued to nothing is worth 0.12, as another chair shows.
+/// What mergers may cost the outlines of a draft at most, all together: a chair whose seat and four legs were one block
+/// lost 0.25 for four pairs that overlap or clash by 1.4 mm or less. A part that is glued to nothing is worth 0.12, as
+/// another chair shows.
 const MOST_LOST: f64 = 0.15;
 /// How often joints are made thicker at most, before parts are looked at longer.
 const THICKER: usize = 3;

@@ -93,7 +93,7 @@ impl Symmetry {
     }
 
     /// Of each two twins the first, and all parts across the mirror plane.
-    pub fn halves(&self) -> Vec<PartId> {
+    pub fn representatives(&self) -> Vec<PartId> {
         (0..self.twin.len()).map(PartId).filter(|part| *part <= self.twin(*part)).collect()
     }
 
@@ -115,7 +115,7 @@ impl Symmetry {
             (part, self.mirrors_across(&[part]).into_iter().fold(hulls[part.0].clone(), symmetrized))
         };
         let alike: Vec<(PartId, Hull)> =
-            self.halves().into_par_iter().filter(is_changed).map(alike).collect();
+            self.representatives().into_par_iter().filter(is_changed).map(alike).collect();
         alike.into_iter().for_each(|(part, hull)| self.set(hulls, part, hull));
     }
 }

@@ -46,20 +46,6 @@ pub(super) struct Chosen {
     pub finer: Vec<Partition>,
 }
 
-impl Chosen {
-    /// One part, whose hull covers these cells.
-    pub fn whole(partition: Partition, solid: &Interior, runs: &[Run], part_cost: f64) -> Self {
-        let mut cover = Cover::new(solid);
-        cover.add(runs);
-        Self { partition, worth: cover.iou() - price(part_cost, 1, 0.0), finer: Vec::new() }
-    }
-
-    /// Whether even two parts whose hulls are the solid are worth no more.
-    pub fn beats_any_division(&self, part_cost: f64) -> bool {
-        self.worth >= 1.0 - price(part_cost, 2, 0.0)
-    }
-}
-
 /// What each part and the borders between parts take from what parts are worth.
 pub(super) fn price(part_cost: f64, parts: usize, borders: f64) -> f64 {
     part_cost * parts as f64 + BORDER_COST * borders

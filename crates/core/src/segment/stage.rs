@@ -1,16 +1,15 @@
 //! The stage as a whole.
 
 use super::bodies::Bodies;
-use super::choose::{Chosen, Tree};
+use super::choose::{self, Chosen};
 use super::clean::Cleaner;
 use super::coarsen::{Coarse, coarsen};
 use super::cut::soft_labels;
 use super::gmm::Mixture;
 use super::grid::Interior;
 use super::halves::Halves;
-use super::merge::{Patches, SIDES, Scene, merge_all};
+use super::merge::{Patches, SIDES, Scene, Sides, merge_all};
 use super::patches::{Partition, absorb_small, connected, split_large};
-use super::rough_hull::Extremes;
 use super::sdf::{Probe, Target};
 use super::surface::{Surface, outward_faces};
 use super::{Method, SegmentError, SegmentOptions, Segmentation, SymmetryChoice};
@@ -176,65 +175,64 @@ impl Skin<'_> {
     ) -> Result<(Chosen, Interior), Cancelled> {
         let solid = Interior::filled(self.mesh.positions(), self.faces, grid::CELLS);
         let bodies = Bodies::new(self.mesh, self.surface, self.cell_of_face, options.parts);
-        let ground = Ground { skin: self, bodies: &bodies };
-        let best = match ground.whole(&solid, options) {
+        let search = Search { skin: self, bodies: &bodies, solid: &solid, options, progress };
+        let best = match search.whole()? {
             Some(whole) => whole,
-            None => ground.merged(&solid, mirror, options, progress)?,
+            None => search.merged(mirror)?,
         };
         Ok((best, solid))
     }
 }
 
-/// What the patches are made of.
-struct Ground<'a> {
+/// What parts are searched for in, and how.
+struct Search<'a> {
     skin: &'a Skin<'a>,
     bodies: &'a Bodies,
+    solid: &'a Interior,
+    options: &'a SegmentOptions,
+    progress: &'a dyn Progress,
 }
 
-impl Ground<'_> {
-    /// All of a single body as one part, where that is asked for or no division can be worth more.
-    fn whole(&self, solid: &Interior, options: &SegmentOptions) -> Option<Chosen> {
-        if self.bodies.count() > 1 || options.parts.is_some_and(|count| count > 1) {
-            return None;
+impl Search<'_> {
+    /// All of a single body as one part, where that is asked for or no division can be worth more: not even two parts
+    /// whose hulls are the solid.
+    fn whole(&self) -> Result<Option<Chosen>, Cancelled> {
+        if self.bodies.count() > 1 || self.options.parts.is_some_and(|count| count > 1) {
+            return Ok(None);
         }
         let whole = Partition { of_cell: vec![0; self.skin.surface.len()], count: 1 };
-        let vertices = self.vertices(&whole).swap_remove(0);
-        let hull =
-            Extremes::of_vertices(self.skin.mesh.positions(), &vertices).hull(self.skin.mesh.positions())?;
-        let chosen = Chosen::whole(whole, solid, &solid.runs(hull.triangles()), part_cost(options));
-        (options.parts.is_some() || chosen.beats_any_division(part_cost(options))).then_some(chosen)
+        let chosen = self.chosen(whole, None, SIDES[0])?;
+        let is_best = chosen.worth >= 1.0 - choose::price(part_cost(self.options), 2, 0.0);
+        Ok((is_best || self.options.parts.is_some()).then_some(chosen))
     }
 
     /// The best parts that merging small patches gives.
-    fn merged(
-        &self,
-        solid: &Interior,
-        mirror: Option<Mirror>,
-        options: &SegmentOptions,
-        progress: &dyn Progress,
-    ) -> Result<Chosen, Cancelled> {
-        let Skin { mesh, surface, diameters, .. } = *self.skin;
-        progress.stage("patches");
-        let patches = self.bodies.join_crumbs(over_segment(surface, diameters, options.parts));
-        progress.stage("parts");
-        let choose = |tree: Tree| match options.parts {
-            Some(count) => tree.parts(solid, count, progress),
-            None => tree.best_parts(solid, part_cost(options), progress),
-        };
-        let merged = |halves: Option<&Halves>, sides| {
-            let patches = self.patches(patches.clone(), halves);
-            let scene = Scene { positions: mesh.positions(), solid, sides };
-            choose(merge_all(&scene, patches, progress)?)
-        };
+    fn merged(&self, mirror: Option<Mirror>) -> Result<Chosen, Cancelled> {
+        let Skin { surface, diameters, .. } = *self.skin;
+        self.progress.stage("patches");
+        let patches = self.bodies.join_crumbs(over_segment(surface, diameters, self.options.parts));
+        self.progress.stage("parts");
         // Either half could be the one that the other is made like.
         let planes = mirror.map(|mirror| [*mirror.plane(), mirror.plane().flipped()]);
         let halves: Vec<Halves> =
             planes.iter().flatten().filter_map(|p| Halves::new(surface, &Mirror::new(*p))).collect();
         let ways: Vec<_> = halves.iter().flat_map(|half| SIDES.map(|sides| (half, sides))).collect();
-        let chosen: Result<Vec<Chosen>, Cancelled> =
-            ways.into_par_iter().map(|(half, sides)| merged(Some(half), sides)).collect();
+        let chosen: Result<Vec<Chosen>, Cancelled> = ways
+            .into_par_iter()
+            .map(|(half, sides)| self.chosen(patches.clone(), Some(half), sides))
+            .collect();
         let best = chosen?.into_iter().reduce(|best, next| if next.worth > best.worth { next } else { best });
-        best.map_or_else(|| merged(None, SIDES[0]), Ok)
+        best.map_or_else(|| self.chosen(patches, None, SIDES[0]), Ok)
+    }
+
+    /// The best parts that merging these patches gives.
+    fn chosen(&self, patches: Partition, halves: Option<&Halves>, sides: Sides) -> Result<Chosen, Cancelled> {
+        let scene = Scene { positions: self.skin.mesh.positions(), solid: self.solid, sides };
+        let tree = merge_all(&scene, self.patches(patches, halves), self.progress)?;
+        match self.options.parts {
+            Some(count) => tree.parts(self.solid, count, self.progress),
+            None => tree.best_parts(self.solid, part_cost(self.options), self.progress),
+        }
     }
 
     /// What merging has to know; with halves the patches of one are the images of the other's.
@@ -298,14 +296,20 @@ mod tests {
                 diameters: None,
             };
             let bodies = Bodies::new(&mesh, &surface, &cell_of, None);
-            let ground = Ground { skin: &skin, bodies: &bodies };
             let solid = Interior::filled(mesh.positions(), &faces, grid::CELLS);
             for detail in [0.0, 0.5, 1.0] {
                 let options = SegmentOptions { detail, ..SegmentOptions::default() };
-                let whole = ground.whole(&solid, &options);
+                let search = Search {
+                    skin: &skin,
+                    bodies: &bodies,
+                    solid: &solid,
+                    options: &options,
+                    progress: &Silent,
+                };
+                let whole = search.whole().unwrap();
                 is_whole.push(whole.is_some());
                 if let Some(whole) = whole {
-                    let searched = ground.merged(&solid, None, &options, &Silent).unwrap();
+                    let searched = search.merged(None).unwrap();
                     assert_eq!(searched.partition.of_cell, whole.partition.of_cell, "{apart} {detail}");
                     assert_eq!(searched.worth, whole.worth, "{apart} {detail}");
                 }
