@@ -19,8 +19,8 @@ const MANY_CLASHES: usize = 6;
 /// and most of its arms, and its outlines agree by 0.37 instead of 0.44. An ant needs two.
 const MANY_WEAK: usize = 6;
 
-/// Merges of two parts that clash, or of one of them and its parent; where none clash, of a part with a weak joint and
-/// any other part. Their images are merged as well. Merges whose hulls grow least come first.
+/// Merges of two parts that clash, and of a part that clashes or has a weak joint and its parent; where none clash, of a
+/// part with a weak joint and any other part. Their images are merged as well. Merges whose hulls grow least come first.
 ///
 /// `may_vanish` tells whether the part of a name may become a piece of another.
 pub(super) fn mergers(
@@ -29,7 +29,8 @@ pub(super) fn mergers(
     may_vanish: &dyn Fn(&str) -> bool,
 ) -> impl Iterator<Item = Vec<Merge>> {
     let parts = hulls.hulls();
-    let pairs = pairs(hulls, verdict).into_iter().filter(|[a, b]| a != b);
+    let joints: Vec<[PartId; 2]> = hulls.links().iter().map(|link| [link.child, link.parent]).collect();
+    let pairs = pairs(&joints, parts.len(), verdict).into_iter().filter(|[a, b]| a != b);
     let alike: BTreeSet<Vec<Vec<PartId>>> = pairs.map(|pair| with_image(hulls, pair)).collect();
     let grown_mm3 = |set: &Vec<PartId>| {
         let corners: Vec<_> = set.iter().flat_map(|part| parts[part.0].vertices()).copied().collect();
@@ -68,20 +69,21 @@ pub(super) fn serious(verdict: &Verdict) -> Vec<Bump> {
     verdict.bumps.iter().filter(|clash| clash.1 > SLIGHT_MM).copied().collect()
 }
 
-/// Pairs of parts whose merge may help.
-fn pairs(hulls: &Hulls, verdict: &Verdict) -> Vec<[PartId; 2]> {
+/// Pairs of parts whose merge may help, with the joints as pairs of a child and its parent.
+fn pairs(joints: &[[PartId; 2]], parts: usize, verdict: &Verdict) -> Vec<[PartId; 2]> {
+    let Verdict { weak, .. } = verdict;
     let clashes = serious(verdict);
-    if clashes.len() > MANY_CLASHES || verdict.weak.len() > MANY_WEAK {
+    if clashes.len() > MANY_CLASHES || weak.len() > MANY_WEAK {
         return Vec::new();
     }
     if clashes.is_empty() {
         // Any other part may be what leaves a joint no room.
-        let others = |&part: &PartId| (0..hulls.hulls().len()).map(move |other| [part, PartId(other)]);
-        return verdict.weak.iter().flat_map(others).collect();
+        let others = |&part: &PartId| (0..parts).map(move |other| [part, PartId(other)]);
+        return weak.iter().flat_map(others).collect();
     }
     let clashing = || clashes.iter().map(|clash| clash.0);
-    let joints = hulls.links().iter().map(|link| [link.child, link.parent]);
-    joints.filter(|[child, _]| clashing().any(|pair| pair.contains(child))).chain(clashing()).collect()
+    let is_wrong = |part| weak.contains(&part) || clashing().any(|pair| pair.contains(&part));
+    joints.iter().copied().filter(|&[child, _]| is_wrong(child)).chain(clashing()).collect()
 }
 
 /// The sets of parts that are merged for a pair, the largest part of each set first: the pair and its image, or one set of
@@ -108,6 +110,22 @@ pub(super) fn remark(merge: &Merge) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// A hand's wrist was glued to nothing, as its palm clashed with a finger too.
+    #[test]
+    fn a_weak_joint_justifies_a_merge_beside_a_clash() {
+        let part = |[a, b]: [usize; 2]| [PartId(a), PartId(b)];
+        let joints = [[1, 0], [2, 0], [3, 0], [4, 3]].map(part);
+        let pairs_of = |clashes: &[Bump], weak: &[PartId]| {
+            let verdict = Verdict { bumps: clashes.to_vec(), weak: weak.to_vec(), unlike: 0.0 };
+            pairs(&joints, 5, &verdict)
+        };
+        let clash: Bump = (part([2, 4]), 2.0 * SLIGHT_MM);
+        assert_eq!(pairs_of(&[clash], &[]), [[2, 0], [4, 3], [2, 4]].map(part));
+        assert_eq!(pairs_of(&[clash], &[PartId(1)]), [[1, 0], [2, 0], [4, 3], [2, 4]].map(part));
+        assert_eq!(pairs_of(&[], &[PartId(1)]).len(), 5, "any part");
+        assert_eq!(pairs_of(&[], &[]).len(), 0);
+    }
 
     #[test]
     fn images_are_merged_likewise_and_what_shares_a_part_becomes_one() {
