@@ -127,14 +127,14 @@ fn every_label_joint_and_component_has_its_step() {
 
 #[test]
 fn split_panels_and_other_shapes_have_complete_guides_too() {
-    for (size_mm, top_edges, profile_vertices) in [(700.0, 4, 3), (60.0, 9, 8)] {
+    for (name, size_mm, top_edges, profile_vertices) in [("snowman", 700.0, 4, 3), ("teapot", 60.0, 9, 8)] {
         let options = Options {
             size_mm,
             top_edges: Some(top_edges),
             profile_vertices: Some(profile_vertices),
             ..Options::default()
         };
-        assert_complete(&make("snowman", &options));
+        assert_complete(&make(name, &options));
     }
 }
 

@@ -75,8 +75,8 @@ fn a_job_arrives_whole_by_every_handshake() {
         scope.spawn(|| arrives_whole("escb", 30, &[]));
         // Time alone takes the time that the profile says.
         scope.spawn(|| arrives_whole("paced", 4, &["--mute"]));
+        scope.spawn(|| arrives_whole("xonxoff", 10, &[]));
     });
-    arrives_whole("xonxoff", 10, &[]);
 }
 
 /// Plots strokes on a machine with more arguments, and looks at what it has drawn.
@@ -117,11 +117,12 @@ fn a_line_of_300_bits_per_second_carries_a_job() {
 #[test]
 fn a_list_on_the_standard_input_pauses_nothing_and_stays_unread() {
     let folder = folder(10);
-    let machine = Machine::start(folder.path(), &["--cutter", "generic-hpgl", "--speedup", "50"]);
+    let line = ["--cutter", "generic-hpgl", "--baud", "115200"];
+    let machine = Machine::start(folder.path(), &[&line[..], &["--speedup", "50"]].concat());
     std::fs::write(folder.path().join("list"), "plan.plt\n").unwrap();
     let mut shell = Command::new("sh");
-    shell.args(["-c", "\"$0\" plot a.plt --cutter generic-hpgl --yes --port \"$1\" > told && cat"]);
-    shell.args([env!("CARGO_BIN_EXE_tatamu"), &machine.port]).current_dir(folder.path());
+    shell.args(["-c", "\"$0\" plot a.plt --yes \"$@\" > told && cat"]);
+    shell.args([env!("CARGO_BIN_EXE_tatamu"), "--port", &machine.port]).args(line).current_dir(folder.path());
     let list = std::fs::File::open(folder.path().join("list")).unwrap();
     let output = shell.stdin(list).output().unwrap();
     assert!(output.status.success(), "{}", said(&output));
