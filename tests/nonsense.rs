@@ -2,7 +2,6 @@
 //! one sentence.
 
 use proptest::prelude::*;
-use rayon::prelude::*;
 use std::sync::{Mutex, PoisonError};
 use tatamu::check;
 use tatamu::export::{FormatOptions, format_of};
@@ -134,13 +133,13 @@ fn try_key(option: &'static Entry, value: &str) {
 
 #[test]
 fn every_option_and_key_with_values_that_people_write() {
-    all().par_bridge().for_each(|option| {
+    for option in all() {
         for value in VALUES {
             try_flag(option, value);
             try_key(option, value);
             try_key(option, &toml::Value::from(value).to_string());
         }
-    });
+    }
 }
 
 /// The keys of a component of a mesh, and the tables of what is done by hand.

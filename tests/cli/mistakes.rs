@@ -199,12 +199,12 @@ fn a_shown_model_takes_no_more_sheets_than_it_may() {
 /// A tiny model took half a minute of advice that no one could follow, and a minute and a half to lose its parts one by one.
 #[test]
 fn a_tiny_model_gets_its_size_as_the_only_remedy() {
-    let folder = folder_with(&[("a.obj", include_bytes!("../../samples/rabbit.obj"))]);
+    let folder = folder_with(&[("a.obj", include_bytes!("../../samples/snowman.obj"))]);
     let result = run(folder.path(), &["make", "a.obj", "--size", "20", "--effort", "0", "-o", "a.json"]);
     assert_eq!(result.code, Some(0), "{}", result.err);
     assert!(result.err.contains("too small to fold"), "{}", result.err);
     let text = std::fs::read_to_string(folder.path().join("a.json")).unwrap();
-    assert!(text.contains("\"weak_joint\"") && !text.contains("was tried"), "{}", result.err);
+    assert!(text.contains("\"fold_clash\"") && !text.contains("was tried"), "{}", result.err);
     assert!(!result.out.contains("are one part"), "{}", result.out);
 }
 
