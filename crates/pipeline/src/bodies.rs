@@ -214,11 +214,11 @@ pub(super) struct Touching {
 
 impl Touching {
     fn of(divided: &Parts) -> Self {
-        let Solids { hulls, near, details } = divided.solids();
+        let Solids { hulls, near, feet, details } = divided.solids();
         let mut solid = SegmentHulls { details, ..segment_hulls(divided, hulls) };
         let segmentation = divided.segmentation();
         let symmetry = segmentation.mirror().and_then(|plane| solid.mirrored(divided, plane));
-        let contacts = contacts(divided, &solid.part_of_segment, near);
+        let contacts = contacts(divided, &solid.part_of_segment, near, &feet);
         let links = model::link_tree(&solid.hulls.iter().collect::<Vec<_>>(), &contacts, symmetry.as_ref());
         Self { solid, symmetry, contacts, links }
     }
@@ -407,6 +407,7 @@ fn contacts(
     divided: &Parts,
     part_of_segment: &[Option<PartId>],
     near: BTreeMap<(SegmentId, SegmentId), Vec<DVec3>>,
+    feet: &BTreeMap<(SegmentId, SegmentId), Vec<DVec3>>,
 ) -> Vec<Contact> {
     let mesh = divided.mesh();
     let part = |s: SegmentId| part_of_segment[s.0 as usize];
@@ -416,7 +417,8 @@ fn contacts(
         (pair, points, Interface::Bodies, length_mm)
     });
     let bordering = borders.iter().map(|(&pair, interface)| {
-        let points = interface.vertices().iter().map(|&v| mesh.positions()[v as usize]).collect();
+        let border = || interface.vertices().iter().map(|&v| mesh.positions()[v as usize]).collect();
+        let points = feet.get(&pair).cloned().unwrap_or_else(border);
         (pair, points, Interface::Border, interface.length())
     });
     bordering

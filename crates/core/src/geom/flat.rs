@@ -7,6 +7,11 @@ use std::collections::BTreeMap;
 /// A side is flat where this share of a surface lies in one plane: the tops of tables have 0.42, the seats of chairs 0.36
 /// to 0.4. With 0.3 a wing and a goblet have some, and their models share 0.02 less of the volume with the mesh.
 const LEAST_SHARE: f64 = 0.35;
+/// One of two opposite sides may have as little as this, if both together have [`LEAST_OPPOSITES`]: the underside of a thick
+/// table with fillets has 0.29. Not bounded from below by a case.
+const LEAST_OPPOSITE: f64 = 0.2;
+/// The top and the bottom of a brick half as thick as it is wide have 0.5, those of a thick table 0.64.
+const LEAST_OPPOSITES: f64 = 0.6;
 /// Its normals differ from their mean by at most this: scans and remeshed surfaces are rough.
 const ROUGH_RAD: f64 = 20.0_f64.to_radians();
 /// And its points from the plane by at most this share of the surface's extent.
@@ -44,26 +49,44 @@ pub struct FlatSide {
 }
 
 impl FlatSide {
-    /// Those of a surface, which are two at most.
-    pub(crate) fn of_patches(patches: &[Patch]) -> Vec<Self> {
-        let least_area = LEAST_SHARE * area(patches);
-        let (low, high) = bounds(patches.iter().map(|patch| patch.centre));
+    /// Those of a surface, which are three at most.
+    pub(crate) fn of_patches(mut left: Vec<Patch>) -> Vec<Self> {
+        let whole = area(&left);
+        let (low, high) = bounds(left.iter().map(|patch| patch.centre));
         let roughness = ROUGH * low.distance(high);
-        let mut left = patches.to_vec();
-        let mut sides = Vec::new();
+        let mut sides: Vec<(Self, f64)> = Vec::new();
         for _ in 0..LOOKS {
+            if area(&left) < LEAST_OPPOSITE * whole {
+                break;
+            }
             let Some(normal) = commonest_normal(&left) else { break };
             let (facing, others): (Vec<Patch>, Vec<Patch>) =
                 left.into_iter().partition(|patch| looks_along(patch, normal));
-            let layer = fullest_layer(facing, normal, 2.0 * roughness);
-            let layer_area = area(&layer);
-            if layer_area >= least_area {
-                let centre = layer.iter().map(|patch| patch.centre * patch.area).sum::<DVec3>() / layer_area;
-                sides.extend(Plane::through(centre, normal).map(|plane| Self { plane, roughness }));
-            }
             left = others;
+            if area(&facing) < LEAST_OPPOSITE * whole {
+                continue;
+            }
+            let layer = fullest_layer(facing, normal, 2.0 * roughness);
+            let share = area(&layer) / whole;
+            if share >= LEAST_OPPOSITE {
+                let centre =
+                    layer.iter().map(|patch| patch.centre * patch.area).sum::<DVec3>() / area(&layer);
+                let plane = Plane::through(centre, normal);
+                sides.extend(plane.map(|plane| (Self { plane, roughness }, share)));
+            }
         }
-        sides
+        let is_of_plate = |(side, share): &(Self, f64)| {
+            *share >= LEAST_SHARE
+                || sides
+                    .iter()
+                    .any(|(other, of_other)| other.is_opposite(side) && share + of_other >= LEAST_OPPOSITES)
+        };
+        sides.iter().filter(|side| is_of_plate(side)).map(|(side, _)| *side).collect()
+    }
+
+    /// Whether two sides look in opposite directions, more or less.
+    pub(crate) fn is_opposite(&self, other: &Self) -> bool {
+        self.plane.normal().dot(other.plane.normal()) < -libm::cos(ROUGH_RAD)
     }
 
     /// Those of a hull.
@@ -73,7 +96,7 @@ impl FlatSide {
             let centre = outline.iter().sum::<DVec3>() / outline.len() as f64;
             Patch { centre, normal: facet.plane().normal(), area: facet_area(hull, facet) }
         };
-        Self::of_patches(&hull.facets().iter().map(patch).collect::<Vec<_>>())
+        Self::of_patches(hull.facets().iter().map(patch).collect())
     }
 
     /// The large facets of a hull that consists of them, as a box does; none of others.

@@ -5,7 +5,7 @@ use super::coarsen::Coarse;
 use super::grid::Interior;
 use super::halves::Halves;
 use super::patches::{Partition, absorb_small};
-use super::plates::without_stubs;
+use super::plates::{Plates, beyond_sides};
 use super::refine::refine_borders;
 use crate::geom::Hull;
 use crate::mesh::{Mesh, Views};
@@ -33,6 +33,8 @@ pub(super) struct Cleaner<'a> {
     pub coarse_cell_of: &'a [u32],
     /// Smaller parts join a neighbour.
     pub least_area: f64,
+    /// Whether caps of legs stay parts: a number of parts that was asked for stands.
+    pub keeps_count: bool,
     pub halves: Option<Halves>,
 }
 
@@ -67,10 +69,11 @@ impl Cleaner<'_> {
         self.alike(&found, refined)
     }
 
-    /// Clean parts without the stubs that plates have of others.
-    pub fn without_stubs(&self, parts: Partition) -> Partition {
-        let trimmed = without_stubs(&self.fine.surface, parts.clone());
-        if trimmed.of_cell == parts.of_cell { parts } else { self.alike(&parts, trimmed) }
+    /// Clean parts with the caps of legs joined to plates; `None` where there are none, or where their number stands.
+    fn with_caps_joined(&self, parts: &Partition) -> Option<Partition> {
+        let plates = || Plates::new(&self.fine.surface, &parts.of_cell, parts.count);
+        let joined = (!self.keeps_count).then(plates)?.with_caps_joined()?;
+        Some(self.alike(parts, joined))
     }
 
     /// Parts that came from `found` by moving borders, with the halves of a symmetric surface alike.
@@ -89,17 +92,27 @@ impl Cleaner<'_> {
         part_cost: f64,
         progress: &dyn Progress,
     ) -> Result<Partition, Cancelled> {
-        if finer.is_empty() {
-            return Ok(self.clean(first));
+        let cleaned = |parts: &Partition| progress.check().map(|()| self.clean(parts));
+        let (first, finer) = rayon::join(
+            || cleaned(first),
+            || finer.par_iter().map(cleaned).collect::<Result<Vec<_>, Cancelled>>(),
+        );
+        let (first, finer) = (first?, finer?);
+        if finer.is_empty() && self.with_caps_joined(&first).is_none() {
+            return Ok(first);
         }
         let views = Views::of_mesh(self.mesh);
-        let weighed = |parts: &Partition| {
+        let weighed = |parts: Partition| {
             progress.check()?;
-            Ok(self.weighed(self.clean(parts), solid, part_cost, &views))
+            let joined = self.with_caps_joined(&parts);
+            let apart = self.weighed(parts, solid, part_cost, &views);
+            let joined = joined.map(|joined| self.weighed(joined, solid, part_cost, &views));
+            let is_more = |joined: &Weighed| joined.worth + joined.shown() > apart.worth + apart.shown();
+            Ok(joined.filter(is_more).unwrap_or(apart))
         };
         let (first, finer) = rayon::join(
             || weighed(first),
-            || finer.par_iter().map(weighed).collect::<Result<Vec<_>, Cancelled>>(),
+            || finer.into_par_iter().map(weighed).collect::<Result<Vec<_>, Cancelled>>(),
         );
         let (mut first, mut finer) = (first?, finer?);
         if first.iou < SOLID {
@@ -117,8 +130,17 @@ impl Cleaner<'_> {
 
     fn weighed(&self, parts: Partition, solid: &Interior, part_cost: f64, views: &Views) -> Weighed {
         let mut points: Vec<Vec<DVec3>> = vec![Vec::new(); parts.count];
-        for (face, &cell) in self.fine.cell_of.iter().enumerate() {
-            points[parts.of_cell[cell as usize] as usize].extend(self.mesh.corners(face));
+        let feet = Plates::new(&self.fine.surface, &parts.of_cell, parts.count).feet();
+        let cell_of = |face: usize| self.fine.cell_of[face] as usize;
+        let left_out = beyond_sides(&feet, self.mesh, cell_of, parts.count);
+        for (face, vertices) in self.mesh.faces().iter().enumerate() {
+            let part = parts.of_cell[cell_of(face)] as usize;
+            let kept = vertices.iter().filter(|vertex| !left_out[part].contains(vertex));
+            points[part].extend(kept.map(|&vertex| self.mesh.positions()[vertex as usize]));
+        }
+        for foot in &feet {
+            let border = foot.border.iter().map(|&cell| self.fine.surface.centres()[cell]);
+            points[foot.standing as usize].extend(border.map(|centre| foot.straight_on(centre)));
         }
         let hulls: Vec<Hull> = points.par_iter().filter_map(|points| Hull::of_points(points).ok()).collect();
         let mut cover = Cover::new(solid);
@@ -157,6 +179,7 @@ mod tests {
             fine: &fine,
             coarse_cell_of: &coarse.cell_of,
             least_area: 0.0,
+            keeps_count: false,
             halves: None,
         };
         cleaner.best((&whole, &[halves]), &solid, 0.01, &Silent).unwrap().count

@@ -2,6 +2,7 @@
 
 use crate::mesh::Mesh;
 use glam::DVec3;
+use std::collections::BTreeMap;
 
 /// Positions and faces.
 pub(super) type Shape = (Vec<DVec3>, Vec<[u32; 3]>);
@@ -52,6 +53,47 @@ pub(super) fn cuboid(low: DVec3, high: DVec3) -> Shape {
     let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
     let faces = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
     ((0..8).map(corner).collect(), faces)
+}
+
+/// The surface of the cubes of size 1 between 0 and `size` that are taken, rounded by moving each vertex half of the way to
+/// the middle of its neighbours so many times.
+pub(super) fn rounded_cubes(size: [i32; 3], is_taken: impl Fn([i32; 3]) -> bool, rounds: usize) -> Shape {
+    let is_in = |cube: [i32; 3]| (0..3).all(|k| (0..size[k]).contains(&cube[k])) && is_taken(cube);
+    let cubes =
+        (0..size[0]).flat_map(|x| (0..size[1]).flat_map(move |y| (0..size[2]).map(move |z| [x, y, z])));
+    let mut vertices: BTreeMap<[i32; 3], u32> = BTreeMap::new();
+    let mut quads: Vec<[u32; 4]> = Vec::new();
+    for cube in cubes.filter(|cube| is_in(*cube)) {
+        for (axis, side) in (0..3).flat_map(|axis| [(axis, 0), (axis, 1)]) {
+            let mut next = cube;
+            next[axis] += 2 * side - 1;
+            if is_in(next) {
+                continue;
+            }
+            let mut corner = |[u, v]: [i32; 2]| {
+                let mut at = cube;
+                at[axis] += side;
+                at[(axis + 1) % 3] += u;
+                at[(axis + 2) % 3] += v;
+                let count = vertices.len() as u32;
+                *vertices.entry(at).or_insert(count)
+            };
+            let quad = [[0, 0], [1, 0], [1, 1], [0, 1]].map(&mut corner);
+            quads.push(if side == 1 { quad } else { [quad[3], quad[2], quad[1], quad[0]] });
+        }
+    }
+    let mut positions = vec![DVec3::ZERO; vertices.len()];
+    vertices.iter().for_each(|(at, &vertex)| positions[vertex as usize] = DVec3::from(at.map(f64::from)));
+    for _ in 0..rounds {
+        let mut around = vec![(DVec3::ZERO, 0.0); positions.len()];
+        // Each edge is on two quads, once in either direction.
+        for [from, to] in quads.iter().flat_map(|&[a, b, c, d]| [[a, b], [b, c], [c, d], [d, a]]) {
+            around[from as usize].0 += positions[to as usize];
+            around[from as usize].1 += 1.0;
+        }
+        positions.iter_mut().zip(around).for_each(|(p, (sum, count))| *p = p.lerp(sum / count, 0.5));
+    }
+    (positions, quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect())
 }
 
 /// Several bodies in one mesh.

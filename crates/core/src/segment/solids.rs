@@ -5,6 +5,7 @@
 use super::bodies::{CRUMB, WORTH, points_at, volume};
 use super::contact::{GAP, Touch, near, touches};
 use super::forest::Forest;
+use super::plates::{Foot, Plates, beyond_sides};
 use super::surface::Surface;
 use super::{SegmentId, Segmentation};
 use crate::geom::{Hull, HullError, Plane};
@@ -42,7 +43,10 @@ pub struct Solids {
     pub hulls: Vec<Result<Hull, HullError>>,
     /// For each pair of segments that touch, nearly touch or run into each other points midway between the two; the
     /// smaller id first. Bodies that are left out touch only where nothing else of the two does.
-    pub near: BTreeMap<(SegmentId, SegmentId), Vec<DVec3>>,
+    pub near: OfPairs,
+    /// Where segments that stand on a flat side of another would meet it if they went straight on from their border; the
+    /// smaller id first.
+    pub feet: OfPairs,
     /// What the hulls do without.
     pub details: Details,
 }
@@ -63,11 +67,21 @@ struct Piece {
     area: f64,
 }
 
+/// How a hull ends at the flat sides of plates.
+#[derive(Default)]
+struct Ends {
+    /// Points on the sides of others.
+    reach: Vec<DVec3>,
+    /// Vertices beyond its own.
+    beyond: BTreeSet<u32>,
+}
+
 /// What a hull is made round.
 struct Solid {
     hull: Result<Hull, HullError>,
     pieces: Vec<Piece>,
     left_out: Vec<Piece>,
+    ends: Ends,
     /// The planes of its large flat sides.
     sides: Vec<Plane>,
 }
@@ -78,6 +92,11 @@ impl Solids {
         let surface = Surface::of_faces(mesh.positions(), mesh.faces());
         let (body, _) = surface.components(|_| 0);
         let segments = segmentation.face_segments();
+        let of_face: Vec<u32> = segments.iter().map(|id| id.0).collect();
+        let feet = Plates::new(&surface, &of_face, segmentation.count()).feet();
+        let beyond = beyond_sides(&feet, mesh, |face| face, segmentation.count());
+        let (feet, reach) = straight_on(mesh, segmentation, &feet);
+        let ends = reach.into_iter().zip(beyond).map(|(reach, beyond)| Ends { reach, beyond });
         let mut pieces: Vec<BTreeMap<u32, Piece>> = Vec::new();
         pieces.resize_with(segmentation.count(), BTreeMap::new);
         for (face, (id, &body)) in segments.iter().zip(&body).enumerate() {
@@ -88,7 +107,8 @@ impl Solids {
         let least = CRUMB * surface.total_area();
         let mut solids: Vec<Solid> = pieces
             .into_par_iter()
-            .map(|pieces| Solid::new(mesh, &surface, pieces.into_values().collect(), least))
+            .zip(ends.collect::<Vec<_>>())
+            .map(|(pieces, ends)| Solid::new(mesh, &surface, pieces.into_values().collect(), least, ends))
             .collect();
         let touches = touches(mesh, &body);
         restore_bridges(mesh, &mut solids, &touches, segments);
@@ -98,7 +118,7 @@ impl Solids {
         let near = near(&touches, segments, |face| is_left_out[face]);
         let has_sides = solids.iter().any(|solid| !solid.sides.is_empty());
         let joined =
-            if has_sides { joined(mesh, segmentation, &near) } else { vec![Vec::new(); solids.len()] };
+            if has_sides { joined(mesh, segmentation, &near, &feet) } else { vec![Vec::new(); solids.len()] };
         let bodies = solids.iter().map(|solid| solid.left_out.len()).sum();
         let trim = |(Solid { hull, pieces, sides, .. }, joined): (Solid, Vec<Vec<DVec3>>)| {
             let (hull, is_cut) = trimmed(mesh, hull?, &pieces, &sides, &joined);
@@ -108,19 +128,36 @@ impl Solids {
             solids.into_par_iter().zip(joined).map(trim).collect();
         let cuts = trimmed.iter().flatten().filter(|(_, is_cut)| *is_cut).count();
         let hulls = trimmed.into_iter().map(|trimmed| trimmed.map(|(hull, _)| hull)).collect();
-        Self { hulls, near, details: Details { bodies, cuts } }
+        Self { hulls, near, feet, details: Details { bodies, cuts } }
     }
 }
 
+/// Points of pairs of segments, the smaller id first.
+type OfPairs = BTreeMap<(SegmentId, SegmentId), Vec<DVec3>>;
+
+/// Where segments that stand on flat sides meet them: for each pair, and for each segment that stands.
+fn straight_on(mesh: &Mesh, segmentation: &Segmentation, feet: &[Foot]) -> (OfPairs, Vec<Vec<DVec3>>) {
+    let mut reach: Vec<Vec<DVec3>> = vec![Vec::new(); segmentation.count()];
+    let mut of_pairs = OfPairs::new();
+    let borders = if feet.is_empty() { BTreeMap::new() } else { segmentation.borders(mesh) };
+    for foot in feet {
+        let pair = [foot.plate, foot.standing].map(SegmentId);
+        let pair = (pair[0].min(pair[1]), pair[0].max(pair[1]));
+        let border = borders.get(&pair).into_iter().flat_map(|border| border.vertices());
+        let points: Vec<DVec3> =
+            border.map(|&vertex| foot.straight_on(mesh.positions()[vertex as usize])).collect();
+        reach[foot.standing as usize].extend(&points);
+        of_pairs.insert(pair, points);
+    }
+    (of_pairs, reach)
+}
+
 /// Where each segment is joined to each of the others.
-fn joined(
-    mesh: &Mesh,
-    segmentation: &Segmentation,
-    near: &BTreeMap<(SegmentId, SegmentId), Vec<DVec3>>,
-) -> Vec<Vec<Vec<DVec3>>> {
+fn joined(mesh: &Mesh, segmentation: &Segmentation, near: &OfPairs, feet: &OfPairs) -> Vec<Vec<Vec<DVec3>>> {
     let mut joined: Vec<Vec<Vec<DVec3>>> = vec![Vec::new(); segmentation.count()];
     let borders = segmentation.borders(mesh).into_iter().map(|(pair, border)| {
-        (pair, border.vertices().iter().map(|&v| mesh.positions()[v as usize]).collect())
+        let points = || border.vertices().iter().map(|&v| mesh.positions()[v as usize]).collect();
+        (pair, feet.get(&pair).cloned().unwrap_or_else(points))
     });
     for ((a, b), points) in near.clone().into_iter().chain(borders) {
         joined[a.0 as usize].push(points.clone());
@@ -129,9 +166,18 @@ fn joined(
     joined
 }
 
+impl Ends {
+    /// The hull of faces that end so.
+    fn hull(&self, mesh: &Mesh, pieces: &[Piece]) -> Result<Hull, HullError> {
+        let vertices = pieces.iter().flat_map(|piece| &piece.faces).flat_map(|&face| mesh.faces()[face]);
+        let kept = vertices.filter(|vertex| !self.beyond.contains(vertex)).collect();
+        Hull::of_points(&[points_at(mesh, kept), self.reach.clone()].concat())
+    }
+}
+
 impl Solid {
     /// Where its large bodies consist of flat sides, without those smaller than `least` that are not worth it.
-    fn new(mesh: &Mesh, surface: &Surface, mut pieces: Vec<Piece>, least: f64) -> Self {
+    fn new(mesh: &Mesh, surface: &Surface, mut pieces: Vec<Piece>, least: f64, ends: Ends) -> Self {
         // The largest first.
         pieces.sort_by(|a, b| b.area.total_cmp(&a.area).then(a.faces.cmp(&b.faces)));
         let large = pieces.iter().filter(|piece| piece.area >= least).count();
@@ -140,7 +186,7 @@ impl Solid {
         let mut left_out = Vec::new();
         if sides.is_empty() {
             pieces.extend(small);
-        } else if let Ok(mut hull) = Hull::of_points(&points(mesh, &pieces)) {
+        } else if let Ok(mut hull) = ends.hull(mesh, &pieces) {
             for piece in small {
                 let own = points(mesh, std::slice::from_ref(&piece));
                 let all: Vec<DVec3> = hull.vertices().iter().chain(&own).copied().collect();
@@ -153,7 +199,7 @@ impl Solid {
                 }
             }
         }
-        Self { hull: Hull::of_points(&points(mesh, &pieces)), pieces, left_out, sides }
+        Self { hull: ends.hull(mesh, &pieces), pieces, left_out, ends, sides }
     }
 
     /// Takes back the bodies that these faces are on.
@@ -164,7 +210,7 @@ impl Solid {
         self.left_out = left_out;
         if !back.is_empty() {
             self.pieces.extend(back);
-            self.hull = Hull::of_points(&points(mesh, &self.pieces));
+            self.hull = self.ends.hull(mesh, &self.pieces);
         }
     }
 }
@@ -310,7 +356,7 @@ fn volume_beyond(mesh: &Mesh, piece: &Piece, plane: &Plane) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::shapes::{Shape, cuboid, mesh, together};
+    use super::super::shapes::{Shape, cuboid, mesh, together, turned};
     use super::*;
 
     fn solids(shapes: &[Shape], segment_of: impl Fn(usize) -> u32) -> Solids {
@@ -383,6 +429,29 @@ mod tests {
         let found = solids(&[floor, wall], |_| 0);
         assert_eq!(found.details, Details::default());
         assert!((found.hulls[0].as_ref().unwrap().support(DVec3::Z) - 80.0).abs() < 1e-9);
+    }
+
+    /// The border of the leg is 3 below the top.
+    #[test]
+    fn the_hulls_of_a_table_meet_at_the_side_of_its_top() {
+        let on_line = |from: [f64; 2], to: [f64; 2], steps: u32| {
+            (0..steps).map(move |k| {
+                let t = f64::from(k) / f64::from(steps);
+                (from[0] + (to[0] - from[0]) * t, from[1] + (to[1] - from[1]) * t)
+            })
+        };
+        let lines =
+            [([2.0, -25.0], [2.0, 0.0], 50), ([2.0, 0.0], [20.0, 0.0], 18), ([20.0, 0.0], [20.0, 1.0], 2)];
+        let rings: Vec<(f64, f64)> =
+            lines.iter().flat_map(|&(from, to, steps)| on_line(from, to, steps)).collect();
+        let table = mesh(&turned((-25.0, 1.0), &[rings, vec![(20.0, 1.0)]].concat(), 24));
+        let segment = |face: usize| SegmentId(u32::from(table.corners(face).iter().all(|p| p.z <= -3.0)));
+        let face_segment: Vec<SegmentId> = (0..table.faces().len()).map(segment).collect();
+        let found = Solids::new(&table, &Segmentation { face_segment, count: 2, mirror: None });
+        assert!(found.hulls[0].as_ref().unwrap().support(-DVec3::Z).abs() < 0.5);
+        assert!(found.hulls[1].as_ref().unwrap().support(DVec3::Z).abs() < 1e-6);
+        let feet = &found.feet[&(SegmentId(0), SegmentId(1))];
+        assert!(feet.len() == 24 && feet.iter().all(|p| p.z.abs() < 1e-6));
     }
 
     /// What another part hangs on is not cut off.

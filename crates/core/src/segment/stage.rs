@@ -78,19 +78,20 @@ pub fn segment(
     };
     progress.stage("borders");
     // Borders that moved may have left slivers; a number that was asked for stands.
-    let least_share = if options.parts.is_some() { 0.0 } else { LEAST_SEGMENT };
+    let keeps_count = options.parts.is_some();
+    let least_share = if keeps_count { 0.0 } else { LEAST_SEGMENT };
     let cleaner = Cleaner {
         mesh,
         fine: &borders,
         coarse_cell_of: &cell_of_face,
         least_area: least_share * fine.total_area(),
+        keeps_count,
         halves: mirror.and_then(|mirror| Halves::new(&borders.surface, &mirror)),
     };
     let refined = match &further {
         Some((finer, solid)) => cleaner.best((&cells, finer), solid, part_cost(options), progress)?,
         None => cleaner.clean(&cells),
     };
-    let refined = cleaner.without_stubs(refined);
     let of_face: Vec<u32> = borders.cell_of.iter().map(|&cell| refined.of_cell[cell as usize]).collect();
     Ok(Segmentation::numbered(&of_face, refined.count, fine.areas()).mirrored_in(plane))
 }

@@ -1,6 +1,6 @@
 //! Properties of the stage as a whole.
 
-use super::shapes::{Shape, balls_in_a_row, mesh, moved, together};
+use super::shapes::{Shape, balls_in_a_row, mesh, moved, rounded_cubes, together};
 use super::surface::Surface;
 use super::*;
 use crate::progress::{Progress, Silent};
@@ -303,4 +303,29 @@ fn changes_to_one_side_end_the_symmetry_and_to_both_bring_it_back() {
     assert_eq!(lopsided.segmentation().twins(lopsided.mesh()), None);
     let even = lopsided.edited(&merge([0, other])).unwrap();
     assert!(even.segmentation().twins(even.mesh()).is_some());
+}
+
+/// The ends of the legs were parts of their own, and the hull of the top leaned towards them.
+#[test]
+fn a_table_is_its_top_and_its_legs() {
+    const HEIGHT: i32 = 18;
+    for (thickness, inset, rounds) in [(3, 1, 3), (3, 0, 4), (4, 1, 8)] {
+        let size = [30, 22, HEIGHT + thickness];
+        let is_leg = |at: i32, size: i32| {
+            let from_edge = at.min(size - 1 - at);
+            (inset..inset + 3).contains(&from_edge)
+        };
+        let is_taken = |[x, y, z]: [i32; 3]| z >= HEIGHT || (is_leg(x, size[0]) && is_leg(y, size[1]));
+        let mesh = mesh(&rounded_cubes(size, is_taken, rounds));
+        let found = segment(&mesh, &SegmentOptions::default(), &Silent).unwrap();
+        assert_eq!(found.count(), 5, "{thickness} {inset} {rounds}");
+        let solids = Parts::new(Arc::new(mesh), found).solids();
+        let mut hulls: Vec<_> = solids.hulls.into_iter().map(Result::unwrap).collect();
+        hulls.sort_by(|a, b| b.centroid().z.total_cmp(&a.centroid().z));
+        let underside = f64::from(HEIGHT);
+        assert!((hulls[0].support(-DVec3::Z) + underside).abs() < 0.3, "{}", hulls[0].support(-DVec3::Z));
+        for leg in &hulls[1..] {
+            assert!((leg.support(DVec3::Z) - underside).abs() < 0.3, "{}", leg.support(DVec3::Z));
+        }
+    }
 }

@@ -3,12 +3,11 @@
 use glam::{DAffine3, DMat3, DVec3};
 use tatamu_core::component::{HingeId, PanelId, PanelSet};
 use tatamu_core::fold::{ModelMotion, ModelPose};
-use tatamu_core::geom::Hull;
 use tatamu_core::mesh::Mesh;
 use tatamu_core::model::Model;
 use tatamu_draw::drawing::Rgb;
 use tatamu_draw::render::{Edge, Face, Scene, SceneError, light, palette, proxy};
-use tatamu_pipeline::Output;
+use tatamu_pipeline::{Hulls, Output};
 
 /// The input, and faces of segments without volume.
 const PLAIN: Rgb = Rgb(200, 200, 204);
@@ -48,24 +47,17 @@ fn coloured_mesh(mesh: &Mesh, colour_of: impl Fn(usize) -> Rgb) -> Result<Scene,
     Ok(scene)
 }
 
-/// The convex hull of each part.
+/// The hull of each part that its component is made from.
 ///
 /// # Errors
 /// As [`mesh_scene`].
 pub fn hulls_scene(output: &Output) -> Result<Scene, SceneError> {
-    let mesh = output.mesh();
-    let mut points = vec![Vec::new(); output.model().parts().len()];
-    for (face, part) in output.face_parts().iter().enumerate() {
-        if let Some(own) = part.and_then(|part| points.get_mut(part as usize)) {
-            own.extend(mesh.corners(face).map(|p| upright().transform_point3(p)));
-        }
-    }
+    let hulls = output.shaped().source().hulls().map_or(&[][..], Hulls::hulls);
     let mut scene = Scene::new();
-    for (part, points) in points.iter().enumerate() {
-        if let Ok(hull) = Hull::of_points(points) {
-            let triangles: Vec<[u32; 3]> = hull.triangles().collect();
-            scene.push_mesh(hull.vertices(), &triangles, |_| palette::colour(part), None)?;
-        }
+    for (part, hull) in hulls.iter().enumerate() {
+        let vertices: Vec<DVec3> = hull.vertices().iter().map(|p| upright().transform_point3(*p)).collect();
+        let triangles: Vec<[u32; 3]> = hull.triangles().collect();
+        scene.push_mesh(&vertices, &triangles, |_| palette::colour(part), None)?;
     }
     Ok(scene)
 }
