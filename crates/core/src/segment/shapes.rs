@@ -55,8 +55,8 @@ pub(super) fn cuboid(low: DVec3, high: DVec3) -> Shape {
     ((0..8).map(corner).collect(), faces)
 }
 
-/// The surface of the cubes of size 1 between 0 and `size` that are taken, rounded by moving each vertex half of the way to
-/// the middle of its neighbours so many times.
+/// The surface of the cubes of size 1 between 0 and `size` that are taken, rounded: in each round every vertex moves half of
+/// the way to the middle of its neighbours.
 pub(super) fn rounded_cubes(size: [i32; 3], is_taken: impl Fn([i32; 3]) -> bool, rounds: usize) -> Shape {
     let is_in = |cube: [i32; 3]| (0..3).all(|k| (0..size[k]).contains(&cube[k])) && is_taken(cube);
     let cubes =
