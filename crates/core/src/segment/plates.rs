@@ -205,7 +205,7 @@ fn stands_on(surface: &Surface, side: &Plane, cells: &[usize], border: &[[usize;
 
 #[cfg(test)]
 mod tests {
-    use super::super::shapes::turned;
+    use super::super::shapes::{line, turned};
     use super::*;
 
     /// A surface of revolution through points of a half plane, from its upper end to its lower one.
@@ -215,14 +215,6 @@ mod tests {
         rings.reverse();
         let (positions, faces) = turned((corners[corners.len() - 1].1, corners[0].1), &rings, 24);
         Surface::of_faces(&positions, &faces)
-    }
-
-    /// Along straight lines between points.
-    fn line(from: (f64, f64), to: (f64, f64), steps: u32) -> impl Iterator<Item = (f64, f64)> {
-        (0..steps).map(move |k| {
-            let t = f64::from(k) / f64::from(steps);
-            (from.0 + (to.0 - from.0) * t, from.1 + (to.1 - from.1) * t)
-        })
     }
 
     /// A round table on one leg.

@@ -46,6 +46,14 @@ pub(super) fn turned((lo, hi): (f64, f64), rings: &[(f64, f64)], around: usize) 
     (positions, faces)
 }
 
+/// Points of a half plane along a straight line, without its end.
+pub(super) fn line(from: (f64, f64), to: (f64, f64), steps: u32) -> impl Iterator<Item = (f64, f64)> {
+    (0..steps).map(move |k| {
+        let t = f64::from(k) / f64::from(steps);
+        (from.0 + (to.0 - from.0) * t, from.1 + (to.1 - from.1) * t)
+    })
+}
+
 /// A box from its least corner to its largest.
 pub(super) fn cuboid(low: DVec3, high: DVec3) -> Shape {
     let corner =

@@ -356,7 +356,7 @@ fn volume_beyond(mesh: &Mesh, piece: &Piece, plane: &Plane) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::shapes::{Shape, cuboid, mesh, together, turned};
+    use super::super::shapes::{Shape, cuboid, line, mesh, together, turned};
     use super::*;
 
     fn solids(shapes: &[Shape], segment_of: impl Fn(usize) -> u32) -> Solids {
@@ -434,16 +434,10 @@ mod tests {
     /// The border of the leg is 3 below the top.
     #[test]
     fn the_hulls_of_a_table_meet_at_the_side_of_its_top() {
-        let on_line = |from: [f64; 2], to: [f64; 2], steps: u32| {
-            (0..steps).map(move |k| {
-                let t = f64::from(k) / f64::from(steps);
-                (from[0] + (to[0] - from[0]) * t, from[1] + (to[1] - from[1]) * t)
-            })
-        };
         let lines =
-            [([2.0, -25.0], [2.0, 0.0], 50), ([2.0, 0.0], [20.0, 0.0], 18), ([20.0, 0.0], [20.0, 1.0], 2)];
+            [((2.0, -25.0), (2.0, 0.0), 50), ((2.0, 0.0), (20.0, 0.0), 18), ((20.0, 0.0), (20.0, 1.0), 2)];
         let rings: Vec<(f64, f64)> =
-            lines.iter().flat_map(|&(from, to, steps)| on_line(from, to, steps)).collect();
+            lines.into_iter().flat_map(|(from, to, steps)| line(from, to, steps)).collect();
         let table = mesh(&turned((-25.0, 1.0), &[rings, vec![(20.0, 1.0)]].concat(), 24));
         let segment = |face: usize| SegmentId(u32::from(table.corners(face).iter().all(|p| p.z <= -3.0)));
         let face_segment: Vec<SegmentId> = (0..table.faces().len()).map(segment).collect();
