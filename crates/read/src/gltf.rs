@@ -11,6 +11,7 @@ use base64::engine::DecodePaddingMode;
 use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
 use glam::{DMat4, DVec3};
 use gltf::accessor::{DataType, Dimensions};
+use gltf::json::{Value, deserialize::from_slice};
 use gltf::mesh::Mode;
 use gltf::{Accessor, Gltf, Node, Primitive, Semantic};
 use percent_encoding::percent_decode_str;
@@ -47,6 +48,15 @@ fn open(bytes: &[u8]) -> Result<Gltf, ReadError> {
     parse(bytes)
 }
 
+fn first_version() -> ReadError {
+    fault("version", "glTF 1.0", "glTF 2.0, as programs of today export it")
+}
+
+/// Whether meshes have names and no numbers, as in glTF 1.0.
+fn has_named_meshes(bytes: &[u8]) -> bool {
+    from_slice::<Value>(bytes).is_ok_and(|root| root["meshes"].is_object())
+}
+
 /// Parses and validates the structure.
 fn parse(bytes: &[u8]) -> Result<Gltf, ReadError> {
     let invalid = |error: gltf::Error| ReadError::Syntax {
@@ -55,7 +65,8 @@ fn parse(bytes: &[u8]) -> Result<Gltf, ReadError> {
         found: format!("an error ({})", shorten(&error.to_string())),
         expected: "valid glTF 2.0 without compression or other required extensions".to_owned(),
     };
-    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(invalid)?;
+    let first_or_invalid = |error| if has_named_meshes(bytes) { first_version() } else { invalid(error) };
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(first_or_invalid)?;
     let root = document.into_json();
     // The validation of gltf-json 1.4 panics where a position accessor does not exist.
     let position = gltf::json::validation::Checked::Valid(Semantic::Positions);
@@ -69,8 +80,11 @@ fn parse(bytes: &[u8]) -> Result<Gltf, ReadError> {
     Ok(Gltf { document, blob })
 }
 
-/// Compares the lengths in a GLB header with the length of the file.
+/// Compares the version and the length in a GLB header with what is read and with the length of the file.
 fn check_glb(bytes: &[u8]) -> Result<(), ReadError> {
+    if bytes.get(4..8) == Some(&[1, 0, 0, 0]) {
+        return Err(first_version());
+    }
     let length = bytes.get(8..12).and_then(|b| b.try_into().ok());
     let promised = length.map(u32::from_le_bytes).unwrap_or_default() as usize;
     if promised < 20 || promised > bytes.len() {
@@ -407,6 +421,9 @@ mod tests {
         let whole = glb(&json("", r#"{"mesh":0}"#, 5, 4), &data());
         assert!(message(&whole[..whole.len() - 9]).contains("declares"));
         assert!(message(b"glTF\x02\0\0\0\x01\0\0\0").contains("declares 1 bytes"));
+        let first = r#"{"meshes":{"box":{}},"asset":{"version":"1.0"}}"#;
+        assert!(message(first.as_bytes()).contains("glTF 1.0"));
+        assert!(message(b"glTF\x01\0\0\0\x14\0\0\0\0\0\0\0\0\0\0\0").contains("glTF 1.0"));
         let missing = json(&embedded(), r#"{"mesh":0}"#, 5, 4).replace("POSITION\":0", "POSITION\":7");
         assert!(message(missing.as_bytes()).contains("accessor 7 of 2"));
         assert!(message(b"{\"hello\": 1}").contains("valid glTF"));

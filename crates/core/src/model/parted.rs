@@ -51,8 +51,14 @@ pub fn parted(
             let twins = clips.clone().into_iter();
             clips.extend(twins.map(|(part, plane)| (symmetry.twin(part), symmetry.mirror().image(&plane))));
         }
-        let clipped = clipped(&hulls, &clips, gap_mm);
-        if let Some(clipped) = clipped.filter(|clipped| keeps_joints(&hulls, clipped, links, JOINT_SHARE)) {
+        let smaller_mm3 = hulls[a.0].volume().min(hulls[b.0].volume());
+        let is_little = |(part, left): (&PartId, &Hull)| {
+            hulls[part.0].volume() - left.volume() <= MOST_TAKEN * smaller_mm3
+        };
+        let keeps = |clipped: &BTreeMap<PartId, Hull>| {
+            clipped.iter().all(is_little) && keeps_joints(&hulls, clipped, links, JOINT_SHARE)
+        };
+        if let Some(clipped) = clipped(&hulls, &clips, gap_mm).filter(keeps) {
             clipped.into_iter().for_each(|(part, hull)| hulls[part.0] = hull);
             clips.into_iter().for_each(|(part, plane)| borders[part.0].push(plane));
         }
@@ -160,6 +166,10 @@ const LEAST_OVERLAP_MM: f64 = 0.3;
 /// A plane between neighbours without a joint may cut off at most this share of either.
 const CLIP_SHARE: f64 = 0.2;
 
+/// And at most this much of the volume of the smaller one: the box of a van lost its lower end to the wheels beside it. Not bounded
+/// from below by a case.
+const MOST_TAKEN: f64 = 1.0;
+
 /// And it leaves at least this share of what the sections of two joined hulls have in common: else a
 /// finger's joint with a hand is cut off for the sake of the thumb.
 const JOINT_SHARE: f64 = 0.8;
@@ -202,6 +212,20 @@ mod tests {
         let hulls: Vec<&Hull> = hulls.iter().collect();
         let points = face.map(|p| p - DVec3::X * 4.5).to_vec();
         assert_eq!(ends(&parted(&hulls, &[Contact { points, ..contact }], &[], None).hulls), (30.0, 0.0));
+    }
+
+    /// The box of a van lost its lower end to the wheels.
+    #[test]
+    fn a_large_part_is_not_cut_for_a_small_one() {
+        let corner = |k: usize| DVec3::new([0.0, 100.0][k & 1], [0.0, 40.0][k >> 1 & 1], [0.0, 40.0][k >> 2]);
+        let van = Hull::of_points(&(0..8).map(corner).collect::<Vec<_>>()).unwrap();
+        let tops = [12.0, 36.0].map(|side| {
+            let wheel = cube(DVec3::new(5.0, -2.0, 4.0 - side), side);
+            let apart = parted(&[&van, &wheel], &[], &[], None).hulls;
+            (-apart[0].support(-DVec3::Z), apart[1].support(DVec3::Z))
+        });
+        assert_eq!(tops[0], (0.0, 4.0));
+        assert!(tops[1].0 > 2.0 && tops[1].1 < 2.0, "one of nearly the same size: {:?}", tops[1]);
     }
 
     #[test]

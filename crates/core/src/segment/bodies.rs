@@ -2,6 +2,7 @@
 
 use super::apart::Apart;
 use super::contact::touches;
+use super::details::{Piece, Weeded, points, points_at, volume};
 use super::forest::Forest;
 use super::patches::Partition;
 use super::surface::Surface;
@@ -15,10 +16,6 @@ use std::collections::BTreeMap;
 pub(super) const CRUMB: f64 = 0.02;
 /// Where many parts are asked for, bodies smaller than this share of a mean part, if that is less.
 const CRUMB_OF_PART: f64 = 0.5;
-
-/// A body makes the hull of another too large by more than this many times its volume: the two then share less with the
-/// solid than without it.
-pub(super) const WORTH: f64 = 2.0;
 
 /// A link between two bodies.
 #[derive(Debug, Clone, Copy)]
@@ -65,14 +62,40 @@ impl Bodies {
         Self { of_cell, count, links, host_cell }
     }
 
-    /// How many bodies there are, crumbs and all.
-    pub fn count(&self) -> usize {
-        self.count
+    /// How many bodies there are that are large enough for a segment.
+    pub fn large_count(&self) -> usize {
+        self.host_cell.iter().filter(|host| host.is_none()).count()
     }
 
     /// Cells of bodies that touch, and of the others those that connect them by the shortest gaps.
     pub fn links(&self) -> &[[u32; 2]] {
         &self.links
+    }
+
+    /// For each face of a mesh whether the hull of the large body that its own joins does without it; `surface` has the
+    /// faces.
+    pub fn is_detail(&self, mesh: &Mesh, surface: &Surface, cell_of_face: &[u32]) -> Vec<bool> {
+        let mut is_detail = vec![false; cell_of_face.len()];
+        if self.large_count() == self.count {
+            return is_detail;
+        }
+        let mut joined: BTreeMap<u32, BTreeMap<u32, Piece>> = BTreeMap::new();
+        for (face, &cell) in cell_of_face.iter().enumerate() {
+            let [large, body] = [self.host(cell as usize), cell as usize].map(|cell| self.of_cell[cell]);
+            let piece = joined.entry(large).or_default().entry(body).or_default();
+            piece.faces.push(face);
+            piece.area += surface.areas()[face];
+        }
+        let left_out = |(large, mut bodies): (u32, BTreeMap<u32, Piece>)| {
+            let large: Vec<Piece> = bodies.remove(&large).into_iter().collect();
+            let mut small: Vec<Piece> = bodies.into_values().collect();
+            Piece::sort(&mut small);
+            Weeded::new((mesh, surface), large, small, |pieces| Hull::of_points(&points(mesh, pieces)))
+                .left_out
+        };
+        let left_out: Vec<Vec<Piece>> = joined.into_par_iter().map(left_out).collect();
+        left_out.iter().flatten().flat_map(|piece| &piece.faces).for_each(|&face| is_detail[face] = true);
+        is_detail
     }
 
     /// The cell at which the body of a cell joins another; the cell itself where it does not.
@@ -143,21 +166,9 @@ fn hulls(mesh: &Mesh, body_of_face: &[u32], bodies: usize) -> Vec<(Vec<DVec3>, f
     vertices.into_par_iter().map(hull).collect()
 }
 
-/// The positions of vertices, each once.
-pub(super) fn points_at(mesh: &Mesh, mut vertices: Vec<u32>) -> Vec<DVec3> {
-    vertices.sort_unstable();
-    vertices.dedup();
-    vertices.into_iter().map(|v| mesh.positions()[v as usize]).collect()
-}
-
 /// How much larger a hull is with the corners of another.
 fn growth((host, host_volume): &(Vec<DVec3>, f64), small: &[DVec3]) -> f64 {
     (volume(&[host, small].concat()) - host_volume).max(0.0)
-}
-
-/// The volume of the hull of points; 0 where it has none.
-pub(super) fn volume(points: &[DVec3]) -> f64 {
-    Hull::of_points(points).map_or(0.0, |hull| hull.volume())
 }
 
 /// Of bodies that touch, by their numbers, where they are nearest.

@@ -84,11 +84,12 @@ impl Cleaner<'_> {
         }
     }
 
-    /// The first division, or of those further that show the one that is worth most; with clean borders.
+    /// The first division, or of those further that show the one that is worth most; with clean borders. `inside` is what hulls
+    /// are compared with, and for each face whether they do without it.
     pub fn best(
         &self,
         (first, finer): (&Partition, &[Partition]),
-        solid: &Interior,
+        inside: (&Interior, &[bool]),
         part_cost: f64,
         progress: &dyn Progress,
     ) -> Result<Partition, Cancelled> {
@@ -105,8 +106,8 @@ impl Cleaner<'_> {
         let weighed = |parts: Partition| {
             progress.check()?;
             let joined = self.with_caps_joined(&parts);
-            let apart = self.weighed(parts, solid, part_cost, &views);
-            let joined = joined.map(|joined| self.weighed(joined, solid, part_cost, &views));
+            let apart = self.weighed(parts, inside, part_cost, &views);
+            let joined = joined.map(|joined| self.weighed(joined, inside, part_cost, &views));
             let is_more = |joined: &Weighed| joined.worth + joined.shown() > apart.worth + apart.shown();
             Ok(joined.filter(is_more).unwrap_or(apart))
         };
@@ -128,12 +129,18 @@ impl Cleaner<'_> {
         Ok(first.parts)
     }
 
-    fn weighed(&self, parts: Partition, solid: &Interior, part_cost: f64, views: &Views) -> Weighed {
+    fn weighed(
+        &self,
+        parts: Partition,
+        (solid, is_detail): (&Interior, &[bool]),
+        part_cost: f64,
+        views: &Views,
+    ) -> Weighed {
         let mut points: Vec<Vec<DVec3>> = vec![Vec::new(); parts.count];
         let feet = Plates::new(&self.fine.surface, &parts.of_cell, parts.count).feet();
         let cell_of = |face: usize| self.fine.cell_of[face] as usize;
         let left_out = beyond_sides(&feet, self.mesh, cell_of, parts.count);
-        for (face, vertices) in self.mesh.faces().iter().enumerate() {
+        for (face, vertices) in self.mesh.faces().iter().enumerate().filter(|(face, _)| !is_detail[*face]) {
             let part = parts.of_cell[cell_of(face)] as usize;
             let kept = vertices.iter().filter(|vertex| !left_out[part].contains(vertex));
             points[part].extend(kept.map(|&vertex| self.mesh.positions()[vertex as usize]));
@@ -182,7 +189,10 @@ mod tests {
             keeps_count: false,
             halves: None,
         };
-        cleaner.best((&whole, &[halves]), &solid, 0.01, &Silent).unwrap().count
+        cleaner
+            .best((&whole, &[halves]), (&solid, &vec![false; mesh.faces().len()]), 0.01, &Silent)
+            .unwrap()
+            .count
     }
 
     #[test]

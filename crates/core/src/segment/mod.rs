@@ -11,6 +11,7 @@ mod clean;
 mod coarsen;
 mod contact;
 mod cut;
+mod details;
 mod edit;
 mod forest;
 mod gmm;

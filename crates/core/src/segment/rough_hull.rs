@@ -21,7 +21,7 @@ pub(super) struct Extremes {
 }
 
 impl Extremes {
-    /// The extreme ones of vertices; there is at least one.
+    /// The extreme ones of vertices; there may be none.
     pub fn of_vertices(positions: &[DVec3], vertices: &[u32]) -> Self {
         let best = directions(DIRECTIONS).map(|d| {
             let reach = |&v: &u32| (d.dot(positions[v as usize]), v);
@@ -37,7 +37,7 @@ impl Extremes {
 
     /// The hull; `None` where it has no volume.
     pub fn hull(&self, positions: &[DVec3]) -> Option<RoughHull> {
-        let mut vertices: Vec<u32> = self.best.iter().map(|b| b.1).collect();
+        let mut vertices: Vec<u32> = self.best.iter().filter(|b| b.0.is_finite()).map(|b| b.1).collect();
         vertices.sort_unstable();
         vertices.dedup();
         RoughHull::of_points(vertices.iter().map(|&v| positions[v as usize]).collect())
@@ -244,5 +244,16 @@ mod tests {
         let points: Vec<DVec3> =
             (0..100).map(|i| DVec3::new((i % 10) as f64, (i / 10) as f64, 0.0)).collect();
         assert_eq!(hull_volume(&points), None);
+    }
+
+    /// All faces of a patch may be details that hulls leave out.
+    #[test]
+    fn nothing_has_no_hull_and_adds_nothing() {
+        let corners: Vec<DVec3> =
+            (0..8).map(|k| DVec3::from([k & 1, k >> 1 & 1, k >> 2].map(f64::from))).collect();
+        let nothing = Extremes::of_vertices(&corners, &[]);
+        assert!(nothing.hull(&corners).is_none());
+        let cube = nothing.union(&Extremes::of_vertices(&corners, &[0, 1, 2, 3, 4, 5, 6, 7]));
+        assert!((cube.hull(&corners).unwrap().volume() - 1.0).abs() < 1e-5);
     }
 }

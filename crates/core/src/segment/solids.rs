@@ -2,8 +2,9 @@
 //!
 //! The hull of a house with its drainpipe and its cornice leans on all sides. Paper leaves these out.
 
-use super::bodies::{CRUMB, WORTH, points_at, volume};
+use super::bodies::CRUMB;
 use super::contact::{GAP, Touch, near, touches};
+use super::details::{IN_PLANE, Piece, WORTH, Weeded, points_at, volume};
 use super::forest::Forest;
 use super::plates::{Foot, Plates, beyond_sides};
 use super::surface::Surface;
@@ -14,17 +15,6 @@ use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Hulls are cut along planes that have at least this share of a segment's area. Not bounded by a case.
-const LEAST_SIDE: f64 = 0.04;
-/// Where such planes have at least this share in all: the hulls of a fish and a cow share less with what is seen when they are
-/// cut.
-const LEAST_SIDES: f64 = 0.5;
-/// A face with a smaller share than this says nothing about planes: only meshes of few faces have others. Not bounded by a case.
-const LEAST_FACE: f64 = 0.004;
-/// Faces are in one plane within this angle,
-const ALONG_RAD: f64 = 2.0_f64.to_radians();
-/// and this share of the mesh's diagonal. Neither is bounded by a case.
-const IN_PLANE: f64 = 0.005;
 /// A cut that makes a hull better by a smaller share of its volume is not made. Not bounded by a case.
 const LEAST_GAIN: f64 = 0.003;
 /// What is cut off is at most this share of what is left: a wall and a floor that are one part both stay. A cornice of a house has
@@ -58,13 +48,6 @@ pub struct Details {
     pub bodies: usize,
     /// Number of hulls that were cut.
     pub cuts: usize,
-}
-
-/// The faces of a segment that are on one body.
-#[derive(Default)]
-struct Piece {
-    faces: Vec<usize>,
-    area: f64,
 }
 
 /// How a hull ends at the flat sides of plates.
@@ -178,28 +161,12 @@ impl Ends {
 impl Solid {
     /// Where its large bodies consist of flat sides, without those smaller than `least` that are not worth it.
     fn new(mesh: &Mesh, surface: &Surface, mut pieces: Vec<Piece>, least: f64, ends: Ends) -> Self {
-        // The largest first.
-        pieces.sort_by(|a, b| b.area.total_cmp(&a.area).then(a.faces.cmp(&b.faces)));
+        Piece::sort(&mut pieces);
         let large = pieces.iter().filter(|piece| piece.area >= least).count();
         let small = pieces.split_off(large);
-        let sides = sides(mesh, surface, &pieces);
-        let mut left_out = Vec::new();
-        if sides.is_empty() {
-            pieces.extend(small);
-        } else if let Ok(mut hull) = ends.hull(mesh, &pieces) {
-            for piece in small {
-                let own = points(mesh, std::slice::from_ref(&piece));
-                let all: Vec<DVec3> = hull.vertices().iter().chain(&own).copied().collect();
-                match Hull::of_points(&all) {
-                    Ok(grown) if grown.volume() - hull.volume() <= WORTH * volume(&own) => {
-                        hull = grown;
-                        pieces.push(piece);
-                    }
-                    _ => left_out.push(piece),
-                }
-            }
-        }
-        Self { hull: ends.hull(mesh, &pieces), pieces, left_out, ends, sides }
+        let Weeded { kept, left_out, sides } =
+            Weeded::new((mesh, surface), pieces, small, |pieces| ends.hull(mesh, pieces));
+        Self { hull: ends.hull(mesh, &kept), pieces: kept, left_out, ends, sides }
     }
 
     /// Takes back the bodies that these faces are on.
@@ -246,40 +213,6 @@ fn restore_bridges(mesh: &Mesh, solids: &mut [Solid], touches: &[Touch], segment
             [a, b].iter().for_each(|&segment| solids[segment].take_back(mesh, &faces));
         }
     }
-}
-
-/// The corners of faces.
-fn points(mesh: &Mesh, pieces: &[Piece]) -> Vec<DVec3> {
-    let faces = pieces.iter().flat_map(|piece| &piece.faces);
-    points_at(mesh, faces.flat_map(|&face| mesh.faces()[face]).collect())
-}
-
-/// The planes of the large flat sides of what consists of them, as a box does, in a mesh of few faces.
-fn sides(mesh: &Mesh, surface: &Surface, pieces: &[Piece]) -> Vec<Plane> {
-    let area: f64 = pieces.iter().map(|piece| piece.area).sum();
-    let faces = || pieces.iter().flat_map(|piece| &piece.faces).copied();
-    let mut large: Vec<usize> = faces().filter(|&face| surface.areas()[face] >= LEAST_FACE * area).collect();
-    large.sort_by(|&a, &b| surface.areas()[b].total_cmp(&surface.areas()[a]).then(a.cmp(&b)));
-    let near = IN_PLANE * mesh.diagonal_mm();
-    let mut sides: Vec<Plane> = Vec::new();
-    let mut covered = 0.0;
-    let is_in = |plane: &Plane, face: usize| {
-        plane.normal().dot(surface.normals()[face]) > libm::cos(ALONG_RAD)
-            && plane.distance(surface.centres()[face]).abs() <= near
-    };
-    for face in large {
-        let Some(plane) = Plane::through(surface.centres()[face], surface.normals()[face]) else { continue };
-        if sides.iter().any(|side| is_in(side, face)) {
-            continue;
-        }
-        let of_plane: f64 =
-            faces().filter(|&other| is_in(&plane, other)).map(|other| surface.areas()[other]).sum();
-        if of_plane >= LEAST_SIDE * area {
-            sides.push(plane);
-            covered += of_plane;
-        }
-    }
-    if covered < LEAST_SIDES * area { Vec::new() } else { sides }
 }
 
 /// A hull cut along those of these planes beyond which it has little of the solid and of its joints, and whether it is.

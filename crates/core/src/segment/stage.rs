@@ -64,7 +64,8 @@ pub fn segment(
     let diameters = target.and_then(|target| shape_diameters(&target, &fine, &coarse, &cell_of_face));
     progress.check()?;
     let diameters = diameters.as_deref();
-    let skin = Skin { mesh, faces: &faces, surface: &coarse, cell_of_face: &cell_of_face, diameters };
+    let skin =
+        Skin { mesh, faces: &faces, fine: &fine, surface: &coarse, cell_of_face: &cell_of_face, diameters };
     let (cells, further) = match options.method {
         Method::Sdf { clusters, smoothing } => {
             let label = labels(&coarse, diameters, clusters, smoothing);
@@ -72,8 +73,8 @@ pub fn segment(
             (absorb_small(&coarse, connected(&coarse, &label), least), None)
         }
         Method::Merge => {
-            let (best, solid) = skin.parts(mirror, options, progress)?;
-            (best.partition, Some((best.finer, solid)))
+            let (best, solid, is_detail) = skin.parts(mirror, options, progress)?;
+            (best.partition, Some((best.finer, solid, is_detail)))
         }
     };
     progress.stage("borders");
@@ -89,7 +90,9 @@ pub fn segment(
         halves: mirror.and_then(|mirror| Halves::new(&borders.surface, &mirror)),
     };
     let refined = match &further {
-        Some((finer, solid)) => cleaner.best((&cells, finer), solid, part_cost(options), progress)?,
+        Some((finer, solid, is_detail)) => {
+            cleaner.best((&cells, finer), (solid, is_detail), part_cost(options), progress)?
+        }
         None => cleaner.clean(&cells),
     };
     let of_face: Vec<u32> = borders.cell_of.iter().map(|&cell| refined.of_cell[cell as usize]).collect();
@@ -161,27 +164,32 @@ fn over_segment(surface: &Surface, values: Option<&[f64]>, parts: Option<usize>)
 struct Skin<'a> {
     mesh: &'a Mesh,
     faces: &'a [[u32; 3]],
+    /// Each face by itself,
+    fine: &'a Surface,
+    /// and in cells.
     surface: &'a Surface,
     cell_of_face: &'a [u32],
     diameters: Option<&'a [f64]>,
 }
 
 impl Skin<'_> {
-    /// The best parts, and the inside that they are compared with.
+    /// The best parts, the inside that they are compared with, and for each face whether their hulls do without it.
     fn parts(
         &self,
         mirror: Option<Mirror>,
         options: &SegmentOptions,
         progress: &dyn Progress,
-    ) -> Result<(Chosen, Interior), Cancelled> {
+    ) -> Result<(Chosen, Interior, Vec<bool>), Cancelled> {
         let solid = Interior::filled(self.mesh.positions(), self.faces, grid::CELLS);
         let bodies = Bodies::new(self.mesh, self.surface, self.cell_of_face, options.parts);
-        let search = Search { skin: self, bodies: &bodies, solid: &solid, options, progress };
+        let is_detail = bodies.is_detail(self.mesh, self.fine, self.cell_of_face);
+        let search =
+            Search { skin: self, bodies: &bodies, solid: &solid, is_detail: &is_detail, options, progress };
         let best = match search.whole()? {
             Some(whole) => whole,
             None => search.merged(mirror)?,
         };
-        Ok((best, solid))
+        Ok((best, solid, is_detail))
     }
 }
 
@@ -190,15 +198,16 @@ struct Search<'a> {
     skin: &'a Skin<'a>,
     bodies: &'a Bodies,
     solid: &'a Interior,
+    is_detail: &'a [bool],
     options: &'a SegmentOptions,
     progress: &'a dyn Progress,
 }
 
 impl Search<'_> {
-    /// All of a single body as one part, where that is asked for or no division can be worth more: not even two parts
+    /// All of a single body, with the small ones that join it, as one part, where that is asked for or no division can be worth more: not even two parts
     /// whose hulls are the solid.
     fn whole(&self) -> Result<Option<Chosen>, Cancelled> {
-        if self.bodies.count() > 1 || self.options.parts.is_some_and(|count| count > 1) {
+        if self.bodies.large_count() > 1 || self.options.parts.is_some_and(|count| count > 1) {
             return Ok(None);
         }
         let whole = Partition { of_cell: vec![0; self.skin.surface.len()], count: 1 };
@@ -262,10 +271,11 @@ impl Search<'_> {
         Patches { partition: patches, twin, vertices, neighbours, body }
     }
 
-    /// The vertices of each patch.
+    /// The vertices of each patch, without details.
     fn vertices(&self, patches: &Partition) -> Vec<Vec<u32>> {
         let mut vertices: Vec<Vec<u32>> = vec![Vec::new(); patches.count];
-        for (face, &cell) in self.skin.faces.iter().zip(self.skin.cell_of_face) {
+        let of_faces = self.skin.faces.iter().zip(self.skin.cell_of_face).zip(self.is_detail);
+        for ((face, &cell), _) in of_faces.filter(|(_, is_detail)| !**is_detail) {
             vertices[patches.of_cell[cell as usize] as usize].extend(face);
         }
         for v in &mut vertices {
@@ -292,6 +302,7 @@ mod tests {
             let skin = Skin {
                 mesh: &mesh,
                 faces: &faces,
+                fine: &fine,
                 surface: &surface,
                 cell_of_face: &cell_of,
                 diameters: None,
@@ -304,6 +315,7 @@ mod tests {
                     skin: &skin,
                     bodies: &bodies,
                     solid: &solid,
+                    is_detail: &vec![false; faces.len()],
                     options: &options,
                     progress: &Silent,
                 };

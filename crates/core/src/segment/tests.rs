@@ -1,8 +1,9 @@
 //! Properties of the stage as a whole.
 
-use super::shapes::{Shape, balls_in_a_row, mesh, moved, rounded_cubes, together};
+use super::shapes::{Shape, balls_in_a_row, cuboid, mesh, moved, rounded_cubes, together, turned};
 use super::surface::Surface;
 use super::*;
+use crate::geom::Hull;
 use crate::progress::{Progress, Silent};
 use glam::{DQuat, DVec3};
 use std::sync::Arc;
@@ -328,4 +329,37 @@ fn a_table_is_its_top_and_its_legs() {
             assert!((leg.support(DVec3::Z) - underside).abs() < 0.3, "{}", leg.support(DVec3::Z));
         }
     }
+}
+
+/// Pins through a plate: its hull leaves them out, and it has no corners of its own for them.
+#[test]
+fn a_plate_with_pins_is_one_part() {
+    let plate = turned((0.0, 2.0), &[(10.0, 0.0), (10.0, 2.0)], 64);
+    let pin = |[x, y]: [f64; 2]| cuboid(DVec3::new(x, y, -2.0), DVec3::new(x + 0.5, y + 0.5, 2.0));
+    let pins = [[-6.0, -1.0], [6.0, -1.0], [-1.0, -6.0], [-1.0, 6.0]].map(pin);
+    let shapes: Vec<Shape> = std::iter::once(plate.clone()).chain(pins).collect();
+    let shape = together(&shapes);
+    let found = run(&shape);
+    assert_eq!(found.count(), 1);
+    let solids = Parts::new(Arc::new(mesh(&shape)), found).solids();
+    assert_eq!(solids.details.bodies, 4);
+    let alone = Hull::of_points(&plate.0).unwrap().volume();
+    assert!((solids.hulls[0].as_ref().unwrap().volume() - alone).abs() < 1e-6);
+}
+
+/// Separate bodies were separate parts, even those whose hull is in another's: a box of six walls had lids, thin plates in it.
+#[test]
+fn walls_are_one_box_and_boxes_apart_are_not() {
+    let wall = |low: [f64; 3], high: [f64; 3]| cuboid(DVec3::from(low), DVec3::from(high));
+    let walls = [
+        wall([0.0, 0.0, 0.0], [30.0, 20.0, 1.0]),
+        wall([0.0, 0.0, 15.0], [30.0, 20.0, 16.0]),
+        wall([0.0, 0.0, 1.0], [30.0, 1.0, 15.0]),
+        wall([0.0, 19.0, 1.0], [30.0, 20.0, 15.0]),
+        wall([0.0, 1.0, 1.0], [1.0, 19.0, 15.0]),
+        wall([29.0, 1.0, 1.0], [30.0, 19.0, 15.0]),
+    ];
+    assert_eq!(run(&together(&walls)).count(), 1);
+    let boxes = [0.0, 30.3, 70.0].map(|x| wall([x, 0.0, 0.0], [x + 30.0, 20.0, 16.0]));
+    assert_eq!(run(&together(&boxes)).count(), 2, "those with little between them are one");
 }
