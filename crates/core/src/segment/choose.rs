@@ -28,6 +28,8 @@ pub(super) struct Node {
     pub twin: usize,
     /// What it costs to cut along the borders of the children.
     pub border: f64,
+    /// Whether the merge bridged a gap between bodies.
+    pub over_gap: bool,
 }
 
 /// All merges of patches.
@@ -136,7 +138,7 @@ impl Tree {
     }
 
     /// The number of parts that is worth most: each part more has to raise the intersection over
-    /// union by `part_cost` and what its border costs.
+    /// union by `part_cost` and what its border costs. Separate bodies stay separate.
     pub fn best_parts(
         &self,
         solid: &Interior,
@@ -145,6 +147,10 @@ impl Tree {
     ) -> Result<Chosen, Cancelled> {
         let mut cover = Cover::new(solid);
         let mut front = self.roots();
+        while let Some(k) = front.iter().position(|&n| self.nodes[n].over_gap) {
+            let node = front.swap_remove(k);
+            front.extend(&self.nodes[node].children);
+        }
         front.iter().for_each(|&n| cover.add(&self.nodes[n].runs));
         let worth =
             |cover: &Cover, parts: &[usize]| cover.iou() - price(part_cost, parts.len(), self.borders(parts));

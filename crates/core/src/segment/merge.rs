@@ -269,7 +269,7 @@ impl Forest {
         let runs = |p: &Option<Part>| p.as_ref().map_or(Vec::new(), |p| p.shape.runs.clone());
         let leaf = |(k, p): (usize, &Option<Part>)| {
             let twin = p.as_ref().map_or(k, |p| p.twin as usize);
-            Node { runs: runs(p), children: Vec::new(), twin, border: 0.0 }
+            Node { runs: runs(p), children: Vec::new(), twin, border: 0.0, over_gap: false }
         };
         let nodes = parts.iter().enumerate().map(leaf).collect();
         Self { nodes, of_part: (0..parts.len()).collect() }
@@ -279,7 +279,13 @@ impl Forest {
         let children = group.iter().map(|&p| self.of_part[p as usize]).collect();
         let node = self.nodes.len();
         self.of_part[group[0] as usize] = node;
-        self.nodes.push(Node { runs: grown.shape.runs.clone(), children, twin: node, border: grown.border });
+        self.nodes.push(Node {
+            runs: grown.shape.runs.clone(),
+            children,
+            twin: node,
+            border: grown.border,
+            over_gap: grown.over_gap,
+        });
     }
 
     /// Makes the nodes of two parts each other's image.

@@ -346,20 +346,3 @@ fn a_plate_with_pins_is_one_part() {
     let alone = Hull::of_points(&plate.0).unwrap().volume();
     assert!((solids.hulls[0].as_ref().unwrap().volume() - alone).abs() < 1e-6);
 }
-
-/// Separate bodies were separate parts, even those whose hull is in another's: a box of six walls had lids, thin plates in it.
-#[test]
-fn walls_are_one_box_and_boxes_apart_are_not() {
-    let wall = |low: [f64; 3], high: [f64; 3]| cuboid(DVec3::from(low), DVec3::from(high));
-    let walls = [
-        wall([0.0, 0.0, 0.0], [30.0, 20.0, 1.0]),
-        wall([0.0, 0.0, 15.0], [30.0, 20.0, 16.0]),
-        wall([0.0, 0.0, 1.0], [30.0, 1.0, 15.0]),
-        wall([0.0, 19.0, 1.0], [30.0, 20.0, 15.0]),
-        wall([0.0, 1.0, 1.0], [1.0, 19.0, 15.0]),
-        wall([29.0, 1.0, 1.0], [30.0, 19.0, 15.0]),
-    ];
-    assert_eq!(run(&together(&walls)).count(), 1);
-    let boxes = [0.0, 30.3, 70.0].map(|x| wall([x, 0.0, 0.0], [x + 30.0, 20.0, 16.0]));
-    assert_eq!(run(&together(&boxes)).count(), 2, "those with little between them are one");
-}
