@@ -19,8 +19,9 @@ const HOLLOW: f64 = 0.7;
 /// The box is widened to this share of its longest side in each direction.
 const LEAST_SIDE: f64 = 0.02;
 
-/// Centres of cells nearer than this to the surface of a hull are not in it, in cells: where a flat side is exactly there, those of
-/// a rough hull would be inside here and outside there, and a plate was divided for that. Rough hulls are off by up to 3e-5 cells.
+/// Centres of cells nearer than this to the upper or lower end of a hull are not in it, in cells: where a level side is exactly
+/// there, those of a rough hull, which is off by up to 3e-5 cells, would be inside here and outside there. Upright sides that are
+/// exactly there still divide a plate with pins.
 const TIE: f64 = 1e-4;
 
 /// Faces that one thread works on at a time.
