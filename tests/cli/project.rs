@@ -69,7 +69,8 @@ fn init_writes_a_project_that_make_honours() {
     }
 }
 
-/// A drum with two rods on it that stand 0.3 mm apart: panels of the one leave those of the other no room, and they overlap.
+/// A drum with two rods on it, 0.3 mm apart below and 8 mm above: panels of the one leave those of the other no room, and they
+/// overlap.
 fn rods() -> String {
     const SIDES: usize = 24;
     let mut text = String::new();
@@ -90,11 +91,12 @@ fn rods() -> String {
         let next = (k + 1) % SIDES;
         text += &face(vec![k + 1, SIDES + k + 1, SIDES + next + 1, next + 1]);
     }
-    for (rod, x) in [50.0, 53.3].into_iter().enumerate() {
+    for (rod, (x, lean)) in [(50.0, -4.0), (53.3, 4.0)].into_iter().enumerate() {
         let [low, high] = [[x, 60.0, 40.0], [x + 3.0, 140.0, 43.0]];
         for k in 0..8 {
             let at = |axis: usize| if k >> axis & 1 == 0 { low[axis] } else { high[axis] };
-            text += &format!("v {} {} {}\n", at(0), at(1), at(2));
+            let leaning = if at(1) == high[1] { lean } else { 0.0 };
+            text += &format!("v {} {} {}\n", at(0) + leaning, at(1), at(2));
         }
         for side in [[1, 3, 4, 2], [5, 6, 8, 7], [1, 2, 6, 5], [3, 7, 8, 4], [1, 5, 7, 3], [2, 4, 8, 6]] {
             text += &face(side.map(|corner| corner + 2 * SIDES + 8 * rod).to_vec());

@@ -138,37 +138,68 @@ impl Tree {
     }
 
     /// The number of parts that is worth most: each part more has to raise the intersection over
-    /// union by `part_cost` and what its border costs. Separate bodies stay separate.
+    /// union by `part_cost` and what its border costs. Separate bodies may be one part; the division where
+    /// they are not is among the finer ones.
     pub fn best_parts(
         &self,
         solid: &Interior,
         part_cost: f64,
         progress: &dyn Progress,
     ) -> Result<Chosen, Cancelled> {
-        let mut cover = Cover::new(solid);
-        let mut front = self.roots();
+        let roots = self.roots();
+        let bodies = self.bodies(roots.clone());
+        let has_gaps = bodies.len() > roots.len();
+        let (worth, mut divisions) = self.divisions(solid, part_cost, roots, progress)?;
+        if has_gaps {
+            let (_, apart) = self.divisions(solid, part_cost, bodies, progress)?;
+            divisions.extend(apart);
+        }
+        let mut finer: Vec<Partition> = Vec::new();
+        for front in &divisions {
+            let partition = self.partition(front);
+            if finer.iter().all(|other| other.of_cell != partition.of_cell) {
+                finer.push(partition);
+            }
+        }
+        let partition = finer.remove(0);
+        Ok(Chosen { partition, worth, finer })
+    }
+
+    /// Parts without those that bridge gaps between bodies.
+    fn bodies(&self, mut front: Vec<usize>) -> Vec<usize> {
         while let Some(k) = front.iter().position(|&n| self.nodes[n].over_gap) {
             let node = front.swap_remove(k);
             front.extend(&self.nodes[node].children);
         }
+        front
+    }
+
+    /// What splitting these parts is worth at most, the division that is worth it, and those further that hidden worth may
+    /// make better.
+    fn divisions(
+        &self,
+        solid: &Interior,
+        part_cost: f64,
+        mut front: Vec<usize>,
+        progress: &dyn Progress,
+    ) -> Result<(f64, Vec<Vec<usize>>), Cancelled> {
+        let mut cover = Cover::new(solid);
         front.iter().for_each(|&n| cover.add(&self.nodes[n].runs));
         let worth =
             |cover: &Cover, parts: &[usize]| cover.iou() - price(part_cost, parts.len(), self.borders(parts));
-        let mut best = (worth(&cover, &front), front.clone());
-        let mut finer: Vec<(f64, Vec<usize>)> = Vec::new();
+        let mut found = vec![(worth(&cover, &front), front.clone())];
         while front.len() < MOST_AUTOMATIC && self.split_best(&mut cover, &mut front, usize::MAX) {
             progress.check()?;
             let now = worth(&cover, &front);
-            if now > best.0 {
-                best = (now, front.clone());
-                finer.clear();
-            } else if finer.len() < MOST_FINER {
-                finer.push((now, front.clone()));
+            if now > found[0].0 {
+                found = vec![(now, front.clone())];
+            } else if found.len() <= MOST_FINER {
+                found.push((now, front.clone()));
             }
         }
-        finer.retain(|f| f.0 >= best.0 - HIDDEN);
-        let finer = finer.iter().map(|f| self.partition(&f.1)).collect();
-        Ok(Chosen { partition: self.partition(&best.1), worth: best.0, finer })
+        let best = found[0].0;
+        found.retain(|f| f.0 >= best - HIDDEN);
+        Ok((best, found.into_iter().map(|f| f.1).collect()))
     }
 
     /// What all borders between parts cost.

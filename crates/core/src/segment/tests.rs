@@ -166,6 +166,23 @@ fn bodies_are_segments_and_crumbs_join_the_nearest() {
     assert_ne!(ids[0], ids[per_ball]);
 }
 
+/// A box of six boards, 0.1 from each other: two of them were components inside the box of the other four.
+#[test]
+fn bodies_are_one_part_where_apart_they_show_no_more() {
+    let size = [30.0, 20.0, 20.0];
+    let board = |axis: usize, from: f64| {
+        let (mut low, mut high) = (DVec3::ZERO, DVec3::from(size));
+        (low[axis], high[axis]) = (from, from + 1.0);
+        for before in 0..axis {
+            (low[before], high[before]) = (1.1, size[before] - 1.1);
+        }
+        cuboid(low, high)
+    };
+    let boards: Vec<Shape> =
+        (0..3).flat_map(|axis| [0.0, size[axis] - 1.0].map(|from| board(axis, from))).collect();
+    assert_eq!(run(&together(&boards)).count(), 1);
+}
+
 /// Each has less than a fiftieth of the area, and they were joined once.
 #[test]
 fn sixty_bodies_are_sixty_parts_where_so_many_are_asked_for() {
