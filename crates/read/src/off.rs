@@ -40,7 +40,7 @@ pub(super) fn has_header(bytes: &[u8]) -> bool {
 }
 
 pub(super) fn read(text: &[u8]) -> Result<Soup, ReadError> {
-    let mut lines = Lines::new(text).filter(|line| line.words().next().is_some());
+    let mut lines = Lines::new(text).filter(|line| line.words().next().is_some()).peekable();
     let (vertex_count, face_count) = read_counts(&mut lines)?;
     let mut positions = Vec::with_capacity(vertex_count.min(text.len() / 6));
     for k in 0..vertex_count {
@@ -50,7 +50,9 @@ pub(super) fn read(text: &[u8]) -> Result<Soup, ReadError> {
     let mut polygons = Vec::with_capacity(face_count.min(text.len() / 4));
     for k in 0..face_count {
         let line = lines.next().ok_or_else(|| ends_at("faces", face_count, k))?;
-        polygons.push(read_face(&line, vertex_count)?);
+        // Eigen's printing of a column gives each of its numbers a line.
+        let single = || lines.next_if(|next| next.words().nth(1).is_none())?.words().next();
+        polygons.push(read_face(&line, single, vertex_count)?);
     }
     Soup::new(positions, polygons).map_err(|error| ReadError::from_soup(Format::Off, &error))
 }
@@ -110,7 +112,12 @@ fn read_position(line: &Line) -> Result<DVec3, ReadError> {
     Ok(position)
 }
 
-fn read_face(line: &Line, count: usize) -> Result<Vec<u32>, ReadError> {
+/// Reads a face from a line, and where that ends too early from the `further` words.
+fn read_face<'a>(
+    line: &Line<'a>,
+    mut further: impl FnMut() -> Option<&'a [u8]>,
+    count: usize,
+) -> Result<Vec<u32>, ReadError> {
     let syntax = || ReadError::Syntax {
         format: Format::Off,
         place: Place::Line(line.number),
@@ -121,7 +128,7 @@ fn read_face(line: &Line, count: usize) -> Result<Vec<u32>, ReadError> {
     let corners = words.next().and_then(whole).ok_or_else(syntax)?;
     let mut polygon = Vec::new();
     for _ in 0..corners {
-        let index = words.next().and_then(whole).ok_or_else(syntax)?;
+        let index = words.next().or_else(&mut further).and_then(whole).ok_or_else(syntax)?;
         match u32::try_from(index) {
             Ok(v) if (v as usize) < count => polygon.push(v),
             _ => {
@@ -178,6 +185,16 @@ mod tests {
     fn colours_after_vertices_are_passed_over() {
         let text = b"COFF\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 255 0 0 255\n0 1 0.5 0.1 0.2 0.3\n3 0 1 2\n";
         assert_eq!(read(text).unwrap().positions()[2], DVec3::new(0.0, 1.0, 0.5));
+    }
+
+    #[test]
+    fn a_face_may_have_a_line_for_each_number() {
+        let text = format!("OFF\n4 3 0\n{VERTICES}3 0\n2\n1\n\n3\n0\n1\n3\n\n3 1 2 3\n");
+        let soup = read(text.as_bytes()).unwrap();
+        let polygons: Vec<&[u32]> = soup.polygons().collect();
+        assert_eq!(polygons, [[0, 2, 1], [0, 1, 3], [1, 2, 3]]);
+        let error = read(format!("OFF\n4 2 0\n{VERTICES}3 0\n2\n3 0 1 2\n").as_bytes()).unwrap_err();
+        assert!(error.to_string().contains("line 7: found \"3 0\""), "{error}");
     }
 
     #[test]
