@@ -1,4 +1,6 @@
+use super::super::harms::{Bump, Enough, harm_mm};
 use super::*;
+use crate::progress::Cancelled;
 use fastrand::Rng;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
