@@ -42,7 +42,7 @@ pub(super) struct Tree {
 pub(super) struct Chosen {
     pub partition: Partition,
     pub worth: f64,
-    /// Divisions further that may be worth more with clean borders.
+    /// Divisions into more parts that may be worth more with clean borders.
     pub finer: Vec<Partition>,
 }
 
@@ -147,7 +147,7 @@ impl Tree {
         progress: &dyn Progress,
     ) -> Result<Chosen, Cancelled> {
         let roots = self.roots();
-        let bodies = self.bodies(roots.clone());
+        let bodies = self.without_gaps(roots.clone());
         let has_gaps = bodies.len() > roots.len();
         let (worth, mut divisions) = self.divisions(solid, part_cost, roots, progress)?;
         if has_gaps {
@@ -165,8 +165,8 @@ impl Tree {
         Ok(Chosen { partition, worth, finer })
     }
 
-    /// Parts without those that bridge gaps between bodies.
-    fn bodies(&self, mut front: Vec<usize>) -> Vec<usize> {
+    /// The same parts, but those that bridge gaps between bodies split until none does.
+    fn without_gaps(&self, mut front: Vec<usize>) -> Vec<usize> {
         while let Some(k) = front.iter().position(|&n| self.nodes[n].over_gap) {
             let node = front.swap_remove(k);
             front.extend(&self.nodes[node].children);
@@ -174,8 +174,8 @@ impl Tree {
         front
     }
 
-    /// What splitting these parts is worth at most, the division that is worth it, and those further that hidden worth may
-    /// make better.
+    /// What splitting these parts is worth at most; the division that is worth it, and those further ones that may be worth
+    /// more with clean borders.
     fn divisions(
         &self,
         solid: &Interior,
