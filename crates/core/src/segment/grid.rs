@@ -185,6 +185,7 @@ impl GridFrame {
         Self { lo: (lo + hi - size) / 2.0, cell, count }
     }
 
+    /// The same, but [`OFF_TIES`] off the middle.
     fn off_ties(positions: &[DVec3], cells: f64) -> Self {
         let mut frame = Self::of_points(positions, cells);
         frame.lo += DVec3::splat(OFF_TIES * frame.cell);
