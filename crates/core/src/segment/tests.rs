@@ -181,6 +181,8 @@ fn bodies_are_one_part_where_apart_they_show_no_more() {
     let boards: Vec<Shape> =
         (0..3).flat_map(|axis| [0.0, size[axis] - 1.0].map(|from| board(axis, from))).collect();
     assert_eq!(run(&together(&boards)).count(), 1);
+    let boxes = [0.0, 30.3, 70.0].map(|x| cuboid(DVec3::X * x, DVec3::from(size) + DVec3::X * x));
+    assert_eq!(run(&together(&boxes)).count(), 2, "those with little between them are one");
 }
 
 /// Each has less than a fiftieth of the area, and they were joined once.

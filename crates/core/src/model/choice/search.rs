@@ -93,9 +93,9 @@ impl Effort {
 }
 
 impl Choice {
-    /// The best combination found. `bumps` tells what parts of one do to each
-    /// other while they fold, `looks_mm` what the looks of some cost. The search starts from the best of the tree, or from `start` where that is better: the
-    /// result is never worse than either.
+    /// The best combination found. `bumps` tells what parts of one do to each other while they fold, `looks_mm` what the looks
+    /// of some cost. The search starts from the best of the tree, or from `start` where that is better: the result is never
+    /// worse than either.
     pub(in crate::model) fn best(
         &self,
         start: Option<Combination>,
@@ -254,10 +254,9 @@ impl<'a> Search<'a> {
     fn found(self) -> Best {
         let bumping = self.involved().into_iter().map(PartId).collect();
         let Look { of, bumps, cost_mm, .. } = self.best;
-        let pairs = &self.judge.choice.pairs;
         let is_weak = |pair: &&Pair| pair.costs[of[pair.parent]][of[pair.child]] > WEAK_PRICE_MM;
         let ends = |pair: &Pair| [pair.parent, pair.child].map(PartId);
-        let weak = pairs.iter().filter(is_weak).flat_map(ends).collect();
+        let weak = self.near.pairs.iter().filter(is_weak).flat_map(ends).collect();
         Best { of, cost_mm, trouble: Trouble { bumping, weak }, bumps }
     }
 }
