@@ -17,6 +17,11 @@ use rayon::prelude::*;
 /// halves of a skull, which is hollow and has hardly any volume, add 0.0006.
 const SHOWN: f64 = 0.002;
 
+/// What outlines count in the choice of a division, against volume: people look at a koala's ears before its belly. With 1 it
+/// has none, a knight of chess no snout and a mug a slab for a handle; with 1.5 outlines of 17 meshes whose parts
+/// differ, most of them pots and mugs, are less alike by 0.0025. Not bounded from above by a case yet.
+const OUTLINES: f64 = 2.0;
+
 /// A division of more parts than this is not taken for its outlines, since many limbs are too thin for their joints: a
 /// scorpion of 23 parts instead of 20 loses 0.038, a calf of 15 instead of 11 gains 0.045.
 const MOST_SHOWN: usize = 15;
@@ -122,7 +127,7 @@ impl Cleaner<'_> {
         finer.retain(|next| next.shown() > first.shown());
         for next in finer {
             let more_shown = if next.parts.count <= MOST_SHOWN { next.shown() - first.shown() } else { 0.0 };
-            if next.worth + more_shown > first.worth {
+            if next.worth + OUTLINES * more_shown > first.worth {
                 first = next;
             }
         }
@@ -204,6 +209,11 @@ mod tests {
     #[test]
     fn a_division_is_taken_for_its_outlines() {
         assert_eq!(parts_of(&[(0.0, 1.0), (1.03, 0.2)], 0.97), 2, "an ear, worth 0.001 less by volume");
+        assert_eq!(
+            parts_of(&[(0.0, 1.0), (1.03, 0.17)], 0.98),
+            2,
+            "one that outlines are worth too little for alone"
+        );
     }
 
     #[test]

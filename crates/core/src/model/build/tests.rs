@@ -1,6 +1,6 @@
 use super::*;
 use crate::component::PanelId;
-use crate::geom::{Hull, Mirror};
+use crate::geom::{self, Hull, Mirror};
 use crate::mesh::{Mesh, Soup};
 use crate::model::{Known, PartOptions, Unjudged};
 use crate::progress::{Cancelled, Silent};
@@ -94,6 +94,39 @@ fn a_bottle_becomes_a_prism_whose_sides_are_alike() {
         first.iter().zip(profile.points()).all(|(a, b)| a.distance(*b) < 1e-9)
     };
     assert!(profiles.iter().all(is_like_first));
+}
+
+/// Heads of people were pointed, seen from the front: their pentagons had a side at the neck.
+#[test]
+fn a_head_has_a_panel_at_its_crown() {
+    let mirror = Mirror::new(Plane::through(DVec3::ZERO, DVec3::X).unwrap());
+    let symmetry = Symmetry::new(mirror, [0, 1].map(PartId).to_vec()).unwrap();
+    let trunk = part("trunk", DVec3::new(-30.0, -15.0, 0.0), DVec3::new(60.0, 30.0, 80.0), DQuat::IDENTITY);
+    let links = [Link { parent: PartId(0), child: PartId(1), plane: Plane::horizontal(80.0) }];
+    for size in [DVec3::new(14.0, 17.0, 20.0), DVec3::new(15.0, 19.0, 19.0), DVec3::new(13.0, 18.0, 24.0)] {
+        let round = geom::directions(200).map(|d| d * size + DVec3::Z * (76.0 + size.z));
+        let points: Vec<DVec3> = round.flat_map(|p| [p, mirror.point(p)]).collect();
+        let mut head = part("head", DVec3::ZERO, DVec3::ONE, DQuat::IDENTITY);
+        head.hull = Hull::of_points(&points).unwrap();
+        (head.options.top_edges, head.options.profile_vertices) = (5, 4);
+        let parts = [trunk.clone(), head];
+        let assembly = Assembly {
+            parts: &parts,
+            links: &links,
+            symmetry: Some(&symmetry),
+            min_panel_mm: 3.0,
+            views: None,
+        };
+        let model = build(&assembly, &Known::default(), &Unjudged, &Silent).unwrap().model;
+        let head = PartId(1);
+        let panels = model.part(head).component.panels().panels().len();
+        let corners = (0..panels).flat_map(|panel| model.deployed_outline(head, PanelId(panel)));
+        let corners: Vec<DVec3> = corners.collect();
+        let top_mm = corners.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
+        let is_at_top = |p: &&DVec3| p.z > top_mm - 1.0;
+        let aside_mm = corners.iter().filter(is_at_top).map(|p| p.x.abs()).fold(0.0, f64::max);
+        assert!(aside_mm > 2.0, "{size}: {aside_mm}");
+    }
 }
 
 /// A body on two legs that are spread a little, so that no bottom of the body is level for both.
