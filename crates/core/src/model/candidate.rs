@@ -393,12 +393,14 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// The most top edges that a component has: one more where it is its own mirror image and would look pointed opposite a
-    /// joint; a number that the user set stands.
+    /// The most top edges that a component has: one more where it is its own mirror image and would look pointed opposite its
+    /// only joint; a number that the user set stands.
     fn most_top_edges(&self, symmetry: Option<component::Symmetry>) -> usize {
         let PartOptions { top_edges, panel_worth, .. } = self.parts[self.part.0].options;
         let is_halved = matches!(symmetry, Some(component::Symmetry::Upright { crossing: None, .. }));
-        if is_halved && panel_worth > 0.0 && top_edges == POINTED_EDGES { top_edges + 1 } else { top_edges }
+        let is_end = self.own_links().count() == 1;
+        let is_pointed = is_halved && is_end && top_edges == POINTED_EDGES;
+        if is_pointed && panel_worth > 0.0 { top_edges + 1 } else { top_edges }
     }
 
     /// The part's borders in the axes of `frame`.
