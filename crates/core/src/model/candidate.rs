@@ -7,7 +7,7 @@ use super::demand::Demand;
 use super::link::Link;
 use super::seat::{Seating, Snap, level_axis, seat_plane, seats};
 use super::turned::TurningAxis;
-use super::{ModelError, ModelPart, Part, PartId, PartOptions, Symmetry};
+use super::{ModelError, ModelPart, Part, PartId, Symmetry};
 use crate::component::{
     self, Component, Crossing, Finished, JointTarget, PanelId, PrincipalAxis, Target, Turning, choose,
     fewest, finished,
@@ -34,9 +34,6 @@ const DENTED_PRICE: f64 = 0.3;
 /// a teapot that leans to one side looks wrong, though its outlines are no worse. With 0.1 it still leans; not bounded from
 /// above by a case yet.
 const LEANING_PRICE: f64 = 0.2;
-/// A mirrored shape with this many top edges has a ridge opposite a panel, and looks pointed: heads of people. With one more
-/// for seven, too, a teddy has 11 panels more and looks the same.
-const POINTED_EDGES: usize = 5;
 /// Joint planes whose normals are within this of the axis of a turned part are at its ends.
 const END_RAD: f64 = 0.2;
 /// In a search for firm joints it is this many times as high: with 1 nine joints of a scorpion are weak, with 6
@@ -379,28 +376,20 @@ impl<'a> Builder<'a> {
     {
         let options = &self.parts[self.part.0].options;
         let symmetry = self.mirror_plane(direction);
+        let is_halved = matches!(symmetry, Some(component::Symmetry::Upright { crossing: None, .. }));
+        let is_end = self.own_links().count() == 1;
         Target {
             hull: &direction.hull,
             filling: self.parts[self.part.0].filling.as_deref().map(|filling| (filling, direction.frame)),
             joints: direction.joints.iter().map(|j| j.1.clone()).collect(),
             borders: self.borders(&direction.frame),
-            top_edges: self.most_top_edges(symmetry),
+            top_edges: options.most_top_edges(is_halved && is_end),
             profile_vertices: options.profile_vertices,
             min_panel_mm: self.min_panel_mm,
             panel_worth: options.panel_worth,
             comfortable_mm: options.comfortable_mm,
             symmetry,
         }
-    }
-
-    /// The most top edges that a component has: one more where it is its own mirror image and would look pointed opposite its
-    /// only joint; a number that the user set stands.
-    fn most_top_edges(&self, symmetry: Option<component::Symmetry>) -> usize {
-        let PartOptions { top_edges, panel_worth, .. } = self.parts[self.part.0].options;
-        let is_halved = matches!(symmetry, Some(component::Symmetry::Upright { crossing: None, .. }));
-        let is_end = self.own_links().count() == 1;
-        let is_pointed = is_halved && is_end && top_edges == POINTED_EDGES;
-        if is_pointed && panel_worth > 0.0 { top_edges + 1 } else { top_edges }
     }
 
     /// The part's borders in the axes of `frame`.

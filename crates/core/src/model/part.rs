@@ -26,6 +26,19 @@ pub struct PartOptions {
     pub comfortable_mm: f64,
 }
 
+/// With this many top edges, a shape that is its own mirror image has a ridge opposite a panel, and looks pointed: heads of
+/// people. With one more for seven, too, a teddy has 11 panels more and looks the same.
+const POINTED_EDGES: usize = 5;
+
+impl PartOptions {
+    /// The most top edges of a component: one more where it is a `mirrored_end`, its own mirror image with one joint, and would
+    /// look pointed opposite that. A number that the user set, with all panels kept, stands.
+    pub fn most_top_edges(&self, mirrored_end: bool) -> usize {
+        let is_pointed = mirrored_end && self.top_edges == POINTED_EDGES && self.panel_worth > 0.0;
+        self.top_edges + usize::from(is_pointed)
+    }
+}
+
 /// One segment to become a component.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
