@@ -9,8 +9,8 @@ use crate::geom::Hull;
 /// (1.64), which is two wedges by itself, and the fins of fish (1.8).
 const SHOWN: f64 = 1.4;
 
-/// Pairs of parts that should be merged: the plane of their joint cuts more than [`SHOWN`] times as much off the two as one
-/// hull round both adds to them. The fin of a fish that lies along its body costs it the belly.
+/// Pairs of parts that should be merged: the plane of their joint cuts more than 1.4 times as much off the two as one hull
+/// round both adds to them. The fin of a fish that lies along its body costs it the belly.
 pub fn needless(part_hulls: &[&Hull], links: &[Link]) -> Vec<(PartId, PartId)> {
     let is_needless = |plane, [parent, child]: [PartId; 2]| {
         let volumes = plane::lost_and_added_mm3(plane, part_hulls[parent.0], part_hulls[child.0]);
