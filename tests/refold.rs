@@ -164,13 +164,13 @@ fn joints_hold_from_deployed_to_flat() {
 fn profiles_are_within_their_limits_and_have_no_gap() {
     let options = Options::default();
     for Made { name, output, .. } in samples() {
-        let bodies = Bodies::new(output.shaped().source().hulls().unwrap(), &options).unwrap();
-        let symmetry = output.shaped().source().hulls().unwrap().symmetry();
+        let hulls = output.shaped().source().hulls().unwrap();
+        let bodies = Bodies::new(hulls, &options).unwrap();
         for (id, body) in output.model().ids().zip(bodies.parts()) {
             let (part, limits) = (output.model().part(id), &body.options);
             let parents = output.model().parts().iter().filter_map(|part| Some(part.joint.as_ref()?.parent));
             let joints = parents.filter(|parent| *parent == id).count() + usize::from(part.joint.is_some());
-            let is_mirrored = symmetry.is_some_and(|symmetry| symmetry.twin(id) == id);
+            let is_mirrored = hulls.symmetry().is_some_and(|symmetry| symmetry.twin(id) == id);
             let most = limits.most_top_edges(is_mirrored && joints == 1);
             let profiles = part.component.profiles();
             assert!((3..=most).contains(&profiles.len()), "{name}, {}", part.name);

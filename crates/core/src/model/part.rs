@@ -12,7 +12,7 @@ pub struct PartOptions {
     pub name: String,
     /// Angle of the fold axis about the hull's first principal axis; found when not given.
     pub direction_rad: Option<f64>,
-    /// Number of top edges.
+    /// Number of top edges; see [`PartOptions::most_top_edges`].
     pub top_edges: usize,
     /// Most vertices of a profile.
     pub profile_vertices: usize,

@@ -213,7 +213,7 @@ mod tests {
         assert_eq!(
             parts_of(&[(0.0, 1.0), (1.03, 0.17)], 0.98),
             2,
-            "one that outlines are worth too little for alone"
+            "one that is lost where outlines count once"
         );
     }
 
