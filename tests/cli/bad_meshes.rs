@@ -73,11 +73,23 @@ fn drum(sides: usize) -> Faces {
 
 const CORNER: [Point; 4] = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [0.0, 9.0, 0.0], [0.0, 0.0, 9.0]];
 
+/// A triangle above the bottom of a cube.
+fn flat_part(height: f64) -> Faces {
+    let corners = [[2.0, 2.0, height], [38.0, 2.0, height], [2.0, 38.0, height]];
+    Faces::new(&corners, &[&[0, 1, 2], &[0, 2, 1]])
+}
+
+#[test]
+fn a_flat_part_that_nobody_sees_is_left_out() {
+    let folder = folder_with(&[("a.obj", cube().and(&flat_part(20.0)).obj().as_bytes())]);
+    let result = run(folder.path(), &["make", "a.obj", "--size", "100mm", "--parts", "2"]);
+    assert_eq!(result.code, Some(0), "{}", result.err);
+    assert!(result.err.contains("1 flat part has no volume and was left out"), "{}", result.err);
+}
+
 #[test]
 fn what_can_be_a_model_becomes_one_with_a_warning_where_something_was_wrong() {
     let lid = |faces: &mut Vec<Vec<usize>>| drop(faces.pop());
-    let flat_part =
-        Faces::new(&[[90.0, 0.0, 0.0], [120.0, 0.0, 0.0], [90.0, 40.0, 0.0]], &[&[0, 1, 2], &[0, 2, 1]]);
     let speck = 1e-7;
     let dust = Faces::new(
         &[[90.0, 0.0, 0.0], [90.0 + speck, 0.0, 0.0], [90.0, speck, 0.0], [90.0, 0.0, speck]],
@@ -99,7 +111,7 @@ fn what_can_be_a_model_becomes_one_with_a_warning_where_something_was_wrong() {
         ("apart", cube().and(&block([90.0, 0.0, 0.0], [40.0; 3])), "2 groups that are not joined"),
         ("twice", cube().with_faces(|f| f.extend(f.clone())), "repeated faces: 6 (dropped)"),
         ("corners repeated", cube().with_faces(|f| f.push(vec![0, 0, 1])), "without area: 1 (dropped)"),
-        ("a flat part", cube().and(&flat_part), "1 flat part has no volume and was left out"),
+        ("a flat part", cube().and(&flat_part(70.0)), "2 groups that are not joined"),
         ("dust beside it", cube().and(&dust), "without area: 4 (dropped)"),
         ("a needle", block([0.0; 3], [1000.0, 1.0, 1.0]), "thinner than its panels may be"),
         ("a plate", block([0.0; 3], [200.0, 200.0, 0.5]), "thinner than its panels may be"),

@@ -1,6 +1,7 @@
 //! What is seen of a mesh from all sides, and how far the outlines of solids are off.
 
 use super::Mesh;
+use crate::geom::Hull;
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -84,6 +85,12 @@ impl Views {
             Band { first: rows.start, rows: mask[rows].to_vec() }
         };
         Cover { bands: self.views.iter().map(band).collect() }
+    }
+
+    /// What a hull covers.
+    pub fn cover_of(&self, hull: &Hull) -> Cover {
+        let edges: Vec<[DVec3; 2]> = hull.corners().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+        self.cover(&edges)
     }
 
     /// What some solids cover together.

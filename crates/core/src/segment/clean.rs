@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 /// What each part more has to add to the likeness of the outlines. The flippers of a penguin add 0.004 each;
 /// halves of a skull, which is hollow and has hardly any volume, add 0.0006.
-const SHOWN: f64 = 0.002;
+pub(super) const SHOWN: f64 = 0.002;
 
 /// What outlines count in the choice of a division, against volume: people look at a koala's ears before its belly. With 1 it
 /// has none, a knight of chess no snout and a mug a slab for a handle; with 1.5 outlines of 17 meshes whose parts
@@ -159,10 +159,7 @@ impl Cleaner<'_> {
         let hulls: Vec<Hull> = points.par_iter().filter_map(|points| Hull::of_points(points).ok()).collect();
         let mut cover = Cover::new(solid);
         hulls.iter().for_each(|hull| cover.add(&solid.runs(hull.corners())));
-        let edges = |hull: &Hull| -> Vec<[DVec3; 2]> {
-            hull.corners().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).collect()
-        };
-        let seen: Vec<_> = hulls.iter().map(|hull| views.cover(&edges(hull))).collect();
+        let seen: Vec<_> = hulls.iter().map(|hull| views.cover_of(hull)).collect();
         let borders = parts.border_costs(&self.fine.surface).values().sum();
         let iou = cover.iou();
         let worth = iou - price(part_cost, parts.count, borders);

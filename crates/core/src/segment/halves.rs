@@ -4,7 +4,7 @@
 use super::patches::Partition;
 use super::refine::join_strays;
 use super::surface::Surface;
-use super::symmetry::Votes;
+use super::symmetry::{Votes, facing_image};
 use crate::geom::Mirror;
 use crate::geom::points::PointTree;
 use std::collections::BTreeMap;
@@ -17,16 +17,26 @@ const ACROSS: f64 = 0.5;
 /// two parts.
 const PIECE: f64 = 0.6;
 
+/// Cells behind the mirror plane are their own images where they are on a sheet in it, such as the tail of a fish: nothing faces
+/// as their images do, they are within this share of the size from the plane,
+const IN_PLANE: f64 = 0.004;
+/// and their normals have at least this much in common with the plane's. A humphead's tail is off by 0.0025 because its mesh is;
+/// neither is bounded from the other side by a case.
+const SIDEWAYS: f64 = 0.9;
+
 /// Which cells are in front of the mirror plane, and the images of the others.
 pub(super) struct Halves {
-    /// For each cell the one in front of the plane whose image is nearest: itself, where it is in front.
+    /// For each cell the one in front of the plane whose image is nearest: itself, where it is in front or on a sheet in the
+    /// plane.
     source: Vec<u32>,
 }
 
 impl Halves {
     /// `None` where all cells are behind the plane.
     pub fn new(surface: &Surface, mirror: &Mirror) -> Option<Self> {
-        let is_front = |c: &usize| mirror.plane().distance(surface.centres()[*c]) >= 0.0;
+        let size = surface.total_area().sqrt();
+        let plane = mirror.plane();
+        let is_front = |c: &usize| plane.distance(surface.centres()[*c]) >= 0.0;
         let cells = (0..surface.len()).filter(is_front);
         let tree = PointTree::new(cells.map(|c| (surface.centres()[c], c as u32)).collect());
         let source = |c: usize| {
@@ -34,10 +44,16 @@ impl Halves {
                 return Some(c as u32);
             }
             let (centre, normal) = (surface.centres()[c], surface.normals()[c]);
-            let (centre, normal) = (mirror.point(centre), mirror.direction(normal));
+            let (image, outwards) = (mirror.point(centre), mirror.direction(normal));
             // Not the other side of a thin ear.
-            let same_side = |other: u32| surface.normals()[other as usize].dot(normal) > 0.0;
-            tree.nearest(centre, same_side).or_else(|| tree.nearest(centre, |_| true))
+            let is_same_side = |other: u32| surface.normals()[other as usize].dot(outwards) > 0.0;
+            let at = |other: u32| surface.centres()[other as usize];
+            let is_in_plane =
+                plane.distance(centre) >= -IN_PLANE * size && plane.normal().dot(normal).abs() >= SIDEWAYS;
+            if is_in_plane && facing_image(&tree, image, size, (at, is_same_side)).is_none() {
+                return Some(c as u32);
+            }
+            tree.nearest(image, is_same_side).or_else(|| tree.nearest(image, |_| true))
         };
         let source: Option<Vec<u32>> = (0..surface.len()).map(source).collect();
         Some(Self { source: source? })

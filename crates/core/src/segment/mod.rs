@@ -32,6 +32,7 @@ mod rough_hull;
 mod sdf;
 #[cfg(test)]
 mod shapes;
+mod sheets;
 mod smooth;
 mod solids;
 mod stage;

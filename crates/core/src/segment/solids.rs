@@ -7,6 +7,7 @@ use super::contact::{GAP, Touch, near, touches};
 use super::details::{IN_PLANE, Piece, WORTH, Weeded, points_at, volume};
 use super::forest::Forest;
 use super::plates::{Foot, Plates, beyond_sides};
+use super::sheets;
 use super::surface::Surface;
 use super::{SegmentId, Segmentation};
 use crate::geom::{Hull, HullError, Plane};
@@ -110,7 +111,9 @@ impl Solids {
         let trimmed: Vec<Result<(Hull, bool), HullError>> =
             solids.into_par_iter().zip(joined).map(trim).collect();
         let cuts = trimmed.iter().flatten().filter(|(_, is_cut)| *is_cut).count();
-        let hulls = trimmed.into_iter().map(|trimmed| trimmed.map(|(hull, _)| hull)).collect();
+        let hulls: Vec<Result<Hull, HullError>> =
+            trimmed.into_iter().map(|trimmed| trimmed.map(|(hull, _)| hull)).collect();
+        let hulls = sheets::with_plates(mesh, segmentation, hulls);
         Self { hulls, near, feet, details: Details { bodies, cuts } }
     }
 }
@@ -315,6 +318,22 @@ mod tests {
         assert!((volume_of(&found, 0) - 80.0 * 80.0 * 90.0).abs() < 1.0);
         // By itself it is all that there is.
         assert!((volume_of(&solids(&[house(), pipe], |k| k as u32), 1) - 2.0 * 2.0 * 90.0).abs() < 1e-6);
+    }
+
+    /// The fins of a fish were left out.
+    #[test]
+    fn a_sheet_that_shows_becomes_a_plate() {
+        let sheet = |low: f64, high: f64| -> Shape {
+            let corners = [[20.0, low], [60.0, low], [60.0, high], [20.0, high]];
+            (corners.map(|[y, z]| DVec3::new(40.0, y, z)).to_vec(), vec![[0, 1, 2], [0, 2, 3]])
+        };
+        let fin = solids(&[house(), sheet(85.0, 150.0)], |k| k as u32);
+        let hull = fin.hulls[1].as_ref().unwrap();
+        let thickness = hull.volume() / (40.0 * 65.0);
+        assert!(thickness > 0.3 && thickness < 2.0, "{thickness}");
+        assert!((hull.support(DVec3::Z) - 150.0).abs() < 1e-9);
+        let hidden = solids(&[house(), sheet(10.0, 75.0)], |k| k as u32);
+        assert_eq!(hidden.hulls[1], Err(HullError::Flat));
     }
 
     /// A storey that is wider than the house, and a plate that is narrower: neither makes the hull much larger.

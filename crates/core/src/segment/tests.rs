@@ -295,6 +295,31 @@ fn the_parts_of_a_symmetric_mesh_are_twins_or_across() {
     }
 }
 
+/// A sheet of squares across x, from its least corner.
+fn sheet(low: DVec3, [width, height]: [f64; 2]) -> Shape {
+    let at = |k: u32| low + DVec3::new(0.0, f64::from(k % 9) / 8.0 * width, f64::from(k / 9) / 8.0 * height);
+    let square = |k: u32| [[k, k + 1, k + 10], [k, k + 10, k + 9]];
+    let faces = (0..72).filter(|k| k % 9 < 8).flat_map(square);
+    ((0..81).map(at).collect(), faces.collect())
+}
+
+/// Fish came out crooked because their tails are sheets, whose images face the other way.
+#[test]
+fn a_sheet_in_the_mirror_plane_is_its_own_image() {
+    let body = figure();
+    let top = body.0.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
+    // On either side of the plane by rounding, as models of fish have them.
+    for off in [-1e-3, -1e-9, 0.0, 1e-3] {
+        let fin = sheet(DVec3::new(off, -0.5, top - 0.2), [1.0, 1.5]);
+        let mesh = mesh(&together(&[body.clone(), fin]));
+        let found = segment(&mesh, &SegmentOptions::default(), &Silent).unwrap();
+        let of_fin = found.face_segments()[mesh.faces().len() - 1];
+        let twins = found.twins(&mesh).unwrap();
+        assert_eq!(twins[of_fin.0 as usize], of_fin, "{off}");
+        assert!(twins.iter().enumerate().any(|(k, twin)| twin.0 as usize != k), "the arms");
+    }
+}
+
 #[test]
 fn without_symmetry_there_are_no_twins() {
     let mesh = mesh(&figure());
