@@ -42,7 +42,12 @@ impl PointTree {
     /// The number of the point nearest to `p` among those that fit; of equally near ones the
     /// smallest.
     pub(crate) fn nearest(&self, p: DVec3, fits: impl Fn(u32) -> bool) -> Option<u32> {
-        let mut best = (f64::INFINITY, u32::MAX);
+        self.nearest_within(p, f64::INFINITY, fits)
+    }
+
+    /// The same, where it is not farther than `most`.
+    pub(crate) fn nearest_within(&self, p: DVec3, most: f64, fits: impl Fn(u32) -> bool) -> Option<u32> {
+        let mut best = (most * most, u32::MAX);
         // Ranges, with the square of the least distance that a point in them can have.
         let mut todo = vec![(0, self.points.len(), 0.0)];
         while let Some((start, end, gap)) = todo.pop() {
@@ -90,6 +95,10 @@ mod tests {
                     a.0.distance_squared(p).total_cmp(&b.0.distance_squared(p)).then(a.1.cmp(&b.1))
                 });
                 assert_eq!(tree.nearest(p, |k| k % 3 == rest), nearest.map(|q| q.1));
+                for most in [0.9, 1.6] {
+                    let near = nearest.filter(|q| q.0.distance(p) <= most);
+                    assert_eq!(tree.nearest_within(p, most, |k| k % 3 == rest), near.map(|q| q.1));
+                }
             }
         }
         assert_eq!(tree.nearest(DVec3::ZERO, |_| false), None);

@@ -4,7 +4,7 @@
 use super::patches::Partition;
 use super::refine::join_strays;
 use super::surface::Surface;
-use super::symmetry::{Votes, facing_image};
+use super::symmetry::{FAR, Votes};
 use crate::geom::Mirror;
 use crate::geom::points::PointTree;
 use std::collections::BTreeMap;
@@ -47,10 +47,9 @@ impl Halves {
             let (image, outwards) = (mirror.point(centre), mirror.direction(normal));
             // Not the other side of a thin ear.
             let is_same_side = |other: u32| surface.normals()[other as usize].dot(outwards) > 0.0;
-            let at = |other: u32| surface.centres()[other as usize];
             let is_in_plane =
                 plane.distance(centre) >= -IN_PLANE * size && plane.normal().dot(normal).abs() >= SIDEWAYS;
-            if is_in_plane && facing_image(&tree, image, size, (at, is_same_side)).is_none() {
+            if is_in_plane && tree.nearest_within(image, FAR * size, is_same_side).is_none() {
                 return Some(c as u32);
             }
             tree.nearest(image, is_same_side).or_else(|| tree.nearest(image, |_| true))

@@ -1,8 +1,9 @@
 //! Segments without volume that show, such as the fins of a fish: they become thin plates.
 
 use super::clean::SHOWN;
+use super::interface::fit_plane;
 use super::{SegmentId, Segmentation};
-use crate::geom::{Hull, HullError, eigen};
+use crate::geom::{Hull, HullError};
 use crate::mesh::{Mesh, Views};
 use glam::DVec3;
 
@@ -28,7 +29,7 @@ pub(super) fn with_plates(
     let of_segments = 0..hulls.len() as u32;
     let plates: Vec<Option<Hull>> = of_segments
         .zip(&hulls)
-        .map(|(id, hull)| hull.is_err().then(|| plate(mesh, segmentation, SegmentId(id)).ok()).flatten())
+        .map(|(id, hull)| hull.is_err().then(|| plate(mesh, segmentation, SegmentId(id))).flatten())
         .collect();
     let show: Vec<bool> = plates.iter().map(|plate| plate.as_ref().is_some_and(shows)).collect();
     let twins = segmentation.twins(mesh);
@@ -38,11 +39,11 @@ pub(super) fn with_plates(
 }
 
 /// The corners of a segment on either side of the plane nearest to them.
-fn plate(mesh: &Mesh, segmentation: &Segmentation, id: SegmentId) -> Result<Hull, HullError> {
+fn plate(mesh: &Mesh, segmentation: &Segmentation, id: SegmentId) -> Option<Hull> {
     let own = segmentation.face_segments().iter().enumerate().filter(|(_, other)| **other == id);
     let corners: Vec<DVec3> = own.flat_map(|(face, _)| mesh.corners(face)).collect();
-    let (_, axes) = eigen::symmetric(eigen::covariance(&corners));
-    let half = axes[0] * (THICKNESS * mesh.diagonal_mm() / 2.0);
+    let (plane, _) = fit_plane(&corners)?;
+    let half = plane.normal() * (THICKNESS * mesh.diagonal_mm() / 2.0);
     let points: Vec<DVec3> = corners.iter().flat_map(|&corner| [corner - half, corner + half]).collect();
-    Hull::of_points(&points)
+    Hull::of_points(&points).ok()
 }

@@ -72,19 +72,9 @@ impl SymmetryChoice {
 /// Most faces of each segment that are compared.
 const FACES: usize = 600;
 
-/// The image of a face is at most this far off, as a share of the size. Of a fin in the mirror plane that is a sheet, or thin,
+/// What faces as the image of a face does is at most this far from it, as a share of the size. Of a fin in the mirror plane that is a sheet, or thin,
 /// nothing near its image faces the same way, and a fish with such a fin had no twins. Not bounded from above by a case.
-const FAR: f64 = 0.025;
-
-/// Which of some points is the image of another: the nearest one on the same side of the surface, where it is near.
-pub(super) fn facing_image(
-    tree: &PointTree,
-    image: DVec3,
-    size: f64,
-    (at, is_same_side): (impl Fn(u32) -> DVec3, impl Fn(u32) -> bool),
-) -> Option<u32> {
-    tree.nearest(image, is_same_side).filter(|&other| at(other).distance(image) <= FAR * size)
-}
+pub(super) const FAR: f64 = 0.025;
 
 /// The twin of each segment, where all have one.
 pub(super) fn twins(segmentation: &Segmentation, mesh: &Mesh, mirror: &Mirror) -> Option<Vec<SegmentId>> {
@@ -107,8 +97,7 @@ pub(super) fn twins(segmentation: &Segmentation, mesh: &Mesh, mirror: &Mirror) -
     for k in 0..faces.len() {
         let (image, outwards) = (mirror.point(centre(k)), mirror.direction(normal(corners[k])));
         let is_same_side = |other: u32| normal(corners[other as usize]).dot(outwards) > 0.0;
-        let sides = (|other: u32| centre(other as usize), is_same_side);
-        let facing = facing_image(&tree, image, mesh.diagonal_mm(), sides);
+        let facing = tree.nearest_within(image, FAR * mesh.diagonal_mm(), is_same_side);
         if let Some(other) = facing.or_else(|| tree.nearest(image, |_| true)) {
             votes.add(segments[faces[k]].0, segments[faces[other as usize]].0, areas[k]);
         }
