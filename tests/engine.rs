@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 use std::sync::Mutex;
+use tatamu::component::PanelId;
 use tatamu::mesh::{self, Mesh};
 use tatamu::model::PartId;
 use tatamu::pipeline::{Change, ComponentOptions, Engine, Level, Options, Output, TrialWarning, Warning};
@@ -194,6 +195,49 @@ fn a_model_without_problems_gets_no_advice() {
 
 /// Of small models joints lacked glue: three of the rabbit's, two of the teddy's, and two of the snowman's. The nose of
 /// the snowman of 60 mm bumps where its joint is thicker.
+/// Rounding made other parts of more than half of all meshes at another size, and the least width of panels other
+/// components.
+#[test]
+fn a_little_larger_model_has_the_same_design() {
+    let mesh = bottle();
+    let at = |size_mm: f64| {
+        let options = Options { size_mm, ..Options::default() };
+        Engine::new(Cow::Borrowed(&mesh)).shape(&options, &Silent).expect("a model")
+    };
+    let (usual, larger) = (at(200.0), at(219.9));
+    let factor = 219.9 / 200.0;
+    assert_eq!(usual.source().names(), larger.source().names());
+    assert_eq!(usual.source().face_parts(), larger.source().face_parts());
+    let (model, copy) = (usual.model(), larger.model());
+    for part in model.ids() {
+        let [panels, of_copy] = [model, copy].map(|own| own.part(part).component.panels().panels());
+        assert_eq!(panels.len(), of_copy.len());
+        for panel in (0..panels.len()).map(PanelId) {
+            let [outline, of_copy] = [model, copy].map(|own| own.deployed_outline(part, panel));
+            assert!(outline.iter().zip(of_copy).all(|(p, q)| q.distance(factor * *p) < 1e-9));
+        }
+        let glue = [model, copy].map(|own| own.part(part).joint.as_ref().map(|joint| joint.glue_mm2));
+        if let [Some(own_mm2), Some(of_copy_mm2)] = glue {
+            assert!((of_copy_mm2 - factor * factor * own_mm2).abs() < 1e-6);
+        }
+    }
+    // The mesh is as large as it should be, and the components are where it is.
+    let (low, high) = larger.source().mesh().bounds();
+    assert!(((high - low).max_element() - 219.9).abs() < 1e-9);
+    let to_model = larger.source().to_model();
+    let (from, to) = (mesh.positions(), larger.source().mesh().positions());
+    assert!(from.iter().zip(to).all(|(p, q)| to_model.transform_point3(*p).distance(*q) < 1e-9));
+    // The component alone, which the studio shows first, is the same.
+    let options = Options { size_mm: 219.9, ..Options::default() };
+    let engine = Engine::new(Cow::Borrowed(&mesh));
+    let [alone, unscaled] = [&options, &Options::default()]
+        .map(|options| engine.component(options, PartId(0), &Silent).expect("a component"));
+    assert_eq!(alone, unscaled.resized(factor));
+    // Panels have room for less at half the size; those of the least width in the report are those of the model.
+    let least_mm = larger.model().parts().iter().map(|part| part.component.narrowest_panel().1);
+    assert!(least_mm.fold(f64::INFINITY, f64::min) >= Options::default().min_panel_width_mm - 1e-6);
+}
+
 #[test]
 fn small_models_hold_together_and_fold() {
     for (name, sizes_mm) in [("rabbit", [60.0, 80.0]), ("teddy", [60.0, 80.0]), ("snowman", [60.0, 80.0])] {

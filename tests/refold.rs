@@ -6,11 +6,16 @@ use glam::{DVec2, DVec3};
 use lopdf::content::Content;
 use lopdf::{Document, Object};
 use made::{Fold, Made, samples};
+use std::borrow::Cow;
+use std::sync::Arc;
 use tatamu::check;
 use tatamu::component::{ChainId, FaceId, PanelId};
 use tatamu::geom::Hull;
+use tatamu::mesh::{self, Mesh};
 use tatamu::model::PartId;
-use tatamu::pipeline::{Bodies, Options};
+use tatamu::pipeline::{Bodies, Divided, Engine, Options, Output};
+use tatamu::progress::Silent;
+use tatamu::segment::Edit;
 
 /// Rounding of lengths.
 const TOLERANCE_MM: f64 = 1e-6;
@@ -159,12 +164,22 @@ fn joints_hold_from_deployed_to_flat() {
     }
 }
 
+/// The parts that a sample's components were made from.
+fn divided(name: &str, output: &Output) -> Arc<Divided> {
+    let path = format!("{}/samples/{name}.obj", env!("CARGO_MANIFEST_DIR"));
+    let (mesh, _) = Mesh::from_soup(&mesh::read(&std::fs::read(path).unwrap()).unwrap()).unwrap();
+    let merges = output.merges().iter().map(|parts| Edit::Merge { parts: parts.clone() });
+    let options = Options { edits: merges.collect(), ..Options::default() };
+    Engine::new(Cow::Owned(mesh)).divide(&options, &Silent).unwrap()
+}
+
 /// Eq. (2): the length above the fold vertex, less that below, is how far the profile spreads.
 #[test]
 fn profiles_are_within_their_limits_and_have_no_gap() {
     let options = Options::default();
     for Made { name, output, .. } in samples() {
-        let hulls = output.shaped().source().hulls().unwrap();
+        let divided = divided(name, output);
+        let hulls = divided.hulls();
         let bodies = Bodies::new(hulls, &options).unwrap();
         for (id, body) in output.model().ids().zip(bodies.parts()) {
             let (part, limits) = (output.model().part(id), &body.options);
@@ -292,8 +307,8 @@ fn bars(content: &[u8]) -> Vec<[DVec2; 2]> {
 fn models_of_symmetric_meshes_are_their_own_mirror_images() {
     let mut symmetric = Vec::new();
     for Made { name, output, .. } in samples() {
-        let hulls = output.shaped().source().hulls().unwrap();
-        let Some(symmetry) = hulls.symmetry() else { continue };
+        let divided = divided(name, output);
+        let Some(symmetry) = divided.hulls().symmetry() else { continue };
         symmetric.push(*name);
         let (model, mirror) = (output.model(), symmetry.mirror());
         let outlines = |part: PartId| -> Vec<Vec<DVec3>> {

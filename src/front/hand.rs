@@ -66,7 +66,7 @@ pub fn split(shown: &Shown, part: PartId, point: DVec3, normal: DVec3) -> Option
 /// The plane across a part's hull, one of [`AXES`], at a share of its way: a point and a normal in the
 /// model's axes.
 pub fn plane(shown: &Shown, part: PartId, axis: usize, share: f64) -> Option<(DVec3, DVec3)> {
-    let hull = shown.shaped()?.source().hulls()?.hulls().get(part.0)?;
+    let hull = shown.shaped()?.source().hulls().get(part.0)?;
     let normal = match AXES.get(axis)?.1 {
         DVec3::ZERO => {
             // Fold axes are across the length.

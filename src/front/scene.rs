@@ -10,7 +10,7 @@ use tatamu::drawing::Rgb;
 use tatamu::fold::{Clash, ModelMotion, ModelPose, Moment, Motion, Sequence};
 use tatamu::mesh::Mesh;
 use tatamu::model::{ModelPart, PartId};
-use tatamu::pipeline::{Hulls, Options};
+use tatamu::pipeline::Options;
 use tatamu::render::light;
 use tatamu::render::zbuffer::{LineInSpace, RenderedFrame, Solids};
 use tatamu::show::upright;
@@ -152,8 +152,8 @@ pub fn scene(seen: &Seen<'_>, setting: &Setting) -> Solids {
         push_mesh(&mut solids, source.mesh(), |f| is_seen(f).then(|| (PLAIN, tag(f))), layers.components);
     }
     if layers.hulls {
-        let hulls = source.hulls().map_or(&[][..], Hulls::hulls);
-        for (part, hull) in (0..).map(PartId).zip(hulls).filter(|(part, _)| !is_hidden(*part)) {
+        let hulls = (0..).map(PartId).zip(source.hulls());
+        for (part, hull) in hulls.filter(|(part, _)| !is_hidden(*part)) {
             let colour = light::mixed(shown.colour(part), Rgb::BLACK, 0.4);
             for facet in hull.facets() {
                 let outline: Vec<DVec3> = facet

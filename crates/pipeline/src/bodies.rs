@@ -1,17 +1,15 @@
 //! From parts to hulls with joints between them.
 
+use super::touching::{SegmentHulls, Touching};
 use super::{Error, Options};
-use glam::DVec3;
 use rayon::prelude::*;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use tatamu_core::component::Filling;
-use tatamu_core::geom::{Hull, HullError, Plane};
+use tatamu_core::geom::{Hull, Plane};
 use tatamu_core::mesh::{MirrorPlane, Views};
-use tatamu_core::model::{
-    self, Assembly, Bump, Contact, Interface, Link, Part, PartId, PartOptions, Parted, Symmetry,
-};
-use tatamu_core::segment::{Details, Interior, Parts, SegmentId, Solids};
+use tatamu_core::model::{self, Assembly, Bump, Link, Part, PartId, PartOptions, Parted, Symmetry};
+use tatamu_core::segment::{Details, Interior, Parts, SegmentId};
 
 /// Hulls of the parts of a mesh with the joints between them, as the shape alone decides them.
 #[derive(Debug, Clone)]
@@ -75,7 +73,7 @@ impl Hulls {
             mirror_plane: divided.segmentation().mirror().filter(|_| has_images).copied(),
             views: Arc::new(views),
             interior: Arc::new(interior),
-            solid: SegmentHulls { hulls: Vec::new(), ..touching.solid.clone() },
+            solid: touching.solid.with(Vec::new()),
             touching: Arc::new(touching),
             borders: Vec::new(),
             fillings: Vec::new(),
@@ -92,7 +90,7 @@ impl Hulls {
             _ => Filling::new(hull, |point| self.interior.contains(point)).map(Arc::new),
         };
         let fillings = hulls.par_iter().enumerate().map(filling).collect();
-        Self { solid: SegmentHulls { hulls, ..self.solid.clone() }, borders, fillings, ..self.clone() }
+        Self { solid: self.solid.with(hulls), borders, fillings, ..self.clone() }
     }
 
     /// The same with thicker hulls where parts hang on their parents.
@@ -187,73 +185,6 @@ impl Hulls {
     }
 }
 
-/// The same parts, but made one where the plane of a joint would take more off two than one hull adds; with their hulls.
-pub(super) fn without_needless_joints(mut divided: Parts) -> (Parts, Touching) {
-    loop {
-        let touching = Touching::of(&divided);
-        let solid = &touching.solid;
-        let pairs = touching.needless();
-        if pairs.is_empty() {
-            return (divided, touching);
-        }
-        let segment = |part| solid.part_of_segment.iter().position(|p| *p == Some(part));
-        let pairs: Vec<(usize, usize)> =
-            pairs.into_iter().filter_map(|(a, b)| Some((segment(a)?, segment(b)?))).collect();
-        divided = divided.fused(&pairs);
-    }
-}
-
-/// Hulls of all parts, before they leave each other room, and where they touch.
-#[derive(Debug, Clone)]
-pub(super) struct Touching {
-    solid: SegmentHulls,
-    symmetry: Option<Symmetry>,
-    contacts: Vec<Contact>,
-    links: Vec<Link>,
-}
-
-impl Touching {
-    fn of(divided: &Parts) -> Self {
-        let Solids { hulls, near, feet, details } = divided.solids();
-        let mut solid = SegmentHulls { details, ..segment_hulls(divided, hulls) };
-        let segmentation = divided.segmentation();
-        let symmetry = segmentation.mirror().and_then(|plane| solid.mirrored(divided, plane));
-        let contacts = contacts(divided, &solid.part_of_segment, near, &feet);
-        let links = model::link_tree(&solid.hulls.iter().collect::<Vec<_>>(), &contacts, symmetry.as_ref());
-        Self { solid, symmetry, contacts, links }
-    }
-
-    /// The hulls when they leave each other room, thick enough for their joints, and the planes beyond which others are.
-    fn parted(&self) -> (Vec<Hull>, Vec<Vec<Plane>>) {
-        let (hulls, symmetry) = (self.hulls(), self.symmetry.as_ref());
-        let Parted { hulls, borders } = model::parted(&hulls, &self.contacts, &self.links, symmetry);
-        (model::sturdy(hulls, &self.links, symmetry), borders)
-    }
-
-    fn hulls(&self) -> Vec<&Hull> {
-        self.solid.hulls.iter().collect()
-    }
-
-    fn needless(&self) -> Vec<(PartId, PartId)> {
-        model::needless(&self.hulls(), &self.links)
-    }
-
-    /// The same without a joint between two parts, and between their images; `None` where a part would be left alone.
-    fn without(&self, gone: &Link) -> Option<Self> {
-        let image = |part: PartId| self.symmetry.as_ref().map_or(part, |symmetry| symmetry.twin(part));
-        let pair = [gone.parent, gone.child];
-        let is_gone = |contact: &Contact| {
-            let (a, b) = contact.parts;
-            [pair, pair.map(image)].iter().any(|pair| *pair == [a, b] || *pair == [b, a])
-        };
-        // What touches keeps its room, but joins nothing.
-        let contacts: Vec<Contact> =
-            self.contacts.iter().filter(|contact| !is_gone(contact)).cloned().collect();
-        let links = model::link_tree(&self.hulls(), &contacts, self.symmetry.as_ref());
-        (links.len() == self.links.len()).then(|| Self { links, ..self.clone() })
-    }
-}
-
 /// Hulls with what the user wants of each: what the components are made from.
 #[derive(Debug, Clone)]
 pub struct Bodies {
@@ -296,74 +227,6 @@ impl Bodies {
     }
 }
 
-/// Hulls of the segments that have one.
-#[derive(Debug, Clone)]
-struct SegmentHulls {
-    hulls: Vec<Hull>,
-    part_of_segment: Vec<Option<PartId>>,
-    /// Number of faces of each segment that is flat.
-    flat: Vec<usize>,
-    /// What the hulls do without.
-    details: Details,
-}
-
-impl SegmentHulls {
-    /// The names of the segments that have a hull.
-    fn names(&self, of_segment: &[String]) -> Vec<String> {
-        let has_hull = self.part_of_segment.iter().zip(of_segment);
-        has_hull.filter(|(part, _)| part.is_some()).map(|(_, name)| name.clone()).collect()
-    }
-
-    /// Makes the hulls of twins images of each other, each round its own points and the images of
-    /// its twin's, and the others their own images; `None`, and all as they were, where not every
-    /// hull has a twin.
-    fn mirrored(&mut self, divided: &Parts, plane: &MirrorPlane) -> Option<Symmetry> {
-        let mirror = &plane.mirror;
-        let twins = divided.segmentation().twins(divided.mesh())?;
-        let of_segment = self.part_of_segment.iter().zip(twins);
-        let twin = of_segment.filter_map(|(part, twin)| part.map(|_| self.part_of_segment[twin.0 as usize]));
-        let symmetry = Symmetry::new(*mirror, twin.collect::<Option<Vec<PartId>>>()?)?;
-        let alike = |part: PartId| {
-            let (hull, twin) = (&self.hulls[part.0], symmetry.twin(part));
-            if twin == part {
-                return Some((part, mirror.symmetrized(hull).ok()?));
-            }
-            let images = self.hulls[twin.0].vertices().iter().map(|&p| mirror.point(p));
-            let points: Vec<DVec3> = hull.vertices().iter().copied().chain(images).collect();
-            Some((part, Hull::of_points(&points).ok()?))
-        };
-        let alike: Vec<(PartId, Hull)> =
-            symmetry.representatives().into_par_iter().map(alike).collect::<Option<_>>()?;
-        alike.into_iter().for_each(|(part, hull)| symmetry.set(&mut self.hulls, part, hull));
-        Some(match plane.crossing {
-            Some(crossing) => symmetry.crossed(crossing, &mut self.hulls),
-            None => symmetry,
-        })
-    }
-}
-
-fn segment_hulls(parts: &Parts, hulls: Vec<Result<Hull, HullError>>) -> SegmentHulls {
-    let mut solid = SegmentHulls {
-        hulls: Vec::new(),
-        part_of_segment: Vec::new(),
-        flat: Vec::new(),
-        details: Details::default(),
-    };
-    for (hull, faces) in hulls.into_iter().zip(parts.face_counts()) {
-        match hull {
-            Ok(hull) => {
-                solid.part_of_segment.push(Some(PartId(solid.hulls.len())));
-                solid.hulls.push(hull);
-            }
-            Err(_) => {
-                solid.part_of_segment.push(None);
-                solid.flat.push(faces);
-            }
-        }
-    }
-    solid
-}
-
 /// Panels are comfortable from this many times the least width; a component whose numbers the user
 /// has set gets them down to the least width.
 const COMFORTABLE: f64 = 1.5;
@@ -403,44 +266,11 @@ fn parts(hulls: &Hulls, options: &Options) -> Result<Vec<Part>, Error> {
     }
 }
 
-fn contacts(
-    divided: &Parts,
-    part_of_segment: &[Option<PartId>],
-    near: BTreeMap<(SegmentId, SegmentId), Vec<DVec3>>,
-    feet: &BTreeMap<(SegmentId, SegmentId), Vec<DVec3>>,
-) -> Vec<Contact> {
-    let mesh = divided.mesh();
-    let part = |s: SegmentId| part_of_segment[s.0 as usize];
-    let borders = divided.segmentation().borders(mesh);
-    let touching = near.into_iter().filter(|(pair, _)| !borders.contains_key(pair)).map(|(pair, points)| {
-        let length_mm = rim_mm(&points);
-        (pair, points, Interface::Bodies, length_mm)
-    });
-    let bordering = borders.iter().map(|(&pair, interface)| {
-        let border = || interface.vertices().iter().map(|&v| mesh.positions()[v as usize]).collect();
-        let points = feet.get(&pair).cloned().unwrap_or_else(border);
-        (pair, points, Interface::Border, interface.length())
-    });
-    bordering
-        .chain(touching)
-        .filter_map(|((a, b), points, interface, length_mm)| {
-            Some(Contact { parts: (part(a)?, part(b)?), points, interface, length_mm })
-        })
-        .collect()
-}
-
-/// Length of the circle whose points are as far from their centre as these, on the whole.
-fn rim_mm(points: &[DVec3]) -> f64 {
-    let n = points.len().max(1) as f64;
-    let centre = points.iter().sum::<DVec3>() / n;
-    let square = points.iter().map(|p| p.distance_squared(centre)).sum::<f64>() / n;
-    std::f64::consts::TAU * square.sqrt()
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::merge::needless;
     use super::*;
+    use glam::DVec3;
     use tatamu_core::mesh::Mesh;
     use tatamu_core::mesh::Soup;
     use tatamu_core::progress::Silent;

@@ -1,15 +1,16 @@
 //! The stages, with a cache for what each of them made: what is asked for again is not made again.
 //! The command line runs an engine once; the studio keeps one and changes a little at a time.
 
-use super::bodies::{Decisive, Touching, without_needless_joints};
+use super::bodies::Decisive;
 use super::concave::{self, Refitted};
 use super::judge::FoldJudge;
 use super::mend::{Maker, Mended, mended, unmended};
 use super::merge::{self, Merge};
 use super::plugs::{self, Planned};
+use super::touching::{Touching, without_needless_joints};
 use super::warning::{self, not_joined};
-use super::{Bodies, Divided, Error, Options, Output, Shaped, Source, Warning};
-use glam::DAffine3;
+use super::{Bodies, Divided, Error, MeshParts, Options, Output, Shaped, Source, Warning};
+use glam::{DAffine3, DVec3};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -36,7 +37,7 @@ const FEW: usize = 4;
 pub struct Engine<'m> {
     mesh: Cow<'m, Mesh>,
     segmented: LruCache<PartsKey, Arc<Segmented>>,
-    divided: LruCache<(PartsKey, Vec<Edit>, Option<String>), Arc<Divided>>,
+    divided: LruCache<DividedKey, Arc<Divided>>,
     components: Known,
     /// What is known of motions, until it is forgotten.
     sweeps: Mutex<Arc<SweepCache>>,
@@ -54,8 +55,15 @@ type LayoutKey = (SheetOptions, BTreeMap<String, Pin>, Vec<Option<String>>, Arc<
 /// components that must stay glued.
 type PlanKey = (Arc<Model>, f64, f64, Vec<bool>);
 
-/// What decides the parts before they are changed by hand: size, axis and segmentation.
-type PartsKey = (f64, Up, SegmentOptions);
+/// What decides the parts before they are changed by hand, whatever the size of the model: axis and segmentation.
+type PartsKey = (Up, SegmentOptions);
+
+/// What decides the hulls: the parts, the model's size, mm, changes by hand, and the root.
+type DividedKey = (PartsKey, f64, Vec<Edit>, Option<String>);
+
+/// A mesh is divided at this size, mm, and what it is divided into gets that of the model: every size rounds in its own
+/// way, and of 138 meshes 73 were divided otherwise at 160 mm than at 200.
+const DIVIDED_MM: f64 = 200.0;
 
 /// The parts before they are changed by hand.
 #[derive(Debug, Clone)]
@@ -64,6 +72,17 @@ struct Segmented {
     to_model: DAffine3,
     /// Their hulls, where these had to be looked at.
     touching: Option<Touching>,
+}
+
+impl Segmented {
+    /// The same with all lengths times `factor`.
+    fn resized(&self, factor: f64) -> Self {
+        Self {
+            parts: self.parts.resized(factor),
+            to_model: DAffine3::from_scale(DVec3::splat(factor)) * self.to_model,
+            touching: self.touching.as_ref().map(|touching| touching.resized(factor)),
+        }
+    }
 }
 
 impl<'m> Engine<'m> {
@@ -108,13 +127,13 @@ impl<'m> Engine<'m> {
         self.finish(self.shape(options, progress)?, progress)
     }
 
-    /// The mesh at the model's size, its parts and their hulls.
+    /// The mesh at the size of the options, its parts and their hulls.
     ///
     /// # Errors
     /// [`Error::Segment`], [`Error::Edit`], [`Error::NothingSolid`], [`Error::Cancelled`].
     pub fn divide(&self, options: &Options, progress: &dyn Progress) -> Result<Arc<Divided>, Error> {
-        let found = (options.size_mm, options.up, options.segmentation);
-        self.divided.get_or((found, options.edits.clone(), options.root.clone()), || {
+        let found = (options.up, options.segmentation);
+        self.divided.get_or((found, options.size_mm, options.edits.clone(), options.root.clone()), || {
             let Segmented { parts, to_model, touching } = self.segmented(options, progress)?;
             progress.stage("hulls");
             let divided = Divided::new(&parts, to_model, touching)?;
@@ -135,9 +154,8 @@ impl<'m> Engine<'m> {
 
     /// The parts after they are changed by hand.
     fn segmented(&self, options: &Options, progress: &dyn Progress) -> Result<Segmented, Error> {
-        let found = (options.size_mm, options.up, options.segmentation);
-        let segmented = self.segmented.get_or(found, || {
-            let (mesh, to_model) = self.mesh.scaled(options.size_mm, options.up);
+        let segmented = self.segmented.get_or((options.up, options.segmentation), || {
+            let (mesh, to_model) = self.mesh.scaled(DIVIDED_MM, options.up);
             let symmetry = options.segmentation.symmetry.moved(&to_model);
             let wanted = SegmentOptions { symmetry, ..options.segmentation };
             let segmentation = segment::segment(&mesh, &wanted, progress)?;
@@ -148,7 +166,10 @@ impl<'m> Engine<'m> {
             let (parts, touching) = without_needless_joints(parts.cut_where_they_pass_through());
             Ok(Arc::new(Segmented { parts, to_model, touching: Some(touching) }))
         })?;
-        let Segmented { mut parts, to_model, touching } = Arc::unwrap_or_clone(segmented);
+        let Segmented { mut parts, to_model, touching } = match options.size_mm / DIVIDED_MM {
+            1.0 => Arc::unwrap_or_clone(segmented),
+            factor => segmented.resized(factor),
+        };
         if options.edits.is_empty() && options.root.is_none() {
             return Ok(Segmented { parts, to_model, touching });
         }
@@ -168,14 +189,17 @@ impl<'m> Engine<'m> {
     /// As [`Engine::divide`], and [`Error::Model`], [`Error::NoComponent`], [`Error::SameName`],
     /// [`Error::NoPlug`].
     pub fn shape(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
-        let maker = Making { engine: self, options, sketches: LruCache::new(SKETCHES), progress };
+        let designed = &options.designed();
+        let maker = Making { engine: self, options: designed, sketches: LruCache::new(SKETCHES), progress };
         let Mended { divided, built, merges, .. } =
             if options.is_tiny() { unmended(&maker)? } else { mended(&maker)? };
         self.know(&built);
-        let mut found = refitted(built.model, &divided, options, progress)?;
+        let factor = options.size_mm / designed.size_mm;
+        let source = divided.resized(factor);
+        let mut found = refitted(resized(built.model, factor), &source, options, progress)?;
         for name in found.refused.clone() {
             if options.components.get(&name).is_some_and(|own| own.direction_rad.is_none())
-                && let Some(other) = self.dented(&divided, options, &name, progress)?
+                && let Some(other) = self.dented((&divided, &source), options, &name, progress)?
             {
                 found = other;
             }
@@ -188,7 +212,7 @@ impl<'m> Engine<'m> {
             // How parts are held changes nothing about how they fold.
             self.alike.keep(model.clone(), alike);
         }
-        let source = Source::Mesh(divided);
+        let source = Source::Mesh(Arc::new(source));
         remarks.extend(merges.iter().map(merge::remark));
         Ok(Shaped { options: Arc::new(options.clone()), source, model, notes, remarks, merges })
     }
@@ -218,7 +242,7 @@ impl<'m> Engine<'m> {
     /// in no direction. Directions are chosen for convex shapes, and a dent need not fold in these.
     fn dented(
         &self,
-        divided: &Divided,
+        (divided, source): (&Divided, &MeshParts),
         options: &Options,
         name: &String,
         progress: &dyn Progress,
@@ -228,12 +252,14 @@ impl<'m> Engine<'m> {
             if let Some(own) = options.components.get_mut(name) {
                 own.direction_rad = Some(direction_rad);
             }
+            let designed = options.designed();
+            let factor = options.size_mm / designed.size_mm;
             let how = (Detection::Discrete, progress);
-            let built = self.building(divided, &options, how, |run| run.finished(&run.sketch(None)?));
+            let built = self.building(divided, &designed, how, |run| run.finished(&run.sketch(None)?));
             if let Ok(built) = &built {
                 self.know(built);
             }
-            match built.and_then(|built| refitted(built.model, divided, &options, progress)) {
+            match built.and_then(|built| refitted(resized(built.model, factor), source, &options, progress)) {
                 Ok(found) if !found.refused.contains(name) => return Ok(Some(found)),
                 // Not every direction has room for all joints.
                 Ok(_) | Err(Error::Model(_)) => progress.check()?,
@@ -254,14 +280,16 @@ impl<'m> Engine<'m> {
         part: PartId,
         progress: &dyn Progress,
     ) -> Result<ModelPart, Error> {
-        let divided = self.divide(options, progress)?;
-        let bodies = Bodies::new(divided.hulls(), options)?;
+        let designed = &options.designed();
+        let divided = self.divide(designed, progress)?;
+        let bodies = Bodies::new(divided.hulls(), designed)?;
         if part.0 >= bodies.parts().len() {
             let known = divided.hulls().names().join(", ");
             return Err(Error::NoComponent { name: format!("number {}", part.0 + 1), known });
         }
         progress.check()?;
-        Ok(model::alone(&bodies.assembly(options.min_panel_width_mm), &self.components, part)?)
+        let made = model::alone(&bodies.assembly(designed.min_panel_width_mm), &self.components, part)?;
+        Ok(made.resized(options.size_mm / designed.size_mm))
     }
 
     /// Whether components fold without a clash, some of them plugged if need be.
@@ -368,7 +396,7 @@ impl<'m> Engine<'m> {
             Ok::<_, Error>((Arc::new(laid.0), Arc::new(laid.1)))
         })?;
         let mut warnings = shaped.notes.clone();
-        warnings.extend(warning::warnings(model, &nets, shaped.source.hulls(), options));
+        warnings.extend(warning::warnings(model, &nets, shaped.source.parts(), options));
         warnings.extend(warning::many_sheets(&layout).map(Warning::from));
         warnings.extend(layout.pin_warnings().iter().cloned().map(Warning::from));
         let fold_plan = Arc::new(FoldPlan::unchecked(model, options.thickness_mm));
@@ -388,11 +416,16 @@ impl<'m> Engine<'m> {
 /// The components, with dents where they may have them.
 fn refitted(
     model: Model,
-    divided: &Divided,
+    source: &MeshParts,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Refitted, Error> {
-    Ok(concave::refitted(model, divided.mesh(), divided.face_parts(), options, progress)?)
+    Ok(concave::refitted(model, source.mesh(), source.face_parts(), options, progress)?)
+}
+
+/// The model with all lengths times `factor`; the same one where that is 1, as its motions are known.
+fn resized(model: Model, factor: f64) -> Model {
+    if factor == 1.0 { model } else { model.resized(factor) }
 }
 
 fn plan_key(model: &Arc<Model>, options: &Options) -> PlanKey {

@@ -30,6 +30,7 @@ mod plugs;
 mod reach;
 mod size;
 mod source;
+mod touching;
 mod trial;
 mod warning;
 
@@ -40,7 +41,7 @@ pub use level::Level;
 pub use openings::openings_mm2;
 pub use output::{Output, Shaped};
 pub use size::usual_size_mm;
-pub use source::{Divided, Drawing, Source};
+pub use source::{Divided, Drawing, MeshParts, Source};
 pub use warning::{Change, ModelWarning, PanelSide, ProjectWarning, TrialWarning, Warning};
 
 use glam::DAffine3;
@@ -130,6 +131,15 @@ impl Default for Options {
 }
 
 impl Options {
+    /// The same for the size at which such a model is designed. It has the same shape there, and a tolerance and a thickness
+    /// to match, so that it clashes where it will; but panels have their least width.
+    fn designed(&self) -> Self {
+        let size_mm = size::designed_mm(self.size_mm);
+        let smaller = size_mm / self.size_mm;
+        let tolerance_mm = self.tolerance_mm.map(|mm| smaller * mm);
+        Self { size_mm, tolerance_mm, thickness_mm: smaller * self.thickness_mm, ..self.clone() }
+    }
+
     /// Top edges and profile vertices of a part, by the square root of its share of the surface of all.
     fn counts(&self, size_share: f64) -> (usize, usize) {
         let by_level = if self.tolerance_mm.is_some() { MOST_COUNTS } else { self.level.counts(size_share) };

@@ -74,7 +74,7 @@ impl Output {
 
     /// The mirror plane of the model; none where it is not symmetric.
     pub fn mirror_plane(&self) -> Option<&MirrorPlane> {
-        self.shaped.source.hulls()?.mirror_plane()
+        self.shaped.source.parts()?.mirror_plane()
     }
 
     /// The component of each face of [`Output::mesh`]; none where its segment became none.

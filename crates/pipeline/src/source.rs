@@ -1,17 +1,18 @@
 //! What a model is made from: a mesh that is divided into parts, or drawn components.
 
-use super::bodies::Touching;
+use super::touching::Touching;
 use super::{Error, Hulls};
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 use std::sync::Arc;
-use tatamu_core::mesh::Mesh;
-use tatamu_core::segment::Parts;
+use tatamu_core::geom::Hull;
+use tatamu_core::mesh::{Mesh, MirrorPlane};
+use tatamu_core::segment::{Details, Parts};
 
 /// What a model is made from.
 #[derive(Debug, Clone)]
 pub enum Source {
     /// A mesh.
-    Mesh(Arc<Divided>),
+    Mesh(Arc<MeshParts>),
     /// Drawn components.
     Drawing(Arc<Drawing>),
 }
@@ -25,7 +26,7 @@ impl Source {
     /// From the file's coordinates to those of [`Source::mesh`]; drawn components are where they are drawn.
     pub fn to_model(&self) -> DAffine3 {
         match self {
-            Self::Mesh(divided) => divided.to_model,
+            Self::Mesh(parts) => parts.to_model,
             Self::Drawing(_) => DAffine3::IDENTITY,
         }
     }
@@ -33,15 +34,20 @@ impl Source {
     /// The names of the components before they are renamed: those that options and edits go by.
     pub fn names(&self) -> &[String] {
         match self {
-            Self::Mesh(divided) => divided.hulls.names(),
+            Self::Mesh(parts) => &parts.names,
             Self::Drawing(drawing) => &drawing.names,
         }
     }
 
-    /// The hulls of the parts of a mesh; none for drawn components.
-    pub fn hulls(&self) -> Option<&Hulls> {
+    /// The hulls of the parts of a mesh, that components are made from; none for drawn components.
+    pub fn hulls(&self) -> &[Hull] {
+        self.parts().map_or(&[], |parts| &parts.hulls)
+    }
+
+    /// The parts of a mesh; none for drawn components.
+    pub(super) fn parts(&self) -> Option<&MeshParts> {
         match self {
-            Self::Mesh(divided) => Some(&divided.hulls),
+            Self::Mesh(parts) => Some(parts),
             Self::Drawing(_) => None,
         }
     }
@@ -58,7 +64,7 @@ impl Source {
 
     fn surface(&self) -> &Surface {
         match self {
-            Self::Mesh(divided) => &divided.surface,
+            Self::Mesh(parts) => &parts.surface,
             Self::Drawing(drawing) => &drawing.surface,
         }
     }
@@ -80,7 +86,7 @@ impl Surface {
     }
 }
 
-/// A mesh at the size of the model with its parts and their hulls.
+/// A mesh with its parts and their hulls, at the size at which the model is designed.
 #[derive(Debug)]
 pub struct Divided {
     surface: Surface,
@@ -111,14 +117,67 @@ impl Divided {
         &self.hulls
     }
 
-    /// The mesh at the size of the model.
+    /// The mesh.
     pub fn mesh(&self) -> &Mesh {
         &self.surface.mesh
     }
 
-    /// The part of each face of [`Divided::mesh`]; none where its segment has no volume.
-    pub fn face_parts(&self) -> &[Option<u32>] {
+    /// What the model was made from, with all lengths times `factor`.
+    pub(super) fn resized(&self, factor: f64) -> MeshParts {
+        let scale = DAffine3::from_scale(DVec3::splat(factor));
+        let hulls = &self.hulls;
+        let surface = match factor {
+            1.0 => self.surface.clone(),
+            _ => Surface { mesh: Arc::new(self.mesh().resized(factor)), ..self.surface.clone() },
+        };
+        MeshParts {
+            surface,
+            to_model: scale * self.to_model,
+            names: hulls.names().to_vec(),
+            hulls: hulls.hulls().iter().map(|hull| hull.moved(&scale)).collect(),
+            mirror_plane: hulls.mirror_plane().map(|plane| plane.moved(&scale)),
+            flat_faces: hulls.flat_faces().to_vec(),
+            details: hulls.details(),
+        }
+    }
+}
+
+/// A mesh at the size of the model, and the parts that the model was made from.
+#[derive(Debug)]
+pub struct MeshParts {
+    surface: Surface,
+    to_model: DAffine3,
+    names: Vec<String>,
+    hulls: Vec<Hull>,
+    mirror_plane: Option<MirrorPlane>,
+    flat_faces: Vec<usize>,
+    details: Details,
+}
+
+impl MeshParts {
+    /// The mesh.
+    pub(super) fn mesh(&self) -> &Mesh {
+        &self.surface.mesh
+    }
+
+    /// The part of each of its faces; none where the segment has no volume.
+    pub(super) fn face_parts(&self) -> &[Option<u32>] {
         &self.surface.face_part
+    }
+
+    /// The mirror plane of the mesh, where the hulls are mirror images of each other.
+    pub(super) fn mirror_plane(&self) -> Option<&MirrorPlane> {
+        self.mirror_plane.as_ref()
+    }
+
+    /// Number of faces of each segment that is flat.
+    pub(super) fn flat_faces(&self) -> &[usize] {
+        &self.flat_faces
+    }
+
+    /// What sticks out of the parts and was left out.
+    pub(super) fn details(&self) -> Details {
+        self.details
     }
 }
 

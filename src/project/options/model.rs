@@ -54,7 +54,8 @@ pub static SIZE: Entry = Entry {
     key: Key::new("", "size"),
     flag: Some(Flag {
         more: "Without this option a mesh gets a size from 100 to 300 mm at which most models take three to five \
-               sheets of A4; a project file that says nothing gets 200 mm.",
+               sheets of A4; a project file that says nothing gets 200 mm. Sizes a little apart give the same \
+               design: it changes at 100, 110, 120, 140, 160, 180, 200, 220, 250, 280, 300 mm and so on.",
         ..Flag::named("size", "LENGTH", None)
     }),
     kind: Kind::Number(Number {

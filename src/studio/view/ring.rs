@@ -49,7 +49,7 @@ struct Circle {
 
 impl Circle {
     fn of(studio: &Studio, part: PartId) -> Option<Self> {
-        let hull = studio.shown().shaped()?.source().hulls()?.hulls().get(part.0)?;
+        let hull = studio.shown().shaped()?.source().hulls().get(part.0)?;
         let (axis, centre) = (PrincipalAxis::of_hull(hull), hull.centroid());
         let reach = |v: &DVec3| (*v - centre).reject_from_normalized(axis.axis()).length();
         let radius = ROOM * hull.vertices().iter().map(reach).fold(0.0, f64::max);

@@ -106,6 +106,19 @@ impl Component {
         (mirrored, ids)
     }
 
+    /// The same with all lengths times `factor`.
+    #[must_use]
+    pub fn resized(&self, factor: f64) -> Self {
+        Self {
+            solid: self.solid.as_ref().map(|solid| solid.resized(factor)),
+            normals: self.normals.clone(),
+            profiles: self.profiles.iter().map(|profile| profile.resized(factor)).collect(),
+            panels: self.panels.resized(factor),
+            error_mm: factor * self.error_mm,
+            trimmed_mm2: factor * factor * self.trimmed_mm2,
+        }
+    }
+
     /// The same, with its Hausdorff distance to what it stands for.
     #[must_use]
     pub(crate) fn with_hausdorff_mm(self, error_mm: f64) -> Self {

@@ -1,5 +1,6 @@
 //! Rigid panels and the hinges between them: what nets, poses and pictures are made from.
 
+use crate::geom::motion::resized;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 /// Index of a panel in its [`PanelSet`].
@@ -125,6 +126,16 @@ impl Panel {
         Self { kind, outline, deployed: placed(&self.deployed), flat: placed(&self.flat) }
     }
 
+    /// The same with all lengths times `factor`.
+    fn resized(&self, factor: f64) -> Self {
+        Self {
+            kind: self.kind,
+            outline: self.outline.iter().map(|&corner| factor * corner).collect(),
+            deployed: resized(&self.deployed, factor),
+            flat: resized(&self.flat, factor),
+        }
+    }
+
     /// Edge `k` of the outline: from corner k to corner k + 1.
     pub fn edge(&self, k: usize) -> [DVec2; 2] {
         [self.outline[k], self.outline[(k + 1) % self.outline.len()]]
@@ -196,6 +207,15 @@ impl PanelSet {
             ((a[1] - a[0]).length() - (b[1] - b[0]).length()).abs() < 1e-9
         }));
         set
+    }
+
+    /// The same with all lengths times `factor`.
+    pub(super) fn resized(&self, factor: f64) -> Self {
+        let hinge = |hinge: &Hinge| Hinge { lift_mm: factor * hinge.lift_mm, ..*hinge };
+        Self {
+            panels: self.panels.iter().map(|panel| panel.resized(factor)).collect(),
+            hinges: self.hinges.iter().map(hinge).collect(),
+        }
     }
 
     /// Its image in the plane x = 0, with the chains renumbered by `image`, which is its own inverse,

@@ -87,6 +87,15 @@ impl Profile {
         Ok(Self { lifts_mm, ..Self::folded(points, faces_up)? })
     }
 
+    /// The same with all lengths times `factor`.
+    pub(super) fn resized(&self, factor: f64) -> Self {
+        Self {
+            points: self.points.iter().map(|&point| factor * point).collect(),
+            faces_up: self.faces_up.clone(),
+            lifts_mm: self.lifts_mm.iter().map(|lift_mm| factor * lift_mm).collect(),
+        }
+    }
+
     /// Axes of the hinges (u, v), mm: the vertices, where panels have no thickness.
     pub fn points(&self) -> &[DVec2] {
         &self.points

@@ -109,6 +109,19 @@ impl Solid {
         [FaceId::Top, FaceId::Bottom].into_iter().chain(sides).collect()
     }
 
+    /// The same with all lengths times `factor`.
+    #[must_use]
+    pub fn resized(&self, factor: f64) -> Self {
+        let facet = |facet: &SideFacet| SideFacet { offset_mm: factor * facet.offset_mm, ..*facet };
+        let chain = |chain: &Chain| Chain { facets: chain.facets.iter().map(facet).collect(), ..*chain };
+        Self {
+            chains: self.chains.iter().map(chain).collect(),
+            top_mm: factor * self.top_mm,
+            bottom_mm: factor * self.bottom_mm,
+            ..*self
+        }
+    }
+
     /// Its image in the plane x = 0. Chain j of the image is that of chain N − j.
     #[must_use]
     pub fn mirrored(&self) -> Self {

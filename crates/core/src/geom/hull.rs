@@ -158,7 +158,7 @@ impl Hull {
         Self::of_points(&farthest).unwrap_or(self)
     }
 
-    /// The hull after a rigid motion.
+    /// The hull after a rigid motion, or one scale of all lengths.
     pub fn moved(&self, motion: &glam::DAffine3) -> Self {
         let vertices = self.vertices.iter().map(|v| motion.transform_point3(*v)).collect();
         let facets =

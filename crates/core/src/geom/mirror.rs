@@ -1,7 +1,7 @@
 //! Reflection in a plane.
 
 use super::Plane;
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 
 /// Reflection in a plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,6 +13,12 @@ impl Mirror {
     /// The reflection in `plane`.
     pub fn new(plane: Plane) -> Self {
         Self { plane }
+    }
+
+    /// The reflection in the plane after a motion, or a change of size.
+    #[must_use]
+    pub fn moved(&self, motion: &DAffine3) -> Self {
+        Self { plane: self.plane.moved(motion) }
     }
 
     /// The plane that stays where it is.

@@ -5,6 +5,7 @@ pub mod eigen;
 mod flat;
 mod hull;
 mod mirror;
+pub(crate) mod motion;
 pub mod nearest;
 mod plane;
 pub(crate) mod points;

@@ -24,7 +24,7 @@ impl Plane {
         Self { normal: DVec3::Z, offset: height }
     }
 
-    /// The plane after a rigid motion.
+    /// The plane after a rigid motion, or one scale of all lengths.
     pub fn moved(&self, motion: &glam::DAffine3) -> Self {
         let normal = motion.transform_vector3(self.normal).normalize();
         let point = motion.transform_point3(self.normal * self.offset);

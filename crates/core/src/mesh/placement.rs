@@ -54,9 +54,18 @@ impl Mesh {
         let centre = p.midpoint(q);
         let foot = DVec3::new(centre.x, centre.y, p.z.min(q.z));
         let transform = DAffine3::from_mat3_translation(linear, -foot);
-        let positions = self.positions.iter().map(|&p| transform.transform_point3(p)).collect();
-        let scaled = Self { positions, faces: self.faces.clone(), input_face: self.input_face.clone() };
-        (scaled, transform)
+        (self.with_positions(|p| transform.transform_point3(p)), transform)
+    }
+
+    /// The mesh with all lengths times `factor`, about the origin.
+    #[must_use]
+    pub fn resized(&self, factor: f64) -> Self {
+        self.with_positions(|p| factor * p)
+    }
+
+    fn with_positions(&self, to: impl Fn(DVec3) -> DVec3) -> Self {
+        let positions = self.positions.iter().map(|&p| to(p)).collect();
+        Self { positions, faces: self.faces.clone(), input_face: self.input_face.clone() }
     }
 }
 

@@ -3,7 +3,7 @@
 use super::Mesh;
 use crate::geom::nearest::Tree;
 use crate::geom::{Mirror, Plane, eigen};
-use glam::{DMat3, DVec3};
+use glam::{DAffine3, DMat3, DVec3};
 
 /// A mirror plane of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +15,15 @@ pub struct MirrorPlane {
     pub error_percent: f64,
     /// Another mirror plane at a right angle to it, where there is one: of vases and hammers.
     pub crossing: Option<Mirror>,
+}
+
+impl MirrorPlane {
+    /// That of the mesh after a motion, or a change of size.
+    #[must_use]
+    pub fn moved(&self, motion: &DAffine3) -> Self {
+        let crossing = self.crossing.map(|mirror| mirror.moved(motion));
+        Self { mirror: self.mirror.moved(motion), crossing, ..*self }
+    }
 }
 
 /// A mesh whose image is farther from it than this on average, in percent of the diagonal, is not

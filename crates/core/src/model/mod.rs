@@ -42,6 +42,7 @@ pub use sturdy::{sturdier, sturdy};
 pub use symmetry::Symmetry;
 
 use crate::component::{Component, PanelId};
+use crate::geom::motion::resized;
 use crate::geom::polygon;
 use glam::{DAffine3, DVec2, DVec3};
 use std::sync::Arc;
@@ -117,6 +118,23 @@ impl ModelPart {
         self.joint.as_ref().is_some_and(|joint| joint.plug().is_some())
     }
 
+    /// The same with all lengths times `factor`, about the origin of the mesh's axes. A plug, whose size is that of
+    /// fingers, becomes glue.
+    #[must_use]
+    pub fn resized(&self, factor: f64) -> Self {
+        let joint =
+            |joint: &Joint| Joint { glue_mm2: factor * factor * joint.glue_mm2, hold: Hold::Glue, ..*joint };
+        Self {
+            name: self.name.clone(),
+            component: Arc::new(self.component.resized(factor)),
+            frame: resized(&self.frame, factor),
+            placement: resized(&self.placement, factor),
+            flat: resized(&self.flat, factor),
+            direction_rad: self.direction_rad,
+            joint: self.joint.as_ref().map(joint),
+        }
+    }
+
     /// Fold axis in the mesh's axes.
     pub fn fold_axis(&self) -> DVec3 {
         self.frame.transform_vector3(DVec3::Z)
@@ -135,6 +153,12 @@ pub struct Model {
 }
 
 impl Model {
+    /// The same with all lengths times `factor`: see [`ModelPart::resized`].
+    #[must_use]
+    pub fn resized(&self, factor: f64) -> Self {
+        Self { parts: self.parts.iter().map(|part| part.resized(factor)).collect() }
+    }
+
     /// All components, by id; the index is the segment's.
     pub fn parts(&self) -> &[ModelPart] {
         &self.parts

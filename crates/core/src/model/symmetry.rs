@@ -2,7 +2,7 @@
 
 use super::PartId;
 use crate::geom::{Hull, Mirror, directions};
-use glam::DVec3;
+use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
@@ -58,6 +58,17 @@ impl Symmetry {
         let crossed = Self { crossing: Some(Crossing { mirror, is_across }), ..self };
         crossed.make_alike(hulls, &(0..hulls.len()).map(PartId).collect());
         crossed
+    }
+
+    /// The same of parts after a motion, or a change of size.
+    #[must_use]
+    pub fn moved(&self, motion: &DAffine3) -> Self {
+        let moved = |crossing: &Crossing| Crossing {
+            mirror: crossing.mirror.moved(motion),
+            is_across: crossing.is_across.clone(),
+        };
+        let crossing = self.crossing.as_ref().map(moved);
+        Self { mirror: self.mirror.moved(motion), twin: self.twin.clone(), crossing }
     }
 
     /// The reflection.

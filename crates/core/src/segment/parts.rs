@@ -5,6 +5,7 @@ use super::solids::Solids;
 use super::surface::Surface;
 use super::{SegmentId, Segmentation, naming};
 use crate::mesh::{Mesh, MirrorPlane};
+use glam::{DAffine3, DVec3};
 use std::sync::Arc;
 
 /// A mesh divided into parts with names.
@@ -77,6 +78,15 @@ impl Parts {
         let mirror = self.segmentation.mirror().copied();
         let segmentation = Segmentation::numbered(&of_face, label.len(), &areas).mirrored_in(mirror);
         Self::new(self.mesh, segmentation)
+    }
+
+    /// The same parts of the mesh with all lengths times `factor`, about the origin.
+    #[must_use]
+    pub fn resized(&self, factor: f64) -> Self {
+        let scale = DAffine3::from_scale(DVec3::splat(factor));
+        let mirror = self.segmentation.mirror().map(|plane| plane.moved(&scale));
+        let segmentation = self.segmentation.clone().mirrored_in(mirror);
+        Self { mesh: Arc::new(self.mesh.resized(factor)), segmentation, names: self.names.clone() }
     }
 
     /// The same parts with the one in the middle first.

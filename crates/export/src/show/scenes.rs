@@ -7,7 +7,7 @@ use tatamu_core::mesh::Mesh;
 use tatamu_core::model::Model;
 use tatamu_draw::drawing::Rgb;
 use tatamu_draw::render::{Edge, Face, Scene, SceneError, light, palette, proxy};
-use tatamu_pipeline::{Hulls, Output};
+use tatamu_pipeline::Output;
 
 /// The input, and faces of segments without volume.
 const PLAIN: Rgb = Rgb(200, 200, 204);
@@ -52,7 +52,7 @@ fn coloured_mesh(mesh: &Mesh, colour_of: impl Fn(usize) -> Rgb) -> Result<Scene,
 /// # Errors
 /// As [`mesh_scene`].
 pub fn hulls_scene(output: &Output) -> Result<Scene, SceneError> {
-    let hulls = output.shaped().source().hulls().map_or(&[][..], Hulls::hulls);
+    let hulls = output.shaped().source().hulls();
     let mut scene = Scene::new();
     for (part, hull) in hulls.iter().enumerate() {
         let vertices: Vec<DVec3> = hull.vertices().iter().map(|p| upright().transform_point3(*p)).collect();

@@ -1,7 +1,7 @@
 //! What the user should know about the components and their joints.
 
 use super::Warning;
-use crate::bodies::Hulls;
+use crate::source::MeshParts;
 use crate::{Options, openings_mm2};
 use glam::DVec3;
 use std::fmt;
@@ -234,8 +234,8 @@ const SWOLLEN: f64 = 0.3;
 const THIN_PANELS: f64 = 4.0;
 
 /// What of a mesh is not in its model.
-fn left_out(hulls: &Hulls) -> Vec<Warning> {
-    let (flat, Details { bodies, cuts }) = (hulls.flat_faces(), hulls.details());
+fn left_out(parts: &MeshParts) -> Vec<Warning> {
+    let (flat, Details { bodies, cuts }) = (parts.flat_faces(), parts.details());
     let flat_parts = ModelWarning::FlatParts { parts: flat.len(), faces: flat.iter().sum() };
     let details = ModelWarning::LeftOut { bodies, cuts };
     let both = [(!flat.is_empty(), flat_parts), (bodies + cuts > 0, details)];
@@ -246,14 +246,14 @@ fn left_out(hulls: &Hulls) -> Vec<Warning> {
 pub(crate) fn warnings(
     model: &Model,
     nets: &[Net],
-    hulls: Option<&Hulls>,
+    parts: Option<&MeshParts>,
     options: &Options,
 ) -> Vec<Warning> {
     let mut out: Vec<Warning> = Vec::new();
     if options.is_tiny() {
         out.push(ModelWarning::TinyModel { size_mm: options.size_mm }.into());
     }
-    out.extend(hulls.into_iter().flat_map(left_out));
+    out.extend(parts.into_iter().flat_map(left_out));
     out.extend(model.parts().iter().flat_map(|part| part_warnings(part, options)).map(Warning::from));
     out.extend(model.ids().filter_map(|part| weak_joint(model, part)).map(Warning::from));
     // Board is taped at all hinges.

@@ -131,7 +131,7 @@ fn a_silhouette_cuts_where_the_marks_are_or_not_at_all() {
         assert_eq!(desk.state_mut().plot_mut().choice(), ["silhouette", "cardstock-200", "usb"]);
         let (port, machine) = plug_in("silhouette", &[&["--buffer", "1000000"], marks].concat());
         write_port(&mut desk, &port);
-        click_when_there(&mut desk, "box, sheet 2 of 2");
+        click_when_there(&mut desk, "box, sheet 3 of 3");
         click(&mut desk, "all sheets");
         click_when_there(&mut desk, "Start");
         let state = run(&mut desk, false);
