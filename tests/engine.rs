@@ -1,9 +1,10 @@
 //! The engine remembers results, and they equal what a new run makes.
 
+use glam::DVec3;
 use std::borrow::Cow;
 use std::sync::Mutex;
 use tatamu::component::PanelId;
-use tatamu::mesh::{self, Mesh};
+use tatamu::mesh::{self, Mesh, Soup};
 use tatamu::model::PartId;
 use tatamu::pipeline::{Change, ComponentOptions, Engine, Level, Options, Output, TrialWarning, Warning};
 use tatamu::progress::{Progress, Silent};
@@ -236,6 +237,31 @@ fn a_little_larger_model_has_the_same_design() {
     // Panels have room for less at half the size; those of the least width in the report are those of the model.
     let least_mm = larger.model().parts().iter().map(|part| part.component.narrowest_panel().1);
     assert!(least_mm.fold(f64::INFINITY, f64::min) >= Options::default().min_panel_width_mm - 1e-6);
+}
+
+/// Two rods with two clamps became four slabs that share half of the outlines with the mesh: panels are wider than rods.
+#[test]
+fn rods_that_are_thinner_than_panels_are_one_part() {
+    let rod = |z: f64| [DVec3::new(0.0, 0.0, z), DVec3::new(300.0, 4.0, z + 4.0)];
+    let clamp = |x: f64| [DVec3::new(x, -1.0, -1.0), DVec3::new(x + 8.0, 5.0, 15.0)];
+    let boxes = [rod(0.0), rod(10.0), clamp(36.0), clamp(256.0)];
+    let mut positions = Vec::new();
+    let mut faces: Vec<[u32; 4]> = Vec::new();
+    for (k, [low, high]) in (0..).zip(boxes) {
+        let corner = |c: u32| [0, 1, 2].map(|axis| if c >> axis & 1 == 0 { low[axis] } else { high[axis] });
+        positions.extend((0..8).map(|c| DVec3::from_array(corner(c))));
+        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        faces.extend(sides.map(|side| side.map(|c| c + 8 * k)));
+    }
+    let mesh = Mesh::from_soup(&Soup::new(positions, faces).expect("boxes")).expect("a mesh").0;
+    let options = Options { size_mm: 300.0, ..Options::default() };
+    let engine = Engine::new(Cow::Borrowed(&mesh));
+    let made = engine.run(&options, &Silent).expect("a model");
+    assert_eq!((made.model().parts().len(), problems(&made)), (1, 0), "{:#?}", made.warnings());
+    // With the merges as the user's own, the same model comes out.
+    let edits = made.merges().iter().map(|parts| Edit::Merge { parts: parts.clone() }).collect();
+    let again = engine.run(&Options { edits, ..options }, &Silent).expect("a model");
+    assert!(again.model() == made.model());
 }
 
 #[test]

@@ -99,7 +99,7 @@ pub fn to_toml(template: &Template) -> String {
 fn merge(parts: &[String]) -> String {
     let names: Vec<String> = parts.iter().cloned().map(quoted).collect();
     format!(
-        "\n# As separate parts, they would clash or have too little glue.\n[[edit]]\nmerge = [{}]\n",
+        "\n# As separate parts, they would clash, have too little glue or look less like the mesh.\n[[edit]]\nmerge = [{}]\n",
         names.join(", ")
     )
 }

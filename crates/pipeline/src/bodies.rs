@@ -268,7 +268,7 @@ fn parts(hulls: &Hulls, options: &Options) -> Result<Vec<Part>, Error> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::merge::needless;
+    use super::super::merge::{coarser, needless};
     use super::*;
     use glam::DVec3;
     use tatamu_core::mesh::Mesh;
@@ -345,6 +345,23 @@ mod tests {
         assert_eq!(merges[0].iter().collect::<BTreeSet<_>>(), hulls.names().iter().collect());
         // A part that the user speaks of stays.
         assert_eq!(needless(&hulls, &|_| false), None);
+    }
+
+    /// A blade in three pieces, and a guard across it.
+    #[test]
+    fn half_as_many_parts_are_those_whose_hulls_grow_least() {
+        let blade =
+            |k: f64| [DVec3::new(30.0 * k, 0.5 * k, 0.0), DVec3::new(30.0 * k + 30.0, 10.0 - 0.5 * k, 3.0)];
+        let guard = [DVec3::new(-6.0, -25.0, 0.0), DVec3::new(0.0, 35.0, 4.0)];
+        let hulls = hulls_of(&[blade(0.0), blade(1.0), blade(2.0), guard]);
+        let merges = coarser(&hulls, &|_| true).expect("four parts become two");
+        let [merge] = &merges[..] else { panic!("{merges:?}") };
+        let is_guard = |hull: &Hull| hull.support(DVec3::Y) > 20.0;
+        let guard = hulls.hulls().iter().position(is_guard).unwrap();
+        assert!(merge.len() == 3 && !merge.contains(&hulls.names()[guard]), "{merge:?}");
+        // A part that the user speaks of stays, and one part alone is not halved.
+        assert_eq!(coarser(&hulls, &|_| false), None);
+        assert_eq!(coarser(&hulls_of(&[blade(0.0)]), &|_| true), None);
     }
 
     #[test]

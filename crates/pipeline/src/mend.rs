@@ -1,7 +1,7 @@
 //! Where parts of a model clash or hang on too little glue, the same parts with other joints: thicker there, or between
 //! others; and where that is not enough, one part instead of two. What serves the whole model best is kept.
 
-use super::merge::{Merge, mergers, needless, serious};
+use super::merge::{Merge, coarser, mergers, needless, serious};
 use super::openings::openings_mm2;
 use super::reach::beyond;
 use super::{Divided, Error, Hulls};
@@ -42,6 +42,9 @@ const OTHERS: usize = 3;
 const ROUNDS: usize = 2;
 /// Models with fewer parts that are looked at once nothing else helps; those first whose hulls grow the least.
 const MERGERS: usize = 3;
+/// One with half as many parts is looked at where outlines are worse than this: pipes, swords and arrows whose parts are
+/// thinner than paper folds look more like themselves with fewer.
+const TOO_UGLY: f64 = 0.1;
 
 /// Parts and what was built of them.
 pub(super) struct Mended {
@@ -149,6 +152,25 @@ pub(super) fn mended(maker: &impl Maker) -> Result<Mended, Error> {
             }
         }
         let Some((draft, merges)) = next else { break };
+        let other = Mended { merges, ..joined(maker, draft)? };
+        if other.price() >= best.price() {
+            break;
+        }
+        best = other;
+    }
+    with_fewer(maker, best)
+}
+
+/// With half as many parts, and half as many again, as long as that is better.
+fn with_fewer(maker: &impl Maker, mut best: Mended) -> Result<Mended, Error> {
+    let may_vanish = |part: &str| maker.may_vanish(part);
+    while best.built.verdict.unlike > TOO_UGLY {
+        let Some(more) = coarser(best.divided.hulls(), &may_vanish) else { break };
+        let (divided, merges) = merged(maker, [&best.merges[..], &more].concat())?;
+        let Some(draft) = possible(drafted(maker, divided, Some(&best.built.model)))? else { break };
+        if draft.price_once_mended() >= best.price() {
+            break;
+        }
         let other = Mended { merges, ..joined(maker, draft)? };
         if other.price() >= best.price() {
             break;

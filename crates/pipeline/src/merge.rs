@@ -32,21 +32,55 @@ pub(super) fn mergers(
     let joints: Vec<[PartId; 2]> = hulls.links().iter().map(|link| [link.child, link.parent]).collect();
     let pairs = pairs(&joints, parts.len(), verdict).into_iter().filter(|[a, b]| a != b);
     let alike: BTreeSet<Vec<Vec<PartId>>> = pairs.map(|pair| with_image(hulls, pair)).collect();
-    let grown_mm3 = |set: &Vec<PartId>| {
-        let corners: Vec<_> = set.iter().flat_map(|part| parts[part.0].vertices()).copied().collect();
-        let own_mm3: f64 = set.iter().map(|part| parts[part.0].volume()).sum();
-        Hull::of_points(&corners).map_or(f64::INFINITY, |hull| hull.volume()) - own_mm3
-    };
     let possible = alike.into_iter().filter(|sets| are_possible(hulls, sets, may_vanish));
-    let mut mergers: Vec<_> = possible.map(|sets| (sets.iter().map(grown_mm3).sum::<f64>(), sets)).collect();
+    let mut mergers: Vec<_> =
+        possible.map(|sets| (sets.iter().map(|set| grown_mm3(parts, set)).sum::<f64>(), sets)).collect();
     mergers.sort_by(|a, b| a.0.total_cmp(&b.0));
     mergers.into_iter().map(|(_, sets)| named(hulls, sets))
+}
+
+/// Merges of parts with their parents, those first whose hull grows the least by it, and with them their images, until half
+/// as many parts are left; `None` where none may vanish.
+pub(super) fn coarser(hulls: &Hulls, may_vanish: &dyn Fn(&str) -> bool) -> Option<Vec<Merge>> {
+    let parts = hulls.hulls();
+    let mut set_of: Vec<PartId> = (0..parts.len()).map(PartId).collect();
+    let members = |set_of: &[PartId], set: PartId| -> Vec<PartId> {
+        (0..parts.len()).map(PartId).filter(|part| set_of[part.0] == set).collect()
+    };
+    let mut left = parts.len();
+    while left > parts.len() / 2 {
+        let pairs = hulls.links().iter().map(|link| [link.parent, link.child].map(|part| set_of[part.0]));
+        let pairs: BTreeSet<[PartId; 2]> = pairs.filter(|[a, b]| a != b).collect();
+        let grown = |pair: &[PartId; 2]| {
+            let [a, b] = pair.map(|set| members(&set_of, set));
+            grown_mm3(parts, &[&a[..], &b].concat()) - grown_mm3(parts, &a) - grown_mm3(parts, &b)
+        };
+        let sets = pairs.iter().map(|pair| (grown(pair), with_image(hulls, *pair)));
+        let possible = |(_, sets): &(f64, Vec<Vec<PartId>>)| are_possible(hulls, sets, may_vanish);
+        let least = sets.filter(possible).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        for merged in least.1 {
+            let gone: BTreeSet<PartId> = merged.iter().map(|part| set_of[part.0]).collect();
+            let kept = *gone.first()?;
+            set_of.iter_mut().filter(|set| gone.contains(set)).for_each(|set| *set = kept);
+        }
+        left = set_of.iter().collect::<BTreeSet<_>>().len();
+    }
+    let kept: BTreeSet<PartId> = set_of.iter().copied().collect();
+    let merged = kept.into_iter().map(|set| members(&set_of, set)).filter(|set| set.len() > 1);
+    Some(named(hulls, merged.collect()))
 }
 
 /// The merge, with that of the images, of two parts whose joint cuts more off them than one hull adds.
 pub(super) fn needless(hulls: &Hulls, may_vanish: &dyn Fn(&str) -> bool) -> Option<Vec<Merge>> {
     let mut sets = hulls.needless().into_iter().map(|(a, b)| with_image(hulls, [a, b]));
     sets.find(|sets| are_possible(hulls, sets, may_vanish)).map(|sets| named(hulls, sets))
+}
+
+/// What the hull of a set of parts has more than theirs.
+fn grown_mm3(parts: &[Hull], set: &[PartId]) -> f64 {
+    let corners: Vec<_> = set.iter().flat_map(|part| parts[part.0].vertices()).copied().collect();
+    let own_mm3: f64 = set.iter().map(|part| parts[part.0].volume()).sum();
+    Hull::of_points(&corners).map_or(f64::INFINITY, |hull| hull.volume()) - own_mm3
 }
 
 fn named(hulls: &Hulls, sets: Vec<Vec<PartId>>) -> Vec<Merge> {
@@ -102,8 +136,8 @@ pub(super) fn remark(merge: &Merge) -> String {
     let (all, gone) = (listing::with_and(merge), listing::with_and(&merge[1..]));
     let each = if merge.len() == 2 { "it" } else { "each" };
     format!(
-        "{all} are one part, because as separate parts they would clash, cut each other off or have too little glue; \
-         to keep {gone}, give {each} a table in the project file"
+        "{all} are one part, because as separate parts they would clash, cut each other off, have too little glue or \
+         look less like the mesh; to keep {gone}, give {each} a table in the project file"
     )
 }
 
