@@ -1,7 +1,7 @@
 //! Flat sides of surfaces.
 
-use super::{Facet, Hull, Plane, bounds, polygon};
-use glam::{DVec2, DVec3};
+use super::{Facet, Hull, Plane, bounds};
+use glam::DVec3;
 use std::collections::BTreeMap;
 
 /// A side is flat where this share of a surface lies in one plane: the tops of tables have 0.42, the seats of chairs 0.36
@@ -94,7 +94,7 @@ impl FlatSide {
         let patch = |facet| {
             let outline: Vec<DVec3> = hull.facet_points(facet).collect();
             let centre = outline.iter().sum::<DVec3>() / outline.len() as f64;
-            Patch { centre, normal: facet.plane().normal(), area: facet_area(hull, facet) }
+            Patch { centre, normal: facet.plane().normal(), area: hull.facet_area(facet) }
         };
         Self::of_patches(hull.facets().iter().map(patch).collect())
     }
@@ -104,18 +104,13 @@ impl FlatSide {
         let (low, high) = bounds(hull.vertices().iter().copied());
         let roughness = ROUGH * low.distance(high);
         let whole = hull.area();
-        let areas = hull.facets().iter().map(|facet| (facet, facet_area(hull, facet)));
+        let areas = hull.facets().iter().map(|facet| (facet, hull.facet_area(facet)));
         let large: Vec<(&Facet, f64)> = areas.filter(|(_, area)| *area >= LEAST_FACET * whole).collect();
         if large.iter().map(|(_, area)| area).sum::<f64>() < LEAST_FACETS * whole {
             return Vec::new();
         }
         large.into_iter().map(|(facet, _)| Self { plane: *facet.plane(), roughness }).collect()
     }
-}
-
-fn facet_area(hull: &Hull, facet: &Facet) -> f64 {
-    let outline: Vec<DVec2> = hull.facet_points(facet).map(|p| facet.plane().flat(p)).collect();
-    polygon::area(&outline).abs()
 }
 
 fn area(patches: &[Patch]) -> f64 {

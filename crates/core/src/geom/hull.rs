@@ -2,8 +2,8 @@
 
 mod clip;
 
-use super::{Mirror, Plane, bounds, directions, quickhull};
-use glam::DVec3;
+use super::{Mirror, Plane, bounds, directions, polygon, quickhull};
+use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 
@@ -103,6 +103,12 @@ impl Hull {
     /// The corners of the same triangles.
     pub fn corners(&self) -> impl Iterator<Item = [DVec3; 3]> + '_ {
         self.triangles().map(|t| t.map(|v| self.vertices[v as usize]))
+    }
+
+    /// Area of a facet.
+    pub(crate) fn facet_area(&self, facet: &Facet) -> f64 {
+        let outline: Vec<DVec2> = self.facet_points(facet).map(|p| facet.plane.flat(p)).collect();
+        polygon::area(&outline).abs()
     }
 
     /// Surface area, mm².
@@ -332,7 +338,7 @@ fn collect_hull(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{DQuat, DVec2};
+    use glam::DQuat;
 
     pub(super) fn grid_cube(n: usize) -> Vec<DVec3> {
         let turn = DQuat::from_euler(glam::EulerRot::XYZ, 0.4, 0.7, -1.3);

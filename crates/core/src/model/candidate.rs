@@ -6,6 +6,7 @@
 use super::demand::Demand;
 use super::link::Link;
 use super::seat::{Seating, Snap, level_axis, seat_plane, seats};
+use super::square::square_axes;
 use super::turned::TurningAxis;
 use super::{ModelError, ModelPart, Part, PartId, Symmetry};
 use crate::component::{
@@ -265,7 +266,7 @@ impl<'a> Builder<'a> {
     }
 
     /// The fold axes to try: the user's, or some about the principal axis and, in a wide search, that
-    /// axis: a finger that folds along itself keeps its outline, but spreads wide. All are turned so that joint planes
+    /// axis: a finger that folds along itself keeps its outline, but spreads wide; and those square to a box. All are turned so that joint planes
     /// that they almost cross at a right angle are crossed exactly.
     fn axes(&self, principal: &PrincipalAxis) -> Vec<DVec3> {
         if let Some(angle) = self.parts[self.part.0].options.direction_rad {
@@ -290,7 +291,8 @@ impl<'a> Builder<'a> {
         };
         let mut axes: Vec<DVec3> = Vec::with_capacity(tried.len() + 1);
         axes.extend(self.crossed().map(|crossed| crossed.axis));
-        for axis in tried {
+        let square = square_axes(&self.parts[self.part.0].hull, principal, mirror);
+        for axis in tried.into_iter().chain(square) {
             let axis = self.settled(axis);
             if axes.iter().all(|a| a.dot(axis).abs() < libm::cos(SAME_RAD)) {
                 axes.push(axis);

@@ -19,6 +19,7 @@ mod plane;
 mod plug;
 mod seat;
 mod seen;
+mod square;
 mod sturdy;
 mod symmetry;
 mod turned;
