@@ -234,7 +234,7 @@ fn a_little_larger_model_has_the_same_design() {
     let [alone, unscaled] = [&options, &Options::default()]
         .map(|options| engine.component(options, PartId(0), &Silent).expect("a component"));
     assert_eq!(alone, unscaled.resized(factor));
-    // Panels have room for less at half the size; those of the least width in the report are those of the model.
+    // Panels are as wide as paper asks for.
     let least_mm = larger.model().parts().iter().map(|part| part.component.narrowest_panel().1);
     assert!(least_mm.fold(f64::INFINITY, f64::min) >= Options::default().min_panel_width_mm - 1e-6);
 }

@@ -62,7 +62,7 @@ type PartsKey = (Up, SegmentOptions);
 type DividedKey = (PartsKey, f64, Vec<Edit>, Option<String>);
 
 /// A mesh is divided at this size, mm, and what it is divided into gets that of the model: every size rounds in its own
-/// way, and of 138 meshes 73 were divided otherwise at 160 mm than at 200.
+/// way, and of 138 meshes 73 were divided otherwise at 160, 203 or 300 mm than at 200.
 const DIVIDED_MM: f64 = 200.0;
 
 /// The parts before they are changed by hand.
@@ -189,14 +189,13 @@ impl<'m> Engine<'m> {
     /// As [`Engine::divide`], and [`Error::Model`], [`Error::NoComponent`], [`Error::SameName`],
     /// [`Error::NoPlug`].
     pub fn shape(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
-        let designed = &options.designed();
+        let (designed, factor) = &options.designed();
         let maker = Making { engine: self, options: designed, sketches: LruCache::new(SKETCHES), progress };
         let Mended { divided, built, merges, .. } =
             if options.is_tiny() { unmended(&maker)? } else { mended(&maker)? };
         self.know(&built);
-        let factor = options.size_mm / designed.size_mm;
-        let source = divided.resized(factor);
-        let mut found = refitted(resized(built.model, factor), &source, options, progress)?;
+        let source = divided.resized(*factor);
+        let mut found = refitted(resized(built.model, *factor), &source, options, progress)?;
         for name in found.refused.clone() {
             if options.components.get(&name).is_some_and(|own| own.direction_rad.is_none())
                 && let Some(other) = self.dented((&divided, &source), options, &name, progress)?
@@ -252,8 +251,7 @@ impl<'m> Engine<'m> {
             if let Some(own) = options.components.get_mut(name) {
                 own.direction_rad = Some(direction_rad);
             }
-            let designed = options.designed();
-            let factor = options.size_mm / designed.size_mm;
+            let (designed, factor) = options.designed();
             let how = (Detection::Discrete, progress);
             let built = self.building(divided, &designed, how, |run| run.finished(&run.sketch(None)?));
             if let Ok(built) = &built {
@@ -280,16 +278,16 @@ impl<'m> Engine<'m> {
         part: PartId,
         progress: &dyn Progress,
     ) -> Result<ModelPart, Error> {
-        let designed = &options.designed();
-        let divided = self.divide(designed, progress)?;
-        let bodies = Bodies::new(divided.hulls(), designed)?;
+        let (designed, factor) = options.designed();
+        let divided = self.divide(&designed, progress)?;
+        let bodies = Bodies::new(divided.hulls(), &designed)?;
         if part.0 >= bodies.parts().len() {
             let known = divided.hulls().names().join(", ");
             return Err(Error::NoComponent { name: format!("number {}", part.0 + 1), known });
         }
         progress.check()?;
         let made = model::alone(&bodies.assembly(designed.min_panel_width_mm), &self.components, part)?;
-        Ok(made.resized(options.size_mm / designed.size_mm))
+        Ok(made.resized(factor))
     }
 
     /// Whether components fold without a clash, some of them plugged if need be.

@@ -132,12 +132,14 @@ impl Default for Options {
 
 impl Options {
     /// The same for the size at which such a model is designed. It has the same shape there, and a tolerance and a thickness
-    /// to match, so that it clashes where it will; but panels have their least width.
-    fn designed(&self) -> Self {
+    /// to match, so that it clashes where it will; but panels have their least width. Also gives how many times as long
+    /// the model is.
+    fn designed(&self) -> (Self, f64) {
         let size_mm = size::designed_mm(self.size_mm);
         let smaller = size_mm / self.size_mm;
         let tolerance_mm = self.tolerance_mm.map(|mm| smaller * mm);
-        Self { size_mm, tolerance_mm, thickness_mm: smaller * self.thickness_mm, ..self.clone() }
+        let thickness_mm = smaller * self.thickness_mm;
+        (Self { size_mm, tolerance_mm, thickness_mm, ..self.clone() }, self.size_mm / size_mm)
     }
 
     /// Top edges and profile vertices of a part, by the square root of its share of the surface of all.
