@@ -137,7 +137,8 @@ pub(super) fn unmended(maker: &impl Maker) -> Result<Mended, Error> {
 /// The parts with the joints that serve the model best, where those that the shape suggests do it harm; and one part
 /// instead of two where no joint serves.
 pub(super) fn mended(maker: &impl Maker) -> Result<Mended, Error> {
-    let mut best = joined(maker, first_draft(maker)?)?;
+    let (draft, merges) = first_with_fewer(maker)?;
+    let mut best = Mended { merges, ..joined(maker, draft)? };
     let most_unlike = best.built.verdict.unlike + MOST_LOST;
     while !best.is_settled() {
         let mut least = best.price();
@@ -159,6 +160,26 @@ pub(super) fn mended(maker: &impl Maker) -> Result<Mended, Error> {
         best = other;
     }
     with_fewer(maker, best)
+}
+
+/// The first draft, or one of half as many parts, or half as many again, as long as that looks better: it takes minutes to
+/// mend one of many thin parts.
+fn first_with_fewer(maker: &impl Maker) -> Result<(Draft, Vec<Merge>), Error> {
+    let may_vanish = |part: &str| maker.may_vanish(part);
+    let (mut draft, mut merges) = (first_draft(maker)?, Vec::new());
+    while draft.verdict().unlike > TOO_UGLY {
+        let Some(more) = coarser(draft.divided.hulls(), &may_vanish) else { break };
+        let (divided, all) = merged(maker, [&merges[..], &more].concat())?;
+        let looks_better = |other: &Draft| {
+            other.verdict().unlike < draft.verdict().unlike
+                && other.price_once_mended() < draft.price_once_mended()
+        };
+        match possible(drafted(maker, divided, None))?.filter(looks_better) {
+            Some(other) => (draft, merges) = (other, all),
+            None => break,
+        }
+    }
+    Ok((draft, merges))
 }
 
 /// With half as many parts, and half as many again, as long as that is better.
