@@ -189,13 +189,13 @@ impl<'m> Engine<'m> {
     /// As [`Engine::divide`], and [`Error::Model`], [`Error::NoComponent`], [`Error::SameName`],
     /// [`Error::NoPlug`].
     pub fn shape(&self, options: &Options, progress: &dyn Progress) -> Result<Shaped, Error> {
-        let (designed, factor) = &options.designed();
-        let maker = Making { engine: self, options: designed, sketches: LruCache::new(SKETCHES), progress };
+        let (designed, factor) = options.designed();
+        let maker = Making { engine: self, options: &designed, sketches: LruCache::new(SKETCHES), progress };
         let Mended { divided, built, merges, .. } =
             if options.is_tiny() { unmended(&maker)? } else { mended(&maker)? };
         self.know(&built);
-        let source = divided.resized(*factor);
-        let mut found = refitted(resized(built.model, *factor), &source, options, progress)?;
+        let source = divided.resized(factor);
+        let mut found = refitted(resized(built.model, factor), &source, options, progress)?;
         for name in found.refused.clone() {
             if options.components.get(&name).is_some_and(|own| own.direction_rad.is_none())
                 && let Some(other) = self.dented((&divided, &source), options, &name, progress)?

@@ -165,11 +165,9 @@ pub(super) fn mended(maker: &impl Maker) -> Result<Mended, Error> {
 /// The first draft, or one of half as many parts, or half as many again, as long as that looks better: it takes minutes to
 /// mend one of many thin parts.
 fn first_with_fewer(maker: &impl Maker) -> Result<(Draft, Vec<Merge>), Error> {
-    let may_vanish = |part: &str| maker.may_vanish(part);
     let (mut draft, mut merges) = (first_draft(maker)?, Vec::new());
     while draft.verdict().unlike > TOO_UGLY {
-        let Some(more) = coarser(draft.divided.hulls(), &may_vanish) else { break };
-        let (divided, all) = merged(maker, [&merges[..], &more].concat())?;
+        let Some((divided, all)) = halved(maker, &draft.divided, &merges)? else { break };
         let looks_better = |other: &Draft| {
             other.verdict().unlike < draft.verdict().unlike
                 && other.price_once_mended() < draft.price_once_mended()
@@ -184,10 +182,8 @@ fn first_with_fewer(maker: &impl Maker) -> Result<(Draft, Vec<Merge>), Error> {
 
 /// With half as many parts, and half as many again, as long as that is better.
 fn with_fewer(maker: &impl Maker, mut best: Mended) -> Result<Mended, Error> {
-    let may_vanish = |part: &str| maker.may_vanish(part);
     while best.built.verdict.unlike > TOO_UGLY {
-        let Some(more) = coarser(best.divided.hulls(), &may_vanish) else { break };
-        let (divided, merges) = merged(maker, [&best.merges[..], &more].concat())?;
+        let Some((divided, merges)) = halved(maker, &best.divided, &best.merges)? else { break };
         let Some(draft) = possible(drafted(maker, divided, Some(&best.built.model)))? else { break };
         if draft.price_once_mended() >= best.price() {
             break;
@@ -201,9 +197,18 @@ fn with_fewer(maker: &impl Maker, mut best: Mended) -> Result<Mended, Error> {
     Ok(best)
 }
 
+/// Parts, and the merges that lead to them.
+type Merged = (Arc<Divided>, Vec<Merge>);
+
+/// Half as many parts as these, with the merges that lead to them, those of before among them; `None` where none may vanish.
+fn halved(maker: &impl Maker, divided: &Divided, merges: &[Merge]) -> Result<Option<Merged>, Error> {
+    let more = coarser(divided.hulls(), &|part: &str| maker.may_vanish(part));
+    more.map(|more| merged(maker, [merges, &more].concat())).transpose()
+}
+
 /// The parts once some of them are made one, with those whose joints would take more off them then than one hull adds: the
 /// corner of a chair's seat, in the bend of what is now one post and leg, cost it the leg.
-fn merged(maker: &impl Maker, mut merges: Vec<Merge>) -> Result<(Arc<Divided>, Vec<Merge>), Error> {
+fn merged(maker: &impl Maker, mut merges: Vec<Merge>) -> Result<Merged, Error> {
     loop {
         let divided = maker.divided(&merges)?;
         match needless(divided.hulls(), &|part: &str| maker.may_vanish(part)) {

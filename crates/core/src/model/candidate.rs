@@ -265,9 +265,9 @@ impl<'a> Builder<'a> {
         if candidates.is_empty() && before.is_empty() { Err(lost()) } else { Ok(candidates) }
     }
 
-    /// The fold axes to try: the user's, or some about the principal axis and, in a wide search, that
-    /// axis: a finger that folds along itself keeps its outline, but spreads wide; and those square to a box. All are turned so that joint planes
-    /// that they almost cross at a right angle are crossed exactly.
+    /// The fold axes to try: the user's, or some about the principal axis, those square to a box and, in a wide search, the
+    /// principal axis: a finger that folds along itself keeps its outline, but spreads wide. All are turned so that joint
+    /// planes that they almost cross at a right angle are crossed exactly.
     fn axes(&self, principal: &PrincipalAxis) -> Vec<DVec3> {
         if let Some(angle) = self.parts[self.part.0].options.direction_rad {
             return vec![principal.fold_axis(angle)];

@@ -72,8 +72,9 @@ impl SymmetryChoice {
 /// Most faces of each segment that are compared.
 const FACES: usize = 600;
 
-/// What faces as the image of a face does is at most this far from it, as a share of the size. Of a fin in the mirror plane that is a sheet, or thin,
-/// nothing near its image faces the same way, and a fish with such a fin had no twins. Not bounded from above by a case.
+/// What faces as the image of a face does is at most this far from it, as a share of the size. Of a fin in the mirror plane
+/// that is a sheet, or thin, nothing near its image faces the same way, and a fish with such a fin had no twins. Not bounded
+/// from above by a case.
 pub(super) const FAR: f64 = 0.025;
 
 /// The twin of each segment, where all have one.
