@@ -7,7 +7,7 @@ use proptest::prelude::*;
 use support::Prism;
 use tatamu::check;
 use tatamu::component::{HingeId, PanelId, PanelSet};
-use tatamu::drawing::{Layer, LineStyles, Polyline, Shape};
+use tatamu::drawing::{Layer, LineStyles, Mark, Polyline, Shape};
 use tatamu::export::fold::{self, FoldComponent, FoldModel};
 use tatamu::geom::polygon;
 use tatamu::mesh::{self, Mesh};
@@ -275,6 +275,13 @@ fn joint_marks_lie_on_their_panel_with_their_text() {
     assert!(joint.key[0].distance(place.transform_point2(DVec2::new(30.0, 0.0))) < 1e-9);
     assert_eq!(piece.labels().iter().filter(|l| l.text == "head").count(), 1);
     assert!(piece.unplaced_labels().is_empty());
+    // Nothing is drawn below what a format of layers would have above it.
+    let depth = |mark: &Mark| {
+        let is_own =
+            |layer: &Layer| if mark.layer.is_worked() { layer.is_worked() } else { *layer == mark.layer };
+        Layer::PAINTED.iter().position(is_own)
+    };
+    assert!(piece.marks(Side::Outside, &LineStyles::standard()).is_sorted_by_key(depth));
 }
 
 #[test]

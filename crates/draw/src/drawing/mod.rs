@@ -65,6 +65,22 @@ impl Layer {
         Self::Picture,
     ];
 
+    /// All layers from the lowest to the highest, as formats that paint one after the other have them:
+    /// areas, lines, texts, what belongs to the page. Pictures reach on to tabs, and so do halos.
+    pub const PAINTED: [Self; Self::ALL.len()] = [
+        Self::Tab,
+        Self::Picture,
+        Self::Glue,
+        Self::Mountain,
+        Self::Valley,
+        Self::FoldHinge,
+        Self::Slit,
+        Self::Cut,
+        Self::Label,
+        Self::Furniture,
+        Self::Registration,
+    ];
+
     /// Short name in small letters: the name of the layer in every file format, and of its table
     /// in style files.
     pub fn name(self) -> &'static str {

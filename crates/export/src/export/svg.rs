@@ -2,8 +2,9 @@
 //!
 //! Programs for cutters disagree on what they read of `width`, `height` and `viewBox`. So the size
 //! is written in mm, and the user unit is a pixel of 1/96 inch: a program that ignores any of the
-//! three still reads the right size. Nothing but pictures is transformed. Layers are painted in the
-//! order in which they first occur. Path data is written here, since the crate's own is `f32`.
+//! three still reads the right size. Nothing but pictures is transformed. Layers are painted from the
+//! lowest to the highest, whatever piece comes first. Path data is written here, since the crate's own
+//! is `f32`.
 
 use super::{ExportError, ExportFile, Format, FormatOptions, Source, TextMode, png};
 use base64::Engine;
@@ -15,7 +16,7 @@ use svg::{Document, Node};
 use tatamu_core::units::MM_PER_INCH;
 use tatamu_draw::drawing::text::{self, FONT_FAMILIES, PathCommand};
 use tatamu_draw::drawing::{
-    Drawing, Image, LineStyles, Mark, Pages, Polyline, Rgb, Shape, Stroke, Text, strokes,
+    Drawing, Image, Layer, LineStyles, Mark, Pages, Polyline, Rgb, Shape, Stroke, Text, strokes,
 };
 
 /// The registry's entry.
@@ -107,9 +108,10 @@ impl<'a> Page<'a> {
             let sheet = Rectangle::new().set("width", width).set("height", height);
             document.append(sheet.set("fill", ground.hex()));
         }
+        let used: BTreeSet<Layer> = self.drawing.marks.iter().map(|mark| mark.layer).collect();
         let mut names: Vec<&str> = Vec::new();
-        for mark in &self.drawing.marks {
-            let name = self.styles.layer_name(mark.layer);
+        for layer in Layer::PAINTED.into_iter().filter(|layer| used.contains(layer)) {
+            let name = self.styles.layer_name(layer);
             if !names.contains(&name) {
                 names.push(name);
             }

@@ -66,6 +66,25 @@ fn each_kind_of_line_has_its_layer_and_ids_are_unique() {
     assert!(ids.contains(&"cut-head-1-2") && ids.contains(&"cut-head-2-2"), "{ids:?}");
 }
 
+/// A sheet whose first piece had no tabs had the areas of tabs above their letters.
+#[test]
+fn areas_lie_below_lines_and_texts_whatever_piece_comes_first() {
+    let mut drawing = crate::export::fixture::sheet(A4_MM, 1, 1);
+    let first = drawing.marks.iter().position(|mark| mark.layer == Layer::Tab).expect("a tab");
+    drawing.marks.remove(first);
+    let pages = Pages::new("t", vec![drawing], LineStyles::standard()).expect("can be drawn");
+    let files = write(&pages, &FormatOptions::default()).expect("can be written");
+    let text = String::from_utf8(files[0].bytes.clone()).expect("UTF-8");
+    let xml = Xml::parse(&text).expect("valid XML");
+    let order: Vec<_> = groups(&xml).iter().filter_map(|g| g.attribute((INKSCAPE, "label"))).collect();
+    let place = |layer| order.iter().position(|&name| name == LineStyles::standard().layer_name(layer));
+    for area in [Layer::Picture, Layer::Tab, Layer::Glue] {
+        for line in [Layer::Mountain, Layer::Valley, Layer::FoldHinge, Layer::Cut, Layer::Label] {
+            assert!(place(area).expect("drawn") < place(line).expect("drawn"), "{area:?} {line:?} {order:?}");
+        }
+    }
+}
+
 #[test]
 fn coordinates_are_exact_and_flipped_once() {
     let text = &written(1, TextMode::Outlines)[0];
@@ -152,12 +171,12 @@ fn hairlines_are_thinner_than_a_thousandth_of_an_inch() {
     let widths = xml.descendants().filter_map(|n| n.attribute("stroke-width"));
     let widths = widths.map(|w| w.parse::<f64>().expect("number")).collect::<Vec<_>>();
     assert!(widths.len() > 10 && widths.iter().all(|&w| w / 96.0 <= 0.001 && w > 0.0));
-    // Letters are lines too, so nothing is filled but the place of glue in the legend with its triangle, the picture and
-    // the tabs.
+    // Letters are lines too, so nothing is filled but the tabs and pictures of the two pieces, and the
+    // place of glue in the legend with its triangle.
     let fills = xml.descendants().filter_map(|n| n.attribute("fill"));
     assert_eq!(
         fills.filter(|&fill| fill != "none").collect::<Vec<_>>(),
-        ["#fdf1cc", "#404040", "#faf0dc", "#faf0dc", "#e2e2e2", "#e2e2e2"]
+        ["#e2e2e2", "#e2e2e2", "#faf0dc", "#faf0dc", "#fdf1cc", "#404040"]
     );
 }
 
