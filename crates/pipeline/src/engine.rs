@@ -159,7 +159,7 @@ impl<'m> Engine<'m> {
             let symmetry = options.segmentation.symmetry.moved(&to_model);
             let wanted = SegmentOptions { symmetry, ..options.segmentation };
             let segmentation = segment::segment(&mesh, &wanted, progress)?;
-            let parts = Parts::new(Arc::new(mesh), segmentation);
+            let parts = Parts::new(Arc::new(mesh), segmentation).sliced(&wanted, progress)?;
             if wanted.parts.is_some() {
                 return Ok::<_, Error>(Arc::new(Segmented { parts, to_model, touching: None }));
             }

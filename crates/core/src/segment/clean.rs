@@ -21,7 +21,7 @@ pub(super) const SHOWN: f64 = 0.002;
 /// has none, a knight of chess no snout and a mug a slab for a handle; with 1.5 outlines of 17 meshes whose parts
 /// differ, most of them pots and mugs, are less alike by 0.0025. With 3, parts of 22 of 466 meshes change again; their models
 /// were not compared.
-const OUTLINES: f64 = 2.0;
+pub(super) const OUTLINES: f64 = 2.0;
 
 /// A division of more parts than this is not taken for its outlines, since many limbs are too thin for their joints: a
 /// scorpion of 23 parts instead of 20 loses 0.038. With 15 a wolf has no ears, and an octopus of 17 parts clashes, where one

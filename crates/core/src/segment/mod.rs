@@ -33,6 +33,7 @@ mod sdf;
 #[cfg(test)]
 mod shapes;
 mod sheets;
+mod slices;
 mod smooth;
 mod solids;
 mod stage;

@@ -100,7 +100,7 @@ pub fn segment(
 }
 
 /// What a part more has to add to the intersection over union.
-fn part_cost(options: &SegmentOptions) -> f64 {
+pub(super) fn part_cost(options: &SegmentOptions) -> f64 {
     PART_COST / libm::pow(DETAIL_RANGE, options.detail)
 }
 
