@@ -134,9 +134,10 @@ impl Scale {
 #[cfg(test)]
 mod tests {
     use super::super::segment;
-    use super::super::shapes::{Shape, balls_in_a_row, mesh, rounded_cubes, turned};
+    use super::super::shapes::{Shape, balls_in_a_row, mesh, rounded_cubes};
     use super::*;
     use crate::progress::Silent;
+    use glam::DVec3;
 
     fn sliced(shape: &Shape, parts: Option<usize>) -> Parts {
         let options = SegmentOptions { parts, ..SegmentOptions::default() };
@@ -184,29 +185,35 @@ mod tests {
         assert_eq!(sliced(&plate(&["oooo", "o..o", "o..o"]), Some(3)).names().len(), 3);
     }
 
-    /// The hole of a nut is round: it has no sharp edges.
+    /// A bar of 20 by 15 bent to a ring, or to a part of one: `steps` of 32.
+    fn bent_bar(steps: u32) -> Shape {
+        let around = if steps == 32 { 32 } else { steps + 1 };
+        let corners = |k: u32| {
+            let (sin, cos) = libm::sincos(f64::from(k) / 32.0 * std::f64::consts::TAU);
+            let profile = [(30.0, 0.0), (50.0, 0.0), (50.0, 15.0), (30.0, 15.0)];
+            profile.map(|(radius, z)| DVec3::new(cos * radius, sin * radius, z))
+        };
+        let at = |k: u32, corner: u32| 4 * (k % around) + corner % 4;
+        let sides = (0..steps).flat_map(|k| (0..4).map(move |c| (k, c)));
+        let sides = sides.map(|(k, c)| [at(k, c), at(k, c + 1), at(k + 1, c + 1), at(k + 1, c)]);
+        let ends = [[0, 3, 2, 1].map(|c| at(0, c)), [0, 1, 2, 3].map(|c| at(steps, c))];
+        let quads = sides.chain(ends.into_iter().filter(|_| steps < 32));
+        let faces = quads.flat_map(|[a, b, c, d]| [[a, c, b], [a, d, c]]).collect();
+        ((0..around).flat_map(corners).collect(), faces)
+    }
+
+    /// A nut and an arch bend without sharp edges.
     #[test]
-    fn a_ring_is_cut_open() {
-        // Once round a cross-section, from the inside of the lower face.
-        let profile = [(30.0, 0.0), (50.0, 0.0), (50.0, 15.0), (30.0, 15.0)];
-        let around = 32;
-        let (positions, faces) = turned((0.0, 0.0), &profile, around);
-        // Without the two fans at the axis, and closed along the hole instead.
-        let last = positions.len() as u32 - 1;
-        let mut faces: Vec<[u32; 3]> =
-            faces.into_iter().filter(|face| !face.contains(&0) && !face.contains(&last)).collect();
-        let at = |ring: usize, k: usize| (1 + ring * around + k % around) as u32;
-        for k in 0..around {
-            let [a, b, c, d] = [at(3, k), at(3, k + 1), at(0, k), at(0, k + 1)];
-            faces.extend([[a, b, d], [a, d, c]]);
+    fn what_bends_is_cut_through_its_middle() {
+        for steps in [32, 16] {
+            let bar = bent_bar(steps);
+            let (parts, solid) = (sliced(&bar, None), mesh(&bar).volume());
+            assert!(solid > 0.0);
+            // A quarter of a ring has a hull of 1.2 times its volume, and an eighth one of 1.06 times.
+            let count = parts.names().len();
+            assert!((steps as usize / 8..=8).contains(&count), "{steps}: {count}");
+            assert!(volume(&parts) < 1.25 * solid, "{steps}: {} {solid}", volume(&parts));
         }
-        let faces = faces.into_iter().map(|face| face.map(|v| v - 1)).collect();
-        let ring = (positions[1..positions.len() - 1].to_vec(), faces);
-        let parts = sliced(&ring, None);
-        // A quarter of this ring has a hull of 1.2 times its volume, and an eighth one of 1.06 times.
-        assert!([4, 8].contains(&parts.names().len()), "{}", parts.names().len());
-        let solid = mesh(&ring).volume();
-        assert!(volume(&parts) < 1.25 * solid, "{} {solid}", volume(&parts));
     }
 
     #[test]

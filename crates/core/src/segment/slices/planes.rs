@@ -24,8 +24,8 @@ pub(super) fn is_same(a: &Plane, b: &Plane, mesh: &Mesh) -> bool {
     cosine.abs() > PARALLEL && apart <= IN_PLANE * mesh.diagonal_mm()
 }
 
-/// Planes to cut a part by, each with the share of its concave edges that lie in it. Those through the middle of a bent part
-/// or a ring, which has no sharp edges where it bends, come last.
+/// Planes to cut a part by, each with the share of its concave edges that lie in it. Those through the middle of a ring, of a
+/// bent part, or of one without sharp edges, come last.
 pub(super) fn planes(
     mesh: &Mesh,
     own: &[usize],
@@ -39,7 +39,7 @@ pub(super) fn planes(
     let near = IN_PLANE * mesh.diagonal_mm();
     let share = |plane: &Plane| {
         let is_in = |edge: &&Concave| edge.ends.iter().all(|&p| plane.distance(p).abs() <= near);
-        concave.iter().filter(is_in).map(|edge| edge.length).sum::<f64>() / total
+        concave.iter().filter(is_in).map(|edge| edge.length).sum::<f64>() / total.max(f64::MIN_POSITIVE)
     };
     let longest = &concave[..concave.len().min(MOST_EDGES)];
     let of_edge = |(k, edge): (usize, &Concave)| {
@@ -56,7 +56,7 @@ pub(super) fn planes(
     planes.retain(|(_, share)| *share >= LEAST_SHARE);
     planes.sort_by(|a, b| b.1.total_cmp(&a.1));
     planes.truncate(MOST_PLANES);
-    if is_bent || is_ring(&faces, &edges) {
+    if planes.is_empty() || is_bent || is_ring(&faces, &edges) {
         let (low, high) = bounds(own.iter().flat_map(|&face| mesh.corners(face)));
         let middle = |axis| Some((Plane::through((low + high) / 2.0, axis)?, 0.0));
         planes.extend(DVec3::AXES.into_iter().filter_map(middle));
