@@ -18,6 +18,7 @@ use super::surface::Surface;
 use super::{Method, Parts, SegmentOptions};
 use crate::mesh::{Mesh, Views};
 use crate::progress::{Cancelled, Progress};
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 /// Meshes of more faces are left as they are: patches are small enough on them, and planes take long to try.
@@ -39,7 +40,8 @@ const MARGIN: f64 = 0.01;
 
 impl Parts {
     /// The same mesh in the parts that planes along sharp concave edges give, if these are worth more: either of whole
-    /// bodies, or of the parts that were found. A number of parts that is asked for stands.
+    /// bodies, or of the parts that were found. A number of parts that is asked for stands, but where patches reach it only
+    /// by parts without volume.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -57,9 +59,14 @@ impl Parts {
         let mirror = self.segmentation().mirror().copied();
         let starts = [Slices::of_bodies(mesh, mirror, &scale.solid), Slices::of_parts(&self, &scale.solid)];
         let least = scale.worth(&self) + MARGIN;
+        let counts = match options.parts {
+            None => 1..=MOST_PARTS,
+            Some(count) if self.solids().hulls.iter().all(Result::is_ok) => count..=count,
+            Some(count) => 1..=count,
+        };
         let mut best: Option<(f64, Self)> = None;
         for slices in starts {
-            let found = scale.best_of(slices, options.parts, progress)?;
+            let found = scale.best_of(slices, &counts, progress)?;
             best = [best, found].into_iter().flatten().reduce(|a, b| if b.0 > a.0 { b } else { a });
         }
         Ok(best.filter(|(worth, _)| *worth > least).map_or(self, |(_, parts)| parts))
@@ -87,20 +94,18 @@ struct Scale {
 }
 
 impl Scale {
-    /// The best parts that cutting one after the other gives, with what they are worth; of as many as `wanted`, if that is a
-    /// number.
+    /// The best parts that cutting one after the other gives, of such a number, with what they are worth.
     fn best_of(
         &self,
         mut slices: Slices,
-        wanted: Option<usize>,
+        counts: &RangeInclusive<usize>,
         progress: &dyn Progress,
     ) -> Result<Option<(f64, Parts)>, Cancelled> {
-        let most = wanted.unwrap_or(MOST_PARTS);
         let mut best: Option<(f64, Parts)> = None;
         let mut in_vain = 0;
-        while slices.count() <= most && (in_vain < PATIENCE || wanted.is_some()) {
+        while slices.count() <= *counts.end() && in_vain < PATIENCE {
             progress.check()?;
-            if wanted.is_none_or(|count| count == slices.count()) {
+            if counts.contains(&slices.count()) {
                 let parts = Parts::new(Arc::new(slices.mesh().clone()), slices.segmentation());
                 let worth = self.worth(&parts);
                 in_vain += 1;
@@ -182,7 +187,11 @@ mod tests {
         for count in [1, 4] {
             assert_eq!(sliced(&comb, Some(count)).names().len(), count);
         }
-        assert_eq!(sliced(&plate(&["oooo", "o..o", "o..o"]), Some(3)).names().len(), 3);
+        // A frame falls in four at once.
+        let frame = plate(&["oooo", "o..o", "o..o", "oooo"]);
+        let parts = sliced(&frame, Some(4));
+        assert_eq!(parts.names().len(), 4);
+        assert!(parts.solids().hulls.iter().all(Result::is_ok));
     }
 
     /// A bar of 20 by 15 bent to a ring, or to a part of one: `steps` of 32.
