@@ -24,8 +24,8 @@ pub(super) fn is_same(a: &Plane, b: &Plane, mesh: &Mesh) -> bool {
     cosine.abs() > PARALLEL && apart <= IN_PLANE * mesh.diagonal_mm()
 }
 
-/// Planes to cut a part by, each with the share of its concave edges that lie in it. Those through the middle of a ring, of a
-/// bent part, or of one without sharp edges, come last.
+/// Planes to cut a part by, each with the share of its concave edges that lie in it. The mirror plane, and those through the
+/// middle of a ring, of a bent part, or of one without sharp edges, come last.
 pub(super) fn planes(
     mesh: &Mesh,
     own: &[usize],
@@ -46,22 +46,22 @@ pub(super) fn planes(
         let through = longest[k + 1..].iter().filter_map(|other| edge.plane_with(other, near));
         through.chain(edge.own_planes()).collect::<Vec<_>>()
     };
-    let mut planes: Vec<(Plane, f64)> = Vec::new();
-    let through_edges = longest.iter().enumerate().flat_map(of_edge);
-    for plane in through_edges.chain(mirror.map(|mirror| *mirror.plane())) {
+    let add = |mut planes: Vec<(Plane, f64)>, plane: Plane| {
         if !planes.iter().any(|(known, _)| is_same(known, &plane, mesh)) {
             planes.push((plane, share(&plane)));
         }
-    }
+        planes
+    };
+    let mut planes = longest.iter().enumerate().flat_map(of_edge).fold(Vec::new(), add);
     planes.retain(|(_, share)| *share >= LEAST_SHARE);
     planes.sort_by(|a, b| b.1.total_cmp(&a.1));
     planes.truncate(MOST_PLANES);
+    let mut middle: Vec<Plane> = mirror.map(|mirror| *mirror.plane()).into_iter().collect();
     if planes.is_empty() || is_bent || is_ring(&faces, &edges) {
         let (low, high) = bounds(own.iter().flat_map(|&face| mesh.corners(face)));
-        let middle = |axis| Some((Plane::through((low + high) / 2.0, axis)?, 0.0));
-        planes.extend(DVec3::AXES.into_iter().filter_map(middle));
+        middle.extend(DVec3::AXES.into_iter().filter_map(|axis| Plane::through((low + high) / 2.0, axis)));
     }
-    planes
+    middle.into_iter().fold(planes, add)
 }
 
 /// Whether a surface is closed and has a hole through it, by Euler's formula.
