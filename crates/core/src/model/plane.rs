@@ -20,6 +20,10 @@ const BEYOND: f64 = 0.5;
 /// joint is lost falls off. Each joint counts for itself: as a share of all of them together, the tail of a
 /// scorpion was cut off its body for the sake of one of eight legs.
 const JOINT_PRICE: f64 = 2.0;
+/// The share that a plane takes off the larger hull counts by this power of how many times it is larger: with 0 the wheels of a
+/// car cost its body both sides and the sails of a windmill become one, since that is a small share of a large part, but as
+/// much as the small ones. Not bounded from above by a case.
+const LARGER: f64 = 0.5;
 /// A cut less deep than this share of the interface's radius takes nothing: the feet of a table all stand on one
 /// plane, more or less, and turned planes would make a roof of it. With 0.12 the same happens to an octopus; with 0.25
 /// one joint of a lion has less than 40 mm².
@@ -207,6 +211,8 @@ pub(super) struct Ground<'a> {
     /// Points in one hull only: what the plane takes off the other's inside is not lost.
     alone: [Vec<DVec3>; 2],
     counts: [f64; 2],
+    /// What the share that is lost of either counts.
+    weights: [f64; 2],
     kept: [Vec<Kept<'a>>; 2],
     most_glue: f64,
 }
@@ -231,7 +237,9 @@ impl<'a> Ground<'a> {
         }
         let size = |hull: &Hull| libm::cbrt(hull.volume()).powi(2);
         let kept = kept.map(|kept| kept.iter().map(|points| Kept::new(points)).collect());
-        Self { hulls, alone, counts, kept, most_glue: size(parent).min(size(child)) }
+        let least_mm3 = parent.volume().min(child.volume());
+        let weights = hulls.map(|hull| libm::pow(hull.volume() / least_mm3, LARGER));
+        Self { hulls, alone, counts, weights, kept, most_glue: size(parent).min(size(child)) }
     }
 
     /// Flat sides of both hulls, as planes between them.
@@ -250,7 +258,8 @@ impl<'a> Ground<'a> {
         let enough = ENOUGH_GLUE * self.most_glue;
         let lack = (1.0 - self.common(plane, rough_mm) / enough.max(f64::MIN_POSITIVE)).max(0.0);
         let lost_joints = self.lost_joints(plane, 2.0 * rough_mm);
-        self.lost(plane).iter().sum::<f64>() + JOINT_PRICE * lost_joints + GLUE_PRICE * lack
+        let lost: f64 = self.lost(plane).iter().zip(self.weights).map(|(share, weight)| share * weight).sum();
+        lost + JOINT_PRICE * lost_joints + GLUE_PRICE * lack
     }
 
     /// The shares of the interfaces of other joints that a plane cuts off, together, where it cuts deeper than this.
@@ -389,6 +398,20 @@ mod tests {
         };
         assert_eq!(lost(&kept), 0.0);
         assert_eq!(lost(&[kept.concat()]), 1.0, "as a share of all, one joint is not worth the part");
+    }
+
+    /// A wheel is half inside of the body of a car, and reaches out of its side and its bottom. Planes leaned between the two,
+    /// and took the lower edge off the whole body.
+    #[test]
+    fn a_small_part_does_not_cost_a_large_one_more_than_it_is() {
+        let body = cuboid(DVec3::ZERO, DVec3::new(100.0, 44.0, 40.0));
+        let wheel = cuboid(DVec3::new(11.0, -2.0, -11.0), DVec3::new(33.0, 6.0, 12.0));
+        let across = [[0.0, 12.0], [0.0, 6.0], [0.0, 0.0], [3.0, 0.0], [6.0, 0.0]];
+        let points = [11.0, 22.0, 33.0].map(|x| across.map(|[y, z]| DVec3::new(x, y, z))).concat();
+        let ground = Ground::new(&body, &wheel, [&[], &[]]);
+        let (plane, _) = between(&contact(points, Interface::Bodies), &ground, &[]);
+        let lost_mm3 = body.volume() - body.clip(&plane).unwrap().volume();
+        assert!(lost_mm3 < wheel.volume(), "{plane:?} takes {lost_mm3} mm³");
     }
 
     /// The borders of four legs with the top of a table are at slightly different heights, and one leans. Planes were turned to
