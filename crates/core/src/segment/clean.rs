@@ -157,14 +157,23 @@ impl Cleaner<'_> {
             points[foot.standing as usize].extend(border.map(|centre| foot.straight_on(centre)));
         }
         let hulls: Vec<Hull> = points.par_iter().filter_map(|points| Hull::of_points(points).ok()).collect();
-        let mut cover = Cover::new(solid);
-        hulls.iter().for_each(|hull| cover.add(&solid.runs(hull.corners())));
-        let seen: Vec<_> = hulls.iter().map(|hull| views.cover_of(hull)).collect();
+        let (iou, unlike) = iou_and_unlike(hulls.iter(), solid, views);
         let borders = parts.border_costs(&self.fine.surface).values().sum();
-        let iou = cover.iou();
         let worth = iou - price(part_cost, parts.count, borders);
-        Weighed { parts, iou, worth, unlike: views.unlike(&views.outlines(&[]), &seen) }
+        Weighed { parts, iou, worth, unlike }
     }
+}
+
+/// Overlap of hulls with the solid, and how far their outlines are off (see [`Views::unlike`]).
+pub(super) fn iou_and_unlike<'a>(
+    hulls: impl Iterator<Item = &'a Hull> + Clone,
+    solid: &Interior,
+    views: &Views,
+) -> (f64, f64) {
+    let mut cover = Cover::new(solid);
+    hulls.clone().for_each(|hull| cover.add(&solid.runs(hull.corners())));
+    let seen: Vec<_> = hulls.map(|hull| views.cover_of(hull)).collect();
+    (cover.iou(), views.unlike(&views.outlines(&[]), &seen))
 }
 
 #[cfg(test)]

@@ -96,17 +96,13 @@ impl Parts {
         })
     }
 
-    fn labels(&self) -> Vec<u32> {
-        self.segmentation().face_segments().iter().map(|id| id.0).collect()
-    }
-
     fn merged(self, names: &[String]) -> Result<Self, EditError> {
         let found: Result<Vec<usize>, _> = names.iter().map(|name| self.find(name, "to merge")).collect();
         let found = found?;
         if found.iter().collect::<BTreeSet<_>>().len() < 2 {
             return Err(EditError::Few);
         }
-        let mut labels = self.labels();
+        let mut labels = self.segmentation().labels();
         for label in &mut labels {
             if found.contains(&(*label as usize)) {
                 *label = found[0] as u32;
@@ -118,7 +114,8 @@ impl Parts {
 
     fn split(self, name: &str, plane: &Plane, front: Option<&str>) -> Result<Self, EditError> {
         let part = self.find(name, "to split")? as u32;
-        let Cut { mesh, mut labels, is_in_front } = Cut::new(self.mesh(), &self.labels(), part, plane);
+        let Cut { mesh, mut labels, is_in_front } =
+            Cut::new(self.mesh(), &self.segmentation().labels(), part, plane);
         // Faces of other parts are on side 2.
         let side = |f: usize| is_in_front[f].map_or(2, u32::from);
         let surface = Surface::of_faces(mesh.positions(), mesh.faces());

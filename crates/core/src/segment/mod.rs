@@ -52,6 +52,7 @@ pub use solids::{Details, Solids};
 pub use stage::segment;
 pub use symmetry::{Axis, SymmetryChoice};
 
+use self::surface::Surface;
 use crate::mesh::{Mesh, MirrorPlane};
 use crate::progress::Cancelled;
 use std::collections::BTreeMap;
@@ -183,6 +184,17 @@ impl Segmentation {
         }
         let face_segment = set_of_face.iter().map(|&s| id[s as usize]).collect();
         Self { face_segment, count: ranking.len(), mirror: None }
+    }
+
+    /// The same of the faces of a mesh, with the mirror plane that they were made for.
+    fn of_labels(mesh: &Mesh, labels: &[u32], sets: usize, mirror: Option<MirrorPlane>) -> Self {
+        let areas = Surface::face_areas(mesh.positions(), mesh.faces());
+        Self::numbered(labels, sets, &areas).mirrored_in(mirror)
+    }
+
+    /// The number of the segment of each face.
+    fn labels(&self) -> Vec<u32> {
+        self.face_segment.iter().map(|id| id.0).collect()
     }
 
     /// The segment of each face.

@@ -38,8 +38,7 @@ impl Parts {
         names: &[String],
         mirror: Option<MirrorPlane>,
     ) -> Self {
-        let areas = face_areas(&mesh);
-        let segmentation = Segmentation::numbered(labels, names.len(), &areas).mirrored_in(mirror);
+        let segmentation = Segmentation::of_labels(&mesh, labels, names.len(), mirror);
         let mut ordered = vec![String::new(); segmentation.count()];
         for (id, &label) in segmentation.face_segments().iter().zip(labels) {
             let name = &mut ordered[id.0 as usize];
@@ -74,9 +73,8 @@ impl Parts {
         }
         let of_face: Vec<u32> =
             self.segmentation.face_segments().iter().map(|id| label[id.0 as usize]).collect();
-        let areas = face_areas(&self.mesh);
         let mirror = self.segmentation.mirror().copied();
-        let segmentation = Segmentation::numbered(&of_face, label.len(), &areas).mirrored_in(mirror);
+        let segmentation = Segmentation::of_labels(&self.mesh, &of_face, label.len(), mirror);
         Self::new(self.mesh, segmentation)
     }
 
@@ -128,15 +126,11 @@ impl Parts {
     /// Share of the surface that each part has.
     pub fn area_shares(&self) -> Vec<f64> {
         let mut shares = vec![0.0; self.names.len()];
-        let areas = face_areas(&self.mesh);
+        let areas = Surface::face_areas(self.mesh.positions(), self.mesh.faces());
         let total: f64 = areas.iter().sum();
         for (id, area) in self.segmentation.face_segments().iter().zip(areas) {
             shares[id.0 as usize] += area / total;
         }
         shares
     }
-}
-
-fn face_areas(mesh: &Mesh) -> Vec<f64> {
-    Surface::face_areas(mesh.positions(), mesh.faces())
 }

@@ -8,15 +8,15 @@ mod planes;
 mod section;
 
 use self::cutting::Slices;
-use super::choose::{Cover, price};
-use super::clean::{OUTLINES, SHOWN};
+use super::choose::price;
+use super::clean::{OUTLINES, SHOWN, iou_and_unlike};
 use super::forest::Forest;
 use super::grid::{CELLS, Interior};
 use super::patches::Partition;
 use super::stage::part_cost;
 use super::surface::Surface;
 use super::{Method, Parts, SegmentOptions};
-use crate::mesh::{Mesh, Views};
+use crate::mesh::Views;
 use crate::progress::{Cancelled, Progress};
 use std::ops::RangeInclusive;
 use std::sync::Arc;
@@ -36,8 +36,7 @@ const MOST_PARTS: usize = 16;
 /// better.
 const PATIENCE: usize = 3;
 /// What borders count here, against those of patches: with 0.7 the bore of a tube is closed, and with 1 a cat, cut from a
-/// board, has one ear. With 0 eleven of 275 meshes more are divided otherwise;
-/// their models were not compared.
+/// board, has one ear. With 0 eleven of 275 meshes more are divided otherwise; their models were not compared.
 const BORDERS: f64 = 0.5;
 /// What planes have to be worth more than what was there.
 const MARGIN: f64 = 0.01;
@@ -51,8 +50,11 @@ impl Parts {
     /// [`Cancelled`].
     pub fn sliced(self, options: &SegmentOptions, progress: &dyn Progress) -> Result<Self, Cancelled> {
         let mesh = self.mesh();
-        let is_by_hand = mesh.faces().len() <= MOST_FACES && has_flat_faces(mesh);
-        if options.method != Method::Merge || !is_by_hand {
+        if options.method != Method::Merge || mesh.faces().len() > MOST_FACES {
+            return Ok(self);
+        }
+        let surface = Surface::of_faces(mesh.positions(), mesh.faces());
+        if !has_flat_faces(&surface) {
             return Ok(self);
         }
         let scale = Scale {
@@ -61,7 +63,9 @@ impl Parts {
             part_cost: part_cost(options),
         };
         let mirror = self.segmentation().mirror().copied();
-        let starts = [Slices::of_bodies(mesh, mirror, &scale.solid), Slices::of_parts(&self, &scale.solid)];
+        let of_bodies = Slices::new(mesh, surface.components(|_| 0), mirror, &scale.solid);
+        let found = self.segmentation();
+        let of_parts = Slices::new(mesh, (found.labels(), found.count()), mirror, &scale.solid);
         let least = scale.worth(&self) + MARGIN;
         let counts = match options.parts {
             None => 1..=MOST_PARTS,
@@ -69,7 +73,7 @@ impl Parts {
             Some(count) => 1..=count,
         };
         let mut best: Option<(f64, Self)> = None;
-        for slices in starts {
+        for slices in [of_bodies, of_parts] {
             let found = scale.best_of(slices, &counts, progress)?;
             best = [best, found].into_iter().flatten().reduce(|a, b| if b.0 > a.0 { b } else { a });
         }
@@ -77,9 +81,8 @@ impl Parts {
     }
 }
 
-/// Whether a mesh has large flat faces, as one has that was made by hand.
-fn has_flat_faces(mesh: &Mesh) -> bool {
-    let surface = Surface::of_faces(mesh.positions(), mesh.faces());
+/// Whether a surface has large flat faces, as that of a mesh has that was made by hand.
+fn has_flat_faces(surface: &Surface) -> bool {
     let mut forest = Forest::new(surface.len());
     for link in surface.links().iter().filter(|link| link.turn_rad.abs() <= FLAT_RAD) {
         forest.join(link.cells);
@@ -127,16 +130,12 @@ impl Scale {
     fn worth(&self, parts: &Parts) -> f64 {
         let (mesh, segmentation) = (parts.mesh(), parts.segmentation());
         let hulls = parts.solids().hulls;
-        let mut cover = Cover::new(&self.solid);
-        hulls.iter().flatten().for_each(|hull| cover.add(&self.solid.runs(hull.corners())));
-        let seen: Vec<_> = hulls.iter().flatten().map(|hull| self.views.cover_of(hull)).collect();
-        let unlike = self.views.unlike(&self.views.outlines(&[]), &seen);
+        let (iou, unlike) = iou_and_unlike(hulls.iter().flatten(), &self.solid, &self.views);
         let count = segmentation.count();
-        let partition =
-            Partition { of_cell: segmentation.face_segments().iter().map(|id| id.0).collect(), count };
+        let partition = Partition { of_cell: segmentation.labels(), count };
         let surface = Surface::of_faces(mesh.positions(), mesh.faces());
         let borders = BORDERS * partition.border_costs(&surface).values().sum::<f64>();
-        cover.iou() - price(self.part_cost, count, borders) - OUTLINES * (unlike + SHOWN * count as f64)
+        iou - price(self.part_cost, count, borders) - OUTLINES * (unlike + SHOWN * count as f64)
     }
 }
 

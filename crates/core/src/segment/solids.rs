@@ -76,7 +76,7 @@ impl Solids {
         let surface = Surface::of_faces(mesh.positions(), mesh.faces());
         let (body, _) = surface.components(|_| 0);
         let segments = segmentation.face_segments();
-        let of_face: Vec<u32> = segments.iter().map(|id| id.0).collect();
+        let of_face = segmentation.labels();
         let feet = Plates::new(&surface, &of_face, segmentation.count()).feet();
         let beyond = beyond_sides(&feet, mesh, |face| face, segmentation.count());
         let (feet, reach) = straight_on(mesh, segmentation, &feet);

@@ -28,7 +28,7 @@ const FINE_SMOOTHING: f64 = 0.08;
 const LARGEST_PATCH: f64 = 0.015;
 
 /// Segments are at least this share of the area.
-const LEAST_SEGMENT: f64 = 0.0035;
+pub(super) const LEAST_SEGMENT: f64 = 0.0035;
 
 /// What a part more has to add to the intersection over union, at detail 0, 0.5 and 1: 0.04,
 /// 0.01, 0.0025.

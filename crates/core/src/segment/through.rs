@@ -25,7 +25,7 @@ impl Parts {
         }
         let mirror = self.segmentation().mirror().copied();
         let mut mesh = self.mesh().clone();
-        let mut labels: Vec<u32> = self.segmentation().face_segments().iter().map(|id| id.0).collect();
+        let mut labels = self.segmentation().labels();
         let mut count = self.names().len() as u32;
         for (part, plane) in cuts {
             let cut = Cut::new(&mesh, &labels, part as u32, &plane);
@@ -34,8 +34,7 @@ impl Parts {
             count += 1;
             mesh = Arc::new(cut.mesh);
         }
-        let areas = Surface::face_areas(mesh.positions(), mesh.faces());
-        let segmentation = Segmentation::numbered(&labels, count as usize, &areas).mirrored_in(mirror);
+        let segmentation = Segmentation::of_labels(&mesh, &labels, count as usize, mirror);
         Self::new(mesh, segmentation)
     }
 }

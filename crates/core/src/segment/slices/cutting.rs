@@ -4,10 +4,12 @@ use super::planes::{is_same, planes};
 use super::section::{Cap, sections};
 use crate::geom::{Hull, Plane};
 use crate::mesh::{Mesh, MirrorPlane};
+use crate::segment::Segmentation;
+use crate::segment::details::points_at;
 use crate::segment::forest::Forest;
 use crate::segment::grid::Interior;
+use crate::segment::stage::LEAST_SEGMENT;
 use crate::segment::surface::Surface;
-use crate::segment::{Parts, Segmentation};
 use glam::DVec3;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -16,8 +18,6 @@ use std::collections::BTreeMap;
 const ON_PLANE: f64 = 1e-6;
 /// A part is cut if its hull has more outside of the solid than this share of the solid. Not bounded by a case.
 const LOOSE: f64 = 0.01;
-/// Pieces are at least this share of the area, as other parts are.
-const LEAST_PIECE: f64 = 0.0035;
 /// What all concave edges of a part are worth that lie in a plane, and a ring that is cut open, against the share of the
 /// solid that a cut takes off hulls: of cuts that take nothing off them these come first.
 const CONCAVE: f64 = 0.002;
@@ -51,21 +51,8 @@ pub(super) struct Slices<'a> {
 }
 
 impl<'a> Slices<'a> {
-    /// Each connected body is a part.
-    pub fn of_bodies(mesh: &Mesh, mirror: Option<MirrorPlane>, solid: &'a Interior) -> Self {
-        let surface = Surface::of_faces(mesh.positions(), mesh.faces());
-        let (labels, count) = surface.components(|_| 0);
-        Self::new(mesh, (labels, count), mirror, solid)
-    }
-
-    /// The parts that were found.
-    pub fn of_parts(parts: &Parts, solid: &'a Interior) -> Self {
-        let segmentation = parts.segmentation();
-        let labels = segmentation.face_segments().iter().map(|id| id.0).collect();
-        Self::new(parts.mesh(), (labels, segmentation.count()), segmentation.mirror().copied(), solid)
-    }
-
-    fn new(
+    /// A mesh with a part for each face, and their number.
+    pub fn new(
         mesh: &Mesh,
         (labels, count): (Vec<u32>, usize),
         mirror: Option<MirrorPlane>,
@@ -89,8 +76,7 @@ impl<'a> Slices<'a> {
 
     /// The parts as segments.
     pub fn segmentation(&self) -> Segmentation {
-        let areas = Surface::face_areas(self.mesh.positions(), self.mesh.faces());
-        Segmentation::numbered(&self.labels, self.count(), &areas).mirrored_in(self.mirror)
+        Segmentation::of_labels(&self.mesh, &self.labels, self.count(), self.mirror)
     }
 
     fn faces(&self, part: usize) -> Vec<usize> {
@@ -98,12 +84,8 @@ impl<'a> Slices<'a> {
     }
 
     fn slice(&self, part: usize, caps: Vec<Cap>) -> Slice {
-        let mut vertices: Vec<u32> =
-            self.faces(part).into_iter().flat_map(|face| self.mesh.faces()[face]).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let points: Vec<DVec3> = vertices.iter().map(|&v| self.mesh.positions()[v as usize]).collect();
-        let hull = Hull::of_points(&points).ok();
+        let vertices = self.faces(part).into_iter().flat_map(|face| self.mesh.faces()[face]).collect();
+        let hull = Hull::of_points(&points_at(&self.mesh, vertices)).ok();
         let outside = hull.as_ref().map_or(0, |hull| self.solid.outside(&self.solid.runs(hull.corners())));
         let centroid = hull.as_ref().map_or(DVec3::ZERO, Hull::centroid);
         Slice { caps, outside, centroid, twin: None, best: None }
@@ -179,8 +161,9 @@ impl<'a> Slices<'a> {
             return Some(cut);
         }
         let pieces = std::iter::once(part).chain(self.count()..cut.count());
-        let both = pieces.fold(cut.clone(), |both, piece| both.cut_by(piece, &image).unwrap_or(both));
-        (both.count() > cut.count()).then_some(both)
+        let count = cut.count();
+        let both = pieces.fold(cut, |both, piece| both.cut_by(piece, &image).unwrap_or(both));
+        (both.count() > count).then_some(both)
     }
 
     /// A part cut by a plane; `None` where it gives no two pieces that are large enough. The first keeps its number.
@@ -197,7 +180,7 @@ impl<'a> Slices<'a> {
                 labels[face] = (self.count() + piece - 1) as u32;
             }
         }
-        let least = LEAST_PIECE * areas.iter().sum::<f64>();
+        let least = LEAST_SEGMENT * areas.iter().sum::<f64>();
         if of_piece.len() < 2 || of_piece.iter().any(|&area| area < least) {
             return None;
         }

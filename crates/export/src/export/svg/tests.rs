@@ -1,5 +1,5 @@
 use super::*;
-use crate::export::fixture::{A4_MM, model};
+use crate::export::fixture::{A4_MM, model, sheet};
 use glam::DAffine2;
 use roxmltree::{Document as Xml, Node as XmlNode};
 use std::sync::Arc;
@@ -69,7 +69,7 @@ fn each_kind_of_line_has_its_layer_and_ids_are_unique() {
 /// A sheet whose first piece had no tabs had the areas of tabs above their letters.
 #[test]
 fn areas_lie_below_lines_and_texts_whatever_piece_comes_first() {
-    let mut drawing = crate::export::fixture::sheet(A4_MM, 1, 1);
+    let mut drawing = sheet(A4_MM, 1, 1);
     let first = drawing.marks.iter().position(|mark| mark.layer == Layer::Tab).expect("a tab");
     drawing.marks.remove(first);
     let pages = Pages::new("t", vec![drawing], LineStyles::standard()).expect("can be drawn");
