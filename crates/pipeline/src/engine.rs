@@ -7,10 +7,10 @@ use super::judge::FoldJudge;
 use super::mend::{Maker, Mended, mended, unmended};
 use super::merge::{self, Merge};
 use super::plugs::{self, Planned};
-use super::touching::{Touching, without_needless_joints};
+use super::segmented::Segmented;
 use super::warning::{self, not_joined};
 use super::{Bodies, Divided, Error, MeshParts, Options, Output, Shaped, Source, Warning};
-use glam::{DAffine3, DVec3};
+use glam::DAffine3;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -22,7 +22,7 @@ use tatamu_core::model::{
     self, Alike, Built, JointChoice, Known, Model, ModelError, ModelPart, PartId, Run, Sketch,
 };
 use tatamu_core::progress::{Beside, Cancelled, Progress};
-use tatamu_core::segment::{self, Edit, Parts, SegmentOptions};
+use tatamu_core::segment::{Edit, Parts, SegmentOptions};
 use tatamu_net::net::{BlankNet, KnownNets, Net, NetChoices, NetHand, NetOptions, develop_model};
 use tatamu_net::sheet::{Layout, Pin, SheetOptions};
 
@@ -60,30 +60,6 @@ type PartsKey = (Up, SegmentOptions);
 
 /// What decides the hulls: the parts, the model's size, mm, changes by hand, and the root.
 type DividedKey = (PartsKey, f64, Vec<Edit>, Option<String>);
-
-/// A mesh is divided at this size, mm, and what it is divided into gets that of the model: every size rounds in its own
-/// way, and of 138 meshes 73 were divided otherwise at 160, 203 or 300 mm than at 200.
-const DIVIDED_MM: f64 = 200.0;
-
-/// The parts before they are changed by hand.
-#[derive(Debug, Clone)]
-struct Segmented {
-    parts: Parts,
-    to_model: DAffine3,
-    /// Their hulls, where these had to be looked at.
-    touching: Option<Touching>,
-}
-
-impl Segmented {
-    /// The same with all lengths times `factor`.
-    fn resized(&self, factor: f64) -> Self {
-        Self {
-            parts: self.parts.resized(factor),
-            to_model: DAffine3::from_scale(DVec3::splat(factor)) * self.to_model,
-            touching: self.touching.as_ref().map(|touching| touching.resized(factor)),
-        }
-    }
-}
 
 impl<'m> Engine<'m> {
     /// An engine for a mesh as it was read.
@@ -155,32 +131,11 @@ impl<'m> Engine<'m> {
     /// The parts after they are changed by hand.
     fn segmented(&self, options: &Options, progress: &dyn Progress) -> Result<Segmented, Error> {
         let segmented = self.segmented.get_or((options.up, options.segmentation), || {
-            let (mesh, to_model) = self.mesh.scaled(DIVIDED_MM, options.up);
-            let symmetry = options.segmentation.symmetry.moved(&to_model);
-            let wanted = SegmentOptions { symmetry, ..options.segmentation };
-            let segmentation = segment::segment(&mesh, &wanted, progress)?;
-            let parts = Parts::new(Arc::new(mesh), segmentation).sliced(&wanted, progress)?;
-            if wanted.parts.is_some() {
-                return Ok::<_, Error>(Arc::new(Segmented { parts, to_model, touching: None }));
-            }
-            let (parts, touching) = without_needless_joints(parts.cut_where_they_pass_through());
-            Ok(Arc::new(Segmented { parts, to_model, touching: Some(touching) }))
+            Segmented::of_mesh(&self.mesh, options.up, &options.segmentation, progress).map(Arc::new)
         })?;
-        let Segmented { mut parts, to_model, touching } = match options.size_mm / DIVIDED_MM {
-            1.0 => Arc::unwrap_or_clone(segmented),
-            factor => segmented.resized(factor),
-        };
-        if options.edits.is_empty() && options.root.is_none() {
-            return Ok(Segmented { parts, to_model, touching });
-        }
-        for edit in &options.edits {
-            parts = parts.edited(&edit.moved(&to_model))?;
-        }
-        parts = match &options.root {
-            Some(root) => parts.with_root(root)?,
-            None => parts.with_root_in_the_middle(),
-        };
-        Ok(Segmented { parts, to_model, touching: None })
+        Ok(Arc::unwrap_or_clone(segmented)
+            .resized(options.size_mm)
+            .edited(&options.edits, options.root.as_deref())?)
     }
 
     /// Makes the components.

@@ -28,6 +28,7 @@ mod openings;
 mod output;
 mod plugs;
 mod reach;
+mod segmented;
 mod size;
 mod source;
 mod touching;

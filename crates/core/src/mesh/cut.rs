@@ -39,7 +39,7 @@ impl Mesh {
             }
         }
         let input_face = origin.iter().map(|&f| self.input_face[f as usize]).collect();
-        (Self { positions, faces, input_face }, origin)
+        (Self::of_parts(positions, faces, input_face), origin)
     }
 }
 

@@ -38,9 +38,16 @@ pub struct Mesh {
     positions: Vec<DVec3>,
     faces: Vec<[u32; 3]>,
     input_face: Vec<u32>,
+    bounds: (DVec3, DVec3),
 }
 
 impl Mesh {
+    /// The caller keeps the guarantees.
+    fn of_parts(positions: Vec<DVec3>, faces: Vec<[u32; 3]>, input_face: Vec<u32>) -> Self {
+        let bounds = bounds(positions.iter().copied());
+        Self { positions, faces, input_face, bounds }
+    }
+
     /// Vertex positions.
     pub fn positions(&self) -> &[DVec3] {
         &self.positions
@@ -68,12 +75,12 @@ impl Mesh {
 
     /// Smallest and largest coordinates.
     pub fn bounds(&self) -> (DVec3, DVec3) {
-        bounds(self.positions.iter().copied())
+        self.bounds
     }
 
     /// Diagonal of the bounding box; millimetres once the mesh is scaled.
     pub fn diagonal_mm(&self) -> f64 {
-        let (low, high) = self.bounds();
+        let (low, high) = self.bounds;
         low.distance(high)
     }
 
@@ -109,7 +116,7 @@ impl Mesh {
     /// Signed volume; meaningful for closed meshes, where it is positive for an outward
     /// orientation.
     pub fn volume(&self) -> f64 {
-        let (low, high) = self.bounds();
+        let (low, high) = self.bounds;
         let centre = low.midpoint(high);
         let six = |[a, b, c]: [DVec3; 3]| (a - centre).dot((b - centre).cross(c - centre));
         (0..self.faces.len()).map(|f| six(self.corners(f))).sum::<f64>() / 6.0
@@ -121,6 +128,6 @@ impl Mesh {
     /// A mesh as it is, unchecked, for the tests of other modules.
     pub(crate) fn for_tests(positions: Vec<DVec3>, faces: Vec<[u32; 3]>) -> Self {
         let input_face = (0..faces.len() as u32).collect();
-        Self { positions, faces, input_face }
+        Self::of_parts(positions, faces, input_face)
     }
 }

@@ -47,7 +47,7 @@ impl Mesh {
     ///
     /// `size_mm` must be positive and finite.
     pub fn scaled(&self, size_mm: f64, up: Up) -> (Self, DAffine3) {
-        let (low, high) = self.bounds();
+        let (low, high) = self.bounds;
         let turn = up.turn();
         let linear = turn * (size_mm / (high - low).max_element());
         let (p, q) = (linear * low, linear * high);
@@ -65,7 +65,7 @@ impl Mesh {
 
     fn with_positions(&self, to: impl Fn(DVec3) -> DVec3) -> Self {
         let positions = self.positions.iter().map(|&p| to(p)).collect();
-        Self { positions, faces: self.faces.clone(), input_face: self.input_face.clone() }
+        Self::of_parts(positions, self.faces.clone(), self.input_face.clone())
     }
 }
 

@@ -1,7 +1,7 @@
 //! What is seen of a mesh from all sides, and how far the outlines of solids are off.
 
 use super::Mesh;
-use crate::geom::Hull;
+use crate::geom::{Hull, polygon};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -77,11 +77,23 @@ impl Views {
         self.views.iter().map(of_view).sum::<f64>() / self.views.len() as f64
     }
 
-    /// What a convex solid covers, by its edges.
-    pub fn cover(&self, edges: &[[DVec3; 2]]) -> Cover {
+    /// What a convex solid covers, by the corners of its faces in their order.
+    pub fn cover<F: AsRef<[DVec3]>>(&self, faces: &[F]) -> Cover {
+        let normals: Vec<DVec3> = faces.iter().map(|face| normal(face.as_ref())).collect();
+        let mut corners: Vec<DVec2> = Vec::with_capacity(faces.iter().map(|face| face.as_ref().len()).sum());
+        let mut ends: Vec<usize> = Vec::with_capacity(faces.len());
         let band = |view: &View| {
+            corners.clear();
+            ends.clear();
+            // The others have the same outline.
+            for (face, _) in faces.iter().zip(&normals).filter(|(_, normal)| normal.dot(view.side) > 0.0) {
+                corners.extend(face.as_ref().iter().map(|p| view.pixel(*p)));
+                ends.push(corners.len());
+            }
+            let starts = std::iter::once(0).chain(ends.iter().copied());
+            let outlines = starts.zip(&ends).map(|(start, &end)| &corners[start..end]);
             let mut mask = [0; PIXELS];
-            let rows = add_convex(edges.iter().map(|edge| edge.map(|p| view.pixel(p))), &mut mask);
+            let rows = add_convex(outlines, &mut mask);
             Band { first: rows.start, rows: mask[rows].to_vec() }
         };
         Cover { bands: self.views.iter().map(band).collect() }
@@ -89,8 +101,7 @@ impl Views {
 
     /// What a hull covers.
     pub fn cover_of(&self, hull: &Hull) -> Cover {
-        let edges: Vec<[DVec3; 2]> = hull.corners().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
-        self.cover(&edges)
+        self.cover(&hull.corners().collect::<Vec<_>>())
     }
 
     /// What some solids cover together.
@@ -137,9 +148,16 @@ fn sides() -> impl Iterator<Item = DVec3> {
     (14..27).map(move |k| DVec3::new(digit(k / 9), digit(k / 3), digit(k)).normalize())
 }
 
+/// The normal of a plane face, as long as twice its area.
+fn normal(corners: &[DVec3]) -> DVec3 {
+    let Some((&first, rest)) = corners.split_first() else { return DVec3::ZERO };
+    rest.windows(2).map(|w| (w[0] - first).cross(w[1] - first)).sum()
+}
+
 /// A mesh from one side.
 #[derive(Debug, Clone, PartialEq)]
 struct View {
+    side: DVec3,
     right: DVec3,
     up: DVec3,
     /// Corner of the picture.
@@ -156,11 +174,11 @@ impl View {
         let high = points().fold(DVec2::NEG_INFINITY, DVec2::max);
         let pixel_mm = ((high - low).max_element() / SEEN as f64).max(f64::MIN_POSITIVE);
         let low = (low + high) / 2.0 - DVec2::splat(pixel_mm * PIXELS as f64 / 2.0);
-        let mut view = Self { right, up, low, pixel_mm, mask: [0; PIXELS] };
+        let mut view = Self { side, right, up, low, pixel_mm, mask: [0; PIXELS] };
         let pixels: Vec<DVec2> = mesh.positions().iter().map(|&p| view.pixel(p)).collect();
         for face in mesh.faces() {
-            let [a, b, c] = face.map(|v| pixels[v as usize]);
-            add_convex([[a, b], [b, c], [c, a]].into_iter(), &mut view.mask);
+            let corners = face.map(|v| pixels[v as usize]);
+            add_convex(std::iter::once(&corners[..]), &mut view.mask);
         }
         view
     }
@@ -171,9 +189,9 @@ impl View {
     }
 }
 
-/// Adds the pixels whose middle is within the convex outline of some edges; and in which rows they are.
-fn add_convex(edges: impl Iterator<Item = [DVec2; 2]> + Clone, mask: &mut Mask) -> Range<usize> {
-    let heights = edges.clone().flatten().map(|p| p.y);
+/// Adds the pixels whose middle is within the convex outline of some polygons; and in which rows they are.
+fn add_convex<'p>(polygons: impl Iterator<Item = &'p [DVec2]> + Clone, mask: &mut Mask) -> Range<usize> {
+    let heights = polygons.clone().flatten().map(|p| p.y);
     let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), y| (l.min(y), h.max(y)));
     let (least, most) = middles(low, high);
     if least >= most {
@@ -181,7 +199,7 @@ fn add_convex(edges: impl Iterator<Item = [DVec2; 2]> + Clone, mask: &mut Mask) 
         return 0..0;
     }
     let mut spans = [(f64::INFINITY, f64::NEG_INFINITY); PIXELS];
-    for [a, b] in edges {
+    for (a, b) in polygons.flat_map(polygon::edges) {
         let (lower, upper) = if a.y < b.y { (a, b) } else { (b, a) };
         let (first, end) = middles(lower.y, upper.y);
         if first >= end {
@@ -213,21 +231,20 @@ mod tests {
     use super::*;
     use crate::mesh::Soup;
 
-    const CUBE: [[usize; 2]; 12] =
-        [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
+    const SQUARES: [[u32; 4]; 6] =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
 
     fn corner(low: DVec3, side: DVec3, k: usize) -> DVec3 {
         low + side * DVec3::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64)
     }
 
-    fn cuboid(low: DVec3, side: DVec3) -> Vec<[DVec3; 2]> {
-        CUBE.iter().map(|edge| edge.map(|k| corner(low, side, k))).collect()
+    fn cuboid(low: DVec3, side: DVec3) -> Vec<[DVec3; 4]> {
+        SQUARES.iter().map(|square| square.map(|k| corner(low, side, k as usize))).collect()
     }
 
     /// The views of a box.
     fn views_of_cuboid(low: DVec3, side: DVec3) -> Views {
-        let squares = [[0, 1, 3, 2], [4, 5, 7, 6], [0, 1, 5, 4], [2, 3, 7, 6], [0, 2, 6, 4], [1, 3, 7, 5]];
-        let soup = Soup::new((0..8).map(|k| corner(low, side, k)).collect(), squares).unwrap();
+        let soup = Soup::new((0..8).map(|k| corner(low, side, k)).collect(), SQUARES).unwrap();
         Views::of_mesh(&Mesh::from_soup(&soup).unwrap().0)
     }
 

@@ -2,7 +2,8 @@
 
 use super::alike::Alike;
 use super::bond::{Bond, crossing, lone_image, with_images};
-use super::candidate::{Builder, Candidate, Search};
+use super::builder::Builder;
+use super::candidate::{Candidate, Search};
 use super::choice::{Best, Choice, Combination, Effort, MOST_ATTEMPTED, Trouble};
 use super::harms::{Bump, Enough};
 use super::known::Known;

@@ -1,6 +1,7 @@
 //! Candidates that were made before, so that a change to one part leaves the others as they are.
 
-use super::candidate::{Builder, Candidate, Search};
+use super::builder::Builder;
+use super::candidate::{Candidate, Search};
 use super::link::Link;
 use super::{ModelError, Part, PartId, Symmetry};
 use crate::cache::LruCache;

@@ -3,6 +3,7 @@
 mod alike;
 mod bond;
 mod build;
+mod builder;
 mod candidate;
 mod choice;
 mod contact;

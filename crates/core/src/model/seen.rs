@@ -8,16 +8,20 @@ use super::pair::Pairs;
 use crate::mesh::{Cover, Outlines, Views};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
+use smallvec::SmallVec;
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
+
+/// Corners of a panel.
+type Face = SmallVec<[DVec3; 6]>;
 
 /// Candidates of all parts with the views of the mesh that they are to look like.
 pub(super) struct Seen<'a> {
     views: &'a Views,
     links: &'a [Link],
     pairs: &'a Pairs,
-    /// Edges of each candidate of each part in the mesh's axes, before the part is seated on its parent.
-    edges: Vec<Vec<Vec<[DVec3; 2]>>>,
+    /// Faces of each candidate of each part in the mesh's axes, before the part is seated on its parent.
+    faces: Vec<Vec<Vec<Face>>>,
 }
 
 /// Where the parts of a combination are, and which of them are not as in the first one.
@@ -32,8 +36,8 @@ impl<'a> Seen<'a> {
         candidates: &[Vec<Candidate>],
         (links, pairs): (&'a [Link], &'a Pairs),
     ) -> Self {
-        let edges = candidates.par_iter().map(|made| made.iter().map(edges).collect()).collect();
-        Self { views, links, pairs, edges }
+        let faces = candidates.par_iter().map(|made| made.iter().map(faces).collect()).collect();
+        Self { views, links, pairs, faces }
     }
 
     /// One minus the overlap of the outlines of each combination with those of the mesh, the mean of all
@@ -73,8 +77,8 @@ impl<'a> Seen<'a> {
     }
 
     fn cover(&self, part: PartId, candidate: usize, placement: &DAffine3) -> Cover {
-        let placed = |edge: &[DVec3; 2]| edge.map(|p| placement.transform_point3(p));
-        self.views.cover(&self.edges[part.0][candidate].iter().map(placed).collect::<Vec<_>>())
+        let placed = |face: &Face| -> Face { face.iter().map(|p| placement.transform_point3(*p)).collect() };
+        self.views.cover(&self.faces[part.0][candidate].iter().map(placed).collect::<Vec<_>>())
     }
 
     /// How each part moves to be seated on its parent, from the mesh's axes.
@@ -88,13 +92,9 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// The edges of a candidate, each once for every panel that it bounds.
-fn edges(made: &Candidate) -> Vec<[DVec3; 2]> {
+/// The faces of a candidate in the mesh's axes.
+fn faces(made: &Candidate) -> Vec<Face> {
     let panels = made.component.panels().panels().iter();
-    let outlines = panels.map(|panel| -> Vec<DVec3> {
-        panel.deployed_outline().into_iter().map(|p| made.frame.transform_point3(p)).collect()
-    });
-    let of_outline =
-        |outline: Vec<DVec3>| (0..outline.len()).map(move |k| [outline[k], outline[(k + 1) % outline.len()]]);
-    outlines.flat_map(of_outline).collect()
+    let outlines = panels.map(|panel| panel.deployed_outline());
+    outlines.map(|outline| outline.into_iter().map(|p| made.frame.transform_point3(p)).collect()).collect()
 }

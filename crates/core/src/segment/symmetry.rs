@@ -94,11 +94,12 @@ pub(super) fn twins(segmentation: &Segmentation, mesh: &Mesh, mirror: &Mirror) -
     let centre = |k: usize| corners[k].iter().sum::<DVec3>() / 3.0;
     let normal = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a);
     let tree = PointTree::new((0..faces.len()).map(|k| (centre(k), k as u32)).collect());
+    let far_mm = FAR * mesh.diagonal_mm();
     let mut votes = Votes::new(segmentation.count());
     for k in 0..faces.len() {
         let (image, outwards) = (mirror.point(centre(k)), mirror.direction(normal(corners[k])));
         let is_same_side = |other: u32| normal(corners[other as usize]).dot(outwards) > 0.0;
-        let facing = tree.nearest_within(image, FAR * mesh.diagonal_mm(), is_same_side);
+        let facing = tree.nearest_within(image, far_mm, is_same_side);
         if let Some(other) = facing.or_else(|| tree.nearest(image, |_| true)) {
             votes.add(segments[faces[k]].0, segments[faces[other as usize]].0, areas[k]);
         }

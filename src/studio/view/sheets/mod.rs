@@ -275,20 +275,7 @@ impl SheetsPanel {
             self.edges.is_on() && self.edges.follow(studio, output, &response, &page, is_current);
         let over = response.hover_pos().filter(|_| !is_on_edge);
         let over = over.and_then(|at| pages::piece_at(outlines, to_mm(rect, scale, at)));
-        for (id, outline) in outlines {
-            let is_selected = is_selected(studio, output, *id);
-            let is_over = self.hover.as_ref().is_some_and(|hover| is_under(hover, output, *id));
-            let points: Vec<Pos2> = outline.iter().map(|&p| to_screen(rect, scale, p)).collect();
-            let own = look::on_paper(studio.shown().colour(id.net));
-            let (width, colour) = match (is_selected, is_over) {
-                // Among edges the chosen ones stand out, not all of the piece.
-                (true, _) if self.edges.is_on() => (2.4, own),
-                (true, _) => (3.0, ACCENT),
-                (_, true) if !self.edges.is_on() => (2.2, ACCENT),
-                _ => (1.8, own),
-            };
-            draw(painter, points, Stroke::new(width, colour));
-        }
+        self.mark_pieces(studio, output, painter, (outlines, &page));
         if let Some(id) = over {
             studio.hover = Some(Hover::panels(id.net, panels(output, id)));
             let piece = pages::piece(output, id).map(|piece| piece.name().to_owned()).unwrap_or_default();
@@ -302,11 +289,7 @@ impl SheetsPanel {
         let grabbed =
             response.interact_pointer_pos().filter(|_| response.drag_started_by(PointerButton::Primary));
         if let Some(at) = grabbed.filter(|_| is_current && !self.edges.is_on()) {
-            // Where the button was pressed, not where the mouse is by now.
-            let at = ui.input(|i| i.pointer.press_origin()).unwrap_or(at);
-            let from_mm = to_mm(rect, scale, at);
-            let id = pages::piece_at(outlines, from_mm);
-            self.drag = id.map(|id| Drag { id, from_mm, turn_rad: 0.0 });
+            self.grab(ui, outlines, &page, at);
         }
         if response.dragged_by(PointerButton::Primary) && self.drag.is_none() && !self.edges.is_dragging() {
             let delta = response.drag_delta();
@@ -316,14 +299,51 @@ impl SheetsPanel {
             self.edges.mark(studio, output, ui, &page);
         }
         if (response.clicked() || response.secondary_clicked()) && !is_on_edge {
-            let piece = over.and_then(|id| pages::piece(output, id).map(|piece| (id, piece)));
-            match piece.and_then(|(id, piece)| Some((studio.shown().names().get(id.net.0)?.clone(), piece))) {
-                Some((name, piece)) => {
-                    self.seen = Some(piece.name().to_owned());
-                    studio.selection.select_piece(&name, piece.name());
-                }
-                None => studio.selection.clear(),
+            self.choose(studio, output, over);
+        }
+    }
+
+    /// Draws the outlines of the pieces of a page; those that are selected or under the mouse stand out.
+    fn mark_pieces(
+        &self,
+        studio: &Studio,
+        output: &Output,
+        painter: &egui::Painter,
+        (outlines, page): (&[(PieceId, Vec<DVec2>)], &Page<'_>),
+    ) {
+        for (id, outline) in outlines {
+            let is_selected = is_selected(studio, output, *id);
+            let is_over = self.hover.as_ref().is_some_and(|hover| is_under(hover, output, *id));
+            let points: Vec<Pos2> = outline.iter().map(|&p| to_screen(page.rect, page.scale, p)).collect();
+            let own = look::on_paper(studio.shown().colour(id.net));
+            let (width, colour) = match (is_selected, is_over) {
+                // Among edges the chosen ones stand out, not all of the piece.
+                (true, _) if self.edges.is_on() => (2.4, own),
+                (true, _) => (3.0, ACCENT),
+                (_, true) if !self.edges.is_on() => (2.2, ACCENT),
+                _ => (1.8, own),
+            };
+            draw(painter, points, Stroke::new(width, colour));
+        }
+    }
+
+    /// Begins to drag the piece where the button was pressed, not where the mouse is by now.
+    fn grab(&mut self, ui: &Ui, outlines: &[(PieceId, Vec<DVec2>)], page: &Page<'_>, at: Pos2) {
+        let at = ui.input(|i| i.pointer.press_origin()).unwrap_or(at);
+        let from_mm = to_mm(page.rect, page.scale, at);
+        let id = pages::piece_at(outlines, from_mm);
+        self.drag = id.map(|id| Drag { id, from_mm, turn_rad: 0.0 });
+    }
+
+    /// Selects a piece that was clicked; beside all pieces, nothing.
+    fn choose(&mut self, studio: &mut Studio, output: &Output, clicked: Option<PieceId>) {
+        let piece = clicked.and_then(|id| pages::piece(output, id).map(|piece| (id, piece)));
+        match piece.and_then(|(id, piece)| Some((studio.shown().names().get(id.net.0)?.clone(), piece))) {
+            Some((name, piece)) => {
+                self.seen = Some(piece.name().to_owned());
+                studio.selection.select_piece(&name, piece.name());
             }
+            None => studio.selection.clear(),
         }
     }
 

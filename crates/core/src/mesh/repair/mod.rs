@@ -120,7 +120,7 @@ impl Mesh {
         let uses = |e: usize| edges.sides(e).len();
         repairs.boundary_edges = (0..edges.count()).filter(|&e| uses(e) == 1).count();
         repairs.non_manifold_edges = (0..edges.count()).filter(|&e| uses(e) > 2).count();
-        let mesh = Self { positions, faces, input_face: triangles.iter().map(|t| t.polygon).collect() };
+        let mesh = Self::of_parts(positions, faces, triangles.iter().map(|t| t.polygon).collect());
         Ok((mesh, repairs))
     }
 }
