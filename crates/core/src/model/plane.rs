@@ -44,7 +44,9 @@ const LEANING_RAD: f64 = 60.0_f64.to_radians();
 const MOST_TURN_RAD: f64 = 30.0_f64.to_radians();
 /// Price of a joint whose two sections have nothing in common; one with [`ENOUGH_GLUE`] costs nothing.
 const GLUE_PRICE: f64 = 1.0;
-/// A joint has enough glue with this share of the smaller section that it can have.
+/// A joint has enough glue with this share of the smaller section that it can have there. As a share of what a cube of the
+/// part's size has, thin plates and limbs never had enough, and planes leaned to get more: the fins of a plane were cut down to
+/// stubs, and of 129 meshes three more clashed.
 const ENOUGH_GLUE: f64 = 0.5;
 /// Price of a move by the size of the interface, or of a turn by a right angle: among equals the
 /// fitted plane wins.
@@ -80,7 +82,10 @@ pub(super) fn between(contact: &Contact, ground: &Ground<'_>, across: &[Mirror])
             Some((moved, MOVE_PRICE * (shift.abs() / size + turn / std::f64::consts::FRAC_PI_2)))
         })
     };
-    let priced = |plane: Plane| slid(plane).map(|(plane, price)| (price + ground.price(&plane), plane));
+    let enough_mm2 = ground.enough_mm2(slid(first).map(|(plane, _)| plane));
+    let priced = |plane: Plane| {
+        slid(plane).map(|(plane, price)| (price + ground.price(&plane, 0.0, enough_mm2), plane))
+    };
     let cheapest = |planes: &mut dyn Iterator<Item = Plane>| {
         planes.flat_map(priced).min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, first))
     };
@@ -97,7 +102,7 @@ pub(super) fn between(contact: &Contact, ground: &Ground<'_>, across: &[Mirror])
         let across = Plane::through(centre, towards)
             .filter(|plane| plane.normal().dot(first.normal()) > libm::cos(LEANING_RAD) && is_image(plane));
         let own = across.filter(|_| towards == normal).map(|_| (side.plane, 0.0));
-        let priced = |(plane, price)| (price + ground.price_within(&plane, side.roughness), plane);
+        let priced = |(plane, price)| (price + ground.price(&plane, side.roughness, enough_mm2), plane);
         let level = across.into_iter().flat_map(&slid).map(priced).min_by(|a, b| a.0.total_cmp(&b.0));
         let is_as_good = |own: &(f64, Plane)| level.is_none_or(|level| own.0 < level.0 + AS_GOOD);
         own.map(priced).filter(is_as_good).or(level)
@@ -113,7 +118,7 @@ pub(super) fn between(contact: &Contact, ground: &Ground<'_>, across: &[Mirror])
         let turn_rad = straight.iter().map(turn_rad).fold(turn_rad(&first), f64::min);
         let price = MOVE_PRICE * turn_rad / std::f64::consts::FRAC_PI_2;
         (turn_rad < MOST_TURN_RAD && is_image(&side.plane))
-            .then(|| (price + ground.price_within(&side.plane, side.roughness), side.plane))
+            .then(|| (price + ground.price(&side.plane, side.roughness, enough_mm2), side.plane))
     });
     let best =
         on_plate.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|on_plate| on_plate.0 < best.0).unwrap_or(best);
@@ -214,7 +219,6 @@ pub(super) struct Ground<'a> {
     /// What the share that is lost of either counts.
     weights: [f64; 2],
     kept: [Vec<Kept<'a>>; 2],
-    most_glue: f64,
 }
 
 impl<'a> Ground<'a> {
@@ -235,11 +239,10 @@ impl<'a> Ground<'a> {
                 }
             }
         }
-        let size = |hull: &Hull| libm::cbrt(hull.volume()).powi(2);
         let kept = kept.map(|kept| kept.iter().map(|points| Kept::new(points)).collect());
         let least_mm3 = parent.volume().min(child.volume());
         let weights = hulls.map(|hull| libm::pow(hull.volume() / least_mm3, LARGER));
-        Self { hulls, alone, counts, weights, kept, most_glue: size(parent).min(size(child)) }
+        Self { hulls, alone, counts, weights, kept }
     }
 
     /// Flat sides of both hulls, as planes between them.
@@ -249,14 +252,20 @@ impl<'a> Ground<'a> {
         parent.into_iter().chain(child)
     }
 
-    fn price(&self, plane: &Plane) -> f64 {
-        self.price_within(plane, 0.0)
+    /// What sections have to share to have enough glue, mm², where the hulls meet near these planes: a share of the smaller
+    /// section that is to be had there, or that a cube of the hull's size has.
+    fn enough_mm2(&self, planes: impl Iterator<Item = Plane> + Clone) -> f64 {
+        let area = |hull: &Hull, plane: &Plane| polygon::area(&flat_section(plane, hull));
+        let largest = |hull: &Hull| planes.clone().map(|plane| area(hull, &plane)).fold(0.0, f64::max);
+        let smaller = |of: [f64; 2]| of[0].min(of[1]);
+        let of_cube = smaller(self.hulls.map(|hull| libm::cbrt(hull.volume()).powi(2)));
+        let there = smaller(self.hulls.map(largest));
+        ENOUGH_GLUE * if there > 0.0 { there.min(of_cube) } else { of_cube }
     }
 
     /// The price of a plane where both hulls end within `rough_mm` of it.
-    fn price_within(&self, plane: &Plane, rough_mm: f64) -> f64 {
-        let enough = ENOUGH_GLUE * self.most_glue;
-        let lack = (1.0 - self.common(plane, rough_mm) / enough.max(f64::MIN_POSITIVE)).max(0.0);
+    fn price(&self, plane: &Plane, rough_mm: f64, enough_mm2: f64) -> f64 {
+        let lack = (1.0 - self.common(plane, rough_mm) / enough_mm2.max(f64::MIN_POSITIVE)).max(0.0);
         let lost_joints = self.lost_joints(plane, 2.0 * rough_mm);
         let lost: f64 = self.lost(plane).iter().zip(self.weights).map(|(share, weight)| share * weight).sum();
         lost + JOINT_PRICE * lost_joints + GLUE_PRICE * lack
@@ -412,6 +421,19 @@ mod tests {
         let (plane, _) = between(&contact(points, Interface::Bodies), &ground, &[]);
         let lost_mm3 = body.volume() - body.clip(&plane).unwrap().volume();
         assert!(lost_mm3 < wheel.volume(), "{plane:?} takes {lost_mm3} mm³");
+    }
+
+    /// A section of a fin is smaller than that of a cube of its size. Planes leaned to get as much glue as such a cube has, and
+    /// cut fins down to stubs.
+    #[test]
+    fn a_thin_fin_has_enough_glue_along_its_root() {
+        let body = cuboid(DVec3::ZERO, DVec3::new(24.0, 24.0, 150.0));
+        let fin = cuboid(DVec3::new(22.0, 11.0, 0.0), DVec3::new(60.0, 13.0, 18.0));
+        let ground = Ground::new(&body, &fin, [&[], &[]]);
+        let beside = |x: f64| Plane::through(DVec3::X * x, DVec3::X).unwrap();
+        let enough_mm2 = ground.enough_mm2([20.0, 23.0, 30.0].into_iter().map(beside));
+        assert_eq!(enough_mm2, ENOUGH_GLUE * 36.0);
+        assert_eq!(ground.price(&beside(23.9), 0.0, enough_mm2), 0.0);
     }
 
     /// The borders of four legs with the top of a table are at slightly different heights, and one leans. Planes were turned to
