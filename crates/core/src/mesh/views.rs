@@ -85,7 +85,7 @@ impl Views {
         let band = |view: &View| {
             corners.clear();
             ends.clear();
-            // The others have the same outline.
+            // Those in front and those behind have the same outline.
             for (face, _) in faces.iter().zip(&normals).filter(|(_, normal)| normal.dot(view.side) > 0.0) {
                 corners.extend(face.as_ref().iter().map(|p| view.pixel(*p)));
                 ends.push(corners.len());
