@@ -133,9 +133,7 @@ impl<'m> Engine<'m> {
         let segmented = self.segmented.get_or((options.up, options.segmentation), || {
             Segmented::of_mesh(&self.mesh, options.up, &options.segmentation, progress).map(Arc::new)
         })?;
-        Ok(Arc::unwrap_or_clone(segmented)
-            .resized(options.size_mm)
-            .edited(&options.edits, options.root.as_deref())?)
+        Ok(segmented.at_size(options.size_mm).edited(&options.edits, options.root.as_deref())?)
     }
 
     /// Makes the components.

@@ -46,15 +46,14 @@ impl Segmented {
     }
 
     /// The same for a model of this size, mm.
-    pub(super) fn resized(self, size_mm: f64) -> Self {
-        let factor = size_mm / DIVIDED_MM;
-        if factor == 1.0 {
-            return self;
-        }
-        Self {
-            parts: self.parts.resized(factor),
-            to_model: DAffine3::from_scale(DVec3::splat(factor)) * self.to_model,
-            touching: self.touching.map(|touching| touching.resized(factor)),
+    pub(super) fn at_size(self: Arc<Self>, size_mm: f64) -> Self {
+        match size_mm / DIVIDED_MM {
+            1.0 => Arc::unwrap_or_clone(self),
+            factor => Self {
+                parts: self.parts.resized(factor),
+                to_model: DAffine3::from_scale(DVec3::splat(factor)) * self.to_model,
+                touching: self.touching.as_ref().map(|touching| touching.resized(factor)),
+            },
         }
     }
 
