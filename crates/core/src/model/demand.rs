@@ -2,7 +2,7 @@
 
 use super::link::Link;
 use super::seat::seat_plane;
-use super::{Part, PartId, plane};
+use super::{Part, PartId, section};
 use crate::component::{JointTarget, Seat};
 use crate::geom::{Plane, polygon};
 use glam::DVec3;
@@ -35,9 +35,9 @@ impl Demand {
     /// What a joint of a part asks, where a mm by which its panel misses its partner costs `firmness` times as much as
     /// it does in other searches.
     pub(super) fn new(parts: &[Part], part: PartId, link: &Link, firmness: f64) -> Self {
-        let sections = [link.parent, link.child].map(|p| plane::section(&link.plane, &parts[p.0].hull));
-        let flat = sections.each_ref().map(|s| plane::flattened(&link.plane, s.iter().copied()));
-        let shared_mm2 = polygon::area(&plane::common_outline(&flat[0], &flat[1]));
+        let sections = [link.parent, link.child].map(|p| section::outline(&link.plane, &parts[p.0].hull));
+        let flat = sections.each_ref().map(|s| section::flattened(&link.plane, s.iter().copied()));
+        let shared_mm2 = polygon::area(&section::common_outline(&flat[0], &flat[1]));
         // Hulls that only touch there have a face on the plane, of no known size.
         let tightness = if shared_mm2 > 0.0 { (TIGHT_MM2 / shared_mm2).clamp(1.0, TIGHTEST) } else { 1.0 };
         let [parent_mm2, child_mm2] = flat.map(|section| polygon::area(&section));

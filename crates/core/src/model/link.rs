@@ -1,7 +1,8 @@
 //! Contact planes between neighbouring segments, and the tree of joints (§4.2.1).
 
 use super::contact::{Contact, Interface};
-use super::{PartId, Symmetry, plane};
+use super::ground::Ground;
+use super::{PartId, Symmetry, plane, section};
 use crate::geom::{Hull, Mirror, Plane, polygon};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -86,7 +87,7 @@ fn sizes_mm2(part_hulls: &[&Hull], contacts: &[Contact], symmetry: Option<&Symme
     let size_mm2 = |contact: &Contact| {
         let (a, b) = contact.parts;
         let area_mm2 = between.plane(a, b).map_or(0.0, |(plane, _)| {
-            let [first, second] = [a, b].map(|part| plane::flat_section(&plane, part_hulls[part.0]));
+            let [first, second] = [a, b].map(|part| section::flat_section(&plane, part_hulls[part.0]));
             // Hulls that only touch have a face on the plane, and no section.
             if first.is_empty() || second.is_empty() {
                 let flat: Vec<DVec2> = contact.points.iter().map(|p| plane.flat(*p)).collect();
@@ -212,7 +213,7 @@ impl<'a> Between<'a> {
         let contact = self.contacts.get(&(from.min(to), from.max(to)))?;
         let [first, second] = [from, to].map(|p| self.part_hulls[p.0]);
         let kept = [self.kept(from, to), self.kept(to, from)];
-        let ground = || plane::Ground::new(first, second, [&kept[0], &kept[1]]);
+        let ground = || Ground::new(first, second, [&kept[0], &kept[1]]);
         let Some(symmetry) = self.symmetry else {
             return Some(plane::between(contact, &ground(), &[]));
         };

@@ -1,7 +1,7 @@
 //! Joints that cost more than they give.
 
 use super::link::Link;
-use super::{PartId, plane};
+use super::{PartId, ground};
 use crate::geom::Hull;
 
 /// A joint may take this many times as much as one hull adds, since parts show what they are. Below it are the ears of a bust
@@ -13,7 +13,7 @@ const MOST_TAKEN: f64 = 1.4;
 /// round both adds to them. The fin of a fish that lies along its body costs it the belly.
 pub fn needless(part_hulls: &[&Hull], links: &[Link]) -> Vec<(PartId, PartId)> {
     let is_needless = |plane, [parent, child]: [PartId; 2]| {
-        let volumes = plane::lost_and_added_mm3(plane, part_hulls[parent.0], part_hulls[child.0]);
+        let volumes = ground::lost_and_added_mm3(plane, part_hulls[parent.0], part_hulls[child.0]);
         volumes.is_some_and(|[lost, added]| lost > MOST_TAKEN * added)
     };
     let pairs = links.iter().filter(|link| is_needless(&link.plane, [link.parent, link.child]));

@@ -3,7 +3,7 @@
 
 use super::candidate::Candidate;
 use super::link::Link;
-use super::plane;
+use super::section;
 use crate::component::PanelId;
 use crate::geom::{Plane, polygon};
 use glam::{DAffine3, DVec2, DVec3};
@@ -64,8 +64,8 @@ impl Seated {
         let outline = child.panel_outline(child_panel);
         let centre = outline.iter().sum::<DVec3>() / outline.len() as f64;
         let turn = turn_onto(&own_plane, &up_plane.flipped(), centre);
-        let below = plane::flattened(&up_plane, parent.panel_outline(parent_panel));
-        let above = plane::flattened(&up_plane, outline.iter().map(|p| turn.transform_point3(*p)));
+        let below = section::flattened(&up_plane, parent.panel_outline(parent_panel));
+        let above = section::flattened(&up_plane, outline.iter().map(|p| turn.transform_point3(*p)));
         let (own_mm2, parent_mm2) = (polygon::area(&above), polygon::area(&below));
         let enough_mm2 = GLUE_MARGIN * needed_glue_mm2(own_mm2, parent_mm2);
         let (slide, glue_mm2) = slide(&above, &below, enough_mm2);

@@ -2,7 +2,7 @@
 
 use super::contact::Contact;
 use super::link::{Between, Link, image_of, mirror_plane_between, mirrored_contacts};
-use super::{Bump, PartId, Symmetry, plane};
+use super::{Bump, PartId, Symmetry, plane, section};
 use crate::geom::{Hull, Plane, polygon};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -85,7 +85,8 @@ fn keeps_joints(hulls: &[Hull], clipped: &BTreeMap<PartId, Hull>, links: &[Link]
     let touched = links.iter().filter(|l| clipped.contains_key(&l.parent) || clipped.contains_key(&l.child));
     let mut areas = touched.map(|link| {
         let left = |part: PartId| clipped.get(&part).unwrap_or(&hulls[part.0]);
-        let area = |parent, child| polygon::area(&plane::shared_section(&link.plane, parent, child)).max(0.0);
+        let area =
+            |parent, child| polygon::area(&section::shared_section(&link.plane, parent, child)).max(0.0);
         (area(&hulls[link.parent.0], &hulls[link.child.0]), area(left(link.parent), left(link.child)))
     });
     areas.all(|(before, after)| after >= share * before)

@@ -1,7 +1,7 @@
 //! Hulls that are thick enough at their joints to be glued there.
 
 use super::pair::LEAST_GLUE_MM2;
-use super::{Link, Symmetry, plane};
+use super::{Link, Symmetry, section};
 use crate::geom::{Hull, polygon};
 use glam::{DMat2, DVec2, DVec3};
 use std::collections::BTreeSet;
@@ -37,7 +37,7 @@ fn padded(
     let mut changed = BTreeSet::new();
     for link in links {
         let pair = [link.parent, link.child];
-        let sections = pair.map(|part| plane::flat_section(&link.plane, &hulls[part.0]));
+        let sections = pair.map(|part| section::flat_section(&link.plane, &hulls[part.0]));
         // Of two boxes that only touch, the plane may miss one: its side is as large as it is.
         let (parts, section) = match [sections[0].is_empty(), sections[1].is_empty()] {
             [false, false] => (&pair[..], polygon::intersect_convex(&sections[0], &sections[1])),
@@ -102,7 +102,7 @@ mod tests {
     const SIGN: [f64; 2] = [-1.0, 1.0];
 
     fn shared_mm2(link: &Link, hulls: &[Hull]) -> f64 {
-        polygon::area(&plane::shared_section(&link.plane, &hulls[0], &hulls[1]))
+        polygon::area(&section::shared_section(&link.plane, &hulls[0], &hulls[1]))
     }
 
     #[test]

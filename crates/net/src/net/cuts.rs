@@ -8,9 +8,10 @@
 
 use super::chains::{Chains, PanelChain};
 use super::extent::Extent;
-use super::layout::{across, best_turn, clash, placed_outline};
+use super::layout::{across, clash, fits, placed_outline};
 use super::ruling::Ruling;
 use glam::{DAffine2, DVec2};
+use rayon::prelude::*;
 use tatamu_core::component::{ChainId, HingeId, PanelSet};
 
 /// Nodes visited for one choice of the uncut chain.
@@ -67,7 +68,8 @@ impl Problem<'_> {
 
     fn with_one_uncut(&self, has_strips: bool) -> Vec<Candidate> {
         let whole = self.chains.ids().filter(|&j| self.ruling.may_stay_whole(self.chains.chain(j)));
-        let found = whole.flat_map(|uncut| self.searched(Some(uncut), has_strips));
+        let whole: Vec<ChainId> = whole.collect();
+        let found = whole.into_par_iter().flat_map_iter(|uncut| self.searched(Some(uncut), has_strips));
         let mut all: Vec<Candidate> = found.collect();
         all.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         all
@@ -214,7 +216,7 @@ impl<'a> Mode<'a> {
         ruling.may_cut(chain, from, to)
             && is_allowed(from)
             && is_allowed(to)
-            && (from == to || best_turn(&strip, sheet_mm).fits())
+            && (from == to || fits(&strip, sheet_mm))
     }
 
     /// Which choices go together, and with themselves and the fixed panels.
@@ -294,7 +296,7 @@ impl<'a> Mode<'a> {
             points[item.piece].extend_from_slice(&item.outline);
         }
         let used = points.iter().filter(|p| !p.is_empty());
-        if !used.clone().all(|p| best_turn(p, self.problem.sheet_mm).fits()) {
+        if !used.clone().all(|p| fits(p, self.problem.sheet_mm)) {
             return;
         }
         let mut is_cut = vec![false; self.problem.set.hinges().len()];

@@ -1,7 +1,7 @@
 //! Laying panels out flat: across hinges, into pieces, and on a sheet of given size.
 
 use crate::fit::{self, Rotation};
-use glam::{DAffine2, DMat2, DVec2};
+use glam::{DAffine2, DMat2, DVec2, Vec2Swizzles};
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 use tatamu_core::component::{HingeId, HingeSide, PanelId, PanelSet};
@@ -155,6 +155,24 @@ pub(crate) fn best_turn(points: &[DVec2], sheet_mm: DVec2) -> BestTurn {
     if turn.beats(&best) { turn } else { best }
 }
 
+/// Whether points fit `sheet_mm` at some angle: [`best_turn`] where only this is asked.
+pub(crate) fn fits(points: &[DVec2], sheet_mm: DVec2) -> bool {
+    let hull = polygon::convex_hull(points);
+    let room_mm = sheet_mm + FIT_TOLERANCE_MM;
+    let is_within = |size_mm: DVec2| size_mm.cmple(room_mm).all() || size_mm.yx().cmple(room_mm).all();
+    // A width w is at least w cos δ - d sin δ after a turn by δ, where d is the diagonal of the box.
+    let half_step = DVec2::from_angle(TURN_STEP_RAD / 2.0);
+    let mut is_near = false;
+    for &unit in &STEPS[..STEPS.len() / 2] {
+        let size_mm = measured(&hull, unit, sheet_mm).size_mm;
+        if is_within(size_mm) {
+            return true;
+        }
+        is_near |= is_within(size_mm * half_step.x - size_mm.length() * half_step.y);
+    }
+    is_near && best_turn(&hull, sheet_mm).fits()
+}
+
 /// How points lie on a sheet after one rotation.
 pub(crate) fn measured(points: &[DVec2], unit: DVec2, sheet_mm: DVec2) -> BestTurn {
     let turned = points.iter().map(|&p| unit.rotate(p));
@@ -172,6 +190,7 @@ pub(crate) fn clash(a: &[DVec2], b: &[DVec2], gap_mm: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use proptest::prelude::*;
 
     fn rectangle(width: f64, height: f64, turn_rad: f64) -> Vec<DVec2> {
         let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
@@ -204,11 +223,12 @@ mod tests {
         let strip = |share: f64| rectangle(320.0 * share, 12.0 * share, 0.0);
         let most = fit::best_fit(&strip(1.0), sheet_mm.x, sheet_mm.y, Rotation::Free).scale;
         for turn in (0..90).map(|k| DVec2::from_angle(f64::from(k) * 0.037)) {
-            let fits = |share: f64| {
+            let is_laid_out = |share: f64| {
                 let turned: Vec<DVec2> = strip(share * most).iter().map(|&p| turn.rotate(p)).collect();
+                assert_eq!(fits(&turned, sheet_mm), best_turn(&turned, sheet_mm).fits());
                 best_turn(&turned, sheet_mm).fits()
             };
-            assert!(fits(1.0 - 1e-6) && !fits(1.0 + 1e-6), "{turn}");
+            assert!(is_laid_out(1.0 - 1e-6) && !is_laid_out(1.0 + 1e-6), "{turn}");
         }
     }
 
@@ -220,5 +240,19 @@ mod tests {
         assert!(clash(&square, &moved(DVec2::new(10.0, 3.0)), 0.5));
         assert!(!clash(&square, &moved(DVec2::new(10.6, 3.0)), 0.5));
         assert!(clash(&square, &moved(DVec2::new(9.9, 0.0)), 0.5));
+    }
+
+    proptest! {
+        #[test]
+        fn points_fit_where_the_best_turn_does(
+            points in prop::collection::vec((0.0..300.0, 0.0..120.0, 0.0..120.0), 3..12),
+            share in prop::sample::select(vec![0.5, 0.97, 1.0 - 1e-6, 1.0 + 1e-6, 1.02, 1.5]),
+        ) {
+            let points: Vec<DVec2> = points.into_iter().map(|(x, y, z)| DVec2::new(x, y + z)).collect();
+            let sheet_mm = DVec2::new(190.0, 277.0);
+            let most = best_turn(&points, sheet_mm).scale;
+            let sized: Vec<DVec2> = points.iter().map(|&p| p * share * most).collect();
+            prop_assert_eq!(fits(&sized, sheet_mm), best_turn(&sized, sheet_mm).fits());
+        }
     }
 }

@@ -4,7 +4,7 @@
 //! joined by a hinge that never folds, the *seam*. Where the cut meets a hinge, the hinge becomes
 //! two, and the panel on its other side gets a corner between them.
 
-use super::layout::best_turn;
+use super::layout::fits;
 use glam::DVec2;
 use tatamu_core::component::{Hinge, HingeId, HingeSide, Panel, PanelId, PanelSet};
 use tatamu_core::geom::polygon;
@@ -45,12 +45,12 @@ pub(super) fn split(set: &PanelSet, sheet_mm: DVec2, tab_width_mm: f64) -> Optio
         source: (0..set.panels().len()).map(PanelId).collect(),
     };
     for (k, panel) in set.panels().iter().enumerate() {
-        if best_turn(&panel.outline, sheet_mm).fits() {
+        if fits(&panel.outline, sheet_mm) {
             continue;
         }
         let mut open = vec![PanelId(k)];
         while let Some(next) = open.pop() {
-            if best_turn(&work.panels[next.0].outline, room_mm).fits() {
+            if fits(&work.panels[next.0].outline, room_mm) {
                 continue;
             }
             if work.panels.len() > MOST_PARTS {
@@ -213,7 +213,7 @@ mod tests {
         assert!((total - 60_000.0).abs() < 1e-6);
         assert_eq!(split.source, [0, 1, 0, 1].map(PanelId));
         for panel in split.set.panels() {
-            assert!(best_turn(&panel.outline, DVec2::new(238.0, 188.0)).fits());
+            assert!(fits(&panel.outline, DVec2::new(238.0, 188.0)));
         }
         let seams = (0..split.set.hinges().len()).filter(|&h| is_seam(&split.set, HingeId(h)));
         assert_eq!(seams.count(), 2);

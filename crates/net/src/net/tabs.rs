@@ -1,6 +1,6 @@
 //! Glue tabs: a trapezoid on one side of each cut hinge, which goes behind the other panel.
 
-use super::layout::{Layout, across, best_turn, edge, hinge_length, placed_outline};
+use super::layout::{Layout, across, edge, fits, hinge_length, placed_outline};
 use glam::{DAffine2, DVec2};
 use tatamu_core::component::{HingeId, PanelId, PanelKind, PanelSet};
 use tatamu_core::geom::polygon::{convex_overlap, depth_outside};
@@ -212,7 +212,7 @@ impl<'a> Board<'a> {
         let panels = self.outlines[piece].iter().flatten();
         let tabs = self.tabs[piece].iter().flatten();
         let points: Vec<DVec2> = panels.chain(tabs).chain(tab).copied().collect();
-        best_turn(&points, self.sheet_mm).fits()
+        fits(&points, self.sheet_mm)
     }
 
     fn put(&mut self, hinge: HingeId, side: usize, shape: TabShape) {
